@@ -1,0 +1,3 @@
+pub(crate) mod adjacency;
+pub(crate) mod error;
+pub(crate) mod triangles;

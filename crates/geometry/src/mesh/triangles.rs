@@ -1,0 +1,138 @@
+use crate::{MeshError, Vec3};
+
+/// Number of a vertex in its mesh, from zero.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct NodeId(pub u32);
+
+/// Number of a triangle in its mesh, from zero.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct TriangleId(pub u32);
+
+impl NodeId {
+    /// As an index into an array over vertices.
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+impl TriangleId {
+    /// As an index into an array over triangles.
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// A list of triangles over shared vertices. Coordinates are finite and indices are in range;
+/// nothing else is promised (see [`crate::Surface`] for more).
+#[derive(Debug, Clone, PartialEq)]
+pub struct TriangleMesh {
+    vertices: Vec<Vec3>,
+    triangles: Vec<[NodeId; 3]>,
+}
+
+impl TriangleMesh {
+    /// A mesh of `vertices` [m] and `triangles` (vertex numbers, counter-clockwise seen from
+    /// outside).
+    ///
+    /// # Errors
+    /// When there is no triangle, a coordinate is not finite or an index is out of range.
+    pub fn new(vertices: Vec<Vec3>, triangles: Vec<[NodeId; 3]>) -> Result<Self, MeshError> {
+        if triangles.is_empty() {
+            return Err(MeshError::Empty);
+        }
+        if let Some(vertex) = vertices
+            .iter()
+            .position(|v| !v.iter().all(|c| c.is_finite()))
+        {
+            return Err(MeshError::NotFinite { vertex });
+        }
+        for (triangle, corners) in triangles.iter().enumerate() {
+            if let Some(node) = corners.iter().find(|n| n.index() >= vertices.len()) {
+                return Err(MeshError::IndexOutOfRange {
+                    triangle,
+                    vertex: node.index(),
+                    vertices: vertices.len(),
+                });
+            }
+        }
+        Ok(Self {
+            vertices,
+            triangles,
+        })
+    }
+
+    /// Positions of the vertices [m].
+    pub fn vertices(&self) -> &[Vec3] {
+        &self.vertices
+    }
+
+    /// The triangles as vertex numbers.
+    pub fn triangles(&self) -> &[[NodeId; 3]] {
+        &self.triangles
+    }
+
+    /// Number of all triangles, in order.
+    pub fn triangle_ids(&self) -> impl ExactSizeIterator<Item = TriangleId> + use<> {
+        (0..self.triangles.len() as u32).map(TriangleId)
+    }
+
+    /// The three vertex numbers of a triangle.
+    pub fn corners(&self, triangle: TriangleId) -> [NodeId; 3] {
+        self.triangles[triangle.index()]
+    }
+
+    /// The three corner positions of a triangle [m].
+    pub fn positions(&self, triangle: TriangleId) -> [Vec3; 3] {
+        self.corners(triangle)
+            .map(|node| self.vertices[node.index()])
+    }
+
+    /// Outward area vector of a triangle [m²]: half the cross product of its edges.
+    pub fn area_vector(&self, triangle: TriangleId) -> Vec3 {
+        let [a, b, c] = self.positions(triangle);
+        0.5 * (b - a).cross(&(c - a))
+    }
+
+    /// Total area [m²].
+    pub fn area(&self) -> f64 {
+        self.triangle_ids()
+            .map(|t| self.area_vector(t).norm())
+            .sum()
+    }
+
+    /// Signed volume enclosed [m³]; positive when a closed mesh points outward.
+    pub fn volume(&self) -> f64 {
+        // Measured from the first vertex, so that a mesh far from the origin loses no digits.
+        let origin = self.vertices[0];
+        let six_fold: f64 = self
+            .triangle_ids()
+            .map(|t| {
+                let [a, b, c] = self.positions(t).map(|p| p - origin);
+                a.dot(&b.cross(&c))
+            })
+            .sum();
+        six_fold / 6.0
+    }
+
+    /// Smallest and largest coordinates over the vertices that triangles use [m].
+    pub fn bounds(&self) -> (Vec3, Vec3) {
+        let mut low = Vec3::repeat(f64::INFINITY);
+        let mut high = Vec3::repeat(f64::NEG_INFINITY);
+        for node in self.triangles.iter().flatten() {
+            low = low.inf(&self.vertices[node.index()]);
+            high = high.sup(&self.vertices[node.index()]);
+        }
+        (low, high)
+    }
+
+    /// The same mesh with every vertex moved by `map` [m].
+    ///
+    /// # Errors
+    /// When a moved coordinate is not finite.
+    pub fn map_vertices(&self, map: impl Fn(&Vec3) -> Vec3) -> Result<Self, MeshError> {
+        Self::new(
+            self.vertices.iter().map(map).collect(),
+            self.triangles.clone(),
+        )
+    }
+}
