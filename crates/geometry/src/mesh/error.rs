@@ -22,4 +22,58 @@ pub enum MeshError {
         /// How many vertices there are.
         vertices: usize,
     },
+    /// Triangles without area.
+    #[error(
+        "{triangles} triangles have no area; weld the vertices, or mesh the surface again with even triangles"
+    )]
+    DegenerateTriangles {
+        /// How many.
+        triangles: usize,
+    },
+    /// Vertices that no triangle uses.
+    #[error("{vertices} vertices belong to no triangle; drop them by repairing the mesh")]
+    UnusedVertices {
+        /// How many.
+        vertices: usize,
+    },
+    /// The surface branches, or touches itself in a vertex.
+    #[error(
+        "the surface is not manifold: {edges} edges have more than two triangles and {vertices} vertices join separate fans; remove inner walls and doubled triangles"
+    )]
+    NotManifold {
+        /// Edges with more than two triangles.
+        edges: usize,
+        /// Vertices where several fans of triangles touch.
+        vertices: usize,
+    },
+    /// The surface has a border.
+    #[error(
+        "the surface is not closed: {edges} edges have one triangle only; weld the vertices or fill the holes"
+    )]
+    NotClosed {
+        /// Edges with one triangle.
+        edges: usize,
+    },
+    /// Neighbouring triangles turn in opposite senses.
+    #[error(
+        "the triangles are not oriented alike: {edges} edges have triangles of opposite sense; orient them consistently by repairing the mesh"
+    )]
+    NotOriented {
+        /// Edges whose triangles disagree.
+        edges: usize,
+    },
+    /// The triangles face inward.
+    #[error(
+        "the surface is inside out: its volume is {volume_m3:e} m³; flip all triangles by repairing the mesh"
+    )]
+    InsideOut {
+        /// Signed volume [m³], not positive.
+        volume_m3: f64,
+    },
+    /// There are several separate surfaces.
+    #[error("the mesh has {pieces} separate pieces; keep one of them, or join them")]
+    SeveralPieces {
+        /// How many.
+        pieces: usize,
+    },
 }

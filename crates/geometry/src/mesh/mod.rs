@@ -1,3 +1,4 @@
 pub(crate) mod adjacency;
+pub(crate) mod edges;
 pub(crate) mod error;
 pub(crate) mod triangles;
