@@ -1,0 +1,199 @@
+use super::{Aabb, AabbTree, Below, STACK};
+use crate::proximity::{PointOnTriangle, closest_on_segment_and_triangle, closest_on_triangle};
+use crate::{TriangleId, TriangleMesh, Vec3};
+
+/// The nearest point of a mesh.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Nearest {
+    /// The triangle it lies on; the lowest number when several are equally near.
+    pub triangle: TriangleId,
+    /// Where on the triangle.
+    pub on: PointOnTriangle,
+    /// Distance [m], not signed.
+    pub distance: f64,
+}
+
+/// Where a ray meets a mesh.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hit {
+    /// The triangle that is met.
+    pub triangle: TriangleId,
+    /// Distance along the ray [m].
+    pub distance: f64,
+}
+
+impl AabbTree {
+    /// The point of `mesh` nearest to `point` [m].
+    pub fn nearest(&self, mesh: &TriangleMesh, point: &Vec3) -> Nearest {
+        self.search(
+            |aabb| aabb.squared_distance(point),
+            |triangle| {
+                let on = closest_on_triangle(&mesh.positions(triangle), point);
+                ((on.position - point).norm_squared(), on)
+            },
+        )
+    }
+
+    /// The point of `mesh` nearest to the segment from `start` to `end` [m]: the shaft of a tool.
+    pub fn nearest_to_segment(&self, mesh: &TriangleMesh, start: &Vec3, end: &Vec3) -> Nearest {
+        let (low, high) = (start.inf(end), start.sup(end));
+        self.search(
+            |aabb| {
+                (aabb.low - high)
+                    .sup(&(low - aabb.high))
+                    .sup(&Vec3::zeros())
+                    .norm_squared()
+            },
+            |triangle| closest_on_segment_and_triangle(start, end, &mesh.positions(triangle)),
+        )
+    }
+
+    /// The first triangle that a ray from `origin` [m] along the unit vector `direction` meets
+    /// within `reach` [m], from either side.
+    pub fn cast(
+        &self,
+        mesh: &TriangleMesh,
+        origin: &Vec3,
+        direction: &Vec3,
+        reach: f64,
+    ) -> Option<Hit> {
+        let mut best: Option<Hit> = None;
+        let mut stack = [0u32; STACK];
+        let mut filled = 1;
+        while filled > 0 {
+            filled -= 1;
+            let node = &self.nodes[stack[filled] as usize];
+            let limit = best.map_or(reach, |hit| hit.distance);
+            if !node.aabb.is_crossed(origin, direction, limit) {
+                continue;
+            }
+            match node.below {
+                Below::Boxes(first) => {
+                    stack[filled] = first;
+                    stack[filled + 1] = first + 1;
+                    filled += 2;
+                }
+                Below::Triangle(triangle) => {
+                    let corners = mesh.positions(triangle);
+                    if let Some(distance) = ray_meets_triangle(origin, direction, &corners)
+                        && distance <= limit
+                    {
+                        best = Some(Hit { triangle, distance });
+                    }
+                }
+            }
+        }
+        best
+    }
+
+    /// Calls `visit` for every triangle whose box meets the box `low` to `high` [m].
+    pub fn visit_box(&self, low: &Vec3, high: &Vec3, mut visit: impl FnMut(TriangleId)) {
+        let mut stack = [0u32; STACK];
+        let mut filled = 1;
+        while filled > 0 {
+            filled -= 1;
+            let node = &self.nodes[stack[filled] as usize];
+            let apart = (0..3).any(|k| node.aabb.low[k] > high[k] || node.aabb.high[k] < low[k]);
+            if apart {
+                continue;
+            }
+            match node.below {
+                Below::Boxes(first) => {
+                    stack[filled] = first;
+                    stack[filled + 1] = first + 1;
+                    filled += 2;
+                }
+                Below::Triangle(triangle) => visit(triangle),
+            }
+        }
+    }
+
+    /// Branch and bound, nearer box first, over squared distances.
+    fn search(
+        &self,
+        to_box: impl Fn(&Aabb) -> f64,
+        to_triangle: impl Fn(TriangleId) -> (f64, PointOnTriangle),
+    ) -> Nearest {
+        let mut best = (
+            f64::INFINITY,
+            TriangleId(u32::MAX),
+            PointOnTriangle::NOWHERE,
+        );
+        let mut stack = [(0u32, 0.0); STACK];
+        let mut filled = 1;
+        while filled > 0 {
+            filled -= 1;
+            let (at, bound) = stack[filled];
+            if bound > best.0 + self.tie {
+                continue;
+            }
+            match self.nodes[at as usize].below {
+                Below::Boxes(first) => {
+                    let near = (first, to_box(&self.nodes[first as usize].aabb));
+                    let far = (first + 1, to_box(&self.nodes[first as usize + 1].aabb));
+                    let (near, far) = if near.1 <= far.1 {
+                        (near, far)
+                    } else {
+                        (far, near)
+                    };
+                    stack[filled] = far;
+                    stack[filled + 1] = near;
+                    filled += 2;
+                }
+                Below::Triangle(triangle) => {
+                    let (squared, on) = to_triangle(triangle);
+                    let nearer = squared < best.0 - self.tie;
+                    let tied = (squared - best.0).abs() <= self.tie && triangle < best.1;
+                    if nearer || tied {
+                        best = (squared, triangle, on);
+                    }
+                }
+            }
+        }
+        Nearest {
+            triangle: best.1,
+            on: best.2,
+            distance: best.0.sqrt(),
+        }
+    }
+}
+
+impl Aabb {
+    /// Slab test. A zero component gives infinities, which compare as they should; a ray that runs
+    /// in the plane of a face (0/0) counts as crossing.
+    fn is_crossed(&self, origin: &Vec3, direction: &Vec3, reach: f64) -> bool {
+        let (mut enter, mut leave) = (0.0f64, reach);
+        for k in 0..3 {
+            let a = (self.low[k] - origin[k]) / direction[k];
+            let b = (self.high[k] - origin[k]) / direction[k];
+            if a.is_nan() || b.is_nan() {
+                continue;
+            }
+            enter = enter.max(a.min(b));
+            leave = leave.min(a.max(b));
+        }
+        // A flat box must not be missed for a rounding error.
+        enter <= leave + 1e-12 * (1.0 + leave.abs())
+    }
+}
+
+/// Distance along the ray, for a hit from either side [Möller and Trumbore 1997].
+fn ray_meets_triangle(origin: &Vec3, direction: &Vec3, corners: &[Vec3; 3]) -> Option<f64> {
+    let (ab, ac) = (corners[1] - corners[0], corners[2] - corners[0]);
+    let across = direction.cross(&ac);
+    let determinant = ab.dot(&across);
+    if determinant == 0.0 {
+        return None;
+    }
+    let from = origin - corners[0];
+    let u = from.dot(&across) / determinant;
+    let turned = from.cross(&ab);
+    let v = direction.dot(&turned) / determinant;
+    // Rays through a shared edge must hit one of its two triangles.
+    let slack = 1e-12;
+    if u < -slack || v < -slack || u + v > 1.0 + 2.0 * slack {
+        return None;
+    }
+    let distance = ac.dot(&turned) / determinant;
+    (distance >= 0.0).then_some(distance)
+}

@@ -1,0 +1,186 @@
+//! The successive contact point, found among the neighbours of the last one (section 7.6).
+//!
+//! A tip at p that slides along an organ keeps its contact point c where p = c − d n(c), n being the
+//! averaged normal of a [`PatchField`]: c and d are continuous in p, while the nearest point of a mesh
+//! leaps at every edge. Inside a triangle c and n are linear in the barycentric weights, so
+//! p = Σ bᵢ (xᵢ − t nᵢ) is three equations for b and t, solved by Newton; a negative weight says
+//! which neighbour to go to [Panozzo et al. 2013, Phong projection].
+//!
+//! *How we know*: `analytic::contact_point_on_sphere_is_radial`, `invariants::slide_has_no_leaps`.
+//!
+//! *Limits*: to depths where the normals do not yet cross; deeper, the nearest point among the
+//! neighbours stands in.
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::proximity::closest_on_triangle;
+use crate::{PatchField, Surface, TriangleId, Vec3};
+
+/// A point of a surface, and how deep a tip lies below it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Footing {
+    /// The triangle of the contact point.
+    pub triangle: TriangleId,
+    /// Weights of its corners [-].
+    pub barycentric: [f64; 3],
+    /// The contact point at rest [m].
+    pub point: Vec3,
+    /// Depth of the tip below it along the outward normal [m]; negative outside.
+    pub depth: f64,
+}
+
+/// More triangles than this in one step is a leap, not a slide: the caller searches anew.
+const LONGEST_WALK: usize = 256;
+
+/// The contact point of a tip at `tip` [m], starting from the last one, `from`. `None` when the tip has
+/// gone too far to follow.
+pub fn follow(
+    surface: &Surface,
+    field: &PatchField,
+    from: &Footing,
+    tip: &Vec3,
+) -> Option<Footing> {
+    let mut at = Trial {
+        triangle: from.triangle,
+        barycentric: from.barycentric,
+        along: from.depth,
+    };
+    let mut before = None;
+    for _ in 0..LONGEST_WALK {
+        let Some(solved) = solve_in_triangle(surface, field, &at, tip) else {
+            return nearest_among_neighbors(surface, field, at.triangle, tip);
+        };
+        let (lowest, weight) = lowest(&solved.barycentric);
+        if weight >= -1e-10 {
+            return Some(footing(surface, field, &solved));
+        }
+        let opposite_edge = (lowest + 1) % 3;
+        let neighbor = surface.adjacency().across(solved.triangle)[opposite_edge]?;
+        if before == Some(neighbor) {
+            // To and fro over one edge: the normals cross here.
+            return nearest_among_neighbors(surface, field, at.triangle, tip);
+        }
+        before = Some(solved.triangle);
+        at = Trial {
+            triangle: neighbor,
+            barycentric: [1.0 / 3.0; 3],
+            along: solved.along,
+        };
+    }
+    None
+}
+
+#[derive(Clone, Copy)]
+struct Trial {
+    triangle: TriangleId,
+    barycentric: [f64; 3],
+    /// t of the module's equation [m].
+    along: f64,
+}
+
+fn solve_in_triangle(
+    surface: &Surface,
+    field: &PatchField,
+    start: &Trial,
+    tip: &Vec3,
+) -> Option<Trial> {
+    let x = surface.mesh().positions(start.triangle);
+    let corners = surface.mesh().corners(start.triangle);
+    let n = corners.map(|node| field.vertex_normals()[node.index()]);
+    let size = (x[1] - x[0]).norm() + (x[2] - x[0]).norm();
+    let facing = (x[1] - x[0]).cross(&(x[2] - x[0]));
+    let (mut b1, mut b2, mut t) = (start.barycentric[1], start.barycentric[2], start.along);
+    for _ in 0..20 {
+        let normal = n[0] + b1 * (n[1] - n[0]) + b2 * (n[2] - n[0]);
+        let point = x[0] + b1 * (x[1] - x[0]) + b2 * (x[2] - x[0]);
+        let along_first = x[1] - x[0] - t * (n[1] - n[0]);
+        let along_second = x[2] - x[0] - t * (n[2] - n[0]);
+        let residual = point - t * normal - tip;
+        let jacobian = Matrix3::from_columns(&[along_first, along_second, -normal]);
+        // The normals must not have crossed: the offset triangle faces as the triangle does.
+        if along_first.cross(&along_second).dot(&facing) <= 0.0 {
+            return None;
+        }
+        let step: Vector3<f64> = jacobian.lu().solve(&residual)?;
+        b1 -= step[0];
+        b2 -= step[1];
+        t -= step[2];
+        let far_off = b1.abs() > 1e3 || b2.abs() > 1e3;
+        if far_off || !t.is_finite() {
+            return None;
+        }
+        if step[0].abs() + step[1].abs() < 1e-13 && step[2].abs() < 1e-13 * size {
+            break;
+        }
+    }
+    Some(Trial {
+        triangle: start.triangle,
+        barycentric: [1.0 - b1 - b2, b1, b2],
+        along: t,
+    })
+}
+
+fn lowest(weights: &[f64; 3]) -> (usize, f64) {
+    let mut lowest = 0;
+    for k in 1..3 {
+        if weights[k] < weights[lowest] {
+            lowest = k;
+        }
+    }
+    (lowest, weights[lowest])
+}
+
+fn footing(surface: &Surface, field: &PatchField, trial: &Trial) -> Footing {
+    let x = surface.mesh().positions(trial.triangle);
+    let corners = surface.mesh().corners(trial.triangle);
+    let mut point = Vec3::zeros();
+    let mut normal = Vec3::zeros();
+    for k in 0..3 {
+        point += trial.barycentric[k] * x[k];
+        normal += trial.barycentric[k] * field.vertex_normals()[corners[k].index()];
+    }
+    Footing {
+        triangle: trial.triangle,
+        barycentric: trial.barycentric,
+        point,
+        depth: trial.along * normal.norm(),
+    }
+}
+
+/// Goes downhill in distance from triangle to neighbouring triangle.
+fn nearest_among_neighbors(
+    surface: &Surface,
+    field: &PatchField,
+    start: TriangleId,
+    tip: &Vec3,
+) -> Option<Footing> {
+    let mesh = surface.mesh();
+    let mut triangle = start;
+    let mut on = closest_on_triangle(&mesh.positions(triangle), tip);
+    let mut distance = (on.position - tip).norm();
+    for _ in 0..LONGEST_WALK {
+        let mut better = None;
+        for node in mesh.corners(triangle) {
+            for &other in surface.adjacency().around(node) {
+                let candidate = closest_on_triangle(&mesh.positions(other), tip);
+                let to_candidate = (candidate.position - tip).norm();
+                if to_candidate < distance * (1.0 - 1e-12) {
+                    distance = to_candidate;
+                    better = Some((other, candidate));
+                }
+            }
+        }
+        let Some((other, candidate)) = better else {
+            let patch = field.at(surface, triangle, &on.barycentric);
+            let below = patch.normal.dot(&(on.position - tip)) >= 0.0;
+            return Some(Footing {
+                triangle,
+                barycentric: on.barycentric,
+                point: on.position,
+                depth: if below { distance } else { -distance },
+            });
+        };
+        (triangle, on) = (other, candidate);
+    }
+    None
+}
