@@ -1,0 +1,32 @@
+use super::Organ;
+use crate::MeshError;
+
+/// Why a built-in organ could not be made.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum OrganError {
+    /// No built-in has this name.
+    #[error("there is no built-in organ {found:?}; choose one of {}", names())]
+    UnknownName {
+        /// The name that was given.
+        found: String,
+    },
+    /// The number of triangles is out of range.
+    #[error("the {organ} cannot be made of {triangles} triangles; ask for {least} to {most}")]
+    TriangleCount {
+        /// The organ that was asked for.
+        organ: Organ,
+        /// The number that was asked for.
+        triangles: usize,
+        /// The smallest possible number.
+        least: usize,
+        /// The largest possible number.
+        most: usize,
+    },
+    /// The mesh was refused.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+}
+
+fn names() -> String {
+    Organ::ALL.map(Organ::name).join(", ")
+}

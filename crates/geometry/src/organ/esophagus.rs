@@ -1,0 +1,212 @@
+use std::f64::consts::{PI, TAU};
+
+use super::description::PATIENT_AXES;
+use super::{AnchorPlane, OrganDescription};
+use crate::{MeshError, NodeId, TriangleMesh, Vec3};
+
+/// Fewer, and the rims of the wall are lost.
+pub(super) const LEAST_TRIANGLES: usize = 200;
+
+/// Length along the axis, from rim to rim.
+const LENGTH: f64 = 0.06;
+const HALF_WALL: f64 = 0.00125;
+/// Radius of the middle of the wall, away from the ends.
+const MIDDLE_RADIUS: f64 = 0.00625;
+/// The axis is an arc: it leaves the diaphragm straight down and turns left.
+const BEND_RADIUS: f64 = 0.17;
+/// What the wall widens by at an end, and over which length that fades.
+const HIATUS_FLARE: (f64, f64) = (0.001, 0.006);
+const CARDIA_FLARE: (f64, f64) = (0.004, 0.008);
+/// How much of each end is held.
+const HELD_LENGTH: f64 = 0.003;
+
+pub(super) fn description() -> OrganDescription {
+    OrganDescription {
+        summary: "The lower esophagus, from the diaphragm (top) to the stomach (bottom): a tube \
+                  with a lumen that is open at both ends.",
+        axes: PATIENT_AXES,
+        origin: "on the axis of the lumen, half-way between the ends; there the axis is nearly \
+                 along z, and it bends to the left on its way down (radius 170 mm)",
+        lengths: "60 mm long; outer diameter 15 mm, lumen 10 mm, wall 2.5 mm at half length; 2 mm \
+                  wider at the diaphragm, 8 mm wider at the stomach",
+        held: "both ends, 3 mm of each",
+        extent: Vec3::new(0.0293, 0.0227, 0.0607),
+        volume: 6.27e-6,
+    }
+}
+
+pub(super) fn anchor() -> Vec<AnchorPlane> {
+    [(HELD_LENGTH, -1.0), (LENGTH - HELD_LENGTH, 1.0)]
+        .into_iter()
+        .map(|(along, side)| {
+            let (point, _, downward) = axis(along);
+            AnchorPlane {
+                point,
+                normal: -side * downward,
+            }
+        })
+        .collect()
+}
+
+/// Rows of vertices around the wall, each turned by half a step against the last. Rows are spaced
+/// in proportion to their radius, so that triangles are equilateral up to the curvature.
+pub(super) fn surface_mesh(triangles: usize) -> Result<TriangleMesh, MeshError> {
+    let profile = Profile::new();
+    let (rows, steps) = grid_size(triangles, profile.conformal_length());
+    let mut vertices = Vec::with_capacity(rows * steps);
+    for row in 0..rows {
+        let [radius, along] = profile.point(row as f64 / rows as f64);
+        let (centre, leftward, _) = axis(along);
+        for step in 0..steps {
+            let turn = step as f64 + 0.5 * (row % 2) as f64;
+            let (sine, cosine) = (TAU * turn / steps as f64).sin_cos();
+            vertices.push(centre + radius * (cosine * leftward + sine * Vec3::y()));
+        }
+    }
+    TriangleMesh::new(vertices, grid_triangles(rows, steps))
+}
+
+/// Point of the axis, the unit vector across it in the plane of the bend, and the one along it,
+/// `along` metres below the top.
+fn axis(along: f64) -> (Vec3, Vec3, Vec3) {
+    let (sine, cosine) = (along / BEND_RADIUS).sin_cos();
+    let (half_sine, half_cosine) = (0.5 * LENGTH / BEND_RADIUS).sin_cos();
+    let point = BEND_RADIUS * Vec3::new(half_cosine - cosine, 0.0, half_sine - sine);
+    (
+        point,
+        Vec3::new(cosine, 0.0, sine),
+        Vec3::new(sine, 0.0, -cosine),
+    )
+}
+
+/// Rows and steps around, both for nearly `triangles` triangles and nearly equilateral ones.
+fn grid_size(triangles: usize, conformal_length: f64) -> (usize, usize) {
+    let rows_per_step = conformal_length / (3f64.sqrt() * PI);
+    let steps = (0.5 * triangles as f64 / rows_per_step).sqrt();
+    let cost = |rows: usize, steps: usize| {
+        let count = (2 * rows * steps) as f64 / triangles as f64;
+        let shape = rows as f64 / (rows_per_step * steps as f64);
+        // A count that is off by 1 % is as bad as triangles that are stretched by 10 %.
+        100.0 * (count - 1.0).powi(2) + shape.ln().powi(2)
+    };
+    (steps as usize / 2..=2 * steps as usize)
+        .flat_map(|steps| {
+            let steps = steps.max(8);
+            // An even number of half turns of a step closes the rows.
+            let pairs = (0.25 * triangles as f64 / steps as f64).round() as usize;
+            [pairs.saturating_sub(1), pairs, pairs + 1].map(|pairs| (2 * pairs.max(4), steps))
+        })
+        .min_by(|&a, &b| cost(a.0, a.1).total_cmp(&cost(b.0, b.1)))
+        .expect("the range of steps holds at least one")
+}
+
+fn grid_triangles(rows: usize, steps: usize) -> Vec<[NodeId; 3]> {
+    let node = |row: usize, step: usize| NodeId(((row % rows) * steps + step % steps) as u32);
+    let mut triangles = Vec::with_capacity(2 * rows * steps);
+    for row in 0..rows {
+        let shift = row % 2;
+        for step in 0..steps {
+            let (here, next) = (node(row, step), node(row, step + 1));
+            let below = node(row + 1, step + shift);
+            let below_next = node(row + 1, step + shift + 1);
+            triangles.extend([[here, below, next], [next, below, below_next]]);
+        }
+    }
+    triangles
+}
+
+/// The outline of the wall in the plane (radius, length along the axis): down the outside, around
+/// the lower rim, up the lumen, around the upper rim.
+struct Profile {
+    /// ∫ ds / radius up to evenly spaced parameters.
+    lengths: Vec<f64>,
+}
+
+/// Parameters of the outline run from 0 to 4, one unit per part.
+const PARTS: f64 = 4.0;
+const SAMPLES: usize = 4_000;
+
+impl Profile {
+    fn new() -> Self {
+        let mut lengths = vec![0.0];
+        let mut last = outline(0.0);
+        for sample in 1..=SAMPLES {
+            let next = outline(PARTS * sample as f64 / SAMPLES as f64);
+            let chord = (next[0] - last[0]).hypot(next[1] - last[1]);
+            lengths.push(lengths[sample - 1] + 2.0 * chord / (next[0] + last[0]));
+            last = next;
+        }
+        Self { lengths }
+    }
+
+    fn conformal_length(&self) -> f64 {
+        self.lengths[SAMPLES]
+    }
+
+    /// Radius and length along the axis, a `fraction` of the way around.
+    fn point(&self, fraction: f64) -> [f64; 2] {
+        let wanted = fraction * self.conformal_length();
+        let after = self
+            .lengths
+            .partition_point(|&l| l <= wanted)
+            .clamp(1, SAMPLES);
+        let (low, high) = (self.lengths[after - 1], self.lengths[after]);
+        let sample = (after - 1) as f64 + (wanted - low) / (high - low);
+        outline(PARTS * sample / SAMPLES as f64)
+    }
+}
+
+fn outline(parameter: f64) -> [f64; 2] {
+    let free_length = LENGTH - 2.0 * HALF_WALL;
+    let part = parameter.rem_euclid(PARTS);
+    let fraction = part.fract();
+    let (along, turn) = match part as usize {
+        0 => (fraction * free_length, 0.0),
+        1 => (free_length, PI * fraction),
+        2 => ((1.0 - fraction) * free_length, PI),
+        _ => (0.0, PI * (1.0 + fraction)),
+    };
+    let along = along + HALF_WALL;
+    let (radius, slope) = middle_of_wall(along);
+    // From the middle of the wall, half a wall outward, turned towards the end at the rims.
+    let (outward, downward) = (HALF_WALL * turn.cos(), HALF_WALL * turn.sin());
+    let stretch = slope.hypot(1.0);
+    [
+        radius + (outward + slope * downward) / stretch,
+        along + (downward - slope * outward) / stretch,
+    ]
+}
+
+/// Radius of the middle of the wall and its slope.
+fn middle_of_wall(along: f64) -> (f64, f64) {
+    let hiatus = HIATUS_FLARE.0 * (-along / HIATUS_FLARE.1).exp();
+    let cardia = CARDIA_FLARE.0 * ((along - LENGTH) / CARDIA_FLARE.1).exp();
+    (
+        MIDDLE_RADIUS + hiatus + cardia,
+        cardia / CARDIA_FLARE.1 - hiatus / HIATUS_FLARE.1,
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_wall_is_as_thick_as_said_at_half_length() {
+        let outside = outline(0.5);
+        let inside = outline(2.5);
+        assert!((outside[0] - 0.0075).abs() < 2e-4, "{outside:?}");
+        assert!((inside[0] - 0.005).abs() < 2e-4, "{inside:?}");
+    }
+
+    #[test]
+    fn the_count_is_near_what_was_asked_for() {
+        for wanted in [200, 500, 3_726, 21_146, 70_000] {
+            let made = surface_mesh(wanted).unwrap().triangles().len();
+            assert!(
+                made.abs_diff(wanted) as f64 <= 0.02 * wanted as f64 + 20.0,
+                "{made} for {wanted}"
+            );
+        }
+    }
+}
