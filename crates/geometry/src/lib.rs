@@ -5,14 +5,24 @@
 
 mod aabb_tree;
 mod check;
+mod io;
 mod mesh;
 mod neighborhood_watch;
 mod organ;
+mod orient;
 mod patch_field;
 mod proximity;
 mod surface;
+mod weld;
 
 pub use aabb_tree::{AabbTree, Hit, Nearest};
+pub use check::problem::{MeshProblem, ProblemKind};
+pub use check::{MeshReport, inspect};
+pub use io::error::{ReadError, ReadFault, UnknownUnit};
+pub use io::format::MeshFormat;
+pub use io::unit::{LengthUnit, doubt_about_extent, is_plausible_extent, unit_by_extent};
+pub use io::vtk;
+pub use io::{ImportedMesh, read_mesh};
 pub use mesh::adjacency::Adjacency;
 pub use mesh::error::MeshError;
 pub use mesh::triangles::{NodeId, TriangleId, TriangleMesh};
@@ -21,6 +31,7 @@ pub use organ::{AnchorPlane, Organ, OrganDescription, OrganError};
 pub use patch_field::{Patch, PatchField};
 pub use proximity::{PointOnTriangle, closest_on_triangle};
 pub use surface::Surface;
+pub use weld::{Repairs, repair, weld_exactly};
 
 /// A point or a vector in space [m, unless said otherwise].
 pub type Vec3 = nalgebra::Vector3<f64>;

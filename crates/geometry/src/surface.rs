@@ -5,7 +5,7 @@ use crate::{Adjacency, MeshError, NodeId, TriangleMesh, Vec3};
 /// that have no area and without vertices that no triangle uses.
 ///
 /// That it does not pass through itself is not checked here: the check takes seconds on a large
-/// organ (see `inspect`), and nothing that takes a `Surface` breaks without it.
+/// organ (see [`crate::inspect`]), and nothing that takes a `Surface` breaks without it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Surface {
     mesh: TriangleMesh,

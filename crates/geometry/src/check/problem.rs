@@ -1,0 +1,80 @@
+use serde::Serialize;
+
+/// A reason not to touch a mesh as it is.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct MeshProblem {
+    /// Which.
+    pub kind: ProblemKind,
+    /// How many edges, vertices, triangles or pieces have it.
+    pub count: usize,
+    /// What to do about it, as a sentence.
+    pub mend: &'static str,
+}
+
+/// The problems that a mesh can have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ProblemKind {
+    /// Edges with one triangle.
+    NotClosed,
+    /// Edges with more than two triangles, and vertices where separate fans touch.
+    NotManifold,
+    /// Edges whose triangles disagree about the outside; all triangles when they face inward.
+    NotOriented,
+    /// Pieces that do not hang together.
+    SeveralPieces,
+    /// Triangles that pass through others.
+    SelfIntersecting,
+    /// Shells that are a thin sheet with two sides instead of a solid.
+    DoubleWall,
+    /// Triangles with hardly any area.
+    DegenerateTriangles,
+    /// Triangles with a corner below two degrees.
+    SliverTriangles,
+    /// Vertices that no triangle uses.
+    UnusedVertices,
+    /// The size is that of no organ.
+    ImplausibleSize,
+}
+
+impl ProblemKind {
+    /// The problem with its mend, unless it does not occur.
+    pub(super) fn times(self, count: usize) -> Option<MeshProblem> {
+        (count > 0).then(|| MeshProblem {
+            kind: self,
+            count,
+            mend: self.mend(),
+        })
+    }
+
+    fn mend(self) -> &'static str {
+        match self {
+            Self::NotClosed => {
+                "Weld coincident vertices; if borders remain, fill the holes in a mesh editor."
+            }
+            Self::NotManifold => {
+                "Remove inner walls and doubled triangles, and pull apart what touches in a vertex."
+            }
+            Self::NotOriented => "Turn all triangles to face outward.",
+            Self::SeveralPieces => {
+                "Weld coincident vertices; if several pieces remain, keep one or join them."
+            }
+            Self::SelfIntersecting => {
+                "Mesh the outer envelope anew, or pull the crossing parts apart in a mesh editor."
+            }
+            Self::DoubleWall => {
+                "The mesh is a thin sheet with an inner and an outer side; keep the outer side and close it to a solid."
+            }
+            Self::DegenerateTriangles => {
+                "Weld coincident vertices, then mesh the surface anew where triangles have no area."
+            }
+            Self::SliverTriangles => {
+                "Mesh the surface anew with even triangles if results are uneven there."
+            }
+            Self::UnusedVertices => "Drop the vertices that no triangle uses.",
+            Self::ImplausibleSize => {
+                "An organ measures 5 mm to 0.6 m; set mesh_unit to the unit of the file."
+            }
+        }
+    }
+}

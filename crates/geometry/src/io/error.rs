@@ -1,0 +1,207 @@
+use std::path::PathBuf;
+
+use crate::{LengthUnit, MeshError, MeshFormat};
+
+/// A mesh file that could not be read: which, and why.
+#[derive(Debug, thiserror::Error)]
+#[error("{}: {fault}", path.display())]
+pub struct ReadError {
+    /// The file.
+    pub path: PathBuf,
+    /// What is wrong with it.
+    #[source]
+    pub fault: ReadFault,
+}
+
+/// What is wrong with a mesh file. Each message says what was found, what was expected and the mend.
+#[derive(Debug, thiserror::Error)]
+pub enum ReadFault {
+    /// No file of that name.
+    #[error("there is no such file; check the path")]
+    Missing,
+    /// A folder or a device.
+    #[error("this is not a file; give the path of a mesh file")]
+    NotAFile,
+    /// The system refuses to read it.
+    #[error("the file cannot be read ({0}); check its permissions")]
+    Unreadable(std::io::Error),
+    /// Nothing in it.
+    #[error("the file is empty; export the mesh again")]
+    Empty,
+    /// More than a mesh can be.
+    #[error("the file holds {found} {what}, at most {most} can be read; simplify the mesh first")]
+    TooLarge {
+        /// What there is too much of.
+        what: &'static str,
+        /// How many there are.
+        found: u64,
+        /// How many are allowed.
+        most: u64,
+    },
+    /// The name does not tell the format.
+    #[error(
+        "the extension `{found}` is not one of .stl, .obj, .ply, .gltf, .glb; convert the mesh, or rename the file"
+    )]
+    UnknownExtension {
+        /// The extension, or nothing.
+        found: String,
+    },
+    /// The name tells another format than the content.
+    #[error(
+        "the extension says {expected}, but the content is {found}; give the file its proper extension"
+    )]
+    WrongContent {
+        /// By the extension.
+        expected: MeshFormat,
+        /// By the content.
+        found: MeshFormat,
+    },
+    /// A binary STL of the wrong length.
+    #[error(
+        "{triangles} triangles are announced, which makes {expected} bytes, but {found} were found; the file is damaged, copy or export it again"
+    )]
+    WrongLength {
+        /// The triangles that the file announces.
+        triangles: u32,
+        /// Bytes for so many triangles.
+        expected: u64,
+        /// Bytes that are there.
+        found: u64,
+    },
+    /// Binary content that ends too early.
+    #[error(
+        "{what} needs at least {expected} bytes, but {found} were found; the file is cut short, copy or export it again"
+    )]
+    Truncated {
+        /// What is cut short.
+        what: &'static str,
+        /// Bytes that are needed at least.
+        expected: u64,
+        /// Bytes that are there.
+        found: u64,
+    },
+    /// Text that ends too early.
+    #[error(
+        "the file ends at line {line}, where {expected} was expected; it is cut short, copy or export it again"
+    )]
+    EndsEarly {
+        /// The last line, from one.
+        line: usize,
+        /// What should follow.
+        expected: &'static str,
+    },
+    /// Something else than the format asks for.
+    #[error(
+        "line {line}: found `{found}` where {expected} was expected; mend the line or export the mesh again"
+    )]
+    Unexpected {
+        /// The line, from one.
+        line: usize,
+        /// What is there.
+        found: String,
+        /// What should be there.
+        expected: &'static str,
+    },
+    /// A coordinate that no organ has: NaN, infinite, or beyond 10¹² units.
+    #[error(
+        "vertex {vertex} has the coordinate {found} where a finite number below 1e12 was expected; remove the vertex or export the mesh again"
+    )]
+    BadCoordinate {
+        /// Number of the vertex in the file, from zero.
+        vertex: usize,
+        /// The coordinate, in the unit of the file [file unit].
+        found: f64,
+    },
+    /// A face names a vertex that is not there.
+    #[error(
+        "face {face} names vertex {found}, but the file has {vertices} vertices; it is damaged, export it again"
+    )]
+    BadIndex {
+        /// Number of the face from zero; a polygon may count as its triangles.
+        face: usize,
+        /// The number as it stands in the file.
+        found: i64,
+        /// How many vertices there are.
+        vertices: usize,
+    },
+    /// A list whose length is not a whole number.
+    #[error(
+        "row {row} announces a list of {found} values where a whole number was expected; the file is damaged, export it again"
+    )]
+    BadListLength {
+        /// Number of the row in its table, from zero.
+        row: usize,
+        /// The length as it stands in the file [-].
+        found: f64,
+    },
+    /// A face with fewer than three corners.
+    #[error(
+        "face {face} has {found} corners where three or more were expected; remove it or export the mesh again"
+    )]
+    TooFewCorners {
+        /// Number of the face in the file, from zero.
+        face: usize,
+        /// Corners that it has.
+        found: usize,
+    },
+    /// Nothing but points or lines.
+    #[error("the file holds no triangles; export the mesh as a triangulated surface")]
+    NoTriangles,
+    /// A header without the parts that make a mesh.
+    #[error("the header has no {expected}; export the mesh again with vertices and faces")]
+    MissingPart {
+        /// What a mesh needs.
+        expected: &'static str,
+    },
+    /// Something that the standard allows and that is not read here.
+    #[error("{what} is not read here; export the mesh without it")]
+    Unsupported {
+        /// What it is.
+        what: &'static str,
+    },
+    /// A glTF document that breaks its standard.
+    #[error("the glTF document is not valid ({cause}); export the mesh again")]
+    Gltf {
+        /// By the parser.
+        cause: String,
+    },
+    /// A glTF buffer elsewhere than in the folder of the document.
+    #[error(
+        "the buffer `{uri}` is not a file in the folder of the mesh; put it there, or export as .glb"
+    )]
+    BufferElsewhere {
+        /// As the document has it.
+        uri: String,
+    },
+    /// No unit is known, and metres are not plausible.
+    #[error(
+        "no unit is known and the largest extent is {extent}: an organ has 0.005 to 0.6 m, this has {extent} m in metres and {in_millimetres} m in millimetres; set mesh_unit to \"m\", \"cm\", \"mm\" or \"um\""
+    )]
+    UnitNeeded {
+        /// Largest extent [file unit].
+        extent: f64,
+        /// The same taken as millimetres [m].
+        in_millimetres: f64,
+    },
+    /// Read, and yet not a mesh.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+}
+
+/// A word that is not a unit of length.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("`{found}` is not a unit of length; use \"m\", \"cm\", \"mm\" or \"um\"")]
+pub struct UnknownUnit {
+    /// The word.
+    pub found: String,
+}
+
+impl ReadFault {
+    /// No unit is known for a mesh of this largest extent [file unit].
+    pub(crate) fn unit_needed(extent: f64) -> Self {
+        Self::UnitNeeded {
+            extent,
+            in_millimetres: extent * LengthUnit::Millimetre.in_metres(),
+        }
+    }
+}

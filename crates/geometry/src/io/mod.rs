@@ -1,0 +1,132 @@
+//! Mesh files: STL, OBJ, PLY and glTF in, VTK out.
+
+mod base64;
+pub(crate) mod error;
+pub(crate) mod format;
+mod gltf;
+mod obj;
+mod ply;
+mod raw;
+mod stl;
+mod text;
+pub(crate) mod unit;
+pub mod vtk;
+
+use std::fs;
+use std::io::ErrorKind;
+use std::path::Path;
+
+use self::raw::RawMesh;
+use self::unit::{doubt_about_extent, unit_by_extent};
+use crate::weld::weld_exactly;
+use crate::{LengthUnit, MeshFormat, NodeId, ReadError, ReadFault, TriangleMesh, Vec3};
+
+/// No mesh needs more, and a wrong path (a film, a disk image) should fail at once.
+const MOST_BYTES: u64 = 1 << 30;
+
+/// A mesh as its file has it, but in metres.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ImportedMesh {
+    /// The triangles [m]. Nothing was repaired. Coincident vertices were joined only where the
+    /// format forces them apart (STL writes each corner out, glTF each corner of a seam).
+    pub mesh: TriangleMesh,
+    /// The format that the file was in.
+    pub format: MeshFormat,
+    /// The unit that the coordinates were in.
+    pub unit: LengthUnit,
+    /// What deserves doubt, as sentences.
+    pub warnings: Vec<String>,
+}
+
+/// Reads a mesh file. The format is that of the extension. Without a `unit`, glTF is in metres by
+/// its standard; for the other formats metres are taken when that makes a plausible organ.
+///
+/// # Errors
+/// When the file cannot be read, is damaged, holds no triangles, or is of unknown unit; the error
+/// names the path, the cause and the mend.
+pub fn read_mesh(path: &Path, unit: Option<LengthUnit>) -> Result<ImportedMesh, ReadError> {
+    read_here(path, unit).map_err(|fault| ReadError {
+        path: path.to_owned(),
+        fault,
+    })
+}
+
+fn read_here(path: &Path, unit: Option<LengthUnit>) -> Result<ImportedMesh, ReadFault> {
+    let bytes = read_whole(path)?;
+    let format = MeshFormat::of(path, &bytes)?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let raw = match format {
+        MeshFormat::Stl => stl::read(&bytes)?,
+        MeshFormat::Obj => obj::read(&bytes)?,
+        MeshFormat::Ply => ply::read(&bytes)?,
+        MeshFormat::Gltf => gltf::read(&bytes, folder)?,
+    };
+    let extent = largest_extent(&raw);
+    let unit = match (unit, format) {
+        (Some(unit), _) => unit,
+        (None, MeshFormat::Gltf) => LengthUnit::Metre,
+        (None, _) => unit_by_extent(extent)?,
+    };
+    let mesh = in_metres(raw, unit)?;
+    let mut warnings: Vec<_> = doubt_about_extent(extent * unit.in_metres())
+        .into_iter()
+        .collect();
+    if format == MeshFormat::Gltf && unit != LengthUnit::Metre {
+        let symbol = unit.symbol();
+        warnings.push(format!(
+            "glTF is in metres by its standard, but was read in {symbol} as mesh_unit asks"
+        ));
+    }
+    let mesh = match format {
+        MeshFormat::Stl | MeshFormat::Gltf => weld_exactly(&mesh).0,
+        MeshFormat::Obj | MeshFormat::Ply => mesh,
+    };
+    Ok(ImportedMesh {
+        mesh,
+        format,
+        unit,
+        warnings,
+    })
+}
+
+fn in_metres(raw: RawMesh, unit: LengthUnit) -> Result<TriangleMesh, ReadFault> {
+    // Divided where the unit is a fraction of a metre: 0.1 mm is then the same number as 0.0001 m.
+    let per_metre = (1.0 / unit.in_metres()).round();
+    let vertices = raw.vertices.iter().map(|v| v / per_metre).collect();
+    let triangles = raw.triangles.iter().map(|t| t.map(NodeId)).collect();
+    Ok(TriangleMesh::new(vertices, triangles)?)
+}
+
+fn largest_extent(raw: &RawMesh) -> f64 {
+    let mut low = Vec3::repeat(f64::INFINITY);
+    let mut high = Vec3::repeat(f64::NEG_INFINITY);
+    for &corner in raw.triangles.iter().flatten() {
+        low = low.inf(&raw.vertices[corner as usize]);
+        high = high.sup(&raw.vertices[corner as usize]);
+    }
+    (high - low).max()
+}
+
+/// All bytes of a file, or why not.
+fn read_whole(path: &Path) -> Result<Vec<u8>, ReadFault> {
+    let refused = |error: std::io::Error| match error.kind() {
+        ErrorKind::NotFound => ReadFault::Missing,
+        _ => ReadFault::Unreadable(error),
+    };
+    let metadata = fs::metadata(path).map_err(refused)?;
+    if !metadata.is_file() {
+        return Err(ReadFault::NotAFile);
+    }
+    if metadata.len() > MOST_BYTES {
+        return Err(ReadFault::TooLarge {
+            what: "bytes",
+            found: metadata.len(),
+            most: MOST_BYTES,
+        });
+    }
+    let bytes = fs::read(path).map_err(refused)?;
+    if bytes.is_empty() {
+        return Err(ReadFault::Empty);
+    }
+    Ok(bytes)
+}

@@ -1,0 +1,6 @@
+//! Tests of the crate from outside.
+
+mod check;
+mod data;
+mod fuzz;
+mod io;
