@@ -1,1 +1,33 @@
-//! (being written)
+//! The five open documents of palpate: what is measured, what is played, what happened, what an
+//! organ is made of and what stands in a scene.
+//!
+//! [`Motion`] and [`Session`] are tables of numbers (CSV), [`Tissue`] and [`Scene`]
+//! are TOML. All are in SI units; a key or a column in another unit says so in its name
+//! (`depth_mm`) and is converted on reading, see [`units`]. An [`Error`] names the file, the line,
+//! the value found and the value expected.
+//!
+//! The documents hold plain numbers. They know nothing of meshes, mechanics or devices, so that
+//! each verb (measure, characterize, simulate) can be used without the others.
+
+mod domain;
+mod error;
+mod estimate;
+pub mod motion;
+pub mod scene;
+pub mod session;
+mod table;
+pub mod tissue;
+mod toml_document;
+pub mod units;
+mod whole_file;
+mod words;
+
+pub use domain::Domain;
+pub use error::{Error, Place};
+pub use estimate::Estimate;
+pub use motion::{Motion, Pose};
+pub use scene::Scene;
+pub use session::{Event, Events, Session, SessionHeader, SessionRow, SessionWriter};
+pub use tissue::{BuiltinTissue, Elasticity, PronyTerm, Tissue};
+pub use toml_document::{Document, Keys};
+pub use whole_file::write_whole;

@@ -1,0 +1,244 @@
+use std::borrow::Cow;
+use std::fmt;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Where something is wrong: a file and, when it is known, a line.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Place {
+    /// The file.
+    pub path: PathBuf,
+    /// Number of the line, from one.
+    pub line: Option<usize>,
+}
+
+impl Place {
+    /// A line of a file, counted from one.
+    pub fn line(path: &Path, line: usize) -> Self {
+        Self {
+            path: path.to_owned(),
+            line: Some(line),
+        }
+    }
+
+    /// A file as a whole.
+    pub fn file(path: &Path) -> Self {
+        Self {
+            path: path.to_owned(),
+            line: None,
+        }
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.line {
+            Some(line) => write!(f, "{} line {line}", self.path.display()),
+            None => write!(f, "{}", self.path.display()),
+        }
+    }
+}
+
+/// Why a document cannot be read or written. Each message is one sentence with the place, what was
+/// found, what is expected and the mend.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The operating system does not let the file be read.
+    #[error("{path} cannot be read: {source}; check the name and that you may read it", path = path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the operating system says.
+        source: io::Error,
+    },
+    /// The operating system does not let the file be written.
+    #[error("{path} cannot be written: {source}; check that its folder exists, that you may write there and that the disk has room", path = path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What the operating system says.
+        source: io::Error,
+    },
+    /// The bytes are no UTF-8 text.
+    #[error("{place}: found bytes that are not UTF-8 text; save the file as plain UTF-8 text")]
+    NotText {
+        /// The line with the first bad byte.
+        place: Place,
+    },
+    /// The text breaks the rules of TOML.
+    #[error(
+        "{place}: this is not TOML: {message}; write `key = value`, with text in double quotes"
+    )]
+    Syntax {
+        /// The line where reading stopped.
+        place: Place,
+        /// What the reader stumbled over.
+        message: String,
+    },
+    /// The document does not say which format it is in.
+    #[error("{path}: `format` is missing; add the line `{mend}` at the top", path = path.display())]
+    MissingFormat {
+        /// The file.
+        path: PathBuf,
+        /// The line to add.
+        mend: &'static str,
+    },
+    /// The document is in a format that this version does not read.
+    #[error(
+        "{place}: format is {found}, but this version reads format 1; \
+         set `format = 1` or use a newer version of palpate"
+    )]
+    UnsupportedFormat {
+        /// Where the format is stated.
+        place: Place,
+        /// The value found.
+        found: String,
+    },
+    /// A key that no document of this kind has.
+    #[error(
+        "{place}: the key `{key}` is not known here; \
+         the nearest known key is `{nearest}`, use it or remove the line"
+    )]
+    UnknownKey {
+        /// Where the key is.
+        place: Place,
+        /// The key with its tables, such as `organ.tisue`.
+        key: String,
+        /// The known key that looks most like it.
+        nearest: String,
+    },
+    /// A key or column whose name ends in a unit that does not fit or is not known.
+    #[error("{place}: the unit of `{key}` is not known here; use {accepted}")]
+    UnknownUnit {
+        /// Where the key is.
+        place: Place,
+        /// The key or column.
+        key: String,
+        /// The names that are accepted.
+        accepted: String,
+    },
+    /// The same quantity twice, for instance in two units.
+    #[error("{place}: `{second}` is given although `{first}` is given too; keep one of them")]
+    GivenTwice {
+        /// Where the second one is.
+        place: Place,
+        /// The first key or column.
+        first: String,
+        /// The second key or column.
+        second: String,
+    },
+    /// A key that must be there is not.
+    #[error("{place}: `{key}` is missing; give {expected}")]
+    MissingKey {
+        /// The table that lacks it.
+        place: Place,
+        /// The key with its tables, such as `organ.tissue`.
+        key: String,
+        /// What to give.
+        expected: Cow<'static, str>,
+    },
+    /// A key or a field with a value that cannot be used.
+    #[error("{place}: `{key}` is {found}; give {expected}")]
+    BadValue {
+        /// Where the value is.
+        place: Place,
+        /// The key with its tables, or the column.
+        key: String,
+        /// The value found.
+        found: String,
+        /// The values that can be used.
+        expected: Cow<'static, str>,
+    },
+    /// A table of numbers lacks a column.
+    #[error("{place}: the column `{column}` is missing among {found}; add it or correct its name")]
+    MissingColumn {
+        /// The line with the names of the columns.
+        place: Place,
+        /// The column.
+        column: String,
+        /// The columns found.
+        found: String,
+    },
+    /// A row that does not fit the columns.
+    #[error("{place}: found {found}; give {expected}")]
+    BadRow {
+        /// The line of the row.
+        place: Place,
+        /// What the row holds.
+        found: String,
+        /// What it should hold.
+        expected: String,
+    },
+    /// A table of numbers without a row.
+    #[error("{path}: found no rows below the names of the columns; add at least one", path = path.display())]
+    NoRows {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Times that stand still or go back.
+    #[error(
+        "{place}: `{column}` is {found} after {previous}; \
+         sort the rows so that the time grows from each to the next"
+    )]
+    TimeNotIncreasing {
+        /// The line of the row.
+        place: Place,
+        /// The column that holds the time.
+        column: String,
+        /// The time found, as written.
+        found: String,
+        /// The time before it, as written.
+        previous: String,
+    },
+    /// Values made by a program, not read from a file, that no document can hold.
+    #[error("{what} is {found}; give {expected}")]
+    BadContent {
+        /// What the value is, such as `force_n of sample 3`.
+        what: String,
+        /// The value found.
+        found: String,
+        /// The values that can be used.
+        expected: Cow<'static, str>,
+    },
+}
+
+impl Error {
+    /// Whether the input is at fault: true for a file that must be mended or a name that must be
+    /// corrected (exit status 2), false for a failure such as a full disk (exit status 1).
+    pub fn is_input(&self) -> bool {
+        match self {
+            Self::Read { source, .. } | Self::Write { source, .. } => names_wrong_path(source),
+            Self::BadContent { .. } => false,
+            _ => true,
+        }
+    }
+
+    pub(crate) fn read(path: &Path, source: io::Error) -> Self {
+        Self::Read {
+            path: path.to_owned(),
+            source,
+        }
+    }
+
+    pub(crate) fn write(path: &Path, source: io::Error) -> Self {
+        Self::Write {
+            path: path.to_owned(),
+            source,
+        }
+    }
+}
+
+/// Whether the operating system refuses because of the name that was given.
+fn names_wrong_path(source: &io::Error) -> bool {
+    use io::ErrorKind;
+    matches!(
+        source.kind(),
+        ErrorKind::NotFound
+            | ErrorKind::NotADirectory
+            | ErrorKind::IsADirectory
+            | ErrorKind::PermissionDenied
+            | ErrorKind::InvalidInput
+            | ErrorKind::InvalidFilename
+    )
+}

@@ -1,0 +1,79 @@
+use crate::toml_document::Value;
+use crate::{Domain, Error, Keys};
+
+/// A number and how well it is known.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Estimate {
+    /// The number [unit of its key].
+    pub value: f64,
+    /// Its standard error, when known [unit of its key].
+    pub standard_error: Option<f64>,
+}
+
+impl Estimate {
+    /// A number of which nothing more is known [unit of its key].
+    pub const fn exactly(value: f64) -> Self {
+        Self {
+            value,
+            standard_error: None,
+        }
+    }
+
+    /// The value of a TOML key: a plain number, or a table when the error is known.
+    pub(crate) fn to_toml(self) -> String {
+        let Self {
+            value,
+            standard_error,
+        } = self;
+        match standard_error {
+            None => format!("{value:?}"),
+            Some(error) => format!("{{ value = {value:?}, standard_error = {error:?} }}"),
+        }
+    }
+}
+
+impl From<f64> for Estimate {
+    fn from(value: f64) -> Self {
+        Self::exactly(value)
+    }
+}
+
+impl Keys<'_> {
+    /// A number or a table `{ value, standard_error }`, both in the unit of the key.
+    ///
+    /// # Errors
+    /// When the value is neither or outside its `domain`.
+    pub fn estimate(&self, key: &'static str, domain: Domain) -> Result<Option<Estimate>, Error> {
+        let Some(found) = self.find(key)? else {
+            return Ok(None);
+        };
+        if !matches!(found.value, Value::Table(_)) {
+            return found.number(domain).map(|value| Some(value.into()));
+        }
+        let Some(parts) = self.table(key, &["value", "standard_error"])? else {
+            return Ok(None);
+        };
+        // The domain is that of the key's own unit, so the parts are converted before they are asked.
+        let part = |name, domain: Domain| {
+            parts.find(name)?.map_or(Ok(None), |mut part| {
+                part.unit = found.unit;
+                part.number(domain).map(Some)
+            })
+        };
+        let value =
+            part("value", domain)?.ok_or_else(|| parts.missing("value", domain.expected))?;
+        Ok(Some(Estimate {
+            value,
+            standard_error: part("standard_error", Domain::NOT_NEGATIVE)?,
+        }))
+    }
+
+    /// An estimate that must be there.
+    ///
+    /// # Errors
+    /// When it is missing, the value is neither or outside its `domain`.
+    pub fn required_estimate(&self, key: &'static str, domain: Domain) -> Result<Estimate, Error> {
+        self.estimate(key, domain)?
+            .ok_or_else(|| self.missing(key, domain.expected))
+    }
+}

@@ -1,0 +1,139 @@
+use crate::{Domain, Error, Keys};
+
+/// The regions in which an organ is held: a triangle is held when its centroid lies in one.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Anchor {
+    /// Half-spaces.
+    pub planes: Vec<AnchorPlane>,
+    /// Boxes along the axes.
+    pub boxes: Vec<AnchorBox>,
+    /// Balls.
+    pub spheres: Vec<AnchorSphere>,
+}
+
+/// The half-space that a normal points away from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AnchorPlane {
+    /// A point of its border [m].
+    pub point_m: [f64; 3],
+    /// The direction away from it, of any length but zero [-].
+    pub normal: [f64; 3],
+}
+
+/// A box along the axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AnchorBox {
+    /// The corner with the smallest coordinates [m].
+    pub min_m: [f64; 3],
+    /// The corner with the largest coordinates [m].
+    pub max_m: [f64; 3],
+}
+
+/// A ball.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AnchorSphere {
+    /// Its centre [m].
+    pub center_m: [f64; 3],
+    /// Its radius [m].
+    pub radius_m: f64,
+}
+
+impl Anchor {
+    /// The keys of an anchor's table.
+    pub const KEYS: &'static [&'static str] = &["planes", "boxes", "spheres"];
+
+    /// Whether there is no region, so that nothing is held.
+    pub fn is_empty(&self) -> bool {
+        self.planes.is_empty() && self.boxes.is_empty() && self.spheres.is_empty()
+    }
+
+    /// Whether a point [m] lies in one of the regions or on its border.
+    pub fn holds(&self, point: [f64; 3]) -> bool {
+        self.planes.iter().any(|plane| plane.holds(point))
+            || self.boxes.iter().any(|region| region.holds(point))
+            || self.spheres.iter().any(|sphere| sphere.holds(point))
+    }
+
+    /// An anchor from its table, which was opened with [`Anchor::KEYS`].
+    ///
+    /// # Errors
+    /// When the table does not describe an anchor.
+    pub fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
+        let planes = keys.tables("planes", &["point_m", "normal"])?;
+        let boxes = keys.tables("boxes", &["min_m", "max_m"])?;
+        let spheres = keys.tables("spheres", &["center_m", "radius_m"])?;
+        Ok(Self {
+            planes: planes
+                .iter()
+                .map(AnchorPlane::from_keys)
+                .collect::<Result<_, _>>()?,
+            boxes: boxes
+                .iter()
+                .map(AnchorBox::from_keys)
+                .collect::<Result<_, _>>()?,
+            spheres: spheres
+                .iter()
+                .map(AnchorSphere::from_keys)
+                .collect::<Result<_, _>>()?,
+        })
+    }
+}
+
+impl AnchorPlane {
+    fn holds(&self, point: [f64; 3]) -> bool {
+        (0..3)
+            .map(|axis| (point[axis] - self.point_m[axis]) * self.normal[axis])
+            .sum::<f64>()
+            <= 0.0
+    }
+
+    fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
+        let expected = "a direction, three numbers such as [0.0, 0.0, 1.0]";
+        Ok(Self {
+            point_m: keys.required_vector("point_m")?,
+            normal: keys
+                .direction("normal")?
+                .ok_or_else(|| keys.missing("normal", expected))?,
+        })
+    }
+}
+
+impl AnchorBox {
+    fn holds(&self, point: [f64; 3]) -> bool {
+        (0..3).all(|axis| (self.min_m[axis]..=self.max_m[axis]).contains(&point[axis]))
+    }
+
+    fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
+        let region = Self {
+            min_m: keys.required_vector("min_m")?,
+            max_m: keys.required_vector("max_m")?,
+        };
+        if (0..3).all(|axis| region.min_m[axis] <= region.max_m[axis]) {
+            return Ok(region);
+        }
+        Err(Error::BadValue {
+            place: keys.place().clone(),
+            key: keys.full_name("max_m"),
+            found: format!("{:?}", region.max_m),
+            expected: format!(
+                "numbers that are not below those of min_m, {:?}",
+                region.min_m
+            )
+            .into(),
+        })
+    }
+}
+
+impl AnchorSphere {
+    fn holds(&self, point: [f64; 3]) -> bool {
+        let squares = (0..3).map(|axis| (point[axis] - self.center_m[axis]).powi(2));
+        squares.sum::<f64>() <= self.radius_m.powi(2)
+    }
+
+    fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
+        Ok(Self {
+            center_m: keys.required_vector("center_m")?,
+            radius_m: keys.required_number("radius_m", Domain::POSITIVE)?,
+        })
+    }
+}

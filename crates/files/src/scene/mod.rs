@@ -1,0 +1,101 @@
+//! What stands in a scene: an organ and its tissue, what surrounds it, the model that moves it and
+//! the tools that touch it.
+
+mod anchor;
+mod model;
+mod organ;
+mod shape;
+mod tissue_choice;
+mod tool;
+mod view;
+
+use std::path::{Path, PathBuf};
+
+pub use anchor::{Anchor, AnchorBox, AnchorPlane, AnchorSphere};
+pub use model::{
+    Assembly, Enhancement, EnhancementArea, Form, HandOver, IntegrationPoints, LocalSettings,
+    Model, ModelKind, Placement, Smoothing, Solver,
+};
+pub use organ::{Layer, Neighbour, Organ};
+pub use shape::{BuiltinOrgan, LengthUnit, Shape};
+pub use tissue_choice::TissueChoice;
+pub use tool::{DeviceKind, Tip, TipContact, TipShape, Tool, ToolKind};
+pub use view::{Shading, Task, View};
+
+use crate::whole_file::read_text;
+use crate::{Document, Error};
+
+/// A scene. What is not stated in the file has its default here.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scene {
+    /// The folder of the scene's file. The paths in the scene already begin with it.
+    pub folder: PathBuf,
+    /// The organ that is touched.
+    pub organ: Organ,
+    /// What is shown around it and not deformed.
+    pub neighbours: Vec<Neighbour>,
+    /// How the organ is moved.
+    pub model: Model,
+    /// The tools: one or two, with different names.
+    pub tools: Vec<Tool>,
+    /// How the scene is looked at.
+    pub view: View,
+    /// What there is to do.
+    pub task: Task,
+}
+
+const KEYS: &[&str] = &["organ", "neighbour", "model", "tool", "view", "task"];
+
+impl Scene {
+    /// Reads a scene file.
+    ///
+    /// # Errors
+    /// When the file cannot be read or does not describe a scene.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
+        let path = path.as_ref();
+        Self::parse(&read_text(path)?, path)
+    }
+
+    /// Reads the text of a scene file; `path` is its name in errors, and relative paths in the
+    /// scene begin in its folder.
+    ///
+    /// # Errors
+    /// When the text does not describe a scene.
+    pub fn parse(text: &str, path: impl AsRef<Path>) -> Result<Self, Error> {
+        let path = path.as_ref();
+        let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+        let document = Document::parse(text, path)?;
+        let keys = document.keys(KEYS)?;
+        let organ = keys
+            .table("organ", Organ::KEYS)?
+            .ok_or_else(|| keys.missing("organ", "a table `[organ]`"))?;
+        let neighbours = keys.tables("neighbour", Neighbour::KEYS)?;
+        let scene = Self {
+            organ: Organ::from_keys(&organ, &folder)?,
+            neighbours: neighbours
+                .iter()
+                .map(|keys| Neighbour::from_keys(keys, &folder))
+                .collect::<Result<_, _>>()?,
+            model: Model::from_keys(keys.table("model", Model::KEYS)?.as_ref())?,
+            tools: tool::from_keys(&keys)?,
+            view: View::from_keys(keys.table("view", View::KEYS)?.as_ref())?,
+            task: Task::from_keys(keys.table("task", Task::KEYS)?.as_ref(), &folder)?,
+            folder,
+        };
+        if scene.lacks_anchor() {
+            return Err(organ.missing(
+                "anchor",
+                "regions that are held, such as `[organ.anchor]` with `planes`, \
+                 for the hybrid model cannot compute a body that nothing holds",
+            ));
+        }
+        Ok(scene)
+    }
+
+    /// Built-in organs are held where they grow; a mesh is held only where the scene says so.
+    fn lacks_anchor(&self) -> bool {
+        self.model.kind == ModelKind::Hybrid
+            && matches!(self.organ.shape, Shape::Mesh { .. })
+            && self.organ.anchor.as_ref().is_none_or(Anchor::is_empty)
+    }
+}

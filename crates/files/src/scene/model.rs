@@ -1,0 +1,286 @@
+use crate::words::words;
+use crate::{Domain, Error, Keys};
+
+words! {
+    /// How the organ is moved.
+    pub enum ModelKind {
+        /// Finite spheres around each tool.
+        Local = "local",
+        /// Boundary elements over the whole organ, with local enhancement.
+        Hybrid = "hybrid",
+    }
+}
+
+words! {
+    /// The form of the equations of the finite spheres.
+    pub enum Form {
+        /// Integrated over the neighbourhood.
+        Weak = "weak",
+        /// Collocated at the particles.
+        Strong = "strong",
+    }
+}
+
+words! {
+    /// Where the particles of the finite spheres stand.
+    pub enum Placement {
+        /// On a regular template around the tool.
+        Template = "template",
+        /// On the triangles of the mesh, as the source places them.
+        Source = "source",
+    }
+}
+
+words! {
+    /// How the equations of the finite spheres are solved.
+    pub enum Solver {
+        /// Factored.
+        Direct = "direct",
+        /// By GMRES.
+        Gmres = "gmres",
+    }
+}
+
+words! {
+    /// When the equations of the finite spheres are put together.
+    pub enum Assembly {
+        /// Anew in every step.
+        EveryStep = "every_step",
+        /// Once, for a template that stays the same; only with `placement = "template"`.
+        Reused = "reused",
+    }
+}
+
+words! {
+    /// The area that is refined around a contact.
+    pub enum EnhancementArea {
+        /// Nothing is refined.
+        None = "none",
+        /// The triangles that share an edge with the touched one.
+        Edge = "edge",
+        /// The triangles that share a vertex with the touched one.
+        Vertex = "vertex",
+    }
+}
+
+words! {
+    /// How displacements are spread over the refined area.
+    pub enum Smoothing {
+        /// They are not.
+        None = "none",
+        /// Shepard's inverse distances.
+        Shepard = "shepard",
+        /// Moving least squares.
+        MovingLeastSquares = "moving_least_squares",
+    }
+}
+
+words! {
+    /// What the model hands over to the servo loop between its steps.
+    pub enum HandOver {
+        /// A force with its local stiffness.
+        LocalModel = "local_model",
+        /// A line through the last two forces.
+        Linear = "linear",
+        /// The last force.
+        Hold = "hold",
+    }
+}
+
+/// The number of points at which a finite sphere's neighbourhood is integrated: 130, 415 or 957.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum IntegrationPoints {
+    /// 130 points.
+    Few,
+    /// 415 points.
+    Standard,
+    /// 957 points.
+    Many,
+}
+
+impl IntegrationPoints {
+    /// How many points they are.
+    pub fn count(self) -> usize {
+        match self {
+            Self::Few => 130,
+            Self::Standard => 415,
+            Self::Many => 957,
+        }
+    }
+}
+
+/// How the organ is moved, with the settings of every kind of model; those of the other kind are
+/// kept but not used.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Model {
+    /// Which model.
+    pub kind: ModelKind,
+    /// The period of the model thread [s].
+    pub step_s: f64,
+    /// Settings of the finite spheres.
+    pub local: LocalSettings,
+    /// Settings of the hybrid model's refinement.
+    pub enhancement: Enhancement,
+    /// What is handed over to the servo loop.
+    pub hand_over: HandOver,
+    /// Factor on every force that is felt, shown and recorded [-].
+    pub force_scale: f64,
+}
+
+/// Settings of the finite spheres.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct LocalSettings {
+    /// How many particles stand around a tool.
+    pub particles: usize,
+    /// The form of the equations.
+    pub form: Form,
+    /// Where the particles stand.
+    pub placement: Placement,
+    /// How the equations are solved.
+    pub solver: Solver,
+    /// When the equations are put together.
+    pub assembly: Assembly,
+    /// At how many points they are integrated.
+    pub integration_points: IntegrationPoints,
+}
+
+/// Settings of the refinement around a contact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Enhancement {
+    /// The area that is refined.
+    pub area: EnhancementArea,
+    /// How often each triangle is divided into four.
+    pub levels: usize,
+    /// How displacements are spread over it.
+    pub smoothing: Smoothing,
+}
+
+impl Default for LocalSettings {
+    fn default() -> Self {
+        Self {
+            particles: 34,
+            form: Form::Weak,
+            placement: Placement::Template,
+            solver: Solver::Direct,
+            assembly: Assembly::EveryStep,
+            integration_points: IntegrationPoints::Standard,
+        }
+    }
+}
+
+impl Default for Enhancement {
+    fn default() -> Self {
+        Self {
+            area: EnhancementArea::None,
+            levels: 1,
+            smoothing: Smoothing::None,
+        }
+    }
+}
+
+impl Default for Model {
+    fn default() -> Self {
+        Self {
+            kind: ModelKind::Local,
+            // The source's 200 Hz.
+            step_s: 0.005,
+            local: LocalSettings::default(),
+            enhancement: Enhancement::default(),
+            hand_over: HandOver::LocalModel,
+            force_scale: 1.0,
+        }
+    }
+}
+
+impl Model {
+    pub(super) const KEYS: &'static [&'static str] = &[
+        "kind",
+        "step_s",
+        "particles",
+        "form",
+        "placement",
+        "solver",
+        "assembly",
+        "integration_points",
+        "enhancement",
+        "hand_over",
+        "force_scale",
+    ];
+
+    pub(super) fn from_keys(keys: Option<&Keys<'_>>) -> Result<Self, Error> {
+        let default = Self::default();
+        let Some(keys) = keys else {
+            return Ok(default);
+        };
+        let positive = |key, or: f64| Ok(keys.number(key, Domain::POSITIVE)?.unwrap_or(or));
+        Ok(Self {
+            kind: keys.word("kind", ModelKind::WORDS)?.unwrap_or(default.kind),
+            step_s: positive("step_s", default.step_s)?,
+            local: LocalSettings::from_keys(keys)?,
+            enhancement: Enhancement::from_keys(keys)?,
+            hand_over: keys
+                .word("hand_over", HandOver::WORDS)?
+                .unwrap_or(default.hand_over),
+            force_scale: positive("force_scale", default.force_scale)?,
+        })
+    }
+}
+
+impl LocalSettings {
+    fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
+        let default = Self::default();
+        // Fewer than 8 leave an interpolation without a solution; the equations are dense, so that
+        // more than a few thousand would fill the memory.
+        let particles = keys.integer("particles", 8..=4000)?;
+        let settings = Self {
+            particles: particles.map_or(default.particles, |number| number as usize),
+            form: keys.word("form", Form::WORDS)?.unwrap_or(default.form),
+            placement: keys
+                .word("placement", Placement::WORDS)?
+                .unwrap_or(default.placement),
+            solver: keys
+                .word("solver", Solver::WORDS)?
+                .unwrap_or(default.solver),
+            assembly: keys
+                .word("assembly", Assembly::WORDS)?
+                .unwrap_or(default.assembly),
+            integration_points: integration_points(keys)?,
+        };
+        if settings.assembly == Assembly::Reused && settings.placement == Placement::Source {
+            return Err(keys.bad(
+                "assembly",
+                "\"every_step\", for particles placed on the mesh are elsewhere at each contact",
+            ));
+        }
+        Ok(settings)
+    }
+}
+
+fn integration_points(keys: &Keys<'_>) -> Result<IntegrationPoints, Error> {
+    match keys.integer("integration_points", 0..=u64::MAX)? {
+        None | Some(415) => Ok(IntegrationPoints::Standard),
+        Some(130) => Ok(IntegrationPoints::Few),
+        Some(957) => Ok(IntegrationPoints::Many),
+        Some(_) => Err(keys.bad("integration_points", "130, 415 or 957")),
+    }
+}
+
+impl Enhancement {
+    fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
+        let default = Self::default();
+        let Some(keys) = keys.table("enhancement", &["area", "levels", "smoothing"])? else {
+            return Ok(default);
+        };
+        // Each level makes four triangles of one; six make 4096.
+        let levels = keys.integer("levels", 0..=6)?;
+        Ok(Self {
+            area: keys
+                .word("area", EnhancementArea::WORDS)?
+                .unwrap_or(default.area),
+            levels: levels.map_or(default.levels, |number| number as usize),
+            smoothing: keys
+                .word("smoothing", Smoothing::WORDS)?
+                .unwrap_or(default.smoothing),
+        })
+    }
+}

@@ -1,0 +1,99 @@
+use std::path::Path;
+
+use super::{Anchor, Shape, TissueChoice};
+use crate::{Domain, Error, Keys};
+
+/// The organ that is touched.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Organ {
+    /// Its surface.
+    pub shape: Shape,
+    /// What it is made of.
+    pub tissue: TissueChoice,
+    /// Where it is held; none when the scene does not say.
+    pub anchor: Option<Anchor>,
+    /// Its layers from outside to inside; empty for an organ of one tissue.
+    pub layers: Vec<Layer>,
+}
+
+/// A layer of an organ.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Layer {
+    /// Its name, for people.
+    pub name: String,
+    /// Its thickness [m].
+    pub thickness_m: f64,
+    /// What it is made of.
+    pub tissue: TissueChoice,
+    /// The force on a tool at which it gives way [N]; none when it never does.
+    pub perforation_force_n: Option<f64>,
+}
+
+/// A body that is shown beside the organ and not deformed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Neighbour {
+    /// Its surface.
+    pub shape: Shape,
+    /// Whether tools stop at it.
+    pub collides: bool,
+}
+
+impl Organ {
+    pub(super) const KEYS: &'static [&'static str] = &[
+        "mesh",
+        "mesh_unit",
+        "builtin",
+        "triangles",
+        "tissue",
+        "builtin_tissue",
+        "anchor",
+        "layer",
+    ];
+
+    pub(super) fn from_keys(keys: &Keys<'_>, folder: &Path) -> Result<Self, Error> {
+        let anchor = keys.table("anchor", Anchor::KEYS)?;
+        let layers = keys.tables("layer", Layer::KEYS)?;
+        Ok(Self {
+            shape: Shape::from_keys(keys, folder)?,
+            tissue: TissueChoice::from_keys(keys, folder)?,
+            anchor: anchor.map(|keys| Anchor::from_keys(&keys)).transpose()?,
+            layers: layers
+                .iter()
+                .enumerate()
+                .map(|(number, keys)| Layer::from_keys(keys, number, folder))
+                .collect::<Result<_, _>>()?,
+        })
+    }
+}
+
+impl Layer {
+    const KEYS: &[&str] = &[
+        "name",
+        "thickness_m",
+        "tissue",
+        "builtin_tissue",
+        "perforation_force_n",
+    ];
+
+    fn from_keys(keys: &Keys<'_>, number: usize, folder: &Path) -> Result<Self, Error> {
+        let name = keys.text("name")?;
+        Ok(Self {
+            name: name.unwrap_or_else(|| format!("layer {}", number + 1)),
+            thickness_m: keys.required_number("thickness_m", Domain::POSITIVE)?,
+            tissue: TissueChoice::from_keys(keys, folder)?,
+            perforation_force_n: keys.number("perforation_force_n", Domain::POSITIVE)?,
+        })
+    }
+}
+
+impl Neighbour {
+    pub(super) const KEYS: &'static [&'static str] =
+        &["mesh", "mesh_unit", "builtin", "triangles", "collides"];
+
+    pub(super) fn from_keys(keys: &Keys<'_>, folder: &Path) -> Result<Self, Error> {
+        Ok(Self {
+            shape: Shape::from_keys(keys, folder)?,
+            collides: keys.truth("collides")?.unwrap_or(false),
+        })
+    }
+}

@@ -1,0 +1,105 @@
+use std::path::{Path, PathBuf};
+
+use crate::words::words;
+use crate::{Error, Keys};
+
+words! {
+    /// A shape that comes with the program.
+    pub enum BuiltinOrgan {
+        /// The lower esophagus.
+        Esophagus = "esophagus",
+        /// The liver.
+        Liver = "liver",
+        /// A kidney.
+        Kidney = "kidney",
+        /// The stomach.
+        Stomach = "stomach",
+        /// The spleen.
+        Spleen = "spleen",
+        /// Radius 0.05 m, base at z = 0 centred on the origin and held, pole at +z.
+        Hemisphere = "hemisphere",
+        /// Edge 0.1 m, from -0.05 m to 0.05 m along each axis, bottom held.
+        Cube = "cube",
+    }
+}
+
+words! {
+    /// The unit of the coordinates in a mesh file.
+    pub enum LengthUnit {
+        /// Metres.
+        Metre = "m",
+        /// Centimetres.
+        Centimetre = "cm",
+        /// Millimetres.
+        Millimetre = "mm",
+        /// Micrometres.
+        Micrometre = "um",
+        /// Inches.
+        Inch = "in",
+    }
+}
+
+impl LengthUnit {
+    /// The length of one unit [m].
+    pub fn metres(self) -> f64 {
+        match self {
+            Self::Metre => 1.0,
+            Self::Centimetre => 1e-2,
+            Self::Millimetre => 1e-3,
+            Self::Micrometre => 1e-6,
+            Self::Inch => 0.0254,
+        }
+    }
+}
+
+/// Where a surface comes from.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Shape {
+    /// A mesh file.
+    Mesh {
+        /// The file.
+        path: PathBuf,
+        /// Its unit; none when the scene does not state it.
+        unit: Option<LengthUnit>,
+    },
+    /// A shape that comes with the program.
+    Builtin {
+        /// Which one.
+        organ: BuiltinOrgan,
+        /// About how many triangles; none for the shape's own number.
+        triangles: Option<usize>,
+    },
+}
+
+impl Shape {
+    /// The shape of a table with the keys `mesh`, `mesh_unit`, `builtin` and `triangles`.
+    pub(super) fn from_keys(keys: &Keys<'_>, folder: &Path) -> Result<Self, Error> {
+        let mesh = keys.text("mesh")?;
+        let builtin = keys.word("builtin", BuiltinOrgan::WORDS)?;
+        let unit = keys.word("mesh_unit", LengthUnit::WORDS)?;
+        // A closed surface has at least the four triangles of a tetrahedron.
+        let triangles = keys.integer("triangles", 4..=10_000_000)?;
+        match (mesh, builtin) {
+            (Some(mesh), None) => {
+                keys.refuse(
+                    "triangles",
+                    "no number of triangles, for a mesh file has its own",
+                )?;
+                let path = folder.join(mesh);
+                Ok(Self::Mesh { path, unit })
+            }
+            (None, Some(organ)) => {
+                keys.refuse("mesh_unit", "no unit, for a built-in shape is in metres")?;
+                Ok(Self::Builtin {
+                    organ,
+                    triangles: triangles.map(|number| number as usize),
+                })
+            }
+            (Some(_), Some(_)) => Err(keys.given_twice("mesh", "builtin")),
+            (None, None) => Err(keys.missing(
+                "mesh",
+                "`mesh = \"file.stl\"` or `builtin = \"esophagus\"` (or another built-in shape)",
+            )),
+        }
+    }
+}

@@ -1,0 +1,54 @@
+use std::path::{Path, PathBuf};
+
+use crate::{BuiltinTissue, Error, Keys, Tissue};
+
+/// The tissue that a scene asks for.
+#[derive(Debug, Clone, PartialEq)]
+pub enum TissueChoice {
+    /// A tissue file.
+    File(PathBuf),
+    /// A tissue that comes with the program.
+    Builtin(BuiltinTissue),
+    /// A table in the scene.
+    Inline(Box<Tissue>),
+}
+
+impl TissueChoice {
+    /// The tissue itself, read when it is in a file of its own.
+    ///
+    /// # Errors
+    /// When the file cannot be read or does not describe a tissue.
+    pub fn read(&self) -> Result<Tissue, Error> {
+        match self {
+            Self::File(path) => Tissue::read(path),
+            Self::Builtin(tissue) => Ok(Tissue::builtin(*tissue)),
+            Self::Inline(tissue) => Ok((**tissue).clone()),
+        }
+    }
+
+    /// The choice of a table with the keys `tissue` and `builtin_tissue`.
+    pub(super) fn from_keys(keys: &Keys<'_>, folder: &Path) -> Result<Self, Error> {
+        let builtin = keys.word("builtin_tissue", BuiltinTissue::WORDS)?;
+        match (builtin, keys.contains("tissue")) {
+            (Some(_), true) => Err(keys.given_twice("tissue", "builtin_tissue")),
+            (Some(builtin), false) => Ok(Self::Builtin(builtin)),
+            (None, _) => Self::own(keys, folder),
+        }
+    }
+
+    fn own(keys: &Keys<'_>, folder: &Path) -> Result<Self, Error> {
+        if keys.is_text("tissue")
+            && let Some(path) = keys.text("tissue")?
+        {
+            return Ok(Self::File(folder.join(path)));
+        }
+        match keys.table("tissue", Tissue::KEYS)? {
+            Some(tissue) => Ok(Self::Inline(Box::new(Tissue::from_keys(&tissue)?))),
+            None => Err(keys.missing(
+                "tissue",
+                "`tissue = \"file.toml\"`, a table of that name, \
+                 or `builtin_tissue = \"pig-liver\"` (or another built-in tissue)",
+            )),
+        }
+    }
+}

@@ -1,0 +1,168 @@
+use crate::words::words;
+use crate::{Domain, Error, Keys};
+
+words! {
+    /// What a tool can do.
+    pub enum ToolKind {
+        /// It presses.
+        Probe = "probe",
+        /// It holds.
+        Grasper = "grasper",
+        /// It cuts between blades.
+        Scissors = "scissors",
+        /// It pulls and cuts with its edge.
+        Hook = "hook",
+    }
+}
+
+words! {
+    /// The shape of a tip.
+    pub enum TipShape {
+        /// A round flat face.
+        Flat = "flat",
+        /// A ball.
+        Sphere = "sphere",
+    }
+}
+
+words! {
+    /// How a tip holds the tissue that it touches.
+    pub enum TipContact {
+        /// Bonded: tangential motion is transmitted.
+        Stick = "stick",
+        /// Without tangential force.
+        Slip = "slip",
+    }
+}
+
+words! {
+    /// What moves a tool.
+    pub enum DeviceKind {
+        /// The mouse.
+        Mouse = "mouse",
+        /// The virtual haptic device.
+        Virtual = "virtual",
+        /// Nothing.
+        None = "none",
+        /// A Haply device.
+        Haply = "haply",
+        /// A device of OpenHaptics.
+        OpenHaptics = "openhaptics",
+        /// A Force Dimension device.
+        ForceDimension = "force_dimension",
+    }
+}
+
+/// The end of a tool that touches.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tip {
+    /// Its shape.
+    pub shape: TipShape,
+    /// Its radius, not its diameter [m].
+    pub radius_m: f64,
+    /// How it holds the tissue.
+    pub contact: TipContact,
+}
+
+/// A tool.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tool {
+    /// Its name, which motions and sessions use.
+    pub name: String,
+    /// What it can do.
+    pub kind: ToolKind,
+    /// The end that touches.
+    pub tip: Tip,
+    /// The point through which its shaft always passes [m]; none for a free tool.
+    pub trocar_m: Option<[f64; 3]>,
+    /// What moves it.
+    pub device: DeviceKind,
+}
+
+impl Default for Tip {
+    /// The source's indenter: a flat punch of 1 mm radius.
+    fn default() -> Self {
+        Self {
+            shape: TipShape::Flat,
+            radius_m: 0.001,
+            contact: TipContact::Stick,
+        }
+    }
+}
+
+impl Default for Tool {
+    /// The probe of a scene that names no tool.
+    fn default() -> Self {
+        Self {
+            name: "right".to_owned(),
+            kind: ToolKind::Probe,
+            tip: Tip::default(),
+            trocar_m: None,
+            device: DeviceKind::Mouse,
+        }
+    }
+}
+
+/// The tools of a scene, of which `keys` are the keys.
+pub(super) fn from_keys(keys: &Keys<'_>) -> Result<Vec<Tool>, Error> {
+    let tables = keys.tables("tool", Tool::KEYS)?;
+    if let Some(third) = tables.get(2) {
+        return Err(Error::BadValue {
+            place: third.place().clone(),
+            key: keys.full_name("tool"),
+            found: format!("a list of {} tools", tables.len()),
+            expected: "at most two tools, one for each hand".into(),
+        });
+    }
+    let tools: Vec<_> = tables
+        .iter()
+        .zip(["right", "left"])
+        .map(|(keys, name)| Tool::from_keys(keys, name))
+        .collect::<Result<_, _>>()?;
+    match tools.as_slice() {
+        [] => Ok(vec![Tool::default()]),
+        [first, second] if first.name == second.name => Err(Error::BadValue {
+            place: tables[1].place().clone(),
+            key: tables[1].full_name("name"),
+            found: format!("{:?}", second.name),
+            expected: "another name than that of the first tool".into(),
+        }),
+        _ => Ok(tools),
+    }
+}
+
+impl Tool {
+    const KEYS: &[&str] = &["name", "kind", "tip", "trocar_m", "device"];
+
+    fn from_keys(keys: &Keys<'_>, default_name: &str) -> Result<Self, Error> {
+        let default = Self::default();
+        let tip = keys.table("tip", Tip::KEYS)?;
+        Ok(Self {
+            name: keys
+                .text("name")?
+                .unwrap_or_else(|| default_name.to_owned()),
+            kind: keys.word("kind", ToolKind::WORDS)?.unwrap_or(default.kind),
+            tip: tip.map_or(Ok(default.tip), |keys| Tip::from_keys(&keys))?,
+            trocar_m: keys.vector("trocar_m")?,
+            device: keys
+                .word("device", DeviceKind::WORDS)?
+                .unwrap_or(default.device),
+        })
+    }
+}
+
+impl Tip {
+    const KEYS: &[&str] = &["shape", "radius_m", "contact"];
+
+    fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
+        Ok(Self {
+            shape: keys
+                .word("shape", TipShape::WORDS)?
+                .ok_or_else(|| keys.missing("shape", "\"flat\" or \"sphere\""))?,
+            radius_m: keys.required_number("radius_m", Domain::POSITIVE)?,
+            contact: keys
+                .word("contact", TipContact::WORDS)?
+                .unwrap_or(TipContact::Stick),
+        })
+    }
+}

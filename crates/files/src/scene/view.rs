@@ -1,0 +1,121 @@
+use std::path::{Path, PathBuf};
+
+use crate::words::words;
+use crate::{Domain, Error, Keys};
+
+words! {
+    /// How the surface of the organ is drawn.
+    pub enum Shading {
+        /// In one colour.
+        Plain = "plain",
+        /// With a texture.
+        Texture = "texture",
+        /// Wet, by a sphere map.
+        SphereMap = "sphere_map",
+        /// Wet, by a cube map.
+        CubeMap = "cube_map",
+    }
+}
+
+/// How the scene is looked at. What is not stated, the viewer chooses so that the organ fills the
+/// picture.
+///
+/// ```toml
+/// [view]
+/// eye_m = [0.0, -0.3, 0.2]
+/// target_m = [0.0, 0.0, 0.0]
+/// up = [0.0, 0.0, 1.0]
+/// field_of_view_deg = 45.0
+/// shading = "cube_map"         # plain | texture | sphere_map | cube_map
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct View {
+    /// Where the eye is [m].
+    pub eye_m: Option<[f64; 3]>,
+    /// What it looks at [m].
+    pub target_m: Option<[f64; 3]>,
+    /// The direction that is up in the picture [-].
+    pub up: Option<[f64; 3]>,
+    /// The angle from the lower to the upper edge of the picture [rad].
+    pub field_of_view_rad: f64,
+    /// How the organ is drawn.
+    pub shading: Shading,
+}
+
+/// What there is to do, and how a performance is judged.
+///
+/// ```toml
+/// [task]
+/// instructions = "Find the stiff spot."
+/// time_limit_s = 60.0
+/// force_limit_n = 2.0          # forces above it count against the trainee
+/// expert = "expert-session"    # a session's folder to compare with
+/// ```
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Task {
+    /// What the trainee reads.
+    pub instructions: Option<String>,
+    /// How long it may take [s].
+    pub time_limit_s: Option<f64>,
+    /// The force above which tissue would be harmed [N].
+    pub force_limit_n: Option<f64>,
+    /// The folder of an expert's session.
+    pub expert: Option<PathBuf>,
+}
+
+impl Default for View {
+    fn default() -> Self {
+        Self {
+            eye_m: None,
+            target_m: None,
+            up: None,
+            field_of_view_rad: 45_f64.to_radians(),
+            shading: Shading::CubeMap,
+        }
+    }
+}
+
+const FIELD_OF_VIEW: Domain = Domain {
+    expected: "an angle above 0 and below 180 degrees (pi radians)",
+    holds: |angle| 0.0 < angle && angle < std::f64::consts::PI,
+};
+
+impl View {
+    pub(super) const KEYS: &'static [&'static str] =
+        &["eye_m", "target_m", "up", "field_of_view_rad", "shading"];
+
+    pub(super) fn from_keys(keys: Option<&Keys<'_>>) -> Result<Self, Error> {
+        let default = Self::default();
+        let Some(keys) = keys else {
+            return Ok(default);
+        };
+        Ok(Self {
+            eye_m: keys.vector("eye_m")?,
+            target_m: keys.vector("target_m")?,
+            up: keys.direction("up")?,
+            field_of_view_rad: keys
+                .number("field_of_view_rad", FIELD_OF_VIEW)?
+                .unwrap_or(default.field_of_view_rad),
+            shading: keys
+                .word("shading", Shading::WORDS)?
+                .unwrap_or(default.shading),
+        })
+    }
+}
+
+impl Task {
+    pub(super) const KEYS: &'static [&'static str] =
+        &["instructions", "time_limit_s", "force_limit_n", "expert"];
+
+    pub(super) fn from_keys(keys: Option<&Keys<'_>>, folder: &Path) -> Result<Self, Error> {
+        let Some(keys) = keys else {
+            return Ok(Self::default());
+        };
+        Ok(Self {
+            instructions: keys.text("instructions")?,
+            time_limit_s: keys.number("time_limit_s", Domain::POSITIVE)?,
+            force_limit_n: keys.number("force_limit_n", Domain::POSITIVE)?,
+            expert: keys.text("expert")?.map(|path| folder.join(path)),
+        })
+    }
+}

@@ -1,0 +1,110 @@
+use std::fmt;
+
+use crate::words::words;
+
+words! {
+    /// What can happen to a tool in a step.
+    pub enum Event {
+        /// It touches the organ, which it did not in the step before.
+        Contact = "contact",
+        /// It no longer touches the organ.
+        Release = "release",
+        /// It takes hold.
+        Grip = "grip",
+        /// It lets go.
+        GripRelease = "grip_release",
+        /// It cuts.
+        Cut = "cut",
+        /// It breaks through a layer.
+        Perforation = "perforation",
+        /// Its shaft, not its tip, touches the organ.
+        ShaftContact = "shaft_contact",
+        /// It is deeper than the models can be trusted: beyond 10 mm.
+        DepthBeyondTrust = "depth_beyond_trust",
+        /// The model gave a force that is no number; it was replaced by zero.
+        NonFiniteForce = "non_finite_force",
+    }
+}
+
+/// The events of a tool in a step, in the order of their list.
+#[derive(Clone, Copy, PartialEq, Eq, Default)]
+pub struct Events {
+    bits: u16,
+}
+
+impl Events {
+    /// No event.
+    pub const NONE: Self = Self { bits: 0 };
+
+    /// Adds an event; one that is there already stays there once.
+    pub fn insert(&mut self, event: Event) {
+        self.bits |= 1 << event as u16;
+    }
+
+    /// Whether an event is there.
+    pub fn contains(self, event: Event) -> bool {
+        self.bits & (1 << event as u16) != 0
+    }
+
+    /// Whether nothing happened.
+    pub fn is_empty(self) -> bool {
+        self.bits == 0
+    }
+
+    /// The events, in the order of their list.
+    pub fn iter(self) -> impl Iterator<Item = Event> {
+        let all = Event::WORDS.iter().map(|(_, event)| *event);
+        all.filter(move |event| self.contains(*event))
+    }
+
+    /// The events of a text in which `;` separates them; none when a word is no event.
+    pub fn from_words(text: &str) -> Option<Self> {
+        let words = text
+            .split(';')
+            .map(str::trim)
+            .filter(|word| !word.is_empty());
+        words.map(Event::from_word).collect()
+    }
+}
+
+impl FromIterator<Event> for Events {
+    fn from_iter<T: IntoIterator<Item = Event>>(events: T) -> Self {
+        let mut all = Self::NONE;
+        events.into_iter().for_each(|event| all.insert(event));
+        all
+    }
+}
+
+impl fmt::Display for Events {
+    /// The words with `;` between them, as in a session.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (number, event) in self.iter().enumerate() {
+            let separator = if number == 0 { "" } else { ";" };
+            write!(f, "{separator}{event}")?;
+        }
+        Ok(())
+    }
+}
+
+impl fmt::Debug for Events {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_set().entries(self.iter()).finish()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn events_are_a_set_in_the_order_of_the_list() {
+        let events: Events = [Event::Cut, Event::Contact, Event::Cut]
+            .into_iter()
+            .collect();
+        assert_eq!(events.to_string(), "contact;cut");
+        assert_eq!(Events::from_words("cut;contact"), Some(events));
+        assert_eq!(Events::from_words(""), Some(Events::NONE));
+        assert_eq!(Events::from_words("contact;sneeze"), None);
+        assert_eq!(Event::WORDS.len(), 9);
+    }
+}

@@ -1,0 +1,63 @@
+use crate::scene::ModelKind;
+use crate::table::header_line;
+use crate::toml_document::quoted;
+use crate::{Domain, Error, Keys};
+
+/// Under which conditions a session was played.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SessionHeader {
+    /// The version of the program.
+    pub version: String,
+    /// A digest of the scene with all that belongs to it.
+    pub scene_digest: String,
+    /// The model.
+    pub model: ModelKind,
+    /// The model's period [s].
+    pub step_s: f64,
+    /// The seed of whatever was drawn by chance.
+    pub seed: u64,
+    /// Factor on every force [-].
+    pub force_scale: f64,
+}
+
+impl SessionHeader {
+    pub(super) const KEYS: &'static [&'static str] = &[
+        "version",
+        "scene_digest",
+        "model",
+        "step_s",
+        "seed",
+        "force_scale",
+    ];
+
+    pub(super) fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
+        let text = |key| {
+            keys.text(key)?
+                .ok_or_else(|| keys.missing(key, "a text in double quotes"))
+        };
+        let model = keys.word("model", ModelKind::WORDS)?;
+        let seed = keys.integer("seed", 0..=u64::MAX)?;
+        Ok(Self {
+            version: text("version")?,
+            scene_digest: text("scene_digest")?,
+            model: model.ok_or_else(|| keys.missing("model", "\"local\" or \"hybrid\""))?,
+            step_s: keys.required_number("step_s", Domain::POSITIVE)?,
+            seed: seed.ok_or_else(|| keys.missing("seed", "a whole number"))?,
+            force_scale: keys.required_number("force_scale", Domain::POSITIVE)?,
+        })
+    }
+
+    /// The lines above the names of the columns.
+    pub(super) fn print(&self) -> String {
+        [
+            header_line("format", 1),
+            header_line("version", quoted(&self.version)),
+            header_line("scene_digest", quoted(&self.scene_digest)),
+            header_line("model", quoted(self.model.word())),
+            header_line("step_s", format!("{:?}", self.step_s)),
+            header_line("seed", self.seed),
+            header_line("force_scale", format!("{:?}", self.force_scale)),
+        ]
+        .concat()
+    }
+}

@@ -1,0 +1,77 @@
+use std::fmt::{self, Write};
+
+use super::Events;
+use crate::table::field;
+
+/// A tool in a step of the model.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SessionRow {
+    /// The time [s].
+    pub time_s: f64,
+    /// Number of the tool in the scene, from zero.
+    pub tool: usize,
+    /// The tip in the scene's frame, after any fulcrum [m].
+    pub position_m: [f64; 3],
+    /// The quaternion (qx, qy, qz, qw) that maps tool to scene [-].
+    pub orientation: [f64; 4],
+    /// From 0, open, to 1, shut [-].
+    pub grip: f64,
+    /// Whether the tool cuts.
+    pub cut: bool,
+    /// The force on the tool [N].
+    pub force_n: [f64; 3],
+    /// Whether the tool touches the organ.
+    pub contact: bool,
+    /// How far the tip is below the rest surface [m]; 0 without contact.
+    pub depth_m: f64,
+    /// What happened.
+    pub events: Events,
+}
+
+/// The names of the columns, as written above the rows.
+pub(super) const COLUMNS: &str = "time_s,tool,x_m,y_m,z_m,qx,qy,qz,qw,grip,cut,\
+                                  fx_n,fy_n,fz_n,contact,depth_m,event";
+
+impl SessionRow {
+    /// The first number of the row that is not finite, with its column.
+    pub(super) fn not_finite(&self) -> Option<(&'static str, f64)> {
+        self.numbers()
+            .into_iter()
+            .find(|(_, value)| !value.is_finite())
+    }
+
+    fn numbers(&self) -> [(&'static str, f64); 13] {
+        let ([x, y, z], [fx, fy, fz]) = (self.position_m, self.force_n);
+        let [qx, qy, qz, qw] = self.orientation;
+        [
+            ("time_s", self.time_s),
+            ("x_m", x),
+            ("y_m", y),
+            ("z_m", z),
+            ("qx", qx),
+            ("qy", qy),
+            ("qz", qz),
+            ("qw", qw),
+            ("grip", self.grip),
+            ("fx_n", fx),
+            ("fy_n", fy),
+            ("fz_n", fz),
+            ("depth_m", self.depth_m),
+        ]
+    }
+
+    /// Adds the row to a text. The same numbers are always the same text: each is printed with the
+    /// fewest digits that read back to it.
+    pub(super) fn print(&self, tool: &str, text: &mut String) -> fmt::Result {
+        write!(text, "{:?},{}", self.time_s, field(tool))?;
+        for value in self.position_m.iter().chain(&self.orientation) {
+            write!(text, ",{value:?}")?;
+        }
+        write!(text, ",{:?},{}", self.grip, u8::from(self.cut))?;
+        for value in self.force_n {
+            write!(text, ",{value:?}")?;
+        }
+        let contact = u8::from(self.contact);
+        writeln!(text, ",{contact},{:?},{}", self.depth_m, self.events)
+    }
+}

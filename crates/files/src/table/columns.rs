@@ -1,0 +1,111 @@
+use super::TableText;
+use crate::Error;
+use crate::units::{self, Match, Unit};
+use crate::words::near_miss;
+
+/// A column that was found.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Column {
+    pub(crate) index: usize,
+    /// Its name, as written.
+    pub(crate) name: String,
+    unit: Match,
+}
+
+impl Column {
+    /// A column whose numbers are in the unit `from` and are wanted in the unit `to`.
+    pub(crate) fn in_unit(
+        index: usize,
+        name: &str,
+        from: &'static Unit,
+        to: &'static Unit,
+    ) -> Self {
+        Self {
+            index,
+            name: name.to_owned(),
+            unit: Match::Converted(from, to),
+        }
+    }
+
+    pub(super) fn convert(&self, value: f64) -> f64 {
+        self.unit.convert(value)
+    }
+}
+
+impl TableText<'_> {
+    /// The column of a quantity, perhaps in another unit than that of its `expected` name.
+    pub(crate) fn column(&self, expected: &str) -> Result<Column, Error> {
+        if let Some(column) = self.optional_column(expected)? {
+            return Ok(column);
+        }
+        let strange_unit = self
+            .columns()
+            .iter()
+            .find_map(|own| Some((own, units::accepted_instead(own, expected)?)));
+        Err(match strange_unit {
+            Some((own, accepted)) => Error::UnknownUnit {
+                place: self.column_place(),
+                key: own.clone(),
+                accepted,
+            },
+            None => self.missing_column(expected),
+        })
+    }
+
+    pub(crate) fn missing_column(&self, expected: &str) -> Error {
+        let found: Vec<_> = self
+            .columns()
+            .iter()
+            .map(|own| format!("`{own}`"))
+            .collect();
+        Error::MissingColumn {
+            place: self.column_place(),
+            column: expected.to_owned(),
+            found: found.join(", "),
+        }
+    }
+
+    /// The column of a quantity that need not be there.
+    pub(crate) fn optional_column(&self, expected: &str) -> Result<Option<Column>, Error> {
+        let mut all = self
+            .columns()
+            .iter()
+            .enumerate()
+            .filter_map(|(index, own)| Some((index, own, units::matches(own, expected)?)));
+        let Some((index, name, unit)) = all.next() else {
+            return Ok(None);
+        };
+        match all.next() {
+            Some((_, twin, _)) => Err(Error::GivenTwice {
+                place: self.column_place(),
+                first: name.clone(),
+                second: twin.clone(),
+            }),
+            None => Ok(Some(Column {
+                index,
+                name: name.clone(),
+                unit,
+            })),
+        }
+    }
+
+    /// Checks that no column is nearly one of the `known`: a misspelled one would be passed over.
+    pub(crate) fn refuse_near_misses(&self, known: &[&str]) -> Result<(), Error> {
+        for own in self.columns() {
+            if known
+                .iter()
+                .any(|known| units::matches(own, known).is_some())
+            {
+                continue;
+            }
+            if let Some(nearest) = near_miss(own, known) {
+                return Err(Error::UnknownKey {
+                    place: self.column_place(),
+                    key: own.clone(),
+                    nearest: nearest.to_owned(),
+                });
+            }
+        }
+        Ok(())
+    }
+}

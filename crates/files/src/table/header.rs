@@ -1,0 +1,123 @@
+use std::path::Path;
+
+use crate::error::Place;
+use crate::toml_document::{Table, check_format, parse_toml};
+use crate::words::near_miss;
+use crate::{Error, Keys, units};
+
+/// What the comments above a table say.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Header {
+    entries: Table,
+    /// Keys that are not known, in the order of the file.
+    pub(crate) extra: Vec<ExtraKey>,
+}
+
+/// A key above a table that means nothing to this version.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct ExtraKey {
+    /// Its name.
+    pub key: String,
+    /// Its value, as written.
+    pub value: String,
+}
+
+/// The comments and blank lines above the first line of a table, and the text from there on.
+pub(super) fn comments_above(text: &str) -> (Vec<&str>, &str) {
+    let mut above = Vec::new();
+    let mut rest = text;
+    while !rest.is_empty() {
+        let (line, next) = rest.split_once('\n').unwrap_or((rest, ""));
+        if !(line.trim().is_empty() || line.trim_start().starts_with('#')) {
+            break;
+        }
+        above.push(line);
+        rest = next;
+    }
+    (above, rest)
+}
+
+impl Header {
+    /// The keys in the comments `above` a table, of which the first is line 1.
+    pub(crate) fn parse(
+        above: &[&str],
+        path: &Path,
+        known: &'static [&'static str],
+    ) -> Result<Self, Error> {
+        let mut header = Self::default();
+        for (line, text) in (1..).zip(above) {
+            let text = text.trim().trim_start_matches('#').trim();
+            let Some((key, value)) = key_and_value(text) else {
+                continue;
+            };
+            let place = Place::line(path, line);
+            let is_known = |known: &&str| units::matches(key, known).is_some();
+            if key == "format" || known.iter().any(is_known) {
+                header.add(text, place)?;
+            } else {
+                check_stranger(key, known, place)?;
+                header.extra.push(ExtraKey {
+                    key: key.to_owned(),
+                    value: value.to_owned(),
+                });
+            }
+        }
+        Ok(header)
+    }
+
+    fn add(&mut self, text: &str, place: Place) -> Result<(), Error> {
+        for (key, entry) in parse_toml(text, &place.path, place.line.unwrap_or(1))? {
+            if self.entries.contains_key(&key) {
+                return Err(Error::GivenTwice {
+                    place,
+                    first: key.clone(),
+                    second: key,
+                });
+            }
+            self.entries.insert(key, entry);
+        }
+        Ok(())
+    }
+
+    pub(super) fn check_format(&mut self, path: &Path) -> Result<(), Error> {
+        check_format(self.entries.remove("format"), path, "# format = 1")
+    }
+
+    /// The keys that are known.
+    pub(crate) fn keys(&self, path: &Path, known: &'static [&'static str]) -> Keys<'_> {
+        Keys::of_table(Place::file(path), String::new(), &self.entries, known)
+    }
+}
+
+/// `key = value`; none for a comment in plain words.
+fn key_and_value(text: &str) -> Option<(&str, &str)> {
+    let (key, value) = text.split_once('=')?;
+    let key = key.trim();
+    let is_bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+    (!key.is_empty() && key.chars().all(is_bare)).then_some((key, value.trim()))
+}
+
+/// Anybody may write more keys above a table, but one that is nearly a known key is a mistake.
+fn check_stranger(key: &str, known: &[&str], place: Place) -> Result<(), Error> {
+    // `length_unit` is somebody's own key; `length` and `length_kg` are `length_m` gone wrong.
+    let is_base = |known: &str| units::split(known).is_some_and(|(base, _)| base == key);
+    let accepted = known
+        .iter()
+        .filter(|known| units::split(key).is_some() || is_base(known))
+        .find_map(|known| units::accepted_instead(key, known));
+    if let Some(accepted) = accepted {
+        return Err(Error::UnknownUnit {
+            place,
+            key: key.to_owned(),
+            accepted,
+        });
+    }
+    match near_miss(key, known) {
+        Some(nearest) => Err(Error::UnknownKey {
+            place,
+            key: key.to_owned(),
+            nearest: nearest.to_owned(),
+        }),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,111 @@
+//! Tables of numbers (CSV): comments with `# key = value` above a line with the names of the
+//! columns, which may carry units.
+
+mod columns;
+mod header;
+mod rows;
+mod write;
+
+use std::path::{Path, PathBuf};
+
+pub(crate) use columns::Column;
+pub(crate) use header::{ExtraKey, Header};
+pub(crate) use rows::{Row, Rows};
+pub(crate) use write::{field, header_line};
+
+use crate::Error;
+use crate::error::Place;
+
+/// How the fields of a table are written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Layout {
+    pub(crate) delimiter: u8,
+    /// Whether a comma may stand for the decimal point.
+    pub(crate) decimal_comma: bool,
+}
+
+impl Layout {
+    /// As in the project's own files.
+    pub(crate) const OWN: Self = Self {
+        delimiter: b',',
+        decimal_comma: false,
+    };
+}
+
+/// A table whose header is read and whose rows are still text.
+#[derive(Debug, Clone)]
+pub(crate) struct TableText<'t> {
+    pub(crate) path: PathBuf,
+    pub(crate) header: Header,
+    columns: Vec<String>,
+    column_line: usize,
+    /// The text below the names of the columns and the number of its first line.
+    below: &'t str,
+    below_line: usize,
+    layout: Layout,
+}
+
+impl<'t> TableText<'t> {
+    /// Reads the head of one of the project's own tables, whose comments may hold the keys `known`
+    /// and must hold `format = 1`.
+    pub(crate) fn parse(
+        text: &'t str,
+        path: &Path,
+        known: &'static [&'static str],
+    ) -> Result<Self, Error> {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let (above, rest) = header::comments_above(text);
+        let mut header = Header::parse(&above, path, known)?;
+        header.check_format(path)?;
+        let line = above.len() + 1;
+        Self::below(rest, line, Layout::OWN, path)?.map_or_else(
+            || {
+                Err(Error::BadRow {
+                    place: Place::line(path, line),
+                    found: "the end of the file".to_owned(),
+                    expected: "a line with the names of the columns".to_owned(),
+                })
+            },
+            |table| Ok(Self { header, ..table }),
+        )
+    }
+
+    /// A table whose column names are the first line of `text`, which is line number `line`.
+    pub(crate) fn below(
+        text: &'t str,
+        line: usize,
+        layout: Layout,
+        path: &Path,
+    ) -> Result<Option<Self>, Error> {
+        let (names, below) = text.split_once('\n').unwrap_or((text, ""));
+        let mut table = Self {
+            path: path.to_owned(),
+            header: Header::default(),
+            columns: Vec::new(),
+            column_line: line,
+            below: names,
+            below_line: line,
+            layout,
+        };
+        let mut rows = table.rows();
+        let names: Option<Vec<String>> = rows
+            .next()?
+            .map(|row| row.fields().map(str::to_owned).collect());
+        table.below = below;
+        table.below_line = line + 1;
+        Ok(names.map(|columns| Self { columns, ..table }))
+    }
+
+    /// The names of the columns, as written.
+    pub(crate) fn columns(&self) -> &[String] {
+        &self.columns
+    }
+
+    pub(crate) fn rows(&self) -> Rows<'_> {
+        Rows::new(self)
+    }
+
+    fn column_place(&self) -> Place {
+        Place::line(&self.path, self.column_line)
+    }
+}

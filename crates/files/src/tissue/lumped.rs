@@ -1,0 +1,168 @@
+use crate::{Domain, Error, Estimate, Keys};
+
+/// Parameters of models without geometry. They belong to one indenter on one specimen.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Lumped {
+    /// Two springs and a damper (6.3).
+    pub kelvin: Option<Kelvin>,
+    /// Blatz's law on a column of effective size (6.2).
+    pub blatz: Option<EffectiveColumn>,
+    /// Three nonlinear springs (6.4).
+    pub nonlinear_springs: Option<NonlinearSprings>,
+}
+
+/// A force that falls from `k1` to `k2` times the depth with the time constant b/k1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Kelvin {
+    /// Instantaneous stiffness [N/m].
+    pub k1_n_per_m: Estimate,
+    /// Stiffness after relaxation [N/m].
+    pub k2_n_per_m: Estimate,
+    /// Damping [N s/m].
+    pub b_n_s_per_m: Estimate,
+    /// Time constant, when it was fitted [s].
+    pub tau_s: Option<Estimate>,
+}
+
+/// Blatz's law in compression of a column that stands for the tissue under the indenter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EffectiveColumn {
+    /// γ [Pa].
+    pub gamma_pa: Estimate,
+    /// α [-].
+    pub alpha: Estimate,
+    /// Cross-section of the column [m²].
+    pub effective_area_m2: Estimate,
+    /// Length of the column [m].
+    pub effective_length_m: Estimate,
+}
+
+/// The parameters of (6.4) in newtons, millimetres and seconds, as the source prints them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NonlinearSprings {
+    /// Factor of the spring of the static force [N/mm^k02].
+    pub k01: Estimate,
+    /// Exponent of the spring of the static force [-].
+    pub k02: Estimate,
+    /// First parameter of the first relaxing spring [N, mm, s].
+    pub k11: Estimate,
+    /// Second parameter of the first relaxing spring [N, mm, s].
+    pub k12: Estimate,
+    /// Third parameter of the first relaxing spring [N, mm, s].
+    pub k13: Estimate,
+    /// First parameter of the second relaxing spring [N, mm, s].
+    pub k21: Estimate,
+    /// Second parameter of the second relaxing spring [N, mm, s].
+    pub k22: Estimate,
+    /// Third parameter of the second relaxing spring [N, mm, s].
+    pub k23: Estimate,
+}
+
+impl Lumped {
+    pub(super) fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
+        let known = &["kelvin", "blatz", "nonlinear_springs"];
+        let Some(lumped) = keys.table("lumped", known)? else {
+            return Ok(Self::default());
+        };
+        let kelvin = lumped.table("kelvin", Kelvin::KEYS)?;
+        let blatz = lumped.table("blatz", EffectiveColumn::KEYS)?;
+        let springs = lumped.table("nonlinear_springs", NonlinearSprings::KEYS)?;
+        Ok(Self {
+            kelvin: kelvin.map(|keys| Kelvin::from_keys(&keys)).transpose()?,
+            blatz: blatz
+                .map(|keys| EffectiveColumn::from_keys(&keys))
+                .transpose()?,
+            nonlinear_springs: springs
+                .map(|keys| NonlinearSprings::from_keys(&keys))
+                .transpose()?,
+        })
+    }
+
+    /// The tables that are there, each with its keys.
+    pub(super) fn tables(&self) -> Vec<(&'static str, Vec<(&'static str, Estimate)>)> {
+        [
+            self.kelvin.map(|kelvin| ("kelvin", kelvin.parameters())),
+            self.blatz.map(|blatz| ("blatz", blatz.parameters())),
+            self.nonlinear_springs
+                .map(|springs| ("nonlinear_springs", springs.parameters())),
+        ]
+        .into_iter()
+        .flatten()
+        .collect()
+    }
+}
+
+impl Kelvin {
+    const KEYS: &[&str] = &["k1_n_per_m", "k2_n_per_m", "b_n_s_per_m", "tau_s"];
+
+    fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
+        Ok(Self {
+            k1_n_per_m: keys.required_estimate("k1_n_per_m", Domain::POSITIVE)?,
+            k2_n_per_m: keys.required_estimate("k2_n_per_m", Domain::NOT_NEGATIVE)?,
+            b_n_s_per_m: keys.required_estimate("b_n_s_per_m", Domain::POSITIVE)?,
+            tau_s: keys.estimate("tau_s", Domain::POSITIVE)?,
+        })
+    }
+
+    fn parameters(&self) -> Vec<(&'static str, Estimate)> {
+        let mut parameters = vec![
+            ("k1_n_per_m", self.k1_n_per_m),
+            ("k2_n_per_m", self.k2_n_per_m),
+            ("b_n_s_per_m", self.b_n_s_per_m),
+        ];
+        parameters.extend(self.tau_s.map(|tau_s| ("tau_s", tau_s)));
+        parameters
+    }
+}
+
+impl EffectiveColumn {
+    const KEYS: &[&str] = &[
+        "gamma_pa",
+        "alpha",
+        "effective_area_m2",
+        "effective_length_m",
+    ];
+
+    fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
+        Ok(Self {
+            gamma_pa: keys.required_estimate("gamma_pa", Domain::POSITIVE)?,
+            alpha: keys.required_estimate("alpha", Domain::POSITIVE)?,
+            effective_area_m2: keys.required_estimate("effective_area_m2", Domain::POSITIVE)?,
+            effective_length_m: keys.required_estimate("effective_length_m", Domain::POSITIVE)?,
+        })
+    }
+
+    fn parameters(&self) -> Vec<(&'static str, Estimate)> {
+        vec![
+            ("gamma_pa", self.gamma_pa),
+            ("alpha", self.alpha),
+            ("effective_area_m2", self.effective_area_m2),
+            ("effective_length_m", self.effective_length_m),
+        ]
+    }
+}
+
+impl NonlinearSprings {
+    const KEYS: &[&str] = &["k01", "k02", "k11", "k12", "k13", "k21", "k22", "k23"];
+
+    fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
+        let parameter = |key| keys.required_estimate(key, Domain::FINITE);
+        Ok(Self {
+            k01: parameter("k01")?,
+            k02: parameter("k02")?,
+            k11: parameter("k11")?,
+            k12: parameter("k12")?,
+            k13: parameter("k13")?,
+            k21: parameter("k21")?,
+            k22: parameter("k22")?,
+            k23: parameter("k23")?,
+        })
+    }
+
+    fn parameters(&self) -> Vec<(&'static str, Estimate)> {
+        let values = [
+            self.k01, self.k02, self.k11, self.k12, self.k13, self.k21, self.k22, self.k23,
+        ];
+        Self::KEYS.iter().copied().zip(values).collect()
+    }
+}

@@ -1,0 +1,108 @@
+//! What an organ is made of: density, elasticity, relaxation, lumped parameters, each with its
+//! standard error, and where they come from.
+
+mod builtin;
+mod elasticity;
+mod lumped;
+mod prony;
+mod source;
+mod write;
+
+use std::path::Path;
+
+pub use builtin::BuiltinTissue;
+pub use elasticity::{Elasticity, LawName};
+pub use lumped::{EffectiveColumn, Kelvin, Lumped, NonlinearSprings};
+pub use prony::PronyTerm;
+pub use source::TissueSource;
+
+use crate::whole_file::read_text;
+use crate::{Document, Domain, Error, Estimate, Keys};
+
+/// Density of soft tissue when a tissue does not state its own [kg/m³].
+pub const DEFAULT_DENSITY_KG_M3: f64 = 1060.0;
+
+/// A tissue. All moduli are instantaneous: `prony` says how they fall with time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tissue {
+    /// What it is, for people.
+    pub name: Option<String>,
+    /// Density [kg/m³].
+    pub density_kg_m3: Estimate,
+    /// The elastic law with its parameters.
+    pub elasticity: Elasticity,
+    /// G(t) = G₀ (1 − Σ gᵢ (1 − exp(−t/τᵢ))); empty when nothing relaxes.
+    pub prony: Vec<PronyTerm>,
+    /// Parameters of models without geometry.
+    pub lumped: Lumped,
+    /// Where the numbers come from, with what deserves doubt.
+    pub source: TissueSource,
+}
+
+impl Tissue {
+    /// The keys of a tissue's table, in a file or in line in a scene.
+    pub const KEYS: &'static [&'static str] = &[
+        "name",
+        "density_kg_m3",
+        "law",
+        "youngs_modulus_pa",
+        "poissons_ratio",
+        "c10_pa",
+        "c01_pa",
+        "gamma_pa",
+        "alpha",
+        "prony",
+        "lumped",
+        "source",
+    ];
+
+    /// A tissue with the default density, no relaxation and no history.
+    pub fn new(elasticity: Elasticity) -> Self {
+        Self {
+            name: None,
+            density_kg_m3: DEFAULT_DENSITY_KG_M3.into(),
+            elasticity,
+            prony: Vec::new(),
+            lumped: Lumped::default(),
+            source: TissueSource::default(),
+        }
+    }
+
+    /// Reads a tissue file.
+    ///
+    /// # Errors
+    /// When the file cannot be read or does not describe a tissue.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
+        let path = path.as_ref();
+        Self::parse(&read_text(path)?, path)
+    }
+
+    /// Reads the text of a tissue file; `path` is its name in errors.
+    ///
+    /// # Errors
+    /// When the text does not describe a tissue.
+    pub fn parse(text: &str, path: impl AsRef<Path>) -> Result<Self, Error> {
+        let document = Document::parse(text, path)?;
+        let keys = document.keys(&["tissue"])?;
+        match keys.table("tissue", Self::KEYS)? {
+            Some(tissue) => Self::from_keys(&tissue),
+            None => Err(keys.missing("tissue", "a table `[tissue]`")),
+        }
+    }
+
+    /// A tissue from its table, which was opened with [`Tissue::KEYS`].
+    ///
+    /// # Errors
+    /// When the table does not describe a tissue.
+    pub fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
+        let density = keys.estimate("density_kg_m3", Domain::POSITIVE)?;
+        Ok(Self {
+            name: keys.text("name")?,
+            density_kg_m3: density.unwrap_or(DEFAULT_DENSITY_KG_M3.into()),
+            elasticity: Elasticity::from_keys(keys)?,
+            prony: prony::from_keys(keys)?,
+            lumped: Lumped::from_keys(keys)?,
+            source: TissueSource::from_keys(keys)?,
+        })
+    }
+}

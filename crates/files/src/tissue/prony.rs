@@ -1,0 +1,65 @@
+use crate::{Domain, Error, Estimate, Keys};
+
+/// One term of a Prony series.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PronyTerm {
+    /// The part of the instantaneous modulus that relaxes [-], from 0 to below 1.
+    pub g: Estimate,
+    /// Time constant of the relaxation [s].
+    pub tau_s: Estimate,
+}
+
+const KEYS: &[&str] = &["g", "g_standard_error", "tau_s", "tau_standard_error_s"];
+
+const PART: Domain = Domain {
+    expected: "a number from 0 to below 1",
+    holds: |g| (0.0..1.0).contains(&g),
+};
+
+pub(super) fn from_keys(keys: &Keys<'_>) -> Result<Vec<PronyTerm>, Error> {
+    let terms: Vec<_> = keys
+        .tables("prony", KEYS)?
+        .iter()
+        .map(term)
+        .collect::<Result<_, _>>()?;
+    let sum: f64 = terms.iter().map(|term| term.g.value).sum();
+    // At 1 the tissue would end as a fluid and above 1 with a negative modulus.
+    if sum < 1.0 {
+        return Ok(terms);
+    }
+    Err(Error::BadValue {
+        place: keys.place().clone(),
+        key: keys.full_name("prony"),
+        found: format!("a series whose g add up to {sum}"),
+        expected: "terms whose g add up to less than 1".into(),
+    })
+}
+
+fn term(keys: &Keys<'_>) -> Result<PronyTerm, Error> {
+    Ok(PronyTerm {
+        g: Estimate {
+            value: keys.required_number("g", PART)?,
+            standard_error: keys.number("g_standard_error", Domain::NOT_NEGATIVE)?,
+        },
+        tau_s: Estimate {
+            value: keys.required_number("tau_s", Domain::POSITIVE)?,
+            standard_error: keys.number("tau_standard_error_s", Domain::NOT_NEGATIVE)?,
+        },
+    })
+}
+
+impl PronyTerm {
+    pub(super) fn to_toml(self) -> String {
+        let Self { g, tau_s } = self;
+        let error = |key: &str, error: Option<f64>| {
+            error.map_or(String::new(), |error| format!(", {key} = {error:?}"))
+        };
+        format!(
+            "{{ g = {:?}{}, tau_s = {:?}{} }}",
+            g.value,
+            error("g_standard_error", g.standard_error),
+            tau_s.value,
+            error("tau_standard_error_s", tau_s.standard_error),
+        )
+    }
+}

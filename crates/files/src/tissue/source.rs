@@ -1,0 +1,30 @@
+use crate::{Error, Keys};
+
+/// Where the numbers of a tissue come from.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct TissueSource {
+    /// The recordings that were fitted.
+    pub recordings: Vec<String>,
+    /// How the numbers were found.
+    pub method: Option<String>,
+    /// The version of the program that found them.
+    pub version: Option<String>,
+    /// What deserves doubt, in plain sentences. Whoever uses the tissue passes them on.
+    pub warnings: Vec<String>,
+}
+
+impl TissueSource {
+    const KEYS: &[&str] = &["recordings", "method", "version", "warnings"];
+
+    pub(super) fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
+        let Some(source) = keys.table("source", Self::KEYS)? else {
+            return Ok(Self::default());
+        };
+        Ok(Self {
+            recordings: source.texts("recordings")?,
+            method: source.text("method")?,
+            version: source.text("version")?,
+            warnings: source.texts("warnings")?,
+        })
+    }
+}

@@ -1,0 +1,69 @@
+use std::path::{Path, PathBuf};
+
+use crate::error::Place;
+use crate::whole_file::read_text;
+use crate::{Error, Keys};
+
+use super::value::{Entry, Table, Value, parse};
+
+/// A TOML file in `format = 1`, read but not yet understood.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Document {
+    path: PathBuf,
+    root: Table,
+}
+
+impl Document {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// When it cannot be read, is not TOML or is not in format 1.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
+        let path = path.as_ref();
+        Self::parse(&read_text(path)?, path)
+    }
+
+    /// Reads a text; `path` is its name in errors.
+    ///
+    /// # Errors
+    /// When it is not TOML or is not in format 1.
+    pub fn parse(text: &str, path: impl AsRef<Path>) -> Result<Self, Error> {
+        let path = path.as_ref().to_owned();
+        // Some editors begin a file with a byte order mark.
+        let mut root = parse(text.strip_prefix('\u{feff}').unwrap_or(text), &path, 1)?;
+        check_format(root.remove("format"), &path, "format = 1")?;
+        Ok(Self { path, root })
+    }
+
+    /// The keys of the whole document, of which `known` are those beside `format` that may occur.
+    ///
+    /// # Errors
+    /// When there is a key that is not known.
+    pub fn keys(&self, known: &'static [&'static str]) -> Result<Keys<'_>, Error> {
+        let keys = Keys::of_table(Place::file(&self.path), String::new(), &self.root, known);
+        keys.only(known)?;
+        Ok(keys)
+    }
+}
+
+/// Checks the value of `format`; `mend` is the line to add when there is none.
+pub(crate) fn check_format(
+    format: Option<Entry>,
+    path: &Path,
+    mend: &'static str,
+) -> Result<(), Error> {
+    match format {
+        None => Err(Error::MissingFormat {
+            path: path.to_owned(),
+            mend,
+        }),
+        Some(Entry {
+            value: Value::Integer(1, _),
+            ..
+        }) => Ok(()),
+        Some(Entry { line, value }) => Err(Error::UnsupportedFormat {
+            place: Place::line(path, line),
+            found: value.described(),
+        }),
+    }
+}

@@ -1,0 +1,333 @@
+use std::borrow::Cow;
+
+use crate::Error;
+use crate::error::Place;
+use crate::units::{self, Match};
+use crate::words::{either, nearest};
+
+use super::value::{Entry, Table, Value};
+
+/// The keys of one table of a document, being understood.
+///
+/// A key that ends in a unit is found under the same name in another unit too, and converted.
+#[derive(Debug, Clone)]
+pub struct Keys<'d> {
+    place: Place,
+    name: String,
+    table: &'d Table,
+    known: &'static [&'static str],
+}
+
+/// A key that was found.
+pub(crate) struct Found<'d> {
+    pub(crate) place: Place,
+    /// The key with its tables, as written.
+    pub(crate) key: String,
+    pub(crate) value: &'d Value,
+    pub(crate) unit: Match,
+}
+
+impl Found<'_> {
+    pub(crate) fn bad(&self, expected: impl Into<Cow<'static, str>>) -> Error {
+        Error::BadValue {
+            place: self.place.clone(),
+            key: self.key.clone(),
+            found: self.value.described(),
+            expected: expected.into(),
+        }
+    }
+}
+
+impl<'d> Keys<'d> {
+    pub(crate) fn of_table(
+        place: Place,
+        name: String,
+        table: &'d Table,
+        known: &'static [&'static str],
+    ) -> Self {
+        Self {
+            place,
+            name,
+            table,
+            known,
+        }
+    }
+
+    /// Where the table is.
+    pub fn place(&self) -> &Place {
+        &self.place
+    }
+
+    /// A key with the tables that it is in, such as `organ.tissue.alpha`.
+    pub fn full_name(&self, key: &str) -> String {
+        if self.name.is_empty() {
+            key.to_owned()
+        } else {
+            format!("{}.{key}", self.name)
+        }
+    }
+
+    /// Checks that the table holds no other keys than `known`.
+    ///
+    /// # Errors
+    /// Names the first other key and the known one that is nearest to it.
+    pub fn only(&self, known: &[&str]) -> Result<(), Error> {
+        let stranger = self
+            .table
+            .iter()
+            .filter(|(key, _)| {
+                !known
+                    .iter()
+                    .any(|known| units::matches(key, known).is_some())
+            })
+            .min_by_key(|(_, entry)| entry.line);
+        match stranger {
+            Some((key, entry)) => Err(self.stranger(key, entry, known)),
+            None => Ok(()),
+        }
+    }
+
+    fn stranger(&self, key: &str, entry: &Entry, known: &[&str]) -> Error {
+        let place = self.place_of(entry);
+        let accepted = known
+            .iter()
+            .find_map(|known| units::accepted_instead(key, known));
+        if let Some(accepted) = accepted {
+            return Error::UnknownUnit {
+                place,
+                key: self.full_name(key),
+                accepted,
+            };
+        }
+        let nearest = nearest(key, known).map_or("format", |(nearest, _)| nearest);
+        Error::UnknownKey {
+            place,
+            key: self.full_name(key),
+            nearest: self.full_name(nearest),
+        }
+    }
+
+    fn place_of(&self, entry: &Entry) -> Place {
+        Place::line(&self.place.path, entry.line)
+    }
+
+    /// Whether a key is there.
+    pub fn contains(&self, key: &'static str) -> bool {
+        self.table
+            .keys()
+            .any(|own| units::matches(own, key).is_some())
+    }
+
+    pub(crate) fn find(&self, key: &'static str) -> Result<Option<Found<'d>>, Error> {
+        debug_assert!(
+            self.known.contains(&key),
+            "`{key}` is missing from the list of known keys"
+        );
+        let mut all = self
+            .table
+            .iter()
+            .filter_map(|(own, entry)| Some((own, entry, units::matches(own, key)?)));
+        let Some((own, entry, unit)) = all.next() else {
+            return Ok(None);
+        };
+        if let Some((twin, other, _)) = all.next() {
+            let later = if other.line >= entry.line {
+                other
+            } else {
+                entry
+            };
+            return Err(Error::GivenTwice {
+                place: self.place_of(later),
+                first: self.full_name(own),
+                second: self.full_name(twin),
+            });
+        }
+        Ok(Some(Found {
+            place: self.place_of(entry),
+            key: self.full_name(own),
+            value: &entry.value,
+            unit,
+        }))
+    }
+
+    /// The error for a key that must be there and is not.
+    pub fn missing(&self, key: &str, expected: impl Into<Cow<'static, str>>) -> Error {
+        Error::MissingKey {
+            place: self.place.clone(),
+            key: self.full_name(key),
+            expected: expected.into(),
+        }
+    }
+
+    /// The error for a key that is there with a value that cannot be used.
+    pub fn bad(&self, key: &'static str, expected: impl Into<Cow<'static, str>>) -> Error {
+        match self.find(key) {
+            Ok(Some(found)) => found.bad(expected),
+            Ok(None) => self.missing(key, expected),
+            Err(error) => error,
+        }
+    }
+
+    /// Checks that a key is not there; `expected` says what to give instead, and why.
+    ///
+    /// # Errors
+    /// When it is there.
+    pub fn refuse(&self, key: &'static str, expected: &'static str) -> Result<(), Error> {
+        match self.find(key)? {
+            Some(found) => Err(found.bad(expected)),
+            None => Ok(()),
+        }
+    }
+
+    /// The error for two keys of which only one may be there.
+    pub fn given_twice(&self, first: &'static str, second: &'static str) -> Error {
+        Error::GivenTwice {
+            place: self.place.clone(),
+            first: self.full_name(first),
+            second: self.full_name(second),
+        }
+    }
+
+    /// A text that is not empty.
+    ///
+    /// # Errors
+    /// When the value is anything else.
+    pub fn text(&self, key: &'static str) -> Result<Option<String>, Error> {
+        self.read(
+            key,
+            "a text in double quotes that is not empty",
+            |value| match value {
+                Value::Text(text) if !text.trim().is_empty() => Some(text.clone()),
+                _ => None,
+            },
+        )
+    }
+
+    /// A list of texts; none when the key is missing.
+    ///
+    /// # Errors
+    /// When the value is anything else.
+    pub fn texts(&self, key: &'static str) -> Result<Vec<String>, Error> {
+        let list = self.read(key, "a list of texts", |value| {
+            let Value::List(values) = value else {
+                return None;
+            };
+            values
+                .iter()
+                .map(|value| match value {
+                    Value::Text(text) => Some(text.clone()),
+                    _ => None,
+                })
+                .collect()
+        })?;
+        Ok(list.unwrap_or_default())
+    }
+
+    /// `true` or `false`.
+    ///
+    /// # Errors
+    /// When the value is anything else.
+    pub fn truth(&self, key: &'static str) -> Result<Option<bool>, Error> {
+        self.read(key, "true or false", |value| match value {
+            Value::Truth(truth) => Some(*truth),
+            _ => None,
+        })
+    }
+
+    /// One of a list of `words`.
+    ///
+    /// # Errors
+    /// When the value is anything else.
+    pub fn word<T: Copy>(
+        &self,
+        key: &'static str,
+        words: &[(&'static str, T)],
+    ) -> Result<Option<T>, Error> {
+        let names: Vec<_> = words.iter().map(|(word, _)| format!("{word:?}")).collect();
+        self.read(key, either(&names), |value| match value {
+            Value::Text(text) => words.iter().find(|(word, _)| word == text).map(|(_, t)| *t),
+            _ => None,
+        })
+    }
+
+    /// Whether the value of a key is a text.
+    pub fn is_text(&self, key: &'static str) -> bool {
+        matches!(
+            self.table.get(key),
+            Some(Entry {
+                value: Value::Text(_),
+                ..
+            })
+        )
+    }
+
+    /// A table of which `known` are the keys that may occur.
+    ///
+    /// # Errors
+    /// When the value is no table or has a key that is not known.
+    pub fn table(
+        &self,
+        key: &'static str,
+        known: &'static [&'static str],
+    ) -> Result<Option<Keys<'d>>, Error> {
+        let Some(found) = self.find(key)? else {
+            return Ok(None);
+        };
+        let Value::Table(table) = found.value else {
+            return Err(found.bad("a table"));
+        };
+        let keys = Keys::of_table(found.place, found.key, table, known);
+        keys.only(known)?;
+        Ok(Some(keys))
+    }
+
+    /// A list of tables of which `known` are the keys that may occur; empty when the key is missing.
+    ///
+    /// # Errors
+    /// When the value is no list of tables or one of them has a key that is not known.
+    pub fn tables(
+        &self,
+        key: &'static str,
+        known: &'static [&'static str],
+    ) -> Result<Vec<Keys<'d>>, Error> {
+        let Some(found) = self.find(key)? else {
+            return Ok(Vec::new());
+        };
+        let Value::List(values) = found.value else {
+            return Err(found.bad("a list of tables"));
+        };
+        values
+            .iter()
+            .enumerate()
+            .map(|(number, value)| {
+                let Value::Table(table) = value else {
+                    return Err(found.bad("a list of tables"));
+                };
+                // Each table of a list has its own lines; the list is on the line of its first key.
+                let line = table.values().map(|entry| entry.line).min();
+                let place = line.map_or(found.place.clone(), |line| {
+                    Place::line(&found.place.path, line)
+                });
+                let name = format!("{}[{number}]", found.key);
+                let keys = Keys::of_table(place, name, table, known);
+                keys.only(known)?;
+                Ok(keys)
+            })
+            .collect()
+    }
+
+    fn read<T>(
+        &self,
+        key: &'static str,
+        expected: impl Into<Cow<'static, str>>,
+        understand: impl FnOnce(&'d Value) -> Option<T>,
+    ) -> Result<Option<T>, Error> {
+        let Some(found) = self.find(key)? else {
+            return Ok(None);
+        };
+        match understand(found.value) {
+            Some(value) => Ok(Some(value)),
+            None => Err(found.bad(expected)),
+        }
+    }
+}

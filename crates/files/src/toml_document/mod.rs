@@ -1,0 +1,13 @@
+//! TOML documents with line numbers: every value knows its line and every key its tables, so that
+//! an error can name both.
+
+mod document;
+mod keys;
+mod numbers;
+mod value;
+
+pub use document::Document;
+pub(crate) use document::check_format;
+pub(crate) use keys::Found;
+pub use keys::Keys;
+pub(crate) use value::{Entry, Table, Value, parse as parse_toml, quoted};

@@ -1,0 +1,137 @@
+use std::ops::RangeInclusive;
+
+use crate::error::Place;
+use crate::{Domain, Error, Keys};
+
+use super::keys::Found;
+use super::value::Value;
+
+impl Keys<'_> {
+    /// A number, in the unit that the key ends in [unit of `key`].
+    ///
+    /// # Errors
+    /// When the value is no number or outside its `domain`.
+    pub fn number(&self, key: &'static str, domain: Domain) -> Result<Option<f64>, Error> {
+        self.find(key)?
+            .map(|found| found.number(domain))
+            .transpose()
+    }
+
+    /// A number that must be there [unit of `key`].
+    ///
+    /// # Errors
+    /// When it is missing, no number or outside its `domain`.
+    pub fn required_number(&self, key: &'static str, domain: Domain) -> Result<f64, Error> {
+        self.number(key, domain)?
+            .ok_or_else(|| self.missing(key, domain.expected))
+    }
+
+    /// Three numbers [unit of `key`].
+    ///
+    /// # Errors
+    /// When the value is anything else.
+    pub fn vector(&self, key: &'static str) -> Result<Option<[f64; 3]>, Error> {
+        let Some(found) = self.find(key)? else {
+            return Ok(None);
+        };
+        let numbers = found.numbers(Domain::FINITE, "a list of three numbers [x, y, z]")?;
+        match <[f64; 3]>::try_from(numbers) {
+            Ok(vector) => Ok(Some(vector)),
+            Err(_) => Err(found.bad("a list of three numbers [x, y, z]")),
+        }
+    }
+
+    /// Three numbers that must be there [unit of `key`].
+    ///
+    /// # Errors
+    /// When they are missing or the value is anything else.
+    pub fn required_vector(&self, key: &'static str) -> Result<[f64; 3], Error> {
+        self.vector(key)?
+            .ok_or_else(|| self.missing(key, "a list of three numbers [x, y, z]"))
+    }
+
+    /// A direction: three numbers of which one is not zero [-].
+    ///
+    /// # Errors
+    /// When the value is anything else.
+    pub fn direction(&self, key: &'static str) -> Result<Option<[f64; 3]>, Error> {
+        let direction = self.vector(key)?;
+        // Below this length the square underflows and no unit vector can be made.
+        if direction.is_some_and(|v| !(v.iter().map(|c| c * c).sum::<f64>().is_normal()))
+            && let Some(found) = self.find(key)?
+        {
+            return Err(found.bad("a direction whose length is not 0, such as [0.0, 0.0, 1.0]"));
+        }
+        Ok(direction)
+    }
+
+    /// A list of numbers [unit of `key`].
+    ///
+    /// # Errors
+    /// When the value is anything else or a number is outside its `domain`.
+    pub fn numbers(&self, key: &'static str, domain: Domain) -> Result<Option<Vec<f64>>, Error> {
+        self.find(key)?
+            .map(|found| found.numbers(domain, "a list of numbers"))
+            .transpose()
+    }
+
+    /// A whole number in a range.
+    ///
+    /// # Errors
+    /// When the value is anything else.
+    pub fn integer(
+        &self,
+        key: &'static str,
+        range: RangeInclusive<u64>,
+    ) -> Result<Option<u64>, Error> {
+        let Some(found) = self.find(key)? else {
+            return Ok(None);
+        };
+        let inside = match found.value {
+            Value::Integer(value, _) => u64::try_from(*value).ok().filter(|v| range.contains(v)),
+            _ => None,
+        };
+        inside.map(Some).ok_or_else(|| {
+            found.bad(match *range.end() {
+                u64::MAX => format!("a whole number of {} or more", range.start()),
+                end => format!("a whole number from {} to {end}", range.start()),
+            })
+        })
+    }
+}
+
+impl Found<'_> {
+    pub(crate) fn number(&self, domain: Domain) -> Result<f64, Error> {
+        as_number(self.value)
+            .map(|value| self.unit.convert(value))
+            .filter(|value| domain.contains(*value))
+            .ok_or_else(|| self.bad(domain.expected))
+    }
+
+    fn numbers(&self, domain: Domain, expected: &'static str) -> Result<Vec<f64>, Error> {
+        let Value::List(values) = self.value else {
+            return Err(self.bad(expected));
+        };
+        values
+            .iter()
+            .enumerate()
+            .map(|(number, value)| {
+                Found {
+                    place: Place::clone(&self.place),
+                    key: format!("{}[{number}]", self.key),
+                    value,
+                    unit: self.unit,
+                }
+                .number(domain)
+            })
+            .collect()
+    }
+}
+
+fn as_number(value: &Value) -> Option<f64> {
+    match value {
+        Value::Integer(value, _) => Some(*value as f64),
+        Value::Number(value, _) => Some(*value),
+        _ => None,
+    }
+}

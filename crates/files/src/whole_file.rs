@@ -1,0 +1,87 @@
+use std::ffi::OsString;
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use crate::Error;
+use crate::error::Place;
+
+/// Writes a file whole or not at all: `bytes` go to a file beside `path`, which then takes its name.
+/// The folder must exist.
+///
+/// # Errors
+/// When the operating system refuses; `path` is then as it was.
+pub fn write_whole(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), Error> {
+    let path = path.as_ref();
+    let beside = beside(path).map_err(|source| Error::write(path, source))?;
+    write_and_rename(&beside, path, bytes).map_err(|source| {
+        // The first failure is the one to report; a leftover is only untidy.
+        let _ = fs::remove_file(&beside);
+        Error::write(path, source)
+    })
+}
+
+/// A name in the same folder, so that the renaming stays on one disk and is one act.
+fn beside(path: &Path) -> io::Result<PathBuf> {
+    let name = path
+        .file_name()
+        .ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "the path names no file"))?;
+    let mut partial = OsString::from(".");
+    partial.push(name);
+    partial.push(format!(".{}.partial", std::process::id()));
+    Ok(path.with_file_name(partial))
+}
+
+fn write_and_rename(beside: &Path, path: &Path, bytes: &[u8]) -> io::Result<()> {
+    if path.is_dir() {
+        return Err(io::ErrorKind::IsADirectory.into());
+    }
+    let mut file: File = OpenOptions::new()
+        .write(true)
+        .create(true)
+        .truncate(true)
+        .open(beside)?;
+    file.write_all(bytes)?;
+    // Without this the new name could reach the disk before the bytes do.
+    file.sync_all()?;
+    fs::rename(beside, path)
+}
+
+/// The text of a file.
+pub(crate) fn read_text(path: &Path) -> Result<String, Error> {
+    let bytes = fs::read(path).map_err(|source| Error::read(path, source))?;
+    String::from_utf8(bytes).map_err(|error| {
+        let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        Error::NotText {
+            place: Place::line(path, 1 + newlines(good)),
+        }
+    })
+}
+
+/// How many lines end in `bytes`.
+pub(crate) fn newlines(bytes: &[u8]) -> usize {
+    bytes.iter().filter(|&&byte| byte == b'\n').count()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_is_left_beside() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("summary.json");
+        write_whole(&path, b"{}").unwrap();
+        write_whole(&path, b"{\"a\": 1}").unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"{\"a\": 1}");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn a_missing_folder_is_the_callers_mistake() {
+        let folder = tempfile::tempdir().unwrap();
+        let error = write_whole(folder.path().join("no/such.json"), b"").unwrap_err();
+        assert!(error.is_input(), "{error}");
+        assert!(write_whole(folder.path(), b"").is_err());
+    }
+}

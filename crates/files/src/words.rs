@@ -1,0 +1,84 @@
+//! Words of the documents: enumerations that are written as text, and lists in sentences.
+
+/// An enumeration whose variants are written as words: `FromStr` without an error type of its own.
+macro_rules! words {
+    ($(#[$meta:meta])* pub enum $name:ident { $($(#[$variant_meta:meta])* $variant:ident = $word:literal,)+ }) => {
+        $(#[$meta])*
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum $name { $($(#[$variant_meta])* $variant,)+ }
+
+        impl $name {
+            /// Every variant with its word, in the order of the documentation.
+            pub const WORDS: &'static [(&'static str, Self)] = &[$(($word, Self::$variant),)+];
+
+            /// The word that stands for this in a file.
+            pub fn word(self) -> &'static str {
+                match self { $(Self::$variant => $word,)+ }
+            }
+
+            /// What `word` stands for; none when it is no word of the list.
+            pub fn from_word(word: &str) -> Option<Self> {
+                Self::WORDS.iter().find(|(own, _)| *own == word).map(|(_, value)| *value)
+            }
+        }
+
+        impl std::fmt::Display for $name {
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.write_str(self.word())
+            }
+        }
+    };
+}
+
+pub(crate) use words;
+
+/// "a", "a or b", "a, b or c".
+pub(crate) fn either(names: &[impl AsRef<str>]) -> String {
+    let names: Vec<&str> = names.iter().map(AsRef::as_ref).collect();
+    match names.as_slice() {
+        [] => "nothing".to_owned(),
+        [only] => (*only).to_owned(),
+        [first @ .., last] => format!("{} or {last}", first.join(", ")),
+    }
+}
+
+/// The one of `known` that looks most like `name`, and how alike they are (1 is equal) [-].
+pub(crate) fn nearest<'k>(name: &str, known: &[&'k str]) -> Option<(&'k str, f64)> {
+    let name = name.to_lowercase();
+    known
+        .iter()
+        .map(|known| (*known, strsim::normalized_damerau_levenshtein(&name, known)))
+        // The first of equals, so that the answer does not depend on chance.
+        .reduce(|best, next| if next.1 > best.1 { next } else { best })
+}
+
+/// The one of `known` that `name` was probably meant to be: one or two letters off.
+pub(crate) fn near_miss<'k>(name: &str, known: &[&'k str]) -> Option<&'k str> {
+    nearest(name, known)
+        .filter(|&(known, alike)| alike >= 0.8 && known != name)
+        .map(|(known, _)| known)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn near_misses_are_misspellings() {
+        let known = ["indenter_radius_m", "grip", "qx"];
+        assert_eq!(
+            near_miss("indenter_radus_m", &known),
+            Some("indenter_radius_m")
+        );
+        assert_eq!(near_miss("Grip", &known), Some("grip"));
+        assert_eq!(near_miss("gripp", &known), Some("grip"));
+        assert_eq!(near_miss("grip", &known), None);
+        assert_eq!(near_miss("operator", &known), None);
+    }
+
+    #[test]
+    fn lists_read_like_english() {
+        assert_eq!(either(&["a"]), "a");
+        assert_eq!(either(&["a", "b", "c"]), "a, b or c");
+    }
+}
