@@ -15,7 +15,7 @@ use crate::{MeshError, NodeId, TriangleMesh, Vec3};
 pub(super) type SphereMap = fn(&Vec3) -> Vec3;
 
 /// Enough for triangles to stop changing visibly.
-const ROUNDS: usize = 40;
+const ROUNDS: usize = 25;
 
 /// The surface `map`, in exactly `triangles` triangles (one more when that is odd).
 pub(super) fn surface_mesh(map: SphereMap, triangles: usize) -> Result<TriangleMesh, MeshError> {
