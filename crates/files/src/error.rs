@@ -214,6 +214,25 @@ impl Error {
         }
     }
 
+    /// The same, when the document that was refused is one that a program was about to write.
+    pub(crate) fn of_content(self) -> Self {
+        let (key, found, expected) = match self {
+            Self::BadValue {
+                key,
+                found,
+                expected,
+                ..
+            } => (key, found, expected),
+            Self::MissingKey { key, expected, .. } => (key, "missing".to_owned(), expected),
+            other => return other,
+        };
+        Self::BadContent {
+            what: format!("`{key}`"),
+            found,
+            expected,
+        }
+    }
+
     pub(crate) fn read(path: &Path, source: io::Error) -> Self {
         Self::Read {
             path: path.to_owned(),

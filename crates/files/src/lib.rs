@@ -1,7 +1,7 @@
 //! The five open documents of palpate: what is measured, what is played, what happened, what an
 //! organ is made of and what stands in a scene.
 //!
-//! [`Motion`] and [`Session`] are tables of numbers (CSV), [`Tissue`] and [`Scene`]
+//! [`Recording`], [`Motion`] and [`Session`] are tables of numbers (CSV), [`Tissue`] and [`Scene`]
 //! are TOML. All are in SI units; a key or a column in another unit says so in its name
 //! (`depth_mm`) and is converted on reading, see [`units`]. An [`Error`] names the file, the line,
 //! the value found and the value expected.
@@ -13,6 +13,7 @@ mod domain;
 mod error;
 mod estimate;
 pub mod motion;
+pub mod recording;
 pub mod scene;
 pub mod session;
 mod table;
@@ -26,6 +27,7 @@ pub use domain::Domain;
 pub use error::{Error, Place};
 pub use estimate::Estimate;
 pub use motion::{Motion, Pose};
+pub use recording::Recording;
 pub use scene::Scene;
 pub use session::{Event, Events, Session, SessionHeader, SessionRow, SessionWriter};
 pub use tissue::{BuiltinTissue, Elasticity, PronyTerm, Tissue};

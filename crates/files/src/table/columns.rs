@@ -13,20 +13,6 @@ pub(crate) struct Column {
 }
 
 impl Column {
-    /// A column whose numbers are in the unit `from` and are wanted in the unit `to`.
-    pub(crate) fn in_unit(
-        index: usize,
-        name: &str,
-        from: &'static Unit,
-        to: &'static Unit,
-    ) -> Self {
-        Self {
-            index,
-            name: name.to_owned(),
-            unit: Match::Converted(from, to),
-        }
-    }
-
     pub(super) fn convert(&self, value: f64) -> f64 {
         self.unit.convert(value)
     }
@@ -63,6 +49,21 @@ impl TableText<'_> {
             column: expected.to_owned(),
             found: found.join(", "),
         }
+    }
+
+    /// The column called `name`, whose numbers are in the unit `from` and wanted in the unit `to`.
+    pub(crate) fn foreign_column(
+        &self,
+        name: &str,
+        from: &'static Unit,
+        to: &'static Unit,
+    ) -> Result<Column, Error> {
+        let index = self.columns().iter().position(|own| own == name);
+        Ok(Column {
+            index: index.ok_or_else(|| self.missing_column(name))?,
+            name: name.to_owned(),
+            unit: Match::Converted(from, to),
+        })
     }
 
     /// The column of a quantity that need not be there.

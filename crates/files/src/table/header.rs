@@ -15,7 +15,7 @@ pub(crate) struct Header {
 
 /// A key above a table that means nothing to this version.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct ExtraKey {
+pub struct ExtraKey {
     /// Its name.
     pub key: String,
     /// Its value, as written.
@@ -63,6 +63,24 @@ impl Header {
             }
         }
         Ok(header)
+    }
+
+    /// The known keys in the comments above somebody else's table. Whatever else stands there was
+    /// not written for this program.
+    pub(crate) fn of_foreign(
+        above: &[&str],
+        path: &Path,
+        known: &'static [&'static str],
+    ) -> Result<Self, Error> {
+        let is_known = |line: &str| {
+            let comment = line.trim().strip_prefix('#').and_then(key_and_value);
+            comment.is_some_and(|(key, _)| known.iter().any(|k| units::matches(key, k).is_some()))
+        };
+        let ours: Vec<_> = above
+            .iter()
+            .map(|line| if is_known(line) { *line } else { "" })
+            .collect();
+        Self::parse(&ours, path, known)
     }
 
     fn add(&mut self, text: &str, place: Place) -> Result<(), Error> {

@@ -9,7 +9,8 @@ mod write;
 use std::path::{Path, PathBuf};
 
 pub(crate) use columns::Column;
-pub(crate) use header::{ExtraKey, Header};
+pub use header::ExtraKey;
+pub(crate) use header::Header;
 pub(crate) use rows::{Row, Rows};
 pub(crate) use write::{field, header_line};
 
@@ -105,7 +106,7 @@ impl<'t> TableText<'t> {
         Rows::new(self)
     }
 
-    fn column_place(&self) -> Place {
+    pub(crate) fn column_place(&self) -> Place {
         Place::line(&self.path, self.column_line)
     }
 }

@@ -115,8 +115,12 @@ impl<'r> Row<'r> {
         self.record.iter()
     }
 
+    pub(crate) fn field(&self, index: usize) -> &'r str {
+        self.record.get(index).unwrap_or("")
+    }
+
     pub(crate) fn text(&self, column: &Column) -> &'r str {
-        self.record.get(column.index).unwrap_or("")
+        self.field(column.index)
     }
 
     /// A number of the row, in the unit that was expected.

@@ -41,20 +41,8 @@ impl Tissue {
     pub fn write(&self, path: impl AsRef<Path>) -> Result<(), Error> {
         let text = self.to_toml();
         // The reader knows what a tissue may hold, so the writer asks it.
-        match Self::parse(&text, &path) {
-            Ok(_) => write_whole(path, text.as_bytes()),
-            Err(Error::BadValue {
-                key,
-                found,
-                expected,
-                ..
-            }) => Err(Error::BadContent {
-                what: key,
-                found,
-                expected,
-            }),
-            Err(error) => Err(error),
-        }
+        Self::parse(&text, &path).map_err(Error::of_content)?;
+        write_whole(path, text.as_bytes())
     }
 }
 

@@ -203,7 +203,18 @@ impl<'d> Keys<'d> {
         )
     }
 
-    /// A list of texts; none when the key is missing.
+    /// A text that is not empty, or a whole number as a text: a name that may be a number.
+    ///
+    /// # Errors
+    /// When the value is anything else.
+    pub fn text_or_integer(&self, key: &'static str) -> Result<Option<String>, Error> {
+        match self.find(key)?.map(|found| found.value) {
+            Some(Value::Integer(value, _)) => Ok(Some(value.to_string())),
+            _ => self.text(key),
+        }
+    }
+
+    /// A list of texts; empty when the key is missing.
     ///
     /// # Errors
     /// When the value is anything else.

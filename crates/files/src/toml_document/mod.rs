@@ -8,6 +8,5 @@ mod value;
 
 pub use document::Document;
 pub(crate) use document::check_format;
-pub(crate) use keys::Found;
 pub use keys::Keys;
-pub(crate) use value::{Entry, Table, Value, parse as parse_toml, quoted};
+pub(crate) use value::{Table, Value, parse as parse_toml, quoted};

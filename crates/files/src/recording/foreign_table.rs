@@ -1,0 +1,77 @@
+use std::path::Path;
+
+use super::{ForeignColumns, RecordingHeader};
+use crate::Error;
+use crate::table::{Header, Layout, TableText};
+
+/// Lines that are looked at even if they hold none of the names, to say what was found instead.
+const HEAD: usize = 50;
+
+/// The table in `text` whose first line holds the names of all three columns.
+pub(super) fn find<'t>(
+    text: &'t str,
+    path: &Path,
+    columns: &ForeignColumns,
+) -> Result<TableText<'t>, Error> {
+    let wanted = [&columns.time, &columns.depth, &columns.force].map(|name| name.trim());
+    let mut above = Vec::new();
+    let mut rest = text;
+    let mut nearest: Option<(Likeness, TableText<'t>)> = None;
+    while !rest.is_empty() {
+        let (line, next) = rest.split_once('\n').unwrap_or((rest, ""));
+        if above.len() < HEAD || wanted.iter().any(|name| line.contains(name)) {
+            for (likeness, mut table) in tables_at(rest, above.len() + 1, path, &wanted) {
+                if likeness.names == wanted.len() {
+                    table.header = Header::of_foreign(&above, path, RecordingHeader::KEYS)?;
+                    return Ok(table);
+                }
+                if nearest.as_ref().is_none_or(|(most, _)| likeness > *most) {
+                    nearest = Some((likeness, table));
+                }
+            }
+        }
+        above.push(line);
+        rest = next;
+    }
+    Err(match nearest {
+        None => Error::NoRows {
+            path: path.to_owned(),
+        },
+        Some((_, table)) => {
+            let is_missing = |name: &&&str| !table.columns().iter().any(|own| own == **name);
+            let missing = wanted.iter().find(is_missing).unwrap_or(&wanted[0]);
+            table.missing_column(missing)
+        }
+    })
+}
+
+/// How much a line looks like the names of the columns: more of the names, then more columns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Likeness {
+    names: usize,
+    columns: usize,
+}
+
+/// The tables that begin at the first line of `text`, one for each delimiter.
+fn tables_at<'t>(
+    text: &'t str,
+    line: usize,
+    path: &Path,
+    wanted: &[&str],
+) -> impl Iterator<Item = (Likeness, TableText<'t>)> {
+    // Some programs write the names of the columns as a comment.
+    let text = text.trim_start_matches(['#', ' ']);
+    b",;\t".iter().filter_map(move |&delimiter| {
+        let layout = Layout {
+            delimiter,
+            decimal_comma: delimiter != b',',
+        };
+        let table = TableText::below(text, line, layout, path).ok().flatten()?;
+        let has = |name: &&&str| table.columns().iter().any(|own| own == **name);
+        let likeness = Likeness {
+            names: wanted.iter().filter(has).count(),
+            columns: table.columns().len().min(3),
+        };
+        Some((likeness, table))
+    })
+}

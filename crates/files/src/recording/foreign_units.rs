@@ -1,0 +1,146 @@
+use super::ForeignColumns;
+use crate::Error;
+use crate::table::{Column, Row, TableText};
+use crate::units::Unit;
+use crate::words::either;
+
+/// A quantity of a recording: the name of its column, its unit if the user states one, and the SI
+/// unit of what it measures.
+struct Quantity<'c> {
+    name: &'c str,
+    stated: Option<&'c str>,
+    si: &'static str,
+}
+
+/// The columns of time, depth and force with their units, and whether a row below the names holds
+/// the units.
+pub(super) fn columns(
+    table: &TableText<'_>,
+    wanted: &ForeignColumns,
+) -> Result<([Column; 3], bool), Error> {
+    let quantities = [
+        (&wanted.time, None, "s"),
+        (&wanted.depth, wanted.depth_unit.as_deref(), "m"),
+        (&wanted.force, wanted.force_unit.as_deref(), "n"),
+    ]
+    .map(|(name, stated, si)| Quantity {
+        name: name.trim(),
+        stated,
+        si,
+    });
+    let [time, depth, force] = quantities.each_ref().map(|quantity| {
+        let unit = Unit::named(quantity.si).expect("SI units are in the table");
+        table.foreign_column(quantity.name, unit, unit)
+    });
+    let plain = [time?, depth?, force?];
+    let row_units = match table.rows().next()? {
+        Some(row) => of_row(&row, &plain),
+        None => None,
+    };
+    let column = |number: usize| {
+        let quantity = &quantities[number];
+        let below = row_units.map(|units: [&'static Unit; 3]| units[number]);
+        let from = quantity.unit(table, below)?;
+        let to = Unit::named(quantity.si).expect("SI units are in the table");
+        table.foreign_column(quantity.name, from, to)
+    };
+    Ok(([column(0)?, column(1)?, column(2)?], row_units.is_some()))
+}
+
+/// The units in a row that holds units in place of numbers.
+pub(super) fn of_row(row: &Row<'_>, columns: &[Column; 3]) -> Option<[&'static Unit; 3]> {
+    let [time, depth, force] = columns.each_ref().map(|column| {
+        let word = row.text(column);
+        Unit::named(word.trim_matches(['(', ')', '[', ']']))
+    });
+    Some([time?, depth?, force?])
+}
+
+impl Quantity<'_> {
+    fn unit(
+        &self,
+        table: &TableText<'_>,
+        below: Option<&'static Unit>,
+    ) -> Result<&'static Unit, Error> {
+        let written = match in_name(self.name) {
+            Some(Written::Unit(unit)) => Some(unit),
+            Some(Written::Strange) => return Err(self.unknown(table, self.name)),
+            None => below,
+        };
+        let stated = match self.stated {
+            None => None,
+            Some(text) => Some(
+                Unit::named(text)
+                    .ok_or_else(|| self.unknown(table, &format!("{} [{text}]", self.name)))?,
+            ),
+        };
+        let unit = match (written, stated) {
+            (Some(written), Some(stated)) if written != stated => {
+                return Err(Error::GivenTwice {
+                    place: table.column_place(),
+                    first: format!("{} in {}", self.name, written.spelling),
+                    second: format!("{} in {}", self.name, stated.spelling),
+                });
+            }
+            (written, stated) => stated.or(written),
+        };
+        match unit {
+            Some(unit) if unit.si == self.si => Ok(unit),
+            // Programs seldom say that they count seconds.
+            None if self.si == "s" => Ok(Unit::named("s").expect("SI units are in the table")),
+            _ => Err(self.unknown(table, self.name)),
+        }
+    }
+
+    fn unknown(&self, table: &TableText<'_>, key: &str) -> Error {
+        let si = Unit::named(self.si).expect("SI units are in the table");
+        let units: Vec<_> = si.alternatives().map(|unit| unit.spelling).collect();
+        Error::UnknownUnit {
+            place: table.column_place(),
+            key: key.to_owned(),
+            accepted: format!(
+                "{}, in brackets behind the name or stated beside it",
+                either(&units)
+            ),
+        }
+    }
+}
+
+/// What stands where a name may carry a unit.
+enum Written {
+    Unit(&'static Unit),
+    /// Brackets around something else.
+    Strange,
+}
+
+/// The unit of `Load (mN)`, `Load [mN]`, `load_mn` or `Load mN`.
+fn in_name(name: &str) -> Option<Written> {
+    if let Some(inner) = name.strip_suffix([')', ']'])
+        && let Some((_, unit)) = inner.rsplit_once(['(', '['])
+    {
+        return Some(Unit::named(unit.trim()).map_or(Written::Strange, Written::Unit));
+    }
+    let (_, end) = name.rsplit_once(['_', ' '])?;
+    Unit::named(end).map(Written::Unit)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_in_names() {
+        let spelling = |name| match in_name(name) {
+            Some(Written::Unit(unit)) => unit.spelling,
+            Some(Written::Strange) => "strange",
+            None => "none",
+        };
+        assert_eq!(spelling("Compression (mm)"), "mm");
+        assert_eq!(spelling("Load [ mN ]"), "mN");
+        assert_eq!(spelling("force_N"), "N");
+        assert_eq!(spelling("Time s"), "s");
+        assert_eq!(spelling("Load (lbf)"), "strange");
+        assert_eq!(spelling("Load"), "none");
+        assert_eq!(spelling("raw_load"), "none");
+    }
+}

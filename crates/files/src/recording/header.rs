@@ -1,0 +1,112 @@
+use crate::table::ExtraKey;
+use crate::words::words;
+
+words! {
+    /// The state of the tissue.
+    pub enum Condition {
+        /// In the living body.
+        InVivo = "in_vivo",
+        /// Taken out of the body.
+        ExVivo = "ex_vivo",
+        /// A piece in the laboratory.
+        InVitro = "in_vitro",
+    }
+}
+
+words! {
+    /// What the indenter did.
+    pub enum Stimulus {
+        /// It went to a depth and stayed there.
+        RampAndHold = "ramp_and_hold",
+        /// It swung with one frequency.
+        Sine = "sine",
+        /// It swung with a frequency that grew linearly.
+        ChirpLinear = "chirp_linear",
+        /// It swung with a frequency that grew exponentially.
+        ChirpExponential = "chirp_exponential",
+        /// It pressed or pulled a whole piece along one axis.
+        Uniaxial = "uniaxial",
+        /// Something else.
+        Other = "other",
+    }
+}
+
+words! {
+    /// The shape of the indenter.
+    pub enum IndenterShape {
+        /// A round flat face.
+        Flat = "flat",
+        /// A ball.
+        Sphere = "sphere",
+        /// A cone.
+        Cone = "cone",
+    }
+}
+
+words! {
+    /// The shape of the specimen, where it matters.
+    pub enum Specimen {
+        /// A hollow organ between fixed ends.
+        Tube = "tube",
+    }
+}
+
+/// What the comments above a recording say; none where they say nothing. The fields bear the names
+/// of the keys.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct RecordingHeader {
+    /// The organ.
+    pub organ: Option<String>,
+    /// The animal, person or body.
+    pub subject: Option<String>,
+    /// The subject's weight [kg].
+    pub weight_kg: Option<f64>,
+    /// The place on the organ.
+    pub site: Option<String>,
+    /// Which repetition it is.
+    pub repeat: Option<u64>,
+    /// The state of the tissue.
+    pub condition: Option<Condition>,
+    /// Time since death [s].
+    pub post_mortem_s: Option<f64>,
+    /// Whether breath was held.
+    pub breath_held: Option<bool>,
+    /// What the indenter did.
+    pub stimulus: Option<Stimulus>,
+    /// Duration of the ramp [s].
+    pub ramp_s: Option<f64>,
+    /// Depth of the hold, or amplitude of the swing [m].
+    pub amplitude_m: Option<f64>,
+    /// Depth around which the indenter swings [m].
+    pub pre_indentation_m: Option<f64>,
+    /// Frequency of a sine, or that with which a chirp begins [Hz].
+    pub frequency_hz: Option<f64>,
+    /// Frequency with which a chirp ends [Hz].
+    pub end_frequency_hz: Option<f64>,
+    /// Samples per second [Hz].
+    pub sample_rate_hz: Option<f64>,
+    /// The shape of the indenter.
+    pub indenter_shape: Option<IndenterShape>,
+    /// The radius, not the diameter, of the indenter [m].
+    pub indenter_radius_m: Option<f64>,
+    /// The angle between a cone's axis and its side [degrees].
+    pub indenter_half_angle_deg: Option<f64>,
+    /// Cross-section of a piece that is pressed or pulled along one axis [m²].
+    pub area_m2: Option<f64>,
+    /// Height of a piece that is pressed or pulled along one axis [m].
+    pub height_m: Option<f64>,
+    /// The shape of the specimen.
+    pub specimen: Option<Specimen>,
+    /// Inner radius of a tube [m].
+    pub inner_radius_m: Option<f64>,
+    /// Outer radius of a tube [m].
+    pub outer_radius_m: Option<f64>,
+    /// Length of a tube [m].
+    pub length_m: Option<f64>,
+    /// Pressure inside a tube [Pa].
+    pub pressure_pa: Option<f64>,
+    /// Where the recording comes from.
+    pub source: Option<String>,
+    /// Keys that mean nothing here and are kept.
+    pub extra: Vec<ExtraKey>,
+}

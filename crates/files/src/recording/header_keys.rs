@@ -1,0 +1,123 @@
+use super::{Condition, IndenterShape, RecordingHeader, Specimen, Stimulus};
+use crate::toml_document::quoted;
+use crate::{Domain, Error, Keys};
+
+const HALF_ANGLE: Domain = Domain {
+    expected: "an angle above 0 and below 90 degrees",
+    holds: |angle| 0.0 < angle && angle < 90.0,
+};
+
+impl RecordingHeader {
+    pub(super) const KEYS: &'static [&'static str] = &[
+        "organ",
+        "subject",
+        "weight_kg",
+        "site",
+        "repeat",
+        "condition",
+        "post_mortem_s",
+        "breath_held",
+        "stimulus",
+        "ramp_s",
+        "amplitude_m",
+        "pre_indentation_m",
+        "frequency_hz",
+        "end_frequency_hz",
+        "sample_rate_hz",
+        "indenter_shape",
+        "indenter_radius_m",
+        "indenter_half_angle_deg",
+        "area_m2",
+        "height_m",
+        "specimen",
+        "inner_radius_m",
+        "outer_radius_m",
+        "length_m",
+        "pressure_pa",
+        "source",
+    ];
+
+    pub(super) fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
+        let positive = |key| keys.number(key, Domain::POSITIVE);
+        let not_negative = |key| keys.number(key, Domain::NOT_NEGATIVE);
+        let header = Self {
+            organ: keys.text("organ")?,
+            subject: keys.text_or_integer("subject")?,
+            weight_kg: positive("weight_kg")?,
+            site: keys.text_or_integer("site")?,
+            repeat: keys.integer("repeat", 0..=u64::MAX)?,
+            condition: keys.word("condition", Condition::WORDS)?,
+            post_mortem_s: not_negative("post_mortem_s")?,
+            breath_held: keys.truth("breath_held")?,
+            stimulus: keys.word("stimulus", Stimulus::WORDS)?,
+            ramp_s: not_negative("ramp_s")?,
+            amplitude_m: not_negative("amplitude_m")?,
+            pre_indentation_m: not_negative("pre_indentation_m")?,
+            frequency_hz: positive("frequency_hz")?,
+            end_frequency_hz: positive("end_frequency_hz")?,
+            sample_rate_hz: positive("sample_rate_hz")?,
+            indenter_shape: keys.word("indenter_shape", IndenterShape::WORDS)?,
+            indenter_radius_m: positive("indenter_radius_m")?,
+            indenter_half_angle_deg: keys.number("indenter_half_angle_deg", HALF_ANGLE)?,
+            area_m2: positive("area_m2")?,
+            height_m: positive("height_m")?,
+            specimen: keys.word("specimen", Specimen::WORDS)?,
+            inner_radius_m: positive("inner_radius_m")?,
+            outer_radius_m: positive("outer_radius_m")?,
+            length_m: positive("length_m")?,
+            pressure_pa: keys.number("pressure_pa", Domain::FINITE)?,
+            source: keys.text("source")?,
+            extra: Vec::new(),
+        };
+        header.check_wall(keys)?;
+        Ok(header)
+    }
+
+    fn check_wall(&self, keys: &Keys<'_>) -> Result<(), Error> {
+        match (self.inner_radius_m, self.outer_radius_m) {
+            (Some(inner), Some(outer)) if outer <= inner => Err(keys.bad(
+                "outer_radius_m",
+                format!("a radius above inner_radius_m, {inner:?} m"),
+            )),
+            _ => Ok(()),
+        }
+    }
+
+    /// The keys that are there, with their values in TOML.
+    pub(super) fn entries(&self) -> Vec<(&'static str, String)> {
+        let text = |text: &Option<String>| text.as_deref().map(quoted);
+        let number = |number: Option<f64>| number.map(|number| format!("{number:?}"));
+        let values = [
+            text(&self.organ),
+            text(&self.subject),
+            number(self.weight_kg),
+            text(&self.site),
+            self.repeat.map(|repeat| repeat.to_string()),
+            self.condition.map(|word| quoted(word.word())),
+            number(self.post_mortem_s),
+            self.breath_held.map(|held| held.to_string()),
+            self.stimulus.map(|word| quoted(word.word())),
+            number(self.ramp_s),
+            number(self.amplitude_m),
+            number(self.pre_indentation_m),
+            number(self.frequency_hz),
+            number(self.end_frequency_hz),
+            number(self.sample_rate_hz),
+            self.indenter_shape.map(|word| quoted(word.word())),
+            number(self.indenter_radius_m),
+            number(self.indenter_half_angle_deg),
+            number(self.area_m2),
+            number(self.height_m),
+            self.specimen.map(|word| quoted(word.word())),
+            number(self.inner_radius_m),
+            number(self.outer_radius_m),
+            number(self.length_m),
+            number(self.pressure_pa),
+            text(&self.source),
+        ];
+        let keys = Self::KEYS.iter().copied();
+        keys.zip(values)
+            .filter_map(|(key, value)| Some((key, value?)))
+            .collect()
+    }
+}

@@ -1,0 +1,151 @@
+use crate::table::{Column, Row, TableText};
+use crate::{Domain, Error, units};
+
+/// The samples of a recording, column by column; all columns have one number for each sample.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Samples {
+    /// The times [s].
+    pub time_s: Vec<f64>,
+    /// The depths [m].
+    pub depth_m: Vec<f64>,
+    /// The forces [N].
+    pub force_n: Vec<f64>,
+}
+
+/// A column that means nothing to a recording and is kept.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ExtraColumn {
+    /// Its name.
+    pub name: String,
+    /// Its fields, as written.
+    pub values: Vec<String>,
+}
+
+impl Samples {
+    pub(super) fn check(&self) -> Result<(), Error> {
+        let wrong = |what: String, found: String, expected: &'static str| {
+            Err(Error::BadContent {
+                what,
+                found,
+                expected: expected.into(),
+            })
+        };
+        let samples = self.time_s.len();
+        if samples == 0 {
+            return wrong("a recording".into(), "empty".into(), "at least one sample");
+        }
+        for (name, values) in self.columns() {
+            if values.len() != samples {
+                let found = format!("{} numbers for {samples} times", values.len());
+                return wrong(name.into(), found, "one for each time");
+            }
+            if let Some(sample) = values.iter().position(|value| !value.is_finite()) {
+                let what = format!("{name} of sample {sample}");
+                return wrong(what, values[sample].to_string(), "a finite number");
+            }
+        }
+        let stands_still = self.time_s.windows(2).position(|pair| pair[1] <= pair[0]);
+        if let Some(sample) = stands_still {
+            let what = format!("time_s of sample {}", sample + 1);
+            let found = self.time_s[sample + 1].to_string();
+            return wrong(what, found, "a time after that of the sample before");
+        }
+        Ok(())
+    }
+
+    fn columns(&self) -> [(&'static str, &[f64]); 3] {
+        [
+            ("time_s", &self.time_s),
+            ("depth_m", &self.depth_m),
+            ("force_n", &self.force_n),
+        ]
+    }
+}
+
+impl ExtraColumn {
+    /// A column of numbers [unit of the name].
+    pub fn from_numbers(name: &str, values: &[f64]) -> Self {
+        Self {
+            name: name.to_owned(),
+            values: values.iter().map(|value| format!("{value:?}")).collect(),
+        }
+    }
+
+    /// The fields as numbers [unit of the name]; none when one is no number.
+    pub fn numbers(&self) -> Option<Vec<f64>> {
+        self.values.iter().map(|text| text.parse().ok()).collect()
+    }
+
+    pub(super) fn check(&self, samples: usize) -> Result<(), Error> {
+        let wrong = |found: String, expected: &'static str| {
+            Err(Error::BadContent {
+                what: format!("the extra column {:?}", self.name),
+                found,
+                expected: expected.into(),
+            })
+        };
+        let taken = ["time_s", "depth_m", "force_n"]
+            .into_iter()
+            .any(|name| units::matches(&self.name, name).is_some());
+        if taken || self.name.is_empty() || self.name.trim() != self.name {
+            let expected = "another name, without spaces at its ends";
+            return wrong("named like that".to_owned(), expected);
+        }
+        if self.values.len() != samples {
+            let found = format!("{} values long", self.values.len());
+            return wrong(found, "one value for each sample");
+        }
+        match self.values.iter().find(|value| value.trim() != *value) {
+            Some(value) => wrong(format!("{value:?}"), "values without spaces at their ends"),
+            None => Ok(()),
+        }
+    }
+}
+
+/// The samples of a table, of which `columns` are the time, the depth and the force. Rows that
+/// `is_passed_over` are left out.
+pub(super) fn read(
+    table: &TableText<'_>,
+    columns: &[Column; 3],
+    is_passed_over: impl Fn(&Row<'_>) -> bool,
+) -> Result<(Samples, Vec<ExtraColumn>), Error> {
+    let [time, depth, force] = columns;
+    let mut samples = Samples::default();
+    let mut extra = extra_columns(table, columns);
+    let mut rows = table.rows();
+    while let Some(row) = rows.next()? {
+        if is_passed_over(&row) {
+            continue;
+        }
+        let time_s = row.number(time, Domain::FINITE)?;
+        row.check_after(time, time_s, samples.time_s.last().copied())?;
+        samples.time_s.push(time_s);
+        samples.depth_m.push(row.number(depth, Domain::FINITE)?);
+        samples.force_n.push(row.number(force, Domain::FINITE)?);
+        for (index, column) in &mut extra {
+            column.values.push(row.field(*index).to_owned());
+        }
+    }
+    if samples.time_s.is_empty() {
+        let path = table.path.clone();
+        return Err(Error::NoRows { path });
+    }
+    Ok((
+        samples,
+        extra.into_iter().map(|(_, column)| column).collect(),
+    ))
+}
+
+fn extra_columns(table: &TableText<'_>, columns: &[Column; 3]) -> Vec<(usize, ExtraColumn)> {
+    let names = table.columns().iter().enumerate();
+    names
+        .filter(|(index, name)| !name.is_empty() && columns.iter().all(|c| c.index != *index))
+        .map(|(index, name)| {
+            let column = ExtraColumn {
+                name: name.clone(),
+                values: Vec::new(),
+            };
+            (index, column)
+        })
+        .collect()
+}
