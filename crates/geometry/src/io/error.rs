@@ -197,6 +197,12 @@ pub struct UnknownUnit {
 }
 
 impl ReadFault {
+    /// The cause is cut: a damaged document is quoted in it.
+    pub(crate) fn invalid_gltf(cause: impl ToString) -> Self {
+        let cause = cause.to_string().chars().take(200).collect();
+        Self::Gltf { cause }
+    }
+
     /// No unit is known for a mesh of this largest extent [file unit].
     pub(crate) fn unit_needed(extent: f64) -> Self {
         Self::UnitNeeded {

@@ -1,1 +1,137 @@
-//! Damaged files.
+//! Damaged files: whatever the bytes, a reader gives a mesh or an error, and never panics.
+
+use std::path::Path;
+
+use palpate_geometry::{LengthUnit, inspect, read_mesh, repair};
+use proptest::prelude::*;
+use proptest::test_runner::Config;
+
+use crate::files;
+
+/// Few cases by default, many with `PALPATE_FULL=1`.
+fn config() -> Config {
+    let full = std::env::var_os("PALPATE_FULL").is_some_and(|value| value == "1");
+    Config {
+        cases: if full { 20_000 } else { 300 },
+        failure_persistence: None,
+        ..Config::default()
+    }
+}
+
+/// Reads the bytes, and on with whatever comes out.
+fn survive(folder: &Path, name: &str, bytes: &[u8]) {
+    let path = folder.join(name);
+    std::fs::write(&path, bytes).unwrap();
+    let message = match read_mesh(&path, Some(LengthUnit::Metre)) {
+        Ok(imported) => {
+            inspect(&imported.mesh);
+            repair(&imported.mesh)
+                .map(drop)
+                .map_or_else(|e| e.to_string(), |()| String::new())
+        }
+        Err(error) => error.to_string(),
+    };
+    assert!(message.len() < 1000, "{message}");
+}
+
+/// A start that makes a reader believe the rest.
+fn promising_start() -> impl Strategy<Value = &'static [u8]> {
+    let starts: [&[u8]; 8] = [
+        b"",
+        b"solid\n",
+        b"glTF\x02\0\0\0",
+        b"{\"asset\":{\"version\":\"2.0\"},",
+        b"ply\nformat ascii 1.0\nelement vertex ",
+        b"ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uint uint vertex_indices\nend_header\n",
+        b"v 0 0 0\nf ",
+        b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 ",
+    ];
+    prop::sample::select(starts.to_vec())
+}
+
+#[derive(Debug, Clone)]
+enum Damage {
+    Cut(prop::sample::Index),
+    Set(prop::sample::Index, u8),
+    SetFour(prop::sample::Index, u32),
+    Insert(prop::sample::Index, Vec<u8>),
+    Remove(prop::sample::Index, usize),
+}
+
+fn damage() -> impl Strategy<Value = Damage> {
+    let at = any::<prop::sample::Index>;
+    let tricky = prop::sample::select(vec![0, 1, 0x7FC0_0000, 0x7F80_0000, u32::MAX, 1 << 31]);
+    let words = [
+        "-1",
+        "999999999999",
+        "nan",
+        "1e999",
+        "\"count\":",
+        "[",
+        "}",
+        "\n",
+        " 0 ",
+    ];
+    let word = prop::sample::select(words.to_vec()).prop_map(|w| w.as_bytes().to_vec());
+    prop_oneof![
+        at().prop_map(Damage::Cut),
+        (at(), any::<u8>()).prop_map(|(at, byte)| Damage::Set(at, byte)),
+        (at(), tricky).prop_map(|(at, four)| Damage::SetFour(at, four)),
+        (at(), word).prop_map(|(at, word)| Damage::Insert(at, word)),
+        (at(), 1..20usize).prop_map(|(at, length)| Damage::Remove(at, length)),
+    ]
+}
+
+fn damaged(mut bytes: Vec<u8>, damages: &[Damage]) -> Vec<u8> {
+    for damage in damages {
+        if bytes.is_empty() {
+            break;
+        }
+        match damage {
+            Damage::Cut(at) => bytes.truncate(at.index(bytes.len())),
+            Damage::Set(at, byte) => {
+                let at = at.index(bytes.len());
+                bytes[at] = *byte;
+            }
+            Damage::SetFour(at, four) => {
+                let at = at.index(bytes.len());
+                for (byte, new) in bytes[at..].iter_mut().zip(four.to_le_bytes()) {
+                    *byte = new;
+                }
+            }
+            Damage::Insert(at, word) => {
+                let at = at.index(bytes.len());
+                bytes.splice(at..at, word.iter().copied());
+            }
+            Damage::Remove(at, length) => {
+                let at = at.index(bytes.len());
+                bytes.drain(at..(at + length).min(bytes.len()));
+            }
+        }
+    }
+    bytes
+}
+
+proptest! {
+    #![proptest_config(config())]
+
+    #[test]
+    fn arbitrary_bytes_never_panic(
+        start in promising_start(),
+        rest in prop::collection::vec(any::<u8>(), 0..300),
+    ) {
+        let folder = tempfile::tempdir().unwrap();
+        let bytes = [start, &rest].concat();
+        for name in ["a.stl", "a.obj", "a.ply", "a.gltf", "a.glb"] {
+            survive(folder.path(), name, &bytes);
+        }
+    }
+
+    #[test]
+    fn damaged_files_never_panic(damages in prop::collection::vec(damage(), 1..4)) {
+        let folder = tempfile::tempdir().unwrap();
+        for (name, bytes) in files::all(&files::tetrahedron()) {
+            survive(folder.path(), name, &damaged(bytes, &damages));
+        }
+    }
+}

@@ -2,5 +2,7 @@
 
 mod check;
 mod data;
+mod files;
 mod fuzz;
 mod io;
+mod organ;

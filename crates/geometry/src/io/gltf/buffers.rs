@@ -1,54 +1,40 @@
+use std::borrow::Cow;
 use std::path::{Component, Path};
 
-use ::gltf::Document;
-use ::gltf::buffer::Source;
-
 use super::super::{base64, read_whole};
+use super::document::Document;
 use crate::ReadFault;
 
-/// The bytes that the document refers to.
-pub(super) struct Buffers {
-    buffers: Vec<Vec<u8>>,
-}
-
-impl Buffers {
-    /// Reads all buffers: the rest of a GLB, text inside the document, or files in `folder`.
-    pub(super) fn open(
-        document: &Document,
-        mut blob: Option<Vec<u8>>,
-        folder: &Path,
-    ) -> Result<Self, ReadFault> {
-        let mut buffers = Vec::new();
-        for buffer in document.buffers() {
-            let bytes = match buffer.source() {
-                Source::Bin => blob.take().unwrap_or_default(),
-                Source::Uri(uri) => by_uri(uri, folder)?,
-            };
-            if bytes.len() < buffer.length() {
-                return Err(ReadFault::Truncated {
-                    what: "a buffer of the glTF document",
-                    expected: buffer.length() as u64,
-                    found: bytes.len() as u64,
-                });
-            }
-            buffers.push(bytes);
+/// The bytes of all buffers: the rest of a GLB, text inside the document, or files in `folder`.
+pub(super) fn open_buffers<'a>(
+    document: &Document,
+    mut chunk: Option<&'a [u8]>,
+    folder: &Path,
+) -> Result<Vec<Cow<'a, [u8]>>, ReadFault> {
+    let mut buffers = Vec::new();
+    for buffer in &document.buffers {
+        let bytes = match &buffer.uri {
+            None => Cow::Borrowed(chunk.take().unwrap_or_default()),
+            Some(uri) => Cow::Owned(by_uri(uri, folder)?),
+        };
+        if bytes.len() < buffer.byte_length {
+            return Err(ReadFault::Truncated {
+                what: "a buffer of the glTF document",
+                expected: buffer.byte_length as u64,
+                found: bytes.len() as u64,
+            });
         }
-        Ok(Self { buffers })
+        buffers.push(bytes);
     }
-
-    pub(super) fn bytes(&self, buffer: usize) -> &[u8] {
-        self.buffers.get(buffer).map_or(&[], Vec::as_slice)
-    }
+    Ok(buffers)
 }
 
 fn by_uri(uri: &str, folder: &Path) -> Result<Vec<u8>, ReadFault> {
     if let Some(rest) = uri.strip_prefix("data:") {
-        let decoded = rest
-            .split_once(";base64,")
-            .and_then(|(_, text)| base64::decode(text));
-        return decoded.ok_or(ReadFault::Gltf {
-            cause: "a buffer inside the document is not base64".to_owned(),
-        });
+        let coded = rest.split_once(";base64,");
+        let decoded = coded.and_then(|(_, text)| base64::decode(text));
+        let cause = "a buffer inside the document is not base64";
+        return decoded.ok_or_else(|| ReadFault::invalid_gltf(cause));
     }
     let elsewhere = || ReadFault::BufferElsewhere {
         uri: uri.chars().take(200).collect(),

@@ -1,113 +1,75 @@
 //! glTF 2.0 and GLB: all triangles of all nodes of the scene, in place, in metres as the standard
-//! has it. The crate `gltf` reads the document; the bytes are read here, because every offset must be
-//! held against the length of its buffer before it is believed.
+//! has it. Written here rather than taken from a crate because the usual one panics on damaged
+//! documents and brings picture formats along.
 
 mod accessor;
 mod buffers;
+mod document;
+mod frame;
 
 use std::path::Path;
 
-use ::gltf::mesh::Mode;
-use ::gltf::{Document, Gltf, Node, Primitive, Semantic};
 use nalgebra::{Matrix4, Point3};
 
-use self::buffers::Buffers;
+use self::accessor::Source;
+use self::buffers::open_buffers;
+use self::document::{Document, Primitive, part};
+pub(crate) use self::frame::MAGIC;
 use super::raw::RawMesh;
 use crate::ReadFault;
 
-/// First bytes of a GLB.
-pub(crate) const MAGIC: &[u8] = b"glTF";
-
 /// Reads a document or a GLB; `folder` is where its buffers may lie.
 pub(crate) fn read(bytes: &[u8], folder: &Path) -> Result<RawMesh, ReadFault> {
-    check_frame(bytes)?;
-    let Gltf { document, blob } = Gltf::from_slice(bytes).map_err(|error| ReadFault::Gltf {
-        cause: error.to_string(),
-    })?;
-    let buffers = Buffers::open(&document, blob, folder)?;
+    let (text, chunk) = frame::split(bytes)?;
+    let document = Document::parse(text)?;
+    let source = Source {
+        buffers: open_buffers(&document, chunk, folder)?,
+        document: &document,
+    };
     let mut mesh = RawMesh::default();
-    let mut seen = vec![false; document.nodes().len()];
-    let mut waiting: Vec<_> = roots(&document)
+    let mut seen = vec![false; document.nodes.len()];
+    let mut waiting: Vec<_> = document
+        .roots()
         .into_iter()
         .map(|node| (node, Matrix4::identity()))
         .collect();
-    while let Some((node, world_from_parent)) = waiting.pop() {
+    while let Some((number, world_from_parent)) = waiting.pop() {
+        let node = part(&document.nodes, number, "node")?;
         // A node that is its own grandchild would be read for ever.
-        if std::mem::replace(&mut seen[node.index()], true) {
-            return Err(ReadFault::Gltf {
-                cause: format!("node {} has several parents", node.index()),
-            });
+        if std::mem::replace(&mut seen[number], true) {
+            let cause = format!("node {number} has several parents");
+            return Err(ReadFault::invalid_gltf(cause));
         }
-        let parent_from_node = Matrix4::from(node.transform().matrix()).map(f64::from);
-        let world_from_node = world_from_parent * parent_from_node;
-        for primitive in node.mesh().iter().flat_map(|mesh| mesh.primitives()) {
-            add_primitive(&mut mesh, &primitive, &buffers, &world_from_node)?;
+        let world_from_node = world_from_parent * node.parent_from_node();
+        if let Some(number) = node.mesh {
+            for primitive in &part(&document.meshes, number, "mesh")?.primitives {
+                add_primitive(&mut mesh, primitive, &source, &world_from_node)?;
+            }
         }
-        waiting.extend(node.children().map(|child| (child, world_from_node)));
+        waiting.extend(node.children.iter().map(|&child| (child, world_from_node)));
     }
     mesh.check_indices()
 }
 
-/// The crate subtracts the length of this header without a check.
-fn check_frame(bytes: &[u8]) -> Result<(), ReadFault> {
-    const HEADER_BYTES: u64 = 12;
-    if !bytes.starts_with(MAGIC) {
-        return Ok(());
-    }
-    let found = bytes.len() as u64;
-    let announced = bytes.get(8..12).and_then(|four| four.try_into().ok());
-    let announced = announced.map_or(0, |four| u64::from(u32::from_le_bytes(four)));
-    if announced < HEADER_BYTES || announced > found {
-        return Err(ReadFault::Truncated {
-            what: "the GLB",
-            expected: announced.max(HEADER_BYTES),
-            found,
-        });
-    }
-    Ok(())
-}
-
-/// Nodes without a parent: those of the scene, or all when there is none.
-fn roots(document: &Document) -> Vec<Node<'_>> {
-    let scene = document
-        .default_scene()
-        .or_else(|| document.scenes().next());
-    if let Some(scene) = scene {
-        return scene.nodes().collect();
-    }
-    let mut is_child = vec![false; document.nodes().len()];
-    for child in document.nodes().flat_map(|node| node.children()) {
-        is_child[child.index()] = true;
-    }
-    let is_root = |node: &Node<'_>| !is_child[node.index()];
-    document.nodes().filter(is_root).collect()
-}
-
 fn add_primitive(
     mesh: &mut RawMesh,
-    primitive: &Primitive<'_>,
-    buffers: &Buffers,
+    primitive: &Primitive,
+    source: &Source<'_>,
     world_from_node: &Matrix4<f64>,
 ) -> Result<(), ReadFault> {
-    let mode = primitive.mode();
-    if !matches!(
-        mode,
-        Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan
-    ) {
-        return Ok(());
-    }
-    let Some(positions) = primitive.get(&Semantic::Positions) else {
+    let mode = primitive.mode.unwrap_or(4);
+    let (4..=6, Some(positions)) = (mode, primitive.attributes.position) else {
         return Ok(());
     };
     let first = mesh.vertices.len();
     let before = mesh.triangles.len();
-    for position in accessor::positions(&positions, buffers)? {
+    for position in source.positions(positions)? {
         let in_world = world_from_node.transform_point(&Point3::from(position));
         mesh.add_vertex(in_world.coords)?;
     }
     let count = mesh.vertices.len() - first;
-    let numbers = match primitive.indices() {
-        Some(indices) => accessor::indices(&indices, buffers)?,
+    let numbers = match primitive.indices {
+        Some(indices) => source.indices(indices)?,
         None => (0..count as u32).collect(),
     };
     for corners in triangles(&numbers, mode) {
@@ -122,27 +84,22 @@ fn add_primitive(
     }
     if world_from_node.determinant() < 0.0 {
         // A mirrored part would be inside out; the standard asks for this too.
-        mesh.triangles[before..]
-            .iter_mut()
-            .for_each(|triangle| triangle.swap(1, 2));
+        for triangle in &mut mesh.triangles[before..] {
+            triangle.swap(1, 2);
+        }
     }
     Ok(())
 }
 
-fn triangles(numbers: &[u32], mode: Mode) -> Vec<[u32; 3]> {
+fn triangles(numbers: &[u32], mode: u32) -> Vec<[u32; 3]> {
     match mode {
-        Mode::TriangleStrip => numbers
+        // Every other triangle of a strip runs backward.
+        5 => numbers
             .windows(3)
             .enumerate()
-            .map(|(k, w)| {
-                if k % 2 == 0 {
-                    [w[0], w[1], w[2]]
-                } else {
-                    [w[1], w[0], w[2]]
-                }
-            })
+            .map(|(k, w)| [w[k % 2], w[1 - k % 2], w[2]])
             .collect(),
-        Mode::TriangleFan => numbers
+        6 => numbers
             .get(1..)
             .unwrap_or(&[])
             .windows(2)
@@ -152,5 +109,18 @@ fn triangles(numbers: &[u32], mode: Mode) -> Vec<[u32; 3]> {
             .chunks_exact(3)
             .map(|w| [w[0], w[1], w[2]])
             .collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn strips_and_fans_turn_as_their_first_triangle() {
+        assert_eq!(triangles(&[0, 1, 2, 3], 5), [[0, 1, 2], [2, 1, 3]]);
+        assert_eq!(triangles(&[0, 1, 2, 3], 6), [[0, 1, 2], [0, 2, 3]]);
+        assert_eq!(triangles(&[0, 1, 2, 3], 4), [[0, 1, 2]]);
+        assert!(triangles(&[], 6).is_empty());
     }
 }
