@@ -17,7 +17,10 @@ pub(crate) struct RawMesh {
 impl RawMesh {
     pub(crate) fn add_vertex(&mut self, position: Vec3) -> Result<(), ReadFault> {
         let vertex = self.vertices.len();
-        if let Some(&found) = position.iter().find(|c| !(c.abs() < LARGEST_COORDINATE)) {
+        if let Some(&found) = position
+            .iter()
+            .find(|c| c.is_nan() || c.abs() >= LARGEST_COORDINATE)
+        {
             return Err(ReadFault::BadCoordinate { vertex, found });
         }
         check_count("vertices", vertex)?;

@@ -153,7 +153,7 @@ fn gltf(mesh: &TriangleMesh) -> String {
 
 fn glb(mesh: &TriangleMesh) -> Vec<u8> {
     let mut document = gltf_document(mesh, "").into_bytes();
-    while document.len() % 4 != 0 {
+    while !document.len().is_multiple_of(4) {
         document.push(b' ');
     }
     let buffer = gltf_buffer(mesh);

@@ -95,8 +95,7 @@ pub(super) struct Buffer {
 
 impl Document {
     pub(super) fn parse(text: &[u8]) -> Result<Self, ReadFault> {
-        let document: Self =
-            serde_json::from_slice(text).map_err(|error| ReadFault::invalid_gltf(error))?;
+        let document: Self = serde_json::from_slice(text).map_err(ReadFault::invalid_gltf)?;
         if !document.asset.version.starts_with("2.") {
             let version = document.asset.version.chars().take(20).collect::<String>();
             return Err(ReadFault::invalid_gltf(format!(
