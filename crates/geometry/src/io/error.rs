@@ -1,5 +1,6 @@
 use std::path::PathBuf;
 
+use super::unit::rounded;
 use crate::{LengthUnit, MeshError, MeshFormat};
 
 /// A mesh file that could not be read: which, and why.
@@ -178,9 +179,9 @@ pub enum ReadFault {
         "no unit is known and the largest extent is {extent}: an organ has 0.005 to 0.6 m, this has {extent} m in metres and {in_millimetres} m in millimetres; set mesh_unit to \"m\", \"cm\", \"mm\" or \"um\""
     )]
     UnitNeeded {
-        /// Largest extent [file unit].
+        /// Largest extent, to four digits [file unit].
         extent: f64,
-        /// The same taken as millimetres [m].
+        /// The same taken as millimetres, to four digits [m].
         in_millimetres: f64,
     },
     /// Read, and yet not a mesh.
@@ -206,8 +207,8 @@ impl ReadFault {
     /// No unit is known for a mesh of this largest extent [file unit].
     pub(crate) fn unit_needed(extent: f64) -> Self {
         Self::UnitNeeded {
-            extent,
-            in_millimetres: extent * LengthUnit::Millimetre.in_metres(),
+            extent: rounded(extent),
+            in_millimetres: rounded(extent * LengthUnit::Millimetre.in_metres()),
         }
     }
 }

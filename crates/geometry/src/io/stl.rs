@@ -16,7 +16,8 @@ pub(crate) fn has_binary_length(bytes: &[u8]) -> bool {
 /// Whether this is a text STL. A binary header may begin with `solid` too, but has zero bytes.
 pub(crate) fn looks_like_text(bytes: &[u8]) -> bool {
     let start = &bytes[..bytes.len().min(512)];
-    start.trim_ascii_start().starts_with(b"solid") && !start.contains(&0)
+    let word = start.trim_ascii_start().get(..5);
+    word.is_some_and(|word| word.eq_ignore_ascii_case(b"solid")) && !start.contains(&0)
 }
 
 pub(crate) fn read(bytes: &[u8]) -> Result<RawMesh, ReadFault> {

@@ -65,7 +65,8 @@ pub fn is_plausible_extent(extent_m: f64) -> bool {
 pub fn doubt_about_extent(extent_m: f64) -> Option<String> {
     (!is_plausible_extent(extent_m)).then(|| {
         format!(
-            "the largest extent is {extent_m} m, where an organ has {} to {} m; check mesh_unit",
+            "the largest extent is {} m, where an organ has {} to {} m; check mesh_unit",
+            rounded(extent_m),
             PLAUSIBLE_M.start(),
             PLAUSIBLE_M.end()
         )
@@ -83,6 +84,11 @@ pub fn unit_by_extent(extent: f64) -> Result<LengthUnit, ReadFault> {
     } else {
         Err(ReadFault::unit_needed(extent))
     }
+}
+
+/// To four digits: a message is not the place for the noise of single precision.
+pub(super) fn rounded(length: f64) -> f64 {
+    format!("{length:.3e}").parse().unwrap_or(length)
 }
 
 #[cfg(test)]

@@ -99,11 +99,14 @@ pub(super) fn read(bytes: &[u8]) -> Result<Header, ReadFault> {
                 properties: Vec::new(),
             }),
             ["property", ref rest @ ..] => {
-                let property = property(rest)
-                    .ok_or_else(|| unexpected(line_number, &line, "a property with its type"))?;
-                let element = elements.last_mut();
-                let element =
-                    element.ok_or_else(|| unexpected(line_number, &line, "`element` before it"))?;
+                let added = elements.last_mut().zip(property(rest));
+                let (element, property) = added.ok_or_else(|| {
+                    unexpected(
+                        line_number,
+                        &line,
+                        "a property of an element, with its type",
+                    )
+                })?;
                 element.properties.push(property);
             }
             ["end_header"] => {
