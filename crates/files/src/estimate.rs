@@ -1,4 +1,4 @@
-use crate::toml_document::Value;
+use crate::toml_document::{Value, toml_number};
 use crate::{Domain, Error, Keys};
 
 /// A number and how well it is known.
@@ -21,13 +21,10 @@ impl Estimate {
 
     /// The value of a TOML key: a plain number, or a table when the error is known.
     pub(crate) fn to_toml(self) -> String {
-        let Self {
-            value,
-            standard_error,
-        } = self;
-        match standard_error {
-            None => format!("{value:?}"),
-            Some(error) => format!("{{ value = {value:?}, standard_error = {error:?} }}"),
+        let value = toml_number(self.value);
+        match self.standard_error.map(toml_number) {
+            None => value,
+            Some(error) => format!("{{ value = {value}, standard_error = {error} }}"),
         }
     }
 }

@@ -1,17 +1,18 @@
 //! How tools move: a table with a row for each tool and time, linear between the rows.
 
+mod columns;
 mod pose;
 mod tool_motion;
+mod write;
 
-use std::fmt::Write;
 use std::path::Path;
 
 pub use pose::{IDENTITY, Pose};
 pub use tool_motion::{Cursor, MotionRow, ToolMotion};
 
-use crate::table::{Column, Row, TableText, field};
+use crate::Error;
+use crate::table::TableText;
 use crate::whole_file::read_text;
-use crate::{Domain, Error, write_whole};
 
 /// The motions of one or two tools.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,7 +67,7 @@ impl Motion {
     pub fn parse(text: &str, path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
         let table = TableText::parse(text, path, &["format"])?;
-        let columns = Columns::find(&table)?;
+        let columns = columns::Columns::find(&table)?;
         let mut tools: Vec<ToolMotion> = Vec::new();
         let mut rows = table.rows();
         while let Some(row) = rows.next()? {
@@ -116,128 +117,5 @@ impl Motion {
     /// no such tool; after its last row it rests.
     pub fn pose(&self, name: &str, time_s: f64) -> Option<Pose> {
         self.tool(name)?.pose(time_s, &mut Cursor::default())
-    }
-
-    /// The text of a motion file: what [`Motion::parse`] reads back to the same motion.
-    pub fn to_csv(&self) -> String {
-        let mut text = "# format = 1\ntime_s,tool,x_m,y_m,z_m,qx,qy,qz,qw,grip,cut\n".to_owned();
-        let turned = |tool: &ToolMotion| tool.rows().iter().any(|r| r.pose.orientation.is_some());
-        // The columns are there for all rows or for none.
-        let with_orientation = self.tools.iter().any(turned);
-        if !with_orientation {
-            text = text.replace(",qx,qy,qz,qw", "");
-        }
-        for tool in &self.tools {
-            for row in tool.rows() {
-                let Pose {
-                    position_m: [x, y, z],
-                    orientation,
-                    grip,
-                    cut,
-                } = row.pose;
-                let name = field(tool.name());
-                write!(text, "{:?},{name},{x:?},{y:?},{z:?}", row.time_s).expect(INFALLIBLE);
-                if with_orientation {
-                    let [qx, qy, qz, qw] = orientation.unwrap_or(IDENTITY);
-                    write!(text, ",{qx:?},{qy:?},{qz:?},{qw:?}").expect(INFALLIBLE);
-                }
-                writeln!(text, ",{grip:?},{}", u8::from(cut)).expect(INFALLIBLE);
-            }
-        }
-        text
-    }
-
-    /// Writes a motion file, whole or not at all.
-    ///
-    /// # Errors
-    /// When the operating system refuses.
-    pub fn write(&self, path: impl AsRef<Path>) -> Result<(), Error> {
-        write_whole(path, self.to_csv().as_bytes())
-    }
-}
-
-const INFALLIBLE: &str = "a string takes every text";
-
-/// The columns of a motion.
-struct Columns {
-    time: Column,
-    tool: Column,
-    position: [Column; 3],
-    orientation: Option<[Column; 4]>,
-    grip: Option<Column>,
-    cut: Option<Column>,
-}
-
-const NAMES: &[&str] = &[
-    "time_s", "tool", "x_m", "y_m", "z_m", "qx", "qy", "qz", "qw", "grip", "cut",
-];
-
-impl Columns {
-    fn find(table: &TableText<'_>) -> Result<Self, Error> {
-        let columns = Self {
-            time: table.column("time_s")?,
-            tool: table.column("tool")?,
-            position: [
-                table.column("x_m")?,
-                table.column("y_m")?,
-                table.column("z_m")?,
-            ],
-            orientation: Self::find_orientation(table)?,
-            grip: table.optional_column("grip")?,
-            cut: table.optional_column("cut")?,
-        };
-        table.refuse_near_misses(NAMES)?;
-        Ok(columns)
-    }
-
-    /// All four components or none.
-    fn find_orientation(table: &TableText<'_>) -> Result<Option<[Column; 4]>, Error> {
-        let names = ["qx", "qy", "qz", "qw"];
-        let mut any = false;
-        for name in names {
-            any |= table.optional_column(name)?.is_some();
-        }
-        if !any {
-            return Ok(None);
-        }
-        let [x, y, z, w] = names.map(|name| table.column(name));
-        Ok(Some([x?, y?, z?, w?]))
-    }
-
-    fn tool_name<'r>(&self, row: &Row<'r>) -> Result<&'r str, Error> {
-        match row.text(&self.tool) {
-            "" => Err(row.bad(&self.tool, "the name of a tool of the scene")),
-            name => Ok(name),
-        }
-    }
-
-    fn row(&self, row: &Row<'_>) -> Result<MotionRow, Error> {
-        let time_s = row.number(&self.time, Domain::FINITE)?;
-        let [x, y, z] = &self.position;
-        let finite = |column| row.number(column, Domain::FINITE);
-        let position_m = [finite(x)?, finite(y)?, finite(z)?];
-        let orientation = match &self.orientation {
-            Some([x, y, z, w]) => {
-                let q = [finite(x)?, finite(y)?, finite(z)?, finite(w)?];
-                let expected = "a quaternion (qx, qy, qz, qw) that is not zero";
-                Some(pose::normalised(q).ok_or_else(|| row.bad(x, expected))?)
-            }
-            None => None,
-        };
-        let grip = match &self.grip {
-            Some(column) => row.number(column, Domain::FRACTION)?,
-            None => 0.0,
-        };
-        let cut = match &self.cut {
-            Some(column) => row.truth(column)?,
-            None => false,
-        };
-        let pose = Pose {
-            position_m,
-            orientation,
-            grip,
-            cut,
-        };
-        Ok(MotionRow { time_s, pose })
     }
 }

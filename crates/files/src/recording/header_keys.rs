@@ -1,5 +1,5 @@
 use super::{Condition, IndenterShape, RecordingHeader, Specimen, Stimulus};
-use crate::toml_document::quoted;
+use crate::toml_document::{quoted, toml_number};
 use crate::{Domain, Error, Keys};
 
 const HALF_ANGLE: Domain = Domain {
@@ -86,7 +86,7 @@ impl RecordingHeader {
     /// The keys that are there, with their values in TOML.
     pub(super) fn entries(&self) -> Vec<(&'static str, String)> {
         let text = |text: &Option<String>| text.as_deref().map(quoted);
-        let number = |number: Option<f64>| number.map(|number| format!("{number:?}"));
+        let number = |number: Option<f64>| number.map(toml_number);
         let values = [
             text(&self.organ),
             text(&self.subject),

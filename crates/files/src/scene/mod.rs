@@ -3,6 +3,7 @@
 
 mod anchor;
 mod model;
+mod model_words;
 mod organ;
 mod shape;
 mod tissue_choice;
@@ -12,9 +13,10 @@ mod view;
 use std::path::{Path, PathBuf};
 
 pub use anchor::{Anchor, AnchorBox, AnchorPlane, AnchorSphere};
-pub use model::{
-    Assembly, Enhancement, EnhancementArea, Form, HandOver, IntegrationPoints, LocalSettings,
-    Model, ModelKind, Placement, Smoothing, Solver,
+pub use model::{Enhancement, LocalSettings, Model};
+pub use model_words::{
+    Assembly, EnhancementArea, Form, HandOver, IntegrationPoints, ModelKind, Placement, Smoothing,
+    Solver,
 };
 pub use organ::{Layer, Neighbour, Organ};
 pub use shape::{BuiltinOrgan, LengthUnit, Shape};

@@ -1,6 +1,6 @@
 use crate::scene::ModelKind;
 use crate::table::header_line;
-use crate::toml_document::quoted;
+use crate::toml_document::{quoted, toml_number};
 use crate::{Domain, Error, Keys};
 
 /// Under which conditions a session was played.
@@ -54,9 +54,9 @@ impl SessionHeader {
             header_line("version", quoted(&self.version)),
             header_line("scene_digest", quoted(&self.scene_digest)),
             header_line("model", quoted(self.model.word())),
-            header_line("step_s", format!("{:?}", self.step_s)),
+            header_line("step_s", toml_number(self.step_s)),
             header_line("seed", self.seed),
-            header_line("force_scale", format!("{:?}", self.force_scale)),
+            header_line("force_scale", toml_number(self.force_scale)),
         ]
         .concat()
     }

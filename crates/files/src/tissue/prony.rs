@@ -1,3 +1,4 @@
+use crate::toml_document::toml_number;
 use crate::{Domain, Error, Estimate, Keys};
 
 /// One term of a Prony series.
@@ -52,13 +53,15 @@ impl PronyTerm {
     pub(super) fn to_toml(self) -> String {
         let Self { g, tau_s } = self;
         let error = |key: &str, error: Option<f64>| {
-            error.map_or(String::new(), |error| format!(", {key} = {error:?}"))
+            error.map_or(String::new(), |error| {
+                format!(", {key} = {}", toml_number(error))
+            })
         };
         format!(
-            "{{ g = {:?}{}, tau_s = {:?}{} }}",
-            g.value,
+            "{{ g = {}{}, tau_s = {}{} }}",
+            toml_number(g.value),
             error("g_standard_error", g.standard_error),
-            tau_s.value,
+            toml_number(tau_s.value),
             error("tau_standard_error_s", tau_s.standard_error),
         )
     }

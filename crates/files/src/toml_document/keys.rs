@@ -3,7 +3,7 @@ use std::borrow::Cow;
 use crate::Error;
 use crate::error::Place;
 use crate::units::{self, Match};
-use crate::words::{either, nearest};
+use crate::words::nearest;
 
 use super::value::{Entry, Table, Value};
 
@@ -118,6 +118,10 @@ impl<'d> Keys<'d> {
             .any(|own| units::matches(own, key).is_some())
     }
 
+    pub(super) fn entry(&self, key: &str) -> Option<&'d Entry> {
+        self.table.get(key)
+    }
+
     pub(crate) fn find(&self, key: &'static str) -> Result<Option<Found<'d>>, Error> {
         debug_assert!(
             self.known.contains(&key),
@@ -185,160 +189,6 @@ impl<'d> Keys<'d> {
             place: self.place.clone(),
             first: self.full_name(first),
             second: self.full_name(second),
-        }
-    }
-
-    /// A text that is not empty.
-    ///
-    /// # Errors
-    /// When the value is anything else.
-    pub fn text(&self, key: &'static str) -> Result<Option<String>, Error> {
-        self.read(
-            key,
-            "a text in double quotes that is not empty",
-            |value| match value {
-                Value::Text(text) if !text.trim().is_empty() => Some(text.clone()),
-                _ => None,
-            },
-        )
-    }
-
-    /// A text that is not empty, or a whole number as a text: a name that may be a number.
-    ///
-    /// # Errors
-    /// When the value is anything else.
-    pub fn text_or_integer(&self, key: &'static str) -> Result<Option<String>, Error> {
-        match self.find(key)?.map(|found| found.value) {
-            Some(Value::Integer(value, _)) => Ok(Some(value.to_string())),
-            _ => self.text(key),
-        }
-    }
-
-    /// A list of texts; empty when the key is missing.
-    ///
-    /// # Errors
-    /// When the value is anything else.
-    pub fn texts(&self, key: &'static str) -> Result<Vec<String>, Error> {
-        let list = self.read(key, "a list of texts", |value| {
-            let Value::List(values) = value else {
-                return None;
-            };
-            values
-                .iter()
-                .map(|value| match value {
-                    Value::Text(text) => Some(text.clone()),
-                    _ => None,
-                })
-                .collect()
-        })?;
-        Ok(list.unwrap_or_default())
-    }
-
-    /// `true` or `false`.
-    ///
-    /// # Errors
-    /// When the value is anything else.
-    pub fn truth(&self, key: &'static str) -> Result<Option<bool>, Error> {
-        self.read(key, "true or false", |value| match value {
-            Value::Truth(truth) => Some(*truth),
-            _ => None,
-        })
-    }
-
-    /// One of a list of `words`.
-    ///
-    /// # Errors
-    /// When the value is anything else.
-    pub fn word<T: Copy>(
-        &self,
-        key: &'static str,
-        words: &[(&'static str, T)],
-    ) -> Result<Option<T>, Error> {
-        let names: Vec<_> = words.iter().map(|(word, _)| format!("{word:?}")).collect();
-        self.read(key, either(&names), |value| match value {
-            Value::Text(text) => words.iter().find(|(word, _)| word == text).map(|(_, t)| *t),
-            _ => None,
-        })
-    }
-
-    /// Whether the value of a key is a text.
-    pub fn is_text(&self, key: &'static str) -> bool {
-        matches!(
-            self.table.get(key),
-            Some(Entry {
-                value: Value::Text(_),
-                ..
-            })
-        )
-    }
-
-    /// A table of which `known` are the keys that may occur.
-    ///
-    /// # Errors
-    /// When the value is no table or has a key that is not known.
-    pub fn table(
-        &self,
-        key: &'static str,
-        known: &'static [&'static str],
-    ) -> Result<Option<Keys<'d>>, Error> {
-        let Some(found) = self.find(key)? else {
-            return Ok(None);
-        };
-        let Value::Table(table) = found.value else {
-            return Err(found.bad("a table"));
-        };
-        let keys = Keys::of_table(found.place, found.key, table, known);
-        keys.only(known)?;
-        Ok(Some(keys))
-    }
-
-    /// A list of tables of which `known` are the keys that may occur; empty when the key is missing.
-    ///
-    /// # Errors
-    /// When the value is no list of tables or one of them has a key that is not known.
-    pub fn tables(
-        &self,
-        key: &'static str,
-        known: &'static [&'static str],
-    ) -> Result<Vec<Keys<'d>>, Error> {
-        let Some(found) = self.find(key)? else {
-            return Ok(Vec::new());
-        };
-        let Value::List(values) = found.value else {
-            return Err(found.bad("a list of tables"));
-        };
-        values
-            .iter()
-            .enumerate()
-            .map(|(number, value)| {
-                let Value::Table(table) = value else {
-                    return Err(found.bad("a list of tables"));
-                };
-                // Each table of a list has its own lines; the list is on the line of its first key.
-                let line = table.values().map(|entry| entry.line).min();
-                let place = line.map_or(found.place.clone(), |line| {
-                    Place::line(&found.place.path, line)
-                });
-                let name = format!("{}[{number}]", found.key);
-                let keys = Keys::of_table(place, name, table, known);
-                keys.only(known)?;
-                Ok(keys)
-            })
-            .collect()
-    }
-
-    fn read<T>(
-        &self,
-        key: &'static str,
-        expected: impl Into<Cow<'static, str>>,
-        understand: impl FnOnce(&'d Value) -> Option<T>,
-    ) -> Result<Option<T>, Error> {
-        let Some(found) = self.find(key)? else {
-            return Ok(None);
-        };
-        match understand(found.value) {
-            Some(value) => Ok(Some(value)),
-            None => Err(found.bad(expected)),
         }
     }
 }

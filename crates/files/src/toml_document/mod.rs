@@ -5,8 +5,9 @@ mod document;
 mod keys;
 mod numbers;
 mod value;
+mod values;
 
 pub use document::Document;
 pub(crate) use document::check_format;
 pub use keys::Keys;
-pub(crate) use value::{Table, Value, parse as parse_toml, quoted};
+pub(crate) use value::{Table, Value, number as toml_number, parse as parse_toml, quoted};

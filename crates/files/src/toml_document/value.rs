@@ -144,3 +144,12 @@ pub(crate) fn quoted(text: &str) -> String {
     quoted.push('"');
     quoted
 }
+
+/// A number in TOML, with the fewest digits that read back to it.
+pub(crate) fn number(value: f64) -> String {
+    if value.is_nan() {
+        // Rust writes `NaN`.
+        return "nan".to_owned();
+    }
+    format!("{value:?}")
+}

@@ -1,0 +1,94 @@
+use palpate_files::Recording;
+use palpate_files::recording::ForeignColumns;
+
+fn columns(time: &str, depth: &str, force: &str) -> ForeignColumns {
+    ForeignColumns {
+        time: time.to_owned(),
+        depth: depth.to_owned(),
+        force: force.to_owned(),
+        depth_unit: None,
+        force_unit: None,
+    }
+}
+
+#[test]
+fn a_testing_machine_with_lines_above_the_names() {
+    let text = "sample_2\nCompression test;\nSpeed (mm/min): 10;\nTime (s),Compression (mm),Load (N),Strain [-]\n\
+                0.0,0.0,-0.01821,0\n0.1,0.00728,0.02945,1\n";
+    let wanted = columns("Time (s)", "Compression (mm)", "Load (N)");
+    let recording = Recording::parse_foreign(text, "a.csv", &wanted).unwrap();
+    assert_eq!(recording.time_s(), [0.0, 0.1]);
+    assert_eq!(recording.depth_m()[1], 7.28e-6);
+    assert_eq!(recording.force_n(), [-0.01821, 0.02945]);
+    assert_eq!(recording.extra_columns()[0].name, "Strain [-]");
+}
+
+#[test]
+fn semicolons_decimal_commas_and_a_row_of_units() {
+    let text = "Prüfung;7\r\nZeit;Weg;Kraft;\r\ns;mm;mN;\r\n0;0;0;\r\n0,5;1,25;-3,5;\r\n";
+    let wanted = columns("Zeit", "Weg", "Kraft");
+    let recording = Recording::parse_foreign(text, "a.csv", &wanted).unwrap();
+    assert_eq!(recording.time_s(), [0.0, 0.5]);
+    assert_eq!(recording.depth_m(), [0.0, 0.00125]);
+    assert_eq!(recording.force_n(), [0.0, -0.0035]);
+    assert!(recording.extra_columns().is_empty());
+}
+
+#[test]
+fn tabs_and_stated_units() {
+    let text = "# organ = \"liver\"\n# segment: 0 pause = 1\n# t\td\tf\n0\t1\t2\n1\t2\t3\n";
+    let stated = ForeignColumns {
+        depth_unit: Some("um".to_owned()),
+        force_unit: Some("mN".to_owned()),
+        ..columns("t", "d", "f")
+    };
+    let recording = Recording::parse_foreign(text, "a.csv", &stated).unwrap();
+    assert_eq!(recording.depth_m(), [1e-6, 2e-6]);
+    assert_eq!(recording.force_n(), [0.002, 0.003]);
+    assert_eq!(recording.header.organ.as_deref(), Some("liver"));
+}
+
+#[test]
+fn bytes_that_are_not_utf_8_are_latin_1() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.csv");
+    std::fs::write(&path, b"t_s,d (\xb5m),f_N\n0,1,2\n").unwrap();
+    let wanted = columns("t_s", "d (µm)", "f_N");
+    let recording = Recording::read_foreign(&path, &wanted).unwrap();
+    assert_eq!(recording.depth_m(), [1e-6]);
+}
+
+#[test]
+fn what_is_wrong_with_a_foreign_table_is_named() {
+    let refused = |text: &str, wanted: &ForeignColumns| {
+        let error = Recording::parse_foreign(text, "a.csv", wanted).unwrap_err();
+        assert!(error.is_input());
+        error.to_string()
+    };
+    let wanted = columns("t_s", "d", "f_N");
+    assert_eq!(
+        refused("above\nt_s,d,f_N\n0,1,2\n", &wanted),
+        "a.csv line 2: the unit of `d` is not known here; use m, cm, mm, um or nm, \
+         in brackets behind the name or stated beside it"
+    );
+    assert_eq!(
+        refused("t_s,d,force\n0,1,2\n", &wanted),
+        "a.csv line 1: the column `f_N` is missing among `t_s`, `d`, `force`; \
+         add it or correct its name"
+    );
+    let stated = |unit: &str| ForeignColumns {
+        depth_unit: Some(unit.to_owned()),
+        ..columns("t_s", "d_mm", "f_N")
+    };
+    assert_eq!(
+        refused("t_s,d_mm,f_N\n0,1,2\n", &stated("m")),
+        "a.csv line 1: `d_mm in m` is given although `d_mm in mm` is given too; keep one of them"
+    );
+    let furlong = refused("t_s,d_mm,f_N\n0,1,2\n", &stated("furlong"));
+    assert!(furlong.contains("`d_mm [furlong]`"), "{furlong}");
+    assert_eq!(
+        refused("t_s,d_mm,f_N\n0,1,2\n\n0.1,x,2\n", &stated("mm")),
+        "a.csv line 4: `d_mm` is \"x\"; give a finite number"
+    );
+    assert!(refused("", &wanted).contains("no rows"));
+}

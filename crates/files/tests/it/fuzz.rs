@@ -1,0 +1,104 @@
+//! No reader panics, whatever it is given.
+
+use palpate_files::recording::ForeignColumns;
+use palpate_files::{Motion, Recording, Scene, Session, Tissue};
+use proptest::prelude::*;
+
+use crate::{MOTION, RECORDING, SCENE, SESSION, TISSUE, tries};
+
+/// Gives a text to every reader. An error must say something of itself.
+fn read_all(text: &str) {
+    let foreign = ForeignColumns {
+        time: "time_ms".to_owned(),
+        depth: "depth_mm".to_owned(),
+        force: "force_mn".to_owned(),
+        ..ForeignColumns::default()
+    };
+    let errors = [
+        Scene::parse(text, "f").err(),
+        Tissue::parse(text, "f").err(),
+        Motion::parse(text, "f").err(),
+        Session::parse(text, "f").err(),
+        Recording::parse(text, "f").err(),
+        Recording::parse_foreign(text, "f", &foreign).err(),
+    ];
+    for error in errors.into_iter().flatten() {
+        assert!(error.is_input());
+        let message = error.to_string();
+        assert!(
+            message.starts_with('f') && !message.contains('\n'),
+            "{message}"
+        );
+    }
+}
+
+/// One of the valid documents with some of its bytes replaced, removed or repeated.
+fn mutated() -> impl Strategy<Value = String> {
+    let documents = [SCENE, TISSUE, MOTION, SESSION, RECORDING];
+    let pieces = prop_oneof![
+        Just(""),
+        Just("\n"),
+        Just("\r"),
+        Just("\""),
+        Just(","),
+        Just("#"),
+        Just("-"),
+        Just("1e999"),
+        Just("nan"),
+        Just("["),
+        Just("{"),
+        Just("é"),
+        Just("\0"),
+        Just("99999999999999999999999999999999999999999"),
+    ];
+    let place = any::<prop::sample::Index>();
+    let change = (place, 0usize..20, pieces);
+    let changes = prop::collection::vec(change, 1..6);
+    (prop::sample::select(documents.to_vec()), changes).prop_map(|(document, changes)| {
+        let mut bytes = document.as_bytes().to_vec();
+        for (place, removed, piece) in changes {
+            let start = place.index(bytes.len().max(1)).min(bytes.len());
+            let end = (start + removed).min(bytes.len());
+            bytes.splice(start..end, piece.bytes());
+        }
+        String::from_utf8_lossy(&bytes).into_owned()
+    })
+}
+
+proptest! {
+    #![proptest_config(tries(20_000))]
+
+    #[test]
+    fn changed_documents_are_read_or_refused(text in mutated()) {
+        read_all(&text);
+    }
+
+    #[test]
+    fn any_text_is_refused(text in any::<String>()) {
+        read_all(&text);
+        read_all(&format!("format = 1\n{text}"));
+        read_all(&format!("# format = 1\n{text}"));
+    }
+}
+
+proptest! {
+    #![proptest_config(tries(500))]
+
+    #[test]
+    fn any_bytes_are_refused(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("bytes");
+        std::fs::write(&path, &bytes).unwrap();
+        let _ = Scene::read(&path);
+        let _ = Session::read(&path);
+        let _ = Recording::read_foreign(&path, &ForeignColumns::default());
+    }
+}
+
+#[test]
+fn deep_nesting_is_refused() {
+    read_all(&format!("format = 1\na = {}", "[".repeat(100_000)));
+    read_all(&format!("format = 1\na = {}", "{a=".repeat(100_000)));
+    read_all(&format!("format = 1\n{} = 1", "a.".repeat(100_000)));
+    read_all(&format!("format = 1\n[{}a]", "a.".repeat(100_000)));
+}

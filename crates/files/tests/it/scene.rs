@@ -1,0 +1,140 @@
+use std::path::PathBuf;
+
+use palpate_files::scene::*;
+use palpate_files::{BuiltinTissue, Elasticity, Scene, Tissue};
+
+use crate::SCENE;
+
+fn parse(text: &str) -> Scene {
+    Scene::parse(text, "scenes/scene.toml").unwrap()
+}
+
+#[test]
+fn every_key_is_understood() {
+    let scene = parse(SCENE);
+    assert_eq!(scene.folder, PathBuf::from("scenes"));
+    let shape = Shape::Mesh {
+        path: PathBuf::from("scenes/kidney.stl"),
+        unit: Some(LengthUnit::Millimetre),
+    };
+    assert_eq!(scene.organ.shape, shape);
+    let tissue = PathBuf::from("scenes/tissue.toml");
+    assert_eq!(scene.organ.tissue, TissueChoice::File(tissue));
+    assert_eq!(scene.neighbours.len(), 2);
+    assert!(scene.neighbours[1].collides && !scene.neighbours[0].collides);
+    assert_eq!(scene.task.expert, Some(PathBuf::from("scenes/expert")));
+    assert_eq!(scene.task.force_limit_n, Some(2.0));
+    assert_eq!(scene.task.time_limit_s, Some(60.0));
+    assert!((scene.view.field_of_view_rad - 60_f64.to_radians()).abs() < 1e-15);
+    assert_eq!(scene.view.shading, Shading::Plain);
+}
+
+#[test]
+fn layers_hold_their_own_tissues() {
+    let scene = parse(SCENE);
+    let [outer, inner] = scene.organ.layers.as_slice() else {
+        panic!("{:?}", scene.organ.layers)
+    };
+    assert_eq!(
+        (outer.thickness_m, outer.perforation_force_n),
+        (0.0015, Some(0.5))
+    );
+    let tissue = outer.tissue.read().unwrap();
+    let c10_pa = 1000.0.into();
+    assert_eq!(tissue.elasticity, Elasticity::NeoHookean { c10_pa });
+    assert_eq!(tissue.prony[1].tau_s, 6.09.into());
+    assert_eq!((inner.name.as_str(), inner.thickness_m), ("layer 2", 0.002));
+    assert_eq!(
+        inner.tissue.read().unwrap(),
+        Tissue::builtin(BuiltinTissue::PigLiver)
+    );
+}
+
+#[test]
+fn every_setting_of_the_model_is_understood() {
+    let model = parse(SCENE).model;
+    assert_eq!(model.kind, ModelKind::Hybrid);
+    assert_eq!((model.step_s, model.force_scale), (0.004, 2.0));
+    assert_eq!(model.hand_over, HandOver::Hold);
+    assert_eq!(model.local.particles, 40);
+    assert_eq!(model.local.form, Form::Strong);
+    assert_eq!(model.local.placement, Placement::Source);
+    assert_eq!(model.local.solver, Solver::Gmres);
+    assert_eq!(model.local.integration_points.count(), 957);
+    assert_eq!(model.enhancement.area, EnhancementArea::Vertex);
+    assert_eq!(model.enhancement.levels, 2);
+    assert_eq!(model.enhancement.smoothing, Smoothing::Shepard);
+}
+
+#[test]
+fn every_key_of_the_tools_is_understood() {
+    let tools = parse(SCENE).tools;
+    assert_eq!(tools[0].name, "right");
+    assert_eq!(tools[0].kind, ToolKind::Grasper);
+    assert_eq!(tools[0].tip.shape, TipShape::Sphere);
+    assert_eq!(tools[0].tip.radius_m, 0.002);
+    assert_eq!(tools[0].tip.contact, TipContact::Slip);
+    assert_eq!(tools[0].trocar_m, Some([0.0, -0.1, 0.2]));
+    assert_eq!(tools[0].device, DeviceKind::ForceDimension);
+    let left = Tool {
+        name: "left".to_owned(),
+        ..Tool::default()
+    };
+    assert_eq!(tools[1], left);
+}
+
+#[test]
+fn what_is_not_stated_has_its_default() {
+    let text = "format = 1\n[organ]\nbuiltin = \"hemisphere\"\nbuiltin_tissue = \"pig-kidney\"\n";
+    let scene = parse(text);
+    assert_eq!(scene.organ.anchor, None);
+    assert_eq!(scene.model, Model::default());
+    assert_eq!(scene.model.kind, ModelKind::Local);
+    assert_eq!(scene.model.step_s, 0.005);
+    assert_eq!(scene.model.local.particles, 34);
+    assert_eq!(
+        scene.model.local.integration_points,
+        IntegrationPoints::Standard
+    );
+    assert_eq!(scene.tools, [Tool::default()]);
+    assert_eq!(scene.tools[0].tip.radius_m, 0.001);
+    assert_eq!(scene.view, View::default());
+    assert_eq!(scene.task, Task::default());
+}
+
+#[test]
+fn an_anchor_holds_what_lies_in_its_regions() {
+    let anchor = parse(SCENE).organ.anchor.unwrap();
+    assert!(anchor.holds([0.5, 0.5, 0.0]), "behind the plane");
+    assert!(anchor.holds([0.5, 0.5, 0.001]), "on the plane");
+    assert!(!anchor.holds([0.5, 0.5, 0.0011]));
+    assert!(anchor.holds([-0.5, 0.5, 0.5]), "in the box");
+    assert!(anchor.holds([0.1, 0.0, 0.004]), "in the sphere");
+    assert!(!anchor.holds([0.1, 0.0, 0.006]));
+    assert!(!Anchor::default().holds([0.0; 3]) && Anchor::default().is_empty());
+}
+
+#[test]
+fn the_hybrid_model_needs_something_that_is_held() {
+    let text = SCENE.replace("[organ.anchor]", "[organ.unused]");
+    assert!(Scene::parse(&text, "scene.toml").is_err());
+    let from = SCENE.find("[organ.anchor]").unwrap();
+    let to = SCENE.find("[[organ.layer]]").unwrap();
+    let loose = SCENE.replace(&SCENE[from..to], "");
+    let error = Scene::parse(&loose, "scene.toml").unwrap_err().to_string();
+    assert!(error.contains("`organ.anchor` is missing"), "{error}");
+    parse(&loose.replace("kind = \"hybrid\"", "kind = \"local\""));
+    let builtin = "builtin = \"cube\"";
+    let cube = loose.replace("mesh = \"kidney.stl\"\nmesh_unit = \"mm\"", builtin);
+    assert_eq!(parse(&cube).organ.anchor, None);
+}
+
+#[test]
+fn a_tissue_file_is_read_from_the_folder_of_the_scene() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("tissue.toml"), crate::TISSUE).unwrap();
+    std::fs::write(folder.path().join("scene.toml"), SCENE).unwrap();
+    let scene = Scene::read(folder.path().join("scene.toml")).unwrap();
+    let tissue = scene.organ.tissue.read().unwrap();
+    assert_eq!(tissue.name.as_deref(), Some("pig liver"));
+}

@@ -1,0 +1,121 @@
+use std::fs;
+
+use palpate_files::scene::ModelKind;
+use palpate_files::{Event, Events, Session, SessionHeader, SessionRow, SessionWriter};
+
+use crate::SESSION;
+
+fn header() -> SessionHeader {
+    SessionHeader {
+        version: "0.1.0".to_owned(),
+        scene_digest: "89ab".to_owned(),
+        model: ModelKind::Local,
+        step_s: 0.005,
+        seed: u64::MAX,
+        force_scale: 1.0,
+    }
+}
+
+fn row(step: u32) -> SessionRow {
+    let time_s = f64::from(step) * 0.005;
+    SessionRow {
+        time_s,
+        tool: 0,
+        position_m: [0.1 + time_s, -1e-7, 0.0],
+        orientation: [0.0, 0.0, 0.0, 1.0],
+        grip: 0.25,
+        cut: step % 2 == 1,
+        force_n: [0.0, 1.0 / 3.0, 1e-12],
+        contact: true,
+        depth_m: 0.001,
+        events: [Event::Contact, Event::Cut].into_iter().collect(),
+    }
+}
+
+#[test]
+fn a_session_is_understood() {
+    let session = Session::parse(SESSION, "session.csv").unwrap();
+    assert_eq!(session.tools, ["right", "left"]);
+    assert_eq!((session.header.seed, session.header.step_s), (7, 0.005));
+    assert_eq!(session.truncated, None);
+    let row = session.rows[2];
+    assert_eq!(
+        (row.tool, row.depth_m, row.contact, row.cut),
+        (0, 0.001, true, true)
+    );
+    assert_eq!(row.force_n, [0.0, 1e-7, 0.023]);
+    assert!(row.events.contains(Event::Cut) && !row.events.contains(Event::Grip));
+    let motion = session.motion().unwrap();
+    assert_eq!(motion.pose("right", 0.0025).unwrap().grip, 0.25);
+}
+
+#[test]
+fn the_same_rows_give_the_same_bytes_and_read_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let tools = ["a, b".to_owned()];
+    let write = |name: &str| {
+        let path = folder.path().join(name);
+        let mut writer = SessionWriter::create(&path, &header(), &tools).unwrap();
+        (0..500).for_each(|step| writer.write(&row(step)).unwrap());
+        writer.finish().unwrap();
+        path
+    };
+    let (one, two) = (write("one.csv"), write("two.csv"));
+    assert_eq!(fs::read(&one).unwrap(), fs::read(two).unwrap());
+    let session = Session::read(one).unwrap();
+    assert_eq!(session.header, header());
+    assert_eq!(session.tools, tools);
+    assert_eq!(session.rows, (0..500).map(row).collect::<Vec<_>>());
+}
+
+#[test]
+fn whole_lines_are_on_the_disk_every_200_rows() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("session.csv");
+    let mut writer = SessionWriter::create(&path, &header(), &["right".to_owned()]).unwrap();
+    let rows = || Session::read(&path).unwrap().rows.len();
+    assert_eq!(rows(), 0, "the header is there from the first moment");
+    for step in 0..650 {
+        writer.write(&row(step)).unwrap();
+        let behind = step as usize + 1 - rows();
+        assert!(behind < 200, "{behind} rows are not in the file");
+    }
+    // A program that ends in an error drops the writer.
+    drop(writer);
+    assert_eq!(rows(), 650);
+}
+
+#[test]
+fn a_killed_program_loses_only_its_last_line() {
+    let full = Session::parse(SESSION, "session.csv").unwrap();
+    let first = SESSION.find("0.0,right").unwrap();
+    for end in first..SESSION.len() {
+        let cut = &SESSION[..end];
+        let session = Session::parse(cut, "session.csv").unwrap();
+        let whole = cut[first..].matches('\n').count();
+        assert_eq!(session.rows[..], full.rows[..whole]);
+        assert_eq!(session.truncated.is_some(), !cut.ends_with('\n'));
+        if let Some(place) = session.truncated {
+            assert_eq!(place.line, Some(9 + whole));
+        }
+    }
+}
+
+#[test]
+fn rows_that_no_session_can_hold_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("session.csv");
+    let mut writer = SessionWriter::create(&path, &header(), &["right".to_owned()]).unwrap();
+    let mut bad = row(1);
+    bad.force_n[1] = f64::NAN;
+    let error = writer.write(&bad).unwrap_err();
+    let expected = "fy_n of the session's row at 0.005 s is NaN; give a finite number";
+    assert_eq!(error.to_string(), expected);
+    assert!(!error.is_input());
+    let stranger = SessionRow {
+        tool: 1,
+        events: Events::NONE,
+        ..row(1)
+    };
+    assert!(writer.write(&stranger).is_err());
+}
