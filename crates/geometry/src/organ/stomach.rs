@@ -13,7 +13,7 @@ const MIDDLE_LINE: [Vec3; 6] = [
     Vec3::new(-56.0, -2.0, -14.0),
 ];
 /// Radius along it [mm], before it is rounded off at both ends.
-const GIRTH: [f64; 6] = [43.5, 38.0, 17.0, 9.0, 20.0, 26.5];
+const GIRTH: [f64; 6] = [43.5, 38.0, 17.0, 9.0, 20.0, 31.0];
 /// Where the esophagus enters [mm].
 const CARDIA: Vec3 = Vec3::new(15.0, 22.0, 33.0);
 
@@ -23,12 +23,13 @@ pub(super) fn description() -> OrganDescription {
                   in the shape of a J, with the stump of the esophagus at the cardia.",
         axes: PATIENT_AXES,
         origin: "between the body and the antrum, in the hollow of the J",
-        lengths: "about 250 mm along the greater curve; fundus and body 60 mm wide, antrum 35 mm; \
-                  the cardia is near (3, 23, 42) mm, the pylorus near (-56, -2, -14) mm",
+        lengths: "about 270 mm along the greater curve, 170 mm along the lesser; fundus and \
+                  body 58 mm wide, antrum 37 mm; the cardia is near (2, 23, 43) mm, the pylorus \
+                  near (-56, -2, -14) mm",
         held: "the top, where fundus and esophagus hang from the diaphragm: z > 40 mm; and the \
                pylorus: x < -45 mm",
-        extent: Vec3::new(0.1247, 0.0741, 0.1216),
-        volume: 0.2455e-3,
+        extent: Vec3::new(0.1254, 0.0749, 0.1222),
+        volume: 0.254e-3,
     }
 }
 

@@ -2,63 +2,92 @@ use super::SphereMap;
 use super::triangulation::{Diamond, Triangulation};
 use crate::Vec3;
 
+/// How much a triangle counts for more when the surface turns within it. Coarse meshes would lose
+/// tips and margins otherwise; fine ones do not feel it.
+const TURN_WEIGHT: f64 = 2.0;
+
 /// Move points along the surface to the middle of their neighbourhoods and flip edges, until
 /// triangles are well shaped.
 pub(super) fn relax(map: SphereMap, net: &mut Triangulation, units: &mut Vec<Vec3>, rounds: usize) {
-    let mut positions: Vec<Vec3> = units.iter().map(map).collect();
-    flip_to_delaunay(net, units, &positions);
     for _ in 0..rounds {
-        let targets = neighborhood_centroids(net, &positions);
-        let mut moved: Vec<Vec3> = units
+        let places: Vec<Place> = units.iter().map(|unit| Place::new(map, unit)).collect();
+        let positions: Vec<Vec3> = places.iter().map(|place| place.position).collect();
+        flip_to_delaunay(net, units, &positions);
+        let targets = neighborhood_centroids(net, &places);
+        let mut moved: Vec<Vec3> = places
             .iter()
-            .zip(&positions)
             .zip(&targets)
-            .map(|((unit, position), target)| slide(map, unit, position, target))
+            .map(|(place, target)| place.slide_towards(target))
             .collect();
         undo_reversals(net, units, &mut moved);
         *units = moved;
-        positions = units.iter().map(map).collect();
-        flip_to_delaunay(net, units, &positions);
+    }
+    let positions: Vec<Vec3> = units.iter().map(map).collect();
+    flip_to_delaunay(net, units, &positions);
+}
+
+/// A point of the surface and the plane that touches it there.
+struct Place {
+    unit: Vec3,
+    /// Two directions on the sphere, and how the surface point moves along them.
+    directions: [Vec3; 2],
+    tangents: [Vec3; 2],
+    position: Vec3,
+    normal: Vec3,
+}
+
+impl Place {
+    fn new(map: SphereMap, unit: &Vec3) -> Self {
+        const STEP: f64 = 1e-5;
+        let across = unit.cross(&Vec3::ith(unit.iamin(), 1.0)).normalize();
+        let directions = [across, unit.cross(&across)];
+        let position = map(unit);
+        let tangents =
+            directions.map(|direction| (map(&(unit + STEP * direction)) - position) / STEP);
+        Self {
+            unit: *unit,
+            directions,
+            tangents,
+            position,
+            normal: tangents[0].cross(&tangents[1]).normalize(),
+        }
+    }
+
+    /// The unit vector whose image is nearest to `target`, to first order.
+    fn slide_towards(&self, target: &Vec3) -> Vec3 {
+        let [one, two] = self.tangents;
+        let wanted = target - self.position;
+        // Least squares: the normal equations of a 3 × 2 system.
+        let (m11, m12, m22) = (one.norm_squared(), one.dot(&two), two.norm_squared());
+        let (r1, r2) = (one.dot(&wanted), two.dot(&wanted));
+        let determinant = m11 * m22 - m12 * m12;
+        let first = (m22 * r1 - m12 * r2) / determinant;
+        let second = (m11 * r2 - m12 * r1) / determinant;
+        (self.unit + first * self.directions[0] + second * self.directions[1]).normalize()
     }
 }
 
 /// Per point, the centroid of the triangles around it.
-fn neighborhood_centroids(net: &Triangulation, positions: &[Vec3]) -> Vec<Vec3> {
-    let mut sums = vec![(Vec3::zeros(), 0.0); positions.len()];
+fn neighborhood_centroids(net: &Triangulation, places: &[Place]) -> Vec<Vec3> {
+    let mut sums = vec![(Vec3::zeros(), 0.0); places.len()];
     for corners in net.triangles() {
-        let [a, b, c] = corners.map(|i| positions[i as usize]);
-        let area = (b - a).cross(&(c - a)).norm();
-        let moment = area / 3.0 * (a + b + c);
+        let [a, b, c] = corners.map(|i| &places[i as usize]);
+        let area = (b.position - a.position)
+            .cross(&(c.position - a.position))
+            .norm();
+        let turn =
+            3.0 - (a.normal.dot(&b.normal) + b.normal.dot(&c.normal) + c.normal.dot(&a.normal));
+        let weight = area * (1.0 + TURN_WEIGHT * turn);
+        let moment = weight / 3.0 * (a.position + b.position + c.position);
         for &corner in corners {
             let sum = &mut sums[corner as usize];
             sum.0 += moment;
-            sum.1 += area;
+            sum.1 += weight;
         }
     }
     sums.into_iter()
-        .map(|(moment, area)| moment / area)
+        .map(|(moment, weight)| moment / weight)
         .collect()
-}
-
-/// The unit vector whose image is nearest to `target`, to first order.
-fn slide(map: SphereMap, unit: &Vec3, position: &Vec3, target: &Vec3) -> Vec3 {
-    const STEP: f64 = 1e-5;
-    let across = unit.cross(&Vec3::ith(unit.iamin(), 1.0)).normalize();
-    let along = unit.cross(&across);
-    let by_across = (map(&(unit + STEP * across)) - position) / STEP;
-    let by_along = (map(&(unit + STEP * along)) - position) / STEP;
-    let wanted = target - position;
-    // Least squares: the normal equations of a 3 × 2 system.
-    let (m00, m01, m11) = (
-        by_across.norm_squared(),
-        by_across.dot(&by_along),
-        by_along.norm_squared(),
-    );
-    let (r0, r1) = (by_across.dot(&wanted), by_along.dot(&wanted));
-    let determinant = m00 * m11 - m01 * m01;
-    let first = (m11 * r0 - m01 * r1) / determinant;
-    let second = (m00 * r1 - m01 * r0) / determinant;
-    (unit + first * across + second * along).normalize()
 }
 
 /// Put points back whose move would turn a triangle over on the sphere.
