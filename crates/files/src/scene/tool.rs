@@ -114,11 +114,13 @@ pub(super) fn from_keys(keys: &Keys<'_>) -> Result<Vec<Tool>, Error> {
             expected: "at most two tools, one for each hand".into(),
         });
     }
-    let tools: Vec<_> = tables
-        .iter()
-        .zip(["right", "left"])
-        .map(|(keys, name)| Tool::from_keys(keys, name))
-        .collect::<Result<_, _>>()?;
+    let mut tools: Vec<Tool> = Vec::new();
+    for keys in &tables {
+        // A tool without a name takes the hand that is free.
+        let right_is_taken = tools.iter().any(|tool| tool.name == "right");
+        let free = if right_is_taken { "left" } else { "right" };
+        tools.push(Tool::from_keys(keys, free)?);
+    }
     match tools.as_slice() {
         [] => Ok(vec![Tool::default()]),
         [first, second] if first.name == second.name => Err(Error::BadValue {

@@ -66,7 +66,7 @@ fn mutated() -> impl Strategy<Value = String> {
 }
 
 proptest! {
-    #![proptest_config(tries(20_000))]
+    #![proptest_config(tries(10_000))]
 
     #[test]
     fn changed_documents_are_read_or_refused(text in mutated()) {

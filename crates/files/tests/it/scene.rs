@@ -103,6 +103,24 @@ fn what_is_not_stated_has_its_default() {
 }
 
 #[test]
+fn a_tool_without_a_name_takes_the_free_hand() {
+    let names = |tables: &str| {
+        let organ = "[organ]\nbuiltin = \"cube\"\nbuiltin_tissue = \"pig-liver\"";
+        let scene = parse(&format!("format = 1\n{organ}\n{tables}"));
+        scene
+            .tools
+            .into_iter()
+            .map(|tool| tool.name)
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(names("[[tool]]\n[[tool]]"), ["right", "left"]);
+    assert_eq!(
+        names("[[tool]]\nname = \"left\"\n[[tool]]"),
+        ["left", "right"]
+    );
+}
+
+#[test]
 fn an_anchor_holds_what_lies_in_its_regions() {
     let anchor = parse(SCENE).organ.anchor.unwrap();
     assert!(anchor.holds([0.5, 0.5, 0.0]), "behind the plane");
