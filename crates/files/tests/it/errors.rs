@@ -235,94 +235,96 @@ fn bad_values_of_a_tissue() {
     assert!(refused(Tissue::parse(text, "t.toml")).contains("`tissue.c10_pa + c01_pa` is 0;"));
 }
 
+/// What stands below the organ of a scene, and what must be said of it.
+const BAD_SCENES: &[(&str, &str)] = &[
+    (
+        "[model]\nstep_s = 0",
+        "`model.step_s` is 0; give a number above 0",
+    ),
+    (
+        "[model]\nparticles = 7",
+        "`model.particles` is 7; give a whole number from 8 to 4000",
+    ),
+    ("[model]\nparticles = 34.5", "is 34.5; give a whole number"),
+    (
+        "[model]\nkind = \"global\"",
+        "is \"global\"; give \"local\" or \"hybrid\"",
+    ),
+    (
+        "[model]\nintegration_points = 400",
+        "is 400; give 130, 415 or 957",
+    ),
+    (
+        "[model]\nassembly = \"reused\"\nplacement = \"source\"",
+        "`model.assembly` is \"reused\"",
+    ),
+    ("[model]\nforce_scale = -1", "`model.force_scale` is -1"),
+    (
+        "[model]\nenhancement = \"edge\"",
+        "`model.enhancement` is \"edge\"; give a table",
+    ),
+    (
+        "[[tool]]\ntip = { shape = \"flat\", radius_m = 0 }",
+        "`tool[0].tip.radius_m` is 0",
+    ),
+    (
+        "[[tool]]\ntip = { shape = \"flat\" }",
+        "`tool[0].tip.radius_m` is missing",
+    ),
+    (
+        "[[tool]]\ntrocar_m = [0, 1]",
+        "`tool[0].trocar_m` is [0, 1]; give a list of three",
+    ),
+    (
+        "[[tool]]\n[[tool]]\n[[tool]]\n",
+        "`tool` is a list of 3 tools; give at most two",
+    ),
+    (
+        "[[tool]]\nname = \"a\"\n[[tool]]\nname = \"a\"",
+        "line 8: `tool[1].name` is \"a\"",
+    ),
+    (
+        "[[tool]]\nname = \" \"",
+        "`tool[0].name` is \" \"; give a text",
+    ),
+    (
+        "triangles = 3",
+        "`organ.triangles` is 3; give a whole number from 4",
+    ),
+    (
+        "mesh_unit = \"m\"",
+        "`organ.mesh_unit` is \"m\"; give no unit",
+    ),
+    (
+        "[organ.anchor]\nspheres = [{ center_m = [0, 0, 0], radius_m = -1 }]",
+        "spheres[0].radius_m` is -1",
+    ),
+    (
+        "[organ.anchor]\nboxes = [{ min_m = [0, 0, 0], max_m = [1, -1, 1] }]",
+        "boxes[0].max_m` is",
+    ),
+    (
+        "[organ.anchor]\nplanes = [{ point_m = [0, 0, 0], normal = [0, 0, 0] }]",
+        "`organ.anchor.planes[0].normal` is [0, 0, 0]; give a direction",
+    ),
+    (
+        "[organ.anchor]\nplanes = [{ point_m = [0, 0, nan], normal = [0, 0, 1] }]",
+        "point_m[2]` is nan",
+    ),
+    (
+        "[[organ.layer]]\nthickness_m = 0\nbuiltin_tissue = \"pig-liver\"",
+        "`organ.layer[0].thickness_m` is 0",
+    ),
+    (
+        "[view]\nfield_of_view_deg = 180",
+        "`view.field_of_view_deg` is 180",
+    ),
+    ("[task]\ntime_limit_s = 0", "`task.time_limit_s` is 0"),
+];
+
 #[test]
 fn bad_values_of_a_scene() {
-    let cases = [
-        (
-            "[model]\nstep_s = 0",
-            "`model.step_s` is 0; give a number above 0",
-        ),
-        (
-            "[model]\nparticles = 7",
-            "`model.particles` is 7; give a whole number from 8 to 4000",
-        ),
-        ("[model]\nparticles = 34.5", "is 34.5; give a whole number"),
-        (
-            "[model]\nkind = \"global\"",
-            "is \"global\"; give \"local\" or \"hybrid\"",
-        ),
-        (
-            "[model]\nintegration_points = 400",
-            "is 400; give 130, 415 or 957",
-        ),
-        (
-            "[model]\nassembly = \"reused\"\nplacement = \"source\"",
-            "`model.assembly` is \"reused\"",
-        ),
-        ("[model]\nforce_scale = -1", "`model.force_scale` is -1"),
-        (
-            "[model]\nenhancement = \"edge\"",
-            "`model.enhancement` is \"edge\"; give a table",
-        ),
-        (
-            "[[tool]]\ntip = { shape = \"flat\", radius_m = 0 }",
-            "`tool[0].tip.radius_m` is 0",
-        ),
-        (
-            "[[tool]]\ntip = { shape = \"flat\" }",
-            "`tool[0].tip.radius_m` is missing",
-        ),
-        (
-            "[[tool]]\ntrocar_m = [0, 1]",
-            "`tool[0].trocar_m` is [0, 1]; give a list of three",
-        ),
-        (
-            "[[tool]]\n[[tool]]\n[[tool]]\n",
-            "`tool` is a list of 3 tools; give at most two",
-        ),
-        (
-            "[[tool]]\nname = \"a\"\n[[tool]]\nname = \"a\"",
-            "line 8: `tool[1].name` is \"a\"",
-        ),
-        (
-            "[[tool]]\nname = \" \"",
-            "`tool[0].name` is \" \"; give a text",
-        ),
-        (
-            "triangles = 3",
-            "`organ.triangles` is 3; give a whole number from 4",
-        ),
-        (
-            "mesh_unit = \"m\"",
-            "`organ.mesh_unit` is \"m\"; give no unit",
-        ),
-        (
-            "[organ.anchor]\nspheres = [{ center_m = [0, 0, 0], radius_m = -1 }]",
-            "spheres[0].radius_m` is -1",
-        ),
-        (
-            "[organ.anchor]\nboxes = [{ min_m = [0, 0, 0], max_m = [1, -1, 1] }]",
-            "boxes[0].max_m` is",
-        ),
-        (
-            "[organ.anchor]\nplanes = [{ point_m = [0, 0, 0], normal = [0, 0, 0] }]",
-            "`organ.anchor.planes[0].normal` is [0, 0, 0]; give a direction",
-        ),
-        (
-            "[organ.anchor]\nplanes = [{ point_m = [0, 0, nan], normal = [0, 0, 1] }]",
-            "point_m[2]` is nan",
-        ),
-        (
-            "[[organ.layer]]\nthickness_m = 0\nbuiltin_tissue = \"pig-liver\"",
-            "`organ.layer[0].thickness_m` is 0",
-        ),
-        (
-            "[view]\nfield_of_view_deg = 180",
-            "`view.field_of_view_deg` is 180",
-        ),
-        ("[task]\ntime_limit_s = 0", "`task.time_limit_s` is 0"),
-    ];
-    for (more, expected) in cases {
+    for (more, expected) in BAD_SCENES {
         let message = organ_and(more);
         assert!(message.contains(expected), "{more}\n{message}");
         assert!(message.starts_with("s.toml line "), "{message}");
