@@ -1,1 +1,17 @@
-//! (being written)
+//! Soft-tissue laws and the methods that solve them.
+//!
+//! The crate does no input and output, starts no thread and does not know what a tool, a device or a
+//! frame rate is. A method is three types: a model, built once and immutable; where needed a state,
+//! all that must be kept to go on; and a workspace, scratch whose loss changes no result.
+
+pub mod contact;
+mod error;
+pub mod finite_spheres;
+mod linear;
+mod material;
+
+pub use error::Error;
+pub use material::law::{Law, Tangent};
+pub use material::linear_elastic::LinearElastic;
+pub use material::prony::{ForceHistory, MAX_TERMS, PronySeries};
+pub use palpate_geometry::Vec3;

@@ -1,0 +1,153 @@
+//! What a rigid tip meets: the closed forms of the half-space, and the force of a tip on an organ.
+//!
+//! Flat tip of radius a, depth d: slip F = 2 a E d / (1 − ν²) (6.1); stick (bonded)
+//! F = 4 G a d ln(3 − 4ν) / (1 − 2ν) [Spence 1968]; tangential 8 G a u / (2 − ν) [Mindlin 1949].
+//! Sphere of radius ρ: F = 4/3 E/(1 − ν²) √ρ d^(3/2) [Hertz 1881].
+//!
+//! An organ is not a half-space: d = d_tip(F) + c F, where d_tip inverts the closed form and c is the
+//! further compliance that the model finds for the contact. Depth, force and c are scalars, so a few
+//! Newton steps solve it.
+//!
+//! *How we know*: `analytic::flat_tip_is_linear_in_depth`, `analytic::sphere_is_hertz`.
+//!
+//! *Limits*: the side of a flat tip does not touch; a sphere that sticks has the normal force of one
+//! that slips (they differ by under 2 % at ν ≥ 0.3 [Spence 1975]).
+
+use crate::LinearElastic;
+
+/// The end of a tool that touches.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Tip {
+    /// A flat face of this radius [m].
+    Flat {
+        /// Radius of the face [m].
+        radius: f64,
+    },
+    /// A sphere of this radius [m].
+    Sphere {
+        /// Radius of the sphere [m].
+        radius: f64,
+    },
+}
+
+/// Whether the surface under a tip can run along it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Bond {
+    /// Bonded: the tip carries the surface with it.
+    Stick,
+    /// Without friction: no tangential force.
+    Slip,
+}
+
+/// Force per depth of a flat tip on a half-space [N/m].
+pub fn half_space_stiffness(law: &LinearElastic, radius: f64, bond: Bond) -> f64 {
+    let nu = law.poissons_ratio();
+    match bond {
+        Bond::Slip => 2.0 * radius * law.youngs_modulus() / (1.0 - nu * nu), // (6.1)
+        Bond::Stick => 4.0 * law.shear_modulus() * radius * bonded_factor(nu),
+    }
+}
+
+/// Tangential force per displacement of a bonded flat tip on a half-space [N/m].
+pub fn half_space_tangential_stiffness(law: &LinearElastic, radius: f64) -> f64 {
+    8.0 * law.shear_modulus() * radius / (2.0 - law.poissons_ratio())
+}
+
+/// Hertz's force [N] of a sphere of `radius` [m] at `depth` [m] in a half-space.
+pub fn hertz_force(law: &LinearElastic, radius: f64, depth: f64) -> f64 {
+    hertz_factor(law, radius) * depth.max(0.0).powf(1.5)
+}
+
+/// ln(3 − 4ν)/(1 − 2ν), which is 0/0 at ν = ½ and 2 in the limit.
+fn bonded_factor(nu: f64) -> f64 {
+    let away = 1.0 - 2.0 * nu;
+    if away < 1e-6 {
+        2.0 - 2.0 * away
+    } else {
+        (2.0 * away).ln_1p() / away
+    }
+}
+
+/// F / d^(3/2) of Hertz's law [N/m^1.5].
+fn hertz_factor(law: &LinearElastic, radius: f64) -> f64 {
+    let nu = law.poissons_ratio();
+    4.0 / 3.0 * law.youngs_modulus() / (1.0 - nu * nu) * radius.sqrt()
+}
+
+impl Tip {
+    /// Radius of the touching area [m] at `depth` [m].
+    pub fn contact_radius(&self, depth: f64) -> f64 {
+        match *self {
+            Self::Flat { radius } => radius,
+            Self::Sphere { radius } => (radius * depth.max(0.0)).sqrt().min(radius),
+        }
+    }
+
+    /// The normal force [N] at `depth` [m] where a flat tip of the same touching area meets the
+    /// stiffness `stiffness` [N/m]: the half-space's law of this tip, in series with what the organ's
+    /// stiffness differs from the half-space's.
+    pub fn normal_force(&self, law: &LinearElastic, bond: Bond, depth: f64, stiffness: f64) -> f64 {
+        match *self {
+            Self::Flat { .. } => stiffness * depth.max(0.0),
+            Self::Sphere { radius } => {
+                let area_radius = self.contact_radius(depth);
+                if area_radius == 0.0 {
+                    return 0.0;
+                }
+                let half_space = half_space_stiffness(law, area_radius, bond);
+                let further = 1.0 / stiffness - 1.0 / half_space;
+                sphere_in_series(hertz_factor(law, radius), further, depth)
+            }
+        }
+    }
+}
+
+/// Solves d = (F/f)^(2/3) + c F for F by Newton in the half-space depth s = (F/f)^(2/3).
+fn sphere_in_series(factor: f64, compliance: f64, depth: f64) -> f64 {
+    let mut s = depth;
+    for _ in 0..30 {
+        let root = s.sqrt();
+        let value = s + compliance * factor * s * root - depth;
+        let slope = 1.0 + 1.5 * compliance * factor * root;
+        // A stiffer organ has c < 0; the slope is then bounded below by the model's own stiffness.
+        let step = value / slope.max(0.1);
+        s = (s - step).clamp(0.0, 4.0 * depth);
+        if step.abs() <= 1e-14 * depth {
+            break;
+        }
+    }
+    factor * s * s.sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn law() -> LinearElastic {
+        LinearElastic::new(1e4, 0.3).unwrap()
+    }
+
+    #[test]
+    fn bonded_meets_slipping_when_incompressible() {
+        let law = LinearElastic::new(1e4, 0.499_999_99).unwrap();
+        let stick = half_space_stiffness(&law, 1e-3, Bond::Stick);
+        let slip = half_space_stiffness(&law, 1e-3, Bond::Slip);
+        // Both tend to 8 G a; the difference is of the order of 1 − 2ν.
+        assert!((stick / slip - 1.0).abs() < 1e-7);
+    }
+
+    #[test]
+    fn sphere_is_hertz_on_a_half_space_and_softer_on_a_softer_organ() {
+        let tip = Tip::Sphere { radius: 5e-3 };
+        let depth = 1e-3;
+        let half_space = half_space_stiffness(&law(), tip.contact_radius(depth), Bond::Slip);
+        let hertz = hertz_force(&law(), 5e-3, depth);
+        let force = tip.normal_force(&law(), Bond::Slip, depth, half_space);
+        assert!((force / hertz - 1.0).abs() < 1e-12);
+        let softer = tip.normal_force(&law(), Bond::Slip, depth, 0.9 * half_space);
+        let back = (softer / hertz).powf(2.0 / 3.0) * depth;
+        let further = (1.0 / 0.9 - 1.0) / half_space * softer;
+        assert!((back + further - depth).abs() < 1e-12 * depth);
+        assert!(softer < hertz);
+    }
+}

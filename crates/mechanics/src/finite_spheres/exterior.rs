@@ -1,0 +1,171 @@
+//! From the shells to the organ: the tool's radius, what lies beyond the shells, and the organ's size.
+//!
+//! Compliances add: C = C_shells + (k_c/r − k_o/R)/K̂, with r the radius of the held shell, R that of a
+//! hemisphere of the organ's volume held at its base, and K̂ = F/(a d) of the half-space. A held
+//! periphery stiffens (k_c > 0; the source's section 3.3 says the contrary), and so does a held base.
+//!
+//! One particle under the tool has no radius of its own: C_shells depends on h alone. So h = a/α, and α
+//! is set where the answer is known, on the half-space: 1/α = Ĉ K̂ + k_c h/r. On a hemisphere the
+//! shells answer to curvature as well, which k_o, measured on hemispheres, already holds; what the
+//! shells say of it is taken out again there, and so only a contact whose curvature is not 1/R feels
+//! its own. Both are solved for when a model is made, for its particles, form and ν; a further constant
+//! makes the tangential stiffness of the half-space exact.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::layout::CapShape;
+use super::settings::Form;
+use crate::LinearElastic;
+use crate::contact::{Bond, half_space_stiffness, half_space_tangential_stiffness};
+
+/// A row of the table of constants.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ExteriorConstants {
+    /// Poisson's ratio [-].
+    pub poissons_ratio: f64,
+    /// k_c [-]: what a clamped periphery takes away.
+    pub beyond_shells: f64,
+    /// k_o [-]: what a held base takes away.
+    pub organ_size: f64,
+}
+
+/// The constants that no closed form gives. Measured by finite elements on a hemisphere of radius
+/// 50 mm with its base held, flat tips of radius 2 to 5 mm, peripheries clamped at 10 to 30 mm:
+/// k_c was 1.03 to 1.07 and 1.39 to 1.47, k_o 0.72 to 0.75 and 0.76 to 0.85.
+pub const EXTERIOR_CONSTANTS: [ExteriorConstants; 2] = [
+    ExteriorConstants {
+        poissons_ratio: 0.3,
+        beyond_shells: 1.05,
+        organ_size: 0.735,
+    },
+    ExteriorConstants {
+        poissons_ratio: 0.45,
+        beyond_shells: 1.43,
+        organ_size: 0.805,
+    },
+];
+
+/// Largest Poisson's ratio that the model is calibrated for [-]; above it the answer is that at this
+/// ratio, times the ratio of the half-spaces.
+pub const LARGEST_CALIBRATED_RATIO: f64 = 0.45;
+
+/// Curvature [1/h] at which the answer of the shells to curvature is measured: a tip of 2 mm on an organ
+/// of 50 mm.
+const PROBE: f64 = 0.1;
+
+/// No contact is stiffer than this many half-spaces: beyond, the tip is as large as the organ, and
+/// the expansion in a/R means nothing.
+const STIFFEST: f64 = 3.0;
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Calibration {
+    /// α = a/h [-].
+    pub(super) radius_in_spacings: f64,
+    beyond_shells: f64,
+    organ_size: f64,
+    beyond_shells_tangential: f64,
+    /// K̂ [Pa], normal and tangential.
+    half_space: f64,
+    half_space_tangential: f64,
+    youngs_modulus: f64,
+    shells: f64,
+    bond: Bond,
+    form: Form,
+}
+
+/// Stiffness of a contact, and the part of its displacement in which the held shell shares.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Corrected {
+    /// [N/m] per direction of the contact's frame; off-diagonal terms between the tangents only.
+    pub(super) stiffness: Matrix3<f64>,
+    /// [-], tangential and normal.
+    pub(super) share: [f64; 2],
+}
+
+/// Constants at ν, linear between the rows; k_c as k_c (1 − ν), which varies least. Outside the rows
+/// the nearest one is taken.
+fn constants(poissons_ratio: f64) -> ExteriorConstants {
+    let [low, high] = EXTERIOR_CONSTANTS;
+    let span = high.poissons_ratio - low.poissons_ratio;
+    let along = ((poissons_ratio - low.poissons_ratio) / span).clamp(0.0, 1.0);
+    let between = |a: f64, b: f64| a + along * (b - a);
+    let scaled = |row: ExteriorConstants| row.beyond_shells * (1.0 - row.poissons_ratio);
+    ExteriorConstants {
+        poissons_ratio,
+        beyond_shells: between(scaled(low), scaled(high)) / (1.0 - poissons_ratio),
+        organ_size: between(low.organ_size, high.organ_size),
+    }
+}
+
+impl Calibration {
+    /// `solve` gives the stiffness [E h] of the shells under a cap; `shells` is their number.
+    pub(super) fn new(
+        (law, bond, form): (LinearElastic, Bond, Form),
+        shells: usize,
+        mut solve: impl FnMut(CapShape) -> Matrix3<f64>,
+    ) -> Self {
+        let modulus = law.youngs_modulus();
+        let half_space = half_space_stiffness(&law, 1.0, bond);
+        let half_space_tangential = half_space_tangential_stiffness(&law, 1.0);
+        let known = constants(law.poissons_ratio());
+        let flat = solve(CapShape::FLAT);
+        let round = solve(CapShape::new(PROBE * Vector3::new(1.0, 0.0, 1.0), shells));
+        let slope = (1.0 / round[(2, 2)] - 1.0 / flat[(2, 2)]) / PROBE;
+        let shells = shells as f64;
+        let in_half_spaces = half_space / modulus;
+        let inverse = in_half_spaces / flat[(2, 2)] + known.beyond_shells / shells;
+        let tangential = 0.5 * (flat[(0, 0)] + flat[(1, 1)]);
+        Self {
+            radius_in_spacings: 1.0 / inverse,
+            beyond_shells: known.beyond_shells,
+            organ_size: known.organ_size + slope * in_half_spaces,
+            beyond_shells_tangential: shells
+                * (inverse - half_space_tangential / modulus / tangential),
+            half_space,
+            half_space_tangential,
+            youngs_modulus: modulus,
+            shells,
+            bond,
+            form,
+        }
+    }
+
+    /// Stiffness of a contact whose shells of spacing `spacing` [m] have the stiffness `shells` [E h],
+    /// on an organ of radius `organ_radius` [m].
+    pub(super) fn correct(
+        &self,
+        shells: &Matrix3<f64>,
+        spacing: f64,
+        organ_radius: f64,
+    ) -> Corrected {
+        let unit = self.youngs_modulus * spacing;
+        let held_at = self.shells * spacing;
+        let inside = 1.0 / (shells[(2, 2)] * unit);
+        let outside =
+            (self.beyond_shells / held_at - self.organ_size / organ_radius) / self.half_space;
+        let radius = self.radius_in_spacings * spacing;
+        let least = 1.0 / (STIFFEST * self.half_space * radius);
+        let normal = (inside + outside).max(least);
+        let mut stiffness = Matrix3::zeros();
+        stiffness[(2, 2)] = 1.0 / normal;
+        let mut share = [0.0, 1.0 - inside / normal];
+        match (self.bond, self.form) {
+            (Bond::Slip, _) => {}
+            (Bond::Stick, Form::Strong) => {
+                stiffness[(0, 0)] = self.half_space_tangential * radius;
+                stiffness[(1, 1)] = stiffness[(0, 0)];
+            }
+            (Bond::Stick, Form::Weak) => {
+                let along = shells.fixed_view::<2, 2>(0, 0) * unit;
+                let further =
+                    self.beyond_shells_tangential / (held_at * self.half_space_tangential);
+                // (along⁻¹ + c 1)⁻¹ = (1 + c along)⁻¹ along, which needs no inverse of `along`.
+                let sum = nalgebra::Matrix2::identity() + further * along;
+                let both = sum.try_inverse().unwrap_or_else(nalgebra::Matrix2::zeros) * along;
+                stiffness.fixed_view_mut::<2, 2>(0, 0).copy_from(&both);
+                share[0] = 1.0 - both.trace() / along.trace();
+            }
+        }
+        Corrected { stiffness, share }
+    }
+}

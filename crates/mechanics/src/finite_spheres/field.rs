@@ -1,0 +1,55 @@
+//! The displacement between the particles, for the eye.
+//!
+//! Under the tip it is that of a rigid punch, (2/π) asin(a/r), further out the moving-least-squares
+//! field corrected for the held shell, u = (1 − s) Σ φ_J U_J + s, and beyond the shells the rest s dies
+//! away as 1/r and is faded out.
+
+use super::shape_function::ShapeFunctions;
+use super::solution::Solution;
+use super::weight::quartic;
+use crate::Vec3;
+
+/// Beyond this many radii of the outermost shell nothing is shown to move.
+pub(super) const SHOWN: f64 = 2.0;
+
+/// The tip's displacement and how it spreads, in the contact's frame.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Spread {
+    /// Displacement of the tip [m]: tangents, outward normal.
+    pub(super) tip: Vec3,
+    /// Shares of the exterior, tangential and normal [-].
+    pub(super) share: [f64; 2],
+    /// a/h [-].
+    pub(super) radius_in_spacings: f64,
+    /// Number of shells.
+    pub(super) shells: f64,
+}
+
+impl Spread {
+    /// Displacement [m] at `x` [h], both in the contact's frame.
+    pub(super) fn at(&self, solution: &Solution, functions: &mut ShapeFunctions, x: &Vec3) -> Vec3 {
+        let distance = x.norm();
+        let shared = Vec3::new(self.share[0], self.share[0], self.share[1]);
+        let rest = shared.component_mul(&self.tip);
+        if distance >= self.shells {
+            let outward = distance / self.shells;
+            return rest * (fade(outward) / outward);
+        }
+        let punch = (self.radius_in_spacings / distance.max(self.radius_in_spacings)).asin()
+            * std::f64::consts::FRAC_2_PI;
+        functions.evaluate_values(&solution.particles, x);
+        let mut moved = Vec3::zeros();
+        let inner = self.tip - rest;
+        for (&j, &value) in functions.particles.iter().zip(&functions.values) {
+            moved += solution.coefficients[j as usize] * inner * value;
+        }
+        let near = quartic(distance);
+        near * punch * self.tip + (1.0 - near) * (moved + rest)
+    }
+}
+
+/// One at the outermost shell, zero at `SHOWN` of its radii, flat at both.
+fn fade(outward: f64) -> f64 {
+    let along = ((outward - 1.0) / (SHOWN - 1.0)).clamp(0.0, 1.0);
+    1.0 - along * along * (3.0 - 2.0 * along)
+}

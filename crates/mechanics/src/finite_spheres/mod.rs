@@ -1,0 +1,39 @@
+//! The local model: the point-collocation method of finite spheres around the tool tip (chapter 3).
+//!
+//! A handful of particles is placed around the contact, in shells of the radii h, 2h … The outermost
+//! shell is held (section 3.3); the particle at the contact carries the tool. Displacement is
+//! interpolated by moving least squares, u(x) = Σ φ_J(x) U_J (3-8) to (3-10), and found either by
+//! collocation of the field equations (the source's strong form, (3-5) to (3-7)) or by Galerkin's
+//! condition on the same functions (weak form, the default), with φ_J(x_I) in the rows of the held and
+//! the carried particles: the U_J are not displacements.
+//!
+//! Three corrections make a force of it, all in `exterior`: the tool has a radius a, and h = a/α; what
+//! lies beyond the shells gives way too; and an organ of finite size is held somewhere.
+//!
+//! *How we know*: `agreement::hemisphere_meets_its_closed_form`, `convergence::…`, `invariants::…`.
+//!
+//! *Limits*: small strain; one contact at a time; thin walls and distant anchors are not felt (the
+//! hybrid model is for those).
+
+mod exterior;
+mod field;
+mod layout;
+mod model;
+mod quadrature;
+mod reuse;
+mod settings;
+mod shape_function;
+mod solution;
+mod source_placement;
+mod strong_form;
+mod weak_form;
+mod weight;
+mod workspace;
+
+pub use exterior::{EXTERIOR_CONSTANTS, ExteriorConstants, LARGEST_CALIBRATED_RATIO};
+pub use layout::SOURCE_PARTICLES;
+pub use model::{FiniteSphereModel, LocalContact, Response};
+pub use settings::{Assembly, FiniteSphereSettings, Form, Integration, Placement, Solver};
+pub use source_placement::first_direction;
+pub use weight::quartic;
+pub use workspace::FiniteSphereWorkspace;

@@ -1,0 +1,258 @@
+use nalgebra::{Matrix3, Vector3};
+use palpate_geometry::{AabbTree, Surface, TriangleId};
+
+use super::exterior::{Calibration, LARGEST_CALIBRATED_RATIO};
+use super::field::{SHOWN, Spread};
+use super::layout::{CapShape, Layout};
+use super::quadrature::Quadrature;
+use super::reuse::ReuseTable;
+use super::settings::{Assembly, FiniteSphereSettings, Form, Placement};
+use super::solution::Solution;
+use super::source_placement::SourcePlacement;
+use super::workspace::FiniteSphereWorkspace;
+use crate::contact::{Bond, half_space_stiffness, half_space_tangential_stiffness};
+use crate::{Error, LinearElastic, Vec3};
+
+/// The local model of one tissue under one kind of tip. Built once, never changed.
+#[derive(Debug, Clone)]
+pub struct FiniteSphereModel {
+    settings: FiniteSphereSettings,
+    bond: Bond,
+    /// The law that is solved for: the tissue's, at a Poisson's ratio that is calibrated.
+    law: LinearElastic,
+    /// What the answer is multiplied by for the tissue's own ratio [-], tangential and normal.
+    ratio_of_half_spaces: [f64; 2],
+    layout: Layout,
+    quadrature: Quadrature,
+    calibration: Calibration,
+    reuse: Option<ReuseTable>,
+    source: Option<SourcePlacement>,
+}
+
+/// Where a tip touches an organ, and how the organ is shaped there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LocalContact {
+    /// The contact point at rest [m].
+    pub point: Vec3,
+    /// Columns: two unit tangents and the outward normal, right-handed [-].
+    pub frame: Matrix3<f64>,
+    /// κ₁₁, κ₁₂, κ₂₂ [1/m] along the tangents, positive where the organ bulges out.
+    pub curvature: Vector3<f64>,
+    /// The triangle of the contact point (for the source's placement).
+    pub triangle: TriangleId,
+    /// Radius of the touching area [m].
+    pub radius: f64,
+    /// Radius of a hemisphere of the organ's volume [m].
+    pub organ_radius: f64,
+}
+
+/// How a contact answers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Response {
+    /// Stiffness [N/m] in the contact's frame; the tangents do not couple to the normal, and a tip that
+    /// slips has none of them.
+    pub stiffness: Matrix3<f64>,
+    share: [f64; 2],
+    spacing: f64,
+}
+
+impl FiniteSphereModel {
+    /// The model for a tissue `law` under tips with the bond `bond`.
+    ///
+    /// # Errors
+    /// When the number of particles is out of range, or they do not determine a displacement.
+    pub fn new(
+        settings: FiniteSphereSettings,
+        law: &LinearElastic,
+        bond: Bond,
+    ) -> Result<Self, Error> {
+        let layout = Layout::new(settings.particles)?;
+        let quadrature = Quadrature::new(settings.integration, layout.shells);
+        let solved = LinearElastic::new(
+            law.youngs_modulus(),
+            law.poissons_ratio().min(LARGEST_CALIBRATED_RATIO),
+        )?;
+        let mut workspace = FiniteSphereWorkspace::new(&settings, &layout);
+        let problem = (solved, bond, settings.form);
+        let calibration = Calibration::new(problem, layout.shells, |cap| {
+            workspace.place(&layout, cap);
+            workspace.assemble(&quadrature, &solved);
+            workspace.solve();
+            workspace.solution.stiffness
+        });
+        let mut model = Self {
+            settings,
+            bond,
+            ratio_of_half_spaces: [
+                half_space_tangential_stiffness(law, 1.0)
+                    / half_space_tangential_stiffness(&solved, 1.0),
+                half_space_stiffness(law, 1.0, bond) / half_space_stiffness(&solved, 1.0, bond),
+            ],
+            law: solved,
+            layout,
+            quadrature,
+            calibration,
+            reuse: None,
+            source: None,
+        };
+        // α < 0, NaN or a tip wider than the shells: the equations do not hold a displacement.
+        let alpha = model.calibration.radius_in_spacings;
+        if !(alpha > 0.05 && alpha < 1.5) {
+            return Err(model.undetermined());
+        }
+        if settings.assembly == Assembly::Reused {
+            model.fill_reuse_table(&mut workspace);
+        }
+        Ok(model)
+    }
+
+    /// Projects the particles of every triangle, for the source's placement under a tip of `radius` [m];
+    /// with the template this does nothing.
+    pub fn precompute_placement(&mut self, surface: &Surface, tree: &AabbTree, radius: f64) {
+        if self.settings.placement == Placement::Source {
+            let spacing = self.spacing(radius);
+            let placement = SourcePlacement::new(surface, tree, &self.layout, spacing);
+            self.source = Some(placement);
+        }
+    }
+
+    /// Fresh scratch for this model.
+    pub fn workspace(&self) -> FiniteSphereWorkspace {
+        FiniteSphereWorkspace::new(&self.settings, &self.layout)
+    }
+
+    /// Distance between shells [m] for a touching area of `radius` [m]: h = a/α.
+    pub fn spacing(&self, radius: f64) -> f64 {
+        radius / self.calibration.radius_in_spacings
+    }
+
+    /// Radius of the held shell [m] for a touching area of `radius` [m].
+    pub fn held_radius(&self, radius: f64) -> f64 {
+        self.spacing(radius) * self.layout.shells as f64
+    }
+
+    /// Beyond this distance [m] from the contact nothing is shown to move.
+    pub fn shown_radius(&self, radius: f64) -> f64 {
+        SHOWN * self.held_radius(radius)
+    }
+
+    /// Number of integration points.
+    pub fn integration_points(&self) -> usize {
+        self.quadrature.count()
+    }
+
+    /// α = a/h [-], from the half-space (see the table in `exterior`).
+    pub fn radius_in_spacings(&self) -> f64 {
+        self.calibration.radius_in_spacings
+    }
+
+    /// Whether the tissue's Poisson's ratio lies beyond what the model is calibrated for.
+    pub fn is_extrapolated(&self) -> bool {
+        self.ratio_of_half_spaces[1] != 1.0
+    }
+
+    /// Places the particles of `contact`, solves, and answers its stiffness.
+    pub fn respond(
+        &self,
+        contact: &LocalContact,
+        workspace: &mut FiniteSphereWorkspace,
+    ) -> Response {
+        let spacing = self.spacing(contact.radius);
+        match &self.reuse {
+            Some(table) => {
+                let cap = CapShape::new(contact.curvature * spacing, self.layout.shells);
+                table.interpolate(cap, &mut workspace.solution);
+            }
+            None => {
+                self.assemble(contact, workspace);
+                workspace.solve();
+            }
+        }
+        self.correct(contact, &workspace.solution)
+    }
+
+    /// The first half of [`Self::respond`], for measuring its parts: places the particles and makes the
+    /// equations.
+    pub fn assemble(&self, contact: &LocalContact, workspace: &mut FiniteSphereWorkspace) {
+        let spacing = self.spacing(contact.radius);
+        let cap = CapShape::new(contact.curvature * spacing, self.layout.shells);
+        match &self.source {
+            Some(source) => workspace.place_with(cap, |positions| {
+                source.place(contact.triangle, &self.layout, cap, positions);
+            }),
+            None => workspace.place(&self.layout, cap),
+        }
+        workspace.assemble(&self.quadrature, &self.law);
+    }
+
+    /// The second half of [`Self::respond`]: solves what [`Self::assemble`] made.
+    pub fn solve(&self, contact: &LocalContact, workspace: &mut FiniteSphereWorkspace) -> Response {
+        workspace.solve();
+        self.correct(contact, &workspace.solution)
+    }
+
+    /// Displacement [m] of the organ's point `x` [m] when the tip of a contact has moved by `tip` [m];
+    /// `response` must be the last that `workspace` was used for.
+    pub fn displacement(
+        &self,
+        (contact, response): (&LocalContact, &Response),
+        workspace: &mut FiniteSphereWorkspace,
+        tip: &Vec3,
+        x: &Vec3,
+    ) -> Vec3 {
+        let mut tip = contact.frame.tr_mul(tip);
+        if self.bond == Bond::Slip {
+            (tip.x, tip.y) = (0.0, 0.0);
+        }
+        let spread = Spread {
+            tip,
+            share: response.share,
+            radius_in_spacings: self.calibration.radius_in_spacings,
+            shells: self.layout.shells as f64,
+        };
+        let local = contact.frame.tr_mul(&(x - contact.point)) / response.spacing;
+        let FiniteSphereWorkspace {
+            solution,
+            functions,
+            ..
+        } = workspace;
+        contact.frame * spread.at(solution, functions, &local)
+    }
+
+    fn correct(&self, contact: &LocalContact, solution: &Solution) -> Response {
+        let spacing = self.spacing(contact.radius);
+        let corrected =
+            self.calibration
+                .correct(&solution.stiffness, spacing, contact.organ_radius);
+        let [tangential, normal] = self.ratio_of_half_spaces;
+        let mut stiffness = corrected.stiffness * tangential;
+        stiffness[(2, 2)] = corrected.stiffness[(2, 2)] * normal;
+        Response {
+            stiffness,
+            share: corrected.share,
+            spacing,
+        }
+    }
+
+    fn fill_reuse_table(&mut self, workspace: &mut FiniteSphereWorkspace) {
+        let mut scratch = Solution::new(self.layout.places.len());
+        let table = ReuseTable::new(self.layout.shells, &mut scratch, |cap, solution| {
+            workspace.place(&self.layout, cap);
+            workspace.assemble(&self.quadrature, &self.law);
+            workspace.solve();
+            solution.clone_from(&workspace.solution);
+        });
+        self.reuse = Some(table);
+    }
+
+    fn undetermined(&self) -> Error {
+        Error::Undetermined {
+            particles: self.settings.particles,
+            form: match self.settings.form {
+                Form::Weak => "weak",
+                Form::Strong => "strong",
+            },
+            poissons_ratio: self.law.poissons_ratio(),
+        }
+    }
+}

@@ -1,0 +1,80 @@
+/// What can be chosen of the local model.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FiniteSphereSettings {
+    /// Number of particles, 12 to 600.
+    pub particles: usize,
+    /// How the equations are made.
+    pub form: Form,
+    /// Where the particles sit.
+    pub placement: Placement,
+    /// How the equations are solved.
+    pub solver: Solver,
+    /// How often they are made.
+    pub assembly: Assembly,
+    /// How finely they are integrated.
+    pub integration: Integration,
+}
+
+/// How the equations are made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Form {
+    /// Galerkin's condition: symmetric, and robust to where the particles are.
+    Weak,
+    /// Collocation at the particles, as in the source.
+    Strong,
+}
+
+/// Where the particles sit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Placement {
+    /// Even shells under a surface of the contact's curvature.
+    Template,
+    /// Along the directions from a triangle's centroid to its vertices, projected on the mesh
+    /// (section 3.4).
+    Source,
+}
+
+/// How the equations are solved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Solver {
+    /// By factors.
+    Direct,
+    /// By generalised minimal residuals to this relative residual [-], as in the source.
+    Gmres {
+        /// Relative residual to reach [-].
+        tolerance: f64,
+    },
+}
+
+/// How often the equations are made and solved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Assembly {
+    /// At every step, nothing precomputed.
+    EveryStep,
+    /// Once for a range of curvatures, then interpolated (template placement only).
+    Reused,
+}
+
+/// How many integration points a model of two shells has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Integration {
+    /// 128.
+    Coarse,
+    /// 414.
+    Standard,
+    /// 960.
+    Fine,
+}
+
+impl Default for FiniteSphereSettings {
+    fn default() -> Self {
+        Self {
+            particles: super::SOURCE_PARTICLES,
+            form: Form::Weak,
+            placement: Placement::Template,
+            solver: Solver::Direct,
+            assembly: Assembly::EveryStep,
+            integration: Integration::Standard,
+        }
+    }
+}

@@ -1,0 +1,50 @@
+use nalgebra::Matrix3;
+
+use super::layout::{CapShape, Layout, Role};
+use super::shape_function::Particles;
+
+/// What either form finds for a contact, in units of h and of Young's modulus: the coefficients for
+/// the three unit displacements of the tool, and the force that each takes.
+#[derive(Debug, Clone)]
+pub(super) struct Solution {
+    pub(super) particles: Particles,
+    /// Per particle the matrix whose column k is U_J for a unit displacement along k [-].
+    pub(super) coefficients: Vec<Matrix3<f64>>,
+    /// Force on the tissue along i for a unit displacement along k [E h].
+    pub(super) stiffness: Matrix3<f64>,
+}
+
+impl Solution {
+    pub(super) fn new(count: usize) -> Self {
+        Self {
+            particles: Particles::with_capacity(count),
+            coefficients: vec![Matrix3::zeros(); count],
+            stiffness: Matrix3::zeros(),
+        }
+    }
+
+    /// Puts the particles under a surface of shape `cap`.
+    pub(super) fn place(&mut self, layout: &Layout, cap: CapShape, support: f64) {
+        self.particles.positions.clear();
+        self.particles
+            .positions
+            .extend(layout.places.iter().map(|place| cap.position(place)));
+        self.particles.size_spheres(support);
+    }
+}
+
+/// Which particles the tool and the periphery prescribe, and which are found.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Partition {
+    /// The tool's particle first, then the held ones.
+    pub(super) prescribed: Vec<usize>,
+    pub(super) free: Vec<usize>,
+}
+
+impl Partition {
+    pub(super) fn new(layout: &Layout) -> Self {
+        let (prescribed, free) = (0..layout.roles.len())
+            .partition(|&i| matches!(layout.roles[i], Role::Tool | Role::Held));
+        Self { prescribed, free }
+    }
+}

@@ -1,0 +1,124 @@
+//! Isotropic linear elasticity at small strain.
+//!
+//! ε = sym(F) − 1, Ψ = ½ λ (tr ε)² + μ ε:ε, P = λ (tr ε) 1 + 2 μ ε.
+//!
+//! *How we know*: `invariants::stress_is_the_derivative_of_energy`, `…tangent_is_the_derivative_of_stress`.
+//!
+//! *Limits*: small strain; a rotation strains it.
+
+use nalgebra::Matrix3;
+
+use super::law::{Law, Tangent};
+use crate::Error;
+
+/// Isotropic linear elasticity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LinearElastic {
+    youngs_modulus: f64,
+    poissons_ratio: f64,
+}
+
+impl LinearElastic {
+    /// From Young's modulus [Pa] and Poisson's ratio [-].
+    ///
+    /// # Errors
+    /// Unless 0 < E and −1 < ν < ½.
+    pub fn new(youngs_modulus: f64, poissons_ratio: f64) -> Result<Self, Error> {
+        if !(youngs_modulus > 0.0 && youngs_modulus.is_finite()) {
+            return Err(Error::YoungsModulusOutOfRange { youngs_modulus });
+        }
+        if !(poissons_ratio > -1.0 && poissons_ratio < 0.5) {
+            return Err(Error::PoissonsRatioOutOfRange { poissons_ratio });
+        }
+        Ok(Self {
+            youngs_modulus,
+            poissons_ratio,
+        })
+    }
+
+    /// The linear law that `law` is for a small strain added to the rest state: its consistent
+    /// linearization there, from the shear and the uniaxial-strain entries of the tangent.
+    ///
+    /// # Errors
+    /// When the tangent is not that of a stable isotropic solid.
+    pub fn at_rest(law: &dyn Law) -> Result<Self, Error> {
+        let tangent = law.tangent(&Matrix3::identity());
+        // ∂P_01/∂F_01 = μ and ∂P_00/∂F_00 = λ + 2 μ.
+        let shear = tangent[(3, 3)];
+        let lame = tangent[(0, 0)] - 2.0 * shear;
+        let poissons_ratio = lame / (2.0 * (lame + shear));
+        Self::new(2.0 * shear * (1.0 + poissons_ratio), poissons_ratio)
+    }
+
+    /// Young's modulus E [Pa].
+    pub fn youngs_modulus(&self) -> f64 {
+        self.youngs_modulus
+    }
+
+    /// Poisson's ratio ν [-].
+    pub fn poissons_ratio(&self) -> f64 {
+        self.poissons_ratio
+    }
+
+    /// Shear modulus G = μ = E / (2 (1 + ν)) [Pa].
+    pub fn shear_modulus(&self) -> f64 {
+        self.youngs_modulus / (2.0 * (1.0 + self.poissons_ratio))
+    }
+
+    /// Lamé's first parameter λ = E ν / ((1 + ν)(1 − 2 ν)) [Pa].
+    pub fn lame_modulus(&self) -> f64 {
+        let nu = self.poissons_ratio;
+        self.youngs_modulus * nu / ((1.0 + nu) * (1.0 - 2.0 * nu))
+    }
+}
+
+fn strain(f: &Matrix3<f64>) -> Matrix3<f64> {
+    0.5 * (f + f.transpose()) - Matrix3::identity()
+}
+
+impl Law for LinearElastic {
+    fn energy(&self, f: &Matrix3<f64>) -> f64 {
+        let strain = strain(f);
+        0.5 * self.lame_modulus() * strain.trace().powi(2)
+            + self.shear_modulus() * strain.norm_squared()
+    }
+
+    fn stress(&self, f: &Matrix3<f64>) -> Matrix3<f64> {
+        let strain = strain(f);
+        self.lame_modulus() * strain.trace() * Matrix3::identity()
+            + 2.0 * self.shear_modulus() * strain
+    }
+
+    fn tangent(&self, _f: &Matrix3<f64>) -> Tangent {
+        let (lame, shear) = (self.lame_modulus(), self.shear_modulus());
+        Tangent::from_fn(|row, column| {
+            let (i, j, k, l) = (row % 3, row / 3, column % 3, column / 3);
+            let same = |a: usize, b: usize| f64::from(u8::from(a == b));
+            lame * same(i, j) * same(k, l)
+                + shear * (same(i, k) * same(j, l) + same(i, l) * same(j, k))
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn refuses_what_is_no_solid() {
+        assert!(LinearElastic::new(0.0, 0.3).is_err());
+        assert!(LinearElastic::new(f64::NAN, 0.3).is_err());
+        assert!(LinearElastic::new(1e4, 0.5).is_err());
+        assert!(LinearElastic::new(1e4, 0.6).is_err());
+        assert!(LinearElastic::new(1e4, -1.0).is_err());
+    }
+
+    #[test]
+    fn its_own_linearization_is_itself() {
+        let law = LinearElastic::new(1e4, 0.45).unwrap();
+        let again = LinearElastic::at_rest(&law).unwrap();
+        // Rounding: 1/(1 − 2ν) amplifies the last digits tenfold.
+        assert!((again.youngs_modulus() / 1e4 - 1.0).abs() < 1e-13);
+        assert!((again.poissons_ratio() - 0.45).abs() < 1e-14);
+    }
+}

@@ -1,0 +1,134 @@
+//! Relaxation as a Prony series, and the force that it leaves of an elastic history.
+//!
+//! G(t) = G₀ [1 − Σ gᵢ (1 − exp(−t/τᵢ))], gᵢ relative to the instantaneous modulus. With one relaxation
+//! function for the whole body the force is F(t) = Fₑ(t) − Σ gᵢ hᵢ(t), where τᵢ ḣᵢ = Fₑ − hᵢ is what
+//! branch i has relaxed towards. Between two times Fₑ is taken as linear, and then the step
+//!   h ← e h + (1 − e − φ) Fₑ⁰ + φ Fₑ¹,  e = exp(−Δt/τ),  φ = 1 − (1 − e) τ/Δt
+//! is exact [Taylor, Pister and Goudreau 1970].
+//!
+//! *How we know*: `analytic::step_relaxes_as_the_series`, `analytic::ramp_is_the_closed_integral`.
+//!
+//! *Limits*: quasi-linear: exact when the elastic force is that of the whole displacement history.
+
+use crate::{Error, Vec3};
+
+/// Most terms that a series may have, so that a history needs no allocation.
+pub const MAX_TERMS: usize = 8;
+
+/// A relaxation function of at most [`MAX_TERMS`] terms.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct PronySeries {
+    terms: Vec<(f64, f64)>,
+}
+
+impl PronySeries {
+    /// From pairs of gᵢ [-] and τᵢ [s]; no pair means an elastic tissue.
+    ///
+    /// # Errors
+    /// Unless every 0 ≤ gᵢ, every 0 < τᵢ, Σ gᵢ < 1 and there are at most [`MAX_TERMS`].
+    pub fn new(terms: &[(f64, f64)]) -> Result<Self, Error> {
+        let sum: f64 = terms.iter().map(|(g, _)| g).sum();
+        let each = |&(g, tau): &(f64, f64)| g >= 0.0 && tau > 0.0 && tau.is_finite();
+        if sum < 1.0 && terms.iter().all(each) && terms.len() <= MAX_TERMS {
+            Ok(Self {
+                terms: terms.to_vec(),
+            })
+        } else {
+            Err(Error::NoRelaxation {
+                sum,
+                terms: terms.len(),
+            })
+        }
+    }
+
+    /// G(t)/G₀ [-] at `time` [s] after a step.
+    pub fn relaxation(&self, time: f64) -> f64 {
+        let relaxed = |&(g, tau): &(f64, f64)| g * -(-time / tau).exp_m1();
+        1.0 - self.terms.iter().map(relaxed).sum::<f64>()
+    }
+}
+
+/// What the branches of a series remember of the elastic force of one contact.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct ForceHistory {
+    branches: [Vec3; MAX_TERMS],
+    elastic: Vec3,
+}
+
+impl ForceHistory {
+    /// The relaxed force [N] after the elastic force has gone linearly to `elastic` [N] in `step` [s];
+    /// a `step` of zero is a jump.
+    pub fn advance(&mut self, series: &PronySeries, elastic: Vec3, step: f64) -> Vec3 {
+        let mut force = elastic;
+        for (branch, &(g, tau)) in self.branches.iter_mut().zip(&series.terms) {
+            if step > 0.0 {
+                let ratio = step / tau;
+                let left = (-ratio).exp();
+                // 1 − (1 − e)/ratio cancels for short steps; its series does not.
+                let new = if ratio < 1e-4 {
+                    ratio * (0.5 - ratio / 6.0)
+                } else {
+                    1.0 + (-ratio).exp_m1() / ratio
+                };
+                *branch = left * *branch + (1.0 - left - new) * self.elastic + new * elastic;
+            }
+            force -= g * *branch;
+        }
+        self.elastic = elastic;
+        force
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn liver() -> PronySeries {
+        PronySeries::new(&[(0.2866, 1.537), (0.2022, 6.090)]).unwrap()
+    }
+
+    #[test]
+    fn refuses_what_does_not_relax() {
+        assert!(PronySeries::new(&[(0.6, 1.0), (0.4, 2.0)]).is_err());
+        assert!(PronySeries::new(&[(-0.1, 1.0)]).is_err());
+        assert!(PronySeries::new(&[(0.1, 0.0)]).is_err());
+        assert!(PronySeries::new(&[(0.01, 1.0); 9]).is_err());
+    }
+
+    /// Closed form: a jump relaxes as G(t), whatever the steps.
+    #[test]
+    fn step_relaxes_as_the_series() {
+        let series = liver();
+        let mut history = ForceHistory::default();
+        let mut force = history.advance(&series, Vec3::x(), 0.0);
+        assert_eq!(force.x, 1.0);
+        let mut time = 0.0;
+        for step in [0.005, 0.1, 1.0, 10.0] {
+            for _ in 0..5 {
+                force = history.advance(&series, Vec3::x(), step);
+                time += step;
+                // Rounding over twenty steps.
+                assert!((force.x - series.relaxation(time)).abs() < 1e-13);
+            }
+        }
+    }
+
+    /// Closed form of ∫ G(t − s) ds for a ramp of unit rate.
+    #[test]
+    fn ramp_is_the_closed_integral() {
+        let series = liver();
+        let mut history = ForceHistory::default();
+        let step = 0.005;
+        for k in 1..=400 {
+            let time = f64::from(k) * step;
+            let force = history.advance(&series, Vec3::x() * time, step);
+            let closed = time
+                - [(0.2866, 1.537), (0.2022, 6.090)]
+                    .iter()
+                    .map(|(g, tau)| g * (time + tau * (-time / tau as &f64).exp_m1()))
+                    .sum::<f64>();
+            // Rounding over four hundred steps.
+            assert!((force.x - closed).abs() < 1e-12, "{time}");
+        }
+    }
+}
