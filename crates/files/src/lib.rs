@@ -9,11 +9,6 @@
 //! The documents hold plain numbers. They know nothing of meshes, mechanics or devices, so that
 //! each verb (measure, characterize, simulate) can be used without the others.
 
-#![allow(
-    rustdoc::broken_intra_doc_links,
-    reason = "units stand in brackets, as in [m], and are no links"
-)]
-
 mod domain;
 mod error;
 mod estimate;

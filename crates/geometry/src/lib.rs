@@ -3,11 +3,6 @@
 //! A [`TriangleMesh`] is any list of triangles; a [`Surface`] is one that has been checked: closed,
 //! manifold, oriented outward, in one piece. Everything that touches an organ asks for a `Surface`.
 
-#![allow(
-    rustdoc::broken_intra_doc_links,
-    reason = "units stand in brackets in the docs, and `[m]` looks like a link"
-)]
-
 mod aabb_tree;
 mod check;
 mod io;
