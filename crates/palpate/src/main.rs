@@ -1,2 +1,34 @@
-//! (being written)
-fn main() {}
+//! The command `palpate`: soft-tissue touch, from the first indentation to the trained hand.
+//!
+//! This crate is where the others meet: it reads the command line, calls the crate that does the work,
+//! prints what comes back and decides the exit status. Nothing else in the project prints or exits.
+
+mod command;
+mod failure;
+mod nearest;
+mod output;
+mod plot;
+mod progress;
+mod reproduce;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use command::CommandLine;
+use failure::Failure;
+
+fn main() -> ExitCode {
+    let outcome = match CommandLine::try_parse() {
+        Ok(line) => line.run(),
+        Err(answer) if !answer.use_stderr() => output::text(answer.render()),
+        Err(mistake) => Err(Failure::of_command_line(&mistake)),
+    };
+    match outcome {
+        Ok(()) | Err(Failure::NobodyReads) => ExitCode::SUCCESS,
+        Err(failure) => {
+            output::error(&failure);
+            ExitCode::from(failure.exit_status())
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! `palpate mesh info`: what a mesh is, what is wrong with it, and whether it can be simulated.
+
+mod answer;
+mod table;
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use palpate_geometry::{LengthUnit, Organ, ReadError, ReadFault, read_mesh};
+
+use self::answer::{Answer, Origin};
+use crate::failure::Failure;
+use crate::output;
+use crate::progress::{Progress, Reader};
+
+/// Examples at the end of the help.
+const EXAMPLES: &str = "\
+Examples:
+  palpate mesh info liver.stl --unit mm
+  palpate mesh info scan.glb --json
+  palpate mesh info --builtin kidney --triangles 8000
+
+The report is of the mesh as it is in the file (only STL and glTF, which write a corner
+once per triangle, are welded first); what a repair would do is said in addition.
+A faulty mesh is no error of this command: the exit status is 0 unless it cannot be read.";
+
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Arguments {
+    /// The mesh: STL, OBJ, PLY or glTF.
+    #[arg(required_unless_present = "builtin", conflicts_with = "builtin")]
+    file: Option<PathBuf>,
+    /// A built-in organ instead of a file: esophagus, liver, kidney, stomach, spleen, hemisphere, cube.
+    #[arg(long, value_name = "NAME")]
+    builtin: Option<String>,
+    /// The unit of the file: m, cm, mm or um.
+    #[arg(long, conflicts_with = "builtin")]
+    unit: Option<String>,
+    /// How many triangles the built-in organ shall have.
+    #[arg(long, value_name = "N", conflicts_with = "file")]
+    triangles: Option<usize>,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Prints the report.
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let progress = Progress::new(Reader::of_json(arguments.json), None);
+    progress.say("reading the mesh");
+    let answer = match (&arguments.file, &arguments.builtin) {
+        (Some(file), _) => of_file(file, arguments.unit.as_deref(), &progress)?,
+        (None, name) => of_builtin(name.as_deref().unwrap_or_default(), arguments, &progress)?,
+    };
+    drop(progress);
+    if arguments.json {
+        return output::json(&answer);
+    }
+    output::warnings(&answer.warnings);
+    output::text(table::of(&answer))
+}
+
+fn of_file(file: &Path, unit: Option<&str>, progress: &Progress) -> Result<Answer, Failure> {
+    let unit: Option<LengthUnit> = unit.map(str::parse).transpose()?;
+    let imported = read_mesh(file, unit).map_err(about_unit)?;
+    progress.say("looking for holes, crossings and slivers");
+    let origin = Origin::File {
+        file: file.to_owned(),
+        format: imported.format.to_string(),
+        unit: imported.unit.symbol(),
+    };
+    let warnings = imported.warnings.iter().map(in_words_of_this_command);
+    let warnings = warnings.collect();
+    Ok(Answer::new(origin, &imported.mesh, warnings))
+}
+
+fn of_builtin(name: &str, arguments: &Arguments, progress: &Progress) -> Result<Answer, Failure> {
+    let organ: Organ = name.parse().map_err(|_| unknown_builtin(name))?;
+    let triangles = arguments.triangles;
+    let mesh = organ.surface_mesh(triangles.unwrap_or(organ.default_triangles()))?;
+    progress.say("looking for holes, crossings and slivers");
+    Ok(Answer::new(Origin::Builtin(organ), &mesh, Vec::new()))
+}
+
+fn unknown_builtin(name: &str) -> Failure {
+    let names = Organ::ALL.map(Organ::name);
+    Failure::input(format!(
+        "there is no built-in organ `{name}`; the nearest is `{}`, and there are {}",
+        crate::nearest::name(name, &names),
+        names.join(", ")
+    ))
+}
+
+/// The reader speaks of the scene's key, here it is an option.
+fn about_unit(error: ReadError) -> Failure {
+    match error.fault {
+        ReadFault::UnitNeeded { .. } => {
+            Failure::input(in_words_of_this_command(&error.to_string()))
+        }
+        _ => error.into(),
+    }
+}
+
+fn in_words_of_this_command(message: &String) -> String {
+    message.replace("mesh_unit", "--unit")
+}

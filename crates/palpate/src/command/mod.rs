@@ -1,0 +1,66 @@
+//! The command line: one file per command.
+
+mod demonstration;
+mod mesh_info;
+mod reproduce;
+mod simulate;
+
+use clap::{Parser, Subcommand};
+
+use crate::failure::Failure;
+
+/// Examples at the end of `palpate --help`.
+const EXAMPLES: &str = "\
+Examples:
+  palpate
+      a first touch of a liver, without a file
+  palpate simulate scene.toml --headless --motion motion.csv --out session
+      plays the tool motions on the scene and writes session/session.csv
+  palpate mesh info kidney.stl --unit mm
+      what is wrong with a mesh, and whether it can be simulated
+  palpate mesh info --builtin hemisphere
+      axes, lengths and the mesh of a built-in organ
+  palpate reproduce table-3-1
+      a published table beside ours
+
+Every command has its own --help. With --json a command prints one machine-readable
+document on standard output. Exit status: 0 done, 2 the input has to be mended, 1 a failure.";
+
+/// Soft-tissue touch, from the first indentation to the trained hand.
+///
+/// Without a command, a demonstration runs.
+#[derive(Debug, Parser)]
+#[command(name = "palpate", version, after_help = EXAMPLES, disable_help_subcommand = true)]
+pub(crate) struct CommandLine {
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Play tool motions on an organ and record what the hand would feel.
+    Simulate(simulate::Arguments),
+    /// Recompute the tables and figures of the source, published values beside ours.
+    Reproduce(reproduce::Arguments),
+    /// Look at meshes.
+    #[command(subcommand)]
+    Mesh(Mesh),
+}
+
+#[derive(Debug, Subcommand)]
+enum Mesh {
+    /// Say what a mesh is, what is wrong with it, and whether it can be simulated.
+    Info(mesh_info::Arguments),
+}
+
+impl CommandLine {
+    /// Does what the line says.
+    pub(crate) fn run(self) -> Result<(), Failure> {
+        match self.command {
+            None => demonstration::run(),
+            Some(Command::Simulate(arguments)) => simulate::run(&arguments),
+            Some(Command::Reproduce(arguments)) => reproduce::run(&arguments),
+            Some(Command::Mesh(Mesh::Info(arguments))) => mesh_info::run(&arguments),
+        }
+    }
+}

@@ -1,0 +1,76 @@
+//! `palpate reproduce`: the source's tables and figures, published beside ours.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use crate::failure::Failure;
+use crate::output;
+use crate::progress::{Progress, Reader};
+use crate::reproduce::{ITEMS, Item, Rows, select, table};
+
+/// Examples at the end of the help.
+const EXAMPLES: &str = "\
+Examples:
+  palpate reproduce
+  palpate reproduce table-3-1 figure-4-5 --out figures
+  palpate reproduce table-3-1/solution --json
+
+A dash stands where there is no number; the note says why.";
+
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Arguments {
+    /// Tables, figures or rows, by how they begin; without one, everything.
+    #[arg(value_name = "ROW")]
+    rows: Vec<String>,
+    /// The folder for figures; it is made when it is not there.
+    #[arg(long, value_name = "DIR", default_value = "palpate-reproduce")]
+    out: PathBuf,
+    /// Print a JSON list with one object per row.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Computes and prints the rows.
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let selection = select(&arguments.rows)?;
+    make_folder(&arguments.out)?;
+    let items = selection.items();
+    let progress = Progress::new(Reader::of_json(arguments.json), Some(items.len() as u64));
+    let mut rows = Vec::new();
+    for item in &items {
+        let mut own = Rows::of(item.name, &arguments.out, &progress);
+        (item.run)(&mut own)?;
+        rows.extend(own.done());
+        progress.step();
+    }
+    drop(progress);
+    let rows = selection.rows(rows)?;
+    if arguments.json {
+        return output::json(&rows);
+    }
+    output::text(format!("{}\n{}", titles(&items), table(&rows)))
+}
+
+fn titles(items: &[Item]) -> String {
+    let titles = items
+        .iter()
+        .map(|item| format!("{:<12}{}\n", item.name, item.title));
+    let left = ITEMS.len() - items.len();
+    let more = match left {
+        0 => String::new(),
+        _ => format!("({left} more without a selection)\n"),
+    };
+    titles.collect::<String>() + &more
+}
+
+fn make_folder(folder: &Path) -> Result<(), Failure> {
+    fs::create_dir_all(folder).map_err(|error| {
+        Failure::input(format!(
+            "the folder {} cannot be made ({error}); give another with --out",
+            folder.display()
+        ))
+    })
+}

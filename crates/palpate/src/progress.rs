@@ -1,0 +1,69 @@
+//! Progress of what may take longer than a second, on standard error.
+//!
+//! Nothing is drawn when standard error is no terminal, or when a machine reads the answer.
+
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+/// How often the spinner turns.
+const TURN: Duration = Duration::from_millis(120);
+
+/// Who reads the answer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Reader {
+    Person,
+    Machine,
+}
+
+impl Reader {
+    /// From the option `--json`.
+    pub(crate) fn of_json(json: bool) -> Self {
+        if json { Self::Machine } else { Self::Person }
+    }
+}
+
+/// Drawn from its making until it is dropped.
+pub(crate) struct Progress(ProgressBar);
+
+impl Progress {
+    /// A bar over `steps` steps, or a spinner when their number is not known.
+    pub(crate) fn new(reader: Reader, steps: Option<u64>) -> Self {
+        let target = match reader {
+            Reader::Person => ProgressDrawTarget::stderr(),
+            Reader::Machine => ProgressDrawTarget::hidden(),
+        };
+        let bar = ProgressBar::with_draw_target(steps, target);
+        let template = match steps {
+            Some(_) => "{spinner} {bar:30} {pos}/{len} {wide_msg}",
+            None => "{spinner} {wide_msg}",
+        };
+        // The templates are constants; the plain bar would do as well.
+        if let Ok(style) = ProgressStyle::with_template(template) {
+            bar.set_style(style);
+        }
+        bar.enable_steady_tick(TURN);
+        Self(bar)
+    }
+
+    /// Says what is being done now.
+    pub(crate) fn say(&self, doing: impl Into<String>) {
+        self.0.set_message(doing.into());
+    }
+
+    /// One step of the bar is done.
+    pub(crate) fn step(&self) {
+        self.0.inc(1);
+    }
+
+    /// Sets how many steps of the bar are done.
+    pub(crate) fn at(&self, step: u64) {
+        self.0.set_position(step);
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        self.0.finish_and_clear();
+    }
+}

@@ -1,0 +1,107 @@
+use palpate_mechanics::LinearElastic;
+use palpate_mechanics::contact::Bond;
+use palpate_mechanics::finite_spheres::{FiniteSphereModel, FiniteSphereSettings, Form, Solver};
+
+use super::pole::{FORMS, YOUNGS_MODULUS, contact};
+use super::timing::{Timing, machine, measure};
+use crate::failure::Failure;
+use crate::reproduce::published::TABLE_3_1 as PUBLISHED;
+use crate::reproduce::row::Value;
+use crate::reproduce::{Item, Rows};
+
+pub(crate) const TABLE_3_1: Item = Item {
+    name: "table-3-1",
+    title: "time to indent a hemisphere at the pole, local model against finite elements",
+    run,
+};
+
+/// Columns of the published table.
+const LOCAL: &str = "pcmfs_local";
+const FINITE_ELEMENTS: &str = "fe_model_adina";
+
+/// Rows of the published table, as they are called here, with their unit.
+const QUANTITIES: [(&str, &str, &str); 4] = [
+    ("nodes", "nodes", "1"),
+    ("degrees_of_freedom", "degrees_of_freedom", "1"),
+    ("solution_time", "solution_s", "s"),
+    ("total_time", "total_s", "s"),
+];
+
+/// Relative residual of the iteration [-]; the source gives none.
+const TOLERANCE: f64 = 1e-6;
+
+/// The source names neither.
+const POISSONS_RATIO: f64 = 0.3;
+const TIP_RADIUS: f64 = 2e-3;
+
+fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
+    let particles = FiniteSphereSettings::default().particles;
+    let counts = [particles, 3 * particles].map(|count| count as f64);
+    for ((quantity, name, unit), ours) in QUANTITIES.into_iter().zip(counts) {
+        let value = beside(LOCAL, quantity, Some(ours), unit);
+        rows.add(name, value, "");
+    }
+    let machine = machine();
+    for (form, word) in FORMS {
+        for (solver, way) in solvers() {
+            let timing = time(form, solver)?;
+            let note = note(&machine, word, way, &timing);
+            let [solution, total] = [timing.solution, timing.total].map(Some);
+            for (at, ours) in [(2, solution), (3, total)] {
+                let (quantity, name, unit) = QUANTITIES[at];
+                // The default has the plain name.
+                let name = match (form, solver) {
+                    (Form::Weak, Solver::Direct) => name.to_owned(),
+                    _ => format!("{name}/{word}_{way}"),
+                };
+                rows.add(&name, beside(LOCAL, quantity, ours, unit), note.clone());
+            }
+        }
+    }
+    for (quantity, name, unit) in QUANTITIES {
+        let value = beside(FINITE_ELEMENTS, quantity, None, unit);
+        let name = format!("finite_elements/{name}");
+        rows.add(&name, value, "comes with the finite element reference");
+    }
+    Ok(())
+}
+
+fn solvers() -> [(Solver, &'static str); 2] {
+    let gmres = Solver::Gmres {
+        tolerance: TOLERANCE,
+    };
+    [(Solver::Direct, "direct"), (gmres, "gmres")]
+}
+
+fn time(form: Form, solver: Solver) -> Result<Timing, Failure> {
+    let settings = FiniteSphereSettings {
+        form,
+        solver,
+        ..FiniteSphereSettings::default()
+    };
+    let law = LinearElastic::new(YOUNGS_MODULUS, POISSONS_RATIO)?;
+    let model = FiniteSphereModel::new(settings, &law, Bond::Slip)?;
+    Ok(measure(&model, &contact(TIP_RADIUS)?))
+}
+
+fn beside(column: &str, quantity: &str, ours: Option<f64>, unit: &'static str) -> Value {
+    Value {
+        published: PUBLISHED.value(quantity, column),
+        ours,
+        unit,
+    }
+}
+
+fn note(machine: &str, form: &str, way: &str, timing: &Timing) -> String {
+    let iterations = match timing.iterations {
+        Some(count) => format!(
+            ", {count} iterations over three directions to a relative residual of {TOLERANCE:e}"
+        ),
+        None => String::new(),
+    };
+    format!(
+        "{form} form, {way}{iterations}; median of {} steps on {machine}; three directions are solved for \
+         at once; total is placement, equations and solution; the source's machine was a 500 MHz Pentium II",
+        timing.steps
+    )
+}

@@ -1,0 +1,126 @@
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use serde::Serialize;
+
+use crate::failure::Failure;
+use crate::plot::Plot;
+use crate::progress::Progress;
+
+/// A number or a figure of the source beside ours.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct Row {
+    pub(crate) row: String,
+    /// As printed in the source [unit]; none for a figure.
+    pub(crate) published: Option<f64>,
+    /// [unit]; none for a figure, and for what cannot be reproduced: the note says why.
+    pub(crate) ours: Option<f64>,
+    pub(crate) unit: &'static str,
+    /// Ours over the published one [-].
+    pub(crate) ratio: Option<f64>,
+    pub(crate) file: Option<PathBuf>,
+    pub(crate) note: String,
+    /// How long it took [s].
+    pub(crate) seconds: f64,
+}
+
+/// A number beside its published value.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Value {
+    /// [unit]
+    pub(crate) published: Option<f64>,
+    /// [unit]
+    pub(crate) ours: Option<f64>,
+    pub(crate) unit: &'static str,
+}
+
+/// Where the rows of a table or figure are gathered; each is as long as it took since the last.
+pub(crate) struct Rows<'a> {
+    item: &'static str,
+    folder: &'a Path,
+    progress: &'a Progress,
+    since: Instant,
+    rows: Vec<Row>,
+}
+
+impl<'a> Rows<'a> {
+    pub(crate) fn of(item: &'static str, folder: &'a Path, progress: &'a Progress) -> Self {
+        progress.say(item);
+        Self {
+            item,
+            folder,
+            progress,
+            since: Instant::now(),
+            rows: Vec::new(),
+        }
+    }
+
+    /// Adds the row `item/name`.
+    pub(crate) fn add(&mut self, name: &str, value: Value, note: impl Into<String>) {
+        self.push(format!("{}/{name}", self.item), value, None, note.into());
+    }
+
+    /// Adds the row `item/name` without a number, with the reason.
+    pub(crate) fn add_missing(
+        &mut self,
+        name: &str,
+        unit: &'static str,
+        reason: impl Into<String>,
+    ) {
+        let value = Value {
+            published: None,
+            ours: None,
+            unit,
+        };
+        self.add(name, value, reason);
+    }
+
+    /// Draws `plot` to the file `item.png`, or `item-name.png`, and adds its row.
+    pub(crate) fn add_figure(
+        &mut self,
+        name: Option<&str>,
+        plot: &Plot,
+        note: impl Into<String>,
+    ) -> Result<(), Failure> {
+        let (row, file) = match name {
+            None => (self.item.to_owned(), format!("{}.png", self.item)),
+            Some(name) => (
+                format!("{}/{name}", self.item),
+                format!("{}-{name}.png", self.item),
+            ),
+        };
+        let path = self.folder.join(file);
+        plot.write(&path)?;
+        let value = Value {
+            published: None,
+            ours: None,
+            unit: "",
+        };
+        self.push(row, value, Some(path), note.into());
+        Ok(())
+    }
+
+    /// All that were added.
+    pub(crate) fn done(self) -> Vec<Row> {
+        self.rows
+    }
+
+    fn push(&mut self, row: String, value: Value, file: Option<PathBuf>, note: String) {
+        self.progress.say(row.clone());
+        let ratio = value
+            .ours
+            .zip(value.published)
+            .map(|(ours, published)| ours / published);
+        self.rows.push(Row {
+            row,
+            published: value.published,
+            ours: value.ours,
+            unit: value.unit,
+            ratio,
+            file,
+            note,
+            seconds: self.since.elapsed().as_secs_f64(),
+        });
+        self.since = Instant::now();
+    }
+}
