@@ -307,3 +307,12 @@ fn the_scene_and_motion_of_the_readme_are_read() {
         assert!(scene.tools.iter().any(|other| other.name == tool.name()));
     }
 }
+
+#[test]
+fn the_example_of_the_readme_is_an_example() {
+    let readme = text("README.md");
+    assert!(
+        text("examples/palpate_a_liver.rs").ends_with(block(&readme, "rust")),
+        "README.md and examples/palpate_a_liver.rs differ; copy the example"
+    );
+}
