@@ -13,5 +13,6 @@ mod material;
 pub use error::Error;
 pub use material::law::{Law, Tangent};
 pub use material::linear_elastic::LinearElastic;
+pub use material::material::Material;
 pub use material::prony::{ForceHistory, MAX_TERMS, PronySeries};
 pub use palpate_geometry::Vec3;

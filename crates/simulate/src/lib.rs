@@ -1,1 +1,34 @@
-//! (being written)
+//! Tools that meet an organ: from a scene and the motion of tools to forces, deformation and events.
+//!
+//! ```text
+//! Scene ──Simulation::new──▶ Simulation ──step──▶ SimulationState (forces, contacts, moved surface)
+//!                                 ▲                      │
+//!                     Motion ──poses──            SessionRow per tool
+//! ```
+//!
+//! A [`Simulation`] is built once and never changes; a [`SimulationState`] is all that a step changes;
+//! a [`SimulationWorkspace`] is scratch. [`play`] runs a whole motion on a virtual clock: nothing here
+//! waits, and the same motion gives the same bytes.
+
+mod contact;
+mod deform;
+mod digest;
+mod error;
+mod organ;
+mod orientation;
+mod play;
+mod simulation;
+mod state;
+mod step;
+mod summary;
+mod tool;
+
+pub use contact::Contact;
+pub use error::Error;
+pub use organ::{builtin_organ, read_organ};
+pub use play::{Flow, Frame, play};
+pub use simulation::Simulation;
+pub use state::{SimulationState, SimulationWorkspace, ToolState};
+pub use step::step;
+pub use summary::{StepTimes, Summary};
+pub use tool::Tool;

@@ -75,6 +75,17 @@ impl FromIterator<Event> for Events {
     }
 }
 
+impl std::ops::BitOr for Events {
+    type Output = Self;
+
+    /// The events of both.
+    fn bitor(self, other: Self) -> Self {
+        Self {
+            bits: self.bits | other.bits,
+        }
+    }
+}
+
 impl fmt::Display for Events {
     /// The words with `;` between them, as in a session.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -14,6 +14,8 @@ pub enum LengthUnit {
     Millimetre,
     /// `um`
     Micrometre,
+    /// `in`
+    Inch,
 }
 
 impl LengthUnit {
@@ -24,16 +26,18 @@ impl LengthUnit {
             Self::Centimetre => 1e-2,
             Self::Millimetre => 1e-3,
             Self::Micrometre => 1e-6,
+            Self::Inch => 0.0254,
         }
     }
 
-    /// As it is written: `m`, `cm`, `mm`, `um`.
+    /// As it is written: `m`, `cm`, `mm`, `um`, `in`.
     pub fn symbol(self) -> &'static str {
         match self {
             Self::Metre => "m",
             Self::Centimetre => "cm",
             Self::Millimetre => "mm",
             Self::Micrometre => "um",
+            Self::Inch => "in",
         }
     }
 }
@@ -47,6 +51,7 @@ impl std::str::FromStr for LengthUnit {
             Self::Centimetre,
             Self::Millimetre,
             Self::Micrometre,
+            Self::Inch,
         ]
         .into_iter()
         .find(|unit| unit.symbol() == word)

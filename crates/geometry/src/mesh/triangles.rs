@@ -125,6 +125,19 @@ impl TriangleMesh {
         (low, high)
     }
 
+    /// Moves one vertex to `position` [m]: how an organ deforms. Trees over the mesh are refitted by
+    /// whoever holds them.
+    ///
+    /// # Panics
+    /// When the position is not finite.
+    pub fn move_vertex(&mut self, node: NodeId, position: Vec3) {
+        assert!(
+            position.iter().all(|c| c.is_finite()),
+            "a vertex is moved to a place that is not finite"
+        );
+        self.vertices[node.index()] = position;
+    }
+
     /// The same mesh with every vertex moved by `map` [m].
     ///
     /// # Errors

@@ -2,4 +2,6 @@
 
 pub(crate) mod law;
 pub(crate) mod linear_elastic;
+#[expect(clippy::module_inception, reason = "the file is named for its type")]
+pub(crate) mod material;
 pub(crate) mod prony;

@@ -1,0 +1,154 @@
+//! Where a tip touches: the first contact by global search, the successive ones among neighbours.
+//!
+//! A tip below the rest surface is in contact, from the first step with positive depth until the depth
+//! is gone. A tip that slips is met by the surface that it is over; one that sticks carries the place
+//! of its first contact with it.
+//!
+//! *How we know*: `invariants::real_organs_under_random_pokes_and_slides`, `analytic::…`.
+
+use nalgebra::Matrix3;
+use palpate_geometry::{Footing, Vec3, follow};
+use palpate_mechanics::contact::Bond;
+use palpate_mechanics::finite_spheres::{LocalContact, Placement, first_direction};
+
+use crate::simulation::Simulation;
+use crate::tool::Tool;
+
+/// A tip below this depth [m] that has come out of the organ elsewhere has passed through it.
+const PASSED_THROUGH: f64 = 0.025;
+
+/// A contact of one tool.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Contact {
+    /// Where the tip is over the rest surface now.
+    pub(crate) footing: Footing,
+    /// The place that answers: that of the footing, or of the first contact of a tip that sticks.
+    pub(crate) place: LocalContact,
+    /// Depth below the rest surface [m].
+    pub depth: f64,
+}
+
+impl Contact {
+    /// Unit outward normal of the rest surface where it is touched [-].
+    pub fn normal(&self) -> Vec3 {
+        self.place.frame.column(2).into_owned()
+    }
+
+    /// The touched point of the rest surface [m].
+    pub fn point(&self) -> Vec3 {
+        self.place.point
+    }
+
+    /// Displacement of the touched place by `tool` at `tip` [m], in the place's frame: tangents, normal.
+    pub(crate) fn displacement(&self, tool: &Tool, tip: &Vec3) -> Vec3 {
+        let mut local = self.place.frame.tr_mul(&(tip - self.place.point));
+        local.z -= tool.overhang();
+        if tool.bond == Bond::Slip {
+            local = Vec3::new(0.0, 0.0, -self.depth);
+        }
+        local
+    }
+}
+
+/// The contact of `tool` at `tip` [m], given its last one.
+pub(crate) fn detect(
+    simulation: &Simulation,
+    tool: &Tool,
+    last: Option<&Contact>,
+    tip: &Vec3,
+) -> Option<Contact> {
+    let Some(last) = last else {
+        return begin(simulation, tool, tip);
+    };
+    let Some(footing) = follow(&simulation.surface, &tool.patches, &last.footing, tip) else {
+        return begin(simulation, tool, tip);
+    };
+    let depth = footing.depth + tool.overhang();
+    if depth <= 0.0 || has_passed_through(simulation, tool, depth, tip) {
+        return None;
+    }
+    let mut contact = Contact {
+        footing,
+        place: last.place,
+        depth,
+    };
+    match tool.bond {
+        Bond::Slip => contact.place = place(simulation, tool, &footing, Some(&last.place.frame)),
+        Bond::Stick if contact.displacement(tool, tip).z >= 0.0 => return None,
+        Bond::Stick => {}
+    }
+    contact.place.radius = tool.tip.contact_radius(depth);
+    Some(contact)
+}
+
+/// The first contact: at the nearest point of the rest surface, when the tip is below it.
+fn begin(simulation: &Simulation, tool: &Tool, tip: &Vec3) -> Option<Contact> {
+    let (nearest, signed) = simulation.surface.signed_distance(&simulation.tree, tip);
+    let depth = tool.overhang() - signed;
+    if depth <= 0.0 {
+        return None;
+    }
+    let found = Footing {
+        triangle: nearest.triangle,
+        barycentric: nearest.on.barycentric,
+        point: nearest.on.position,
+        depth: -signed,
+    };
+    // The nearest point of a mesh leaps at its edges; the point under the averaged normal does not.
+    let footing = follow(&simulation.surface, &tool.patches, &found, tip)
+        .filter(|footing| footing.depth + tool.overhang() > 0.0)
+        .unwrap_or(found);
+    Some(Contact {
+        footing,
+        place: place(simulation, tool, &footing, None),
+        depth: footing.depth + tool.overhang(),
+    })
+}
+
+fn has_passed_through(simulation: &Simulation, tool: &Tool, depth: f64, tip: &Vec3) -> bool {
+    depth > PASSED_THROUGH && {
+        let (_, signed) = simulation.surface.signed_distance(&simulation.tree, tip);
+        signed > tool.overhang()
+    }
+}
+
+/// The place at `footing`, with tangents carried along from `last`, so that the particles do not turn
+/// under a sliding tip; at first along an edge of the triangle, so that they turn with the organ.
+fn place(
+    simulation: &Simulation,
+    tool: &Tool,
+    footing: &Footing,
+    last: Option<&Matrix3<f64>>,
+) -> LocalContact {
+    let patch = tool
+        .patches
+        .at(&simulation.surface, footing.triangle, &footing.barycentric);
+    let along = match (tool.placement, last) {
+        (Placement::Template, Some(frame)) => frame.column(0).into_owned(),
+        (Placement::Template, None) => {
+            let [a, b, _] = simulation.surface.mesh().positions(footing.triangle);
+            b - a
+        }
+        (Placement::Source, _) => first_direction(&simulation.surface, footing.triangle),
+    };
+    let flat = |v: &Vec3| (v - patch.normal * patch.normal.dot(v)).try_normalize(1e-9 * v.norm());
+    // A tangent that has become the normal says nothing any more; any other will do.
+    let first = flat(&along)
+        .or_else(|| flat(&Vec3::x()))
+        .or_else(|| flat(&Vec3::y()))
+        .unwrap_or_else(Vec3::z);
+    let second = patch.normal.cross(&first);
+    let between = |a: &Vec3, b: &Vec3| a.dot(&(patch.curvature * b));
+    LocalContact {
+        point: footing.point,
+        frame: Matrix3::from_columns(&[first, second, patch.normal]),
+        curvature: Vec3::new(
+            between(&first, &first),
+            between(&first, &second),
+            between(&second, &second),
+        ),
+        triangle: footing.triangle,
+        radius: tool.tip.contact_radius(footing.depth + tool.overhang()),
+        organ_radius: simulation.organ_radius,
+    }
+}

@@ -1,0 +1,117 @@
+//! The surface that is seen: every vertex near a contact moved by the model's field, those of several
+//! contacts added, and the bounding boxes refitted around what has moved.
+
+use palpate_geometry::{NodeId, Vec3};
+use palpate_mechanics::finite_spheres::{LocalContact, Response};
+
+use crate::simulation::Simulation;
+use crate::state::{SimulationState, SimulationWorkspace};
+
+pub(crate) fn deform(
+    simulation: &Simulation,
+    state: &mut SimulationState,
+    workspace: &mut SimulationWorkspace,
+) {
+    workspace.refit.clear();
+    let turn = workspace.next_turn();
+    mark_for_refit(simulation, state, workspace, turn);
+    lay_to_rest(simulation, state);
+    for number in 0..simulation.tools.len() {
+        press(simulation, number, state, workspace);
+    }
+    mark_for_refit(simulation, state, workspace, turn);
+    state.tree.refit(&state.deformed, &workspace.refit);
+}
+
+fn lay_to_rest(simulation: &Simulation, state: &mut SimulationState) {
+    let rest = simulation.surface.mesh().vertices();
+    for node in state.moved.drain(..) {
+        state.deformed.move_vertex(node, rest[node.index()]);
+    }
+}
+
+fn press(
+    simulation: &Simulation,
+    number: usize,
+    state: &mut SimulationState,
+    workspace: &mut SimulationWorkspace,
+) {
+    let tool = &simulation.tools[number];
+    let own = &state.tools[number];
+    let (Some(contact), Some(response), Some(pose)) = (&own.contact, &own.response, &own.pose)
+    else {
+        return;
+    };
+    let place = contact.place;
+    let response: Response = *response;
+    let moved = contact.displacement(tool, &Vec3::from(pose.position_m));
+    let tip = place.frame * moved;
+    let reach = tool.model.shown_radius(place.radius);
+    collect_near(simulation, workspace, &place, reach);
+    for index in 0..workspace.near.len() {
+        let node = workspace.near[index];
+        let rest = simulation.surface.mesh().vertices()[node.index()];
+        let model = &mut workspace.models[number];
+        let by = tool
+            .model
+            .displacement((&place, &response), model, &tip, &rest);
+        let from = state.deformed.vertices()[node.index()];
+        if by.iter().all(|component| component.is_finite()) {
+            state.deformed.move_vertex(node, from + by);
+            if from == rest {
+                state.moved.push(node);
+            }
+        }
+    }
+}
+
+/// The vertices within `reach` [m] of a place, going from neighbour to neighbour: what lies near
+/// through air is not moved.
+fn collect_near(
+    simulation: &Simulation,
+    workspace: &mut SimulationWorkspace,
+    place: &LocalContact,
+    reach: f64,
+) {
+    let turn = workspace.next_turn();
+    let mesh = simulation.surface.mesh();
+    workspace.near.clear();
+    let visit = |node: NodeId, workspace: &mut SimulationWorkspace| {
+        let mark = &mut workspace.seen[node.index()];
+        let near = (mesh.vertices()[node.index()] - place.point).norm() < reach;
+        if *mark != turn && near {
+            workspace.near.push(node);
+        }
+        *mark = turn;
+    };
+    for node in mesh.corners(place.triangle) {
+        visit(node, workspace);
+    }
+    let mut next = 0;
+    while next < workspace.near.len() {
+        let node = workspace.near[next];
+        next += 1;
+        for &triangle in simulation.surface.adjacency().around(node) {
+            for other in mesh.corners(triangle) {
+                visit(other, workspace);
+            }
+        }
+    }
+}
+
+fn mark_for_refit(
+    simulation: &Simulation,
+    state: &SimulationState,
+    workspace: &mut SimulationWorkspace,
+    turn: u32,
+) {
+    for &node in &state.moved {
+        for &triangle in simulation.surface.adjacency().around(node) {
+            let mark = &mut workspace.seen_triangles[triangle.index()];
+            if *mark != turn {
+                *mark = turn;
+                workspace.refit.push(triangle);
+            }
+        }
+    }
+}

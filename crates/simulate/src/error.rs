@@ -1,0 +1,65 @@
+use std::path::PathBuf;
+
+use palpate_geometry::{MeshError, OrganError, ReadError};
+
+/// Why a scene cannot be simulated.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// A file of the scene is wrong or cannot be read.
+    #[error(transparent)]
+    File(#[from] palpate_files::Error),
+    /// A mesh cannot be read.
+    #[error(transparent)]
+    Mesh(#[from] ReadError),
+    /// A mesh bounds no solid.
+    #[error("{path}: {fault}", path = path.display())]
+    NoSolid {
+        /// The mesh.
+        path: PathBuf,
+        /// What is wrong with it.
+        fault: MeshError,
+    },
+    /// A built-in organ cannot be made.
+    #[error(transparent)]
+    Organ(#[from] OrganError),
+    /// The model cannot be made.
+    #[error(transparent)]
+    Model(#[from] palpate_mechanics::Error),
+    /// The scene asks for the hybrid model.
+    #[error(
+        "the hybrid model (`model.kind = \"hybrid\"`) is not there yet; set `kind = \"local\"` for the finite spheres"
+    )]
+    HybridModel,
+    /// The motion moves a tool that the scene has not.
+    #[error("the motion moves the tool {found:?}, but the scene has {known}; name one of these")]
+    UnknownTool {
+        /// The name in the motion.
+        found: String,
+        /// The names in the scene.
+        known: String,
+    },
+    /// The motion takes more steps than can be meant.
+    #[error(
+        "the motion lasts {duration} s, which is {steps} steps of {step} s; at most {most} are played: cut the motion or set a longer `model.step_s`"
+    )]
+    TooLong {
+        /// Length of the motion [s].
+        duration: f64,
+        /// Length of a step [s].
+        step: f64,
+        /// How many steps that makes.
+        steps: u64,
+        /// How many are played at most.
+        most: u64,
+    },
+}
+
+impl Error {
+    /// Whether the user's input is wrong, rather than the machine's disk.
+    pub fn is_input(&self) -> bool {
+        match self {
+            Self::File(error) => error.is_input(),
+            _ => true,
+        }
+    }
+}

@@ -1,0 +1,61 @@
+use palpate_files::scene::{BuiltinOrgan, LengthUnit as FileUnit, Shape};
+use palpate_geometry::{LengthUnit, Organ, Surface, read_mesh, repair};
+
+use crate::Error;
+
+/// The surface of `shape`, read and mended or made, and what deserves doubt.
+///
+/// # Errors
+/// When the file cannot be read or what it holds bounds no solid.
+pub fn read_organ(shape: &Shape) -> Result<(Surface, Vec<String>), Error> {
+    match shape {
+        Shape::Builtin { organ, triangles } => {
+            let organ = builtin_organ(*organ);
+            let triangles = triangles.unwrap_or_else(|| organ.default_triangles());
+            let mesh = organ.surface_mesh(triangles)?;
+            let surface = Surface::new(mesh).expect("built-in organs are closed: see their tests");
+            Ok((surface, Vec::new()))
+        }
+        Shape::Mesh { path, unit } => {
+            let no_solid = |fault| Error::NoSolid {
+                path: path.clone(),
+                fault,
+            };
+            let imported = read_mesh(path, unit.map(length_unit))?;
+            let (mesh, repairs) = repair(&imported.mesh).map_err(no_solid)?;
+            let mut doubts = imported.warnings;
+            if repairs.flipped_triangles > 0 {
+                doubts.push(format!(
+                    "{}: {} triangles faced inward or against their neighbours and were turned",
+                    path.display(),
+                    repairs.flipped_triangles
+                ));
+            }
+            let surface = Surface::new(mesh).map_err(no_solid)?;
+            Ok((surface, doubts))
+        }
+    }
+}
+
+/// The organ that a scene's word names.
+pub fn builtin_organ(organ: BuiltinOrgan) -> Organ {
+    match organ {
+        BuiltinOrgan::Esophagus => Organ::Esophagus,
+        BuiltinOrgan::Liver => Organ::Liver,
+        BuiltinOrgan::Kidney => Organ::Kidney,
+        BuiltinOrgan::Stomach => Organ::Stomach,
+        BuiltinOrgan::Spleen => Organ::Spleen,
+        BuiltinOrgan::Hemisphere => Organ::Hemisphere,
+        BuiltinOrgan::Cube => Organ::Cube,
+    }
+}
+
+fn length_unit(unit: FileUnit) -> LengthUnit {
+    match unit {
+        FileUnit::Metre => LengthUnit::Metre,
+        FileUnit::Centimetre => LengthUnit::Centimetre,
+        FileUnit::Millimetre => LengthUnit::Millimetre,
+        FileUnit::Micrometre => LengthUnit::Micrometre,
+        FileUnit::Inch => LengthUnit::Inch,
+    }
+}

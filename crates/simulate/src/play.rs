@@ -1,0 +1,127 @@
+use std::time::Instant;
+
+use palpate_files::motion::{Cursor, ToolMotion};
+use palpate_files::{Motion, SessionRow};
+
+use crate::summary::{Summary, Tally};
+use crate::{Error, Simulation, SimulationState, SimulationWorkspace, step};
+
+/// More steps than this in one motion are a slip of the keyboard: 55 hours at 200 Hz.
+const MOST_STEPS: u64 = 40_000_000;
+
+/// Whether to go on after a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Flow {
+    /// On to the next step.
+    GoOn,
+    /// End here; what was played counts.
+    Stop,
+}
+
+/// A step that was played.
+pub struct Frame<'a> {
+    /// Number of the step, from zero.
+    pub number: u64,
+    /// How many there will be.
+    pub steps: u64,
+    /// Its time [s].
+    pub time: f64,
+    /// The state after it.
+    pub state: &'a SimulationState,
+}
+
+impl Frame<'_> {
+    /// What the session records of this step: a row for each tool that is there.
+    pub fn rows(&self) -> impl Iterator<Item = &SessionRow> {
+        let present = self.state.tools.iter().filter(|tool| tool.pose.is_some());
+        present.map(|tool| &tool.row)
+    }
+}
+
+/// Plays a whole motion, from its first time to its last, as fast as it goes; `observe` sees every step.
+///
+/// # Errors
+/// When the motion moves a tool that the scene has not or takes too many steps, and whatever `observe`
+/// answers.
+pub fn play<E: From<Error>>(
+    simulation: &Simulation,
+    motion: &Motion,
+    mut observe: impl FnMut(&Frame<'_>) -> Result<Flow, E>,
+) -> Result<Summary, E> {
+    let motions = match_tools(simulation, motion)?;
+    let (first, last) = (motion.first_time_s(), motion.final_time_s());
+    let whole = whole_steps(simulation, last - first)?;
+    // The last time counts, also when it falls between two steps.
+    let remainder = last - first - whole as f64 * simulation.step;
+    let steps = whole + 1 + u64::from(remainder > 1e-6 * simulation.step);
+    let mut state = SimulationState::new(simulation);
+    let mut workspace = SimulationWorkspace::new(simulation);
+    let mut cursors = vec![Cursor::default(); motions.len()];
+    let mut poses = vec![None; motions.len()];
+    let mut tally = Tally::with_capacity(steps);
+    let mut before = first;
+    for number in 0..steps {
+        let time = (first + number as f64 * simulation.step).min(last);
+        for ((pose, tool), cursor) in poses.iter_mut().zip(&motions).zip(&mut cursors) {
+            *pose = tool.and_then(|tool: &ToolMotion| tool.pose(time, cursor));
+        }
+        let start = Instant::now();
+        step(
+            simulation,
+            (time, time - before),
+            &poses,
+            &mut state,
+            &mut workspace,
+        );
+        tally.add(start.elapsed(), &state);
+        before = time;
+        let frame = Frame {
+            number,
+            steps,
+            time,
+            state: &state,
+        };
+        if observe(&frame)? == Flow::Stop {
+            return Ok(tally.finish(simulation, number + 1 < steps));
+        }
+    }
+    Ok(tally.finish(simulation, false))
+}
+
+fn match_tools<'m>(
+    simulation: &Simulation,
+    motion: &'m Motion,
+) -> Result<Vec<Option<&'m ToolMotion>>, Error> {
+    for moved in motion.tools() {
+        if !simulation
+            .tools
+            .iter()
+            .any(|tool| tool.name == moved.name())
+        {
+            let known: Vec<_> = simulation
+                .tools
+                .iter()
+                .map(|tool| format!("{:?}", tool.name))
+                .collect();
+            return Err(Error::UnknownTool {
+                found: moved.name().to_owned(),
+                known: known.join(" and "),
+            });
+        }
+    }
+    let tools = simulation.tools.iter();
+    Ok(tools.map(|tool| motion.tool(&tool.name)).collect())
+}
+
+fn whole_steps(simulation: &Simulation, duration: f64) -> Result<u64, Error> {
+    let steps = (duration / simulation.step + 1e-6).floor();
+    if steps < MOST_STEPS as f64 {
+        return Ok(steps as u64);
+    }
+    Err(Error::TooLong {
+        duration,
+        step: simulation.step,
+        steps: steps.min(u64::MAX as f64) as u64,
+        most: MOST_STEPS,
+    })
+}

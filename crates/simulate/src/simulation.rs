@@ -1,0 +1,99 @@
+use palpate_files::scene::ModelKind;
+use palpate_files::{Scene, SessionHeader};
+use palpate_geometry::{AabbTree, Surface};
+use palpate_mechanics::Material;
+
+use crate::tool::{Tool, settings};
+use crate::{Error, digest, organ};
+
+/// An organ and the tools that may touch it. Built once, never changed.
+#[derive(Debug, Clone)]
+pub struct Simulation {
+    pub(crate) surface: Surface,
+    pub(crate) tree: AabbTree,
+    pub(crate) material: Material,
+    pub(crate) tools: Vec<Tool>,
+    pub(crate) organ_radius: f64,
+    pub(crate) step: f64,
+    force_scale: f64,
+    scene_digest: String,
+    doubts: Vec<String>,
+}
+
+impl Simulation {
+    /// Reads what `scene` names and makes the models.
+    ///
+    /// # Errors
+    /// When a file is missing or wrong, a mesh bounds no solid, or the scene asks for what is not there.
+    pub fn new(scene: &Scene) -> Result<Self, Error> {
+        if scene.model.kind == ModelKind::Hybrid {
+            return Err(Error::HybridModel);
+        }
+        let (surface, mut doubts) = organ::read_organ(&scene.organ.shape)?;
+        let tissue = scene.organ.tissue.read()?;
+        let material = Material::from_tissue(&tissue)?;
+        doubts.extend(material.doubts.iter().cloned());
+        let tree = AabbTree::new(surface.mesh());
+        let settings = settings(&scene.model.local);
+        let tools = scene
+            .tools
+            .iter()
+            .map(|tool| Tool::new(tool, settings, &material.law, (&surface, &tree)))
+            .collect::<Result<Vec<_>, _>>()?;
+        if tools.iter().any(|tool| tool.model.is_extrapolated()) {
+            doubts.push(format!(
+                "Poisson's ratio {:.3} is beyond the {} that the local model is calibrated for; its \
+                 force is the one there, times the ratio of the half-spaces",
+                material.law.poissons_ratio(),
+                palpate_mechanics::finite_spheres::LARGEST_CALIBRATED_RATIO,
+            ));
+        }
+        if !scene.organ.layers.is_empty() {
+            doubts.push("layers are read, but not felt yet".to_owned());
+        }
+        Ok(Self {
+            // A hemisphere of the organ's volume V has R³ = 3 V / (2 π).
+            organ_radius: (1.5 * surface.mesh().volume() / std::f64::consts::PI).cbrt(),
+            scene_digest: digest::digest(scene, &surface, &tissue),
+            step: scene.model.step_s,
+            force_scale: scene.model.force_scale,
+            surface,
+            tree,
+            material,
+            tools,
+            doubts,
+        })
+    }
+
+    /// The organ at rest.
+    pub fn surface(&self) -> &Surface {
+        &self.surface
+    }
+
+    /// The tools in the scene's order.
+    pub fn tools(&self) -> &[Tool] {
+        &self.tools
+    }
+
+    /// Length of a step [s].
+    pub fn step(&self) -> f64 {
+        self.step
+    }
+
+    /// Plain sentences on what deserves doubt in this scene.
+    pub fn doubts(&self) -> &[String] {
+        &self.doubts
+    }
+
+    /// What stands at the head of a session of this scene.
+    pub fn session_header(&self) -> SessionHeader {
+        SessionHeader {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            scene_digest: self.scene_digest.clone(),
+            model: ModelKind::Local,
+            step_s: self.step,
+            seed: 0,
+            force_scale: self.force_scale,
+        }
+    }
+}

@@ -1,0 +1,122 @@
+use palpate_files::Pose;
+use palpate_files::session::{Events, SessionRow};
+use palpate_geometry::{AabbTree, NodeId, TriangleId, TriangleMesh, Vec3};
+use palpate_mechanics::ForceHistory;
+use palpate_mechanics::finite_spheres::{FiniteSphereWorkspace, Response};
+
+use crate::{Contact, Simulation};
+
+/// All that a step changes.
+#[derive(Debug, Clone)]
+pub struct SimulationState {
+    /// Per tool.
+    pub tools: Vec<ToolState>,
+    /// The organ as it is deformed now.
+    pub deformed: TriangleMesh,
+    /// The boxes around it.
+    pub(crate) tree: AabbTree,
+    /// The vertices that are not at rest.
+    pub(crate) moved: Vec<NodeId>,
+}
+
+/// What one tool does and feels.
+#[derive(Debug, Clone)]
+pub struct ToolState {
+    /// Where it is; none before its motion begins.
+    pub pose: Option<Pose>,
+    /// What it touches.
+    pub contact: Option<Contact>,
+    /// Force on the tool [N].
+    pub force: Vec3,
+    /// Stiffness of the contact in its frame [N/m]; zero without contact.
+    pub stiffness: nalgebra::Matrix3<f64>,
+    /// What the session records of the step.
+    pub row: SessionRow,
+    pub(crate) response: Option<Response>,
+    pub(crate) history: ForceHistory,
+    /// Where the history was made [m].
+    pub(crate) history_at: Option<Vec3>,
+    pub(crate) shaft_touches: bool,
+    pub(crate) beyond_trust: bool,
+}
+
+/// Scratch of a step. Its loss changes no result.
+pub struct SimulationWorkspace {
+    pub(crate) models: Vec<FiniteSphereWorkspace>,
+    pub(crate) seen: Vec<u32>,
+    pub(crate) seen_triangles: Vec<u32>,
+    pub(crate) turn: u32,
+    pub(crate) near: Vec<NodeId>,
+    pub(crate) refit: Vec<TriangleId>,
+}
+
+impl SimulationState {
+    /// Nothing touched yet.
+    pub fn new(simulation: &Simulation) -> Self {
+        let tools = (0..simulation.tools().len()).map(ToolState::new).collect();
+        Self {
+            tools,
+            deformed: simulation.surface.mesh().clone(),
+            tree: simulation.tree.clone(),
+            moved: Vec::with_capacity(simulation.surface.mesh().vertices().len()),
+        }
+    }
+}
+
+impl ToolState {
+    fn new(number: usize) -> Self {
+        Self {
+            pose: None,
+            contact: None,
+            force: Vec3::zeros(),
+            stiffness: nalgebra::Matrix3::zeros(),
+            row: SessionRow {
+                time_s: 0.0,
+                tool: number,
+                position_m: [0.0; 3],
+                orientation: [0.0, 0.0, 0.0, 1.0],
+                grip: 0.0,
+                cut: false,
+                force_n: [0.0; 3],
+                contact: false,
+                depth_m: 0.0,
+                events: Events::NONE,
+            },
+            response: None,
+            history: ForceHistory::default(),
+            history_at: None,
+            shaft_touches: false,
+            beyond_trust: false,
+        }
+    }
+}
+
+impl SimulationWorkspace {
+    /// Scratch for `simulation`.
+    pub fn new(simulation: &Simulation) -> Self {
+        let mesh = simulation.surface.mesh();
+        Self {
+            models: simulation
+                .tools()
+                .iter()
+                .map(|tool| tool.model.workspace())
+                .collect(),
+            seen: vec![0; mesh.vertices().len()],
+            seen_triangles: vec![0; mesh.triangles().len()],
+            turn: 0,
+            near: Vec::with_capacity(mesh.vertices().len()),
+            refit: Vec::with_capacity(mesh.triangles().len()),
+        }
+    }
+
+    /// A number that no vertex and no triangle has been marked with.
+    pub(crate) fn next_turn(&mut self) -> u32 {
+        self.turn = self.turn.wrapping_add(1);
+        if self.turn == 0 {
+            self.seen.fill(0);
+            self.seen_triangles.fill(0);
+            self.turn = 1;
+        }
+        self.turn
+    }
+}

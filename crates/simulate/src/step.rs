@@ -1,0 +1,189 @@
+//! One step, as the source lists it (section 3.4): detect the collision, place the particles, solve for
+//! the displacement, compute the force.
+
+use palpate_files::Pose;
+use palpate_files::session::{Event, Events};
+use palpate_geometry::Vec3;
+use palpate_mechanics::ForceHistory;
+use palpate_mechanics::contact::{Bond, Tip};
+
+use crate::contact::{self, Contact};
+use crate::simulation::Simulation;
+use crate::state::{SimulationState, SimulationWorkspace, ToolState};
+use crate::tool::Tool;
+use crate::{deform, orientation};
+
+/// Depth beyond which no model here has been compared with tissue [m].
+const TRUSTED_DEPTH: f64 = 0.010;
+
+/// Length of a shaft without a trocar [m].
+const SHAFT: f64 = 0.3;
+
+/// Takes `state` one step of `elapsed` [s] on to `time` [s], with the tools at `poses` (none: not there
+/// yet). A first step has an `elapsed` of zero: whatever depth there is then comes as a jump.
+pub fn step(
+    simulation: &Simulation,
+    (time, elapsed): (f64, f64),
+    poses: &[Option<Pose>],
+    state: &mut SimulationState,
+    workspace: &mut SimulationWorkspace,
+) {
+    for (number, tool) in simulation.tools.iter().enumerate() {
+        let pose = poses.get(number).copied().flatten();
+        let events = detect(simulation, tool, pose, &mut state.tools[number]);
+        respond(
+            tool,
+            &mut state.tools[number],
+            &mut workspace.models[number],
+        );
+        let failed = feel(simulation, tool, elapsed, &mut state.tools[number]);
+        record(tool, time, events | failed, &mut state.tools[number]);
+    }
+    deform::deform(simulation, state, workspace);
+    for (number, tool) in simulation.tools.iter().enumerate() {
+        touch_with_shaft(tool, number, state);
+    }
+}
+
+/// 1. Where does the tip touch?
+fn detect(
+    simulation: &Simulation,
+    tool: &Tool,
+    pose: Option<Pose>,
+    state: &mut ToolState,
+) -> Events {
+    let mut events = Events::NONE;
+    let touched = state.contact.is_some();
+    state.pose = pose;
+    let tip = pose.map(|pose| Vec3::from(pose.position_m));
+    state.contact =
+        tip.and_then(|tip| contact::detect(simulation, tool, state.contact.as_ref(), &tip));
+    match (touched, state.contact) {
+        (false, Some(contact)) => {
+            events.insert(Event::Contact);
+            forget_elsewhere(tool, &contact, state);
+        }
+        (true, None) => events.insert(Event::Release),
+        _ => {}
+    }
+    let beyond = state.contact.is_some_and(|c| c.depth > TRUSTED_DEPTH);
+    if beyond && !state.beyond_trust {
+        events.insert(Event::DepthBeyondTrust);
+    }
+    state.beyond_trust = beyond;
+    events
+}
+
+/// What tissue remembers of an earlier contact does not follow the tool to another place.
+fn forget_elsewhere(tool: &Tool, contact: &Contact, state: &mut ToolState) {
+    let near = tool.patches.radius();
+    let here = contact.point();
+    if state.history_at.is_none_or(|at| (at - here).norm() > near) {
+        state.history = ForceHistory::default();
+    }
+}
+
+/// 2. and 3. Places the particles and solves.
+fn respond(
+    tool: &Tool,
+    state: &mut ToolState,
+    workspace: &mut palpate_mechanics::finite_spheres::FiniteSphereWorkspace,
+) {
+    state.response = state
+        .contact
+        .filter(|contact| contact.place.radius > 0.0)
+        .map(|contact| tool.model.respond(&contact.place, workspace));
+    state.stiffness = state
+        .response
+        .map_or(nalgebra::Matrix3::zeros(), |response| response.stiffness);
+}
+
+/// 4. The force on the tool: elastic, then relaxed, never pulling.
+fn feel(simulation: &Simulation, tool: &Tool, elapsed: f64, state: &mut ToolState) -> Events {
+    let elastic = elastic_force(simulation, tool, state);
+    let relaxed = state
+        .history
+        .advance(&simulation.material.prony, elastic, elapsed);
+    state.force = Vec3::zeros();
+    let Some(contact) = &state.contact else {
+        return Events::NONE;
+    };
+    state.history_at = Some(contact.point());
+    if !relaxed.iter().all(|component| component.is_finite()) {
+        // A force that is no number is none, and is told.
+        state.history = ForceHistory::default();
+        return [Event::NonFiniteForce].into_iter().collect();
+    }
+    // Tissue that has not come back yet does not hold the tool: there is no adhesion.
+    if relaxed.dot(&contact.normal()) > 0.0 {
+        state.force = relaxed;
+    }
+    Events::NONE
+}
+
+fn elastic_force(simulation: &Simulation, tool: &Tool, state: &ToolState) -> Vec3 {
+    let (Some(contact), Some(pose)) = (&state.contact, &state.pose) else {
+        return Vec3::zeros();
+    };
+    let moved = contact.displacement(tool, &Vec3::from(pose.position_m));
+    let law = &simulation.material.law;
+    let normal = match tool.tip {
+        Tip::Sphere { .. } if state.response.is_none() => 0.0,
+        tip => tip.normal_force(law, tool.bond, -moved.z, state.stiffness[(2, 2)]),
+    };
+    let tangential = match tool.bond {
+        Bond::Slip => Vec3::zeros(),
+        Bond::Stick => -(state.stiffness * Vec3::new(moved.x, moved.y, 0.0)),
+    };
+    contact.place.frame * Vec3::new(tangential.x, tangential.y, normal)
+}
+
+fn record(tool: &Tool, time: f64, events: Events, state: &mut ToolState) {
+    let Some(pose) = &state.pose else {
+        return;
+    };
+    let normal = state.contact.map(|contact| contact.normal());
+    let tip = Vec3::from(pose.position_m);
+    let turned = orientation::orientation(
+        &tip,
+        tool.trocar.as_ref(),
+        pose.orientation,
+        normal.as_ref(),
+    );
+    let row = &mut state.row;
+    row.time_s = time;
+    row.position_m = pose.position_m;
+    row.orientation = [turned.i, turned.j, turned.k, turned.w];
+    row.grip = pose.grip;
+    row.cut = pose.cut;
+    row.force_n = state.force.into();
+    row.contact = state.contact.is_some();
+    row.depth_m = state.contact.map_or(0.0, |contact| contact.depth);
+    row.events = events;
+}
+
+/// Tells when the shaft begins to touch the deformed organ; it is not pushed by it.
+fn touch_with_shaft(tool: &Tool, number: usize, state: &mut SimulationState) {
+    let own = &mut state.tools[number];
+    let Some(pose) = &own.pose else {
+        return;
+    };
+    // A shaft of unknown direction stands on the surface and touches nothing else.
+    let known = tool.trocar.is_some() || pose.orientation.is_some();
+    // Near the tip the shaft stands in the dimple that the tip makes.
+    let clear = 2.0 * tool.patches.radius();
+    let tip = Vec3::from(pose.position_m);
+    let [i, j, k, w] = own.row.orientation;
+    let turned = nalgebra::Unit::new_unchecked(nalgebra::Quaternion::new(w, i, j, k));
+    let along = turned * Vec3::z();
+    let reach = tool.trocar.map_or(SHAFT, |trocar| (trocar - tip).norm());
+    let touches = known && reach > clear && {
+        let (start, end) = (tip + along * clear, tip + along * reach);
+        let nearest = state.tree.nearest_to_segment(&state.deformed, &start, &end);
+        nearest.distance < tool.shaft_radius()
+    };
+    if touches && !own.shaft_touches {
+        own.row.events.insert(Event::ShaftContact);
+    }
+    own.shaft_touches = touches;
+}

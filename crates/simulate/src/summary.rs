@@ -1,0 +1,152 @@
+use std::time::Duration;
+
+use palpate_files::session::Event;
+
+use crate::{Simulation, SimulationState};
+
+/// What a played motion came to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Summary {
+    /// Steps played.
+    pub steps: u64,
+    /// How long they took.
+    pub step_times: StepTimes,
+    /// Contacts begun, over all tools.
+    pub contacts: u64,
+    /// Largest magnitude of force on a tool [N].
+    pub peak_force: f64,
+    /// Largest depth [m].
+    pub deepest: f64,
+    /// Whether it was stopped before its end.
+    pub interrupted: bool,
+    /// Plain sentences on what deserves doubt.
+    pub warnings: Vec<String>,
+}
+
+/// Times that steps took [s].
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct StepTimes {
+    /// Half of the steps took at most this [s].
+    pub p50: f64,
+    /// 99 of 100 took at most this [s].
+    pub p99: f64,
+    /// 999 of 1000 took at most this [s].
+    pub p99_9: f64,
+    /// The longest [s].
+    pub max: f64,
+}
+
+/// Counts while a motion is played.
+pub(crate) struct Tally {
+    times: Vec<Duration>,
+    contacts: u64,
+    peak_force: f64,
+    deepest: f64,
+    shaft_contacts: u64,
+    non_finite: u64,
+}
+
+impl Tally {
+    pub(crate) fn with_capacity(steps: u64) -> Self {
+        Self {
+            times: Vec::with_capacity(steps as usize),
+            contacts: 0,
+            peak_force: 0.0,
+            deepest: 0.0,
+            shaft_contacts: 0,
+            non_finite: 0,
+        }
+    }
+
+    pub(crate) fn add(&mut self, time: Duration, state: &SimulationState) {
+        self.times.push(time);
+        for tool in state.tools.iter().filter(|tool| tool.pose.is_some()) {
+            let counts = |event| u64::from(tool.row.events.contains(event));
+            self.contacts += counts(Event::Contact);
+            self.shaft_contacts += counts(Event::ShaftContact);
+            self.non_finite += counts(Event::NonFiniteForce);
+            self.peak_force = self.peak_force.max(tool.force.norm());
+            self.deepest = self.deepest.max(tool.row.depth_m);
+        }
+    }
+
+    pub(crate) fn finish(mut self, simulation: &Simulation, interrupted: bool) -> Summary {
+        let mut warnings = simulation.doubts().to_vec();
+        let mut warn = |condition: bool, text: String| {
+            if condition {
+                warnings.push(text);
+            }
+        };
+        warn(
+            self.deepest > 0.010,
+            format!(
+                "the depth reached {:.1} mm; beyond 10 mm no model here has been compared with tissue",
+                1e3 * self.deepest
+            ),
+        );
+        warn(
+            self.shaft_contacts > 0,
+            format!(
+                "the shaft of a tool touched the organ {} times; it was not pushed by it",
+                self.shaft_contacts
+            ),
+        );
+        warn(
+            self.non_finite > 0,
+            format!(
+                "{} forces were no finite number and were taken as zero",
+                self.non_finite
+            ),
+        );
+        warn(
+            self.contacts == 0,
+            "no tool touched the organ; compare the motion's coordinates with the organ's extent \
+             (`palpate mesh info`)"
+                .to_owned(),
+        );
+        Summary {
+            steps: self.times.len() as u64,
+            step_times: StepTimes::of(&mut self.times),
+            contacts: self.contacts,
+            peak_force: self.peak_force,
+            deepest: self.deepest,
+            interrupted,
+            warnings,
+        }
+    }
+}
+
+impl StepTimes {
+    fn of(times: &mut [Duration]) -> Self {
+        if times.is_empty() {
+            return Self::default();
+        }
+        times.sort_unstable();
+        let at = |part: f64| {
+            let rank = (part * times.len() as f64).ceil() as usize;
+            times[rank.clamp(1, times.len()) - 1].as_secs_f64()
+        };
+        Self {
+            p50: at(0.5),
+            p99: at(0.99),
+            p99_9: at(0.999),
+            max: at(1.0),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn percentiles_are_times_that_occurred() {
+        let mut times: Vec<_> = (1..=1000).map(Duration::from_micros).collect();
+        let found = StepTimes::of(&mut times);
+        let microseconds = |time: f64| (time * 1e6).round();
+        assert_eq!(microseconds(found.p50), 500.0);
+        assert_eq!(microseconds(found.p99), 990.0);
+        assert_eq!(microseconds(found.p99_9), 999.0);
+        assert_eq!(microseconds(found.max), 1000.0);
+    }
+}

@@ -1,0 +1,104 @@
+use palpate_files::scene;
+use palpate_geometry::{AabbTree, PatchField, Surface, Vec3};
+use palpate_mechanics::contact::{Bond, Tip};
+use palpate_mechanics::finite_spheres::{
+    Assembly, FiniteSphereModel, FiniteSphereSettings, Form, Integration, Placement, Solver,
+};
+use palpate_mechanics::{Error, LinearElastic};
+
+/// A tool of the scene with the model of the tissue under its tip.
+#[derive(Debug, Clone)]
+pub struct Tool {
+    /// Its name in scene, motion and session.
+    pub name: String,
+    /// The end that touches.
+    pub tip: Tip,
+    /// Whether the surface can run along the tip.
+    pub bond: Bond,
+    /// Where it passes through the abdominal wall [m].
+    pub trocar: Option<Vec3>,
+    pub(crate) model: FiniteSphereModel,
+    /// The organ's normals and curvatures as this tip feels them.
+    pub(crate) patches: PatchField,
+    pub(crate) placement: Placement,
+}
+
+/// Residual to which GMRES solves; forces then agree with the direct solution to eight digits.
+const GMRES_TOLERANCE: f64 = 1e-10;
+
+impl Tool {
+    pub(crate) fn new(
+        tool: &scene::Tool,
+        settings: FiniteSphereSettings,
+        law: &LinearElastic,
+        (surface, tree): (&Surface, &AabbTree),
+    ) -> Result<Self, Error> {
+        let bond = match tool.tip.contact {
+            scene::TipContact::Stick => Bond::Stick,
+            scene::TipContact::Slip => Bond::Slip,
+        };
+        let radius = tool.tip.radius_m;
+        let (tip, typical) = match tool.tip.shape {
+            scene::TipShape::Flat => (Tip::Flat { radius }, radius),
+            // Half the radius touches at a quarter of the radius in depth.
+            scene::TipShape::Sphere => (Tip::Sphere { radius }, 0.5 * radius),
+        };
+        let mut model = FiniteSphereModel::new(settings, law, bond)?;
+        model.precompute_placement(surface, tree, typical);
+        Ok(Self {
+            name: tool.name.clone(),
+            tip,
+            bond,
+            trocar: tool.trocar_m.map(Vec3::from),
+            patches: PatchField::new(surface, model.held_radius(typical)),
+            placement: settings.placement,
+            model,
+        })
+    }
+
+    /// The distance from the tool's reference point (the centre of a flat face, or of a sphere) down to
+    /// where it touches first [m].
+    pub(crate) fn overhang(&self) -> f64 {
+        match self.tip {
+            Tip::Flat { .. } => 0.0,
+            Tip::Sphere { radius } => radius,
+        }
+    }
+
+    /// Radius of the shaft [m]: that of the tip.
+    pub(crate) fn shaft_radius(&self) -> f64 {
+        match self.tip {
+            Tip::Flat { radius } | Tip::Sphere { radius } => radius,
+        }
+    }
+}
+
+/// The settings of the local model that a scene's words stand for.
+pub(crate) fn settings(local: &scene::LocalSettings) -> FiniteSphereSettings {
+    FiniteSphereSettings {
+        particles: local.particles,
+        form: match local.form {
+            scene::Form::Weak => Form::Weak,
+            scene::Form::Strong => Form::Strong,
+        },
+        placement: match local.placement {
+            scene::Placement::Template => Placement::Template,
+            scene::Placement::Source => Placement::Source,
+        },
+        solver: match local.solver {
+            scene::Solver::Direct => Solver::Direct,
+            scene::Solver::Gmres => Solver::Gmres {
+                tolerance: GMRES_TOLERANCE,
+            },
+        },
+        assembly: match local.assembly {
+            scene::Assembly::EveryStep => Assembly::EveryStep,
+            scene::Assembly::Reused => Assembly::Reused,
+        },
+        integration: match local.integration_points {
+            scene::IntegrationPoints::Few => Integration::Coarse,
+            scene::IntegrationPoints::Standard => Integration::Standard,
+            scene::IntegrationPoints::Many => Integration::Fine,
+        },
+    }
+}
