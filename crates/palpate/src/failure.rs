@@ -104,6 +104,15 @@ impl From<palpate_mechanics::Error> for Failure {
     }
 }
 
+impl From<palpate_simulate::Error> for Failure {
+    fn from(error: palpate_simulate::Error) -> Self {
+        match error.is_input() {
+            true => Self::input(error),
+            false => Self::failed(error),
+        }
+    }
+}
+
 /// Of writing to standard output.
 impl From<io::Error> for Failure {
     fn from(error: io::Error) -> Self {

@@ -7,6 +7,7 @@ mod command;
 mod failure;
 mod nearest;
 mod output;
+mod performance;
 mod plot;
 mod progress;
 mod reproduce;

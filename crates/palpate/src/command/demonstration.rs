@@ -1,10 +1,56 @@
-//! `palpate` without arguments.
+//! `palpate` without arguments: two tools on the built-in esophagus.
 
+use std::path::Path;
+
+use palpate_files::{Motion, Scene, write_whole};
+use palpate_simulate::Simulation;
+
+use super::simulate::ESOPHAGUS;
 use crate::failure::Failure;
+use crate::output;
+use crate::performance::{Recording, record};
+use crate::progress::Reader;
+
+/// Where it is written, in the folder that the program is started in.
+const FOLDER: &str = "palpate-demo";
+
+/// Surfaces written for ParaView.
+const SURFACES: u64 = 60;
+
+const MOTION: &str = include_str!("../../../../assets/esophagus/motion.csv");
 
 /// A first touch that needs no file.
 pub(crate) fn run() -> Result<(), Failure> {
-    Err(Failure::failed(
-        "the demonstration is not here yet; see `palpate --help` for what is",
-    ))
+    let folder = Path::new(FOLDER);
+    let simulation = Simulation::new(&Scene::parse(ESOPHAGUS, "built-in scene")?)?;
+    let motion = Motion::parse(MOTION, "built-in motion")?;
+    output::text(format!(
+        "palpate {}: two tools palpate the built-in esophagus ({} triangles).\n\
+         There is no window yet; this is played on a virtual clock.",
+        output::VERSION,
+        simulation.surface().mesh().triangles().len(),
+    ))?;
+    let recording = Recording {
+        folder,
+        surfaces: SURFACES,
+        reader: Reader::Person,
+    };
+    let report = record(&simulation, &motion, &recording)?;
+    // What was played, to change and to play again.
+    for (name, text) in [("scene.toml", ESOPHAGUS), ("motion.csv", MOTION)] {
+        write_whole(folder.join(name), text.as_bytes())?;
+    }
+    output::text(report.text())?;
+    output::text(format!(
+        "written to {FOLDER}/:\n\
+         \x20 session.csv       force, depth and events at every step\n\
+         \x20 force.png         force against time\n\
+         \x20 force-depth.png   force against depth\n\
+         \x20 surfaces.pvd      {SURFACES} deformed surfaces, for ParaView\n\
+         \x20 summary.json      times, peak force and what deserves doubt\n\
+         \x20 scene.toml and motion.csv, to change and play again:\n\
+         \x20   palpate simulate {FOLDER}/scene.toml --headless --motion {FOLDER}/motion.csv --out mine",
+    ))?;
+    output::warnings(report.warnings());
+    report.outcome()
 }

@@ -13,7 +13,7 @@ use crate::failure::Failure;
 const EXAMPLES: &str = "\
 Examples:
   palpate
-      a first touch of a liver, without a file
+      a first touch of the built-in esophagus, without a file; writes ./palpate-demo
   palpate simulate scene.toml --headless --motion motion.csv --out session
       plays the tool motions on the scene and writes session/session.csv
   palpate mesh info kidney.stl --unit mm

@@ -1,16 +1,32 @@
 //! `palpate simulate`: tool motions on an organ.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
+use palpate_files::{Motion, Scene};
+use palpate_simulate::Simulation;
 
 use crate::failure::Failure;
+use crate::output;
+use crate::performance::{Recording, Report, record};
+use crate::progress::{Progress, Reader};
+
+/// The scene that is played when none is named.
+pub(crate) const ESOPHAGUS: &str = include_str!("../../../../assets/esophagus/scene.toml");
 
 /// Examples at the end of the help.
 const EXAMPLES: &str = "\
-Example:
+Examples:
   palpate simulate scene.toml --headless --motion motion.csv --out session
-      writes session/session.csv (forces on the tool at every step) and session/summary.json";
+      writes session/session.csv (forces on the tool at every step), plots and summary.json
+  palpate simulate --headless --motion motion.csv --out session --fields 60
+      on the built-in esophagus, with 60 surfaces for ParaView (open session/surfaces.pvd)
+
+A scene names an organ, its tissue, the model and the tools; a motion says where the tips are:
+  # format = 1
+  time_s,tool,x_m,y_m,z_m
+  0.0,right,0.0,0.0,0.052
+  1.0,right,0.0,0.0,0.047";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
@@ -18,7 +34,7 @@ pub(crate) struct Arguments {
     /// The scene; without one, the built-in esophagus.
     #[arg(value_name = "SCENE.toml")]
     scene: Option<PathBuf>,
-    /// Play without a window.
+    /// Play without a window; needs --motion and --out.
     #[arg(long, requires = "motion", requires = "out")]
     headless: bool,
     /// The tool motions to play: time_s, tool, x_m, y_m, z_m.
@@ -27,6 +43,12 @@ pub(crate) struct Arguments {
     /// The folder to write the session into; it is made when it is not there.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Write this many deformed surfaces, evenly over the motion, for ParaView.
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=100_000))]
+    fields: u64,
+    /// Write this many pictures (not there yet: they come with the window).
+    #[arg(long, value_name = "N")]
+    frames: Option<u64>,
     /// Print the summary as one JSON object.
     #[arg(long)]
     json: bool,
@@ -34,14 +56,48 @@ pub(crate) struct Arguments {
 
 /// Plays the motions.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let Arguments {
-        scene: _,
-        headless: _,
-        motion: _,
-        out: _,
-        json: _,
-    } = arguments;
-    Err(Failure::failed(
-        "simulating is not here yet; see `palpate --help` for what is",
-    ))
+    if arguments.frames.is_some() {
+        return Err(Failure::input(
+            "--frames needs the renderer, which is not there yet; --fields N writes the deformed \
+             surface N times for ParaView",
+        ));
+    }
+    let (true, Some(motion), Some(out)) = (
+        arguments.headless,
+        arguments.motion.as_deref(),
+        arguments.out.as_deref(),
+    ) else {
+        return Err(Failure::input(
+            "there is no window yet; play a motion with --headless --motion MOTION.csv --out DIR",
+        ));
+    };
+    let report = simulate(arguments, motion, out)?;
+    if arguments.json {
+        output::json(&report)?;
+    } else {
+        output::text(report.text())?;
+        output::text(format!("recorded in {}", out.display()))?;
+        output::warnings(report.warnings());
+    }
+    report.outcome()
+}
+
+fn simulate(arguments: &Arguments, motion: &Path, out: &Path) -> Result<Report, Failure> {
+    let scene = match &arguments.scene {
+        Some(path) => Scene::read(path)?,
+        None => Scene::parse(ESOPHAGUS, "built-in scene")?,
+    };
+    // Everything that can be wrong is read before anything is written.
+    let motion = Motion::read(motion)?;
+    let reader = Reader::of_json(arguments.json);
+    let progress = Progress::new(reader, None);
+    progress.say("preparing the organ and its model");
+    let simulation = Simulation::new(&scene)?;
+    drop(progress);
+    let recording = Recording {
+        folder: out,
+        surfaces: arguments.fields,
+        reader,
+    };
+    record(&simulation, &motion, &recording)
 }

@@ -5,8 +5,18 @@ use super::Row;
 /// Aligned columns, and the notes below as numbered lines.
 pub(crate) fn table(rows: &[Row]) -> String {
     let mut notes: Vec<&str> = Vec::new();
-    let mut lines =
-        vec![["row", "published", "ours", "unit", "ratio", "s", "note"].map(str::to_owned)];
+    let mut lines = vec![
+        [
+            "row",
+            "published",
+            "ours",
+            "unit",
+            "ratio",
+            "took [s]",
+            "note",
+        ]
+        .map(str::to_owned),
+    ];
     for row in rows {
         lines.push(cells(row, number_of(&row.note, &mut notes)));
     }

@@ -157,7 +157,7 @@ fn own(ours: Option<f64>, unit: &'static str) -> Value {
 fn style(form: Form) -> Style {
     match form {
         Form::Weak => Style::LineWithDots,
-        Form::Strong => Style::DashedLineWithDots,
+        Form::Strong => Style::DashedLineWithSquares,
     }
 }
 

@@ -1,0 +1,169 @@
+//! A played motion and its folder: the session, surfaces for ParaView, plots and the summary.
+
+mod surfaces;
+mod trace;
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use palpate_files::{Motion, SessionWriter, write_whole};
+use palpate_simulate::{Flow, Simulation, Summary, play};
+use serde::Serialize;
+
+use crate::failure::Failure;
+use crate::output::VERSION;
+use crate::progress::{Progress, Reader};
+use surfaces::Surfaces;
+use trace::Traces;
+
+/// Where a motion is recorded, and what besides the session.
+pub(crate) struct Recording<'a> {
+    /// The folder; made when it is not there.
+    pub(crate) folder: &'a Path,
+    /// Surfaces to write for ParaView, evenly over the motion.
+    pub(crate) surfaces: u64,
+    pub(crate) reader: Reader,
+}
+
+/// What `summary.json` and `--json` hold.
+#[derive(Debug, Serialize)]
+pub(crate) struct Report {
+    palpate: &'static str,
+    steps: u64,
+    step_times_s: Times,
+    contacts: u64,
+    peak_force_n: f64,
+    largest_depth_m: f64,
+    interrupted: bool,
+    warnings: Vec<String>,
+    files: Vec<PathBuf>,
+}
+
+#[derive(Debug, Serialize)]
+struct Times {
+    p50: f64,
+    p99: f64,
+    #[serde(rename = "p99.9")]
+    p99_9: f64,
+    max: f64,
+}
+
+/// Plays `motion` and records it.
+pub(crate) fn record(
+    simulation: &Simulation,
+    motion: &Motion,
+    recording: &Recording<'_>,
+) -> Result<Report, Failure> {
+    let folder = recording.folder;
+    std::fs::create_dir_all(folder).map_err(|cause| {
+        Failure::failed(format!(
+            "{}: the folder cannot be made ({cause}); name one that can be written with --out",
+            folder.display()
+        ))
+    })?;
+    let stopped = stop_on_interrupt();
+    let names: Vec<_> = simulation.tools().iter().map(|t| t.name.clone()).collect();
+    let session = folder.join("session.csv");
+    let mut writer = SessionWriter::create(&session, &simulation.session_header(), &names)?;
+    let mut surfaces = Surfaces::new(folder, recording.surfaces);
+    let mut traces = Traces::new(&names);
+    let mut progress: Option<Progress> = None;
+    let summary = play(simulation, motion, |frame| -> Result<Flow, Failure> {
+        let bar = progress.get_or_insert_with(|| {
+            let bar = Progress::new(recording.reader, Some(frame.steps));
+            bar.say("steps played");
+            bar
+        });
+        if frame.number % 64 == 0 {
+            bar.at(frame.number);
+        }
+        for row in frame.rows() {
+            writer.write(row)?;
+        }
+        traces.add(frame);
+        surfaces.add(simulation, frame)?;
+        match stopped.load(Ordering::Relaxed) {
+            true => Ok(Flow::Stop),
+            false => Ok(Flow::GoOn),
+        }
+    })?;
+    drop(progress);
+    writer.finish()?;
+    let mut files = vec![session];
+    files.extend(surfaces.finish()?);
+    files.extend(traces.draw(folder)?);
+    let path = folder.join("summary.json");
+    files.push(path.clone());
+    let report = Report::new(summary, files);
+    let json = serde_json::to_string_pretty(&report)
+        .map_err(|cause| Failure::failed(format!("the summary is no JSON ({cause})")))?;
+    write_whole(&path, json.as_bytes())?;
+    Ok(report)
+}
+
+/// True once Ctrl-C was pressed: the motion then ends, and what was played is written whole.
+fn stop_on_interrupt() -> Arc<AtomicBool> {
+    let stopped = Arc::new(AtomicBool::new(false));
+    let seen = Arc::clone(&stopped);
+    // Without a handler Ctrl-C ends the program at once, which the session survives as well.
+    let _ = ctrlc::set_handler(move || seen.store(true, Ordering::Relaxed));
+    stopped
+}
+
+impl Report {
+    fn new(summary: Summary, files: Vec<PathBuf>) -> Self {
+        Self {
+            palpate: VERSION,
+            steps: summary.steps,
+            step_times_s: Times {
+                p50: summary.step_times.p50,
+                p99: summary.step_times.p99,
+                p99_9: summary.step_times.p99_9,
+                max: summary.step_times.max,
+            },
+            contacts: summary.contacts,
+            peak_force_n: summary.peak_force,
+            largest_depth_m: summary.deepest,
+            interrupted: summary.interrupted,
+            warnings: summary.warnings,
+            files,
+        }
+    }
+
+    pub(crate) fn warnings(&self) -> &[String] {
+        &self.warnings
+    }
+
+    pub(crate) fn files(&self) -> &[PathBuf] {
+        &self.files
+    }
+
+    /// For a person.
+    pub(crate) fn text(&self) -> String {
+        let times = &self.step_times_s;
+        format!(
+            "{} steps, {} contacts, peak force {:.4} N, largest depth {:.2} mm\n\
+             a step took {:.0} µs (median), {:.0} µs (99 %), {:.0} µs (99.9 %), {:.0} µs at most",
+            self.steps,
+            self.contacts,
+            self.peak_force_n,
+            1e3 * self.largest_depth_m,
+            1e6 * times.p50,
+            1e6 * times.p99,
+            1e6 * times.p99_9,
+            1e6 * times.max,
+        )
+    }
+
+    /// An interrupted motion is no success.
+    pub(crate) fn outcome(&self) -> Result<(), Failure> {
+        match self.interrupted {
+            true => Err(Failure::failed(format!(
+                "interrupted after {} steps; what was played is recorded whole",
+                self.steps
+            ))),
+            false => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,72 @@
+use std::path::{Path, PathBuf};
+
+use palpate_simulate::Frame;
+
+use crate::failure::Failure;
+use crate::plot::{Plot, Series, Style};
+
+/// Points of a curve; more are not seen in a picture.
+const POINTS: u64 = 3000;
+
+/// Time, depth and force of each tool, for the plots.
+pub(super) struct Traces {
+    tools: Vec<(String, Vec<Point>)>,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Point {
+    time: f64,
+    depth: f64,
+    force: f64,
+}
+
+impl Traces {
+    pub(super) fn new(names: &[String]) -> Self {
+        let tools = names.iter().map(|name| (name.clone(), Vec::new())).collect();
+        Self { tools }
+    }
+
+    pub(super) fn add(&mut self, frame: &Frame<'_>) {
+        if frame.number % (frame.steps / POINTS + 1) != 0 {
+            return;
+        }
+        for row in frame.rows() {
+            let [x, y, z] = row.force_n;
+            self.tools[row.tool].1.push(Point {
+                time: row.time_s,
+                depth: 1e3 * row.depth_m,
+                force: 1e3 * (x * x + y * y + z * z).sqrt(),
+            });
+        }
+    }
+
+    /// Draws force against time and against depth.
+    pub(super) fn draw(self, folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+        let over_time = self.plot("Force against time", "Time [s]", |p| (p.time, p.force));
+        let over_depth = self.plot("Force against depth", "Depth [mm]", |p| (p.depth, p.force));
+        let mut files = Vec::new();
+        for (plot, name) in [(over_time, "force.png"), (over_depth, "force-depth.png")] {
+            let path = folder.join(name);
+            plot.write(&path)?;
+            files.push(path);
+        }
+        Ok(files)
+    }
+
+    fn plot(&self, title: &str, x_label: &str, of: impl Fn(&Point) -> (f64, f64)) -> Plot {
+        let present = self.tools.iter().filter(|(_, points)| !points.is_empty());
+        let series = present.enumerate().map(|(color, (name, points))| Series {
+            name: name.clone(),
+            points: points.iter().map(&of).collect(),
+            style: Style::Line,
+            color,
+        });
+        Plot {
+            title: title.to_owned(),
+            x_label: x_label.to_owned(),
+            y_label: "Force on the tool [mN]".to_owned(),
+            series: series.collect(),
+            ..Plot::default()
+        }
+    }
+}

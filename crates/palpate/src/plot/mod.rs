@@ -1,0 +1,132 @@
+//! Line plots as PNG pictures.
+
+mod drawing;
+mod retouch;
+mod span;
+
+use std::path::Path;
+
+use crate::failure::Failure;
+
+/// What is drawn.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Plot {
+    pub(crate) title: String,
+    /// With its unit in brackets.
+    pub(crate) x_label: String,
+    /// With its unit in brackets.
+    pub(crate) y_label: String,
+    pub(crate) x_axis: Axis,
+    pub(crate) y_axis: Axis,
+    /// In the order of the legend; a single one needs no name.
+    pub(crate) series: Vec<Series>,
+}
+
+/// How an axis divides.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(crate) enum Axis {
+    #[default]
+    Linear,
+    /// By decades; values that are not positive are left out.
+    Logarithmic,
+}
+
+/// Points that belong together.
+#[derive(Debug, Clone)]
+pub(crate) struct Series {
+    /// In the legend.
+    pub(crate) name: String,
+    /// x and y; what is not finite is left out.
+    pub(crate) points: Vec<(f64, f64)>,
+    pub(crate) style: Style,
+    /// Which of the six colors, counted from zero and beginning again after the last; series that
+    /// belong together may have the same one.
+    pub(crate) color: usize,
+}
+
+/// How the points of a series are drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Style {
+    Line,
+    DashedLine,
+    DottedLine,
+    Dots,
+    LineWithDots,
+    DashedLineWithSquares,
+}
+
+impl Plot {
+    /// The picture, 1200 by 800 pixels.
+    pub(crate) fn png(&self) -> Result<Vec<u8>, Failure> {
+        drawing::png(self).map_err(|cause| {
+            let title = &self.title;
+            Failure::failed(format!(
+                "the plot `{title}` cannot be drawn ({cause}); please report this"
+            ))
+        })
+    }
+
+    /// Writes the picture to `path`.
+    pub(crate) fn write(&self, path: &Path) -> Result<(), Failure> {
+        Ok(palpate_files::write_whole(path, &self.png()?)?)
+    }
+}
+
+impl Series {
+    /// The points that the axes of `plot` can show.
+    fn drawable(&self, plot: &Plot) -> Vec<(f64, f64)> {
+        let both = |(x, y): &(f64, f64)| plot.x_axis.shows(*x) && plot.y_axis.shows(*y);
+        self.points.iter().copied().filter(both).collect()
+    }
+}
+
+impl Axis {
+    fn shows(self, value: f64) -> bool {
+        value.is_finite() && (self == Self::Linear || value > 0.0)
+    }
+}
+
+impl Style {
+    fn has_markers(self) -> bool {
+        matches!(
+            self,
+            Self::Dots | Self::LineWithDots | Self::DashedLineWithSquares
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn plot(points: Vec<(f64, f64)>) -> Plot {
+        Plot {
+            title: "Force against depth".to_owned(),
+            x_label: "depth [mm]".to_owned(),
+            y_label: "force [N]".to_owned(),
+            y_axis: Axis::Logarithmic,
+            series: vec![Series {
+                name: "liver".to_owned(),
+                points,
+                style: Style::DashedLineWithSquares,
+                color: 7,
+            }],
+            ..Plot::default()
+        }
+    }
+
+    #[test]
+    fn a_plot_is_a_png_of_the_promised_size() {
+        let png = plot(vec![(0.0, 0.0), (1.0, 0.1), (2.0, 0.4), (3.0, f64::NAN)]).png();
+        let png = png.unwrap();
+        assert!(png.starts_with(b"\x89PNG"));
+        let sides = [16, 20].map(|at| u32::from_be_bytes(png[at..at + 4].try_into().unwrap()));
+        assert_eq!(sides, [1200, 800]);
+    }
+
+    #[test]
+    fn a_plot_without_a_point_or_with_one_is_still_drawn() {
+        assert!(plot(Vec::new()).png().is_ok());
+        assert!(plot(vec![(1.0, 0.1)]).png().is_ok());
+    }
+}
