@@ -55,6 +55,11 @@ impl Progress {
     pub(crate) fn step(&self) {
         self.0.inc(1);
     }
+
+    /// Sets how many steps of the bar are done.
+    pub(crate) fn at(&self, step: u64) {
+        self.0.set_position(step);
+    }
 }
 
 impl Drop for Progress {
