@@ -135,10 +135,6 @@ impl Report {
         &self.warnings
     }
 
-    pub(crate) fn files(&self) -> &[PathBuf] {
-        &self.files
-    }
-
     /// For a person.
     pub(crate) fn text(&self) -> String {
         let times = &self.step_times_s;

@@ -124,9 +124,9 @@ impl Model {
 impl LocalSettings {
     fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
         let default = Self::default();
-        // Fewer than 8 leave an interpolation without a solution; the equations are dense, so that
-        // more than a few thousand would fill the memory.
-        let particles = keys.integer("particles", 8..=4000)?;
+        // Fewer than 12 do not fill two shells; the equations are dense, so that
+        // more than a few hundred take far longer than a step.
+        let particles = keys.integer("particles", 12..=600)?;
         let settings = Self {
             particles: particles.map_or(default.particles, |number| number as usize),
             form: keys.word("form", Form::WORDS)?.unwrap_or(default.form),

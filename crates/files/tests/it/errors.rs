@@ -243,7 +243,7 @@ const BAD_SCENES: &[(&str, &str)] = &[
     ),
     (
         "[model]\nparticles = 7",
-        "`model.particles` is 7; give a whole number from 8 to 4000",
+        "`model.particles` is 7; give a whole number from 12 to 600",
     ),
     ("[model]\nparticles = 34.5", "is 34.5; give a whole number"),
     (

@@ -22,7 +22,10 @@ struct Point {
 
 impl Traces {
     pub(super) fn new(names: &[String]) -> Self {
-        let tools = names.iter().map(|name| (name.clone(), Vec::new())).collect();
+        let tools = names
+            .iter()
+            .map(|name| (name.clone(), Vec::new()))
+            .collect();
         Self { tools }
     }
 

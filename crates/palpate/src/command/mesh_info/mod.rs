@@ -5,7 +5,7 @@ mod table;
 
 use std::path::{Path, PathBuf};
 
-use clap::Args;
+use clap::{ArgGroup, Args};
 use palpate_geometry::{LengthUnit, Organ, ReadError, ReadFault, read_mesh};
 
 use self::answer::{Answer, Origin};
@@ -25,13 +25,13 @@ once per triangle, are welded first); what a repair would do is said in addition
 A faulty mesh is no error of this command: the exit status is 0 unless it cannot be read.";
 
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = EXAMPLES, group(ArgGroup::new("mesh").required(true)))]
 pub(crate) struct Arguments {
     /// The mesh: STL, OBJ, PLY or glTF.
-    #[arg(required_unless_present = "builtin", conflicts_with = "builtin")]
+    #[arg(group = "mesh")]
     file: Option<PathBuf>,
     /// A built-in organ instead of a file: esophagus, liver, kidney, stomach, spleen, hemisphere, cube.
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", group = "mesh")]
     builtin: Option<String>,
     /// The unit of the file: m, cm, mm or um.
     #[arg(long, conflicts_with = "builtin")]
