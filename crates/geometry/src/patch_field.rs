@@ -158,9 +158,10 @@ impl Walk {
             matrix += weight * row * row.transpose();
             right += weight * z * row;
         }
-        for k in 3..6 {
+        // On xx² + 2 xy² + yy², which does not depend on the tangents.
+        for (k, times) in [(3, 1.0), (4, 2.0), (5, 1.0)] {
             // Scaled by what a vertex halfway out adds to the diagonal.
-            matrix[(k, k)] += RIDGE * 0.5f64.powi(6);
+            matrix[(k, k)] += times * RIDGE * 0.5f64.powi(6);
         }
         for k in 0..3 {
             matrix[(k, k)] += 1e-9;

@@ -10,9 +10,8 @@ use crate::files;
 
 /// Few cases by default, many with `PALPATE_FULL=1`.
 fn config() -> Config {
-    let full = std::env::var_os("PALPATE_FULL").is_some_and(|value| value == "1");
     Config {
-        cases: if full { 20_000 } else { 300 },
+        cases: if crate::wants_full() { 20_000 } else { 300 },
         failure_persistence: None,
         ..Config::default()
     }

@@ -6,9 +6,18 @@
     reason = "clippy.toml allows both in tests, but does not see helpers as tests"
 )]
 
+mod agreement;
+mod analytic;
 mod check;
 mod data;
 mod files;
 mod fuzz;
+mod invariants;
 mod io;
 mod organ;
+mod shapes;
+
+/// Whether random tests shall try all of their cases: `PALPATE_FULL=1`.
+fn wants_full() -> bool {
+    std::env::var_os("PALPATE_FULL").is_some_and(|value| value == "1")
+}
