@@ -43,7 +43,9 @@ impl Spread {
         for (&j, &value) in functions.particles.iter().zip(&functions.values) {
             moved += solution.coefficients[j as usize] * inner * value;
         }
-        let near = quartic(distance);
+        // The punch alone up to the tip's edge, nothing of it from the first shell on.
+        let beyond_edge = (distance - self.radius_in_spacings).max(0.0);
+        let near = quartic(beyond_edge / (1.0 - self.radius_in_spacings).max(0.25));
         near * punch * self.tip + (1.0 - near) * (moved + rest)
     }
 }

@@ -10,7 +10,8 @@
 //! Three corrections make a force of it, all in `exterior`: the tool has a radius a, and h = a/α; what
 //! lies beyond the shells gives way too; and an organ of finite size is held somewhere.
 //!
-//! *How we know*: `agreement::hemisphere_meets_its_closed_form`, `convergence::…`, `invariants::…`.
+//! *How we know*: `agreement::hemisphere_meets_its_closed_form`, `agreement::flat_contact_is_the_half_space`,
+//! `convergence::finer_integration_changes_the_force_less`, `invariants::stiffness_is_symmetric_and_positive`.
 //!
 //! *Limits*: small strain; one contact at a time; thin walls and distant anchors are not felt (the
 //! hybrid model is for those).

@@ -2,7 +2,7 @@
 //!
 //! ε = sym(F) − 1, Ψ = ½ λ (tr ε)² + μ ε:ε, P = λ (tr ε) 1 + 2 μ ε.
 //!
-//! *How we know*: `invariants::stress_is_the_derivative_of_energy`, `…tangent_is_the_derivative_of_stress`.
+//! *How we know*: `laws::stress_is_the_derivative_of_energy`, `laws::tangent_is_the_derivative_of_stress`.
 //!
 //! *Limits*: small strain; a rotation strains it.
 

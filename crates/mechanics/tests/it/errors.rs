@@ -1,0 +1,109 @@
+//! What cannot be a model is refused, with the value and a mend.
+
+use palpate_mechanics::contact::Bond;
+use palpate_mechanics::finite_spheres::{FiniteSphereModel, FiniteSphereSettings, Form};
+use palpate_mechanics::{Error, LinearElastic, PronySeries};
+
+use crate::contacts::tissue;
+
+fn spheres(particles: usize, form: Form, nu: f64) -> Result<(), Error> {
+    let settings = FiniteSphereSettings {
+        particles,
+        form,
+        ..FiniteSphereSettings::default()
+    };
+    FiniteSphereModel::new(settings, &tissue(nu), Bond::Slip).map(drop)
+}
+
+#[test]
+fn every_refusal_names_the_value_and_the_mend() {
+    let undetermined = Error::Undetermined {
+        particles: 20,
+        form: "strong",
+        poissons_ratio: 0.3,
+    };
+    let refused: [(Result<(), Error>, &[&str]); 11] = [
+        (
+            LinearElastic::new(0.0, 0.3).map(drop),
+            &["0 Pa", "positive"],
+        ),
+        (
+            LinearElastic::new(-5.5, 0.3).map(drop),
+            &["-5.5 Pa", "positive"],
+        ),
+        (
+            LinearElastic::new(f64::INFINITY, 0.3).map(drop),
+            &["inf Pa", "positive"],
+        ),
+        (LinearElastic::new(1e4, 0.5).map(drop), &["0.5", "0.49"]),
+        (LinearElastic::new(1e4, -1.0).map(drop), &["-1", "above -1"]),
+        (
+            LinearElastic::new(1e4, f64::NAN).map(drop),
+            &["NaN", "0.49"],
+        ),
+        (
+            PronySeries::new(&[(0.75, 1.0), (0.5, 2.0)]).map(drop),
+            &["2 terms", "1.25", "less than 1"],
+        ),
+        (
+            PronySeries::new(&[(0.01, 1.0); 9]).map(drop),
+            &["9 terms", "at most 8"],
+        ),
+        (spheres(11, Form::Weak, 0.3), &["11", "12", "600", "34"]),
+        (spheres(601, Form::Weak, 0.3), &["601", "12", "600"]),
+        (Err(undetermined), &["20", "strong", "0.3", "weak form"]),
+    ];
+    for (result, words) in refused {
+        let message = result.unwrap_err().to_string();
+        for word in words {
+            assert!(message.contains(word), "{message:?} lacks {word:?}");
+        }
+        // Cause, then mend.
+        assert!(message.contains("; "), "{message}");
+    }
+}
+
+#[test]
+fn a_series_that_does_not_relax_is_refused() {
+    for terms in [
+        [(-0.1, 1.0)],
+        [(0.1, 0.0)],
+        [(0.1, f64::INFINITY)],
+        [(f64::NAN, 1.0)],
+        [(1.0, 1.0)],
+    ] {
+        let found = PronySeries::new(&terms);
+        assert!(
+            matches!(found, Err(Error::NoRelaxation { terms: 1, .. })),
+            "{terms:?}"
+        );
+    }
+    assert!(PronySeries::new(&[]).is_ok());
+}
+
+/// Whatever the number of particles, form and ν: a model that is made has a radius, or there is an
+/// error; the strong form of twenty particles has none.
+#[test]
+fn particles_that_determine_nothing_are_refused() {
+    let mut refused = 0;
+    for particles in [12, 16, 20, 24, 28, 34, 60, 93] {
+        for nu in [0.0, 0.3, 0.45] {
+            let weak = spheres(particles, Form::Weak, nu);
+            assert_eq!(weak, Ok(()), "{particles}, {nu}");
+            match spheres(particles, Form::Strong, nu) {
+                Ok(()) => {}
+                Err(Error::Undetermined {
+                    particles: n,
+                    form: "strong",
+                    ..
+                }) => {
+                    assert_eq!(n, particles);
+                    refused += 1;
+                }
+                Err(other) => panic!("{particles}, {nu}: {other}"),
+            }
+        }
+    }
+    println!("strong form refused {refused} of 24");
+    assert!(refused > 0);
+}

@@ -1,0 +1,197 @@
+//! The displacement that is shown around a contact.
+
+use nalgebra::Vector3;
+use palpate_mechanics::Vec3;
+use palpate_mechanics::contact::Bond;
+use palpate_mechanics::finite_spheres::{
+    Assembly, FiniteSphereModel, FiniteSphereSettings, FiniteSphereWorkspace, Form, LocalContact,
+    Response,
+};
+
+use crate::contacts::{RADIUS, Random, bare_contact, model, tries};
+
+const TIP: f64 = 2e-3;
+
+struct Shown {
+    model: FiniteSphereModel,
+    contact: LocalContact,
+    response: Response,
+    workspace: FiniteSphereWorkspace,
+}
+
+impl Shown {
+    fn new(settings: FiniteSphereSettings, nu: f64, bond: Bond, curvature: f64) -> Self {
+        let model = model(settings, nu, bond);
+        let contact = bare_contact(Vector3::new(curvature, 0.0, curvature), TIP, RADIUS);
+        let mut workspace = model.workspace();
+        let response = model.respond(&contact, &mut workspace);
+        Self {
+            model,
+            contact,
+            response,
+            workspace,
+        }
+    }
+
+    fn at(&mut self, tip: &Vec3, x: &Vec3) -> Vec3 {
+        let found = (&self.contact, &self.response);
+        self.model.displacement(found, &mut self.workspace, tip, x)
+    }
+
+    /// The point of the surface at `distance` [m] along the azimuth `turn`.
+    fn on_surface(&self, distance: f64, turn: f64) -> Vec3 {
+        let sine = 0.5 * self.contact.curvature[0] * distance;
+        let across = distance * (1.0 - sine * sine).sqrt();
+        Vec3::new(across * turn.cos(), across * turn.sin(), -distance * sine)
+    }
+}
+
+fn every_kind() -> Vec<FiniteSphereSettings> {
+    let settings = FiniteSphereSettings::default();
+    vec![
+        settings,
+        FiniteSphereSettings {
+            form: Form::Strong,
+            ..settings
+        },
+        FiniteSphereSettings {
+            assembly: Assembly::Reused,
+            ..settings
+        },
+        FiniteSphereSettings {
+            particles: 93,
+            ..settings
+        },
+    ]
+}
+
+#[test]
+fn at_the_contact_it_is_the_displacement_of_the_tip() {
+    let mut random = Random(1);
+    for settings in every_kind() {
+        for bond in [Bond::Slip, Bond::Stick] {
+            let mut shown = Shown::new(settings, 0.45, bond, 15.0);
+            for _ in 0..tries(50) {
+                let tip = 1e-3 * random.vector();
+                let carried = match bond {
+                    Bond::Stick => tip,
+                    Bond::Slip => Vec3::z() * tip.z,
+                };
+                let found = shown.at(&tip, &Vec3::zeros());
+                // Rounding.
+                assert!((found - carried).norm() < 1e-15, "{settings:?} {bond:?}");
+            }
+        }
+    }
+}
+
+/// The normal displacement falls along the surface and is nothing beyond the shown radius. Judge up to
+/// the first shell: the flat punch's (2/π) asin(a/r).
+#[test]
+fn it_falls_along_the_surface_and_ends() {
+    for settings in every_kind() {
+        for nu in [0.3, 0.45] {
+            let mut shown = Shown::new(settings, nu, Bond::Slip, 1.0 / RADIUS);
+            let end = shown.model.shown_radius(TIP);
+            let tip = -1e-3 * Vec3::z();
+            let mut profile = Vec::new();
+            for step in 0..=60 {
+                let distance = end * f64::from(step) / 60.0;
+                let mean: f64 = (0..12)
+                    .map(|k| {
+                        let x =
+                            shown.on_surface(distance, std::f64::consts::TAU * f64::from(k) / 12.0);
+                        -shown.at(&tip, &x).z / (12.0 * 1e-3)
+                    })
+                    .sum();
+                profile.push((distance, mean));
+            }
+            let punch = |r: f64| std::f64::consts::FRAC_2_PI * (TIP / r.max(TIP)).asin();
+            let near = shown.model.spacing(TIP);
+            let off = profile
+                .iter()
+                .filter(|(r, _)| *r < near)
+                .map(|(r, u)| (u - punch(*r)).abs())
+                .fold(0.0, f64::max);
+            let rise = profile
+                .windows(2)
+                .map(|pair| pair[1].1 - pair[0].1)
+                .fold(0.0, f64::max);
+            let particles = settings.particles;
+            println!(
+                "{particles}, {:?}, {:?}, nu {nu}: off the punch by {off:.3}, rises by {rise:.4}",
+                settings.form, settings.assembly
+            );
+            // Against finite elements the profile of the weak form's 34 particles is within 0.06 of the
+            // depth; the strong form's, shown only, is a quarter too low between edge and shell.
+            let bound = if settings.form == Form::Weak {
+                0.06
+            } else {
+                0.3
+            };
+            assert!(off < bound, "{off}: {profile:?}");
+            assert!(rise < 0.02, "{rise}: {profile:?}");
+            let least = profile.iter().map(|p| p.1).fold(f64::INFINITY, f64::min);
+            assert!(least > -0.02, "{least}: {profile:?}");
+            for beyond in [1.0, 1.001, 3.0] {
+                let x = shown.on_surface(beyond * end, 0.3);
+                assert_eq!(shown.at(&tip, &x), Vec3::zeros());
+            }
+        }
+    }
+}
+
+/// Between the held particles the moving-least-squares field is not held exactly. What is left is the
+/// leap over the held shell, in parts of the tip's displacement.
+#[test]
+fn it_goes_over_the_held_shell_without_a_visible_leap() {
+    for settings in every_kind() {
+        for nu in [0.3, 0.45] {
+            let mut shown = Shown::new(settings, nu, Bond::Slip, 1.0 / RADIUS);
+            let held = shown.model.held_radius(TIP);
+            let tip = -1e-3 * Vec3::z();
+            let mut leap: f64 = 0.0;
+            for k in 0..360 {
+                let turn = f64::from(k).to_radians();
+                let inside = shown.on_surface(held * (1.0 - 1e-9), turn);
+                let outside = shown.on_surface(held * (1.0 + 1e-9), turn);
+                leap = leap.max((shown.at(&tip, &inside) - shown.at(&tip, &outside)).norm() / 1e-3);
+            }
+            println!(
+                "{}, {:?}, {:?}, nu {nu}: leap {leap:.4} of the tip's displacement",
+                settings.particles, settings.form, settings.assembly
+            );
+            // Measured 0.011 for the weak form, 0.03 for the strong one, which is wavier between
+            // particles. Of a depth of 2 mm that is less than a tenth of a millimetre.
+            let bound = if settings.form == Form::Weak {
+                0.02
+            } else {
+                0.05
+            };
+            assert!(leap < bound, "{settings:?}: {leap}");
+        }
+    }
+}
+
+/// Inside, neighbouring points move alike: halving the distance halves the difference.
+#[test]
+fn it_is_continuous_inside() {
+    let mut shown = Shown::new(FiniteSphereSettings::default(), 0.45, Bond::Stick, 10.0);
+    let held = shown.model.held_radius(TIP);
+    let tip = Vec3::new(3e-4, -2e-4, -1e-3);
+    let mut random = Random(2);
+    let mut worst = [0.0f64; 2];
+    for _ in 0..tries(5_000) {
+        let x = shown.on_surface(0.99 * held * random.unit(), 6.28 * random.unit());
+        let aside = random.vector().normalize();
+        let here = shown.at(&tip, &x);
+        for (k, step) in [1e-5, 5e-6].into_iter().enumerate() {
+            let there = shown.at(&tip, &(x + step * aside));
+            if (x + step * aside).norm() < held {
+                worst[k] = worst[k].max((there - here).norm());
+            }
+        }
+    }
+    println!("largest difference over 10 and 5 micrometres: {worst:?} m");
+    assert!(worst[1] < 0.6 * worst[0], "{worst:?}");
+}

@@ -1,0 +1,17 @@
+//! Tests of the crate from outside.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "clippy.toml allows both in tests, but does not see helpers as tests"
+)]
+
+mod agreement;
+mod analytic;
+mod contacts;
+mod convergence;
+mod errors;
+mod field;
+mod invariants;
+mod laws;
+mod no_allocation;

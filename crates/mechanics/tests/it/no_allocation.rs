@@ -1,0 +1,89 @@
+//! A step allocates nothing: everything that it needs is in the workspace.
+
+use assert_no_alloc::{AllocDisabler, assert_no_alloc, reset_violation_count, violation_count};
+use palpate_mechanics::Vec3;
+use palpate_mechanics::contact::Bond;
+use palpate_mechanics::finite_spheres::{Assembly, FiniteSphereSettings, Form, Solver};
+
+use crate::contacts::{RADIUS, Random, bare_contact, model};
+
+#[global_allocator]
+static COUNTING: AllocDisabler = AllocDisabler;
+
+#[test]
+fn a_step_allocates_nothing() {
+    let settings = FiniteSphereSettings::default();
+    let gmres = Solver::Gmres { tolerance: 1e-8 };
+    for (name, settings) in [
+        ("weak, direct", settings),
+        (
+            "strong, direct",
+            FiniteSphereSettings {
+                form: Form::Strong,
+                ..settings
+            },
+        ),
+        (
+            "reused",
+            FiniteSphereSettings {
+                assembly: Assembly::Reused,
+                ..settings
+            },
+        ),
+        (
+            "weak, gmres",
+            FiniteSphereSettings {
+                solver: gmres,
+                ..settings
+            },
+        ),
+        (
+            "strong, gmres",
+            FiniteSphereSettings {
+                form: Form::Strong,
+                solver: gmres,
+                ..settings
+            },
+        ),
+        (
+            "93, weak, direct",
+            FiniteSphereSettings {
+                particles: 93,
+                ..settings
+            },
+        ),
+    ] {
+        let model = model(settings, 0.45, Bond::Stick);
+        let mut workspace = model.workspace();
+        let mut random = Random(1);
+        let tip = 1e-3 * random.vector();
+        reset_violation_count();
+        let mut counts = Vec::new();
+        for _ in 0..10 {
+            let curvature = random.curvature(model.spacing(2e-3), 0.5);
+            let contact = bare_contact(curvature, 2e-3, RADIUS);
+            let points = [0; 8].map(|_| 1e-2 * random.vector());
+            let before = violation_count();
+            let sum: Vec3 = assert_no_alloc(|| {
+                let response = model.respond(&contact, &mut workspace);
+                points
+                    .iter()
+                    .map(|x| model.displacement((&contact, &response), &mut workspace, &tip, x))
+                    .sum()
+            });
+            assert!(sum.norm().is_finite());
+            counts.push(violation_count() - before);
+        }
+        println!("{name}: allocations per step {counts:?}");
+        assert!(counts[1..].iter().all(|&n| n == 0), "{name}: {counts:?}");
+    }
+}
+
+/// That the counter counts at all.
+#[test]
+fn an_allocation_would_be_seen() {
+    let before = violation_count();
+    let length = assert_no_alloc(|| vec![1u8; 1000].len());
+    assert_eq!(length, 1000);
+    assert!(violation_count() > before);
+}
