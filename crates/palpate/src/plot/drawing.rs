@@ -6,7 +6,7 @@ use kuva::backend::png::PngBackend;
 use kuva::plot::{LegendPosition, LinePlot, LineStyle, MarkerShape, ScatterPlot};
 use kuva::render::layout::Layout;
 use kuva::render::plots::Plot as Drawn;
-use kuva::render::render::render_multiple;
+use kuva::render::render::{Primitive, Scene, render_multiple};
 use kuva::{TickAlign, TickFormat};
 
 use super::retouch::{self, SIZE};
@@ -15,6 +15,9 @@ use super::{Axis, Plot, Series, Style, span};
 /// Pixels of the picture per unit of the layout.
 const PIXELS: f32 = 1.6;
 
+/// What stays free at the right and below, in units of the layout.
+const MARGIN: f64 = 16.0;
+
 /// Colors that everybody can tell apart, in grey as well [Okabe and Ito 2008].
 const COLORS: [&str; 6] = [
     "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#000000",
@@ -22,21 +25,33 @@ const COLORS: [&str; 6] = [
 
 /// The picture of `plot`.
 pub(super) fn png(plot: &Plot) -> Result<Vec<u8>, String> {
-    let drawn: Vec<Drawn> = plot
-        .series
-        .iter()
-        .flat_map(|series| draw(plot, series))
-        .collect();
-    let layout = layout(plot, &drawn);
-    let mut scene = render_multiple(drawn, layout);
+    // How many lines the legend takes shows only in the drawing, so it is made twice.
+    let unused = SIZE[1] - MARGIN - lowest(&scene(plot, SIZE[1]));
+    let mut scene = scene(plot, SIZE[1] + unused);
+    (scene.width, scene.height) = (SIZE[0], SIZE[1]);
     retouch::retouch(&mut scene, plot);
     PngBackend::new().with_scale(PIXELS).render_scene(&scene)
 }
 
+fn scene(plot: &Plot, height: f64) -> Scene {
+    let series = plot.series.iter();
+    let drawn: Vec<Drawn> = series.flat_map(|series| draw(plot, series)).collect();
+    let layout = layout(plot, &drawn);
+    let layout = layout.with_width(SIZE[0] - MARGIN).with_height(height);
+    render_multiple(drawn, layout)
+}
+
+/// Where the lowest text stands.
+fn lowest(scene: &Scene) -> f64 {
+    let heights = scene.elements.iter().map(|element| match element {
+        Primitive::Text { y, .. } => *y,
+        _ => 0.0,
+    });
+    heights.fold(0.0, f64::max)
+}
+
 fn layout(plot: &Plot, drawn: &[Drawn]) -> Layout {
     let mut layout = Layout::auto_from_plots(drawn)
-        .with_width(SIZE[0])
-        .with_height(SIZE[1])
         .with_title(&*plot.title)
         // A word that stands upright is hard to read; see `retouch`.
         .with_subtitle(&*plot.y_label)
@@ -55,10 +70,11 @@ fn layout(plot: &Plot, drawn: &[Drawn]) -> Layout {
     if plot.y_axis == Axis::Logarithmic {
         layout = layout.with_log_y().with_y_tick_format(plain());
     }
-    if let Some((low, high)) = span::x(plot) {
-        layout = layout.with_x_axis_min(low).with_x_axis_max(high);
-    }
+    let (low, high) = span::x(plot);
+    layout.x_range = (low, high);
+    layout = layout.with_x_axis_min(low).with_x_axis_max(high);
     if let Some((low, high)) = span::y(plot) {
+        layout.y_range = (low, high);
         layout = layout.with_y_axis_min(low).with_y_axis_max(high);
     }
     layout

@@ -124,9 +124,19 @@ mod tests {
         assert_eq!(sides, [1200, 800]);
     }
 
+    /// An organ that was not touched has a force of zero all along.
     #[test]
-    fn a_plot_without_a_point_or_with_one_is_still_drawn() {
-        assert!(plot(Vec::new()).png().is_ok());
-        assert!(plot(vec![(1.0, 0.1)]).png().is_ok());
+    fn a_plot_of_nothing_or_of_a_constant_is_still_drawn() {
+        for y_axis in [Axis::Linear, Axis::Logarithmic] {
+            for points in [vec![], vec![(1.0, 0.1)], vec![(0.0, 0.0), (1.0, 0.0)]] {
+                for style in [Style::Line, Style::Dots] {
+                    let mut plot = plot(points.clone());
+                    plot.y_axis = y_axis;
+                    plot.series[0].style = style;
+                    assert!(plot.png().is_ok());
+                }
+            }
+        }
+        assert!(Plot::default().png().is_ok());
     }
 }

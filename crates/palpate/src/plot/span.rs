@@ -1,39 +1,61 @@
-//! From where to where an axis goes.
+//! From where to where an axis goes. The drawing crate's own choice fails without points, and leaves
+//! much room on logarithmic axes.
 
 use super::{Axis, Plot};
 
 /// What is left free beside markers at the border, as a part of the span [-].
 const MARGIN: f64 = 0.03;
 
-/// Lowest and highest value of the x axis; none without two different values.
-pub(super) fn x(plot: &Plot) -> Option<(f64, f64)> {
-    span(plot, plot.x_axis, |point| point.0)
+/// Lowest and highest value of the x axis.
+pub(super) fn x(plot: &Plot) -> (f64, f64) {
+    match values(plot, |point| point.0) {
+        Some((low, high)) => around(plot, plot.x_axis, low, high),
+        None => empty(plot.x_axis),
+    }
 }
 
-/// Lowest and highest value of the y axis; none without two different values, or where the drawing
-/// chooses better.
+/// Lowest and highest value of the y axis; none for lines whose span the drawing rounds well.
 pub(super) fn y(plot: &Plot) -> Option<(f64, f64)> {
-    match plot.y_axis {
-        Axis::Linear => None,
-        Axis::Logarithmic => span(plot, plot.y_axis, |point| point.1),
+    match values(plot, |point| point.1) {
+        None => Some(empty(plot.y_axis)),
+        Some((low, high)) => {
+            let rounded = plot.y_axis == Axis::Linear && !has_markers(plot) && low < high;
+            (!rounded).then(|| around(plot, plot.y_axis, low, high))
+        }
     }
 }
 
-fn span(plot: &Plot, axis: Axis, of: fn((f64, f64)) -> f64) -> Option<(f64, f64)> {
-    let values = plot.series.iter().flat_map(|series| series.drawable(plot));
-    let nothing = (f64::INFINITY, f64::NEG_INFINITY);
-    let (low, high) = values
-        .map(of)
-        .fold(nothing, |(low, high), v| (low.min(v), high.max(v)));
-    if low >= high {
-        return None;
+/// Of an axis that nothing stands on.
+fn empty(axis: Axis) -> (f64, f64) {
+    match axis {
+        Axis::Linear => (0.0, 1.0),
+        Axis::Logarithmic => (1.0, 10.0),
     }
-    let markers = plot.series.iter().any(|series| series.style.has_markers());
-    let margin = if markers { MARGIN * (high - low) } else { 0.0 };
-    Some(match axis {
+}
+
+/// Lowest and highest of what is drawn.
+fn values(plot: &Plot, of: fn((f64, f64)) -> f64) -> Option<(f64, f64)> {
+    let values = plot.series.iter().flat_map(|series| series.drawable(plot));
+    let both = values.map(of).map(|value| (value, value));
+    both.reduce(|(low, high), (_, value)| (low.min(value), high.max(value)))
+}
+
+fn around(plot: &Plot, axis: Axis, low: f64, high: f64) -> (f64, f64) {
+    let margin = match (low < high, has_markers(plot)) {
+        (true, true) => MARGIN * (high - low),
+        (true, false) => 0.0,
+        // A single value stands in the middle.
+        (false, _) if low == 0.0 => 1.0,
+        (false, _) => 0.5 * low.abs(),
+    };
+    match axis {
         Axis::Linear => (low - margin, high + margin),
         Axis::Logarithmic => (1.0 / round_up(1.0 / low), round_up(high)),
-    })
+    }
+}
+
+fn has_markers(plot: &Plot) -> bool {
+    plot.series.iter().any(|series| series.style.has_markers())
 }
 
 /// The next of 1, 2, 5, 10 … that is clearly above `value`.
@@ -53,5 +75,15 @@ mod tests {
         assert_eq!(round_up(300.0), 500.0);
         assert_eq!(round_up(999.0), 2000.0);
         assert_eq!(1.0 / round_up(1.0 / 20.0), 10.0);
+    }
+
+    #[test]
+    fn no_span_is_empty() {
+        let plot = Plot::default();
+        for (low, high) in [(0.0, 0.0), (-2.0, -2.0), (3.0, 3.0)] {
+            let (low, high) = around(&plot, Axis::Linear, low, high);
+            assert!(low < high);
+        }
+        assert_eq!((x(&plot), y(&plot)), ((0.0, 1.0), Some((0.0, 1.0))));
     }
 }

@@ -53,7 +53,7 @@ fn a_word_that_is_not_known_is_answered_with_the_nearest() {
         &["`tabel-3-1`", "nearest is `table-3-1`", "figure-4-5"],
     );
     refused(
-        &["reproduce", "table-3-1/sol_s"],
+        &["reproduce", "table-3-1/soluton_s"],
         &["nearest is `table-3-1/solution_s`"],
     );
     refused(
@@ -61,7 +61,7 @@ fn a_word_that_is_not_known_is_answered_with_the_nearest() {
         &["200"],
     );
     refused(&["simulat"], &["simulat", "simulate", "--help"]);
-    refused(&["mesh", "info"], &["FILE", "--help"]);
+    refused(&["mesh", "info"], &["FILE", "--builtin", "--help"]);
     refused(&["mesh", "info", "a.stl", "--jsn"], &["--jsn", "--json"]);
     // Nothing was made for what was refused at once.
     assert!(

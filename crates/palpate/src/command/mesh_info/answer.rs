@@ -53,6 +53,7 @@ impl Answer {
             Ok((repaired, repairs)) => (Some(repaired), Repair::from(repairs)),
             Err(_) => (None, Repair::default()),
         };
+        let repaired = repaired.filter(|_| repair.is_needed());
         let (can_be_simulated, because) = verdict(mesh, repaired, &report);
         Self {
             palpate: VERSION,
@@ -87,7 +88,7 @@ impl From<Repairs> for Repair {
     }
 }
 
-/// Whether the mesh bounds a solid, as it is or after the repair, and why.
+/// Whether the mesh bounds a solid, as it is or after a repair that changes it, and why.
 fn verdict(
     mesh: &TriangleMesh,
     repaired: Option<TriangleMesh>,

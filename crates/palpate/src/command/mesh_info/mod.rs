@@ -69,8 +69,10 @@ fn of_file(file: &Path, unit: Option<&str>, progress: &Progress) -> Result<Answe
         format: imported.format.to_string(),
         unit: imported.unit.symbol(),
     };
-    let warnings = imported.warnings.iter().map(in_words_of_this_command);
-    let warnings = warnings.collect();
+    let warnings = imported.warnings.iter();
+    let warnings = warnings
+        .map(|warning| in_words_of_this_command(warning))
+        .collect();
     Ok(Answer::new(origin, &imported.mesh, warnings))
 }
 
@@ -101,6 +103,6 @@ fn about_unit(error: ReadError) -> Failure {
     }
 }
 
-fn in_words_of_this_command(message: &String) -> String {
+fn in_words_of_this_command(message: &str) -> String {
     message.replace("mesh_unit", "--unit")
 }

@@ -4,10 +4,11 @@ use palpate_mechanics::finite_spheres::{
 };
 use palpate_mechanics::{Error, LinearElastic};
 
+use super::plots;
 use super::pole::{FORMS, YOUNGS_MODULUS, contact, stiffness};
 use super::timing::{machine, measure};
 use crate::failure::Failure;
-use crate::plot::{Axis, Plot, Series, Style};
+use crate::plot::Series;
 use crate::reproduce::row::Value;
 use crate::reproduce::{Item, Rows};
 
@@ -47,13 +48,13 @@ fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
         }
     }
     let note = "the curves of the source carry no numbers; size of the error, tip of 3 mm radius";
-    rows.add_figure(None, &plot_of_errors(errors), note)?;
+    rows.add_figure(None, &plots::of_errors(errors), note)?;
     let times = times(rows)?;
-    rows.add_figure(Some("time"), &plot_of_times(times), "")?;
+    rows.add_figure(Some("time"), &plots::of_times(times), "")?;
     implied_radii(rows)
 }
 
-/// The curve of the larger error over both radii.
+/// The curve for the tip of the plots; rows for all tips.
 fn force_errors(
     rows: &mut Rows<'_>,
     (form, word): (Form, &str),
@@ -85,7 +86,7 @@ fn force_errors(
     Ok(Series {
         name: format!("{word}, ν = {nu}"),
         points,
-        style: style(form),
+        style: plots::style(form),
         color: usize::from(nu > 0.4),
     })
 }
@@ -113,7 +114,7 @@ fn times(rows: &mut Rows<'_>) -> Result<Vec<Series>, Failure> {
         series.push(Series {
             name: word.to_owned(),
             points,
-            style: style(form),
+            style: plots::style(form),
             color: 0,
         });
     }
@@ -151,34 +152,5 @@ fn own(ours: Option<f64>, unit: &'static str) -> Value {
         published: None,
         ours,
         unit,
-    }
-}
-
-fn style(form: Form) -> Style {
-    match form {
-        Form::Weak => Style::LineWithDots,
-        Form::Strong => Style::DashedLineWithSquares,
-    }
-}
-
-fn plot_of_errors(series: Vec<Series>) -> Plot {
-    Plot {
-        title: "Force at the pole of a hemisphere: error of the local model".to_owned(),
-        x_label: "number of particles [-]".to_owned(),
-        y_label: "size of the force error [%]".to_owned(),
-        x_axis: Axis::Logarithmic,
-        y_axis: Axis::Linear,
-        series,
-    }
-}
-
-fn plot_of_times(series: Vec<Series>) -> Plot {
-    Plot {
-        title: "Time of one step of the local model".to_owned(),
-        x_label: "number of particles [-]".to_owned(),
-        y_label: "time of a step [ms]".to_owned(),
-        x_axis: Axis::Logarithmic,
-        y_axis: Axis::Logarithmic,
-        series,
     }
 }

@@ -1,6 +1,7 @@
 //! M1, the local model: the hemisphere of chapter 3, indented at the pole.
 
 mod figure_3_4;
+mod plots;
 mod pole;
 mod table_3_1;
 mod timing;

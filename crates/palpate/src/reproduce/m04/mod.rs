@@ -3,12 +3,13 @@
 //! Shepard's functions are φ_i = w_i / Σ w; moving least squares with the basis {1, x} correct them to
 //! reproduce a line: φ_i = w_i (m₂ − m₁ d_i) / (m₀ m₂ − m₁²), d_i = x_i − x, m_k = Σ w_i d_iᵏ.
 
+mod plots;
+
 use palpate_mechanics::finite_spheres::quartic;
 
-use super::row::Value;
-use super::{Item, Rows};
 use crate::failure::Failure;
-use crate::plot::{Plot, Series, Style};
+use crate::reproduce::row::Value;
+use crate::reproduce::{Item, Rows};
 
 pub(crate) const FIGURE_4_5: Item = Item {
     name: "figure-4-5",
@@ -68,10 +69,10 @@ fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
     }
     let note =
         "equally spaced nodes with arbitrary values; the curves of the source carry no numbers";
-    rows.add_figure(None, &plot_of_curves(), note)?;
-    let note = "functions of the node in the middle; at equal spacing both methods are close there, \
-        and differ towards the ends, where Shepard's do not reproduce a line";
-    rows.add_figure(Some("functions"), &plot_of_functions(), note)
+    rows.add_figure(None, &plots::of_curves(), note)?;
+    let note = "functions of the node beside the end; between equally spaced nodes away from the ends \
+        both methods are nearly the same, at the ends Shepard's do not reproduce a line";
+    rows.add_figure(Some("functions"), &plots::of_functions(), note)
 }
 
 fn own(ours: f64) -> Value {
@@ -97,85 +98,10 @@ fn functions(method: Method, radius: f64, x: f64) -> [f64; NODAL.len()] {
     })
 }
 
+/// Positions from the first node to the last [h].
 fn samples() -> impl Iterator<Item = f64> {
     let last = (NODAL.len() - 1) as f64;
     (0..=SAMPLES).map(move |sample| last * sample as f64 / SAMPLES as f64)
-}
-
-fn curve(value: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
-    samples().map(|x| (x, value(x))).collect()
-}
-
-fn plot_of_curves() -> Plot {
-    let nodes = NODAL
-        .iter()
-        .enumerate()
-        .map(|(node, value)| (node as f64, *value));
-    let mut series = vec![Series {
-        name: "nodes".to_owned(),
-        points: nodes.collect(),
-        style: Style::Dots,
-        color: 5,
-    }];
-    for (color, radius) in RADII.into_iter().enumerate() {
-        for (method, _, name) in METHODS {
-            let value = |x| -> f64 {
-                let functions = functions(method, radius, x);
-                functions
-                    .iter()
-                    .zip(&NODAL)
-                    .map(|(f, value)| f * value)
-                    .sum()
-            };
-            series.push(Series {
-                name: format!("{name}, r = {radius} h"),
-                points: curve(value),
-                style: style(method),
-                color,
-            });
-        }
-    }
-    Plot {
-        title: "Curves through nodal values in one dimension".to_owned(),
-        x_label: "position x [h]".to_owned(),
-        y_label: "value [-]".to_owned(),
-        series,
-        ..Plot::default()
-    }
-}
-
-fn plot_of_functions() -> Plot {
-    let mut series = Vec::new();
-    for (color, radius) in RADII.into_iter().enumerate() {
-        for (method, _, name) in METHODS {
-            series.push(Series {
-                name: format!("{name}, r = {radius} h"),
-                points: curve(|x| functions(method, radius, x)[MIDDLE]),
-                style: style(method),
-                color,
-            });
-        }
-        series.push(Series {
-            name: format!("quartic weight, r = {radius} h"),
-            points: curve(|x| quartic((MIDDLE as f64 - x).abs() / radius)),
-            style: Style::DottedLine,
-            color,
-        });
-    }
-    Plot {
-        title: "Weight and interpolation functions of a node".to_owned(),
-        x_label: "position x [h]".to_owned(),
-        y_label: "function [-]".to_owned(),
-        series,
-        ..Plot::default()
-    }
-}
-
-fn style(method: Method) -> Style {
-    match method {
-        Method::Shepard => Style::Line,
-        Method::MovingLeastSquares => Style::DashedLine,
-    }
 }
 
 #[cfg(test)]
