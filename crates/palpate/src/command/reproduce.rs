@@ -1,6 +1,5 @@
 //! `palpate reproduce`: the source's tables and figures, published beside ours.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -25,7 +24,7 @@ pub(crate) struct Arguments {
     /// Tables, figures or rows, by how they begin; without one, everything.
     #[arg(value_name = "ROW")]
     rows: Vec<String>,
-    /// The folder for figures; it is made when it is not there.
+    /// The folder for figures; it is made when there is one to write.
     #[arg(long, value_name = "DIR", default_value = "palpate-reproduce")]
     out: PathBuf,
     /// Print a JSON list with one object per row.
@@ -36,7 +35,7 @@ pub(crate) struct Arguments {
 /// Computes and prints the rows.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let selection = select(&arguments.rows)?;
-    make_folder(&arguments.out)?;
+    refuse_file(&arguments.out)?;
     let items = selection.items();
     let progress = Progress::new(Reader::of_json(arguments.json), Some(items.len() as u64));
     let mut rows = Vec::new();
@@ -66,11 +65,13 @@ fn titles(items: &[Item]) -> String {
     titles.collect::<String>() + &more
 }
 
-fn make_folder(folder: &Path) -> Result<(), Failure> {
-    fs::create_dir_all(folder).map_err(|error| {
-        Failure::input(format!(
-            "the folder {} cannot be made ({error}); give another with --out",
+/// Before the work, not after it.
+fn refuse_file(folder: &Path) -> Result<(), Failure> {
+    match folder.exists() && !folder.is_dir() {
+        true => Err(Failure::input(format!(
+            "{} is a file and no folder; give another with --out",
             folder.display()
-        ))
-    })
+        ))),
+        false => Ok(()),
+    }
 }

@@ -1,3 +1,4 @@
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -89,6 +90,7 @@ impl<'a> Rows<'a> {
                 format!("{}-{name}.png", self.item),
             ),
         };
+        make_folder(self.folder)?;
         let path = self.folder.join(file);
         plot.write(&path)?;
         let value = Value {
@@ -123,4 +125,13 @@ impl<'a> Rows<'a> {
         });
         self.since = Instant::now();
     }
+}
+
+fn make_folder(folder: &Path) -> Result<(), Failure> {
+    fs::create_dir_all(folder).map_err(|error| {
+        Failure::input(format!(
+            "the folder {} cannot be made ({error}); give another with --out",
+            folder.display()
+        ))
+    })
 }
