@@ -26,7 +26,7 @@ pub use io::{ImportedMesh, read_mesh};
 pub use mesh::adjacency::Adjacency;
 pub use mesh::error::MeshError;
 pub use mesh::triangles::{NodeId, TriangleId, TriangleMesh};
-pub use neighborhood_watch::{Footing, follow};
+pub use neighborhood_watch::{FASTEST_TURN, Footing, follow, settle};
 pub use organ::{AnchorPlane, Organ, OrganDescription, OrganError};
 pub use patch_field::{Patch, PatchField};
 pub use proximity::{PointOnTriangle, closest_on_triangle};

@@ -7,7 +7,7 @@
 //! *How we know*: `invariants::real_organs_under_random_pokes_and_slides`, `analytic::…`.
 
 use nalgebra::Matrix3;
-use palpate_geometry::{Footing, Vec3, follow};
+use palpate_geometry::{Footing, Vec3, follow, settle};
 use palpate_mechanics::contact::Bond;
 use palpate_mechanics::finite_spheres::{LocalContact, Placement, first_direction};
 
@@ -24,6 +24,8 @@ pub struct Contact {
     pub(crate) footing: Footing,
     /// The place that answers: that of the footing, or of the first contact of a tip that sticks.
     pub(crate) place: LocalContact,
+    /// Where the tool is [m].
+    pub(crate) tip: Vec3,
     /// Depth below the rest surface [m].
     pub depth: f64,
 }
@@ -60,25 +62,52 @@ pub(crate) fn detect(
     let Some(last) = last else {
         return begin(simulation, tool, tip);
     };
-    let Some(footing) = follow(&simulation.surface, &tool.patches, &last.footing, tip) else {
+    let way = (&last.tip, tip);
+    let Some(footing) = follow(&simulation.surface, &tool.patches, &last.footing, way) else {
         return begin(simulation, tool, tip);
     };
-    let depth = footing.depth + tool.overhang();
+    let depth = tool.overhang() + depth_of_tip(simulation, tool, &footing, tip);
     if depth <= 0.0 || has_passed_through(simulation, tool, depth, tip) {
         return None;
     }
     let mut contact = Contact {
         footing,
         place: last.place,
+        tip: *tip,
         depth,
     };
     match tool.bond {
-        Bond::Slip => contact.place = place(simulation, tool, &footing, Some(&last.place.frame)),
+        Bond::Slip => {
+            contact.place = place(simulation, tool, (&footing, depth), Some(&last.place.frame));
+        }
         Bond::Stick if contact.displacement(tool, tip).z >= 0.0 => return None,
-        Bond::Stick => {}
+        Bond::Stick => contact.place.radius = tool.tip.contact_radius(depth),
     }
-    contact.place.radius = tool.tip.contact_radius(depth);
     Some(contact)
+}
+
+/// Depth of the tool's reference point below the rest surface [m]: its distance, where the nearest
+/// point of the surface is the one that is touched. Where it is another one (below a thin wall, or
+/// behind a ridge) it is the depth below the footing, with a continuous passage between the two.
+fn depth_of_tip(simulation: &Simulation, tool: &Tool, footing: &Footing, tip: &Vec3) -> f64 {
+    let surface = &simulation.surface;
+    let (nearest, signed) = surface.signed_distance(&simulation.tree, tip);
+    let normal = tool
+        .patches
+        .at(surface, footing.triangle, &footing.barycentric)
+        .normal;
+    let outward = (tip - nearest.on.position) * signed.signum();
+    let cosine = outward.dot(&normal) / nearest.distance.max(f64::MIN_POSITIVE);
+    let apart = (signed + footing.depth).abs() / signed.abs().max(footing.depth.abs());
+    // Full trust within 60 degrees and half the depth, none at 90 degrees or nine tenths.
+    let same_side = (2.0 * cosine).clamp(0.0, 1.0);
+    let same_depth = ((0.9 - apart) / 0.4).clamp(0.0, 1.0);
+    let trust = same_side * same_depth;
+    if trust > 0.0 {
+        trust * -signed + (1.0 - trust) * footing.depth
+    } else {
+        footing.depth
+    }
 }
 
 /// The first contact: at the nearest point of the rest surface, when the tip is below it.
@@ -95,13 +124,13 @@ fn begin(simulation: &Simulation, tool: &Tool, tip: &Vec3) -> Option<Contact> {
         depth: -signed,
     };
     // The nearest point of a mesh leaps at its edges; the point under the averaged normal does not.
-    let footing = follow(&simulation.surface, &tool.patches, &found, tip)
-        .filter(|footing| footing.depth + tool.overhang() > 0.0)
+    let footing = settle(&simulation.surface, &tool.patches, &found, tip)
         .unwrap_or(found);
     Some(Contact {
         footing,
-        place: place(simulation, tool, &footing, None),
-        depth: footing.depth + tool.overhang(),
+        place: place(simulation, tool, (&footing, depth), None),
+        tip: *tip,
+        depth,
     })
 }
 
@@ -117,7 +146,7 @@ fn has_passed_through(simulation: &Simulation, tool: &Tool, depth: f64, tip: &Ve
 fn place(
     simulation: &Simulation,
     tool: &Tool,
-    footing: &Footing,
+    (footing, depth): (&Footing, f64),
     last: Option<&Matrix3<f64>>,
 ) -> LocalContact {
     let patch = tool
@@ -148,7 +177,7 @@ fn place(
             between(&second, &second),
         ),
         triangle: footing.triangle,
-        radius: tool.tip.contact_radius(footing.depth + tool.overhang()),
+        radius: tool.tip.contact_radius(depth),
         organ_radius: simulation.organ_radius,
     }
 }
