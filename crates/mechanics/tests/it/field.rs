@@ -182,7 +182,10 @@ fn it_is_continuous_inside() {
     let mut random = Random(2);
     let mut worst = [0.0f64; 2];
     for _ in 0..tries(5_000) {
-        let x = shown.on_surface(0.99 * held * random.unit(), 6.28 * random.unit());
+        let x = shown.on_surface(
+            0.99 * held * random.unit(),
+            std::f64::consts::TAU * random.unit(),
+        );
         let aside = random.vector().normalize();
         let here = shown.at(&tip, &x);
         for (k, step) in [1e-5, 5e-6].into_iter().enumerate() {
