@@ -161,7 +161,7 @@ fn slide(
         }
         direction = (direction - here.normal * here.normal.dot(&direction)).normalize();
         let next = tip + 1e-4 * direction;
-        let Some(found) = follow(surface, field, &footing, &next) else {
+        let Some(found) = follow(surface, field, &footing, (&tip, &next)) else {
             panic!("lost the contact at {tip}");
         };
         let ratio = (found.point - footing.point).norm() / (next - tip).norm();
@@ -183,10 +183,11 @@ fn slide(
 /// averaged normals from triangle to triangle, which may be as large again.
 #[test]
 fn slide_has_no_leaps() {
-    for (each, triangles, radius) in [
-        (Organ::Hemisphere, 3_072, 5e-3),
-        (Organ::Liver, 6_000, 8e-3),
-        (Organ::Liver, 20_000, 5e-3),
+    // The hemisphere's rim is a sharp edge, over which normals turn within a triangle: not near it.
+    for (each, triangles, radius, deepest) in [
+        (Organ::Hemisphere, 3_072, 5e-3, 0.2),
+        (Organ::Liver, 6_000, 8e-3, 0.5),
+        (Organ::Liver, 20_000, 5e-3, 0.5),
     ] {
         let (surface, _) = organ(each, triangles);
         let field = PatchField::new(&surface, radius);
@@ -194,7 +195,7 @@ fn slide_has_no_leaps() {
         for depth in [1e-3, 2e-3, 3e-3] {
             let (mut ratio, mut after, mut steps) = (0.0f64, 0.0f64, 0);
             for _ in 0..tries(300) {
-                let slide = slide((&surface, &field), &mut random, depth, 0.5);
+                let slide = slide((&surface, &field), &mut random, depth, deepest);
                 ratio = ratio.max(slide.ratio);
                 after = after.max(slide.after_shrinking);
                 steps += slide.steps;
@@ -203,7 +204,7 @@ fn slide_has_no_leaps() {
                 "{each}, {triangles}, {depth} m: the contact moves {ratio:.3} times the tip, {after:.3} after shrinking, {steps} steps"
             );
             assert!(steps > 1_000, "{steps}");
-            // Twice the inverse, and the slides stop where d κ is ½.
+            // Twice the inverse, and the slides stop where d κ is ½ at the latest.
             assert!(
                 after < 2.0 && ratio < 4.0,
                 "{each}, {depth} m: {ratio} {after}"
