@@ -26,6 +26,8 @@ pub struct Footing {
     pub barycentric: [f64; 3],
     /// The contact point at rest [m].
     pub point: Vec3,
+    /// The averaged unit outward normal there [-].
+    pub normal: Vec3,
     /// Depth of the tip below it along the outward normal [m]; negative outside.
     pub depth: f64,
 }
@@ -48,8 +50,7 @@ pub fn follow(
     from: &Footing,
     (before, tip): (&Vec3, &Vec3),
 ) -> Option<Footing> {
-    let moved = (tip - before).norm();
-    let normal = field.at(surface, from.triangle, &from.barycentric).normal;
+    let (moved, normal) = ((tip - before).norm(), from.normal);
     let aim = settle(surface, field, from, tip).map_or_else(
         || {
             // Nothing to solve for: straight along the surface towards the tip.
@@ -63,25 +64,36 @@ pub fn follow(
         },
         Some,
     )?;
-    let travel = (aim.point - from.point).norm();
-    let turned = field
-        .at(surface, aim.triangle, &aim.barycentric)
-        .normal
-        .angle(&normal);
-    let part = (FASTEST_TRAVEL * moved / travel).min(FASTEST_TURN * moved / turned);
-    let reached = if part < 1.0 {
-        let way = from.point + part * (aim.point - from.point);
-        nearest_among_neighbors(surface, field, from.triangle, &way)?
-    } else {
-        aim
-    };
-    let normal = field
-        .at(surface, reached.triangle, &reached.barycentric)
-        .normal;
+    let reached = approach(surface, field, from, (&aim, moved))?;
     Some(Footing {
-        depth: normal.dot(&(reached.point - tip)),
+        depth: reached.normal.dot(&(reached.point - tip)),
         ..reached
     })
+}
+
+/// The contact point on the way from `from` to `aim`, as far as a tip that has `moved` [m] takes it.
+fn approach(
+    surface: &Surface,
+    field: &PatchField,
+    from: &Footing,
+    (aim, moved): (&Footing, f64),
+) -> Option<Footing> {
+    let way = aim.point - from.point;
+    let mut part = FASTEST_TRAVEL * moved / way.norm();
+    let mut reached = *aim;
+    for _ in 0..6 {
+        if part < 1.0 {
+            let there = from.point + part * way;
+            reached = nearest_among_neighbors(surface, field, from.triangle, &there)?;
+        }
+        let too_fast = reached.normal.angle(&from.normal) / (FASTEST_TURN * moved);
+        if too_fast <= 1.0 {
+            break;
+        }
+        // The normal turns unevenly along the way: again, with a little to spare.
+        part = 0.9 * part.min(1.0) / too_fast;
+    }
+    Some(reached)
 }
 
 /// The point whose averaged normal passes through `tip` [m], if there is one near `from`.
@@ -192,6 +204,7 @@ fn footing(surface: &Surface, field: &PatchField, trial: &Trial) -> Footing {
         triangle: trial.triangle,
         barycentric: trial.barycentric,
         point,
+        normal: normal.normalize(),
         depth: trial.along * normal.norm(),
     }
 }
@@ -226,6 +239,7 @@ fn nearest_among_neighbors(
                 triangle,
                 barycentric: on.barycentric,
                 point: on.position,
+                normal: patch.normal,
                 depth: if below { distance } else { -distance },
             });
         };
