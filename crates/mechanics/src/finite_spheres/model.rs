@@ -72,7 +72,7 @@ impl FiniteSphereModel {
             law.youngs_modulus(),
             law.poissons_ratio().min(LARGEST_CALIBRATED_RATIO),
         )?;
-        let mut workspace = FiniteSphereWorkspace::new(&settings, &layout);
+        let mut workspace = FiniteSphereWorkspace::new(&settings, &layout, &quadrature);
         let problem = (solved, bond, settings.form);
         let calibration = Calibration::new(problem, layout.shells, |cap| {
             workspace.place(&layout, cap);
@@ -118,7 +118,7 @@ impl FiniteSphereModel {
 
     /// Fresh scratch for this model.
     pub fn workspace(&self) -> FiniteSphereWorkspace {
-        FiniteSphereWorkspace::new(&self.settings, &self.layout)
+        FiniteSphereWorkspace::new(&self.settings, &self.layout, &self.quadrature)
     }
 
     /// Distance between shells [m] for a touching area of `radius` [m]: h = a/α.

@@ -23,7 +23,7 @@ struct Entry {
     stiffness: Matrix3<f64>,
     coefficients: Vec<Matrix3<f64>>,
     positions: Vec<crate::Vec3>,
-    radii: Vec<f64>,
+    inverse_squares: Vec<f64>,
 }
 
 impl ReuseTable {
@@ -47,7 +47,7 @@ impl ReuseTable {
                         stiffness: solution.stiffness,
                         coefficients: solution.coefficients.clone(),
                         positions: solution.particles.positions.clone(),
-                        radii: solution.particles.radii.clone(),
+                        inverse_squares: solution.particles.inverse_squares.clone(),
                     });
                 }
             }
@@ -72,8 +72,8 @@ impl ReuseTable {
             .particles
             .positions
             .resize(count, crate::Vec3::zeros());
-        solution.particles.radii.clear();
-        solution.particles.radii.resize(count, 0.0);
+        solution.particles.inverse_squares.clear();
+        solution.particles.inverse_squares.resize(count, 0.0);
         for corner in 0..8usize {
             let mut weight = 1.0;
             let mut index = 0;
@@ -96,7 +96,11 @@ impl Entry {
         coefficients.for_each(|(sum, own)| *sum += own * weight);
         let positions = solution.particles.positions.iter_mut().zip(&self.positions);
         positions.for_each(|(sum, own)| *sum += own * weight);
-        let radii = solution.particles.radii.iter_mut().zip(&self.radii);
-        radii.for_each(|(sum, own)| *sum += own * weight);
+        let inverse_squares = solution
+            .particles
+            .inverse_squares
+            .iter_mut()
+            .zip(&self.inverse_squares);
+        inverse_squares.for_each(|(sum, own)| *sum += own * weight);
     }
 }

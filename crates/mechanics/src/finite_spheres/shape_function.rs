@@ -9,11 +9,12 @@ use nalgebra::{Matrix3, Matrix4, Vector4};
 use super::weight::{curvature_by_distance, quartic, slope_by_distance};
 use crate::Vec3;
 
-/// Particles [units of h] with the radii of their spheres.
+/// Particles [units of h] with their spheres.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Particles {
     pub(super) positions: Vec<Vec3>,
-    pub(super) radii: Vec<f64>,
+    /// 1/radius² of the spheres [1/h²]: all that a weight needs.
+    pub(super) inverse_squares: Vec<f64>,
 }
 
 /// The functions that do not vanish at a point.
@@ -33,13 +34,13 @@ impl Particles {
     pub(super) fn with_capacity(count: usize) -> Self {
         Self {
             positions: Vec::with_capacity(count),
-            radii: Vec::with_capacity(count),
+            inverse_squares: Vec::with_capacity(count),
         }
     }
 
     /// Sets every radius to `support` times the mean distance of the six nearest particles.
     pub(super) fn size_spheres(&mut self, support: f64) {
-        self.radii.clear();
+        self.inverse_squares.clear();
         for (i, here) in self.positions.iter().enumerate() {
             let mut nearest = [f64::INFINITY; 6];
             for (j, there) in self.positions.iter().enumerate() {
@@ -55,7 +56,7 @@ impl Particles {
                 nearest[slot] = squared;
             }
             let mean = nearest.iter().map(|d| d.sqrt()).sum::<f64>() / 6.0;
-            self.radii.push(support * mean);
+            self.inverse_squares.push((support * mean).powi(-2));
         }
     }
 }
@@ -144,20 +145,25 @@ impl ShapeFunctions {
         self.offsets.clear();
         self.weights.clear();
         self.slopes.clear();
-        for (j, (position, &radius)) in particles.positions.iter().zip(&particles.radii).enumerate()
-        {
-            let offset = position - x;
-            let squared = offset.norm_squared();
-            if squared >= radius * radius {
-                continue;
-            }
-            let s = squared.sqrt() / radius;
-            self.particles.push(j as u32);
+        // Half of the spheres hold the point, in no order that a processor could guess: what is in is
+        // counted up without a branch.
+        self.particles.resize(particles.positions.len(), 0);
+        let mut count = 0;
+        let spheres = particles.positions.iter().zip(&particles.inverse_squares);
+        for (j, (position, inverse_square)) in spheres.enumerate() {
+            self.particles[count] = j as u32;
+            count += usize::from((position - x).norm_squared() * inverse_square < 1.0);
+        }
+        self.particles.truncate(count);
+        for &j in &self.particles {
+            let offset = particles.positions[j as usize] - x;
+            let inverse_square = particles.inverse_squares[j as usize];
+            let s = (offset.norm_squared() * inverse_square).sqrt();
             self.offsets.push(offset);
             self.weights.push(quartic(s));
             // ∂w/∂x; the offset points from x to the particle.
             self.slopes
-                .push(offset * (-slope_by_distance(s) / (radius * radius)));
+                .push(offset * (-slope_by_distance(s) * inverse_square));
         }
         self.moment().try_inverse().unwrap_or_else(Matrix4::zeros)
     }
@@ -231,14 +237,13 @@ fn basis(offset: &Vec3) -> Vector4<f64> {
 }
 
 fn weight_hessian(particles: &Particles, particle: u32, offset: &Vec3) -> Matrix3<f64> {
-    let radius = particles.radii[particle as usize];
-    let s = offset.norm() / radius;
-    let along = Matrix3::identity() * (slope_by_distance(s) / (radius * radius));
-    if s < 1e-12 {
+    let inverse_square = particles.inverse_squares[particle as usize];
+    let s = (offset.norm_squared() * inverse_square).sqrt();
+    let along = Matrix3::identity() * (slope_by_distance(s) * inverse_square);
+    let Some(direction) = offset.try_normalize(1e-12) else {
         return along;
-    }
-    let direction = offset / (s * radius);
-    along + direction * direction.transpose() * (curvature_by_distance(s) * s / (radius * radius))
+    };
+    along + direction * direction.transpose() * (curvature_by_distance(s) * s * inverse_square)
 }
 
 #[cfg(test)]

@@ -2,10 +2,14 @@
 //! constraints u(x_I) = Σ φ_J(x_I) U_J.
 //!
 //! Splitting the particles into prescribed (p) and free (f) ones, the constraints D_p U_p + D_f U_f = g
-//! are solved for U_p, which leaves a positive definite system in U_f alone. It is what Lagrange
-//! multipliers on the same rows give, at a thirtieth of the size; the force on the tool is the
-//! multiplier of its row, (3-12) to (3-14) with the functions' values in place of the identity.
+//! are solved for U_p = T U_f + q g_tool. The combinations ψ = φ M, M = [T q; 1 0], of the functions meet
+//! the constraints by themselves, and Galerkin's condition on them is a positive definite system in U_f
+//! alone. It is what Lagrange multipliers on the same rows give, at a thirtieth of the size; the force on
+//! the tool is the multiplier of its row, (3-12) to (3-14) with the functions' values in place of the
+//! identity.
 
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, Par};
 use nalgebra::Matrix3;
 
 use super::layout::CapShape;
@@ -22,30 +26,33 @@ pub(super) const SUPPORT: f64 = 1.6;
 pub(super) struct WeakForm {
     partition: Partition,
     functions: ShapeFunctions,
-    /// ∫ ∇φ_I ∇φ_Jᵀ dV [h], row by row; the upper half while it is summed.
-    gradients: Vec<Matrix3<f64>>,
-    /// K [E h] in the same order.
-    stiffness: Vec<Matrix3<f64>>,
     constraints: DenseSystem,
-    /// K M: particles × (free + tool).
-    product: Vec<Matrix3<f64>>,
+    /// M: particles × (free + tool).
+    combinations: Mat<f64>,
+    /// √w ∂φ/∂x_k at the integration points, for k = 0, 1, 2: particles × points.
+    slopes: [Mat<f64>; 3],
+    /// √w ∂ψ/∂x_k: row k (free + tool) + a, a column per point.
+    combined: Mat<f64>,
+    /// ∫ ∂ψ_a/∂x_i ∂ψ_b/∂x_k dV [h], rows and columns as in `combined`.
+    gradients: Mat<f64>,
+    /// K [E h] between the free particles, and with the tool last.
+    stiffness: Vec<Matrix3<f64>>,
     reduced: DenseSystem,
-    /// Mᵀ K M: (free + tool)².
-    condensed: Vec<Matrix3<f64>>,
 }
 
 impl WeakForm {
-    pub(super) fn new(partition: Partition) -> Self {
+    pub(super) fn new(partition: Partition, points: usize) -> Self {
         let (held, free) = (partition.prescribed.len(), partition.free.len());
-        let count = held + free;
+        let (count, columns) = (held + free, free + 1);
         Self {
             functions: ShapeFunctions::with_capacity(count),
-            gradients: vec![Matrix3::zeros(); count * count],
-            stiffness: vec![Matrix3::zeros(); count * count],
-            constraints: DenseSystem::new(held, free + 1),
-            product: vec![Matrix3::zeros(); count * (free + 1)],
+            constraints: DenseSystem::new(held, columns),
+            combinations: Mat::zeros(count, columns),
+            slopes: [(); 3].map(|()| Mat::zeros(count, points)),
+            combined: Mat::zeros(3 * columns, points),
+            gradients: Mat::zeros(3 * columns, 3 * columns),
+            stiffness: vec![Matrix3::zeros(); columns * columns],
             reduced: DenseSystem::new(3 * free, 3),
-            condensed: vec![Matrix3::zeros(); (free + 1) * (free + 1)],
             partition,
         }
     }
@@ -61,48 +68,14 @@ impl WeakForm {
         cap: CapShape,
         law: &LinearElastic,
     ) {
-        self.sum_gradients(solution, quadrature, cap);
-        self.stiffness_from_gradients(law);
-        self.eliminate_prescribed(solution);
-        self.condense();
+        self.meet_constraints(solution);
+        self.evaluate_slopes(solution, quadrature, cap);
+        self.integrate();
+        self.apply_law(law);
     }
 
-    fn sum_gradients(&mut self, solution: &Solution, quadrature: &Quadrature, cap: CapShape) {
-        let count = solution.particles.positions.len();
-        self.gradients.fill(Matrix3::zeros());
-        for point in quadrature.points(cap) {
-            self.functions
-                .evaluate(&solution.particles, &point.position);
-            let (particles, gradients) = (&self.functions.particles, &self.functions.gradients);
-            for (a, &i) in particles.iter().enumerate() {
-                let weighted = gradients[a] * point.weight;
-                let row = &mut self.gradients[i as usize * count..][..count];
-                for (&j, gradient) in particles[a..].iter().zip(&gradients[a..]) {
-                    row[j as usize] += weighted * gradient.transpose();
-                }
-            }
-        }
-    }
-
-    /// K_IJ = λ G + μ Gᵀ + μ tr(G) 1 with G = ∫ ∇φ_I ∇φ_Jᵀ: the isotropic law on the gradients.
-    fn stiffness_from_gradients(&mut self, law: &LinearElastic) {
-        let scale = 1.0 / law.youngs_modulus();
-        let (lame, shear) = (law.lame_modulus() * scale, law.shear_modulus() * scale);
-        let count = self.partition.prescribed.len() + self.partition.free.len();
-        for i in 0..count {
-            for j in i..count {
-                let g = self.gradients[i * count + j];
-                let block = lame * g
-                    + shear * g.transpose()
-                    + Matrix3::from_diagonal_element(shear * g.trace());
-                self.stiffness[i * count + j] = block;
-                self.stiffness[j * count + i] = block.transpose();
-            }
-        }
-    }
-
-    /// U_p = T U_f + q u_tool: the columns of `constraints.right` become T and q.
-    fn eliminate_prescribed(&mut self, solution: &Solution) {
+    /// M: the combinations of functions that meet the constraints.
+    fn meet_constraints(&mut self, solution: &Solution) {
         let free = self.partition.free.len();
         self.constraints.clear();
         for (row, &node) in self.partition.prescribed.iter().enumerate() {
@@ -119,38 +92,69 @@ impl WeakForm {
         }
         self.constraints.right[(0, free)] = 1.0;
         self.constraints.solve();
-    }
-
-    /// Mᵀ K M with M = [T q; 1 0].
-    fn condense(&mut self) {
-        let free = self.partition.free.len();
-        let count = self.partition.prescribed.len() + free;
-        let columns = free + 1;
-        for i in 0..count {
-            let from = &self.stiffness[i * count..(i + 1) * count];
-            let row = &mut self.product[i * columns..(i + 1) * columns];
-            for (column, sum) in row.iter_mut().enumerate() {
-                *sum = match self.partition.free.get(column) {
-                    Some(&node) => from[node],
-                    None => Matrix3::zeros(),
-                };
-                let factors = self.constraints.right.col(column);
-                for (&node, &factor) in self.partition.prescribed.iter().zip(factors.iter()) {
-                    *sum += from[node] * factor;
-                }
+        self.combinations.fill(0.0);
+        for (row, &node) in self.partition.prescribed.iter().enumerate() {
+            for column in 0..=free {
+                self.combinations[(node, column)] = self.constraints.right[(row, column)];
             }
         }
+        for (column, &node) in self.partition.free.iter().enumerate() {
+            self.combinations[(node, column)] = 1.0;
+        }
+    }
+
+    fn evaluate_slopes(&mut self, solution: &Solution, quadrature: &Quadrature, cap: CapShape) {
+        for slopes in &mut self.slopes {
+            slopes.fill(0.0);
+        }
+        for (column, point) in quadrature.points(cap).enumerate() {
+            let root = point.weight.sqrt();
+            self.functions
+                .evaluate(&solution.particles, &point.position);
+            let [x, y, z] = &mut self.slopes;
+            let (mut x, mut y, mut z) = (x.col_mut(column), y.col_mut(column), z.col_mut(column));
+            let gradients = &self.functions.gradients;
+            for (&j, gradient) in self.functions.particles.iter().zip(gradients) {
+                x[j as usize] = root * gradient.x;
+                y[j as usize] = root * gradient.y;
+                z[j as usize] = root * gradient.z;
+            }
+        }
+    }
+
+    fn integrate(&mut self) {
+        let columns = self.partition.free.len() + 1;
+        for (k, slopes) in self.slopes.iter().enumerate() {
+            matmul(
+                self.combined.as_mut().subrows_mut(k * columns, columns),
+                Accum::Replace,
+                self.combinations.transpose(),
+                slopes.as_ref(),
+                1.0,
+                Par::Seq,
+            );
+        }
+        matmul(
+            self.gradients.as_mut(),
+            Accum::Replace,
+            self.combined.as_ref(),
+            self.combined.transpose(),
+            1.0,
+            Par::Seq,
+        );
+    }
+
+    /// K_ab = λ G + μ Gᵀ + μ tr(G) 1 with G = ∫ ∇ψ_a ∇ψ_bᵀ: the isotropic law on the gradients.
+    fn apply_law(&mut self, law: &LinearElastic) {
+        let scale = 1.0 / law.youngs_modulus();
+        let (lame, shear) = (law.lame_modulus() * scale, law.shear_modulus() * scale);
+        let columns = self.partition.free.len() + 1;
         for a in 0..columns {
-            let factors = self.constraints.right.col(a);
             for b in 0..columns {
-                let mut sum = match self.partition.free.get(a) {
-                    Some(&node) => self.product[node * columns + b],
-                    None => Matrix3::zeros(),
-                };
-                for (&node, &factor) in self.partition.prescribed.iter().zip(factors.iter()) {
-                    sum += self.product[node * columns + b] * factor;
-                }
-                self.condensed[a * columns + b] = sum;
+                let g = Matrix3::from_fn(|i, k| self.gradients[(i * columns + a, k * columns + b)]);
+                self.stiffness[a * columns + b] = lame * g
+                    + shear * g.transpose()
+                    + Matrix3::from_diagonal_element(shear * g.trace());
             }
         }
     }
@@ -165,7 +169,7 @@ impl WeakForm {
         let columns = free + 1;
         for a in 0..free {
             for b in 0..columns {
-                let block = &self.condensed[a * columns + b];
+                let block = &self.stiffness[a * columns + b];
                 for (i, k) in (0..3).flat_map(|i| (0..3).map(move |k| (i, k))) {
                     if b < free {
                         self.reduced.matrix[(3 * a + i, 3 * b + k)] = block[(i, k)];
@@ -190,19 +194,17 @@ impl WeakForm {
         let free = self.partition.free.len();
         let columns = free + 1;
         let found = |a: usize| Matrix3::from_fn(|i, k| self.reduced.right[(3 * a + i, k)]);
-        solution.stiffness = self.condensed[columns * columns - 1];
+        solution.stiffness = self.stiffness[columns * columns - 1];
+        for (node, coefficients) in solution.coefficients.iter_mut().enumerate() {
+            *coefficients = Matrix3::from_diagonal_element(self.combinations[(node, free)]);
+        }
         for a in 0..free {
-            solution.stiffness += self.condensed[free * columns + a] * found(a);
-        }
-        for (a, &node) in self.partition.free.iter().enumerate() {
-            solution.coefficients[node] = found(a);
-        }
-        for (row, &node) in self.partition.prescribed.iter().enumerate() {
-            let mut sum = Matrix3::identity() * self.constraints.right[(row, free)];
-            for a in 0..free {
-                sum += found(a) * self.constraints.right[(row, a)];
+            let found = found(a);
+            solution.stiffness += self.stiffness[free * columns + a] * found;
+            let part = self.combinations.col(a);
+            for (coefficients, &part) in solution.coefficients.iter_mut().zip(part.iter()) {
+                *coefficients += found * part;
             }
-            solution.coefficients[node] = sum;
         }
     }
 }

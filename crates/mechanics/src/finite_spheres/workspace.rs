@@ -24,11 +24,15 @@ enum Equations {
 }
 
 impl FiniteSphereWorkspace {
-    pub(super) fn new(settings: &FiniteSphereSettings, layout: &Layout) -> Self {
+    pub(super) fn new(
+        settings: &FiniteSphereSettings,
+        layout: &Layout,
+        quadrature: &Quadrature,
+    ) -> Self {
         let count = layout.places.len();
         let (equations, unknowns) = match settings.form {
             Form::Weak => {
-                let weak = WeakForm::new(Partition::new(layout));
+                let weak = WeakForm::new(Partition::new(layout), quadrature.count());
                 let unknowns = weak.free_unknowns();
                 (Equations::Weak(Box::new(weak)), unknowns)
             }
