@@ -75,7 +75,7 @@ pub(crate) fn record(
             bar.say("steps played");
             bar
         });
-        if frame.number % 64 == 0 {
+        if frame.number.is_multiple_of(64) {
             bar.at(frame.number);
         }
         for row in frame.rows() {

@@ -30,7 +30,7 @@ impl Traces {
     }
 
     pub(super) fn add(&mut self, frame: &Frame<'_>) {
-        if frame.number % (frame.steps / POINTS + 1) != 0 {
+        if !frame.number.is_multiple_of(frame.steps / POINTS + 1) {
             return;
         }
         for row in frame.rows() {

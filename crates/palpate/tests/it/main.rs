@@ -8,6 +8,7 @@
 mod errors;
 mod mesh_info;
 mod reproduce;
+mod simulate;
 
 use std::path::Path;
 use std::process::{Command, Output};
