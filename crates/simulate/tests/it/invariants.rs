@@ -1,0 +1,199 @@
+//! What holds for every scene.
+
+use std::fmt::Write;
+use std::fs;
+
+use palpate_files::SessionWriter;
+use palpate_geometry::{TriangleMesh, Vec3};
+use palpate_simulate::{Error, Flow, Simulation, SimulationWorkspace, play};
+
+use crate::no_allocation::track;
+use crate::scenes::{Hand, Random, Setting, motion};
+use crate::slides::{Count, pokes_with_a_stuck_tip, slides};
+
+fn session(simulation: &Simulation) -> Vec<u8> {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("session.csv");
+    let mut writer =
+        SessionWriter::create(&path, &simulation.session_header(), &["right".to_owned()]).unwrap();
+    let rows: Vec<_> = track(simulation)
+        .iter()
+        .enumerate()
+        .map(|(k, tip)| (0.01 * k as f64, (*tip).into()))
+        .collect();
+    play(simulation, &motion(&rows), |frame| -> Result<Flow, Error> {
+        for row in frame.rows() {
+            writer.write(row)?;
+        }
+        Ok(Flow::GoOn)
+    })
+    .unwrap();
+    writer.finish().unwrap();
+    fs::read(path).unwrap()
+}
+
+const RELAXING: &str = "[{ g = 0.3, tau_s = 1.5 }]";
+
+#[test]
+fn the_same_motion_gives_the_same_bytes() {
+    let setting = Setting {
+        organ: "builtin = \"kidney\"",
+        prony: RELAXING,
+        ..Setting::default()
+    };
+    let first = session(&setting.simulation());
+    assert!(first.len() > 100_000);
+    // No `assert_eq`: it would print them.
+    assert!(first == session(&setting.simulation()));
+}
+
+#[test]
+fn a_lost_workspace_changes_no_bit() {
+    for (contact, model) in [
+        ("slip", ""),
+        ("stick", ""),
+        ("slip", "assembly = \"reused\""),
+        ("stick", "solver = \"gmres\""),
+    ] {
+        let simulation = Setting {
+            organ: "builtin = \"kidney\"",
+            model,
+            contact,
+            prony: RELAXING,
+            ..Setting::default()
+        }
+        .simulation();
+        let mut kept = Hand::new(&simulation);
+        let mut lost = Hand::new(&simulation);
+        for (k, tip) in track(&simulation).iter().take(200).enumerate() {
+            if k % 7 == 0 {
+                lost.workspace = SimulationWorkspace::new(&simulation);
+            }
+            let (a, b) = (kept.at(tip), lost.at(tip));
+            let bits = |v: Vec3| [v.x, v.y, v.z].map(f64::to_bits);
+            assert_eq!(bits(a), bits(b), "{contact} {model}: step {k}");
+            let shown = |hand: &Hand<'_>| hand.state.deformed.vertices().to_vec();
+            assert!(shown(&kept) == shown(&lost), "{contact} {model}: step {k}");
+        }
+    }
+}
+
+fn write_ply(mesh: &TriangleMesh, path: &std::path::Path) {
+    let (vertices, triangles) = (mesh.vertices(), mesh.triangles());
+    let mut text = format!(
+        "ply\nformat ascii 1.0\nelement vertex {}\nproperty double x\nproperty double y\n\
+         property double z\nelement face {}\nproperty list uchar int vertex_indices\nend_header\n",
+        vertices.len(),
+        triangles.len()
+    );
+    for v in vertices {
+        writeln!(text, "{} {} {}", v.x, v.y, v.z).unwrap();
+    }
+    for [a, b, c] in triangles {
+        writeln!(text, "3 {} {} {}", a.0, b.0, c.0).unwrap();
+    }
+    fs::write(path, text).unwrap();
+}
+
+/// Rounding, and the fifth digit of a condition number at most.
+#[test]
+fn a_turned_organ_answers_with_the_same_force() {
+    let folder = tempfile::tempdir().unwrap();
+    let turn = nalgebra::UnitQuaternion::from_euler_angles(0.7, -1.1, 2.3);
+    let kidney = Setting {
+        organ: "builtin = \"kidney\"\ntriangles = 3000",
+        ..Setting::default()
+    }
+    .simulation();
+    let read = |name: &str, mesh: &TriangleMesh, contact: &str| {
+        let path = folder.path().join(name);
+        write_ply(mesh, &path);
+        let organ = format!("mesh = {:?}\nmesh_unit = \"m\"", path.to_str().unwrap());
+        let setting = Setting {
+            organ: &organ,
+            contact,
+            ..Setting::default()
+        };
+        setting.simulation()
+    };
+    let straight = kidney.surface().mesh();
+    let turned = straight.map_vertices(|v| turn * v).unwrap();
+    for contact in ["slip", "stick"] {
+        let organs = [
+            read("straight.ply", straight, contact),
+            read("turned.ply", &turned, contact),
+        ];
+        let mut random = Random(5);
+        let mut worst = 0.0_f64;
+        for _ in 0..100 {
+            let (point, normal, along) = random.place(&organs[0]);
+            let mut hands = [Hand::new(&organs[0]), Hand::new(&organs[1])];
+            for k in 0..10 {
+                let tip = point - normal * 1e-3 + along * (1e-4 * f64::from(k));
+                let force = hands[0].at(&tip);
+                let other = hands[1].at(&(turn * tip));
+                if force.norm() > 0.0 {
+                    worst = worst.max((other.norm() / force.norm() - 1.0).abs());
+                }
+            }
+        }
+        println!("{contact}: a turned organ changes the force by {worst:.1e} at most");
+        assert!(worst < 1e-6, "{contact}: {worst:.1e}");
+    }
+}
+
+fn few_or_all() -> usize {
+    match std::env::var_os("PALPATE_FULL") {
+        Some(_) => 2500,
+        None => 60,
+    }
+}
+
+fn check(name: &str, organ: &str) {
+    let with = |model: &str, contact: &str| {
+        let setting = Setting {
+            organ,
+            model,
+            contact,
+            ..Setting::default()
+        };
+        setting.simulation()
+    };
+    let mut found = Count::default();
+    slides(
+        &with("assembly = \"reused\"", "slip"),
+        few_or_all(),
+        &mut found,
+    );
+    slides(&with("assembly = \"every_step\"", "slip"), 25, &mut found);
+    println!("{name}: {found}");
+    let mut stuck = Count::default();
+    pokes_with_a_stuck_tip(&with("", "stick"), 25, &mut stuck);
+    println!("{name}, stuck: {stuck}");
+    found.assert_sound(name);
+    stuck.assert_sound(name);
+}
+
+#[test]
+fn builtin_organs_under_random_pokes_and_slides() {
+    for organ in ["esophagus", "liver"] {
+        check(organ, &format!("builtin = \"{organ}\""));
+    }
+}
+
+#[test]
+fn real_organs_under_random_pokes_and_slides() {
+    let Some(folder) = crate::data::folder() else {
+        return;
+    };
+    for mesh in [
+        "vhm_liver_20000",
+        "vhm_kidney_left_5146",
+        "gca_stomach_oesophagus_10000",
+        "bp3d_esophagus_21146",
+    ] {
+        let path = folder.join("meshes").join(format!("{mesh}.ply"));
+        let organ = format!("mesh = {:?}\nmesh_unit = \"m\"", path.to_str().unwrap());
+        check(mesh, &organ);
+    }
+}

@@ -1,0 +1,56 @@
+//! A step that allocates may wait for the allocator longer than it has time.
+
+use assert_no_alloc::{AllocDisabler, assert_no_alloc, reset_violation_count, violation_count};
+use palpate_geometry::{AabbTree, Vec3};
+
+use crate::scenes::{Hand, Setting, nearest};
+
+#[global_allocator]
+static COUNTING: AllocDisabler = AllocDisabler;
+
+/// A thousand places along the surface, 0.1 mm apart, 1 mm deep.
+pub(crate) fn track(simulation: &palpate_simulate::Simulation) -> Vec<Vec3> {
+    let tree = AabbTree::new(simulation.surface().mesh());
+    let (mut point, normal) = nearest(simulation, &tree, &Vec3::new(0.0, 0.0, 1.0));
+    let mut along = normal.cross(&Vec3::y()).normalize();
+    let mut track = Vec::new();
+    for _ in 0..1001 {
+        let (on, normal) = nearest(simulation, &tree, &point);
+        track.push(on - normal * 1e-3);
+        along = (along - normal * along.dot(&normal)).normalize();
+        point = on + along * 1e-4;
+    }
+    track
+}
+
+#[test]
+fn a_sliding_step_allocates_nothing() {
+    for (contact, model) in [
+        ("slip", ""),
+        ("stick", ""),
+        ("slip", "assembly = \"reused\""),
+        ("slip", "form = \"strong\""),
+    ] {
+        let simulation = Setting {
+            organ: "builtin = \"liver\"",
+            model,
+            contact,
+            prony: "[{ g = 0.3, tau_s = 1.5 }]",
+            ..Setting::default()
+        }
+        .simulation();
+        let track = track(&simulation);
+        let mut hand = Hand::new(&simulation);
+        hand.at(&track[0]);
+        reset_violation_count();
+        let before = violation_count();
+        let felt = assert_no_alloc(|| {
+            let forces = track[1..].iter().map(|tip| hand.at(tip));
+            forces.filter(|force| force.norm() > 0.0).count()
+        });
+        let allocations = violation_count() - before;
+        println!("{contact} {model}: felt in {felt} of 1000 steps, {allocations} allocations");
+        assert!(felt > 500, "{contact} {model}: felt in {felt}");
+        assert_eq!(allocations, 0, "{contact} {model}");
+    }
+}
