@@ -97,7 +97,8 @@ pub(crate) fn record(
     files.push(path.clone());
     let report = Report::new(summary, files);
     let json = serde_json::to_string_pretty(&report)
-        .map_err(|cause| Failure::failed(format!("the summary is no JSON ({cause})")))?;
+        .map_err(|cause| Failure::failed(format!("the summary is no JSON ({cause})")))?
+        + "\n";
     write_whole(&path, json.as_bytes())?;
     Ok(report)
 }
