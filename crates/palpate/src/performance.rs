@@ -140,10 +140,11 @@ impl Report {
     pub(crate) fn text(&self) -> String {
         let times = &self.step_times_s;
         format!(
-            "{} steps, {} contacts, peak force {:.4} N, largest depth {:.2} mm\n\
+            "{} steps, {} contact{}, peak force {:.4} N, largest depth {:.2} mm\n\
              a step took {:.0} µs (median), {:.0} µs (99 %), {:.0} µs (99.9 %), {:.0} µs at most",
             self.steps,
             self.contacts,
+            if self.contacts == 1 { "" } else { "s" },
             self.peak_force_n,
             1e3 * self.largest_depth_m,
             1e6 * times.p50,

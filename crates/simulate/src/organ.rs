@@ -1,5 +1,5 @@
 use palpate_files::scene::{BuiltinOrgan, LengthUnit as FileUnit, Shape};
-use palpate_geometry::{LengthUnit, Organ, Surface, read_mesh, repair};
+use palpate_geometry::{LengthUnit, Organ, ProblemKind, Surface, inspect, read_mesh, repair};
 
 use crate::Error;
 
@@ -32,6 +32,16 @@ pub fn read_organ(shape: &Shape) -> Result<(Surface, Vec<String>), Error> {
                 ));
             }
             let surface = Surface::new(mesh).map_err(no_solid)?;
+            for problem in inspect(surface.mesh()).problems {
+                let fault = match problem.kind {
+                    ProblemKind::DoubleWall => "the solid is a thin sheet with two sides",
+                    ProblemKind::SelfIntersecting => "the surface passes through itself",
+                    // Slivers are felt no worse than other triangles; the size was doubted on reading,
+                    // and the rest is not there any more.
+                    _ => continue,
+                };
+                doubts.push(format!("{}: {fault}. {}", path.display(), problem.mend));
+            }
             Ok((surface, doubts))
         }
     }

@@ -46,7 +46,7 @@ impl Material {
         let mut doubts = tissue.source.warnings.clone();
         if !matches!(tissue.elasticity, Elasticity::Linear { .. }) {
             doubts.push(format!(
-                "the tissue's law {} is taken as it is at small strain: E = {:.6} Pa, incompressible; \
+                "the tissue's law {} is taken as it is at small strain: E = {:.1} Pa, incompressible; \
                  its stiffening with depth is not felt",
                 tissue.elasticity.law(),
                 law.youngs_modulus(),
