@@ -32,11 +32,14 @@ pub(crate) struct Count {
 
 impl Count {
     pub(crate) fn assert_sound(&self, name: &str) {
-        let leap = self.first_leap.as_deref().unwrap_or_default();
         assert_eq!(self.no_number, 0, "{name}: forces that are no number");
         assert_eq!(self.pulling, 0, "{name}: forces into the organ");
         assert_eq!(self.without_contact, 0, "{name}: forces without contact");
-        assert_eq!(self.leaps, 0, "{name}: {self}; the first: {leap}");
+        assert_eq!(
+            self.leaps, 0,
+            "{name}: {self}; the first: {:?}",
+            self.first_leap
+        );
         assert!(2 * self.in_contact > self.steps, "{name}: {self}");
     }
 
@@ -73,17 +76,10 @@ impl Count {
         if ratio > 1.0 {
             self.leaps += 1;
             self.first_leap.get_or_insert_with(|| {
+                let far = before.touched.zip(now.touched).map(|(a, b)| (a - b).norm());
                 format!(
-                    "{:.3} mN to {:.3} mN, turned by {:.3}, at {:?}, depth {:.3} to {:.3} mm, distance \
-                     {:.3} to {:.3} mm, {ratio:.2} of what is allowed",
-                    1e3 * before.force.norm(),
-                    1e3 * now.force.norm(),
-                    now.force.angle(&before.force),
-                    now.tip,
-                    1e3 * before.depth,
-                    1e3 * now.depth,
-                    1e3 * before.signed,
-                    1e3 * now.signed,
+                    "{ratio:.2} of what is allowed, the touched point moved by {far:?}, from \
+                     {before:?} to {now:?}"
                 )
             });
         }
@@ -101,10 +97,13 @@ impl fmt::Display for Count {
 }
 
 /// A step as it is compared with the next.
+#[derive(Debug)]
 struct Seen {
     tip: Vec3,
     force: Vec3,
     depth: f64,
+    /// The touched point of the rest surface [m].
+    touched: Option<Vec3>,
     /// The tip's own signed distance to the rest surface [m].
     signed: f64,
 }
@@ -134,6 +133,7 @@ pub(crate) fn slides(simulation: &Simulation, number: usize, count: &mut Count) 
                 tip,
                 force,
                 depth: hand.row().depth_m,
+                touched: hand.state.tools[0].contact.map(|contact| contact.point()),
                 signed: surface.signed_distance(&tree, &tip).1,
             };
             if let Some(before) = before.as_ref().filter(|_| k > POKE) {
