@@ -14,7 +14,7 @@ fn refusal(organ: &str) -> String {
         ..Setting::default()
     }
     .scene();
-    let error = Simulation::new(&scene).err().expect("must be refused");
+    let error = Simulation::new(&scene).unwrap_err();
     assert!(error.is_input());
     error.to_string()
 }
@@ -58,7 +58,7 @@ fn the_hybrid_model_is_not_there_yet() {
                 [model]\nkind = \"hybrid\"\n[[tool]]\nname = \"right\"\n\
                 tip = { shape = \"flat\", radius_m = 0.001 }\n";
     let scene = Scene::parse(text, "scene.toml").unwrap();
-    let message = Simulation::new(&scene).err().unwrap().to_string();
+    let message = Simulation::new(&scene).unwrap_err().to_string();
     assert_names(&message, &["hybrid", "not there yet", "kind = \"local\""]);
 }
 

@@ -1,6 +1,10 @@
 //! Scenes played through the crate's own front door.
 
-#![allow(clippy::unwrap_used, reason = "tests may unwrap")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "tests may unwrap, and print what they measured"
+)]
 
 mod agreement;
 mod analytic;
