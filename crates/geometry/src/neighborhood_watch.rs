@@ -40,7 +40,7 @@ const LONGEST_WALK: usize = 256;
 pub const FASTEST_TURN: f64 = 300.0;
 
 /// Fastest travel of the contact point per travel of the tip [-].
-const FASTEST_TRAVEL: f64 = 4.0;
+const FASTEST_TRAVEL: f64 = 2.0;
 
 /// The contact point of a tip that has gone from `before` to `tip` [m], starting from the last one,
 /// `from`. `None` when the tip has gone too far to follow.

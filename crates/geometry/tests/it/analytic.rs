@@ -146,6 +146,9 @@ fn contact_point_on_sphere_is_radial() {
                 triangle: nearest.triangle,
                 barycentric: nearest.on.barycentric,
                 point: nearest.on.position,
+                normal: field
+                    .at(&surface, nearest.triangle, &nearest.on.barycentric)
+                    .normal,
                 depth: 0.0,
             };
             let tip = direction * (RADIUS - depth);

@@ -143,6 +143,7 @@ fn slide(
         triangle,
         barycentric: [1.0 / 3.0; 3],
         point: corners.iter().sum::<Vec3>() / 3.0,
+        normal: field.at(surface, triangle, &[1.0 / 3.0; 3]).normal,
         depth,
     };
     let patch = |f: &Footing| field.at(surface, f.triangle, &f.barycentric);

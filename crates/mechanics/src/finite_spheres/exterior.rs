@@ -64,6 +64,7 @@ pub(super) struct Calibration {
     beyond_shells: f64,
     organ_size: f64,
     beyond_shells_tangential: f64,
+    organ_size_tangential: f64,
     /// K̂ [Pa], normal and tangential.
     half_space: f64,
     half_space_tangential: f64,
@@ -114,13 +115,15 @@ impl Calibration {
         let shells = shells as f64;
         let in_half_spaces = half_space / modulus;
         let inverse = in_half_spaces / flat[(2, 2)] + known.beyond_shells / shells;
-        let tangential = 0.5 * (flat[(0, 0)] + flat[(1, 1)]);
+        let tangential = mean_tangential(&flat);
+        let tangential_slope = (1.0 / mean_tangential(&round) - 1.0 / tangential) / PROBE;
         Self {
             radius_in_spacings: 1.0 / inverse,
             beyond_shells: known.beyond_shells,
             organ_size: known.organ_size + slope * in_half_spaces,
             beyond_shells_tangential: shells
                 * (inverse - half_space_tangential / modulus / tangential),
+            organ_size_tangential: tangential_slope * half_space_tangential / modulus,
             half_space,
             half_space_tangential,
             youngs_modulus: modulus,
@@ -157,8 +160,11 @@ impl Calibration {
             }
             (Bond::Stick, Form::Weak) => {
                 let along = shells.fixed_view::<2, 2>(0, 0) * unit;
-                let further =
-                    self.beyond_shells_tangential / (held_at * self.half_space_tangential);
+                let further = (self.beyond_shells_tangential / held_at
+                    - self.organ_size_tangential / organ_radius)
+                    / self.half_space_tangential;
+                // As above: not stiffer than the expansion means.
+                let further = further.max(-0.5 / along.norm());
                 // (along⁻¹ + c 1)⁻¹ = (1 + c along)⁻¹ along, which needs no inverse of `along`.
                 let sum = nalgebra::Matrix2::identity() + further * along;
                 let both = sum.try_inverse().unwrap_or_else(nalgebra::Matrix2::zeros) * along;
@@ -168,4 +174,8 @@ impl Calibration {
         }
         Corrected { stiffness, share }
     }
+}
+
+fn mean_tangential(stiffness: &Matrix3<f64>) -> f64 {
+    0.5 * (stiffness[(0, 0)] + stiffness[(1, 1)])
 }

@@ -111,7 +111,6 @@ fn assert_is_summary(summary: &serde_json::Value) {
 
 fn assert_refused(output: &Output, status: i32, words: &[&str]) {
     let message = stderr(output);
-    println!("{message}");
     assert_eq!(output.status.code(), Some(status), "{words:?}: {message}");
     assert!(output.stdout.is_empty());
     assert_eq!(message.lines().count(), 1, "{message}");
