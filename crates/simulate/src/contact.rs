@@ -70,7 +70,7 @@ pub(crate) fn detect(
     };
     let (below, signed) = depth_of_tip(simulation, &footing, tip);
     let depth = creep(last, (tool.overhang() + below, signed), tip);
-    if has_passed_through(simulation, tool, depth, tip) {
+    if depth > PASSED_THROUGH && signed > tool.overhang() {
         return None;
     }
     if depth <= 0.0 {
@@ -173,13 +173,6 @@ fn begin(simulation: &Simulation, tool: &Tool, tip: &Vec3) -> Option<Contact> {
         signed,
         depth,
     })
-}
-
-fn has_passed_through(simulation: &Simulation, tool: &Tool, depth: f64, tip: &Vec3) -> bool {
-    depth > PASSED_THROUGH && {
-        let (_, signed) = simulation.surface.signed_distance(&simulation.tree, tip);
-        signed > tool.overhang()
-    }
 }
 
 /// The place at `footing`, with tangents carried along from `last`, so that the particles do not turn

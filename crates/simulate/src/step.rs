@@ -115,8 +115,13 @@ fn feel(simulation: &Simulation, tool: &Tool, elapsed: f64, state: &mut ToolStat
         return [Event::NonFiniteForce].into_iter().collect();
     }
     // Tissue that has not come back yet does not hold the tool: there is no adhesion.
-    if relaxed.dot(&contact.normal()) > 0.0 {
-        state.force = relaxed;
+    let outward = relaxed.dot(&contact.normal());
+    if outward > 0.0 {
+        state.force = match tool.bond {
+            Bond::Stick => relaxed,
+            // The history of a slide has other normals in it; there is no friction all the same.
+            Bond::Slip => contact.normal() * outward,
+        };
     }
     Events::NONE
 }
