@@ -62,7 +62,7 @@ fn a_run_writes_session_summary_and_plots() {
     let folder = folder.path();
     let output = run(folder, "scene.toml", "motion.csv", "a", &[]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    assert!(stdout(&output).contains("401 steps, 1 contacts"));
+    assert!(stdout(&output).contains("401 steps, 1 contact,"));
 
     let session = fs::read_to_string(folder.join("a/session.csv")).unwrap();
     let columns =
