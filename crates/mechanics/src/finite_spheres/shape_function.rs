@@ -87,15 +87,13 @@ impl ShapeFunctions {
         let gamma = inverse.column(0).into_owned();
         self.fill_values(&gamma);
         let first = self.first_derivatives(&inverse, &gamma);
-        for j in 0..self.particles.len() {
-            let basis = basis(&self.offsets[j]);
-            let along = basis.dot(&gamma);
-            let turned = first.map(|column| basis.dot(&column));
-            self.gradients.push(
-                self.slopes[j] * along
-                    + self.weights[j] * Vec3::new(turned[0], turned[1], turned[2]),
-            );
-        }
+        let spheres = self.offsets.iter().zip(&self.weights).zip(&self.slopes);
+        self.gradients
+            .extend(spheres.map(|((offset, &weight), slope)| {
+                let basis = basis(offset);
+                let turned = first.map(|column| basis.dot(&column));
+                slope * basis.dot(&gamma) + weight * Vec3::from(turned)
+            }));
     }
 
     /// Values, gradients and Hessians at `x` [h].
@@ -155,15 +153,18 @@ impl ShapeFunctions {
             count += usize::from((position - x).norm_squared() * inverse_square < 1.0);
         }
         self.particles.truncate(count);
-        for &j in &self.particles {
-            let offset = particles.positions[j as usize] - x;
+        let offset = |&j: &u32| particles.positions[j as usize] - x;
+        self.offsets.extend(self.particles.iter().map(offset));
+        self.weights.resize(count, 0.0);
+        self.slopes.resize(count, Vec3::zeros());
+        let written = self.weights.iter_mut().zip(&mut self.slopes);
+        for ((&j, offset), (weight, slope)) in self.particles.iter().zip(&self.offsets).zip(written)
+        {
             let inverse_square = particles.inverse_squares[j as usize];
             let s = (offset.norm_squared() * inverse_square).sqrt();
-            self.offsets.push(offset);
-            self.weights.push(quartic(s));
+            *weight = quartic(s);
             // ∂w/∂x; the offset points from x to the particle.
-            self.slopes
-                .push(offset * (-slope_by_distance(s) * inverse_square));
+            *slope = offset * (-slope_by_distance(s) * inverse_square);
         }
         self.moment().try_inverse().unwrap_or_else(Matrix4::zeros)
     }
@@ -211,9 +212,9 @@ impl ShapeFunctions {
     }
 
     fn fill_values(&mut self, gamma: &Vector4<f64>) {
-        for (offset, &weight) in self.offsets.iter().zip(&self.weights) {
-            self.values.push(weight * basis(offset).dot(gamma));
-        }
+        let spheres = self.offsets.iter().zip(&self.weights);
+        self.values
+            .extend(spheres.map(|(offset, &weight)| weight * basis(offset).dot(gamma)));
     }
 
     fn first_derivatives(&self, inverse: &Matrix4<f64>, gamma: &Vector4<f64>) -> [Vector4<f64>; 3] {
