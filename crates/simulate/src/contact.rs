@@ -4,7 +4,10 @@
 //! is gone. A tip that slips is met by the surface that it is over; one that sticks carries the place
 //! of its first contact with it.
 //!
-//! *How we know*: `invariants::real_organs_under_random_pokes_and_slides`, `analytic::…`.
+//! *How we know*: `invariants::real_organs_under_random_pokes_and_slides`.
+//!
+//! *Limits*: over ridges and thin walls the depth creeps towards its measure, so that a slide there lags
+//! behind the nearest point of the surface.
 
 use nalgebra::Matrix3;
 use palpate_geometry::{Footing, Vec3, follow, settle};
