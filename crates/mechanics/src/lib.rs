@@ -15,4 +15,5 @@ pub use material::law::{Law, Tangent};
 pub use material::linear_elastic::LinearElastic;
 pub use material::material::Material;
 pub use material::prony::{ForceHistory, MAX_TERMS, PronySeries};
+pub use material::volume::{Strain, Volume};
 pub use palpate_geometry::Vec3;

@@ -1,18 +1,50 @@
+use std::fmt::Debug;
+
 use nalgebra::{Matrix3, SMatrix};
+
+use super::volume::Volume;
 
 /// ∂P/∂F [Pa]: entry (3 j + i, 3 l + k) is ∂P_ij/∂F_kl, both matrices read column by column.
 pub type Tangent = SMatrix<f64, 9, 9>;
 
 /// A law between the deformation gradient F = ∂x/∂X and stress. It never sees a mesh.
 ///
-/// Moduli are instantaneous; relaxation is [`crate::PronySeries`]'s.
-pub trait Law {
+/// Its energy has two parts, Ψ(F) = W(F) + ½ κ θ(F)²: one of distortion, which does not feel a change
+/// of volume, and one of [`Volume`]. Mixed elements take them apart, so that κ may be infinite;
+/// [`Law::energy`], [`Law::stress`] and [`Law::tangent`] put them together and mean something for a
+/// finite κ only. Moduli are instantaneous; relaxation is [`crate::PronySeries`]'s.
+pub trait Law: Debug + Send + Sync {
+    /// Energy of distortion per undeformed volume W(F) [Pa].
+    fn distortion_energy(&self, f: &Matrix3<f64>) -> f64;
+
+    /// Its first Piola-Kirchhoff stress ∂W/∂F [Pa].
+    fn distortion_stress(&self, f: &Matrix3<f64>) -> Matrix3<f64>;
+
+    /// ∂²W/∂F∂F [Pa].
+    fn distortion_tangent(&self, f: &Matrix3<f64>) -> Tangent;
+
+    /// How it resists a change of volume.
+    fn volume(&self) -> Volume;
+
+    /// The parameters by the names that files give them, with their values [Pa] or [-].
+    fn parameters(&self) -> Vec<(&'static str, f64)>;
+
+    /// What a unit of the parameter `index` of [`Law::parameters`] adds: to the stress of distortion,
+    /// and to the compressibility 1/κ [1/Pa].
+    fn by_parameter(&self, index: usize, f: &Matrix3<f64>) -> (Matrix3<f64>, f64);
+
     /// Strain energy per undeformed volume Ψ(F) [Pa].
-    fn energy(&self, f: &Matrix3<f64>) -> f64;
+    fn energy(&self, f: &Matrix3<f64>) -> f64 {
+        self.distortion_energy(f) + self.volume().energy(f)
+    }
 
     /// First Piola-Kirchhoff stress P = ∂Ψ/∂F [Pa].
-    fn stress(&self, f: &Matrix3<f64>) -> Matrix3<f64>;
+    fn stress(&self, f: &Matrix3<f64>) -> Matrix3<f64> {
+        self.distortion_stress(f) + self.volume().stress(f)
+    }
 
     /// ∂P/∂F [Pa].
-    fn tangent(&self, f: &Matrix3<f64>) -> Tangent;
+    fn tangent(&self, f: &Matrix3<f64>) -> Tangent {
+        self.distortion_tangent(f) + self.volume().tangent(f)
+    }
 }

@@ -9,7 +9,12 @@
 use nalgebra::Matrix3;
 
 use super::law::{Law, Tangent};
+use super::volume::{Strain, Volume};
 use crate::Error;
+
+/// Poisson's ratio that stands for incompressible in a law that cannot be [-]; the stiffness of a
+/// half-space is then right to one part in a hundred thousand.
+pub(crate) const NEARLY_INCOMPRESSIBLE: f64 = 0.499_99;
 
 /// Isotropic linear elasticity.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,16 +42,17 @@ impl LinearElastic {
     }
 
     /// The linear law that `law` is for a small strain added to the rest state: its consistent
-    /// linearization there, from the shear and the uniaxial-strain entries of the tangent.
+    /// linearization there. An incompressible one becomes nearly so.
     ///
     /// # Errors
     /// When the tangent is not that of a stable isotropic solid.
     pub fn at_rest(law: &dyn Law) -> Result<Self, Error> {
-        let tangent = law.tangent(&Matrix3::identity());
-        // ∂P_01/∂F_01 = μ and ∂P_00/∂F_00 = λ + 2 μ.
-        let shear = tangent[(3, 3)];
-        let lame = tangent[(0, 0)] - 2.0 * shear;
-        let poissons_ratio = lame / (2.0 * (lame + shear));
+        // ∂P_01/∂F_01 = μ.
+        let shear = law.distortion_tangent(&Matrix3::identity())[(3, 3)];
+        // With s = μ/κ, ν = (3 − 2 s) / (2 (3 + s)), which an infinite κ does not disturb.
+        let softness = shear / law.volume().bulk_modulus;
+        let poissons_ratio = (3.0 - 2.0 * softness) / (2.0 * (3.0 + softness));
+        let poissons_ratio = poissons_ratio.min(NEARLY_INCOMPRESSIBLE);
         Self::new(2.0 * shear * (1.0 + poissons_ratio), poissons_ratio)
     }
 
@@ -72,31 +78,53 @@ impl LinearElastic {
     }
 }
 
-fn strain(f: &Matrix3<f64>) -> Matrix3<f64> {
-    0.5 * (f + f.transpose()) - Matrix3::identity()
+fn deviator(f: &Matrix3<f64>) -> Matrix3<f64> {
+    let strain = 0.5 * (f + f.transpose()) - Matrix3::identity();
+    strain - strain.trace() / 3.0 * Matrix3::identity()
 }
 
 impl Law for LinearElastic {
-    fn energy(&self, f: &Matrix3<f64>) -> f64 {
-        let strain = strain(f);
-        0.5 * self.lame_modulus() * strain.trace().powi(2)
-            + self.shear_modulus() * strain.norm_squared()
+    fn distortion_energy(&self, f: &Matrix3<f64>) -> f64 {
+        self.shear_modulus() * deviator(f).norm_squared()
     }
 
-    fn stress(&self, f: &Matrix3<f64>) -> Matrix3<f64> {
-        let strain = strain(f);
-        self.lame_modulus() * strain.trace() * Matrix3::identity()
-            + 2.0 * self.shear_modulus() * strain
+    fn distortion_stress(&self, f: &Matrix3<f64>) -> Matrix3<f64> {
+        2.0 * self.shear_modulus() * deviator(f)
     }
 
-    fn tangent(&self, _f: &Matrix3<f64>) -> Tangent {
-        let (lame, shear) = (self.lame_modulus(), self.shear_modulus());
+    fn distortion_tangent(&self, _f: &Matrix3<f64>) -> Tangent {
+        let shear = self.shear_modulus();
         Tangent::from_fn(|row, column| {
             let (i, j, k, l) = (row % 3, row / 3, column % 3, column / 3);
             let same = |a: usize, b: usize| f64::from(u8::from(a == b));
-            lame * same(i, j) * same(k, l)
-                + shear * (same(i, k) * same(j, l) + same(i, l) * same(j, k))
+            shear
+                * (same(i, k) * same(j, l) + same(i, l) * same(j, k)
+                    - 2.0 / 3.0 * same(i, j) * same(k, l))
         })
+    }
+
+    fn volume(&self) -> Volume {
+        Volume {
+            bulk_modulus: self.lame_modulus() + 2.0 / 3.0 * self.shear_modulus(),
+            strain: Strain::Small,
+        }
+    }
+
+    fn parameters(&self) -> Vec<(&'static str, f64)> {
+        vec![
+            ("youngs_modulus_pa", self.youngs_modulus),
+            ("poissons_ratio", self.poissons_ratio),
+        ]
+    }
+
+    fn by_parameter(&self, index: usize, f: &Matrix3<f64>) -> (Matrix3<f64>, f64) {
+        // 2 μ = E / (1 + ν), 1/κ = 3 (1 − 2 ν) / E.
+        let (modulus, nu) = (self.youngs_modulus, self.poissons_ratio);
+        let stress = self.distortion_stress(f);
+        match index {
+            0 => (stress / modulus, -3.0 * (1.0 - 2.0 * nu) / modulus.powi(2)),
+            _ => (-stress / (1.0 + nu), -6.0 / modulus),
+        }
     }
 }
 

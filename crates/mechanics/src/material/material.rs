@@ -1,6 +1,6 @@
 use palpate_files::{Elasticity, Tissue};
 
-use super::linear_elastic::LinearElastic;
+use super::linear_elastic::{LinearElastic, NEARLY_INCOMPRESSIBLE};
 use super::prony::PronySeries;
 use crate::Error;
 
@@ -14,10 +14,6 @@ pub struct Material {
     /// Plain sentences to pass on to the user.
     pub doubts: Vec<String>,
 }
-
-/// Poisson's ratio that stands for incompressible in a law that cannot be [-]; the stiffness of a
-/// half-space is then right to one part in a hundred thousand.
-const NEARLY_INCOMPRESSIBLE: f64 = 0.499_99;
 
 impl Material {
     /// The material that `tissue` describes.

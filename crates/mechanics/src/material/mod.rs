@@ -5,3 +5,4 @@ pub(crate) mod linear_elastic;
 #[expect(clippy::module_inception, reason = "the file is named for its type")]
 pub(crate) mod material;
 pub(crate) mod prony;
+pub(crate) mod volume;
