@@ -1,10 +1,12 @@
-//! Triangle meshes and what can be asked of them without mechanics.
+//! Triangle and tetrahedron meshes and what can be asked of them without mechanics.
 //!
 //! A [`TriangleMesh`] is any list of triangles; a [`Surface`] is one that has been checked: closed,
 //! manifold, oriented outward, in one piece. Everything that touches an organ asks for a `Surface`.
+//! A [`TetrahedronMesh`] fills one, for finite elements.
 
 mod aabb_tree;
 mod check;
+mod fill;
 mod io;
 mod mesh;
 mod neighborhood_watch;
@@ -18,6 +20,7 @@ mod weld;
 pub use aabb_tree::{AabbTree, Hit, Nearest};
 pub use check::problem::{MeshProblem, ProblemKind};
 pub use check::{MeshReport, inspect};
+pub use fill::{FillSettings, fill};
 pub use io::error::{ReadError, ReadFault, UnknownUnit};
 pub use io::format::MeshFormat;
 pub use io::unit::{LengthUnit, doubt_about_extent, is_plausible_extent, unit_by_extent};
@@ -25,6 +28,7 @@ pub use io::vtk;
 pub use io::{ImportedMesh, read_mesh};
 pub use mesh::adjacency::Adjacency;
 pub use mesh::error::MeshError;
+pub use mesh::tetrahedra::{TetrahedronError, TetrahedronMesh, TetrahedronQuality};
 pub use mesh::triangles::{NodeId, TriangleId, TriangleMesh};
 pub use neighborhood_watch::{FASTEST_TURN, Footing, follow, settle};
 pub use organ::{AnchorPlane, Organ, OrganDescription, OrganError};

@@ -11,11 +11,13 @@ mod analytic;
 mod check;
 mod data;
 mod files;
+mod fill;
 mod fuzz;
 mod invariants;
 mod io;
 mod organ;
 mod shapes;
+mod tetrahedra;
 
 /// Whether random tests shall try all of their cases: `PALPATE_FULL=1`.
 fn wants_full() -> bool {

@@ -1,0 +1,81 @@
+/// What is wrong with tetrahedra that were asked for.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum TetrahedronError {
+    /// There is nothing to work on.
+    #[error("the mesh has no tetrahedra; give one that fills a volume")]
+    Empty,
+    /// A coordinate is NaN or infinite.
+    #[error("vertex {vertex} has a coordinate that is not a finite number; make the mesh again")]
+    NotFinite {
+        /// Number of the vertex, from zero, among those that are used.
+        vertex: usize,
+    },
+    /// A tetrahedron names a vertex that is not there.
+    #[error(
+        "tetrahedron {tetrahedron} names vertex {vertex}, but there are {vertices}; make the mesh again"
+    )]
+    IndexOutOfRange {
+        /// Number of the tetrahedron, from zero.
+        tetrahedron: usize,
+        /// The vertex that it names.
+        vertex: usize,
+        /// How many vertices there are.
+        vertices: usize,
+    },
+    /// A tetrahedron is inside out.
+    #[error(
+        "tetrahedron {tetrahedron} is inverted: its volume is {volume_m3:e} m³; swap two of its corners, or mesh the volume again"
+    )]
+    Inverted {
+        /// Number of the tetrahedron, from zero.
+        tetrahedron: usize,
+        /// Its signed volume [m³].
+        volume_m3: f64,
+    },
+    /// A tetrahedron has no volume.
+    #[error("tetrahedron {tetrahedron} has no volume; remove it, or mesh the volume again")]
+    Flat {
+        /// Number of the tetrahedron, from zero.
+        tetrahedron: usize,
+    },
+    /// More than two tetrahedra meet in a face.
+    #[error(
+        "the face {corners:?} belongs to {tetrahedra} tetrahedra where at most two can meet; remove the doubled ones"
+    )]
+    CrowdedFace {
+        /// The vertices of the face.
+        corners: [usize; 3],
+        /// How many tetrahedra have it.
+        tetrahedra: usize,
+    },
+    /// A length that is none.
+    #[error("{what} is {found:e} m where a positive length was expected; give one in metres")]
+    NotALength {
+        /// Whose length.
+        what: &'static str,
+        /// The number given [m].
+        found: f64,
+    },
+    /// More elements than allowed.
+    #[error(
+        "about {expected:.3e} tetrahedra would come of an edge of {edge_m:e} m, at most {most} are allowed; give a longer edge"
+    )]
+    TooMany {
+        /// How many would come, or were there when it was given up [-].
+        expected: f64,
+        /// The edge that was asked for [m].
+        edge_m: f64,
+        /// How many are allowed.
+        most: usize,
+    },
+    /// The lattice is too coarse for the body.
+    #[error(
+        "an edge of {edge_m:e} m is too coarse: {lost_percent:.1} % of the volume is lost; give one of at most a third of the thinnest part"
+    )]
+    TooCoarse {
+        /// The edge that was asked for [m].
+        edge_m: f64,
+        /// Part of the volume that no tetrahedron in one piece fills [%].
+        lost_percent: f64,
+    },
+}

@@ -1,0 +1,99 @@
+use super::TetrahedronMesh;
+use crate::NodeId;
+
+/// Corners of the face that leaves out corner `k`, counter-clockwise seen from outside.
+pub(crate) const OPPOSITE: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
+
+/// One face of one tetrahedron, with its corners in ascending order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Face {
+    pub(crate) corners: [NodeId; 3],
+    pub(crate) tetrahedron: u32,
+    /// The corner of the tetrahedron that it leaves out, from 0 to 3.
+    pub(crate) opposite: u8,
+}
+
+/// All faces of all tetrahedra, sorted so that those of equal corners lie together.
+pub(crate) fn faces(tetrahedra: &[[NodeId; 4]]) -> Vec<Face> {
+    let mut faces = Vec::with_capacity(4 * tetrahedra.len());
+    for (number, nodes) in tetrahedra.iter().enumerate() {
+        for (opposite, corners) in OPPOSITE.iter().enumerate() {
+            let mut corners = corners.map(|k| nodes[k]);
+            corners.sort_unstable();
+            faces.push(Face {
+                corners,
+                tetrahedron: number as u32,
+                opposite: opposite as u8,
+            });
+        }
+    }
+    faces.sort_unstable();
+    faces
+}
+
+/// The faces of equal corners at a time: two inside, one on the boundary.
+pub(crate) fn matched(faces: &[Face]) -> impl Iterator<Item = &[Face]> {
+    faces.chunk_by(|a, b| a.corners == b.corners)
+}
+
+impl TetrahedronMesh {
+    /// The triangles of the boundary, oriented outward, with the vertex numbers of this mesh, each
+    /// with the number of its tetrahedron; in the order of the tetrahedra.
+    pub fn boundary(&self) -> Vec<([NodeId; 3], usize)> {
+        let faces = faces(&self.tetrahedra);
+        let mut alone: Vec<_> = matched(&faces)
+            .filter(|alike| alike.len() == 1)
+            .map(|alike| (alike[0].tetrahedron, alike[0].opposite))
+            .collect();
+        alone.sort_unstable();
+        alone
+            .into_iter()
+            .map(|(tetrahedron, opposite)| {
+                let nodes = self.tetrahedra[tetrahedron as usize];
+                let corners = OPPOSITE[opposite as usize].map(|k| nodes[k]);
+                (corners, tetrahedron as usize)
+            })
+            .collect()
+    }
+
+    /// For each tetrahedron the number of its piece. Pieces hang together over faces and are
+    /// numbered from zero by their first tetrahedron.
+    pub fn pieces(&self) -> Vec<usize> {
+        pieces(&self.tetrahedra)
+    }
+}
+
+/// See [`TetrahedronMesh::pieces`].
+pub(crate) fn pieces(tetrahedra: &[[NodeId; 4]]) -> Vec<usize> {
+    let faces = faces(tetrahedra);
+    let mut root: Vec<u32> = (0..tetrahedra.len() as u32).collect();
+    for alike in matched(&faces) {
+        for pair in alike.windows(2) {
+            let one = find(&mut root, pair[0].tetrahedron);
+            let other = find(&mut root, pair[1].tetrahedron);
+            // The lower number leads, so that a root is the first of its piece.
+            root[one.max(other) as usize] = one.min(other);
+        }
+    }
+    let mut number = vec![usize::MAX; tetrahedra.len()];
+    let mut count = 0;
+    (0..tetrahedra.len())
+        .map(|t| {
+            let leader = find(&mut root, t as u32) as usize;
+            if number[leader] == usize::MAX {
+                number[leader] = count;
+                count += 1;
+            }
+            number[leader]
+        })
+        .collect()
+}
+
+/// The leader of a set, with the path to it halved.
+pub(crate) fn find(root: &mut [u32], mut at: u32) -> u32 {
+    while root[at as usize] != at {
+        root[at as usize] = root[root[at as usize] as usize];
+        at = root[at as usize];
+    }
+    at
+}

@@ -1,0 +1,156 @@
+//! Filling a surface with tetrahedra.
+
+use std::path::Path;
+
+use palpate_geometry::{FillSettings, Organ, Surface, TetrahedronError, fill, read_mesh};
+
+use crate::data;
+use crate::shapes::organ;
+use crate::tetrahedra::{assert_sound, report};
+
+/// Judge: the bounds that the source proves for these two constants, 10.7° and 164.8° (table 1).
+#[test]
+fn angles_are_those_of_the_source() {
+    for kind in Organ::ALL {
+        let (surface, _) = organ(kind, kind.default_triangles());
+        for about in [10_000, 40_000] {
+            if kind == Organ::Esophagus && about < 40_000 {
+                // Its wall would be less than two edges thick.
+                continue;
+            }
+            let started = std::time::Instant::now();
+            let mesh = fill(&surface, &FillSettings::with_about(&surface, about)).unwrap();
+            println!(
+                "{kind}: {}, {:.3} s",
+                report(&mesh),
+                started.elapsed().as_secs_f64()
+            );
+            assert_sound(&mesh);
+            let quality = mesh.quality();
+            assert!(quality.least_dihedral.to_degrees() > 10.7);
+            assert!(quality.largest_dihedral.to_degrees() < 164.8);
+            let about = about as f64;
+            assert!((mesh.tetrahedra().len() as f64 / about - 1.0).abs() < 0.3);
+        }
+    }
+}
+
+/// Judge: the volume of the surface that is filled. Chords of a curved side and cut-off edges both
+/// cost volume with the square of the edge; the slope over three halvings says so, within what the
+/// position of the lattice moves it.
+#[test]
+fn volume_converges_with_order_two() {
+    for kind in [Organ::Hemisphere, Organ::Kidney] {
+        let (surface, _) = organ(kind, 20_000);
+        let exact = surface.mesh().volume();
+        let missing = [0.008, 0.004, 0.002, 0.001].map(|edge| {
+            let mesh = fill(&surface, &FillSettings::new(edge)).unwrap();
+            (1.0 - mesh.volume() / exact).abs()
+        });
+        println!("{kind}: {missing:?}");
+        let order = (missing[0] / missing[3]).log2() / 3.0;
+        assert!((1.8..2.2).contains(&order), "{kind}: order {order}");
+    }
+}
+
+/// Judge: the cube itself. Its sides fall on the lattice when the edge divides them.
+#[test]
+fn a_cube_is_filled_exactly_when_the_lattice_fits() {
+    let (surface, _) = organ(Organ::Cube, 1_200);
+    let mesh = fill(&surface, &FillSettings::new(0.1 / 12.0)).unwrap();
+    let missing = 1.0 - mesh.volume() / 1e-3;
+    println!("{}, {missing:e} missing", report(&mesh));
+    assert_sound(&mesh);
+    assert!(missing.abs() < 1e-12);
+}
+
+/// The boundary lies on the surface, in its vertices.
+#[test]
+fn vertices_of_the_boundary_lie_on_the_surface() {
+    let (surface, tree) = organ(Organ::Liver, 6_000);
+    let mesh = fill(&surface, &FillSettings::with_about(&surface, 10_000)).unwrap();
+    for (corners, _) in mesh.boundary() {
+        for node in corners {
+            let there = mesh.vertices()[node.index()];
+            let (_, distance) = surface.signed_distance(&tree, &there);
+            assert!(distance.abs() < 1e-12, "{distance}");
+        }
+    }
+}
+
+#[test]
+fn the_same_surface_gives_the_same_bytes() {
+    let (surface, _) = organ(Organ::Spleen, 2_000);
+    let settings = FillSettings::with_about(&surface, 20_000);
+    let bits = || {
+        let mesh = fill(&surface, &settings).unwrap();
+        let coordinates = mesh.vertices().iter().flat_map(|v| [v.x, v.y, v.z]);
+        let bits: Vec<u64> = coordinates.map(f64::to_bits).collect();
+        (bits, mesh.tetrahedra().to_vec())
+    };
+    assert_eq!(bits(), bits());
+}
+
+#[test]
+fn too_fine_and_too_coarse_are_refused() {
+    let (surface, _) = organ(Organ::Esophagus, 3_726);
+    let refused = |edge| fill(&surface, &FillSettings::new(edge)).unwrap_err();
+    for edge in [1e-5, 1e-12, 1e-300] {
+        let error = refused(edge);
+        println!("{error}");
+        assert!(matches!(
+            error,
+            TetrahedronError::TooMany {
+                most: 4_000_000,
+                ..
+            }
+        ));
+    }
+    for edge in [0.006, 0.1, 1e9, 1e300] {
+        let error = refused(edge);
+        println!("{error}");
+        assert!(matches!(error, TetrahedronError::TooCoarse { .. }));
+    }
+    for edge in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(refused(edge).to_string().contains("positive length"));
+    }
+    let few = FillSettings {
+        most_tetrahedra: 1_000,
+        ..FillSettings::new(1e-3)
+    };
+    let message = fill(&surface, &few).unwrap_err().to_string();
+    assert!(message.contains("at most 1000"), "{message}");
+}
+
+/// A real organ as a surface.
+pub(crate) fn real(folder: &Path, name: &str) -> Surface {
+    let path = folder.join("meshes").join(name);
+    Surface::new(read_mesh(&path, None).unwrap().mesh).unwrap()
+}
+
+#[test]
+fn real_organs_are_filled() {
+    let Some(folder) = data::folder() else { return };
+    for name in [
+        "vhm_kidney_left_688.ply",
+        "vhm_kidney_left_5146.ply",
+        "bp3d_kidney_left_5146.ply",
+        "vhm_liver_3000.ply",
+        "vhm_liver_20000.ply",
+        "vhm_spleen_5000.ply",
+        "bp3d_stomach_3000.ply",
+    ] {
+        let surface = real(&folder, name);
+        let started = std::time::Instant::now();
+        let mesh = fill(&surface, &FillSettings::with_about(&surface, 40_000)).unwrap();
+        let seconds = started.elapsed().as_secs_f64();
+        let part = mesh.volume() / surface.mesh().volume();
+        println!(
+            "{name}: {}, volume {part:.4}, {seconds:.3} s",
+            report(&mesh)
+        );
+        assert_sound(&mesh);
+        assert!((0.97..1.001).contains(&part));
+        assert!(mesh.quality().least_dihedral.to_degrees() > 10.7, "{name}");
+    }
+}
