@@ -15,6 +15,40 @@ pub enum Error {
         /// The value given [-].
         poissons_ratio: f64,
     },
+    /// C10 is not a positive number.
+    #[error("C10 is {c10} Pa; give a positive number, half the shear modulus at rest")]
+    NeoHookeanOutOfRange {
+        /// The value given [Pa].
+        c10: f64,
+    },
+    /// C10 + C01 is not a positive number.
+    #[error(
+        "C10 is {c10} Pa and C01 is {c01} Pa; give numbers whose sum, half the shear modulus at rest, is positive"
+    )]
+    MooneyRivlinOutOfRange {
+        /// The value given [Pa].
+        c10: f64,
+        /// The value given [Pa].
+        c01: f64,
+    },
+    /// γ is not a positive number, or α not above −1.
+    #[error(
+        "gamma is {gamma} Pa and alpha is {alpha}; give a positive gamma, the shear modulus at rest, and an alpha above -1"
+    )]
+    BlatzOutOfRange {
+        /// The value given [Pa].
+        gamma: f64,
+        /// The value given [-].
+        alpha: f64,
+    },
+    /// The bulk modulus is not a positive number.
+    #[error(
+        "the bulk modulus is {bulk_modulus} Pa; give a positive number, or make the law incompressible"
+    )]
+    BulkModulusOutOfRange {
+        /// The value given [Pa].
+        bulk_modulus: f64,
+    },
     /// The relaxation function is none.
     #[error(
         "the Prony series has {terms} terms that sum to {sum}; give at most 8 with g >= 0 and tau > 0 whose g sum to less than 1"
@@ -42,5 +76,38 @@ pub enum Error {
         form: &'static str,
         /// Poisson's ratio [-].
         poissons_ratio: f64,
+    },
+    /// An element names a node that is not there.
+    #[error("element {element} names a node beyond the {nodes} of the mesh")]
+    NodeOutOfRange {
+        /// The element's number, from 0.
+        element: usize,
+        /// How many nodes there are.
+        nodes: usize,
+    },
+    /// A mesh without elements.
+    #[error("the mesh has no elements; give at least one")]
+    NoElements,
+    /// An element has no volume or a negative one.
+    #[error(
+        "element {element} is inverted or has no volume; repair the mesh or number its nodes the other way round"
+    )]
+    InvertedElement {
+        /// The element's number, from 0.
+        element: usize,
+    },
+    /// Elements of displacements alone cannot be this incompressible.
+    #[error(
+        "elements without a pressure field lock at Poisson's ratio {poissons_ratio}; use mixed elements or at most 0.49"
+    )]
+    Locking {
+        /// Poisson's ratio [-].
+        poissons_ratio: f64,
+    },
+    /// The factors do not fit into memory.
+    #[error("there is no memory for the factors of {unknowns} unknowns; use a coarser mesh")]
+    NoMemoryForFactors {
+        /// Number of unknowns.
+        unknowns: usize,
     },
 }

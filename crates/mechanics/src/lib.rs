@@ -11,9 +11,12 @@ mod linear;
 mod material;
 
 pub use error::Error;
+pub use material::blatz::Blatz;
 pub use material::law::{Law, Tangent};
 pub use material::linear_elastic::LinearElastic;
 pub use material::material::Material;
+pub use material::mooney_rivlin::MooneyRivlin;
+pub use material::neo_hookean::NeoHookean;
 pub use material::prony::{ForceHistory, MAX_TERMS, PronySeries};
 pub use material::volume::{Strain, Volume};
 pub use palpate_geometry::Vec3;

@@ -1,8 +1,13 @@
 //! What a tissue is made of: a law between deformation and stress, and its relaxation in time.
 
+pub(crate) mod blatz;
+mod isochoric;
 pub(crate) mod law;
 pub(crate) mod linear_elastic;
 #[expect(clippy::module_inception, reason = "the file is named for its type")]
 pub(crate) mod material;
+pub(crate) mod mooney_rivlin;
+pub(crate) mod neo_hookean;
+mod principal;
 pub(crate) mod prony;
 pub(crate) mod volume;

@@ -1,10 +1,11 @@
 //! Resistance to a change of volume: ½ κ θ², with θ = det F − 1 at finite strain and tr F − 3 at small.
 //!
-//! *How we know*: `laws::tangent_is_the_derivative_of_stress`, which runs over every law.
+//! *How we know*: `laws::dilation_has_its_gradient_and_curvature`, and the battery over every law.
 
 use nalgebra::{Matrix3, Vector3};
 
 use super::law::Tangent;
+use crate::Error;
 
 /// How strain is measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,6 +26,23 @@ pub struct Volume {
 }
 
 impl Volume {
+    /// At finite strain, without change.
+    pub(crate) const INCOMPRESSIBLE: Self = Self {
+        bulk_modulus: f64::INFINITY,
+        strain: Strain::Finite,
+    };
+
+    /// At finite strain, with a bulk modulus [Pa] that is a positive number.
+    pub(crate) fn compressible(bulk_modulus: f64) -> Result<Self, Error> {
+        if !(bulk_modulus > 0.0 && bulk_modulus.is_finite()) {
+            return Err(Error::BulkModulusOutOfRange { bulk_modulus });
+        }
+        Ok(Self {
+            bulk_modulus,
+            strain: Strain::Finite,
+        })
+    }
+
     /// Dilation θ(F) [-].
     pub fn dilation(&self, f: &Matrix3<f64>) -> f64 {
         match self.strain {
@@ -74,7 +92,7 @@ impl Volume {
     }
 }
 
-fn cofactors(f: &Matrix3<f64>) -> Matrix3<f64> {
+pub(crate) fn cofactors(f: &Matrix3<f64>) -> Matrix3<f64> {
     let [a, b, c]: [Vector3<f64>; 3] = [0, 1, 2].map(|i| f.column(i).into_owned());
     Matrix3::from_columns(&[b.cross(&c), c.cross(&a), a.cross(&b)])
 }

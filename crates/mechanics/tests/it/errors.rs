@@ -2,7 +2,7 @@
 
 use palpate_mechanics::contact::Bond;
 use palpate_mechanics::finite_spheres::{FiniteSphereModel, FiniteSphereSettings, Form};
-use palpate_mechanics::{Error, LinearElastic, PronySeries};
+use palpate_mechanics::{Blatz, Error, LinearElastic, MooneyRivlin, NeoHookean, PronySeries};
 
 use crate::contacts::tissue;
 
@@ -22,7 +22,7 @@ fn every_refusal_names_the_value_and_the_mend() {
         form: "strong",
         poissons_ratio: 0.3,
     };
-    let refused: [(Result<(), Error>, &[&str]); 11] = [
+    let refused: [(Result<(), Error>, &[&str]); 18] = [
         (
             LinearElastic::new(0.0, 0.3).map(drop),
             &["0 Pa", "positive"],
@@ -40,6 +40,34 @@ fn every_refusal_names_the_value_and_the_mend() {
         (
             LinearElastic::new(1e4, f64::NAN).map(drop),
             &["NaN", "0.49"],
+        ),
+        (
+            NeoHookean::incompressible(-2.5).map(drop),
+            &["-2.5 Pa", "positive"],
+        ),
+        (
+            NeoHookean::compressible(f64::INFINITY, 1e5).map(drop),
+            &["C10 is inf Pa", "positive"],
+        ),
+        (
+            NeoHookean::compressible(1e3, f64::INFINITY).map(drop),
+            &["bulk modulus is inf Pa", "incompressible"],
+        ),
+        (
+            MooneyRivlin::incompressible(3.0, -4.0).map(drop),
+            &["3 Pa", "-4 Pa", "sum"],
+        ),
+        (
+            MooneyRivlin::compressible(3.0, 4.0, 0.0).map(drop),
+            &["bulk modulus is 0 Pa", "positive"],
+        ),
+        (
+            Blatz::incompressible(0.0, 2.0).map(drop),
+            &["gamma is 0 Pa", "alpha is 2", "positive gamma"],
+        ),
+        (
+            Blatz::compressible(1e3, -1.0, 1e5).map(drop),
+            &["alpha is -1", "above -1"],
         ),
         (
             PronySeries::new(&[(0.75, 1.0), (0.5, 2.0)]).map(drop),

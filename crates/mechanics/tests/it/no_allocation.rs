@@ -6,6 +6,7 @@ use palpate_mechanics::contact::Bond;
 use palpate_mechanics::finite_spheres::{Assembly, FiniteSphereSettings, Form, Solver};
 
 use crate::contacts::{RADIUS, Random, bare_contact, model};
+use crate::every_law::{deformation, every_law};
 
 #[global_allocator]
 static COUNTING: AllocDisabler = AllocDisabler;
@@ -76,6 +77,22 @@ fn a_step_allocates_nothing() {
         }
         println!("{name}: allocations per step {counts:?}");
         assert!(counts[1..].iter().all(|&n| n == 0), "{name}: {counts:?}");
+    }
+}
+
+#[test]
+fn a_law_allocates_nothing() {
+    for law in every_law() {
+        let f = deformation(&mut Random(2));
+        let before = violation_count();
+        let sum = assert_no_alloc(|| {
+            law.energy(&f)
+                + law.stress(&f).norm()
+                + law.tangent(&f).norm()
+                + law.law.by_parameter(0, &f).1
+        });
+        assert!(sum.is_finite());
+        assert_eq!(violation_count(), before, "{}", law.name);
     }
 }
 

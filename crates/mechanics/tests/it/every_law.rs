@@ -1,0 +1,132 @@
+//! Every implementor of [`Law`], to run a battery over: a new one joins by a line here.
+
+use nalgebra::{Matrix3, Rotation3};
+use palpate_mechanics::{Blatz, Law, LinearElastic, MooneyRivlin, NeoHookean, Strain, Tangent};
+
+use crate::contacts::{MODULUS, Random};
+
+type Builder = Box<dyn Fn(&[f64]) -> Box<dyn Law>>;
+
+/// A law under test.
+pub(crate) struct Candidate {
+    pub(crate) name: String,
+    pub(crate) law: Box<dyn Law>,
+    /// The same law with other values of its parameters.
+    pub(crate) rebuilt: Builder,
+    /// Young's modulus at rest, by hand [Pa].
+    pub(crate) youngs_modulus: f64,
+}
+
+impl Candidate {
+    fn new<L: Law + 'static>(
+        parameters: &[f64],
+        youngs_modulus: f64,
+        build: impl Fn(&[f64]) -> L + 'static,
+    ) -> Self {
+        let law = build(parameters);
+        Self {
+            name: format!("{law:?}"),
+            law: Box::new(law),
+            rebuilt: Box::new(move |parameters| Box::new(build(parameters))),
+            youngs_modulus,
+        }
+    }
+
+    pub(crate) fn is_incompressible(&self) -> bool {
+        self.law.volume().bulk_modulus.is_infinite()
+    }
+
+    pub(crate) fn is_finite_strain(&self) -> bool {
+        self.law.volume().strain == Strain::Finite
+    }
+
+    /// Of all that is finite: the whole, or distortion alone where the volume cannot change [Pa].
+    pub(crate) fn energy(&self, f: &Matrix3<f64>) -> f64 {
+        if self.is_incompressible() {
+            self.law.distortion_energy(f)
+        } else {
+            self.law.energy(f)
+        }
+    }
+
+    /// As [`Candidate::energy`].
+    pub(crate) fn stress(&self, f: &Matrix3<f64>) -> Matrix3<f64> {
+        if self.is_incompressible() {
+            self.law.distortion_stress(f)
+        } else {
+            self.law.stress(f)
+        }
+    }
+
+    /// As [`Candidate::energy`].
+    pub(crate) fn tangent(&self, f: &Matrix3<f64>) -> Tangent {
+        if self.is_incompressible() {
+            self.law.distortion_tangent(f)
+        } else {
+            self.law.tangent(f)
+        }
+    }
+}
+
+/// α of the exponential law: softening, hardly more than zero, and up to the stiffest tissue.
+const ALPHAS: [f64; 5] = [-0.5, 1e-9, 0.5, 5.0, 20.0];
+
+/// C01 over C10 + C01.
+const SHARES: [f64; 5] = [0.0, 0.3, 1.0, 1.5, -0.5];
+
+pub(crate) fn every_law() -> Vec<Candidate> {
+    let mut laws = Vec::new();
+    for nu in [-0.3, 0.0, 0.3, 0.45, 0.499] {
+        laws.push(Candidate::new(&[MODULUS, nu], MODULUS, |p| {
+            LinearElastic::new(p[0], p[1]).unwrap()
+        }));
+    }
+    let c10 = MODULUS / 6.0;
+    // For a ratio κ/μ, E = 9 κ μ / (3 κ + μ).
+    let modulus = |shear: f64, ratio: f64| 9.0 * ratio / (3.0 * ratio + 1.0) * shear;
+    laws.push(Candidate::new(&[c10], 6.0 * c10, |p| {
+        NeoHookean::incompressible(p[0]).unwrap()
+    }));
+    for ratio in [1.0, 10.0, 1000.0] {
+        let bulk = ratio * 2.0 * c10;
+        let youngs = modulus(2.0 * c10, ratio);
+        laws.push(Candidate::new(&[c10], youngs, move |p| {
+            NeoHookean::compressible(p[0], bulk).unwrap()
+        }));
+    }
+    for share in SHARES {
+        let [c10, c01] = [c10 * (1.0 - share), c10 * share];
+        let shear = 2.0 * (c10 + c01);
+        let (parameters, bulk) = ([c10, c01], 10.0 * shear);
+        laws.push(Candidate::new(&parameters, 6.0 * (c10 + c01), |p| {
+            MooneyRivlin::incompressible(p[0], p[1]).unwrap()
+        }));
+        laws.push(Candidate::new(
+            &parameters,
+            modulus(shear, 10.0),
+            move |p| MooneyRivlin::compressible(p[0], p[1], bulk).unwrap(),
+        ));
+    }
+    let gamma = MODULUS / 3.0;
+    for alpha in ALPHAS {
+        let (parameters, bulk) = ([gamma, alpha], 10.0 * gamma);
+        laws.push(Candidate::new(&parameters, 3.0 * gamma, |p| {
+            Blatz::incompressible(p[0], p[1]).unwrap()
+        }));
+        laws.push(Candidate::new(
+            &parameters,
+            modulus(gamma, 10.0),
+            move |p| Blatz::compressible(p[0], p[1], bulk).unwrap(),
+        ));
+    }
+    laws
+}
+
+/// A deformation of up to a fifth that does not turn inside out.
+pub(crate) fn deformation(random: &mut Random) -> Matrix3<f64> {
+    Matrix3::identity() + 0.2 * Matrix3::from_fn(|_, _| random.sign())
+}
+
+pub(crate) fn rotation(random: &mut Random) -> Matrix3<f64> {
+    *Rotation3::new(3.0 * random.vector()).matrix()
+}
