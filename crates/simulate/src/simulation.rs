@@ -1,5 +1,5 @@
 use palpate_files::scene::ModelKind;
-use palpate_files::{Scene, SessionHeader};
+use palpate_files::{Elasticity, Scene, SessionHeader};
 use palpate_geometry::{AabbTree, Surface};
 use palpate_mechanics::Material;
 
@@ -33,18 +33,26 @@ impl Simulation {
         let tissue = scene.organ.tissue.read()?;
         let material = Material::from_tissue(&tissue)?;
         doubts.extend(material.doubts.iter().cloned());
+        if !matches!(tissue.elasticity, Elasticity::Linear { .. }) {
+            doubts.push(format!(
+                "the tissue's law {} is taken as it is at small strain: E = {:.1} Pa, incompressible; \
+                 its stiffening with depth is not felt",
+                tissue.elasticity.law(),
+                material.at_rest.youngs_modulus(),
+            ));
+        }
         let tree = AabbTree::new(surface.mesh());
         let settings = settings(&scene.model.local);
         let tools = scene
             .tools
             .iter()
-            .map(|tool| Tool::new(tool, settings, &material.law, (&surface, &tree)))
+            .map(|tool| Tool::new(tool, settings, &material.at_rest, (&surface, &tree)))
             .collect::<Result<Vec<_>, _>>()?;
         if tools.iter().any(|tool| tool.model.is_extrapolated()) {
             doubts.push(format!(
                 "Poisson's ratio {:.3} is beyond the {} that the local model is calibrated for; its \
                  force is the one there, times the ratio of the half-spaces",
-                material.law.poissons_ratio(),
+                material.at_rest.poissons_ratio(),
                 palpate_mechanics::finite_spheres::LARGEST_CALIBRATED_RATIO,
             ));
         }

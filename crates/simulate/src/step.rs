@@ -131,7 +131,7 @@ fn elastic_force(simulation: &Simulation, tool: &Tool, state: &ToolState) -> Vec
         return Vec3::zeros();
     };
     let moved = contact.displacement(tool, &Vec3::from(pose.position_m));
-    let law = &simulation.material.law;
+    let law = &simulation.material.at_rest;
     let normal = match tool.tip {
         Tip::Sphere { .. } if state.response.is_none() => 0.0,
         tip => tip.normal_force(law, tool.bond, -moved.z, state.stiffness[(2, 2)]),
