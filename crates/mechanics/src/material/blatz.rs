@@ -110,9 +110,13 @@ impl Law for Blatz {
             .squares
             .map(|square| self.principal_stress(square));
         let exponents = self.alpha * principal.squares.add_scalar(-1.0);
-        let differences = Matrix3::from_fn(|i, j| {
-            self.modulus() * self.alpha * divided_difference(exponents[i], exponents[j])
-        });
+        // Between equal ones it is the derivative.
+        let mut differences = Matrix3::from_diagonal(&(self.alpha * stresses));
+        for (i, j) in [(0, 1), (1, 2), (2, 0)] {
+            let difference = divided_difference(exponents[i], exponents[j]);
+            differences[(i, j)] = self.modulus() * self.alpha * difference;
+            differences[(j, i)] = differences[(i, j)];
+        }
         let inner = principal.tangent(&stresses, &differences);
         isochoric.tangent(&principal.stress(&stresses), &inner)
     }

@@ -50,23 +50,23 @@ impl Isochoric {
     pub(crate) fn tangent(&self, inner: &Matrix3<f64>, inner_tangent: &Tangent) -> Tangent {
         let flat = |m: &Matrix3<f64>| SVector::<f64, 9>::from_column_slice(m.as_slice());
         let (f, h) = (flat(&self.f), flat(&self.cofactors));
-        let along = inner_tangent * f;
+        let mut along = SVector::<f64, 9>::zeros();
+        for (column, weight) in inner_tangent.column_iter().zip(f.iter()) {
+            along += column * *weight;
+        }
         let q = inner.dot(&self.f);
         // Both rank-one terms and H ⊗ H at once: m ⊗ H + H ⊗ m.
         let m = (q + f.dot(&along)) / 18.0 * h - (flat(inner) + along) / 3.0;
         let squared = self.scale.powi(2);
-        let mut tangent = Tangent::zeros();
-        for column in 0..9 {
+        let mut tangent = *inner_tangent;
+        for (column, entries) in tangent.as_mut_slice().chunks_exact_mut(9).enumerate() {
             let (k, l) = (column % 3, column / 3);
-            for row in 0..9 {
+            for (row, entry) in entries.iter_mut().enumerate() {
                 let (i, j) = (row % 3, row / 3);
                 // K at (ij)(kl) is H_il H_kj.
                 let turned = h[3 * l + i] * h[3 * j + k];
-                tangent[(row, column)] = squared
-                    * (inner_tangent[(row, column)]
-                        + m[row] * h[column]
-                        + h[row] * m[column]
-                        + q / 3.0 * turned);
+                *entry += m[row] * h[column] + h[row] * m[column] + q / 3.0 * turned;
+                *entry *= squared;
             }
         }
         tangent

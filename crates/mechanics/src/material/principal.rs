@@ -2,10 +2,10 @@
 //!
 //! With the eigenvectors n of C, its eigenvalues c, and S = Σ s(c_i) n_i ⊗ n_i, an increment of S is in
 //! the basis n that of C, entry by entry, times the divided differences h_ij of s between c_i and c_j
-//! [Higham 2008, section 3.2]. So with a_i = F n_i, of the columns of P and F in that basis,
-//!   ∂P_i/∂F_j = h_ij a_j ⊗ a_i + δ_ij (s_i 1 + Σ_m h_im a_m ⊗ a_m).
+//! [Higham 2008, section 3.2]. With a_i = F n_i and V_ij = a_i ⊗ n_j + a_j ⊗ n_i that is
+//!   ∂P/∂F = 1 ⊗ S + ½ Σ_i h_ii V_ii ⊗ V_ii + Σ_i<j h_ij V_ij ⊗ V_ij, where (1 ⊗ S):dF = dF S.
 //!
-//! *How we know*: `laws::tangent_is_the_derivative_of_stress`, at equal stretches too.
+//! *How we know*: `laws::tangent_is_the_derivative_of_stress_at_equal_stretches`.
 //!
 //! *Limits*: divided differences are the caller's, who can write them so that they do not cancel.
 
@@ -48,33 +48,25 @@ impl Principal {
 
     /// ∂(F S)/∂F [Pa] from the eigenvalues of S [Pa] and the divided differences by those of C [Pa].
     pub(crate) fn tangent(&self, values: &Vector3<f64>, differences: &Matrix3<f64>) -> Tangent {
-        let dyad = |i: usize, j: usize| self.moved.column(i) * self.moved.column(j).transpose();
-        let block = |i: usize, j: usize| {
-            let mut block = differences[(i, j)] * dyad(j, i);
-            if i == j {
-                block += Matrix3::from_diagonal_element(values[i]);
-                for m in 0..3 {
-                    block += differences[(i, m)] * dyad(m, m);
+        let mut tangent = Tangent::zeros();
+        for (i, j) in [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)] {
+            let one = self.moved.column(i) * self.axes.column(j).transpose();
+            let other = self.moved.column(j) * self.axes.column(i).transpose();
+            let both = one + other;
+            let weight = if i == j { 0.5 } else { 1.0 } * differences[(i, j)];
+            let columns = tangent.as_mut_slice().chunks_exact_mut(9);
+            for (column, right) in columns.zip(both.iter()) {
+                for (entry, left) in column.iter_mut().zip(both.iter()) {
+                    *entry += weight * right * left;
                 }
             }
-            block
-        };
-        // Out of the basis, one side after the other.
-        let blocks = [0, 1, 2].map(|i| [0, 1, 2].map(|j| block(i, j)));
-        let half = blocks.map(|row| [0, 1, 2].map(|l| self.sum(&row, l)));
-        let mut tangent = Tangent::zeros();
+        }
+        let s = self.axes * Matrix3::from_diagonal(values) * self.axes.transpose();
         for (j, l) in (0..3).flat_map(|j| (0..3).map(move |l| (j, l))) {
-            let column = [half[0][l], half[1][l], half[2][l]];
-            tangent
-                .fixed_view_mut::<3, 3>(3 * j, 3 * l)
-                .copy_from(&self.sum(&column, j));
+            for i in 0..3 {
+                tangent[(3 * j + i, 3 * l + i)] += s[(l, j)];
+            }
         }
         tangent
-    }
-
-    /// Σ_i n_i[component] blocks_i.
-    fn sum(&self, blocks: &[Matrix3<f64>; 3], component: usize) -> Matrix3<f64> {
-        let weights = self.axes.row(component);
-        blocks[0] * weights[0] + blocks[1] * weights[1] + blocks[2] * weights[2]
     }
 }
