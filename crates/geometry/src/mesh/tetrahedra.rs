@@ -14,9 +14,9 @@ mod faces;
 mod quality;
 
 pub use error::TetrahedronError;
-pub(crate) use faces::{faces, matched, pieces};
+pub(crate) use faces::{OPPOSITE, faces, matched, pieces};
 pub use quality::TetrahedronQuality;
-pub(crate) use quality::{longest_edge, six_fold_volume};
+pub(crate) use quality::{dihedral_angles, longest_edge, six_fold_volume};
 
 use crate::{NodeId, Vec3};
 

@@ -16,6 +16,7 @@ mod fuzz;
 mod invariants;
 mod io;
 mod organ;
+mod refine;
 mod shapes;
 mod tetrahedra;
 

@@ -80,17 +80,6 @@ pub(crate) fn dihedral_angles(positions: &[Vec3; 4]) -> [f64; 6] {
     })
 }
 
-/// Volume over the cube of the root mean square edge, 1 for a regular tetrahedron, negative for an
-/// inverted one [-]. Cheaper than angles and as quick to fall when they do.
-pub(crate) fn shape(positions: &[Vec3; 4]) -> f64 {
-    let squares: f64 = EDGES
-        .iter()
-        .map(|&[i, j, ..]| (positions[j] - positions[i]).norm_squared())
-        .sum();
-    // Six times the volume is 1/√2 for a regular tetrahedron of edge one.
-    std::f64::consts::SQRT_2 * six_fold_volume(positions) / (squares / 6.0).powf(1.5)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -100,11 +89,12 @@ mod tests {
         let corners = [[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]];
         let mut corners = corners.map(|c| Vec3::from(c.map(f64::from)));
         corners.swap(0, 1);
-        let sign = six_fold_volume(&corners).signum();
-        assert!((sign * shape(&corners) - 1.0).abs() < 1e-14);
+        let edge = 8f64.sqrt();
+        let six_fold = edge.powi(3) / 2f64.sqrt();
+        assert!((six_fold_volume(&corners).abs() - six_fold).abs() < 1e-13);
         for angle in dihedral_angles(&corners) {
             assert!((angle - (1.0f64 / 3.0).acos()).abs() < 1e-14);
         }
-        assert!((longest_edge(&corners) - 8f64.sqrt()).abs() < 1e-14);
+        assert!((longest_edge(&corners) - edge).abs() < 1e-14);
     }
 }

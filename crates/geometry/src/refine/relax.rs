@@ -1,0 +1,84 @@
+//! Vertices move where that opens the flattest tetrahedra; those of the boundary along the surface.
+//!
+//! Bisection halves angles; a short search around each vertex of a flat tetrahedron wins most of
+//! that back. Small, plain and the same on every run: fixed directions, and a move is kept only when
+//! the worst angle around the vertex grows.
+
+use super::bisection::Bisection;
+use super::shell::{Shell, openness};
+use crate::Vec3;
+
+/// Tetrahedra less open than this are worked on [rad].
+const FLAT: f64 = 0.25;
+
+/// Sweeps over all flat tetrahedra.
+const SWEEPS: usize = 6;
+
+/// Steps of the search, as parts of the shortest edge at the vertex [-].
+const STEPS: [f64; 4] = [0.3, 0.15, 0.07, 0.03];
+
+/// Without a shell the boundary stays.
+pub(super) fn relax(bisection: &mut Bisection, shell: Option<&Shell<'_>>) {
+    let on_boundary = bisection.on_boundary();
+    for _ in 0..SWEEPS {
+        let mut nodes: Vec<u32> = (0..bisection.len() as u32)
+            .filter(|&t| openness(&bisection.positions(t)) < FLAT)
+            .flat_map(|t| bisection.nodes(t))
+            .filter(|&node| shell.is_some() || !on_boundary[node as usize])
+            .collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        let mut any = false;
+        for node in nodes {
+            let shell = shell.filter(|_| on_boundary[node as usize]);
+            any |= open(bisection, node, shell);
+        }
+        if !any {
+            break;
+        }
+    }
+}
+
+/// Moves one vertex to a better place nearby. Whether there was one.
+fn open(bisection: &mut Bisection, node: u32, shell: Option<&Shell<'_>>) -> bool {
+    let star: Vec<[u32; 4]> = bisection.around[node as usize]
+        .iter()
+        .map(|&t| bisection.nodes(t))
+        .collect();
+    let vertices = &mut bisection.vertices;
+    let start = vertices[node as usize];
+    let worst = |vertices: &[Vec3]| {
+        star.iter()
+            .map(|nodes| openness(&nodes.map(|n| vertices[n as usize])))
+            .fold(f64::INFINITY, f64::min)
+    };
+    let others = star.iter().flatten().filter(|&&other| other != node);
+    let reach = others
+        .map(|&other| (vertices[other as usize] - start).norm())
+        .fold(f64::INFINITY, f64::min);
+    let mut best = (worst(vertices), start);
+    for step in STEPS {
+        let from = best.1;
+        for direction in directions() {
+            let target = from + direction * (step * reach);
+            let target = shell.map_or(target, |shell| shell.nearest(&target));
+            vertices[node as usize] = target;
+            let open = worst(vertices);
+            if open > best.0 + 1e-6 {
+                best = (open, target);
+            }
+        }
+    }
+    vertices[node as usize] = best.1;
+    best.1 != start
+}
+
+/// To the faces and the corners of a cube.
+fn directions() -> impl Iterator<Item = Vec3> {
+    let along = (0..3).flat_map(|k| [-1.0, 1.0].map(|s| Vec3::ith(k, s)));
+    let across = (0..8u8).map(|bits| {
+        let sign = |k: u8| if bits >> k & 1 == 0 { -1.0 } else { 1.0 };
+        Vec3::new(sign(0), sign(1), sign(2)) / 3f64.sqrt()
+    });
+    along.chain(across)
+}
