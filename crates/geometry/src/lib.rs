@@ -25,6 +25,7 @@ pub use fill::{FillSettings, fill};
 pub use io::error::{ReadError, ReadFault, UnknownUnit};
 pub use io::format::MeshFormat;
 pub use io::unit::{LengthUnit, doubt_about_extent, is_plausible_extent, unit_by_extent};
+pub use io::volume::{ImportedTetrahedra, VolumeFormat, read_tetrahedra};
 pub use io::vtk;
 pub use io::{ImportedMesh, read_mesh};
 pub use mesh::adjacency::Adjacency;

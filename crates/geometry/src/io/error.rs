@@ -1,7 +1,7 @@
 use std::path::PathBuf;
 
 use super::unit::rounded;
-use crate::{LengthUnit, MeshError, MeshFormat};
+use crate::{LengthUnit, MeshError, MeshFormat, TetrahedronError};
 
 /// A mesh file that could not be read: which, and why.
 #[derive(Debug, thiserror::Error)]
@@ -184,6 +184,60 @@ pub enum ReadFault {
         /// The same taken as millimetres, to four digits [m].
         in_millimetres: f64,
     },
+    /// The name does not tell a format that holds volumes.
+    #[error(
+        "the extension `{found}` is not one of .msh, .vtk, .vtu; save the tetrahedra as one of these"
+    )]
+    UnknownVolumeExtension {
+        /// The extension, or nothing.
+        found: String,
+    },
+    /// A way of writing the numbers that is not read here.
+    #[error("{what} is not read here; {mend}")]
+    UnreadEncoding {
+        /// How the file is written.
+        what: &'static str,
+        /// How to write one that can be read.
+        mend: &'static str,
+    },
+    /// A volume element that is no tetrahedron.
+    #[error(
+        "cell {cell} is {found} where a tetrahedron was expected; mesh the volume with tetrahedra only"
+    )]
+    NotATetrahedron {
+        /// Number of the cell in the file, from zero.
+        cell: usize,
+        /// What it is.
+        found: String,
+    },
+    /// A cell names a vertex that is not there.
+    #[error(
+        "cell {cell} names vertex {found}, which is not among the {vertices} of the file; it is damaged, export it again"
+    )]
+    BadCorner {
+        /// Number of the cell in the file, from zero.
+        cell: usize,
+        /// The number as it stands in the file.
+        found: i64,
+        /// How many vertices there are.
+        vertices: usize,
+    },
+    /// Lists that should go together and do not.
+    #[error("the file has {found} {what} where {expected} were expected; export it again")]
+    Mismatch {
+        /// What there is a wrong number of.
+        what: &'static str,
+        /// How many there are.
+        found: usize,
+        /// How many there should be.
+        expected: usize,
+    },
+    /// Nothing but points, lines or triangles.
+    #[error("the file holds no tetrahedra; export the volume, not only its surface")]
+    NoTetrahedra,
+    /// Read, and yet not a mesh of tetrahedra.
+    #[error(transparent)]
+    Tetrahedra(#[from] TetrahedronError),
     /// Read, and yet not a mesh.
     #[error(transparent)]
     Mesh(#[from] MeshError),

@@ -1,4 +1,4 @@
-//! Mesh files: STL, OBJ, PLY and glTF in, VTK out.
+//! Mesh files: STL, OBJ, PLY and glTF in, VTK out; tetrahedra from MSH and VTK.
 
 mod base64;
 pub(crate) mod error;
@@ -10,6 +10,7 @@ mod raw;
 mod stl;
 mod text;
 pub(crate) mod unit;
+pub(crate) mod volume;
 pub mod vtk;
 
 use std::fs;
@@ -90,11 +91,21 @@ fn read_here(path: &Path, unit: Option<LengthUnit>) -> Result<ImportedMesh, Read
 }
 
 fn in_metres(raw: RawMesh, unit: LengthUnit) -> Result<TriangleMesh, ReadFault> {
-    // Divided where the unit is a fraction of a metre: 0.1 mm is then the same number as 0.0001 m.
-    let per_metre = (1.0 / unit.in_metres()).round();
-    let vertices = raw.vertices.iter().map(|v| v / per_metre).collect();
+    let vertices = in_unit(&raw.vertices, unit);
     let triangles = raw.triangles.iter().map(|t| t.map(NodeId)).collect();
     Ok(TriangleMesh::new(vertices, triangles)?)
+}
+
+/// Coordinates of a file in this unit, in metres.
+fn in_unit(vertices: &[Vec3], unit: LengthUnit) -> Vec<Vec3> {
+    // Divided where the unit is a fraction of a metre: 0.1 mm is then the same number as 0.0001 m.
+    let per_metre = 1.0 / unit.in_metres();
+    let whole = per_metre.round();
+    if (per_metre / whole - 1.0).abs() < 1e-12 {
+        vertices.iter().map(|v| v / whole).collect()
+    } else {
+        vertices.iter().map(|v| v * unit.in_metres()).collect()
+    }
 }
 
 fn largest_extent(raw: &RawMesh) -> f64 {

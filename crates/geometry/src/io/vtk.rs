@@ -1,14 +1,19 @@
-//! VTK XML files for ParaView: a surface with fields (`.vtp`) and a series of them in time (`.pvd`).
+//! VTK XML files for ParaView: a surface with fields (`.vtp`), a grid of cells with fields (`.vtu`),
+//! and a series of them in time (`.pvd`).
+
+mod grid;
+
+pub use grid::{CellKind, Cells, unstructured_grid};
 
 use super::base64;
 use crate::{NodeId, Vec3};
 
-/// A named field with one value per vertex.
+/// A named field with one value per vertex; in a grid, per node or per cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PointField<'a> {
     /// As it is to appear in ParaView.
     pub name: &'a str,
-    /// One value per vertex, in any unit; the name should say it.
+    /// One value for each, in any unit; the name should say it.
     pub values: FieldValues<'a>,
 }
 
@@ -41,14 +46,7 @@ pub fn polydata(
 ) -> Vec<u8> {
     let fields: String = fields
         .iter()
-        .map(|field| {
-            let given = field.values.len();
-            assert_eq!(given, positions.len(), "field `{}`", field.name);
-            match field.values {
-                FieldValues::Scalars(values) => scalars(field.name, values),
-                FieldValues::Vectors(values) => vectors(field.name, values),
-            }
-        })
+        .map(|one| field(one, positions.len()))
         .collect();
     let points = vectors("Points", positions);
     let connectivity = integers(
@@ -89,6 +87,15 @@ pub fn collection(files: &[(f64, &str)]) -> Vec<u8> {
          </VTKFile>\n"
     )
     .into_bytes()
+}
+
+fn field(field: &PointField<'_>, expected: usize) -> String {
+    let given = field.values.len();
+    assert_eq!(given, expected, "field `{}`", field.name);
+    match field.values {
+        FieldValues::Scalars(values) => scalars(field.name, values),
+        FieldValues::Vectors(values) => vectors(field.name, values),
+    }
 }
 
 fn scalars(name: &str, values: &[f64]) -> String {

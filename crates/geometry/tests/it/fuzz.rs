@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use palpate_geometry::{LengthUnit, inspect, read_mesh, repair};
+use palpate_geometry::{LengthUnit, inspect, read_mesh, read_tetrahedra, repair};
 use proptest::prelude::*;
 use proptest::test_runner::Config;
 
-use crate::files;
+use crate::{files, volumes};
 
 /// Few cases by default, many with `PALPATE_FULL=1`.
 fn config() -> Config {
@@ -31,6 +31,16 @@ fn survive(folder: &Path, name: &str, bytes: &[u8]) {
         Err(error) => error.to_string(),
     };
     assert!(message.len() < 1000, "{message}");
+}
+
+/// The same for a file of tetrahedra.
+fn survive_volume(folder: &Path, name: &str, bytes: &[u8]) {
+    let path = folder.join(name);
+    std::fs::write(&path, bytes).unwrap();
+    if let Err(error) = read_tetrahedra(&path, Some(LengthUnit::Metre)) {
+        let message = error.to_string();
+        assert!(message.len() < 1000, "{message}");
+    }
 }
 
 /// A start that makes a reader believe the rest.
@@ -131,6 +141,28 @@ proptest! {
         let folder = tempfile::tempdir().unwrap();
         for (name, bytes) in files::all(&files::tetrahedron()) {
             survive(folder.path(), name, &damaged(bytes, &damages));
+        }
+    }
+
+    #[test]
+    fn damaged_volumes_never_panic(damages in prop::collection::vec(damage(), 1..4)) {
+        let folder = tempfile::tempdir().unwrap();
+        for (name, bytes) in volumes::all() {
+            survive_volume(folder.path(), name, &damaged(bytes, &damages));
+        }
+    }
+
+    #[test]
+    fn arbitrary_bytes_are_no_volume(rest in prop::collection::vec(any::<u8>(), 0..300)) {
+        let folder = tempfile::tempdir().unwrap();
+        for (name, start) in [
+            ("a.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n"),
+            ("a.msh", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Elements\n"),
+            ("a.vtk", "# vtk DataFile Version 3.0\n\nASCII\nDATASET UNSTRUCTURED_GRID\nCELLS "),
+            ("a.vtu", "<VTKFile type=\"UnstructuredGrid\"><Points><DataArray "),
+        ] {
+            survive_volume(folder.path(), name, &rest);
+            survive_volume(folder.path(), name, &[start.as_bytes(), &rest].concat());
         }
     }
 }

@@ -62,6 +62,13 @@ fn an_explicit_unit_is_taken_and_doubted_when_it_cannot_be() {
 }
 
 #[test]
+fn an_inch_is_25_4_mm() {
+    let imported = read("in.obj", &file("text.obj"), Some(LengthUnit::Inch)).unwrap();
+    let (low, high) = imported.mesh.bounds();
+    assert!(((high - low).max() - 0.125 * 0.0254).abs() < 1e-18);
+}
+
+#[test]
 fn a_unit_is_never_guessed_silently() {
     let large = files::tetrahedron().map_vertices(|v| 1000.0 * v).unwrap();
     for (name, bytes) in files::all(&large) {

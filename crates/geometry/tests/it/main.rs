@@ -19,6 +19,7 @@ mod organ;
 mod refine;
 mod shapes;
 mod tetrahedra;
+mod volumes;
 
 /// Whether random tests shall try all of their cases: `PALPATE_FULL=1`.
 fn wants_full() -> bool {
