@@ -7,7 +7,7 @@
 //! lie on the surface, and between the faces of a tetrahedron there are 10.7° at least and 164.8°
 //! at most, whatever the surface.
 //!
-//! *How we know*: `fill::angles_are_those_of_the_source`, `fill::volume_converges_with_order_two`,
+//! *How we know*: `fill::angles_hold_wherever_the_lattice_lies`, `fill::volume_converges_with_order_two`,
 //! `fill::real_organs_are_filled`.
 //!
 //! *Limits*: sharp edges are cut off by up to a third of an edge. What is thinner than about two
@@ -50,7 +50,8 @@ impl FillSettings {
     }
 }
 
-/// Fills `surface` with tetrahedra in one piece. The same input gives the same bytes.
+/// Fills `surface` with tetrahedra in one piece; crumbs that fall off where it is thin are dropped
+/// while they are less than a hundredth of the volume. The same input gives the same bytes.
 ///
 /// # Errors
 /// When the edge is not a positive length, so short that too many tetrahedra would come, or so long

@@ -1,7 +1,7 @@
 use crate::{AabbTree, Surface, Vec3};
 
 /// Parts of the length of an edge: a cut nearer to a point than that moves the point. These give
-/// the best angles [Labelle and Shewchuk 2007, table 1].
+/// the best angles [Labelle and Shewchuk 2007].
 const ALPHA_LONG: f64 = 0.24999;
 const ALPHA_SHORT: f64 = 0.41189;
 

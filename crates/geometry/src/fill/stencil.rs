@@ -1,5 +1,5 @@
 //! What a tetrahedron of the lattice keeps inside, cut into tetrahedra
-//! [Labelle and Shewchuk 2007, figure 3].
+//! [Labelle and Shewchuk 2007].
 //!
 //! Two neighbours share a face, and where the face keeps a quadrilateral both must cut it along the
 //! same diagonal. It is chosen by what the face alone knows (`diagonal_from_first`).
