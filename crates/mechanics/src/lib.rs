@@ -6,6 +6,7 @@
 
 pub mod contact;
 mod error;
+pub mod finite_elements;
 pub mod finite_spheres;
 mod linear;
 mod material;

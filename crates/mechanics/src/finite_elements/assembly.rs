@@ -1,0 +1,256 @@
+//! Forces and tangent of a deformed body.
+//!
+//! With the pressure p as a field of its own, equilibrium makes stationary
+//!   Π = ∫ W(F) + p θ(F) − p²/(2 κ) dV,
+//! so that the residuals are ∫ (∂W/∂F + p ∂θ/∂F) : δF and ∫ δp (θ − p/κ). The matrix is symmetric; its
+//! pressure block carries a further −ε/μ, which is missing from the residual: it makes the matrix
+//! quasi-definite for κ = ∞ as well, and costs Newton's method a factor of about ε per step.
+//!
+//! *How we know*: `finite_elements::tangent_is_the_derivative_of_the_residual`, patch tests.
+//!
+//! *Limits*: one law for the whole body.
+
+use nalgebra::Matrix3;
+
+use super::model::{FiniteElementModel, FiniteElementWorkspace};
+use crate::material::law::Tangent;
+
+/// ε of the pressure block [-].
+pub(super) const PROXIMAL: f64 = 1e-7;
+
+/// Places of F_ij in a column of nine that an axisymmetric motion (r, z, hoop) moves, and a solid's.
+const AXISYMMETRIC: [usize; 5] = [0, 1, 3, 4, 8];
+
+/// An element is turned inside out at some point of integration.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Inverted;
+
+/// Puts residual, tangent and energy of `unknowns` into `workspace`.
+pub(super) fn assemble(
+    model: &FiniteElementModel,
+    unknowns: &[f64],
+    workspace: &mut FiniteElementWorkspace,
+) -> Result<(), Inverted> {
+    workspace.residual.fill(0.0);
+    workspace.tangent.fill(0.0);
+    workspace.energy = 0.0;
+    let local = model.local_unknowns();
+    let triangle = local * (local + 1) / 2;
+    for element in 0..model.mesh.len() {
+        let numbers = &model.unknowns[element * local..(element + 1) * local];
+        let scratch = &mut workspace.element;
+        for (value, &number) in scratch.values.iter_mut().zip(numbers) {
+            *value = unknowns[number as usize];
+        }
+        scratch.force.fill(0.0);
+        scratch.matrix.fill(0.0);
+        for point in 0..model.mapping.points {
+            let point = Point::new(model, element, point);
+            workspace.energy += if model.dimension() == 2 {
+                point.integrate::<2>(
+                    model,
+                    &scratch.values,
+                    &mut scratch.force,
+                    &mut scratch.matrix,
+                )
+            } else {
+                point.integrate::<3>(
+                    model,
+                    &scratch.values,
+                    &mut scratch.force,
+                    &mut scratch.matrix,
+                )
+            }?;
+        }
+        for (&number, force) in numbers.iter().zip(&scratch.force) {
+            workspace.residual[number as usize] += force;
+        }
+        let mut places = model.scatter[element * triangle..].iter();
+        for column in 0..local {
+            for row in column..local {
+                let place = places.next().expect("the triangle has this size");
+                workspace.tangent[*place as usize] += scratch.matrix[column * local + row];
+            }
+        }
+    }
+    Ok(())
+}
+
+/// One point of integration, with the slices of the mapping that belong to it.
+struct Point<'a> {
+    weight: f64,
+    gradients: &'a [f64],
+    hoops: &'a [f64],
+    pressures: &'a [f64],
+}
+
+impl<'a> Point<'a> {
+    fn new(model: &'a FiniteElementModel, element: usize, point: usize) -> Self {
+        let (mapping, nodes) = (&model.mapping, model.mesh.kind.nodes());
+        let index = element * mapping.points + point;
+        let part = |all: &'a [f64], width: usize| {
+            all.get(index * width..(index + 1) * width).unwrap_or(&[])
+        };
+        Self {
+            weight: mapping.weights[index],
+            gradients: part(&mapping.gradients, nodes * model.dimension()),
+            hoops: part(&mapping.hoops, nodes),
+            pressures: part(&mapping.pressures, mapping.pressures_per_element),
+        }
+    }
+
+    /// Deformation gradient of the element's displacements.
+    fn gradient<const D: usize>(&self, values: &[f64]) -> Matrix3<f64> {
+        let mut f = Matrix3::identity();
+        for (u, g) in values.chunks_exact(D).zip(self.gradients.chunks_exact(D)) {
+            for j in 0..D {
+                for i in 0..D {
+                    f[(i, j)] += u[i] * g[j];
+                }
+            }
+        }
+        for (u, hoop) in values.chunks_exact(D).zip(self.hoops) {
+            f[(2, 2)] += u[0] * hoop;
+        }
+        f
+    }
+
+    /// Adds this point to force and matrix (lower triangle, column by column); answers its energy.
+    fn integrate<const D: usize>(
+        &self,
+        model: &FiniteElementModel,
+        values: &[f64],
+        force: &mut [f64],
+        matrix: &mut [f64],
+    ) -> Result<f64, Inverted> {
+        let f = self.gradient::<D>(values);
+        let (law, volume) = (model.law.as_ref(), model.law.volume());
+        if volume.strain == crate::Strain::Finite && !(f.determinant() > 0.0) {
+            return Err(Inverted);
+        }
+        let count = self.gradients.len();
+        let dilation = volume.dilation_gradient(&f);
+        if self.pressures.is_empty() {
+            self.add_stress::<D>(&law.stress(&f), force);
+            self.add_tangent::<D>(&law.tangent(&f), matrix, values.len());
+            return Ok(self.weight * law.energy(&f));
+        }
+        let pressure: f64 = self
+            .pressures
+            .iter()
+            .zip(&values[count..])
+            .map(|(q, p)| q * p)
+            .sum();
+        let stress = law.distortion_stress(&f) + pressure * dilation;
+        let tangent = law.distortion_tangent(&f) + pressure * volume.dilation_curvature(&f);
+        self.add_stress::<D>(&stress, force);
+        self.add_tangent::<D>(&tangent, matrix, values.len());
+        let compressibility = 1.0 / volume.bulk_modulus;
+        let excess = volume.dilation(&f) - pressure * compressibility;
+        self.add_pressure::<D>(
+            &dilation,
+            excess,
+            compressibility + PROXIMAL / model.shear_modulus,
+            force,
+            matrix,
+        );
+        let energy = law.distortion_energy(&f) + 0.5 * compressibility * pressure * pressure;
+        Ok(self.weight * energy)
+    }
+
+    fn add_stress<const D: usize>(&self, stress: &Matrix3<f64>, force: &mut [f64]) {
+        for (out, g) in force
+            .chunks_exact_mut(D)
+            .zip(self.gradients.chunks_exact(D))
+        {
+            for (i, out) in out.iter_mut().enumerate() {
+                for (j, g) in g.iter().enumerate() {
+                    *out += self.weight * stress[(i, j)] * g;
+                }
+            }
+        }
+        for (out, hoop) in force.chunks_exact_mut(D).zip(self.hoops) {
+            out[0] += self.weight * stress[(2, 2)] * hoop;
+        }
+    }
+
+    fn add_tangent<const D: usize>(&self, tangent: &Tangent, matrix: &mut [f64], local: usize) {
+        let nodes = self.gradients.len() / D;
+        let entries = tangent.as_slice();
+        for b in 0..nodes {
+            let gb = &self.gradients[b * D..(b + 1) * D];
+            for k in 0..D {
+                // Change of stress with this displacement.
+                let mut change = [0.0; 9];
+                let mut add = |column: usize, factor: f64| {
+                    let column = &entries[9 * column..9 * column + 9];
+                    if D == 2 {
+                        for row in AXISYMMETRIC {
+                            change[row] += factor * column[row];
+                        }
+                    } else {
+                        for (change, entry) in change.iter_mut().zip(column) {
+                            *change += factor * entry;
+                        }
+                    }
+                };
+                for (l, g) in gb.iter().enumerate() {
+                    add(3 * l + k, self.weight * g);
+                }
+                if D == 2 && k == 0 {
+                    add(8, self.weight * self.hoops[b]);
+                }
+                let column = &mut matrix[(b * D + k) * local..][..nodes * D];
+                let rows = column[b * D..].chunks_exact_mut(D);
+                for (rows, ga) in rows.zip(self.gradients[b * D..].chunks_exact(D)) {
+                    for (i, row) in rows.iter_mut().enumerate() {
+                        for (j, g) in ga.iter().enumerate() {
+                            *row += change[3 * j + i] * g;
+                        }
+                    }
+                }
+                if D == 2 {
+                    let rows = column[b * D..].chunks_exact_mut(D);
+                    for (rows, hoop) in rows.zip(&self.hoops[b..]) {
+                        rows[0] += change[8] * hoop;
+                    }
+                }
+            }
+        }
+    }
+
+    /// The coupling of displacements to pressures, and the pressures' own block.
+    fn add_pressure<const D: usize>(
+        &self,
+        dilation: &Matrix3<f64>,
+        excess: f64,
+        compressibility: f64,
+        force: &mut [f64],
+        matrix: &mut [f64],
+    ) {
+        let local = force.len();
+        let count = self.gradients.len();
+        for (a, g) in self.gradients.chunks_exact(D).enumerate() {
+            for i in 0..D {
+                let mut along = 0.0;
+                for (j, g) in g.iter().enumerate() {
+                    along += dilation[(i, j)] * g;
+                }
+                if D == 2 && i == 0 {
+                    along += dilation[(2, 2)] * self.hoops[a];
+                }
+                let column = &mut matrix[(a * D + i) * local..][..local];
+                for (entry, q) in column[count..].iter_mut().zip(self.pressures) {
+                    *entry += self.weight * along * q;
+                }
+            }
+        }
+        for (m, q) in self.pressures.iter().enumerate() {
+            force[count + m] += self.weight * q * excess;
+            let column = &mut matrix[(count + m) * local..][..local];
+            for (entry, other) in column[count + m..].iter_mut().zip(&self.pressures[m..]) {
+                *entry -= self.weight * compressibility * q * other;
+            }
+        }
+    }
+}

@@ -1,0 +1,86 @@
+//! Lines whose intervals grow away from where the answer changes fast.
+
+/// How the intervals of a line grow.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Grading {
+    /// The first interval [m].
+    pub(super) first: f64,
+    /// Growth from one interval to the next [-] ...
+    pub(super) growth: f64,
+    /// ... up to this place [m], ...
+    pub(super) near: f64,
+    /// ... and beyond it [-].
+    pub(super) far_growth: f64,
+}
+
+impl Grading {
+    /// Places from 0 to `length` [m]; then every interval is halved `halvings` times.
+    pub(super) fn line(&self, length: f64, halvings: u32) -> Vec<f64> {
+        let (mut line, mut interval) = (vec![0.0], self.first);
+        let mut at = 0.0;
+        while at + interval < length {
+            at += interval;
+            line.push(at);
+            interval *= if at < self.near {
+                self.growth
+            } else {
+                self.far_growth
+            };
+        }
+        // The rest is an interval of its own if it is a good part of one, else it is spread.
+        if line.len() > 1 && length - at < 0.5 * interval {
+            line.pop();
+            let last = line.last().copied().unwrap_or(0.0);
+            if line.len() > 1 || last > 0.0 {
+                let stretch = length / at;
+                line.push(at);
+                line.iter_mut().for_each(|x| *x *= stretch);
+            } else {
+                line.push(length);
+            }
+        } else {
+            line.push(length);
+        }
+        if let Some(last) = line.last_mut() {
+            *last = length;
+        }
+        for _ in 0..halvings {
+            line = halved(&line);
+        }
+        line
+    }
+}
+
+/// `line` with the middle of every interval.
+pub(super) fn halved(line: &[f64]) -> Vec<f64> {
+    let mut all: Vec<f64> = line
+        .windows(2)
+        .flat_map(|w| [w[0], 0.5 * (w[0] + w[1])])
+        .collect();
+    all.extend(line.last());
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ends_where_asked_and_nests() {
+        let grading = Grading {
+            first: 0.1,
+            growth: 1.25,
+            near: 3.0,
+            far_growth: 1.7,
+        };
+        for length in [0.05, 0.1, 0.13, 0.3, 1.0, 7.0, 100.0] {
+            let line = grading.line(length, 0);
+            assert_eq!(line[0], 0.0);
+            assert_eq!(*line.last().unwrap(), length);
+            assert!(line.windows(2).all(|w| w[1] > w[0]), "{line:?}");
+            assert!(line.len() < 3 || line[1] < 0.16, "{line:?}");
+            let fine = grading.line(length, 1);
+            assert!(line.iter().enumerate().all(|(i, x)| fine[2 * i] == *x));
+        }
+    }
+}

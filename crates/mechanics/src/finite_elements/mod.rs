@@ -1,0 +1,22 @@
+//! Finite elements: the reference that the other methods are judged by.
+//!
+//! An [`ElementMesh`] and a law make a [`FiniteElementModel`]; [`Supports`] hold and load it; and
+//! [`equilibrate`] finds the [`FiniteElementState`] in which nothing is left over.
+
+mod assembly;
+mod cavity;
+mod element;
+mod graded;
+pub mod indentation;
+mod mapping;
+mod mesh;
+mod model;
+mod newton;
+mod supports;
+
+pub use cavity::Cavity;
+pub use element::ElementKind;
+pub use mesh::ElementMesh;
+pub use model::{FiniteElementModel, FiniteElementState, FiniteElementWorkspace, Formulation};
+pub use newton::{Equilibrium, Failure, equilibrate};
+pub use supports::{OnSphere, Supports};

@@ -1,0 +1,244 @@
+use std::sync::Arc;
+
+use super::mapping::Mapping;
+use super::mesh::ElementMesh;
+use crate::linear::sparse::{Factors, Pattern};
+use crate::material::law::Law;
+use crate::{Error, Vec3};
+
+/// Which fields an element has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Formulation {
+    /// Displacements alone; locks near incompressibility and refuses it.
+    Displacement,
+    /// Displacements and a pressure, continuous, of one degree less [Taylor and Hood 1973]; right for
+    /// every compressibility.
+    Mixed,
+}
+
+/// Largest Poisson's ratio [-] at which elements without a pressure field are still good for a force.
+const LOCKING: f64 = 0.49;
+
+/// A body of one law, cut into elements: all that does not change with its displacement.
+#[derive(Debug)]
+pub struct FiniteElementModel {
+    pub(crate) mesh: ElementMesh,
+    pub(crate) law: Arc<dyn Law>,
+    pub(crate) mapping: Mapping,
+    /// Unknowns of an element: displacements node by node, then pressures; elements × local unknowns.
+    pub(crate) unknowns: Vec<u32>,
+    pub(crate) pattern: Pattern,
+    /// Places of an element's lower triangle among the matrix values.
+    pub(crate) scatter: Vec<u32>,
+    /// Shear modulus at rest [Pa]: the scale of stress.
+    pub(crate) shear_modulus: f64,
+}
+
+impl FiniteElementModel {
+    /// A body on `mesh` of `law`.
+    ///
+    /// # Errors
+    /// When an element is inverted or names no node, or when displacements alone would lock.
+    pub fn new(
+        mesh: ElementMesh,
+        law: Arc<dyn Law>,
+        formulation: Formulation,
+    ) -> Result<Self, Error> {
+        mesh.check()?;
+        let shear_modulus = law.distortion_tangent(&nalgebra::Matrix3::identity())[(3, 3)];
+        if formulation == Formulation::Displacement {
+            let softness = shear_modulus / law.volume().bulk_modulus;
+            let poissons_ratio = (3.0 - 2.0 * softness) / (2.0 * (3.0 + softness));
+            if poissons_ratio > LOCKING {
+                return Err(Error::Locking { poissons_ratio });
+            }
+        }
+        let mapping = Mapping::new(&mesh, formulation == Formulation::Mixed)?;
+        let unknowns = number(&mesh, mapping.pressures_per_element);
+        let size = unknowns.iter().max().map_or(0, |&last| last as usize + 1);
+        let local = unknowns.len() / mesh.len();
+        let mut entries = Vec::with_capacity(mesh.len() * local * (local + 1) / 2);
+        for element in unknowns.chunks_exact(local) {
+            for (row, column) in lower(element) {
+                entries.push((column, row));
+            }
+        }
+        let pattern = Pattern::new(size, entries);
+        let mut scatter = Vec::with_capacity(mesh.len() * local * (local + 1) / 2);
+        for element in unknowns.chunks_exact(local) {
+            scatter.extend(
+                lower(element)
+                    .map(|(row, column)| pattern.index(row as usize, column as usize) as u32),
+            );
+        }
+        Ok(Self {
+            mesh,
+            law,
+            mapping,
+            unknowns,
+            pattern,
+            scatter,
+            shear_modulus,
+        })
+    }
+
+    /// The mesh.
+    pub fn mesh(&self) -> &ElementMesh {
+        &self.mesh
+    }
+
+    /// Number of unknowns, displacements and pressures.
+    pub fn size(&self) -> usize {
+        self.pattern.size()
+    }
+
+    /// Number of displacements; they come first among the unknowns, node by node.
+    pub fn displacements(&self) -> usize {
+        self.mesh.nodes.len() * self.dimension()
+    }
+
+    /// Number of displacements at a node.
+    pub fn dimension(&self) -> usize {
+        self.mesh.kind.dimension()
+    }
+
+    /// Number of pressures.
+    pub fn pressures(&self) -> usize {
+        self.size() - self.displacements()
+    }
+
+    pub(crate) fn local_unknowns(&self) -> usize {
+        self.unknowns.len() / self.mesh.len()
+    }
+}
+
+/// All that must be kept of a deformed body to go on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FiniteElementState {
+    /// Displacements [m] node by node, then pressures [Pa], tension positive.
+    pub unknowns: Vec<f64>,
+}
+
+impl FiniteElementState {
+    /// The body at rest.
+    pub fn at_rest(model: &FiniteElementModel) -> Self {
+        Self {
+            unknowns: vec![0.0; model.size()],
+        }
+    }
+
+    /// Displacement of a node [m]; (u_r, u_z, 0) in an axisymmetric body.
+    pub fn displacement(&self, model: &FiniteElementModel, node: usize) -> Vec3 {
+        let dimension = model.dimension();
+        let mut displacement = Vec3::zeros();
+        for i in 0..dimension {
+            displacement[i] = self.unknowns[dimension * node + i];
+        }
+        displacement
+    }
+}
+
+/// Scratch of a solution.
+#[derive(Debug)]
+pub struct FiniteElementWorkspace {
+    pub(crate) factors: Factors,
+    /// The tangent, lower triangle, as assembled.
+    pub(crate) tangent: Vec<f64>,
+    /// The tangent with its supports, as factored.
+    pub(crate) supported: Vec<f64>,
+    /// Internal less external force [N], then dilation less its law [m³].
+    pub(crate) residual: Vec<f64>,
+    pub(crate) step: Vec<f64>,
+    pub(crate) trial: Vec<f64>,
+    pub(crate) element: ElementScratch,
+    /// Strain energy [J] of the last assembly.
+    pub(crate) energy: f64,
+}
+
+/// Scratch of one element.
+#[derive(Debug)]
+pub(crate) struct ElementScratch {
+    pub(crate) values: Vec<f64>,
+    pub(crate) force: Vec<f64>,
+    pub(crate) matrix: Vec<f64>,
+}
+
+impl FiniteElementWorkspace {
+    /// Scratch for `model`; orders its elimination.
+    ///
+    /// # Errors
+    /// When there is not enough memory for the factors.
+    pub fn new(model: &FiniteElementModel) -> Result<Self, Error> {
+        let (size, entries) = (model.size(), model.pattern.entries());
+        let local = model.local_unknowns();
+        let factors = Factors::new(&model.pattern)
+            .map_err(|_| Error::NoMemoryForFactors { unknowns: size })?;
+        Ok(Self {
+            factors,
+            tangent: vec![0.0; entries],
+            supported: vec![0.0; entries],
+            residual: vec![0.0; size],
+            step: vec![0.0; size],
+            trial: vec![0.0; size],
+            element: ElementScratch {
+                values: vec![0.0; local],
+                force: vec![0.0; local],
+                matrix: vec![0.0; local * local],
+            },
+            energy: 0.0,
+        })
+    }
+
+    /// Numbers in the factors: their memory is eight bytes each.
+    pub fn factor_entries(&self) -> usize {
+        self.factors.entries()
+    }
+}
+
+/// Unknowns of every element.
+fn number(mesh: &ElementMesh, pressures: usize) -> Vec<u32> {
+    let dimension = mesh.kind.dimension() as u32;
+    let first = mesh.nodes.len() as u32 * dimension;
+    let numbers = corner_numbers(mesh);
+    let mut unknowns = Vec::new();
+    for element in 0..mesh.len() {
+        let nodes = mesh.element(element);
+        unknowns.extend(
+            nodes
+                .iter()
+                .flat_map(|n| (0..dimension).map(move |i| n * dimension + i)),
+        );
+        let corners = mesh.kind.corners().iter().take(pressures);
+        unknowns.extend(corners.map(|&c| first + numbers[nodes[c] as usize]));
+    }
+    unknowns
+}
+
+/// Numbers of the pressures, one at each corner of an element, by node.
+fn corner_numbers(mesh: &ElementMesh) -> Vec<u32> {
+    let mut is_corner = vec![false; mesh.nodes.len()];
+    for element in 0..mesh.len() {
+        for &corner in mesh.kind.corners() {
+            is_corner[mesh.element(element)[corner] as usize] = true;
+        }
+    }
+    let mut next = 0;
+    is_corner
+        .iter()
+        .map(|&corner| {
+            let number = next;
+            next += u32::from(corner);
+            number
+        })
+        .collect()
+}
+
+/// Pairs (row, column) of an element's lower triangle, column by column of its own numbering, turned so
+/// that row ≥ column in the body's.
+fn lower(element: &[u32]) -> impl Iterator<Item = (u32, u32)> + '_ {
+    element.iter().enumerate().flat_map(move |(j, &column)| {
+        element[j..]
+            .iter()
+            .map(move |&row| (row.max(column), row.min(column)))
+    })
+}

@@ -1,0 +1,346 @@
+//! Newton's method with a line search, at given supports and loads.
+//!
+//! The size of a residual is that of the energy its correction would release, with the diagonal for the
+//! stiffness: η² = Σ rᵤ²/Kᵤᵤ + Σ rₚ² μ/Mₚₚ. It is compared with the same sum over the reactions, so
+//! that the tolerance is relative and has no unit.
+
+use super::assembly::{self, PROXIMAL};
+use super::model::{FiniteElementModel, FiniteElementState, FiniteElementWorkspace};
+use super::supports::Supports;
+
+/// Why an equilibrium was not found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum Failure {
+    /// An element turned inside out.
+    #[error("an element turned inside out")]
+    Inverted,
+    /// The body is free to move without force, or stands exactly at a limit point.
+    #[error("the body can move without force")]
+    Singular,
+    /// The iteration did not end.
+    #[error("the iteration did not end")]
+    NotConverged,
+}
+
+/// An equilibrium that was found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Equilibrium {
+    /// Solutions of the linear system.
+    pub iterations: usize,
+}
+
+const MOST_ITERATIONS: usize = 25;
+/// η of the residual over η of the reactions [-]; the force is then good to about its square.
+const TOLERANCE: f64 = 1e-7;
+const SHORTEST_STEP: f64 = 1.0 / 16.0;
+
+/// Brings `state` into equilibrium with `supports`. On failure `state` is where the iteration stood.
+///
+/// # Errors
+/// See [`Failure`]; a smaller change of the supports may then succeed.
+pub fn equilibrate(
+    model: &FiniteElementModel,
+    supports: &Supports<'_>,
+    state: &mut FiniteElementState,
+    workspace: &mut FiniteElementWorkspace,
+) -> Result<Equilibrium, Failure> {
+    assemble(model, supports, &state.unknowns, workspace)?;
+    let mut iterations = 0;
+    loop {
+        let gap = prescribe(model, supports, &state.unknowns, workspace);
+        let size = size_of_residual(model, supports, workspace);
+        if gap == 0.0 && iterations > 0 && size.is_small() {
+            return Ok(Equilibrium { iterations });
+        }
+        if iterations == MOST_ITERATIONS {
+            return Err(Failure::NotConverged);
+        }
+        solve(model, supports, workspace)?;
+        iterations += 1;
+        advance(
+            model,
+            supports,
+            state,
+            workspace,
+            (gap == 0.0).then_some(size.free),
+        )?;
+    }
+}
+
+/// Residual and tangent at `unknowns`, loads included.
+pub(super) fn assemble(
+    model: &FiniteElementModel,
+    supports: &Supports<'_>,
+    unknowns: &[f64],
+    workspace: &mut FiniteElementWorkspace,
+) -> Result<(), Failure> {
+    assembly::assemble(model, unknowns, workspace).map_err(|_| Failure::Inverted)?;
+    if let Some((cavity, pressure)) = supports.pressure {
+        cavity.add_gradient(model, unknowns, -pressure, &mut workspace.residual);
+        cavity.add_curvature(model, unknowns, -pressure, &mut workspace.tangent);
+    }
+    Ok(())
+}
+
+/// Sizes of the residual where the body is free and where it is held [J].
+struct Size {
+    free: f64,
+    held: f64,
+}
+
+impl Size {
+    fn is_small(&self) -> bool {
+        self.free <= TOLERANCE * TOLERANCE * self.held || self.free < 1e-40
+    }
+}
+
+fn size_of_residual(
+    model: &FiniteElementModel,
+    supports: &Supports<'_>,
+    workspace: &FiniteElementWorkspace,
+) -> Size {
+    let mut size = Size {
+        free: 0.0,
+        held: 0.0,
+    };
+    let diagonal = |i: usize| workspace.tangent[model.pattern.range(i).start];
+    for (i, held) in supports.held.iter().enumerate() {
+        let part = workspace.residual[i].powi(2) / diagonal(i).abs();
+        if held.is_some() {
+            size.held += part;
+        } else {
+            size.free += part;
+        }
+    }
+    for contact in &supports.sliding {
+        let along = sphere_normal(model, contact, &workspace.trial);
+        let node = 2 * contact.node;
+        let force = [workspace.residual[node], workspace.residual[node + 1]];
+        let normal = (force[0] * along[0] + force[1] * along[1]).powi(2) / diagonal(node).abs();
+        size.free -= normal;
+        size.held += normal;
+    }
+    if let Some((cavity, pressure)) = supports.pressure {
+        let mut load = vec![0.0; model.size()];
+        cavity.add_gradient(model, &workspace.trial, pressure, &mut load);
+        size.held += (0..model.displacements())
+            .map(|i| load[i].powi(2) / diagonal(i).abs())
+            .sum::<f64>();
+    }
+    let softest = 1.0 / model.law.volume().bulk_modulus + PROXIMAL / model.shear_modulus;
+    for i in model.displacements()..model.size() {
+        // M = diagonal / compressibility.
+        let mass = diagonal(i).abs() / softest;
+        size.free += workspace.residual[i].powi(2) * model.shear_modulus / mass;
+    }
+    size
+}
+
+/// Puts the corrections that the supports ask for into the step, zero elsewhere; keeps `unknowns` as
+/// the trial. Answers the largest of them [m].
+fn prescribe(
+    model: &FiniteElementModel,
+    supports: &Supports<'_>,
+    unknowns: &[f64],
+    workspace: &mut FiniteElementWorkspace,
+) -> f64 {
+    workspace.trial.copy_from_slice(unknowns);
+    workspace.step.fill(0.0);
+    let mut gap: f64 = 0.0;
+    let mut extent: f64 = 0.0;
+    for (i, held) in supports.held.iter().enumerate() {
+        if let Some(target) = held {
+            workspace.step[i] = target - unknowns[i];
+            gap = gap.max(workspace.step[i].abs());
+            extent = extent.max(target.abs());
+        }
+    }
+    for contact in &supports.sliding {
+        let (distance, _) = sphere_distance(model, contact, unknowns);
+        let correction = contact.radius - distance;
+        workspace.step[2 * contact.node] = correction;
+        gap = gap.max(correction.abs());
+        extent = extent.max(contact.radius);
+    }
+    // Rounding is no gap.
+    if gap <= 1e-13 * extent { 0.0 } else { gap }
+}
+
+/// Solves for the step, with the supports' corrections already in it.
+fn solve(
+    model: &FiniteElementModel,
+    supports: &Supports<'_>,
+    workspace: &mut FiniteElementWorkspace,
+) -> Result<(), Failure> {
+    workspace.supported.copy_from_slice(&workspace.tangent);
+    let mut right: Vec<f64> = workspace.residual.iter().map(|r| -r).collect();
+    for contact in &supports.sliding {
+        turn_node(model, contact, workspace, &mut right);
+    }
+    let is_held = held_rows(model, supports);
+    eliminate(model, &is_held, workspace, &mut right);
+    factor(model, workspace)?;
+    workspace.factors.solve(&mut right);
+    if right.iter().any(|x| !x.is_finite()) {
+        return Err(Failure::Singular);
+    }
+    for contact in &supports.sliding {
+        let n = sphere_normal(model, contact, &workspace.trial);
+        let node = 2 * contact.node;
+        let (normal, along) = (right[node], right[node + 1]);
+        right[node] = n[0] * normal - n[1] * along;
+        right[node + 1] = n[1] * normal + n[0] * along;
+    }
+    workspace.step.copy_from_slice(&right);
+    Ok(())
+}
+
+pub(super) fn factor(
+    model: &FiniteElementModel,
+    workspace: &mut FiniteElementWorkspace,
+) -> Result<(), Failure> {
+    workspace
+        .factors
+        .factor(&model.pattern, &workspace.supported)
+        .map_err(|_| Failure::Singular)
+}
+
+/// Which rows are no unknowns: held displacements and the normal component of sliding nodes.
+pub(super) fn held_rows(model: &FiniteElementModel, supports: &Supports<'_>) -> Vec<bool> {
+    let mut is_held = vec![false; model.size()];
+    for (row, held) in is_held.iter_mut().zip(&supports.held) {
+        *row = held.is_some();
+    }
+    for contact in &supports.sliding {
+        is_held[2 * contact.node] = true;
+    }
+    is_held
+}
+
+/// Takes the held rows out of the supported matrix; their values in the step go to the right side.
+pub(super) fn eliminate(
+    model: &FiniteElementModel,
+    is_held: &[bool],
+    workspace: &mut FiniteElementWorkspace,
+    right: &mut [f64],
+) {
+    let (pattern, step) = (&model.pattern, &workspace.step);
+    for column in 0..pattern.size() {
+        let range = pattern.range(column);
+        for (&row, place) in pattern.rows(column).iter().zip(range) {
+            let value = &mut workspace.supported[place];
+            if row == column {
+                if is_held[row] {
+                    // Of the size of its neighbours, so that the factors stay balanced.
+                    *value = value.abs().max(model.shear_modulus * 1e-12);
+                }
+            } else if is_held[row] || is_held[column] {
+                if !is_held[column] {
+                    right[column] -= *value * step[row];
+                }
+                if !is_held[row] {
+                    right[row] -= *value * step[column];
+                }
+                *value = 0.0;
+            }
+        }
+    }
+    for row in (0..pattern.size()).filter(|&row| is_held[row]) {
+        right[row] = workspace.supported[pattern.range(row).start] * step[row];
+    }
+}
+
+/// Goes along the step as far as it helps. `before` is the residual's size when no support moves.
+fn advance(
+    model: &FiniteElementModel,
+    supports: &Supports<'_>,
+    state: &mut FiniteElementState,
+    workspace: &mut FiniteElementWorkspace,
+    before: Option<f64>,
+) -> Result<(), Failure> {
+    let mut length = 1.0;
+    loop {
+        let step = &workspace.step;
+        let trial: Vec<f64> = state
+            .unknowns
+            .iter()
+            .zip(step)
+            .map(|(x, dx)| x + length * dx)
+            .collect();
+        let step = std::mem::take(&mut workspace.step);
+        let assembled = assemble(model, supports, &trial, workspace);
+        workspace.step = step;
+        let good = assembled.is_ok() && {
+            workspace.trial.copy_from_slice(&trial);
+            let size = size_of_residual(model, supports, workspace).free;
+            size.is_finite() && before.is_none_or(|before| size <= before.max(1e-40))
+        };
+        let last = length <= SHORTEST_STEP;
+        if good || (last && assembled.is_ok()) {
+            state.unknowns = trial;
+            return Ok(());
+        }
+        if last {
+            return Err(Failure::Inverted);
+        }
+        length *= 0.5;
+    }
+}
+
+/// Distance of a node from the centre of its sphere [m] and the direction away from it.
+fn sphere_distance(
+    model: &FiniteElementModel,
+    contact: &super::supports::OnSphere,
+    unknowns: &[f64],
+) -> (f64, [f64; 2]) {
+    let place = &model.mesh.nodes[contact.node];
+    let r = place.x + unknowns[2 * contact.node];
+    let z = place.y + unknowns[2 * contact.node + 1] - contact.center;
+    let distance = r.hypot(z);
+    (distance, [r / distance, z / distance])
+}
+
+pub(super) fn sphere_normal(
+    model: &FiniteElementModel,
+    contact: &super::supports::OnSphere,
+    unknowns: &[f64],
+) -> [f64; 2] {
+    sphere_distance(model, contact, unknowns).1
+}
+
+/// Turns the two unknowns of a sliding node into one along the sphere's normal and one across, and adds
+/// what the turning of the normal does to the contact's force.
+fn turn_node(
+    model: &FiniteElementModel,
+    contact: &super::supports::OnSphere,
+    workspace: &mut FiniteElementWorkspace,
+    right: &mut [f64],
+) {
+    let n = sphere_normal(model, contact, &workspace.trial);
+    let first = 2 * contact.node;
+    let rotate = |a: f64, b: f64| (n[0] * a + n[1] * b, -n[1] * a + n[0] * b);
+    (right[first], right[first + 1]) = rotate(right[first], right[first + 1]);
+    let (pattern, values) = (&model.pattern, &mut workspace.supported);
+    // The node's own block: Qᵀ K Q.
+    let at = pattern.range(first).start;
+    let below = pattern.index(first + 1, first);
+    let end = pattern.range(first + 1).start;
+    let (a, b, c) = (values[at], values[below], values[end]);
+    values[at] = n[0] * n[0] * a + 2.0 * n[0] * n[1] * b + n[1] * n[1] * c;
+    values[below] = n[0] * n[1] * (c - a) + (n[0] * n[0] - n[1] * n[1]) * b;
+    values[end] = n[1] * n[1] * a - 2.0 * n[0] * n[1] * b + n[0] * n[0] * c;
+    // Rows below the block: both columns have the same ones.
+    for &row in pattern.rows(first).iter().filter(|&&row| row > first + 1) {
+        let (left, next) = (pattern.index(row, first), pattern.index(row, first + 1));
+        (values[left], values[next]) = rotate(values[left], values[next]);
+    }
+    // Columns before it.
+    for column in 0..first {
+        if let Ok(place) = pattern.rows(column).binary_search(&first) {
+            let left = pattern.range(column).start + place;
+            (values[left], values[left + 1]) = rotate(values[left], values[left + 1]);
+        }
+    }
+    let (distance, _) = sphere_distance(model, contact, &workspace.trial);
+    values[end] -= -right[first] / distance;
+}
