@@ -110,4 +110,14 @@ pub enum Error {
         /// Number of unknowns.
         unknowns: usize,
     },
+    /// The solution cannot be followed further.
+    #[error(
+        "no equilibrium was found beyond a depth of {depth} m ({failure}); use a finer mesh or a smaller depth"
+    )]
+    NoEquilibrium {
+        /// The last depth that was reached [m].
+        depth: f64,
+        /// Why.
+        failure: crate::finite_elements::Failure,
+    },
 }

@@ -6,6 +6,7 @@
 mod assembly;
 mod cavity;
 mod element;
+pub mod estimate;
 mod graded;
 pub mod indentation;
 mod mapping;

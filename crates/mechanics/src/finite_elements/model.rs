@@ -189,6 +189,22 @@ impl FiniteElementWorkspace {
         })
     }
 
+    /// Force that the supports put on the body at `node` in the last equilibrium [N]; in an axisymmetric
+    /// body (r, z, 0), over the whole ring.
+    pub fn reaction(&self, model: &FiniteElementModel, node: usize) -> Vec3 {
+        let dimension = model.dimension();
+        let mut reaction = Vec3::zeros();
+        for i in 0..dimension {
+            reaction[i] = self.residual[dimension * node + i];
+        }
+        reaction
+    }
+
+    /// Strain energy of the last equilibrium [J].
+    pub fn energy(&self) -> f64 {
+        self.energy
+    }
+
     /// Numbers in the factors: their memory is eight bytes each.
     pub fn factor_entries(&self) -> usize {
         self.factors.entries()
