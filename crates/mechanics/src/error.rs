@@ -120,4 +120,44 @@ pub enum Error {
         /// Why.
         failure: crate::finite_elements::Failure,
     },
+    /// A path of equilibria breaks off.
+    #[error(
+        "no equilibrium was found beyond {factor} of the full load ({failure}); use a finer mesh or a smaller load"
+    )]
+    NoPath {
+        /// The last part of the load that was reached [-].
+        factor: f64,
+        /// Why.
+        failure: crate::finite_elements::Failure,
+    },
+    /// A tube without a length, a hole or a wall.
+    #[error(
+        "the tube is {length} m long with radii of {inner_radius} m and {outer_radius} m; give a positive length and 0 < inner < outer"
+    )]
+    TubeOutOfRange {
+        /// Length [m].
+        length: f64,
+        /// Inner radius [m].
+        inner_radius: f64,
+        /// Outer radius [m].
+        outer_radius: f64,
+    },
+    /// A pressure that would suck the tube flat, or none.
+    #[error(
+        "the pressure is {pressure} Pa; give zero or more, for a tube that is sucked in buckles out of round, which this model leaves out"
+    )]
+    PressureOutOfRange {
+        /// The value given [Pa].
+        pressure: f64,
+    },
+    /// No tube stands still under this pressure.
+    #[error(
+        "the tube balloons at {limit} Pa, below the {pressure} Pa asked for; lower the pressure or stiffen the tissue"
+    )]
+    Balloons {
+        /// The value given [Pa].
+        pressure: f64,
+        /// The greatest pressure of an equilibrium [Pa].
+        limit: f64,
+    },
 }

@@ -1,23 +1,23 @@
 //! A pressure that follows the wall it acts on, as the gradient of the volume V that the wall encloses.
 //!
 //! The work of a constant pressure is p ΔV, so its force is p ∂V/∂u and its tangent p ∂²V/∂u², both
-//! symmetric. V = ∫ π r² dz over the meridian of an axisymmetric wall, and V = ⅓ ∫ x · n da over a
+//! symmetric. A body of small strain is loaded in its shape at rest. V = ∫ π r² dz over the meridian of an axisymmetric wall, and V = ⅓ ∫ x · n da over a
 //! solid's: the same as the force of the pressure wherever the edge of the wall is held or lies in a
 //! plane of symmetry through the origin.
 //!
-//! *How we know*: `tube::follows_the_closed_form`, `cavities::volume_and_its_derivatives`.
+//! *How we know*: `tube::lame`, `tube::follows_the_closed_form`.
 //!
 //! *Limits*: an edge of the wall that is free to move off those planes would feel a wrong force.
 
 use super::model::FiniteElementModel;
-use crate::Vec3;
+use crate::{Strain, Vec3};
 
 /// A wall under pressure: sides of elements, three nodes each in an axisymmetric body and nine in a
 /// solid of hexahedra.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cavity {
-    /// Nodes of the sides. With the pressure on the left hand side of the meridian when it is walked
-    /// upward (r, z); in a solid numbered like [`super::ElementKind::Quad9`], the normal ξ × η pointing
+    /// Nodes of the sides. In an axisymmetric body walked with the pressure on the left, r to the right
+    /// and z up: upward along the inner wall of a tube. In a solid numbered like [`super::ElementKind::Quad9`], the normal ξ × η pointing
     /// away from the pressure.
     pub sides: Vec<Vec<u32>>,
 }
@@ -45,6 +45,8 @@ impl Cavity {
         out: &mut [f64],
     ) {
         let dimension = model.dimension();
+        let rest = is_small(model).then(|| vec![0.0; unknowns.len()]);
+        let unknowns = rest.as_deref().unwrap_or(unknowns);
         for side in &self.sides {
             let gradient = side_volume(model, unknowns, side).gradient;
             for (place, value) in gradient.iter().enumerate() {
@@ -62,6 +64,9 @@ impl Cavity {
         factor: f64,
         values: &mut [f64],
     ) {
+        if is_small(model) {
+            return;
+        }
         let dimension = model.dimension();
         for side in &self.sides {
             let curvature = side_volume(model, unknowns, side).curvature;
@@ -76,6 +81,10 @@ impl Cavity {
             }
         }
     }
+}
+
+fn is_small(model: &FiniteElementModel) -> bool {
+    model.law.volume().strain == Strain::Small
 }
 
 fn side_volume(model: &FiniteElementModel, unknowns: &[f64], side: &[u32]) -> SideVolume {

@@ -13,11 +13,14 @@ mod mapping;
 mod mesh;
 mod model;
 mod newton;
+mod path;
 mod supports;
+pub mod tube;
 
 pub use cavity::Cavity;
 pub use element::ElementKind;
 pub use mesh::ElementMesh;
 pub use model::{FiniteElementModel, FiniteElementState, FiniteElementWorkspace, Formulation};
 pub use newton::{Equilibrium, Failure, equilibrate};
+pub use path::{Path, PathPoint};
 pub use supports::{OnSphere, Supports};

@@ -83,18 +83,18 @@ pub(super) fn assemble(
 }
 
 /// Sizes of the residual where the body is free and where it is held [J].
-struct Size {
-    free: f64,
-    held: f64,
+pub(super) struct Size {
+    pub(super) free: f64,
+    pub(super) held: f64,
 }
 
 impl Size {
-    fn is_small(&self) -> bool {
+    pub(super) fn is_small(&self) -> bool {
         self.free <= TOLERANCE * TOLERANCE * self.held || self.free < 1e-40
     }
 }
 
-fn size_of_residual(
+pub(super) fn size_of_residual(
     model: &FiniteElementModel,
     supports: &Supports<'_>,
     workspace: &FiniteElementWorkspace,

@@ -1,6 +1,10 @@
 //! What cannot be a model is refused, with the value and a mend.
 
+use std::sync::Arc;
+
 use palpate_mechanics::contact::Bond;
+use palpate_mechanics::finite_elements::Failure;
+use palpate_mechanics::finite_elements::tube::{Ends, Tube, TubeProblem, inflate};
 use palpate_mechanics::finite_spheres::{FiniteSphereModel, FiniteSphereSettings, Form};
 use palpate_mechanics::{Blatz, Error, LinearElastic, MooneyRivlin, NeoHookean, PronySeries};
 
@@ -87,6 +91,55 @@ fn every_refusal_names_the_value_and_the_mend() {
             assert!(message.contains(word), "{message:?} lacks {word:?}");
         }
         // Cause, then mend.
+        assert!(message.contains("; "), "{message}");
+    }
+}
+
+fn inflated(tube: Tube, pressure: f64) -> Result<(), Error> {
+    let problem = TubeProblem {
+        tube,
+        law: Arc::new(NeoHookean::incompressible(1e3).unwrap()),
+        ends: Ends::Guided,
+    };
+    inflate(&problem, &[pressure], 1.0, &mut |_| {}).map(drop)
+}
+
+#[test]
+fn tubes_that_are_none_are_refused() {
+    let good = Tube {
+        length: 0.01,
+        inner_radius: 0.005,
+        outer_radius: 0.0075,
+    };
+    let solid = Tube {
+        inner_radius: 0.0,
+        ..good
+    };
+    let inside_out = Tube {
+        outer_radius: 0.004,
+        ..good
+    };
+    let short = Tube {
+        length: -0.5,
+        ..good
+    };
+    let no_path = Error::NoPath {
+        factor: 0.7,
+        failure: Failure::Singular,
+    };
+    let refused: [(Result<(), Error>, &[&str]); 6] = [
+        (inflated(solid, 1.0), &["radii of 0 m", "0 < inner"]),
+        (inflated(inside_out, 1.0), &["0.004 m", "inner < outer"]),
+        (inflated(short, 1.0), &["-0.5 m", "positive length"]),
+        (inflated(good, -3.5), &["-3.5 Pa", "zero or more"]),
+        (inflated(good, f64::NAN), &["NaN Pa", "zero or more"]),
+        (Err(no_path), &["0.7 of", "without force", "smaller load"]),
+    ];
+    for (result, words) in refused {
+        let message = result.unwrap_err().to_string();
+        for word in words {
+            assert!(message.contains(word), "{message:?} lacks {word:?}");
+        }
         assert!(message.contains("; "), "{message}");
     }
 }

@@ -16,4 +16,6 @@ mod field;
 mod invariants;
 mod laws;
 mod no_allocation;
+mod path;
 mod stretches;
+mod tube;

@@ -1,0 +1,48 @@
+//! The half of a tube between its middle (z = 0) and one end, in the half-plane (r, z).
+
+use super::super::cavity::Cavity;
+use super::super::graded::halved;
+use super::super::mesh::ElementMesh;
+use super::Tube;
+
+/// Places in the wall [-]: finer at both surfaces, whose corners with a held end concentrate stress.
+const WALL: [f64; 5] = [0.0, 0.15, 0.5, 0.85, 1.0];
+
+/// The mesh and its inner wall.
+pub(super) fn half(tube: &Tube, halvings: u32) -> (ElementMesh, Cavity) {
+    let (inner, wall) = (tube.inner_radius, tube.wall());
+    let mut columns: Vec<f64> = WALL.iter().map(|part| inner + part * wall).collect();
+    let half = 0.5 * tube.length;
+    let mut rows = from_the_end(half, 0.15 * wall, 0.7 * tube.outer_radius);
+    for _ in 0..halvings {
+        columns = halved(&columns);
+        rows = halved(&rows);
+    }
+    let mesh = ElementMesh::grid(&columns, &rows, |r, z| [r, z]);
+    let width = 2 * columns.len() - 1;
+    let side = |j: usize| (0..3).map(|k| ((2 * j + k) * width) as u32).collect();
+    let sides = (0..rows.len() - 1).map(side).collect();
+    (mesh, Cavity { sides })
+}
+
+/// Places from 0 to `length` [m] whose intervals shrink from at most `longest` to about `first` at the
+/// end.
+pub(super) fn from_the_end(length: f64, first: f64, longest: f64) -> Vec<f64> {
+    let (mut intervals, mut reach, mut next) = (Vec::new(), 0.0, first);
+    while reach < length * (1.0 - 1e-9) {
+        intervals.push(next);
+        reach += next;
+        next = (1.7 * next).min(longest);
+    }
+    let stretch = length / reach;
+    let mut at = length;
+    let mut places: Vec<f64> = std::iter::once(length)
+        .chain(intervals.iter().map(|interval| {
+            at -= stretch * interval;
+            at
+        }))
+        .collect();
+    places.reverse();
+    places[0] = 0.0;
+    places
+}
