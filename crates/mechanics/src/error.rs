@@ -160,4 +160,45 @@ pub enum Error {
         /// The greatest pressure of an equilibrium [Pa].
         limit: f64,
     },
+    /// A block that an indenter cannot be pressed into.
+    #[error(
+        "a block of radius {radius} m and height {height} m under an indenter of radius {indenter} m; give positive lengths and a block wider than the indenter"
+    )]
+    BlockTooSmall {
+        /// Radius of the block [m].
+        radius: f64,
+        /// Height of the block [m].
+        height: f64,
+        /// Radius of the indenter [m].
+        indenter: f64,
+    },
+    /// Without a side, the punch would have tissue inside it.
+    #[error(
+        "tissue enters the punch at a depth of {depth} m, where a punch without a side means nothing; let its side stick or slide"
+    )]
+    TissueEntersPunch {
+        /// The depth at which it does [m].
+        depth: f64,
+    },
+    /// The surface goes over itself.
+    #[error(
+        "a face without friction folds the tissue under it at a depth of {depth} m, beyond which the answer means nothing; let the face stick or ask for less"
+    )]
+    SurfaceFolds {
+        /// The depth at which it does [m].
+        depth: f64,
+    },
+    /// A depth that no indenter can reach.
+    #[error(
+        "a depth of {depth} m in a block {height} m high; give depths from 0 to less than the height"
+    )]
+    ImpossibleDepth {
+        /// The depth given [m].
+        depth: f64,
+        /// The block's height [m].
+        height: f64,
+    },
+    /// The times of a history are in no order.
+    #[error("the times of the depth history do not ascend from 0; sort them, one for each depth")]
+    TimesDoNotAscend,
 }

@@ -8,10 +8,12 @@ pub mod contact;
 mod error;
 pub mod finite_elements;
 pub mod finite_spheres;
+mod indentation_curve;
 mod linear;
 mod material;
 
 pub use error::Error;
+pub use indentation_curve::IndentationCurve;
 pub use material::blatz::Blatz;
 pub use material::law::{Law, Tangent};
 pub use material::linear_elastic::LinearElastic;

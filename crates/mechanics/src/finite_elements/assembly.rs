@@ -13,6 +13,8 @@
 use nalgebra::Matrix3;
 
 use super::model::{FiniteElementModel, FiniteElementWorkspace};
+use super::relaxation::{Past, RelaxationStep};
+use crate::Strain;
 use crate::material::law::Tangent;
 
 /// ε of the pressure block [-].
@@ -29,6 +31,7 @@ pub(super) struct Inverted;
 pub(super) fn assemble(
     model: &FiniteElementModel,
     unknowns: &[f64],
+    relaxing: Option<&RelaxationStep>,
     workspace: &mut FiniteElementWorkspace,
 ) -> Result<(), Inverted> {
     workspace.residual.fill(0.0);
@@ -45,10 +48,19 @@ pub(super) fn assemble(
         scratch.force.fill(0.0);
         scratch.matrix.fill(0.0);
         for point in 0..model.mapping.points {
+            let past = relaxing.map(|step| {
+                let place = element * model.mapping.points + point;
+                step.at(
+                    model,
+                    place,
+                    &numbers[local - model.mapping.pressures_per_element..],
+                )
+            });
             let point = Point::new(model, element, point);
             workspace.energy += if model.dimension() == 2 {
                 point.integrate::<2>(
                     model,
+                    past,
                     &scratch.values,
                     &mut scratch.force,
                     &mut scratch.matrix,
@@ -56,6 +68,7 @@ pub(super) fn assemble(
             } else {
                 point.integrate::<3>(
                     model,
+                    past,
                     &scratch.values,
                     &mut scratch.force,
                     &mut scratch.matrix,
@@ -74,6 +87,79 @@ pub(super) fn assemble(
         }
     }
     Ok(())
+}
+
+/// Adds what a unit of the law's `parameter` adds to the residual of an elastic body.
+pub(super) fn add_by_parameter(
+    model: &FiniteElementModel,
+    unknowns: &[f64],
+    parameter: usize,
+    residual: &mut [f64],
+) {
+    let local = model.local_unknowns();
+    let law = model.law.as_ref();
+    let (mut values, mut force) = (vec![0.0; local], vec![0.0; local]);
+    for (element, numbers) in model.unknowns.chunks_exact(local).enumerate() {
+        for (value, &number) in values.iter_mut().zip(numbers) {
+            *value = unknowns[number as usize];
+        }
+        force.fill(0.0);
+        for point in 0..model.mapping.points {
+            let point = Point::new(model, element, point);
+            let solid = model.dimension() == 3;
+            let f = if solid {
+                point.gradient::<3>(&values)
+            } else {
+                point.gradient::<2>(&values)
+            };
+            let (stress, compressibility) = law.by_parameter(parameter, &f);
+            if solid {
+                point.add_stress::<3>(&stress, &mut force);
+            } else {
+                point.add_stress::<2>(&stress, &mut force);
+            }
+            let count = point.gradients.len();
+            let pressure = point.pressure(&values[count..]);
+            for (force, q) in force[count..].iter_mut().zip(point.pressures) {
+                *force -= point.weight * q * pressure * compressibility;
+            }
+        }
+        for (&number, force) in numbers.iter().zip(&force) {
+            residual[number as usize] += force;
+        }
+    }
+}
+
+/// Elastic stresses [Pa] at the points of integration, as relaxation takes them: second
+/// Piola-Kirchhoff at finite strain.
+pub(super) fn elastic_stresses(model: &FiniteElementModel, unknowns: &[f64]) -> Vec<Matrix3<f64>> {
+    let local = model.local_unknowns();
+    let law = model.law.as_ref();
+    let mut stresses = Vec::with_capacity(model.mapping.weights.len());
+    let mut values = vec![0.0; local];
+    for (element, numbers) in model.unknowns.chunks_exact(local).enumerate() {
+        for (value, &number) in values.iter_mut().zip(numbers) {
+            *value = unknowns[number as usize];
+        }
+        for point in 0..model.mapping.points {
+            let point = Point::new(model, element, point);
+            let f = if model.dimension() == 2 {
+                point.gradient::<2>(&values)
+            } else {
+                point.gradient::<3>(&values)
+            };
+            let stress = if point.pressures.is_empty() {
+                law.stress(&f)
+            } else {
+                law.distortion_stress(&f)
+            };
+            stresses.push(match law.volume().strain {
+                Strain::Small => stress,
+                Strain::Finite => f.try_inverse().unwrap_or_default() * stress,
+            });
+        }
+    }
+    stresses
 }
 
 /// One point of integration, with the slices of the mapping that belong to it.
@@ -119,43 +205,53 @@ impl<'a> Point<'a> {
     fn integrate<const D: usize>(
         &self,
         model: &FiniteElementModel,
+        past: Option<Past<'_>>,
         values: &[f64],
         force: &mut [f64],
         matrix: &mut [f64],
     ) -> Result<f64, Inverted> {
         let f = self.gradient::<D>(values);
         let (law, volume) = (model.law.as_ref(), model.law.volume());
-        if volume.strain == crate::Strain::Finite && !(f.determinant() > 0.0) {
+        if volume.strain == Strain::Finite && !(f.determinant() > 0.0) {
             return Err(Inverted);
         }
-        let count = self.gradients.len();
-        let dilation = volume.dilation_gradient(&f);
         if self.pressures.is_empty() {
-            self.add_stress::<D>(&law.stress(&f), force);
-            self.add_tangent::<D>(&law.tangent(&f), matrix, values.len());
+            let (mut stress, mut tangent) = (law.stress(&f), law.tangent(&f));
+            if let Some(past) = past {
+                past.relax(volume.strain, &f, &mut stress, &mut tangent);
+            }
+            self.add_stress::<D>(&stress, force);
+            self.add_tangent::<D>(&tangent, matrix, values.len());
             return Ok(self.weight * law.energy(&f));
         }
-        let pressure: f64 = self
-            .pressures
-            .iter()
-            .zip(&values[count..])
-            .map(|(q, p)| q * p)
-            .sum();
-        let stress = law.distortion_stress(&f) + pressure * dilation;
-        let tangent = law.distortion_tangent(&f) + pressure * volume.dilation_curvature(&f);
+        let (mut stress, mut tangent) = (law.distortion_stress(&f), law.distortion_tangent(&f));
+        let pressure = self.pressure(&values[self.gradients.len()..]);
+        let (mut elastic_pressure, mut follows) = (pressure, 1.0);
+        if let Some(past) = past {
+            past.relax(volume.strain, &f, &mut stress, &mut tangent);
+            follows = past.step.follows;
+            elastic_pressure = (pressure + past.pressure(self.pressures)) / follows;
+        }
+        let dilation = volume.dilation_gradient(&f);
+        stress += pressure * dilation;
+        tangent += pressure * volume.dilation_curvature(&f);
         self.add_stress::<D>(&stress, force);
         self.add_tangent::<D>(&tangent, matrix, values.len());
         let compressibility = 1.0 / volume.bulk_modulus;
-        let excess = volume.dilation(&f) - pressure * compressibility;
+        let excess = volume.dilation(&f) - elastic_pressure * compressibility;
         self.add_pressure::<D>(
             &dilation,
             excess,
-            compressibility + PROXIMAL / model.shear_modulus,
+            compressibility / follows + PROXIMAL / model.shear_modulus,
             force,
             matrix,
         );
-        let energy = law.distortion_energy(&f) + 0.5 * compressibility * pressure * pressure;
+        let energy = law.distortion_energy(&f) + 0.5 * compressibility * elastic_pressure.powi(2);
         Ok(self.weight * energy)
+    }
+
+    fn pressure(&self, values: &[f64]) -> f64 {
+        self.pressures.iter().zip(values).map(|(q, p)| q * p).sum()
     }
 
     fn add_stress<const D: usize>(&self, stress: &Matrix3<f64>, force: &mut [f64]) {

@@ -14,6 +14,8 @@ mod mesh;
 mod model;
 mod newton;
 mod path;
+mod relaxation;
+mod sensitivity;
 mod supports;
 pub mod tube;
 
@@ -23,4 +25,5 @@ pub use mesh::ElementMesh;
 pub use model::{FiniteElementModel, FiniteElementState, FiniteElementWorkspace, Formulation};
 pub use newton::{Equilibrium, Failure, equilibrate};
 pub use path::{Path, PathPoint};
+pub use relaxation::{Memory, RelaxationStep};
 pub use supports::{OnSphere, Supports};

@@ -74,7 +74,8 @@ pub(super) fn assemble(
     unknowns: &[f64],
     workspace: &mut FiniteElementWorkspace,
 ) -> Result<(), Failure> {
-    assembly::assemble(model, unknowns, workspace).map_err(|_| Failure::Inverted)?;
+    assembly::assemble(model, unknowns, supports.relaxing, workspace)
+        .map_err(|_| Failure::Inverted)?;
     if let Some((cavity, pressure)) = supports.pressure {
         cavity.add_gradient(model, unknowns, -pressure, &mut workspace.residual);
         cavity.add_curvature(model, unknowns, -pressure, &mut workspace.tangent);

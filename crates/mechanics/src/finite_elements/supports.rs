@@ -1,5 +1,6 @@
 use super::cavity::Cavity;
 use super::model::FiniteElementModel;
+use super::relaxation::RelaxationStep;
 
 /// What holds a body and what loads it.
 #[derive(Debug, Clone)]
@@ -10,6 +11,8 @@ pub struct Supports<'a> {
     pub sliding: Vec<OnSphere>,
     /// A pressure on walls that follows them.
     pub pressure: Option<(&'a Cavity, f64)>,
+    /// History of a body that relaxes; without it the body is elastic.
+    pub relaxing: Option<&'a RelaxationStep>,
 }
 
 /// A node of an axisymmetric body on a sphere around a point of the axis.
@@ -30,6 +33,7 @@ impl<'a> Supports<'a> {
             held: vec![None; model.displacements()],
             sliding: Vec::new(),
             pressure: None,
+            relaxing: None,
         }
     }
 

@@ -41,11 +41,45 @@ impl PronySeries {
         }
     }
 
+    /// Its pairs of gᵢ [-] and τᵢ [s].
+    pub fn terms(&self) -> &[(f64, f64)] {
+        &self.terms
+    }
+
+    /// What becomes of each branch in `step` [s].
+    pub(crate) fn shares(&self, step: f64) -> impl Iterator<Item = Share> + '_ {
+        self.terms.iter().map(move |&(g, tau)| {
+            let ratio = step / tau;
+            let kept = (-ratio).exp();
+            // 1 − (1 − e)/ratio cancels for short steps; its series does not.
+            let new = if ratio < 1e-4 {
+                ratio * (0.5 - ratio / 6.0)
+            } else {
+                1.0 + (-ratio).exp_m1() / ratio
+            };
+            Share {
+                g,
+                kept,
+                old: 1.0 - kept - new,
+                new,
+            }
+        })
+    }
+
     /// G(t)/G₀ [-] at `time` [s] after a step.
     pub fn relaxation(&self, time: f64) -> f64 {
         let relaxed = |&(g, tau): &(f64, f64)| g * -(-time / tau).exp_m1();
         1.0 - self.terms.iter().map(relaxed).sum::<f64>()
     }
+}
+
+/// How a branch goes over a step: h ← kept h + old Fₑ⁰ + new Fₑ¹, each [-].
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Share {
+    pub(crate) g: f64,
+    pub(crate) kept: f64,
+    pub(crate) old: f64,
+    pub(crate) new: f64,
 }
 
 /// What the branches of a series remember of the elastic force of one contact.
@@ -60,19 +94,9 @@ impl ForceHistory {
     /// a `step` of zero is a jump.
     pub fn advance(&mut self, series: &PronySeries, elastic: Vec3, step: f64) -> Vec3 {
         let mut force = elastic;
-        for (branch, &(g, tau)) in self.branches.iter_mut().zip(&series.terms) {
-            if step > 0.0 {
-                let ratio = step / tau;
-                let left = (-ratio).exp();
-                // 1 − (1 − e)/ratio cancels for short steps; its series does not.
-                let new = if ratio < 1e-4 {
-                    ratio * (0.5 - ratio / 6.0)
-                } else {
-                    1.0 + (-ratio).exp_m1() / ratio
-                };
-                *branch = left * *branch + (1.0 - left - new) * self.elastic + new * elastic;
-            }
-            force -= g * *branch;
+        for (branch, share) in self.branches.iter_mut().zip(series.shares(step)) {
+            *branch = share.kept * *branch + share.old * self.elastic + share.new * elastic;
+            force -= share.g * *branch;
         }
         self.elastic = elastic;
         force

@@ -1,9 +1,22 @@
 //! A rigid indenter pressed into an axisymmetric block.
+//!
+//! [`solve`] answers for forces at depths, [`solve_history`] for forces over time; [`IndentationRun`]
+//! goes step by step on one mesh.
+//!
+//! *How we know*: `indentation::…`: closed forms of punch and sphere, F = dE/dd, the two values of a
+//! bonded punch in an incompressible neo-Hookean block, refined runs, runs with moved parameters.
+//!
+//! *Limits*: axisymmetric; sharp edge; no friction but none and infinite. A face that slides folds the
+//! surface under it at some depth, and what lies beyond is refused.
 
+mod contact;
 mod indenter;
 mod mesh;
+mod problem;
 mod run;
+mod slopes;
 
 pub use indenter::{Grip, Indenter, IndenterShape, Side};
 pub use mesh::Block;
+pub use problem::{History, IndentationAnswer, IndentationProblem, Relaxing, solve, solve_history};
 pub use run::{IndentationPoint, IndentationRun, IndentationSettings};

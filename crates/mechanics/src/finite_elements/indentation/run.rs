@@ -4,76 +4,88 @@ use super::super::model::{
     FiniteElementModel, FiniteElementState, FiniteElementWorkspace, Formulation,
 };
 use super::super::newton::{self, Failure, equilibrate};
+use super::super::relaxation::{Memory, RelaxationStep};
 use super::super::supports::{OnSphere, Supports};
-use super::indenter::{Grip, Indenter, IndenterShape, Side};
+use super::contact::{Place, Touch};
+use super::indenter::{Indenter, IndenterShape, Side};
 use super::mesh::{Block, graded_block};
+use super::slopes::Slopes;
 use crate::material::law::Law;
-use crate::{Error, Strain};
+use crate::{Error, PronySeries, Strain};
 
-/// An indentation to be solved.
+/// An indentation to be solved on one mesh.
 #[derive(Debug, Clone)]
 pub struct IndentationSettings {
     /// The tissue.
     pub block: Block,
     /// What is pressed into it.
     pub indenter: Indenter,
-    /// Its law; with [`Strain::Small`] all is linear and only the face touches.
+    /// Its instantaneous law; with [`Strain::Small`] the side does not touch.
     pub law: Arc<dyn Law>,
-    /// Length of the smallest elements, at the edge of the contact [-], in radii of it.
-    pub edge: f64,
-    /// How often every element of that mesh is halved.
+    /// Its relaxation; no terms for an elastic tissue.
+    pub prony: PronySeries,
+    /// How often every element of the coarsest mesh is halved.
     pub halvings: u32,
 }
 
 /// What the indenter feels at a depth.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct IndentationPoint {
+    /// Time since the indenter first touched [s].
+    pub time: f64,
     /// Depth [m].
     pub depth: f64,
     /// Force on the tissue [N].
     pub force: f64,
-    /// Strain energy [J].
+    /// Strain energy of the elastic law [J].
     pub energy: f64,
+    /// Change of the force with each parameter of the law [N per unit], where asked for.
+    pub by_parameter: Vec<f64>,
 }
 
 /// An indentation in progress.
 #[derive(Debug)]
 pub struct IndentationRun {
-    model: FiniteElementModel,
-    workspace: FiniteElementWorkspace,
+    pub(super) model: FiniteElementModel,
+    pub(super) workspace: FiniteElementWorkspace,
     indenter: Indenter,
+    prony: PronySeries,
     /// Nodes of the top, from the axis outward.
-    top: Vec<usize>,
+    pub(super) top: Vec<usize>,
     /// Held whatever the indenter does: bottom and axis.
     rest: Vec<Option<f64>>,
-    now: Standing,
+    pub(super) now: Standing,
     /// The standing before, from which the next is foreseen.
     before: Option<Standing>,
+    /// The next step [m].
     step: f64,
 }
 
 /// An equilibrium at a depth.
 #[derive(Debug, Clone)]
-struct Standing {
-    depth: f64,
-    state: FiniteElementState,
+pub(super) struct Standing {
+    pub(super) time: f64,
+    pub(super) depth: f64,
+    pub(super) state: FiniteElementState,
     /// Contact of each node of the top.
-    touch: Vec<Touch>,
+    pub(super) touch: Vec<Touch>,
+    memory: Option<Memory>,
+    pub(super) slopes: Option<Slopes>,
 }
 
-/// Contact of a node.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Touch {
-    Free,
-    /// Stays at this radius and height above the lowest point of the indenter [m].
-    Stuck {
-        radius: f64,
-        above: f64,
-    },
-    OnFace,
-    OnSide,
-    OnSphere,
-}
+/// Smallest elements of the coarsest mesh, in radii of the indenter [-].
+const EDGE: f64 = 0.1;
+/// Steps in radii of the indenter [-]: the first, the longest, the shortest before giving up.
+const FIRST_STEP: f64 = 0.1;
+const LONGEST_STEP: f64 = 0.5;
+const SHORTEST_STEP: f64 = 1e-4;
+/// A node that is deeper than this inside after a step has come in too fast [-].
+const DEEPEST_CATCH: f64 = 0.1;
+/// Changes of contact at one depth.
+const MOST_CHANGES: usize = 12;
+/// Solutions of the linear system after which steps grow, and above which they shrink.
+const LITTLE_EFFORT: usize = 6;
+const MUCH_EFFORT: usize = 12;
 
 impl IndentationRun {
     /// An indenter that just touches.
@@ -82,9 +94,13 @@ impl IndentationRun {
     /// When the block is smaller than the indenter, or see [`FiniteElementModel::new`].
     pub fn new(settings: &IndentationSettings) -> Result<Self, Error> {
         let (block, indenter) = (&settings.block, settings.indenter);
-        let contact = indenter.radius;
-        let edge = settings.edge * contact;
-        let mesh = graded_block(block, contact, edge, settings.halvings);
+        block.check(&indenter)?;
+        let mesh = graded_block(
+            block,
+            indenter.radius,
+            EDGE * indenter.radius,
+            settings.halvings,
+        );
         let top = mesh.nodes_where(|x| x.y == 0.0);
         let bottom = mesh.nodes_where(|x| x.y == -block.height);
         let axis = mesh.nodes_where(|x| x.x == 0.0);
@@ -94,32 +110,36 @@ impl IndentationRun {
             .hold(&model, bottom, 1, 0.0)
             .hold(&model, axis, 0, 0.0)
             .held;
-        let on_face = |node: &usize| model.mesh().nodes[*node].x <= contact * (1.0 + 1e-9);
         let touch = top
             .iter()
-            .map(|node| match (indenter.shape, indenter.face) {
-                (IndenterShape::Flat { .. }, Grip::Stick) if on_face(node) => Touch::Stuck {
-                    radius: model.mesh().nodes[*node].x,
-                    above: 0.0,
-                },
-                (IndenterShape::Flat { .. }, Grip::Slide) if on_face(node) => Touch::OnFace,
-                _ => Touch::Free,
-            })
+            .map(|&node| indenter.first_touch(model.mesh().nodes[node].x))
             .collect();
+        let relaxes = !settings.prony.terms().is_empty();
         Ok(Self {
             workspace: FiniteElementWorkspace::new(&model)?,
             indenter,
+            prony: settings.prony.clone(),
             top,
             rest,
             now: Standing {
+                time: 0.0,
                 depth: 0.0,
                 state: FiniteElementState::at_rest(&model),
                 touch,
+                memory: relaxes.then(|| Memory::at_rest(&model, &settings.prony)),
+                slopes: None,
             },
             before: None,
-            step: 0.1 * contact,
+            step: FIRST_STEP * indenter.radius,
             model,
         })
+    }
+
+    /// Answers also for the change of force with the law's parameters, from now on. Only at rest, and
+    /// for an elastic tissue.
+    pub fn with_sensitivities(mut self) -> Self {
+        self.now.slopes = Some(Slopes::at_rest(&self.model));
+        self
     }
 
     /// The body.
@@ -132,48 +152,40 @@ impl IndentationRun {
         &self.now.state
     }
 
-    /// Presses on to `depth` [m], in as many steps as it takes; `at_step` hears of each.
+    /// Goes on to `depth` [m] at `time` [s], linearly and in as many steps as it takes; `at_step` hears
+    /// of each.
     ///
     /// # Errors
-    /// When no equilibrium is found beyond some depth.
-    pub fn press_to(
+    /// When no equilibrium is found on the way, or tissue enters an indenter without a side.
+    pub fn press(
         &mut self,
+        time: f64,
         depth: f64,
-        mut at_step: impl FnMut(IndentationPoint),
+        mut at_step: impl FnMut(&IndentationPoint),
     ) -> Result<IndentationPoint, Error> {
-        let small = self.model.law.volume().strain == Strain::Small;
-        if small {
-            self.step = depth;
-        }
-        while self.now.depth < depth {
-            let left = depth - self.now.depth;
-            // Two equal steps rather than one and a crumb.
-            let step = if left <= self.step {
-                left
-            } else if left < 2.0 * self.step {
-                0.5 * left
-            } else {
-                self.step
-            };
-            let goal = if step == left {
-                depth
-            } else {
-                self.now.depth + step
-            };
-            match self.stand_at(goal) {
+        let radius = self.indenter.radius;
+        let (start, from) = (self.now.time, self.now.depth);
+        let way = (depth - from).abs();
+        let mut gone = 0.0;
+        loop {
+            let left = way - gone;
+            let step = self.next_step(left);
+            let next = if step >= left { way } else { gone + step };
+            let part = if way > 0.0 { next / way } else { 1.0 };
+            let goal = |a: f64, b: f64| if part == 1.0 { b } else { a + part * (b - a) };
+            match self.stand_at(goal(start, time), goal(from, depth)) {
                 Ok((standing, effort)) => {
                     self.before = Some(std::mem::replace(&mut self.now, standing));
-                    at_step(self.point());
-                    if effort <= 6 {
-                        self.step = (1.5 * step).max(self.step).min(0.5 * self.indenter.radius);
-                    } else if effort > 12 {
-                        self.step = 0.7 * step;
-                    }
-                    if small {
-                        self.step = depth;
+                    self.check_domain()?;
+                    let point = self.point();
+                    at_step(&point);
+                    gone = next;
+                    self.pace(step, effort);
+                    if part == 1.0 {
+                        return Ok(point);
                     }
                 }
-                Err(_) if step > 1e-4 * self.indenter.radius && !small => self.step = 0.5 * step,
+                Err(_) if step > SHORTEST_STEP * radius => self.step = 0.5 * step,
                 Err(failure) => {
                     return Err(Error::NoEquilibrium {
                         depth: self.now.depth,
@@ -182,12 +194,37 @@ impl IndentationRun {
                 }
             }
         }
-        Ok(self.point())
+    }
+
+    /// The next step [m] when `left` [m] are left; two equal steps rather than one and a crumb.
+    fn next_step(&self, left: f64) -> f64 {
+        if self.is_linear() || left <= self.step {
+            left
+        } else {
+            self.step.min(0.5 * left)
+        }
+    }
+
+    /// Sets the next step after one that took this `effort`.
+    fn pace(&mut self, step: f64, effort: usize) {
+        if effort <= LITTLE_EFFORT {
+            let longest = LONGEST_STEP * self.indenter.radius;
+            self.step = (1.5 * step).max(self.step).min(longest);
+        } else if effort > MUCH_EFFORT {
+            self.step = 0.7 * step;
+        }
+    }
+
+    /// Whether nothing depends on the way: small strain and a contact that does not grow.
+    fn is_linear(&self) -> bool {
+        self.model.law.volume().strain == Strain::Small
+            && self.indenter.shape != IndenterShape::Sphere
     }
 
     /// What the indenter feels now.
     pub fn point(&mut self) -> IndentationPoint {
-        let supports = self.supports(&self.now.touch, self.now.depth);
+        let step = self.last_relaxation();
+        let supports = self.supports(&self.now.touch, self.now.depth, step.as_ref());
         let assembled = newton::assemble(
             &self.model,
             &supports,
@@ -195,74 +232,111 @@ impl IndentationRun {
             &mut self.workspace,
         );
         debug_assert!(assembled.is_ok(), "an equilibrium was found here");
-        let force = self
-            .top
-            .iter()
-            .zip(&self.now.touch)
-            .filter(|(_, touch)| **touch != Touch::Free)
-            .map(|(node, _)| -self.workspace.residual[2 * node + 1])
-            .sum();
+        let caught = || {
+            let each = self.top.iter().zip(&self.now.touch);
+            each.filter(|(_, touch)| **touch != Touch::Free)
+                .map(|(node, _)| 2 * node + 1)
+        };
         IndentationPoint {
+            time: self.now.time,
             depth: self.now.depth,
-            force,
+            // Not −Σ, which is −0 at rest.
+            force: 0.0
+                - caught()
+                    .map(|row| self.workspace.residual[row])
+                    .sum::<f64>(),
             energy: self.workspace.energy,
+            by_parameter: self.now.slopes.as_ref().map_or_else(Vec::new, |slopes| {
+                slopes.force(&self.model, &self.now.state, &self.workspace, caught)
+            }),
         }
     }
 
-    /// An equilibrium at `depth`, contacts included, and the number of solutions that it took.
-    fn stand_at(&mut self, depth: f64) -> Result<(Standing, usize), Failure> {
+    /// The relaxation step that led to where the body stands.
+    fn last_relaxation(&self) -> Option<RelaxationStep> {
+        let before = self.before.as_ref()?;
+        let memory = before.memory.as_ref()?;
+        Some(memory.step(&self.prony, self.now.time - before.time))
+    }
+
+    /// An equilibrium at `depth` and `time`, contacts included, and the number of solutions it took.
+    fn stand_at(&mut self, time: f64, depth: f64) -> Result<(Standing, usize), Failure> {
+        let duration = time - self.now.time;
+        let relaxing = self
+            .now
+            .memory
+            .as_ref()
+            .map(|m| m.step(&self.prony, duration));
         let mut touch = self.now.touch.clone();
-        let mut state = self.foresee(depth);
+        let mut slopes = self.now.slopes.clone();
+        let mut state = self.foresee(depth, relaxing.as_ref());
         let mut effort = 0;
-        for _ in 0..12 {
-            let supports = self.supports(&touch, depth);
-            match equilibrate(&self.model, &supports, &mut state, &mut self.workspace) {
-                Ok(done) => effort += done.iterations,
-                Err(failure) => return Err(failure),
+        for _ in 0..MOST_CHANGES {
+            let supports = self.supports(&touch, depth, relaxing.as_ref());
+            let done = equilibrate(&self.model, &supports, &mut state, &mut self.workspace)?;
+            effort += done.iterations;
+            if let Some(slopes) = &mut slopes {
+                slopes.solve(&self.model, &supports, &state, &mut self.workspace)?;
             }
-            if !self.settle(depth, &state, &mut touch)? {
-                return Ok((
-                    Standing {
-                        depth,
-                        state,
-                        touch,
-                    },
-                    effort,
-                ));
+            if !self.settle(depth, &state, &mut touch, slopes.as_mut())? {
+                let mut memory = self.now.memory.clone();
+                if let Some(memory) = &mut memory {
+                    memory.advance(&self.model, &self.prony, duration, &state);
+                }
+                let standing = Standing {
+                    time,
+                    depth,
+                    state,
+                    touch,
+                    memory,
+                    slopes,
+                };
+                return Ok((standing, effort));
             }
         }
         Err(Failure::NotConverged)
     }
 
     /// Where the body would be at `depth` if it went on as before.
-    fn foresee(&mut self, depth: f64) -> FiniteElementState {
+    fn foresee(&mut self, depth: f64, relaxing: Option<&RelaxationStep>) -> FiniteElementState {
         let mut state = self.now.state.clone();
-        if let Some(before) = &self.before {
-            let ahead = (depth - self.now.depth) / (self.now.depth - before.depth);
-            for (x, old) in state.unknowns.iter_mut().zip(&before.state.unknowns) {
-                *x += ahead * (*x - old);
-            }
-            let supports = self.supports(&self.now.touch, depth);
-            if newton::assemble(&self.model, &supports, &state.unknowns, &mut self.workspace)
-                .is_err()
-            {
-                state = self.now.state.clone();
-            }
+        let Some(before) = &self.before else {
+            return state;
+        };
+        let travelled = self.now.depth - before.depth;
+        let ahead = (depth - self.now.depth) / travelled;
+        if travelled == 0.0 || ahead <= 0.0 {
+            return state;
         }
-        state
+        for (x, old) in state.unknowns.iter_mut().zip(&before.state.unknowns) {
+            *x += ahead * (*x - old);
+        }
+        let supports = self.supports(&self.now.touch, depth, relaxing);
+        newton::assemble(&self.model, &supports, &state.unknowns, &mut self.workspace)
+            .map_or_else(|_| self.now.state.clone(), |()| state)
     }
 
-    fn supports(&self, touch: &[Touch], depth: f64) -> Supports<'static> {
+    fn supports<'a>(
+        &self,
+        touch: &[Touch],
+        depth: f64,
+        relaxing: Option<&'a RelaxationStep>,
+    ) -> Supports<'a> {
         let mut supports = Supports {
             held: self.rest.clone(),
             sliding: Vec::new(),
             pressure: None,
+            relaxing,
         };
         for (&node, touch) in self.top.iter().zip(touch) {
             let at = self.model.mesh().nodes[node].x;
             let held = &mut supports.held[2 * node..2 * node + 2];
             match *touch {
                 Touch::Free => {}
+                Touch::Bonded { radius } => {
+                    held[0] = Some(radius - at);
+                    held[1] = Some(-depth);
+                }
                 Touch::Stuck { radius, above } => {
                     held[0] = Some(radius - at);
                     held[1] = Some(above - depth);
@@ -281,91 +355,86 @@ impl IndentationRun {
         supports
     }
 
-    /// Takes up contacts where tissue has entered the indenter and gives up those that pull; answers
-    /// whether there was one. Fails when tissue went in too deep to know where it entered.
+    /// Catches nodes that have entered the indenter and lets go those that pull; answers whether there
+    /// was one. Fails when tissue went in too deep to know where it entered.
     fn settle(
         &self,
         depth: f64,
         state: &FiniteElementState,
         touch: &mut [Touch],
+        mut slopes: Option<&mut Slopes>,
     ) -> Result<bool, Failure> {
-        if self.model.law.volume().strain == Strain::Small
-            && self.indenter.shape != IndenterShape::Sphere
-        {
+        if self.is_linear() {
             return Ok(false);
         }
         let mut changed = false;
         for (&node, touch) in self.top.iter().zip(touch.iter_mut()) {
             let now = self.place(state, node, depth);
-            match *touch {
-                Touch::Free => {
-                    let inside = self.inside(now);
-                    if inside > 1e-9 * self.indenter.radius {
-                        if inside > 0.1 * self.indenter.radius {
-                            return Err(Failure::NotConverged);
-                        }
-                        let then = self.place(&self.now.state, node, self.now.depth);
-                        *touch = self.touching(then, now);
-                        changed |= *touch != Touch::Free;
+            let inside = self.indenter.inside(now) / self.indenter.radius;
+            if *touch == Touch::Free {
+                // Rounding is no contact.
+                if inside > 1e-9 && self.has_side() {
+                    if inside > DEEPEST_CATCH {
+                        return Err(Failure::NotConverged);
                     }
-                }
-                Touch::OnSide | Touch::OnSphere => {
-                    let force = &self.workspace.residual[2 * node..2 * node + 2];
-                    let (r, z) = now;
-                    let push = if *touch == Touch::OnSide {
-                        force[0]
-                    } else {
-                        force[0] * r + force[1] * (z - self.indenter.radius)
-                    };
-                    if push < 0.0 || (*touch == Touch::OnSide && z < 0.0) {
-                        *touch = Touch::Free;
-                        changed = true;
+                    let then = self.place(&self.now.state, node, self.now.depth);
+                    let (caught, part) = self.indenter.catch(then, now);
+                    if let (Some(slopes), Some(old)) = (&mut slopes, &self.now.slopes) {
+                        let ways = [self.indenter.inside(then), self.indenter.inside(now)];
+                        let rise = now.above - then.above;
+                        slopes.catch(node, old, ways, part, rise);
                     }
+                    *touch = caught;
+                    changed = true;
                 }
-                Touch::Stuck { .. } | Touch::OnFace => {}
+            } else {
+                let force = [0, 1].map(|i| self.workspace.residual[2 * node + i]);
+                if self.indenter.lets_go(*touch, now, force) {
+                    *touch = Touch::Free;
+                    changed = true;
+                }
             }
         }
         Ok(changed)
     }
 
-    /// Radius and height above the indenter's lowest point [m].
-    fn place(&self, state: &FiniteElementState, node: usize, depth: f64) -> (f64, f64) {
-        let at = self.model.mesh().nodes[node] + state.displacement(&self.model, node);
-        (at.x, at.y + depth)
+    fn has_side(&self) -> bool {
+        self.indenter.shape != IndenterShape::Flat { side: Side::Absent }
     }
 
-    /// How deep a place is inside the indenter [m].
-    fn inside(&self, (r, z): (f64, f64)) -> f64 {
-        let a = self.indenter.radius;
-        match self.indenter.shape {
-            IndenterShape::Flat { side: Side::Absent } => 0.0,
-            IndenterShape::Flat { .. } if z > 0.0 => a - r,
-            IndenterShape::Flat { .. } => 0.0,
-            IndenterShape::Sphere => a - r.hypot(z - a),
+    /// An indenter without a side is right until tissue would be where the side is, and a face without
+    /// friction until the tissue under it goes over itself or out beyond it.
+    fn check_domain(&self) -> Result<(), Error> {
+        if self.is_linear() {
+            return Ok(());
         }
+        let (depth, radius) = (self.now.depth, self.indenter.radius);
+        let place = |node: usize| self.place(&self.now.state, node, depth);
+        let mut each = self.top.iter().zip(&self.now.touch);
+        let entered = |(&node, touch): (&usize, &Touch)| {
+            *touch == Touch::Free && self.indenter.inside(place(node)) > 1e-9 * radius
+        };
+        if !self.has_side() && each.any(entered) {
+            return Err(Error::TissueEntersPunch { depth });
+        }
+        // Corners of elements: every second node.
+        let corners = self.top.iter().zip(&self.now.touch).step_by(2);
+        let under: Vec<f64> = corners
+            .filter(|(_, touch)| **touch == Touch::OnFace)
+            .map(|(&node, _)| place(node).radius)
+            .collect();
+        let outside = under.last().is_some_and(|&r| r > 1.05 * radius);
+        if outside || under.windows(2).any(|w| w[1] <= w[0]) {
+            return Err(Error::SurfaceFolds { depth });
+        }
+        Ok(())
     }
 
-    /// The contact of a node that came from `then`, outside, to `now`, inside.
-    fn touching(&self, then: (f64, f64), now: (f64, f64)) -> Touch {
-        let sticks = match self.indenter.shape {
-            IndenterShape::Flat { side } => side == Side::Touches(Grip::Stick),
-            IndenterShape::Sphere => self.indenter.face == Grip::Stick,
-        };
-        match (sticks, self.indenter.shape) {
-            (true, _) => {
-                let (outside, inside) = (-self.inside(then), self.inside(now));
-                let part = (outside / (outside + inside)).clamp(0.0, 1.0);
-                let (r, z) = (
-                    then.0 + part * (now.0 - then.0),
-                    then.1 + part * (now.1 - then.1),
-                );
-                Touch::Stuck {
-                    radius: r,
-                    above: z,
-                }
-            }
-            (false, IndenterShape::Flat { .. }) => Touch::OnSide,
-            (false, IndenterShape::Sphere) => Touch::OnSphere,
+    fn place(&self, state: &FiniteElementState, node: usize, depth: f64) -> Place {
+        let at = self.model.mesh().nodes[node] + state.displacement(&self.model, node);
+        Place {
+            radius: at.x,
+            above: at.y + depth,
         }
     }
 }

@@ -1,0 +1,215 @@
+use std::sync::Arc;
+
+use super::super::estimate::{Estimated, Progress, refine};
+use super::indenter::Indenter;
+use super::mesh::Block;
+use super::run::{IndentationPoint, IndentationRun, IndentationSettings};
+use crate::material::law::Law;
+use crate::{Error, IndentationCurve, PronySeries};
+
+/// Tissue and indenter.
+#[derive(Debug, Clone)]
+pub struct IndentationProblem {
+    /// The tissue.
+    pub block: Block,
+    /// What is pressed into it.
+    pub indenter: Indenter,
+    /// Its instantaneous law.
+    pub law: Arc<dyn Law>,
+}
+
+/// Depth over time, linear between the given times; the indenter just touches before the first.
+#[derive(Debug, Clone, PartialEq)]
+pub struct History {
+    /// Times [s], ascending from 0 or later.
+    pub times: Vec<f64>,
+    /// Depths [m], one for each time.
+    pub depths: Vec<f64>,
+}
+
+/// How relaxation is taken into account.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Relaxing {
+    /// The elastic curve, convolved with the relaxation function; fast, and the same to small strain.
+    Convolution,
+    /// Internal variables at every point of integration.
+    Full,
+}
+
+/// Forces of an indentation.
+#[derive(Debug, Clone, PartialEq)]
+pub struct IndentationAnswer {
+    /// At the depths or times that were asked for, in their order.
+    pub points: Vec<IndentationPoint>,
+    /// The elastic curve through all depths that were solved.
+    pub curve: IndentationCurve,
+    /// Number of unknowns.
+    pub unknowns: usize,
+}
+
+/// Power of the element size with which errors fall: the stress at the edge of the contact is infinite,
+/// which leaves the first power of the smallest elements and higher ones of the others.
+const ORDER: f64 = 1.2;
+const MOST_HALVINGS: u32 = 2;
+
+/// Elastic forces at `depths` [m], to the relative `accuracy` [-].
+///
+/// # Errors
+/// When a depth is negative or deeper than the block, or see [`IndentationRun::press`].
+pub fn solve(
+    problem: &IndentationProblem,
+    depths: &[f64],
+    accuracy: f64,
+    progress: &mut dyn FnMut(Progress),
+) -> Result<Estimated<IndentationAnswer>, Error> {
+    problem.check_depths(depths)?;
+    refine(accuracy, ORDER, MOST_HALVINGS, |halvings| {
+        let answer = problem.elastic(depths, halvings, progress)?;
+        let forces = answer.points.iter().map(|point| point.force).collect();
+        Ok((answer, forces))
+    })
+}
+
+/// Forces over the times of `history` of a tissue that relaxes by `prony`, to the relative `accuracy`
+/// [-].
+///
+/// # Errors
+/// As [`solve`], and when times do not ascend.
+pub fn solve_history(
+    problem: &IndentationProblem,
+    (prony, relaxing): (&PronySeries, Relaxing),
+    history: &History,
+    accuracy: f64,
+    progress: &mut dyn FnMut(Progress),
+) -> Result<Estimated<IndentationAnswer>, Error> {
+    history.check()?;
+    problem.check_depths(&history.depths)?;
+    refine(accuracy, ORDER, MOST_HALVINGS, |halvings| {
+        let answer = match relaxing {
+            Relaxing::Convolution => problem.convolved(prony, history, halvings, progress)?,
+            Relaxing::Full => problem.relaxed(prony, history, halvings, progress)?,
+        };
+        let forces = answer.points.iter().map(|point| point.force).collect();
+        Ok((answer, forces))
+    })
+}
+
+impl History {
+    fn check(&self) -> Result<(), Error> {
+        let ascend = self.times.windows(2).all(|w| w[1] >= w[0]);
+        let start = self.times.first().is_none_or(|&t| t >= 0.0);
+        if ascend && start && self.times.len() == self.depths.len() {
+            Ok(())
+        } else {
+            Err(Error::TimesDoNotAscend)
+        }
+    }
+}
+
+impl IndentationProblem {
+    fn check_depths(&self, depths: &[f64]) -> Result<(), Error> {
+        let possible = |&d: &f64| d >= 0.0 && d < self.block.height;
+        match depths.iter().find(|d| !possible(d)) {
+            Some(&depth) => Err(Error::ImpossibleDepth {
+                depth,
+                height: self.block.height,
+            }),
+            None => Ok(()),
+        }
+    }
+
+    fn run(&self, prony: &PronySeries, halvings: u32) -> Result<IndentationRun, Error> {
+        IndentationRun::new(&IndentationSettings {
+            block: self.block,
+            indenter: self.indenter,
+            law: self.law.clone(),
+            prony: prony.clone(),
+            halvings,
+        })
+    }
+
+    /// Forces at `depths` on one mesh.
+    fn elastic(
+        &self,
+        depths: &[f64],
+        halvings: u32,
+        progress: &mut dyn FnMut(Progress),
+    ) -> Result<IndentationAnswer, Error> {
+        let mut order: Vec<usize> = (0..depths.len()).collect();
+        order.sort_by(|&a, &b| depths[a].total_cmp(&depths[b]));
+        let deepest = order.last().map_or(0.0, |&last| depths[last]);
+        let mut run = self.run(&PronySeries::default(), halvings)?;
+        let mut curve = IndentationCurve::untouched();
+        let mut points = vec![run.point(); depths.len()];
+        for &place in &order {
+            let depth = depths[place];
+            if depth > run.point().depth {
+                run.press(depth, depth, |point| {
+                    curve.extend(point.depth, point.force);
+                    let part = point.depth / deepest;
+                    progress(Progress { part, halvings });
+                })?;
+            }
+            points[place] = run.point();
+        }
+        Ok(IndentationAnswer {
+            points,
+            curve,
+            unknowns: run.model().size(),
+        })
+    }
+
+    /// Forces over `history` by convolution of the elastic curve.
+    fn convolved(
+        &self,
+        prony: &PronySeries,
+        history: &History,
+        halvings: u32,
+        progress: &mut dyn FnMut(Progress),
+    ) -> Result<IndentationAnswer, Error> {
+        let deepest = history.depths.iter().copied().fold(0.0, f64::max);
+        let elastic = self.elastic(&curve_depths(deepest), halvings, progress)?;
+        let forces = elastic
+            .curve
+            .relaxed(prony, &history.times, &history.depths);
+        let each = history.times.iter().zip(&history.depths).zip(forces);
+        let points = each.map(|((&time, &depth), force)| IndentationPoint {
+            time,
+            depth,
+            force,
+            energy: 0.0,
+            by_parameter: Vec::new(),
+        });
+        Ok(IndentationAnswer {
+            points: points.collect(),
+            ..elastic
+        })
+    }
+
+    /// Forces over `history` by internal variables.
+    fn relaxed(
+        &self,
+        prony: &PronySeries,
+        history: &History,
+        halvings: u32,
+        progress: &mut dyn FnMut(Progress),
+    ) -> Result<IndentationAnswer, Error> {
+        let last = history.times.last().copied().unwrap_or(0.0);
+        let mut run = self.run(prony, halvings)?;
+        let mut points = Vec::with_capacity(history.times.len());
+        for (&time, &depth) in history.times.iter().zip(&history.depths) {
+            points.push(run.press(time, depth, |point| {
+                let part = if last > 0.0 { point.time / last } else { 1.0 };
+                progress(Progress { part, halvings });
+            })?);
+        }
+        let deepest = history.depths.iter().copied().fold(0.0, f64::max);
+        let elastic = self.elastic(&curve_depths(deepest), halvings, &mut |_| {})?;
+        Ok(IndentationAnswer { points, ..elastic })
+    }
+}
+
+/// Depths [m] at which a curve is solved up to `deepest`.
+fn curve_depths(deepest: f64) -> Vec<f64> {
+    (1..=24).map(|i| deepest * f64::from(i) / 24.0).collect()
+}

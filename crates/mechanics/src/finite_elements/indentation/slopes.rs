@@ -1,0 +1,80 @@
+//! How the answer changes with the parameters of the law, without a second run.
+//!
+//! At an equilibrium r(u, q) = 0, so K ∂u/∂q = −∂r/∂q: one more solution with the factors that Newton's
+//! method has made. What is held does not change with q, except where a node sticks, which remembers the
+//! change of the place at which it was caught.
+//!
+//! *How we know*: `sensitivities::…` against runs with moved parameters.
+//!
+//! *Limits*: elastic tissue; flat punches.
+
+use super::super::model::{FiniteElementModel, FiniteElementState, FiniteElementWorkspace};
+use super::super::newton::{self, Failure};
+use super::super::sensitivity;
+use super::super::supports::Supports;
+
+/// ∂u/∂q of all unknowns, one column for each parameter of the law.
+#[derive(Debug, Clone)]
+pub(super) struct Slopes {
+    columns: Vec<Vec<f64>>,
+}
+
+impl Slopes {
+    pub(super) fn at_rest(model: &FiniteElementModel) -> Self {
+        let parameters = model.law.parameters().len();
+        Self {
+            columns: vec![vec![0.0; model.size()]; parameters],
+        }
+    }
+
+    /// At the equilibrium `state`; what is held keeps the slopes it has.
+    pub(super) fn solve(
+        &mut self,
+        model: &FiniteElementModel,
+        supports: &Supports<'_>,
+        state: &FiniteElementState,
+        workspace: &mut FiniteElementWorkspace,
+    ) -> Result<(), Failure> {
+        let is_held = newton::held_rows(model, supports);
+        for (parameter, column) in self.columns.iter_mut().enumerate() {
+            let force = sensitivity::residual_by_parameter(model, state, parameter);
+            sensitivity::solve(model, &is_held, &force, column, workspace)?;
+        }
+        Ok(())
+    }
+
+    /// A node is caught: its held place moves with the parameters as the point where it came in does.
+    /// `ways` are how deep it was inside before (negative) and after [m], `part` and `rise` [m] the part
+    /// of the way at which it came in and the height it went.
+    pub(super) fn catch(&mut self, node: usize, old: &Self, ways: [f64; 2], part: f64, rise: f64) {
+        let length = ways[1] - ways[0];
+        for (column, old) in self.columns.iter_mut().zip(&old.columns) {
+            let radius = [old[2 * node], column[2 * node]];
+            let height = [old[2 * node + 1], column[2 * node + 1]];
+            // part = o/(o + i) with ∂o = ∂r before and ∂i = −∂r after.
+            let part_slope = ((1.0 - part) * radius[0] + part * radius[1]) / length;
+            column[2 * node] = 0.0;
+            column[2 * node + 1] = height[0] + part * (height[1] - height[0]) + part_slope * rise;
+        }
+    }
+
+    /// ∂F/∂q of the force on the tissue [N per unit], from the tangent of the last assembly; `rows` are
+    /// the held rows that the force is the sum of.
+    pub(super) fn force<I: Iterator<Item = usize>>(
+        &self,
+        model: &FiniteElementModel,
+        state: &FiniteElementState,
+        workspace: &FiniteElementWorkspace,
+        rows: impl Fn() -> I,
+    ) -> Vec<f64> {
+        let mut product = vec![0.0; model.size()];
+        let each = |(parameter, column): (usize, &Vec<f64>)| {
+            let direct = sensitivity::residual_by_parameter(model, state, parameter);
+            model
+                .pattern
+                .multiply(&workspace.tangent, column, &mut product);
+            -rows().map(|row| direct[row] + product[row]).sum::<f64>()
+        };
+        self.columns.iter().enumerate().map(each).collect()
+    }
+}
