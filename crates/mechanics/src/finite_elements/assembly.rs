@@ -12,7 +12,7 @@
 
 use nalgebra::Matrix3;
 
-use super::model::{FiniteElementModel, FiniteElementWorkspace};
+use super::model::{ElementSums, FiniteElementModel, FiniteElementWorkspace};
 use super::relaxation::{Past, RelaxationStep};
 use crate::Strain;
 use crate::material::law::Tangent;
@@ -45,8 +45,8 @@ pub(super) fn assemble(
         for (value, &number) in scratch.values.iter_mut().zip(numbers) {
             *value = unknowns[number as usize];
         }
-        scratch.force.fill(0.0);
-        scratch.matrix.fill(0.0);
+        scratch.sums.force.fill(0.0);
+        scratch.sums.matrix.fill(0.0);
         for point in 0..model.mapping.points {
             let past = relaxing.map(|step| {
                 let place = element * model.mapping.points + point;
@@ -58,31 +58,19 @@ pub(super) fn assemble(
             });
             let point = Point::new(model, element, point);
             workspace.energy += if model.dimension() == 2 {
-                point.integrate::<2>(
-                    model,
-                    past,
-                    &scratch.values,
-                    &mut scratch.force,
-                    &mut scratch.matrix,
-                )
+                point.integrate::<2>(model, past, &scratch.values, &mut scratch.sums)
             } else {
-                point.integrate::<3>(
-                    model,
-                    past,
-                    &scratch.values,
-                    &mut scratch.force,
-                    &mut scratch.matrix,
-                )
+                point.integrate::<3>(model, past, &scratch.values, &mut scratch.sums)
             }?;
         }
-        for (&number, force) in numbers.iter().zip(&scratch.force) {
+        for (&number, force) in numbers.iter().zip(&scratch.sums.force) {
             workspace.residual[number as usize] += force;
         }
         let mut places = model.scatter[element * triangle..].iter();
         for column in 0..local {
             for row in column..local {
                 let place = places.next().expect("the triangle has this size");
-                workspace.tangent[*place as usize] += scratch.matrix[column * local + row];
+                workspace.tangent[*place as usize] += scratch.sums.matrix[column * local + row];
             }
         }
     }
@@ -162,6 +150,16 @@ pub(super) fn elastic_stresses(model: &FiniteElementModel, unknowns: &[f64]) -> 
     stresses
 }
 
+/// θ − p/κ at a point, and what its change and its block of the matrix need.
+struct Constraint {
+    /// ∂θ/∂F [-].
+    gradient: Matrix3<f64>,
+    /// θ − p/κ [-].
+    excess: f64,
+    /// 1/κ and ε/μ [1/Pa].
+    compressibility: f64,
+}
+
 /// One point of integration, with the slices of the mapping that belong to it.
 struct Point<'a> {
     weight: f64,
@@ -207,12 +205,12 @@ impl<'a> Point<'a> {
         model: &FiniteElementModel,
         past: Option<Past<'_>>,
         values: &[f64],
-        force: &mut [f64],
-        matrix: &mut [f64],
+        sums: &mut ElementSums,
     ) -> Result<f64, Inverted> {
         let f = self.gradient::<D>(values);
         let (law, volume) = (model.law.as_ref(), model.law.volume());
-        if volume.strain == Strain::Finite && !(f.determinant() > 0.0) {
+        let stands = volume.strain == Strain::Small || f.determinant() > 0.0;
+        if !stands {
             return Err(Inverted);
         }
         if self.pressures.is_empty() {
@@ -220,8 +218,8 @@ impl<'a> Point<'a> {
             if let Some(past) = past {
                 past.relax(volume.strain, &f, &mut stress, &mut tangent);
             }
-            self.add_stress::<D>(&stress, force);
-            self.add_tangent::<D>(&tangent, matrix, values.len());
+            self.add_stress::<D>(&stress, &mut sums.force);
+            self.add_tangent::<D>(&tangent, &mut sums.matrix, values.len());
             return Ok(self.weight * law.energy(&f));
         }
         let (mut stress, mut tangent) = (law.distortion_stress(&f), law.distortion_tangent(&f));
@@ -235,17 +233,15 @@ impl<'a> Point<'a> {
         let dilation = volume.dilation_gradient(&f);
         stress += pressure * dilation;
         tangent += pressure * volume.dilation_curvature(&f);
-        self.add_stress::<D>(&stress, force);
-        self.add_tangent::<D>(&tangent, matrix, values.len());
+        self.add_stress::<D>(&stress, &mut sums.force);
+        self.add_tangent::<D>(&tangent, &mut sums.matrix, values.len());
         let compressibility = 1.0 / volume.bulk_modulus;
-        let excess = volume.dilation(&f) - elastic_pressure * compressibility;
-        self.add_pressure::<D>(
-            &dilation,
-            excess,
-            compressibility / follows + PROXIMAL / model.shear_modulus,
-            force,
-            matrix,
-        );
+        let constraint = Constraint {
+            gradient: dilation,
+            excess: volume.dilation(&f) - elastic_pressure * compressibility,
+            compressibility: compressibility / follows + PROXIMAL / model.shear_modulus,
+        };
+        self.add_pressure::<D>(&constraint, sums);
         let energy = law.distortion_energy(&f) + 0.5 * compressibility * elastic_pressure.powi(2);
         Ok(self.weight * energy)
     }
@@ -316,24 +312,18 @@ impl<'a> Point<'a> {
     }
 
     /// The coupling of displacements to pressures, and the pressures' own block.
-    fn add_pressure<const D: usize>(
-        &self,
-        dilation: &Matrix3<f64>,
-        excess: f64,
-        compressibility: f64,
-        force: &mut [f64],
-        matrix: &mut [f64],
-    ) {
+    fn add_pressure<const D: usize>(&self, constraint: &Constraint, sums: &mut ElementSums) {
+        let ElementSums { force, matrix } = sums;
         let local = force.len();
         let count = self.gradients.len();
         for (a, g) in self.gradients.chunks_exact(D).enumerate() {
             for i in 0..D {
                 let mut along = 0.0;
                 for (j, g) in g.iter().enumerate() {
-                    along += dilation[(i, j)] * g;
+                    along += constraint.gradient[(i, j)] * g;
                 }
                 if D == 2 && i == 0 {
-                    along += dilation[(2, 2)] * self.hoops[a];
+                    along += constraint.gradient[(2, 2)] * self.hoops[a];
                 }
                 let column = &mut matrix[(a * D + i) * local..][..local];
                 for (entry, q) in column[count..].iter_mut().zip(self.pressures) {
@@ -342,10 +332,10 @@ impl<'a> Point<'a> {
             }
         }
         for (m, q) in self.pressures.iter().enumerate() {
-            force[count + m] += self.weight * q * excess;
+            force[count + m] += self.weight * q * constraint.excess;
             let column = &mut matrix[(count + m) * local..][..local];
             for (entry, other) in column[count + m..].iter_mut().zip(&self.pressures[m..]) {
-                *entry -= self.weight * compressibility * q * other;
+                *entry -= self.weight * constraint.compressibility * q * other;
             }
         }
     }

@@ -159,6 +159,12 @@ pub struct FiniteElementWorkspace {
 #[derive(Debug)]
 pub(crate) struct ElementScratch {
     pub(crate) values: Vec<f64>,
+    pub(crate) sums: ElementSums,
+}
+
+/// Residual of an element, and its tangent column by column, of which the lower triangle is filled.
+#[derive(Debug)]
+pub(crate) struct ElementSums {
     pub(crate) force: Vec<f64>,
     pub(crate) matrix: Vec<f64>,
 }
@@ -182,8 +188,10 @@ impl FiniteElementWorkspace {
             trial: vec![0.0; size],
             element: ElementScratch {
                 values: vec![0.0; local],
-                force: vec![0.0; local],
-                matrix: vec![0.0; local * local],
+                sums: ElementSums {
+                    force: vec![0.0; local],
+                    matrix: vec![0.0; local * local],
+                },
             },
             energy: 0.0,
         })

@@ -90,7 +90,7 @@ impl ElementKind {
     }
 
     /// The nodes' own coordinates.
-    pub(crate) fn node_coordinates(self, node: usize) -> [f64; 3] {
+    pub fn node_coordinates(self, node: usize) -> [f64; 3] {
         match self {
             Self::Quad9 | Self::Hex27 => tensor::node(self.dimension(), node),
             Self::Tet10 => tetrahedron::node(node),

@@ -9,7 +9,7 @@ use super::super::supports::{OnSphere, Supports};
 use super::contact::{Place, Touch};
 use super::indenter::{Indenter, IndenterShape, Side};
 use super::mesh::{Block, graded_block};
-use super::slopes::Slopes;
+use super::slopes::{Entry, Slopes};
 use crate::material::law::Law;
 use crate::{Error, PronySeries, Strain};
 
@@ -380,9 +380,13 @@ impl IndentationRun {
                     let then = self.place(&self.now.state, node, self.now.depth);
                     let (caught, part) = self.indenter.catch(then, now);
                     if let (Some(slopes), Some(old)) = (&mut slopes, &self.now.slopes) {
-                        let ways = [self.indenter.inside(then), self.indenter.inside(now)];
-                        let rise = now.above - then.above;
-                        slopes.catch(node, old, ways, part, rise);
+                        let entry = Entry {
+                            node,
+                            ways: [self.indenter.inside(then), self.indenter.inside(now)],
+                            part,
+                            rise: now.above - then.above,
+                        };
+                        slopes.catch(&entry, old);
                     }
                     *touch = caught;
                     changed = true;

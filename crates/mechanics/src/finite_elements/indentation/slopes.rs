@@ -13,6 +13,18 @@ use super::super::newton::{self, Failure};
 use super::super::sensitivity;
 use super::super::supports::Supports;
 
+/// How a node came into the indenter.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Entry {
+    pub(super) node: usize,
+    /// How deep it was inside before (negative) and after [m].
+    pub(super) ways: [f64; 2],
+    /// The part of the way at which it came in [-].
+    pub(super) part: f64,
+    /// How far it rose on the way [m].
+    pub(super) rise: f64,
+}
+
 /// ∂u/∂q of all unknowns, one column for each parameter of the law.
 #[derive(Debug, Clone)]
 pub(super) struct Slopes {
@@ -43,10 +55,15 @@ impl Slopes {
         Ok(())
     }
 
-    /// A node is caught: its held place moves with the parameters as the point where it came in does.
-    /// `ways` are how deep it was inside before (negative) and after [m], `part` and `rise` [m] the part
-    /// of the way at which it came in and the height it went.
-    pub(super) fn catch(&mut self, node: usize, old: &Self, ways: [f64; 2], part: f64, rise: f64) {
+    /// The node `entry.node` is caught: its held place moves with the parameters as the point where it
+    /// came in does.
+    pub(super) fn catch(&mut self, entry: &Entry, old: &Self) {
+        let Entry {
+            node,
+            ways,
+            part,
+            rise,
+        } = *entry;
         let length = ways[1] - ways[0];
         for (column, old) in self.columns.iter_mut().zip(&old.columns) {
             let radius = [old[2 * node], column[2 * node]];
