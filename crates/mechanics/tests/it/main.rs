@@ -13,6 +13,7 @@ mod convergence;
 mod errors;
 mod every_law;
 mod field;
+mod indentation;
 mod invariants;
 mod laws;
 mod no_allocation;
