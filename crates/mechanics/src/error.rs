@@ -201,4 +201,36 @@ pub enum Error {
     /// The times of a history are in no order.
     #[error("the times of the depth history do not ascend from 0; sort them, one for each depth")]
     TimesDoNotAscend,
+    /// A length that is none.
+    #[error("{name} is {found} m; give a positive length")]
+    NotALength {
+        /// Whose length.
+        name: &'static str,
+        /// The value given [m].
+        found: f64,
+    },
+    /// A depth that is no number.
+    #[error("the depth is {depth} m; give a number")]
+    DepthIsNoNumber {
+        /// The value given [m].
+        depth: f64,
+    },
+    /// A patch on a hemisphere leaves nothing free above the base.
+    #[error(
+        "the patch has a radius of {patch_radius} m, and the base is held {quarter} m from the pole; give a radius below 0.99 of that"
+    )]
+    PatchReachesBase {
+        /// The value given [m].
+        patch_radius: f64,
+        /// Arc from the pole to the base [m].
+        quarter: f64,
+    },
+    /// A law has no stress at this stretch.
+    #[error(
+        "the stretch is {stretch}, where the law has no stress; give a positive one, nearer to 1"
+    )]
+    StretchOutOfRange {
+        /// The value given [-].
+        stretch: f64,
+    },
 }

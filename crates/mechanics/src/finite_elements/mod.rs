@@ -8,6 +8,7 @@ mod cavity;
 mod element;
 pub mod estimate;
 mod graded;
+pub mod hemisphere;
 pub mod indentation;
 mod mapping;
 mod mesh;
@@ -18,6 +19,7 @@ mod relaxation;
 mod sensitivity;
 mod supports;
 pub mod tube;
+pub mod uniaxial;
 
 pub use cavity::Cavity;
 pub use element::ElementKind;

@@ -5,6 +5,8 @@ use std::sync::Arc;
 use palpate_mechanics::contact::Bond;
 use palpate_mechanics::finite_elements::Failure;
 use palpate_mechanics::finite_elements::tube::{Ends, Tube, TubeProblem, inflate};
+use palpate_mechanics::finite_elements::hemisphere::{HemisphereProblem, Patch};
+use palpate_mechanics::finite_elements::uniaxial::nominal_stress;
 use palpate_mechanics::finite_spheres::{FiniteSphereModel, FiniteSphereSettings, Form};
 use palpate_mechanics::{Blatz, Error, LinearElastic, MooneyRivlin, NeoHookean, PronySeries};
 
@@ -19,6 +21,17 @@ fn spheres(particles: usize, form: Form, nu: f64) -> Result<(), Error> {
     FiniteSphereModel::new(settings, &tissue(nu), Bond::Slip).map(drop)
 }
 
+fn hemisphere(radius: f64, patch_radius: f64, depth: f64) -> Result<(), Error> {
+    let problem = HemisphereProblem {
+        radius,
+        patch_radius,
+        patch: Patch::Slip,
+        law: tissue(0.3),
+        depth,
+    };
+    problem.solve_on(0.2, 0).map(drop)
+}
+
 #[test]
 fn every_refusal_names_the_value_and_the_mend() {
     let undetermined = Error::Undetermined {
@@ -26,7 +39,7 @@ fn every_refusal_names_the_value_and_the_mend() {
         form: "strong",
         poissons_ratio: 0.3,
     };
-    let refused: [(Result<(), Error>, &[&str]); 18] = [
+    let refused: [(Result<(), Error>, &[&str]); 24] = [
         (
             LinearElastic::new(0.0, 0.3).map(drop),
             &["0 Pa", "positive"],
@@ -84,6 +97,30 @@ fn every_refusal_names_the_value_and_the_mend() {
         (spheres(11, Form::Weak, 0.3), &["11", "12", "600", "34"]),
         (spheres(601, Form::Weak, 0.3), &["601", "12", "600"]),
         (Err(undetermined), &["20", "strong", "0.3", "weak form"]),
+        (
+            hemisphere(-1.0, 0.01, 1e-3),
+            &["hemisphere is -1 m", "positive"],
+        ),
+        (
+            hemisphere(0.05, f64::NAN, 1e-3),
+            &["patch is NaN m", "positive"],
+        ),
+        (
+            hemisphere(0.05, 0.01, f64::INFINITY),
+            &["depth is inf m", "number"],
+        ),
+        (
+            hemisphere(0.05, 0.0786, 1e-3),
+            &["0.0786 m", "0.0785", "0.99"],
+        ),
+        (
+            nominal_stress(&tissue(0.3), -0.5).map(drop),
+            &["-0.5", "positive"],
+        ),
+        (
+            nominal_stress(&Blatz::incompressible(1e3, 20.0).unwrap(), 50.0).map(drop),
+            &["50", "nearer to 1"],
+        ),
     ];
     for (result, words) in refused {
         let message = result.unwrap_err().to_string();

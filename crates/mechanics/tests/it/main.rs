@@ -20,3 +20,6 @@ mod no_allocation;
 mod path;
 mod stretches;
 mod tube;
+mod patch_on_hemisphere;
+mod stretches;
+mod uniaxial;

@@ -1,0 +1,76 @@
+use std::sync::Arc;
+
+use super::super::graded::Grading;
+use super::super::model::{
+    FiniteElementModel, FiniteElementState, FiniteElementWorkspace, Formulation,
+};
+use super::super::newton::equilibrate;
+use super::super::supports::Supports;
+use super::problem::Patch;
+use super::quarter_disc::{Lines, QuarterDisc, SQUARE};
+use crate::{Error, LinearElastic};
+
+/// Half a ball under a flat punch in the middle of its flat side, held on its round one: a half-space
+/// of which all beyond some distance is rigid.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HalfBall {
+    /// Radius in radii of the punch [-], at least 3.
+    pub radius: f64,
+    /// What the punch holds.
+    pub patch: Patch,
+    /// The law.
+    pub law: LinearElastic,
+}
+
+impl HalfBall {
+    /// Force per depth and radius of the punch [Pa] on a mesh whose elements at its edge are `edge` [-]
+    /// of its radius, every element then halved `halvings` times.
+    ///
+    /// # Errors
+    /// When memory does not suffice.
+    pub fn stiffness(&self, edge: f64, halvings: u32) -> Result<f64, Error> {
+        let disc = QuarterDisc::new(self.radius, &self.lines(edge), halvings);
+        let model =
+            FiniteElementModel::new(disc.mesh.clone(), Arc::new(self.law), Formulation::Mixed)?;
+        let touched = |node: &&usize| disc.mesh.nodes[**node].x <= 1.0 + 1e-9;
+        let patch: Vec<usize> = disc.base.iter().filter(touched).copied().collect();
+        let round = || disc.arc.iter().map(|&(node, _)| node);
+        let mut supports = Supports::none(&model)
+            .hold(&model, patch.iter().copied(), 1, 1.0)
+            .hold(&model, disc.axis.iter().copied(), 0, 0.0)
+            .hold(&model, round(), 0, 0.0)
+            .hold(&model, round(), 1, 0.0);
+        if self.patch == Patch::Bonded {
+            supports = supports.hold(&model, patch.iter().copied(), 0, 0.0);
+        }
+        let mut state = FiniteElementState::at_rest(&model);
+        let mut workspace = FiniteElementWorkspace::new(&model)?;
+        equilibrate(&model, &supports, &mut state, &mut workspace).map_err(|failure| {
+            Error::NoEquilibrium {
+                depth: 0.0,
+                failure,
+            }
+        })?;
+        Ok(patch.iter().map(|&n| workspace.reaction(&model, n).y).sum())
+    }
+
+    /// Lines that are fine around the edge of the punch.
+    fn lines(&self, edge: f64) -> Lines {
+        let grading = Grading {
+            first: edge,
+            growth: 1.25,
+            near: 3.0,
+            far_growth: 1.7,
+        };
+        let side = SQUARE * self.radius;
+        let mut across: Vec<f64> = grading.line(1.0, 0).iter().rev().map(|x| 1.0 - x).collect();
+        across[0] = 0.0;
+        across.extend(grading.line(side - 1.0, 0)[1..].iter().map(|x| 1.0 + x));
+        Lines {
+            across: across.iter().map(|x| x / side).collect(),
+            up: grading.line(side, 0).iter().map(|x| x / side).collect(),
+            out: [0.0, 0.2, 0.4, 0.6, 0.8, 1.0].to_vec(),
+            seam: std::f64::consts::FRAC_PI_4,
+        }
+    }
+}

@@ -1,0 +1,223 @@
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+use std::sync::Arc;
+
+use super::super::estimate::{Estimated, Progress, refine};
+use super::super::graded::Grading;
+use super::super::model::{
+    FiniteElementModel, FiniteElementState, FiniteElementWorkspace, Formulation,
+};
+use super::super::newton::equilibrate;
+use super::super::supports::Supports;
+use super::quarter_disc::{Lines, QuarterDisc, SQUARE};
+use crate::{Error, LinearElastic};
+
+/// How a rigid patch holds the surface that it moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Patch {
+    /// Along its own direction only.
+    Slip,
+    /// In all directions.
+    Bonded,
+}
+
+/// A hemisphere and the patch that is pushed into its pole.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HemisphereProblem {
+    /// Radius [m].
+    pub radius: f64,
+    /// Largest arc from the pole that belongs to the patch [m].
+    pub patch_radius: f64,
+    /// What the patch holds.
+    pub patch: Patch,
+    /// The law.
+    pub law: LinearElastic,
+    /// How far the patch moves toward the base [m].
+    pub depth: f64,
+}
+
+/// What the patch feels and what the surface does.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HemisphereAnswer {
+    /// Force on the tissue along −z [N].
+    pub force: f64,
+    /// Force of the base on the tissue along z [N].
+    pub base_force: f64,
+    /// Arc from the pole [m] and displacement along the normal at rest, outward positive [m], from the
+    /// pole to the equator.
+    pub profile: Vec<(f64, f64)>,
+    /// Unknowns of the finest mesh.
+    pub unknowns: usize,
+}
+
+/// Smallest elements of the coarsest mesh, at the edge of the patch [-], in radii of it.
+const EDGE: f64 = 0.1;
+/// Stress is infinite at the edge, as the root of the distance, and the force is off by the size of the
+/// elements there.
+const ORDER: f64 = 1.0;
+const MOST_HALVINGS: u32 = 5;
+/// Fewest points of a profile.
+const POINTS: usize = 200;
+
+/// Solves on ever finer meshes until the force is good to `accuracy` [-].
+///
+/// # Errors
+/// When radius or patch are no lengths, the patch reaches the base, or memory does not suffice.
+pub fn solve(
+    problem: &HemisphereProblem,
+    accuracy: f64,
+    mut progress: impl FnMut(Progress),
+) -> Result<Estimated<HemisphereAnswer>, Error> {
+    problem.check()?;
+    refine(accuracy, ORDER, MOST_HALVINGS, |halvings| {
+        progress(Progress {
+            part: 0.0,
+            halvings,
+        });
+        let answer = problem.solve_on(EDGE, halvings)?;
+        progress(Progress {
+            part: 1.0,
+            halvings,
+        });
+        let force = answer.force;
+        Ok((answer, vec![force]))
+    })
+}
+
+impl HemisphereProblem {
+    /// Solves on one mesh whose elements at the edge of the patch are `edge` [-] of its radius, every
+    /// element then halved `halvings` times.
+    ///
+    /// # Errors
+    /// As for [`solve`].
+    pub fn solve_on(&self, edge: f64, halvings: u32) -> Result<HemisphereAnswer, Error> {
+        self.check()?;
+        let disc = QuarterDisc::new(self.radius, &self.lines(edge), halvings);
+        let model =
+            FiniteElementModel::new(disc.mesh.clone(), Arc::new(self.law), Formulation::Mixed)?;
+        let rim = self.patch_radius / self.radius * (1.0 + 1e-9);
+        let touched = || disc.arc.iter().filter(|(_, angle)| *angle <= rim);
+        let patch: Vec<usize> = touched().map(|&(node, _)| node).collect();
+        let mut supports = Supports::none(&model)
+            .hold(&model, patch.iter().copied(), 1, -self.depth)
+            .hold(&model, disc.axis.iter().copied(), 0, 0.0)
+            .hold(&model, disc.base.iter().copied(), 0, 0.0)
+            .hold(&model, disc.base.iter().copied(), 1, 0.0);
+        if self.patch == Patch::Bonded {
+            supports = supports.hold(&model, patch.iter().copied(), 0, 0.0);
+        }
+        let mut state = FiniteElementState::at_rest(&model);
+        let mut workspace = FiniteElementWorkspace::new(&model)?;
+        equilibrate(&model, &supports, &mut state, &mut workspace).map_err(|failure| {
+            Error::NoEquilibrium {
+                depth: 0.0,
+                failure,
+            }
+        })?;
+        let along = |nodes: &[usize]| -> f64 {
+            nodes.iter().map(|&n| workspace.reaction(&model, n).y).sum()
+        };
+        Ok(HemisphereAnswer {
+            force: -along(&patch),
+            base_force: along(&disc.base),
+            profile: self.profile(&disc, &model, &state),
+            unknowns: model.size(),
+        })
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        for (name, found) in [
+            ("the radius of the hemisphere", self.radius),
+            ("the radius of the patch", self.patch_radius),
+        ] {
+            if !(found > 0.0 && found.is_finite()) {
+                return Err(Error::NotALength { name, found });
+            }
+        }
+        if !self.depth.is_finite() {
+            return Err(Error::DepthIsNoNumber { depth: self.depth });
+        }
+        // The edge, as a node, must leave the base some room.
+        let quarter = FRAC_PI_2 * self.radius;
+        if self.patch_radius > 0.99 * quarter {
+            return Err(Error::PatchReachesBase {
+                patch_radius: self.patch_radius,
+                quarter,
+            });
+        }
+        Ok(())
+    }
+
+    /// Lines that are fine along the arc around the edge of the patch, and below the arc.
+    fn lines(&self, edge: f64) -> Lines {
+        let rim = self.patch_radius / self.radius;
+        let grading = Grading {
+            first: edge * rim.min(FRAC_PI_2 - rim),
+            growth: 1.25,
+            near: 3.0 * rim,
+            far_growth: 1.7,
+        };
+        let mut arc: Vec<f64> = grading.line(rim, 0).iter().rev().map(|x| rim - x).collect();
+        arc[0] = 0.0;
+        arc.extend(
+            grading.line(FRAC_PI_2 - rim, 0)[1..]
+                .iter()
+                .map(|x| rim + x),
+        );
+        // The blocks meet at the node nearest to the middle.
+        let off = |i: &usize| (arc[*i] - FRAC_PI_4).abs();
+        let seam = (1..arc.len() - 1)
+            .min_by(|a, b| off(a).total_cmp(&off(b)))
+            .expect("there is an interval on either side of the edge");
+        let middle = arc[seam];
+        let down = grading.line(1.0 - SQUARE, 0);
+        Lines {
+            across: arc[..=seam].iter().map(|x| x / middle).collect(),
+            up: arc[seam..]
+                .iter()
+                .rev()
+                .map(|x| (FRAC_PI_2 - x) / (FRAC_PI_2 - middle))
+                .collect(),
+            out: down
+                .iter()
+                .rev()
+                .map(|x| 1.0 - x / (1.0 - SQUARE))
+                .collect(),
+            seam: middle,
+        }
+    }
+
+    /// Displacement along the normal, with as many points between the nodes as it takes.
+    fn profile(
+        &self,
+        disc: &QuarterDisc,
+        model: &FiniteElementModel,
+        state: &FiniteElementState,
+    ) -> Vec<(f64, f64)> {
+        let sides = (disc.arc.len() - 1) / 2;
+        let parts = POINTS.div_ceil(sides).max(2);
+        let mut profile = Vec::with_capacity(sides * parts + 1);
+        let mut put = |angle: f64, displacement: crate::Vec3| {
+            let (sine, cosine) = angle.sin_cos();
+            let normal = displacement.x * sine + displacement.y * cosine;
+            profile.push((angle * self.radius, normal));
+        };
+        for side in 0..sides {
+            let ends = &disc.arc[2 * side..2 * side + 3];
+            let [first, middle, last] = [0, 1, 2].map(|i| state.displacement(model, ends[i].0));
+            for part in 0..parts {
+                let x = 2.0 * part as f64 / parts as f64 - 1.0;
+                let angle = ends[0].1 + 0.5 * (x + 1.0) * (ends[2].1 - ends[0].1);
+                put(
+                    angle,
+                    0.5 * x * (x - 1.0) * first
+                        + (1.0 - x * x) * middle
+                        + 0.5 * x * (x + 1.0) * last,
+                );
+            }
+        }
+        if let Some(&(node, angle)) = disc.arc.last() {
+            put(angle, state.displacement(model, node));
+        }
+        profile
+    }
+}
