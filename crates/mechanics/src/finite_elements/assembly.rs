@@ -6,7 +6,7 @@
 //! pressure block carries a further −ε/μ, which is missing from the residual: it makes the matrix
 //! quasi-definite for κ = ∞ as well, and costs Newton's method a factor of about ε per step.
 //!
-//! *How we know*: `finite_elements::tangent_is_the_derivative_of_the_residual`, patch tests.
+//! *How we know*: `derivatives::tangent_is_the_derivative_of_the_residual`, patch tests.
 //!
 //! *Limits*: one law for the whole body.
 

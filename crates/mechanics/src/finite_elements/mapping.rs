@@ -10,6 +10,8 @@ use crate::{Error, Vec3};
 pub(crate) struct Mapping {
     /// Points of integration per element.
     pub(crate) points: usize,
+    /// The points in the elements' own coordinates.
+    pub(crate) at: Vec<[f64; 3]>,
     /// Undeformed volume of each point [m³], in an axisymmetric body of the whole ring.
     pub(crate) weights: Vec<f64>,
     /// ∂N/∂X [1/m]; points × nodes × dimension.
@@ -34,6 +36,7 @@ impl Mapping {
         let all = mesh.len() * rule.len();
         let mut mapping = Self {
             points: rule.len(),
+            at: rule.iter().map(|point| point.at).collect(),
             weights: Vec::with_capacity(all),
             gradients: Vec::with_capacity(all * nodes * dimension),
             hoops: Vec::new(),

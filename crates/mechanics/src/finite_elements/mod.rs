@@ -5,6 +5,8 @@
 
 mod assembly;
 mod cavity;
+#[cfg(test)]
+mod derivatives;
 mod element;
 pub mod estimate;
 mod graded;

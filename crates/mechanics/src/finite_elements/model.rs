@@ -107,6 +107,29 @@ impl FiniteElementModel {
         self.size() - self.displacements()
     }
 
+    /// Forces at the unknowns [N] of a load per undeformed volume [N/m³] that depends on the place at
+    /// rest; a weight, for one.
+    pub fn body_load(&self, density: impl Fn(&Vec3) -> Vec3) -> Vec<f64> {
+        let (kind, dimension) = (self.mesh.kind, self.dimension());
+        let mut load = vec![0.0; self.size()];
+        let mut shape = vec![0.0; kind.nodes()];
+        for (index, weight) in self.mapping.weights.iter().enumerate() {
+            let nodes = self.mesh.element(index / self.mapping.points);
+            kind.shape(self.mapping.at[index % self.mapping.points], &mut shape);
+            let parts = || nodes.iter().map(|&n| n as usize).zip(&shape);
+            let place = parts()
+                .map(|(node, part)| *part * self.mesh.nodes[node])
+                .sum();
+            let force = *weight * density(&place);
+            for (node, part) in parts() {
+                for i in 0..dimension {
+                    load[node * dimension + i] += part * force[i];
+                }
+            }
+        }
+        load
+    }
+
     pub(crate) fn local_unknowns(&self) -> usize {
         self.unknowns.len() / self.mesh.len()
     }

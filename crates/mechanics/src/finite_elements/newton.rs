@@ -32,6 +32,8 @@ pub struct Equilibrium {
 const MOST_ITERATIONS: usize = 25;
 /// η of the residual over η of the reactions [-]; the force is then good to about its square.
 const TOLERANCE: f64 = 1e-7;
+/// What rounding leaves of a sum [-], in its terms.
+const ROUNDING: f64 = 1e-13;
 const SHORTEST_STEP: f64 = 1.0 / 16.0;
 
 /// Brings `state` into equilibrium with `supports`. On failure `state` is where the iteration stood.
@@ -44,6 +46,9 @@ pub fn equilibrate(
     state: &mut FiniteElementState,
     workspace: &mut FiniteElementWorkspace,
 ) -> Result<Equilibrium, Failure> {
+    if supports.leave_free(model) {
+        return Err(Failure::Singular);
+    }
     assemble(model, supports, &state.unknowns, workspace)?;
     let mut iterations = 0;
     loop {
@@ -80,6 +85,11 @@ pub(super) fn assemble(
         cavity.add_gradient(model, unknowns, -pressure, &mut workspace.residual);
         cavity.add_curvature(model, unknowns, -pressure, &mut workspace.tangent);
     }
+    if let Some((load, times)) = supports.dead_load {
+        for (residual, load) in workspace.residual.iter_mut().zip(load) {
+            *residual -= times * load;
+        }
+    }
     Ok(())
 }
 
@@ -87,11 +97,14 @@ pub(super) fn assemble(
 pub(super) struct Size {
     pub(super) free: f64,
     pub(super) held: f64,
+    /// Size of the terms that cancel in it: a body that is turned has no other residual than rounding.
+    terms: f64,
 }
 
 impl Size {
     pub(super) fn is_small(&self) -> bool {
-        self.free <= TOLERANCE * TOLERANCE * self.held || self.free < 1e-40
+        self.free <= (TOLERANCE * TOLERANCE * self.held).max(ROUNDING * ROUNDING * self.terms)
+            || self.free < 1e-40
     }
 }
 
@@ -103,10 +116,12 @@ pub(super) fn size_of_residual(
     let mut size = Size {
         free: 0.0,
         held: 0.0,
+        terms: 0.0,
     };
     let diagonal = |i: usize| workspace.tangent[model.pattern.range(i).start];
     for (i, held) in supports.held.iter().enumerate() {
         let part = workspace.residual[i].powi(2) / diagonal(i).abs();
+        size.terms += diagonal(i).abs() * workspace.trial[i].powi(2);
         if held.is_some() {
             size.held += part;
         } else {

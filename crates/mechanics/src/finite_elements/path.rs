@@ -338,6 +338,9 @@ impl<'a> Path<'a> {
         if let Some((cavity, pressure)) = self.loads.pressure {
             cavity.add_gradient(model, &state.unknowns, pressure, &mut push);
         }
+        if let Some((load, times)) = self.loads.dead_load {
+            push.iter_mut().zip(load).for_each(|(q, b)| *q += times * b);
+        }
         // Prescribed changes, their forces, then their own rows.
         let mut product = vec![0.0; model.size()];
         let mut prescribed = [vec![0.0; model.size()], vec![0.0; model.size()]];
@@ -391,6 +394,9 @@ fn scaled<'a>(loads: &Supports<'a>, factor: f64) -> Supports<'a> {
     }
     if let Some((_, pressure)) = &mut all.pressure {
         *pressure *= factor;
+    }
+    if let Some((_, times)) = &mut all.dead_load {
+        *times *= factor;
     }
     all
 }

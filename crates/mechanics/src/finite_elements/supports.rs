@@ -1,6 +1,9 @@
+use nalgebra::{Matrix6, Vector6};
+
 use super::cavity::Cavity;
 use super::model::FiniteElementModel;
 use super::relaxation::RelaxationStep;
+use crate::Vec3;
 
 /// What holds a body and what loads it.
 #[derive(Debug, Clone)]
@@ -11,6 +14,9 @@ pub struct Supports<'a> {
     pub sliding: Vec<OnSphere>,
     /// A pressure on walls that follows them.
     pub pressure: Option<(&'a Cavity, f64)>,
+    /// Forces at the unknowns that do not turn with the body [N], of
+    /// [`FiniteElementModel::body_load`], and how many times they act.
+    pub dead_load: Option<(&'a [f64], f64)>,
     /// History of a body that relaxes; without it the body is elastic.
     pub relaxing: Option<&'a RelaxationStep>,
 }
@@ -33,6 +39,7 @@ impl<'a> Supports<'a> {
             held: vec![None; model.displacements()],
             sliding: Vec::new(),
             pressure: None,
+            dead_load: None,
             relaxing: None,
         }
     }
@@ -55,5 +62,37 @@ impl<'a> Supports<'a> {
     pub fn press(mut self, cavity: &'a Cavity, pressure: f64) -> Self {
         self.pressure = Some((cavity, pressure));
         self
+    }
+
+    /// With `load` [N] at the unknowns.
+    pub fn load(mut self, load: &'a [f64]) -> Self {
+        self.dead_load = Some((load, 1.0));
+        self
+    }
+
+    /// Whether the body as a whole can move a little and no support notices.
+    pub(super) fn leave_free(&self, model: &FiniteElementModel) -> bool {
+        let dimension = model.dimension();
+        if dimension == 2 {
+            // Along the axis; a ring that widens is strained.
+            let along = self.held.iter().skip(1).step_by(2).any(Option::is_some);
+            return !along && self.sliding.is_empty();
+        }
+        let nodes = &model.mesh.nodes;
+        let center = nodes.iter().sum::<Vec3>() / nodes.len() as f64;
+        let extent = nodes
+            .iter()
+            .map(|x| (x - center).norm())
+            .fold(0.0, f64::max);
+        // What each held unknown sees of three shifts and three turns.
+        let mut seen = Matrix6::zeros();
+        for (i, _) in self.held.iter().enumerate().filter(|(_, h)| h.is_some()) {
+            let axis = Vec3::ith(i % dimension, 1.0);
+            let turn = ((nodes[i / dimension] - center) / extent).cross(&axis);
+            let row = Vector6::new(axis.x, axis.y, axis.z, turn.x, turn.y, turn.z);
+            seen += row * row.transpose();
+        }
+        // One node that is held is a part of their number, squared lengths are below 1.
+        seen.symmetric_eigenvalues().min() <= 1e-10 * seen.trace()
     }
 }

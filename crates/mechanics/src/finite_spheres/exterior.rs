@@ -29,21 +29,27 @@ pub struct ExteriorConstants {
     pub organ_size: f64,
 }
 
-/// The constants that no closed form gives. Measured by finite elements on a hemisphere of radius
-/// 50 mm with its base held, flat tips of radius 2 to 5 mm, peripheries clamped at 10 to 30 mm:
-/// k_c was 1.03 to 1.07 and 1.39 to 1.47, k_o 0.72 to 0.75 and 0.76 to 0.85.
-pub const EXTERIOR_CONSTANTS: [ExteriorConstants; 2] = [
-    ExteriorConstants {
-        poissons_ratio: 0.3,
-        beyond_shells: 1.05,
-        organ_size: 0.735,
-    },
-    ExteriorConstants {
-        poissons_ratio: 0.45,
-        beyond_shells: 1.43,
-        organ_size: 0.805,
-    },
+/// The constants that no closed form gives, from finite elements: `exterior::…` makes them again.
+///
+/// k_c is the limit of half a ball, held on its round side, whose radius is many times that of the
+/// punch; k_o belongs to a patch of a twentieth of the radius on a hemisphere, both without friction.
+pub const EXTERIOR_CONSTANTS: [ExteriorConstants; 5] = [
+    ExteriorConstants::new(0.0, 0.925, 0.070),
+    ExteriorConstants::new(0.15, 0.957, 0.427),
+    ExteriorConstants::new(0.3, 1.074, 0.663),
+    ExteriorConstants::new(0.4, 1.287, 0.739),
+    ExteriorConstants::new(0.45, 1.494, 0.746),
 ];
+
+impl ExteriorConstants {
+    const fn new(poissons_ratio: f64, beyond_shells: f64, organ_size: f64) -> Self {
+        Self {
+            poissons_ratio,
+            beyond_shells,
+            organ_size,
+        }
+    }
+}
 
 /// Largest Poisson's ratio that the model is calibrated for [-]; above it the answer is that at this
 /// ratio, times the ratio of the half-spaces.
@@ -86,7 +92,14 @@ pub(super) struct Corrected {
 /// Constants at ν, linear between the rows; k_c as k_c (1 − ν), which varies least. Outside the rows
 /// the nearest one is taken.
 fn constants(poissons_ratio: f64) -> ExteriorConstants {
-    let [low, high] = EXTERIOR_CONSTANTS;
+    let above = |row: &ExteriorConstants| row.poissons_ratio >= poissons_ratio;
+    let last = EXTERIOR_CONSTANTS.len() - 1;
+    let high = EXTERIOR_CONSTANTS
+        .iter()
+        .position(above)
+        .unwrap_or(last)
+        .max(1);
+    let (low, high) = (EXTERIOR_CONSTANTS[high - 1], EXTERIOR_CONSTANTS[high]);
     let span = high.poissons_ratio - low.poissons_ratio;
     let along = ((poissons_ratio - low.poissons_ratio) / span).clamp(0.0, 1.0);
     let between = |a: f64, b: f64| a + along * (b - a);

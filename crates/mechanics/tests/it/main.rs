@@ -8,18 +8,22 @@
 
 mod agreement;
 mod analytic;
+mod bodies;
 mod contacts;
 mod convergence;
 mod errors;
 mod every_law;
+mod exterior;
 mod field;
 mod indentation;
+mod homogeneous;
+mod inhomogeneous;
 mod invariants;
 mod laws;
 mod no_allocation;
+mod patch_on_hemisphere;
 mod path;
 mod stretches;
 mod tube;
-mod patch_on_hemisphere;
-mod stretches;
 mod uniaxial;
+mod unsound;

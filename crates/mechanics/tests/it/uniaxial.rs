@@ -91,9 +91,7 @@ fn every_law_answers_from_a_tenth_to_tenfold_or_says_why_not() {
         for stretch in [0.1, 0.3, 0.9, 1.1, 3.0, 10.0] {
             match nominal_stress(law.law.as_ref(), stretch) {
                 Ok(stress) => assert!(stress.is_finite()),
-                Err(Error::StretchOutOfRange { .. }) => {
-                    assert!(law.name.contains("Blatz"), "{} at {stretch}", law.name);
-                }
+                Err(Error::StretchOutOfRange { .. }) if !(0.25..4.0).contains(&stretch) => {}
                 Err(other) => panic!("{}: {other}", law.name),
             }
         }

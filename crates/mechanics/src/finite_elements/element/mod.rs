@@ -3,10 +3,12 @@
 //! All are quadratic in the displacement. [`ElementKind::Quad9`] lies in the half-plane (r, z) of an
 //! axisymmetric body; the others are solids.
 //!
-//! *How we know*: `elements::…`, one battery for all kinds.
+//! *How we know*: `battery::…`, one for all kinds.
 //!
 //! *Limits*: no shells, no linear elements (they lock or are far too stiff under a punch).
 
+#[cfg(test)]
+mod battery;
 mod quadrature;
 mod tensor;
 mod tetrahedron;

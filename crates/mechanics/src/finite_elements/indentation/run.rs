@@ -326,6 +326,7 @@ impl IndentationRun {
             held: self.rest.clone(),
             sliding: Vec::new(),
             pressure: None,
+            dead_load: None,
             relaxing,
         };
         for (&node, touch) in self.top.iter().zip(touch) {

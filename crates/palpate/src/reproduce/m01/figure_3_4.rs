@@ -1,7 +1,5 @@
 use palpate_mechanics::contact::Bond;
-use palpate_mechanics::finite_spheres::{
-    EXTERIOR_CONSTANTS, FiniteSphereModel, FiniteSphereSettings, Form,
-};
+use palpate_mechanics::finite_spheres::{FiniteSphereModel, FiniteSphereSettings, Form};
 use palpate_mechanics::{Error, LinearElastic};
 
 use super::plots;
@@ -20,6 +18,9 @@ pub(crate) const FIGURE_3_4: Item = Item {
 
 /// Numbers of particles; 34 is the source's.
 const PARTICLES: [usize; 4] = [20, 34, 93, 300];
+
+/// The source names none; both have a row in the table of constants.
+const POISSONS_RATIOS: [f64; 2] = [0.3, 0.45];
 
 /// Radii of the flat tip [m]; the source names none.
 const RADII: [f64; 2] = [2e-3, 3e-3];
@@ -42,7 +43,7 @@ const HIDDEN_NOTE: &str = "radius a = alpha h of the tool that one displaced par
 fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
     let mut errors = Vec::new();
     for (form, word) in FORMS {
-        for poissons_ratio in EXTERIOR_CONSTANTS.map(|row| row.poissons_ratio) {
+        for poissons_ratio in POISSONS_RATIOS {
             let law = LinearElastic::new(YOUNGS_MODULUS, poissons_ratio)?;
             errors.push(force_errors(rows, (form, word), &law)?);
         }
@@ -92,7 +93,7 @@ fn force_errors(
 }
 
 fn times(rows: &mut Rows<'_>) -> Result<Vec<Series>, Failure> {
-    let law = LinearElastic::new(YOUNGS_MODULUS, EXTERIOR_CONSTANTS[0].poissons_ratio)?;
+    let law = LinearElastic::new(YOUNGS_MODULUS, POISSONS_RATIOS[0])?;
     let note = format!(
         "placement, equations and direct solution of one step, median, ν = 0.3, tip of 3 mm radius, on {}",
         machine()
@@ -122,7 +123,7 @@ fn times(rows: &mut Rows<'_>) -> Result<Vec<Series>, Failure> {
 }
 
 fn implied_radii(rows: &mut Rows<'_>) -> Result<(), Failure> {
-    let law = LinearElastic::new(YOUNGS_MODULUS, EXTERIOR_CONSTANTS[0].poissons_ratio)?;
+    let law = LinearElastic::new(YOUNGS_MODULUS, POISSONS_RATIOS[0])?;
     for particles in PARTICLES {
         let name = format!("implied_tool_radius/{particles}");
         match model(particles, Form::Weak, &law) {
