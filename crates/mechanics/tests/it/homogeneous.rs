@@ -118,19 +118,18 @@ fn a_sheet_is_stretched_two_ways() {
         for stretch in [1.3, 1.6, 2.0, 2.5, 3.0_f64] {
             body.solve(|model| {
                 let mut supports = Supports::none(model);
-                for axis in 0..3 {
-                    supports = supports.hold(model, low[axis].iter().copied(), axis, 0.0);
+                for (axis, low) in low.iter().enumerate() {
+                    supports = supports.hold(model, low.iter().copied(), axis, 0.0);
                 }
-                for axis in 0..2 {
-                    let high = high[axis].iter().copied();
-                    supports = supports.hold(model, high, axis, stretch - 1.0);
+                for (axis, high) in high.iter().enumerate().take(2) {
+                    supports = supports.hold(model, high.iter().copied(), axis, stretch - 1.0);
                 }
                 supports
             })
             .unwrap();
             let exact = 2.0 * (stretch - stretch.powi(-5)) * (c10 + c01 * stretch.powi(2));
-            for axis in 0..2 {
-                let found = body.force(&high[axis], axis);
+            for (axis, high) in high.iter().enumerate().take(2) {
+                let found = body.force(high, axis);
                 assert!(
                     (found / exact - 1.0).abs() < 1e-6,
                     "{kind:?} {stretch}: {found}"
