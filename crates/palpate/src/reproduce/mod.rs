@@ -4,6 +4,8 @@
 
 mod m01;
 mod m04;
+mod m08;
+mod m09;
 mod published;
 mod row;
 mod select;
@@ -27,4 +29,11 @@ pub(crate) struct Item {
 }
 
 /// All that can be reproduced, in the order of the source.
-pub(crate) const ITEMS: [Item; 3] = [m01::TABLE_3_1, m01::FIGURE_3_4, m04::FIGURE_4_5];
+pub(crate) const ITEMS: [Item; 6] = [
+    m01::TABLE_3_1,
+    m01::FIGURE_3_4,
+    m04::FIGURE_4_5,
+    m08::FIGURE_6_8,
+    m08::FIGURE_6_12,
+    m09::SECTION_6_4_5,
+];

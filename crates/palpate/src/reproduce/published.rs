@@ -5,19 +5,45 @@ pub(crate) const TABLE_3_1: Table = Table(include_str!(
     "../../../../published/table_3_1_pcmfs_vs_fem.csv"
 ));
 
+/// Table 5-1.
+pub(crate) const TABLE_5_1: Table = Table(include_str!(
+    "../../../../published/table_5_1_static_force.csv"
+));
+
+/// Table 6-3.
+pub(crate) const TABLE_6_3: Table =
+    Table(include_str!("../../../../published/table_6_3_prony.csv"));
+
+/// Table 6-4.
+pub(crate) const TABLE_6_4: Table = Table(include_str!(
+    "../../../../published/table_6_4_neo_hookean.csv"
+));
+
+/// Table 6-5.
+pub(crate) const TABLE_6_5: Table = Table(include_str!(
+    "../../../../published/table_6_5_mooney_rivlin.csv"
+));
+
+/// Section 6.4.5.
+pub(crate) const SECTION_6_4_5: Table =
+    Table(include_str!("../../../../published/esophagus_6_4_5.csv"));
+
 /// A table of the source: comments, names of columns, rows named by their first cell.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Table(&'static str);
 
 impl Table {
-    /// The number in the row that begins with `row`, under the name `column`.
+    /// The number in the first row that begins with `row`, under the name `column`.
     pub(crate) fn value(self, row: &str, column: &str) -> Option<f64> {
+        self.value_of([row], column)
+    }
+
+    /// The number in the first row that begins with the cells `row`, under the name `column`.
+    pub(crate) fn value_of<const N: usize>(self, row: [&str; N], column: &str) -> Option<f64> {
         let mut lines = self.0.lines().filter(|line| !line.starts_with('#'));
         let at = lines.next()?.split(',').position(|name| name == column)?;
-        let mut cells = lines.map(|line| line.split(','));
-        let found = cells.find_map(|mut cells| (cells.next() == Some(row)).then_some(cells))?;
-        // The first cell is taken out already.
-        found.into_iter().nth(at.checked_sub(1)?)?.parse().ok()
+        let found = lines.find(|line| line.split(',').take(N).eq(row))?;
+        found.split(',').nth(at)?.parse().ok()
     }
 }
 
@@ -31,5 +57,6 @@ mod tests {
         assert_eq!(TABLE_3_1.value("total_time", "fe_model_adina"), Some(18.32));
         assert_eq!(TABLE_3_1.value("nodes", "no such column"), None);
         assert_eq!(TABLE_3_1.value("no such row", "pcmfs_local"), None);
+        assert_eq!(TABLE_5_1.value_of(["kidney", "8"], "mean_n"), Some(0.4541));
     }
 }

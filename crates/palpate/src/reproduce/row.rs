@@ -102,6 +102,11 @@ impl<'a> Rows<'a> {
         Ok(())
     }
 
+    /// Tells those who wait what goes on within an item.
+    pub(crate) fn say(&self, what: impl std::fmt::Display) {
+        self.progress.say(format!("{}: {what}", self.item));
+    }
+
     /// All that were added.
     pub(crate) fn done(self) -> Vec<Row> {
         self.rows
