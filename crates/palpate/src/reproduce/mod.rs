@@ -29,8 +29,9 @@ pub(crate) struct Item {
 }
 
 /// All that can be reproduced, in the order of the source.
-pub(crate) const ITEMS: [Item; 6] = [
+pub(crate) const ITEMS: [Item; 7] = [
     m01::TABLE_3_1,
+    m01::FIGURE_3_3,
     m01::FIGURE_3_4,
     m04::FIGURE_4_5,
     m08::FIGURE_6_8,

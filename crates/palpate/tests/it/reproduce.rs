@@ -56,7 +56,9 @@ fn table_3_1_stands_beside_its_published_values() {
     }
     let elements = find(&rows, "table-3-1/finite_elements/total_s");
     assert_eq!(elements["published"], 18.32);
-    assert_eq!(elements["ours"], Value::Null);
+    assert!(elements["ours"].as_f64().unwrap() > 0.0);
+    let solution = find(&rows, "table-3-1/finite_elements/solution_s");
+    assert_eq!(solution["ours"], Value::Null);
 }
 
 #[test]
@@ -84,8 +86,8 @@ fn figure_4_5_sums_to_one_and_is_a_picture() {
     );
 }
 
-/// Forces of the weak form with any number of particles; the tolerance is the 1 % that curvature and
-/// an odd number of particles leave. The strong form is shown as it is.
+/// Forces of the weak form with any number of particles, judged by finite elements; the tolerance is the
+/// 1 % that curvature and an odd number of particles leave. The strong form is shown as it is.
 #[test]
 fn figure_3_4_shows_what_fails_too() {
     let (_folder, rows) = reproduce(&["figure-3-4"]);
@@ -124,7 +126,7 @@ fn figure_3_4_shows_what_fails_too() {
 #[test]
 fn rows_are_chosen_by_how_they_begin_and_told_to_a_person() {
     let (_folder, rows) = reproduce(&["table-3-1/finite"]);
-    assert_eq!(rows.len(), 4);
+    assert_eq!(rows.len(), 8);
     let folder = tempfile::tempdir().unwrap();
     let text = stdout(&palpate_in(folder.path(), &["reproduce", "figure-4-5"]));
     assert!(

@@ -45,6 +45,8 @@ pub struct HemisphereAnswer {
     /// Arc from the pole [m] and displacement along the normal at rest, outward positive [m], from the
     /// pole to the equator.
     pub profile: Vec<(f64, f64)>,
+    /// Nodes of the finest mesh.
+    pub nodes: usize,
     /// Unknowns of the finest mesh.
     pub unknowns: usize,
 }
@@ -120,6 +122,7 @@ impl HemisphereProblem {
             force: -along(&patch),
             base_force: along(&disc.base),
             profile: self.profile(&disc, &model, &state),
+            nodes: model.mesh().nodes.len(),
             unknowns: model.size(),
         })
     }

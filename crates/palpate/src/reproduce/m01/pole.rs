@@ -3,8 +3,11 @@
 use nalgebra::{Matrix3, Vector3};
 use palpate_geometry::{AabbTree, Organ, Surface};
 use palpate_mechanics::LinearElastic;
-use palpate_mechanics::contact::{Bond, half_space_stiffness};
-use palpate_mechanics::finite_spheres::{EXTERIOR_CONSTANTS, Form, LocalContact};
+use palpate_mechanics::finite_elements::estimate::Estimated;
+use palpate_mechanics::finite_elements::hemisphere::{
+    self, HemisphereAnswer, HemisphereProblem, Patch,
+};
+use palpate_mechanics::finite_spheres::{Form, LocalContact};
 
 use crate::failure::Failure;
 
@@ -13,6 +16,12 @@ pub(super) const YOUNGS_MODULUS: f64 = 1e4;
 
 /// Both ways of making the equations, with their words.
 pub(super) const FORMS: [(Form, &str); 2] = [(Form::Weak, "weak"), (Form::Strong, "strong")];
+
+/// Poisson's ratios of the figures [-]; the source names none.
+pub(super) const POISSONS_RATIOS: [f64; 2] = [0.3, 0.45];
+
+/// Of the finite element force [-]: a third of the smallest differences that are shown.
+const JUDGE_ACCURACY: f64 = 2e-3;
 
 /// Radius of the hemisphere of the source [m]: 10 cm diameter.
 pub(super) const RADIUS: f64 = 0.05;
@@ -33,13 +42,24 @@ pub(super) fn contact(radius: f64) -> Result<LocalContact, Failure> {
     })
 }
 
-/// Stiffness [N/m] in closed form: the half-space's K, with k_o of the table of constants for the
-/// held base: K / (1 − k_o a/R).
-pub(super) fn stiffness(law: &LinearElastic, radius: f64) -> Option<f64> {
-    let nu = law.poissons_ratio();
-    let constants = EXTERIOR_CONSTANTS
-        .iter()
-        .find(|row| row.poissons_ratio == nu)?;
-    let half_space = half_space_stiffness(law, radius, Bond::Slip);
-    Some(half_space / (1.0 - constants.organ_size * radius / RADIUS))
+/// What the tip of `radius` [m] meets there, by finite elements, for a displacement of one metre: the
+/// problem is linear.
+pub(super) fn finite_elements(
+    law: &LinearElastic,
+    radius: f64,
+) -> Result<Estimated<HemisphereAnswer>, Failure> {
+    let problem = hemisphere_problem(law, radius);
+    Ok(hemisphere::solve(&problem, JUDGE_ACCURACY, |_| {})?)
+}
+
+/// The hemisphere with its base held, and a patch of `radius` [m] without friction that is moved by one
+/// metre.
+pub(super) fn hemisphere_problem(law: &LinearElastic, radius: f64) -> HemisphereProblem {
+    HemisphereProblem {
+        radius: RADIUS,
+        patch_radius: radius,
+        patch: Patch::Slip,
+        law: *law,
+        depth: 1.0,
+    }
 }

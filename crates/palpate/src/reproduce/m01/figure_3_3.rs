@@ -1,0 +1,100 @@
+use palpate_mechanics::LinearElastic;
+use palpate_mechanics::Vec3;
+use palpate_mechanics::contact::Bond;
+use palpate_mechanics::finite_spheres::{FiniteSphereModel, FiniteSphereSettings, Form};
+
+use super::pole::{FORMS, POISSONS_RATIOS, RADIUS, YOUNGS_MODULUS, contact, finite_elements};
+use crate::failure::Failure;
+use crate::plot::{Plot, Series, Style};
+use crate::reproduce::row::Value;
+use crate::reproduce::{Item, Rows};
+
+pub(crate) const FIGURE_3_3: Item = Item {
+    name: "figure-3-3",
+    title: "profile of the indented hemisphere, 34 particles against finite elements",
+    run,
+};
+
+/// The source names no tool; this is its probe's order of size [m].
+const TIP_RADIUS: f64 = 3e-3;
+
+const NOTE: &str = "root mean square over the surface that the model shows, in parts of the depth; the \
+    source's profile has no numbers, and stands beside finite elements that displace one node";
+
+fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
+    for poissons_ratio in POISSONS_RATIOS {
+        let law = LinearElastic::new(YOUNGS_MODULUS, poissons_ratio)?;
+        let judge = finite_elements(&law, TIP_RADIUS)?.answer.profile;
+        let mut series = vec![series("finite elements", &judge, Style::Line, 0)];
+        for (color, (form, word)) in FORMS.into_iter().enumerate() {
+            let (profile, shown) = profile(form, &law, &judge)?;
+            let each = judge
+                .iter()
+                .zip(&profile)
+                .take_while(|((arc, _), _)| *arc < shown);
+            let squares: Vec<f64> = each.map(|((_, a), (_, b))| (a - b).powi(2)).collect();
+            let rms = (squares.iter().sum::<f64>() / squares.len() as f64).sqrt();
+            let value = Value {
+                published: None,
+                ours: Some(rms),
+                unit: "1",
+            };
+            rows.add(
+                &format!("profile_rms/{word}/nu_{poissons_ratio}"),
+                value,
+                NOTE,
+            );
+            let name = format!("34 particles, {word} form");
+            series.push(self::series(&name, &profile, Style::DashedLine, color + 1));
+        }
+        let plot = Plot {
+            title: format!("Surface of a hemisphere indented at the pole, ν = {poissons_ratio}"),
+            x_label: "arc from the pole [mm]".to_owned(),
+            y_label: "outward displacement over depth [-]".to_owned(),
+            series,
+            ..Plot::default()
+        };
+        let name = format!("nu_{poissons_ratio}");
+        rows.add_figure(
+            Some(&name),
+            &plot,
+            "flat tip of 3 mm radius without friction",
+        )?;
+    }
+    Ok(())
+}
+
+/// The local model's profile at the arcs of `judge` [m], for a depth of one, and the arc up to which it
+/// shows any [m].
+fn profile(
+    form: Form,
+    law: &LinearElastic,
+    judge: &[(f64, f64)],
+) -> Result<(Vec<(f64, f64)>, f64), Failure> {
+    let settings = FiniteSphereSettings {
+        form,
+        ..FiniteSphereSettings::default()
+    };
+    let model = FiniteSphereModel::new(settings, law, Bond::Slip)?;
+    let contact = contact(TIP_RADIUS)?;
+    let mut workspace = model.workspace();
+    let response = model.respond(&contact, &mut workspace);
+    let down = Vec3::new(0.0, 0.0, -1.0);
+    let points = judge.iter().map(|&(arc, _)| {
+        let angle = arc / RADIUS;
+        let normal = Vec3::new(angle.sin(), 0.0, angle.cos());
+        let at = contact.point + RADIUS * (normal - Vec3::z());
+        let moved = model.displacement((&contact, &response), &mut workspace, &down, &at);
+        (arc, moved.dot(&normal))
+    });
+    Ok((points.collect(), model.shown_radius(TIP_RADIUS)))
+}
+
+fn series(name: &str, profile: &[(f64, f64)], style: Style, color: usize) -> Series {
+    Series {
+        name: name.to_owned(),
+        points: profile.iter().map(|(arc, u)| (1e3 * arc, *u)).collect(),
+        style,
+        color,
+    }
+}
