@@ -70,7 +70,8 @@ impl<'a> Supports<'a> {
         self
     }
 
-    /// Whether the body as a whole can move a little and no support notices.
+    /// Whether the body as a whole can move a little and no support notices. A piece of its own that
+    /// nothing holds goes unnoticed.
     pub(super) fn leave_free(&self, model: &FiniteElementModel) -> bool {
         let dimension = model.dimension();
         if dimension == 2 {

@@ -4,7 +4,7 @@
 //! P₂₂ is made zero by the pressure, P₁₁ = (∂W/∂F)₁₁ − (∂W/∂F)₂₂ cof₁₁/cof₂₂; else l is solved for, by
 //! Newton's method between bounds.
 //!
-//! *How we know*: `uniaxial::…`: closed forms, and a bar of distorted elements.
+//! *How we know*: `uniaxial::…` (closed forms), `homogeneous::a_bar_is_stretched` (distorted elements).
 //!
 //! *Limits*: the homogeneous state; that a bar may neck or buckle is not asked.
 

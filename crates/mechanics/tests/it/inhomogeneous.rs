@@ -15,7 +15,7 @@ fn orders(errors: &[f64]) -> Vec<f64> {
     errors.windows(2).map(|e| (e[0] / e[1]).log2()).collect()
 }
 
-/// A thick sphere under inner pressure [Lamé]: u = p a³/(b³ − a³) ((1 − 2ν) r + (1 + ν) b³/(2 r²))/E.
+/// Lamé's thick sphere under inner pressure: u = p a³/(b³ − a³) ((1 − 2ν) r + (1 + ν) b³/(2 r²))/E.
 /// Displacements of quadratic elements have order three.
 #[test]
 fn a_sphere_under_pressure() {
