@@ -56,7 +56,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 fn titles(items: &[Item]) -> String {
     let titles = items
         .iter()
-        .map(|item| format!("{:<12}{}\n", item.name, item.title));
+        .map(|item| format!("{:<15}{}\n", item.name, item.title));
     let left = ITEMS.len() - items.len();
     let more = match left {
         0 => String::new(),
