@@ -19,6 +19,7 @@ mod newton;
 mod path;
 mod relaxation;
 mod sensitivity;
+mod snap;
 mod supports;
 pub mod tube;
 pub mod uniaxial;

@@ -46,6 +46,16 @@ pub fn equilibrate(
     state: &mut FiniteElementState,
     workspace: &mut FiniteElementWorkspace,
 ) -> Result<Equilibrium, Failure> {
+    equilibrate_within(MOST_ITERATIONS, model, supports, (state, workspace))
+}
+
+/// [`equilibrate`] with at most `most` solutions of the linear system.
+pub(super) fn equilibrate_within(
+    most: usize,
+    model: &FiniteElementModel,
+    supports: &Supports<'_>,
+    (state, workspace): (&mut FiniteElementState, &mut FiniteElementWorkspace),
+) -> Result<Equilibrium, Failure> {
     if supports.leave_free(model) {
         return Err(Failure::Singular);
     }
@@ -57,7 +67,7 @@ pub fn equilibrate(
         if gap == 0.0 && iterations > 0 && size.is_small() {
             return Ok(Equilibrium { iterations });
         }
-        if iterations == MOST_ITERATIONS {
+        if iterations == most {
             return Err(Failure::NotConverged);
         }
         solve(model, supports, workspace)?;
@@ -88,6 +98,12 @@ pub(super) fn assemble(
     if let Some((load, times)) = supports.dead_load {
         for (residual, load) in workspace.residual.iter_mut().zip(load) {
             *residual -= times * load;
+        }
+    }
+    if let Some(syrup) = &supports.syrup {
+        for (i, (resistance, place)) in syrup.resistance.iter().zip(&syrup.place).enumerate() {
+            workspace.residual[i] += resistance * (unknowns[i] - place);
+            workspace.tangent[model.pattern.range(i).start] += resistance;
         }
     }
     Ok(())

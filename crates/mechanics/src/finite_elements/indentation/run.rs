@@ -5,6 +5,7 @@ use super::super::model::{
 };
 use super::super::newton::{self, Failure, equilibrate};
 use super::super::relaxation::{Memory, RelaxationStep};
+use super::super::snap::equilibrate_downhill;
 use super::super::supports::{OnSphere, Supports};
 use super::contact::{Place, Touch};
 use super::indenter::{Indenter, IndenterShape, Side};
@@ -79,6 +80,8 @@ const EDGE: f64 = 0.1;
 const FIRST_STEP: f64 = 0.1;
 const LONGEST_STEP: f64 = 0.5;
 const SHORTEST_STEP: f64 = 1e-4;
+/// From this step down, an element that gives way is followed downhill [-].
+const DOWNHILL_STEP: f64 = 0.02;
 /// A node that is deeper than this inside after a step has come in too fast [-].
 const DEEPEST_CATCH: f64 = 0.1;
 /// Changes of contact at one depth.
@@ -86,6 +89,15 @@ const MOST_CHANGES: usize = 12;
 /// Solutions of the linear system after which steps grow, and above which they shrink.
 const LITTLE_EFFORT: usize = 6;
 const MUCH_EFFORT: usize = 12;
+
+/// How an equilibrium is looked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Way {
+    /// By Newton's method alone.
+    Straight,
+    /// Downhill in energy, where that fails.
+    Downhill,
+}
 
 impl IndentationRun {
     /// An indenter that just touches.
@@ -165,15 +177,20 @@ impl IndentationRun {
     ) -> Result<IndentationPoint, Error> {
         let radius = self.indenter.radius;
         let (start, from) = (self.now.time, self.now.depth);
-        let way = (depth - from).abs();
+        let length = (depth - from).abs();
         let mut gone = 0.0;
         loop {
-            let left = way - gone;
+            let left = length - gone;
             let step = self.next_step(left);
-            let next = if step >= left { way } else { gone + step };
-            let part = if way > 0.0 { next / way } else { 1.0 };
+            let next = if step >= left { length } else { gone + step };
+            let part = if length > 0.0 { next / length } else { 1.0 };
             let goal = |a: f64, b: f64| if part == 1.0 { b } else { a + part * (b - a) };
-            match self.stand_at(goal(start, time), goal(from, depth)) {
+            let way = if step > DOWNHILL_STEP * radius {
+                Way::Straight
+            } else {
+                Way::Downhill
+            };
+            match self.stand_at(goal(start, time), goal(from, depth), way) {
                 Ok((standing, effort)) => {
                     self.before = Some(std::mem::replace(&mut self.now, standing));
                     self.check_domain()?;
@@ -260,7 +277,7 @@ impl IndentationRun {
     }
 
     /// An equilibrium at `depth` and `time`, contacts included, and the number of solutions it took.
-    fn stand_at(&mut self, time: f64, depth: f64) -> Result<(Standing, usize), Failure> {
+    fn stand_at(&mut self, time: f64, depth: f64, way: Way) -> Result<(Standing, usize), Failure> {
         let duration = time - self.now.time;
         let relaxing = self
             .now
@@ -273,7 +290,16 @@ impl IndentationRun {
         let mut effort = 0;
         for _ in 0..MOST_CHANGES {
             let supports = self.supports(&touch, depth, relaxing.as_ref());
-            let done = equilibrate(&self.model, &supports, &mut state, &mut self.workspace)?;
+            let before = (way == Way::Downhill).then(|| state.clone());
+            let done = equilibrate(&self.model, &supports, &mut state, &mut self.workspace);
+            let done = match (done, before) {
+                (Err(_), Some(before)) => {
+                    state = before;
+                    let workspace = &mut self.workspace;
+                    equilibrate_downhill(&self.model, &supports, &mut state, workspace)?
+                }
+                (done, _) => done?,
+            };
             effort += done.iterations;
             if let Some(slopes) = &mut slopes {
                 slopes.solve(&self.model, &supports, &state, &mut self.workspace)?;
@@ -328,6 +354,7 @@ impl IndentationRun {
             pressure: None,
             dead_load: None,
             relaxing,
+            syrup: None,
         };
         for (&node, touch) in self.top.iter().zip(touch) {
             let at = self.model.mesh().nodes[node].x;
