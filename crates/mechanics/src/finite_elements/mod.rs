@@ -20,6 +20,7 @@ mod path;
 mod relaxation;
 mod sensitivity;
 mod snap;
+mod punched;
 mod supports;
 pub mod tube;
 pub mod uniaxial;
@@ -31,4 +32,5 @@ pub use model::{FiniteElementModel, FiniteElementState, FiniteElementWorkspace, 
 pub use newton::{Equilibrium, Failure, equilibrate};
 pub use path::{Path, PathPoint};
 pub use relaxation::{Memory, RelaxationStep};
+pub use punched::{PunchedLines, PunchedMesh};
 pub use supports::{OnSphere, Supports};

@@ -18,6 +18,7 @@ mod field;
 mod homogeneous;
 mod indentation;
 mod inhomogeneous;
+mod hexahedra;
 mod invariants;
 mod laws;
 mod no_allocation;
