@@ -233,4 +233,27 @@ pub enum Error {
         /// The value given [-].
         stretch: f64,
     },
+    /// A punch that the mesh of a tube has no place for.
+    #[error(
+        "the punch has a radius of {radius} m; give a positive one of at most {largest} m, 0.8 of the tube's outer radius or half length"
+    )]
+    PunchOutOfRange {
+        /// The value given [m].
+        radius: f64,
+        /// The largest one [m].
+        largest: f64,
+    },
+    /// A depth outside the tube's bore.
+    #[error(
+        "a depth of {depth} m in a tube with a bore of {bore} m; give depths from 0 to less than the bore"
+    )]
+    TubeDepthOutOfRange {
+        /// The value given [m].
+        depth: f64,
+        /// Inner diameter [m].
+        bore: f64,
+    },
+    /// Nothing keeps the tube from moving aside.
+    #[error("the tube's ends are guided, so that a punch pushes it away; hold them")]
+    GuidedEnds,
 }

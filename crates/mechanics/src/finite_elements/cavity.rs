@@ -1,11 +1,11 @@
 //! A pressure that follows the wall it acts on, as the gradient of the volume V that the wall encloses.
 //!
 //! The work of a constant pressure is p ΔV, so its force is p ∂V/∂u and its tangent p ∂²V/∂u², both
-//! symmetric. A body of small strain is loaded in its shape at rest. V = ∫ π r² dz over the meridian of an axisymmetric wall, and V = ⅓ ∫ x · n da over a
-//! solid's: the same as the force of the pressure wherever the edge of the wall is held or lies in a
-//! plane of symmetry through the origin.
+//! symmetric. A body of small strain is loaded in its shape at rest. V = ∫ π r² dz over the meridian of
+//! an axisymmetric wall, and V = ⅓ ∫ x · n da over a solid's: the same as the force of the pressure
+//! wherever the edge of the wall is held or lies in a plane of symmetry through the origin.
 //!
-//! *How we know*: `tube::lame`, `tube::follows_the_closed_form`.
+//! *How we know*: `tube::lame`, `tube::follows_the_closed_form`, `hexahedra::pressed_ring_is_lames`.
 //!
 //! *Limits*: an edge of the wall that is free to move off those planes would feel a wrong force.
 

@@ -39,17 +39,33 @@ pub fn refine<T>(
     most: u32,
     mut solve: impl FnMut(u32) -> Result<(T, Vec<f64>), Error>,
 ) -> Result<Estimated<T>, Error> {
-    let (_, mut coarse) = solve(0)?;
-    let mut halvings = 1;
-    loop {
-        let (answer, fine) = solve(halvings)?;
-        let error = largest_change(&coarse, &fine) / (2.0_f64.powf(order) - 1.0);
-        if error <= accuracy || halvings >= most {
-            return Ok(Estimated { answer, error });
+    let parts: Vec<usize> = (0..=most.max(1)).map(|halvings| 1 << halvings).collect();
+    refine_through(&parts, accuracy, order, |parts| solve(parts.ilog2()))
+}
+
+/// As [`refine`], on meshes whose elements are `parts` times smaller along each edge than those of one
+/// mesh: two or more ascending numbers.
+///
+/// # Errors
+/// Those of `solve`.
+pub fn refine_through<T>(
+    parts: &[usize],
+    accuracy: f64,
+    order: f64,
+    mut solve: impl FnMut(usize) -> Result<(T, Vec<f64>), Error>,
+) -> Result<Estimated<T>, Error> {
+    let (mut answer, mut coarse) = solve(parts[0])?;
+    let mut error = f64::INFINITY;
+    for pair in parts.windows(2) {
+        let (next, fine) = solve(pair[1])?;
+        let ratio = pair[1] as f64 / pair[0] as f64;
+        error = largest_change(&coarse, &fine) / (ratio.powf(order) - 1.0);
+        (answer, coarse) = (next, fine);
+        if error <= accuracy {
+            break;
         }
-        coarse = fine;
-        halvings += 1;
     }
+    Ok(Estimated { answer, error })
 }
 
 /// Largest relative change of the values [-].

@@ -7,6 +7,10 @@ use palpate_mechanics::finite_elements::Failure;
 use palpate_mechanics::finite_elements::hemisphere::{HemisphereProblem, Patch};
 use palpate_mechanics::finite_elements::tube::{Ends, Tube, TubeProblem, inflate};
 use palpate_mechanics::finite_elements::uniaxial::nominal_stress;
+use palpate_mechanics::finite_elements::indentation::Grip;
+use palpate_mechanics::finite_elements::tube::{
+    Ends, Tube, TubeProblem, TubePunch, indent, inflate,
+};
 use palpate_mechanics::finite_spheres::{FiniteSphereModel, FiniteSphereSettings, Form};
 use palpate_mechanics::{Blatz, Error, LinearElastic, MooneyRivlin, NeoHookean, PronySeries};
 
@@ -171,6 +175,54 @@ fn tubes_that_are_none_are_refused() {
         (inflated(good, -3.5), &["-3.5 Pa", "zero or more"]),
         (inflated(good, f64::NAN), &["NaN Pa", "zero or more"]),
         (Err(no_path), &["0.7 of", "without force", "smaller load"]),
+    ];
+    for (result, words) in refused {
+        let message = result.unwrap_err().to_string();
+        for word in words {
+            assert!(message.contains(word), "{message:?} lacks {word:?}");
+        }
+        assert!(message.contains("; "), "{message}");
+    }
+}
+
+fn indented(ends: Ends, punch: TubePunch) -> Result<(), Error> {
+    let problem = TubeProblem {
+        tube: Tube {
+            length: 0.06,
+            inner_radius: 0.005,
+            outer_radius: 0.0075,
+        },
+        law: Arc::new(NeoHookean::incompressible(1e3).unwrap()),
+        ends,
+    };
+    indent(&problem, &punch, 1.0, &mut |_| {}).map(drop)
+}
+
+#[test]
+fn punches_that_meet_no_tube_are_refused() {
+    let good = TubePunch {
+        radius: 0.001,
+        face: Grip::Stick,
+        pressure: 0.0,
+        depths: vec![0.001],
+    };
+    let wide = TubePunch {
+        radius: 0.007,
+        ..good.clone()
+    };
+    let deep = TubePunch {
+        depths: vec![0.001, 0.02],
+        ..good.clone()
+    };
+    let burst = TubePunch {
+        pressure: 5000.0,
+        ..good.clone()
+    };
+    let refused: [(Result<(), Error>, &[&str]); 4] = [
+        (indented(Ends::Guided, good), &["guided", "hold them"]),
+        (indented(Ends::Held, wide), &["0.007 m", "at most 0.006"]),
+        (indented(Ends::Held, deep), &["0.02 m", "0.01 m"]),
+        (indented(Ends::Held, burst), &["balloons at 69", "5000 Pa"]),
     ];
     for (result, words) in refused {
         let message = result.unwrap_err().to_string();

@@ -3,7 +3,10 @@
 use std::sync::Arc;
 
 use palpate_mechanics::finite_elements::estimate::Estimated;
-use palpate_mechanics::finite_elements::tube::{Ends, Inflated, Tube, TubeProblem, inflate};
+use palpate_mechanics::finite_elements::indentation::Grip;
+use palpate_mechanics::finite_elements::tube::{
+    Ends, Inflated, Tube, TubeProblem, TubePunch, indent, inflate,
+};
 use palpate_mechanics::{Blatz, Law, LinearElastic, MooneyRivlin, NeoHookean};
 
 use crate::path::closed_form;
@@ -112,11 +115,11 @@ fn a_short_tube_withstands_more() {
         let problem = tube(length, Ends::Held, esophagus());
         run(&problem, &[], 1.0).answer.limit_pressure.unwrap()
     };
-    let limits = [0.02, 0.03, 0.06, 0.1].map(limit);
+    let limits = [0.02, 0.04, 0.1].map(limit);
     println!("{limits:?}");
     assert!(limits.windows(2).all(|w| w[1] < w[0]));
     // An endless neo-Hookean tube in plane strain bursts at μ ln(B/A).
-    assert!(limits[3] < 5200.0 / 3.0 * 1.5_f64.ln());
+    assert!(limits[2] < 5200.0 / 3.0 * 1.5_f64.ln());
 }
 
 /// A law that stiffens has no limit, and pressures beyond a neo-Hookean one's are answered.
@@ -128,4 +131,49 @@ fn a_stiffening_tube_does_not_balloon() {
     assert_eq!(result.answer.limit_pressure, None);
     let [low, high] = [0, 1].map(|i| result.answer.inner_displacements[i].unwrap());
     assert!(0.0 < low && low < high && high < 4.0 * INNER);
+}
+
+fn punch(radius: f64, pressure: f64, depths: &[f64]) -> TubePunch {
+    TubePunch {
+        radius,
+        face: Grip::Stick,
+        pressure,
+        depths: depths.to_vec(),
+    }
+}
+
+/// Depths in any order, forces that grow with them, doubts, and an error that a finer mesh confirms.
+#[test]
+fn a_punch_on_a_short_tube() {
+    let law = LinearElastic::new(5200.0, 0.49).unwrap();
+    let problem = tube(0.012, Ends::Held, law);
+    let punch = punch(0.003, 0.0, &[0.004, 0.0, 0.002]);
+    let result = indent(&problem, &punch, 1.0, &mut |_| {}).unwrap();
+    println!("{result:?}");
+    let forces = &result.answer.forces;
+    assert!(forces[1] == 0.0 && 0.0 < forces[2] && forces[2] < forces[0]);
+    assert!(result.answer.doubts.len() == 1 && result.answer.doubts[0].contains("its side"));
+    assert!(result.error < 0.05);
+}
+
+/// The source's tube: a pressure makes it stiffer, and the third mesh changes no more than foretold.
+#[test]
+#[ignore = "slow: minutes for meshes of 40,000 unknowns"]
+fn the_esophagus_is_indented() {
+    let problem = tube(0.06, Ends::Held, esophagus());
+    let depths = [0.0005, 0.001, 0.002, 0.004];
+    let run = |pressure: f64, accuracy: f64| {
+        let punch = punch(0.001, pressure, &depths);
+        let result = indent(&problem, &punch, accuracy, &mut |_| {}).unwrap();
+        println!("{result:?}");
+        result
+    };
+    let (slack, full) = (run(0.0, 1.0), run(300.0, 1.0));
+    let pairs = slack.answer.forces.iter().zip(&full.answer.forces);
+    assert!(pairs.clone().all(|(slack, full)| slack < full));
+    let fine = run(300.0, 0.0);
+    let pairs = full.answer.forces.iter().zip(&fine.answer.forces);
+    for (force, finer) in pairs {
+        assert!((force / finer - 1.0).abs() < full.error, "{force} {finer}");
+    }
 }

@@ -13,7 +13,7 @@ pub(super) fn half(tube: &Tube, halvings: u32) -> (ElementMesh, Cavity) {
     let (inner, wall) = (tube.inner_radius, tube.wall());
     let mut columns: Vec<f64> = WALL.iter().map(|part| inner + part * wall).collect();
     let half = 0.5 * tube.length;
-    let mut rows = from_the_end(half, 0.15 * wall, 0.7 * tube.outer_radius);
+    let mut rows = from_the_end(half, 0.15 * wall, 1.7, 0.7 * tube.outer_radius);
     for _ in 0..halvings {
         columns = halved(&columns);
         rows = halved(&rows);
@@ -25,14 +25,15 @@ pub(super) fn half(tube: &Tube, halvings: u32) -> (ElementMesh, Cavity) {
     (mesh, Cavity { sides })
 }
 
-/// Places from 0 to `length` [m] whose intervals shrink from at most `longest` to about `first` at the
-/// end.
-pub(super) fn from_the_end(length: f64, first: f64, longest: f64) -> Vec<f64> {
+/// Places from 0 to `length` [m] whose intervals shrink, by the factor `growth`, from at most `longest`
+/// to about `first` at the end.
+pub(super) fn from_the_end(length: f64, first: f64, growth: f64, longest: f64) -> Vec<f64> {
     let (mut intervals, mut reach, mut next) = (Vec::new(), 0.0, first);
-    while reach < length * (1.0 - 1e-9) {
+    // As many as need the least stretch.
+    while intervals.is_empty() || length / reach > (reach + next) / length {
         intervals.push(next);
         reach += next;
-        next = (1.7 * next).min(longest);
+        next = (growth * next).min(longest);
     }
     let stretch = length / reach;
     let mut at = length;

@@ -6,19 +6,24 @@
 //! its [`super::Path`], where the pressure has its first maximum.
 //!
 //! *How we know*: `tube::…`: Lamé's cylinder, the closed form for incompressible tubes in plane strain
-//! up to and beyond its maximum, refined runs.
+//! up to and beyond its maximum, refined runs; for the punch the half-space, the axisymmetric tube and
+//! F = d(E − p V)/dd (`punching::tests`).
 //!
 //! *Limits*: inflation is axisymmetric and symmetric about the middle; a tube that is sucked in, or so
 //! long that it bends or bulges off its middle, does otherwise.
 
+mod indent;
 mod inflate;
 mod mesh;
+mod punching;
+mod solid;
 
 use std::sync::Arc;
 
 use crate::Error;
 use crate::material::law::Law;
 
+pub use indent::{Indented, TubePunch, indent};
 pub use inflate::{Inflated, WIDEST, inflate};
 
 /// A tube at rest.

@@ -1,0 +1,139 @@
+//! A flat round punch on the side of a tube, at mid-length and along a radius, after the pressure.
+//!
+//! *Limits*: of the punch only the face is there. Deeper than its radius, tissue beside it may be where
+//! its side is; the answer then carries a doubt. The tube is held at its ends only.
+
+use super::super::estimate::{Estimated, Progress, refine_through};
+use super::super::indentation::Grip;
+use super::punching::Punching;
+use super::{Ends, TubeProblem, check_pressure, inflate, solid};
+use crate::{Error, Strain};
+
+/// What is pressed on the tube.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TubePunch {
+    /// Radius of its flat face [m].
+    pub radius: f64,
+    /// Whether tissue sticks to the face or slides on it.
+    pub face: Grip,
+    /// Pressure in the tube [Pa]; it stays while the punch goes in.
+    pub pressure: f64,
+    /// Depths [m] below the outermost point of the tube under pressure, in any order.
+    pub depths: Vec<f64>,
+}
+
+/// An indented tube.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Indented {
+    /// Force on the tissue at each depth [N].
+    pub forces: Vec<f64>,
+    /// How far the pressure alone moves the outer surface outward where the punch meets it [m].
+    pub outer_displacement: f64,
+    /// Number of unknowns of the finest mesh.
+    pub unknowns: usize,
+    /// What to be careful about, in sentences.
+    pub doubts: Vec<String>,
+}
+
+/// Parts of the coarse elements' edges on the meshes that are tried, in turn.
+const PARTS: [usize; 3] = [1, 2, 3];
+
+/// Power of the element size with which forces converge: the pressure at the punch's edge is singular.
+const ORDER: f64 = 1.0;
+
+/// Depth [-], in radii, at which an axisymmetric block folds under a face without friction.
+const FOLDS: f64 = 1.3;
+
+/// Forces of `punch` on the tube, with an error of at most `accuracy` [-] if three meshes give it; the
+/// first two take seconds, the third minutes.
+///
+/// # Errors
+/// When the tube, the punch or a depth is impossible, the tube balloons, or no equilibrium is found.
+pub fn indent(
+    problem: &TubeProblem,
+    punch: &TubePunch,
+    accuracy: f64,
+    progress: &mut dyn FnMut(Progress),
+) -> Result<Estimated<Indented>, Error> {
+    check(problem, punch)?;
+    let mut order: Vec<usize> = (0..punch.depths.len()).collect();
+    order.sort_by(|&a, &b| punch.depths[a].total_cmp(&punch.depths[b]));
+    let deepest = order.last().map_or(0.0, |&last| punch.depths[last]);
+    refine_through(&PARTS, accuracy, ORDER, |parts| {
+        let mut tell = |part: f64| {
+            progress(Progress {
+                part,
+                halvings: parts as u32 - 1,
+            });
+        };
+        let mut run = Punching::new(problem, punch, parts)?;
+        run.pressurise()?;
+        let mut forces = vec![0.0; punch.depths.len()];
+        for &place in &order {
+            let depth = punch.depths[place];
+            forces[place] = run.press_to(depth, |at| tell(at / deepest))?;
+        }
+        let answer = Indented {
+            outer_displacement: run.rise(problem.tube.outer_radius),
+            unknowns: run.unknowns(),
+            doubts: doubts(punch, deepest, &run),
+            forces: forces.clone(),
+        };
+        Ok((answer, forces))
+    })
+}
+
+fn doubts(punch: &TubePunch, deepest: f64, run: &Punching<'_>) -> Vec<String> {
+    let mut doubts = Vec::new();
+    if deepest > punch.radius {
+        doubts.push(format!(
+            "only the face of the punch is modelled, and at {deepest} m, deeper than its radius of {} m, its side may touch as well",
+            punch.radius
+        ));
+    }
+    if deepest > FOLDS * punch.radius && punch.face == Grip::Slide {
+        doubts.push(format!(
+            "a face without friction folds the tissue under it near {FOLDS} of its radius, and {deepest} m is more"
+        ));
+    }
+    if run.is_shut() {
+        doubts.push(format!(
+            "at {deepest} m the walls of the tube meet under the punch, and their contact is left out"
+        ));
+    }
+    doubts
+}
+
+fn check(problem: &TubeProblem, punch: &TubePunch) -> Result<(), Error> {
+    let tube = &problem.tube;
+    tube.check()?;
+    check_pressure(punch.pressure)?;
+    let largest = solid::largest_punch(tube);
+    if !(punch.radius > 0.0 && punch.radius <= largest) {
+        return Err(Error::PunchOutOfRange {
+            radius: punch.radius,
+            largest,
+        });
+    }
+    if problem.ends == Ends::Guided {
+        return Err(Error::GuidedEnds);
+    }
+    // To the far side of the outer wall there is nothing left to press on.
+    let bad = |depth: &&f64| !(**depth >= 0.0 && **depth < 2.0 * tube.inner_radius);
+    if let Some(&depth) = punch.depths.iter().find(bad) {
+        return Err(Error::TubeDepthOutOfRange {
+            depth,
+            bore: 2.0 * tube.inner_radius,
+        });
+    }
+    if punch.pressure > 0.0 && problem.law.volume().strain == Strain::Finite {
+        let inflated = inflate::on_mesh(problem, &[], 1, &mut |_| {})?;
+        if let Some(limit) = inflated.limit_pressure.filter(|&p| p < punch.pressure) {
+            return Err(Error::Balloons {
+                pressure: punch.pressure,
+                limit,
+            });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,386 @@
+//! One mesh of a tube on its way: pressure first, then the punch, step by step.
+//!
+//! The face is a plane across the punch's axis that moves inward from the outermost point of the
+//! pressurised tube. A node that began within the punch's radius is caught when the plane passes it; it
+//! then has the plane's x, and where it sticks also the y and z at which it was caught. A sliding node
+//! that would pull is let go. Force on the tissue: four times the reactions' sum.
+
+use std::sync::Arc;
+
+use super::super::cavity::Cavity;
+use super::super::indentation::Grip;
+use super::super::model::{
+    FiniteElementModel, FiniteElementState, FiniteElementWorkspace, Formulation,
+};
+use super::super::newton::{Failure, equilibrate};
+use super::super::supports::Supports;
+use super::TubeProblem;
+use super::indent::TubePunch;
+use super::solid::{Quarter, quarter};
+use crate::{Error, Strain, Vec3};
+
+/// Longest step of the depth, in radii of the punch [-].
+const LONGEST_STEP: f64 = 0.5;
+/// Changes of contact in a step; in the last of them nothing is let go any more.
+const ROUNDS: usize = 12;
+
+pub(super) struct Punching<'a> {
+    model: FiniteElementModel,
+    workspace: FiniteElementWorkspace,
+    cavity: Arc<Cavity>,
+    punch: &'a TubePunch,
+    /// Nodes under the punch, ascending.
+    face: Vec<usize>,
+    /// Held by ends and planes of symmetry.
+    rest: Vec<Option<f64>>,
+    now: Standing,
+    before: Option<Standing>,
+    /// Outermost place of the pressurised tube [m].
+    top: f64,
+    step: f64,
+}
+
+/// An equilibrium at a depth.
+#[derive(Debug, Clone)]
+struct Standing {
+    depth: f64,
+    state: FiniteElementState,
+    /// Where each node of the face was caught [m], (y, z).
+    caught: Vec<Option<[f64; 2]>>,
+}
+
+impl<'a> Punching<'a> {
+    /// A tube at rest.
+    pub(super) fn new(
+        problem: &TubeProblem,
+        punch: &'a TubePunch,
+        parts: usize,
+    ) -> Result<Self, Error> {
+        let Quarter { body, cavity } = quarter(&problem.tube, punch.radius, parts);
+        let face = body.face;
+        let model = FiniteElementModel::new(body.mesh, problem.law.clone(), Formulation::Mixed)?;
+        let half = 0.5 * problem.tube.length;
+        let tiny = 1e-9 * problem.tube.outer_radius;
+        let on = |axis: usize, at: f64| {
+            model
+                .mesh()
+                .nodes_where(|x| (x[axis] - at).abs() <= tiny)
+                .into_iter()
+        };
+        let mut supports = Supports::none(&model)
+            .hold(&model, on(1, 0.0), 1, 0.0)
+            .hold(&model, on(2, 0.0), 2, 0.0);
+        for axis in 0..3 {
+            supports = supports.hold(&model, on(2, half), axis, 0.0);
+        }
+        Ok(Self {
+            workspace: FiniteElementWorkspace::new(&model)?,
+            now: Standing {
+                depth: 0.0,
+                state: FiniteElementState::at_rest(&model),
+                caught: vec![None; face.len()],
+            },
+            before: None,
+            top: problem.tube.outer_radius,
+            step: 0.1 * punch.radius,
+            rest: supports.held,
+            cavity: Arc::new(cavity),
+            punch,
+            face,
+            model,
+        })
+    }
+
+    pub(super) fn unknowns(&self) -> usize {
+        self.model.size()
+    }
+
+    fn is_small(&self) -> bool {
+        self.model.law.volume().strain == Strain::Small
+    }
+
+    /// Brings the pressure up.
+    pub(super) fn pressurise(&mut self) -> Result<(), Error> {
+        if self.punch.pressure > 0.0 {
+            let (mut part, mut step) = (0.0, if self.is_small() { 1.0 } else { 0.5 });
+            while part < 1.0 {
+                let goal = f64::min(1.0, part + step);
+                let mut state = self.now.state.clone();
+                let supports = Supports {
+                    held: self.rest.clone(),
+                    ..Supports::none(&self.model)
+                }
+                .press(&self.cavity, goal * self.punch.pressure);
+                match equilibrate(&self.model, &supports, &mut state, &mut self.workspace) {
+                    Ok(_) => {
+                        self.now.state = state;
+                        part = goal;
+                    }
+                    Err(_) if step > 1e-3 => step *= 0.5,
+                    Err(failure) => {
+                        return Err(Error::NoPath {
+                            factor: part,
+                            failure,
+                        });
+                    }
+                }
+            }
+        }
+        let place = |node: &usize| self.place(&self.now.state, *node).x;
+        self.top = self.face.iter().map(place).fold(f64::MIN, f64::max);
+        Ok(())
+    }
+
+    /// How far the pressure has moved the outermost point [m].
+    pub(super) fn rise(&self, outer_radius: f64) -> f64 {
+        self.top - outer_radius
+    }
+
+    /// Force on the tissue [N] at `depth` [m], not less than the last one.
+    pub(super) fn press_to(
+        &mut self,
+        depth: f64,
+        mut at_step: impl FnMut(f64),
+    ) -> Result<f64, Error> {
+        while self.now.depth < depth {
+            let left = depth - self.now.depth;
+            // Two equal steps rather than one and a crumb.
+            let step = if left <= self.step {
+                left
+            } else {
+                self.step.min(0.5 * left)
+            };
+            let goal = if step == left {
+                depth
+            } else {
+                self.now.depth + step
+            };
+            match self.stand_at(goal) {
+                Ok((standing, effort)) => {
+                    self.before = Some(std::mem::replace(&mut self.now, standing));
+                    at_step(goal);
+                    if effort <= 10 {
+                        let longest = LONGEST_STEP * self.punch.radius;
+                        self.step = (1.5 * step).max(self.step).min(longest);
+                    }
+                }
+                Err(_) if step > 0.02 * self.punch.radius => self.step = 0.5 * step,
+                Err(failure) => {
+                    return Err(Error::NoEquilibrium {
+                        depth: self.now.depth,
+                        failure,
+                    });
+                }
+            }
+        }
+        if depth == 0.0 {
+            return Ok(0.0);
+        }
+        // The last solution may be that of a step that failed.
+        let cavity = self.cavity.clone();
+        let supports = self.supports(&self.now.caught, self.now.depth);
+        let supports = supports.press(&cavity, self.punch.pressure);
+        let (state, workspace) = (&self.now.state.unknowns, &mut self.workspace);
+        let assembled = super::super::newton::assemble(&self.model, &supports, state, workspace);
+        debug_assert!(assembled.is_ok(), "an equilibrium was found here");
+        let caught = self.face.iter().zip(&self.now.caught);
+        Ok(caught
+            .filter(|(_, caught)| caught.is_some())
+            .map(|(&node, _)| -4.0 * self.workspace.reaction(&self.model, node).x)
+            .sum())
+    }
+
+    /// Whether the inner wall under the punch has passed the wall on the far side.
+    pub(super) fn is_shut(&self) -> bool {
+        let tiny = 1e-9 * self.punch.radius;
+        let nodes = self.model.mesh().nodes.iter().enumerate();
+        let inner = nodes
+            .filter(|(_, x)| x.y.abs() <= tiny && x.z == 0.0)
+            .map(|(node, x)| (x.x, self.place(&self.now.state, node).x));
+        let (mut near, mut far) = ((f64::MAX, 0.0), (f64::MIN, 0.0));
+        for (rest, now) in inner {
+            if rest > 0.0 && rest < near.0 {
+                near = (rest, now);
+            } else if rest < 0.0 && rest > far.0 {
+                far = (rest, now);
+            }
+        }
+        near.1 <= far.1
+    }
+
+    fn place(&self, state: &FiniteElementState, node: usize) -> Vec3 {
+        self.model.mesh().nodes[node] + state.displacement(&self.model, node)
+    }
+
+    fn supports(&self, caught: &[Option<[f64; 2]>], depth: f64) -> Supports<'static> {
+        let mut held = self.rest.clone();
+        for (&node, caught) in self.face.iter().zip(caught) {
+            if let Some([y, z]) = caught {
+                let rest = self.model.mesh().nodes[node];
+                held[3 * node] = Some(self.top - depth - rest.x);
+                if self.punch.face == Grip::Stick {
+                    // A plane of symmetry holds at zero already.
+                    held[3 * node + 1].get_or_insert(y - rest.y);
+                    held[3 * node + 2].get_or_insert(z - rest.z);
+                }
+            }
+        }
+        Supports {
+            held,
+            ..Supports::none(&self.model)
+        }
+    }
+
+    /// An equilibrium at `depth`, contacts included, and the number of solutions that it took.
+    fn stand_at(&mut self, depth: f64) -> Result<(Standing, usize), Failure> {
+        let mut next = Standing {
+            depth,
+            state: self.foresee(depth),
+            caught: self.now.caught.clone(),
+        };
+        // The plane may already be past nodes that nothing has pushed yet.
+        let state = self.now.state.clone();
+        self.catch(&state, &mut next, false);
+        let (mut effort, cavity) = (0, self.cavity.clone());
+        for round in 0..ROUNDS {
+            let supports = self.supports(&next.caught, depth);
+            let supports = supports.press(&cavity, self.punch.pressure);
+            let done = equilibrate(&self.model, &supports, &mut next.state, &mut self.workspace)?;
+            effort += done.iterations;
+            let state = next.state.clone();
+            let more = self.catch(&state, &mut next, round + 2 < ROUNDS);
+            if !more {
+                return Ok((next, effort));
+            }
+        }
+        Err(Failure::NotConverged)
+    }
+
+    /// Where the body would be at `depth` if it went on as before.
+    fn foresee(&mut self, depth: f64) -> FiniteElementState {
+        let mut state = self.now.state.clone();
+        if let Some(before) = &self.before {
+            let ahead = (depth - self.now.depth) / (self.now.depth - before.depth);
+            for (x, old) in state.unknowns.iter_mut().zip(&before.state.unknowns) {
+                *x += ahead * (*x - old);
+            }
+        }
+        state
+    }
+
+    /// Catches nodes that have passed the face of `next` in `state`, and lets go those that pull, if
+    /// they `may`; answers whether there was one.
+    fn catch(&self, state: &FiniteElementState, next: &mut Standing, may: bool) -> bool {
+        let tiny = 1e-9 * self.punch.radius;
+        let face = self.top - next.depth;
+        let mut changed = false;
+        for (place, &node) in self.face.iter().enumerate() {
+            let now = self.place(state, node);
+            let caught = &mut next.caught[place];
+            if caught.is_none() && now.x > face + tiny {
+                let then = self.place(&self.now.state, node);
+                let outside = (self.top - self.now.depth - then.x).max(0.0);
+                let part = outside / (outside + (now.x - face));
+                let [y, z] = [1, 2].map(|i| then[i] + part * (now[i] - then[i]));
+                *caught = Some([y, z]);
+                changed = true;
+            } else if caught.is_some()
+                && may
+                && self.punch.face == Grip::Slide
+                && self.workspace.reaction(&self.model, node).x > 0.0
+            {
+                *caught = None;
+                changed = true;
+            }
+        }
+        changed
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Ends, Tube, inflate};
+    use super::*;
+    use crate::{LinearElastic, NeoHookean};
+
+    fn problem(tube: [f64; 3], law: impl crate::Law + 'static) -> TubeProblem {
+        TubeProblem {
+            tube: Tube {
+                length: tube[0],
+                inner_radius: tube[1],
+                outer_radius: tube[2],
+            },
+            law: Arc::new(law),
+            ends: Ends::Held,
+        }
+    }
+
+    fn punch(radius: f64, face: Grip, pressure: f64) -> TubePunch {
+        TubePunch {
+            radius,
+            face,
+            pressure,
+            depths: Vec::new(),
+        }
+    }
+
+    /// A wide thick tube is a half-space: 2 a E/(1 − ν²), 4 G a ln(3 − 4 ν)/(1 − 2 ν) [Spence 1968].
+    #[test]
+    fn a_wide_thick_tube_is_a_half_space() {
+        let law = LinearElastic::new(1e3, 0.3).unwrap();
+        let problem = problem([0.16, 0.02, 0.08], law);
+        for (face, exact) in [
+            (Grip::Slide, 2e3 / (1.0 - 0.09)),
+            (Grip::Stick, 2e3 / 1.3 * 1.8_f64.ln() / 0.4),
+        ] {
+            let punch = punch(1e-3, face, 0.0);
+            let mut run = Punching::new(&problem, &punch, 1).unwrap();
+            run.pressurise().unwrap();
+            // Between two depths, as the curved surface meets the face bit by bit.
+            let [one, two] = [1e-4, 2e-4].map(|d| run.press_to(d, |_| {}).unwrap());
+            let ratio = (two - one) / (1e-4 * exact * 1e-3);
+            println!("{} unknowns, {face:?}: {ratio}", run.unknowns());
+            // Elements of half a radius add 3 %, the tube's finite size 1 or 2.
+            assert!((0.98..1.06).contains(&ratio), "{ratio}");
+        }
+    }
+
+    /// The axisymmetric tube, which has another mesh and other elements.
+    #[test]
+    fn pressure_alone_widens_the_axisymmetric_tube() {
+        let law = NeoHookean::incompressible(5200.0 / 6.0).unwrap();
+        let problem = problem([0.03, 0.005, 0.0075], law);
+        let punch = punch(0.002, Grip::Stick, 400.0);
+        let mut run = Punching::new(&problem, &punch, 1).unwrap();
+        run.pressurise().unwrap();
+        let far = |x: &Vec3| (x.xy() - nalgebra::Vector2::new(-0.005, 0.0)).norm() < 1e-9;
+        let node = run.model.mesh().nodes_where(|x| far(x) && x.z == 0.0)[0];
+        let solid = -run.now.state.displacement(&run.model, node).x;
+        let answer = inflate::on_mesh(&problem, &[400.0], 1, &mut |_| {}).unwrap();
+        let flat = answer.inner_displacements[0].unwrap();
+        println!("{} unknowns: {solid}, {flat}", run.unknowns());
+        // The coarse solid, with elements as long as the wall is thick.
+        assert!((solid / flat - 1.0).abs() < 0.01, "{solid} {flat}");
+    }
+
+    /// F = d(E − p V)/dd, of the whole tube under pressure.
+    #[test]
+    fn force_is_the_derivative_of_the_energy() {
+        let law = NeoHookean::incompressible(5200.0 / 6.0).unwrap();
+        let problem = problem([0.02, 0.005, 0.0075], law);
+        let punch = punch(0.002, Grip::Stick, 300.0);
+        let mut run = Punching::new(&problem, &punch, 1).unwrap();
+        run.pressurise().unwrap();
+        let mut at = |depth: f64| {
+            let force = run.press_to(depth, |_| {}).unwrap();
+            let volume = run.cavity.volume(&run.model, &run.now.state.unknowns);
+            let work = run.workspace.energy() - punch.pressure * volume;
+            (force, 4.0 * work)
+        };
+        let (low, middle, high) = (at(1.48e-3), at(1.5e-3), at(1.52e-3));
+        let slope = (high.1 - low.1) / 4e-5;
+        println!("{} {slope}", middle.0);
+        // A difference of the second order over an eightieth of the depth.
+        assert!((slope / middle.0 - 1.0).abs() < 1e-4);
+    }
+}
