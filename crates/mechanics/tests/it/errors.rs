@@ -5,12 +5,11 @@ use std::sync::Arc;
 use palpate_mechanics::contact::Bond;
 use palpate_mechanics::finite_elements::Failure;
 use palpate_mechanics::finite_elements::hemisphere::{HemisphereProblem, Patch};
-use palpate_mechanics::finite_elements::tube::{Ends, Tube, TubeProblem, inflate};
-use palpate_mechanics::finite_elements::uniaxial::nominal_stress;
 use palpate_mechanics::finite_elements::indentation::Grip;
 use palpate_mechanics::finite_elements::tube::{
     Ends, Tube, TubeProblem, TubePunch, indent, inflate,
 };
+use palpate_mechanics::finite_elements::uniaxial::nominal_stress;
 use palpate_mechanics::finite_spheres::{FiniteSphereModel, FiniteSphereSettings, Form};
 use palpate_mechanics::{Blatz, Error, LinearElastic, MooneyRivlin, NeoHookean, PronySeries};
 

@@ -39,7 +39,7 @@ fn patch_test() {
         Arc::new(NeoHookean::incompressible(1e3).unwrap()),
     ];
     for (law, stretch) in laws.into_iter().zip([1.001, 1.3]) {
-        let body = lines.body(|x, y, z| Vec3::new(x, y, z));
+        let body = lines.body(Vec3::new);
         let model = FiniteElementModel::new(body.mesh, law.clone(), Formulation::Mixed).unwrap();
         let at = |keep: &dyn Fn(&Vec3) -> bool| model.mesh().nodes_where(keep);
         let pull = 4.0 * (stretch - 1.0);
@@ -77,7 +77,7 @@ fn patch_test() {
 
 /// Force [N] of a flat punch of radius one at a depth of one, on a block of ten radii and more.
 fn punched(nu: f64, bonded: bool, size: f64) -> f64 {
-    let body = lines(size).body(|x, y, z| Vec3::new(x, y, z));
+    let body = lines(size).body(Vec3::new);
     let law = Arc::new(LinearElastic::new(1.0, nu).unwrap());
     let model = FiniteElementModel::new(body.mesh, law, Formulation::Mixed).unwrap();
     let at = |keep: &dyn Fn(&Vec3) -> bool| model.mesh().nodes_where(keep);
