@@ -21,7 +21,6 @@ mod punched;
 mod relaxation;
 mod sensitivity;
 mod snap;
-mod punched;
 mod supports;
 pub mod tube;
 pub mod uniaxial;
