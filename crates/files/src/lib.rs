@@ -32,4 +32,4 @@ pub use scene::Scene;
 pub use session::{Event, Events, Session, SessionHeader, SessionRow, SessionWriter};
 pub use tissue::{BuiltinTissue, Elasticity, PronyTerm, Tissue};
 pub use toml_document::{Document, Keys};
-pub use whole_file::write_whole;
+pub use whole_file::{check_writable, write_whole};

@@ -21,6 +21,21 @@ pub fn write_whole(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), Error> {
     })
 }
 
+/// Whether [`write_whole`] could write `path` now: for asking before long work instead of after it.
+/// Nothing is left behind.
+///
+/// # Errors
+/// What [`write_whole`] would say.
+pub fn check_writable(path: impl AsRef<Path>) -> Result<(), Error> {
+    let path = path.as_ref();
+    let tried = beside(path).and_then(|beside| {
+        refuse_folder(path)?;
+        File::create(&beside)?;
+        fs::remove_file(&beside)
+    });
+    tried.map_err(|source| Error::write(path, source))
+}
+
 /// A name in the same folder, so that the renaming stays on one disk and is one act.
 fn beside(path: &Path) -> io::Result<PathBuf> {
     let name = path
@@ -33,9 +48,7 @@ fn beside(path: &Path) -> io::Result<PathBuf> {
 }
 
 fn write_and_rename(beside: &Path, path: &Path, bytes: &[u8]) -> io::Result<()> {
-    if path.is_dir() {
-        return Err(io::ErrorKind::IsADirectory.into());
-    }
+    refuse_folder(path)?;
     let mut file: File = OpenOptions::new()
         .write(true)
         .create(true)
@@ -45,6 +58,13 @@ fn write_and_rename(beside: &Path, path: &Path, bytes: &[u8]) -> io::Result<()> 
     // Without this the new name could reach the disk before the bytes do.
     file.sync_all()?;
     fs::rename(beside, path)
+}
+
+fn refuse_folder(path: &Path) -> io::Result<()> {
+    match path.is_dir() {
+        true => Err(io::ErrorKind::IsADirectory.into()),
+        false => Ok(()),
+    }
 }
 
 /// The text of a file.
@@ -83,5 +103,15 @@ mod tests {
         let error = write_whole(folder.path().join("no/such.json"), b"").unwrap_err();
         assert!(error.is_input(), "{error}");
         assert!(write_whole(folder.path(), b"").is_err());
+    }
+
+    #[test]
+    fn what_cannot_be_written_is_known_before() {
+        let folder = tempfile::tempdir().unwrap();
+        check_writable(folder.path().join("plot.png")).unwrap();
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+        let error = check_writable(folder.path().join("no/plot.png")).unwrap_err();
+        assert!(error.is_input(), "{error}");
+        assert!(check_writable(folder.path()).is_err());
     }
 }

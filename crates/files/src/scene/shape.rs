@@ -72,8 +72,12 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// The shape of a table with the keys `mesh`, `mesh_unit`, `builtin` and `triangles`.
-    pub(super) fn from_keys(keys: &Keys<'_>, folder: &Path) -> Result<Self, Error> {
+    /// The shape of a table with the keys `mesh`, `mesh_unit`, `builtin` and `triangles`; the path of a
+    /// mesh begins in `folder`.
+    ///
+    /// # Errors
+    /// When the table names no shape or two, or a key does not fit the other.
+    pub fn from_keys(keys: &Keys<'_>, folder: &Path) -> Result<Self, Error> {
         let mesh = keys.text("mesh")?;
         let builtin = keys.word("builtin", BuiltinOrgan::WORDS)?;
         let unit = keys.word("mesh_unit", LengthUnit::WORDS)?;

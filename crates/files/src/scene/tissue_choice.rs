@@ -26,8 +26,12 @@ impl TissueChoice {
         }
     }
 
-    /// The choice of a table with the keys `tissue` and `builtin_tissue`.
-    pub(super) fn from_keys(keys: &Keys<'_>, folder: &Path) -> Result<Self, Error> {
+    /// The choice of a table with the keys `tissue` and `builtin_tissue`; the path of a file begins in
+    /// `folder`.
+    ///
+    /// # Errors
+    /// When the table has both keys, none, or one with a value that is no choice.
+    pub fn from_keys(keys: &Keys<'_>, folder: &Path) -> Result<Self, Error> {
         let builtin = keys.word("builtin_tissue", BuiltinTissue::WORDS)?;
         match (builtin, keys.contains("tissue")) {
             (Some(_), true) => Err(keys.given_twice("tissue", "builtin_tissue")),

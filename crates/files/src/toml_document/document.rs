@@ -40,9 +40,15 @@ impl Document {
     /// # Errors
     /// When there is a key that is not known.
     pub fn keys(&self, known: &'static [&'static str]) -> Result<Keys<'_>, Error> {
-        let keys = Keys::of_table(Place::file(&self.path), String::new(), &self.root, known);
+        let keys = self.open_keys(known);
         keys.only(known)?;
         Ok(keys)
+    }
+
+    /// The keys of a document in which one of them decides which others may occur: `known` are those
+    /// of all cases, and [`Keys::only`] checks them once the case is known.
+    pub fn open_keys(&self, known: &'static [&'static str]) -> Keys<'_> {
+        Keys::of_table(Place::file(&self.path), String::new(), &self.root, known)
     }
 }
 

@@ -111,6 +111,14 @@ impl<'d> Keys<'d> {
         Place::line(&self.place.path, entry.line)
     }
 
+    /// Where a key is; the table's own place when it is not there.
+    pub fn place_of_key(&self, key: &'static str) -> Place {
+        match self.find(key) {
+            Ok(Some(found)) => found.place,
+            _ => self.place.clone(),
+        }
+    }
+
     /// Whether a key is there.
     pub fn contains(&self, key: &'static str) -> bool {
         self.table
