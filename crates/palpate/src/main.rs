@@ -5,6 +5,7 @@
 
 mod command;
 mod failure;
+mod interrupt;
 mod nearest;
 mod output;
 mod performance;

@@ -25,12 +25,16 @@ pub(crate) fn text(text: impl Display) -> Result<(), Failure> {
 
 /// Prints `answer` as one JSON document.
 pub(crate) fn json(answer: &impl Serialize) -> Result<(), Failure> {
-    let document = serde_json::to_string_pretty(answer).map_err(|error| {
+    text(json_text(answer)?)
+}
+
+/// `answer` as one JSON document.
+pub(crate) fn json_text(answer: &impl Serialize) -> Result<String, Failure> {
+    serde_json::to_string_pretty(answer).map_err(|error| {
         Failure::failed(format!(
             "the answer is no JSON ({error}); use the text output"
         ))
-    })?;
-    text(document)
+    })
 }
 
 /// Prints a failure as one sentence to standard error.

@@ -4,6 +4,7 @@ mod demonstration;
 mod mesh_info;
 mod reproduce;
 mod simulate;
+mod solve;
 
 use clap::{Parser, Subcommand};
 
@@ -16,6 +17,8 @@ Examples:
       a first touch of the built-in esophagus, without a file; writes ./palpate-demo
   palpate simulate scene.toml --headless --motion motion.csv --out session
       plays the tool motions on the scene and writes session/session.csv
+  palpate solve problem.toml --plot force.png
+      the force of an indenter, the swelling of a tube and more, by finite elements
   palpate mesh info kidney.stl --unit mm
       what is wrong with a mesh, and whether it can be simulated
   palpate mesh info --builtin hemisphere
@@ -40,6 +43,8 @@ pub(crate) struct CommandLine {
 enum Command {
     /// Play tool motions on an organ and record what the hand would feel.
     Simulate(simulate::Arguments),
+    /// Solve a described problem with finite elements, the reference for everything else.
+    Solve(solve::Arguments),
     /// Recompute the tables and figures of the source, published values beside ours.
     Reproduce(reproduce::Arguments),
     /// Look at meshes.
@@ -59,6 +64,7 @@ impl CommandLine {
         match self.command {
             None => demonstration::run(),
             Some(Command::Simulate(arguments)) => simulate::run(&arguments),
+            Some(Command::Solve(arguments)) => solve::run(&arguments),
             Some(Command::Reproduce(arguments)) => reproduce::run(&arguments),
             Some(Command::Mesh(Mesh::Info(arguments))) => mesh_info::run(&arguments),
         }

@@ -4,7 +4,7 @@ use std::fs;
 
 use crate::{palpate, palpate_in, stderr};
 
-fn assert_refused(folder: &std::path::Path, arguments: &[&str], words: &[&str]) {
+pub(crate) fn assert_refused(folder: &std::path::Path, arguments: &[&str], words: &[&str]) {
     let output = palpate_in(folder, arguments);
     let message = stderr(&output);
     assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");

@@ -9,6 +9,8 @@ mod errors;
 mod mesh_info;
 mod reproduce;
 mod simulate;
+mod solve;
+mod solve_errors;
 
 use std::path::Path;
 use std::process::{Command, Output};
@@ -42,13 +44,14 @@ fn stderr(output: &Output) -> String {
 
 #[test]
 fn every_help_is_printed_and_is_no_error() {
-    let commands: [&[&str]; 6] = [
+    let commands: [&[&str]; 7] = [
         &["--help"],
         &["--version"],
         &["simulate", "--help"],
         &["mesh", "--help"],
         &["mesh", "info", "--help"],
         &["reproduce", "--help"],
+        &["solve", "--help"],
     ];
     for command in commands {
         let output = palpate(command);

@@ -1,0 +1,144 @@
+//! `palpate solve`: the finite element reference on a described problem.
+
+mod answer;
+mod problem;
+mod solution;
+mod table;
+mod waiting;
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use clap::Args;
+use palpate_files::check_writable;
+
+use self::answer::Answer;
+use self::problem::Problem;
+use self::solution::{Solution, Wanted};
+use self::waiting::Waiting;
+use crate::failure::Failure;
+use crate::interrupt::Unbroken;
+use crate::output;
+use crate::progress::Reader;
+
+/// Examples at the end of the help.
+const EXAMPLES: &str = concat!(
+    "\
+Examples:
+  palpate solve punch.toml
+      depth, force and its estimated error, as a table
+  palpate solve punch.toml --json --plot punch.png
+      the same as one JSON object, and as a picture
+  palpate solve kidney.toml --vtu kidney.vtu
+      with the deformed body, for ParaView
+
+A problem names a body, its tissue and what is done to it. This is punch.toml:
+
+",
+    include_str!("../../../../../assets/problems/punch.toml"),
+    "
+The keys of each kind:
+  indentation  block = { radius_m, height_m }, bottom bonded, outer side free;
+               indenter = { radius_m, face = \"stick\" | \"slip\", side = \"stick\" | \"slide\" | \"none\" },
+               or { shape = \"sphere\", radius_m, face }; depths_m, or
+               ramp = { depth_m, ramp_s, hold_s, samples, method = \"convolution\" | \"full\" }
+  hemisphere   radius_m, patch_radius_m, patch = \"slip\" | \"bonded\", depth_m; a linear tissue
+  tube         length_m, inner_radius_m, outer_radius_m, ends fixed; pressure_pa or pressures_pa,
+               and perhaps indent = { radius_m, depths_m, contact = \"stick\" | \"slip\" }
+  uniaxial     stretches
+  solid        mesh (a surface or tetrahedra) and mesh_unit, or builtin and triangles; anchor as in
+               a scene; patch = { center_m, radius_m, displacement_m, contact = \"stick\" | \"slip\" }
+All have format = 1, kind, accuracy (0.01 if not given), and tissue (a table or a file) or
+builtin_tissue, as in a scene. A key ends in its unit; depths_mm is read as well as depths_m.
+Moduli are instantaneous; only a ramp relaxes. More problems are in assets/problems."
+);
+
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Arguments {
+    /// The problem: a body, its tissue, and what is done to it.
+    #[arg(value_name = "PROBLEM.toml")]
+    problem: PathBuf,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+    /// Draw force against depth, or what the problem asks for instead.
+    #[arg(long, value_name = "FILE.png")]
+    plot: Option<PathBuf>,
+    /// Write the body with its displacement, for ParaView.
+    #[arg(long, value_name = "FILE.vtu")]
+    vtu: Option<PathBuf>,
+    /// Write the JSON object to a file as well.
+    #[arg(long, value_name = "FILE.json")]
+    out: Option<PathBuf>,
+}
+
+/// Solves and prints.
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let problem = Problem::read(&arguments.problem)?;
+    // What cannot be written is said before the work, not after it.
+    if arguments.vtu.is_some() && !problem.case.has_field() {
+        return Err(Failure::input(
+            "--vtu: this kind of problem has no body to show; leave it out, or use --plot",
+        ));
+    }
+    check_files(arguments)?;
+    let begun = Instant::now();
+    let waiting = Waiting::new(Reader::of_json(arguments.json));
+    let wanted = Wanted {
+        plot: arguments.plot.is_some(),
+        vtu: arguments.vtu.is_some(),
+    };
+    let solution = solution::of(&problem, wanted, &waiting)?;
+    let answer = Answer::new(&problem, &solution, begun.elapsed());
+    write(arguments, &solution, &answer)?;
+    drop(waiting);
+    if arguments.json {
+        return output::json(&answer);
+    }
+    output::text(table::of(&problem, &solution, &answer))?;
+    for path in arguments.files() {
+        output::text(format!("written: {}", path.display()))?;
+    }
+    output::warnings(&answer.warnings);
+    Ok(())
+}
+
+/// Whether each file can be written, and no two are the same.
+fn check_files(arguments: &Arguments) -> Result<(), Failure> {
+    let files: Vec<&Path> = arguments.files().collect();
+    for (number, path) in files.iter().enumerate() {
+        check_writable(path)?;
+        if files[..number].contains(path) {
+            let path = path.display();
+            return Err(Failure::input(format!(
+                "{path} is named twice; give each file its own name"
+            )));
+        }
+    }
+    Ok(())
+}
+
+fn write(arguments: &Arguments, solution: &Solution, answer: &Answer) -> Result<(), Failure> {
+    // Ctrl-C waits until the files are whole.
+    let _unbroken = Unbroken::begin();
+    if let Some(path) = &arguments.plot {
+        solution.plot.write(path)?;
+    }
+    if let (Some(path), Some(bytes)) = (&arguments.vtu, &solution.vtu) {
+        palpate_files::write_whole(path, bytes)?;
+    }
+    if let Some(path) = &arguments.out {
+        let json = output::json_text(answer)? + "\n";
+        palpate_files::write_whole(path, json.as_bytes())?;
+    }
+    Ok(())
+}
+
+impl Arguments {
+    /// The files to be written.
+    fn files(&self) -> impl Iterator<Item = &Path> {
+        let files = [&self.plot, &self.vtu, &self.out];
+        files.into_iter().filter_map(|path| path.as_deref())
+    }
+}
