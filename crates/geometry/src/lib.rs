@@ -36,7 +36,7 @@ pub use neighborhood_watch::{FASTEST_TURN, Footing, follow, settle};
 pub use organ::{AnchorPlane, Organ, OrganDescription, OrganError};
 pub use patch_field::{Patch, PatchField};
 pub use proximity::{PointOnTriangle, closest_on_triangle};
-pub use refine::{Focus, Resolved, refine_near, refine_uniformly, resolve_sphere};
+pub use refine::{Focus, Resolved, refine_near, refine_to, refine_uniformly, resolve_sphere};
 pub use surface::Surface;
 pub use weld::{Repairs, repair, weld_exactly};
 

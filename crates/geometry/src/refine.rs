@@ -20,6 +20,6 @@ mod shell;
 mod sphere;
 mod uniform;
 
-pub use near::{Focus, refine_near};
+pub use near::{Focus, refine_near, refine_to};
 pub use sphere::{Resolved, resolve_sphere};
 pub use uniform::refine_uniformly;

@@ -233,6 +233,86 @@ pub enum Error {
         /// The value given [-].
         stretch: f64,
     },
+    /// The tetrahedra of a solid cannot be made.
+    #[error(transparent)]
+    Tetrahedra(#[from] palpate_geometry::TetrahedronError),
+    /// No triangle of the boundary is held.
+    #[error(
+        "the anchor holds no triangle of the body, which can move without force; give a plane, box or sphere that takes in a part of its surface"
+    )]
+    NothingHeld,
+    /// A piece of the body is not held.
+    #[error(
+        "the body has {pieces} pieces, and the one at {place:?} m is not held; hold each of them, or join them"
+    )]
+    LoosePiece {
+        /// A vertex of the piece [m].
+        place: [f64; 3],
+        /// How many pieces there are.
+        pieces: usize,
+    },
+    /// The patch is away from the boundary.
+    #[error(
+        "the centre of the patch lies {distance} m off the surface, more than its radius of {radius} m; move it to the surface"
+    )]
+    PatchOffSurface {
+        /// Distance of its centre [m].
+        distance: f64,
+        /// Its radius [m].
+        radius: f64,
+    },
+    /// The whole boundary lies within the radius of the patch.
+    #[error("the patch of radius {radius} m takes in the whole body; give a smaller radius")]
+    PatchCoversBody {
+        /// Its radius [m].
+        radius: f64,
+    },
+    /// No triangle of the boundary lies in the patch.
+    #[error(
+        "the patch of radius {radius} m holds no triangle of the boundary; give a larger radius or repair the mesh there"
+    )]
+    EmptyPatch {
+        /// Its radius [m].
+        radius: f64,
+    },
+    /// The anchor and the patch have nodes in common.
+    #[error(
+        "{:.0} % of the patch is held by the anchor; move the patch, or make the anchor smaller", 100.0 * part
+    )]
+    PatchIsHeld {
+        /// Part of the nodes of the patch [-].
+        part: f64,
+    },
+    /// The patch goes farther than the body is long.
+    #[error(
+        "the patch moves by {displacement} m, but the body is {extent} m long; give a displacement in metres that is smaller"
+    )]
+    DisplacementBeyondBody {
+        /// Length of the displacement [m].
+        displacement: f64,
+        /// Largest extent of the body [m].
+        extent: f64,
+    },
+    /// More unknowns than a computer has memory for.
+    #[error(
+        "the solid has {unknowns} unknowns, more than {most}; give a coarser mesh, or a larger patch"
+    )]
+    TooManyUnknowns {
+        /// Number of unknowns.
+        unknowns: usize,
+        /// The most that are solved.
+        most: usize,
+    },
+    /// A solid cannot be followed further.
+    #[error(
+        "no equilibrium was found beyond {:.1} % of the displacement ({failure}); give a smaller one or a larger patch", 100.0 * part
+    )]
+    NoSolid {
+        /// The part that was reached [-].
+        part: f64,
+        /// Why.
+        failure: crate::finite_elements::Failure,
+    },
     /// A punch that the mesh of a tube has no place for.
     #[error(
         "the punch has a radius of {radius} m; give a positive one of at most {largest} m, 0.8 of the tube's outer radius or half length"

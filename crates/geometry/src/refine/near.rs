@@ -46,15 +46,51 @@ pub fn refine_near(
             return Err(TetrahedronError::NotALength { what, found });
         }
     }
+    let center = center_in(mesh, focus);
+    refine(mesh, surface, |longest, positions| {
+        longest > focus.edge && is_within(positions, &center, focus.radius)
+    })
+    .map_err(|error| match error {
+        TetrahedronError::TooMany { expected, most, .. } => TetrahedronError::TooMany {
+            expected,
+            edge_m: focus.edge,
+            most,
+        },
+        other => other,
+    })
+}
+
+/// Bisects tetrahedra until none has an edge longer than what `longest_edge` [m] says at any of its
+/// corners [m] or at their centroid; otherwise as [`refine_near`].
+///
+/// # Errors
+/// When there come more tetrahedra than [`TetrahedronMesh::MOST_TETRAHEDRA`], as when the edge that
+/// is asked for somewhere is no positive length.
+pub fn refine_to(
+    mesh: &TetrahedronMesh,
+    surface: Option<&Surface>,
+    longest_edge: impl Fn(&Vec3) -> f64,
+) -> Result<TetrahedronMesh, TetrahedronError> {
+    refine(mesh, surface, |longest, positions| {
+        let [a, b, c, d] = positions;
+        let centroid = 0.25 * (a + b + c + d);
+        longest > longest_edge(&centroid) || positions.iter().any(|p| longest > longest_edge(p))
+    })
+}
+
+/// Bisects tetrahedra that are `too_long`, by their longest edge [m] and their corners [m].
+fn refine(
+    mesh: &TetrahedronMesh,
+    surface: Option<&Surface>,
+    too_long: impl Fn(f64, &[Vec3; 4]) -> bool,
+) -> Result<TetrahedronMesh, TetrahedronError> {
     let shell = surface.map(Shell::new);
     let mut bisection = Bisection::new(mesh);
-    let center = center_in(mesh, focus);
     let mut off_surface = Vec::new();
     let mut relaxed = 0;
     for _ in 0..MOST_ROUNDS {
         let chosen: Vec<u32> = (0..bisection.len() as u32)
-            .filter(|&t| bisection.longest_edge(t) > focus.edge)
-            .filter(|&t| is_within(&bisection.positions(t), &center, focus.radius))
+            .filter(|&t| too_long(bisection.longest_edge(t), &bisection.positions(t)))
             .collect();
         if chosen.is_empty() {
             // A vertex that moves may make an edge too long again.
@@ -69,7 +105,10 @@ pub fn refine_near(
         if bisection.len() > TetrahedronMesh::MOST_TETRAHEDRA {
             return Err(TetrahedronError::TooMany {
                 expected: bisection.len() as f64,
-                edge_m: focus.edge,
+                edge_m: chosen
+                    .iter()
+                    .map(|&t| 0.5 * bisection.longest_edge(t))
+                    .fold(f64::INFINITY, f64::min),
                 most: TetrahedronMesh::MOST_TETRAHEDRA,
             });
         }

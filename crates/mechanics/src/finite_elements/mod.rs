@@ -21,6 +21,7 @@ mod punched;
 mod relaxation;
 mod sensitivity;
 mod snap;
+pub mod solid;
 mod supports;
 pub mod tube;
 pub mod uniaxial;

@@ -127,9 +127,14 @@ impl Factors {
             symbolic.factorize_numeric_ldlt_scratch::<f64>(Par::Seq, Default::default()),
             symbolic.solve_in_place_scratch::<f64>(1, Par::Seq),
         ]);
+        let mut values = Vec::new();
+        values
+            .try_reserve_exact(symbolic.len_val())
+            .map_err(|_| Singular)?;
+        values.resize(symbolic.len_val(), 0.0);
         Ok(Self {
-            values: vec![0.0; symbolic.len_val()],
-            scratch: MemBuffer::new(needed),
+            values,
+            scratch: MemBuffer::try_new(needed).map_err(|_| Singular)?,
             symbolic,
         })
     }

@@ -24,6 +24,7 @@ mod laws;
 mod no_allocation;
 mod patch_on_hemisphere;
 mod path;
+mod solid;
 mod stretches;
 mod tube;
 mod uniaxial;

@@ -1,0 +1,135 @@
+use nalgebra::Matrix3;
+
+use super::super::model::{FiniteElementModel, FiniteElementState, FiniteElementWorkspace};
+use super::frame::Frame;
+use super::supports::Held;
+use crate::{Strain, Vec3};
+
+/// A solid in equilibrium, in the frame of the scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SolidAnswer {
+    /// Force on the tissue in the patch [N].
+    pub force: Vec3,
+    /// Its component along the displacement [N].
+    pub force_along: f64,
+    /// Force on the tissue where it is held [N].
+    pub reaction: Vec3,
+    /// Strain energy [J].
+    pub energy: f64,
+    /// Area of the patch at rest [m²].
+    pub patch_area: f64,
+    /// Number of unknowns.
+    pub unknowns: usize,
+    /// Numbers in the factors; each has eight bytes.
+    pub factor_entries: usize,
+    /// What is to be seen of it.
+    pub fields: SolidFields,
+    /// What deserves doubt, as sentences.
+    pub doubts: Vec<String>,
+}
+
+/// What a grid of quadratic tetrahedra has at its nodes and in its cells.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SolidFields {
+    /// Nodes at rest [m].
+    pub positions: Vec<Vec3>,
+    /// Ten nodes for each tetrahedron: corners, then the middles of 01, 12, 02, 03, 13, 23.
+    pub cells: Vec<u32>,
+    /// Displacement of each node [m].
+    pub displacements: Vec<Vec3>,
+    /// Mean stress at each node, tension positive [Pa].
+    pub pressures: Vec<f64>,
+    /// Von Mises' equivalent stress of each tetrahedron, of its mean Cauchy stress [Pa].
+    pub equivalent_stresses: Vec<f64>,
+}
+
+impl SolidAnswer {
+    pub(super) fn new(
+        model: &FiniteElementModel,
+        state: &FiniteElementState,
+        workspace: &FiniteElementWorkspace,
+        (frame, held, along): (&Frame, &Held, &Vec3),
+    ) -> Self {
+        let sum = |nodes: &[usize]| -> Vec3 {
+            let forces = nodes.iter().map(|&node| workspace.reaction(model, node));
+            frame.back(&forces.sum())
+        };
+        let force = sum(&held.moved);
+        Self {
+            force,
+            force_along: force.dot(&along.normalize()),
+            reaction: sum(&held.anchored),
+            energy: workspace.energy(),
+            patch_area: held.area,
+            unknowns: model.size(),
+            factor_entries: workspace.factor_entries(),
+            fields: SolidFields::new(model, state, frame),
+            doubts: Vec::new(),
+        }
+    }
+}
+
+impl SolidFields {
+    fn new(model: &FiniteElementModel, state: &FiniteElementState, frame: &Frame) -> Self {
+        let nodes = &model.mesh.nodes;
+        let displacement = |node| frame.back(&state.displacement(model, node));
+        Self {
+            positions: nodes.iter().map(|x| frame.back(x)).collect(),
+            cells: model.mesh.elements.clone(),
+            displacements: (0..nodes.len()).map(displacement).collect(),
+            pressures: pressures(model, state),
+            equivalent_stresses: (0..model.mesh.len())
+                .map(|element| equivalent_stress(model, state, element))
+                .collect(),
+        }
+    }
+}
+
+/// At the corners the unknowns, between them their mean.
+fn pressures(model: &FiniteElementModel, state: &FiniteElementState) -> Vec<f64> {
+    let mut at_nodes = vec![0.0; model.mesh.nodes.len()];
+    let local = model.local_unknowns();
+    let ends = [[0, 1], [1, 2], [0, 2], [0, 3], [1, 3], [2, 3]];
+    for element in 0..model.mesh.len() {
+        let numbers = &model.unknowns[element * local..][30..34];
+        let corners: Vec<f64> = numbers
+            .iter()
+            .map(|&number| state.unknowns[number as usize])
+            .collect();
+        let nodes = model.mesh.element(element);
+        for (node, pressure) in nodes.iter().zip(&corners) {
+            at_nodes[*node as usize] = *pressure;
+        }
+        for (node, [a, b]) in nodes[4..].iter().zip(ends) {
+            at_nodes[*node as usize] = 0.5 * (corners[a] + corners[b]);
+        }
+    }
+    at_nodes
+}
+
+fn equivalent_stress(
+    model: &FiniteElementModel,
+    state: &FiniteElementState,
+    element: usize,
+) -> f64 {
+    let (law, mapping) = (model.law.as_ref(), &model.mapping);
+    let (mut mean, mut volume) = (Matrix3::zeros(), 0.0);
+    for point in element * mapping.points..(element + 1) * mapping.points {
+        let mut f = Matrix3::identity();
+        let gradients = mapping.gradients[30 * point..30 * (point + 1)].chunks_exact(3);
+        for (node, g) in model.mesh.element(element).iter().zip(gradients) {
+            let u = state.displacement(model, *node as usize);
+            f += u * Vec3::from_column_slice(g).transpose();
+        }
+        let stress = law.distortion_stress(&f);
+        let cauchy = match law.volume().strain {
+            Strain::Small => stress,
+            Strain::Finite => stress * f.transpose() / f.determinant(),
+        };
+        mean += mapping.weights[point] * cauchy;
+        volume += mapping.weights[point];
+    }
+    mean /= volume;
+    let deviator = mean - mean.trace() / 3.0 * Matrix3::identity();
+    (1.5 * deviator.norm_squared()).sqrt()
+}

@@ -1,0 +1,73 @@
+use nalgebra::Rotation3;
+
+use super::super::indentation::Grip;
+use super::super::mesh::ElementMesh;
+use super::super::model::FiniteElementModel;
+use super::super::supports::Supports;
+use super::problem::MovedPatch;
+use super::supports::Held;
+use crate::Vec3;
+
+/// The frame in which a body is solved: that of the scene, or one whose third axis points along the
+/// displacement, so that a patch that slides across it has one held component.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Frame {
+    /// From the scene into the frame.
+    turn: Rotation3<f64>,
+    /// The held components of the patch.
+    held: [bool; 3],
+    displacement: Vec3,
+}
+
+impl Frame {
+    pub(super) fn new(patch: &MovedPatch) -> Self {
+        let along = patch.displacement;
+        let axis = along.iamax();
+        let is_axis = (0..3).all(|i| i == axis || along[i] == 0.0);
+        let (turn, held) = match patch.grip {
+            Grip::Stick => (Rotation3::identity(), [true; 3]),
+            Grip::Slide if is_axis => (Rotation3::identity(), [0, 1, 2].map(|i| i == axis)),
+            Grip::Slide => {
+                // Nearly opposite vectors have no rotation between them.
+                let to = if along.z < 0.0 { -Vec3::z() } else { Vec3::z() };
+                let turn = Rotation3::rotation_between(&along, &to);
+                (turn.unwrap_or_default(), [false, false, true])
+            }
+        };
+        Self {
+            turn,
+            held,
+            displacement: turn * along,
+        }
+    }
+
+    pub(super) fn put(&self, mut mesh: ElementMesh) -> ElementMesh {
+        for node in &mut mesh.nodes {
+            *node = self.turn * *node;
+        }
+        mesh
+    }
+
+    /// A vector of the frame in the scene.
+    pub(super) fn back(&self, vector: &Vec3) -> Vec3 {
+        self.turn.inverse() * vector
+    }
+
+    /// The supports when the patch has moved this `part` [-] of its way.
+    pub(super) fn supports(
+        &self,
+        model: &FiniteElementModel,
+        held: &Held,
+        part: f64,
+    ) -> Supports<'static> {
+        let mut supports = Supports::none(model);
+        for axis in 0..3 {
+            supports = supports.hold(model, held.anchored.iter().copied(), axis, 0.0);
+            if self.held[axis] {
+                let at = part * self.displacement[axis];
+                supports = supports.hold(model, held.moved.iter().copied(), axis, at);
+            }
+        }
+        supports
+    }
+}

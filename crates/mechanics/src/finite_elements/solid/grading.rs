@@ -1,0 +1,169 @@
+//! The tetrahedra on which a solid is solved: a coarse filling, refined towards the edge of the patch.
+//!
+//! Stress is infinite along that edge, where the surface and a sphere around the centre meet. With d the
+//! distance to it and k the number of halvings, no edge is longer than
+//!   h(d) = min(max(h₀ 2⁻ᵏ, g d 2^(−k/4)), H 2^(−k/4)).
+//! The force errs with h at the edge of the patch and with h⁴ where the answer is smooth, so that both
+//! parts fall alike, and a level has about twice as many unknowns as the one before.
+
+use std::f64::consts::TAU;
+
+use palpate_geometry::{
+    FillSettings, TetrahedronError, TetrahedronMesh, closest_on_triangle, fill, refine_to,
+    resolve_sphere,
+};
+
+use super::problem::{Body, MovedPatch};
+use crate::{Error, Vec3};
+
+/// h₀, in radii of the patch [-].
+const EDGE: f64 = 0.4;
+
+/// g [-].
+const GROWTH: f64 = 1.5;
+
+/// Tetrahedra of the first filling.
+const FILLING: usize = 2_000;
+
+/// Tetrahedra of the last filling that is tried when a body is thin.
+const FINEST_FILLING: usize = 256_000;
+
+/// Points around a circle from which the edge of the patch is known.
+const AROUND: usize = 96;
+
+/// A centre this far off the boundary is said [radii of the patch].
+const OFF: f64 = 0.01;
+
+/// What all meshes of a problem have in common.
+pub(super) struct Ground<'a> {
+    body: &'a Body,
+    filling: TetrahedronMesh,
+    /// Centre of the patch, on the boundary [m].
+    pub(super) center: Vec3,
+    radius: f64,
+    /// Points of the edge of the patch [m].
+    edge: Vec<Vec3>,
+    pub(super) doubts: Vec<String>,
+}
+
+impl<'a> Ground<'a> {
+    pub(super) fn new(body: &'a Body, patch: &MovedPatch) -> Result<Self, Error> {
+        let triangles = triangles(body);
+        let nearest = triangles
+            .iter()
+            .map(|triangle| closest_on_triangle(triangle, &patch.center).position)
+            .min_by(|a, b| {
+                let distance = |p: &Vec3| (p - patch.center).norm();
+                distance(a).total_cmp(&distance(b))
+            });
+        let center = nearest.ok_or(Error::NoElements)?;
+        let (distance, radius) = ((center - patch.center).norm(), patch.radius);
+        if distance > radius {
+            return Err(Error::PatchOffSurface { distance, radius });
+        }
+        let mut doubts = Vec::new();
+        if distance > OFF * radius {
+            doubts.push(format!(
+                "the centre of the patch lies {distance:.3e} m off the boundary; its nearest point is taken"
+            ));
+        }
+        let edge: Vec<Vec3> = triangles
+            .iter()
+            .flat_map(|triangle| circle_in(triangle, &center, radius))
+            .collect();
+        if edge.is_empty() {
+            return Err(Error::PatchCoversBody { radius });
+        }
+        Ok(Self {
+            body,
+            filling: filling(body)?,
+            center,
+            radius,
+            edge,
+            doubts,
+        })
+    }
+
+    /// The tetrahedra after `halvings`, and how many edges still cross the edge of the patch.
+    pub(super) fn mesh(&self, halvings: u32) -> Result<(TetrahedronMesh, usize), Error> {
+        let surface = match self.body {
+            Body::Surface(surface) => Some(surface),
+            Body::Volume(_) => None,
+        };
+        let halves = f64::from(halvings);
+        let follow = 2.0_f64.powf(-halves / 4.0);
+        let shortest = EDGE * self.radius * 2.0_f64.powf(-halves);
+        let longest = self.filling.quality().longest_edge * follow * (1.0 + 1e-9);
+        let mesh = refine_to(&self.filling, surface, |point| {
+            let squared = self
+                .edge
+                .iter()
+                .map(|on| (on - point).norm_squared())
+                .fold(f64::INFINITY, f64::min);
+            (GROWTH * follow * squared.sqrt())
+                .max(shortest)
+                .min(longest)
+        })?;
+        let (mesh, resolved) = resolve_sphere(&mesh, surface, &self.center, self.radius)?;
+        Ok((mesh, resolved.crossing))
+    }
+}
+
+/// The triangles of the boundary [m].
+fn triangles(body: &Body) -> Vec<[Vec3; 3]> {
+    match body {
+        Body::Surface(surface) => {
+            let mesh = surface.mesh();
+            mesh.triangle_ids().map(|t| mesh.positions(t)).collect()
+        }
+        Body::Volume(mesh) => {
+            let boundary = mesh.boundary().into_iter();
+            boundary
+                .map(|(corners, _)| corners.map(|node| mesh.vertices()[node.index()]))
+                .collect()
+        }
+    }
+}
+
+fn filling(body: &Body) -> Result<TetrahedronMesh, Error> {
+    let surface = match body {
+        Body::Surface(surface) => surface,
+        Body::Volume(mesh) => return Ok(mesh.clone()),
+    };
+    let mut about = FILLING;
+    loop {
+        match fill(surface, &FillSettings::with_about(surface, about)) {
+            Err(TetrahedronError::TooCoarse { .. }) if about < FINEST_FILLING => about *= 2,
+            done => return Ok(done?),
+        }
+    }
+}
+
+/// Points where the sphere around `center` of `radius` [m] meets a triangle.
+fn circle_in(triangle: &[Vec3; 3], center: &Vec3, radius: f64) -> Vec<Vec3> {
+    let [a, b, c] = triangle;
+    let nearest = (closest_on_triangle(triangle, center).position - center).norm();
+    if nearest > radius || triangle.iter().all(|p| (p - center).norm() < radius) {
+        return Vec::new();
+    }
+    let Some(normal) = (b - a).cross(&(c - a)).try_normalize(0.0) else {
+        return Vec::new();
+    };
+    let height = (center - a).dot(&normal);
+    let (foot, reach) = (
+        center - normal * height,
+        (radius * radius - height * height).max(0.0).sqrt(),
+    );
+    let along = (b - a).normalize();
+    let across = normal.cross(&along);
+    (0..AROUND)
+        .map(|k| {
+            let turn = TAU * k as f64 / AROUND as f64;
+            foot + reach * (turn.cos() * along + turn.sin() * across)
+        })
+        .filter(|point| {
+            let on = closest_on_triangle(triangle, point).position;
+            (on - point).norm() <= 0.03 * radius
+        })
+        .collect()
+}

@@ -1,0 +1,79 @@
+//! Tetrahedra with nodes in the middles of their edges, and those on the boundary.
+
+use palpate_geometry::{NodeId, TetrahedronMesh};
+
+use super::super::element::ElementKind;
+use super::super::mesh::ElementMesh;
+use crate::Vec3;
+
+/// Corners at the two ends of each middle node of a tetrahedron.
+const EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], [0, 2], [0, 3], [1, 3], [2, 3]];
+
+impl ElementMesh {
+    /// Quadratic tetrahedra with straight edges: the vertices keep their numbers, and the middles
+    /// follow in the order of [`TetrahedronMesh::edges`].
+    pub fn from_tetrahedra(mesh: &TetrahedronMesh) -> Self {
+        let edges = mesh.edges();
+        let mut nodes = mesh.vertices().to_vec();
+        nodes.extend(edges.iter().map(|edge| {
+            let [from, to] = edge.map(|node| mesh.vertices()[node.index()]);
+            0.5 * (from + to)
+        }));
+        let mut elements = Vec::with_capacity(10 * mesh.tetrahedra().len());
+        for corners in mesh.tetrahedra() {
+            elements.extend(corners.map(|node| node.0));
+            elements.extend(EDGES.map(|[a, b]| middle(mesh, &edges, [corners[a], corners[b]])));
+        }
+        Self {
+            kind: ElementKind::Tet10,
+            nodes,
+            elements,
+        }
+    }
+}
+
+/// Number of the node in the middle of an edge.
+fn middle(mesh: &TetrahedronMesh, edges: &[[NodeId; 2]], [a, b]: [NodeId; 2]) -> u32 {
+    let found = edges.binary_search(&[a.min(b), a.max(b)]);
+    (mesh.vertices().len() + found.expect("all edges are listed")) as u32
+}
+
+/// A triangle of the boundary.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Face {
+    /// Its corners, counter-clockwise seen from outside.
+    pub(super) corners: [NodeId; 3],
+    /// Its six nodes: corners, then middles.
+    pub(super) nodes: [usize; 6],
+    /// The tetrahedron that it belongs to.
+    pub(super) tetrahedron: usize,
+}
+
+/// The boundary of `mesh`, with the node numbers of [`ElementMesh::from_tetrahedra`].
+pub(super) fn faces(mesh: &TetrahedronMesh) -> Vec<Face> {
+    let edges = mesh.edges();
+    let faces = mesh.boundary().into_iter();
+    faces
+        .map(|(corners, tetrahedron)| {
+            let [a, b, c] = corners;
+            let middles = [[a, b], [b, c], [c, a]].map(|edge| middle(mesh, &edges, edge) as usize);
+            let [a, b, c] = corners.map(NodeId::index);
+            let [d, e, f] = middles;
+            Face {
+                corners,
+                nodes: [a, b, c, d, e, f],
+                tetrahedron,
+            }
+        })
+        .collect()
+}
+
+impl Face {
+    pub(super) fn positions(&self, mesh: &TetrahedronMesh) -> [Vec3; 3] {
+        self.corners.map(|node| mesh.vertices()[node.index()])
+    }
+
+    pub(super) fn centroid(&self, mesh: &TetrahedronMesh) -> Vec3 {
+        self.positions(mesh).iter().sum::<Vec3>() / 3.0
+    }
+}

@@ -1,0 +1,29 @@
+//! A solid of any shape, held in one place and moved by a tool in another.
+//!
+//! Its body is filled with quadratic tetrahedra with a pressure field [Taylor and Hood 1973], refined
+//! towards the edge of the patch that the tool moves (`grading`). The patch is a set of whole triangles
+//! within a radius of a point; *stick* prescribes all three components of its displacement, *slip* only
+//! the one along the displacement. With K the tangent and r the residual,
+//!   K Δu = −r, u given where the body is held or moved,
+//! once at small strain, and in steps at finite strain; the force is Σ r over the nodes of the patch.
+//!
+//! *How we know*: `solid::a_patch_on_a_cube_is_a_punch` (axisymmetric elements and the half-space),
+//! `solid::a_patch_on_a_hemisphere_is_3_percent_stiffer_than_on_a_half_space`,
+//! `solid::the_force_converges_with_the_edge_of_the_patch`, and energy, equilibrium and turned bodies.
+//!
+//! *Limits*: the side of the tool does not touch, and the patch neither grows nor shrinks. Where the
+//! anchor ends inside a side, it ends along whole triangles. A body without a surface of its own keeps
+//! its facets. A third mesh of an organ takes gigabytes and minutes.
+
+mod answer;
+mod frame;
+mod grading;
+mod mesh;
+mod problem;
+mod run;
+mod solve;
+mod supports;
+
+pub use answer::{SolidAnswer, SolidFields};
+pub use problem::{Body, MovedPatch, SolidProblem};
+pub use run::{solve, solve_at};
