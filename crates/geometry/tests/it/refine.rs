@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use palpate_geometry::{
     FillSettings, Focus, Organ, Surface, TetrahedronError, TetrahedronMesh, Vec3, fill,
-    refine_near, refine_uniformly, resolve_sphere,
+    refine_near, refine_to, refine_uniformly, resolve_sphere,
 };
 
 use crate::shapes::{organ, tries};
@@ -115,6 +115,30 @@ fn a_block_keeps_its_volume() {
     assert_sound(&eight);
     assert_eq!(eight.tetrahedra().len(), 8 * block.tetrahedra().len());
     assert!((eight.volume() - 1.0).abs() < 1e-12);
+}
+
+/// Judge: the rule itself, at every corner and centroid. Edges grow with the distance from a segment.
+#[test]
+fn edges_are_as_long_as_is_asked_for() {
+    let block = TetrahedronMesh::block(Vec3::zeros(), Vec3::repeat(1.0), [2, 2, 2]).unwrap();
+    let longest = |p: &Vec3| {
+        let on = Vec3::new(p.x.clamp(0.3, 0.7), 0.5, 1.0);
+        (0.5 * (p - on).norm()).max(0.02)
+    };
+    let mesh = refine_to(&block, None, longest).unwrap();
+    println!("{}", report(&mesh));
+    assert_sound(&mesh);
+    for number in 0..mesh.tetrahedra().len() {
+        let positions = mesh.positions(number);
+        let centroid = positions.iter().sum::<Vec3>() / 4.0;
+        let allowed = positions
+            .iter()
+            .map(longest)
+            .fold(longest(&centroid), f64::min);
+        for (k, p) in positions.iter().enumerate() {
+            assert!(positions[..k].iter().all(|q| (p - q).norm() <= allowed));
+        }
+    }
 }
 
 /// Judge: the volume of the surface; vertices of the boundary lie on it, so that what is missing

@@ -199,14 +199,14 @@ fn pressures_change_nothing_where_nothing_locks() {
         equilibrate(&model, &supports, &mut state, &mut workspace).unwrap();
         workspace.energy()
     };
-    let [coarse, fine] = [4, 8].map(|cells| {
+    let [coarse, fine] = [3, 6].map(|cells| {
         let softer =
             1.0 - energy(cells, Formulation::Mixed) / energy(cells, Formulation::Displacement);
         println!("{cells}: {softer:e}");
         softer
     });
     // Where the held bottom meets a free side stress is infinite, but less than at the edge of a patch.
-    assert!((0.0..0.001).contains(&coarse) && (0.0..0.4 * coarse).contains(&fine));
+    assert!((0.0..0.003).contains(&coarse) && (0.0..0.4 * coarse).contains(&fine));
 }
 
 /// Judges: the linear law at a small displacement, and the force as the slope of the energy at a large
