@@ -30,6 +30,22 @@ pub enum Error {
         "the hybrid model (`model.kind = \"hybrid\"`) is not there yet; set `kind = \"local\"` for the finite spheres"
     )]
     HybridModel,
+    /// A device or its loop cannot be run.
+    #[error(transparent)]
+    Servo(#[from] palpate_servo::Fault),
+    /// There is not one place for a device for each tool.
+    #[error(
+        "the scene has {tools} tools, but {stations} devices were given; give one, or none, for each"
+    )]
+    OtherDevices {
+        /// Tools of the scene.
+        tools: usize,
+        /// Devices, and nones, that were given.
+        stations: usize,
+    },
+    /// The thread of the model ended in a panic.
+    #[error("the model thread panicked, and the devices were stopped; report it as a defect")]
+    ModelPanicked,
     /// The motion moves a tool that the scene has not.
     #[error("the motion moves the tool {found:?}, but the scene has {known}; name one of these")]
     UnknownTool {
@@ -59,6 +75,7 @@ impl Error {
     pub fn is_input(&self) -> bool {
         match self {
             Self::File(error) => error.is_input(),
+            Self::Servo(_) | Self::ModelPanicked => false,
             _ => true,
         }
     }

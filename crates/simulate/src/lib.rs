@@ -7,13 +7,15 @@
 //! ```
 //!
 //! A [`Simulation`] is built once and never changes; a [`SimulationState`] is all that a step changes;
-//! a [`SimulationWorkspace`] is scratch. [`play`] runs a whole motion on a virtual clock: nothing here
-//! waits, and the same motion gives the same bytes.
+//! a [`SimulationWorkspace`] is scratch. [`play`] runs a whole motion on a virtual clock: nothing there
+//! waits, and the same motion gives the same bytes. [`interactive`] runs the same steps beside a servo loop
+//! and a display, for a hand.
 
 mod contact;
 mod deform;
 mod digest;
 mod error;
+pub mod interactive;
 mod organ;
 mod orientation;
 mod play;

@@ -1,4 +1,4 @@
-use palpate_files::scene::ModelKind;
+use palpate_files::scene::{HandOver, ModelKind};
 use palpate_files::{Elasticity, Scene, SessionHeader};
 use palpate_geometry::{AabbTree, Surface};
 use palpate_mechanics::Material;
@@ -15,6 +15,7 @@ pub struct Simulation {
     pub(crate) tools: Vec<Tool>,
     pub(crate) organ_radius: f64,
     pub(crate) step: f64,
+    hand_over: HandOver,
     force_scale: f64,
     scene_digest: String,
     doubts: Vec<String>,
@@ -64,6 +65,7 @@ impl Simulation {
             organ_radius: (1.5 * surface.mesh().volume() / std::f64::consts::PI).cbrt(),
             scene_digest: digest::digest(scene, &surface, &tissue),
             step: scene.model.step_s,
+            hand_over: scene.model.hand_over,
             force_scale: scene.model.force_scale,
             surface,
             tree,
@@ -86,6 +88,16 @@ impl Simulation {
     /// Length of a step [s].
     pub fn step(&self) -> f64 {
         self.step
+    }
+
+    /// What is handed over to the servo loop between two steps.
+    pub fn hand_over(&self) -> HandOver {
+        self.hand_over
+    }
+
+    /// Factor on every force that is felt [-].
+    pub fn force_scale(&self) -> f64 {
+        self.force_scale
     }
 
     /// Plain sentences on what deserves doubt in this scene.

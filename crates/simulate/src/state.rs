@@ -33,6 +33,8 @@ pub struct ToolState {
     /// What the session records of the step.
     pub row: SessionRow,
     pub(crate) response: Option<Response>,
+    /// The force before a pull was taken from it [N]: what it is extrapolated from.
+    pub(crate) with_pull: Vec3,
     pub(crate) history: ForceHistory,
     /// Where the history was made [m].
     pub(crate) history_at: Option<Vec3>,
@@ -83,6 +85,7 @@ impl ToolState {
                 events: Events::NONE,
             },
             response: None,
+            with_pull: Vec3::zeros(),
             history: ForceHistory::default(),
             history_at: None,
             shaft_touches: false,

@@ -105,6 +105,7 @@ fn feel(simulation: &Simulation, tool: &Tool, elapsed: f64, state: &mut ToolStat
         .history
         .advance(&simulation.material.prony, elastic, elapsed);
     state.force = Vec3::zeros();
+    state.with_pull = Vec3::zeros();
     let Some(contact) = &state.contact else {
         return Events::NONE;
     };
@@ -116,12 +117,13 @@ fn feel(simulation: &Simulation, tool: &Tool, elapsed: f64, state: &mut ToolStat
     }
     // Tissue that has not come back yet does not hold the tool: there is no adhesion.
     let outward = relaxed.dot(&contact.normal());
+    state.with_pull = match tool.bond {
+        Bond::Stick => relaxed,
+        // The history of a slide has other normals in it; there is no friction all the same.
+        Bond::Slip => contact.normal() * outward,
+    };
     if outward > 0.0 {
-        state.force = match tool.bond {
-            Bond::Stick => relaxed,
-            // The history of a slide has other normals in it; there is no friction all the same.
-            Bond::Slip => contact.normal() * outward,
-        };
+        state.force = state.with_pull;
     }
     Events::NONE
 }

@@ -10,6 +10,8 @@ mod agreement;
 mod analytic;
 mod data;
 mod errors;
+mod hand_over;
+mod interactive;
 mod invariants;
 mod no_allocation;
 mod scenes;

@@ -1,0 +1,125 @@
+//! A device that is moved from another thread: the mouse in a window.
+//!
+//! Who owns the window decides which place a gesture means and moves the [`PointerHand`] there, some sixty
+//! times a second; the [`Pointer`] follows at every tick, x ← x + (1 − exp(−Δt/τ)) (target − x), so that the
+//! tool glides where the mouse leaps. It takes every force and displays none.
+//!
+//! *How we know*: `devices::a_pointer_glides_to_its_hand`.
+//!
+//! *Limits*: the tool is τ behind the mouse, 15 ms unless set otherwise.
+
+use std::time::Duration;
+
+use nalgebra::UnitQuaternion;
+
+use super::{Command, Device, DeviceSpec, DeviceState};
+use crate::latest::{Receiver, Sender, channel};
+use crate::{Fault, Vec3};
+
+/// About a frame of a display [s].
+const SMOOTHING: f64 = 0.015;
+
+#[derive(Debug, Clone, Copy, Default)]
+struct Target {
+    position: Option<Vec3>,
+    orientation: Option<UnitQuaternion<f64>>,
+    grip: f64,
+    buttons: u32,
+}
+
+/// The end of a pointer that a window moves.
+pub struct PointerHand {
+    sender: Sender<Target>,
+    target: Target,
+}
+
+/// The end of a pointer that is a device.
+pub struct Pointer {
+    spec: DeviceSpec,
+    receiver: Receiver<Target>,
+    smoothing: f64,
+    position: Option<Vec3>,
+    time: f64,
+}
+
+impl Pointer {
+    /// A device that nobody holds yet, and the hand that moves it.
+    pub fn new() -> (Self, PointerHand) {
+        let target = Target::default();
+        let (sender, receiver) = channel(&target);
+        let pointer = Self {
+            spec: DeviceSpec {
+                name: "mouse".to_owned(),
+                workspace: None,
+                peak_force: f64::INFINITY,
+                displays_force: false,
+            },
+            receiver,
+            smoothing: SMOOTHING,
+            position: None,
+            time: 0.0,
+        };
+        (pointer, PointerHand { sender, target })
+    }
+
+    /// The same with another time to follow [s]; zero leaps with the mouse.
+    pub fn with_smoothing(mut self, time: f64) -> Self {
+        self.smoothing = time.max(0.0);
+        self
+    }
+}
+
+impl PointerHand {
+    /// Takes the tool up, if it is not held, and moves it to `position` [m].
+    pub fn move_to(&mut self, position: Vec3) {
+        self.target.position = Some(position);
+        self.sender.send(self.target);
+    }
+
+    /// Turns the handle; none leaves its direction to the scene.
+    pub fn turn_to(&mut self, orientation: Option<UnitQuaternion<f64>>) {
+        self.target.orientation = orientation;
+        self.sender.send(self.target);
+    }
+
+    /// Closes the grip, from 0, open, to 1, shut [-], and presses `buttons`, bit by bit.
+    pub fn press(&mut self, grip: f64, buttons: u32) {
+        self.target.grip = grip.clamp(0.0, 1.0);
+        self.target.buttons = buttons;
+        self.sender.send(self.target);
+    }
+
+    /// Takes the tool away; the next `move_to` puts it where it says, without a way there.
+    pub fn leave(&mut self) {
+        self.target.position = None;
+        self.sender.send(self.target);
+    }
+}
+
+impl Device for Pointer {
+    fn spec(&self) -> &DeviceSpec {
+        &self.spec
+    }
+
+    fn exchange(&mut self, command: &Command, _patience: Duration) -> Result<DeviceState, Fault> {
+        let target = *self.receiver.latest();
+        let elapsed = command.time - self.time;
+        self.time = command.time;
+        self.position = match (target.position, self.position) {
+            (Some(target), Some(from)) if self.smoothing > 0.0 => {
+                let part = -(-elapsed / self.smoothing).exp_m1();
+                Some(from + (target - from) * part)
+            }
+            (target, _) => target,
+        };
+        Ok(DeviceState {
+            orientation: target.orientation,
+            grip: target.grip,
+            buttons: target.buttons,
+            present: self.position.is_some(),
+            ..DeviceState::at(command.time, self.position.unwrap_or_else(Vec3::zeros))
+        })
+    }
+
+    fn stop(&mut self) {}
+}

@@ -1,0 +1,125 @@
+//! A scripted hand on a handle that is not there, for tests, demonstrations and runs without a device.
+//!
+//! A stiff hand is where its trajectory says, whatever the force. One that gives way ([`Hand`]) is pushed
+//! off it.
+//!
+//! *How we know*: `devices::a_hand_yields_as_its_spring_says`, `devices::a_hand_swings_at_its_frequency`.
+//!
+//! *Limits*: it has no inertia of links, no friction, no encoder: it is a hand, not a model of a machine.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::time::Duration;
+
+use super::hand::HandState;
+use super::{Command, Device, DeviceSpec, DeviceState, Hand, Trajectory};
+use crate::{Fault, Vec3};
+
+/// A handle that follows a script.
+#[derive(Debug)]
+pub struct VirtualDevice {
+    spec: DeviceSpec,
+    trajectory: Trajectory,
+    hand: Option<Hand>,
+    state: Option<HandState>,
+    held_force: Vec3,
+    time: f64,
+    stops: Arc<AtomicU32>,
+}
+
+impl VirtualDevice {
+    /// A hand that is exactly where `trajectory` says.
+    pub fn new(trajectory: Trajectory) -> Self {
+        Self {
+            spec: DeviceSpec {
+                name: "virtual".to_owned(),
+                workspace: None,
+                // That of a PHANTOM Premium 1.5.
+                peak_force: 8.5,
+                displays_force: true,
+            },
+            trajectory,
+            hand: None,
+            state: None,
+            held_force: Vec3::zeros(),
+            time: 0.0,
+            stops: Arc::default(),
+        }
+    }
+
+    /// The same, held by a hand that gives way.
+    ///
+    /// # Errors
+    /// When a number of the hand is not above zero.
+    pub fn with_hand(mut self, hand: Hand) -> Result<Self, Fault> {
+        hand.check()?;
+        self.hand = Some(hand);
+        Ok(self)
+    }
+
+    /// The same with another specification.
+    pub fn with_spec(mut self, spec: DeviceSpec) -> Self {
+        self.spec = spec;
+        self
+    }
+
+    /// How often it was stopped, to be read also when it is gone.
+    pub fn stops(&self) -> Arc<AtomicU32> {
+        self.stops.clone()
+    }
+
+    fn move_hand(&self, hand: Hand, time: f64) -> HandState {
+        let elapsed = time - self.time;
+        let (from, to) = (self.trajectory.at(self.time), self.trajectory.at(time));
+        let mut state = self.state.unwrap_or(HandState {
+            position: to.position,
+            velocity: Vec3::zeros(),
+        });
+        if elapsed > 0.0 {
+            let way = to.position - from.position;
+            let velocity = way / elapsed;
+            hand.advance(&mut state, &self.held_force, elapsed, |part| {
+                (from.position + way * part, velocity)
+            });
+        }
+        state
+    }
+}
+
+impl Device for VirtualDevice {
+    fn spec(&self) -> &DeviceSpec {
+        &self.spec
+    }
+
+    fn exchange(&mut self, command: &Command, _patience: Duration) -> Result<DeviceState, Fault> {
+        let scripted = self.trajectory.at(command.time);
+        let position = match self.hand {
+            None => scripted.position,
+            Some(hand) => {
+                // The last force acted until now; this one acts from now on.
+                let moved = self.move_hand(hand, command.time);
+                self.state = Some(moved);
+                moved.position
+            }
+        };
+        self.time = command.time;
+        self.held_force = command.force;
+        Ok(DeviceState {
+            orientation: scripted.orientation,
+            grip: scripted.grip,
+            buttons: scripted.buttons,
+            ..DeviceState::at(command.time, position)
+        })
+    }
+
+    fn stop(&mut self) {
+        self.held_force = Vec3::zeros();
+        self.stops.fetch_add(1, Ordering::Relaxed);
+    }
+}
+
+impl Drop for VirtualDevice {
+    fn drop(&mut self) {
+        self.stop();
+    }
+}

@@ -1,0 +1,90 @@
+/// Why forces are off, or a loop cannot be made. A plain value, so that it leaves the loop without
+/// allocation.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum Fault {
+    /// The controller gave a force that is no number.
+    #[error("the force to be sent was no finite number; mend the controller and arm again")]
+    NonFiniteForce,
+    /// The device gave a state that is no number.
+    #[error("the device answered with a number that is not finite; restart it and arm again")]
+    NonFiniteState,
+    /// The hand moved faster than it may.
+    #[error("the hand moved at {speed:.2} m/s, beyond {limit} m/s; hold it still and arm again")]
+    TooFast {
+        /// How fast it moved [m/s].
+        speed: f64,
+        /// How fast it may move [m/s].
+        limit: f64,
+    },
+    /// What the force is made of is too old.
+    #[error(
+        "the model has been silent for {age:.3} s, beyond {limit} s; take it a longer step and arm again"
+    )]
+    StaleModel {
+        /// How old it is [s].
+        age: f64,
+        /// How old it may be [s].
+        limit: f64,
+    },
+    /// The device waited too long for its next force.
+    #[error(
+        "the device had the same force for {gap:.3} s, beyond {limit} s; free the processor and arm again"
+    )]
+    Late {
+        /// How long it had it [s].
+        gap: f64,
+        /// How long it may have it [s].
+        limit: f64,
+    },
+    /// The device does not answer any more.
+    #[error("the device does not answer any more; plug it in and start again")]
+    Silent,
+    /// The device reports an error of its own.
+    #[error("the device reports its error {code}; look it up in its manual and start again")]
+    Device {
+        /// Its own number for it.
+        code: i32,
+    },
+    /// The thread of the loop ended in a panic; the device was stopped.
+    #[error("the servo thread panicked, and the device was stopped; report it as a defect")]
+    Panicked,
+    /// The operating system gives no thread.
+    #[error("the operating system gives no thread for the servo loop; close other programs")]
+    NoThread,
+    /// A setting is out of range.
+    #[error("{what} is {found}; set {expected}")]
+    Setting {
+        /// Which one.
+        what: &'static str,
+        /// What it is.
+        found: f64,
+        /// What it should be.
+        expected: &'static str,
+    },
+}
+
+impl Fault {
+    /// An error unless `found` is a number above zero; it may be infinite where a limit can be none.
+    pub(crate) fn unless_positive(what: &'static str, found: f64) -> Result<(), Self> {
+        if found > 0.0 {
+            return Ok(());
+        }
+        Err(Self::Setting {
+            what,
+            found,
+            expected: "a number above zero",
+        })
+    }
+
+    /// An error unless `found` is a finite number above zero.
+    pub(crate) fn unless_finite_and_positive(what: &'static str, found: f64) -> Result<(), Self> {
+        if found.is_finite() {
+            return Self::unless_positive(what, found);
+        }
+        Err(Self::Setting {
+            what,
+            found,
+            expected: "a finite number above zero",
+        })
+    }
+}

@@ -1,0 +1,51 @@
+//! Everything that runs at 1 kHz: devices, the loop that drives them, what makes its forces safe, and the
+//! hand-over of forces from a slower model.
+//!
+//! ```text
+//!  model thread ──latest(AffineForce)──▶ Controller ─wanted▶ Guard ─sent▶ Device ──▶ hand
+//!       ▲                                     ▲                              │
+//!       └────────── latest(Sample) ───────────┴───────────── DeviceState ────┘
+//! ```
+//!
+//! The crate knows nothing of tissue, scenes or files. A [`ServoLoop`] owns its [`Device`]; nothing else
+//! calls it, and it waits for nobody. The same loop runs on a real [`Clock`] and on a virtual one. A tick
+//! allocates nothing.
+
+mod affine_force;
+mod arming_request;
+mod clock;
+mod controller;
+mod device;
+mod extrapolate;
+mod fault;
+mod histogram;
+pub mod latest;
+pub mod limits;
+pub mod log;
+mod priority;
+mod report;
+mod servo_loop;
+mod servo_thread;
+mod study;
+mod velocity;
+
+pub use affine_force::AffineForce;
+pub use arming_request::ArmingRequest;
+pub use clock::Clock;
+pub use controller::Controller;
+pub use device::{
+    Command, Device, DeviceSpec, DeviceState, Hand, NoDevice, Pointer, PointerHand, Trajectory,
+    VirtualDevice, Waypoint,
+};
+pub use extrapolate::{Extrapolator, HandOver};
+pub use fault::Fault;
+pub use histogram::{Histogram, Percentiles};
+pub use limits::{Guard, Limits, Stage};
+pub use priority::{Priority, raise_priority};
+pub use report::{LoopReport, measure_lateness};
+pub use servo_loop::{Sample, ServoLoop, ServoReader, ServoSettings};
+pub use servo_thread::ServoThread;
+pub use study::{HandOverCost, HandOverStudy};
+
+/// Three numbers: a place [m], a velocity [m/s] or a force [N].
+pub type Vec3 = nalgebra::Vector3<f64>;

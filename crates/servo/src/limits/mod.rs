@@ -1,0 +1,120 @@
+//! What a force passes before it reaches a hand. The order is fixed; each stage is a small type or
+//! function of its own.
+//!
+//! 1. [`finite`]: a force or a state that is no number is no force, and a fault.
+//! 2. [`arming`]: no force before the device is ready, the hand slow and the force small; then it is
+//!    raised over half a second.
+//! 3. [`watchdog`]: a device that had to keep a force too long gets none; much too long is a fault. So is
+//!    a model that has been silent for 100 ms.
+//! 4. [`trip`]: a hand faster than 1 m/s is a fault.
+//! 5. [`walls`]: a soft wall before the ends of the workspace.
+//! 6. [`slew`]: a force rises by at most 400 N/s and falls at once.
+//! 7. [`magnitude`]: at most 3 N, and at most what the device displays, by shortening the vector.
+//!
+//! A fault keeps forces off until somebody arms them again.
+//!
+//! *How we know*: `limits::nothing_passes_the_limits`, and the tests of each stage.
+//!
+//! *Limits*: no dead-man's button, no thermal model, no passivity control yet: no device here needs them.
+
+pub mod arming;
+mod guard;
+pub mod magnitude;
+pub mod slew;
+pub mod walls;
+pub mod watchdog;
+
+pub use arming::Stage;
+pub use guard::{Guard, Wish};
+
+use crate::{DeviceSpec, Fault};
+
+/// The numbers of the stages.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limits {
+    /// Largest magnitude of a force [N].
+    pub force: f64,
+    /// Fastest rise of a force [N/s].
+    pub slew: f64,
+    /// Fastest hand [m/s].
+    pub speed: f64,
+    /// Fastest hand for which forces are armed [m/s].
+    pub arming_speed: f64,
+    /// Largest force with which they are armed [N].
+    pub arming_force: f64,
+    /// Time in which an armed force is raised to its whole [s].
+    pub ramp: f64,
+    /// Width of the wall before the ends of the workspace [m].
+    pub wall: f64,
+    /// How much longer than a tick a device may keep a force before it gets none [s].
+    pub late: f64,
+    /// How much longer before that is a fault [s].
+    pub much_too_late: f64,
+    /// How long a model may be silent before that is a fault [s].
+    pub silence: f64,
+    /// Whether a fault keeps forces off until somebody arms them; else they are armed when it is over.
+    pub latched: bool,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self {
+            force: 3.0,
+            slew: 400.0,
+            speed: 1.0,
+            arming_speed: 0.05,
+            arming_force: 0.3,
+            ramp: 0.5,
+            wall: 0.01,
+            late: 0.005,
+            much_too_late: 0.020,
+            silence: 0.100,
+            latched: true,
+        }
+    }
+}
+
+impl Limits {
+    /// The limits for a device. Where no force reaches a hand nothing can hurt it: a mouse may be as fast
+    /// as it likes, and a fault ends by itself.
+    pub fn of(spec: &DeviceSpec) -> Self {
+        let default = Self::default();
+        if spec.displays_force {
+            return default;
+        }
+        Self {
+            speed: f64::INFINITY,
+            arming_speed: f64::INFINITY,
+            arming_force: f64::INFINITY,
+            much_too_late: f64::INFINITY,
+            latched: false,
+            ..default
+        }
+    }
+
+    fn check(&self) -> Result<(), Fault> {
+        let Self {
+            force,
+            slew,
+            speed,
+            arming_speed,
+            arming_force,
+            ramp,
+            wall,
+            late,
+            much_too_late,
+            silence,
+            latched: _,
+        } = *self;
+        Fault::unless_finite_and_positive("the largest force [N]", force)?;
+        Fault::unless_finite_and_positive("the rise of a force [N/s]", slew)?;
+        Fault::unless_finite_and_positive("the time of the ramp [s]", ramp)?;
+        Fault::unless_finite_and_positive("the width of the wall [m]", wall)?;
+        Fault::unless_positive("the fastest hand [m/s]", speed)?;
+        Fault::unless_positive("the fastest hand at arming [m/s]", arming_speed)?;
+        Fault::unless_positive("the largest force at arming [N]", arming_force)?;
+        Fault::unless_positive("the time that is late [s]", late)?;
+        Fault::unless_positive("the time that is much too late [s]", much_too_late)?;
+        Fault::unless_positive("the longest silence of the model [s]", silence)
+    }
+}

@@ -1,0 +1,52 @@
+//! What becomes of a force that a device had to keep too long.
+
+use crate::Fault;
+
+/// What the last gap between two commands means for the next force.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Verdict {
+    /// Nothing.
+    InTime,
+    /// It is zero.
+    NoForce,
+    /// Forces are off.
+    Faulted(Fault),
+}
+
+/// Judges a `gap` [s] between two commands that were to be `period` [s] apart: beyond the period by more
+/// than `late` [s] the next force is zero, by more than `much_too_late` [s] it is a fault.
+pub fn judge_gap(gap: f64, period: f64, (late, much_too_late): (f64, f64)) -> Verdict {
+    let beyond = gap - period;
+    if beyond > much_too_late {
+        let limit = period + much_too_late;
+        return Verdict::Faulted(Fault::Late { gap, limit });
+    }
+    if beyond > late {
+        return Verdict::NoForce;
+    }
+    Verdict::InTime
+}
+
+/// Judges the `age` [s] of what a force is made of.
+pub fn judge_age(age: f64, limit: f64) -> Verdict {
+    if age > limit {
+        return Verdict::Faulted(Fault::StaleModel { age, limit });
+    }
+    Verdict::InTime
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn late_is_no_force_and_much_too_late_is_a_fault() {
+        let judge = |gap| judge_gap(gap, 1e-3, (5e-3, 20e-3));
+        assert_eq!(judge(1e-3), Verdict::InTime);
+        assert_eq!(judge(5.9e-3), Verdict::InTime);
+        assert_eq!(judge(6.1e-3), Verdict::NoForce);
+        assert!(matches!(judge(22e-3), Verdict::Faulted(Fault::Late { .. })));
+        assert_eq!(judge_age(0.099, 0.1), Verdict::InTime);
+        assert!(matches!(judge_age(0.101, 0.1), Verdict::Faulted(_)));
+    }
+}

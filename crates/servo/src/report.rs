@@ -1,0 +1,122 @@
+//! How good the touch was: what a loop measured of itself.
+
+use crate::clock::Clock;
+use crate::{
+    Controller, Fault, Histogram, NoDevice, Percentiles, Priority, Sample, ServoLoop,
+    ServoSettings, Vec3,
+};
+
+/// What a servo loop measured of itself. Lateness and work say nothing on a virtual clock.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct LoopReport {
+    /// What the operating system gave its thread.
+    pub priority: Priority,
+    /// Ticks that were done.
+    pub ticks: u64,
+    /// Ticks that were left out, because the one before took longer than its period.
+    pub missed: u64,
+    /// How long the loop has run [s].
+    pub elapsed: f64,
+    /// Ticks per second [Hz].
+    pub rate: f64,
+    /// How late ticks began [s].
+    pub lateness: Percentiles,
+    /// How long ticks took [s].
+    pub work: Percentiles,
+    /// How old the model's answers were when they were used [s]; zeros without a model.
+    pub age: Percentiles,
+    /// Work that the device did on the hand [J]; positive over a whole contact means that the loop
+    /// generated energy, which no tissue does.
+    pub energy: f64,
+    /// Largest force sent [N].
+    pub peak_force: f64,
+    /// Faults.
+    pub faults: u64,
+    /// Why forces are off, if they are.
+    pub fault: Option<Fault>,
+}
+
+/// What a loop measures while it runs.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Meter {
+    lateness: Histogram,
+    work: Histogram,
+    age: Histogram,
+    energy: f64,
+    peak_force: f64,
+    missed: u64,
+    began: Option<f64>,
+    last: Option<(f64, Vec3, Vec3)>,
+}
+
+impl Meter {
+    pub(crate) fn tick(&mut self, sample: &Sample, lateness: f64) {
+        self.began.get_or_insert(sample.state.time);
+        self.lateness.add(lateness);
+        if let Some(age) = sample.age.filter(|age| age.is_finite()) {
+            self.age.add(age);
+        }
+        let position = sample.state.position;
+        if let Some((_, from, held)) = self.last {
+            let work = held.dot(&(position - from));
+            // A device that is not there has no place.
+            self.energy += if work.is_finite() { work } else { 0.0 };
+        }
+        self.last = Some((sample.state.time, position, sample.held));
+        self.peak_force = self.peak_force.max(sample.sent.norm());
+    }
+
+    pub(crate) fn worked(&mut self, work: f64, missed: u64) {
+        self.work.add(work);
+        self.missed += missed;
+    }
+
+    pub(crate) fn report(&self) -> LoopReport {
+        let ticks = self.lateness.count();
+        let ends = self.began.zip(self.last.map(|(time, ..)| time));
+        let elapsed = ends.map_or(0.0, |(began, last)| last - began);
+        LoopReport {
+            ticks,
+            missed: self.missed,
+            elapsed,
+            rate: if elapsed > 0.0 {
+                (ticks - 1) as f64 / elapsed
+            } else {
+                0.0
+            },
+            lateness: self.lateness.percentiles(),
+            work: self.work.percentiles(),
+            age: self.age.percentiles(),
+            energy: self.energy,
+            peak_force: self.peak_force,
+            ..LoopReport::default()
+        }
+    }
+}
+
+/// Runs a loop without a device at `rate` [Hz] for `duration` [s] on this machine, at the best priority
+/// that it gives: how late ticks are here.
+///
+/// # Errors
+/// When a number is not above zero, or there is no thread.
+pub fn measure_lateness(rate: f64, duration: f64) -> Result<LoopReport, Fault> {
+    let period = 1.0 / rate;
+    let spring = |state: &crate::DeviceState, _: f64| -state.position;
+    let controller: Box<dyn Controller> = Box::new(spring);
+    let settings = ServoSettings {
+        period,
+        ..ServoSettings::default()
+    };
+    let device = Box::new(NoDevice::new(Vec3::zeros()));
+    let (servo, _reader) = ServoLoop::new(device, controller, settings)?;
+    let ticks = (duration * rate).ceil() as u64;
+    let thread = std::thread::Builder::new().name("servo".to_owned());
+    let run = move || {
+        let mut servo = servo;
+        servo.raise_priority();
+        let mut clock = Clock::real();
+        servo.run(&mut clock, |tick| tick < ticks)
+    };
+    let handle = thread.spawn(run).map_err(|_| Fault::NoThread)?;
+    handle.join().map_err(|_| Fault::Panicked)
+}

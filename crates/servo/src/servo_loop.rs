@@ -1,0 +1,263 @@
+//! The loop: exchange, control, guard, at every tick.
+//!
+//! Tick n begins at t₀ + n T, an absolute time. What is late stays late alone: ticks whose time has passed
+//! are left out and counted, never made up for in a burst. The force of tick n is sent with tick n + 1, for
+//! a device answers once per message; so a hand feels the force of its place one period ago.
+//!
+//! *How we know*: `servo::skips_and_never_bursts`, `servo::the_same_script_gives_the_same_bytes`,
+//! `no_allocation::a_tick_allocates_nothing`, `servo::a_panic_stops_the_device`.
+//!
+//! *Limits*: on an ordinary operating system the longest lateness is that of the scheduler, milliseconds.
+
+use std::time::Duration;
+
+use crate::limits::{Guard, Limits, Stage, Wish};
+use crate::priority::{Priority, raise_priority};
+use crate::report::Meter;
+use crate::velocity::Velocity;
+use crate::{
+    ArmingRequest, Clock, Command, Controller, Device, DeviceState, Fault, LoopReport, Vec3,
+    latest, log,
+};
+
+/// How a loop runs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ServoSettings {
+    /// Time from tick to tick [s].
+    pub period: f64,
+    /// What forces have to pass; none means those that belong to the device.
+    pub limits: Option<Limits>,
+    /// Samples that the log has room for.
+    pub log: usize,
+}
+
+impl Default for ServoSettings {
+    /// 1 kHz, and four seconds of samples until somebody reads them.
+    fn default() -> Self {
+        Self {
+            period: 1e-3,
+            limits: None,
+            log: 4096,
+        }
+    }
+}
+
+/// What happened at a tick.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample {
+    /// Number of the tick, from zero; missed ones have numbers too.
+    pub tick: u64,
+    /// What the device answered.
+    pub state: DeviceState,
+    /// The velocity of the hand [m/s].
+    pub velocity: Vec3,
+    /// The force that the device got at this tick and has until the next [N].
+    pub held: Vec3,
+    /// The force that the controller wants for this state [N].
+    pub wanted: Vec3,
+    /// What the limits leave of it, which is sent with the next tick [N].
+    pub sent: Vec3,
+    /// How old what it is made of is [s].
+    pub age: Option<f64>,
+    /// How far forces are on.
+    pub stage: Stage,
+}
+
+/// What others see of a loop.
+pub struct ServoReader {
+    /// The latest sample; none before the first tick.
+    pub latest: latest::Receiver<Option<Sample>>,
+    /// Every sample.
+    pub log: log::Reader<Sample>,
+    /// The loop's report, ten times a second.
+    pub report: latest::Receiver<LoopReport>,
+    /// Arms forces again after a fault.
+    pub arming: ArmingRequest,
+}
+
+/// A device, what controls it, and what it passes. Dropping it stops the device.
+pub struct ServoLoop {
+    device: Box<dyn Device>,
+    controller: Box<dyn Controller>,
+    guard: Guard,
+    velocity: Velocity,
+    meter: Meter,
+    priority: Priority,
+    period: f64,
+    number: u64,
+    last_time: Option<f64>,
+    force: Vec3,
+    latest: latest::Sender<Option<Sample>>,
+    log: log::Writer<Sample>,
+    report: latest::Sender<LoopReport>,
+    arming: ArmingRequest,
+    fault: Option<Fault>,
+}
+
+impl ServoLoop {
+    /// A loop that has not begun, and what is seen of it. It owns the device: nothing else calls it.
+    ///
+    /// # Errors
+    /// When a setting is out of range.
+    pub fn new(
+        device: Box<dyn Device>,
+        controller: Box<dyn Controller>,
+        settings: ServoSettings,
+    ) -> Result<(Self, ServoReader), Fault> {
+        let limits = settings.limits.unwrap_or_else(|| Limits::of(device.spec()));
+        let guard = Guard::new(limits, device.spec(), settings.period)?;
+        let (latest, latest_reader) = latest::channel(&None);
+        let (log, log_reader) = log::ring(settings.log);
+        let (report, report_reader) = latest::channel(&LoopReport::default());
+        let arming = ArmingRequest::default();
+        let reader = ServoReader {
+            latest: latest_reader,
+            log: log_reader,
+            report: report_reader,
+            arming: arming.clone(),
+        };
+        let servo = Self {
+            device,
+            controller,
+            guard,
+            velocity: Velocity::new(settings.period),
+            meter: Meter::default(),
+            priority: Priority::Ordinary,
+            period: settings.period,
+            number: 0,
+            last_time: None,
+            force: Vec3::zeros(),
+            latest,
+            log,
+            report,
+            arming,
+            fault: None,
+        };
+        Ok((servo, reader))
+    }
+
+    /// Time from tick to tick [s].
+    pub fn period(&self) -> f64 {
+        self.period
+    }
+
+    /// Asks for real-time priority for the thread that calls, which shall be the one that runs the loop.
+    pub fn raise_priority(&mut self) {
+        self.priority = raise_priority();
+    }
+
+    /// Ticks while `go_on` says so, given the number of the next tick, or until the device fails.
+    pub fn run(&mut self, clock: &mut Clock, mut go_on: impl FnMut(u64) -> bool) -> LoopReport {
+        // A loop that goes on does so one period after its last tick.
+        let start = self.last_time.map_or(0.0, |last| last + self.period);
+        let first = start.max(clock.now()) - self.number as f64 * self.period;
+        while go_on(self.number) {
+            let due = first + self.number as f64 * self.period;
+            clock.wait_until(due);
+            let began = clock.now();
+            if self.tick(began, began - due).is_err() {
+                break;
+            }
+            let done = clock.now();
+            // The next tick whose time has not passed.
+            let next = ((done - first) / self.period).ceil() as u64;
+            let missed = next.saturating_sub(self.number);
+            self.number += missed;
+            self.meter.worked(done - began, missed);
+        }
+        self.device.stop();
+        self.report()
+    }
+
+    /// One tick at `time` [s], `lateness` [s] after it was due.
+    ///
+    /// # Errors
+    /// When the device fails; it is stopped then.
+    pub fn tick(&mut self, time: f64, lateness: f64) -> Result<Sample, Fault> {
+        let command = Command {
+            time,
+            force: self.force,
+        };
+        let patience = Duration::from_secs_f64(self.period);
+        let state = match self.device.exchange(&command, patience) {
+            Ok(state) => state,
+            Err(fault) => return Err(self.fail(fault)),
+        };
+        let sample = self.control(time, state);
+        self.meter.tick(&sample, lateness);
+        self.latest.send(Some(sample));
+        self.log.add(sample);
+        if self.number.is_multiple_of(self.ticks_per_report()) {
+            self.report.send(self.report());
+        }
+        self.number += 1;
+        Ok(sample)
+    }
+
+    /// What the loop has measured so far.
+    pub fn report(&self) -> LoopReport {
+        let fault = match self.guard.stage() {
+            Stage::Faulted(fault) => Some(fault),
+            _ => None,
+        };
+        LoopReport {
+            priority: self.priority,
+            faults: self.guard.faults(),
+            fault: self.fault.or(fault),
+            ..self.meter.report()
+        }
+    }
+
+    /// From the state of the hand to the force of the next command.
+    fn control(&mut self, time: f64, mut state: DeviceState) -> Sample {
+        state.time = time;
+        let gap = self.last_time.map_or(self.period, |last| time - last);
+        self.last_time = Some(time);
+        if !state.present {
+            self.velocity.forget();
+        }
+        let measured = self.velocity.update(time, &state.position);
+        let velocity = state.velocity.unwrap_or(measured);
+        state.velocity = Some(velocity);
+        let wanted = self.controller.update(&state, gap);
+        let wish = Wish {
+            force: wanted,
+            velocity,
+            age: self.controller.age(),
+            gap,
+            asked: self.arming.take(),
+        };
+        let held = self.force;
+        self.force = self.guard.pass(&wish, &state, gap);
+        Sample {
+            tick: self.number,
+            state,
+            velocity,
+            held,
+            wanted,
+            sent: self.force,
+            age: wish.age,
+            stage: self.guard.stage(),
+        }
+    }
+
+    fn fail(&mut self, fault: Fault) -> Fault {
+        self.guard.trip(fault);
+        self.fault = Some(fault);
+        self.force = Vec3::zeros();
+        self.device.stop();
+        self.report.send(self.report());
+        fault
+    }
+
+    fn ticks_per_report(&self) -> u64 {
+        ((0.1 / self.period) as u64).max(1)
+    }
+}
+
+impl Drop for ServoLoop {
+    /// Also in a panic: no force stays on a hand.
+    fn drop(&mut self) {
+        self.device.stop();
+    }
+}

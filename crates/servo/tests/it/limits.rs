@@ -1,0 +1,223 @@
+//! Nothing but a bounded, slowly rising force reaches a hand.
+
+use palpate_servo::limits::slew::fallen_towards;
+use palpate_servo::limits::{Guard, Limits, Wish};
+use palpate_servo::{DeviceSpec, DeviceState, Fault, Stage, Vec3};
+use proptest::prelude::*;
+
+const PERIOD: f64 = 1e-3;
+
+fn spec() -> DeviceSpec {
+    DeviceSpec {
+        name: "test".to_owned(),
+        workspace: Some([Vec3::repeat(-0.1), Vec3::repeat(0.1)]),
+        peak_force: 8.5,
+        displays_force: true,
+    }
+}
+
+fn wish(force: Vec3) -> Wish {
+    Wish {
+        force,
+        velocity: Vec3::zeros(),
+        age: None,
+        gap: PERIOD,
+        asked: false,
+    }
+}
+
+fn guard() -> Guard {
+    Guard::new(Limits::default(), &spec(), PERIOD).unwrap()
+}
+
+/// A guard that is live, with a hand in the middle.
+fn live() -> (Guard, DeviceState) {
+    let mut guard = guard();
+    let state = DeviceState::at(0.0, Vec3::zeros());
+    for _ in 0..600 {
+        guard.pass(&wish(Vec3::zeros()), &state, PERIOD);
+    }
+    assert_eq!(guard.stage(), Stage::Live);
+    (guard, state)
+}
+
+/// Any number, and what is none.
+fn component() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        8 => -10.0..10.0f64,
+        2 => any::<f64>(),
+        1 => Just(f64::NAN),
+        1 => Just(f64::INFINITY),
+        1 => Just(f64::MAX),
+    ]
+}
+
+fn vector(component: impl Strategy<Value = f64> + Clone) -> impl Strategy<Value = Vec3> {
+    [component.clone(), component.clone(), component].prop_map(Vec3::from)
+}
+
+/// How often a random test tries: `full` times when `PALPATE_FULL=1`, else a tenth of it.
+fn tries(full: u32) -> ProptestConfig {
+    let wants_full = std::env::var("PALPATE_FULL").is_ok_and(|value| value == "1");
+    ProptestConfig::with_cases(if wants_full { full } else { full / 10 })
+}
+
+proptest! {
+    #![proptest_config(tries(2000))]
+
+    /// Judge: the two inequalities themselves, over whole courses of wishes, places and requests to arm.
+    #[test]
+    fn nothing_passes_the_limits(
+        wishes in prop::collection::vec(
+            (vector(component().boxed()), vector((-0.2..0.2f64).boxed()), any::<bool>(), 0.5..30.0f64),
+            1..200,
+        ),
+        begins_live in any::<bool>(),
+    ) {
+        let (mut guard, mut state) = if begins_live { live() } else { (guard(), live().1) };
+        let limits = Limits::default();
+        let mut last = Vec3::zeros();
+        for (force, position, asked, gap) in wishes {
+            state.position = position;
+            let wish = Wish { gap: gap * PERIOD, asked, ..wish(force) };
+            let sent = guard.pass(&wish, &state, wish.gap);
+            prop_assert!(sent.iter().all(|c| c.is_finite()), "{sent}");
+            prop_assert!(sent.norm() <= limits.force, "{sent}");
+            let rise = (sent - fallen_towards(&last, &sent)).norm();
+            // Rounding of forces of 3 N.
+            prop_assert!(rise <= limits.slew * PERIOD + 1e-14, "{last} {sent}");
+            if !force.iter().all(|c| c.is_finite()) {
+                prop_assert_eq!(sent, Vec3::zeros());
+            }
+            last = sent;
+        }
+    }
+}
+
+#[test]
+fn a_step_of_force_rises_at_its_rate() {
+    let (mut guard, state) = live();
+    let mut last = 0.0;
+    for tick in 1..=20 {
+        let sent = guard.pass(&wish(Vec3::x() * 100.0), &state, PERIOD).x;
+        // 400 N/s, until 3 N.
+        let expected = (0.4 * f64::from(tick)).min(3.0);
+        assert!((sent - expected).abs() < 1e-12, "{tick}: {sent}");
+        last = sent;
+    }
+    assert_eq!(last, 3.0);
+    assert_eq!(
+        guard.pass(&wish(Vec3::zeros()), &state, PERIOD),
+        Vec3::zeros()
+    );
+}
+
+#[test]
+fn what_is_no_number_latches_until_somebody_arms() {
+    for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let (mut guard, state) = live();
+        let nothing = guard.pass(&wish(Vec3::y() * value), &state, PERIOD);
+        assert_eq!(nothing, Vec3::zeros());
+        for _ in 0..1000 {
+            assert_eq!(
+                guard.pass(&wish(Vec3::x() * 0.1), &state, PERIOD),
+                Vec3::zeros()
+            );
+        }
+        assert_eq!(guard.stage(), Stage::Faulted(Fault::NonFiniteForce));
+        let asked = Wish {
+            asked: true,
+            ..wish(Vec3::x() * 0.1)
+        };
+        guard.pass(&asked, &state, PERIOD);
+        for _ in 0..600 {
+            guard.pass(&wish(Vec3::x() * 0.1), &state, PERIOD);
+        }
+        assert_eq!((guard.stage(), guard.faults()), (Stage::Live, 1));
+    }
+}
+
+#[test]
+fn each_fault_has_its_cause() {
+    let still = wish(Vec3::x() * 0.1);
+    let fast = Wish {
+        velocity: Vec3::y() * 1.5,
+        ..still
+    };
+    let stale = Wish {
+        age: Some(0.2),
+        ..still
+    };
+    let late = Wish { gap: 0.05, ..still };
+    let causes = [fast, stale, late].map(|wish| {
+        let (mut guard, state) = live();
+        assert_eq!(guard.pass(&wish, &state, PERIOD), Vec3::zeros());
+        guard.stage()
+    });
+    let [
+        Stage::Faulted(Fault::TooFast { .. }),
+        Stage::Faulted(Fault::StaleModel { .. }),
+        Stage::Faulted(Fault::Late { .. }),
+    ] = causes
+    else {
+        panic!("{causes:?}");
+    };
+    let (mut guard, mut state) = live();
+    state.position.z = f64::NAN;
+    guard.pass(&still, &state, PERIOD);
+    assert_eq!(guard.stage(), Stage::Faulted(Fault::NonFiniteState));
+}
+
+/// 6 ms too late: one tick without force, then it rises again.
+#[test]
+fn a_late_tick_has_no_force() {
+    let (mut guard, state) = live();
+    let pressed = wish(Vec3::x() * 0.3);
+    assert!(guard.pass(&pressed, &state, PERIOD).x > 0.0);
+    let late = Wish {
+        gap: 7e-3,
+        ..pressed
+    };
+    assert_eq!(guard.pass(&late, &state, 7e-3), Vec3::zeros());
+    assert!(guard.pass(&pressed, &state, PERIOD).x > 0.0);
+    assert_eq!(guard.stage(), Stage::Live);
+}
+
+#[test]
+fn a_wall_keeps_the_hand_inside() {
+    let (mut guard, mut state) = live();
+    state.position.x = 0.095;
+    let mut sent = Vec3::zeros();
+    for _ in 0..20 {
+        sent = guard.pass(&wish(Vec3::zeros()), &state, PERIOD);
+    }
+    // Half of the wall's 3 N.
+    assert!((sent - Vec3::x() * -1.5).norm() < 1e-12, "{sent}");
+}
+
+/// A mouse cannot hurt: it is as fast as it likes, and a fault is over when its cause is.
+#[test]
+fn a_device_without_force_recovers_by_itself() {
+    let mouse = DeviceSpec {
+        workspace: None,
+        peak_force: f64::INFINITY,
+        displays_force: false,
+        ..spec()
+    };
+    let mut guard = Guard::new(Limits::of(&mouse), &mouse, PERIOD).unwrap();
+    let state = DeviceState::at(0.0, Vec3::zeros());
+    let fast = Wish {
+        velocity: Vec3::x() * 50.0,
+        ..wish(Vec3::x() * 0.1)
+    };
+    for _ in 0..600 {
+        guard.pass(&fast, &state, PERIOD);
+    }
+    assert_eq!(guard.stage(), Stage::Live);
+    guard.pass(&wish(Vec3::x() * f64::NAN), &state, PERIOD);
+    assert!(matches!(guard.stage(), Stage::Faulted(_)));
+    for _ in 0..600 {
+        guard.pass(&fast, &state, PERIOD);
+    }
+    assert_eq!((guard.stage(), guard.faults()), (Stage::Live, 1));
+}

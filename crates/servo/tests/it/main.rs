@@ -1,0 +1,14 @@
+//! Loops run through the crate's own front door.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "tests may unwrap, and print what they measured"
+)]
+
+mod devices;
+mod errors;
+mod hand_over;
+mod limits;
+mod no_allocation;
+mod servo;

@@ -1,0 +1,61 @@
+use palpate_files::scene;
+use palpate_geometry::Vec3;
+use palpate_servo::latest::Receiver;
+use palpate_servo::{AffineForce, Controller, DeviceState, Extrapolator, HandOver};
+
+use super::Mount;
+
+/// What makes a force of the model's answers at every tick of the servo loop.
+pub struct ForceRenderer {
+    answers: Receiver<AffineForce>,
+    extrapolator: Extrapolator,
+    mount: Mount,
+    force_scale: f64,
+    time: f64,
+}
+
+impl ForceRenderer {
+    /// From the model's `answers`, with the force times `force_scale` [-].
+    pub fn new(
+        answers: Receiver<AffineForce>,
+        extrapolator: Extrapolator,
+        mount: Mount,
+        force_scale: f64,
+    ) -> Self {
+        Self {
+            answers,
+            extrapolator,
+            mount,
+            force_scale,
+            time: f64::NEG_INFINITY,
+        }
+    }
+}
+
+impl Controller for ForceRenderer {
+    fn update(&mut self, state: &DeviceState, _dt: f64) -> Vec3 {
+        self.time = state.time;
+        self.extrapolator.receive(self.answers.latest());
+        if !state.present {
+            return Vec3::zeros();
+        }
+        let place = self.mount.place_in_scene(&state.position);
+        let velocity = state.velocity.unwrap_or_else(Vec3::zeros);
+        let velocity = self.mount.vector_in_scene(&velocity);
+        let force = self.extrapolator.force(state.time, &place, &velocity);
+        self.mount.force_in_device(&(force * self.force_scale))
+    }
+
+    fn age(&self) -> Option<f64> {
+        Some(self.extrapolator.age(self.time))
+    }
+}
+
+/// The scene's word as the servo loop has it.
+pub(super) fn hand_over(word: scene::HandOver) -> HandOver {
+    match word {
+        scene::HandOver::LocalModel => HandOver::LocalModel,
+        scene::HandOver::Linear => HandOver::Linear,
+        scene::HandOver::Hold => HandOver::Hold,
+    }
+}

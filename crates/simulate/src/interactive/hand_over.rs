@@ -1,0 +1,33 @@
+use palpate_geometry::Vec3;
+use palpate_mechanics::contact::Bond;
+use palpate_servo::AffineForce;
+
+use crate::state::ToolState;
+use crate::tool::Tool;
+
+/// What the servo loop is told of `tool` after a step, in the scene's frame: f₀ is the relaxed force, K
+/// the stiffness at once, for tissue does not relax within two steps. A force that would pull is handed
+/// over as it is, and the loop leaves the pull out: a hand that turns around meets the tissue where it is.
+/// `time` [s] is that of the pose.
+pub fn affine_force(tool: &Tool, state: &ToolState, time: f64) -> AffineForce {
+    let (Some(contact), Some(pose)) = (&state.contact, &state.pose) else {
+        return AffineForce::none(time);
+    };
+    let frame = contact.place.frame;
+    let mut stiffness = state.stiffness;
+    if tool.bond == Bond::Slip {
+        // Along the surface nothing holds the tip.
+        let normal = stiffness[(2, 2)];
+        stiffness.fill(0.0);
+        stiffness[(2, 2)] = normal;
+    }
+    let gradient = -(frame * stiffness * frame.transpose());
+    let finite = gradient.iter().chain(state.with_pull.iter());
+    if !finite.into_iter().all(|component| component.is_finite()) {
+        return AffineForce::none(time);
+    }
+    AffineForce {
+        normal: contact.normal(),
+        ..AffineForce::new(time, Vec3::from(pose.position_m), state.with_pull, gradient)
+    }
+}

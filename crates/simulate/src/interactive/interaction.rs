@@ -1,0 +1,164 @@
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::JoinHandle;
+
+use palpate_files::SessionRow;
+use palpate_servo::{Clock, Fault, LoopReport, Sample, ServoSettings, ServoThread, latest, log};
+
+use super::model_loop::ModelLoop;
+use super::stations::{Parts, Station, Watch, take_apart};
+use super::{ModelReport, Quality, Snapshot};
+use crate::{Error, Simulation};
+
+/// Rows that have room until somebody reads them: a minute of two tools at 200 Hz.
+const ROWS: usize = 24_000;
+
+/// The model on a thread and a servo loop per device on others, on the machine's clock. Dropping it ends
+/// them and stops the devices.
+pub struct Interaction {
+    stop: Arc<AtomicBool>,
+    model: Option<JoinHandle<ModelReport>>,
+    servos: Vec<Option<ServoThread>>,
+    watches: Vec<Option<Watch>>,
+    rows: log::Reader<SessionRow>,
+    snapshots: latest::Receiver<Snapshot>,
+    clock: Clock,
+}
+
+impl Interaction {
+    /// Starts all threads; one station, or none, per tool.
+    ///
+    /// # Errors
+    /// When the stations are not those of the tools, a setting is out of range, or there is no thread.
+    pub fn start(
+        simulation: Arc<Simulation>,
+        stations: Vec<Option<Station>>,
+        settings: ServoSettings,
+    ) -> Result<Self, Error> {
+        let parts = take_apart(&simulation, stations, settings)?;
+        let (rows, read_rows) = log::ring(ROWS);
+        let (snapshots, seen) = latest::channel(&Snapshot::new(&simulation));
+        let clock = Clock::real();
+        let (mut servos, mut lines, mut watches) = (Vec::new(), Vec::new(), Vec::new());
+        for parts in parts {
+            let Some(Parts { servo, line, watch }) = parts else {
+                servos.push(None);
+                lines.push(None);
+                watches.push(None);
+                continue;
+            };
+            servos.push(Some(ServoThread::start(servo, clock)?));
+            lines.push(Some(line));
+            watches.push(Some(watch));
+        }
+        let stop = Arc::new(AtomicBool::new(false));
+        let asked = stop.clone();
+        let period = simulation.step();
+        let model = ModelLoop::new(simulation, lines, rows, snapshots);
+        let thread = std::thread::Builder::new().name("model".to_owned());
+        let handle = thread.spawn(move || run(model, clock, period, &asked));
+        Ok(Self {
+            stop,
+            model: Some(handle.map_err(|_| Fault::NoThread)?),
+            servos,
+            watches,
+            rows: read_rows,
+            snapshots: seen,
+            clock,
+        })
+    }
+
+    /// The time that rows and samples count in [s].
+    pub fn time(&self) -> f64 {
+        self.clock.now()
+    }
+
+    /// The latest that there is to see.
+    pub fn snapshot(&mut self) -> &Snapshot {
+        self.snapshots.latest()
+    }
+
+    /// The rows of the session that nobody has read yet.
+    pub fn rows(&mut self) -> impl Iterator<Item = SessionRow> + '_ {
+        self.rows.drain()
+    }
+
+    /// Rows that were lost, because nobody read them in time.
+    pub fn lost_rows(&self) -> u64 {
+        self.rows.lost()
+    }
+
+    /// The samples of a tool's servo loop that nobody has read yet.
+    pub fn samples(&mut self, tool: usize) -> impl Iterator<Item = Sample> + '_ {
+        let watch = self.watches.get_mut(tool).and_then(Option::as_mut);
+        watch.into_iter().flat_map(|watch| watch.samples.drain())
+    }
+
+    /// How good the touch was so far; loops tell ten times a second.
+    pub fn quality(&mut self) -> Quality {
+        let watches = self.watches.iter_mut();
+        let loops = watches.map(|watch| watch.as_mut().map(|watch| *watch.report.latest()));
+        Quality {
+            loops: loops.collect(),
+            model: self.snapshots.latest().report,
+        }
+    }
+
+    /// Arms the forces of all devices again after a fault.
+    pub fn arm(&self) {
+        for watch in self.watches.iter().flatten() {
+            watch.arming.ask();
+        }
+    }
+
+    /// Whether all threads still run.
+    pub fn is_running(&self) -> bool {
+        let model = self
+            .model
+            .as_ref()
+            .is_some_and(|model| !model.is_finished());
+        model && self.servos.iter().flatten().all(ServoThread::is_running)
+    }
+
+    /// Ends all threads, devices first, and tells how good the touch was. What nobody has read stays to be
+    /// read.
+    ///
+    /// # Errors
+    /// When a thread panicked.
+    pub fn stop(&mut self) -> Result<Quality, Error> {
+        let stopped = |servo: &mut Option<ServoThread>| servo.take().map(ServoThread::stop);
+        let loops: Vec<_> = self.servos.iter_mut().map(stopped).collect();
+        self.stop.store(true, Ordering::Relaxed);
+        let model = match self.model.take() {
+            Some(model) => model.join().map_err(|_| Error::ModelPanicked)?,
+            None => self.snapshots.latest().report,
+        };
+        let loops: Result<Vec<Option<LoopReport>>, Fault> =
+            loops.into_iter().map(Option::transpose).collect();
+        Ok(Quality {
+            model,
+            loops: loops?,
+        })
+    }
+}
+
+impl Drop for Interaction {
+    fn drop(&mut self) {
+        // Who wants to know calls `stop`.
+        let _ = self.stop();
+    }
+}
+
+/// Steps at whole multiples of the period; what is late is left out, never made up for.
+fn run(mut model: ModelLoop, mut clock: Clock, period: f64, stop: &AtomicBool) -> ModelReport {
+    let mut number = (clock.now() / period).ceil() as u64;
+    while !stop.load(Ordering::Relaxed) {
+        clock.sleep_until(number as f64 * period);
+        model.step(clock.now());
+        model.publish();
+        let next = (clock.now() / period).ceil() as u64;
+        model.miss(next.saturating_sub(number + 1));
+        number = next.max(number + 1);
+    }
+    model.report()
+}

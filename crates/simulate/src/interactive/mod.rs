@@ -1,0 +1,35 @@
+//! An organ that answers a hand while it moves: the model beside a servo loop per device and a display.
+//!
+//! ```text
+//!  display 60 Hz ◀─latest(Snapshot)─ model thread 200 Hz ─latest(AffineForce)─▶ servo thread 1 kHz ─▶ device
+//!  writer        ◀─every SessionRow─      step           ◀───latest(Sample)────  extrapolate, limit
+//! ```
+//!
+//! Nobody waits for anybody: what was not read is replaced, and what finds no room is counted.
+//! [`Interaction`] runs it on the machine's clock; [`VirtualInteraction`] runs the same parts on a virtual
+//! one, in one thread, the same to the last bit every time.
+//!
+//! *How we know*: `interactive::…` in the tests.
+//!
+//! *Limits*: one device moves one tool; forces only, no torques.
+
+mod force_renderer;
+mod hand_over;
+mod happenings;
+mod interaction;
+mod model_loop;
+mod mount;
+mod quality;
+mod snapshot;
+mod stations;
+mod virtual_interaction;
+
+pub use force_renderer::ForceRenderer;
+pub use hand_over::affine_force;
+pub use happenings::{Happening, Happenings};
+pub use interaction::Interaction;
+pub use mount::Mount;
+pub use quality::{ExtrapolationError, ModelReport, Quality};
+pub use snapshot::{ContactSnapshot, Snapshot, ToolSnapshot};
+pub use stations::Station;
+pub use virtual_interaction::VirtualInteraction;

@@ -1,0 +1,66 @@
+use nalgebra::UnitQuaternion;
+use palpate_geometry::Vec3;
+
+/// Where a device stands in the scene: x_scene = origin + scale · rotation x_device.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mount {
+    /// Where the device's origin is in the scene [m].
+    pub origin: Vec3,
+    /// The rotation from the device's frame to the scene's.
+    pub rotation: UnitQuaternion<f64>,
+    /// Way in the scene over way of the hand [-].
+    pub scale: f64,
+}
+
+impl Default for Mount {
+    /// The device's frame is the scene's.
+    fn default() -> Self {
+        Self {
+            origin: Vec3::zeros(),
+            rotation: UnitQuaternion::identity(),
+            scale: 1.0,
+        }
+    }
+}
+
+impl Mount {
+    /// A place of the device [m] in the scene [m].
+    pub fn place_in_scene(&self, position: &Vec3) -> Vec3 {
+        self.origin + self.vector_in_scene(position)
+    }
+
+    /// A way [m] or velocity [m/s] of the device in the scene.
+    pub fn vector_in_scene(&self, vector: &Vec3) -> Vec3 {
+        self.rotation * (vector * self.scale)
+    }
+
+    /// A force in the scene's frame in the device's [N]. Ways are scaled, forces are not.
+    pub fn force_in_device(&self, force: &Vec3) -> Vec3 {
+        self.rotation.inverse() * force
+    }
+
+    /// A force in the device's frame in the scene's [N].
+    pub fn force_in_scene(&self, force: &Vec3) -> Vec3 {
+        self.rotation * force
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_place_and_a_force_go_there_and_back() {
+        let mount = Mount {
+            origin: Vec3::x(),
+            rotation: UnitQuaternion::from_axis_angle(&Vec3::z_axis(), std::f64::consts::FRAC_PI_2),
+            scale: 2.0,
+        };
+        let place = mount.place_in_scene(&Vec3::x());
+        // A quarter turn takes x to y; rounding of the cosine.
+        assert!((place - Vec3::new(1.0, 2.0, 0.0)).norm() < 1e-12);
+        let force = mount.force_in_device(&Vec3::y());
+        assert!((force - Vec3::x()).norm() < 1e-12);
+        assert!((mount.force_in_scene(&force) - Vec3::y()).norm() < 1e-12);
+    }
+}

@@ -1,0 +1,56 @@
+use palpate_geometry::Vec3;
+use palpate_servo::{LoopReport, Percentiles};
+
+/// How good the touch was.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Quality {
+    /// The model.
+    pub model: ModelReport,
+    /// The servo loop of each tool, in the scene's order; none where there is no device.
+    pub loops: Vec<Option<LoopReport>>,
+}
+
+/// What the model measured of itself.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ModelReport {
+    /// Steps that were done.
+    pub steps: u64,
+    /// Steps that were left out, because the one before took longer than its period.
+    pub missed: u64,
+    /// Steps per second [Hz].
+    pub rate: f64,
+    /// How long steps took [s]; zeros on a virtual clock.
+    pub step_times: Percentiles,
+    /// How far the forces between steps were off.
+    pub extrapolation: ExtrapolationError,
+}
+
+/// How far the force that the servo loop made of older answers was from the one that the model then found
+/// for the same place of the hand: at every step in contact, where the last answer is oldest.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ExtrapolationError {
+    /// Steps that were compared.
+    pub compared: u64,
+    /// Root of the mean square [N].
+    pub rms: f64,
+    /// The largest [N].
+    pub max: f64,
+    /// The largest force of the model [N], to compare with.
+    pub peak: f64,
+}
+
+impl ExtrapolationError {
+    /// Counts a force that was made in between and the one that was found [N].
+    pub(super) fn add(&mut self, made: &Vec3, found: &Vec3) {
+        let size = found.norm();
+        if made.norm() == 0.0 && size == 0.0 {
+            return;
+        }
+        let error = (made - found).norm();
+        let before = self.rms * self.rms * self.compared as f64;
+        self.compared += 1;
+        self.rms = ((before + error * error) / self.compared as f64).sqrt();
+        self.max = self.max.max(error);
+        self.peak = self.peak.max(size);
+    }
+}

@@ -1,0 +1,99 @@
+use palpate_files::Pose;
+use palpate_geometry::Vec3;
+
+use super::{Happenings, ModelReport};
+use crate::Simulation;
+use crate::state::{SimulationState, ToolState};
+
+/// What there is to see after a step of the model.
+#[derive(Debug, Clone)]
+pub struct Snapshot {
+    /// The time of the step [s].
+    pub time: f64,
+    /// The vertices of the deformed organ [m], in the order of the surface's.
+    pub vertices: Vec<[f32; 3]>,
+    /// Per tool, in the scene's order.
+    pub tools: Vec<ToolSnapshot>,
+    /// The last things that happened.
+    pub happenings: Happenings,
+    /// What the model measured of itself.
+    pub report: ModelReport,
+}
+
+/// A tool after a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ToolSnapshot {
+    /// Where its tip is; none while nobody holds it.
+    pub pose: Option<Pose>,
+    /// The quaternion (qx, qy, qz, qw) that maps tool to scene [-]: the shaft runs along the tool's +z.
+    pub orientation: [f64; 4],
+    /// The force on it [N], as a session records it: not scaled, not limited.
+    pub force: Vec3,
+    /// The force that its device gets [N]: scaled, extrapolated, limited; in the scene's frame.
+    pub felt: Vec3,
+    /// What it touches.
+    pub contact: Option<ContactSnapshot>,
+}
+
+/// A contact after a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactSnapshot {
+    /// The touched point of the rest surface [m].
+    pub point: Vec3,
+    /// Unit outward normal of the rest surface there [-].
+    pub normal: Vec3,
+    /// How far the tip is below the rest surface [m].
+    pub depth: f64,
+}
+
+impl Snapshot {
+    /// Before anything was touched.
+    pub fn new(simulation: &Simulation) -> Self {
+        let vertices = simulation.surface().mesh().vertices();
+        let nobody = ToolSnapshot {
+            pose: None,
+            orientation: [0.0, 0.0, 0.0, 1.0],
+            force: Vec3::zeros(),
+            felt: Vec3::zeros(),
+            contact: None,
+        };
+        Self {
+            time: 0.0,
+            vertices: vertices.iter().map(single).collect(),
+            tools: vec![nobody; simulation.tools().len()],
+            happenings: Happenings::default(),
+            report: ModelReport::default(),
+        }
+    }
+
+    /// Takes over `state`; nothing is allocated.
+    pub(super) fn fill(&mut self, time: f64, state: &SimulationState, felt: &[Vec3]) {
+        self.time = time;
+        for (seen, vertex) in self.vertices.iter_mut().zip(state.deformed.vertices()) {
+            *seen = single(vertex);
+        }
+        for ((seen, tool), felt) in self.tools.iter_mut().zip(&state.tools).zip(felt) {
+            *seen = ToolSnapshot::new(tool, *felt);
+        }
+    }
+}
+
+impl ToolSnapshot {
+    fn new(tool: &ToolState, felt: Vec3) -> Self {
+        Self {
+            pose: tool.pose,
+            orientation: tool.row.orientation,
+            force: tool.force,
+            felt,
+            contact: tool.contact.map(|contact| ContactSnapshot {
+                point: contact.point(),
+                normal: contact.normal(),
+                depth: contact.depth,
+            }),
+        }
+    }
+}
+
+fn single(vertex: &Vec3) -> [f32; 3] {
+    [vertex.x as f32, vertex.y as f32, vertex.z as f32]
+}

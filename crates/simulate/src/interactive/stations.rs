@@ -1,0 +1,96 @@
+use palpate_servo::latest::{Receiver, Sender, channel};
+use palpate_servo::{
+    AffineForce, ArmingRequest, Device, Extrapolator, LoopReport, Sample, ServoLoop, ServoSettings,
+    log,
+};
+
+use super::Mount;
+use super::force_renderer::{ForceRenderer, hand_over};
+use crate::{Error, Simulation};
+
+/// The device of a tool and where it stands.
+pub struct Station {
+    /// The device.
+    pub device: Box<dyn Device>,
+    /// Where it stands.
+    pub mount: Mount,
+}
+
+impl Station {
+    /// A `device` whose frame is the scene's.
+    pub fn new(device: impl Device + 'static) -> Self {
+        Self {
+            device: Box::new(device),
+            mount: Mount::default(),
+        }
+    }
+}
+
+/// What the model has of a station: its end of both channels.
+pub(super) struct Line {
+    pub(super) samples: Receiver<Option<Sample>>,
+    pub(super) answers: Sender<AffineForce>,
+    pub(super) mount: Mount,
+}
+
+/// What is watched of a station.
+pub(super) struct Watch {
+    pub(super) samples: log::Reader<Sample>,
+    pub(super) report: Receiver<LoopReport>,
+    pub(super) arming: ArmingRequest,
+}
+
+/// A station with its loop, taken apart for those who run it.
+pub(super) struct Parts {
+    pub(super) servo: ServoLoop,
+    pub(super) line: Line,
+    pub(super) watch: Watch,
+}
+
+/// The parts of every station, none for a tool without a device.
+pub(super) fn take_apart(
+    simulation: &Simulation,
+    stations: Vec<Option<Station>>,
+    settings: ServoSettings,
+) -> Result<Vec<Option<Parts>>, Error> {
+    if stations.len() != simulation.tools().len() {
+        return Err(Error::OtherDevices {
+            tools: simulation.tools().len(),
+            stations: stations.len(),
+        });
+    }
+    let parts = |station| Parts::new(simulation, station, settings);
+    let parts = stations
+        .into_iter()
+        .map(|station| station.map(parts).transpose());
+    parts.collect()
+}
+
+impl Parts {
+    fn new(
+        simulation: &Simulation,
+        station: Station,
+        settings: ServoSettings,
+    ) -> Result<Self, Error> {
+        let Station { device, mount } = station;
+        let (answers, heard) = channel(&AffineForce::none(f64::NEG_INFINITY));
+        let hand_over = hand_over(simulation.hand_over());
+        let extrapolator = Extrapolator::new(hand_over, simulation.step(), settings.period);
+        let scale = simulation.force_scale();
+        let renderer = ForceRenderer::new(heard, extrapolator, mount, scale);
+        let (servo, reader) = ServoLoop::new(device, Box::new(renderer), settings)?;
+        Ok(Self {
+            servo,
+            line: Line {
+                samples: reader.latest,
+                answers,
+                mount,
+            },
+            watch: Watch {
+                samples: reader.log,
+                report: reader.report,
+                arming: reader.arming,
+            },
+        })
+    }
+}

@@ -1,0 +1,111 @@
+use std::sync::Arc;
+
+use palpate_files::SessionRow;
+use palpate_servo::{Fault, Sample, ServoLoop, ServoSettings, latest, log};
+
+use super::model_loop::ModelLoop;
+use super::stations::{Station, Watch, take_apart};
+use super::{Quality, Snapshot};
+use crate::{Error, Simulation};
+
+/// An interaction on a virtual clock, in one thread: the same hands give the same bytes. The model's answer
+/// arrives one period after the place that it was made for, which is the latest that a model in time is.
+pub struct VirtualInteraction {
+    model: ModelLoop,
+    model_period: f64,
+    servos: Vec<Option<ServoLoop>>,
+    watches: Vec<Option<Watch>>,
+    rows: log::Reader<SessionRow>,
+    snapshots: latest::Receiver<Snapshot>,
+    period: f64,
+    tick: u64,
+    steps: u64,
+}
+
+impl VirtualInteraction {
+    /// Nothing has happened yet; one station, or none, per tool.
+    ///
+    /// # Errors
+    /// When the stations are not those of the tools, or a setting is out of range.
+    pub fn new(
+        simulation: Arc<Simulation>,
+        stations: Vec<Option<Station>>,
+        settings: ServoSettings,
+    ) -> Result<Self, Error> {
+        let parts = take_apart(&simulation, stations, settings)?;
+        let (rows, read_rows) = log::ring(settings.log.max(1) * parts.len());
+        let (snapshots, seen) = latest::channel(&Snapshot::new(&simulation));
+        let (mut servos, mut lines, mut watches) = (Vec::new(), Vec::new(), Vec::new());
+        for parts in parts {
+            let (servo, line, watch) = parts.map_or((None, None, None), |parts| {
+                (Some(parts.servo), Some(parts.line), Some(parts.watch))
+            });
+            servos.push(servo);
+            lines.push(line);
+            watches.push(watch);
+        }
+        Ok(Self {
+            model_period: simulation.step(),
+            model: ModelLoop::new(simulation, lines, rows, snapshots),
+            servos,
+            watches,
+            rows: read_rows,
+            snapshots: seen,
+            period: settings.period,
+            tick: 0,
+            steps: 0,
+        })
+    }
+
+    /// The time of the next tick [s].
+    pub fn time(&self) -> f64 {
+        self.tick as f64 * self.period
+    }
+
+    /// One tick of every servo loop, and a step of the model where one is due.
+    ///
+    /// # Errors
+    /// When a device fails.
+    pub fn advance(&mut self) -> Result<(), Fault> {
+        let time = self.time();
+        // A millionth of a tick: rounding of the times.
+        let due = time >= self.steps as f64 * self.model_period - 1e-6 * self.period;
+        if due && self.steps > 0 {
+            self.model.publish();
+        }
+        for servo in self.servos.iter_mut().flatten() {
+            servo.tick(time, 0.0)?;
+        }
+        if due {
+            self.model.step(time);
+            self.steps += 1;
+        }
+        self.tick += 1;
+        Ok(())
+    }
+
+    /// The latest that there is to see.
+    pub fn snapshot(&mut self) -> &Snapshot {
+        self.snapshots.latest()
+    }
+
+    /// The rows of the session that nobody has read yet.
+    pub fn rows(&mut self) -> impl Iterator<Item = SessionRow> + '_ {
+        self.rows.drain()
+    }
+
+    /// The samples of a tool's servo loop that nobody has read yet.
+    pub fn samples(&mut self, tool: usize) -> impl Iterator<Item = Sample> + '_ {
+        let watch = self.watches.get_mut(tool).and_then(Option::as_mut);
+        watch.into_iter().flat_map(|watch| watch.samples.drain())
+    }
+
+    /// How good the touch was so far.
+    pub fn quality(&self) -> Quality {
+        let report = |servo: &Option<ServoLoop>| servo.as_ref().map(ServoLoop::report);
+        Quality {
+            model: self.model.report(),
+            loops: self.servos.iter().map(report).collect(),
+        }
+    }
+}

@@ -1,0 +1,281 @@
+//! The model beside its servo loops: what is recorded, felt and seen.
+
+use std::sync::Arc;
+
+use assert_no_alloc::{assert_no_alloc, reset_violation_count, violation_count};
+use palpate_files::session::Event;
+use palpate_files::{Pose, SessionRow};
+use palpate_geometry::Vec3;
+use palpate_servo::{Fault, Pointer, Sample, ServoSettings, Trajectory, VirtualDevice};
+use palpate_simulate::interactive::{Interaction, Station, VirtualInteraction};
+use palpate_simulate::{Error, Simulation, SimulationState, SimulationWorkspace, step};
+
+use crate::scenes::Setting;
+
+const POLE: Vec3 = Vec3::new(0.0, 0.0, 0.05);
+
+/// A hand that goes in and out of the hemisphere's pole, 3 mm ± 4 mm deep, and a little to the side.
+fn palpating(frequency: f64) -> VirtualDevice {
+    VirtualDevice::new(Trajectory::Sine {
+        center: POLE - Vec3::z() * 3e-3,
+        amplitude: Vec3::new(2e-4, -1e-4, -4e-3),
+        frequency,
+    })
+}
+
+fn simulation(model: &str, contact: &str, prony: &str) -> Arc<Simulation> {
+    Arc::new(
+        Setting {
+            model,
+            contact,
+            prony,
+            ..Setting::default()
+        }
+        .simulation(),
+    )
+}
+
+fn virtual_interaction(simulation: &Arc<Simulation>, frequency: f64) -> VirtualInteraction {
+    let stations = vec![Some(Station::new(palpating(frequency)))];
+    let settings = ServoSettings {
+        log: 10_000,
+        ..ServoSettings::default()
+    };
+    VirtualInteraction::new(simulation.clone(), stations, settings).unwrap()
+}
+
+fn advance(interaction: &mut VirtualInteraction, ticks: usize) {
+    (0..ticks).for_each(|_| interaction.advance().unwrap());
+}
+
+/// The forces [N] that plain steps give for times [s] and places of one tool.
+fn stepped(simulation: &Simulation, course: &[(f64, [f64; 3])], first: f64) -> Vec<Vec3> {
+    let mut state = SimulationState::new(simulation);
+    let mut workspace = SimulationWorkspace::new(simulation);
+    let mut before = course[0].0 - first;
+    let forces = course.iter().map(|&(time, position_m)| {
+        let pose = Pose {
+            position_m,
+            orientation: None,
+            grip: 0.0,
+            cut: false,
+        };
+        let moment = (time, time - before);
+        before = time;
+        step(
+            simulation,
+            moment,
+            &[Some(pose)],
+            &mut state,
+            &mut workspace,
+        );
+        state.tools[0].force
+    });
+    forces.collect()
+}
+
+fn assert_rows_are_steps(simulation: &Simulation, rows: &[SessionRow]) {
+    let course: Vec<_> = rows
+        .iter()
+        .map(|row| (row.time_s, row.position_m))
+        .collect();
+    let forces = stepped(simulation, &course, simulation.step());
+    for (row, force) in rows.iter().zip(&forces) {
+        assert_eq!(Vec3::from(row.force_n), *force, "{}", row.time_s);
+    }
+    assert!(forces.iter().any(|force| force.norm() > 0.01));
+}
+
+/// A session has the force of the place at the row's own time, whatever the hand-over does.
+#[test]
+fn rows_have_the_force_of_their_own_time() {
+    let prony = "[{ g = 0.2866, tau_s = 1.537 }]";
+    for hand_over in ["hold", "local_model"] {
+        let model = format!("hand_over = \"{hand_over}\"\nforce_scale = 3.0");
+        let simulation = simulation(&model, "stick", prony);
+        let mut interaction = virtual_interaction(&simulation, 1.0);
+        advance(&mut interaction, 2000);
+        let rows: Vec<_> = interaction.rows().collect();
+        assert_eq!(rows.len(), 400);
+        assert_rows_are_steps(&simulation, &rows);
+    }
+}
+
+/// RMS and largest difference [N] between what is felt at 1 kHz and plain steps at 1 kHz.
+fn felt_error(simulation: &Arc<Simulation>, frequency: f64) -> [f64; 3] {
+    let mut interaction = virtual_interaction(simulation, frequency);
+    advance(&mut interaction, 3000);
+    let samples: Vec<Sample> = interaction.samples(0).collect();
+    let place = |sample: &Sample| (sample.state.time, sample.state.position.into());
+    let course: Vec<_> = samples.iter().map(place).collect();
+    let forces = stepped(simulation, &course, 1e-3);
+    // The first contact is there at once.
+    let pairs = samples.iter().zip(&forces).skip(1000);
+    let errors: Vec<f64> = pairs.map(|(s, force)| (s.wanted - force).norm()).collect();
+    let squares: f64 = errors.iter().map(|error| error * error).sum();
+    let peak = forces.iter().map(Vec3::norm).fold(0.0, f64::max);
+    let max = errors.iter().copied().fold(0.0, f64::max);
+    [(squares / errors.len() as f64).sqrt(), max, peak]
+}
+
+/// Judge: the same model at every tick. The flat tip's organ is a spring while it touches, so that only
+/// making and losing contact, the tissue's relaxation within two steps and the place of the contact are
+/// left of the local model's error.
+#[test]
+fn a_local_model_is_nearest_to_the_model_at_every_tick() {
+    for (contact, prony) in [("slip", "[]"), ("stick", "[{ g = 0.3, tau_s = 0.5 }]")] {
+        let errors = ["hold", "linear", "local_model"].map(|hand_over| {
+            let model = format!("hand_over = \"{hand_over}\"\nassembly = \"reused\"");
+            let [rms, max, peak] = felt_error(&simulation(&model, contact, prony), 2.0);
+            let [rms, max] = [rms, max].map(|error| 100.0 * error / peak);
+            println!("{contact} {hand_over}: rms {rms:.3} %, largest {max:.2} % of {peak:.4} N");
+            rms
+        });
+        let [hold, linear, local] = errors;
+        assert!(
+            hold > 5.0 * linear && linear > local,
+            "{contact}: {errors:?}"
+        );
+    }
+}
+
+#[test]
+fn the_same_hand_gives_the_same_bytes() {
+    let simulation = simulation("", "stick", "[]");
+    let run = || {
+        let mut interaction = virtual_interaction(&simulation, 2.0);
+        advance(&mut interaction, 1500);
+        let rows: Vec<_> = interaction.rows().collect();
+        let samples: Vec<_> = interaction.samples(0).collect();
+        let vertices = interaction.snapshot().vertices.clone();
+        format!("{rows:?}{samples:?}{vertices:?}")
+    };
+    assert!(run() == run());
+}
+
+/// Ticks, steps, hand-over and snapshots, in and out of contact.
+#[test]
+fn neither_tick_nor_step_allocates() {
+    let simulation = simulation("", "slip", "[{ g = 0.3, tau_s = 1.5 }]");
+    let mut interaction = virtual_interaction(&simulation, 2.0);
+    reset_violation_count();
+    assert_no_alloc(|| advance(&mut interaction, 10_000));
+    assert_eq!(violation_count(), 0);
+    assert!(interaction.snapshot().happenings.count() > 20);
+}
+
+#[test]
+fn a_snapshot_shows_what_the_model_has_done() {
+    let simulation = simulation("force_scale = 2.0", "slip", "[]");
+    let mut interaction = virtual_interaction(&simulation, 1.0);
+    advance(&mut interaction, 2256);
+    let quality = interaction.quality();
+    let snapshot = interaction.snapshot();
+    // A step at 2.250 s, a quarter into a cycle: as deep as it goes.
+    assert_eq!(snapshot.time, 2.25);
+    let tool = snapshot.tools[0];
+    let contact = tool.contact.unwrap();
+    // The flat triangles of the default mesh lie up to 30 µm inside of the sphere.
+    assert!((contact.depth - 7e-3).abs() < 3e-5, "{contact:?}");
+    assert!((contact.normal - Vec3::z()).norm() < 0.01);
+    // At rest there, so the hand-over is exact to the travel of 5 ms: (ω t)²/2 of 4 mm.
+    let ratio = tool.felt.z / tool.force.z;
+    assert!((ratio - 2.0).abs() < 1e-3, "{ratio}");
+    let rest = simulation.surface().mesh().vertices();
+    let moved = rest.iter().zip(&snapshot.vertices).filter(|(rest, seen)| {
+        let seen = Vec3::from(seen.map(f64::from));
+        // A micrometre; single precision has 4 nm at 50 mm.
+        (seen - **rest).norm() > 1e-6
+    });
+    // The corners of the touched triangle at least.
+    assert!(moved.count() >= 3);
+    let events: Vec<_> = snapshot.happenings.since(0).map(|h| h.event).collect();
+    assert_eq!(
+        events[..3],
+        [Event::Contact, Event::Release, Event::Contact]
+    );
+    assert_eq!(quality.model.steps, 452);
+    let report = quality.loops[0].unwrap();
+    assert_eq!((report.ticks, report.faults), (2256, 0));
+    // Answers are one period old when they arrive and two when the next one comes.
+    assert!(
+        report.age.p50 >= 5e-3 && report.age.max <= 9.1e-3,
+        "{report:?}"
+    );
+}
+
+/// Real threads; nothing is asserted of time but that it passes.
+#[test]
+fn threads_give_the_same_forces_as_steps() {
+    let simulation = simulation("", "stick", "[{ g = 0.3, tau_s = 1.5 }]");
+    let device = palpating(4.0);
+    let stops = device.stops();
+    let stations = vec![Some(Station::new(device))];
+    let mut interaction =
+        Interaction::start(simulation.clone(), stations, ServoSettings::default()).unwrap();
+    let mut rows = Vec::new();
+    while rows.len() < 100 {
+        assert!(interaction.is_running());
+        rows.extend(interaction.rows());
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    let quality = interaction.stop().unwrap();
+    rows.extend(interaction.rows());
+    println!("{quality:?}");
+    assert!(stops.load(std::sync::atomic::Ordering::Relaxed) > 0);
+    assert_rows_are_steps(&simulation, &rows);
+    assert_eq!(interaction.lost_rows(), 0);
+    assert!(interaction.snapshot().report.steps >= 100);
+    assert!(interaction.samples(0).count() > 100);
+}
+
+/// A window that is closed while the mouse is in the organ; a hand that comes, leaves and comes back.
+#[test]
+fn a_hand_may_leave_in_contact() {
+    let simulation = simulation("", "slip", "[]");
+    let (pointer, mut hand) = Pointer::new();
+    let stations = vec![Some(Station::new(pointer))];
+    let mut interaction =
+        VirtualInteraction::new(simulation.clone(), stations, ServoSettings::default()).unwrap();
+    advance(&mut interaction, 100);
+    assert_eq!(interaction.rows().count(), 0);
+    hand.move_to(POLE - Vec3::z() * 2e-3);
+    advance(&mut interaction, 1000);
+    assert!(interaction.snapshot().tools[0].felt.z > 0.01);
+    hand.leave();
+    advance(&mut interaction, 20);
+    let tool = interaction.snapshot().tools[0];
+    assert!(tool.pose.is_none() && tool.contact.is_none());
+    assert_eq!((tool.force, tool.felt), (Vec3::zeros(), Vec3::zeros()));
+    hand.move_to(POLE - Vec3::z() * 2e-3);
+    advance(&mut interaction, 1000);
+    assert!(interaction.snapshot().tools[0].felt.z > 0.01);
+    let (pointer, mut hand) = Pointer::new();
+    hand.move_to(POLE - Vec3::z() * 2e-3);
+    let stations = vec![Some(Station::new(pointer))];
+    drop(Interaction::start(simulation, stations, ServoSettings::default()).unwrap());
+    drop(hand);
+}
+
+#[test]
+fn a_station_for_each_tool_and_settings_in_range() {
+    let simulation = simulation("", "slip", "[]");
+    let none = Interaction::start(simulation.clone(), Vec::new(), ServoSettings::default());
+    assert_eq!(
+        none.err().unwrap().to_string(),
+        "the scene has 1 tools, but 0 devices were given; give one, or none, for each"
+    );
+    let settings = ServoSettings {
+        period: -1.0,
+        ..ServoSettings::default()
+    };
+    let stations = vec![Some(Station::new(palpating(1.0)))];
+    let wrong = Interaction::start(simulation.clone(), stations, settings);
+    assert!(matches!(
+        wrong.err(),
+        Some(Error::Servo(Fault::Setting { .. }))
+    ));
+    // No device at all: the organ lies there.
+    let mut alone = Interaction::start(simulation, vec![None], ServoSettings::default()).unwrap();
+    assert_eq!(alone.stop().unwrap().loops, [None]);
+}
