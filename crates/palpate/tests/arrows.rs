@@ -164,6 +164,7 @@ fn paths_in_the_documents_exist() {
         "docs/errata.md",
         "docs/notation.md",
         "docs/theory/finite_spheres.md",
+        "docs/theory/haptics.md",
     ];
     for document in documents {
         for (number, line) in text(document).lines().enumerate() {

@@ -23,8 +23,8 @@ impl Default for Hand {
     }
 }
 
-/// Longest step of its motion [s]: a hundredth of the period of a stiff grasp (0.1 kg, 4 kN/m).
-const LONGEST: f64 = 250e-6;
+/// Longest step of its motion [s]: a part in six hundred of the period of a stiff grasp (0.1 kg, 4 kN/m).
+const LONGEST: f64 = 50e-6;
 
 /// Where a hand is and how it moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,7 +43,7 @@ impl Hand {
     }
 
     /// Moves `state` on for `elapsed` [s] under `force` [N], towards what `wanted` says of a part of that
-    /// time: place [m] and velocity [m/s]. Semi-implicit Euler in steps of 250 µs at most.
+    /// time: place [m] and velocity [m/s]. Semi-implicit Euler in steps of 50 µs at most.
     pub(super) fn advance(
         &self,
         state: &mut HandState,
@@ -51,7 +51,7 @@ impl Hand {
         elapsed: f64,
         wanted: impl Fn(f64) -> (Vec3, Vec3),
     ) {
-        let steps = (elapsed / LONGEST).ceil().clamp(1.0, 4000.0);
+        let steps = (elapsed / LONGEST).ceil().clamp(1.0, 20_000.0);
         let step = elapsed / steps;
         for number in 1..=steps as u32 {
             let (place, velocity) = wanted(f64::from(number) / steps);
