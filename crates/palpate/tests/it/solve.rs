@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use palpate_files::Recording;
 use serde_json::Value;
 
 use crate::{json, palpate, palpate_in, stderr, stdout};
@@ -73,15 +74,26 @@ fn a_punch_has_the_closed_form_first_and_the_known_force_later() {
     assert!(answer.get("time_s").is_none());
 }
 
-/// Relaxed for as long as ten time constants, a force is 1 − g of what it was.
+/// Relaxed for as long as ten time constants, a force is 1 − g of what it was. What is recorded can be
+/// read as a recording, and what is drawn for ParaView has the depth of the indenter.
 #[test]
 fn a_ramp_relaxes_to_what_the_series_leaves() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
     let ramp = "ramp = { depth_m = 0.0002, ramp_s = 0.1, hold_s = 30.0, samples = 31 }";
-    let problem = punch(0.2, ramp).replace(
-        "c10_pa = 1000.0",
-        "c10_pa = 1000.0, prony = [{ g = 0.4, tau_s = 2.0 }]",
-    );
-    let answer = solve(&problem);
+    let tissue = "c10_pa = 1000.0, prony = [{ g = 0.4, tau_s = 2.0 }]";
+    let problem = punch(0.2, ramp).replace("c10_pa = 1000.0", tissue);
+    fs::write(folder.join("ramp.toml"), problem).unwrap();
+    let line = [
+        "solve",
+        "ramp.toml",
+        "--json",
+        "--recording",
+        "ramp.csv",
+        "--vtu",
+        "ramp.vtu",
+    ];
+    let answer = json(&palpate_in(folder, &line));
     let (times, depths) = (numbers(&answer, "time_s"), numbers(&answer, "depth_m"));
     let forces = numbers(&answer, "force_n");
     assert_eq!((times.len(), depths.len(), forces.len()), (31, 31, 31));
@@ -95,6 +107,13 @@ fn a_ramp_relaxes_to_what_the_series_leaves() {
         left(times[30]) / left(times[1]),
         1e-3,
     );
+
+    let recording = Recording::read(folder.join("ramp.csv")).unwrap();
+    assert_eq!(recording.force_n().len(), 31);
+    assert_near(recording.force_n()[30], forces[30], 1e-14);
+    assert_eq!(recording.header.indenter_radius_m, Some(0.001));
+    let vtu = fs::read_to_string(folder.join("ramp.vtu")).unwrap();
+    assert!(vtu.contains("displacement_m") && vtu.contains("</VTKFile>"));
 }
 
 #[test]
@@ -180,6 +199,45 @@ fn a_long_linear_tube_is_lames() {
     assert!(answer["limit_pressure_pa"].is_null());
 }
 
+/// The punch on a cube whose bottom is held, next to the closed form of the half-space.
+#[test]
+fn a_solid_pushes_back_and_is_drawn() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let problem = "format = 1\nkind = \"solid\"\nbuiltin = \"cube\"\naccuracy = 0.2\n\
+         patch = { center_m = [0.0, 0.0, 0.05], radius_m = 0.01, displacement_m = [0.0, 0.0, -0.0005] }\n\
+         tissue = { law = \"linear\", youngs_modulus_pa = 10000.0, poissons_ratio = 0.45 }\n";
+    fs::write(folder.join("cube.toml"), problem).unwrap();
+    let line = [
+        "solve",
+        "cube.toml",
+        "--json",
+        "--vtu",
+        "cube.vtu",
+        "--plot",
+        "cube.png",
+    ];
+    let answer = json(&palpate_in(folder, &line));
+    assert_whole(&answer, "solid");
+    let force = numbers(&answer, "force_n");
+    let half_space = 4.0 * 10_000.0 / 2.9 * 0.01 * 0.0005 * 1.2_f64.ln() / 0.1;
+    assert!(
+        force[2] > half_space && force[2] < 1.4 * half_space,
+        "{force:?} {half_space}"
+    );
+    assert!(force[0].hypot(force[1]) < 0.02 * force[2]);
+    assert_near(
+        number(&answer, "force_along_displacement_n"),
+        force[2],
+        0.01,
+    );
+    let vtu = fs::read_to_string(folder.join("cube.vtu")).unwrap();
+    assert!(vtu.contains("displacement_m") && vtu.contains("</VTKFile>"));
+    assert_png(&folder.join("cube.png"));
+    // Nothing is left beside.
+    assert_eq!(fs::read_dir(folder).unwrap().count(), 3);
+}
+
 fn assert_png(path: &Path) {
     assert!(fs::read(path).unwrap().starts_with(b"\x89PNG"), "{path:?}");
 }
@@ -256,4 +314,43 @@ fn a_tube_is_indented() {
     );
     let half_space = 4.0 * 5200.0 / 2.9 * 0.002 * 0.0004 * 1.2_f64.ln() / 0.1;
     assert!(force[0] < half_space, "{force:?} {half_space}");
+}
+
+/// Ctrl-C while it is solved: one sentence, exit status 1, and no file is begun.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_solution_leaves_nothing() {
+    use std::process::{Command, Stdio};
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    fs::write(folder.join("punch.toml"), punch(1e-4, "depths_m = [0.003]")).unwrap();
+    let child = Command::new(env!("CARGO_BIN_EXE_palpate"))
+        .args([
+            "solve",
+            "punch.toml",
+            "--plot",
+            "punch.png",
+            "--out",
+            "punch.json",
+        ])
+        .current_dir(folder)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // The solution takes many times as long.
+    std::thread::sleep(std::time::Duration::from_secs(1));
+    let killed = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(killed.unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    assert!(
+        stderr(&output).contains("interrupted"),
+        "{}",
+        stderr(&output)
+    );
+    assert!(output.stdout.is_empty());
+    assert_eq!(fs::read_dir(folder).unwrap().count(), 1);
 }

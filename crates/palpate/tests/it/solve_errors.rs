@@ -208,6 +208,7 @@ fn files_that_cannot_be_written_are_refused_before_the_work() {
     );
     refused(&["--plot", "."], &["cannot be written"]);
     refused(&["--plot", "a", "--out", "a"], &["a is named twice"]);
+    refused(&["--recording", "a.csv"], &["--recording", "`ramp`"]);
     refused(&["--plt", "a"], &["--plt", "--plot"]);
     assert_eq!(fs::read_dir(problem.path()).unwrap().count(), 1);
 }

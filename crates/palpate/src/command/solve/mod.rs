@@ -31,6 +31,8 @@ Examples:
       the same as one JSON object, and as a picture
   palpate solve kidney.toml --vtu kidney.vtu
       with the deformed body, for ParaView
+  palpate solve ramp.toml --recording ramp.csv
+      as an indenter would have recorded it
 
 A problem names a body, its tissue and what is done to it. This is punch.toml:
 
@@ -68,6 +70,9 @@ pub(crate) struct Arguments {
     /// Write the body with its displacement, for ParaView.
     #[arg(long, value_name = "FILE.vtu")]
     vtu: Option<PathBuf>,
+    /// Write the forces over a `ramp` as a recording, as an indenter would have made it.
+    #[arg(long, value_name = "FILE.csv")]
+    recording: Option<PathBuf>,
     /// Write the JSON object to a file as well.
     #[arg(long, value_name = "FILE.json")]
     out: Option<PathBuf>,
@@ -76,13 +81,7 @@ pub(crate) struct Arguments {
 /// Solves and prints.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let problem = Problem::read(&arguments.problem)?;
-    // What cannot be written is said before the work, not after it.
-    if arguments.vtu.is_some() && !problem.case.has_field() {
-        return Err(Failure::input(
-            "--vtu: this kind of problem has no body to show; leave it out, or use --plot",
-        ));
-    }
-    check_files(arguments)?;
+    check_files(arguments, &problem)?;
     let begun = Instant::now();
     let waiting = Waiting::new(Reader::of_json(arguments.json));
     let wanted = Wanted {
@@ -104,8 +103,21 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Whether each file can be written, and no two are the same.
-fn check_files(arguments: &Arguments) -> Result<(), Failure> {
+/// Whether each file can be written, no two are the same, and there is something to write: said before
+/// the work, not after it.
+fn check_files(arguments: &Arguments, problem: &Problem) -> Result<(), Failure> {
+    if arguments.vtu.is_some() && !problem.case.has_field() {
+        return Err(Failure::input(
+            "--vtu: only a solid and an indentation are written for ParaView; leave it out, or use \
+             --plot",
+        ));
+    }
+    if arguments.recording.is_some() && !problem.case.has_recording() {
+        return Err(Failure::input(
+            "--recording: only an indentation with a `ramp` has a course in time; leave it out, or \
+             use --out",
+        ));
+    }
     let files: Vec<&Path> = arguments.files().collect();
     for (number, path) in files.iter().enumerate() {
         check_writable(path)?;
@@ -128,6 +140,9 @@ fn write(arguments: &Arguments, solution: &Solution, answer: &Answer) -> Result<
     if let (Some(path), Some(bytes)) = (&arguments.vtu, &solution.vtu) {
         palpate_files::write_whole(path, bytes)?;
     }
+    if let (Some(path), Some(recording)) = (&arguments.recording, &solution.recording) {
+        recording.write(path)?;
+    }
     if let Some(path) = &arguments.out {
         let json = output::json_text(answer)? + "\n";
         palpate_files::write_whole(path, json.as_bytes())?;
@@ -138,7 +153,7 @@ fn write(arguments: &Arguments, solution: &Solution, answer: &Answer) -> Result<
 impl Arguments {
     /// The files to be written.
     fn files(&self) -> impl Iterator<Item = &Path> {
-        let files = [&self.plot, &self.vtu, &self.out];
+        let files = [&self.plot, &self.vtu, &self.recording, &self.out];
         files.into_iter().filter_map(|path| path.as_deref())
     }
 }

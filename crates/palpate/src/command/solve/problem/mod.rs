@@ -17,7 +17,7 @@ use palpate_mechanics::Material;
 
 pub(super) use hemisphere::Hemisphere;
 pub(super) use indentation::{Indentation, Loading, Ramp};
-pub(super) use solid::Solid;
+pub(super) use solid::{Held, Solid};
 pub(super) use tube::{Tube, TubeIndent};
 pub(super) use uniaxial::Uniaxial;
 
@@ -177,7 +177,12 @@ impl Case {
 
     /// Whether there is a deformed body to show.
     pub(super) fn has_field(&self) -> bool {
-        matches!(self, Self::Solid(_))
+        matches!(self, Self::Indentation(_) | Self::Solid(_))
+    }
+
+    /// Whether there is a course in time.
+    pub(super) fn has_recording(&self) -> bool {
+        matches!(self, Self::Indentation(case) if matches!(case.loading, Loading::Ramp(_)))
     }
 }
 

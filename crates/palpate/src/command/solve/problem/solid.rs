@@ -9,7 +9,6 @@ use super::required_table;
 
 /// An organ of any shape, held somewhere and moved elsewhere.
 #[derive(Debug, Clone)]
-#[expect(dead_code, reason = "read once its solver is there")]
 pub(in super::super) struct Solid {
     pub(in super::super) shape: Shape,
     pub(in super::super) held: Held,
@@ -24,7 +23,6 @@ pub(in super::super) struct Solid {
 
 /// Where it is held.
 #[derive(Debug, Clone)]
-#[expect(dead_code, reason = "read once its solver is there")]
 pub(in super::super) enum Held {
     /// As the problem says.
     Anchor(Anchor),

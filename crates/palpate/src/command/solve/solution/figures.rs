@@ -20,7 +20,6 @@ pub(in super::super) enum Figures {
         stretch: Vec<f64>,
         nominal_stress_pa: Vec<f64>,
     },
-    #[expect(dead_code, reason = "read once its solver is there")]
     Solid {
         /// On the tool.
         force_n: [f64; 3],

@@ -55,6 +55,7 @@ pub(super) fn solution(
         estimated_error: found.error,
         warnings: doubts::of_depths(problem, case.patch_radius, &[case.depth]),
         vtu: None,
+        recording: None,
     })
 }
 

@@ -1,3 +1,5 @@
+use palpate_files::Recording;
+use palpate_files::recording::{self, RecordingHeader, Samples, Stimulus};
 use palpate_mechanics::contact::{Bond, half_space_stiffness, hertz_force};
 use palpate_mechanics::finite_elements::indentation::{
     Grip, History, IndentationProblem, IndenterShape, Side, solve, solve_history,
@@ -6,20 +8,27 @@ use palpate_mechanics::finite_elements::indentation::{
 use super::super::problem::{Indentation, Loading, Problem, Ramp};
 use super::super::table::Table;
 use super::super::waiting::Waiting;
-use super::{Figures, Solution, doubts, millimetres, millinewtons, plots};
+use super::{Figures, Solution, Wanted, doubts, field, millimetres, millinewtons, plots};
 use crate::failure::Failure;
+use crate::output::VERSION;
 use crate::plot::Plot;
 
 /// Force at each depth, or at each time of a ramp.
 pub(super) fn solution(
     problem: &Problem,
     case: &Indentation,
+    wanted: Wanted,
     waiting: &Waiting,
 ) -> Result<Solution, Failure> {
-    match &case.loading {
+    let solution = match &case.loading {
         Loading::Depths(depths) => at_depths(problem, case, depths, waiting),
         Loading::Ramp(ramp) => in_time(problem, case, ramp, waiting),
-    }
+    }?;
+    let vtu = wanted.vtu.then(|| field::of_indentation(problem, case));
+    Ok(Solution {
+        vtu: vtu.transpose()?,
+        ..solution
+    })
 }
 
 fn at_depths(
@@ -54,6 +63,7 @@ fn at_depths(
         estimated_error: found.error,
         warnings: doubts::of_depths(problem, contact_radius(case, depths), depths),
         vtu: None,
+        recording: None,
     })
 }
 
@@ -99,6 +109,7 @@ fn in_time(
             series: vec![drawn],
             ..Plot::default()
         },
+        recording: Some(recording(case, ramp, (&times, &depths, &forces))?),
         figures: Figures::Indentation {
             depth_m: depths,
             force_n: forces,
@@ -131,6 +142,34 @@ impl Ramp {
         let wanted = (0..times.len()).filter(|&k| times[k].1).collect();
         (history, wanted)
     }
+}
+
+/// What the indenter records.
+fn recording(
+    case: &Indentation,
+    ramp: &Ramp,
+    (times, depths, forces): (&[f64], &[f64], &[f64]),
+) -> Result<Recording, Failure> {
+    let shape = match case.indenter.shape {
+        IndenterShape::Flat { .. } => recording::IndenterShape::Flat,
+        IndenterShape::Sphere => recording::IndenterShape::Sphere,
+    };
+    let header = RecordingHeader {
+        stimulus: Some(Stimulus::RampAndHold),
+        ramp_s: Some(ramp.ramp),
+        amplitude_m: Some(ramp.depth),
+        sample_rate_hz: Some((ramp.samples - 1) as f64 / (ramp.ramp + ramp.hold)),
+        indenter_shape: Some(shape),
+        indenter_radius_m: Some(case.indenter.radius),
+        source: Some(format!("palpate solve {VERSION}, finite elements")),
+        ..RecordingHeader::default()
+    };
+    let samples = Samples {
+        time_s: times.to_vec(),
+        depth_m: depths.to_vec(),
+        force_n: forces.to_vec(),
+    };
+    Ok(Recording::new(header, samples)?)
 }
 
 fn mechanical(problem: &Problem, case: &Indentation) -> IndentationProblem {

@@ -2,6 +2,7 @@
 //! plot, and the deformed body.
 
 mod doubts;
+mod field;
 mod figures;
 mod hemisphere;
 mod indentation;
@@ -11,6 +12,8 @@ mod tube;
 mod uniaxial;
 
 pub(super) use figures::Figures;
+
+use palpate_files::Recording;
 
 use super::problem::{Case, Problem};
 use super::table::Table;
@@ -31,6 +34,8 @@ pub(super) struct Solution {
     pub(super) plot: Plot,
     /// The bytes of a `.vtu` file.
     pub(super) vtu: Option<Vec<u8>>,
+    /// What the same indenter would record on such a tissue.
+    pub(super) recording: Option<Recording>,
 }
 
 /// What is wanted beside the figures.
@@ -39,7 +44,6 @@ pub(super) struct Wanted {
     /// A plot that deserves work of its own.
     pub(super) plot: bool,
     /// The deformed body.
-    #[expect(dead_code, reason = "read once its solver is there")]
     pub(super) vtu: bool,
 }
 
@@ -50,7 +54,7 @@ pub(super) fn of(
     waiting: &Waiting,
 ) -> Result<Solution, Failure> {
     let mut solution = match &problem.case {
-        Case::Indentation(case) => indentation::solution(problem, case, waiting),
+        Case::Indentation(case) => indentation::solution(problem, case, wanted, waiting),
         Case::Hemisphere(case) => hemisphere::solution(problem, case, waiting),
         Case::Tube(case) => tube::solution(problem, case, wanted, waiting),
         Case::Uniaxial(case) => uniaxial::solution(problem, case),

@@ -47,6 +47,7 @@ pub(super) fn solution(problem: &Problem, case: &Uniaxial) -> Result<Solution, F
         estimated_error: 0.0,
         warnings,
         vtu: None,
+        recording: None,
     })
 }
 

@@ -64,6 +64,7 @@ pub(super) fn solution(
         unknowns: inflated.unknowns,
         estimated_error: found.error,
         vtu: None,
+        recording: None,
     };
     match &case.indent {
         Some(indent) => {
