@@ -1,12 +1,8 @@
-//! What a rigid tip meets: the closed forms of the half-space, and the force of a tip on an organ.
+//! What a rigid tip meets: the closed forms of the half-space.
 //!
 //! Flat tip of radius a, depth d: slip F = 2 a E d / (1 − ν²) (6.1); stick (bonded)
 //! F = 4 G a d ln(3 − 4ν) / (1 − 2ν) [Spence 1968]; tangential 8 G a u / (2 − ν) [Mindlin 1949].
 //! Sphere of radius ρ: F = 4/3 E/(1 − ν²) √ρ d^(3/2) [Hertz 1881].
-//!
-//! An organ is not a half-space: d = d_tip(F) + c F, where d_tip inverts the closed form and c is the
-//! further compliance that the model finds for the contact. Depth, force and c are scalars, so a few
-//! Newton steps solve it.
 //!
 //! *How we know*: `analytic::flat_tip_is_linear_in_depth`, `analytic::sphere_is_hertz`.
 //!
@@ -55,7 +51,8 @@ pub fn half_space_tangential_stiffness(law: &LinearElastic, radius: f64) -> f64 
 
 /// Hertz's force [N] of a sphere of `radius` [m] at `depth` [m] in a half-space.
 pub fn hertz_force(law: &LinearElastic, radius: f64, depth: f64) -> f64 {
-    hertz_factor(law, radius) * depth.max(0.0).powf(1.5)
+    let nu = law.poissons_ratio();
+    4.0 / 3.0 * law.youngs_modulus() / (1.0 - nu * nu) * radius.sqrt() * depth.max(0.0).powf(1.5)
 }
 
 /// ln(3 − 4ν)/(1 − 2ν), which is 0/0 at ν = ½ and 2 in the limit.
@@ -68,12 +65,6 @@ fn bonded_factor(nu: f64) -> f64 {
     }
 }
 
-/// F / d^(3/2) of Hertz's law [N/m^1.5].
-fn hertz_factor(law: &LinearElastic, radius: f64) -> f64 {
-    let nu = law.poissons_ratio();
-    4.0 / 3.0 * law.youngs_modulus() / (1.0 - nu * nu) * radius.sqrt()
-}
-
 impl Tip {
     /// Radius of the touching area [m] at `depth` [m].
     pub fn contact_radius(&self, depth: f64) -> f64 {
@@ -82,50 +73,11 @@ impl Tip {
             Self::Sphere { radius } => (radius * depth.max(0.0)).sqrt().min(radius),
         }
     }
-
-    /// The normal force [N] at `depth` [m] where a flat tip of the same touching area meets the
-    /// stiffness `stiffness` [N/m]: the half-space's law of this tip, in series with what the organ's
-    /// stiffness differs from the half-space's.
-    pub fn normal_force(&self, law: &LinearElastic, bond: Bond, depth: f64, stiffness: f64) -> f64 {
-        match *self {
-            Self::Flat { .. } => stiffness * depth.max(0.0),
-            Self::Sphere { radius } => {
-                let area_radius = self.contact_radius(depth);
-                if area_radius == 0.0 {
-                    return 0.0;
-                }
-                let half_space = half_space_stiffness(law, area_radius, bond);
-                let further = 1.0 / stiffness - 1.0 / half_space;
-                sphere_in_series(hertz_factor(law, radius), further, depth)
-            }
-        }
-    }
-}
-
-/// Solves d = (F/f)^(2/3) + c F for F by Newton in the half-space depth s = (F/f)^(2/3).
-fn sphere_in_series(factor: f64, compliance: f64, depth: f64) -> f64 {
-    let mut s = depth;
-    for _ in 0..30 {
-        let root = s.sqrt();
-        let value = s + compliance * factor * s * root - depth;
-        let slope = 1.0 + 1.5 * compliance * factor * root;
-        // A stiffer organ has c < 0; the slope is then bounded below by the model's own stiffness.
-        let step = value / slope.max(0.1);
-        s = (s - step).clamp(0.0, 4.0 * depth);
-        if step.abs() <= 1e-14 * depth {
-            break;
-        }
-    }
-    factor * s * s.sqrt()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn law() -> LinearElastic {
-        LinearElastic::new(1e4, 0.3).unwrap()
-    }
 
     #[test]
     fn bonded_meets_slipping_when_incompressible() {
@@ -134,20 +86,5 @@ mod tests {
         let slip = half_space_stiffness(&law, 1e-3, Bond::Slip);
         // Both tend to 8 G a; the difference is of the order of 1 − 2ν.
         assert!((stick / slip - 1.0).abs() < 1e-7);
-    }
-
-    #[test]
-    fn sphere_is_hertz_on_a_half_space_and_softer_on_a_softer_organ() {
-        let tip = Tip::Sphere { radius: 5e-3 };
-        let depth = 1e-3;
-        let half_space = half_space_stiffness(&law(), tip.contact_radius(depth), Bond::Slip);
-        let hertz = hertz_force(&law(), 5e-3, depth);
-        let force = tip.normal_force(&law(), Bond::Slip, depth, half_space);
-        assert!((force / hertz - 1.0).abs() < 1e-12);
-        let softer = tip.normal_force(&law(), Bond::Slip, depth, 0.9 * half_space);
-        let back = (softer / hertz).powf(2.0 / 3.0) * depth;
-        let further = (1.0 / 0.9 - 1.0) / half_space * softer;
-        assert!((back + further - depth).abs() < 1e-12 * depth);
-        assert!(softer < hertz);
     }
 }

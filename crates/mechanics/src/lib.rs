@@ -11,6 +11,7 @@ pub mod finite_spheres;
 mod indentation_curve;
 mod linear;
 mod material;
+mod tip_law;
 
 pub use error::Error;
 pub use indentation_curve::IndentationCurve;
@@ -23,3 +24,4 @@ pub use material::neo_hookean::NeoHookean;
 pub use material::prony::{ForceHistory, MAX_TERMS, PronySeries};
 pub use material::volume::{Strain, Volume};
 pub use palpate_geometry::Vec3;
+pub use tip_law::{NormalForce, TipLaw};

@@ -23,6 +23,7 @@ mod simulation;
 mod state;
 mod step;
 mod summary;
+mod tip_laws;
 mod tool;
 
 pub use contact::Contact;

@@ -1,10 +1,10 @@
 use palpate_files::scene::{HandOver, ModelKind};
-use palpate_files::{Elasticity, Scene, SessionHeader};
+use palpate_files::{Scene, SessionHeader};
 use palpate_geometry::{AabbTree, Surface};
 use palpate_mechanics::Material;
 
 use crate::tool::{Tool, settings};
-use crate::{Error, digest, organ};
+use crate::{Error, digest, organ, tip_laws};
 
 /// An organ and the tools that may touch it. Built once, never changed.
 #[derive(Debug, Clone)]
@@ -22,11 +22,21 @@ pub struct Simulation {
 }
 
 impl Simulation {
-    /// Reads what `scene` names and makes the models.
+    /// Reads what `scene` names and makes the models. For most nonlinear laws this takes seconds: see
+    /// [`Self::prepare`].
     ///
     /// # Errors
     /// When a file is missing or wrong, a mesh bounds no solid, or the scene asks for what is not there.
     pub fn new(scene: &Scene) -> Result<Self, Error> {
+        Self::prepare(scene, &mut |_| ())
+    }
+
+    /// As [`Self::new`]; `at_step` hears which part [-] of the tissue's force over depth is done, if it
+    /// has to be found first.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn prepare(scene: &Scene, at_step: &mut dyn FnMut(f64)) -> Result<Self, Error> {
         if scene.model.kind == ModelKind::Hybrid {
             return Err(Error::HybridModel);
         }
@@ -34,21 +44,18 @@ impl Simulation {
         let tissue = scene.organ.tissue.read()?;
         let material = Material::from_tissue(&tissue)?;
         doubts.extend(material.doubts.iter().cloned());
-        if !matches!(tissue.elasticity, Elasticity::Linear { .. }) {
-            doubts.push(format!(
-                "the tissue's law {} is taken as it is at small strain: E = {:.1} Pa, incompressible; \
-                 its stiffening with depth is not felt",
-                tissue.elasticity.law(),
-                material.at_rest.youngs_modulus(),
-            ));
-        }
         let tree = AabbTree::new(surface.mesh());
         let settings = settings(&scene.model.local);
-        let tools = scene
+        let mut tools = scene
             .tools
             .iter()
             .map(|tool| Tool::new(tool, settings, &material.at_rest, (&surface, &tree)))
             .collect::<Result<Vec<_>, _>>()?;
+        doubts.extend(tip_laws::stiffen(
+            &mut tools,
+            (&tissue, &material),
+            at_step,
+        )?);
         if tools.iter().any(|tool| tool.model.is_extrapolated()) {
             doubts.push(format!(
                 "Poisson's ratio {:.3} is beyond the {} that the local model is calibrated for; its \

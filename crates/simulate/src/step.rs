@@ -4,8 +4,8 @@
 use palpate_files::Pose;
 use palpate_files::session::{Event, Events};
 use palpate_geometry::Vec3;
-use palpate_mechanics::ForceHistory;
-use palpate_mechanics::contact::{Bond, Tip};
+use palpate_mechanics::contact::Bond;
+use palpate_mechanics::{ForceHistory, NormalForce};
 
 use crate::contact::{self, Contact};
 use crate::simulation::Simulation;
@@ -100,7 +100,7 @@ fn respond(
 
 /// 4. The force on the tool: elastic, then relaxed, never pulling.
 fn feel(simulation: &Simulation, tool: &Tool, elapsed: f64, state: &mut ToolState) -> Events {
-    let elastic = elastic_force(simulation, tool, state);
+    let elastic = elastic_force(tool, state);
     let relaxed = state
         .history
         .advance(&simulation.material.prony, elastic, elapsed);
@@ -128,21 +128,23 @@ fn feel(simulation: &Simulation, tool: &Tool, elapsed: f64, state: &mut ToolStat
     Events::NONE
 }
 
-fn elastic_force(simulation: &Simulation, tool: &Tool, state: &ToolState) -> Vec3 {
+/// The force of what is touched as it is displaced now. The normal stiffness becomes that at this depth.
+fn elastic_force(tool: &Tool, state: &mut ToolState) -> Vec3 {
     let (Some(contact), Some(pose)) = (&state.contact, &state.pose) else {
         return Vec3::zeros();
     };
     let moved = contact.displacement(tool, &Vec3::from(pose.position_m));
-    let law = &simulation.material.at_rest;
-    let normal = match tool.tip {
-        Tip::Sphere { .. } if state.response.is_none() => 0.0,
-        tip => tip.normal_force(law, tool.bond, -moved.z, state.stiffness[(2, 2)]),
+    let normal = match state.response {
+        Some(response) => tool.law.normal_force(-moved.z, response.stiffness[(2, 2)]),
+        None => NormalForce::NONE,
     };
     let tangential = match tool.bond {
         Bond::Slip => Vec3::zeros(),
         Bond::Stick => -(state.stiffness * Vec3::new(moved.x, moved.y, 0.0)),
     };
-    contact.place.frame * Vec3::new(tangential.x, tangential.y, normal)
+    let force = contact.place.frame * Vec3::new(tangential.x, tangential.y, normal.force);
+    state.stiffness[(2, 2)] = normal.stiffness;
+    force
 }
 
 fn record(tool: &Tool, time: f64, events: Events, state: &mut ToolState) {

@@ -4,7 +4,7 @@ use palpate_mechanics::contact::{Bond, Tip};
 use palpate_mechanics::finite_spheres::{
     Assembly, FiniteSphereModel, FiniteSphereSettings, Form, Integration, Placement, Solver,
 };
-use palpate_mechanics::{Error, LinearElastic};
+use palpate_mechanics::{Error, LinearElastic, TipLaw};
 
 /// A tool of the scene with the model of the tissue under its tip.
 #[derive(Debug, Clone)]
@@ -15,6 +15,8 @@ pub struct Tool {
     pub tip: Tip,
     /// Whether the surface can run along the tip.
     pub bond: Bond,
+    /// The force of the tissue on it.
+    pub(crate) law: TipLaw,
     /// Where it passes through the abdominal wall [m].
     pub trocar: Option<Vec3>,
     pub(crate) model: FiniteSphereModel,
@@ -49,6 +51,7 @@ impl Tool {
             name: tool.name.clone(),
             tip,
             bond,
+            law: TipLaw::linear(tip, bond, *law),
             trocar: tool.trocar_m.map(Vec3::from),
             patches: PatchField::new(surface, model.held_radius(typical)),
             placement: settings.placement,

@@ -1,7 +1,7 @@
 //! Closed forms of contact and of relaxation.
 
 use palpate_mechanics::contact::{Bond, Tip, half_space_stiffness, hertz_force};
-use palpate_mechanics::{ForceHistory, PronySeries, Vec3};
+use palpate_mechanics::{ForceHistory, PronySeries, TipLaw, Vec3};
 
 use crate::contacts::tissue;
 
@@ -11,11 +11,12 @@ fn flat_tip_is_linear_in_depth() {
     let tip = Tip::Flat { radius: 2e-3 };
     for bond in [Bond::Slip, Bond::Stick] {
         let stiffness = half_space_stiffness(&law, 2e-3, bond);
+        let tissue = TipLaw::linear(tip, bond, law);
         for depth in [0.0, 1e-4, 1e-3, 8e-3] {
-            let force = tip.normal_force(&law, bond, depth, stiffness);
-            assert_eq!(force, stiffness * depth);
+            let found = tissue.normal_force(depth, stiffness);
+            assert_eq!(found.force, stiffness * depth);
         }
-        assert_eq!(tip.normal_force(&law, bond, -1e-3, stiffness), 0.0);
+        assert_eq!(tissue.normal_force(-1e-3, stiffness).force, 0.0);
         assert_eq!(tip.contact_radius(1e-3), 2e-3);
     }
     // (6.1) by hand: 2 × 2 mm × 10 kPa / 0.91.
@@ -47,15 +48,12 @@ fn sphere_is_hertz() {
         / f64::from(steps);
     // The midpoint rule for a square root that starts at zero: 0.08 n^-1.5.
     assert!((integral / hertz - 1.0).abs() < 1e-5, "{integral} {hertz}");
-    let met = tip.normal_force(
-        &law,
-        Bond::Slip,
-        depth,
-        half_space_stiffness(&law, tip.contact_radius(depth), Bond::Slip),
-    );
+    let tissue = TipLaw::linear(tip, Bond::Slip, law);
+    let half_space = half_space_stiffness(&law, tip.contact_radius(depth), Bond::Slip);
+    let met = tissue.normal_force(depth, half_space);
     // Newton's stop.
-    assert!((met / hertz - 1.0).abs() < 1e-12);
-    assert_eq!(tip.normal_force(&law, Bond::Slip, 0.0, 1.0), 0.0);
+    assert!((met.force / hertz - 1.0).abs() < 1e-12);
+    assert_eq!(tissue.normal_force(0.0, 1.0).force, 0.0);
 }
 
 fn liver() -> PronySeries {

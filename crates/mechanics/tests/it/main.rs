@@ -25,6 +25,7 @@ mod no_allocation;
 mod patch_on_hemisphere;
 mod path;
 mod solid;
+mod stiffening;
 mod stretches;
 mod tube;
 mod uniaxial;

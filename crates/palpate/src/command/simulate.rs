@@ -92,7 +92,12 @@ fn simulate(arguments: &Arguments, motion: &Path, out: &Path) -> Result<Report, 
     let reader = Reader::of_json(arguments.json);
     let progress = Progress::new(reader, None);
     progress.say("preparing the organ and its model");
-    let simulation = Simulation::new(&scene)?;
+    let simulation = Simulation::prepare(&scene, &mut |part| {
+        progress.say(format!(
+            "the tissue's force over depth: {:.0} %",
+            100.0 * part
+        ));
+    })?;
     drop(progress);
     let recording = Recording {
         folder: out,

@@ -1,0 +1,139 @@
+mod neo_hookean;
+
+use std::sync::Arc;
+
+use super::indenter::{Grip, Indenter, IndenterShape, Side};
+use super::mesh::Block;
+use super::run::{IndentationRun, IndentationSettings};
+use crate::contact::{Bond, Tip, half_space_stiffness, hertz_force};
+use crate::{Error, IndentationCurve, Law, LinearElastic, Material, PronySeries, Strain};
+
+/// How much more, or less, a half-space of some tissue pushes back at depth than its law at small strain
+/// says: r(s/a) = F(s)/F₀(s), the same for every size of the tip and every modulus.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stiffening {
+    /// x r(x) over x = s/a, both [-]; none where r = 1.
+    equivalent: Option<IndentationCurve>,
+}
+
+/// Depths [in radii] at which the force is found, after the first, which gives the law at rest.
+const FIRST: f64 = 0.01;
+const DEPTHS: [f64; 16] = [
+    0.2, 0.4, 0.6, 0.8, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 5.5, 6.0,
+];
+/// Radius and height of the block in radii of the tip [-].
+const BLOCK: f64 = 50.0;
+
+impl Stiffening {
+    /// Of a tissue that is linear at every depth.
+    pub fn none() -> Self {
+        Self { equivalent: None }
+    }
+
+    /// Of `tissue` under `tip`, from finite elements on the coarsest mesh (seconds); `at_step` hears the
+    /// part that is done [-]. It ends where no equilibrium is found.
+    ///
+    /// # Errors
+    /// When the tissue cannot be indented at all.
+    pub fn of(
+        tissue: &Material,
+        (tip, bond): (Tip, Bond),
+        at_step: &mut dyn FnMut(f64),
+    ) -> Result<Self, Error> {
+        if tissue.law.volume().strain == Strain::Small {
+            return Ok(Self::none());
+        }
+        let at_rest = &tissue.at_rest;
+        let flat = Tip::Flat { radius: 1.0 };
+        let rest = press(&tissue.law, (flat, bond))?.press(0.0, FIRST, |_| ())?;
+        // What the block is softer or stiffer than a half-space: far from the tip, so the same for both.
+        let further = FIRST / rest.force - 1.0 / half_space_stiffness(at_rest, 1.0, bond);
+        let tip = of_unit_radius(tip);
+        let mut run = press(&tissue.law, (tip, bond))?;
+        let mut equivalent = IndentationCurve::through(&[FIRST], &[FIRST]);
+        let deepest = DEPTHS[DEPTHS.len() - 1];
+        for depth in DEPTHS {
+            let Ok(point) = run.press(0.0, depth, |_| ()) else {
+                break;
+            };
+            let s = depth - further * point.force;
+            equivalent.extend(
+                s,
+                s * point.force / at_small_strain(at_rest, (tip, bond), s),
+            );
+            at_step(depth / deepest);
+        }
+        Ok(Self {
+            equivalent: Some(equivalent),
+        })
+    }
+
+    /// Of incompressible neo-Hookean tissue, the same for every modulus.
+    pub fn neo_hookean(tip: Tip, bond: Bond) -> Self {
+        let (depths, equivalent): (Vec<_>, Vec<_>) =
+            neo_hookean::points(tip, bond).iter().copied().unzip();
+        Self {
+            equivalent: Some(IndentationCurve::through(&depths, &equivalent)),
+        }
+    }
+
+    /// Depth in radii of the tip down to which it is known [-]; beyond, force goes on along its tangent.
+    pub fn deepest(&self) -> f64 {
+        self.equivalent
+            .as_ref()
+            .map_or(f64::INFINITY, IndentationCurve::deepest)
+    }
+
+    /// r and dr/dx [-] at the depth `x` in radii of the tip [-].
+    pub fn ratio(&self, x: f64) -> (f64, f64) {
+        match &self.equivalent {
+            Some(curve) if x > 0.0 => {
+                let ratio = curve.force(x) / x;
+                (ratio, (curve.stiffness(x) - ratio) / x)
+            }
+            _ => (1.0, 0.0),
+        }
+    }
+}
+
+fn of_unit_radius(tip: Tip) -> Tip {
+    match tip {
+        Tip::Flat { .. } => Tip::Flat { radius: 1.0 },
+        Tip::Sphere { .. } => Tip::Sphere { radius: 1.0 },
+    }
+}
+
+fn press(law: &Arc<dyn Law>, (tip, bond): (Tip, Bond)) -> Result<IndentationRun, Error> {
+    let face = match bond {
+        Bond::Stick => Grip::Stick,
+        Bond::Slip => Grip::Slide,
+    };
+    let shape = match tip {
+        Tip::Flat { .. } => IndenterShape::Flat {
+            side: Side::Touches(face),
+        },
+        Tip::Sphere { .. } => IndenterShape::Sphere,
+    };
+    IndentationRun::new(&IndentationSettings {
+        block: Block {
+            radius: BLOCK,
+            height: BLOCK,
+        },
+        indenter: Indenter {
+            shape,
+            radius: 1.0,
+            face,
+        },
+        law: law.clone(),
+        prony: PronySeries::default(),
+        halvings: 0,
+    })
+}
+
+/// F₀ [N] at `depth` [m] of a tip of unit radius.
+fn at_small_strain(law: &LinearElastic, (tip, bond): (Tip, Bond), depth: f64) -> f64 {
+    match tip {
+        Tip::Flat { radius } => half_space_stiffness(law, radius, bond) * depth,
+        Tip::Sphere { radius } => hertz_force(law, radius, depth),
+    }
+}

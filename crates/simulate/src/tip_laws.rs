@@ -1,0 +1,71 @@
+//! The force of a nonlinear tissue over depth, for the tips of a scene.
+
+use palpate_files::{Elasticity, Tissue};
+use palpate_mechanics::contact::{Bond, Tip};
+use palpate_mechanics::finite_elements::indentation::Stiffening;
+use palpate_mechanics::{Material, TipLaw};
+
+use crate::Error;
+use crate::tool::Tool;
+
+/// Depth beyond which force is extrapolated is worth a word from here up [m].
+const TOLD: f64 = 0.010;
+
+/// Gives each tool the tissue's force over depth; what deserves doubt about it. Tools with the same tip
+/// share the work.
+pub(crate) fn stiffen(
+    tools: &mut [Tool],
+    (tissue, material): (&Tissue, &Material),
+    at_step: &mut dyn FnMut(f64),
+) -> Result<Vec<String>, Error> {
+    let mut doubts = Vec::new();
+    if matches!(tissue.elasticity, Elasticity::Linear { .. }) {
+        return Ok(doubts);
+    }
+    let mut found: Vec<(Tip, Bond, Stiffening)> = Vec::new();
+    for tool in tools {
+        let (tip, bond) = (tool.tip, tool.bond);
+        let alike = |(other, bonded, _): &&(Tip, Bond, Stiffening)| {
+            std::mem::discriminant(other) == std::mem::discriminant(&tip) && *bonded == bond
+        };
+        let known = found.iter().find(alike).map(|known| known.2.clone());
+        let stiffening = match known {
+            Some(known) => known,
+            None => {
+                let stiffening = of(tissue, material, (tip, bond), at_step)?;
+                found.push((tip, bond, stiffening.clone()));
+                stiffening
+            }
+        };
+        tool.law = TipLaw::stiffening(tip, bond, material, stiffening);
+        let deepest = tool.law.deepest();
+        if deepest < TOLD {
+            doubts.push(format!(
+                "the force of {} tissue on tool {:?} is known to a depth of {:.1} mm; deeper it goes on \
+                 along its tangent",
+                tissue.elasticity.law(),
+                tool.name,
+                1e3 * deepest,
+            ));
+        }
+    }
+    doubts.push(format!(
+        "the tissue's law {} stiffens with depth under the tip; what surrounds it, and a sideways force, \
+         answer as at small strain, incompressible",
+        tissue.elasticity.law(),
+    ));
+    Ok(doubts)
+}
+
+/// That of neo-Hookean tissue is the same for every modulus, and known.
+fn of(
+    tissue: &Tissue,
+    material: &Material,
+    (tip, bond): (Tip, Bond),
+    at_step: &mut dyn FnMut(f64),
+) -> Result<Stiffening, Error> {
+    match tissue.elasticity {
+        Elasticity::NeoHookean { .. } => Ok(Stiffening::neo_hookean(tip, bond)),
+        _ => Ok(Stiffening::of(material, (tip, bond), at_step)?),
+    }
+}
