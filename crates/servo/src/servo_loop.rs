@@ -16,52 +16,9 @@ use crate::priority::{Priority, raise_priority};
 use crate::report::Meter;
 use crate::velocity::Velocity;
 use crate::{
-    ArmingRequest, Clock, Command, Controller, Device, DeviceState, Fault, LoopReport, Vec3,
-    latest, log,
+    ArmingRequest, Clock, Command, Controller, Device, DeviceState, Fault, LoopReport, Sample,
+    ServoSettings, Vec3, latest, log,
 };
-
-/// How a loop runs.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ServoSettings {
-    /// Time from tick to tick [s].
-    pub period: f64,
-    /// What forces have to pass; none means those that belong to the device.
-    pub limits: Option<Limits>,
-    /// Samples that the log has room for.
-    pub log: usize,
-}
-
-impl Default for ServoSettings {
-    /// 1 kHz, and four seconds of samples until somebody reads them.
-    fn default() -> Self {
-        Self {
-            period: 1e-3,
-            limits: None,
-            log: 4096,
-        }
-    }
-}
-
-/// What happened at a tick.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sample {
-    /// Number of the tick, from zero; missed ones have numbers too.
-    pub tick: u64,
-    /// What the device answered.
-    pub state: DeviceState,
-    /// The velocity of the hand [m/s].
-    pub velocity: Vec3,
-    /// The force that the device got at this tick and has until the next [N].
-    pub held: Vec3,
-    /// The force that the controller wants for this state [N].
-    pub wanted: Vec3,
-    /// What the limits leave of it, which is sent with the next tick [N].
-    pub sent: Vec3,
-    /// How old what it is made of is [s].
-    pub age: Option<f64>,
-    /// How far forces are on.
-    pub stage: Stage,
-}
 
 /// What others see of a loop.
 pub struct ServoReader {

@@ -3,6 +3,7 @@
 //! Published numbers are read from the tables in `published/`, never typed again.
 
 mod m01;
+mod m02;
 mod m04;
 mod m08;
 mod m09;
@@ -29,10 +30,11 @@ pub(crate) struct Item {
 }
 
 /// All that can be reproduced, in the order of the source.
-pub(crate) const ITEMS: [Item; 7] = [
+pub(crate) const ITEMS: [Item; 8] = [
     m01::TABLE_3_1,
     m01::FIGURE_3_3,
     m01::FIGURE_3_4,
+    m02::SECTION_3_4,
     m04::FIGURE_4_5,
     m08::FIGURE_6_8,
     m08::FIGURE_6_12,

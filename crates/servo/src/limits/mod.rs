@@ -1,12 +1,12 @@
 //! What a force passes before it reaches a hand. The order is fixed; each stage is a small type or
 //! function of its own.
 //!
-//! 1. [`finite`]: a force or a state that is no number is no force, and a fault.
-//! 2. [`arming`]: no force before the device is ready, the hand slow and the force small; then it is
+//! 1. A force or a state that is no number is no force, and a fault.
+//! 2. A hand faster than 1 m/s is a fault.
+//! 3. [`watchdog`]: a device that had to keep a force much too long is a fault, and so is a model that has
+//!    been silent for 100 ms; one that had to keep it too long gets none for a tick.
+//! 4. [`arming`]: no force before the device is ready, the hand slow and the force small; then it is
 //!    raised over half a second.
-//! 3. [`watchdog`]: a device that had to keep a force too long gets none; much too long is a fault. So is
-//!    a model that has been silent for 100 ms.
-//! 4. [`trip`]: a hand faster than 1 m/s is a fault.
 //! 5. [`walls`]: a soft wall before the ends of the workspace.
 //! 6. [`slew`]: a force rises by at most 400 N/s and falls at once.
 //! 7. [`magnitude`]: at most 3 N, and at most what the device displays, by shortening the vector.

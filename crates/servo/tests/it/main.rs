@@ -12,3 +12,4 @@ mod hand_over;
 mod limits;
 mod no_allocation;
 mod servo;
+mod stability;

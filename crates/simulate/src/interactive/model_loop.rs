@@ -6,13 +6,14 @@ use palpate_geometry::Vec3;
 use palpate_servo::{Histogram, Sample, latest, log};
 
 use super::hand_over::affine_force;
+use super::judge::made;
 use super::quality::ExtrapolationError;
 use super::stations::Line;
 use super::{Happenings, ModelReport, Mount, Snapshot};
 use crate::{Simulation, SimulationState, SimulationWorkspace, step};
 
 /// The button that cuts.
-const CUTS: u32 = 1;
+pub(super) const CUTS: u32 = 1;
 
 /// The model and its ends of all channels. A step allocates nothing and waits for nobody.
 pub(super) struct ModelLoop {
@@ -142,17 +143,15 @@ impl ModelLoop {
 
     /// What was felt at the place of a hand, made of older answers, beside what is found for it now.
     fn compare(&mut self) {
-        let scale = self.simulation.force_scale();
         for ((line, sample), tool) in self.lines.iter().zip(&self.samples).zip(&self.state.tools) {
-            if let (Some(line), Some(sample)) = (line, sample) {
-                // Before the first answer nothing was handed over.
-                if sample.age.is_none_or(|age| age.is_infinite()) {
-                    continue;
-                }
-                let made = line.mount.force_in_scene(&sample.wanted) / scale;
-                if made.iter().all(|component| component.is_finite()) {
-                    self.error.add(&made, &tool.force);
-                }
+            let (Some(line), Some(sample)) = (line, sample) else {
+                continue;
+            };
+            // Before the first answer nothing was handed over.
+            let answered = sample.age.is_some_and(f64::is_finite);
+            let made = made(&self.simulation, &line.mount, sample);
+            if answered && made.iter().all(|component| component.is_finite()) {
+                self.error.add(&made, &tool.force);
             }
         }
     }
@@ -171,7 +170,7 @@ impl ModelLoop {
 }
 
 /// Where a sample's hand is in the scene; none where nobody is.
-fn pose(mount: &Mount, sample: &Sample) -> Option<Pose> {
+pub(super) fn pose(mount: &Mount, sample: &Sample) -> Option<Pose> {
     let state = sample.state;
     let place = mount.place_in_scene(&state.position);
     let there = state.present && place.iter().all(|coordinate| coordinate.is_finite());

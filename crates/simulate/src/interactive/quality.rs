@@ -26,10 +26,11 @@ pub struct ModelReport {
 }
 
 /// How far the force that the servo loop made of older answers was from the one that the model then found
-/// for the same place of the hand: at every step in contact, where the last answer is oldest.
+/// for the same place of the hand: at every step in contact, where the last answer is oldest, or at every
+/// tick ([`super::judge_samples`]).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ExtrapolationError {
-    /// Steps that were compared.
+    /// Forces that were compared.
     pub compared: u64,
     /// Root of the mean square [N].
     pub rms: f64,

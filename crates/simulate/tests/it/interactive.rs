@@ -1,16 +1,23 @@
 //! The model beside its servo loops: what is recorded, felt and seen.
 
 use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::time::Duration;
 
 use assert_no_alloc::{assert_no_alloc, reset_violation_count, violation_count};
 use palpate_files::session::Event;
 use palpate_files::{Pose, SessionRow};
 use palpate_geometry::Vec3;
-use palpate_servo::{Fault, Pointer, Sample, ServoSettings, Trajectory, VirtualDevice};
-use palpate_simulate::interactive::{Interaction, Station, VirtualInteraction};
+use palpate_servo::{
+    Command, Device, DeviceSpec, DeviceState, Fault, Pointer, Sample, ServoSettings, Trajectory,
+    VirtualDevice,
+};
+use palpate_simulate::interactive::{
+    ExtrapolationError, Interaction, Mount, Station, VirtualInteraction, judge_samples,
+};
 use palpate_simulate::{Error, Simulation, SimulationState, SimulationWorkspace, step};
 
-use crate::scenes::Setting;
+use crate::scenes::{Random, Setting, motion, played};
 
 const POLE: Vec3 = Vec3::new(0.0, 0.0, 0.05);
 
@@ -101,21 +108,12 @@ fn rows_have_the_force_of_their_own_time() {
     }
 }
 
-/// RMS and largest difference [N] between what is felt at 1 kHz and plain steps at 1 kHz.
-fn felt_error(simulation: &Arc<Simulation>, frequency: f64) -> [f64; 3] {
+/// What is felt at 1 kHz against plain steps at 1 kHz, from the second second on.
+fn felt_error(simulation: &Arc<Simulation>, frequency: f64) -> ExtrapolationError {
     let mut interaction = virtual_interaction(simulation, frequency);
     advance(&mut interaction, 3000);
     let samples: Vec<Sample> = interaction.samples(0).collect();
-    let place = |sample: &Sample| (sample.state.time, sample.state.position.into());
-    let course: Vec<_> = samples.iter().map(place).collect();
-    let forces = stepped(simulation, &course, 1e-3);
-    // The first contact is there at once.
-    let pairs = samples.iter().zip(&forces).skip(1000);
-    let errors: Vec<f64> = pairs.map(|(s, force)| (s.wanted - force).norm()).collect();
-    let squares: f64 = errors.iter().map(|error| error * error).sum();
-    let peak = forces.iter().map(Vec3::norm).fold(0.0, f64::max);
-    let max = errors.iter().copied().fold(0.0, f64::max);
-    [(squares / errors.len() as f64).sqrt(), max, peak]
+    judge_samples(simulation, 0, &Mount::default(), &samples)
 }
 
 /// Judge: the same model at every tick. The flat tip's organ is a spring while it touches, so that only
@@ -126,8 +124,10 @@ fn a_local_model_is_nearest_to_the_model_at_every_tick() {
     for (contact, prony) in [("slip", "[]"), ("stick", "[{ g = 0.3, tau_s = 0.5 }]")] {
         let errors = ["hold", "linear", "local_model"].map(|hand_over| {
             let model = format!("hand_over = \"{hand_over}\"\nassembly = \"reused\"");
-            let [rms, max, peak] = felt_error(&simulation(&model, contact, prony), 2.0);
-            let [rms, max] = [rms, max].map(|error| 100.0 * error / peak);
+            let found = felt_error(&simulation(&model, contact, prony), 2.0);
+            assert!(found.compared > 1000);
+            let peak = found.peak;
+            let [rms, max] = [found.rms, found.max].map(|error| 100.0 * error / peak);
             println!("{contact} {hand_over}: rms {rms:.3} %, largest {max:.2} % of {peak:.4} N");
             rms
         });
@@ -136,6 +136,32 @@ fn a_local_model_is_nearest_to_the_model_at_every_tick() {
             hold > 5.0 * linear && linear > local,
             "{contact}: {errors:?}"
         );
+    }
+}
+
+/// A motion played by a scripted hand through model, loop and hand-over is the motion played: forces are
+/// the same at the same times.
+#[test]
+fn a_scripted_hand_plays_a_motion() {
+    let simulation = simulation("", "stick", "[{ g = 0.3, tau_s = 1.5 }]");
+    let rows = [
+        (2.0, (POLE + Vec3::z() * 1e-3).into()),
+        (2.5, (POLE - Vec3::z() * 3e-3).into()),
+        (3.0, (POLE + Vec3::x() * 1e-3 - Vec3::z() * 2e-3).into()),
+    ];
+    let motion = motion(&rows);
+    let (played, _) = played(&simulation, &motion);
+    let station = Station::playing(motion.tool("right").unwrap()).unwrap();
+    let stations = vec![Some(station)];
+    let settings = ServoSettings::default();
+    let mut interaction = VirtualInteraction::new(simulation, stations, settings).unwrap();
+    advance(&mut interaction, 1001);
+    let found: Vec<_> = interaction.rows().collect();
+    assert_eq!((found.len(), played.len()), (201, 201));
+    for (found, played) in found.iter().zip(&played) {
+        let [found, played] = [found, played].map(|row| Vec3::from(row.force_n));
+        // Rounding of times that begin at zero or at two.
+        assert!((found - played).norm() < 1e-12, "{found} {played}");
     }
 }
 
@@ -217,12 +243,12 @@ fn threads_give_the_same_forces_as_steps() {
     while rows.len() < 100 {
         assert!(interaction.is_running());
         rows.extend(interaction.rows());
-        std::thread::sleep(std::time::Duration::from_millis(5));
+        std::thread::sleep(Duration::from_millis(5));
     }
     let quality = interaction.stop().unwrap();
     rows.extend(interaction.rows());
     println!("{quality:?}");
-    assert!(stops.load(std::sync::atomic::Ordering::Relaxed) > 0);
+    assert!(stops.load(Ordering::Relaxed) > 0);
     assert_rows_are_steps(&simulation, &rows);
     assert_eq!(interaction.lost_rows(), 0);
     assert!(interaction.snapshot().report.steps >= 100);
@@ -255,6 +281,95 @@ fn a_hand_may_leave_in_contact() {
     let stations = vec![Some(Station::new(pointer))];
     drop(Interaction::start(simulation, stations, ServoSettings::default()).unwrap());
     drop(hand);
+}
+
+/// A device that is unplugged in contact.
+struct Unplugged(VirtualDevice);
+
+impl Device for Unplugged {
+    fn spec(&self) -> &DeviceSpec {
+        self.0.spec()
+    }
+
+    fn exchange(&mut self, command: &Command, patience: Duration) -> Result<DeviceState, Fault> {
+        if command.time > 0.1 {
+            return Err(Fault::Silent);
+        }
+        self.0.exchange(command, patience)
+    }
+
+    fn stop(&mut self) {
+        self.0.stop();
+    }
+}
+
+#[test]
+fn a_device_that_fails_ends_its_loop_and_says_why() {
+    let simulation = simulation("", "slip", "[]");
+    let device = palpating(2.0);
+    let stops = device.stops();
+    let stations = vec![Some(Station::new(Unplugged(device)))];
+    let mut interaction =
+        Interaction::start(simulation, stations, ServoSettings::default()).unwrap();
+    while interaction.is_running() {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    let quality = interaction.stop().unwrap();
+    assert_eq!(quality.loops[0].unwrap().fault, Some(Fault::Silent));
+    assert!(stops.load(Ordering::Relaxed) > 0);
+}
+
+/// A minute of dragging a mouse over an organ, in and out, sixty moves a second.
+#[test]
+fn a_dragged_mouse_meets_only_numbers() {
+    for (organ, contact) in [("kidney", "stick"), ("liver", "slip"), ("stomach", "stick")] {
+        let setting = Setting {
+            organ: &format!("builtin = \"{organ}\""),
+            model: "assembly = \"reused\"\nforce_scale = 20.0",
+            contact,
+            prony: "[{ g = 0.3, tau_s = 1.5 }]",
+            ..Setting::default()
+        };
+        let simulation = Arc::new(setting.simulation());
+        let (pointer, mut hand) = Pointer::new();
+        let stations = vec![Some(Station::new(pointer))];
+        let mut interaction =
+            VirtualInteraction::new(simulation.clone(), stations, ServoSettings::default())
+                .unwrap();
+        let mut random = Random(7);
+        let mut felt = 0;
+        for drag in 0..60 {
+            let (from, normal, along) = random.place(&simulation);
+            for event in 0..60 {
+                let part = f64::from(event) / 60.0;
+                let depth = 8e-3 * (6.0 * part).sin();
+                hand.move_to(from + along * (0.05 * part) - normal * depth);
+                advance(&mut interaction, 17);
+                let samples: Vec<_> = interaction.samples(0).collect();
+                for sample in &samples {
+                    assert!(
+                        sample.wanted.iter().all(|c| c.is_finite()),
+                        "{organ} {drag}"
+                    );
+                    assert!(sample.sent.norm() <= 3.0);
+                    felt += u32::from(sample.sent != Vec3::zeros());
+                }
+                assert_eq!(
+                    interaction
+                        .rows()
+                        .filter(|row| row.force_n[0].is_nan())
+                        .count(),
+                    0
+                );
+            }
+            if drag % 3 == 0 {
+                hand.leave();
+            }
+        }
+        println!("{organ}: felt in {felt} ticks, {:?}", interaction.quality());
+        let report = interaction.quality().loops[0].unwrap();
+        assert!(felt > 5000 && report.faults == 0, "{organ}: {report:?}");
+    }
 }
 
 #[test]

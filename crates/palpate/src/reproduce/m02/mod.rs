@@ -1,0 +1,129 @@
+//! M2, touch: what it costs to feel forces at 1 kHz that are computed 60 or 200 times a second (3.4).
+//!
+//! A hand goes d = 3 + 4 sin(2π f t) mm into F = 0.020 d + 0.0046 d² (N, mm), which is within 0.04 N of the
+//! kidney's means in table 5-1, and leaves it in every cycle. The source extrapolates forces to 1 kHz, which is taken as a line in time.
+
+mod plots;
+
+use palpate_servo::{HandOver, HandOverCost, HandOverStudy};
+
+use crate::failure::Failure;
+use crate::reproduce::row::Value;
+use crate::reproduce::{Item, Rows};
+
+pub(crate) const SECTION_3_4: Item = Item {
+    name: "section-3-4",
+    title: "forces at 1 kHz between the model's answers",
+    run,
+};
+
+/// Rates of the model and of the hand [Hz]: the source's model, and one as slow as a display.
+const CASES: [(f64, f64); 5] = [
+    (200.0, 1.0),
+    (200.0, 2.0),
+    (200.0, 5.0),
+    (60.0, 2.0),
+    (60.0, 5.0),
+];
+
+/// The case that is drawn.
+const DRAWN: (f64, f64) = (200.0, 2.0);
+
+const KINDS: [(HandOver, &str); 3] = [
+    (HandOver::Hold, "hold"),
+    (HandOver::Linear, "linear"),
+    (HandOver::LocalModel, "local_model"),
+];
+
+/// In N/m and N/m².
+const KIDNEY: [f64; 2] = [20.0, 4600.0];
+const MIDDLE: f64 = 3e-3;
+const AMPLITUDE: f64 = 4e-3;
+
+fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
+    for (model, hand) in CASES {
+        for (kind, name) in KINDS {
+            let cost = cost(kind, model, hand)?;
+            let largest = 100.0 * cost.max / cost.peak;
+            let note = format!(
+                "root of the mean square over the peak force; the largest is {largest:.2} %"
+            );
+            let row = format!("error/{name}/model_{model}_hz/hand_{hand}_hz");
+            rows.add(&row, own(100.0 * cost.rms / cost.peak), note);
+        }
+    }
+    for (model, hand) in CASES {
+        for (kind, name) in KINDS {
+            let cost = cost(kind, model, hand)?;
+            let [made, sent] = [cost.energy, cost.energy_sent].map(|e| 100.0 * e / stored());
+            let note = format!(
+                "generated in a cycle over the energy stored at the deepest place; {sent:.2} % when a \
+                 force is sent a tick after it was made"
+            );
+            let row = format!("energy/{name}/model_{model}_hz/hand_{hand}_hz");
+            rows.add(&row, own(made), note);
+        }
+    }
+    let mut courses = Vec::new();
+    for (kind, name) in KINDS {
+        courses.push((name, cost(kind, DRAWN.0, DRAWN.1)?));
+    }
+    let note = "the source prints no errors; 3.4 says that the haptic thread extrapolates";
+    rows.add_figure(None, &plots::of_errors(&courses), note)
+}
+
+fn cost(hand_over: HandOver, model: f64, hand: f64) -> Result<HandOverCost, Failure> {
+    let study = HandOverStudy {
+        hand_over,
+        model_period: 1.0 / model,
+        period: 1e-3,
+        middle: MIDDLE,
+        amplitude: AMPLITUDE,
+        frequency: hand,
+        cycles: 20,
+    };
+    let cost = study.run(kidney);
+    cost.map_err(|fault| Failure::failed(fault.to_string()))
+}
+
+/// Force [N] and stiffness [N/m] at a depth [m].
+fn kidney(depth: f64) -> (f64, f64) {
+    let [first, second] = KIDNEY;
+    (
+        first * depth + second * depth * depth,
+        first + 2.0 * second * depth,
+    )
+}
+
+/// Energy stored at the deepest place [J].
+fn stored() -> f64 {
+    let deepest: f64 = MIDDLE + AMPLITUDE;
+    let [first, second] = KIDNEY;
+    first * deepest.powi(2) / 2.0 + second * deepest.powi(3) / 3.0
+}
+
+fn own(ours: f64) -> Value {
+    Value {
+        published: None,
+        ours: Some(ours),
+        unit: "%",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::reproduce::published::TABLE_5_1;
+
+    /// Judge: the published means, whose spread over animals is many times larger.
+    #[test]
+    fn the_kidney_is_that_of_the_table() {
+        for depth_mm in [1, 2, 4, 5, 6, 8] {
+            let row = ["kidney", &depth_mm.to_string()];
+            let mean = TABLE_5_1.value_of(row, "mean_n").unwrap();
+            let (force, _) = kidney(1e-3 * f64::from(depth_mm));
+            // Two digits that end at the mean of 8 mm; 0.039 N too low at 5 mm.
+            assert!((force - mean).abs() < 0.04, "{depth_mm} mm: {force} {mean}");
+        }
+    }
+}

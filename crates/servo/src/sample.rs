@@ -1,0 +1,22 @@
+use crate::{DeviceState, Stage, Vec3};
+
+/// What happened at a tick.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample {
+    /// Number of the tick, from zero; missed ones have numbers too.
+    pub tick: u64,
+    /// What the device answered.
+    pub state: DeviceState,
+    /// The velocity of the hand [m/s].
+    pub velocity: Vec3,
+    /// The force that the device got at this tick and has until the next [N].
+    pub held: Vec3,
+    /// The force that the controller wants for this state [N].
+    pub wanted: Vec3,
+    /// What the limits leave of it, which is sent with the next tick [N].
+    pub sent: Vec3,
+    /// How old what it is made of is [s].
+    pub age: Option<f64>,
+    /// How far forces are on.
+    pub stage: Stage,
+}

@@ -1,0 +1,40 @@
+use palpate_geometry::Vec3;
+use palpate_servo::Sample;
+
+use super::model_loop::pose;
+use super::{ExtrapolationError, Mount};
+use crate::{Simulation, SimulationState, SimulationWorkspace, step};
+
+/// How far the forces of a tool's servo loop were off at every tick: `samples` of the device of tool
+/// `number` at `mount` are stepped again, at the loop's own rate, and the force of each step is compared
+/// with the one that the loop made. It takes as long as so many steps.
+pub fn judge_samples(
+    simulation: &Simulation,
+    number: usize,
+    mount: &Mount,
+    samples: &[Sample],
+) -> ExtrapolationError {
+    let mut error = ExtrapolationError::default();
+    let mut state = SimulationState::new(simulation);
+    let mut workspace = SimulationWorkspace::new(simulation);
+    let mut poses = vec![None; simulation.tools().len()];
+    let mut before = None;
+    for sample in samples {
+        let time = sample.state.time;
+        poses[number] = pose(mount, sample);
+        let elapsed = before.map_or(simulation.step(), |before| time - before);
+        let moment = (time, elapsed);
+        step(simulation, moment, &poses, &mut state, &mut workspace);
+        before = Some(time);
+        // Before the first answer nothing was handed over.
+        if sample.age.is_some_and(f64::is_finite) {
+            error.add(&made(simulation, mount, sample), &state.tools[number].force);
+        }
+    }
+    error
+}
+
+/// The force on the tool [N] that a loop made at `sample`, in the scene's frame and not scaled.
+pub(super) fn made(simulation: &Simulation, mount: &Mount, sample: &Sample) -> Vec3 {
+    mount.force_in_scene(&sample.wanted) / simulation.force_scale()
+}
