@@ -43,6 +43,16 @@ pub enum Error {
         /// Devices, and nones, that were given.
         stations: usize,
     },
+    /// A tool is moved by a device that cannot be opened.
+    #[error(
+        "the tool {tool:?} is moved by the device `{device}`, for which there is no driver yet; set its `device` to \"mouse\", \"virtual\" or \"none\""
+    )]
+    NoDriver {
+        /// The tool.
+        tool: String,
+        /// The scene's word for the device.
+        device: String,
+    },
     /// The thread of the model ended in a panic.
     #[error("the model thread panicked, and the devices were stopped; report it as a defect")]
     ModelPanicked,

@@ -5,6 +5,7 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use assert_no_alloc::{assert_no_alloc, reset_violation_count, violation_count};
+use palpate_files::scene::DeviceKind;
 use palpate_files::session::Event;
 use palpate_files::{Pose, SessionRow};
 use palpate_geometry::Vec3;
@@ -13,7 +14,8 @@ use palpate_servo::{
     VirtualDevice,
 };
 use palpate_simulate::interactive::{
-    ExtrapolationError, Interaction, Mount, Station, VirtualInteraction, judge_samples,
+    ExtrapolationError, Interaction, Mount, SceneDevices, Station, VirtualInteraction,
+    judge_samples,
 };
 use palpate_simulate::{Error, Simulation, SimulationState, SimulationWorkspace, step};
 
@@ -369,6 +371,49 @@ fn a_dragged_mouse_meets_only_numbers() {
         println!("{organ}: felt in {felt} ticks, {:?}", interaction.quality());
         let report = interaction.quality().loops[0].unwrap();
         assert!(felt > 5000 && report.faults == 0, "{organ}: {report:?}");
+    }
+}
+
+/// The words of a scene: a mouse has a hand, a virtual device palpates by itself, the rest is not there.
+#[test]
+fn a_scene_names_its_devices() {
+    let open = |device: &str, organ: &str, shape: &str| {
+        let organ = format!("builtin = \"{organ}\"");
+        let setting = Setting {
+            organ: &organ,
+            shape,
+            ..Setting::default()
+        };
+        let mut scene = setting.scene();
+        scene.tools[0].device = DeviceKind::from_word(device).unwrap();
+        let simulation = Arc::new(Simulation::new(&scene).unwrap());
+        let devices = SceneDevices::open(&scene, &simulation);
+        devices.map(|devices| (devices, simulation))
+    };
+    let (mouse, _) = open("mouse", "kidney", "flat").unwrap();
+    assert!(mouse.stations[0].is_some() && mouse.pointers[0].is_some());
+    let (none, _) = open("none", "kidney", "flat").unwrap();
+    assert!(none.stations[0].is_none() && none.pointers[0].is_none());
+    let error = open("haply", "kidney", "flat").err().unwrap();
+    assert_eq!(
+        error.to_string(),
+        "the tool \"right\" is moved by the device `haply`, for which there is no driver yet; set its \
+         `device` to \"mouse\", \"virtual\" or \"none\""
+    );
+    assert!(error.is_input());
+    for (organ, shape) in [("liver", "flat"), ("esophagus", "sphere")] {
+        let (devices, simulation) = open("virtual", organ, shape).unwrap();
+        let settings = ServoSettings::default();
+        let mut interaction =
+            VirtualInteraction::new(simulation, devices.stations, settings).unwrap();
+        advance(&mut interaction, 501);
+        let tool = interaction.snapshot().tools[0];
+        // A quarter of two seconds: as deep as it goes, less where the highest point is a ridge.
+        let depth = tool.contact.unwrap().depth;
+        assert!(depth > 3e-3 && depth < 4.1e-3, "{organ}: {depth}");
+        assert!(tool.force.z > 0.0);
+        advance(&mut interaction, 1000);
+        assert!(interaction.snapshot().tools[0].contact.is_none(), "{organ}");
     }
 }
 
