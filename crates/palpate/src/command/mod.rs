@@ -2,6 +2,7 @@
 
 mod demonstration;
 mod mesh_info;
+mod quality;
 mod reproduce;
 mod simulate;
 mod solve;
@@ -19,6 +20,8 @@ Examples:
       plays the tool motions on the scene and writes session/session.csv
   palpate solve problem.toml --plot force.png
       the force of an indenter, the swelling of a tube and more, by finite elements
+  palpate quality
+      how late a 1 kHz loop is on this machine, and how far its forces are off
   palpate mesh info kidney.stl --unit mm
       what is wrong with a mesh, and whether it can be simulated
   palpate mesh info --builtin hemisphere
@@ -47,6 +50,8 @@ enum Command {
     Solve(solve::Arguments),
     /// Recompute the tables and figures of the source, published values beside ours.
     Reproduce(reproduce::Arguments),
+    /// Measure how good touch is on this machine: rates, lateness, errors.
+    Quality(quality::Arguments),
     /// Look at meshes.
     #[command(subcommand)]
     Mesh(Mesh),
@@ -66,6 +71,7 @@ impl CommandLine {
             Some(Command::Simulate(arguments)) => simulate::run(&arguments),
             Some(Command::Solve(arguments)) => solve::run(&arguments),
             Some(Command::Reproduce(arguments)) => reproduce::run(&arguments),
+            Some(Command::Quality(arguments)) => quality::run(&arguments),
             Some(Command::Mesh(Mesh::Info(arguments))) => mesh_info::run(&arguments),
         }
     }

@@ -7,6 +7,7 @@
 
 mod errors;
 mod mesh_info;
+mod quality;
 mod reproduce;
 mod simulate;
 mod solve;
@@ -44,7 +45,7 @@ fn stderr(output: &Output) -> String {
 
 #[test]
 fn every_help_is_printed_and_is_no_error() {
-    let commands: [&[&str]; 7] = [
+    let commands: [&[&str]; 8] = [
         &["--help"],
         &["--version"],
         &["simulate", "--help"],
@@ -52,6 +53,7 @@ fn every_help_is_printed_and_is_no_error() {
         &["mesh", "info", "--help"],
         &["reproduce", "--help"],
         &["solve", "--help"],
+        &["quality", "--help"],
     ];
     for command in commands {
         let output = palpate(command);

@@ -1,0 +1,93 @@
+//! `palpate quality`: how good touch is on this machine.
+
+mod answer;
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::thread;
+use std::time::Duration;
+
+use clap::Args;
+use palpate_files::Scene;
+use palpate_servo::ServoSettings;
+use palpate_simulate::Simulation;
+use palpate_simulate::interactive::{Interaction, Quality, Station};
+
+use answer::{Answer, Run};
+
+use super::simulate::ESOPHAGUS;
+use crate::failure::Failure;
+use crate::output;
+use crate::progress::{Progress, Reader};
+
+/// Examples at the end of the help.
+const EXAMPLES: &str = "\
+Examples:
+  palpate quality
+      the built-in esophagus under scripted hands, at 1, 2 and 4 kHz
+  palpate quality scene.toml --rates 1000 --seconds 60 --json
+      your scene for a minute, as one JSON object
+
+Scripted hands palpate the organ in real time, once in two seconds and 4 mm deep, on the threads that a
+device and a window would use. Lateness: how long after its time a tick began. Extrapolation: how far
+the force between the model's answers was from the one that the model then finds. Energy: work that the
+loop did on the hands; an organ only takes some.";
+
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Arguments {
+    /// The scene; without one, the built-in esophagus.
+    #[arg(value_name = "SCENE.toml")]
+    scene: Option<PathBuf>,
+    /// Ticks per second of the servo loop, one run for each.
+    #[arg(long, value_name = "HZ", value_delimiter = ',', default_values_t = [1000, 2000, 4000], value_parser = clap::value_parser!(u32).range(100..=10_000))]
+    rates: Vec<u32>,
+    /// How long each run takes [s].
+    #[arg(long, value_name = "S", default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..=3600))]
+    seconds: u32,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Measures and prints.
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let scene = match &arguments.scene {
+        Some(path) => Scene::read(path)?,
+        None => Scene::parse(ESOPHAGUS, "built-in scene")?,
+    };
+    let progress = Progress::new(Reader::of_json(arguments.json), None);
+    progress.say("preparing the organ and its model");
+    let simulation = Arc::new(Simulation::new(&scene)?);
+    let mut runs = Vec::new();
+    for &rate in &arguments.rates {
+        progress.say(format!("{rate} Hz for {} s", arguments.seconds));
+        let quality = touch(&simulation, rate, arguments.seconds)?;
+        runs.push(Run::new(rate, &simulation, &quality));
+    }
+    drop(progress);
+    let warnings = simulation.doubts().to_vec();
+    let answer = Answer {
+        palpate: output::VERSION,
+        runs,
+        warnings,
+    };
+    if arguments.json {
+        return output::json(&answer);
+    }
+    output::text(answer.text())?;
+    output::warnings(&answer.warnings);
+    Ok(())
+}
+
+fn touch(simulation: &Arc<Simulation>, rate: u32, seconds: u32) -> Result<Quality, Failure> {
+    let tools = simulation.tools().iter();
+    let hands = tools.map(|tool| Some(Station::palpating(simulation, tool)));
+    let settings = ServoSettings {
+        period: 1.0 / f64::from(rate),
+        ..ServoSettings::default()
+    };
+    let mut touching = Interaction::start(simulation.clone(), hands.collect(), settings)?;
+    thread::sleep(Duration::from_secs(seconds.into()));
+    Ok(touching.stop()?)
+}
