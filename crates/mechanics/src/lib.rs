@@ -16,7 +16,7 @@ mod tip_law;
 pub use error::Error;
 pub use indentation_curve::IndentationCurve;
 pub use material::blatz::Blatz;
-pub use material::law::{Law, Tangent};
+pub use material::law::{Distortion, Law, Tangent};
 pub use material::linear_elastic::LinearElastic;
 pub use material::material::Material;
 pub use material::mooney_rivlin::MooneyRivlin;

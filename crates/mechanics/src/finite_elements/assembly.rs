@@ -15,7 +15,7 @@ use nalgebra::Matrix3;
 use super::model::{ElementSums, FiniteElementModel, FiniteElementWorkspace};
 use super::relaxation::{Past, RelaxationStep};
 use crate::Strain;
-use crate::material::law::Tangent;
+use crate::material::law::{Distortion, Tangent};
 
 /// ε of the pressure block [-].
 pub(super) const PROXIMAL: f64 = 1e-7;
@@ -222,7 +222,11 @@ impl<'a> Point<'a> {
             self.add_tangent::<D>(&tangent, &mut sums.matrix, values.len());
             return Ok(self.weight * law.energy(&f));
         }
-        let (mut stress, mut tangent) = (law.distortion_stress(&f), law.distortion_tangent(&f));
+        let Distortion {
+            energy,
+            mut stress,
+            mut tangent,
+        } = law.distortion(&f);
         let pressure = self.pressure(&values[self.gradients.len()..]);
         let (mut elastic_pressure, mut follows) = (pressure, 1.0);
         if let Some(past) = past {
@@ -232,7 +236,7 @@ impl<'a> Point<'a> {
         }
         let dilation = volume.dilation_gradient(&f);
         stress += pressure * dilation;
-        tangent += pressure * volume.dilation_curvature(&f);
+        volume.add_dilation_curvature(pressure, &f, &mut tangent);
         self.add_stress::<D>(&stress, &mut sums.force);
         self.add_tangent::<D>(&tangent, &mut sums.matrix, values.len());
         let compressibility = 1.0 / volume.bulk_modulus;
@@ -242,7 +246,7 @@ impl<'a> Point<'a> {
             compressibility: compressibility / follows + PROXIMAL / model.shear_modulus,
         };
         self.add_pressure::<D>(&constraint, sums);
-        let energy = law.distortion_energy(&f) + 0.5 * compressibility * elastic_pressure.powi(2);
+        let energy = energy + 0.5 * compressibility * elastic_pressure.powi(2);
         Ok(self.weight * energy)
     }
 
@@ -293,18 +297,21 @@ impl<'a> Point<'a> {
                     add(8, self.weight * self.hoops[b]);
                 }
                 let column = &mut matrix[(b * D + k) * local..][..nodes * D];
-                let rows = column[b * D..].chunks_exact_mut(D);
-                for (rows, ga) in rows.zip(self.gradients[b * D..].chunks_exact(D)) {
-                    for (i, row) in rows.iter_mut().enumerate() {
-                        for (j, g) in ga.iter().enumerate() {
-                            *row += change[3 * j + i] * g;
-                        }
-                    }
-                }
+                let (rows, _) = column[b * D..].as_chunks_mut::<D>();
+                let (gradients, _) = self.gradients[b * D..].as_chunks::<D>();
                 if D == 2 {
-                    let rows = column[b * D..].chunks_exact_mut(D);
-                    for (rows, hoop) in rows.zip(&self.hoops[b..]) {
-                        rows[0] += change[8] * hoop;
+                    let each = rows.iter_mut().zip(gradients).zip(&self.hoops[b..]);
+                    for ((row, g), hoop) in each {
+                        row[0] = row[0] + change[0] * g[0] + change[3] * g[1] + change[8] * hoop;
+                        row[1] = row[1] + change[1] * g[0] + change[4] * g[1];
+                    }
+                } else {
+                    for (row, g) in rows.iter_mut().zip(gradients) {
+                        for i in 0..D {
+                            for j in 0..D {
+                                row[i] += change[3 * j + i] * g[j];
+                            }
+                        }
                     }
                 }
             }

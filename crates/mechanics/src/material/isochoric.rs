@@ -48,27 +48,47 @@ impl Isochoric {
 
     /// ∂²Ψ/∂F∂F [Pa] from P̄ and Ā [Pa].
     pub(crate) fn tangent(&self, inner: &Matrix3<f64>, inner_tangent: &Tangent) -> Tangent {
-        let flat = |m: &Matrix3<f64>| SVector::<f64, 9>::from_column_slice(m.as_slice());
-        let (f, h) = (flat(&self.f), flat(&self.cofactors));
         let mut along = SVector::<f64, 9>::zeros();
-        for (column, weight) in inner_tangent.column_iter().zip(f.iter()) {
+        for (column, weight) in inner_tangent.column_iter().zip(self.f.iter()) {
             along += column * *weight;
         }
-        let q = inner.dot(&self.f);
-        // Both rank-one terms and H ⊗ H at once: m ⊗ H + H ⊗ m.
-        let m = (q + f.dot(&along)) / 18.0 * h - (flat(inner) + along) / 3.0;
-        let squared = self.scale.powi(2);
         let mut tangent = *inner_tangent;
-        for (column, entries) in tangent.as_mut_slice().chunks_exact_mut(9).enumerate() {
-            let (k, l) = (column % 3, column / 3);
-            for (row, entry) in entries.iter_mut().enumerate() {
-                let (i, j) = (row % 3, row / 3);
-                // K at (ij)(kl) is H_il H_kj.
-                let turned = h[3 * l + i] * h[3 * j + k];
-                *entry += m[row] * h[column] + h[row] * m[column] + q / 3.0 * turned;
-                *entry *= squared;
-            }
-        }
+        self.complete(inner, &along, &mut tangent);
         tangent
     }
+
+    /// The same where Ā is a `modulus` [Pa] times the identity, and so P̄ that times F̄.
+    pub(crate) fn tangent_of_modulus(&self, modulus: f64) -> Tangent {
+        let inner = modulus * self.f;
+        let mut tangent = Tangent::from_diagonal_element(modulus);
+        self.complete(&inner, &flat(&inner), &mut tangent);
+        tangent
+    }
+
+    /// Makes ∂²Ψ/∂F∂F of Ā, with `along` = Ā:F̄.
+    fn complete(&self, inner: &Matrix3<f64>, along: &SVector<f64, 9>, tangent: &mut Tangent) {
+        let (f, h) = (flat(&self.f), flat(&self.cofactors));
+        let q = inner.dot(&self.f);
+        // Both rank-one terms and H ⊗ H at once: m ⊗ H + H ⊗ m.
+        let m = (q + f.dot(along)) / 18.0 * h - (flat(inner) + along) / 3.0;
+        let squared = self.scale.powi(2);
+        let third = q / 3.0;
+        for (column, entries) in tangent.as_mut_slice().chunks_exact_mut(9).enumerate() {
+            let (k, l) = (column % 3, column / 3);
+            for j in 0..3 {
+                for i in 0..3 {
+                    let row = 3 * j + i;
+                    // K at (ij)(kl) is H_il H_kj.
+                    let turned = h[3 * l + i] * h[3 * j + k];
+                    let entry = &mut entries[row];
+                    *entry += m[row] * h[column] + h[row] * m[column] + third * turned;
+                    *entry *= squared;
+                }
+            }
+        }
+    }
+}
+
+fn flat(m: &Matrix3<f64>) -> SVector<f64, 9> {
+    SVector::from_column_slice(m.as_slice())
 }

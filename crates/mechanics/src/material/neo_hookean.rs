@@ -11,7 +11,7 @@
 use nalgebra::Matrix3;
 
 use super::isochoric::Isochoric;
-use super::law::{Law, Tangent};
+use super::law::{Distortion, Law, Tangent};
 use super::volume::Volume;
 use crate::Error;
 
@@ -59,9 +59,16 @@ impl Law for NeoHookean {
 
     fn distortion_tangent(&self, f: &Matrix3<f64>) -> Tangent {
         let isochoric = Isochoric::of(f);
-        let modulus = 2.0 * self.c10;
-        let inner = Tangent::from_diagonal_element(modulus);
-        isochoric.tangent(&(modulus * isochoric.f), &inner)
+        isochoric.tangent_of_modulus(2.0 * self.c10)
+    }
+
+    fn distortion(&self, f: &Matrix3<f64>) -> Distortion {
+        let isochoric = Isochoric::of(f);
+        Distortion {
+            energy: self.c10 * (isochoric.f.norm_squared() - 3.0), // (6.8)
+            stress: isochoric.stress(&(2.0 * self.c10 * isochoric.f)),
+            tangent: isochoric.tangent_of_modulus(2.0 * self.c10),
+        }
     }
 
     fn volume(&self) -> Volume {

@@ -62,18 +62,31 @@ impl Volume {
     /// ∂²θ/∂F∂F [-], numbered as a [`Tangent`].
     pub fn dilation_curvature(&self, f: &Matrix3<f64>) -> Tangent {
         let mut curvature = Tangent::zeros();
+        self.add_dilation_curvature(1.0, f, &mut curvature);
+        curvature
+    }
+
+    /// Adds `factor` times [`Self::dilation_curvature`] to `tangent`.
+    pub(crate) fn add_dilation_curvature(
+        &self,
+        factor: f64,
+        f: &Matrix3<f64>,
+        tangent: &mut Tangent,
+    ) {
         if self.strain == Strain::Finite {
             // det F = F_0 · (F_1 × F_2): column c against the next is ± the cross matrix of the third.
             for first in 0..3 {
                 let (second, third) = ((first + 1) % 3, (first + 2) % 3);
-                let cross = f.column(third).into_owned().cross_matrix();
-                for (i, k) in (0..3).flat_map(|i| (0..3).map(move |k| (i, k))) {
-                    curvature[(3 * first + i, 3 * second + k)] = -cross[(i, k)];
-                    curvature[(3 * second + k, 3 * first + i)] = -cross[(i, k)];
+                let column = factor * f.column(third);
+                for i in 0..3 {
+                    let (next, last) = ((i + 1) % 3, (i + 2) % 3);
+                    for (k, entry) in [(next, column[last]), (last, -column[next])] {
+                        tangent[(3 * first + i, 3 * second + k)] += entry;
+                        tangent[(3 * second + k, 3 * first + i)] += entry;
+                    }
                 }
             }
         }
-        curvature
     }
 
     pub(crate) fn energy(&self, f: &Matrix3<f64>) -> f64 {
