@@ -29,12 +29,38 @@ pub struct Equilibrium {
     pub iterations: usize,
 }
 
-const MOST_ITERATIONS: usize = 25;
-/// η of the residual over η of the reactions [-]; the force is then good to about its square.
-const TOLERANCE: f64 = 1e-7;
+/// How much is done for an equilibrium.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Effort {
+    /// Most solutions of the linear system.
+    pub(super) iterations: usize,
+    /// η of the residual over η of the reactions [-]; the force is then good to about its square.
+    pub(super) tolerance: f64,
+    /// Shortest part of a step that is tried when the residual does not fall [-].
+    pub(super) shortest: f64,
+    /// Whether that part is gone all the same. It is then often in vain, and rarely the only way.
+    pub(super) stubborn: bool,
+}
+
+impl Effort {
+    /// The most.
+    pub(super) const FULL: Self = Self {
+        iterations: 25,
+        tolerance: 1e-7,
+        shortest: 1.0 / 16.0,
+        stubborn: true,
+    };
+    /// What an attempt is worth that a shorter one may follow.
+    pub(super) const TRY: Self = Self {
+        iterations: 10,
+        shortest: 1.0 / 8.0,
+        stubborn: false,
+        ..Self::FULL
+    };
+}
+
 /// What rounding leaves of a sum [-], in its terms.
 const ROUNDING: f64 = 1e-13;
-const SHORTEST_STEP: f64 = 1.0 / 16.0;
 
 /// Brings `state` into equilibrium with `supports`. On failure `state` is where the iteration stood.
 ///
@@ -46,12 +72,12 @@ pub fn equilibrate(
     state: &mut FiniteElementState,
     workspace: &mut FiniteElementWorkspace,
 ) -> Result<Equilibrium, Failure> {
-    equilibrate_within(MOST_ITERATIONS, model, supports, (state, workspace))
+    equilibrate_within(Effort::FULL, model, supports, (state, workspace))
 }
 
-/// [`equilibrate`] with at most `most` solutions of the linear system.
+/// [`equilibrate`] with this `effort`.
 pub(super) fn equilibrate_within(
-    most: usize,
+    effort: Effort,
     model: &FiniteElementModel,
     supports: &Supports<'_>,
     (state, workspace): (&mut FiniteElementState, &mut FiniteElementWorkspace),
@@ -64,10 +90,10 @@ pub(super) fn equilibrate_within(
     loop {
         let gap = prescribe(model, supports, &state.unknowns, workspace);
         let size = size_of_residual(model, supports, workspace);
-        if gap == 0.0 && iterations > 0 && size.is_small() {
+        if gap == 0.0 && iterations > 0 && size.is_small(effort.tolerance) {
             return Ok(Equilibrium { iterations });
         }
-        if iterations == most {
+        if iterations == effort.iterations {
             return Err(Failure::NotConverged);
         }
         solve(model, supports, workspace)?;
@@ -77,7 +103,7 @@ pub(super) fn equilibrate_within(
             supports,
             state,
             workspace,
-            (gap == 0.0).then_some(size.free),
+            (effort, (gap == 0.0).then_some(size.free)),
         )?;
     }
 }
@@ -118,8 +144,8 @@ pub(super) struct Size {
 }
 
 impl Size {
-    pub(super) fn is_small(&self) -> bool {
-        self.free <= (TOLERANCE * TOLERANCE * self.held).max(ROUNDING * ROUNDING * self.terms)
+    pub(super) fn is_small(&self, tolerance: f64) -> bool {
+        self.free <= (tolerance * tolerance * self.held).max(ROUNDING * ROUNDING * self.terms)
             || self.free < 1e-40
     }
 }
@@ -288,7 +314,7 @@ fn advance(
     supports: &Supports<'_>,
     state: &mut FiniteElementState,
     workspace: &mut FiniteElementWorkspace,
-    before: Option<f64>,
+    (effort, before): (Effort, Option<f64>),
 ) -> Result<(), Failure> {
     let mut length = 1.0;
     loop {
@@ -307,13 +333,14 @@ fn advance(
             let size = size_of_residual(model, supports, workspace).free;
             size.is_finite() && before.is_none_or(|before| size <= before.max(1e-40))
         };
-        let last = length <= SHORTEST_STEP;
-        if good || (last && assembled.is_ok()) {
+        let last = length <= effort.shortest;
+        if good || (last && effort.stubborn && assembled.is_ok()) {
             state.unknowns = trial;
             return Ok(());
         }
         if last {
-            return Err(Failure::Inverted);
+            assembled?;
+            return Err(Failure::NotConverged);
         }
         length *= 0.5;
     }

@@ -10,7 +10,7 @@
 //! *Limits*: arrives at a stable state, not necessarily at the nearest.
 
 use super::model::{FiniteElementModel, FiniteElementState, FiniteElementWorkspace};
-use super::newton::{self, Equilibrium, Failure, equilibrate, equilibrate_within};
+use super::newton::{self, Effort, Equilibrium, Failure, equilibrate, equilibrate_within};
 use super::supports::Supports;
 
 /// What resists a body that leaves a place.
@@ -30,9 +30,13 @@ const THINNEST: f64 = 1e-6;
 const MUCH_THINNER: f64 = 0.3;
 const THINNER: f64 = 0.7;
 const THICKER: f64 = 3.0;
-/// Solutions after which a step was easy, and with which it is bad.
+/// Solutions after which a step was easy.
 const EASY: usize = 3;
-const BAD: usize = 8;
+/// What a step in the syrup is worth: it only shows the way.
+const STEP: Effort = Effort {
+    tolerance: 1e-5,
+    ..Effort::TRY
+};
 const MOST_STEPS: usize = 150;
 
 /// Brings `state` into equilibrium with `supports` as [`equilibrate`] does, also where that fails.
@@ -51,6 +55,7 @@ pub(super) fn equilibrate_downhill(
         .collect();
     let mut part = FIRST;
     let mut iterations = 0;
+    let mut was_bad = false;
     for _ in 0..MOST_STEPS {
         let start = state.clone();
         let thick = Supports {
@@ -60,18 +65,20 @@ pub(super) fn equilibrate_downhill(
             }),
             ..supports.clone()
         };
-        match equilibrate_within(BAD, model, &thick, (state, workspace)) {
+        match equilibrate_within(STEP, model, &thick, (state, workspace)) {
             Ok(done) => {
                 iterations += done.iterations;
-                part *= if done.iterations <= EASY {
-                    MUCH_THINNER
-                } else {
-                    THINNER
+                part *= match done.iterations {
+                    _ if was_bad => 1.0,
+                    ..=EASY => MUCH_THINNER,
+                    _ => THINNER,
                 };
+                was_bad = false;
             }
             Err(_) => {
                 *state = start;
                 part *= THICKER;
+                was_bad = true;
             }
         }
         if part < THINNEST {

@@ -3,7 +3,7 @@ use std::sync::Arc;
 use super::super::model::{
     FiniteElementModel, FiniteElementState, FiniteElementWorkspace, Formulation,
 };
-use super::super::newton::{self, Failure, equilibrate};
+use super::super::newton::{self, Effort, Failure, equilibrate_within};
 use super::super::relaxation::{Memory, RelaxationStep};
 use super::super::snap::equilibrate_downhill;
 use super::super::supports::{OnSphere, Supports};
@@ -81,7 +81,7 @@ const FIRST_STEP: f64 = 0.1;
 const LONGEST_STEP: f64 = 0.5;
 const SHORTEST_STEP: f64 = 1e-4;
 /// From this step down, an element that gives way is followed downhill [-].
-const DOWNHILL_STEP: f64 = 0.02;
+const DOWNHILL_STEP: f64 = 0.1;
 /// A node that is deeper than this inside after a step has come in too fast [-].
 const DEEPEST_CATCH: f64 = 0.1;
 /// Changes of contact at one depth.
@@ -291,7 +291,12 @@ impl IndentationRun {
         for _ in 0..MOST_CHANGES {
             let supports = self.supports(&touch, depth, relaxing.as_ref());
             let before = (way == Way::Downhill).then(|| state.clone());
-            let done = equilibrate(&self.model, &supports, &mut state, &mut self.workspace);
+            let done = equilibrate_within(
+                Effort::TRY,
+                &self.model,
+                &supports,
+                (&mut state, &mut self.workspace),
+            );
             let done = match (done, before) {
                 (Err(_), Some(before)) => {
                     state = before;
