@@ -1,6 +1,7 @@
 //! What is handed over after a step is the force and its slope.
 
-use palpate_files::Pose;
+use palpate_files::scene::TissueChoice;
+use palpate_files::{BuiltinTissue, Pose};
 use palpate_geometry::Vec3;
 use palpate_simulate::interactive::affine_force;
 use palpate_simulate::{Simulation, step};
@@ -31,20 +32,27 @@ fn at_once(simulation: &Simulation, hand: &Hand<'_>, tip: &Vec3) -> Vec3 {
 #[test]
 fn the_slope_is_that_of_the_force() {
     let prony = "[{ g = 0.2866, tau_s = 1.537 }, { g = 0.2022, tau_s = 6.090 }]";
-    for (shape, contact) in [
-        ("flat", "slip"),
-        ("flat", "stick"),
-        ("sphere", "slip"),
-        ("sphere", "stick"),
-    ] {
-        let simulation = Setting {
+    let cases = [
+        ("flat", "slip", None),
+        ("flat", "stick", None),
+        ("sphere", "slip", None),
+        ("sphere", "stick", None),
+        ("flat", "slip", Some(BuiltinTissue::PigLiver)),
+        ("sphere", "slip", Some(BuiltinTissue::PigLiver)),
+    ];
+    for (shape, contact, tissue) in cases {
+        let setting = Setting {
             shape,
             contact,
             prony,
             radius: 2e-3,
             ..Setting::default()
+        };
+        let mut scene = setting.scene();
+        if let Some(tissue) = tissue {
+            scene.organ.tissue = TissueChoice::Builtin(tissue);
         }
-        .simulation();
+        let simulation = Simulation::new(&scene).unwrap();
         let overhang = if shape == "sphere" { 2e-3 } else { 0.0 };
         let tip = Vec3::new(1e-3, 5e-4, 0.05 + overhang - 1e-3);
         let mut hand = Hand::new(&simulation);
@@ -61,11 +69,9 @@ fn the_slope_is_that_of_the_force() {
                 - at_once(&simulation, &hand, &(tip - way));
             let slope = by / 2e-5;
             let error = (given.gradient.column(axis) - slope).norm() / largest;
-            println!(
-                "{shape} {contact} {axis}: {slope:?} {:?}",
-                given.gradient.column(axis)
-            );
-            assert!(error < 0.08, "{shape} {contact} {axis}: {error}");
+            println!("{shape} {contact} {tissue:?} {axis}: {error:.4}");
+            // A slipping tip's normal turns along the organ: f/R, 1.5 %, and as much by its triangles.
+            assert!(error < 0.05, "{shape} {contact} {axis}: {error}");
         }
     }
 }
