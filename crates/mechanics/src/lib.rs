@@ -4,6 +4,7 @@
 //! frame rate is. A method is three types: a model, built once and immutable; where needed a state,
 //! all that must be kept to go on; and a workspace, scratch whose loss changes no result.
 
+pub mod boundary_elements;
 pub mod contact;
 mod error;
 pub mod finite_elements;

@@ -9,6 +9,7 @@
 mod agreement;
 mod analytic;
 mod bodies;
+mod boundary_elements;
 mod contacts;
 mod convergence;
 mod errors;
