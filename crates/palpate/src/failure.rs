@@ -113,6 +113,15 @@ impl From<palpate_simulate::Error> for Failure {
     }
 }
 
+impl From<palpate_viewer::Error> for Failure {
+    fn from(error: palpate_viewer::Error) -> Self {
+        match error.is_input() {
+            true => Self::input(error),
+            false => Self::failed(error),
+        }
+    }
+}
+
 /// Of writing to standard output.
 impl From<io::Error> for Failure {
     fn from(error: io::Error) -> Self {

@@ -9,6 +9,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use palpate_files::{Motion, SessionWriter, write_whole};
 use palpate_simulate::{Flow, Simulation, Summary, play};
+use palpate_viewer::FrameWriter;
 use serde::Serialize;
 
 use crate::failure::Failure;
@@ -23,6 +24,8 @@ pub(crate) struct Recording<'a> {
     pub(crate) folder: &'a Path,
     /// Surfaces to write for ParaView, evenly over the motion.
     pub(crate) surfaces: u64,
+    /// What takes pictures, evenly over the motion.
+    pub(crate) frames: Option<FrameWriter>,
     pub(crate) reader: Reader,
 }
 
@@ -53,7 +56,7 @@ struct Times {
 pub(crate) fn record(
     simulation: &Simulation,
     motion: &Motion,
-    recording: &Recording<'_>,
+    mut recording: Recording<'_>,
 ) -> Result<Report, Failure> {
     let folder = recording.folder;
     std::fs::create_dir_all(folder).map_err(|cause| {
@@ -83,6 +86,9 @@ pub(crate) fn record(
         }
         traces.add(frame);
         surfaces.add(simulation, frame)?;
+        if let Some(frames) = &mut recording.frames {
+            frames.add(frame)?;
+        }
         match stopped.load(Ordering::Relaxed) {
             true => Ok(Flow::Stop),
             false => Ok(Flow::GoOn),
@@ -92,6 +98,12 @@ pub(crate) fn record(
     writer.finish()?;
     let mut files = vec![session];
     files.extend(surfaces.finish()?);
+    files.extend(
+        recording
+            .frames
+            .map(FrameWriter::finish)
+            .unwrap_or_default(),
+    );
     files.extend(traces.draw(folder)?);
     let path = folder.join("summary.json");
     files.push(path.clone());

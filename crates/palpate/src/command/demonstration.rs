@@ -6,6 +6,7 @@ use palpate_files::{Motion, Scene, write_whole};
 use palpate_simulate::Simulation;
 
 use super::simulate::ESOPHAGUS;
+use super::window;
 use crate::failure::Failure;
 use crate::output;
 use crate::performance::{Recording, record};
@@ -19,23 +20,34 @@ const SURFACES: u64 = 60;
 
 const MOTION: &str = include_str!("../../../../assets/esophagus/motion.csv");
 
-/// A first touch that needs no file.
+/// The window with the built-in esophagus; where there can be none, a first touch that needs neither window
+/// nor file.
 pub(crate) fn run() -> Result<(), Failure> {
+    match window::open(window::esophagus()?) {
+        Ok(()) => Ok(()),
+        Err(why) if window::is_absent(&why) => play(&why),
+        Err(why) => Err(why.into()),
+    }
+}
+
+/// Plays the demonstration, `why` there is no window.
+fn play(why: &palpate_viewer::Error) -> Result<(), Failure> {
     let folder = Path::new(FOLDER);
     let simulation = Simulation::new(&Scene::parse(ESOPHAGUS, "built-in scene")?)?;
     let motion = Motion::parse(MOTION, "built-in motion")?;
     output::text(format!(
         "palpate {}: two tools palpate the built-in esophagus ({} triangles).\n\
-         There is no window yet; this is played on a virtual clock.",
+         It is played on a virtual clock and no window is opened, for {why}.",
         output::VERSION,
         simulation.surface().mesh().triangles().len(),
     ))?;
     let recording = Recording {
         folder,
         surfaces: SURFACES,
+        frames: None,
         reader: Reader::Person,
     };
-    let report = record(&simulation, &motion, &recording)?;
+    let report = record(&simulation, &motion, recording)?;
     // What was played, to change and to play again.
     for (name, text) in [("scene.toml", ESOPHAGUS), ("motion.csv", MOTION)] {
         write_whole(folder.join(name), text.as_bytes())?;

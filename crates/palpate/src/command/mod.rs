@@ -6,6 +6,7 @@ mod quality;
 mod reproduce;
 mod simulate;
 mod solve;
+mod window;
 
 use clap::{Parser, Subcommand};
 
@@ -15,7 +16,10 @@ use crate::failure::Failure;
 const EXAMPLES: &str = "\
 Examples:
   palpate
-      a first touch of the built-in esophagus, without a file; writes ./palpate-demo
+      opens a window: the built-in esophagus under the mouse. Without a display it plays a
+      first touch instead and writes ./palpate-demo
+  palpate simulate scene.toml
+      opens a window with your scene
   palpate simulate scene.toml --headless --motion motion.csv --out session
       plays the tool motions on the scene and writes session/session.csv
   palpate solve problem.toml --plot force.png
@@ -34,7 +38,7 @@ document on standard output. Exit status: 0 done, 2 the input has to be mended, 
 
 /// Soft-tissue touch, from the first indentation to the trained hand.
 ///
-/// Without a command, a demonstration runs.
+/// Without a command, the window opens; where there is no display, a demonstration runs.
 #[derive(Debug, Parser)]
 #[command(name = "palpate", version, after_help = EXAMPLES, disable_help_subcommand = true)]
 pub(crate) struct CommandLine {
@@ -44,7 +48,7 @@ pub(crate) struct CommandLine {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Play tool motions on an organ and record what the hand would feel.
+    /// Touch an organ in a window, or play tool motions on it and record what the hand would feel.
     Simulate(simulate::Arguments),
     /// Solve a described problem with finite elements, the reference for everything else.
     Solve(solve::Arguments),

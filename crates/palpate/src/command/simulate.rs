@@ -1,11 +1,13 @@
-//! `palpate simulate`: tool motions on an organ.
+//! `palpate simulate`: an organ in a window, or tool motions on it without one.
 
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use palpate_files::{Motion, Scene};
 use palpate_simulate::Simulation;
+use palpate_viewer::FrameWriter;
 
+use super::window;
 use crate::failure::Failure;
 use crate::output;
 use crate::performance::{Recording, Report, record};
@@ -17,10 +19,13 @@ pub(crate) const ESOPHAGUS: &str = include_str!("../../../../assets/esophagus/sc
 /// Examples at the end of the help.
 const EXAMPLES: &str = "\
 Examples:
+  palpate simulate scene.toml
+      opens a window in which the mouse moves the tool
   palpate simulate scene.toml --headless --motion motion.csv --out session
       writes session/session.csv (forces on the tool at every step), plots and summary.json
-  palpate simulate --headless --motion motion.csv --out session --fields 60
-      on the built-in esophagus, with 60 surfaces for ParaView (open session/surfaces.pvd)
+  palpate simulate --headless --motion motion.csv --out session --fields 60 --frames 60
+      on the built-in esophagus, with 60 surfaces for ParaView (open session/surfaces.pvd) and
+      60 pictures (session/frame-0001.png and so on)
 
 A scene names an organ, its tissue, the model and the tools; a motion says where the tips are:
   # format = 1
@@ -46,9 +51,9 @@ pub(crate) struct Arguments {
     /// Write this many deformed surfaces, evenly over the motion, for ParaView.
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=100_000))]
     fields: u64,
-    /// Write this many pictures (not there yet: they come with the window).
-    #[arg(long, value_name = "N")]
-    frames: Option<u64>,
+    /// Write this many pictures, evenly over the motion: frame-0001.png and so on.
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=100_000))]
+    frames: u64,
     /// Print the summary as one JSON object.
     #[arg(long)]
     json: bool,
@@ -56,21 +61,38 @@ pub(crate) struct Arguments {
 
 /// Plays the motions.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    if arguments.frames.is_some() {
+    let (motion, out) = (arguments.motion.as_deref(), arguments.out.as_deref());
+    match (arguments.headless, motion, out) {
+        (true, Some(motion), Some(out)) => play(arguments, motion, out),
+        (false, None, None) => touch(arguments),
+        _ => Err(Failure::input(
+            "in a window the mouse moves the tools; play a motion with --headless --motion MOTION.csv \
+             --out DIR",
+        )),
+    }
+}
+
+/// In a window, until it is closed.
+fn touch(arguments: &Arguments) -> Result<(), Failure> {
+    if arguments.json || arguments.frames > 0 || arguments.fields > 0 {
         return Err(Failure::input(
-            "--frames needs the renderer, which is not there yet; --fields N writes the deformed \
-             surface N times for ParaView",
+            "--json, --frames and --fields belong to a motion; add --headless --motion MOTION.csv --out DIR",
         ));
     }
-    let (true, Some(motion), Some(out)) = (
-        arguments.headless,
-        arguments.motion.as_deref(),
-        arguments.out.as_deref(),
-    ) else {
-        return Err(Failure::input(
-            "there is no window yet; play a motion with --headless --motion MOTION.csv --out DIR",
-        ));
+    let scene = match &arguments.scene {
+        Some(path) => Scene::read(path)?,
+        None => window::esophagus()?,
     };
+    match window::open(scene) {
+        Err(why) if window::is_absent(&why) => Err(Failure::failed(format!(
+            "{why}; --headless plays a motion without a window"
+        ))),
+        outcome => Ok(outcome?),
+    }
+}
+
+/// Without a window, from a file.
+fn play(arguments: &Arguments, motion: &Path, out: &Path) -> Result<(), Failure> {
     let report = simulate(arguments, motion, out)?;
     if arguments.json {
         output::json(&report)?;
@@ -99,10 +121,15 @@ fn simulate(arguments: &Arguments, motion: &Path, out: &Path) -> Result<Report, 
         ));
     })?;
     drop(progress);
+    let frames = match arguments.frames {
+        0 => None,
+        wanted => Some(FrameWriter::new(&scene, &simulation, (out, wanted))?),
+    };
     let recording = Recording {
         folder: out,
         surfaces: arguments.fields,
+        frames,
         reader,
     };
-    record(&simulation, &motion, &recording)
+    record(&simulation, &motion, recording)
 }

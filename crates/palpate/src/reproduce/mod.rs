@@ -7,6 +7,7 @@ mod m02;
 mod m04;
 mod m08;
 mod m09;
+mod m13;
 mod published;
 mod row;
 mod select;
@@ -30,13 +31,16 @@ pub(crate) struct Item {
 }
 
 /// All that can be reproduced, in the order of the source.
-pub(crate) const ITEMS: [Item; 8] = [
+pub(crate) const ITEMS: [Item; 11] = [
     m01::TABLE_3_1,
     m01::FIGURE_3_3,
     m01::FIGURE_3_4,
     m02::SECTION_3_4,
+    m13::FIGURE_3_7,
     m04::FIGURE_4_5,
     m08::FIGURE_6_8,
     m08::FIGURE_6_12,
     m09::SECTION_6_4_5,
+    m13::TABLE_7_1,
+    m13::FIGURE_7_12,
 ];

@@ -24,6 +24,11 @@ pub(crate) const TABLE_6_5: Table = Table(include_str!(
     "../../../../published/table_6_5_mooney_rivlin.csv"
 ));
 
+/// Table 7-1.
+pub(crate) const TABLE_7_1: Table = Table(include_str!(
+    "../../../../published/table_7_1_environment_mapping.csv"
+));
+
 /// Section 6.4.5.
 pub(crate) const SECTION_6_4_5: Table =
     Table(include_str!("../../../../published/esophagus_6_4_5.csv"));

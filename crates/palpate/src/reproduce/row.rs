@@ -2,6 +2,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use palpate_files::write_whole;
 use serde::Serialize;
 
 use crate::failure::Failure;
@@ -83,6 +84,27 @@ impl<'a> Rows<'a> {
         plot: &Plot,
         note: impl Into<String>,
     ) -> Result<(), Failure> {
+        let (row, path) = self.figure(name)?;
+        plot.write(&path)?;
+        self.push_figure(row, path, note.into());
+        Ok(())
+    }
+
+    /// Writes the picture `png` to the file `item.png`, or `item-name.png`, and adds its row.
+    pub(crate) fn add_picture(
+        &mut self,
+        name: Option<&str>,
+        png: &[u8],
+        note: impl Into<String>,
+    ) -> Result<(), Failure> {
+        let (row, path) = self.figure(name)?;
+        write_whole(&path, png)?;
+        self.push_figure(row, path, note.into());
+        Ok(())
+    }
+
+    /// The name of a figure's row, and its file in a folder that is there.
+    fn figure(&self, name: Option<&str>) -> Result<(String, PathBuf), Failure> {
         let (row, file) = match name {
             None => (self.item.to_owned(), format!("{}.png", self.item)),
             Some(name) => (
@@ -91,15 +113,16 @@ impl<'a> Rows<'a> {
             ),
         };
         make_folder(self.folder)?;
-        let path = self.folder.join(file);
-        plot.write(&path)?;
+        Ok((row, self.folder.join(file)))
+    }
+
+    fn push_figure(&mut self, row: String, path: PathBuf, note: String) {
         let value = Value {
             published: None,
             ours: None,
             unit: "",
         };
-        self.push(row, value, Some(path), note.into());
-        Ok(())
+        self.push(row, value, Some(path), note);
     }
 
     /// Tells those who wait what goes on within an item.

@@ -12,6 +12,7 @@ mod reproduce;
 mod simulate;
 mod solve;
 mod solve_errors;
+mod window;
 
 use std::path::Path;
 use std::process::{Command, Output};

@@ -1,0 +1,123 @@
+use palpate_files::scene::Shading;
+use palpate_files::{Pose, Scene};
+use palpate_geometry::{AabbTree, Vec3};
+use palpate_simulate::{Simulation, SimulationState, SimulationWorkspace, step};
+use palpate_viewer::{FRAME_SIZE, Studio, pick, png};
+
+use crate::failure::Failure;
+use crate::reproduce::{Item, Rows};
+
+pub(crate) const FIGURE_7_12: Item = Item {
+    name: "figure-7-12",
+    title: "the esophagus without a texture, with one, and with a sphere map",
+    run: figure_7_12,
+};
+
+pub(crate) const FIGURE_3_7: Item = Item {
+    name: "figure-3-7",
+    title: "palpation of a liver with the local model",
+    run: figure_3_7,
+};
+
+const ESOPHAGUS: &str = "format = 1\n[organ]\nbuiltin = \"esophagus\"\ntriangles = 14000\n\
+     builtin_tissue = \"pig-esophagus\"\n[[tool]]\nname = \"right\"\n\
+     tip = { shape = \"sphere\", radius_m = 0.003, contact = \"slip\" }\n";
+
+const LIVER: &str = "format = 1\n[organ]\nbuiltin = \"liver\"\ntriangles = 20000\n\
+     builtin_tissue = \"pig-liver\"\n[[tool]]\nname = \"right\"\n\
+     tip = { shape = \"sphere\", radius_m = 0.005, contact = \"slip\" }\n";
+
+fn figure_7_12(rows: &mut Rows<'_>) -> Result<(), Failure> {
+    let shadings = [
+        (Shading::Plain, "left", "polygons without a texture"),
+        (
+            Shading::Texture,
+            "middle",
+            "a texture that sticks to the tissue: no seams, no stretched places",
+        ),
+        (
+            Shading::SphereMap,
+            "right",
+            "the texture under a wet film that a sphere map lights",
+        ),
+    ];
+    for (shading, name, what) in shadings {
+        let made = picture(ESOPHAGUS, 0.002, |studio| {
+            studio.view.shading = shading;
+            studio.view.detail = shading != Shading::Plain;
+        });
+        add(rows, Some(name), what, made)?;
+    }
+    Ok(())
+}
+
+fn figure_3_7(rows: &mut Rows<'_>) -> Result<(), Failure> {
+    let what = "20,000 triangles, 34 particles around a ball of 5 mm radius that is 10 mm deep";
+    add(rows, None, what, picture(LIVER, 0.010, |_| ()))
+}
+
+/// The picture with what it shows, or the reason why there is none.
+fn add(
+    rows: &mut Rows<'_>,
+    name: Option<&str>,
+    what: &str,
+    made: Result<Picture, Failure>,
+) -> Result<(), Failure> {
+    match made {
+        Ok(made) => rows.add_picture(
+            name,
+            &made.png,
+            format!(
+                "{what}; force {:.3} N; drawn by {}",
+                made.force, made.adapter
+            ),
+        ),
+        Err(Failure::Failed(why)) => {
+            rows.add_missing(name.unwrap_or("picture"), "", why);
+            Ok(())
+        }
+        Err(failure) => Err(failure),
+    }
+}
+
+struct Picture {
+    png: Vec<u8>,
+    /// On the tool [N].
+    force: f64,
+    adapter: String,
+}
+
+/// The organ of `scene` with its tool pressed `depth` [m] into what is in the middle of the picture.
+fn picture(scene: &str, depth: f64, arrange: impl Fn(&mut Studio)) -> Result<Picture, Failure> {
+    let scene = Scene::parse(scene, "built-in scene")?;
+    let simulation = Simulation::new(&scene)?;
+    let mut studio = Studio::new(&scene, &simulation, FRAME_SIZE)?;
+    arrange(&mut studio);
+    let mut state = SimulationState::new(&simulation);
+    let mut workspace = SimulationWorkspace::new(&simulation);
+    let pose = pressed(&studio, &simulation, (scene.tools[0].tip.radius_m, depth));
+    step(&simulation, (0.0, 0.0), &[pose], &mut state, &mut workspace);
+    Ok(Picture {
+        png: png(&studio.picture(&state)?)?,
+        force: state.tools[0].force.norm(),
+        adapter: studio.gpu.adapter().to_owned(),
+    })
+}
+
+/// A ball of `radius` [m] that is `depth` [m] deep, held from the upper right.
+fn pressed(studio: &Studio, simulation: &Simulation, (radius, depth): (f64, f64)) -> Option<Pose> {
+    let surface = simulation.surface();
+    let tree = AabbTree::new(surface.mesh());
+    let camera = &studio.view.camera;
+    let aspect = f64::from(FRAME_SIZE.0) / f64::from(FRAME_SIZE.1);
+    let picked = pick((surface, &tree), camera, (0.48, 0.5), aspect)?;
+    let [right, up, _] = camera.axes();
+    let shaft: Vec3 = picked.normal + 0.45 * right + 0.55 * up;
+    let turned = nalgebra::UnitQuaternion::rotation_between(&Vec3::z(), &shaft)?;
+    Some(Pose {
+        position_m: (picked.point + (radius - depth) * picked.normal).into(),
+        orientation: Some([turned.i, turned.j, turned.k, turned.w]),
+        grip: 0.0,
+        cut: false,
+    })
+}

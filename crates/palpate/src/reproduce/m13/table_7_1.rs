@@ -1,0 +1,149 @@
+use std::time::Instant;
+
+use palpate_files::scene::{BuiltinOrgan, Shading, Shape};
+use palpate_geometry::{Organ, Surface};
+use palpate_viewer::{Body, FRAME_SIZE, Gpu, Orbit, Renderer, Target, Tint, View};
+
+use crate::failure::Failure;
+use crate::reproduce::published::TABLE_7_1 as PUBLISHED;
+use crate::reproduce::row::Value;
+use crate::reproduce::{Item, Rows};
+
+pub(crate) const TABLE_7_1: Item = Item {
+    name: "table-7-1",
+    title: "triangles drawn per second, plain and with environment maps",
+    run,
+};
+
+/// The source's organs with the shape that stands for each. Their numbers of triangles are exact.
+const ORGANS: [(&str, Organ); 5] = [
+    ("liver", Organ::Liver),
+    ("stomach", Organ::Stomach),
+    ("lung", Organ::Spleen),
+    ("kidney", Organ::Kidney),
+    ("intestine", Organ::Stomach),
+];
+
+/// What is drawn, and the published column of it.
+const SHADINGS: [(Shading, &str, Option<&str>); 3] = [
+    (Shading::Plain, "plain", None),
+    (
+        Shading::SphereMap,
+        "sphere_map",
+        Some("sphere_map_geforce2"),
+    ),
+    (Shading::CubeMap, "cube_map", Some("cube_map_geforce2")),
+];
+
+const UNIT: &str = "10^6/s";
+
+/// Pictures that are thrown away, and that are measured: an odd number has a middle.
+const WARM_UP: usize = 2;
+const MOST: usize = 101;
+/// Time that the pictures of a row may take altogether [s]; a slow adapter draws fewer.
+const LONGEST: f64 = 0.6;
+
+fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
+    let gpu = match Gpu::open() {
+        Ok(gpu) => gpu,
+        Err(why) => {
+            for (name, _) in ORGANS {
+                for (_, word, _) in SHADINGS {
+                    rows.add_missing(&format!("{name}/{word}"), UNIT, why.to_string());
+                }
+            }
+            return Ok(());
+        }
+    };
+    let mut renderer = Renderer::new(&gpu);
+    let target = Target::new(&gpu, FRAME_SIZE, 1);
+    for (name, organ) in ORGANS {
+        let Some(wanted) = PUBLISHED.value(name, "triangles") else {
+            rows.add_missing(name, UNIT, "the published table has no such organ");
+            continue;
+        };
+        let surface = Surface::new(organ.surface_mesh(wanted as usize)?)?;
+        let triangles = surface.mesh().triangles().len();
+        let shape = Shape::Builtin {
+            organ: BuiltinOrgan::Liver,
+            triangles: None,
+        };
+        let body = Body::new(&gpu, &surface, Tint::of(&shape));
+        for (shading, word, column) in SHADINGS {
+            let view = View {
+                camera: Orbit::framing(surface.mesh(), 0.785, 1.6).camera(),
+                shading,
+                detail: false,
+                reach: 0.3,
+            };
+            let time = measure(|| {
+                renderer.draw(&gpu, &view, (&[&body], &[]), &target);
+                gpu.wait()
+            })?;
+            let value = Value {
+                published: column.and_then(|column| PUBLISHED.value(name, column)),
+                ours: Some(1e-6 * triangles as f64 / time.median),
+                unit: UNIT,
+            };
+            let software = PUBLISHED.value(name, "sphere_map_tornado3000");
+            rows.add(
+                &format!("{name}/{word}"),
+                value,
+                note(
+                    organ,
+                    triangles,
+                    &gpu,
+                    (time, software.filter(|_| column.is_some())),
+                ),
+            );
+        }
+    }
+    Ok(())
+}
+
+/// What was measured.
+#[derive(Debug, Clone, Copy)]
+struct Timing {
+    /// Of a picture [s].
+    median: f64,
+    pictures: usize,
+}
+
+fn measure(mut draw: impl FnMut() -> Result<(), palpate_viewer::Error>) -> Result<Timing, Failure> {
+    for _ in 0..WARM_UP {
+        draw()?;
+    }
+    let begin = Instant::now();
+    let mut times = Vec::new();
+    while times.len() < MOST && (begin.elapsed().as_secs_f64() < LONGEST || times.len() < 3) {
+        let start = Instant::now();
+        draw()?;
+        times.push(start.elapsed().as_secs_f64());
+    }
+    times.sort_by(f64::total_cmp);
+    Ok(Timing {
+        median: times[times.len() / 2],
+        pictures: times.len(),
+    })
+}
+
+fn note(
+    organ: Organ,
+    triangles: usize,
+    gpu: &Gpu,
+    (time, tornado): (Timing, Option<f64>),
+) -> String {
+    let (width, height) = FRAME_SIZE;
+    let tornado = tornado.map_or(String::new(), |published| {
+        format!(
+            "; a Tornado 3000, without environment maps in hardware, drew {published} (sphere map)"
+        )
+    });
+    format!(
+        "{triangles} triangles in the shape of the built-in {organ}, {width}x{height} pixels of one sample, \
+         median of {} pictures of {:.2} ms on {}; published on a GeForce 2{tornado}",
+        time.pictures,
+        1e3 * time.median,
+        gpu.adapter(),
+    )
+}

@@ -1,0 +1,176 @@
+//! Pictures without a window: of a state of a simulation, and evenly over a motion.
+//!
+//! *How we know*: `golden::…`.
+
+use std::path::{Path, PathBuf};
+
+use image::RgbaImage;
+use palpate_files::{Scene, scene, write_whole};
+use palpate_simulate::{Frame, Simulation, SimulationState, read_organ};
+
+use crate::render::{Body, Renderer, Target, Tint, ToolPicture, View, single_precision};
+use crate::{Error, Gpu, TissuePicture, scene_camera};
+
+/// Width and height of a frame [pixels].
+pub const FRAME_SIZE: (u32, u32) = (1280, 800);
+
+/// A scene that pictures are taken of.
+pub struct Studio {
+    /// What draws.
+    pub gpu: Gpu,
+    /// How it is looked at.
+    pub view: View,
+    renderer: Renderer,
+    organ: Body,
+    neighbours: Vec<Body>,
+    tools: Vec<scene::Tool>,
+    target: Target,
+}
+
+impl Studio {
+    /// The scene of a simulation at rest, as the scene wants to be looked at, in pictures of `size`
+    /// [pixels].
+    ///
+    /// # Errors
+    /// When there is no adapter or a neighbour cannot be read.
+    pub fn new(scene: &Scene, simulation: &Simulation, size: (u32, u32)) -> Result<Self, Error> {
+        let gpu = Gpu::open()?;
+        let mesh = simulation.surface().mesh();
+        let aspect = f64::from(size.0) / f64::from(size.1);
+        let neighbours = scene
+            .neighbours
+            .iter()
+            .map(|neighbour| {
+                let (surface, _) = read_organ(&neighbour.shape)?;
+                let tint = Tint::of(&neighbour.shape).receding();
+                Ok(Body::new(&gpu, &surface, tint))
+            })
+            .collect::<Result<_, Error>>()?;
+        let (low, high) = mesh.bounds();
+        Ok(Self {
+            renderer: Renderer::new(&gpu),
+            organ: Body::new(&gpu, simulation.surface(), Tint::of(&scene.organ.shape)),
+            neighbours,
+            tools: scene.tools.clone(),
+            target: Target::new(&gpu, size, 4),
+            view: View {
+                camera: scene_camera(&scene.view, mesh, aspect),
+                shading: scene.view.shading,
+                detail: true,
+                reach: (high - low).norm(),
+            },
+            gpu,
+        })
+    }
+
+    /// Lays `picture` around the organ; none is the inside of an abdomen.
+    pub fn surround(&mut self, picture: Option<&TissuePicture>) {
+        self.renderer.surround(&self.gpu, picture);
+    }
+
+    /// A picture of `state`.
+    ///
+    /// # Errors
+    /// When the adapter was lost.
+    pub fn picture(&mut self, state: &SimulationState) -> Result<RgbaImage, Error> {
+        let vertices = single_precision(state.deformed.vertices());
+        self.organ.deform(&self.gpu, &vertices);
+        let bodies: Vec<&Body> = std::iter::once(&self.organ)
+            .chain(&self.neighbours)
+            .collect();
+        let tools = tool_pictures(&self.tools, state);
+        self.renderer
+            .draw(&self.gpu, &self.view, (&bodies, &tools), &self.target);
+        self.target.read(&self.gpu)
+    }
+}
+
+/// The tools that are there, as a state has them.
+pub fn tool_pictures(tools: &[scene::Tool], state: &SimulationState) -> Vec<ToolPicture> {
+    tools
+        .iter()
+        .zip(&state.tools)
+        .filter(|(_, own)| own.pose.is_some())
+        .map(|(tool, own)| {
+            let row = &own.row;
+            let at = (row.position_m, row.orientation);
+            let picture = ToolPicture::new(&tool.tip, at, tool.trocar_m);
+            match &own.contact {
+                Some(contact) => picture.touching(contact.point()),
+                None => picture,
+            }
+        })
+        .collect()
+}
+
+/// Writes pictures at even times of a motion: `frame-0001.png` and so on.
+pub struct FrameWriter {
+    studio: Studio,
+    folder: PathBuf,
+    wanted: u64,
+    written: Vec<PathBuf>,
+}
+
+impl FrameWriter {
+    /// Of `wanted` pictures into `folder`, which is there.
+    ///
+    /// # Errors
+    /// When there is no adapter or a neighbour cannot be read.
+    pub fn new(
+        scene: &Scene,
+        simulation: &Simulation,
+        (folder, wanted): (&Path, u64),
+    ) -> Result<Self, Error> {
+        Ok(Self {
+            studio: Studio::new(scene, simulation, FRAME_SIZE)?,
+            folder: folder.to_owned(),
+            wanted,
+            written: Vec::new(),
+        })
+    }
+
+    /// Writes this step's picture when it is due: the first step's, and so on to the last.
+    ///
+    /// # Errors
+    /// When the adapter was lost or the file cannot be written.
+    pub fn add(&mut self, frame: &Frame<'_>) -> Result<(), Error> {
+        let count = self.written.len() as u64;
+        let due = match self.wanted {
+            0 => return Ok(()),
+            1 => frame.steps - 1,
+            wanted => count * (frame.steps - 1) / (wanted - 1),
+        };
+        if count >= self.wanted || frame.number < due {
+            return Ok(());
+        }
+        let picture = self.studio.picture(frame.state)?;
+        let path = self.folder.join(format!("frame-{:04}.png", count + 1));
+        write_whole(&path, &png(&picture)?)?;
+        self.written.push(path);
+        Ok(())
+    }
+
+    /// The files that were written.
+    pub fn finish(self) -> Vec<PathBuf> {
+        self.written
+    }
+}
+
+/// `picture` as a PNG file.
+///
+/// # Errors
+/// When it is larger than memory.
+pub fn png(picture: &RgbaImage) -> Result<Vec<u8>, Error> {
+    use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    let encoder =
+        PngEncoder::new_with_quality(&mut bytes, CompressionType::Best, FilterType::Adaptive);
+    // Pictures are opaque.
+    let opaque = image::DynamicImage::ImageRgba8(picture.clone()).into_rgb8();
+    opaque
+        .write_with_encoder(encoder)
+        .map_err(|cause| Error::Lost {
+            cause: cause.to_string(),
+        })?;
+    Ok(bytes.into_inner())
+}

@@ -1,0 +1,23 @@
+//! An organ seen: pictures of a simulation, and the window in which it is touched.
+//!
+//! A [`Renderer`] draws bodies and tools into a [`Target`]; a [`Studio`] is one with a scene in it, which
+//! needs no display. A [`FrameWriter`] takes pictures of a motion that is played.
+
+mod camera;
+mod error;
+mod frame;
+mod gpu;
+mod orbit;
+mod pick;
+mod render;
+mod window;
+
+pub use camera::{Camera, Lamp};
+pub use error::Error;
+pub use frame::{FRAME_SIZE, FrameWriter, Studio, png, tool_pictures};
+pub use gpu::Gpu;
+pub use orbit::{Orbit, scene_camera};
+pub use pick::{Picked, pick};
+pub use render::user_map::TissuePicture;
+pub use render::{Body, Renderer, Target, Tint, ToolPicture, View, single_precision};
+pub use window::{check_display, gesture, open_window};

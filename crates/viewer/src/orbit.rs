@@ -1,0 +1,130 @@
+use palpate_files::scene;
+use palpate_geometry::{AabbTree, TriangleMesh, Vec3};
+
+use crate::{Camera, Lamp};
+
+/// Part of the picture that an organ fills when it is framed.
+const FILLED: f64 = 0.86;
+
+/// Steepest look from above or below [rad]; beyond it up and sight would be one.
+const STEEPEST: f64 = 1.5;
+
+/// Angle of an endoscope [rad], and its way to the organ over that of the camera in the room [-].
+const WIDE: f64 = 1.25;
+const NEARER: f64 = 0.66;
+
+/// A camera that goes around what it looks at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Orbit {
+    /// What it goes around [m].
+    pub target: Vec3,
+    /// From there to the eye [m].
+    pub distance: f64,
+    /// Around the vertical, from the front (-y) towards the patient's left (+x) [rad].
+    pub azimuth: f64,
+    /// Above the horizontal [rad].
+    pub elevation: f64,
+    /// From the lower to the upper edge of the picture [rad].
+    pub field_of_view: f64,
+}
+
+impl Orbit {
+    /// From in front and a little above and beside, so that `mesh` fills a picture of the given width
+    /// over height.
+    pub fn framing(mesh: &TriangleMesh, field_of_view: f64, aspect: f64) -> Self {
+        let (low, high) = mesh.bounds();
+        let mut orbit = Self {
+            target: 0.5 * (low + high),
+            distance: (high - low).norm(),
+            azimuth: 0.30,
+            elevation: 0.38,
+            field_of_view,
+        };
+        let camera = orbit.camera();
+        let to_eye = camera.to_eye();
+        let half = FILLED * (0.5 * field_of_view).tan();
+        let needed = mesh.vertices().iter().map(|vertex| {
+            let seen = to_eye * (vertex - orbit.target);
+            seen.z + (seen.x.abs() / (half * aspect)).max(seen.y.abs() / half)
+        });
+        orbit.distance = needed.fold(0.0, f64::max);
+        orbit
+    }
+
+    /// The same organ from where `camera` is, upright.
+    #[must_use]
+    pub fn from_the_side_of(self, camera: &Camera) -> Self {
+        let out = camera.eye - camera.target;
+        let distance = out.norm().max(1e-6);
+        Self {
+            target: camera.target,
+            distance,
+            azimuth: out.x.atan2(-out.y),
+            elevation: (out.z / distance).asin().clamp(-STEEPEST, STEEPEST),
+            field_of_view: self.field_of_view,
+        }
+    }
+
+    /// The camera there.
+    pub fn camera(&self) -> Camera {
+        let (sin, cos) = self.elevation.sin_cos();
+        let out = Vec3::new(cos * self.azimuth.sin(), -cos * self.azimuth.cos(), sin);
+        Camera {
+            eye: self.target + self.distance * out,
+            target: self.target,
+            up: Vec3::z(),
+            field_of_view: self.field_of_view,
+            lamp: None,
+        }
+    }
+
+    /// Goes around by the given angles [rad]: to the right of the picture, and up.
+    pub fn turn(&mut self, right: f64, up: f64) {
+        self.azimuth = (self.azimuth + right) % std::f64::consts::TAU;
+        self.elevation = (self.elevation + up).clamp(-STEEPEST, STEEPEST);
+    }
+
+    /// Comes nearer by `factor` [-]: 0.5 halves the distance, within `limits` [m].
+    pub fn approach(&mut self, factor: f64, limits: (f64, f64)) {
+        self.distance = (self.distance * factor).clamp(limits.0, limits.1);
+    }
+
+    /// Where the line of sight meets the organ, from the target towards the eye [m]; zero where it does not.
+    pub fn before(&self, (mesh, tree): (&TriangleMesh, &AabbTree)) -> f64 {
+        let [_, _, back] = self.camera().axes();
+        let (low, high) = mesh.bounds();
+        let far = self.distance + (high - low).norm();
+        let from = self.target + far * back;
+        tree.cast(mesh, &from, &-back, far)
+            .map_or(0.0, |hit| far - hit.distance)
+    }
+
+    /// An endoscope that looks from the same side, nearer and with a wide angle, lit by its own lamp. The
+    /// organ begins `before` [m] the target.
+    pub fn endoscope(&self, before: f64) -> Camera {
+        let narrow = self.camera();
+        let [_, _, back] = narrow.axes();
+        let distance = NEARER * (self.distance - before).max(1e-3);
+        Camera {
+            eye: self.target + (before + distance) * back,
+            field_of_view: WIDE,
+            lamp: Some(Lamp { distance }),
+            ..narrow
+        }
+    }
+}
+
+/// The camera that a scene asks for; what it does not say frames `mesh`.
+pub fn scene_camera(view: &scene::View, mesh: &TriangleMesh, aspect: f64) -> Camera {
+    let framing = Orbit::framing(mesh, view.field_of_view_rad, aspect).camera();
+    let target = view.target_m.map_or(framing.target, Vec3::from);
+    Camera {
+        // A target alone is looked at from where the whole organ would be.
+        eye: view
+            .eye_m
+            .map_or(framing.eye - framing.target + target, Vec3::from),
+        target,
+        up: view.up.map_or(framing.up, Vec3::from),
+        ..framing
+    }
+}

@@ -1,0 +1,231 @@
+//! Pictures of an organ and its tools, drawn by a graphics adapter into a texture of their own, which a
+//! window shows or a file receives.
+//!
+//! Tissue is lit by a key light that it lets in a little (red farthest) and by light from all sides, less
+//! in hollows and under tools; over it lies a wet film, which glitters, and mirrors its surroundings where
+//! the shading has a map of them (section 7.5). Everything is bent to the display's gamma in the shader.
+//!
+//! *How we know*: `golden::…` compare pictures; `agreement::the_picture_is_where_the_camera_says`.
+//!
+//! *Limits*: no shadows but those of tools in the light from all sides; the film mirrors no organ.
+
+mod body;
+mod crease;
+pub(crate) mod environment;
+mod light;
+mod maps;
+mod noise;
+mod openness;
+mod pipelines;
+mod target;
+mod tint;
+mod tissue_map;
+mod tool;
+mod uniforms;
+pub(crate) mod user_map;
+
+use palpate_files::scene::Shading;
+use wgpu::util::DeviceExt;
+
+pub use body::{Body, single_precision};
+pub use target::Target;
+pub use tint::Tint;
+pub use tool::ToolPicture;
+
+use crate::{Camera, Gpu, TissuePicture};
+use maps::Maps;
+use pipelines::{Pipelines, Subject, number};
+use tool::ToolShape;
+use uniforms::{BodyUniform, Globals, InstrumentUniform, TOOLS, columns};
+
+/// How a picture is taken.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct View {
+    /// From where.
+    pub camera: Camera,
+    /// How the organ is drawn.
+    pub shading: Shading,
+    /// Whether the tissue has its fine relief and its patches and vessels.
+    pub detail: bool,
+    /// What lies within this distance of the camera's target is drawn [m].
+    pub reach: f64,
+}
+
+/// What draws pictures.
+pub struct Renderer {
+    pipelines: Pipelines,
+    maps: Maps,
+    globals: Bound,
+    bodies: Vec<Bound>,
+    instruments: Vec<Bound>,
+    shapes: Vec<Option<(ToolShape, wgpu::Buffer, u32)>>,
+}
+
+/// A uniform buffer and its group.
+struct Bound {
+    buffer: wgpu::Buffer,
+    group: wgpu::BindGroup,
+}
+
+impl Renderer {
+    /// With the procedural tissue and the inside of an abdomen around it.
+    pub fn new(gpu: &Gpu) -> Self {
+        let pipelines = Pipelines::new(gpu);
+        let instrument = size_of::<InstrumentUniform>();
+        Self {
+            maps: Maps::new(gpu, &pipelines.maps, None),
+            globals: Bound::new(gpu, &pipelines.globals, size_of::<Globals>()),
+            bodies: Vec::new(),
+            instruments: (0..TOOLS)
+                .map(|_| Bound::new(gpu, &pipelines.own, instrument))
+                .collect(),
+            shapes: vec![None; TOOLS],
+            pipelines,
+        }
+    }
+
+    /// Lays `picture` around the organ as sphere map and cube map, which take the tissue's colours from
+    /// it; none is the inside of an abdomen.
+    pub fn surround(&mut self, gpu: &Gpu, picture: Option<&TissuePicture>) {
+        self.maps = Maps::new(gpu, &self.pipelines.maps, picture);
+    }
+
+    /// Draws `bodies` and `tools` into `target`; it is handed in, not waited for.
+    pub fn draw(
+        &mut self,
+        gpu: &Gpu,
+        view: &View,
+        (bodies, tools): (&[&Body], &[ToolPicture]),
+        target: &Target,
+    ) {
+        self.write(gpu, view, (bodies, tools), target);
+        let mut encoder = gpu
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        {
+            let mut pass = begin(&mut encoder, target);
+            pass.set_bind_group(0, &self.globals.group, &[]);
+            let pipeline = |subject| self.pipelines.of(gpu, subject, target.samples());
+            pass.set_pipeline(&pipeline(Subject::Backdrop));
+            pass.draw(0..3, 0..1);
+            pass.set_pipeline(&pipeline(Subject::Tissue {
+                shading: number(view.shading),
+                detail: view.detail,
+            }));
+            pass.set_bind_group(1, &self.maps.bound, &[]);
+            for (body, bound) in bodies.iter().zip(&self.bodies) {
+                pass.set_bind_group(2, &bound.group, &[]);
+                pass.set_vertex_buffer(0, body.moving_buffer.slice(..));
+                pass.set_vertex_buffer(1, body.resting_buffer.slice(..));
+                pass.set_index_buffer(body.index_buffer.slice(..), wgpu::IndexFormat::Uint32);
+                pass.draw_indexed(0..3 * body.triangles() as u32, 0, 0..1);
+            }
+            pass.set_pipeline(&pipeline(Subject::Instrument));
+            let shapes = self.shapes.iter().flatten().zip(&self.instruments);
+            for ((_, buffer, corners), bound) in shapes.take(tools.len()) {
+                pass.set_bind_group(1, &bound.group, &[]);
+                pass.set_vertex_buffer(0, buffer.slice(..));
+                pass.draw(0..*corners, 0..1);
+            }
+        }
+        gpu.queue.submit([encoder.finish()]);
+    }
+
+    fn write(
+        &mut self,
+        gpu: &Gpu,
+        view: &View,
+        (bodies, tools): (&[&Body], &[ToolPicture]),
+        target: &Target,
+    ) {
+        let globals = Globals::new(&view.camera, tools, target.size(), view.reach);
+        self.globals.write(gpu, bytemuck::bytes_of(&globals));
+        while self.bodies.len() < bodies.len() {
+            let bound = Bound::new(gpu, &self.pipelines.own, size_of::<BodyUniform>());
+            self.bodies.push(bound);
+        }
+        for (body, bound) in bodies.iter().zip(&self.bodies) {
+            let uniform = body.tint.uniform(self.maps.map_as_color);
+            bound.write(gpu, bytemuck::bytes_of(&uniform));
+        }
+        for (number, tool) in tools.iter().take(TOOLS).enumerate() {
+            let uniform = InstrumentUniform {
+                placed: columns(&tool.placed()),
+                color: [0.78, 0.80, 0.84, 1.0],
+            };
+            self.instruments[number].write(gpu, bytemuck::bytes_of(&uniform));
+            self.shape(gpu, number, &tool.shape);
+        }
+    }
+
+    /// Makes the mesh of a tool anew when its shape is another one.
+    fn shape(&mut self, gpu: &Gpu, number: usize, shape: &ToolShape) {
+        let kept = &mut self.shapes[number];
+        if kept.as_ref().is_some_and(|(last, ..)| last == shape) {
+            return;
+        }
+        let corners = shape.triangles();
+        let buffer = gpu
+            .device
+            .create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: Some("tool"),
+                contents: bytemuck::cast_slice(&corners),
+                usage: wgpu::BufferUsages::VERTEX,
+            });
+        *kept = Some((*shape, buffer, corners.len() as u32));
+    }
+}
+
+impl Bound {
+    fn new(gpu: &Gpu, layout: &wgpu::BindGroupLayout, bytes: usize) -> Self {
+        let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("uniforms"),
+            size: bytes as u64,
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("uniforms"),
+            layout,
+            entries: &[wgpu::BindGroupEntry {
+                binding: 0,
+                resource: buffer.as_entire_binding(),
+            }],
+        });
+        Self { buffer, group }
+    }
+
+    fn write(&self, gpu: &Gpu, bytes: &[u8]) {
+        gpu.queue.write_buffer(&self.buffer, 0, bytes);
+    }
+}
+
+fn begin<'e>(encoder: &'e mut wgpu::CommandEncoder, target: &Target) -> wgpu::RenderPass<'e> {
+    let (view, resolve_target, store) = match &target.sampled {
+        Some(sampled) => (sampled, Some(&target.shown), wgpu::StoreOp::Discard),
+        None => (&target.shown, None, wgpu::StoreOp::Store),
+    };
+    encoder
+        .begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("picture"),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view,
+                depth_slice: None,
+                resolve_target,
+                ops: wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(wgpu::Color::BLACK),
+                    store,
+                },
+            })],
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: &target.depth,
+                depth_ops: Some(wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(1.0),
+                    store: wgpu::StoreOp::Discard,
+                }),
+                stencil_ops: None,
+            }),
+            ..wgpu::RenderPassDescriptor::default()
+        })
+        .forget_lifetime()
+}

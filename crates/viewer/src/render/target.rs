@@ -1,0 +1,128 @@
+use image::RgbaImage;
+
+use crate::{Error, Gpu};
+
+/// Bytes of light that the shader has already bent to the display's gamma; windows take them as they are.
+pub(super) const COLOR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+pub(super) const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+
+/// What copies between textures and buffers demand.
+const ROW_ALIGNMENT: u32 = wgpu::COPY_BYTES_PER_ROW_ALIGNMENT;
+
+/// What a picture is drawn into.
+pub struct Target {
+    size: (u32, u32),
+    samples: u32,
+    picture: wgpu::Texture,
+    pub(super) shown: wgpu::TextureView,
+    /// Where several samples per pixel are drawn; none when one is.
+    pub(super) sampled: Option<wgpu::TextureView>,
+    pub(super) depth: wgpu::TextureView,
+}
+
+impl Target {
+    /// Of `size` [pixels] with 1 or 4 `samples` per pixel. No side is shorter than one pixel or longer than
+    /// the adapter allows.
+    pub fn new(gpu: &Gpu, size: (u32, u32), samples: u32) -> Self {
+        let most = gpu.device.limits().max_texture_dimension_2d;
+        let size = (size.0.clamp(1, most), size.1.clamp(1, most));
+        let samples = if samples > 1 { 4 } else { 1 };
+        let texture = |format, samples, usage| {
+            gpu.device.create_texture(&wgpu::TextureDescriptor {
+                label: Some("picture"),
+                size: extent(size),
+                mip_level_count: 1,
+                sample_count: samples,
+                dimension: wgpu::TextureDimension::D2,
+                format,
+                usage: wgpu::TextureUsages::RENDER_ATTACHMENT | usage,
+                view_formats: &[],
+            })
+        };
+        let view =
+            |texture: &wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
+        let none = wgpu::TextureUsages::empty();
+        let read = wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_SRC;
+        let picture = texture(COLOR, 1, read);
+        Self {
+            size,
+            samples,
+            shown: view(&picture),
+            sampled: (samples > 1).then(|| view(&texture(COLOR, samples, none))),
+            depth: view(&texture(DEPTH, samples, none)),
+            picture,
+        }
+    }
+
+    /// Width and height [pixels].
+    pub fn size(&self) -> (u32, u32) {
+        self.size
+    }
+
+    /// Samples per pixel.
+    pub fn samples(&self) -> u32 {
+        self.samples
+    }
+
+    /// The picture, to show it.
+    pub fn view(&self) -> &wgpu::TextureView {
+        &self.shown
+    }
+
+    /// The picture, brought back from the adapter once everything handed in is drawn.
+    ///
+    /// # Errors
+    /// When the adapter was lost.
+    pub fn read(&self, gpu: &Gpu) -> Result<RgbaImage, Error> {
+        let (width, height) = self.size;
+        let row = (4 * width).next_multiple_of(ROW_ALIGNMENT);
+        let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("picture"),
+            size: u64::from(row) * u64::from(height),
+            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+            mapped_at_creation: false,
+        });
+        let mut encoder = gpu
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let into = wgpu::TexelCopyBufferInfo {
+            buffer: &buffer,
+            layout: wgpu::TexelCopyBufferLayout {
+                offset: 0,
+                bytes_per_row: Some(row),
+                rows_per_image: None,
+            },
+        };
+        encoder.copy_texture_to_buffer(self.picture.as_image_copy(), into, extent(self.size));
+        gpu.queue.submit([encoder.finish()]);
+        let (told, answer) = std::sync::mpsc::channel();
+        let tell = move |outcome| {
+            // The receiver lives until the answer is there.
+            let _ = told.send(outcome);
+        };
+        buffer.slice(..).map_async(wgpu::MapMode::Read, tell);
+        gpu.device
+            .poll(wgpu::PollType::wait_indefinitely())
+            .map_err(lost)?;
+        answer.recv().map_err(lost)?.map_err(lost)?;
+        let mapped = buffer.slice(..).get_mapped_range().map_err(lost)?;
+        let rows = mapped.chunks_exact(row as usize);
+        let bytes = rows.flat_map(|r| &r[..4 * width as usize]).copied();
+        RgbaImage::from_raw(width, height, bytes.collect())
+            .ok_or_else(|| lost("it came back too short"))
+    }
+}
+
+fn lost(cause: impl std::fmt::Display) -> Error {
+    Error::Lost {
+        cause: cause.to_string(),
+    }
+}
+
+fn extent((width, height): (u32, u32)) -> wgpu::Extent3d {
+    wgpu::Extent3d {
+        width,
+        height,
+        depth_or_array_layers: 1,
+    }
+}

@@ -1,0 +1,97 @@
+use palpate_files::scene::{BuiltinOrgan, Shading, Shape, Tip, TissueChoice, Tool};
+use palpate_files::{BuiltinTissue, Scene};
+
+/// A scene and what the side panel has changed in it.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Choice {
+    given: Scene,
+    /// Another organ than the scene's.
+    pub(super) organ: Option<BuiltinOrgan>,
+    /// Another tissue than the scene's.
+    pub(super) tissue: Option<BuiltinTissue>,
+    /// The tip of the tool that the mouse moves.
+    pub(super) tip: Tip,
+    /// The number of that tool.
+    pub(super) tool: usize,
+}
+
+impl Choice {
+    /// Nothing changed yet.
+    pub(super) fn new(scene: Scene) -> Self {
+        Self {
+            tip: scene.tools[0].tip,
+            given: scene,
+            organ: None,
+            tissue: None,
+            tool: 0,
+        }
+    }
+
+    /// The scene that this comes to.
+    pub(super) fn scene(&self) -> Scene {
+        let mut scene = self.given.clone();
+        if let Some(organ) = self.organ {
+            scene.organ.shape = Shape::Builtin {
+                organ,
+                triangles: Some(fineness(organ)),
+            };
+            scene.organ.anchor = None;
+            scene.neighbours.clear();
+            // Trocars and cameras are places around the other organ.
+            scene.view.eye_m = None;
+            scene.view.target_m = None;
+            for tool in &mut scene.tools {
+                tool.trocar_m = None;
+            }
+        }
+        if let Some(tissue) = self.tissue {
+            scene.organ.tissue = TissueChoice::Builtin(tissue);
+        }
+        if let Some(tool) = scene.tools.get_mut(self.tool) {
+            tool.tip = self.tip;
+        }
+        scene
+    }
+
+    /// Makes the tool of that number the one that the mouse moves.
+    pub(super) fn take(&mut self, tool: usize) {
+        // What was changed at the tool before stays changed.
+        self.given.tools[self.tool].tip = self.tip;
+        self.tool = tool.min(self.given.tools.len() - 1);
+        self.tip = self.given.tools[self.tool].tip;
+    }
+
+    /// The tools of the scene.
+    pub(super) fn tools(&self) -> &[Tool] {
+        &self.given.tools
+    }
+
+    /// Where the scene's own organ comes from, in words.
+    pub(super) fn given_organ(&self) -> String {
+        match &self.given.organ.shape {
+            Shape::Builtin { organ, .. } => format!("{} (scene)", organ.word()),
+            Shape::Mesh { path, .. } => path.file_name().map_or_else(
+                || path.display().to_string(),
+                |name| name.to_string_lossy().into_owned(),
+            ),
+        }
+    }
+
+    /// How the scene wants its organ drawn.
+    pub(super) fn shading(&self) -> Shading {
+        self.given.view.shading
+    }
+}
+
+/// Triangles that show the dimple of a small tip.
+fn fineness(organ: BuiltinOrgan) -> usize {
+    match organ {
+        BuiltinOrgan::Liver => 20_000,
+        BuiltinOrgan::Esophagus => 14_000,
+        BuiltinOrgan::Kidney
+        | BuiltinOrgan::Spleen
+        | BuiltinOrgan::Stomach
+        | BuiltinOrgan::Hemisphere
+        | BuiltinOrgan::Cube => 14_000,
+    }
+}

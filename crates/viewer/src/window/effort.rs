@@ -1,0 +1,95 @@
+use std::time::Duration;
+
+/// How much work a picture may be: a slow machine draws fewer samples, then fewer pixels, and never keeps
+/// the touch waiting.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Effort {
+    rung: usize,
+    slow: u32,
+    quick: u32,
+}
+
+/// Samples per pixel, and drawn pixels per pixel of the window along an edge.
+const LADDER: [(u32, f32); 4] = [(4, 1.0), (1, 1.0), (1, 0.7), (1, 0.5)];
+
+/// A picture that takes longer than this is slow, one that takes less than that is quick.
+const SLOW: Duration = Duration::from_millis(90);
+const QUICK: Duration = Duration::from_millis(24);
+
+/// Slow pictures in a row that lower the effort, and quick ones that raise it.
+const PATIENCE: u32 = 8;
+const HOPE: u32 = 180;
+
+impl Effort {
+    /// Everything, or less where the processor draws.
+    pub(super) fn new(is_software: bool) -> Self {
+        Self {
+            rung: usize::from(is_software),
+            slow: 0,
+            quick: 0,
+        }
+    }
+
+    /// Samples per pixel.
+    pub(super) fn samples(&self) -> u32 {
+        LADDER[self.rung].0
+    }
+
+    /// Drawn pixels per pixel of the window, along an edge [-].
+    pub(super) fn scale(&self) -> f32 {
+        LADDER[self.rung].1
+    }
+
+    /// Counts a picture that took `time` since the last, with the touch late or in time.
+    pub(super) fn count(&mut self, time: Duration, touch_is_late: bool) {
+        let slow = time > SLOW || touch_is_late;
+        self.slow = if slow { self.slow + 1 } else { 0 };
+        self.quick = if time < QUICK && !touch_is_late {
+            self.quick + 1
+        } else {
+            0
+        };
+        if self.slow >= PATIENCE && self.rung + 1 < LADDER.len() {
+            self.rung += 1;
+            self.slow = 0;
+        }
+        if self.quick >= HOPE && self.rung > 0 {
+            self.rung -= 1;
+            self.quick = 0;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn samples_go_before_pixels_and_come_back_after_them() {
+        let mut effort = Effort::new(false);
+        let mut seen = vec![(effort.samples(), effort.scale())];
+        for _ in 0..60 {
+            effort.count(Duration::from_millis(150), false);
+            seen.push((effort.samples(), effort.scale()));
+        }
+        seen.dedup();
+        assert_eq!(seen, LADDER);
+        for _ in 0..1000 {
+            effort.count(Duration::from_millis(10), false);
+        }
+        assert_eq!(
+            effort,
+            Effort {
+                quick: effort.quick,
+                ..Effort::new(false)
+            }
+        );
+    }
+
+    #[test]
+    fn a_late_touch_lowers_a_quick_picture() {
+        let mut effort = Effort::new(false);
+        (0..PATIENCE).for_each(|_| effort.count(Duration::from_millis(10), true));
+        assert_eq!(effort.samples(), 1);
+    }
+}

@@ -1,0 +1,103 @@
+use std::collections::VecDeque;
+
+use palpate_files::SessionRow;
+
+/// How far back the plots go [s].
+pub(super) const SPAN: f64 = 10.0;
+
+/// Points that a curve is drawn with.
+const POINTS: usize = 500;
+
+/// The last seconds of one tool.
+#[derive(Debug, Clone, Default)]
+pub(super) struct History {
+    /// Time [s], force [N], depth [m].
+    samples: VecDeque<[f64; 3]>,
+}
+
+impl History {
+    /// Takes a row of the session.
+    pub(super) fn add(&mut self, row: &SessionRow) {
+        let force = row.force_n.iter().map(|c| c * c).sum::<f64>().sqrt();
+        self.samples.push_back([row.time_s, force, row.depth_m]);
+        let oldest = row.time_s - SPAN;
+        while self.samples.front().is_some_and(|s| s[0] < oldest) {
+            self.samples.pop_front();
+        }
+    }
+
+    /// Another tool, or another organ.
+    pub(super) fn clear(&mut self) {
+        self.samples.clear();
+    }
+
+    /// The last force [N] and depth [m].
+    pub(super) fn last(&self) -> (f64, f64) {
+        self.samples.back().map_or((0.0, 0.0), |s| (s[1], s[2]))
+    }
+
+    /// Force [mN] against seconds before now: of each stretch of time the largest, so that no peak is lost.
+    pub(super) fn force(&self) -> Vec<[f64; 2]> {
+        self.curve(1, 1e3)
+    }
+
+    /// Depth [mm] against seconds before now.
+    pub(super) fn depth(&self) -> Vec<[f64; 2]> {
+        self.curve(2, 1e3)
+    }
+
+    fn curve(&self, column: usize, unit: f64) -> Vec<[f64; 2]> {
+        let Some(now) = self.samples.back().map(|s| s[0]) else {
+            return Vec::new();
+        };
+        let stretch = SPAN / POINTS as f64;
+        let mut points: Vec<[f64; 2]> = Vec::with_capacity(POINTS + 1);
+        // Stretches are counted from time zero, so that peaks stay where they are as time goes on.
+        let mut last = None;
+        for sample in &self.samples {
+            let number = (sample[0] / stretch).floor();
+            let value = unit * sample[column];
+            match points.last_mut() {
+                Some(point) if last == Some(number) => point[1] = point[1].max(value),
+                _ => points.push([number * stretch - now, value]),
+            }
+            last = Some(number);
+        }
+        points
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use palpate_files::session::Events;
+
+    fn row(time_s: f64, force: f64) -> SessionRow {
+        SessionRow {
+            time_s,
+            tool: 0,
+            position_m: [0.0; 3],
+            orientation: [0.0, 0.0, 0.0, 1.0],
+            grip: 0.0,
+            cut: false,
+            force_n: [0.0, 0.0, force],
+            contact: true,
+            depth_m: 0.001,
+            events: Events::NONE,
+        }
+    }
+
+    #[test]
+    fn a_peak_of_one_step_is_drawn_and_the_past_forgotten() {
+        let mut history = History::default();
+        for step in 0..20_000 {
+            let force = if step == 19_001 { 0.5 } else { 0.1 };
+            history.add(&row(f64::from(step) * 0.005, force));
+        }
+        assert!(history.samples.len() <= 2_001);
+        let force = history.force();
+        assert!(force.len() <= POINTS + 2);
+        let peak = force.iter().fold(0.0_f64, |a, p| a.max(p[1]));
+        assert_eq!(peak, 500.0);
+    }
+}

@@ -1,0 +1,287 @@
+//! The window in which an organ is touched: the picture on the left, what can be chosen and what is felt on
+//! the right, what deserves doubt below.
+//!
+//! The window owns no model: it moves a hand, and shows what an [`Interaction`] tells of the touch, which
+//! goes on in threads of its own however slow the picture is.
+//!
+//! *How we know*: `gestures::…`, `invariants::dragging_over_every_organ`; the window itself is looked at.
+//!
+//! *Limits*: one mouse moves one tool at a time.
+//!
+//! [`Interaction`]: palpate_simulate::interactive::Interaction
+
+mod choice;
+mod display;
+mod effort;
+pub mod gesture;
+mod history;
+mod overlay;
+mod panel;
+mod picture;
+mod play;
+mod preparation;
+mod rates;
+mod style;
+
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+use eframe::egui;
+use palpate_files::Scene;
+
+use crate::{Error, Gpu, TissuePicture};
+use choice::Choice;
+pub use display::check_display;
+use history::History;
+use picture::Picture;
+use play::Play;
+use preparation::Preparation;
+use rates::Rates;
+
+/// Name of the window.
+const TITLE: &str = "palpate";
+
+/// How long a picture in which nothing moves is left as it is.
+const REST: Duration = Duration::from_millis(200);
+
+/// The simulator as a window.
+struct SimulatorWindow {
+    gpu: Gpu,
+    choice: Choice,
+    /// The slider of the tip's radius [mm].
+    radius: f64,
+    /// What is shown when the choice fails.
+    way_out: Scene,
+    picture: Picture,
+    play: Option<Play>,
+    preparation: Option<Preparation>,
+    fault: Option<String>,
+    notice: Option<String>,
+    history: History,
+    rates: Rates,
+    surroundings: Option<String>,
+    /// Whether the last picture was asked for at once.
+    moves: bool,
+}
+
+/// Opens a window with `scene` and waits until it is closed. `way_out` is a scene that works, which is
+/// offered when the other does not.
+///
+/// # Errors
+/// When there is no display, no adapter, or the window breaks down. What is wrong with the scene is shown in
+/// the window.
+pub fn open_window(scene: Scene, way_out: Scene) -> Result<(), Error> {
+    check_display()?;
+    // Opened once without a window: its error has a name that a window's has not.
+    drop(Gpu::open()?);
+    let options = eframe::NativeOptions {
+        viewport: egui::ViewportBuilder::default()
+            .with_title(TITLE)
+            .with_app_id("palpate")
+            .with_inner_size([1280.0, 800.0])
+            .with_min_inner_size([560.0, 380.0]),
+        renderer: eframe::Renderer::Wgpu,
+        ..eframe::NativeOptions::default()
+    };
+    // What goes wrong while the window is made is told in our words, not in those of its library.
+    let failure: Arc<Mutex<Option<Error>>> = Arc::default();
+    let told = failure.clone();
+    let make: eframe::AppCreator<'_> =
+        Box::new(
+            move |context| match SimulatorWindow::new(context, scene, way_out) {
+                Ok(window) => Ok(Box::new(window) as Box<dyn eframe::App>),
+                Err(error) => {
+                    let words = error.to_string();
+                    *told.lock().unwrap_or_else(PoisonError::into_inner) = Some(error);
+                    Err(words.into())
+                }
+            },
+        );
+    let outcome = eframe::run_native(TITLE, options, make);
+    let own = failure
+        .lock()
+        .unwrap_or_else(PoisonError::into_inner)
+        .take();
+    match (own, outcome) {
+        (Some(error), _) => Err(error),
+        (None, Err(cause)) => Err(Error::Window {
+            cause: cause.to_string(),
+        }),
+        (None, Ok(())) => Ok(()),
+    }
+}
+
+impl SimulatorWindow {
+    fn new(
+        context: &eframe::CreationContext<'_>,
+        scene: Scene,
+        way_out: Scene,
+    ) -> Result<Self, Error> {
+        let Some(state) = &context.wgpu_render_state else {
+            return Err(Error::Window {
+                cause: "it came without a graphics adapter".to_owned(),
+            });
+        };
+        style::dress(&context.egui_ctx);
+        let gpu = Gpu::of(&state.adapter, state.device.clone(), state.queue.clone());
+        let choice = Choice::new(scene);
+        let mut window = Self {
+            picture: Picture::new(&gpu, choice.shading()),
+            radius: 1e3 * choice.tip.radius_m,
+            choice,
+            way_out,
+            play: None,
+            preparation: None,
+            fault: None,
+            notice: None,
+            history: History::default(),
+            rates: Rates::default(),
+            surroundings: None,
+            moves: false,
+            gpu,
+        };
+        window.begin_anew(&context.egui_ctx);
+        Ok(window)
+    }
+
+    /// Prepares the choice, beside the window; the organ before it stays until the new one is there.
+    fn begin_anew(&mut self, context: &egui::Context) {
+        let scene = self.choice.scene();
+        let asked = (scene, self.choice.tool);
+        self.preparation = Some(Preparation::start(asked, &self.gpu, context.clone()));
+    }
+
+    /// Takes over what was prepared.
+    fn receive(&mut self) {
+        let Some(outcome) = self.preparation.as_mut().and_then(Preparation::outcome) else {
+            return;
+        };
+        self.preparation = None;
+        self.history.clear();
+        let other_organ = |play: &Play, last: &Option<Play>| {
+            last.as_ref()
+                .is_none_or(|last| last.scene.organ.shape != play.scene.organ.shape)
+        };
+        match outcome {
+            Ok(play) => {
+                if other_organ(&play, &self.play) {
+                    self.picture.frame_anew();
+                }
+                self.fault = None;
+                self.play = Some(play);
+            }
+            Err(error) => {
+                self.play = None;
+                self.fault = Some(error.to_string());
+            }
+        }
+    }
+
+    /// Reads what the touch has written since the last picture.
+    fn listen(&mut self, context: &egui::Context) {
+        let Some(play) = &mut self.play else { return };
+        let tool = self.choice.tool;
+        for row in play.interaction.rows() {
+            if row.tool == tool {
+                self.history.add(&row);
+            }
+        }
+        let quality = play.interaction.quality();
+        let time = context.input(|input| input.time);
+        self.rates.count(time, tool, &quality);
+        let wanted = 1.0 / play.simulation.step();
+        let late = self.rates.model > 0.0 && self.rates.model < 0.9 * wanted;
+        let elapsed = context.input(|input| input.unstable_dt);
+        // Pictures that were left out because nothing moved are not slow.
+        if self.moves {
+            let elapsed = Duration::from_secs_f32(elapsed.max(0.0));
+            self.picture.count(elapsed, late);
+        }
+        if !play.interaction.is_running() {
+            self.fault = Some(
+                "the touch has stopped, for one of its threads ended; press Start anew".to_owned(),
+            );
+        }
+    }
+
+    /// Wraps the organ in a PNG file that was dropped on the window.
+    fn take_dropped(&mut self, context: &egui::Context) {
+        let dropped = context.input(|input| input.raw.dropped_files.clone());
+        for file in dropped {
+            let path = file.path();
+            match TissuePicture::read(path) {
+                Ok(picture) => {
+                    self.picture.surround(&self.gpu, Some(&picture));
+                    self.surroundings = Some(path.display().to_string());
+                    self.notice = None;
+                }
+                Err(error) => self.notice = Some(error.to_string()),
+            }
+        }
+    }
+
+    /// What fills the place of the picture when there is no organ.
+    fn show_absence(&mut self, ui: &mut egui::Ui) {
+        let context = ui.ctx().clone();
+        ui.centered_and_justified(|ui| {
+            ui.vertical_centered(|ui| {
+                ui.add_space(0.35 * ui.available_height());
+                match self.fault.clone() {
+                    None => {
+                        ui.spinner();
+                        ui.label("preparing the organ and its model");
+                    }
+                    Some(fault) => {
+                        ui.colored_label(style::FAULT, fault);
+                        ui.add_space(12.0);
+                        if ui.button("Open the built-in esophagus").clicked() {
+                            self.choice = Choice::new(self.way_out.clone());
+                            self.radius = 1e3 * self.choice.tip.radius_m;
+                            self.fault = None;
+                            self.begin_anew(&context);
+                        }
+                    }
+                }
+            });
+        });
+    }
+}
+
+impl eframe::App for SimulatorWindow {
+    fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
+        let context = ui.ctx().clone();
+        self.receive();
+        self.listen(&context);
+        self.take_dropped(&context);
+        egui::Panel::bottom("status").show(ui, |ui| panel::status(self, ui));
+        egui::Panel::right("panel")
+            .resizable(true)
+            .default_size(300.0)
+            .size_range(220.0..=460.0)
+            .show(ui, |ui| panel::side(self, ui));
+        egui::CentralPanel::no_frame().show(ui, |ui| {
+            let tool = self.choice.tool;
+            match (&mut self.play, frame.wgpu_render_state()) {
+                (Some(play), Some(state)) => {
+                    let rect = self.picture.show(ui, (state, &self.gpu), play, tool);
+                    overlay::show(ui, rect, &self.picture, play, tool);
+                }
+                _ => self.show_absence(ui),
+            }
+        });
+        let moves = self.play.as_mut().is_some_and(|play| {
+            let snapshot = play.interaction.snapshot();
+            snapshot.tools.iter().any(|tool| tool.contact.is_some())
+        });
+        self.moves = moves || self.picture.gesture.is_pressing();
+        match self.moves {
+            true => context.request_repaint(),
+            false => context.request_repaint_after(REST),
+        }
+    }
+
+    fn on_exit(&mut self) {
+        // Threads end before the window does.
+        self.play = None;
+    }
+}

@@ -1,0 +1,70 @@
+use eframe::egui::{self, Align2, Color32, FontId, Pos2, Rect, Stroke, Vec2};
+
+use super::picture::Picture;
+use super::play::Play;
+use super::style::{DEPTH, FORCE, QUIET};
+
+/// Depth that fills the gauge [m].
+const FULL: f64 = 0.015;
+
+/// What is written into the picture: how to touch, and beside a touching tool how deep and how hard.
+pub(super) fn show(ui: &egui::Ui, rect: Rect, picture: &Picture, play: &mut Play, tool: usize) {
+    let painter = ui.painter_at(rect);
+    let pressing = picture.gesture.is_pressing();
+    let hint = match pressing {
+        true => "drag down: deeper · up: out · sideways: slide · wheel: fine · let go: leave",
+        false => {
+            "press on the organ: touch, then drag down to go deeper · right drag: turn · middle drag: \
+             move · wheel: nearer"
+        }
+    };
+    let at = Pos2::new(rect.center().x, rect.max.y - 14.0);
+    let font = FontId::proportional(13.0);
+    let wide = 0.96 * rect.width();
+    let text = ui.painter().layout(hint.to_owned(), font, QUIET, wide);
+    let corner = at - Vec2::new(0.5 * text.size().x, text.size().y);
+    let back = Rect::from_min_size(corner, text.size()).expand2(Vec2::new(10.0, 5.0));
+    painter.rect_filled(back, 6.0, Color32::from_black_alpha(150));
+    painter.galley(corner, text, QUIET);
+    let pointer = ui.input(|input| input.pointer.latest_pos());
+    let snapshot = play.interaction.snapshot();
+    let Some(seen) = snapshot.tools.get(tool) else {
+        return;
+    };
+    if let (true, Some(pointer)) = (pressing, pointer) {
+        let depth = seen.contact.map_or(0.0, |contact| contact.depth);
+        gauge(&painter, (rect, pointer), depth, seen.force.norm());
+    }
+}
+
+/// A bar beside the pointer that fills from the top as the tool goes in.
+fn gauge(painter: &egui::Painter, (rect, pointer): (Rect, Pos2), depth: f64, force: f64) {
+    let right = pointer.x + 150.0 < rect.max.x;
+    let x = if right {
+        pointer.x + 28.0
+    } else {
+        pointer.x - 40.0
+    };
+    let height = 90.0;
+    let top = (pointer.y - 0.5 * height).clamp(rect.min.y + 4.0, rect.max.y - height - 4.0);
+    let bar = Rect::from_min_size(Pos2::new(x, top), Vec2::new(8.0, height));
+    painter.rect_filled(bar.expand(3.0), 4.0, Color32::from_black_alpha(150));
+    let part = (depth / FULL).clamp(0.0, 1.0) as f32;
+    let filled = Rect::from_min_size(bar.min, Vec2::new(8.0, height * part));
+    painter.rect_filled(filled, 2.0, DEPTH);
+    let stroke = Stroke::new(1.0, QUIET);
+    painter.rect_stroke(bar, 2.0, stroke, egui::StrokeKind::Outside);
+    let (align, side) = match right {
+        true => (Align2::LEFT_TOP, bar.max.x + 8.0),
+        false => (Align2::RIGHT_TOP, bar.min.x - 8.0),
+    };
+    let say = |down: f32, text: String, color| {
+        let at = Pos2::new(side, top + down);
+        let font = FontId::proportional(15.0);
+        let shadow = Color32::from_black_alpha(200);
+        painter.text(at + Vec2::splat(1.0), align, &text, font.clone(), shadow);
+        painter.text(at, align, text, font, color);
+    };
+    say(0.0, format!("{:.1} mm", 1e3 * depth), DEPTH);
+    say(20.0, format!("{:.1} mN", 1e3 * force), FORCE);
+}

@@ -1,0 +1,261 @@
+use eframe::egui::{self, Color32, RichText, Ui};
+use egui_plot::{Line, Plot, PlotPoints};
+use palpate_files::BuiltinTissue;
+use palpate_files::scene::{BuiltinOrgan, Shading, TipContact, TipShape};
+
+use super::SimulatorWindow;
+use super::history::SPAN;
+use super::style::{DEPTH, DOUBT, FAULT, FORCE, QUIET};
+
+/// What can be chosen, and what is felt.
+pub(super) fn side(window: &mut SimulatorWindow, ui: &mut Ui) {
+    egui::ScrollArea::vertical()
+        .auto_shrink([false, false])
+        .show(ui, |ui| {
+            ui.add_space(6.0);
+            let before = window.choice.clone();
+            scene(window, ui);
+            if ui.button("Start anew").clicked() || window.choice != before {
+                let context = ui.ctx().clone();
+                window.begin_anew(&context);
+            }
+            ui.separator();
+            look(window, ui);
+            ui.separator();
+            felt(window, ui);
+            ui.separator();
+            rates(window, ui);
+        });
+}
+
+/// Organ, tissue, model and tool.
+fn scene(window: &mut SimulatorWindow, ui: &mut Ui) {
+    let choice = &mut window.choice;
+    let given = choice.given_organ();
+    egui::Grid::new("scene").num_columns(2).show(ui, |ui| {
+        ui.label("organ");
+        let shown = choice
+            .organ
+            .map_or(given.clone(), |organ| organ.word().to_owned());
+        egui::ComboBox::from_id_salt("organ")
+            .selected_text(shown)
+            .show_ui(ui, |ui| {
+                ui.selectable_value(&mut choice.organ, None, given);
+                for (word, organ) in BuiltinOrgan::WORDS {
+                    ui.selectable_value(&mut choice.organ, Some(*organ), *word);
+                }
+            });
+        ui.end_row();
+        ui.label("tissue");
+        let shown = choice.tissue.map_or("of the scene", BuiltinTissue::word);
+        egui::ComboBox::from_id_salt("tissue")
+            .selected_text(shown)
+            .show_ui(ui, |ui| {
+                ui.selectable_value(&mut choice.tissue, None, "of the scene");
+                for (word, tissue) in BuiltinTissue::WORDS {
+                    ui.selectable_value(&mut choice.tissue, Some(*tissue), *word);
+                }
+            });
+        ui.end_row();
+        ui.label("model");
+        ui.label("finite spheres (local)");
+        ui.end_row();
+        tool(choice, &mut window.radius, ui);
+    });
+}
+
+fn tool(choice: &mut super::Choice, radius: &mut f64, ui: &mut Ui) {
+    ui.label("tool");
+    let names: Vec<String> = choice
+        .tools()
+        .iter()
+        .map(|tool| tool.name.clone())
+        .collect();
+    let mut taken = choice.tool;
+    egui::ComboBox::from_id_salt("tool")
+        .selected_text(&names[taken])
+        .show_ui(ui, |ui| {
+            for (number, name) in names.iter().enumerate() {
+                ui.selectable_value(&mut taken, number, name);
+            }
+        });
+    if taken != choice.tool {
+        choice.take(taken);
+        *radius = 1e3 * choice.tip.radius_m;
+    }
+    ui.end_row();
+    ui.label("tip");
+    ui.horizontal(|ui| {
+        ui.selectable_value(&mut choice.tip.shape, TipShape::Flat, "flat");
+        ui.selectable_value(&mut choice.tip.shape, TipShape::Sphere, "ball");
+        ui.selectable_value(&mut choice.tip.contact, TipContact::Stick, "sticks");
+        ui.selectable_value(&mut choice.tip.contact, TipContact::Slip, "slips");
+    });
+    ui.end_row();
+    ui.label("radius");
+    let slider = egui::Slider::new(radius, 0.5..=8.0)
+        .suffix(" mm")
+        .max_decimals(1);
+    let slider = ui.add(slider);
+    // The model is made anew when the hand lets go, not at every step of the slider.
+    if slider.drag_stopped() || slider.changed() && !slider.dragged() {
+        choice.tip.radius_m = 1e-3 * *radius;
+    }
+    ui.end_row();
+}
+
+/// How it is drawn.
+fn look(window: &mut SimulatorWindow, ui: &mut Ui) {
+    let picture = &mut window.picture;
+    ui.horizontal_wrapped(|ui| {
+        let modes = [
+            (Shading::Plain, "plain"),
+            (Shading::Texture, "texture"),
+            (Shading::SphereMap, "sphere map"),
+            (Shading::CubeMap, "cube map"),
+        ];
+        for (shading, word) in modes {
+            ui.selectable_value(&mut picture.shading, shading, word);
+        }
+    });
+    ui.horizontal_wrapped(|ui| {
+        ui.selectable_value(&mut picture.endoscope, false, "orbit");
+        ui.selectable_value(&mut picture.endoscope, true, "endoscope");
+        if ui
+            .button("frame")
+            .on_hover_text("the whole organ")
+            .clicked()
+        {
+            picture.frame_anew();
+        }
+        ui.checkbox(&mut picture.detail, "relief");
+    });
+    match window.surroundings.clone() {
+        None => {
+            let hint = "drop a PNG here: the maps are made of it";
+            ui.label(RichText::new(hint).small().color(QUIET));
+        }
+        Some(path) => {
+            ui.horizontal_wrapped(|ui| {
+                ui.label(RichText::new(format!("maps: {path}")).small());
+                if ui.small_button("own").clicked() {
+                    window.picture.surround(&window.gpu, None);
+                    window.surroundings = None;
+                }
+            });
+        }
+    }
+}
+
+/// Force and depth, as numbers and over time.
+fn felt(window: &SimulatorWindow, ui: &mut Ui) {
+    let (force, depth) = window.history.last();
+    ui.horizontal(|ui| {
+        let number = |text: String, color| RichText::new(text).size(21.0).monospace().color(color);
+        ui.label(number(format!("{:6.1} mN", 1e3 * force), FORCE));
+        ui.label(number(format!("{:5.2} mm", 1e3 * depth), DEPTH));
+    });
+    let scale = window
+        .play
+        .as_ref()
+        .map_or(1.0, |play| play.simulation.force_scale());
+    let text = format!("a device displays the force × {scale} (force_scale of the scene)");
+    ui.label(RichText::new(text).small().color(QUIET));
+    plot(ui, ("force", "force [mN]", FORCE), window.history.force());
+    plot(ui, ("depth", "depth [mm]", DEPTH), window.history.depth());
+}
+
+fn plot(ui: &mut Ui, (name, label, color): (&str, &str, Color32), points: Vec<[f64; 2]>) {
+    ui.label(RichText::new(label).small().color(color));
+    Plot::new(name)
+        .height(112.0)
+        .include_x(-SPAN)
+        .include_x(0.0)
+        .include_y(0.0)
+        .include_y(1.0)
+        .allow_drag(false)
+        .allow_zoom(false)
+        .allow_scroll(false)
+        .allow_boxed_zoom(false)
+        .show(ui, move |plot| {
+            plot.line(
+                Line::new(name, PlotPoints::from(points))
+                    .color(color)
+                    .width(1.6),
+            );
+        });
+}
+
+/// How often what happens, beside how often it should.
+fn rates(window: &SimulatorWindow, ui: &mut Ui) {
+    let rates = &window.rates;
+    let wanted = window
+        .play
+        .as_ref()
+        .map(|play| 1.0 / play.simulation.step());
+    let effort = &window.picture.effort;
+    egui::Grid::new("rates").num_columns(2).show(ui, |ui| {
+        ui.label("display");
+        ui.label(format!(
+            "{:.0} Hz, {}x, {:.0} % of the pixels",
+            rates.display,
+            effort.samples(),
+            100.0 * effort.scale() * effort.scale()
+        ));
+        ui.end_row();
+        ui.label("model");
+        ui.label(format!(
+            "{:.0} of {:.0} Hz",
+            rates.model,
+            wanted.unwrap_or(0.0)
+        ));
+        ui.end_row();
+        ui.label("servo");
+        ui.label(format!("{:.0} of 1000 Hz", rates.servo));
+        ui.end_row();
+        ui.label("lateness");
+        ui.label(format!(
+            "{:.3} ms for 99 of 100 ticks",
+            1e3 * rates.lateness
+        ));
+        ui.end_row();
+    });
+    ui.label(RichText::new(window.gpu.adapter()).small().color(QUIET));
+}
+
+/// What went wrong, and what deserves doubt.
+pub(super) fn status(window: &SimulatorWindow, ui: &mut Ui) {
+    ui.horizontal_wrapped(|ui| {
+        let depth = window.history.last().1;
+        if let Some(fault) = window.fault.as_ref().or(window.notice.as_ref()) {
+            ui.colored_label(FAULT, fault);
+        } else if window.preparation.is_some() {
+            ui.spinner();
+            ui.label("preparing the organ and its model");
+        } else if depth > 0.010 {
+            ui.colored_label(
+                DOUBT,
+                "deeper than 10 mm no model here has been compared with tissue",
+            );
+        } else {
+            doubts(window, ui);
+        }
+    });
+}
+
+fn doubts(window: &SimulatorWindow, ui: &mut Ui) {
+    let doubts = window.play.as_ref().map_or(&[][..], |play| &play.doubts);
+    match doubts {
+        [] => {
+            ui.colored_label(QUIET, "nothing deserves doubt");
+        }
+        [first, more @ ..] => {
+            let text = match more.len() {
+                0 => first.clone(),
+                n => format!("{first} (and {n} more)"),
+            };
+            let label = egui::Label::new(RichText::new(text).small().color(DOUBT)).truncate();
+            ui.add(label).on_hover_text(doubts.join("\n\n"));
+        }
+    }
+}

@@ -1,0 +1,247 @@
+use std::time::Duration;
+
+use eframe::egui::{self, Color32, PointerButton, Pos2, Rect, Response, Sense, Vec2};
+use eframe::egui_wgpu::RenderState;
+use palpate_files::scene::Shading;
+
+use super::effort::Effort;
+use super::gesture::{Gesture, Ground, Mouse};
+use super::play::Play;
+use crate::render::{Body, Renderer, Target, ToolPicture, View};
+use crate::{Camera, Gpu, Orbit, TissuePicture, pick, scene_camera};
+
+/// Turn of the camera per point of the window [rad].
+const TURN: f64 = 0.007;
+
+/// Where the organ is seen and touched.
+pub(super) struct Picture {
+    pub(super) shading: Shading,
+    pub(super) detail: bool,
+    pub(super) endoscope: bool,
+    pub(super) effort: Effort,
+    pub(super) gesture: Gesture,
+    orbit: Option<Orbit>,
+    /// The left button went down beside the organ: it turns the camera.
+    turning: bool,
+    renderer: Renderer,
+    target: Option<(Target, egui::TextureId)>,
+}
+
+impl Picture {
+    pub(super) fn new(gpu: &Gpu, shading: Shading) -> Self {
+        Self {
+            shading,
+            detail: true,
+            endoscope: false,
+            effort: Effort::new(gpu.is_software()),
+            gesture: Gesture::default(),
+            orbit: None,
+            turning: false,
+            renderer: Renderer::new(gpu),
+            target: None,
+        }
+    }
+
+    /// Frames the organ anew with the next picture.
+    pub(super) fn frame_anew(&mut self) {
+        self.orbit = None;
+        self.gesture = Gesture::default();
+    }
+
+    /// Lays a picture around the organ.
+    pub(super) fn surround(&mut self, gpu: &Gpu, picture: Option<&TissuePicture>) {
+        self.renderer.surround(gpu, picture);
+    }
+
+    /// The picture in what is left of `ui`, and what the mouse does in it.
+    pub(super) fn show(
+        &mut self,
+        ui: &mut egui::Ui,
+        (state, gpu): (&RenderState, &Gpu),
+        play: &mut Play,
+        tool: usize,
+    ) -> Rect {
+        let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
+        let aspect = f64::from(rect.width() / rect.height().max(1.0));
+        let mesh = play.surface().mesh();
+        let (low, high) = mesh.bounds();
+        let extent = (high - low).norm();
+        let view = &play.scene.view;
+        let mut orbit = self.orbit.unwrap_or_else(|| {
+            let framing = Orbit::framing(mesh, view.field_of_view_rad, aspect);
+            framing.from_the_side_of(&scene_camera(view, mesh, aspect))
+        });
+        self.steer(ui, &response, &mut orbit, extent);
+        let before = orbit.before((mesh, &play.tree));
+        // The eye stays outside of the organ.
+        orbit.distance = orbit.distance.max(before + 0.12 * extent);
+        self.orbit = Some(orbit);
+        let camera = match self.endoscope {
+            true => orbit.endoscope(before),
+            false => orbit.camera(),
+        };
+        self.touch(ui, (&response, rect), (play, tool), &camera);
+        let texture = self.draw((state, gpu), play, &camera, (extent, rect, ui.ctx()));
+        let whole = Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0));
+        ui.painter().image(texture, rect, whole, Color32::WHITE);
+        rect
+    }
+
+    /// Turns, moves and zooms the camera.
+    fn steer(&mut self, ui: &egui::Ui, response: &Response, orbit: &mut Orbit, extent: f64) {
+        let drag = response.drag_delta();
+        let turns = response.dragged_by(PointerButton::Secondary)
+            || self.turning && response.dragged_by(PointerButton::Primary);
+        if turns {
+            orbit.turn(-TURN * f64::from(drag.x), TURN * f64::from(drag.y));
+        }
+        if response.dragged_by(PointerButton::Middle) {
+            let [right, up, _] = orbit.camera().axes();
+            let points = f64::from(response.rect.height().max(1.0));
+            let height = 2.0 * orbit.distance * (0.5 * orbit.field_of_view).tan() / points;
+            orbit.target += height * (f64::from(drag.y) * up - f64::from(drag.x) * right);
+        }
+        let wheel = f64::from(ui.input(|input| input.smooth_scroll_delta.y));
+        if response.hovered() && !self.gesture.is_pressing() && wheel != 0.0 {
+            orbit.approach((-0.0025 * wheel).exp(), (0.15 * extent, 6.0 * extent));
+        }
+    }
+
+    /// Moves the tool.
+    fn touch(
+        &mut self,
+        ui: &egui::Ui,
+        (response, rect): (&Response, Rect),
+        (play, tool): (&mut Play, usize),
+        camera: &Camera,
+    ) {
+        let aspect = f64::from(rect.width() / rect.height().max(1.0));
+        let pointer = ui.input(|input| input.pointer.latest_pos());
+        let place = pointer
+            .filter(|at| rect.contains(*at))
+            .map(|at| ((at - rect.min) / rect.size()).to_f64());
+        let down = ui.input(|input| input.pointer.primary_down());
+        let over = |place| pick((play.surface(), &play.tree), camera, place, aspect).is_some();
+        if response.drag_started_by(PointerButton::Primary) && !self.gesture.is_pressing() {
+            self.turning = !place.is_some_and(over);
+        }
+        self.turning &= down;
+        // A press that began in the side panel is none here.
+        let held = response.is_pointer_button_down_on() || self.gesture.is_pressing();
+        let turned = response.dragged_by(PointerButton::Secondary);
+        let wheel = f64::from(ui.input(|input| input.smooth_scroll_delta.y)) / 50.0;
+        let mouse = Mouse {
+            place,
+            pressed: down && held && !self.turning && !turned,
+            wheel: if self.gesture.is_pressing() {
+                wheel
+            } else {
+                0.0
+            },
+        };
+        let ground = Ground {
+            surface: play.surface(),
+            tree: &play.tree,
+            camera,
+            aspect,
+            tip: play.scene.tools[tool].tip,
+        };
+        if let Some(aim) = self.gesture.follow(&mouse, &ground) {
+            play.move_hand(tool, &aim);
+        }
+    }
+
+    fn draw(
+        &mut self,
+        (state, gpu): (&RenderState, &Gpu),
+        play: &mut Play,
+        camera: &Camera,
+        (extent, rect, context): (f64, Rect, &egui::Context),
+    ) -> egui::TextureId {
+        let texture = self.target((state, gpu), rect.size(), context.pixels_per_point());
+        let snapshot = play.interaction.snapshot();
+        let tools: Vec<ToolPicture> = play
+            .scene
+            .tools
+            .iter()
+            .zip(&snapshot.tools)
+            .filter_map(|(tool, seen)| {
+                let pose = seen.pose?;
+                let at = (pose.position_m, seen.orientation);
+                let picture = ToolPicture::new(&tool.tip, at, tool.trocar_m);
+                Some(match seen.contact {
+                    Some(contact) => picture.touching(contact.point),
+                    None => picture,
+                })
+            })
+            .collect();
+        play.organ.deform(gpu, &snapshot.vertices);
+        let bodies: Vec<&Body> = std::iter::once(&play.organ)
+            .chain(&play.neighbours)
+            .collect();
+        let view = View {
+            camera: *camera,
+            shading: self.shading,
+            detail: self.detail,
+            reach: extent,
+        };
+        if let Some((target, _)) = &self.target {
+            self.renderer.draw(gpu, &view, (&bodies, &tools), target);
+        }
+        texture
+    }
+
+    /// The texture of the picture, made anew when its size or the effort has changed.
+    fn target(
+        &mut self,
+        (state, gpu): (&RenderState, &Gpu),
+        size: Vec2,
+        pixels_per_point: f32,
+    ) -> egui::TextureId {
+        let pixels = size * pixels_per_point * self.effort.scale();
+        let size = (
+            pixels.x.round().max(1.0) as u32,
+            pixels.y.round().max(1.0) as u32,
+        );
+        let samples = self.effort.samples();
+        if let Some((target, id)) = &self.target
+            && target.size() == size
+            && target.samples() == samples
+        {
+            return *id;
+        }
+        let target = Target::new(gpu, size, samples);
+        let mut shown = state.renderer.write();
+        let filter = wgpu::FilterMode::Linear;
+        let id = match &self.target {
+            None => shown.register_native_texture(&gpu.device, target.view(), filter),
+            Some((_, id)) => {
+                shown.update_egui_texture_from_wgpu_texture(
+                    &gpu.device,
+                    target.view(),
+                    filter,
+                    *id,
+                );
+                *id
+            }
+        };
+        self.target = Some((target, id));
+        id
+    }
+
+    /// Counts a picture for the effort.
+    pub(super) fn count(&mut self, time: Duration, touch_is_late: bool) {
+        self.effort.count(time, touch_is_late);
+    }
+}
+
+/// A place of the picture as the gesture counts it.
+trait Place {
+    fn to_f64(self) -> (f64, f64);
+}
+
+impl Place for Vec2 {
+    fn to_f64(self) -> (f64, f64) {
+        (f64::from(self.x), f64::from(self.y))
+    }
+}

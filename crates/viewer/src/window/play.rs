@@ -1,0 +1,90 @@
+use std::sync::Arc;
+
+use palpate_files::Scene;
+use palpate_files::scene::DeviceKind;
+use palpate_geometry::{AabbTree, Surface};
+use palpate_servo::{Pointer, PointerHand, ServoSettings};
+use palpate_simulate::interactive::{Interaction, Station};
+use palpate_simulate::{Simulation, read_organ};
+
+use super::gesture::Aim;
+use crate::render::{Body, Tint};
+use crate::{Error, Gpu};
+
+/// A scene that is being touched.
+pub(super) struct Play {
+    pub(super) scene: Scene,
+    pub(super) simulation: Arc<Simulation>,
+    /// Around the organ at rest.
+    pub(super) tree: AabbTree,
+    pub(super) interaction: Interaction,
+    pub(super) organ: Body,
+    pub(super) neighbours: Vec<Body>,
+    /// What deserves doubt.
+    pub(super) doubts: Vec<String>,
+    hands: Vec<Option<PointerHand>>,
+}
+
+impl Play {
+    /// Reads and prepares what `scene` names, and starts the threads of the touch. It takes a moment and
+    /// may be called on any thread.
+    ///
+    /// # Errors
+    /// When a file is missing or wrong, or a thread does not start.
+    pub(super) fn start(scene: Scene, mouse: usize, gpu: &Gpu) -> Result<Self, Error> {
+        let simulation = Arc::new(Simulation::new(&scene)?);
+        let mut doubts = simulation.doubts().to_vec();
+        let mut neighbours = Vec::new();
+        for neighbour in &scene.neighbours {
+            let (surface, more) = read_organ(&neighbour.shape)?;
+            doubts.extend(more);
+            let tint = Tint::of(&neighbour.shape).receding();
+            neighbours.push(Body::new(gpu, &surface, tint));
+        }
+        let mut hands = Vec::new();
+        let mut stations = Vec::new();
+        for (number, tool) in scene.tools.iter().enumerate() {
+            let held = tool.device == DeviceKind::Mouse || number == mouse;
+            let (station, hand) = if held {
+                let (pointer, hand) = Pointer::new();
+                (Some(Station::new(pointer)), Some(hand))
+            } else {
+                (None, None)
+            };
+            if !held && tool.device != DeviceKind::None {
+                doubts.push(format!(
+                    "the tool {:?} wants the device {}, which the window cannot move yet; take it with \
+                     the mouse, in the side panel",
+                    tool.name, tool.device
+                ));
+            }
+            stations.push(station);
+            hands.push(hand);
+        }
+        let interaction =
+            Interaction::start(simulation.clone(), stations, ServoSettings::default())?;
+        Ok(Self {
+            tree: AabbTree::new(simulation.surface().mesh()),
+            organ: Body::new(gpu, simulation.surface(), Tint::of(&scene.organ.shape)),
+            neighbours,
+            doubts,
+            interaction,
+            hands,
+            simulation,
+            scene,
+        })
+    }
+
+    /// The organ at rest.
+    pub(super) fn surface(&self) -> &Surface {
+        self.simulation.surface()
+    }
+
+    /// Moves the hand of a tool.
+    pub(super) fn move_hand(&mut self, tool: usize, aim: &Aim) {
+        if let Some(Some(hand)) = self.hands.get_mut(tool) {
+            hand.turn_to(Some(aim.turned));
+            hand.move_to(aim.tip);
+        }
+    }
+}
