@@ -51,7 +51,7 @@ impl Camera {
     }
 
     /// The rotation from the scene to the eye's frame: right, up, back.
-    pub(crate) fn to_eye(&self) -> Matrix3<f64> {
+    pub(crate) fn eye_frame(&self) -> Matrix3<f64> {
         let [right, up, back] = self.axes();
         Matrix3::from_rows(&[right.transpose(), up.transpose(), back.transpose()])
     }
@@ -59,7 +59,7 @@ impl Camera {
     /// From the scene to clip coordinates of a picture of the given width over height, between the
     /// distances `near` and `far` [m]; depth goes from 0 to 1.
     pub(crate) fn view_projection(&self, aspect: f64, (near, far): (f64, f64)) -> Matrix4<f64> {
-        let turn = self.to_eye();
+        let turn = self.eye_frame();
         let shift = -(turn * self.eye);
         let mut view = turn.to_homogeneous();
         view.fixed_view_mut::<3, 1>(0, 3).copy_from(&shift);
@@ -88,7 +88,7 @@ impl Camera {
     /// The place of the picture where `point` [m] is seen, and how far in front of the eye it is [m];
     /// none behind the eye.
     pub fn project(&self, point: &Vec3, aspect: f64) -> Option<((f64, f64), f64)> {
-        let seen: Vector3<f64> = self.to_eye() * (point - self.eye);
+        let seen: Vector3<f64> = self.eye_frame() * (point - self.eye);
         let ahead = -seen.z;
         let half = (0.5 * self.field_of_view).tan();
         let place = |x: f64, wide: f64| 0.5 + 0.5 * x / (ahead * half * wide);

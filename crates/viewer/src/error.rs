@@ -53,7 +53,7 @@ pub enum Error {
         /// The file.
         path: PathBuf,
         /// In the words of its reader.
-        cause: image::ImageError,
+        cause: Box<image::ImageError>,
     },
     /// A picture has no pixels to make a map of.
     #[error("the picture has {width} x {height} pixels; at least 2 x 2 make a map")]
@@ -65,10 +65,10 @@ pub enum Error {
     },
     /// A file cannot be written.
     #[error(transparent)]
-    File(#[from] palpate_files::Error),
+    File(Box<palpate_files::Error>),
     /// The scene cannot be simulated.
     #[error(transparent)]
-    Scene(#[from] palpate_simulate::Error),
+    Scene(Box<palpate_simulate::Error>),
 }
 
 impl Error {
@@ -80,5 +80,17 @@ impl Error {
             Self::Scene(error) => error.is_input(),
             _ => false,
         }
+    }
+}
+
+impl From<palpate_files::Error> for Error {
+    fn from(error: palpate_files::Error) -> Self {
+        Self::File(Box::new(error))
+    }
+}
+
+impl From<palpate_simulate::Error> for Error {
+    fn from(error: palpate_simulate::Error) -> Self {
+        Self::Scene(Box::new(error))
     }
 }

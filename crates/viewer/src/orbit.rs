@@ -41,7 +41,7 @@ impl Orbit {
             field_of_view,
         };
         let camera = orbit.camera();
-        let to_eye = camera.to_eye();
+        let to_eye = camera.eye_frame();
         let half = FILLED * (0.5 * field_of_view).tan();
         let needed = mesh.vertices().iter().map(|vertex| {
             let seen = to_eye * (vertex - orbit.target);

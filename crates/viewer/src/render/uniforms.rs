@@ -75,7 +75,7 @@ impl Globals {
             .clamp(0.0, 4.0);
         Self {
             view_projection: columns(&projection),
-            to_eye: columns(&camera.to_eye().to_homogeneous()),
+            to_eye: columns(&camera.eye_frame().to_homogeneous()),
             eye: vector(&camera.eye, f32::from(u8::from(camera.lamp.is_some()))),
             key: vector(&light.key, light.is_place),
             key_color: light.color,

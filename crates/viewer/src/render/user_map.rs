@@ -23,7 +23,7 @@ impl TissuePicture {
             .and_then(image::ImageReader::decode)
             .map_err(|cause| Error::Picture {
                 path: path.to_owned(),
-                cause,
+                cause: Box::new(cause),
             })?;
         Self::new(picture.into_rgb8())
     }

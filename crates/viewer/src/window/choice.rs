@@ -1,4 +1,4 @@
-use palpate_files::scene::{BuiltinOrgan, Shading, Shape, Tip, TissueChoice, Tool};
+use palpate_files::scene::{BuiltinOrgan, DeviceKind, Shading, Shape, Tip, TissueChoice, Tool};
 use palpate_files::{BuiltinTissue, Scene};
 
 /// A scene and what the side panel has changed in it.
@@ -18,12 +18,14 @@ pub(super) struct Choice {
 impl Choice {
     /// Nothing changed yet.
     pub(super) fn new(scene: Scene) -> Self {
+        let is_moved = |tool: &Tool| tool.device == DeviceKind::Mouse;
+        let tool = scene.tools.iter().position(is_moved).unwrap_or(0);
         Self {
-            tip: scene.tools[0].tip,
+            tip: scene.tools[tool].tip,
             given: scene,
             organ: None,
             tissue: None,
-            tool: 0,
+            tool,
         }
     }
 
@@ -59,6 +61,7 @@ impl Choice {
         self.given.tools[self.tool].tip = self.tip;
         self.tool = tool.min(self.given.tools.len() - 1);
         self.tip = self.given.tools[self.tool].tip;
+        self.given.tools[self.tool].device = DeviceKind::Mouse;
     }
 
     /// The tools of the scene.

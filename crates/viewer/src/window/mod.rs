@@ -147,8 +147,7 @@ impl SimulatorWindow {
     /// Prepares the choice, beside the window; the organ before it stays until the new one is there.
     fn begin_anew(&mut self, context: &egui::Context) {
         let scene = self.choice.scene();
-        let asked = (scene, self.choice.tool);
-        self.preparation = Some(Preparation::start(asked, &self.gpu, context.clone()));
+        self.preparation = Some(Preparation::start(scene, &self.gpu, context.clone()));
     }
 
     /// Takes over what was prepared.
@@ -167,6 +166,7 @@ impl SimulatorWindow {
                 if other_organ(&play, &self.play) {
                     self.picture.frame_anew();
                 }
+                self.picture.draw_anew();
                 self.fault = None;
                 self.play = Some(play);
             }

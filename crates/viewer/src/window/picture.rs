@@ -25,6 +25,8 @@ pub(super) struct Picture {
     turning: bool,
     renderer: Renderer,
     target: Option<(Target, egui::TextureId)>,
+    /// What the texture shows; what would look the same is not drawn again.
+    drawn: Option<(View, Vec<ToolPicture>)>,
 }
 
 impl Picture {
@@ -39,17 +41,25 @@ impl Picture {
             turning: false,
             renderer: Renderer::new(gpu),
             target: None,
+            drawn: None,
         }
+    }
+
+    /// Draws the next picture whatever it shows: the organ is another one.
+    pub(super) fn draw_anew(&mut self) {
+        self.drawn = None;
     }
 
     /// Frames the organ anew with the next picture.
     pub(super) fn frame_anew(&mut self) {
         self.orbit = None;
+        self.drawn = None;
         self.gesture = Gesture::default();
     }
 
     /// Lays a picture around the organ.
     pub(super) fn surround(&mut self, gpu: &Gpu, picture: Option<&TissuePicture>) {
+        self.drawn = None;
         self.renderer.surround(gpu, picture);
     }
 
@@ -175,19 +185,26 @@ impl Picture {
                 })
             })
             .collect();
-        play.organ.deform(gpu, &snapshot.vertices);
-        let bodies: Vec<&Body> = std::iter::once(&play.organ)
-            .chain(&play.neighbours)
-            .collect();
         let view = View {
             camera: *camera,
             shading: self.shading,
             detail: self.detail,
             reach: extent,
         };
-        if let Some((target, _)) = &self.target {
-            self.renderer.draw(gpu, &view, (&bodies, &tools), target);
+        // Places, not forces: tissue that relaxes looks the same. A slow machine has better things to do.
+        let now = (view, tools);
+        if self.drawn.as_ref() == Some(&now) {
+            return texture;
         }
+        play.organ.deform(gpu, &snapshot.vertices);
+        let bodies: Vec<&Body> = std::iter::once(&play.organ)
+            .chain(&play.neighbours)
+            .collect();
+        if let Some((target, _)) = &self.target {
+            let (view, tools) = &now;
+            self.renderer.draw(gpu, view, (&bodies, tools), target);
+        }
+        self.drawn = Some(now);
         texture
     }
 
@@ -211,6 +228,7 @@ impl Picture {
             return *id;
         }
         let target = Target::new(gpu, size, samples);
+        self.drawn = None;
         let mut shown = state.renderer.write();
         let filter = wgpu::FilterMode::Linear;
         let id = match &self.target {

@@ -1,10 +1,9 @@
 use std::sync::Arc;
 
 use palpate_files::Scene;
-use palpate_files::scene::DeviceKind;
 use palpate_geometry::{AabbTree, Surface};
-use palpate_servo::{Pointer, PointerHand, ServoSettings};
-use palpate_simulate::interactive::{Interaction, Station};
+use palpate_servo::{PointerHand, ServoSettings};
+use palpate_simulate::interactive::{Interaction, SceneDevices};
 use palpate_simulate::{Simulation, read_organ};
 
 use super::gesture::Aim;
@@ -30,8 +29,8 @@ impl Play {
     /// may be called on any thread.
     ///
     /// # Errors
-    /// When a file is missing or wrong, or a thread does not start.
-    pub(super) fn start(scene: Scene, mouse: usize, gpu: &Gpu) -> Result<Self, Error> {
+    /// When a file is missing or wrong, a device has no driver, or a thread does not start.
+    pub(super) fn start(scene: Scene, gpu: &Gpu) -> Result<Self, Error> {
         let simulation = Arc::new(Simulation::new(&scene)?);
         let mut doubts = simulation.doubts().to_vec();
         let mut neighbours = Vec::new();
@@ -41,35 +40,19 @@ impl Play {
             let tint = Tint::of(&neighbour.shape).receding();
             neighbours.push(Body::new(gpu, &surface, tint));
         }
-        let mut hands = Vec::new();
-        let mut stations = Vec::new();
-        for (number, tool) in scene.tools.iter().enumerate() {
-            let held = tool.device == DeviceKind::Mouse || number == mouse;
-            let (station, hand) = if held {
-                let (pointer, hand) = Pointer::new();
-                (Some(Station::new(pointer)), Some(hand))
-            } else {
-                (None, None)
-            };
-            if !held && tool.device != DeviceKind::None {
-                doubts.push(format!(
-                    "the tool {:?} wants the device {}, which the window cannot move yet; take it with \
-                     the mouse, in the side panel",
-                    tool.name, tool.device
-                ));
-            }
-            stations.push(station);
-            hands.push(hand);
-        }
-        let interaction =
-            Interaction::start(simulation.clone(), stations, ServoSettings::default())?;
+        let devices = SceneDevices::open(&scene, &simulation)?;
+        let interaction = Interaction::start(
+            simulation.clone(),
+            devices.stations,
+            ServoSettings::default(),
+        )?;
         Ok(Self {
             tree: AabbTree::new(simulation.surface().mesh()),
             organ: Body::new(gpu, simulation.surface(), Tint::of(&scene.organ.shape)),
             neighbours,
             doubts,
             interaction,
-            hands,
+            hands: devices.pointers,
             simulation,
             scene,
         })

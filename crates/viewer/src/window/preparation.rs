@@ -10,14 +10,13 @@ use crate::{Error, Gpu};
 pub(super) struct Preparation(Receiver<Result<Play, Error>>);
 
 impl Preparation {
-    /// Starts with a scene and the number of the tool that the mouse moves, and wakes the window when it is
-    /// done.
-    pub(super) fn start((scene, mouse): (Scene, usize), gpu: &Gpu, context: egui::Context) -> Self {
+    /// Starts with `scene`, and wakes the window when it is done.
+    pub(super) fn start(scene: Scene, gpu: &Gpu, context: egui::Context) -> Self {
         let (told, outcome) = channel();
         let gpu = gpu.clone();
         std::thread::spawn(move || {
             // Nobody waits any more when the choice has changed since.
-            let _ = told.send(Play::start(scene, mouse, &gpu));
+            let _ = told.send(Play::start(scene, &gpu));
             context.request_repaint();
         });
         Self(outcome)

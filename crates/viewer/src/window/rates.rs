@@ -40,7 +40,7 @@ impl Rates {
         self.lateness = servo.map_or(0.0, |servo| servo.lateness.p99);
         let elapsed = time - self.counted.time;
         let begun_anew = now.steps < self.counted.steps || now.ticks < self.counted.ticks;
-        if elapsed < STRETCH && elapsed >= 0.0 && !begun_anew {
+        if (0.0..STRETCH).contains(&elapsed) && !begun_anew {
             return;
         }
         if !begun_anew && elapsed > 0.0 {
