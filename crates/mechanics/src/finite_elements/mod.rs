@@ -12,6 +12,7 @@ pub mod estimate;
 mod graded;
 pub mod hemisphere;
 pub mod indentation;
+mod linear_system;
 mod mapping;
 mod mesh;
 mod model;
@@ -28,6 +29,7 @@ pub mod uniaxial;
 
 pub use cavity::Cavity;
 pub use element::ElementKind;
+pub use linear_system::LinearSystem;
 pub use mesh::ElementMesh;
 pub use model::{FiniteElementModel, FiniteElementState, FiniteElementWorkspace, Formulation};
 pub use newton::{Equilibrium, Failure, equilibrate};

@@ -347,3 +347,17 @@ fn without_stiffening_the_exponential_law_is_neo_hookean() {
         assert!(tangent.norm() < allowed, "{alpha}: {tangent}");
     }
 }
+
+#[test]
+fn distortion_is_its_three_parts() {
+    let mut random = Random(17);
+    for law in every_law() {
+        for _ in 0..tries(200) {
+            let f = deformation(&mut random);
+            let all = law.law.distortion(&f);
+            assert_eq!(all.energy, law.law.distortion_energy(&f), "{}", law.name);
+            assert_eq!(all.stress, law.law.distortion_stress(&f), "{}", law.name);
+            assert_eq!(all.tangent, law.law.distortion_tangent(&f), "{}", law.name);
+        }
+    }
+}

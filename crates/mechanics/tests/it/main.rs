@@ -22,6 +22,7 @@ mod indentation;
 mod inhomogeneous;
 mod invariants;
 mod laws;
+mod linear_system;
 mod no_allocation;
 mod patch_on_hemisphere;
 mod path;
