@@ -157,6 +157,8 @@ fn one_curve_for_every_modulus() {
 /// Judge: whole runs with a parameter moved both ways; central differences, so the square of 1 %.
 #[test]
 fn sensitivities_are_those_of_moved_parameters() {
+    /// Deep enough for nodes to stick to the side [radii].
+    const DEPTH: f64 = 0.6;
     type Make = fn(f64, f64) -> Arc<dyn Law>;
     let laws: [(Make, [f64; 2]); 2] = [
         (
@@ -169,10 +171,11 @@ fn sensitivities_are_those_of_moved_parameters() {
         ),
     ];
     for (make, values) in laws {
-        let force =
-            |values: [f64; 2]| press(&mut run(bonded(), make(values[0], values[1]), 0), 1.0).force;
+        let force = |values: [f64; 2]| {
+            press(&mut run(bonded(), make(values[0], values[1]), 0), DEPTH).force
+        };
         let mut sensitive = run(bonded(), make(values[0], values[1]), 0).with_sensitivities();
-        let found = press(&mut sensitive, 1.0).by_parameter;
+        let found = press(&mut sensitive, DEPTH).by_parameter;
         for parameter in 0..2 {
             let step = 0.002 * values[parameter];
             let moved = |by: f64| {
@@ -197,7 +200,7 @@ fn convolution_is_the_full_run_at_small_depth() {
         law: neo_hookean(),
     };
     let prony = PronySeries::new(&[(0.3, 0.2), (0.2, 2.0)]).unwrap();
-    let times: Vec<f64> = (0..=10).map(|i| 0.2 * f64::from(i)).collect();
+    let times: Vec<f64> = (0..=5).map(|i| 0.4 * f64::from(i)).collect();
     let depths = times.iter().map(|t| 0.05 * RADIUS * t.min(0.6)).collect();
     let history = History { times, depths };
     let [folded, full] = [Relaxing::Convolution, Relaxing::Full].map(|how| {

@@ -27,6 +27,7 @@ mod no_allocation;
 mod patch_on_hemisphere;
 mod path;
 mod solid;
+mod solid_fields;
 mod stiffening;
 mod stretches;
 mod tube;

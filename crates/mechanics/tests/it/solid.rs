@@ -7,6 +7,7 @@ use std::sync::Arc;
 use nalgebra::Rotation3;
 use palpate_files::scene::{Anchor, AnchorPlane};
 use palpate_geometry::{Organ, Surface, TetrahedronMesh, read_mesh, read_tetrahedra};
+use palpate_mechanics::finite_elements::hemisphere::{HemisphereProblem, Patch};
 use palpate_mechanics::finite_elements::indentation::{
     self, Block, Grip, IndentationProblem, Indenter, IndenterShape, Side,
 };
@@ -20,10 +21,10 @@ use palpate_mechanics::finite_elements::{
 use palpate_mechanics::{Error, Law, LinearElastic, NeoHookean, Vec3};
 
 /// Half the edge of the cube [m].
-const HALF: f64 = 0.05;
+pub(crate) const HALF: f64 = 0.05;
 
 /// Young's modulus [Pa].
-const MODULUS: f64 = 1e4;
+pub(crate) const MODULUS: f64 = 1e4;
 
 fn plane(point: Vec3, normal: Vec3) -> Anchor {
     Anchor {
@@ -41,7 +42,7 @@ fn block(cells: usize) -> TetrahedronMesh {
 
 /// A cube of 0.1 m with its bottom held, and a patch of `radius` [m] in the middle of its top that
 /// moves down by a hundredth of it.
-fn cube(radius: f64, nu: f64, grip: Grip) -> SolidProblem {
+pub(crate) fn cube(radius: f64, nu: f64, grip: Grip) -> SolidProblem {
     SolidProblem {
         body: Body::Volume(block(4)),
         anchor: plane(-0.999 * HALF * Vec3::z(), Vec3::z()),
@@ -55,7 +56,7 @@ fn cube(radius: f64, nu: f64, grip: Grip) -> SolidProblem {
     }
 }
 
-fn at(problem: &SolidProblem, halvings: u32) -> SolidAnswer {
+pub(crate) fn at(problem: &SolidProblem, halvings: u32) -> SolidAnswer {
     solve_at(problem, halvings, &mut |_| ()).unwrap()
 }
 
@@ -179,6 +180,15 @@ fn a_body_from_a_file_is_the_body_in_memory() {
     assert_eq!(at(&problem, 0), expected);
 }
 
+/// A mesh whose factors would not fit is refused before they are made.
+#[test]
+fn a_mesh_too_large_is_refused() {
+    let mut problem = cube(0.02, 0.3, Grip::Stick);
+    problem.body = Body::Volume(block(30));
+    let refused = solve_at(&problem, 0, &mut |_| ());
+    assert!(matches!(refused, Err(Error::TooManyUnknowns { unknowns, .. }) if unknowns > 600_000));
+}
+
 /// Judge: the other formulation. At ν = 0.3 both are right, so that they meet as the mesh gets finer,
 /// and the one with pressures comes from the softer side.
 #[test]
@@ -214,7 +224,18 @@ fn pressures_change_nothing_where_nothing_locks() {
 #[test]
 #[ignore = "slow: a minute"]
 fn a_hyperelastic_solid_pushes_with_the_slope_of_its_energy() {
-    let mut problem = cube(0.02, 0.49, Grip::Stick);
+    hyperelastic(cube(0.02, 0.49, Grip::Stick), 0.01);
+}
+
+/// Judges: as above. Near 0.44 radii the tissue under a face without friction finds no equilibrium on
+/// this mesh, and the run says so.
+#[test]
+#[ignore = "slow: a minute"]
+fn a_hyperelastic_solid_slips_with_the_slope_of_its_energy() {
+    hyperelastic(cube(0.02, 0.49, Grip::Slide), 0.006);
+}
+
+fn hyperelastic(mut problem: SolidProblem, depth: f64) {
     let linear = at(&problem, 0).force_along;
     let shear = MODULUS / (2.0 * 1.49);
     let bulk = MODULUS / (3.0 * 0.02);
@@ -223,18 +244,19 @@ fn a_hyperelastic_solid_pushes_with_the_slope_of_its_energy() {
     println!("small: {}", small / linear);
     // The stress of second order in the strain, a hundredth.
     assert!((small / linear - 1.0).abs() < 0.02);
-    let [low, middle, high] = [0.0098, 0.01, 0.0102].map(|depth| {
+    let step = 0.0002;
+    let [low, middle, high] = [depth - step, depth, depth + step].map(|depth| {
         problem.patch.displacement = -depth * Vec3::z();
         at(&problem, 0)
     });
-    let slope = (high.energy - low.energy) / 0.0004;
+    let slope = (high.energy - low.energy) / (2.0 * step);
     println!("large: {} of {slope}", middle.force_along);
     assert!((middle.force_along / slope - 1.0).abs() < 1e-3);
     assert!((middle.force + middle.reaction).norm() < 1e-6 * slope);
 }
 
-/// Judges: a published ratio to the half-space, 1.03 for a patch of 2 mm on a hemisphere of 50 mm, and
-/// a finer mesh, which the estimate of the error must agree with.
+/// Judge: fine axisymmetric elements, 1.027 of the half-space for a patch of 2 mm on a hemisphere of
+/// 50 mm. The order behind the estimate was found on cubes; here it must hold as well.
 #[test]
 #[ignore = "slow: several minutes"]
 fn a_patch_on_a_hemisphere_is_3_percent_stiffer_than_on_a_half_space() {
@@ -250,6 +272,15 @@ fn a_patch_on_a_hemisphere_is_3_percent_stiffer_than_on_a_half_space() {
         },
         law: Arc::new(LinearElastic::new(MODULUS, 0.3).unwrap()),
     };
+    let round = HemisphereProblem {
+        radius: HALF,
+        patch_radius: 0.002,
+        patch: Patch::Slip,
+        law: LinearElastic::new(MODULUS, 0.3).unwrap(),
+        depth: 1e-4,
+    };
+    let exact = round.solve_on(3e-3, 0).unwrap().force / half_space(&problem.patch, 0.3);
+    println!("axisymmetric: {exact:.4}");
     let mut ratios = Vec::new();
     for halvings in 0..3 {
         let started = std::time::Instant::now();
@@ -263,8 +294,13 @@ fn a_patch_on_a_hemisphere_is_3_percent_stiffer_than_on_a_half_space() {
         );
         ratios.push(ratio);
     }
-    assert!((ratios[1] - 1.03).abs() < 0.01);
-    assert!((ratios[2] - 1.03).abs() < 0.005);
+    for (pair, allowed) in ratios.windows(2).zip([0.01, 0.005]) {
+        let error = pair[1] / exact - 1.0;
+        let estimated = (pair[0] / pair[1] - 1.0) / (2.0_f64.powf(0.8) - 1.0);
+        println!("estimated {estimated:.4}, is {error:.4}");
+        assert!(error.abs() < allowed, "{error}");
+        assert!((0.5..5.0).contains(&(estimated / error)));
+    }
 }
 
 /// Judge: the differences between the meshes, which fall with the size of the elements; the estimate is
@@ -296,6 +332,13 @@ fn the_force_converges_with_the_edge_of_the_patch() {
 
 /// Judge: the half-space. What is held 25 mm behind a patch of 5 mm makes it stiffer by a fifth at the
 /// most, and what the organ lacks beside it softer by as much.
+///
+/// Held in its lowest 30 % instead, the kidney answers with 0.607 of the half-space's force (0.606 on
+/// the second mesh). That is the organ giving way as a whole: the surface between 2 and 4 radii from
+/// the centre then follows the patch by 47 to 55 % of its way, where a punch on a half-space would take
+/// 19 to 29 % along. Of the depth that is left to the patch the force is 0.90 to 0.96 of the
+/// half-space's; with the anchor of this test, found in the same way, 0.97 to 0.98 (and 1.08 of the
+/// whole depth). The rest is the organ's curvature.
 #[test]
 #[ignore = "slow: a minute"]
 fn real_kidney_under_a_patch() {
