@@ -53,7 +53,7 @@ impl Effort {
     /// What an attempt is worth that a shorter one may follow.
     pub(super) const TRY: Self = Self {
         iterations: 10,
-        shortest: 1.0 / 8.0,
+        shortest: 1.0 / 4.0,
         stubborn: false,
         ..Self::FULL
     };
