@@ -18,7 +18,8 @@ pub struct Model {
     pub enhancement: Enhancement,
     /// What is handed over to the servo loop.
     pub hand_over: HandOver,
-    /// Factor on every force that is felt, shown and recorded [-].
+    /// Factor on every force that a device displays [-]; the factor itself is shown and recorded, forces are
+    /// recorded as they are.
     pub force_scale: f64,
 }
 
