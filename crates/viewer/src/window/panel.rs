@@ -5,6 +5,7 @@ use palpate_files::scene::{BuiltinOrgan, Shading, TipContact, TipShape};
 
 use super::SimulatorWindow;
 use super::history::SPAN;
+use super::rates::Rates;
 use super::style::{DEPTH, DOUBT, FAULT, FORCE, QUIET};
 
 /// What can be chosen, and what is felt.
@@ -213,14 +214,35 @@ fn rates(window: &SimulatorWindow, ui: &mut Ui) {
         ui.label("servo");
         ui.label(format!("{:.0} of 1000 Hz", rates.servo));
         ui.end_row();
-        ui.label("lateness");
-        ui.label(format!(
-            "{:.3} ms for 99 of 100 ticks",
-            1e3 * rates.lateness
-        ));
-        ui.end_row();
+        quality(rates, ui);
     });
     ui.label(RichText::new(window.gpu.adapter()).small().color(QUIET));
+}
+
+/// How good the touch was since the start.
+fn quality(rates: &Rates, ui: &mut Ui) {
+    let (touch, answers) = (&rates.touch, &rates.answers);
+    let late = touch.lateness;
+    ui.label("late")
+        .on_hover_text("how long after its time a tick began: p50, p99, p99.9, longest");
+    let [p50, p99, p99_9, max] = [late.p50, late.p99, late.p99_9, late.max].map(|time| 1e6 * time);
+    ui.label(format!("{p50:.0}, {p99:.0}, {p99_9:.0}, {max:.0} µs"));
+    ui.end_row();
+    ui.label("left out")
+        .on_hover_text("ticks and steps whose time had passed; they are never made up for");
+    ui.label(format!("{} ticks, {} steps", touch.missed, answers.missed));
+    ui.end_row();
+    ui.label("between").on_hover_text(
+        "how far the force between the model's answers was from what it then found: root of \
+             the mean square, largest",
+    );
+    let [mean, most] = [answers.extrapolation.rms, answers.extrapolation.max].map(|f| 1e3 * f);
+    ui.label(format!("off by {mean:.2}, at most {most:.1} mN"));
+    ui.end_row();
+    ui.label("energy")
+        .on_hover_text("work that the loop did on the hand; tissue only takes some");
+    ui.label(format!("{:.3} mJ to the hand", 1e3 * touch.energy));
+    ui.end_row();
 }
 
 /// What went wrong, and what deserves doubt.

@@ -1,4 +1,5 @@
-use palpate_simulate::interactive::Quality;
+use palpate_servo::LoopReport;
+use palpate_simulate::interactive::{ModelReport, Quality};
 
 /// How often things happened within the last second or so.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -9,8 +10,10 @@ pub(super) struct Rates {
     pub(super) model: f64,
     /// Ticks of the servo loop [Hz].
     pub(super) servo: f64,
-    /// Lateness of the servo loop that 99 of 100 ticks stay below, since the start [s].
-    pub(super) lateness: f64,
+    /// What the servo loop measured of itself since the start; zeros without one.
+    pub(super) touch: LoopReport,
+    /// What the model did.
+    pub(super) answers: ModelReport,
     counted: Counted,
 }
 
@@ -37,7 +40,8 @@ impl Rates {
             ticks,
         };
         self.counted.pictures += 1;
-        self.lateness = servo.map_or(0.0, |servo| servo.lateness.p99);
+        self.touch = servo.unwrap_or_default();
+        self.answers = quality.model;
         let elapsed = time - self.counted.time;
         let begun_anew = now.steps < self.counted.steps || now.ticks < self.counted.ticks;
         if (0.0..STRETCH).contains(&elapsed) && !begun_anew {
