@@ -32,6 +32,6 @@ pub use organ::{builtin_organ, read_organ};
 pub use play::{Flow, Frame, play};
 pub use simulation::Simulation;
 pub use state::{SimulationState, SimulationWorkspace, ToolState};
-pub use step::step;
+pub use step::{TRUSTED_DEPTH, step};
 pub use summary::{StepTimes, Summary};
 pub use tool::Tool;

@@ -36,6 +36,17 @@ impl Frame<'_> {
         let present = self.state.tools.iter().filter(|tool| tool.pose.is_some());
         present.map(|tool| &tool.row)
     }
+
+    /// Whether this step is one of `wanted`, evenly from the first to the last, of which `done` were
+    /// taken.
+    pub fn is_due(&self, done: u64, wanted: u64) -> bool {
+        let due = match wanted {
+            0 => return false,
+            1 => self.steps - 1,
+            _ => done * (self.steps - 1) / (wanted - 1),
+        };
+        done < wanted && self.number >= due
+    }
 }
 
 /// Plays a whole motion, from its first time to its last, as fast as it goes; `observe` sees every step.

@@ -14,7 +14,7 @@ use crate::tool::Tool;
 use crate::{deform, orientation};
 
 /// Depth beyond which no model here has been compared with tissue [m].
-const TRUSTED_DEPTH: f64 = 0.010;
+pub const TRUSTED_DEPTH: f64 = 0.010;
 
 /// Length of a shaft without a trocar [m].
 const SHAFT: f64 = 0.3;

@@ -2,7 +2,7 @@ use std::time::Duration;
 
 use palpate_files::session::Event;
 
-use crate::{Simulation, SimulationState};
+use crate::{Simulation, SimulationState, TRUSTED_DEPTH};
 
 /// What a played motion came to.
 #[derive(Debug, Clone, PartialEq)]
@@ -78,7 +78,7 @@ impl Tally {
             }
         };
         warn(
-            self.deepest > 0.010,
+            self.deepest > TRUSTED_DEPTH,
             format!(
                 "the depth reached {:.1} mm; beyond 10 mm no model here has been compared with tissue",
                 1e3 * self.deepest

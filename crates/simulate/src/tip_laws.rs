@@ -5,11 +5,8 @@ use palpate_mechanics::contact::{Bond, Tip};
 use palpate_mechanics::finite_elements::indentation::Stiffening;
 use palpate_mechanics::{Material, TipLaw};
 
-use crate::Error;
 use crate::tool::Tool;
-
-/// Depth beyond which force is extrapolated is worth a word from here up [m].
-const TOLD: f64 = 0.010;
+use crate::{Error, TRUSTED_DEPTH};
 
 /// Gives each tool the tissue's force over depth; what deserves doubt about it. Tools with the same tip
 /// share the work.
@@ -39,7 +36,7 @@ pub(crate) fn stiffen(
         };
         tool.law = TipLaw::stiffening(tip, bond, material, stiffening);
         let deepest = tool.law.deepest();
-        if deepest < TOLD {
+        if deepest < TRUSTED_DEPTH {
             doubts.push(format!(
                 "the force of {} tissue on tool {:?} is known to a depth of {:.1} mm; deeper it goes on \
                  along its tangent",

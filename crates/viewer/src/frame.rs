@@ -135,12 +135,7 @@ impl FrameWriter {
     /// When the adapter was lost or the file cannot be written.
     pub fn add(&mut self, frame: &Frame<'_>) -> Result<(), Error> {
         let count = self.written.len() as u64;
-        let due = match self.wanted {
-            0 => return Ok(()),
-            1 => frame.steps - 1,
-            wanted => count * (frame.steps - 1) / (wanted - 1),
-        };
-        if count >= self.wanted || frame.number < due {
+        if !frame.is_due(count, self.wanted) {
             return Ok(());
         }
         let picture = self.studio.picture(frame.state)?;

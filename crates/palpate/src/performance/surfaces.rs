@@ -29,12 +29,7 @@ impl<'a> Surfaces<'a> {
         frame: &Frame<'_>,
     ) -> Result<(), Failure> {
         let count = self.written.len() as u64;
-        let due = match self.wanted {
-            0 => return Ok(()),
-            1 => frame.steps - 1,
-            wanted => count * (frame.steps - 1) / (wanted - 1),
-        };
-        if count >= self.wanted || frame.number < due {
+        if !frame.is_due(count, self.wanted) {
             return Ok(());
         }
         let rest = simulation.surface().mesh().vertices();

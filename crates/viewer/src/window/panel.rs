@@ -2,6 +2,7 @@ use eframe::egui::{self, Color32, RichText, Ui};
 use egui_plot::{Line, Plot, PlotPoints};
 use palpate_files::BuiltinTissue;
 use palpate_files::scene::{BuiltinOrgan, Shading, TipContact, TipShape};
+use palpate_simulate::TRUSTED_DEPTH;
 
 use super::SimulatorWindow;
 use super::history::SPAN;
@@ -254,7 +255,7 @@ pub(super) fn status(window: &SimulatorWindow, ui: &mut Ui) {
         } else if window.preparation.is_some() {
             ui.spinner();
             ui.label("preparing the organ and its model");
-        } else if depth > 0.010 {
+        } else if depth > TRUSTED_DEPTH {
             ui.colored_label(
                 DOUBT,
                 "deeper than 10 mm no model here has been compared with tissue",

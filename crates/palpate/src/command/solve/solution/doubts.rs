@@ -1,9 +1,8 @@
 //! What deserves doubt, as sentences.
 
-use super::super::problem::Problem;
+use palpate_simulate::TRUSTED_DEPTH;
 
-/// Beyond this depth nothing here has been compared with tissue [m].
-const DEEP: f64 = 0.010;
+use super::super::problem::Problem;
 
 /// Depth over the radius of the contact beyond which small strain is no good word [-].
 const LARGE_STRAIN: f64 = 0.2;
@@ -30,7 +29,7 @@ pub(super) fn shared(problem: &Problem, estimated_error: f64) -> Vec<String> {
 pub(super) fn of_depths(problem: &Problem, radius: f64, depths: &[f64]) -> Vec<String> {
     let deepest = depths.iter().copied().fold(0.0, f64::max);
     let mut doubts = Vec::new();
-    if deepest > DEEP {
+    if deepest > TRUSTED_DEPTH {
         doubts.push(format!(
             "the depth reaches {:.1} mm; beyond 10 mm no model here has been compared with tissue",
             1e3 * deepest
