@@ -191,6 +191,14 @@ pub enum Error {
         /// The time before it, as written.
         previous: String,
     },
+    /// A stored response that cannot be used.
+    #[error("{path} is damaged: {what}; delete it, and it is made again when it is needed", path = path.display())]
+    DamagedResponse {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        what: String,
+    },
     /// Values made by a program, not read from a file, that no document can hold.
     #[error("{what} is {found}; give {expected}")]
     BadContent {

@@ -6,6 +6,9 @@
 //! (`depth_mm`) and is converted on reading, see [`units`]. An [`Error`] names the file, the line,
 //! the value found and the value expected.
 //!
+//! Beside them stands [`StoredResponse`], which is not for people: what a model has prepared of an organ,
+//! kept because it takes minutes.
+//!
 //! The documents hold plain numbers. They know nothing of meshes, mechanics or devices, so that
 //! each verb (measure, characterize, simulate) can be used without the others.
 
@@ -14,6 +17,7 @@ mod error;
 mod estimate;
 pub mod motion;
 pub mod recording;
+mod response;
 pub mod scene;
 pub mod session;
 mod table;
@@ -28,6 +32,7 @@ pub use error::{Error, Place};
 pub use estimate::Estimate;
 pub use motion::{Motion, Pose};
 pub use recording::Recording;
+pub use response::StoredResponse;
 pub use scene::Scene;
 pub use session::{Event, Events, Session, SessionHeader, SessionRow, SessionWriter};
 pub use tissue::{BuiltinTissue, Elasticity, PronyTerm, Tissue};

@@ -12,9 +12,17 @@ use crate::error::Place;
 /// # Errors
 /// When the operating system refuses; `path` is then as it was.
 pub fn write_whole(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), Error> {
+    write_whole_by(path, |file| file.write_all(bytes))
+}
+
+/// As [`write_whole`], of what `put` writes.
+pub(crate) fn write_whole_by(
+    path: impl AsRef<Path>,
+    put: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), Error> {
     let path = path.as_ref();
     let beside = beside(path).map_err(|source| Error::write(path, source))?;
-    write_and_rename(&beside, path, bytes).map_err(|source| {
+    write_and_rename(&beside, path, put).map_err(|source| {
         // The first failure is the one to report; a leftover is only untidy.
         let _ = fs::remove_file(&beside);
         Error::write(path, source)
@@ -47,14 +55,18 @@ fn beside(path: &Path) -> io::Result<PathBuf> {
     Ok(path.with_file_name(partial))
 }
 
-fn write_and_rename(beside: &Path, path: &Path, bytes: &[u8]) -> io::Result<()> {
+fn write_and_rename(
+    beside: &Path,
+    path: &Path,
+    put: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
     refuse_folder(path)?;
     let mut file: File = OpenOptions::new()
         .write(true)
         .create(true)
         .truncate(true)
         .open(beside)?;
-    file.write_all(bytes)?;
+    put(&mut file)?;
     // Without this the new name could reach the disk before the bytes do.
     file.sync_all()?;
     fs::rename(beside, path)

@@ -28,7 +28,7 @@ mod tool;
 
 pub use contact::Contact;
 pub use error::Error;
-pub use organ::{builtin_organ, read_organ};
+pub use organ::{builtin_organ, held_region, read_organ};
 pub use play::{Flow, Frame, play};
 pub use simulation::Simulation;
 pub use state::{SimulationState, SimulationWorkspace, ToolState};

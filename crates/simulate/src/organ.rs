@@ -1,5 +1,7 @@
-use palpate_files::scene::{BuiltinOrgan, LengthUnit as FileUnit, Shape};
-use palpate_geometry::{LengthUnit, Organ, ProblemKind, Surface, inspect, read_mesh, repair};
+use palpate_files::scene::{BuiltinOrgan, LengthUnit as FileUnit, Region, RegionPlane, Shape};
+use palpate_geometry::{
+    AnchorPlane, LengthUnit, Organ, ProblemKind, Surface, inspect, read_mesh, repair,
+};
 
 use crate::Error;
 
@@ -44,6 +46,25 @@ pub fn read_organ(shape: &Shape) -> Result<(Surface, Vec<String>), Error> {
             }
             Ok((surface, doubts))
         }
+    }
+}
+
+/// Where an organ of `shape` is held: as `stated`, or else where a built-in one grows.
+pub fn held_region(shape: &Shape, stated: Option<&Region>) -> Region {
+    match (stated, shape) {
+        (Some(stated), _) => stated.clone(),
+        (None, Shape::Builtin { organ, .. }) => Region {
+            planes: builtin_organ(*organ).anchor().iter().map(plane).collect(),
+            ..Region::default()
+        },
+        (None, Shape::Mesh { .. }) => Region::default(),
+    }
+}
+
+fn plane(plane: &AnchorPlane) -> RegionPlane {
+    RegionPlane {
+        point_m: plane.point.into(),
+        normal: plane.normal.into(),
     }
 }
 

@@ -1,10 +1,10 @@
 //! What stands in a scene: an organ and its tissue, what surrounds it, the model that moves it and
 //! the tools that touch it.
 
-mod anchor;
 mod model;
 mod model_words;
 mod organ;
+mod region;
 mod shape;
 mod tissue_choice;
 mod tool;
@@ -12,13 +12,13 @@ mod view;
 
 use std::path::{Path, PathBuf};
 
-pub use anchor::{Anchor, AnchorBox, AnchorPlane, AnchorSphere};
 pub use model::{Enhancement, LocalSettings, Model};
 pub use model_words::{
     Assembly, EnhancementArea, Form, HandOver, IntegrationPoints, ModelKind, Placement, Smoothing,
     Solver,
 };
 pub use organ::{Layer, Neighbour, Organ};
+pub use region::{Region, RegionBox, RegionPlane, RegionSphere};
 pub use shape::{BuiltinOrgan, LengthUnit, Shape};
 pub use tissue_choice::TissueChoice;
 pub use tool::{DeviceKind, Tip, TipContact, TipShape, Tool, ToolKind};
@@ -98,6 +98,6 @@ impl Scene {
     fn lacks_anchor(&self) -> bool {
         self.model.kind == ModelKind::Hybrid
             && matches!(self.organ.shape, Shape::Mesh { .. })
-            && self.organ.anchor.as_ref().is_none_or(Anchor::is_empty)
+            && self.organ.anchor.as_ref().is_none_or(Region::is_empty)
     }
 }

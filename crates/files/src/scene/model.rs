@@ -16,6 +16,9 @@ pub struct Model {
     pub local: LocalSettings,
     /// Settings of the hybrid model's refinement.
     pub enhancement: Enhancement,
+    /// How many triangles carry the hybrid model's mechanics at most; the shown surface keeps its own. The
+    /// default is chosen by the model.
+    pub mechanical_triangles: Option<usize>,
     /// What is handed over to the servo loop.
     pub hand_over: HandOver,
     /// Factor on every force that a device displays [-]; the factor itself is shown and recorded, forces are
@@ -82,6 +85,7 @@ impl Default for Model {
             step_s: 0.005,
             local: LocalSettings::default(),
             enhancement: Enhancement::default(),
+            mechanical_triangles: None,
             hand_over: HandOver::LocalModel,
             force_scale: 1.0,
         }
@@ -99,6 +103,7 @@ impl Model {
         "assembly",
         "integration_points",
         "enhancement",
+        "mechanical_triangles",
         "hand_over",
         "force_scale",
     ];
@@ -108,12 +113,15 @@ impl Model {
         let Some(keys) = keys else {
             return Ok(default);
         };
+        // A few dozen triangles are no organ; with ten thousand the matrices take gigabytes.
+        let triangles = keys.integer("mechanical_triangles", 48..=20_000)?;
         let positive = |key, or: f64| Ok(keys.number(key, Domain::POSITIVE)?.unwrap_or(or));
         Ok(Self {
             kind: keys.word("kind", ModelKind::WORDS)?.unwrap_or(default.kind),
             step_s: positive("step_s", default.step_s)?,
             local: LocalSettings::from_keys(keys)?,
             enhancement: Enhancement::from_keys(keys)?,
+            mechanical_triangles: triangles.map(|number| number as usize),
             hand_over: keys
                 .word("hand_over", HandOver::WORDS)?
                 .unwrap_or(default.hand_over),

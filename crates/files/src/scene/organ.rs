@@ -1,6 +1,6 @@
 use std::path::Path;
 
-use super::{Anchor, Shape, TissueChoice};
+use super::{Region, Shape, TissueChoice};
 use crate::{Domain, Error, Keys};
 
 /// The organ that is touched.
@@ -11,7 +11,10 @@ pub struct Organ {
     /// What it is made of.
     pub tissue: TissueChoice,
     /// Where it is held; none when the scene does not say.
-    pub anchor: Option<Anchor>,
+    pub anchor: Option<Region>,
+    /// Where tools may touch it; everywhere when the scene does not say. The hybrid model prepares no more
+    /// than this.
+    pub touchable: Option<Region>,
     /// Its layers from outside to inside; empty for an organ of one tissue.
     pub layers: Vec<Layer>,
 }
@@ -47,16 +50,21 @@ impl Organ {
         "tissue",
         "builtin_tissue",
         "anchor",
+        "touchable",
         "layer",
     ];
 
     pub(super) fn from_keys(keys: &Keys<'_>, folder: &Path) -> Result<Self, Error> {
-        let anchor = keys.table("anchor", Anchor::KEYS)?;
+        let region = |key| -> Result<Option<Region>, Error> {
+            let table = keys.table(key, Region::KEYS)?;
+            table.map(|keys| Region::from_keys(&keys)).transpose()
+        };
         let layers = keys.tables("layer", Layer::KEYS)?;
         Ok(Self {
             shape: Shape::from_keys(keys, folder)?,
             tissue: TissueChoice::from_keys(keys, folder)?,
-            anchor: anchor.map(|keys| Anchor::from_keys(&keys)).transpose()?,
+            anchor: region("anchor")?,
+            touchable: region("touchable")?,
             layers: layers
                 .iter()
                 .enumerate()

@@ -7,6 +7,7 @@ mod errors;
 mod foreign;
 mod fuzz;
 mod motion;
+mod response;
 mod round_trip;
 mod scene;
 mod session;

@@ -129,7 +129,20 @@ fn an_anchor_holds_what_lies_in_its_regions() {
     assert!(anchor.holds([-0.5, 0.5, 0.5]), "in the box");
     assert!(anchor.holds([0.1, 0.0, 0.004]), "in the sphere");
     assert!(!anchor.holds([0.1, 0.0, 0.006]));
-    assert!(!Anchor::default().holds([0.0; 3]) && Anchor::default().is_empty());
+    assert!(!Region::default().holds([0.0; 3]) && Region::default().is_empty());
+}
+
+#[test]
+fn the_hybrid_model_has_its_own_settings() {
+    let text = SCENE.replace(
+        "[organ.anchor]",
+        "touchable = { planes = [{ point_m = [0, 0, 0], normal = [0, 0, -1] }] }\n[organ.anchor]",
+    );
+    let text = text.replace("[model]", "[model]\nmechanical_triangles = 2000");
+    let scene = parse(&text);
+    assert_eq!(scene.model.mechanical_triangles, Some(2000));
+    let touchable = scene.organ.touchable.unwrap();
+    assert!(touchable.holds([0.0, 0.0, 0.1]) && !touchable.holds([0.0, 0.0, -0.1]));
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use nalgebra::Rotation3;
-use palpate_files::scene::{Anchor, AnchorPlane};
+use palpate_files::scene::{Region, RegionPlane};
 use palpate_geometry::{Organ, Surface, TetrahedronMesh, read_mesh, read_tetrahedra};
 use palpate_mechanics::finite_elements::hemisphere::{HemisphereProblem, Patch};
 use palpate_mechanics::finite_elements::indentation::{
@@ -26,13 +26,13 @@ pub(crate) const HALF: f64 = 0.05;
 /// Young's modulus [Pa].
 pub(crate) const MODULUS: f64 = 1e4;
 
-fn plane(point: Vec3, normal: Vec3) -> Anchor {
-    Anchor {
-        planes: vec![AnchorPlane {
+fn plane(point: Vec3, normal: Vec3) -> Region {
+    Region {
+        planes: vec![RegionPlane {
             point_m: point.into(),
             normal: normal.into(),
         }],
-        ..Anchor::default()
+        ..Region::default()
     }
 }
 
@@ -406,7 +406,7 @@ fn what_cannot_be_solved_is_refused() {
     };
     let refused: [(Error, &[&str]); 8] = [
         (
-            changed(&|p| p.anchor = Anchor::default()),
+            changed(&|p| p.anchor = Region::default()),
             &["holds no triangle", "plane, box or sphere"],
         ),
         (

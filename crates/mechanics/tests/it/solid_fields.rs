@@ -1,7 +1,7 @@
 //! What a solid answers besides its force, and what holds it.
 
 use nalgebra::Matrix3;
-use palpate_files::scene::{Anchor, AnchorBox, AnchorSphere};
+use palpate_files::scene::{Region, RegionBox, RegionSphere};
 use palpate_mechanics::Vec3;
 use palpate_mechanics::finite_elements::indentation::Grip;
 
@@ -12,20 +12,20 @@ use crate::solid::{HALF, MODULUS, at, cube};
 fn boxes_and_balls_hold_as_planes_do() {
     let mut problem = cube(0.02, 0.3, Grip::Stick);
     let expected = at(&problem, 0);
-    let bottom = Anchor {
-        boxes: vec![AnchorBox {
+    let bottom = Region {
+        boxes: vec![RegionBox {
             min_m: [-1.1 * HALF; 3],
             max_m: [1.1 * HALF, 1.1 * HALF, -0.999 * HALF],
         }],
-        ..Anchor::default()
+        ..Region::default()
     };
     // So large that it is 0.2 mm lower at the corners than in the middle.
-    let ball = Anchor {
-        spheres: vec![AnchorSphere {
+    let ball = Region {
+        spheres: vec![RegionSphere {
             center_m: [0.0, 0.0, -10.0 - 0.99 * HALF],
             radius_m: 10.0,
         }],
-        ..Anchor::default()
+        ..Region::default()
     };
     for anchor in [bottom, ball] {
         problem.anchor = anchor;

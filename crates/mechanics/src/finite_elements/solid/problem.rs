@@ -1,6 +1,6 @@
 use std::sync::Arc;
 
-use palpate_files::scene::Anchor;
+use palpate_files::scene::Region;
 use palpate_geometry::{Surface, TetrahedronMesh};
 
 use super::super::indentation::Grip;
@@ -36,7 +36,7 @@ pub struct SolidProblem {
     /// The body.
     pub body: Body,
     /// Where it is held: in the triangles of its boundary whose centroid lies in one of the regions.
-    pub anchor: Anchor,
+    pub anchor: Region,
     /// Where it is moved.
     pub patch: MovedPatch,
     /// Its law; with [`crate::Strain::Small`] all is linear.

@@ -17,7 +17,7 @@ use palpate_mechanics::Material;
 
 pub(super) use hemisphere::Hemisphere;
 pub(super) use indentation::{Indentation, Loading, Ramp};
-pub(super) use solid::{Held, Solid};
+pub(super) use solid::Solid;
 pub(super) use tube::{Tube, TubeIndent};
 pub(super) use uniaxial::Uniaxial;
 

@@ -1,6 +1,6 @@
 use std::path::Path;
 
-use palpate_files::scene::{Anchor, Shape};
+use palpate_files::scene::{Region, Shape};
 use palpate_files::{Domain, Error, Keys};
 use palpate_mechanics::Vec3;
 use palpate_mechanics::contact::Bond;
@@ -11,7 +11,8 @@ use super::required_table;
 #[derive(Debug, Clone)]
 pub(in super::super) struct Solid {
     pub(in super::super) shape: Shape,
-    pub(in super::super) held: Held,
+    /// Where it is held; none: where a built-in organ grows.
+    pub(in super::super) anchor: Option<Region>,
     /// Points of the surface within the radius [m] of the centre [m] move.
     pub(in super::super) center: Vec3,
     /// [m]
@@ -19,15 +20,6 @@ pub(in super::super) struct Solid {
     /// [m]
     pub(in super::super) displacement: Vec3,
     pub(in super::super) contact: Bond,
-}
-
-/// Where it is held.
-#[derive(Debug, Clone)]
-pub(in super::super) enum Held {
-    /// As the problem says.
-    Anchor(Anchor),
-    /// Where a built-in organ grows.
-    AsBuiltIn,
 }
 
 const CONTACTS: &[(&str, Bond)] = &[
@@ -51,7 +43,7 @@ impl Solid {
 
     pub(super) fn from_keys(keys: &Keys<'_>, folder: &Path) -> Result<Self, Error> {
         let shape = Shape::from_keys(keys, folder)?;
-        let held = held(keys, &shape)?;
+        let anchor = anchor(keys, &shape)?;
         let patch = required_table(
             keys,
             "patch",
@@ -60,7 +52,7 @@ impl Solid {
         )?;
         Ok(Self {
             shape,
-            held,
+            anchor,
             center: patch.required_vector("center_m")?.into(),
             radius: patch.required_number("radius_m", Domain::POSITIVE)?,
             displacement: patch.required_vector("displacement_m")?.into(),
@@ -69,13 +61,13 @@ impl Solid {
     }
 }
 
-fn held(keys: &Keys<'_>, shape: &Shape) -> Result<Held, Error> {
-    let anchor = keys.table("anchor", Anchor::KEYS)?;
+fn anchor(keys: &Keys<'_>, shape: &Shape) -> Result<Option<Region>, Error> {
+    let anchor = keys.table("anchor", Region::KEYS)?;
     let expected = format!("regions that are held, such as `{EXAMPLE}`");
-    match anchor.map(|keys| Anchor::from_keys(&keys)).transpose()? {
-        Some(anchor) if !anchor.is_empty() => Ok(Held::Anchor(anchor)),
+    match anchor.map(|keys| Region::from_keys(&keys)).transpose()? {
+        Some(anchor) if !anchor.is_empty() => Ok(Some(anchor)),
         Some(_) => Err(keys.bad("anchor", expected)),
-        None if matches!(shape, Shape::Builtin { .. }) => Ok(Held::AsBuiltIn),
+        None if matches!(shape, Shape::Builtin { .. }) => Ok(None),
         None => Err(keys.missing("anchor", expected)),
     }
 }

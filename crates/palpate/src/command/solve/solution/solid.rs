@@ -1,7 +1,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use palpate_files::scene::{Anchor, AnchorPlane, LengthUnit, Shape};
+use palpate_files::scene::{LengthUnit, Shape};
 use palpate_geometry::read_tetrahedra;
 use palpate_geometry::vtk::{CellKind, Cells, FieldValues, PointField, unstructured_grid};
 use palpate_mechanics::contact::Bond;
@@ -9,9 +9,9 @@ use palpate_mechanics::finite_elements::indentation::Grip;
 use palpate_mechanics::finite_elements::solid::{
     Body, MovedPatch, SolidFields, SolidProblem, solve,
 };
-use palpate_simulate::{builtin_organ, read_organ};
+use palpate_simulate::{held_region, read_organ};
 
-use super::super::problem::{Held, Problem, Solid};
+use super::super::problem::{Problem, Solid};
 use super::super::table::Table;
 use super::super::waiting::Waiting;
 use super::{Figures, Solution, Wanted, doubts, plots};
@@ -34,7 +34,7 @@ pub(super) fn solution(
     let (body, mut warnings) = body(&case.shape)?;
     let mechanical = SolidProblem {
         body,
-        anchor: anchor(case),
+        anchor: held_region(&case.shape, case.anchor.as_ref()),
         patch: MovedPatch {
             center: case.center,
             radius: case.radius,
@@ -97,24 +97,6 @@ fn holds_tetrahedra(path: &Path) -> bool {
 
 fn in_words(unit: LengthUnit) -> Result<palpate_geometry::LengthUnit, Failure> {
     Ok(unit.word().parse()?)
-}
-
-fn anchor(case: &Solid) -> Anchor {
-    match (&case.held, &case.shape) {
-        (Held::AsBuiltIn, Shape::Builtin { organ, .. }) => Anchor {
-            planes: builtin_organ(*organ).anchor().iter().map(plane).collect(),
-            ..Anchor::default()
-        },
-        (Held::AsBuiltIn, Shape::Mesh { .. }) => Anchor::default(),
-        (Held::Anchor(anchor), _) => anchor.clone(),
-    }
-}
-
-fn plane(plane: &palpate_geometry::AnchorPlane) -> AnchorPlane {
-    AnchorPlane {
-        point_m: plane.point.into(),
-        normal: plane.normal.into(),
-    }
 }
 
 fn heading(case: &Solid) -> String {

@@ -1,19 +1,20 @@
 use crate::{Domain, Error, Keys};
 
-/// The regions in which an organ is held: a triangle is held when its centroid lies in one.
+/// A part of space: planes, boxes and spheres together. A triangle of an organ belongs to it when its
+/// centroid lies in one of them.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Anchor {
+pub struct Region {
     /// Half-spaces.
-    pub planes: Vec<AnchorPlane>,
+    pub planes: Vec<RegionPlane>,
     /// Boxes along the axes.
-    pub boxes: Vec<AnchorBox>,
+    pub boxes: Vec<RegionBox>,
     /// Balls.
-    pub spheres: Vec<AnchorSphere>,
+    pub spheres: Vec<RegionSphere>,
 }
 
 /// The half-space that a normal points away from.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct AnchorPlane {
+pub struct RegionPlane {
     /// A point of its border [m].
     pub point_m: [f64; 3],
     /// The direction away from it, of any length but zero [-].
@@ -22,7 +23,7 @@ pub struct AnchorPlane {
 
 /// A box along the axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct AnchorBox {
+pub struct RegionBox {
     /// The corner with the smallest coordinates [m].
     pub min_m: [f64; 3],
     /// The corner with the largest coordinates [m].
@@ -31,33 +32,33 @@ pub struct AnchorBox {
 
 /// A ball.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct AnchorSphere {
+pub struct RegionSphere {
     /// Its centre [m].
     pub center_m: [f64; 3],
     /// Its radius [m].
     pub radius_m: f64,
 }
 
-impl Anchor {
-    /// The keys of an anchor's table.
+impl Region {
+    /// The keys of a region's table.
     pub const KEYS: &'static [&'static str] = &["planes", "boxes", "spheres"];
 
-    /// Whether there is no region, so that nothing is held.
+    /// Whether it is empty.
     pub fn is_empty(&self) -> bool {
         self.planes.is_empty() && self.boxes.is_empty() && self.spheres.is_empty()
     }
 
-    /// Whether a point [m] lies in one of the regions or on its border.
+    /// Whether a point [m] lies in it or on its border.
     pub fn holds(&self, point: [f64; 3]) -> bool {
         self.planes.iter().any(|plane| plane.holds(point))
             || self.boxes.iter().any(|region| region.holds(point))
             || self.spheres.iter().any(|sphere| sphere.holds(point))
     }
 
-    /// An anchor from its table, which was opened with [`Anchor::KEYS`].
+    /// A region from its table, which was opened with [`Region::KEYS`].
     ///
     /// # Errors
-    /// When the table does not describe an anchor.
+    /// When the table does not describe a region.
     pub fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
         let planes = keys.tables("planes", &["point_m", "normal"])?;
         let boxes = keys.tables("boxes", &["min_m", "max_m"])?;
@@ -65,21 +66,21 @@ impl Anchor {
         Ok(Self {
             planes: planes
                 .iter()
-                .map(AnchorPlane::from_keys)
+                .map(RegionPlane::from_keys)
                 .collect::<Result<_, _>>()?,
             boxes: boxes
                 .iter()
-                .map(AnchorBox::from_keys)
+                .map(RegionBox::from_keys)
                 .collect::<Result<_, _>>()?,
             spheres: spheres
                 .iter()
-                .map(AnchorSphere::from_keys)
+                .map(RegionSphere::from_keys)
                 .collect::<Result<_, _>>()?,
         })
     }
 }
 
-impl AnchorPlane {
+impl RegionPlane {
     fn holds(&self, point: [f64; 3]) -> bool {
         (0..3)
             .map(|axis| (point[axis] - self.point_m[axis]) * self.normal[axis])
@@ -98,7 +99,7 @@ impl AnchorPlane {
     }
 }
 
-impl AnchorBox {
+impl RegionBox {
     fn holds(&self, point: [f64; 3]) -> bool {
         (0..3).all(|axis| (self.min_m[axis]..=self.max_m[axis]).contains(&point[axis]))
     }
@@ -124,7 +125,7 @@ impl AnchorBox {
     }
 }
 
-impl AnchorSphere {
+impl RegionSphere {
     fn holds(&self, point: [f64; 3]) -> bool {
         let squares = (0..3).map(|axis| (point[axis] - self.center_m[axis]).powi(2));
         squares.sum::<f64>() <= self.radius_m.powi(2)

@@ -1,0 +1,104 @@
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Read};
+use std::path::Path;
+
+use super::checked::Checked;
+use super::{DIGEST, FIRST_LINE, LONGEST_HEADER, StoredResponse};
+use crate::Error;
+
+/// The lines before the numbers.
+struct Header {
+    text: String,
+    key: String,
+    made_by: String,
+    rows: usize,
+    columns: usize,
+}
+
+impl StoredResponse {
+    /// Reads a file and compares its checksum.
+    ///
+    /// # Errors
+    /// When it cannot be read, is not whole, or its checksum is another.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
+        let path = path.as_ref();
+        let fault = |source| Error::read(path, source);
+        let damaged = |what: &str| Error::DamagedResponse {
+            path: path.to_owned(),
+            what: what.to_owned(),
+        };
+        let file = File::open(path).map_err(fault)?;
+        let length = file.metadata().map_err(fault)?.len();
+        let mut file = BufReader::with_capacity(1 << 20, file);
+        let header = header(&mut file).ok_or_else(|| damaged("its header cannot be read"))?;
+        if header.length() != Some(length) {
+            return Err(damaged("it is shorter or longer than its header says"));
+        }
+        let (found, digest) = header.body(file).map_err(fault)?;
+        match digest {
+            true => Ok(found),
+            false => Err(damaged("its checksum is another")),
+        }
+    }
+}
+
+impl Header {
+    /// Bytes of the whole file; none when there is no such number.
+    fn length(&self) -> Option<u64> {
+        let values = self.rows.checked_mul(self.columns)?;
+        let numbers = values.checked_add(self.columns / 3)?;
+        let bytes = numbers.checked_mul(4)?;
+        u64::try_from(bytes.checked_add(self.text.len() + DIGEST)?).ok()
+    }
+
+    /// What follows the header, and whether the checksum is its own.
+    fn body(self, file: impl Read) -> io::Result<(StoredResponse, bool)> {
+        let mut checked = Checked::new(io::Cursor::new(self.text.as_bytes()).chain(file));
+        checked.bytes(&mut vec![0; self.text.len()])?;
+        let touchable = checked.numbers(self.columns / 3, u32::from_le_bytes)?;
+        let values = checked.numbers(self.rows * self.columns, f32::from_le_bytes)?;
+        let (digest, mut file) = checked.finish();
+        let mut stated = [0; DIGEST];
+        file.read_exact(&mut stated)?;
+        let response = StoredResponse {
+            key: self.key,
+            made_by: self.made_by,
+            rows: self.rows,
+            touchable,
+            values,
+        };
+        Ok((response, digest == stated))
+    }
+}
+
+fn header(file: &mut impl BufRead) -> Option<Header> {
+    let mut text = String::new();
+    let mut values = Vec::new();
+    let keys = ["key = ", "rows = ", "columns = ", "made_by = "];
+    let mut line = |text: &mut String| -> Option<String> {
+        let start = text.len();
+        let mut bytes = Vec::new();
+        let room = LONGEST_HEADER.checked_sub(start)? as u64;
+        file.by_ref()
+            .take(room)
+            .read_until(b'\n', &mut bytes)
+            .ok()?;
+        text.push_str(std::str::from_utf8(&bytes).ok()?);
+        Some(text[start..].strip_suffix('\n')?.to_owned())
+    };
+    (line(&mut text)? == FIRST_LINE).then_some(())?;
+    for key in keys {
+        values.push(line(&mut text)?.strip_prefix(key)?.to_owned());
+    }
+    line(&mut text)?.is_empty().then_some(())?;
+    let [key, rows, columns, made_by] = values.try_into().ok()?;
+    let columns: usize = columns.parse().ok()?;
+    columns.is_multiple_of(3).then_some(())?;
+    Some(Header {
+        rows: rows.parse().ok()?,
+        columns,
+        key,
+        made_by,
+        text,
+    })
+}
