@@ -336,4 +336,37 @@ pub enum Error {
     /// Nothing keeps the tube from moving aside.
     #[error("the tube's ends are guided, so that a punch pushes it away; hold them")]
     GuidedEnds,
+    /// More memory than may be used.
+    #[error(
+        "the response takes {:.1} GB of memory and {:.1} GB may be used; give fewer triangles, or fewer that can be touched", *needed as f64 * 1e-9, *memory as f64 * 1e-9
+    )]
+    NotEnoughMemory {
+        /// What it takes [bytes].
+        needed: usize,
+        /// What may be used [bytes].
+        memory: usize,
+    },
+    /// Triangles are to be touched that cannot move.
+    #[error(
+        "{triangles} of the triangles that can be touched are held by the anchor; touch others, or make the anchor smaller"
+    )]
+    TouchableIsHeld {
+        /// How many.
+        triangles: usize,
+    },
+    /// A triangle so thin that its normal is rounding.
+    #[error("triangle {triangle} is too thin to have a normal; repair the mesh")]
+    SliverTriangle {
+        /// Its number, from 0.
+        triangle: usize,
+    },
+    /// Whoever asked wants no answer any more.
+    #[error("the solution was broken off; ask again for an answer")]
+    BrokenOff,
+    /// Numbers that are no response of a solid.
+    #[error("the response of the surface is none, for {fault}; make it again from the mesh")]
+    UnsoundResponse {
+        /// Why.
+        fault: &'static str,
+    },
 }

@@ -1,8 +1,8 @@
 //! Soft-tissue laws and the methods that solve them.
 //!
-//! The crate does no input and output, starts no thread and does not know what a tool, a device or a
-//! frame rate is. A method is three types: a model, built once and immutable; where needed a state,
-//! all that must be kept to go on; and a workspace, scratch whose loss changes no result.
+//! The crate does no input and output, starts no thread that outlives a call and does not know what a
+//! tool, a device or a frame rate is. A method is three types: a model, built once and immutable; where
+//! needed a state, all that must be kept to go on; and a workspace, scratch whose loss changes no result.
 
 pub mod boundary_elements;
 pub mod contact;
@@ -12,6 +12,7 @@ pub mod finite_spheres;
 mod indentation_curve;
 mod linear;
 mod material;
+pub mod surface_response;
 mod tip_law;
 
 pub use error::Error;

@@ -1,11 +1,11 @@
-use std::num::NonZero;
-use std::thread;
+use faer::{Mat, MatRef};
+use nalgebra::Matrix3;
 
-use faer::Mat;
-
+use super::cores::on_all_cores;
 use super::integrals::{Place, integrate};
 use super::kelvin::Kelvin;
 use super::panel::Panel;
+use super::precision::Precision;
 
 /// All influences of panels on panels: 3 n × 3 n, row 3 i + a for component a at the centroid of panel i.
 pub struct InfluenceMatrices {
@@ -26,52 +26,46 @@ pub struct Influences<'a> {
 impl Influences<'_> {
     /// Both matrices, by all cores.
     pub fn matrices(&self) -> InfluenceMatrices {
-        let count = self.panels.len();
-        let mut displacement = Mat::zeros(3 * count, 3 * count);
-        let mut traction = Mat::zeros(3 * count, 3 * count);
-        let cores = thread::available_parallelism().map_or(1, NonZero::get);
-        // Columns are contiguous: each core fills those of its own panels.
-        let share = count.div_ceil(cores).max(1);
-        thread::scope(|scope| {
-            let mut left = (displacement.as_mut(), traction.as_mut());
-            let mut first = 0;
-            while first < count {
-                let many = share.min(count - first);
-                let (u, u_left) = left.0.split_at_col_mut(3 * many);
-                let (t, t_left) = left.1.split_at_col_mut(3 * many);
-                left = (u_left, t_left);
-                scope.spawn(move || self.fill(first..first + many, u, t));
-                first += many;
+        let size = 3 * self.panels.len();
+        let mut displacement = vec![0.0; size * size];
+        let mut traction = vec![0.0; size * size];
+        let columns = displacement.chunks_exact_mut(3 * size);
+        let columns = columns.zip(traction.chunks_exact_mut(3 * size)).enumerate();
+        on_all_cores(columns, |(source, (u, t))| {
+            for target in 0..self.panels.len() {
+                let (displacement, traction) = self.between(source, target);
+                put(u, target, &displacement);
+                put(t, target, &traction);
             }
         });
+        let [displacement, traction] = [displacement, traction]
+            .map(|columns| MatRef::from_column_major_slice(&columns, size, size).to_owned());
         InfluenceMatrices {
             displacement,
             traction,
         }
     }
 
-    fn fill(
-        &self,
-        sources: std::ops::Range<usize>,
-        mut displacement: faer::MatMut<'_, f64>,
-        mut traction: faer::MatMut<'_, f64>,
-    ) {
-        for (column, source) in sources.enumerate() {
-            for (row, target) in self.panels.iter().enumerate() {
-                let place = if row == source {
-                    Place::OnPanel
-                } else {
-                    Place::Elsewhere
-                };
-                let found = integrate(&self.kelvin, &self.panels[source], &target.centroid, place);
-                for a in 0..3 {
-                    for b in 0..3 {
-                        displacement[(3 * row + a, 3 * column + b)] = found.displacement[(a, b)];
-                        let free = if row == source && a == b { 0.5 } else { 0.0 };
-                        traction[(3 * row + a, 3 * column + b)] = found.traction[(a, b)] + free;
-                    }
-                }
-            }
+    /// Blocks of U [m³/N] and ½ 1 + T [-]: what the panel `source` does at the centroid of `target`.
+    pub(super) fn between(&self, source: usize, target: usize) -> (Matrix3<f64>, Matrix3<f64>) {
+        let (place, free) = if source == target {
+            (Place::OnPanel, 0.5)
+        } else {
+            (Place::Elsewhere, 0.0)
+        };
+        let x = &self.panels[target].centroid;
+        let found = integrate(&self.kelvin, &self.panels[source], x, place);
+        let traction = found.traction + Matrix3::identity() * free;
+        (found.displacement, traction)
+    }
+}
+
+/// Writes the rows of the panel `target` into the three columns of a source.
+pub(super) fn put<T: Precision>(columns: &mut [T], target: usize, block: &Matrix3<f64>) {
+    let size = columns.len() / 3;
+    for (column, values) in columns.chunks_exact_mut(size).zip(block.column_iter()) {
+        for (place, &value) in column[3 * target..].iter_mut().zip(values.iter()) {
+            *place = T::of(value);
         }
     }
 }

@@ -8,19 +8,36 @@
 //! ```
 //!
 //! with Kelvin's displacement u* and traction p* ([`Kelvin`]), which the source misprints
-//! (`docs/errata.md`). All integrals are closed forms.
+//! (`docs/errata.md`). All integrals are closed forms. With the unknowns, displacements of free triangles
+//! and tractions of held ones, in x and a unit force on each triangle that can be touched in turn,
+//!
+//! ```text
+//! A₀ x = U f/A,   A₀ = [½ 1 + T of free triangles, −U of held ones]
+//! ```
+//!
+//! is factored once ([`BoundaryProblem`]) and gives a [`SurfaceResponse`](crate::surface_response), on
+//! which contacts are computed. A₀ is kept in single precision (its condition is some tens) and is
+//! overwritten by its factors; U is computed as it is needed; no inverse is formed.
 //!
 //! *How we know*: `boundary_elements::…`: quadrature of the kernels, rigid motions, Kelvin's and Lamé's
-//! solutions, the linear patch test with its order.
+//! solutions, the linear patch test with its order; `boundary_response::…`: new solutions with the contact
+//! held, double precision.
 //!
-//! *Limits*: constant elements err with the first power of their size; one solid, linear and homogeneous.
+//! *Limits*: constant elements err with the first power of their size; one solid, linear and homogeneous;
+//! walls thinner than a triangle is wide.
 
 mod assembly;
+mod cores;
+mod factors;
 mod integrals;
 mod kelvin;
 mod panel;
+mod precision;
+mod problem;
 
 pub use assembly::{InfluenceMatrices, Influences};
 pub use integrals::{PanelIntegrals, Place, integrate};
 pub use kelvin::Kelvin;
 pub use panel::Panel;
+pub use precision::Precision;
+pub use problem::{BoundaryProblem, Progress, ResponseMemory, Stage};

@@ -10,6 +10,7 @@ mod agreement;
 mod analytic;
 mod bodies;
 mod boundary_elements;
+mod boundary_response;
 mod contacts;
 mod convergence;
 mod errors;

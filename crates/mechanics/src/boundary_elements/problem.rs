@@ -1,0 +1,301 @@
+use std::ops::ControlFlow;
+
+use palpate_geometry::{NodeId, Surface, TriangleId};
+
+use super::assembly::{Influences, put};
+use super::cores::{cores, on_all_cores};
+use super::factors::Factors;
+use super::kelvin::Kelvin;
+use super::panel::Panel;
+use super::precision::Precision;
+use crate::surface_response::{ResponseParts, SurfaceResponse, TouchableTriangle};
+use crate::{Error, LinearElastic};
+
+/// A linear solid that is held in some triangles of its surface and can be touched in others.
+#[derive(Debug, Clone, Copy)]
+pub struct BoundaryProblem<'a> {
+    /// Its surface.
+    pub surface: &'a Surface,
+    /// Poisson's ratio [-].
+    pub poissons_ratio: f64,
+    /// Triangles that cannot move.
+    pub held: &'a [TriangleId],
+    /// Triangles that a contact may load, ascending; none of them held.
+    pub touchable: &'a [TriangleId],
+}
+
+/// What a solution takes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ResponseMemory {
+    /// What stays: the response itself [bytes].
+    pub response: usize,
+    /// The most that is held at a time, the response included [bytes].
+    pub most: usize,
+}
+
+/// Touchable triangles whose columns a core solves for at once.
+const AT_ONCE: usize = 64;
+
+/// What is being done.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stage {
+    /// The influences of triangles on triangles.
+    Assembly,
+    /// The factors of their matrix.
+    Factors,
+    /// What each touchable triangle does.
+    Columns,
+}
+
+/// How far a solution has come.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Progress {
+    /// What is being done.
+    pub stage: Stage,
+    /// Part of all the work that is done [-].
+    pub part: f64,
+}
+
+impl BoundaryProblem<'_> {
+    /// What a solution in `T` takes: with n triangles, t of them touchable, and v vertices, 9 t (t + v)
+    /// numbers for the response and 9 n² for the factors.
+    pub fn memory<T: Precision>(&self) -> ResponseMemory {
+        let (n, t) = (self.size(), 3 * self.touchable.len());
+        let vertices = 3 * self.surface.mesh().vertices().len();
+        let response = t * (t + vertices) * size_of::<T>();
+        let columns = 3 * AT_ONCE * cores() * n;
+        ResponseMemory {
+            response,
+            most: response + (n * n + columns) * size_of::<T>(),
+        }
+    }
+
+    /// Solves for a unit force on each touchable triangle in each direction. `memory` [bytes] is what may
+    /// be used. On all cores.
+    ///
+    /// # Errors
+    /// When the memory does not suffice, nothing is held or touchable, a touchable triangle is held, or
+    /// `progress` breaks off.
+    pub fn solve<T: Precision>(
+        &self,
+        memory: usize,
+        progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+    ) -> Result<SurfaceResponse<T>, Error> {
+        let law = LinearElastic::new(1.0, self.poissons_ratio)?;
+        let held = self.held_triangles()?;
+        let needed = self.memory::<T>().most;
+        if needed > memory {
+            return Err(Error::NotEnoughMemory { needed, memory });
+        }
+        let panels = self.panels()?;
+        let influences = Influences {
+            kelvin: Kelvin::new(&law),
+            panels: &panels,
+        };
+        let parts = self.parts(&influences, &held, progress);
+        match parts {
+            ControlFlow::Continue(parts) => SurfaceResponse::new(parts),
+            ControlFlow::Break(()) => Err(Error::BrokenOff),
+        }
+    }
+
+    fn size(&self) -> usize {
+        3 * self.surface.mesh().triangles().len()
+    }
+
+    fn panels(&self) -> Result<Vec<Panel>, Error> {
+        let mesh = self.surface.mesh();
+        mesh.triangle_ids()
+            .map(|triangle| {
+                let panel = Panel::new(mesh.positions(triangle));
+                panel.ok_or(Error::SliverTriangle {
+                    triangle: triangle.index(),
+                })
+            })
+            .collect()
+    }
+
+    /// Whether each triangle is held.
+    fn held_triangles(&self) -> Result<Vec<bool>, Error> {
+        if self.held.is_empty() {
+            return Err(Error::NothingHeld);
+        }
+        let mut held = vec![false; self.surface.mesh().triangles().len()];
+        for triangle in self.held {
+            held[triangle.index()] = true;
+        }
+        let both = self.touchable.iter().filter(|t| held[t.index()]).count();
+        if both > 0 {
+            return Err(Error::TouchableIsHeld { triangles: both });
+        }
+        Ok(held)
+    }
+
+    fn parts<T: Precision>(
+        &self,
+        influences: &Influences<'_>,
+        held: &[bool],
+        progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+    ) -> ControlFlow<(), ResponseParts<T>> {
+        let size = self.size() as f64;
+        // In multiplications; a pair of panels takes some four hundred.
+        let assembly = 400.0 / 9.0 * size.powi(2);
+        let factors = size.powi(3) / 3.0;
+        let columns = size.powi(2) * 3.0 * self.touchable.len() as f64;
+        let mut told = |stage, work: f64| {
+            let part = work / (assembly + factors + columns);
+            progress(Progress { stage, part })
+        };
+        let system = assemble(influences, held, &mut |part| {
+            told(Stage::Assembly, part * assembly)
+        })?;
+        let factored = Factors::new(self.size(), system, &mut |part| {
+            told(Stage::Factors, assembly + part * factors)
+        })?;
+        self.columns(influences, (&factored, held), &mut |part| {
+            told(Stage::Columns, assembly + factors + part * columns)
+        })
+    }
+
+    /// A₀⁻¹ U of the touchable triangles, over their areas.
+    fn columns<T: Precision>(
+        &self,
+        influences: &Influences<'_>,
+        (factors, held): (&Factors<T>, &[bool]),
+        progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) -> ControlFlow<(), ResponseParts<T>> {
+        let touchable = self.touchable.iter().map(|&triangle| {
+            let panel = &influences.panels[triangle.index()];
+            TouchableTriangle {
+                triangle,
+                centroid: panel.centroid,
+                normal: panel.normal,
+                area: panel.area,
+            }
+        });
+        let mut parts = ResponseParts::zeros(
+            self.poissons_ratio,
+            touchable.collect(),
+            self.surface.mesh().vertices().len(),
+        );
+        let weights = VertexWeights::new(self.surface, held);
+        let (t, v) = (3 * self.touchable.len(), 3 * parts.vertices);
+        let mut solved = 0;
+        while solved < self.touchable.len() {
+            let many = (AT_ONCE * cores()).min(self.touchable.len() - solved);
+            let loaded = self.touchable[solved..solved + many].chunks(AT_ONCE);
+            let at_triangles = parts.at_triangles[3 * t * solved..].chunks_mut(3 * t * AT_ONCE);
+            let at_vertices = parts.at_vertices[3 * v * solved..].chunks_mut(3 * v * AT_ONCE);
+            let work = loaded.zip(at_triangles).zip(at_vertices);
+            on_all_cores(work, |((loaded, at_triangles), at_vertices)| {
+                let columns = solve_columns(influences, factors, loaded);
+                let columns = columns.chunks_exact(self.size());
+                let kept = at_triangles
+                    .chunks_exact_mut(t)
+                    .zip(at_vertices.chunks_exact_mut(v));
+                for (column, (at_triangles, at_vertices)) in columns.zip(kept) {
+                    for (row, triangle) in self.touchable.iter().enumerate() {
+                        at_triangles[3 * row..3 * row + 3]
+                            .copy_from_slice(&column[3 * triangle.index()..][..3]);
+                    }
+                    weights.apply(column, at_vertices);
+                }
+            });
+            solved += many;
+            progress(solved as f64 / self.touchable.len() as f64)?;
+        }
+        ControlFlow::Continue(parts)
+    }
+}
+
+/// [½ 1 + T of free panels, −U of held ones]. The unknowns of held panels are tractions over E and the
+/// size of a panel, so that all are of like size.
+fn assemble<T: Precision>(
+    influences: &Influences<'_>,
+    held: &[bool],
+    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> ControlFlow<(), Vec<T>> {
+    let count = influences.panels.len();
+    let area: f64 = influences.panels.iter().map(|panel| panel.area).sum();
+    let scale = (count as f64 / area).sqrt();
+    let mut system = vec![T::of(0.0); 9 * count * count];
+    let share = count.div_ceil(50);
+    for (k, columns) in system.chunks_mut(9 * count * share).enumerate() {
+        let sources = columns.chunks_exact_mut(9 * count).enumerate();
+        on_all_cores(sources, |(source, columns)| {
+            let source = k * share + source;
+            for target in 0..count {
+                let (displacement, traction) = influences.between(source, target);
+                let block = if held[source] {
+                    displacement * -scale
+                } else {
+                    traction
+                };
+                put(columns, target, &block);
+            }
+        });
+        progress(((k + 1) * share).min(count) as f64 / count as f64)?;
+    }
+    ControlFlow::Continue(system)
+}
+
+/// Displacements, and scaled tractions where it is held, from unit forces on `loaded`.
+fn solve_columns<T: Precision>(
+    influences: &Influences<'_>,
+    factors: &Factors<T>,
+    loaded: &[TriangleId],
+) -> Vec<T> {
+    let size = 3 * influences.panels.len();
+    let mut columns = vec![T::of(0.0); 3 * size * loaded.len()];
+    for (columns, source) in columns.chunks_exact_mut(3 * size).zip(loaded) {
+        let area = influences.panels[source.index()].area;
+        for target in 0..influences.panels.len() {
+            let (displacement, _) = influences.between(source.index(), target);
+            put(columns, target, &(displacement / area));
+        }
+    }
+    factors.solve(&mut columns);
+    columns
+}
+
+/// The displacement of a vertex: the mean over its triangles, weighted by area; none where it is held.
+struct VertexWeights {
+    starts: Vec<usize>,
+    triangles: Vec<(usize, f64)>,
+}
+
+impl VertexWeights {
+    fn new(surface: &Surface, held: &[bool]) -> Self {
+        let (mesh, adjacency) = (surface.mesh(), surface.adjacency());
+        let mut weights = Self {
+            starts: vec![0],
+            triangles: Vec::new(),
+        };
+        for vertex in 0..mesh.vertices().len() as u32 {
+            let around = adjacency.around(NodeId(vertex));
+            if !around.iter().any(|triangle| held[triangle.index()]) {
+                let area = |&t: &TriangleId| mesh.area_vector(t).norm();
+                let all: f64 = around.iter().map(area).sum();
+                let shares = around.iter().map(|t| (t.index(), area(t) / all));
+                weights.triangles.extend(shares);
+            }
+            weights.starts.push(weights.triangles.len());
+        }
+        weights
+    }
+
+    fn apply<T: Precision>(&self, column: &[T], at_vertices: &mut [T]) {
+        for (ends, place) in self.starts.windows(2).zip(at_vertices.chunks_exact_mut(3)) {
+            let mut sum = [0.0; 3];
+            for &(triangle, weight) in &self.triangles[ends[0]..ends[1]] {
+                for (sum, &value) in sum.iter_mut().zip(&column[3 * triangle..]) {
+                    let value: f64 = value.into();
+                    *sum += weight * value;
+                }
+            }
+            for (place, sum) in place.iter_mut().zip(sum) {
+                *place = T::of(sum);
+            }
+        }
+    }
+}
