@@ -3,12 +3,12 @@
 //! ```text
 //! palpate response 1                  the words and the version of the layout
 //! key = <64 hexadecimal digits>       what it was made from; another organ has another key
-//! rows = 15438                        numbers per column
-//! columns = 1500                      three per touchable triangle
+//! touchable = 500                     triangles t that may be loaded
+//! triangles = 5146                    triangles n that are moved
 //! made_by = ...                       provenance, for people
 //!                                     an empty line
-//! <columns / 3 numbers of triangles, 4 bytes each>
-//! <rows × columns numbers [m], 4 bytes each, column by column>
+//! <t numbers of triangles>             four bytes each, as all numbers
+//! <3 n × 3 t displacements [1/m], one column after the other>
 //! <SHA-256 of all that stands before, 32 bytes>
 //! ```
 //!
@@ -19,19 +19,19 @@ mod checked;
 mod read;
 mod write;
 
-/// A surface's response to unit traction on each of its touchable triangles, for a unit modulus.
+/// How a surface moves under a unit force on each of its touchable triangles, times Young's modulus.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StoredResponse {
     /// 64 hexadecimal digits that name what it was made from.
     pub key: String,
     /// How it was made, for people: one line.
     pub made_by: String,
-    /// Numbers in a column [-].
-    pub rows: usize,
-    /// The triangles that columns stand for, three each.
+    /// The triangles that forces act on, each in three directions: a column for each.
     pub touchable: Vec<u32>,
-    /// Column by column: displacement times the modulus over the traction [m].
-    pub values: Vec<f32>,
+    /// How many triangles are moved.
+    pub triangles: usize,
+    /// Displacements of all triangles, column by column [1/m].
+    pub displacements: Vec<f32>,
 }
 
 /// The first line of the file.

@@ -11,8 +11,8 @@ struct Header {
     text: String,
     key: String,
     made_by: String,
-    rows: usize,
-    columns: usize,
+    touchable: usize,
+    triangles: usize,
 }
 
 impl StoredResponse {
@@ -45,9 +45,8 @@ impl StoredResponse {
 impl Header {
     /// Bytes of the whole file; none when there is no such number.
     fn length(&self) -> Option<u64> {
-        let values = self.rows.checked_mul(self.columns)?;
-        let numbers = values.checked_add(self.columns / 3)?;
-        let bytes = numbers.checked_mul(4)?;
+        let values = self.triangles.checked_mul(9)?.checked_mul(self.touchable)?;
+        let bytes = values.checked_add(self.touchable)?.checked_mul(4)?;
         u64::try_from(bytes.checked_add(self.text.len() + DIGEST)?).ok()
     }
 
@@ -55,17 +54,18 @@ impl Header {
     fn body(self, file: impl Read) -> io::Result<(StoredResponse, bool)> {
         let mut checked = Checked::new(io::Cursor::new(self.text.as_bytes()).chain(file));
         checked.bytes(&mut vec![0; self.text.len()])?;
-        let touchable = checked.numbers(self.columns / 3, u32::from_le_bytes)?;
-        let values = checked.numbers(self.rows * self.columns, f32::from_le_bytes)?;
+        let count = 9 * self.triangles * self.touchable;
+        let touchable = checked.numbers(self.touchable, u32::from_le_bytes)?;
+        let displacements = checked.numbers(count, f32::from_le_bytes)?;
         let (digest, mut file) = checked.finish();
         let mut stated = [0; DIGEST];
         file.read_exact(&mut stated)?;
         let response = StoredResponse {
             key: self.key,
             made_by: self.made_by,
-            rows: self.rows,
             touchable,
-            values,
+            triangles: self.triangles,
+            displacements,
         };
         Ok((response, digest == stated))
     }
@@ -74,7 +74,7 @@ impl Header {
 fn header(file: &mut impl BufRead) -> Option<Header> {
     let mut text = String::new();
     let mut values = Vec::new();
-    let keys = ["key = ", "rows = ", "columns = ", "made_by = "];
+    let keys = ["key = ", "touchable = ", "triangles = ", "made_by = "];
     let mut line = |text: &mut String| -> Option<String> {
         let start = text.len();
         let mut bytes = Vec::new();
@@ -91,12 +91,10 @@ fn header(file: &mut impl BufRead) -> Option<Header> {
         values.push(line(&mut text)?.strip_prefix(key)?.to_owned());
     }
     line(&mut text)?.is_empty().then_some(())?;
-    let [key, rows, columns, made_by] = values.try_into().ok()?;
-    let columns: usize = columns.parse().ok()?;
-    columns.is_multiple_of(3).then_some(())?;
+    let [key, touchable, triangles, made_by] = values.try_into().ok()?;
     Some(Header {
-        rows: rows.parse().ok()?,
-        columns,
+        touchable: touchable.parse().ok()?,
+        triangles: triangles.parse().ok()?,
         key,
         made_by,
         text,

@@ -20,7 +20,8 @@ impl StoredResponse {
         checked.put(self.header().as_bytes())?;
         let touchable = self.touchable.iter();
         checked.put_numbers(touchable.map(|triangle| triangle.to_le_bytes()))?;
-        checked.put_numbers(self.values.iter().map(|value| value.to_le_bytes()))?;
+        let displacements = self.displacements.iter();
+        checked.put_numbers(displacements.map(|value| value.to_le_bytes()))?;
         let (digest, mut file) = checked.finish();
         file.write_all(&digest)?;
         file.flush()
@@ -29,10 +30,10 @@ impl StoredResponse {
     fn header(&self) -> String {
         let one_line = self.made_by.replace(['\n', '\r'], " ");
         format!(
-            "{FIRST_LINE}\nkey = {}\nrows = {}\ncolumns = {}\nmade_by = {one_line}\n\n",
+            "{FIRST_LINE}\nkey = {}\ntouchable = {}\ntriangles = {}\nmade_by = {one_line}\n\n",
             self.key,
-            self.rows,
-            3 * self.touchable.len(),
+            self.touchable.len(),
+            self.triangles,
         )
     }
 }

@@ -5,13 +5,13 @@ use std::fs;
 use palpate_files::StoredResponse;
 
 fn example() -> StoredResponse {
-    let values = (0..12 * 6).map(|number| 0.25 * number as f32 - 7.0);
+    let values = (0..72).map(|number| 0.25 * number as f32 - 7.0);
     StoredResponse {
         key: "0f".repeat(32),
         made_by: "palpate 0.1.0, boundary elements".to_owned(),
-        rows: 12,
         touchable: vec![1, 3],
-        values: values.collect(),
+        triangles: 4,
+        displacements: values.collect(),
     }
 }
 
@@ -55,8 +55,7 @@ fn a_file_that_ends_early_or_late_is_refused() {
     }
     fs::write(&path, [&whole[..], b"\0"].concat()).unwrap();
     assert!(StoredResponse::read(&path).is_err());
-    let absurd =
-        "palpate response 1\nkey = 0\nrows = 4000000000\ncolumns = 3000000000\nmade_by = \n\n";
+    let absurd = "palpate response 1\nkey = 0\ntouchable = 4000000000\ntriangles = 3000000000\nmade_by = \n\n";
     fs::write(&path, absurd).unwrap();
     let error = StoredResponse::read(&path).unwrap_err();
     assert!(error.to_string().contains("shorter or longer"), "{error}");
