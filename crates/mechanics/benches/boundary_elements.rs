@@ -133,7 +133,7 @@ fn on_line(
             });
         });
     }
-    let mut field = vec![0.0_f32; 3 * response.parts().vertices];
+    let mut field = vec![0.0_f32; 3 * response.parts().triangles];
     group.bench_function("field of 12 triangles", |b| {
         b.iter(|| {
             field.fill(0.0);
@@ -142,12 +142,12 @@ fn on_line(
             }
         });
     });
-    let rows = 3 * response.parts().vertices;
+    let rows = 3 * response.parts().triangles;
     group.bench_function("reading the memory of that field", |b| {
         b.iter(|| {
             let columns = moved.iter().map(|touched| {
                 let start = 3 * rows * touched.triangle.index();
-                let bits = response.parts().at_vertices[start..start + 3 * rows].iter();
+                let bits = response.parts().displacements[start..start + 3 * rows].iter();
                 bits.fold(0_u32, |all, value| all ^ value.to_bits())
             });
             black_box(columns.fold(0, |all, bits| all ^ bits))

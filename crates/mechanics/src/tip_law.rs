@@ -80,16 +80,25 @@ impl TipLaw {
             return NormalForce::NONE;
         }
         let half_space = half_space_stiffness(&self.at_rest, area_radius, self.bond);
-        let further = 1.0 / stiffness - 1.0 / half_space;
+        self.normal_force_before(depth, 1.0 / stiffness - 1.0 / half_space)
+    }
+
+    /// Normal force at `depth` [m] where the organ around the tip yields by `further` [m/N] more than a
+    /// half-space does.
+    pub fn normal_force_before(&self, depth: f64, further: f64) -> NormalForce {
+        let area_radius = self.tip.contact_radius(depth);
+        if depth <= 0.0 || area_radius == 0.0 {
+            return NormalForce::NONE;
+        }
         if further > 0.0 {
-            self.in_series(depth, further)
-        } else {
-            let here = self.on_half_space(depth);
-            let times = stiffness / half_space;
-            NormalForce {
-                force: times * here.force,
-                stiffness: times * here.stiffness,
-            }
+            return self.in_series(depth, further);
+        }
+        let half_space = half_space_stiffness(&self.at_rest, area_radius, self.bond);
+        let here = self.on_half_space(depth);
+        let times = 1.0 / (1.0 + further * half_space);
+        NormalForce {
+            force: times * here.force,
+            stiffness: times * here.stiffness,
         }
     }
 

@@ -1,6 +1,6 @@
 use std::ops::ControlFlow;
 
-use palpate_geometry::{NodeId, Surface, TriangleId};
+use palpate_geometry::{Surface, TriangleId};
 
 use super::assembly::{Influences, put};
 use super::cores::{cores, on_all_cores};
@@ -57,16 +57,14 @@ pub struct Progress {
 }
 
 impl BoundaryProblem<'_> {
-    /// What a solution in `T` takes: with n triangles, t of them touchable, and v vertices, 9 t (t + v)
-    /// numbers for the response and 9 n² for the factors.
+    /// What a solution in `T` takes: with n triangles, t of them touchable, 9 n t numbers for the response
+    /// and 9 n² for the factors.
     pub fn memory<T: Precision>(&self) -> ResponseMemory {
         let (n, t) = (self.size(), 3 * self.touchable.len());
-        let vertices = 3 * self.surface.mesh().vertices().len();
-        let response = t * (t + vertices) * size_of::<T>();
-        let columns = 3 * AT_ONCE * cores() * n;
+        let response = t * n * size_of::<T>();
         ResponseMemory {
             response,
-            most: response + (n * n + columns) * size_of::<T>(),
+            most: response + n * n * size_of::<T>(),
         }
     }
 
@@ -152,7 +150,7 @@ impl BoundaryProblem<'_> {
         let factored = Factors::new(self.size(), system, &mut |part| {
             told(Stage::Factors, assembly + part * factors)
         })?;
-        self.columns(influences, (&factored, held), &mut |part| {
+        self.columns(influences, &factored, &mut |part| {
             told(Stage::Columns, assembly + factors + part * columns)
         })
     }
@@ -161,7 +159,7 @@ impl BoundaryProblem<'_> {
     fn columns<T: Precision>(
         &self,
         influences: &Influences<'_>,
-        (factors, held): (&Factors<T>, &[bool]),
+        factors: &Factors<T>,
         progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> ControlFlow<(), ResponseParts<T>> {
         let touchable = self.touchable.iter().map(|&triangle| {
@@ -176,29 +174,23 @@ impl BoundaryProblem<'_> {
         let mut parts = ResponseParts::zeros(
             self.poissons_ratio,
             touchable.collect(),
-            self.surface.mesh().vertices().len(),
+            influences.panels.len(),
         );
-        let weights = VertexWeights::new(self.surface, held);
-        let (t, v) = (3 * self.touchable.len(), 3 * parts.vertices);
+        let rows = self.size();
         let mut solved = 0;
         while solved < self.touchable.len() {
             let many = (AT_ONCE * cores()).min(self.touchable.len() - solved);
             let loaded = self.touchable[solved..solved + many].chunks(AT_ONCE);
-            let at_triangles = parts.at_triangles[3 * t * solved..].chunks_mut(3 * t * AT_ONCE);
-            let at_vertices = parts.at_vertices[3 * v * solved..].chunks_mut(3 * v * AT_ONCE);
-            let work = loaded.zip(at_triangles).zip(at_vertices);
-            on_all_cores(work, |((loaded, at_triangles), at_vertices)| {
-                let columns = solve_columns(influences, factors, loaded);
-                let columns = columns.chunks_exact(self.size());
-                let kept = at_triangles
-                    .chunks_exact_mut(t)
-                    .zip(at_vertices.chunks_exact_mut(v));
-                for (column, (at_triangles, at_vertices)) in columns.zip(kept) {
-                    for (row, triangle) in self.touchable.iter().enumerate() {
-                        at_triangles[3 * row..3 * row + 3]
-                            .copy_from_slice(&column[3 * triangle.index()..][..3]);
+            let kept = parts.displacements[3 * rows * solved..].chunks_mut(3 * rows * AT_ONCE);
+            on_all_cores(loaded.zip(kept), |(loaded, kept)| {
+                let kept = &mut kept[..3 * rows * loaded.len()];
+                load(influences, loaded, kept);
+                factors.solve(kept);
+                for triangle in self.held {
+                    for column in kept.chunks_exact_mut(rows) {
+                        // What was found of it is a traction.
+                        column[3 * triangle.index()..][..3].fill(T::of(0.0));
                     }
-                    weights.apply(column, at_vertices);
                 }
             });
             solved += many;
@@ -239,63 +231,14 @@ fn assemble<T: Precision>(
     ControlFlow::Continue(system)
 }
 
-/// Displacements, and scaled tractions where it is held, from unit forces on `loaded`.
-fn solve_columns<T: Precision>(
-    influences: &Influences<'_>,
-    factors: &Factors<T>,
-    loaded: &[TriangleId],
-) -> Vec<T> {
+/// Fills the columns of unit forces on `loaded`: what they would do if nothing else moved.
+fn load<T: Precision>(influences: &Influences<'_>, loaded: &[TriangleId], columns: &mut [T]) {
     let size = 3 * influences.panels.len();
-    let mut columns = vec![T::of(0.0); 3 * size * loaded.len()];
     for (columns, source) in columns.chunks_exact_mut(3 * size).zip(loaded) {
         let area = influences.panels[source.index()].area;
         for target in 0..influences.panels.len() {
             let (displacement, _) = influences.between(source.index(), target);
             put(columns, target, &(displacement / area));
-        }
-    }
-    factors.solve(&mut columns);
-    columns
-}
-
-/// The displacement of a vertex: the mean over its triangles, weighted by area; none where it is held.
-struct VertexWeights {
-    starts: Vec<usize>,
-    triangles: Vec<(usize, f64)>,
-}
-
-impl VertexWeights {
-    fn new(surface: &Surface, held: &[bool]) -> Self {
-        let (mesh, adjacency) = (surface.mesh(), surface.adjacency());
-        let mut weights = Self {
-            starts: vec![0],
-            triangles: Vec::new(),
-        };
-        for vertex in 0..mesh.vertices().len() as u32 {
-            let around = adjacency.around(NodeId(vertex));
-            if !around.iter().any(|triangle| held[triangle.index()]) {
-                let area = |&t: &TriangleId| mesh.area_vector(t).norm();
-                let all: f64 = around.iter().map(area).sum();
-                let shares = around.iter().map(|t| (t.index(), area(t) / all));
-                weights.triangles.extend(shares);
-            }
-            weights.starts.push(weights.triangles.len());
-        }
-        weights
-    }
-
-    fn apply<T: Precision>(&self, column: &[T], at_vertices: &mut [T]) {
-        for (ends, place) in self.starts.windows(2).zip(at_vertices.chunks_exact_mut(3)) {
-            let mut sum = [0.0; 3];
-            for &(triangle, weight) in &self.triangles[ends[0]..ends[1]] {
-                for (sum, &value) in sum.iter_mut().zip(&column[3 * triangle..]) {
-                    let value: f64 = value.into();
-                    *sum += weight * value;
-                }
-            }
-            for (place, sum) in place.iter_mut().zip(sum) {
-                *place = T::of(sum);
-            }
         }
     }
 }

@@ -57,9 +57,10 @@ impl<T: Precision> SurfaceResponse<T> {
 
     /// Displacement of `moved` from a unit force on `loaded`, times E [1/m], as it was solved.
     pub fn influence(&self, moved: TouchId, loaded: TouchId) -> Matrix3<f64> {
-        let rows = 3 * self.parts.touchable.len();
+        let rows = 3 * self.parts.triangles;
+        let moved = self.parts.touchable[moved.index()].triangle;
         let start = 3 * rows * loaded.index() + 3 * moved.index();
-        let at = |a: usize, b: usize| self.parts.at_triangles[start + rows * b + a].into();
+        let at = |a: usize, b: usize| self.parts.displacements[start + rows * b + a].into();
         Matrix3::from_fn(at)
     }
 
@@ -72,11 +73,11 @@ impl<T: Precision> SurfaceResponse<T> {
         0.5 * (there + back.transpose())
     }
 
-    /// Adds to `field`, three numbers for each vertex, the displacements times E [N/m] from `force` [N] on
+    /// Adds to `field`, three numbers for each triangle, the displacements times E [N/m] from `force` [N] on
     /// `loaded`.
     pub fn add_field(&self, loaded: TouchId, force: &Vec3, field: &mut [T]) {
-        let rows = 3 * self.parts.vertices;
-        let columns = &self.parts.at_vertices[3 * rows * loaded.index()..][..3 * rows];
+        let rows = 3 * self.parts.triangles;
+        let columns = &self.parts.displacements[3 * rows * loaded.index()..][..3 * rows];
         let (x, rest) = columns.split_at(rows);
         let (y, z) = rest.split_at(rows);
         let [fx, fy, fz] = [force.x, force.y, force.z].map(T::of);
