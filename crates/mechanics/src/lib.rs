@@ -6,6 +6,7 @@
 
 pub mod boundary_elements;
 pub mod contact;
+mod cores;
 mod error;
 pub mod finite_elements;
 pub mod finite_spheres;

@@ -1,11 +1,11 @@
 use faer::{Mat, MatRef};
 use nalgebra::Matrix3;
 
-use super::cores::on_all_cores;
 use super::integrals::{Place, integrate};
 use super::kelvin::Kelvin;
 use super::panel::Panel;
 use super::precision::Precision;
+use crate::cores::on_all_cores;
 
 /// All influences of panels on panels: 3 n × 3 n, row 3 i + a for component a at the centroid of panel i.
 pub struct InfluenceMatrices {

@@ -8,8 +8,8 @@ use faer::linalg::triangular_solve::{
 };
 use faer::{Accum, MatMut, MatRef, Par};
 
-use super::cores::on_all_cores;
 use super::precision::Precision;
+use crate::cores::on_all_cores;
 
 /// Columns that are eliminated at once.
 const PANEL: usize = 192;

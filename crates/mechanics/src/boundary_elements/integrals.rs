@@ -39,18 +39,10 @@ pub struct PanelIntegrals {
 pub fn integrate(kelvin: &Kelvin, panel: &Panel, x: &Vec3, place: Place) -> PanelIntegrals {
     let nu = kelvin.poissons_ratio();
     let n = panel.normal;
-    let ends = panel.corners.map(|corner| corner - x);
-    let (h, omega) = match place {
-        Place::Elsewhere => (ends[0].dot(&n), solid_angle(&ends)),
-        Place::OnPanel => (0.0, 0.0),
-    };
-    let sums = Sums::around(&ends, &n, h);
-    let inverse = sums.inverse - h * omega;
+    let seen = Seen::from(panel, x, place);
+    let (h, omega, sums) = (seen.height, seen.solid_angle, &seen.sums);
     let normals = n * n.transpose();
-
-    let d = sums.distance;
-    let hessian = d + n * (d * n).transpose() + normals * (2.0 * inverse - d.trace());
-    let along = Matrix3::identity() * inverse - hessian;
+    let (inverse, along) = seen.distances(&n);
     let displacement = Matrix3::identity() * ((3.0 - 4.0 * nu) * inverse) + along;
 
     let away = 1.0 - 2.0 * nu;
@@ -62,6 +54,42 @@ pub fn integrate(kelvin: &Kelvin, panel: &Panel, x: &Vec3, place: Place) -> Pane
     PanelIntegrals {
         displacement: displacement * kelvin.displacement_factor(),
         traction: traction * kelvin.traction_factor(),
+    }
+}
+
+/// ∫ 1/r dA [m] and ∫ r rᵀ/r³ dA [m] over `panel` from the place `x` [m], which lies `on` it or not.
+pub(crate) fn distances(panel: &Panel, x: &Vec3, place: Place) -> (f64, Matrix3<f64>) {
+    Seen::from(panel, x, place).distances(&panel.normal)
+}
+
+/// A panel, seen from a place.
+struct Seen {
+    height: f64,
+    solid_angle: f64,
+    sums: Sums,
+}
+
+impl Seen {
+    fn from(panel: &Panel, x: &Vec3, place: Place) -> Self {
+        let ends = panel.corners.map(|corner| corner - x);
+        let (height, solid_angle) = match place {
+            Place::Elsewhere => (ends[0].dot(&panel.normal), solid_angle(&ends)),
+            Place::OnPanel => (0.0, 0.0),
+        };
+        let sums = Sums::around(&ends, &panel.normal, height);
+        Self {
+            height,
+            solid_angle,
+            sums,
+        }
+    }
+
+    fn distances(&self, n: &Vec3) -> (f64, Matrix3<f64>) {
+        let inverse = self.sums.inverse - self.height * self.solid_angle;
+        let d = self.sums.distance;
+        let normals = n * n.transpose();
+        let hessian = d + n * (d * n).transpose() + normals * (2.0 * inverse - d.trace());
+        (inverse, Matrix3::identity() * inverse - hessian)
     }
 }
 

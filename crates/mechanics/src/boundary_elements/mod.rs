@@ -27,7 +27,6 @@
 //! walls thinner than a triangle is wide.
 
 mod assembly;
-mod cores;
 mod factors;
 mod integrals;
 mod kelvin;
@@ -36,6 +35,7 @@ mod precision;
 mod problem;
 
 pub use assembly::{InfluenceMatrices, Influences};
+pub(crate) use integrals::distances;
 pub use integrals::{PanelIntegrals, Place, integrate};
 pub use kelvin::Kelvin;
 pub use panel::Panel;

@@ -3,11 +3,11 @@ use std::ops::ControlFlow;
 use palpate_geometry::{Surface, TriangleId};
 
 use super::assembly::{Influences, put};
-use super::cores::{cores, on_all_cores};
 use super::factors::Factors;
 use super::kelvin::Kelvin;
 use super::panel::Panel;
 use super::precision::Precision;
+use crate::cores::{cores, on_all_cores};
 use crate::surface_response::{ResponseParts, SurfaceResponse, TouchableTriangle};
 use crate::{Error, LinearElastic};
 

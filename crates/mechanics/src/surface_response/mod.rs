@@ -7,14 +7,20 @@
 //! prescribed displacements d has f_c = Ξ_cc⁻¹ d E (4.5) to (4.7): 3 s equations for s triangles, where
 //! the source has s.
 //!
-//! *How we know*: `boundary_response::…`.
+//! That is for patches whose triangles are known, such as what a grasper holds. A tip loads the surface
+//! through [`TipField`], which knows its radius.
+//!
+//! *How we know*: `boundary_response::…`: new solutions with the patch held; `tip_field::…`: finite
+//! elements.
 //!
 //! *Limits*: small strain; a triangle that is pulled inward by its neighbours is not let go.
 
 mod parts;
 mod patch;
 mod response;
+mod tip_field;
 
 pub use parts::{ResponseParts, TouchableTriangle};
 pub use patch::{MovedTriangle, PatchContact, PatchWorkspace, Reciprocity};
 pub use response::{SurfaceResponse, TouchId};
+pub use tip_field::{Share, TipField, TipLoad};

@@ -72,17 +72,22 @@ impl Held {
 
     /// The `count` free triangles nearest to `center`, ascending.
     pub(crate) fn near(&self, center: TriangleId, count: usize) -> Vec<TriangleId> {
-        let mesh = self.surface.mesh();
-        let centroid = |id| mesh.positions(id).iter().sum::<Vec3>() / 3.0;
-        let x = centroid(center);
+        self.near_point(&self.centroid(center), count)
+    }
+
+    /// The `count` free triangles nearest to a point [m], ascending.
+    pub(crate) fn near_point(&self, point: &Vec3, count: usize) -> Vec<TriangleId> {
         let mut free = self.free.clone();
-        free.sort_by(|&a, &b| {
-            let [a, b] = [a, b].map(|id| (centroid(id) - x).norm());
-            a.total_cmp(&b)
-        });
+        let away = |id| (self.centroid(id) - point).norm();
+        free.sort_by(|&a, &b| away(a).total_cmp(&away(b)));
         free.truncate(count);
         free.sort();
         free
+    }
+
+    pub(crate) fn centroid(&self, triangle: TriangleId) -> Vec3 {
+        let corners = self.surface.mesh().positions(triangle);
+        corners.iter().sum::<Vec3>() / 3.0
     }
 }
 

@@ -31,6 +31,7 @@ mod solid;
 mod solid_fields;
 mod stiffening;
 mod stretches;
+mod tip_field;
 mod tube;
 mod uniaxial;
 mod unsound;

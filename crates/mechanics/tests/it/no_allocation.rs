@@ -1,10 +1,15 @@
 //! A step allocates nothing: everything that it needs is in the workspace.
 
 use assert_no_alloc::{AllocDisabler, assert_no_alloc, reset_violation_count, violation_count};
+use palpate_geometry::Organ;
 use palpate_mechanics::Vec3;
 use palpate_mechanics::contact::Bond;
 use palpate_mechanics::finite_spheres::{Assembly, FiniteSphereSettings, Form, Solver};
+use palpate_mechanics::surface_response::{
+    MovedTriangle, PatchContact, PatchWorkspace, Reciprocity, TipField, TouchId,
+};
 
+use crate::boundary_response::Held;
 use crate::contacts::{RADIUS, Random, bare_contact, model};
 use crate::every_law::{deformation, every_law};
 
@@ -94,6 +99,36 @@ fn a_law_allocates_nothing() {
         assert!(sum.is_finite());
         assert_eq!(violation_count(), before, "{}", law.name);
     }
+}
+
+#[test]
+fn contact_on_a_response_allocates_nothing() {
+    let solid = Held::organ(Organ::Kidney, 200, 0.45);
+    let response = solid.response::<f32>(&solid.free);
+    let field = TipField::new(&response, &solid.surface, 2e-3);
+    let contact = PatchContact {
+        bond: Bond::Stick,
+        reciprocity: Reciprocity::Imposed,
+        youngs_modulus: 1e4,
+    };
+    let moved = [3, 5, 70].map(|number| MovedTriangle {
+        triangle: TouchId(number),
+        displacement: 1e-3 * Vec3::z(),
+    });
+    let mut workspace = PatchWorkspace::new(moved.len());
+    let mut moves = vec![0.0_f32; 3 * response.parts().triangles];
+    let before = violation_count();
+    let sum = assert_no_alloc(|| {
+        let forces = response.press(&moved, &contact, &mut workspace).unwrap();
+        response.add_field(moved[0].triangle, &forces[0], &mut moves);
+        let tips = [solid.free[0], solid.free[90]]
+            .map(|id| field.at(&solid.surface, id, &[0.2, 0.3, 0.5]).unwrap());
+        let between = response.between(&tips[0], &tips[1]) + tips[0].further_compliance();
+        response.add_field_of_tip(&tips[0], &forces[1], &mut moves);
+        between.norm() + f64::from(moves[0])
+    });
+    assert!(sum.is_finite());
+    assert_eq!(violation_count(), before);
 }
 
 /// That the counter counts at all.

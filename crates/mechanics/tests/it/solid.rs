@@ -26,7 +26,7 @@ pub(crate) const HALF: f64 = 0.05;
 /// Young's modulus [Pa].
 pub(crate) const MODULUS: f64 = 1e4;
 
-fn plane(point: Vec3, normal: Vec3) -> Region {
+pub(crate) fn plane(point: Vec3, normal: Vec3) -> Region {
     Region {
         planes: vec![RegionPlane {
             point_m: point.into(),

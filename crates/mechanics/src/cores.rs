@@ -3,13 +3,13 @@ use std::sync::{Mutex, PoisonError};
 use std::thread;
 
 /// How many threads can run at once.
-pub(super) fn cores() -> usize {
+pub(crate) fn cores() -> usize {
     thread::available_parallelism().map_or(1, NonZero::get)
 }
 
 /// Does `work` on every item, on all cores: whoever is idle takes the next one. What is done on an item
 /// does not depend on the number of cores.
-pub(super) fn on_all_cores<Items>(items: Items, work: impl Fn(Items::Item) + Sync)
+pub(crate) fn on_all_cores<Items>(items: Items, work: impl Fn(Items::Item) + Sync)
 where
     Items: Iterator + Send,
 {

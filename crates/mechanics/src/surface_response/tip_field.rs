@@ -1,0 +1,255 @@
+//! What the whole organ adds to a tip that touches it anywhere.
+//!
+//! The force of one triangle that is moved says how large it is, not how large the tip. So a tip loads
+//! the triangles about it smoothly, with weights w that sum to one, and feels their displacement with the
+//! same weights: c = wᵀ Ξ w is energy-consistent and resolved by the mesh. A load like this on a
+//! half-space yields by a closed form c_self, the tip itself by another one (its law), and
+//!
+//! ```text
+//! d = d_tip(F) + c_ext F/E,   c_ext = wᵀ Ξ w − c_self
+//! c_self = (1 + ν)/π ((1 − ν) J 1 + ν M),   J = Σ w w′ ⟨1/r⟩,   M = Σ w w′ ⟨t tᵀ/r³⟩
+//! ```
+//!
+//! with ⟨⟩ the mean over the loaded triangle and t the tangential part of r [Johnson 1985]. What couples
+//! normal and tangent is odd in r and falls out of the sum.
+//! c_ext hardly depends on the weights. They are (1 − (r/R)²)² times area and cosine, about each vertex,
+//! with R = max(1.7 a, 2.2 √(2 A)); between vertices loads and c_ext go over linearly, so that a slide has
+//! no steps. R > 1.69 a makes c_self less than the compliance of the tip at every ν, and the tips of several
+//! tools together make no energy.
+//!
+//! *How we know*: `tip_field::a_tip_on_a_hemisphere_feels_finite_elements`, `real_kidney_under_a_tip`,
+//! `a_slide_has_no_steps`, `several_tips_take_work`; what else was tried: `docs/theory/boundary_elements.md`.
+//!
+//! *Limits*: nearer than R to the anchor or to the end of what can be touched, the load lies on what is
+//! left; two tips nearer than R to each other feel each other's force spread.
+
+use std::f64::consts::PI;
+
+use nalgebra::Matrix3;
+use palpate_geometry::{NodeId, Surface, TriangleId};
+
+use super::response::{SurfaceResponse, TouchId};
+use crate::Vec3;
+use crate::boundary_elements::{Panel, Place, Precision, distances};
+use crate::cores::on_all_cores;
+
+/// Radius of the spread load in radii of the tip, and in lengths √(2 A) of the triangles there, whichever
+/// is more.
+const REACH_IN_RADII: f64 = 1.7;
+const REACH_IN_SIZES: f64 = 2.2;
+
+/// Triangles farther apart than this many of their lengths see each other as points.
+const FAR: f64 = 5.0;
+
+/// A share of a force.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Share {
+    /// Who bears it.
+    pub triangle: TouchId,
+    /// How much of it [-].
+    pub weight: f64,
+}
+
+/// An organ under a tip, wherever it can be touched.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TipField {
+    radius: f64,
+    vertices: Vec<VertexLoad>,
+}
+
+/// A tip over one vertex.
+#[derive(Debug, Clone, PartialEq, Default)]
+struct VertexLoad {
+    /// None where nothing can be touched.
+    shares: Vec<Share>,
+    /// c_ext [1/m].
+    further: Matrix3<f64>,
+}
+
+/// The load of a tip at one place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TipLoad<'a> {
+    corners: [(&'a VertexLoad, f64); 3],
+}
+
+impl TipField {
+    /// Of a tip whose touching area has the `radius` [m], on the `surface` that `response` is of. On all
+    /// cores.
+    pub fn new<T: Precision>(
+        response: &SurfaceResponse<T>,
+        surface: &Surface,
+        radius: f64,
+    ) -> Self {
+        let mut vertices = vec![VertexLoad::default(); surface.mesh().vertices().len()];
+        on_all_cores(vertices.iter_mut().enumerate(), |(vertex, load)| {
+            let spread = Spread::about(surface, NodeId(vertex as u32), radius);
+            load.shares = spread.shares(response);
+            load.further = further(response, surface, (&load.shares, &spread.normal));
+        });
+        Self { radius, vertices }
+    }
+
+    /// Radius of the tip's touching area [m].
+    pub fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// The load of a tip at the point of `triangle` with the weights `barycentric` [-]; none where nothing
+    /// can be touched.
+    pub fn at(
+        &self,
+        surface: &Surface,
+        triangle: TriangleId,
+        barycentric: &[f64; 3],
+    ) -> Option<TipLoad<'_>> {
+        let nodes = surface.mesh().corners(triangle);
+        let corners = [0, 1, 2].map(|k| (&self.vertices[nodes[k].index()], barycentric[k]));
+        let loaded =
+            |(load, weight): &(&VertexLoad, f64)| *weight == 0.0 || !load.shares.is_empty();
+        corners.iter().all(loaded).then_some(TipLoad { corners })
+    }
+}
+
+impl TipLoad<'_> {
+    /// c_ext [1/m], over E a compliance: what the organ yields to a force on the tip beyond what a
+    /// half-space would; symmetric.
+    pub fn further_compliance(&self) -> Matrix3<f64> {
+        self.corners
+            .iter()
+            .map(|(load, weight)| load.further * *weight)
+            .sum()
+    }
+
+    /// Who bears the force; a triangle may come up to three times.
+    pub fn shares(&self) -> impl Iterator<Item = Share> {
+        self.corners.iter().flat_map(|(load, weight)| {
+            load.shares.iter().map(move |share| Share {
+                weight: share.weight * weight,
+                ..*share
+            })
+        })
+    }
+}
+
+impl<T: Precision> SurfaceResponse<T> {
+    /// Displacement of one tip from a unit force on another, times E [1/m].
+    pub fn between(&self, moved: &TipLoad<'_>, loaded: &TipLoad<'_>) -> Matrix3<f64> {
+        let mut sum = Matrix3::zeros();
+        for there in loaded.shares() {
+            for here in moved.shares() {
+                let compliance = self.compliance(here.triangle, there.triangle);
+                sum += compliance * (here.weight * there.weight);
+            }
+        }
+        sum
+    }
+
+    /// Adds to `field`, three numbers for each vertex, the displacements times E [N/m] from `force` [N] on
+    /// a tip.
+    pub fn add_field_of_tip(&self, load: &TipLoad<'_>, force: &Vec3, field: &mut [T]) {
+        for share in load.shares() {
+            self.add_field(share.triangle, &(force * share.weight), field);
+        }
+    }
+}
+
+/// The triangles about a vertex that a tip loads.
+struct Spread {
+    normal: Vec3,
+    /// With a weight that is not yet in parts of the sum.
+    weights: Vec<(TriangleId, f64)>,
+}
+
+impl Spread {
+    /// Of those that hang together with the vertex.
+    fn about(surface: &Surface, vertex: NodeId, radius: f64) -> Self {
+        let (mesh, adjacency) = (surface.mesh(), surface.adjacency());
+        let around = adjacency.around(vertex);
+        let area: f64 = around.iter().map(|&t| mesh.area_vector(t).norm()).sum();
+        let size = (2.0 * area / around.len() as f64).sqrt();
+        let reach = (REACH_IN_RADII * radius).max(REACH_IN_SIZES * size);
+        let (x, normal) = (
+            mesh.vertices()[vertex.index()],
+            surface.vertex_normals()[vertex.index()],
+        );
+        let mut weights = Vec::new();
+        let mut seen = around.to_vec();
+        let mut next = 0;
+        while let Some(&triangle) = seen.get(next) {
+            next += 1;
+            let centroid = mesh.positions(triangle).iter().sum::<Vec3>() / 3.0;
+            let near = 1.0 - (centroid - x).norm_squared() / reach.powi(2);
+            let facing = mesh.area_vector(triangle).dot(&normal);
+            if near <= 0.0 || facing <= 0.0 {
+                continue;
+            }
+            weights.push((triangle, near.powi(2) * facing));
+            for node in mesh.corners(triangle) {
+                for other in adjacency.around(node) {
+                    if !seen.contains(other) {
+                        seen.push(*other);
+                    }
+                }
+            }
+        }
+        Self { normal, weights }
+    }
+
+    /// The whole force shared among those that can be touched.
+    fn shares<T: Precision>(&self, response: &SurfaceResponse<T>) -> Vec<Share> {
+        let touchable = |&(triangle, weight): &(TriangleId, f64)| {
+            let triangle = response.find(triangle)?;
+            Some(Share { triangle, weight })
+        };
+        let mut shares: Vec<_> = self.weights.iter().filter_map(touchable).collect();
+        let sum: f64 = shares.iter().map(|share| share.weight).sum();
+        for share in &mut shares {
+            share.weight /= sum;
+        }
+        shares
+    }
+}
+
+/// wᵀ Ξ w − c_self [1/m].
+fn further<T: Precision>(
+    response: &SurfaceResponse<T>,
+    surface: &Surface,
+    (shares, normal): (&[Share], &Vec3),
+) -> Matrix3<f64> {
+    let nu = response.parts().poissons_ratio;
+    let tangents = Matrix3::identity() - normal * normal.transpose();
+    let (mut inverse, mut along, mut yields) = (0.0, Matrix3::zeros(), Matrix3::zeros());
+    for loaded in shares {
+        let source = &response.touchable()[loaded.triangle.index()];
+        let corners = surface.mesh().positions(source.triangle);
+        let panel = Panel::new(corners).expect("the response has a column for it");
+        for moved in shares {
+            let weight = loaded.weight * moved.weight;
+            let x = &response.touchable()[moved.triangle.index()].centroid;
+            let (here, there) = mean_distances(&panel, x);
+            inverse += weight * here;
+            along += weight * there;
+            yields += weight * response.influence(moved.triangle, loaded.triangle);
+        }
+    }
+    let along = tangents * along * tangents;
+    let own = (Matrix3::identity() * ((1.0 - nu) * inverse) + along * nu) * ((1.0 + nu) / PI);
+    let further = yields - own;
+    0.5 * (further + further.transpose())
+}
+
+/// Means of 1/r and r rᵀ/r³ over `panel`, seen from the centroid of another one or its own [1/m].
+fn mean_distances(panel: &Panel, x: &Vec3) -> (f64, Matrix3<f64>) {
+    let r = panel.centroid - x;
+    let distance = r.norm();
+    if distance > FAR * (2.0 * panel.area).sqrt() {
+        return (1.0 / distance, r * r.transpose() / distance.powi(3));
+    }
+    let place = if distance == 0.0 {
+        Place::OnPanel
+    } else {
+        Place::Elsewhere
+    };
+    let (inverse, along) = distances(panel, x, place);
+    (inverse / panel.area, along / panel.area)
+}

@@ -1,0 +1,329 @@
+//! Tips on an organ whose response was solved beforehand.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use nalgebra::{DMatrix, Matrix3};
+use palpate_geometry::{Organ, Surface, TriangleId, read_mesh};
+use palpate_mechanics::contact::{Bond, half_space_stiffness, half_space_tangential_stiffness};
+use palpate_mechanics::finite_elements::hemisphere::{HemisphereProblem, Patch};
+use palpate_mechanics::finite_elements::indentation::Grip;
+use palpate_mechanics::finite_elements::solid::{Body, MovedPatch, SolidProblem, solve};
+use palpate_mechanics::surface_response::{SurfaceResponse, TipField, TipLoad};
+use palpate_mechanics::{LinearElastic, Vec3};
+
+use crate::boundary_response::Held;
+use crate::contacts::{RADIUS, Random, shaken_hemisphere};
+use crate::solid::plane;
+
+fn law(nu: f64) -> LinearElastic {
+    LinearElastic::new(1.0, nu).unwrap()
+}
+
+/// Hemispheres whose meshes have nothing in common: a grid, a shaken grid, and one that is finer on one
+/// side than on the other.
+fn hemispheres(nu: f64, triangles: usize) -> [(&'static str, Held); 3] {
+    let held = |surface| Held::new(surface, nu, |centroid: &Vec3| centroid.z < 1e-6);
+    let mesh = Organ::Hemisphere.surface_mesh(triangles).unwrap();
+    let rows = (triangles as f64 / 9.0).sqrt();
+    let shaken = shaken_hemisphere(rows as usize, (4.0 * rows) as usize);
+    let dense = Vec3::new(0.02, 0.01, 0.0);
+    let graded = mesh.map_vertices(|x| {
+        let off = Vec3::new(x.x, x.y, 0.0) - dense;
+        if x.z < 1e-6 {
+            return *x;
+        }
+        let pull = 0.35 * x.z / RADIUS * (-off.norm_squared() / 0.03_f64.powi(2)).exp();
+        (x - off * pull).normalize() * x.norm()
+    });
+    [
+        ("even", held(Surface::new(mesh).unwrap())),
+        ("shaken", held(shaken)),
+        ("graded", held(Surface::new(graded.unwrap()).unwrap())),
+    ]
+}
+
+/// The free triangles around the pole.
+fn top(solid: &Held, count: usize) -> Vec<TriangleId> {
+    solid.near_point(&Vec3::new(0.0, 0.0, RADIUS), count)
+}
+
+/// Compliance of a flat tip, normal and times E [1/m].
+fn normal_compliance(load: &TipLoad<'_>, normal: &Vec3, (a, nu, bond): (f64, f64, Bond)) -> f64 {
+    let further = normal.dot(&(load.further_compliance() * normal));
+    1.0 / half_space_stiffness(&law(nu), a, bond) + further
+}
+
+/// The triangle under a place near the pole, and where in it.
+fn under(surface: &Surface, place: &Vec3) -> (TriangleId, [f64; 3]) {
+    let mesh = surface.mesh();
+    let nearest = mesh.triangle_ids().map(|triangle| {
+        let on = palpate_geometry::closest_on_triangle(&mesh.positions(triangle), place);
+        ((on.position - place).norm(), triangle, on.barycentric)
+    });
+    let (_, triangle, barycentric) = nearest.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
+    (triangle, barycentric)
+}
+
+/// Largest relative error of the force of tips of 2, 3 and 5 mm at the pole.
+fn force_error(nu: f64, triangles: usize) -> f64 {
+    let mut worst: f64 = 0.0;
+    let solids = hemispheres(nu, triangles).map(|(name, solid)| {
+        let response = solid.response::<f32>(&top(&solid, triangles / 3));
+        (name, solid, response)
+    });
+    for a in [2e-3, 3e-3, 5e-3] {
+        for (patch, bond) in [(Patch::Slip, Bond::Slip), (Patch::Bonded, Bond::Stick)] {
+            let judge = HemisphereProblem {
+                radius: RADIUS,
+                patch_radius: a,
+                patch,
+                law: law(nu),
+                depth: 1.0,
+            };
+            let force = judge.solve_on(0.02, 0).unwrap().force;
+            for (name, solid, response) in &solids {
+                let field = TipField::new(response, &solid.surface, a);
+                let (triangle, place) = under(&solid.surface, &(RADIUS * Vec3::z()));
+                let load = field.at(&solid.surface, triangle, &place).unwrap();
+                let error = 1.0 / normal_compliance(&load, &Vec3::z(), (a, nu, bond)) / force - 1.0;
+                println!(
+                    "nu {nu}, {name}, {triangles}, a {a}, {bond:?}: {:+.2} %",
+                    100.0 * error
+                );
+                worst = worst.max(error.abs());
+            }
+        }
+    }
+    worst
+}
+
+/// Judge: fine axisymmetric elements. Tolerance: c_ext is some tenths of the compliance and is found to a
+/// tenth of itself; the issue asks for 5 %.
+#[test]
+fn a_tip_on_a_hemisphere_feels_finite_elements() {
+    for nu in [0.3, 0.49] {
+        assert!(force_error(nu, 500) < 0.025);
+    }
+}
+
+/// Judge and tolerance: as above.
+#[test]
+#[ignore = "slow: half a minute"]
+fn a_tip_on_a_finer_hemisphere_feels_finite_elements() {
+    for nu in [0.3, 0.45, 0.49] {
+        assert!(force_error(nu, 1500) < 0.025);
+    }
+}
+
+/// Judge: the axisymmetric profile, beyond the triangles that the tip loads. Tolerance: the issue's, a
+/// tenth of the depth, on the coarsest mesh; the error falls with the size of the triangles.
+#[test]
+fn the_field_of_a_tip_is_that_of_finite_elements() {
+    let (a, nu) = (3e-3, 0.45);
+    let judge = HemisphereProblem {
+        radius: RADIUS,
+        patch_radius: a,
+        patch: Patch::Slip,
+        law: law(nu),
+        depth: 1.0,
+    };
+    let profile = judge.solve_on(0.02, 0).unwrap().profile;
+    let expected = |arc: f64| {
+        let next = profile
+            .partition_point(|(at, _)| *at < arc)
+            .clamp(1, profile.len() - 1);
+        let ((x, y), (x1, y1)) = (profile[next - 1], profile[next]);
+        y + (y1 - y) * (arc - x) / (x1 - x)
+    };
+    let mut errors = Vec::new();
+    for triangles in [200, 400, 800] {
+        let [(_, solid), ..] = hemispheres(nu, triangles);
+        let response = solid.response::<f32>(&top(&solid, triangles / 3));
+        let field = TipField::new(&response, &solid.surface, a);
+        let (triangle, place) = under(&solid.surface, &(RADIUS * Vec3::z()));
+        let load = field.at(&solid.surface, triangle, &place).unwrap();
+        let force = 1.0 / normal_compliance(&load, &Vec3::z(), (a, nu, Bond::Slip));
+        let mut moved = vec![0.0_f32; 3 * response.parts().triangles];
+        response.add_field_of_tip(&load, &(-force * Vec3::z()), &mut moved);
+        let mut worst: f64 = 0.0;
+        for &id in &solid.free {
+            let centroid = solid.centroid(id);
+            let arc = RADIUS * (centroid.z / centroid.norm()).acos();
+            if arc > 0.018 {
+                let u = Vec3::from_fn(|axis, _| f64::from(moved[3 * id.index() + axis]));
+                let along = u.dot(&centroid.normalize());
+                worst = worst.max((along - expected(arc)).abs());
+            }
+        }
+        println!("{triangles} triangles: the field is off by {worst:.4} of the depth");
+        errors.push(worst);
+    }
+    assert!(errors[0] < 0.1 && errors[2] < 0.5 * errors[0], "{errors:?}");
+}
+
+/// A kidney with places at which it can be touched.
+fn kidney() -> (Held, SurfaceResponse) {
+    let solid = Held::organ(Organ::Kidney, 688, 0.45);
+    let response = solid.response::<f32>(&solid.free);
+    (solid, response)
+}
+
+/// The issue's: a slide of 0.1 mm changes the force at a given depth by 5 % at most; here along an edge of
+/// every triangle.
+#[test]
+fn a_slide_has_no_steps() {
+    let (solid, response) = kidney();
+    let tip = (2e-3, solid.nu, Bond::Slip);
+    let field = TipField::new(&response, &solid.surface, tip.0);
+    let (mesh, normals) = (solid.surface.mesh(), solid.surface.vertex_normals());
+    let mut worst: f64 = 0.0;
+    for &id in &solid.free {
+        let [p, q, _] = mesh.positions(id);
+        let steps = ((p - q).norm() / 1e-4).ceil();
+        let compliances: Vec<_> = (0..=steps as usize)
+            .map(|step| {
+                let t = step as f64 / steps;
+                let [from, to, _] = mesh.corners(id).map(|node| normals[node.index()]);
+                let load = field.at(&solid.surface, id, &[1.0 - t, t, 0.0]).unwrap();
+                normal_compliance(&load, &(from * (1.0 - t) + to * t).normalize(), tip)
+            })
+            .collect();
+        for pair in compliances.windows(2) {
+            worst = worst.max((pair[0] / pair[1] - 1.0).abs());
+        }
+    }
+    println!(
+        "a slide of 0.1 mm changes the force by up to {:.3} %",
+        100.0 * worst
+    );
+    assert!(worst > 0.0 && worst < 0.05, "{worst}");
+}
+
+/// Tips of several tools, with what is between them: no set of forces on them wins energy, and what one
+/// does to the other the other does to it.
+#[test]
+fn several_tips_take_work() {
+    let (solid, response) = kidney();
+    let nu = solid.nu;
+    let mut random = Random(9);
+    for a in [1e-3, 3e-3, 8e-3] {
+        let field = TipField::new(&response, &solid.surface, a);
+        for _ in 0..10 {
+            let loads: Vec<_> = (0..4)
+                .map(|_| {
+                    let id = solid.free[(random.unit() * solid.free.len() as f64) as usize];
+                    let place = [0.2, 0.3, 0.5];
+                    let load = field.at(&solid.surface, id, &place).unwrap();
+                    (load, solid.surface.mesh().area_vector(id).normalize())
+                })
+                .collect();
+            let mut whole = DMatrix::zeros(12, 12);
+            for (i, (moved, normal)) in loads.iter().enumerate() {
+                for (j, (loaded, _)) in loads.iter().enumerate() {
+                    let block = if i == j {
+                        let normals = normal * normal.transpose();
+                        let tangents = Matrix3::identity() - normals;
+                        let stiffness = half_space_stiffness(&law(nu), a, Bond::Stick);
+                        let across = half_space_tangential_stiffness(&law(nu), a);
+                        moved.further_compliance() + normals / stiffness + tangents / across
+                    } else {
+                        let block = response.between(moved, loaded);
+                        let back = response.between(loaded, moved);
+                        assert!((block - back.transpose()).norm() < 1e-12 * block.norm());
+                        block
+                    };
+                    whole.view_mut((3 * i, 3 * j), (3, 3)).copy_from(&block);
+                }
+            }
+            let least = whole.symmetric_eigenvalues().min();
+            assert!(least > 0.0, "{a}: {least}");
+        }
+    }
+}
+
+/// The whole force is borne, and by triangles near the tip.
+#[test]
+fn a_force_is_shared() {
+    let (solid, response) = kidney();
+    let field = TipField::new(&response, &solid.surface, 2e-3);
+    for &id in &solid.free {
+        let load = field.at(&solid.surface, id, &[0.5, 0.25, 0.25]).unwrap();
+        let sum: f64 = load.shares().map(|share| share.weight).sum();
+        assert!((sum - 1.0).abs() < 1e-12);
+        assert!(load.shares().all(|share| share.weight >= 0.0));
+    }
+    let free_of = |id: &TriangleId| field.at(&solid.surface, *id, &[0.5, 0.25, 0.25]).is_some();
+    assert!(!solid.held.iter().all(free_of));
+}
+
+fn real_kidney(triangles: usize) -> Option<Surface> {
+    let lent = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data");
+    let folder = std::env::var_os("PALPATE_DATA").map_or(PathBuf::from(lent), PathBuf::from);
+    let path = folder.join(format!("meshes/vhm_kidney_left_{triangles}.ply"));
+    if path.is_file() {
+        Surface::new(read_mesh(&path, None).unwrap().mesh).ok()
+    } else {
+        println!("passed over: no {}; set PALPATE_DATA", path.display());
+        None
+    }
+}
+
+/// Judge: quadratic tetrahedra, to 2 %. Tolerance: the issue's.
+#[test]
+#[ignore = "slow: minutes"]
+fn real_kidney_under_a_tip() {
+    for triangles in [688, 5146] {
+        let Some(surface) = real_kidney(triangles) else {
+            return;
+        };
+        let nu = 0.45;
+        let (low, high) = surface.mesh().bounds();
+        let extent = high - low;
+        let floor = low + 0.25 * extent;
+        let solid = Held::new(surface.clone(), nu, |centroid| centroid.y < floor.y);
+        let mut places = Vec::new();
+        for (x, z) in [(0.5, 0.5), (0.45, 0.25), (0.55, 0.75)] {
+            let above = Vec3::new(low.x + x * extent.x, high.y, low.z + z * extent.z);
+            places.extend(solid.near_point(&above, 1));
+        }
+        let mut touchable: Vec<_> = places.iter().flat_map(|&id| solid.near(id, 200)).collect();
+        touchable.sort();
+        touchable.dedup();
+        let response = solid.response::<f32>(&touchable);
+        let (a, depth) = (4e-3, 1e-4);
+        let field = TipField::new(&response, &solid.surface, a);
+        for id in places {
+            let center = solid.centroid(id);
+            let normal = surface.mesh().area_vector(id).normalize();
+            let load = field.at(&solid.surface, id, &[1.0 / 3.0; 3]).unwrap();
+            for (grip, bond) in [(Grip::Slide, Bond::Slip), (Grip::Stick, Bond::Stick)] {
+                let problem = SolidProblem {
+                    body: Body::Surface(surface.clone()),
+                    anchor: plane(floor, Vec3::y()),
+                    patch: MovedPatch {
+                        center,
+                        radius: a,
+                        displacement: -depth * normal,
+                        grip,
+                    },
+                    law: Arc::new(law(nu)),
+                };
+                let started = std::time::Instant::now();
+                let found = solve(&problem, 0.02, &mut |_| ()).unwrap();
+                let force = depth / normal_compliance(&load, &normal, (a, nu, bond));
+                let half_space = depth * half_space_stiffness(&law(nu), a, bond);
+                let error = force / found.answer.force_along - 1.0;
+                println!(
+                    "{triangles} triangles, {bond:?}: {:.4} of the half-space, finite elements {:.4} (error {:.3}), off by {:+.2} %, {:.0} s",
+                    force / half_space,
+                    found.answer.force_along / half_space,
+                    found.error,
+                    100.0 * error,
+                    started.elapsed().as_secs_f64()
+                );
+                assert!(error.abs() < 0.08);
+            }
+        }
+    }
+}
