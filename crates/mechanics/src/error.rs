@@ -59,6 +59,12 @@ pub enum Error {
         /// Number of terms.
         terms: usize,
     },
+    /// Too many subdivisions of the triangles near a contact.
+    #[error("{levels} levels of enhancement; give at most 6, which make 4096 triangles of one")]
+    TooManyLevels {
+        /// The number given.
+        levels: usize,
+    },
     /// Too few particles to fill two shells, or more than a step could ever solve.
     #[error("{particles} particles; give between 12 and 600 (34 is the source's number)")]
     ParticlesOutOfRange {

@@ -7,6 +7,7 @@
 pub mod boundary_elements;
 pub mod contact;
 mod cores;
+pub mod enhance;
 mod error;
 pub mod finite_elements;
 pub mod finite_spheres;

@@ -2,7 +2,10 @@
 
 use std::sync::Arc;
 
+use palpate_files::scene::{Enhancement, EnhancementArea, Smoothing};
+use palpate_geometry::Organ;
 use palpate_mechanics::contact::Bond;
+use palpate_mechanics::enhance::EnhancementModel;
 use palpate_mechanics::finite_elements::Failure;
 use palpate_mechanics::finite_elements::hemisphere::{HemisphereProblem, Patch};
 use palpate_mechanics::finite_elements::indentation::Grip;
@@ -13,7 +16,7 @@ use palpate_mechanics::finite_elements::uniaxial::nominal_stress;
 use palpate_mechanics::finite_spheres::{FiniteSphereModel, FiniteSphereSettings, Form};
 use palpate_mechanics::{Blatz, Error, LinearElastic, MooneyRivlin, NeoHookean, PronySeries};
 
-use crate::contacts::tissue;
+use crate::contacts::{organ, tissue};
 
 fn spheres(particles: usize, form: Form, nu: f64) -> Result<(), Error> {
     let settings = FiniteSphereSettings {
@@ -35,6 +38,15 @@ fn hemisphere(radius: f64, patch_radius: f64, depth: f64) -> Result<(), Error> {
     problem.solve_on(0.2, 0).map(drop)
 }
 
+fn enhanced(levels: usize) -> Result<(), Error> {
+    let settings = Enhancement {
+        area: EnhancementArea::Edge,
+        levels,
+        smoothing: Smoothing::Shepard,
+    };
+    EnhancementModel::new(organ(Organ::Cube, 12), settings).map(drop)
+}
+
 #[test]
 fn every_refusal_names_the_value_and_the_mend() {
     let undetermined = Error::Undetermined {
@@ -42,7 +54,8 @@ fn every_refusal_names_the_value_and_the_mend() {
         form: "strong",
         poissons_ratio: 0.3,
     };
-    let refused: [(Result<(), Error>, &[&str]); 24] = [
+    let refused: [(Result<(), Error>, &[&str]); 25] = [
+        (enhanced(7), &["7 levels", "at most 6"]),
         (
             LinearElastic::new(0.0, 0.3).map(drop),
             &["0 Pa", "positive"],

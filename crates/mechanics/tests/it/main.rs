@@ -13,6 +13,8 @@ mod boundary_elements;
 mod boundary_response;
 mod contacts;
 mod convergence;
+mod data;
+mod enhance;
 mod errors;
 mod every_law;
 mod exterior;

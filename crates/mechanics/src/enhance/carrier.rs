@@ -1,0 +1,107 @@
+use palpate_geometry::{AabbTree, NodeId, Surface, TriangleId, closest_on_triangle};
+
+use super::field::SurfaceField;
+use super::interpolation::{Interpolation, SurfacePoint};
+use super::weights::Weights;
+use crate::Vec3;
+
+/// Points that a coarse surface carries with it. What it takes to move them is found once.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Carrier {
+    places: Vec<Vec3>,
+    normals: Vec<Vec3>,
+    weights: Weights,
+}
+
+impl Carrier {
+    /// The vertices of the coarse surface itself.
+    pub fn of_vertices(interpolation: &Interpolation) -> Self {
+        let surface = interpolation.surface();
+        let mut carrier = Self::default();
+        for node in 0..surface.mesh().vertices().len() {
+            let at = SurfacePoint::vertex(surface, NodeId(node as u32));
+            carrier.push(interpolation, &at, interpolation.place(&at));
+        }
+        carrier
+    }
+
+    /// The vertices of a `finer` surface of the same organ, each from the nearest place of the coarse one
+    /// that faces as it does.
+    pub fn of_surface(interpolation: &Interpolation, finer: &Surface) -> Self {
+        let tree = AabbTree::new(interpolation.surface().mesh());
+        let mut carrier = Self::default();
+        for (place, normal) in finer.mesh().vertices().iter().zip(finer.vertex_normals()) {
+            let at = nearest_facing(interpolation, &tree, (place, normal));
+            carrier.push(interpolation, &at, *place);
+        }
+        carrier
+    }
+
+    /// Where the points are at rest [m].
+    pub fn places(&self) -> &[Vec3] {
+        &self.places
+    }
+
+    /// The rows that carry them.
+    pub fn weights(&self) -> &Weights {
+        &self.weights
+    }
+
+    /// Displacements of the points [m]. Allocates nothing.
+    ///
+    /// # Panics
+    /// When `displacements` has not the length of [`Carrier::places`].
+    pub fn carry(&self, field: &SurfaceField, displacements: &mut [Vec3]) {
+        assert_eq!(displacements.len(), self.places.len(), "one per point");
+        for (row, displacement) in displacements.iter_mut().enumerate() {
+            let point = (&self.places[row], &self.normals[row]);
+            *displacement = field.at(point, (&self.weights, row));
+        }
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.places.clear();
+        self.normals.clear();
+        self.weights.clear();
+    }
+
+    /// One more point, at rest at `place` [m], which follows the coarse surface at `at`.
+    pub(super) fn push(&mut self, interpolation: &Interpolation, at: &SurfacePoint, place: Vec3) {
+        self.places.push(place);
+        self.normals.push(interpolation.normal(at));
+        interpolation.write_row(at, &mut self.weights);
+    }
+}
+
+/// The nearest point of the coarse surface whose triangle does not face away from `normal`.
+fn nearest_facing(
+    interpolation: &Interpolation,
+    tree: &AabbTree,
+    (place, normal): (&Vec3, &Vec3),
+) -> SurfacePoint {
+    let mesh = interpolation.surface().mesh();
+    let faces_alike = |triangle: TriangleId| mesh.area_vector(triangle).dot(normal) > 0.0;
+    let nearest = tree.nearest(mesh, place);
+    let mut best = SurfacePoint {
+        triangle: nearest.triangle,
+        barycentric: nearest.on.barycentric,
+    };
+    if faces_alike(nearest.triangle) {
+        return best;
+    }
+    // The other side of a thin wall, or of a sharp edge.
+    let mut distance = nearest.distance + interpolation.nodes()[best.triangle.index()].radius;
+    let reach = Vec3::repeat(distance);
+    tree.visit_box(&(place - reach), &(place + reach), |triangle| {
+        let on = closest_on_triangle(&mesh.positions(triangle), place);
+        let away = (on.position - place).norm();
+        if away < distance && faces_alike(triangle) {
+            distance = away;
+            best = SurfacePoint {
+                triangle,
+                barycentric: on.barycentric,
+            };
+        }
+    });
+    best
+}

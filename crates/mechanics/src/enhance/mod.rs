@@ -1,0 +1,41 @@
+//! Local enhancement (section 4.3): what is seen near a tip when displacements are known per triangle of a
+//! coarse mesh.
+//!
+//! The triangles around the contact are replaced by finer ones on curved patches (`pn_triangle`, `patch`),
+//! and displacements û at the centroids become a field, u(x) = Σ Φ_i(x) û_i (4.9), (4.10). Φ is linear
+//! between means over the triangles at each vertex, or Shepard's functions (4.12) [Shepard 1968], or moving
+//! least squares (4.11) in two tangent coordinates, with the quartic weight (4.13).
+//!
+//! Φ alone would shrink the dimple, which is narrower than a coarse triangle. So it spreads only what the
+//! closed form p of the half-space under each tip leaves: u = Σ A_k p_k(x) + Σ Φ_i(x) (û_i − Σ d_k p_k(x_i)),
+//! with A_k such that u = d_k at contact k. The same rows carry the field to a finer mesh of the whole organ.
+//!
+//! *How we know*: `enhance::every_patch_is_watertight`, `enhance::patches_converge_to_the_sphere`,
+//! `enhance::moving_least_squares_carry_a_linear_field`, `enhance::the_dimple_is_as_deep_as_the_tip`,
+//! `enhance::a_thin_wall_does_not_leak`.
+//!
+//! *Limits*: geometry only, no mechanics: between the centroids the field is smooth, not right. A surface
+//! that follows a coarse mesh changes its triangles when the contact changes its own, by the height of the
+//! patches over their triangles; a fine mesh that is carried does not.
+
+mod carrier;
+mod corner_normals;
+mod field;
+mod functions;
+mod interpolation;
+mod model;
+mod neighborhood;
+mod patch;
+mod pn_triangle;
+mod press;
+mod weights;
+
+pub use carrier::Carrier;
+pub use field::SurfaceField;
+pub use functions::{moving_least_squares, shepard};
+pub use interpolation::{Interpolation, SurfacePoint};
+pub use model::{EnhancementModel, MOST_LEVELS};
+pub use neighborhood::Neighborhood;
+pub use patch::EnhancedPatch;
+pub use press::{Press, profile};
+pub use weights::Weights;
