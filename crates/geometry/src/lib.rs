@@ -6,6 +6,7 @@
 
 mod aabb_tree;
 mod check;
+mod deviation;
 mod fill;
 mod io;
 mod mesh;
@@ -15,12 +16,14 @@ mod orient;
 mod patch_field;
 mod proximity;
 mod refine;
+mod simplify;
 mod surface;
 mod weld;
 
 pub use aabb_tree::{AabbTree, Hit, Nearest};
 pub use check::problem::{MeshProblem, ProblemKind};
 pub use check::{MeshReport, inspect};
+pub use deviation::{Deviation, deviation};
 pub use fill::{FillSettings, fill};
 pub use io::error::{ReadError, ReadFault, UnknownUnit};
 pub use io::format::MeshFormat;
@@ -37,6 +40,7 @@ pub use organ::{AnchorPlane, Organ, OrganDescription, OrganError};
 pub use patch_field::{Patch, PatchField};
 pub use proximity::{PointOnTriangle, closest_on_triangle};
 pub use refine::{Focus, Resolved, refine_near, refine_to, refine_uniformly, resolve_sphere};
+pub use simplify::{Simplified, SimplifyError, SimplifySettings, simplify};
 pub use surface::Surface;
 pub use weld::{Repairs, repair, weld_exactly};
 

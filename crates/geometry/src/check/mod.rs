@@ -2,7 +2,7 @@
 
 mod contact;
 pub(crate) mod problem;
-mod self_intersection;
+pub(crate) mod self_intersection;
 mod shape;
 mod thickness;
 pub(crate) mod topology;

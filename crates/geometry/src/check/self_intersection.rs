@@ -2,7 +2,7 @@
 //! [Shewchuk 1997], so that neither a touch nor a crossing depends on rounding.
 
 use super::contact::{Corners, same_sign, segment_meets_triangle};
-use crate::{NodeId, TriangleId, TriangleMesh};
+use crate::{NodeId, TriangleId, TriangleMesh, Vec3};
 
 /// Number of triangles that meet another elsewhere than in a vertex or an edge that both have.
 ///
@@ -13,7 +13,7 @@ pub(crate) fn count_self_intersections(mesh: &TriangleMesh) -> usize {
     let mut crossing = vec![false; mesh.triangles().len()];
     for_each_close_pair(&mesh, |one, other| {
         let known = crossing[one.index()] && crossing[other.index()];
-        if !known && intersect(&mesh, one, other) {
+        if !known && triangles_meet(&Placed::of(&mesh, one), &Placed::of(&mesh, other)) {
             crossing[one.index()] = true;
             crossing[other.index()] = true;
         }
@@ -56,23 +56,45 @@ fn for_each_close_pair(mesh: &TriangleMesh, mut visit: impl FnMut(TriangleId, Tr
     }
 }
 
-fn intersect(mesh: &TriangleMesh, one: TriangleId, other: TriangleId) -> bool {
-    let (ours, theirs) = (mesh.corners(one), mesh.corners(other));
-    let shared = |node: &NodeId| theirs.contains(node);
-    match ours.iter().filter(|&node| shared(node)).count() {
-        0 => apart_triangles_meet(mesh, one, other),
+/// A triangle where it is.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Placed {
+    pub(crate) nodes: [NodeId; 3],
+    pub(crate) corners: [Vec3; 3],
+}
+
+impl Placed {
+    fn of(mesh: &TriangleMesh, triangle: TriangleId) -> Self {
+        Self {
+            nodes: mesh.corners(triangle),
+            corners: mesh.positions(triangle),
+        }
+    }
+
+    /// Number of the corner that the other triangle does not have, when it is one.
+    fn tip(&self, other: &Self) -> Option<usize> {
+        let own = |&k: &usize| !other.nodes.contains(&self.nodes[k]);
+        (0..3).find(own)
+    }
+}
+
+/// Whether two triangles meet elsewhere than in a vertex or an edge that both have.
+pub(crate) fn triangles_meet(one: &Placed, other: &Placed) -> bool {
+    let shared = |node: &&NodeId| other.nodes.contains(node);
+    match one.nodes.iter().filter(shared).count() {
+        0 => apart_triangles_meet(one, other),
         1 => {
             // What they have in common is convex and holds the shared vertex, so anything more
             // reaches the side opposite of it in one of them.
-            opposite_side_meets(mesh, one, other) || opposite_side_meets(mesh, other, one)
+            opposite_side_meets(one, other) || opposite_side_meets(other, one)
         }
-        2 => folded_together(mesh, one, other),
+        2 => folded_together(one, other),
         _ => true,
     }
 }
 
-fn apart_triangles_meet(mesh: &TriangleMesh, one: TriangleId, other: TriangleId) -> bool {
-    let (ours, theirs) = (Corners(mesh.positions(one)), Corners(mesh.positions(other)));
+fn apart_triangles_meet(one: &Placed, other: &Placed) -> bool {
+    let (ours, theirs) = (Corners(one.corners), Corners(other.corners));
     // Whether the plane of `a` has corners of `b` on both sides, or in it.
     let reaches = |a: &Corners, b: &Corners| {
         let heights = b.0.map(|p| a.side_of(&p));
@@ -88,37 +110,29 @@ fn apart_triangles_meet(mesh: &TriangleMesh, one: TriangleId, other: TriangleId)
 }
 
 /// For triangles with one vertex in common: whether the side of `one` opposite of it meets `other`.
-fn opposite_side_meets(mesh: &TriangleMesh, one: TriangleId, other: TriangleId) -> bool {
-    let theirs = mesh.corners(other);
-    let mut ends = mesh
-        .corners(one)
-        .into_iter()
-        .filter(|node| !theirs.contains(node))
-        .map(|node| mesh.vertices()[node.index()]);
+fn opposite_side_meets(one: &Placed, other: &Placed) -> bool {
+    let mut ends = (0..3)
+        .filter(|&k| !other.nodes.contains(&one.nodes[k]))
+        .map(|k| one.corners[k]);
     let (Some(from), Some(to)) = (ends.next(), ends.next()) else {
         return false;
     };
-    segment_meets_triangle(&from, &to, &Corners(mesh.positions(other)))
+    segment_meets_triangle(&from, &to, &Corners(other.corners))
 }
 
 /// For triangles with an edge in common: whether one lies on the other.
-fn folded_together(mesh: &TriangleMesh, one: TriangleId, other: TriangleId) -> bool {
-    let (ours, theirs) = (mesh.corners(one), mesh.corners(other));
-    let position = |node: NodeId| mesh.vertices()[node.index()];
-    let own = |ours: [NodeId; 3], theirs: [NodeId; 3]| {
-        ours.into_iter().find(|node| !theirs.contains(node))
-    };
-    let (Some(our_tip), Some(their_tip)) = (own(ours, theirs), own(theirs, ours)) else {
+fn folded_together(one: &Placed, other: &Placed) -> bool {
+    let (Some(tip), Some(their_tip)) = (one.tip(other), other.tip(one)) else {
         return true;
     };
-    let triangle = Corners(mesh.positions(one));
-    if triangle.side_of(&position(their_tip)) != 0.0 {
+    let triangle = Corners(one.corners);
+    let their_tip = other.corners[their_tip];
+    if triangle.side_of(&their_tip) != 0.0 {
         return false;
     }
-    let edge = ours.map(position).map(|p| triangle.flat(&p));
-    let tip = ours.iter().position(|&node| node == our_tip).unwrap_or(0);
+    let edge = one.corners.map(|p| triangle.flat(&p));
     let (from, to) = (edge[(tip + 1) % 3], edge[(tip + 2) % 3]);
     let turn = |p| robust::orient2d(from, to, p);
     // On the same side of the common edge, in one plane.
-    same_sign(turn(edge[tip]), turn(triangle.flat(&position(their_tip))))
+    same_sign(turn(edge[tip]), turn(triangle.flat(&their_tip)))
 }

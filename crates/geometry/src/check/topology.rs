@@ -106,7 +106,7 @@ fn root(parents: &mut [usize], mut node: usize) -> usize {
 }
 
 /// How many fans of triangles meet in `node`: pieces of its ring of opposite edges.
-fn fans(mesh: &TriangleMesh, adjacency: &Adjacency, node: NodeId) -> usize {
+pub(crate) fn fans(mesh: &TriangleMesh, adjacency: &Adjacency, node: NodeId) -> usize {
     let mut opposite: Vec<Vec<NodeId>> = Vec::new();
     for &triangle in adjacency.around(node) {
         let mut joined: Vec<NodeId> = mesh.corners(triangle).to_vec();

@@ -18,6 +18,7 @@ mod io;
 mod organ;
 mod refine;
 mod shapes;
+mod simplify;
 mod tetrahedra;
 mod volumes;
 

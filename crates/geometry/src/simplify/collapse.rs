@@ -1,0 +1,281 @@
+use std::cmp::{Ordering, Reverse};
+use std::collections::BinaryHeap;
+
+use super::guard::{Demands, Fresh, Guard, double_area};
+use super::net::Net;
+use super::quadric::Quadric;
+use super::{SHARP, SimplifySettings};
+use crate::Vec3;
+
+/// How much more the planes that stand on borders and sharp edges weigh than the surface [-].
+const EDGE_WEIGHT: f64 = 5.0;
+
+/// What is asked of a collapse, and how much dearer the next is that asks less [-]. To pass through
+/// something is the last resort.
+const DEMANDS: [(Demands, f64); 4] = [
+    (demands(0.5, 0.7, true), 100.0),
+    (demands(0.3, 0.5, true), 100.0),
+    (demands(0.0, 0.2, true), 1e15),
+    (demands(0.0, 0.2, false), f64::INFINITY),
+];
+
+const fn demands(shape: f64, turn: f64, apart: bool) -> Demands {
+    Demands { shape, turn, apart }
+}
+
+/// Collapses edges, cheapest first, until no more triangles are left than asked for or nothing can
+/// go. Returns which vertices stand on borders and sharp edges.
+pub(super) fn collapse(net: &mut Net, settings: &SimplifySettings) -> Vec<bool> {
+    let target = settings.triangles;
+    let mut run = Run::new(net, settings);
+    loop {
+        // A collapse makes others possible that were refused before.
+        let before = run.net.live();
+        run.queue_all();
+        run.work(target);
+        if run.net.live() <= target || run.net.live() == before {
+            return run.on_crease;
+        }
+    }
+}
+
+struct Run<'a> {
+    net: &'a mut Net,
+    guard: Guard,
+    /// Where quadrics are measured from, for the sake of their digits [m].
+    origin: Vec3,
+    quadrics: Vec<Quadric>,
+    /// Area of the original that a vertex stands for [m²].
+    areas: Vec<f64>,
+    /// On a border or a sharp edge.
+    on_crease: Vec<bool>,
+    /// Raised whenever a vertex or its surroundings change.
+    ages: Vec<u32>,
+    queue: BinaryHeap<Reverse<Candidate>>,
+    evenness: f64,
+}
+
+/// An edge that may be collapsed to `position` [m].
+#[derive(Debug, Clone, Copy)]
+struct Candidate {
+    /// Squared distance over an area, and what unevenness adds [m⁴].
+    cost: f64,
+    /// Which of the demands it meets, as far as is known.
+    rank: usize,
+    edge: [u32; 2],
+    position: Vec3,
+    age: u32,
+}
+
+impl<'a> Run<'a> {
+    fn new(net: &'a mut Net, settings: &SimplifySettings) -> Self {
+        let vertices = net.positions.len();
+        let mut run = Self {
+            guard: Guard::new(net),
+            origin: net.positions[net.corners(0)[0] as usize],
+            quadrics: vec![Quadric::zero(); vertices],
+            areas: vec![0.0; vertices],
+            on_crease: net.on_border.clone(),
+            ages: vec![0; vertices],
+            queue: BinaryHeap::new(),
+            evenness: settings.evenness,
+            net,
+        };
+        run.add_faces();
+        run.add_creases();
+        run
+    }
+
+    /// The planes of the triangles.
+    fn add_faces(&mut self) {
+        for triangle in self.net.triangles() {
+            let corners = self.net.placed(triangle);
+            let double = double_area(&corners);
+            let area = 0.5 * double.norm();
+            let Some(normal) = double.try_normalize(0.0) else {
+                continue;
+            };
+            let plane = Quadric::of_plane(&(corners[0] - self.origin), &normal, area / 3.0);
+            for v in self.net.corners(triangle) {
+                self.quadrics[v as usize] = self.quadrics[v as usize].plus(&plane);
+                self.areas[v as usize] += area / 3.0;
+            }
+        }
+    }
+
+    /// Planes that stand upright on the triangles at borders and sharp edges.
+    fn add_creases(&mut self) {
+        for [a, b] in self.net.edges() {
+            let beside: Vec<u32> = self.net.at_edge(a, b).collect();
+            let normals = beside.iter().map(|&t| double_area(&self.net.placed(t)));
+            let normals: Vec<_> = normals.filter_map(|n| n.try_normalize(0.0)).collect();
+            if let [one, other] = normals[..]
+                && one.dot(&other) > SHARP
+            {
+                continue;
+            }
+            let start = self.net.positions[a as usize] - self.origin;
+            let along = self.net.positions[b as usize] - self.origin - start;
+            for normal in normals {
+                let Some(upright) = along.cross(&normal).try_normalize(0.0) else {
+                    continue;
+                };
+                let weight = EDGE_WEIGHT * along.norm_squared();
+                let plane = Quadric::of_plane(&start, &upright, weight);
+                for v in [a, b] {
+                    self.quadrics[v as usize] = self.quadrics[v as usize].plus(&plane);
+                    self.on_crease[v as usize] = true;
+                }
+            }
+        }
+    }
+
+    fn queue_all(&mut self) {
+        let edges = self.net.edges();
+        let all = edges.into_iter().map(|edge| Reverse(self.candidate(edge)));
+        self.queue = all.collect();
+    }
+
+    fn candidate(&self, edge: [u32; 2]) -> Candidate {
+        let [a, b] = edge.map(|v| v as usize);
+        let [start, end] = [a, b].map(|v| self.net.positions[v] - self.origin);
+        let quadric = self.quadrics[a].plus(&self.quadrics[b]);
+        let least = quadric.least_near(&(0.5 * (start + end)));
+        let cheapest = |one: Vec3, other: Vec3| {
+            if quadric.at(&one) < quadric.at(&other) {
+                one
+            } else {
+                other
+            }
+        };
+        let at = match (self.on_crease[a], self.on_crease[b]) {
+            (true, false) => start,
+            (false, true) => end,
+            (false, false) => least,
+            // A corner is where it is, to the last digit.
+            (true, true) => cheapest(start, cheapest(end, least)),
+        };
+        let uneven = (self.areas[a] + self.areas[b]) * (end - start).norm_squared();
+        Candidate {
+            cost: quadric.at(&at) + self.evenness * uneven,
+            rank: 0,
+            edge,
+            position: at + self.origin,
+            age: self.ages[a] + self.ages[b],
+        }
+    }
+
+    fn work(&mut self, target: usize) {
+        while self.net.live() > target
+            && let Some(Reverse(candidate)) = self.queue.pop()
+        {
+            let [a, b] = candidate.edge;
+            let current = candidate.age == self.ages[a as usize] + self.ages[b as usize];
+            if !current || !self.net.can_collapse(a, b) {
+                continue;
+            }
+            let (demands, dearer) = DEMANDS[candidate.rank];
+            let too_many = self.net.live() == target + 1 && self.takes_one_too_many(&candidate);
+            if !too_many && self.is_admitted(&candidate, demands) {
+                self.collapse(&candidate);
+            } else if candidate.rank + 1 < DEMANDS.len() {
+                self.queue.push(Reverse(Candidate {
+                    cost: dearer * candidate.cost,
+                    rank: candidate.rank + 1,
+                    ..candidate
+                }));
+            }
+        }
+    }
+
+    /// Where one triangle shall go, two would: while there are borders, one of theirs can go alone.
+    fn takes_one_too_many(&self, candidate: &Candidate) -> bool {
+        let [a, b] = candidate.edge;
+        candidate.rank + 1 < DEMANDS.len()
+            && self.net.at_edge(a, b).count() == 2
+            && self.net.on_border.contains(&true)
+    }
+
+    fn is_admitted(&self, candidate: &Candidate, demands: Demands) -> bool {
+        let [a, b] = candidate.edge;
+        let ours = self.net.around(a).iter();
+        let theirs = self.net.around(b).iter();
+        let theirs = theirs.filter(|&&t| !self.net.corners(t).contains(&a));
+        let old: Vec<u32> = ours.chain(theirs).copied().collect();
+        let left = old.iter().filter(|&&t| {
+            let corners = self.net.corners(t);
+            !(corners.contains(&a) && corners.contains(&b))
+        });
+        let new: Vec<Fresh> = left.map(|&t| self.moved(t, candidate)).collect();
+        // The last piece of something that branches must not vanish.
+        !new.is_empty() && self.guard.admits(self.net, &old, &new, demands)
+    }
+
+    /// A triangle at one end of the edge after the collapse.
+    fn moved(&self, triangle: u32, candidate: &Candidate) -> Fresh {
+        let nodes = self.net.corners(triangle);
+        let before = self.net.placed(triangle);
+        let is_end = nodes.map(|v| candidate.edge.contains(&v));
+        let pick = |k: usize| {
+            if is_end[k] {
+                candidate.position
+            } else {
+                before[k]
+            }
+        };
+        let name = |k: usize| {
+            if is_end[k] {
+                candidate.edge[0]
+            } else {
+                nodes[k]
+            }
+        };
+        Fresh {
+            nodes: [0, 1, 2].map(name),
+            corners: [0, 1, 2].map(pick),
+            before: double_area(&before),
+        }
+    }
+
+    fn collapse(&mut self, candidate: &Candidate) {
+        let [kept, gone] = candidate.edge;
+        let [a, b] = candidate.edge.map(|v| v as usize);
+        self.net.collapse(kept, gone, candidate.position);
+        self.quadrics[a] = self.quadrics[a].plus(&self.quadrics[b]);
+        self.areas[a] += self.areas[b];
+        self.on_crease[a] |= self.on_crease[b];
+        // One that is gone must never look current again.
+        self.ages[b] = u32::MAX / 2;
+        for &triangle in self.net.around(kept) {
+            self.guard.note(triangle, &self.net.placed(triangle));
+        }
+        self.guard.keep_up(self.net);
+        let ring = self.net.neighbors(kept);
+        self.ages[a] += 1;
+        for &v in &ring {
+            let edge = [kept.min(v), kept.max(v)];
+            self.queue.push(Reverse(self.candidate(edge)));
+        }
+    }
+}
+
+impl PartialEq for Candidate {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Candidate {}
+
+impl PartialOrd for Candidate {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Candidate {
+    fn cmp(&self, other: &Self) -> Ordering {
+        let by_cost = self.cost.total_cmp(&other.cost);
+        by_cost.then(self.edge.cmp(&other.edge))
+    }
+}

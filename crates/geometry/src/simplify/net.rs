@@ -1,0 +1,214 @@
+use crate::check::topology::fans;
+use crate::mesh::edges::{by_edge, sides};
+use crate::{Adjacency, NodeId, TriangleMesh, Vec3};
+
+/// A triangle that is gone.
+const GONE: [u32; 3] = [u32::MAX; 3];
+
+/// A mesh whose edges can be collapsed and flipped. Numbers of vertices and triangles stay.
+pub(super) struct Net {
+    pub(super) positions: Vec<Vec3>,
+    triangles: Vec<[u32; 3]>,
+    around: Vec<Vec<u32>>,
+    /// On an edge with one triangle.
+    pub(super) on_border: Vec<bool>,
+    /// Where the surface branches or a triangle is a line; nothing there is changed.
+    held: Vec<bool>,
+    live: usize,
+}
+
+impl Net {
+    pub(super) fn new(mesh: &TriangleMesh) -> Self {
+        let vertices = mesh.vertices().len();
+        let adjacency = Adjacency::new(mesh);
+        let mut on_border = vec![false; vertices];
+        let mut held = vec![false; vertices];
+        for edge in by_edge(&sides(mesh.triangles())) {
+            for end in [edge[0].low, edge[0].high] {
+                on_border[end.index()] |= edge.len() == 1;
+                held[end.index()] |= edge.len() > 2;
+            }
+        }
+        for [a, b, c] in mesh.triangles() {
+            if a == b || b == c || c == a {
+                [a, b, c].iter().for_each(|node| held[node.index()] = true);
+            }
+        }
+        for node in (0..vertices as u32).map(NodeId) {
+            held[node.index()] |= fans(mesh, &adjacency, node) > 1;
+        }
+        let around = (0..vertices as u32)
+            .map(|v| adjacency.around(NodeId(v)).iter().map(|t| t.0).collect())
+            .collect();
+        let triangles = mesh.triangles().iter();
+        Self {
+            positions: mesh.vertices().to_vec(),
+            triangles: triangles.map(|t| t.map(|node| node.0)).collect(),
+            around,
+            on_border,
+            held,
+            live: mesh.triangles().len(),
+        }
+    }
+
+    /// What is left, in the order of the original.
+    ///
+    /// # Panics
+    /// Never: at least one triangle is left, and positions stay finite.
+    pub(super) fn mesh(&self) -> TriangleMesh {
+        let mut numbers = vec![NodeId(u32::MAX); self.positions.len()];
+        let mut vertices = Vec::new();
+        for (vertex, around) in self.around.iter().enumerate() {
+            if !around.is_empty() {
+                numbers[vertex] = NodeId(vertices.len() as u32);
+                vertices.push(self.positions[vertex]);
+            }
+        }
+        let left = self.triangles.iter().filter(|&&corners| corners != GONE);
+        let triangles = left
+            .map(|corners| corners.map(|v| numbers[v as usize]))
+            .collect();
+        TriangleMesh::new(vertices, triangles).expect("a part of a mesh is one")
+    }
+
+    /// Whether a vertex must stay: on a border, or where the surface branches.
+    pub(super) fn is_held(&self, vertex: u32) -> bool {
+        self.held[vertex as usize] || self.on_border[vertex as usize]
+    }
+
+    /// How many triangles are left.
+    pub(super) fn live(&self) -> usize {
+        self.live
+    }
+
+    /// Numbers of the triangles that are left.
+    pub(super) fn triangles(&self) -> impl Iterator<Item = u32> {
+        (0..self.triangles.len() as u32).filter(|&t| self.is_live(t))
+    }
+
+    pub(super) fn is_live(&self, triangle: u32) -> bool {
+        self.triangles[triangle as usize] != GONE
+    }
+
+    pub(super) fn corners(&self, triangle: u32) -> [u32; 3] {
+        self.triangles[triangle as usize]
+    }
+
+    pub(super) fn placed(&self, triangle: u32) -> [Vec3; 3] {
+        self.corners(triangle).map(|v| self.positions[v as usize])
+    }
+
+    /// The triangles that use a vertex; none when it is gone.
+    pub(super) fn around(&self, vertex: u32) -> &[u32] {
+        &self.around[vertex as usize]
+    }
+
+    /// The triangles at an edge.
+    pub(super) fn at_edge(&self, a: u32, b: u32) -> impl Iterator<Item = u32> {
+        let around = self.around[a as usize].iter().copied();
+        around.filter(move |&t| self.corners(t).contains(&b))
+    }
+
+    /// All edges, once each, the lower number first.
+    pub(super) fn edges(&self) -> Vec<[u32; 2]> {
+        let sides = self.triangles().flat_map(|t| {
+            let corners = self.corners(t);
+            [0, 1, 2].map(|k| (corners[k], corners[(k + 1) % 3]))
+        });
+        let mut edges: Vec<_> = sides.map(|(a, b)| [a.min(b), a.max(b)]).collect();
+        edges.sort_unstable();
+        edges.dedup();
+        edges
+    }
+
+    /// The vertices that share an edge with `vertex`, in ascending order.
+    pub(super) fn neighbors(&self, vertex: u32) -> Vec<u32> {
+        let corners = self.around(vertex).iter().flat_map(|&t| self.corners(t));
+        let mut ring: Vec<_> = corners.filter(|&v| v != vertex).collect();
+        ring.sort_unstable();
+        ring.dedup();
+        ring
+    }
+
+    /// Whether the surface stays of the same kind when the edge shrinks to a point: the link
+    /// condition [Dey et al. 1999].
+    pub(super) fn can_collapse(&self, a: u32, b: u32) -> bool {
+        if self.held[a as usize] || self.held[b as usize] {
+            return false;
+        }
+        let beside: Vec<u32> = self.at_edge(a, b).collect();
+        let inner = beside.len() == 2;
+        // An inner edge between two places of a border would pinch the surface.
+        if beside.is_empty() || (inner && self.on_border[a as usize] && self.on_border[b as usize])
+        {
+            return false;
+        }
+        let (ours, theirs) = (self.neighbors(a), self.neighbors(b));
+        let common: Vec<u32> = ours.into_iter().filter(|v| theirs.contains(v)).collect();
+        // The last tetrahedron, and the last triangle of a piece.
+        let fewest = if inner { 4 } else { 2 };
+        let few = |v: &u32| !self.on_border[*v as usize] && self.around(*v).len() < fewest;
+        let last = |v: &u32| self.around(*v).len() < 2;
+        common.len() == beside.len() && !common.iter().any(|v| few(v) || last(v))
+    }
+
+    /// Shrinks an edge to `position`; `kept` stays and `gone` goes. The caller has asked
+    /// [`Self::can_collapse`].
+    pub(super) fn collapse(&mut self, kept: u32, gone: u32, position: Vec3) {
+        let moved = std::mem::take(&mut self.around[gone as usize]);
+        for triangle in moved {
+            let corners = self.corners(triangle);
+            if corners.contains(&kept) {
+                for corner in corners {
+                    self.around[corner as usize].retain(|&t| t != triangle);
+                }
+                self.triangles[triangle as usize] = GONE;
+                self.live -= 1;
+            } else {
+                let renamed = corners.map(|v| if v == gone { kept } else { v });
+                self.triangles[triangle as usize] = renamed;
+                self.around[kept as usize].push(triangle);
+            }
+        }
+        self.on_border[kept as usize] |= self.on_border[gone as usize];
+        self.positions[kept as usize] = position;
+    }
+
+    /// The two triangles at an inner edge that may be flipped, with the vertices opposite of it:
+    /// `[(left, apex), (right, opposite)]`, where `left` runs from `a` to `b`.
+    pub(super) fn diamond(&self, a: u32, b: u32) -> Option<[(u32, u32); 2]> {
+        let beside: Vec<u32> = self.at_edge(a, b).collect();
+        let [one, other] = beside[..] else {
+            return None;
+        };
+        let runs = |t: u32| {
+            let corners = self.corners(t);
+            (0..3).any(|k| corners[k] == a && corners[(k + 1) % 3] == b)
+        };
+        let (left, right) = if runs(one) {
+            (one, other)
+        } else {
+            (other, one)
+        };
+        let apex = |t: u32| self.corners(t).into_iter().find(|&v| v != a && v != b);
+        let (apex, opposite) = (apex(left)?, apex(right)?);
+        let four = [a, b, apex, opposite];
+        let free = !four.iter().any(|&v| self.held[v as usize])
+            && runs(left)
+            && !runs(right)
+            && apex != opposite
+            && self.at_edge(apex, opposite).next().is_none();
+        free.then_some([(left, apex), (right, opposite)])
+    }
+
+    /// Replaces the edge of a diamond by the one across.
+    pub(super) fn flip(&mut self, [a, b]: [u32; 2], diamond: [(u32, u32); 2]) {
+        let [(left, apex), (right, opposite)] = diamond;
+        self.triangles[left as usize] = [a, opposite, apex];
+        self.triangles[right as usize] = [opposite, b, apex];
+        self.around[b as usize].retain(|&t| t != left);
+        self.around[a as usize].retain(|&t| t != right);
+        self.around[opposite as usize].push(left);
+        self.around[apex as usize].push(right);
+    }
+}
