@@ -11,8 +11,8 @@
 //! with A_k such that u = d_k at contact k. The same rows carry the field to a finer mesh of the whole organ.
 //!
 //! *How we know*: `enhance::every_patch_is_watertight`, `enhance::patches_converge_to_the_sphere`,
-//! `enhance::moving_least_squares_carry_a_linear_field`, `enhance::the_dimple_is_as_deep_as_the_tip`,
-//! `enhance::a_thin_wall_does_not_leak`.
+//! `carried_field::moving_least_squares_carry_a_linear_field`, `carried_field::a_thin_wall_does_not_leak`,
+//! `carried_field::the_dimple_is_as_deep_as_the_tip`.
 //!
 //! *Limits*: geometry only, no mechanics: between the centroids the field is smooth, not right. A surface
 //! that follows a coarse mesh changes its triangles when the contact changes its own, by the height of the

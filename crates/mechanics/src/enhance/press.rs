@@ -51,7 +51,7 @@ impl Dimple {
     /// `influence` is the nodes' radius there [m].
     pub(super) fn new(interpolation: &Interpolation, press: &Press, influence: f64) -> Self {
         let normal = interpolation.normal(&press.at);
-        let radius = press.tip.contact_radius(-press.displacement.dot(&normal));
+        let radius = press.tip.contact_radius(press.displacement.norm());
         Self {
             place: interpolation.place(&press.at),
             normal,

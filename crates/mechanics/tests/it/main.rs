@@ -11,6 +11,7 @@ mod analytic;
 mod bodies;
 mod boundary_elements;
 mod boundary_response;
+mod carried_field;
 mod contacts;
 mod convergence;
 mod data;

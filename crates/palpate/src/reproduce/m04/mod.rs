@@ -1,10 +1,10 @@
-//! M4, local enhancement: the interpolation functions of section 4.3 in one dimension.
-//!
-//! Shepard's functions are φ_i = w_i / Σ w; moving least squares with the basis {1, x} correct them to
-//! reproduce a line: φ_i = w_i (m₂ − m₁ d_i) / (m₀ m₂ − m₁²), d_i = x_i − x, m_k = Σ w_i d_iᵏ.
+//! M4, local enhancement: the interpolation functions of section 4.3 in one dimension, as the library makes
+//! them of the weights (`palpate_mechanics::enhance`).
 
 mod plots;
 
+use nalgebra::Vector2;
+use palpate_mechanics::enhance::{moving_least_squares, shepard};
 use palpate_mechanics::finite_spheres::quartic;
 
 use crate::failure::Failure;
@@ -85,17 +85,15 @@ fn own(ours: f64) -> Value {
 
 /// The functions of all nodes at `x` [h], for the `radius` of influence [h].
 fn functions(method: Method, radius: f64, x: f64) -> [f64; NODAL.len()] {
-    let away: [f64; NODAL.len()] = std::array::from_fn(|node| node as f64 - x);
-    let weights = away.map(|d| quartic(d.abs() / radius));
-    let moment = |power: i32| -> f64 {
-        let terms = away.iter().zip(&weights).map(|(d, w)| w * d.powi(power));
-        terms.sum()
-    };
-    let [m0, m1, m2] = [0, 1, 2].map(moment);
-    std::array::from_fn(|node| match method {
-        Method::Shepard => weights[node] / m0,
-        Method::MovingLeastSquares => weights[node] * (m2 - m1 * away[node]) / (m0 * m2 - m1 * m1),
-    })
+    let away = |node: usize| node as f64 - x;
+    let mut functions = std::array::from_fn(|node| quartic(away(node).abs() / radius));
+    match method {
+        Method::Shepard => shepard(&mut functions),
+        Method::MovingLeastSquares => {
+            moving_least_squares(&mut functions, |node| Vector2::new(away(node), 0.0));
+        }
+    }
+    functions
 }
 
 /// Positions from the first node to the last [h].
