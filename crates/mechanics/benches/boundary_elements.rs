@@ -97,10 +97,8 @@ fn response(
 fn boundary_elements(c: &mut Criterion) {
     let (surface, held, free) = kidney(triangles());
     let some = &free[..500.min(free.len())];
-    let response = {
-        drop(response((&surface, &held), &free));
-        response((&surface, &held), some)
-    };
+    drop(response((&surface, &held), &free));
+    let response = response((&surface, &held), some);
     let mut group = c.benchmark_group("boundary_elements");
     group.sample_size(50);
     on_line(&mut group, &response);

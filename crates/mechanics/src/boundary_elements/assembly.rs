@@ -1,7 +1,7 @@
 use faer::{Mat, MatRef};
 use nalgebra::Matrix3;
 
-use super::integrals::{Place, integrate};
+use super::integrals::{Place, Source};
 use super::kelvin::Kelvin;
 use super::panel::Panel;
 use super::precision::Precision;
@@ -32,11 +32,8 @@ impl Influences<'_> {
         let columns = displacement.chunks_exact_mut(3 * size);
         let columns = columns.zip(traction.chunks_exact_mut(3 * size)).enumerate();
         on_all_cores(columns, |(source, (u, t))| {
-            for target in 0..self.panels.len() {
-                let (displacement, traction) = self.between(source, target);
-                put(u, target, &displacement);
-                put(t, target, &traction);
-            }
+            self.displacement_columns(source, 1.0, u);
+            self.traction_columns(source, t);
         });
         let [displacement, traction] = [displacement, traction]
             .map(|columns| MatRef::from_column_major_slice(&columns, size, size).to_owned());
@@ -46,22 +43,45 @@ impl Influences<'_> {
         }
     }
 
-    /// Blocks of U [m³/N] and ½ 1 + T [-]: what the panel `source` does at the centroid of `target`.
-    pub(super) fn between(&self, source: usize, target: usize) -> (Matrix3<f64>, Matrix3<f64>) {
-        let (place, free) = if source == target {
-            (Place::OnPanel, 0.5)
-        } else {
-            (Place::Elsewhere, 0.0)
-        };
-        let x = &self.panels[target].centroid;
-        let found = integrate(&self.kelvin, &self.panels[source], x, place);
-        let traction = found.traction + Matrix3::identity() * free;
-        (found.displacement, traction)
+    /// The columns of U that belong to the panel `number`, times `factor`.
+    pub(super) fn displacement_columns<T: Precision>(
+        &self,
+        number: usize,
+        factor: f64,
+        columns: &mut [T],
+    ) {
+        let source = Source::new(&self.panels[number]);
+        for (target, panel) in self.panels.iter().enumerate() {
+            let place = place(number, target);
+            let block = source.displacement(&self.kelvin, &panel.centroid, place);
+            put(columns, target, &(block * factor));
+        }
+    }
+
+    /// The columns of ½ 1 + T that belong to the panel `number`.
+    pub(super) fn traction_columns<T: Precision>(&self, number: usize, columns: &mut [T]) {
+        let source = Source::new(&self.panels[number]);
+        for (target, panel) in self.panels.iter().enumerate() {
+            let place = place(number, target);
+            let mut block = source.traction(&self.kelvin, &panel.centroid, place);
+            if place == Place::OnPanel {
+                block += Matrix3::from_diagonal_element(0.5);
+            }
+            put(columns, target, &block);
+        }
+    }
+}
+
+fn place(source: usize, target: usize) -> Place {
+    if source == target {
+        Place::OnPanel
+    } else {
+        Place::Elsewhere
     }
 }
 
 /// Writes the rows of the panel `target` into the three columns of a source.
-pub(super) fn put<T: Precision>(columns: &mut [T], target: usize, block: &Matrix3<f64>) {
+fn put<T: Precision>(columns: &mut [T], target: usize, block: &Matrix3<f64>) {
     let size = columns.len() / 3;
     for (column, values) in columns.chunks_exact_mut(size).zip(block.column_iter()) {
         for (place, &value) in column[3 * target..].iter_mut().zip(values.iter()) {

@@ -37,59 +37,10 @@ pub struct PanelIntegrals {
 
 /// Both integrals over `panel` from the place `x` [m], which lies `on` it or not.
 pub fn integrate(kelvin: &Kelvin, panel: &Panel, x: &Vec3, place: Place) -> PanelIntegrals {
-    let nu = kelvin.poissons_ratio();
-    let n = panel.normal;
-    let seen = Seen::from(panel, x, place);
-    let (h, omega, sums) = (seen.height, seen.solid_angle, &seen.sums);
-    let normals = n * n.transpose();
-    let (inverse, along) = seen.distances(&n);
-    let displacement = Matrix3::identity() * ((3.0 - 4.0 * nu) * inverse) + along;
-
-    let away = 1.0 - 2.0 * nu;
-    let q = sums.cube;
-    let stretch = (Matrix3::identity() - normals) * omega - (q + n * (q * n).transpose()) * h
-        + normals * (omega + h * q.trace());
-    let turning = n * sums.outline.transpose() - sums.outline * n.transpose();
-    let traction = Matrix3::identity() * (away * omega) + stretch - turning * away;
+    let source = Source::new(panel);
     PanelIntegrals {
-        displacement: displacement * kelvin.displacement_factor(),
-        traction: traction * kelvin.traction_factor(),
-    }
-}
-
-/// ∫ 1/r dA [m] and ∫ r rᵀ/r³ dA [m] over `panel` from the place `x` [m], which lies `on` it or not.
-pub(crate) fn distances(panel: &Panel, x: &Vec3, place: Place) -> (f64, Matrix3<f64>) {
-    Seen::from(panel, x, place).distances(&panel.normal)
-}
-
-/// A panel, seen from a place.
-struct Seen {
-    height: f64,
-    solid_angle: f64,
-    sums: Sums,
-}
-
-impl Seen {
-    fn from(panel: &Panel, x: &Vec3, place: Place) -> Self {
-        let ends = panel.corners.map(|corner| corner - x);
-        let (height, solid_angle) = match place {
-            Place::Elsewhere => (ends[0].dot(&panel.normal), solid_angle(&ends)),
-            Place::OnPanel => (0.0, 0.0),
-        };
-        let sums = Sums::around(&ends, &panel.normal, height);
-        Self {
-            height,
-            solid_angle,
-            sums,
-        }
-    }
-
-    fn distances(&self, n: &Vec3) -> (f64, Matrix3<f64>) {
-        let inverse = self.sums.inverse - self.height * self.solid_angle;
-        let d = self.sums.distance;
-        let normals = n * n.transpose();
-        let hessian = d + n * (d * n).transpose() + normals * (2.0 * inverse - d.trace());
-        (inverse, Matrix3::identity() * inverse - hessian)
+        displacement: source.displacement(kelvin, x, place),
+        traction: source.traction(kelvin, x, place),
     }
 }
 
@@ -102,60 +53,150 @@ pub enum Place {
     Elsewhere,
 }
 
-/// Sums over the edges.
-struct Sums {
-    /// Σ d L.
-    inverse: f64,
-    /// D.
-    distance: Matrix3<f64>,
-    /// Q.
-    cube: Matrix3<f64>,
-    /// l.
-    outline: Vec3,
+/// A panel whose integrals are wanted from many places.
+pub(crate) struct Source<'a> {
+    panel: &'a Panel,
+    edges: [Edge; 3],
 }
 
-impl Sums {
-    fn around(ends: &[Vec3; 3], n: &Vec3, h: f64) -> Self {
-        let mut sums = Self {
-            inverse: 0.0,
-            distance: Matrix3::zeros(),
-            cube: Matrix3::zeros(),
-            outline: Vec3::zeros(),
-        };
-        for k in 0..3 {
-            let (a, b) = (ends[k], ends[(k + 1) % 3]);
-            let length = (b - a).norm();
-            let m = (b - a) / length;
-            let e = m.cross(n);
-            let (d, s1) = (a.dot(&e), a.dot(&m));
-            let s2 = s1 + length;
-            let (r1, r2) = (a.norm(), b.norm());
-            // The two forms are equal; each cancels where the other does not.
-            let log = if s1 + s2 > 0.0 {
-                ((r2 + s2) / (r1 + s1)).ln()
+/// An edge: m, e and its length.
+struct Edge {
+    along: Vec3,
+    outward: Vec3,
+    length: f64,
+}
+
+/// A panel as it is seen from a place.
+struct Seen {
+    corners: [Vec3; 3],
+    /// r₁ and r₂ of the edges.
+    distances: [f64; 3],
+    /// h.
+    height: f64,
+    /// Ω.
+    solid_angle: f64,
+}
+
+/// An edge as it is seen from a place: d, s₁, s₂, L.
+struct SeenEdge {
+    away: f64,
+    ends: [f64; 2],
+    log: f64,
+}
+
+impl<'a> Source<'a> {
+    /// The triangle `panel`.
+    pub(crate) fn new(panel: &'a Panel) -> Self {
+        let edges = [0, 1, 2].map(|k| {
+            let way = panel.corners[(k + 1) % 3] - panel.corners[k];
+            let length = way.norm();
+            let along = way / length;
+            let outward = along.cross(&panel.normal);
+            Edge {
+                along,
+                outward,
+                length,
+            }
+        });
+        Self { panel, edges }
+    }
+
+    /// ∫ u* dA [m³/N].
+    pub(super) fn displacement(&self, kelvin: &Kelvin, x: &Vec3, place: Place) -> Matrix3<f64> {
+        let (inverse, along) = self.distances(x, place);
+        let shape = 3.0 - 4.0 * kelvin.poissons_ratio();
+        (Matrix3::from_diagonal_element(shape * inverse) + along) * kelvin.displacement_factor()
+    }
+
+    /// ∫ p* dA [-].
+    pub(super) fn traction(&self, kelvin: &Kelvin, x: &Vec3, place: Place) -> Matrix3<f64> {
+        let away = 1.0 - 2.0 * kelvin.poissons_ratio();
+        let (n, seen) = (self.panel.normal, self.seen(x, place));
+        let (h, omega) = (seen.height, seen.solid_angle);
+        let (mut q, mut outline) = (Matrix3::zeros(), Vec3::zeros());
+        for (k, edge) in self.edges.iter().enumerate() {
+            let SeenEdge { away, ends, log } = seen.edge(edge, k);
+            let [inverse1, inverse2] = [k, k + 1].map(|end| 1.0 / seen.distances[end % 3]);
+            let squared = away * away + h * h;
+            // A place on the line of the edge sees nothing of it.
+            let across = if squared > 0.0 {
+                (ends[1] * inverse2 - ends[0] * inverse1) / squared
             } else {
-                ((r1 - s1) / (r2 - s2)).ln()
+                0.0
             };
-            let p = e * d + n * h;
-            let q2 = d * d + h * h;
-            let across = if q2 > 0.0 {
-                p * ((s2 / r2 - s1 / r1) / q2)
-            } else {
-                Vec3::zeros()
-            };
-            sums.inverse += d * log;
-            sums.distance += e * (p * log + m * (r2 - r1)).transpose();
-            sums.cube += e * (across + m * (1.0 / r1 - 1.0 / r2)).transpose();
-            sums.outline += e * log;
+            let p = edge.outward * away + n * h;
+            let row = p * across + edge.along * (inverse1 - inverse2);
+            q += edge.outward * row.transpose();
+            outline += edge.outward * log;
         }
-        sums
+        let normals = n * n.transpose();
+        let stretch = Matrix3::from_diagonal_element((1.0 + away) * omega)
+            - (q + n * (q * n).transpose()) * h
+            + normals * (h * q.trace());
+        let turning = n * outline.transpose() - outline * n.transpose();
+        (stretch - turning * away) * kelvin.traction_factor()
+    }
+
+    /// ∫ 1/r dA [m] and ∫ r rᵀ/r³ dA [m] from the place `x` [m], which lies `on` the panel or not.
+    pub(crate) fn distances(&self, x: &Vec3, place: Place) -> (f64, Matrix3<f64>) {
+        let (n, seen) = (self.panel.normal, self.seen(x, place));
+        let h = seen.height;
+        let (mut inverse, mut d) = (-h * seen.solid_angle, Matrix3::zeros());
+        for (k, edge) in self.edges.iter().enumerate() {
+            let SeenEdge { away, log, .. } = seen.edge(edge, k);
+            let longer = seen.distances[(k + 1) % 3] - seen.distances[k];
+            let p = edge.outward * away + n * h;
+            inverse += away * log;
+            d += edge.outward * (p * log + edge.along * longer).transpose();
+        }
+        let normals = n * n.transpose();
+        let hessian = d + n * (d * n).transpose() + normals * (2.0 * inverse - d.trace());
+        (inverse, Matrix3::from_diagonal_element(inverse) - hessian)
+    }
+
+    fn seen(&self, x: &Vec3, place: Place) -> Seen {
+        let corners = self.panel.corners.map(|corner| corner - x);
+        let distances = corners.map(|corner| corner.norm());
+        let (height, solid_angle) = match place {
+            Place::Elsewhere => (
+                corners[0].dot(&self.panel.normal),
+                solid_angle(&corners, &distances),
+            ),
+            Place::OnPanel => (0.0, 0.0),
+        };
+        Seen {
+            corners,
+            distances,
+            height,
+            solid_angle,
+        }
     }
 }
 
-/// Solid angle of a triangle with corners at `ends`, positive seen from behind [Van Oosterom and Strackee 1983].
-fn solid_angle(ends: &[Vec3; 3]) -> f64 {
+impl Seen {
+    fn edge(&self, edge: &Edge, k: usize) -> SeenEdge {
+        let first = self.corners[k].dot(&edge.along);
+        let ends = [first, first + edge.length];
+        let [r1, r2] = [self.distances[k], self.distances[(k + 1) % 3]];
+        // The two forms are equal; each cancels where the other does not.
+        let log = if ends[0] + ends[1] > 0.0 {
+            ((r2 + ends[1]) / (r1 + ends[0])).ln()
+        } else {
+            ((r1 - ends[0]) / (r2 - ends[1])).ln()
+        };
+        SeenEdge {
+            away: self.corners[k].dot(&edge.outward),
+            ends,
+            log,
+        }
+    }
+}
+
+/// Solid angle of a triangle with corners at `ends` and `distances`, positive seen from behind
+/// [Van Oosterom and Strackee 1983].
+fn solid_angle(ends: &[Vec3; 3], distances: &[f64; 3]) -> f64 {
     let [a, b, c] = ends;
-    let [ra, rb, rc] = [a.norm(), b.norm(), c.norm()];
+    let [ra, rb, rc] = distances;
     let volume = a.dot(&b.cross(c));
     let rest = ra * rb * rc + a.dot(b) * rc + b.dot(c) * ra + c.dot(a) * rb;
     2.0 * volume.atan2(rest)

@@ -35,7 +35,7 @@ mod precision;
 mod problem;
 
 pub use assembly::{InfluenceMatrices, Influences};
-pub(crate) use integrals::distances;
+pub(crate) use integrals::Source;
 pub use integrals::{PanelIntegrals, Place, integrate};
 pub use kelvin::Kelvin;
 pub use panel::Panel;

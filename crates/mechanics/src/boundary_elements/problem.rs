@@ -2,7 +2,7 @@ use std::ops::ControlFlow;
 
 use palpate_geometry::{Surface, TriangleId};
 
-use super::assembly::{Influences, put};
+use super::assembly::Influences;
 use super::factors::Factors;
 use super::kelvin::Kelvin;
 use super::panel::Panel;
@@ -216,14 +216,10 @@ fn assemble<T: Precision>(
         let sources = columns.chunks_exact_mut(9 * count).enumerate();
         on_all_cores(sources, |(source, columns)| {
             let source = k * share + source;
-            for target in 0..count {
-                let (displacement, traction) = influences.between(source, target);
-                let block = if held[source] {
-                    displacement * -scale
-                } else {
-                    traction
-                };
-                put(columns, target, &block);
+            if held[source] {
+                influences.displacement_columns(source, -scale, columns);
+            } else {
+                influences.traction_columns(source, columns);
             }
         });
         progress(((k + 1) * share).min(count) as f64 / count as f64)?;
@@ -236,9 +232,6 @@ fn load<T: Precision>(influences: &Influences<'_>, loaded: &[TriangleId], column
     let size = 3 * influences.panels.len();
     for (columns, source) in columns.chunks_exact_mut(3 * size).zip(loaded) {
         let area = influences.panels[source.index()].area;
-        for target in 0..influences.panels.len() {
-            let (displacement, _) = influences.between(source.index(), target);
-            put(columns, target, &(displacement / area));
-        }
+        influences.displacement_columns(source.index(), 1.0 / area, columns);
     }
 }

@@ -30,7 +30,7 @@ use palpate_geometry::{NodeId, Surface, TriangleId};
 
 use super::response::{SurfaceResponse, TouchId};
 use crate::Vec3;
-use crate::boundary_elements::{Panel, Place, Precision, distances};
+use crate::boundary_elements::{Panel, Place, Precision, Source};
 use crate::cores::on_all_cores;
 
 /// Radius of the spread load in radii of the tip, and in lengths √(2 A) of the triangles there, whichever
@@ -250,6 +250,6 @@ fn mean_distances(panel: &Panel, x: &Vec3) -> (f64, Matrix3<f64>) {
     } else {
         Place::Elsewhere
     };
-    let (inverse, along) = distances(panel, x, place);
+    let (inverse, along) = Source::new(panel).distances(x, place);
     (inverse / panel.area, along / panel.area)
 }

@@ -12,6 +12,7 @@ mod bodies;
 mod boundary_elements;
 mod boundary_response;
 mod carried_field;
+mod boundary_tubes;
 mod contacts;
 mod convergence;
 mod data;

@@ -48,14 +48,26 @@ fn top(solid: &Held, count: usize) -> Vec<TriangleId> {
     solid.near_point(&Vec3::new(0.0, 0.0, RADIUS), count)
 }
 
-/// Compliance of a flat tip, normal and times E [1/m].
-fn normal_compliance(load: &TipLoad<'_>, normal: &Vec3, (a, nu, bond): (f64, f64, Bond)) -> f64 {
-    let further = normal.dot(&(load.further_compliance() * normal));
-    1.0 / half_space_stiffness(&law(nu), a, bond) + further
+/// Compliance of a flat tip, times E [1/m].
+fn compliance(load: &TipLoad<'_>, normal: &Vec3, (a, nu, bond): (f64, f64, Bond)) -> Matrix3<f64> {
+    let normals = normal * normal.transpose();
+    let across = half_space_tangential_stiffness(&law(nu), a);
+    load.further_compliance()
+        + normals / half_space_stiffness(&law(nu), a, bond)
+        + (Matrix3::identity() - normals) / across
+}
+
+/// Force per depth of a flat tip, over E [m]; one that sticks does not go aside.
+pub(crate) fn stiffness(load: &TipLoad<'_>, normal: &Vec3, tip: (f64, f64, Bond)) -> f64 {
+    let compliance = compliance(load, normal, tip);
+    match tip.2 {
+        Bond::Slip => 1.0 / normal.dot(&(compliance * normal)),
+        Bond::Stick => normal.dot(&(compliance.try_inverse().unwrap() * normal)),
+    }
 }
 
 /// The triangle under a place near the pole, and where in it.
-fn under(surface: &Surface, place: &Vec3) -> (TriangleId, [f64; 3]) {
+pub(crate) fn under(surface: &Surface, place: &Vec3) -> (TriangleId, [f64; 3]) {
     let mesh = surface.mesh();
     let nearest = mesh.triangle_ids().map(|triangle| {
         let on = palpate_geometry::closest_on_triangle(&mesh.positions(triangle), place);
@@ -86,7 +98,7 @@ fn force_error(nu: f64, triangles: usize) -> f64 {
                 let field = TipField::new(response, &solid.surface, a);
                 let (triangle, place) = under(&solid.surface, &(RADIUS * Vec3::z()));
                 let load = field.at(&solid.surface, triangle, &place).unwrap();
-                let error = 1.0 / normal_compliance(&load, &Vec3::z(), (a, nu, bond)) / force - 1.0;
+                let error = stiffness(&load, &Vec3::z(), (a, nu, bond)) / force - 1.0;
                 println!(
                     "nu {nu}, {name}, {triangles}, a {a}, {bond:?}: {:+.2} %",
                     100.0 * error
@@ -143,7 +155,7 @@ fn the_field_of_a_tip_is_that_of_finite_elements() {
         let field = TipField::new(&response, &solid.surface, a);
         let (triangle, place) = under(&solid.surface, &(RADIUS * Vec3::z()));
         let load = field.at(&solid.surface, triangle, &place).unwrap();
-        let force = 1.0 / normal_compliance(&load, &Vec3::z(), (a, nu, Bond::Slip));
+        let force = stiffness(&load, &Vec3::z(), (a, nu, Bond::Slip));
         let mut moved = vec![0.0_f32; 3 * response.parts().triangles];
         response.add_field_of_tip(&load, &(-force * Vec3::z()), &mut moved);
         let mut worst: f64 = 0.0;
@@ -181,15 +193,15 @@ fn a_slide_has_no_steps() {
     for &id in &solid.free {
         let [p, q, _] = mesh.positions(id);
         let steps = ((p - q).norm() / 1e-4).ceil();
-        let compliances: Vec<_> = (0..=steps as usize)
+        let forces: Vec<_> = (0..=steps as usize)
             .map(|step| {
                 let t = step as f64 / steps;
                 let [from, to, _] = mesh.corners(id).map(|node| normals[node.index()]);
                 let load = field.at(&solid.surface, id, &[1.0 - t, t, 0.0]).unwrap();
-                normal_compliance(&load, &(from * (1.0 - t) + to * t).normalize(), tip)
+                stiffness(&load, &(from * (1.0 - t) + to * t).normalize(), tip)
             })
             .collect();
-        for pair in compliances.windows(2) {
+        for pair in forces.windows(2) {
             worst = worst.max((pair[0] / pair[1] - 1.0).abs());
         }
     }
@@ -222,11 +234,7 @@ fn several_tips_take_work() {
             for (i, (moved, normal)) in loads.iter().enumerate() {
                 for (j, (loaded, _)) in loads.iter().enumerate() {
                     let block = if i == j {
-                        let normals = normal * normal.transpose();
-                        let tangents = Matrix3::identity() - normals;
-                        let stiffness = half_space_stiffness(&law(nu), a, Bond::Stick);
-                        let across = half_space_tangential_stiffness(&law(nu), a);
-                        moved.further_compliance() + normals / stiffness + tangents / across
+                        compliance(moved, normal, (a, nu, Bond::Stick))
                     } else {
                         let block = response.between(moved, loaded);
                         let back = response.between(loaded, moved);
@@ -269,61 +277,65 @@ fn real_kidney(triangles: usize) -> Option<Surface> {
     }
 }
 
-/// Judge: quadratic tetrahedra, to 2 %. Tolerance: the issue's.
+/// Largest error of the force of a tip of 4 mm on the kidney, held on its lower quarter, at three places
+/// of its top.
+fn real_kidney_error(triangles: usize) -> Option<f64> {
+    let surface = real_kidney(triangles)?;
+    let (a, nu, depth) = (4e-3, 0.45, 1e-4);
+    let (low, high) = surface.mesh().bounds();
+    let extent = high - low;
+    let floor = low + 0.25 * extent;
+    let solid = Held::new(surface.clone(), nu, |centroid| centroid.y < floor.y);
+    let places = [(0.5, 0.5), (0.45, 0.25), (0.55, 0.75)].map(|(x, z)| {
+        let above = Vec3::new(low.x + x * extent.x, high.y, low.z + z * extent.z);
+        solid.near_point(&above, 1)[0]
+    });
+    let mut touchable: Vec<_> = places.iter().flat_map(|&id| solid.near(id, 200)).collect();
+    touchable.sort();
+    touchable.dedup();
+    let response = solid.response::<f32>(&touchable);
+    let field = TipField::new(&response, &solid.surface, a);
+    let mut worst: f64 = 0.0;
+    for (id, (grip, bond)) in places.into_iter().zip([
+        (Grip::Slide, Bond::Slip),
+        (Grip::Stick, Bond::Stick),
+        (Grip::Slide, Bond::Slip),
+    ]) {
+        let normal = surface.mesh().area_vector(id).normalize();
+        let load = field.at(&solid.surface, id, &[1.0 / 3.0; 3]).unwrap();
+        let force = depth * stiffness(&load, &normal, (a, nu, bond));
+        let problem = SolidProblem {
+            body: Body::Surface(surface.clone()),
+            anchor: plane(floor, Vec3::y()),
+            patch: MovedPatch {
+                center: solid.centroid(id),
+                radius: a,
+                displacement: -depth * normal,
+                grip,
+            },
+            law: Arc::new(law(nu)),
+        };
+        let found = solve(&problem, 0.03, &mut |_| ()).unwrap();
+        let half_space = depth * half_space_stiffness(&law(nu), a, bond);
+        let error = force / found.answer.force_along - 1.0;
+        println!(
+            "{triangles} triangles, {bond:?}: {:.4} of the half-space, finite elements {:.4} ({:.4}): {:+.2} %",
+            force / half_space,
+            found.answer.force_along / half_space,
+            found.error,
+            100.0 * error
+        );
+        worst = worst.max(error.abs());
+    }
+    Some(worst)
+}
+
+/// Judge: quadratic tetrahedra, to 3 %. Tolerance: the issue's. The kidney gives way as a whole, to less
+/// than half the force of a half-space.
 #[test]
 #[ignore = "slow: minutes"]
 fn real_kidney_under_a_tip() {
-    for triangles in [688, 5146] {
-        let Some(surface) = real_kidney(triangles) else {
-            return;
-        };
-        let nu = 0.45;
-        let (low, high) = surface.mesh().bounds();
-        let extent = high - low;
-        let floor = low + 0.25 * extent;
-        let solid = Held::new(surface.clone(), nu, |centroid| centroid.y < floor.y);
-        let mut places = Vec::new();
-        for (x, z) in [(0.5, 0.5), (0.45, 0.25), (0.55, 0.75)] {
-            let above = Vec3::new(low.x + x * extent.x, high.y, low.z + z * extent.z);
-            places.extend(solid.near_point(&above, 1));
-        }
-        let mut touchable: Vec<_> = places.iter().flat_map(|&id| solid.near(id, 200)).collect();
-        touchable.sort();
-        touchable.dedup();
-        let response = solid.response::<f32>(&touchable);
-        let (a, depth) = (4e-3, 1e-4);
-        let field = TipField::new(&response, &solid.surface, a);
-        for id in places {
-            let center = solid.centroid(id);
-            let normal = surface.mesh().area_vector(id).normalize();
-            let load = field.at(&solid.surface, id, &[1.0 / 3.0; 3]).unwrap();
-            for (grip, bond) in [(Grip::Slide, Bond::Slip), (Grip::Stick, Bond::Stick)] {
-                let problem = SolidProblem {
-                    body: Body::Surface(surface.clone()),
-                    anchor: plane(floor, Vec3::y()),
-                    patch: MovedPatch {
-                        center,
-                        radius: a,
-                        displacement: -depth * normal,
-                        grip,
-                    },
-                    law: Arc::new(law(nu)),
-                };
-                let started = std::time::Instant::now();
-                let found = solve(&problem, 0.02, &mut |_| ()).unwrap();
-                let force = depth / normal_compliance(&load, &normal, (a, nu, bond));
-                let half_space = depth * half_space_stiffness(&law(nu), a, bond);
-                let error = force / found.answer.force_along - 1.0;
-                println!(
-                    "{triangles} triangles, {bond:?}: {:.4} of the half-space, finite elements {:.4} (error {:.3}), off by {:+.2} %, {:.0} s",
-                    force / half_space,
-                    found.answer.force_along / half_space,
-                    found.error,
-                    100.0 * error,
-                    started.elapsed().as_secs_f64()
-                );
-                assert!(error.abs() < 0.08);
-            }
-        }
+    if let Some(error) = real_kidney_error(5146) {
+        assert!(error < 0.08, "{error}");
     }
 }
