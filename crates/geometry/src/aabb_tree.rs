@@ -107,6 +107,20 @@ impl AabbTree {
         }
     }
 
+    /// Fits all boxes, once each.
+    pub fn refit_all(&mut self, mesh: &TriangleMesh) {
+        // What is below a box stands after it.
+        for at in (0..self.nodes.len()).rev() {
+            self.nodes[at].aabb = match self.nodes[at].below {
+                Below::Triangle(triangle) => Aabb::of(mesh, triangle),
+                Below::Boxes(first) => {
+                    let [left, right] = [0, 1].map(|k| &self.nodes[first as usize + k].aabb);
+                    left.union(right)
+                }
+            };
+        }
+    }
+
     fn split(&mut self, at: usize, items: &mut [(TriangleId, Aabb)]) {
         if let [(triangle, aabb)] = items {
             self.nodes[at].aabb = *aabb;

@@ -28,4 +28,4 @@ pub use material::neo_hookean::NeoHookean;
 pub use material::prony::{ForceHistory, MAX_TERMS, PronySeries};
 pub use material::volume::{Strain, Volume};
 pub use palpate_geometry::Vec3;
-pub use tip_law::{NormalForce, TipLaw};
+pub use tip_law::{NormalForce, TipForce, TipLaw};

@@ -1,7 +1,20 @@
-//! Ctrl-C in a command that writes its files at its end: it ends the program between files, never
-//! within one.
+//! Ctrl-C. What can stop in good order is asked to; a command that writes its files at its end is ended
+//! between files, never within one.
 
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, MutexGuard, Once, PoisonError};
+
+static ASKED: AtomicBool = AtomicBool::new(false);
+
+/// Whether Ctrl-C was pressed. From the first question on it ends nothing by itself.
+pub(crate) fn is_asked() -> bool {
+    static LISTENING: Once = Once::new();
+    LISTENING.call_once(|| {
+        // Without a handler Ctrl-C ends the program at once, which sessions survive as well.
+        let _ = ctrlc::set_handler(|| ASKED.store(true, Ordering::Relaxed));
+    });
+    ASKED.load(Ordering::Relaxed)
+}
 
 /// Held while a file is written.
 static WRITING: Mutex<()> = Mutex::new(());

@@ -10,6 +10,7 @@ mod nearest;
 mod output;
 mod performance;
 mod plot;
+mod preparation;
 mod progress;
 mod reproduce;
 

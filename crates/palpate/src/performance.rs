@@ -4,8 +4,6 @@ mod surfaces;
 mod trace;
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use palpate_files::{Motion, SessionWriter, write_whole};
 use palpate_simulate::{Flow, Simulation, Summary, play};
@@ -13,6 +11,7 @@ use palpate_viewer::FrameWriter;
 use serde::Serialize;
 
 use crate::failure::Failure;
+use crate::interrupt;
 use crate::output::VERSION;
 use crate::progress::{Progress, Reader};
 use surfaces::Surfaces;
@@ -65,7 +64,8 @@ pub(crate) fn record(
             folder.display()
         ))
     })?;
-    let stopped = stop_on_interrupt();
+    // From now on Ctrl-C ends the motion, and what was played is written whole.
+    interrupt::is_asked();
     let names: Vec<_> = simulation.tools().iter().map(|t| t.name.clone()).collect();
     let session = folder.join("session.csv");
     let mut writer = SessionWriter::create(&session, &simulation.session_header(), &names)?;
@@ -89,7 +89,7 @@ pub(crate) fn record(
         if let Some(frames) = &mut recording.frames {
             frames.add(frame)?;
         }
-        match stopped.load(Ordering::Relaxed) {
+        match interrupt::is_asked() {
             true => Ok(Flow::Stop),
             false => Ok(Flow::GoOn),
         }
@@ -113,15 +113,6 @@ pub(crate) fn record(
         + "\n";
     write_whole(&path, json.as_bytes())?;
     Ok(report)
-}
-
-/// True once Ctrl-C was pressed: the motion then ends, and what was played is written whole.
-fn stop_on_interrupt() -> Arc<AtomicBool> {
-    let stopped = Arc::new(AtomicBool::new(false));
-    let seen = Arc::clone(&stopped);
-    // Without a handler Ctrl-C ends the program at once, which the session survives as well.
-    let _ = ctrlc::set_handler(move || seen.store(true, Ordering::Relaxed));
-    stopped
 }
 
 impl Report {

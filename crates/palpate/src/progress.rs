@@ -46,6 +46,16 @@ impl Progress {
         Self(bar)
     }
 
+    /// A bar over the parts of one long work, with the time that is left.
+    pub(crate) fn of_parts(reader: Reader, parts: u64) -> Self {
+        let bar = Self::new(reader, Some(parts));
+        let template = "{spinner} {bar:30} {percent:>3} % {msg}, {eta} left";
+        if let Ok(style) = ProgressStyle::with_template(template) {
+            bar.0.set_style(style);
+        }
+        bar
+    }
+
     /// Says what is being done now.
     pub(crate) fn say(&self, doing: impl Into<String>) {
         self.0.set_message(doing.into());

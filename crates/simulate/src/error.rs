@@ -1,6 +1,6 @@
 use std::path::PathBuf;
 
-use palpate_geometry::{MeshError, OrganError, ReadError};
+use palpate_geometry::{MeshError, OrganError, ReadError, SimplifyError};
 
 /// Why a scene cannot be simulated.
 #[derive(Debug, thiserror::Error)]
@@ -25,11 +25,25 @@ pub enum Error {
     /// The model cannot be made.
     #[error(transparent)]
     Model(#[from] palpate_mechanics::Error),
-    /// The scene asks for the hybrid model.
+    /// A mesh cannot be made coarser.
+    #[error(transparent)]
+    Simplify(#[from] SimplifyError),
+    /// The coarse mesh that was to carry the mechanics bounds no solid.
     #[error(
-        "the hybrid model (`model.kind = \"hybrid\"`) is not there yet; set `kind = \"local\"` for the finite spheres"
+        "the mechanical mesh that was made of the organ's: {0}; set another `model.mechanical_triangles`"
     )]
-    HybridModel,
+    MechanicalMesh(MeshError),
+    /// The anchor and the touchable region leave nothing to touch.
+    #[error(
+        "no triangle of the organ can be touched: the anchor holds all of them, or `organ.touchable` names none that is free; make `organ.anchor` smaller or `organ.touchable` larger"
+    )]
+    NothingTouchable,
+    /// A stored response is that of something else.
+    #[error("{path} is the response of another organ; delete it, and it is made again when it is needed", path = path.display())]
+    OtherResponse {
+        /// The file.
+        path: PathBuf,
+    },
     /// A device or its loop cannot be run.
     #[error(transparent)]
     Servo(#[from] palpate_servo::Fault),
@@ -85,7 +99,9 @@ impl Error {
     pub fn is_input(&self) -> bool {
         match self {
             Self::File(error) => error.is_input(),
-            Self::Servo(_) | Self::ModelPanicked => false,
+            Self::Servo(_)
+            | Self::ModelPanicked
+            | Self::Model(palpate_mechanics::Error::BrokenOff) => false,
             _ => true,
         }
     }

@@ -1,10 +1,13 @@
+use std::ops::ControlFlow;
+
 use palpate_files::scene::{HandOver, ModelKind};
 use palpate_files::{Scene, SessionHeader};
 use palpate_geometry::{AabbTree, Surface};
 use palpate_mechanics::Material;
 
+use crate::global::{GlobalModel, GlobalProblem, ResponseOrigin};
 use crate::tool::{Tool, settings};
-use crate::{Error, digest, organ, tip_laws};
+use crate::{Error, Progress, Resources, Work, digest, organ, tip_laws};
 
 /// An organ and the tools that may touch it. Built once, never changed.
 #[derive(Debug, Clone)]
@@ -13,6 +16,8 @@ pub struct Simulation {
     pub(crate) tree: AabbTree,
     pub(crate) material: Material,
     pub(crate) tools: Vec<Tool>,
+    /// How the whole organ answers, if the scene wants that.
+    pub(crate) global: Option<GlobalModel>,
     pub(crate) organ_radius: f64,
     pub(crate) step: f64,
     hand_over: HandOver,
@@ -22,24 +27,25 @@ pub struct Simulation {
 }
 
 impl Simulation {
-    /// Reads what `scene` names and makes the models. For most nonlinear laws this takes seconds: see
-    /// [`Self::prepare`].
+    /// Reads what `scene` names and makes the models. Of the whole organ this takes from seconds to
+    /// minutes, and seconds for most nonlinear laws: see [`Self::prepare`].
     ///
     /// # Errors
     /// When a file is missing or wrong, a mesh bounds no solid, or the scene asks for what is not there.
     pub fn new(scene: &Scene) -> Result<Self, Error> {
-        Self::prepare(scene, &mut |_| ())
+        let go_on = &mut |_| ControlFlow::Continue(());
+        Self::prepare(scene, &Resources::default(), go_on)
     }
 
-    /// As [`Self::new`]; `at_step` hears which part [-] of the tissue's force over depth is done, if it
-    /// has to be found first.
+    /// As [`Self::new`], with `resources`; `watch` hears how far long work is, and may break it off.
     ///
     /// # Errors
-    /// As [`Self::new`].
-    pub fn prepare(scene: &Scene, at_step: &mut dyn FnMut(f64)) -> Result<Self, Error> {
-        if scene.model.kind == ModelKind::Hybrid {
-            return Err(Error::HybridModel);
-        }
+    /// As [`Self::new`], and when it is broken off.
+    pub fn prepare(
+        scene: &Scene,
+        resources: &Resources,
+        watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+    ) -> Result<Self, Error> {
         let (surface, mut doubts) = organ::read_organ(&scene.organ.shape)?;
         let tissue = scene.organ.tissue.read()?;
         let material = Material::from_tissue(&tissue)?;
@@ -51,12 +57,26 @@ impl Simulation {
             .iter()
             .map(|tool| Tool::new(tool, settings, &material.at_rest, (&surface, &tree)))
             .collect::<Result<Vec<_>, _>>()?;
+        let global = match scene.model.kind {
+            ModelKind::Local => None,
+            ModelKind::Hybrid => {
+                let problem = GlobalProblem::new(scene, &surface, &material.at_rest)?;
+                let (global, more) = problem.solve((scene, &surface), resources, watch)?;
+                doubts.extend(more);
+                tools.iter_mut().for_each(|tool| global.lie_under(tool));
+                Some(global)
+            }
+        };
         doubts.extend(tip_laws::stiffen(
             &mut tools,
             (&tissue, &material),
-            at_step,
+            &mut |part| {
+                let work = Work::ForceOverDepth;
+                // It cannot be broken off, and takes seconds.
+                let _ = watch(Progress { work, part });
+            },
         )?);
-        if tools.iter().any(|tool| tool.model.is_extrapolated()) {
+        if global.is_none() && tools.iter().any(|tool| tool.model.is_extrapolated()) {
             doubts.push(format!(
                 "Poisson's ratio {:.3} is beyond the {} that the local model is calibrated for; its \
                  force is the one there, times the ratio of the half-spaces",
@@ -78,6 +98,7 @@ impl Simulation {
             tree,
             material,
             tools,
+            global,
             doubts,
         })
     }
@@ -90,6 +111,11 @@ impl Simulation {
     /// The tools in the scene's order.
     pub fn tools(&self) -> &[Tool] {
         &self.tools
+    }
+
+    /// What was prepared of the whole organ, if the scene wants that.
+    pub fn response(&self) -> Option<&ResponseOrigin> {
+        self.global.as_ref().map(|global| &global.origin)
     }
 
     /// Length of a step [s].
@@ -117,7 +143,10 @@ impl Simulation {
         SessionHeader {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             scene_digest: self.scene_digest.clone(),
-            model: ModelKind::Local,
+            model: match self.global {
+                Some(_) => ModelKind::Hybrid,
+                None => ModelKind::Local,
+            },
             step_s: self.step,
             seed: 0,
             force_scale: self.force_scale,

@@ -2,8 +2,10 @@ use palpate_files::Pose;
 use palpate_files::session::{Events, SessionRow};
 use palpate_geometry::{AabbTree, NodeId, TriangleId, TriangleMesh, Vec3};
 use palpate_mechanics::ForceHistory;
+use palpate_mechanics::enhance::SurfacePoint;
 use palpate_mechanics::finite_spheres::{FiniteSphereWorkspace, Response};
 
+use crate::global::GlobalWorkspace;
 use crate::{Contact, Simulation};
 
 /// All that a step changes.
@@ -33,6 +35,12 @@ pub struct ToolState {
     /// What the session records of the step.
     pub row: SessionRow,
     pub(crate) response: Option<Response>,
+    /// Force on the tool as it is displaced now, before relaxation [N].
+    pub(crate) elastic: Vec3,
+    /// Where it touches the whole organ's mechanical surface.
+    pub(crate) site: Option<SurfacePoint>,
+    /// Whether it touches the whole organ where nothing was prepared.
+    pub(crate) off_model: bool,
     /// The force before a pull was taken from it [N]: what it is extrapolated from.
     pub(crate) with_pull: Vec3,
     pub(crate) history: ForceHistory,
@@ -45,6 +53,7 @@ pub struct ToolState {
 /// Scratch of a step. Its loss changes no result.
 pub struct SimulationWorkspace {
     pub(crate) models: Vec<FiniteSphereWorkspace>,
+    pub(crate) global: Option<GlobalWorkspace>,
     pub(crate) seen: Vec<u32>,
     pub(crate) seen_triangles: Vec<u32>,
     pub(crate) turn: u32,
@@ -85,6 +94,9 @@ impl ToolState {
                 events: Events::NONE,
             },
             response: None,
+            elastic: Vec3::zeros(),
+            site: None,
+            off_model: false,
             with_pull: Vec3::zeros(),
             history: ForceHistory::default(),
             history_at: None,
@@ -104,6 +116,10 @@ impl SimulationWorkspace {
                 .iter()
                 .map(|tool| tool.model.workspace())
                 .collect(),
+            global: simulation
+                .global
+                .as_ref()
+                .map(|global| global.workspace(simulation.tools.len())),
             seen: vec![0; mesh.vertices().len()],
             seen_triangles: vec![0; mesh.triangles().len()],
             turn: 0,

@@ -30,16 +30,17 @@ pub fn step(
 ) {
     for (number, tool) in simulation.tools.iter().enumerate() {
         let pose = poses.get(number).copied().flatten();
-        let events = detect(simulation, tool, pose, &mut state.tools[number]);
-        respond(
-            tool,
-            &mut state.tools[number],
-            &mut workspace.models[number],
-        );
-        let failed = feel(simulation, tool, elapsed, &mut state.tools[number]);
-        record(tool, time, events | failed, &mut state.tools[number]);
+        state.tools[number].row.events = detect(simulation, tool, pose, &mut state.tools[number]);
     }
-    deform::deform(simulation, state, workspace);
+    respond(simulation, state, workspace);
+    for (tool, state) in simulation.tools.iter().zip(&mut state.tools) {
+        let failed = feel(simulation, tool, elapsed, state);
+        record(tool, time, failed, state);
+    }
+    match (&simulation.global, &mut workspace.global) {
+        (Some(global), Some(workspace)) => global.deform(simulation, state, workspace),
+        _ => deform::deform(simulation, state, workspace),
+    }
     for (number, tool) in simulation.tools.iter().enumerate() {
         touch_with_shaft(tool, number, state);
     }
@@ -83,27 +84,33 @@ fn forget_elsewhere(tool: &Tool, contact: &Contact, state: &mut ToolState) {
     }
 }
 
-/// 2. and 3. Places the particles and solves.
+/// 2. and 3. The elastic force and its stiffness, of the whole organ or of particles around each tip.
 fn respond(
-    tool: &Tool,
-    state: &mut ToolState,
-    workspace: &mut palpate_mechanics::finite_spheres::FiniteSphereWorkspace,
+    simulation: &Simulation,
+    state: &mut SimulationState,
+    workspace: &mut SimulationWorkspace,
 ) {
-    state.response = state
-        .contact
-        .filter(|contact| contact.place.radius > 0.0)
-        .map(|contact| tool.model.respond(&contact.place, workspace));
-    state.stiffness = state
-        .response
-        .map_or(nalgebra::Matrix3::zeros(), |response| response.stiffness);
+    if let (Some(global), Some(workspace)) = (&simulation.global, &mut workspace.global) {
+        return global.press(simulation, &mut state.tools, workspace);
+    }
+    let tools = simulation.tools.iter().zip(&mut state.tools);
+    for ((tool, state), workspace) in tools.zip(&mut workspace.models) {
+        state.response = state
+            .contact
+            .filter(|contact| contact.place.radius > 0.0)
+            .map(|contact| tool.model.respond(&contact.place, workspace));
+        state.stiffness = state
+            .response
+            .map_or(nalgebra::Matrix3::zeros(), |response| response.stiffness);
+        state.elastic = elastic_force(tool, state);
+    }
 }
 
 /// 4. The force on the tool: elastic, then relaxed, never pulling.
 fn feel(simulation: &Simulation, tool: &Tool, elapsed: f64, state: &mut ToolState) -> Events {
-    let elastic = elastic_force(tool, state);
     let relaxed = state
         .history
-        .advance(&simulation.material.prony, elastic, elapsed);
+        .advance(&simulation.material.prony, state.elastic, elapsed);
     state.force = Vec3::zeros();
     state.with_pull = Vec3::zeros();
     let Some(contact) = &state.contact else {
@@ -128,7 +135,7 @@ fn feel(simulation: &Simulation, tool: &Tool, elapsed: f64, state: &mut ToolStat
     Events::NONE
 }
 
-/// The force of what is touched as it is displaced now. The normal stiffness becomes that at this depth.
+/// The force of the local model's contact. The normal stiffness becomes that at this depth.
 fn elastic_force(tool: &Tool, state: &mut ToolState) -> Vec3 {
     let (Some(contact), Some(pose)) = (&state.contact, &state.pose) else {
         return Vec3::zeros();
@@ -147,7 +154,7 @@ fn elastic_force(tool: &Tool, state: &mut ToolState) -> Vec3 {
     force
 }
 
-fn record(tool: &Tool, time: f64, events: Events, state: &mut ToolState) {
+fn record(tool: &Tool, time: f64, failed: Events, state: &mut ToolState) {
     let Some(pose) = &state.pose else {
         return;
     };
@@ -168,7 +175,7 @@ fn record(tool: &Tool, time: f64, events: Events, state: &mut ToolState) {
     row.force_n = state.force.into();
     row.contact = state.contact.is_some();
     row.depth_m = state.contact.map_or(0.0, |contact| contact.depth);
-    row.events = events;
+    row.events = row.events | failed;
 }
 
 /// Tells when the shaft begins to touch the deformed organ; it is not pushed by it.

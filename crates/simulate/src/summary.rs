@@ -44,6 +44,7 @@ pub(crate) struct Tally {
     deepest: f64,
     shaft_contacts: u64,
     non_finite: u64,
+    off_model: u64,
 }
 
 impl Tally {
@@ -55,6 +56,7 @@ impl Tally {
             deepest: 0.0,
             shaft_contacts: 0,
             non_finite: 0,
+            off_model: 0,
         }
     }
 
@@ -65,6 +67,7 @@ impl Tally {
             self.contacts += counts(Event::Contact);
             self.shaft_contacts += counts(Event::ShaftContact);
             self.non_finite += counts(Event::NonFiniteForce);
+            self.off_model += u64::from(tool.off_model && tool.contact.is_some());
             self.peak_force = self.peak_force.max(tool.force.norm());
             self.deepest = self.deepest.max(tool.row.depth_m);
         }
@@ -96,6 +99,14 @@ impl Tally {
             format!(
                 "{} forces were no finite number and were taken as zero",
                 self.non_finite
+            ),
+        );
+        warn(
+            self.off_model > 0,
+            format!(
+                "a tool touched where the organ is held or was not prepared, in {} steps; there it answered \
+                 as a half-space: see `organ.anchor` and `organ.touchable`",
+                self.off_model
             ),
         );
         warn(

@@ -4,6 +4,7 @@ use palpate_mechanics::contact::{Bond, Tip};
 use palpate_mechanics::finite_spheres::{
     Assembly, FiniteSphereModel, FiniteSphereSettings, Form, Integration, Placement, Solver,
 };
+use palpate_mechanics::surface_response::TipField;
 use palpate_mechanics::{Error, LinearElastic, TipLaw};
 
 /// A tool of the scene with the model of the tissue under its tip.
@@ -23,6 +24,10 @@ pub struct Tool {
     /// The organ's normals and curvatures as this tip feels them.
     pub(crate) patches: PatchField,
     pub(crate) placement: Placement,
+    /// What the whole organ adds under this tip, if there is a model of it.
+    pub(crate) field: Option<TipField>,
+    /// Radius of the touching area that stands for all [m].
+    pub(crate) typical_radius: f64,
 }
 
 /// Residual to which GMRES solves; forces then agree with the direct solution to eight digits.
@@ -55,6 +60,8 @@ impl Tool {
             trocar: tool.trocar_m.map(Vec3::from),
             patches: PatchField::new(surface, model.held_radius(typical)),
             placement: settings.placement,
+            field: None,
+            typical_radius: typical,
             model,
         })
     }

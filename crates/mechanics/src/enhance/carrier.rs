@@ -1,4 +1,4 @@
-use palpate_geometry::{AabbTree, NodeId, Surface, TriangleId, closest_on_triangle};
+use palpate_geometry::{AabbTree, NodeId, Surface};
 
 use super::field::SurfaceField;
 use super::interpolation::{Interpolation, SurfacePoint};
@@ -31,7 +31,7 @@ impl Carrier {
         let tree = AabbTree::new(interpolation.surface().mesh());
         let mut carrier = Self::default();
         for (place, normal) in finer.mesh().vertices().iter().zip(finer.vertex_normals()) {
-            let at = nearest_facing(interpolation, &tree, (place, normal));
+            let at = interpolation.nearest_facing(&tree, (place, normal));
             carrier.push(interpolation, &at, *place);
         }
         carrier
@@ -71,37 +71,4 @@ impl Carrier {
         self.normals.push(interpolation.normal(at));
         interpolation.write_row(at, &mut self.weights);
     }
-}
-
-/// The nearest point of the coarse surface whose triangle does not face away from `normal`.
-fn nearest_facing(
-    interpolation: &Interpolation,
-    tree: &AabbTree,
-    (place, normal): (&Vec3, &Vec3),
-) -> SurfacePoint {
-    let mesh = interpolation.surface().mesh();
-    let faces_alike = |triangle: TriangleId| mesh.area_vector(triangle).dot(normal) > 0.0;
-    let nearest = tree.nearest(mesh, place);
-    let mut best = SurfacePoint {
-        triangle: nearest.triangle,
-        barycentric: nearest.on.barycentric,
-    };
-    if faces_alike(nearest.triangle) {
-        return best;
-    }
-    // The other side of a thin wall, or of a sharp edge.
-    let mut distance = nearest.distance + interpolation.nodes()[best.triangle.index()].radius;
-    let reach = Vec3::repeat(distance);
-    tree.visit_box(&(place - reach), &(place + reach), |triangle| {
-        let on = closest_on_triangle(&mesh.positions(triangle), place);
-        let away = (on.position - place).norm();
-        if away < distance && faces_alike(triangle) {
-            distance = away;
-            best = SurfacePoint {
-                triangle,
-                barycentric: on.barycentric,
-            };
-        }
-    });
-    best
 }

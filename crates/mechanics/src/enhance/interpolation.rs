@@ -1,6 +1,6 @@
 use nalgebra::Vector2;
 use palpate_files::scene::Smoothing;
-use palpate_geometry::{NodeId, Surface, TriangleId, closest_on_triangle};
+use palpate_geometry::{AabbTree, NodeId, Surface, TriangleId, closest_on_triangle};
 
 use super::functions::{moving_least_squares, shepard};
 use super::weights::Weights;
@@ -104,6 +104,36 @@ impl Interpolation {
         blend(&normals, &at.barycentric)
             .try_normalize(1e-12)
             .unwrap_or_else(|| facing.normalize())
+    }
+
+    /// The point nearest to `place` [m] on a triangle that does not face away from the unit `normal` [-];
+    /// `tree` is around the coarse surface. Allocates nothing.
+    pub fn nearest_facing(&self, tree: &AabbTree, (place, normal): (&Vec3, &Vec3)) -> SurfacePoint {
+        let mesh = self.surface.mesh();
+        let faces_alike = |triangle: TriangleId| mesh.area_vector(triangle).dot(normal) > 0.0;
+        let nearest = tree.nearest(mesh, place);
+        let mut best = SurfacePoint {
+            triangle: nearest.triangle,
+            barycentric: nearest.on.barycentric,
+        };
+        if faces_alike(nearest.triangle) {
+            return best;
+        }
+        // The other side of a thin wall, or of a sharp edge.
+        let mut distance = nearest.distance + self.nodes[best.triangle.index()].radius;
+        let reach = Vec3::repeat(distance);
+        tree.visit_box(&(place - reach), &(place + reach), |triangle| {
+            let on = closest_on_triangle(&mesh.positions(triangle), place);
+            let away = (on.position - place).norm();
+            if away < distance && faces_alike(triangle) {
+                distance = away;
+                best = SurfacePoint {
+                    triangle,
+                    barycentric: on.barycentric,
+                };
+            }
+        });
+        best
     }
 
     pub(super) fn nodes(&self) -> &[Node] {

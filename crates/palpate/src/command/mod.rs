@@ -2,6 +2,7 @@
 
 mod demonstration;
 mod mesh_info;
+mod precompute;
 mod quality;
 mod reproduce;
 mod simulate;
@@ -22,6 +23,8 @@ Examples:
       opens a window with your scene
   palpate simulate scene.toml --headless --motion motion.csv --out session
       plays the tool motions on the scene and writes session/session.csv
+  palpate precompute scene.toml
+      prepares the whole organ of the hybrid model once; then the scene opens at once
   palpate solve problem.toml --plot force.png
       the force of an indenter, the swelling of a tube and more, by finite elements
   palpate quality
@@ -50,6 +53,8 @@ pub(crate) struct CommandLine {
 enum Command {
     /// Touch an organ in a window, or play tool motions on it and record what the hand would feel.
     Simulate(simulate::Arguments),
+    /// Prepare the whole organ of a scene, once, so that it can be touched at haptic rates.
+    Precompute(precompute::Arguments),
     /// Solve a described problem with finite elements, the reference for everything else.
     Solve(solve::Arguments),
     /// Recompute the tables and figures of the source, published values beside ours.
@@ -73,6 +78,7 @@ impl CommandLine {
         match self.command {
             None => demonstration::run(),
             Some(Command::Simulate(arguments)) => simulate::run(&arguments),
+            Some(Command::Precompute(arguments)) => precompute::run(&arguments),
             Some(Command::Solve(arguments)) => solve::run(&arguments),
             Some(Command::Reproduce(arguments)) => reproduce::run(&arguments),
             Some(Command::Quality(arguments)) => quality::run(&arguments),

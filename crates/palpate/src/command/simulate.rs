@@ -4,14 +4,14 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use palpate_files::{Motion, Scene};
-use palpate_simulate::Simulation;
 use palpate_viewer::FrameWriter;
 
 use super::window;
 use crate::failure::Failure;
 use crate::output;
 use crate::performance::{Recording, Report, record};
-use crate::progress::{Progress, Reader};
+use crate::preparation;
+use crate::progress::Reader;
 
 /// The scene that is played when none is named.
 pub(crate) const ESOPHAGUS: &str = include_str!("../../../../assets/esophagus/scene.toml");
@@ -112,15 +112,7 @@ fn simulate(arguments: &Arguments, motion: &Path, out: &Path) -> Result<Report, 
     // Everything that can be wrong is read before anything is written.
     let motion = Motion::read(motion)?;
     let reader = Reader::of_json(arguments.json);
-    let progress = Progress::new(reader, None);
-    progress.say("preparing the organ and its model");
-    let simulation = Simulation::prepare(&scene, &mut |part| {
-        progress.say(format!(
-            "the tissue's force over depth: {:.0} %",
-            100.0 * part
-        ));
-    })?;
-    drop(progress);
+    let simulation = preparation::simulation(&scene, &preparation::resources(), reader)?;
     let frames = match arguments.frames {
         0 => None,
         wanted => Some(FrameWriter::new(&scene, &simulation, (out, wanted))?),

@@ -6,6 +6,7 @@ use palpate_viewer::{Error, open_window};
 
 use super::simulate::ESOPHAGUS;
 use crate::failure::Failure;
+use crate::preparation;
 
 /// Triangles of the built-in esophagus in a window: enough to see the dimple of its tip.
 const TRIANGLES: usize = 14_000;
@@ -22,7 +23,7 @@ pub(super) fn esophagus() -> Result<Scene, Failure> {
 /// Opens `scene` and waits until the window is closed.
 pub(super) fn open(scene: Scene) -> Result<(), Error> {
     let way_out = Scene::parse(ESOPHAGUS, "built-in scene")?;
-    open_window(scene, way_out)
+    open_window(scene, way_out, preparation::resources())
 }
 
 /// Whether there can be no window here, whatever the scene.

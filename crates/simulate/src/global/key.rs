@@ -45,9 +45,8 @@ mod tests {
 
     #[test]
     fn every_ingredient_counts() {
-        let surface = |triangles| {
-            Surface::new(Organ::Cube.surface_mesh(triangles).unwrap()).unwrap()
-        };
+        let surface =
+            |triangles| Surface::new(Organ::Cube.surface_mesh(triangles).unwrap()).unwrap();
         let (fine, coarse) = (surface(108), surface(48));
         let key = |surface, poissons_ratio, held: &[u32], touchable: &[u32]| {
             let of = |list: &[u32]| list.iter().map(|&t| TriangleId(t)).collect::<Vec<_>>();

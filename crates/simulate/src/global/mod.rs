@@ -2,8 +2,8 @@
 //!
 //! ```text
 //! shown surface ──simplify──▶ mechanical surface ──boundary elements──▶ SurfaceResponse ◀──▶ stored file
-//!       ▲                                                                    │
-//!       └──────────── carried by the displacements of its triangles ◀────────┘ forces of the tips
+//!       ▲                                                                     │
+//!       └───────── carried by the displacements of its triangles ◀────────────┘ forces of the tips
 //! ```
 //!
 //! A coarse mesh is enough for the mechanics, since the tip has its own law ([`TipLaw`]) and the organ
@@ -15,29 +15,184 @@
 //!
 //! [`TipLaw`]: palpate_mechanics::TipLaw
 
+mod deform;
 mod key;
 mod mechanical_surface;
+mod press;
 mod solve;
 
-use palpate_files::Scene;
-use palpate_geometry::{AabbTree, Surface};
-use palpate_mechanics::LinearElastic;
-use palpate_mechanics::enhance::{Carrier, EnhancementModel};
-use palpate_mechanics::surface_response::SurfaceResponse;
 use std::ops::ControlFlow;
+use std::path::PathBuf;
 
-use crate::{Error, Progress, Resources};
-pub use solve::{StoredPlace, is_stored};
+use nalgebra::Matrix3;
+use palpate_files::Scene;
+use palpate_files::scene::Organ;
+use palpate_geometry::{AabbTree, Surface, TriangleId, Vec3};
+use palpate_mechanics::LinearElastic;
+use palpate_mechanics::enhance::{Carrier, EnhancementModel, Press, SurfaceField};
+use palpate_mechanics::surface_response::{SurfaceResponse, TipField};
+
+use crate::tool::Tool;
+use crate::{Error, Progress, Resources, held_region};
+use key::Ingredients;
 
 /// How the whole organ answers.
 #[derive(Debug, Clone)]
 pub(crate) struct GlobalModel {
     /// Of the mechanical surface.
     pub(crate) response: SurfaceResponse,
+    pub(crate) origin: ResponseOrigin,
     /// How displacements of triangles are spread over it.
     pub(crate) enhancement: EnhancementModel,
     /// The vertices that are shown.
     pub(crate) carrier: Carrier,
     /// Around the mechanical surface.
     pub(crate) tree: AabbTree,
+    /// Whether the shown surface is the mechanical one.
+    pub(crate) carries_itself: bool,
+}
+
+/// What was prepared of the whole organ, and where it came from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ResponseOrigin {
+    /// Triangles that carry the mechanics.
+    pub triangles: usize,
+    /// Those of them that can be touched.
+    pub touchable: usize,
+    /// Memory that it takes [byte].
+    pub bytes: usize,
+    /// The file that keeps it.
+    pub file: Option<PathBuf>,
+    /// Whether it was read from there.
+    pub was_kept: bool,
+}
+
+/// Scratch of the whole organ's part in a step.
+#[derive(Debug)]
+pub(crate) struct GlobalWorkspace {
+    /// Compliance [m/N] of tool i to a force on tool j, at i tools + j.
+    between: Vec<Matrix3<f64>>,
+    /// Displacements of triangles [m], three numbers each, and as vectors.
+    sums: Vec<f32>,
+    displacements: Vec<Vec3>,
+    field: SurfaceField,
+    presses: Vec<Press>,
+    /// Displacements of the shown vertices [m].
+    shown: Vec<Vec3>,
+    /// Whether the shown surface is not at rest.
+    deformed: bool,
+}
+
+impl GlobalModel {
+    /// Finds what the organ adds to a tool's tip, wherever it touches.
+    pub(crate) fn lie_under(&self, tool: &mut Tool) {
+        let surface = self.enhancement.interpolation().surface();
+        tool.field = Some(TipField::new(&self.response, surface, tool.typical_radius));
+    }
+
+    /// Scratch for so many tools.
+    pub(crate) fn workspace(&self, tools: usize) -> GlobalWorkspace {
+        let triangles = self.response.parts().triangles;
+        GlobalWorkspace {
+            between: vec![Matrix3::zeros(); tools * tools],
+            sums: vec![0.0; 3 * triangles],
+            displacements: vec![Vec3::zeros(); triangles],
+            field: SurfaceField::default(),
+            presses: Vec::with_capacity(tools),
+            shown: vec![Vec3::zeros(); self.carrier.places().len()],
+            deformed: false,
+        }
+    }
+}
+
+/// What a whole organ's response is made from.
+pub(crate) struct GlobalProblem {
+    surface: Surface,
+    poissons_ratio: f64,
+    held: Vec<TriangleId>,
+    touchable: Vec<TriangleId>,
+    pub(crate) doubts: Vec<String>,
+}
+
+impl GlobalProblem {
+    /// That of the organ of `scene`, which is seen as `shown`.
+    pub(crate) fn new(scene: &Scene, shown: &Surface, law: &LinearElastic) -> Result<Self, Error> {
+        let wanted = scene.model.mechanical_triangles;
+        let (surface, doubts) = mechanical_surface::mechanical_surface(shown, wanted)?;
+        let (held, touchable) = sort(&scene.organ, &surface);
+        if touchable.is_empty() {
+            return Err(Error::NothingTouchable);
+        }
+        Ok(Self {
+            surface,
+            poissons_ratio: law.poissons_ratio(),
+            held,
+            touchable,
+            doubts,
+        })
+    }
+
+    /// The model, with what deserves doubt.
+    pub(crate) fn solve(
+        self,
+        (scene, shown): (&Scene, &Surface),
+        resources: &Resources,
+        watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+    ) -> Result<(GlobalModel, Vec<String>), Error> {
+        let found = solve::response(&self.ingredients(), resources, watch)?;
+        let parts = found.response.parts();
+        let origin = ResponseOrigin {
+            triangles: parts.triangles,
+            touchable: parts.touchable.len(),
+            bytes: size_of_val(parts.displacements.as_slice()),
+            file: found.file,
+            was_kept: found.was_kept,
+        };
+        let same = self.surface.mesh() == shown.mesh();
+        let tree = AabbTree::new(self.surface.mesh());
+        let enhancement = EnhancementModel::new(self.surface, scene.model.enhancement)?;
+        let interpolation = enhancement.interpolation();
+        let carrier = match same {
+            true => Carrier::of_vertices(interpolation),
+            false => Carrier::of_surface(interpolation, shown),
+        };
+        let model = GlobalModel {
+            response: found.response,
+            origin,
+            carrier,
+            enhancement,
+            tree,
+            carries_itself: same,
+        };
+        Ok((model, [self.doubts, found.doubts].concat()))
+    }
+
+    fn ingredients(&self) -> Ingredients<'_> {
+        Ingredients {
+            surface: &self.surface,
+            poissons_ratio: self.poissons_ratio,
+            held: &self.held,
+            touchable: &self.touchable,
+        }
+    }
+}
+
+/// The triangles that are held, and those that can be touched.
+fn sort(organ: &Organ, surface: &Surface) -> (Vec<TriangleId>, Vec<TriangleId>) {
+    let anchor = held_region(&organ.shape, organ.anchor.as_ref());
+    let mesh = surface.mesh();
+    let (held, free): (Vec<_>, Vec<_>) = mesh
+        .triangle_ids()
+        .partition(|&triangle| anchor.holds(centroid(surface, triangle)));
+    let within = |&triangle: &TriangleId| {
+        let region = organ.touchable.as_ref();
+        region.is_none_or(|region| region.holds(centroid(surface, triangle)))
+    };
+    let touchable = free.into_iter().filter(within).collect();
+    (held, touchable)
+}
+
+fn centroid(surface: &Surface, triangle: TriangleId) -> [f64; 3] {
+    let [a, b, c] = surface.mesh().positions(triangle);
+    ((a + b + c) / 3.0).into()
 }

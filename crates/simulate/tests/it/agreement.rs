@@ -1,6 +1,9 @@
 //! Two ways to the same force.
 
+use std::ops::ControlFlow;
+
 use palpate_geometry::AabbTree;
+use palpate_simulate::Resources;
 
 use crate::scenes::{Hand, Random, Setting, nearest};
 
@@ -68,7 +71,11 @@ fn the_stiffness_is_the_slope_of_a_stiffening_force() {
     let scene = palpate_files::Scene::parse(scene, "scene.toml").unwrap();
     let mut last = 0.0;
     let simulation =
-        palpate_simulate::Simulation::prepare(&scene, &mut |part| last = part).unwrap();
+        palpate_simulate::Simulation::prepare(&scene, &Resources::default(), &mut |progress| {
+            last = progress.part;
+            ControlFlow::Continue(())
+        })
+        .unwrap();
     assert!(last > 0.0);
     assert!(
         simulation

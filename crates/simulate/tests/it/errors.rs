@@ -3,7 +3,6 @@
 use std::fs;
 use std::path::Path;
 
-use palpate_files::Scene;
 use palpate_simulate::{Error, Flow, Simulation, play};
 
 use crate::scenes::{Setting, motion};
@@ -50,16 +49,6 @@ fn tetrahedron(size: f64, open: bool) -> String {
         text += "endloop\nendfacet\n";
     }
     text + "endsolid t\n"
-}
-
-#[test]
-fn the_hybrid_model_is_not_there_yet() {
-    let text = "format = 1\n[organ]\nbuiltin = \"liver\"\nbuiltin_tissue = \"pig-liver\"\n\
-                [model]\nkind = \"hybrid\"\n[[tool]]\nname = \"right\"\n\
-                tip = { shape = \"flat\", radius_m = 0.001 }\n";
-    let scene = Scene::parse(text, "scene.toml").unwrap();
-    let message = Simulation::new(&scene).unwrap_err().to_string();
-    assert_names(&message, &["hybrid", "not there yet", "kind = \"local\""]);
 }
 
 #[test]

@@ -11,6 +11,7 @@ mod analytic;
 mod data;
 mod errors;
 mod hand_over;
+mod hybrid;
 mod interactive;
 mod invariants;
 mod no_allocation;

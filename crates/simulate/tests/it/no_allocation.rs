@@ -25,14 +25,16 @@ pub(crate) fn track(simulation: &palpate_simulate::Simulation) -> Vec<Vec3> {
 
 #[test]
 fn a_sliding_step_allocates_nothing() {
-    for (contact, model) in [
-        ("slip", ""),
-        ("stick", ""),
-        ("slip", "assembly = \"reused\""),
-        ("slip", "form = \"strong\""),
+    for (kind, contact, model) in [
+        ("local", "slip", ""),
+        ("local", "stick", ""),
+        ("local", "slip", "assembly = \"reused\""),
+        ("local", "slip", "form = \"strong\""),
+        ("hybrid", "stick", "mechanical_triangles = 400"),
     ] {
         let simulation = Setting {
             organ: "builtin = \"liver\"",
+            kind,
             model,
             contact,
             prony: "[{ g = 0.3, tau_s = 1.5 }]",

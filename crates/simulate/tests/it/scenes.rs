@@ -13,6 +13,8 @@ pub(crate) const YOUNGS_MODULUS: f64 = 1e4;
 pub(crate) struct Setting<'a> {
     /// Lines of `[organ]`.
     pub(crate) organ: &'a str,
+    /// Which model.
+    pub(crate) kind: &'a str,
     /// Lines of `[model]`.
     pub(crate) model: &'a str,
     pub(crate) poissons_ratio: f64,
@@ -27,6 +29,7 @@ impl Default for Setting<'_> {
     fn default() -> Self {
         Self {
             organ: "builtin = \"hemisphere\"",
+            kind: "local",
             model: "",
             poissons_ratio: 0.45,
             shape: "flat",
@@ -42,11 +45,12 @@ impl Setting<'_> {
         let text = format!(
             "format = 1\n[organ]\n{}\n[organ.tissue]\nlaw = \"linear\"\n\
              youngs_modulus_pa = {YOUNGS_MODULUS:?}\npoissons_ratio = {:?}\nprony = {}\n\
-             [model]\nkind = \"local\"\n{}\n[[tool]]\nname = \"right\"\n\
+             [model]\nkind = \"{}\"\n{}\n[[tool]]\nname = \"right\"\n\
              tip = {{ shape = \"{}\", radius_m = {:?}, contact = \"{}\" }}\n",
             self.organ,
             self.poissons_ratio,
             self.prony,
+            self.kind,
             self.model,
             self.shape,
             self.radius,

@@ -1,4 +1,6 @@
-use palpate_files::scene::{BuiltinOrgan, DeviceKind, Shading, Shape, Tip, TissueChoice, Tool};
+use palpate_files::scene::{
+    BuiltinOrgan, DeviceKind, ModelKind, Shading, Shape, Tip, TissueChoice, Tool,
+};
 use palpate_files::{BuiltinTissue, Scene};
 
 /// A scene and what the side panel has changed in it.
@@ -9,6 +11,8 @@ pub(super) struct Choice {
     pub(super) organ: Option<BuiltinOrgan>,
     /// Another tissue than the scene's.
     pub(super) tissue: Option<BuiltinTissue>,
+    /// Which model moves the organ.
+    pub(super) model: ModelKind,
     /// The tip of the tool that the mouse moves.
     pub(super) tip: Tip,
     /// The number of that tool.
@@ -22,6 +26,7 @@ impl Choice {
         let tool = scene.tools.iter().position(is_moved).unwrap_or(0);
         Self {
             tip: scene.tools[tool].tip,
+            model: scene.model.kind,
             given: scene,
             organ: None,
             tissue: None,
@@ -46,6 +51,7 @@ impl Choice {
                 tool.trocar_m = None;
             }
         }
+        scene.model.kind = self.model;
         if let Some(tissue) = self.tissue {
             scene.organ.tissue = TissueChoice::Builtin(tissue);
         }

@@ -28,6 +28,7 @@ use std::time::Duration;
 
 use eframe::egui;
 use palpate_files::Scene;
+use palpate_simulate::Resources;
 
 use crate::{Error, Gpu, TissuePicture};
 use choice::Choice;
@@ -50,6 +51,7 @@ struct SimulatorWindow {
     choice: Choice,
     /// The slider of the tip's radius [mm].
     radius: f64,
+    resources: Resources,
     /// What is shown when the choice fails.
     way_out: Scene,
     picture: Picture,
@@ -65,12 +67,12 @@ struct SimulatorWindow {
 }
 
 /// Opens a window with `scene` and waits until it is closed. `way_out` is a scene that works, which is
-/// offered when the other does not.
+/// offered when the other does not. Whole organs are prepared with `resources`, beside the touch.
 ///
 /// # Errors
 /// When there is no display, no adapter, or the window breaks down. What is wrong with the scene is shown in
 /// the window.
-pub fn open_window(scene: Scene, way_out: Scene) -> Result<(), Error> {
+pub fn open_window(scene: Scene, way_out: Scene, resources: Resources) -> Result<(), Error> {
     check_display()?;
     // Opened once without a window: its error has a name that a window's has not.
     drop(Gpu::open()?);
@@ -88,7 +90,7 @@ pub fn open_window(scene: Scene, way_out: Scene) -> Result<(), Error> {
     let told = failure.clone();
     let make: eframe::AppCreator<'_> =
         Box::new(
-            move |context| match SimulatorWindow::new(context, scene, way_out) {
+            move |context| match SimulatorWindow::new(context, (scene, way_out), resources) {
                 Ok(window) => Ok(Box::new(window) as Box<dyn eframe::App>),
                 Err(error) => {
                     let words = error.to_string();
@@ -114,8 +116,8 @@ pub fn open_window(scene: Scene, way_out: Scene) -> Result<(), Error> {
 impl SimulatorWindow {
     fn new(
         context: &eframe::CreationContext<'_>,
-        scene: Scene,
-        way_out: Scene,
+        (scene, way_out): (Scene, Scene),
+        resources: Resources,
     ) -> Result<Self, Error> {
         let Some(state) = &context.wgpu_render_state else {
             return Err(Error::Window {
@@ -129,6 +131,7 @@ impl SimulatorWindow {
             picture: Picture::new(&gpu, choice.shading()),
             radius: 1e3 * choice.tip.radius_m,
             choice,
+            resources,
             way_out,
             play: None,
             preparation: None,
@@ -146,8 +149,13 @@ impl SimulatorWindow {
 
     /// Prepares the choice, beside the window; the organ before it stays until the new one is there.
     fn begin_anew(&mut self, context: &egui::Context) {
-        let scene = self.choice.scene();
-        self.preparation = Some(Preparation::start(scene, &self.gpu, context.clone()));
+        let preparation = Preparation::start(
+            self.choice.scene(),
+            &self.resources,
+            &self.gpu,
+            context.clone(),
+        );
+        self.preparation = Some(preparation);
     }
 
     /// Takes over what was prepared.
@@ -155,21 +163,25 @@ impl SimulatorWindow {
         let Some(outcome) = self.preparation.as_mut().and_then(Preparation::outcome) else {
             return;
         };
-        self.preparation = None;
+        if outcome.last {
+            self.preparation = None;
+        }
         self.history.clear();
         let other_organ = |play: &Play, last: &Option<Play>| {
             last.as_ref()
                 .is_none_or(|last| last.scene.organ.shape != play.scene.organ.shape)
         };
-        match outcome {
+        match outcome.play {
             Ok(play) => {
                 if other_organ(&play, &self.play) {
                     self.picture.frame_anew();
                 }
                 self.picture.draw_anew();
                 self.fault = None;
+                self.notice = None;
                 self.play = Some(play);
             }
+            Err(error) if outcome.second => self.notice = Some(error.to_string()),
             Err(error) => {
                 self.play = None;
                 self.fault = Some(error.to_string());

@@ -1,11 +1,12 @@
 use eframe::egui::{self, Color32, RichText, Ui};
 use egui_plot::{Line, Plot, PlotPoints};
 use palpate_files::BuiltinTissue;
-use palpate_files::scene::{BuiltinOrgan, Shading, TipContact, TipShape};
+use palpate_files::scene::{BuiltinOrgan, ModelKind, Shading, TipContact, TipShape};
 use palpate_simulate::TRUSTED_DEPTH;
 
 use super::SimulatorWindow;
 use super::history::SPAN;
+use super::preparation::Preparation;
 use super::rates::Rates;
 use super::style::{DEPTH, DOUBT, FAULT, FORCE, QUIET};
 
@@ -59,11 +60,25 @@ fn scene(window: &mut SimulatorWindow, ui: &mut Ui) {
                 }
             });
         ui.end_row();
-        ui.label("model");
-        ui.label("finite spheres (local)");
-        ui.end_row();
+        model(choice, ui);
         tool(choice, &mut window.radius, ui);
     });
+}
+
+fn model(choice: &mut super::Choice, ui: &mut Ui) {
+    ui.label("model");
+    let words = |kind| match kind {
+        ModelKind::Local => "around the tip",
+        ModelKind::Hybrid => "the whole organ",
+    };
+    egui::ComboBox::from_id_salt("model")
+        .selected_text(words(choice.model))
+        .show_ui(ui, |ui| {
+            for (_, kind) in ModelKind::WORDS {
+                ui.selectable_value(&mut choice.model, *kind, words(*kind));
+            }
+        });
+    ui.end_row();
 }
 
 fn tool(choice: &mut super::Choice, radius: &mut f64, ui: &mut Ui) {
@@ -252,9 +267,8 @@ pub(super) fn status(window: &SimulatorWindow, ui: &mut Ui) {
         let depth = window.history.last().1;
         if let Some(fault) = window.fault.as_ref().or(window.notice.as_ref()) {
             ui.colored_label(FAULT, fault);
-        } else if window.preparation.is_some() {
-            ui.spinner();
-            ui.label("preparing the organ and its model");
+        } else if let Some(preparation) = &window.preparation {
+            waiting(preparation, ui);
         } else if depth > TRUSTED_DEPTH {
             ui.colored_label(
                 DOUBT,
@@ -264,6 +278,20 @@ pub(super) fn status(window: &SimulatorWindow, ui: &mut Ui) {
             doubts(window, ui);
         }
     });
+}
+
+/// What is being prepared, and how far it is.
+fn waiting(preparation: &Preparation, ui: &mut Ui) {
+    ui.spinner();
+    let Some(progress) = preparation.progress() else {
+        ui.label("preparing the organ and its model");
+        return;
+    };
+    ui.label(progress.work.words());
+    let bar = egui::ProgressBar::new(progress.part as f32);
+    ui.add(bar.desired_width(160.0).show_percentage());
+    // Nothing else moves while one waits.
+    ui.ctx().request_repaint_after(super::REST);
 }
 
 fn doubts(window: &SimulatorWindow, ui: &mut Ui) {

@@ -1,10 +1,11 @@
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use palpate_files::Scene;
 use palpate_geometry::{AabbTree, Surface};
 use palpate_servo::{PointerHand, ServoSettings};
 use palpate_simulate::interactive::{Interaction, SceneDevices};
-use palpate_simulate::{Simulation, read_organ};
+use palpate_simulate::{Progress, Resources, Simulation, read_organ};
 
 use super::gesture::Aim;
 use crate::render::{Body, Tint};
@@ -25,13 +26,18 @@ pub(super) struct Play {
 }
 
 impl Play {
-    /// Reads and prepares what `scene` names, and starts the threads of the touch. It takes a moment and
-    /// may be called on any thread.
+    /// Reads and prepares what `scene` names, and starts the threads of the touch. It may be called on any
+    /// thread; `watch` hears how far it is, and may break it off.
     ///
     /// # Errors
     /// When a file is missing or wrong, a device has no driver, or a thread does not start.
-    pub(super) fn start(scene: Scene, gpu: &Gpu) -> Result<Self, Error> {
-        let simulation = Arc::new(Simulation::new(&scene)?);
+    pub(super) fn start(
+        scene: Scene,
+        resources: &Resources,
+        gpu: &Gpu,
+        watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+    ) -> Result<Self, Error> {
+        let simulation = Arc::new(Simulation::prepare(&scene, resources, watch)?);
         let mut doubts = simulation.doubts().to_vec();
         let mut neighbours = Vec::new();
         for neighbour in &scene.neighbours {

@@ -1,35 +1,132 @@
-use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use eframe::egui;
 use palpate_files::Scene;
+use palpate_files::scene::ModelKind;
+use palpate_simulate::{Progress, Resources};
 
 use super::play::Play;
 use crate::{Error, Gpu};
 
-/// A scene that is being prepared on a thread of its own.
-pub(super) struct Preparation(Receiver<Result<Play, Error>>);
+/// A scene that is being prepared on a thread of its own. One with a model of the whole organ comes twice:
+/// at once with the local model, and again when the whole organ is ready. Dropping it breaks it off.
+pub(super) struct Preparation {
+    outcomes: Receiver<Outcome>,
+    told: Arc<Mutex<Option<Progress>>>,
+    given_up: Arc<AtomicBool>,
+}
+
+/// What came of a scene, so far or at last.
+pub(super) struct Outcome {
+    pub(super) play: Result<Play, Error>,
+    /// Whether nothing more comes.
+    pub(super) last: bool,
+    /// Whether the local model came before, which stays when this is an error.
+    pub(super) second: bool,
+}
+
+/// What the thread needs.
+struct Work {
+    scene: Scene,
+    resources: Resources,
+    gpu: Gpu,
+    context: egui::Context,
+    told: Arc<Mutex<Option<Progress>>>,
+    given_up: Arc<AtomicBool>,
+}
 
 impl Preparation {
-    /// Starts with `scene`, and wakes the window when it is done.
-    pub(super) fn start(scene: Scene, gpu: &Gpu, context: egui::Context) -> Self {
-        let (told, outcome) = channel();
-        let gpu = gpu.clone();
-        std::thread::spawn(move || {
-            // Nobody waits any more when the choice has changed since.
-            let _ = told.send(Play::start(scene, &gpu));
-            context.request_repaint();
-        });
-        Self(outcome)
+    /// Starts with `scene`, and wakes the window when there is something.
+    pub(super) fn start(
+        scene: Scene,
+        resources: &Resources,
+        gpu: &Gpu,
+        context: egui::Context,
+    ) -> Self {
+        let (tell, outcomes) = channel();
+        let (told, given_up) = (Arc::default(), Arc::default());
+        let work = Work {
+            scene,
+            resources: resources.clone(),
+            gpu: gpu.clone(),
+            context,
+            told: Arc::clone(&told),
+            given_up: Arc::clone(&given_up),
+        };
+        std::thread::spawn(move || work.run(&tell));
+        Self {
+            outcomes,
+            told,
+            given_up,
+        }
     }
 
     /// What came of it; none yet while it lasts.
-    pub(super) fn outcome(&mut self) -> Option<Result<Play, Error>> {
-        match self.0.try_recv() {
+    pub(super) fn outcome(&mut self) -> Option<Outcome> {
+        match self.outcomes.try_recv() {
             Ok(outcome) => Some(outcome),
             Err(TryRecvError::Empty) => None,
-            Err(TryRecvError::Disconnected) => Some(Err(Error::Window {
-                cause: "the scene could not be prepared".to_owned(),
-            })),
+            Err(TryRecvError::Disconnected) => Some(Outcome {
+                play: Err(Error::Window {
+                    cause: "the scene could not be prepared".to_owned(),
+                }),
+                last: true,
+                second: false,
+            }),
         }
+    }
+
+    /// How far it is, if that is known.
+    pub(super) fn progress(&self) -> Option<Progress> {
+        *self.told.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Drop for Preparation {
+    fn drop(&mut self) {
+        self.given_up.store(true, Ordering::Relaxed);
+    }
+}
+
+impl Work {
+    fn run(self, tell: &Sender<Outcome>) {
+        let second = self.scene.model.kind == ModelKind::Hybrid;
+        if second {
+            let mut local = self.scene.clone();
+            local.model.kind = ModelKind::Local;
+            let play = self.play(local);
+            let last = play.is_err();
+            // Nobody waits any more when the choice has changed since.
+            let heard = tell.send(Outcome {
+                play,
+                last,
+                second: false,
+            });
+            self.context.request_repaint();
+            if last || heard.is_err() {
+                return;
+            }
+        }
+        let play = self.play(self.scene.clone());
+        let _ = tell.send(Outcome {
+            play,
+            last: true,
+            second,
+        });
+        self.context.request_repaint();
+    }
+
+    fn play(&self, scene: Scene) -> Result<Play, Error> {
+        Play::start(scene, &self.resources, &self.gpu, &mut |progress| {
+            let mut told = self.told.lock().unwrap_or_else(PoisonError::into_inner);
+            *told = Some(progress);
+            match self.given_up.load(Ordering::Relaxed) {
+                true => ControlFlow::Break(()),
+                false => ControlFlow::Continue(()),
+            }
+        })
     }
 }

@@ -18,6 +18,7 @@ use answer::{Answer, Run};
 use super::simulate::ESOPHAGUS;
 use crate::failure::Failure;
 use crate::output;
+use crate::preparation;
 use crate::progress::{Progress, Reader};
 
 /// Examples at the end of the help.
@@ -56,9 +57,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         Some(path) => Scene::read(path)?,
         None => Scene::parse(ESOPHAGUS, "built-in scene")?,
     };
-    let progress = Progress::new(Reader::of_json(arguments.json), None);
-    progress.say("preparing the organ and its model");
-    let simulation = Arc::new(Simulation::new(&scene)?);
+    let reader = Reader::of_json(arguments.json);
+    let simulation = preparation::simulation(&scene, &preparation::resources(), reader)?;
+    let simulation = Arc::new(simulation);
+    let progress = Progress::new(reader, None);
     let mut runs = Vec::new();
     for &rate in &arguments.rates {
         progress.say(format!("{rate} Hz for {} s", arguments.seconds));

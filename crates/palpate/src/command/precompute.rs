@@ -1,0 +1,117 @@
+//! `palpate precompute`: the whole organ's response, made once and kept.
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use clap::Args;
+use palpate_files::Scene;
+use palpate_files::scene::ModelKind;
+use serde::Serialize;
+
+use crate::failure::Failure;
+use crate::progress::Reader;
+use crate::{output, preparation};
+
+/// Examples at the end of the help.
+const EXAMPLES: &str = "\
+Examples:
+  palpate precompute scene.toml
+      solves for a force on each triangle that can be touched, and keeps the answers
+  palpate precompute scene.toml --memory-gb 4 --json
+      refuses what takes more than 4 GB; tells as one JSON object
+
+The hybrid model (`model.kind = \"hybrid\"`) needs this once per organ, Poisson's ratio and anchor; the
+stiffness of the tissue, tips and tools can change without it. `palpate simulate` does it by itself when it
+has not been done. What takes too long or too much memory becomes less with
+  [model]
+  mechanical_triangles = 2000         the shown surface keeps its own
+  [organ.touchable]
+  spheres = [{ center_m = [0.0, 0.0, 0.05], radius_m = 0.03 }]
+The answers are kept in the system's folder for what can be made again, or where PALPATE_CACHE says.";
+
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Arguments {
+    /// The scene.
+    #[arg(value_name = "SCENE.toml")]
+    scene: PathBuf,
+    /// Memory that may be used [GB]; by default four fifths of what is free.
+    #[arg(long, value_name = "GB", value_parser = positive)]
+    memory_gb: Option<f64>,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Debug, Serialize)]
+struct Answer {
+    palpate: &'static str,
+    triangles: usize,
+    mechanical_triangles: usize,
+    touchable_triangles: usize,
+    memory_bytes: usize,
+    /// Whether it had been made before.
+    was_kept: bool,
+    file: Option<PathBuf>,
+    seconds: f64,
+    warnings: Vec<String>,
+}
+
+/// Prepares and tells.
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let mut scene = Scene::read(&arguments.scene)?;
+    scene.model.kind = ModelKind::Hybrid;
+    let mut resources = preparation::resources();
+    if let Some(memory) = arguments.memory_gb {
+        resources.memory = (1e9 * memory) as usize;
+    }
+    let reader = Reader::of_json(arguments.json);
+    let begin = Instant::now();
+    let simulation = preparation::simulation(&scene, &resources, reader)?;
+    let Some(response) = simulation.response() else {
+        return Err(Failure::failed(
+            "the scene has no response; report it as a defect",
+        ));
+    };
+    let answer = Answer {
+        palpate: output::VERSION,
+        triangles: simulation.surface().mesh().triangles().len(),
+        mechanical_triangles: response.triangles,
+        touchable_triangles: response.touchable,
+        memory_bytes: response.bytes,
+        was_kept: response.was_kept,
+        file: response.file.clone(),
+        seconds: begin.elapsed().as_secs_f64(),
+        warnings: simulation.doubts().to_vec(),
+    };
+    if arguments.json {
+        return output::json(&answer);
+    }
+    output::text(answer.text())?;
+    output::warnings(&answer.warnings);
+    Ok(())
+}
+
+impl Answer {
+    fn text(&self) -> String {
+        let what = format!(
+            "{} of {} mechanical triangles can be touched; {:.1} MB; {:.1} s",
+            self.touchable_triangles,
+            self.mechanical_triangles,
+            1e-6 * self.memory_bytes as f64,
+            self.seconds,
+        );
+        match &self.file {
+            Some(file) if self.was_kept => format!("{what}\nkept before in {}", file.display()),
+            Some(file) => format!("{what}\nkept in {}", file.display()),
+            None => format!("{what}\nnot kept"),
+        }
+    }
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(number) if number > 0.0 && f64::is_finite(number) => Ok(number),
+        _ => Err("give a number above 0".to_owned()),
+    }
+}

@@ -1,0 +1,138 @@
+//! The forces of all tips on one organ: each has its own law and its share of what the organ yields.
+//!
+//! With d_i the displacement of tip i and C_ij the further compliance between tips, d_i = own law(F_i) +
+//! Σ_j C_ij F_j. Solved tip by tip (Gauss and Seidel); C is that of an elastic solid, so that this
+//! converges, and two tips apart by some radii need a few sweeps.
+
+use nalgebra::Matrix3;
+use palpate_geometry::{Vec3, closest_on_triangle};
+use palpate_mechanics::enhance::SurfacePoint;
+use palpate_mechanics::surface_response::TipLoad;
+
+use super::{GlobalModel, GlobalWorkspace};
+use crate::simulation::Simulation;
+use crate::state::ToolState;
+use crate::tool::Tool;
+
+/// Sweeps, of which most are never needed.
+const MOST_SWEEPS: usize = 60;
+
+/// Change of a force that ends the sweeps, in parts of the largest [-].
+const SETTLED: f64 = 1e-10;
+
+impl GlobalModel {
+    /// Where a contact is on the mechanical surface.
+    pub(crate) fn locate(
+        &self,
+        simulation: &Simulation,
+        state: &ToolState,
+    ) -> Option<SurfacePoint> {
+        let contact = state.contact.as_ref()?;
+        let place = contact.place;
+        if self.carries_itself {
+            let corners = simulation.surface.mesh().positions(place.triangle);
+            return Some(SurfacePoint {
+                triangle: place.triangle,
+                barycentric: closest_on_triangle(&corners, &place.point).barycentric,
+            });
+        }
+        let interpolation = self.enhancement.interpolation();
+        Some(interpolation.nearest_facing(&self.tree, (&place.point, &contact.normal())))
+    }
+
+    /// How a tool at a site loads the organ; none where nothing was prepared.
+    pub(crate) fn load<'a>(&self, tool: &'a Tool, state: &ToolState) -> Option<TipLoad<'a>> {
+        let (field, site) = (tool.field.as_ref()?, state.site?);
+        let surface = self.enhancement.interpolation().surface();
+        field.at(surface, site.triangle, &site.barycentric)
+    }
+
+    /// Finds the elastic force and the stiffness of every tool in contact.
+    pub(crate) fn press(
+        &self,
+        simulation: &Simulation,
+        tools: &mut [ToolState],
+        workspace: &mut GlobalWorkspace,
+    ) {
+        let softness = 1.0 / simulation.material.at_rest.youngs_modulus();
+        for state in tools.iter_mut() {
+            state.site = self.locate(simulation, state);
+            state.elastic = Vec3::zeros();
+            state.stiffness = Matrix3::zeros();
+        }
+        self.couple(simulation, tools, softness, workspace);
+        for _ in 0..MOST_SWEEPS {
+            let (mut change, mut largest) = (0.0_f64, 0.0_f64);
+            for number in 0..tools.len() {
+                let before = tools[number].elastic;
+                self.answer(simulation, number, (tools, softness), workspace);
+                let force = tools[number].elastic;
+                change = change.max((force - before).norm());
+                largest = largest.max(force.norm());
+            }
+            // One tool alone is done after the first.
+            if tools.len() < 2 || change <= SETTLED * largest {
+                break;
+            }
+        }
+    }
+
+    /// The compliances [m/N] between tips that touch at the same time.
+    fn couple(
+        &self,
+        simulation: &Simulation,
+        tools: &[ToolState],
+        softness: f64,
+        workspace: &mut GlobalWorkspace,
+    ) {
+        let count = tools.len();
+        for (i, moved) in tools.iter().enumerate() {
+            for (j, loaded) in tools.iter().enumerate().take(i) {
+                let loads = (
+                    self.load(&simulation.tools[i], moved),
+                    self.load(&simulation.tools[j], loaded),
+                );
+                let between = match loads {
+                    (Some(moved), Some(loaded)) => {
+                        self.response.between(&moved, &loaded) * softness
+                    }
+                    _ => Matrix3::zeros(),
+                };
+                workspace.between[i * count + j] = between;
+                workspace.between[j * count + i] = between.transpose();
+            }
+        }
+    }
+
+    /// The force of one tool beside those of the others.
+    fn answer(
+        &self,
+        simulation: &Simulation,
+        number: usize,
+        (tools, softness): (&mut [ToolState], f64),
+        workspace: &GlobalWorkspace,
+    ) {
+        let tool = &simulation.tools[number];
+        let (Some(contact), Some(pose)) = (tools[number].contact, tools[number].pose) else {
+            return;
+        };
+        let mut carried = Vec3::zeros();
+        for (other, state) in tools.iter().enumerate() {
+            if other != number {
+                carried -= workspace.between[number * tools.len() + other] * state.elastic;
+            }
+        }
+        let frame = contact.place.frame;
+        let own = contact.displacement(tool, &Vec3::from(pose.position_m));
+        let moved = own - frame.tr_mul(&carried);
+        let load = self.load(tool, &tools[number]);
+        let further = load.map_or(Matrix3::zeros(), |load| {
+            frame.tr_mul(&load.further_compliance()) * frame * softness
+        });
+        let state = &mut tools[number];
+        state.off_model = load.is_none();
+        let answer = tool.law.force_before(&moved, &further);
+        state.elastic = frame * answer.force;
+        state.stiffness = answer.stiffness;
+    }
+}
