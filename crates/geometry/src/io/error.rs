@@ -235,6 +235,47 @@ pub enum ReadFault {
     /// Nothing but points, lines or triangles.
     #[error("the file holds no tetrahedra; export the volume, not only its surface")]
     NoTetrahedra,
+    /// The name does not tell a format that meshes are written in.
+    #[error(
+        "the extension `{found}` is not one of .stl, .obj, .ply, .vtp; give the file one of these"
+    )]
+    UnwrittenExtension {
+        /// The extension, or nothing.
+        found: String,
+    },
+    /// The name does not tell a format that holds label maps.
+    #[error(
+        "the extension `{found}` is not one of .nii, .nii.gz, .nrrd; save the label map as one of these"
+    )]
+    UnknownMapExtension {
+        /// The extension, or nothing.
+        found: String,
+    },
+    /// A header of a picture that says something else than it must.
+    #[error(
+        "the header's {what} is {found} where {expected} was expected; save the label map again"
+    )]
+    BadHeader {
+        /// Which entry.
+        what: &'static str,
+        /// Its value.
+        found: String,
+        /// What should be there.
+        expected: &'static str,
+    },
+    /// Compressed bytes that cannot be unpacked.
+    #[error("the compressed part is damaged ({0}); copy or save the file again")]
+    BadCompression(std::io::Error),
+    /// A voxel of a picture that is no label.
+    #[error(
+        "voxel {voxel} has the value {found} where a label, a whole number from 0 to 65535, was expected; give the label map instead of the picture"
+    )]
+    NotALabel {
+        /// Number of the voxel in the file, from zero.
+        voxel: usize,
+        /// Its value [-].
+        found: f64,
+    },
     /// Read, and yet not a mesh of tetrahedra.
     #[error(transparent)]
     Tetrahedra(#[from] TetrahedronError),

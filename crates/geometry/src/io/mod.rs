@@ -1,9 +1,11 @@
-//! Mesh files: STL, OBJ, PLY and glTF in, VTK out; tetrahedra from MSH and VTK.
+//! Mesh files: STL, OBJ, PLY and glTF in; STL, OBJ, PLY and VTK out; tetrahedra from MSH and VTK;
+//! label maps from NIfTI and NRRD.
 
 mod base64;
 pub(crate) mod error;
 pub(crate) mod format;
 mod gltf;
+pub(crate) mod label_map;
 mod obj;
 mod ply;
 mod raw;
@@ -12,6 +14,7 @@ mod text;
 pub(crate) mod unit;
 pub(crate) mod volume;
 pub mod vtk;
+pub(crate) mod write;
 
 use std::fs;
 use std::io::ErrorKind;

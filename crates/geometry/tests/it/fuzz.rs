@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use palpate_geometry::{LengthUnit, inspect, read_mesh, read_tetrahedra, repair};
+use palpate_geometry::{LengthUnit, inspect, read_label_map, read_mesh, read_tetrahedra, repair};
 use proptest::prelude::*;
 use proptest::test_runner::Config;
 
-use crate::{files, volumes};
+use crate::{files, label_maps, volumes};
 
 /// Few cases by default, many with `PALPATE_FULL=1`.
 fn config() -> Config {
@@ -40,6 +40,19 @@ fn survive_volume(folder: &Path, name: &str, bytes: &[u8]) {
     if let Err(error) = read_tetrahedra(&path, Some(LengthUnit::Metre)) {
         let message = error.to_string();
         assert!(message.len() < 1000, "{message}");
+    }
+}
+
+/// The same for a label map.
+fn survive_map(folder: &Path, name: &str, bytes: &[u8]) {
+    let path = folder.join(name);
+    std::fs::write(&path, bytes).unwrap();
+    match read_label_map(&path) {
+        Ok(map) => drop(map.labels()),
+        Err(error) => {
+            let message = error.to_string();
+            assert!(message.len() < 1000, "{message}");
+        }
     }
 }
 
@@ -149,6 +162,14 @@ proptest! {
         let folder = tempfile::tempdir().unwrap();
         for (name, bytes) in volumes::all() {
             survive_volume(folder.path(), name, &damaged(bytes, &damages));
+        }
+    }
+
+    #[test]
+    fn damaged_label_maps_never_panic(damages in prop::collection::vec(damage(), 1..4)) {
+        let folder = tempfile::tempdir().unwrap();
+        for (name, bytes) in label_maps::all() {
+            survive_map(folder.path(), name, &damaged(bytes, &damages));
         }
     }
 

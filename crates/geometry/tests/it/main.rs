@@ -15,12 +15,15 @@ mod fill;
 mod fuzz;
 mod invariants;
 mod io;
+mod isosurface;
+mod label_maps;
 mod organ;
 mod refine;
 mod shapes;
 mod simplify;
 mod tetrahedra;
 mod volumes;
+mod write;
 
 /// Whether random tests shall try all of their cases: `PALPATE_FULL=1`.
 fn wants_full() -> bool {

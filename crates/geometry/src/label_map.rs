@@ -1,0 +1,86 @@
+use std::collections::BTreeMap;
+
+use nalgebra::Matrix3;
+
+use crate::Vec3;
+
+/// A segmented picture: a label at each voxel of a block, zero where there is nothing.
+///
+/// Positions are those of the built-in organs: metres, x to the patient's left, y to the back, z to
+/// the head (LPS), whatever the file counted in.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LabelMap {
+    pub(crate) size: [usize; 3],
+    /// The first index runs fastest.
+    pub(crate) labels: Vec<u16>,
+    /// Steps from voxel to voxel, as columns [m].
+    pub(crate) steps: Matrix3<f64>,
+    /// Middle of the first voxel [m].
+    pub(crate) origin: Vec3,
+    pub(crate) names: BTreeMap<u16, String>,
+    pub(crate) warnings: Vec<String>,
+}
+
+/// One label of a [`LabelMap`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct Label {
+    /// As it stands in the voxels, never zero.
+    pub number: u16,
+    /// As the file calls it.
+    pub name: Option<String>,
+    /// How many voxels have it.
+    pub voxels: usize,
+    /// Volume of these [m³].
+    pub volume: f64,
+}
+
+impl LabelMap {
+    /// Voxels along each index.
+    pub fn size(&self) -> [usize; 3] {
+        self.size
+    }
+
+    /// Distances between voxels along each index [m].
+    pub fn spacing(&self) -> [f64; 3] {
+        [0, 1, 2].map(|k| self.steps.column(k).norm())
+    }
+
+    /// What deserves doubt, as sentences.
+    pub fn warnings(&self) -> &[String] {
+        &self.warnings
+    }
+
+    /// The labels that occur, in ascending order.
+    pub fn labels(&self) -> Vec<Label> {
+        let mut counts = vec![0usize; 1 + usize::from(u16::MAX)];
+        for &label in &self.labels {
+            counts[usize::from(label)] += 1;
+        }
+        let present = (1..=u16::MAX).filter(|&n| counts[usize::from(n)] > 0);
+        present
+            .map(|number| Label {
+                number,
+                name: self.names.get(&number).cloned(),
+                voxels: counts[usize::from(number)],
+                volume: counts[usize::from(number)] as f64 * self.voxel_volume(),
+            })
+            .collect()
+    }
+
+    /// Gives names to labels that the file does not name.
+    pub fn add_names(&mut self, names: impl IntoIterator<Item = (u16, String)>) {
+        for (number, name) in names {
+            self.names.entry(number).or_insert(name);
+        }
+    }
+
+    /// Volume of one voxel [m³].
+    pub(crate) fn voxel_volume(&self) -> f64 {
+        self.steps.determinant().abs()
+    }
+
+    /// Where an index, whole or not, is in space [m].
+    pub(crate) fn position(&self, index: &Vec3) -> Vec3 {
+        self.origin + self.steps * index
+    }
+}
