@@ -21,7 +21,7 @@ use palpate_mechanics::Vec3;
 use palpate_mechanics::boundary_elements::{BoundaryProblem, Stage};
 use palpate_mechanics::contact::Bond;
 use palpate_mechanics::surface_response::{
-    MovedTriangle, PatchContact, PatchWorkspace, Reciprocity, SurfaceResponse, TouchId,
+    MovedTriangle, PatchContact, PatchWorkspace, Reciprocity, SurfaceResponse, TipField, TouchId,
 };
 
 /// Triangles of a contact.
@@ -102,6 +102,7 @@ fn boundary_elements(c: &mut Criterion) {
     let mut group = c.benchmark_group("boundary_elements");
     group.sample_size(50);
     on_line(&mut group, &response);
+    tips(&mut group, (&response, &surface), some);
     group.finish();
 }
 
@@ -149,6 +150,28 @@ fn on_line(
                 bits.fold(0_u32, |all, value| all ^ value.to_bits())
             });
             black_box(columns.fold(0, |all, bits| all ^ bits))
+        });
+    });
+}
+
+/// Two tips of 2 mm.
+fn tips(
+    group: &mut criterion::BenchmarkGroup<'_, criterion::measurement::WallTime>,
+    (response, surface): (&SurfaceResponse, &Surface),
+    touchable: &[TriangleId],
+) {
+    let start = Instant::now();
+    let field = TipField::new(response, surface, 2e-3);
+    eprintln!("a tip made ready: {:.2} s", start.elapsed().as_secs_f64());
+    let places = [touchable[3], touchable[touchable.len() / 2]];
+    let loads = || places.map(|id| field.at(surface, id, &[0.2, 0.3, 0.5]).unwrap());
+    group.bench_function("what the organ adds to a tip", |b| {
+        b.iter(|| loads()[0].further_compliance());
+    });
+    group.bench_function("compliance between two tips", |b| {
+        b.iter(|| {
+            let [one, other] = loads();
+            response.between(&one, &other)
         });
     });
 }

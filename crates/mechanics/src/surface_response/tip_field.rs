@@ -60,7 +60,7 @@ pub struct TipField {
 /// A tip over one vertex.
 #[derive(Debug, Clone, PartialEq, Default)]
 struct VertexLoad {
-    /// None where nothing can be touched.
+    /// Ascending; none where nothing can be touched.
     shares: Vec<Share>,
     /// c_ext [1/m].
     further: Matrix3<f64>,
@@ -120,13 +120,20 @@ impl TipLoad<'_> {
             .sum()
     }
 
-    /// Who bears the force; a triangle may come up to three times.
+    /// Who bears the force, ascending.
     pub fn shares(&self) -> impl Iterator<Item = Share> {
-        self.corners.iter().flat_map(|(load, weight)| {
-            load.shares.iter().map(move |share| Share {
-                weight: share.weight * weight,
-                ..*share
-            })
+        let mut next = [0; 3];
+        std::iter::from_fn(move || {
+            let heads = [0, 1, 2].map(|k| self.corners[k].0.shares.get(next[k]));
+            let triangle = heads.iter().flatten().map(|share| share.triangle).min()?;
+            let mut weight = 0.0;
+            for (k, head) in heads.into_iter().enumerate() {
+                if let Some(share) = head.filter(|share| share.triangle == triangle) {
+                    weight += share.weight * self.corners[k].1;
+                    next[k] += 1;
+                }
+            }
+            Some(Share { triangle, weight })
         })
     }
 }
@@ -206,6 +213,7 @@ impl Spread {
         for share in &mut shares {
             share.weight /= sum;
         }
+        shares.sort_by_key(|share| share.triangle);
         shares
     }
 }

@@ -260,6 +260,7 @@ fn a_force_is_shared() {
         let sum: f64 = load.shares().map(|share| share.weight).sum();
         assert!((sum - 1.0).abs() < 1e-12);
         assert!(load.shares().all(|share| share.weight >= 0.0));
+        assert!(load.shares().is_sorted_by(|a, b| a.triangle < b.triangle));
     }
     let free_of = |id: &TriangleId| field.at(&solid.surface, *id, &[0.5, 0.25, 0.25]).is_some();
     assert!(!solid.held.iter().all(free_of));
