@@ -168,7 +168,7 @@ fn contacts(solid: &Held) -> Vec<Vec<(TriangleId, Vec3)>> {
 }
 
 /// Judge: the system set up and factored again with the touched triangles held where they are moved to.
-/// Tolerances: the issue's; rounding times the condition of the contact, and of numbers with 24 bits.
+/// Tolerances: what is asked for; rounding times the condition of the contact, and of numbers with 24 bits.
 #[test]
 fn an_update_is_a_new_solution() {
     let solid = Held::organ(Organ::Kidney, 400, 0.45);
@@ -207,7 +207,7 @@ fn an_update_is_a_new_solution() {
     assert!(off < 1e-5);
 }
 
-/// Judge: the contact as solved. Tolerance: the issue's, 3 % of the force on a tip's patch.
+/// Judge: the contact as solved. Tolerance: 3 % of the force on a tip's patch is asked for.
 #[test]
 fn reciprocity_changes_the_force_little() {
     for (organ, triangles, nu) in [
@@ -295,7 +295,7 @@ fn a_patch_on_a_cube_is_that_of_a_prototype() {
 }
 
 /// Judge: hexahedra. The force comes from below with the size of the triangles; twice the finer less the
-/// coarser is off in the second order. Tolerance: the issue's.
+/// coarser is off in the second order. Tolerance: what is asked for.
 #[test]
 #[ignore = "slow: a minute"]
 fn a_patch_on_a_cube_tends_to_that_of_hexahedra() {

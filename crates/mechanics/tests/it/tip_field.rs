@@ -110,26 +110,29 @@ fn force_error(nu: f64, triangles: usize) -> f64 {
     worst
 }
 
-/// Judge: fine axisymmetric elements. Tolerance: c_ext is some tenths of the compliance and is found to a
-/// tenth of itself; the issue asks for 5 %.
+/// What is asked of the force of a tip; where the load is as small as the tip, constant triangles miss some
+/// 3 % of what it yields at ν = 0.3, and less above.
+const FORCE_TOLERANCE: f64 = 0.05;
+
+/// Judge: fine axisymmetric elements.
 #[test]
 fn a_tip_on_a_hemisphere_feels_finite_elements() {
     for nu in [0.3, 0.49] {
-        assert!(force_error(nu, 500) < 0.025);
+        assert!(force_error(nu, 500) < FORCE_TOLERANCE);
     }
 }
 
-/// Judge and tolerance: as above.
+/// Judge: as above.
 #[test]
 #[ignore = "slow: half a minute"]
 fn a_tip_on_a_finer_hemisphere_feels_finite_elements() {
     for nu in [0.3, 0.45, 0.49] {
-        assert!(force_error(nu, 1500) < 0.025);
+        assert!(force_error(nu, 1500) < FORCE_TOLERANCE);
     }
 }
 
-/// Judge: the axisymmetric profile, beyond the triangles that the tip loads. Tolerance: the issue's, a
-/// tenth of the depth, on the coarsest mesh; the error falls with the size of the triangles.
+/// Judge: the axisymmetric profile, beyond the triangles that the tip loads. Tolerance: a tenth of
+/// the depth is asked for, on the coarsest mesh; the error falls with the size of the triangles.
 #[test]
 fn the_field_of_a_tip_is_that_of_finite_elements() {
     let (a, nu) = (3e-3, 0.45);
@@ -181,7 +184,7 @@ fn kidney() -> (Held, SurfaceResponse) {
     (solid, response)
 }
 
-/// The issue's: a slide of 0.1 mm changes the force at a given depth by 5 % at most; here along an edge of
+/// What is asked for: a slide of 0.1 mm changes the force at a given depth by 5 % at most; here along an edge of
 /// every triangle.
 #[test]
 fn a_slide_has_no_steps() {
@@ -331,7 +334,7 @@ fn real_kidney_error(triangles: usize) -> Option<f64> {
     Some(worst)
 }
 
-/// Judge: quadratic tetrahedra, to 3 %. Tolerance: the issue's. The kidney gives way as a whole, to less
+/// Judge: quadratic tetrahedra, to 3 %. Tolerance: what is asked for. The kidney gives way as a whole, to less
 /// than half the force of a half-space.
 #[test]
 #[ignore = "slow: minutes"]
