@@ -19,6 +19,10 @@ pub struct SimulationState {
     pub(crate) tree: AabbTree,
     /// The vertices that are not at rest.
     pub(crate) moved: Vec<NodeId>,
+    /// The least time between two shapes of a whole organ [s]; zero follows every step.
+    pub(crate) show_every: f64,
+    /// When the whole organ was shaped last [s].
+    pub(crate) shown_at: f64,
 }
 
 /// What one tool does and feels.
@@ -70,7 +74,16 @@ impl SimulationState {
             deformed: simulation.surface.mesh().clone(),
             tree: simulation.tree.clone(),
             moved: Vec::with_capacity(simulation.surface.mesh().vertices().len()),
+            show_every: 0.0,
+            shown_at: f64::NEG_INFINITY,
         }
+    }
+
+    /// Shapes a whole organ no more often than every `period` [s]; forces are those of every step. For who
+    /// only looks at it.
+    pub(crate) fn show_every(mut self, period: f64) -> Self {
+        self.show_every = period;
+        self
     }
 }
 

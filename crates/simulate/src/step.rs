@@ -38,7 +38,7 @@ pub fn step(
         record(tool, time, failed, state);
     }
     match (&simulation.global, &mut workspace.global) {
-        (Some(global), Some(workspace)) => global.deform(simulation, state, workspace),
+        (Some(global), Some(workspace)) => global.deform((simulation, time), state, workspace),
         _ => deform::deform(simulation, state, workspace),
     }
     for (number, tool) in simulation.tools.iter().enumerate() {

@@ -4,7 +4,7 @@
 //! times a second; the [`Pointer`] follows at every tick, x ← x + (1 − exp(−Δt/τ)) (target − x), so that the
 //! tool glides where the mouse leaps. It takes every force and displays none.
 //!
-//! *How we know*: `devices::a_pointer_glides_to_its_hand`.
+//! *How we know*: `devices::a_pointer_glides_to_its_hand`, `devices::a_pointer_that_is_put_down_glides_from_there`.
 //!
 //! *Limits*: the tool is τ behind the mouse, 15 ms unless set otherwise.
 
@@ -22,6 +22,8 @@ const SMOOTHING: f64 = 0.015;
 #[derive(Debug, Clone, Copy, Default)]
 struct Target {
     position: Option<Vec3>,
+    /// Where it was put down last [m], and how often it was.
+    put: (Vec3, u32),
     orientation: Option<UnitQuaternion<f64>>,
     grip: f64,
     buttons: u32,
@@ -39,6 +41,8 @@ pub struct Pointer {
     receiver: Receiver<Target>,
     smoothing: f64,
     position: Option<Vec3>,
+    /// How often it was put down.
+    put: u32,
     time: f64,
 }
 
@@ -57,6 +61,7 @@ impl Pointer {
             receiver,
             smoothing: SMOOTHING,
             position: None,
+            put: 0,
             time: 0.0,
         };
         (pointer, PointerHand { sender, target })
@@ -74,6 +79,12 @@ impl PointerHand {
     pub fn move_to(&mut self, position: Vec3) {
         self.target.position = Some(position);
         self.sender.send(self.target);
+    }
+
+    /// Puts the tool down at `start` [m], without a way there, from where it moves to `position` [m].
+    pub fn move_from(&mut self, start: Vec3, position: Vec3) {
+        self.target.put = (start, self.target.put.1.wrapping_add(1));
+        self.move_to(position);
     }
 
     /// Turns the handle; none leaves its direction to the scene.
@@ -105,6 +116,11 @@ impl Device for Pointer {
         let target = *self.receiver.latest();
         let elapsed = command.time - self.time;
         self.time = command.time;
+        let (start, put) = target.put;
+        if put != self.put {
+            self.put = put;
+            self.position = Some(start);
+        }
         self.position = match (target.position, self.position) {
             (Some(target), Some(from)) if self.smoothing > 0.0 => {
                 let part = -(-elapsed / self.smoothing).exp_m1();

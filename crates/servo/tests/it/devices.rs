@@ -90,6 +90,23 @@ fn a_pointer_glides_to_its_hand() {
     );
 }
 
+/// Judge: the exponential from where it was put. What the hand says next does not undo it.
+#[test]
+fn a_pointer_that_is_put_down_glides_from_there() {
+    let (pointer, mut hand) = Pointer::new();
+    let mut pointer = pointer.with_smoothing(0.01);
+    hand.move_to(Vec3::x());
+    exchange(&mut pointer, 0.0, Vec3::zeros());
+    hand.move_from(Vec3::y(), Vec3::zeros());
+    hand.move_to(Vec3::zeros());
+    for tick in 1..20 {
+        let time = 1e-3 * f64::from(tick);
+        let place = exchange(&mut pointer, time, Vec3::zeros()).position;
+        // Rounding.
+        assert!((place - Vec3::y() * (-time / 0.01).exp()).norm() < 1e-12);
+    }
+}
+
 /// Judge: F = k x.
 #[test]
 fn a_hand_yields_as_its_spring_says() {

@@ -8,13 +8,17 @@ use crate::simulation::Simulation;
 use crate::state::SimulationState;
 
 impl GlobalModel {
-    /// Moves all vertices of the shown surface.
+    /// Moves all vertices of the shown surface, if it is time.
     pub(crate) fn deform(
         &self,
-        simulation: &Simulation,
+        (simulation, time): (&Simulation, f64),
         state: &mut SimulationState,
         workspace: &mut GlobalWorkspace,
     ) {
+        if time < state.shown_at + state.show_every {
+            return;
+        }
+        state.shown_at = time;
         let touched = state.tools.iter().any(|tool| tool.contact.is_some());
         if !touched && !workspace.deformed {
             return;

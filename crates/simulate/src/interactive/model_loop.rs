@@ -12,6 +12,9 @@ use super::stations::Line;
 use super::{Happenings, ModelReport, Mount, Snapshot};
 use crate::{Simulation, SimulationState, SimulationWorkspace, step};
 
+/// The period of a display [s], with some room: a step that is a little early counts.
+const DISPLAY: f64 = 0.9 / 60.0;
+
 /// The button that cuts.
 pub(super) const CUTS: u32 = 1;
 
@@ -43,7 +46,7 @@ impl ModelLoop {
     ) -> Self {
         let tools = lines.len();
         Self {
-            state: SimulationState::new(&simulation),
+            state: SimulationState::new(&simulation).show_every(DISPLAY),
             workspace: SimulationWorkspace::new(&simulation),
             simulation,
             lines,

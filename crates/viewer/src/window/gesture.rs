@@ -44,6 +44,8 @@ pub struct Aim {
     pub tip: Vec3,
     /// From the tool's frame to the scene.
     pub turned: UnitQuaternion<f64>,
+    /// Where it is put down first [m], if its way there would lead through the organ.
+    pub from: Option<Vec3>,
     /// Where it is over the resting surface [m].
     pub over: Vec3,
     /// How deep it is meant to be [m]; negative above the surface.
@@ -109,7 +111,7 @@ impl Gesture {
                     by_wheel: 0.0,
                 });
                 if let Some(over) = over {
-                    self.go(&over, TOUCH, ground);
+                    self.leap(&over, TOUCH, ground);
                 }
             }
             // A press goes on where the mouse has left the picture.
@@ -118,7 +120,7 @@ impl Gesture {
                 self.press = None;
                 let over = place.and_then(seen).or(self.over);
                 if let Some(over) = over {
-                    self.go(&over, -HOVER, ground);
+                    self.leap(&over, -HOVER, ground);
                 }
             }
         }
@@ -128,6 +130,15 @@ impl Gesture {
     fn go(&mut self, over: &Picked, depth: f64, ground: &Ground<'_>) {
         self.over = Some(*over);
         self.aim = aimed(over, depth, ground);
+    }
+
+    /// From above the surface, wherever the tool was.
+    fn leap(&mut self, over: &Picked, depth: f64, ground: &Ground<'_>) {
+        self.go(over, depth, ground);
+        let above = aimed(over, -HOVER, ground).map(|above| above.tip);
+        if let Some(aim) = &mut self.aim {
+            aim.from = above;
+        }
     }
 
     /// Whether the tool is being pressed in.
@@ -156,6 +167,7 @@ fn aimed(over: &Picked, depth: f64, ground: &Ground<'_>) -> Option<Aim> {
     tip.iter().all(|c| c.is_finite()).then_some(Aim {
         tip,
         turned,
+        from: None,
         over: over.point,
         depth,
     })

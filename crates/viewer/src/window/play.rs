@@ -73,7 +73,10 @@ impl Play {
     pub(super) fn move_hand(&mut self, tool: usize, aim: &Aim) {
         if let Some(Some(hand)) = self.hands.get_mut(tool) {
             hand.turn_to(Some(aim.turned));
-            hand.move_to(aim.tip);
+            match aim.from {
+                Some(start) => hand.move_from(start, aim.tip),
+                None => hand.move_to(aim.tip),
+            }
         }
     }
 }
