@@ -1,7 +1,7 @@
 //! The command line: one file per command.
 
 mod demonstration;
-mod mesh_info;
+mod mesh;
 mod precompute;
 mod quality;
 mod reproduce;
@@ -31,8 +31,8 @@ Examples:
       how late a 1 kHz loop is on this machine, and how far its forces are off
   palpate mesh info kidney.stl --unit mm
       what is wrong with a mesh, and whether it can be simulated
-  palpate mesh info --builtin hemisphere
-      axes, lengths and the mesh of a built-in organ
+  palpate mesh isosurface segmentation.nii.gz --label liver --out liver.ply
+      an organ from a segmented volume
   palpate reproduce table-3-1
       a published table beside ours
 
@@ -61,15 +61,9 @@ enum Command {
     Reproduce(reproduce::Arguments),
     /// Measure how good touch is on this machine: rates, lateness, errors.
     Quality(quality::Arguments),
-    /// Look at meshes.
+    /// Look at meshes, make them smaller, convert them, make them from segmented volumes.
     #[command(subcommand)]
-    Mesh(Mesh),
-}
-
-#[derive(Debug, Subcommand)]
-enum Mesh {
-    /// Say what a mesh is, what is wrong with it, and whether it can be simulated.
-    Info(mesh_info::Arguments),
+    Mesh(mesh::Mesh),
 }
 
 impl CommandLine {
@@ -82,7 +76,7 @@ impl CommandLine {
             Some(Command::Solve(arguments)) => solve::run(&arguments),
             Some(Command::Reproduce(arguments)) => reproduce::run(&arguments),
             Some(Command::Quality(arguments)) => quality::run(&arguments),
-            Some(Command::Mesh(Mesh::Info(arguments))) => mesh_info::run(&arguments),
+            Some(Command::Mesh(command)) => mesh::run(&command),
         }
     }
 }

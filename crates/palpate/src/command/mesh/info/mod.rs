@@ -6,7 +6,7 @@ mod table;
 use std::path::{Path, PathBuf};
 
 use clap::{ArgGroup, Args};
-use palpate_geometry::{LengthUnit, Organ, ReadError, ReadFault, read_mesh};
+use palpate_geometry::Organ;
 
 use self::answer::{Answer, Origin};
 use crate::failure::Failure;
@@ -61,19 +61,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 fn of_file(file: &Path, unit: Option<&str>, progress: &Progress) -> Result<Answer, Failure> {
-    let unit: Option<LengthUnit> = unit.map(str::parse).transpose()?;
-    let imported = read_mesh(file, unit).map_err(about_unit)?;
+    let imported = super::read(file, unit)?;
     progress.say("looking for holes, crossings and slivers");
     let origin = Origin::File {
         file: file.to_owned(),
         format: imported.format.to_string(),
         unit: imported.unit.symbol(),
     };
-    let warnings = imported.warnings.iter();
-    let warnings = warnings
-        .map(|warning| in_words_of_this_command(warning))
-        .collect();
-    Ok(Answer::new(origin, &imported.mesh, warnings))
+    Ok(Answer::new(origin, &imported.mesh, imported.warnings))
 }
 
 fn of_builtin(name: &str, arguments: &Arguments, progress: &Progress) -> Result<Answer, Failure> {
@@ -91,18 +86,4 @@ fn unknown_builtin(name: &str) -> Failure {
         crate::nearest::name(name, &names),
         names.join(", ")
     ))
-}
-
-/// The reader speaks of the scene's key, here it is an option.
-fn about_unit(error: ReadError) -> Failure {
-    match error.fault {
-        ReadFault::UnitNeeded { .. } => {
-            Failure::input(in_words_of_this_command(&error.to_string()))
-        }
-        _ => error.into(),
-    }
-}
-
-fn in_words_of_this_command(message: &str) -> String {
-    message.replace("mesh_unit", "--unit")
 }

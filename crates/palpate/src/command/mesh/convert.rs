@@ -1,0 +1,83 @@
+//! `palpate mesh convert`: the same mesh in another format or unit.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use palpate_geometry::{LengthUnit, repair};
+use serde::Serialize;
+
+use super::written::{Output, Written, told};
+use crate::failure::Failure;
+use crate::output;
+use crate::progress::{Progress, Reader};
+
+/// Examples at the end of the help.
+const EXAMPLES: &str = "\
+Examples:
+  palpate mesh convert scan.stl kidney.ply --unit mm
+      reads millimetres, writes metres
+  palpate mesh convert organ.glb organ.stl --to-unit mm
+      for a program that wants millimetres
+
+Formats are named by the extensions: STL, OBJ, PLY, glTF and GLB are read; STL, OBJ, PLY and VTP (ParaView)
+are written. Corners that were written once per triangle are joined, and triangles are turned outward; what
+was mended is told.";
+
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Arguments {
+    /// The mesh: STL, OBJ, PLY or glTF.
+    #[arg(value_name = "MESH")]
+    file: PathBuf,
+    /// The file to write: .stl, .obj, .ply or .vtp.
+    #[arg(value_name = "OUT")]
+    out: PathBuf,
+    /// The unit of the file: m, cm, mm or um.
+    #[arg(long)]
+    unit: Option<String>,
+    /// The unit to write.
+    #[arg(long, value_name = "UNIT", default_value = "m")]
+    to_unit: String,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Debug, Serialize)]
+struct Answer {
+    palpate: &'static str,
+    #[serde(flatten)]
+    written: Written,
+    mended: Vec<String>,
+    warnings: Vec<String>,
+}
+
+/// Reads, mends and writes.
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let unit: LengthUnit = arguments.to_unit.parse()?;
+    let out = Output::new(&arguments.out, unit)?;
+    let progress = Progress::new(Reader::of_json(arguments.json), None);
+    progress.say("reading the mesh");
+    let imported = super::read(&arguments.file, arguments.unit.as_deref())?;
+    let (mesh, repairs) = repair(&imported.mesh)?;
+    let answer = Answer {
+        palpate: output::VERSION,
+        written: out.write(&mesh)?,
+        mended: told(&repairs),
+        warnings: imported.warnings,
+    };
+    drop(progress);
+    if arguments.json {
+        return output::json(&answer);
+    }
+    output::warnings(&answer.warnings);
+    for mended in &answer.mended {
+        output::text(mended)?;
+    }
+    output::text(format!(
+        "{} triangles written to {}, in {}",
+        answer.written.triangles,
+        answer.written.file.display(),
+        unit.symbol()
+    ))
+}

@@ -1,0 +1,274 @@
+//! `palpate mesh isosurface`: the surface of an organ from a segmented volume.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use palpate_geometry::{
+    Isosurface, IsosurfaceSettings, Label, LabelMap, LengthUnit, isosurface, read_label_map,
+};
+use serde::Serialize;
+
+use super::written::{Output, Written};
+use crate::failure::Failure;
+use crate::progress::{Progress, Reader};
+use crate::{nearest, output};
+
+/// Examples at the end of the help.
+const EXAMPLES: &str = "\
+Examples:
+  palpate mesh isosurface segmentation.nii.gz
+      the labels that there are, with their volumes
+  palpate mesh isosurface segmentation.nii.gz --label liver --out liver.ply
+  palpate mesh isosurface segmentation.nrrd --label all --out organs
+      a file for each label in the folder organs
+
+The surface is closed and in one piece, also where the border of the volume cuts the organ; the steps of the
+voxels are smoothed away without loss of volume. Metres; x to the patient's left, y to the back, z to the head,
+as all organs of one volume share it. Names come from the file (TotalSegmentator, 3D Slicer) or from a file
+beside it, segmentation.json, with {\"labels\": {\"5\": \"liver\"}}.";
+
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Arguments {
+    /// The label map: .nii, .nii.gz or .nrrd.
+    #[arg(value_name = "LABELS")]
+    file: PathBuf,
+    /// A label's name or number, or all; without it the labels are listed.
+    #[arg(long, requires = "out")]
+    label: Option<String>,
+    /// The file to write (.stl, .obj, .ply, .vtp); with --label all a folder, for .ply files.
+    #[arg(long, requires = "label")]
+    out: Option<PathBuf>,
+    /// How many triangles each surface has at most.
+    #[arg(long, value_name = "N", default_value_t = IsosurfaceSettings::default().triangles)]
+    triangles: usize,
+    /// Rounds of smoothing; 0 leaves the steps of the voxels.
+    #[arg(long, value_name = "ROUNDS", default_value_t = IsosurfaceSettings::default().smoothing)]
+    smooth: usize,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Debug, Serialize)]
+struct Answer {
+    palpate: &'static str,
+    size: [usize; 3],
+    spacing_m: [f64; 3],
+    labels: Vec<Listed>,
+    surfaces: Vec<Surfaced>,
+    warnings: Vec<String>,
+}
+
+#[derive(Debug, Serialize)]
+struct Listed {
+    number: u16,
+    name: Option<String>,
+    voxels: usize,
+    volume_m3: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct Surfaced {
+    label: u16,
+    name: Option<String>,
+    #[serde(flatten)]
+    written: Written,
+    voxel_volume_m3: f64,
+    cut_by_the_border: bool,
+}
+
+/// Lists labels, or makes surfaces of them.
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let progress = Progress::new(Reader::of_json(arguments.json), None);
+    progress.say("reading the volume");
+    let map = read_label_map(&arguments.file)?;
+    let labels = map.labels();
+    let mut warnings = map.warnings().to_vec();
+    let mut surfaces = Vec::new();
+    if let (Some(wanted), Some(out)) = (&arguments.label, &arguments.out) {
+        for (label, out) in chosen(&labels, wanted, out)? {
+            progress.say(format!("the surface of {}", named(label)));
+            surfaces.push(surface(&map, (label, &out), arguments, &mut warnings)?);
+        }
+    }
+    drop(progress);
+    let answer = Answer {
+        palpate: output::VERSION,
+        size: map.size(),
+        spacing_m: map.spacing(),
+        labels: labels.into_iter().map(Listed::from).collect(),
+        surfaces,
+        warnings,
+    };
+    if arguments.json {
+        return output::json(&answer);
+    }
+    output::warnings(&answer.warnings);
+    output::text(answer.text())
+}
+
+/// The labels that are asked for, each with its file.
+fn chosen<'l>(
+    labels: &'l [Label],
+    wanted: &str,
+    out: &Path,
+) -> Result<Vec<(&'l Label, PathBuf)>, Failure> {
+    if wanted == "all" {
+        std::fs::create_dir_all(out).map_err(|cause| {
+            Failure::input(format!(
+                "{}: the folder cannot be made ({cause}); name one that can with --out",
+                out.display()
+            ))
+        })?;
+        let file = |label: &Label| out.join(format!("{}.ply", file_name(label)));
+        return Ok(labels.iter().map(|label| (label, file(label))).collect());
+    }
+    let is_wanted = |label: &&Label| {
+        label.name.as_deref() == Some(wanted) || wanted.parse() == Ok(label.number)
+    };
+    match labels.iter().find(is_wanted) {
+        Some(label) => Ok(vec![(label, out.to_owned())]),
+        None => Err(absent(labels, wanted)),
+    }
+}
+
+fn absent(labels: &[Label], wanted: &str) -> Failure {
+    let there: Vec<_> = labels.iter().map(named).collect();
+    let names: Vec<&str> = labels
+        .iter()
+        .filter_map(|label| label.name.as_deref())
+        .collect();
+    let nearest = match names.is_empty() {
+        true => String::new(),
+        false => format!("the nearest is {}, and ", nearest::name(wanted, &names)),
+    };
+    match there.is_empty() {
+        true => Failure::input("the volume has no label but zero; give one that is segmented"),
+        false => Failure::input(format!(
+            "the volume has no label {wanted:?}; {nearest}there are {}",
+            there.join(", ")
+        )),
+    }
+}
+
+fn surface(
+    map: &LabelMap,
+    (label, out): (&Label, &Path),
+    arguments: &Arguments,
+    warnings: &mut Vec<String>,
+) -> Result<Surfaced, Failure> {
+    let out = Output::new(out, LengthUnit::Metre)?;
+    let settings = IsosurfaceSettings {
+        smoothing: arguments.smooth,
+        triangles: arguments.triangles,
+    };
+    let found = isosurface(map, label.number, &settings).map_err(Failure::input)?;
+    warnings.extend(doubts(label, &found));
+    Ok(Surfaced {
+        label: label.number,
+        name: label.name.clone(),
+        written: out.write(&found.simplified.mesh)?,
+        voxel_volume_m3: found.voxel_volume,
+        cut_by_the_border: found.is_cut,
+    })
+}
+
+fn doubts(label: &Label, found: &Isosurface) -> Vec<String> {
+    let name = named(label);
+    let all = [
+        (
+            found.other_pieces > 0,
+            format!(
+                "{name}: {} smaller pieces were left out, {} of {} voxels",
+                found.other_pieces, found.other_voxels, label.voxels
+            ),
+        ),
+        (
+            found.filled_voxels > 0,
+            format!(
+                "{name}: {} voxels that were shut in were filled",
+                found.filled_voxels
+            ),
+        ),
+        (
+            found.is_cut,
+            format!("{name}: the border of the volume cuts it; it is closed by a flat side there"),
+        ),
+        (
+            found.simplified.self_intersections > 0,
+            format!(
+                "{name}: {} triangles meet others; ask for more triangles",
+                found.simplified.self_intersections
+            ),
+        ),
+    ];
+    all.into_iter()
+        .filter(|(holds, _)| *holds)
+        .map(|(_, text)| text)
+        .collect()
+}
+
+fn named(label: &Label) -> String {
+    match &label.name {
+        Some(name) => format!("{} ({name})", label.number),
+        None => label.number.to_string(),
+    }
+}
+
+/// The label's name without what a file's name cannot hold.
+fn file_name(label: &Label) -> String {
+    let name = label.name.clone().unwrap_or_default();
+    let kept: String = name
+        .chars()
+        .map(|c| {
+            if c.is_alphanumeric() || c == '-' {
+                c
+            } else {
+                '_'
+            }
+        })
+        .collect();
+    match kept.trim_matches('_') {
+        "" => format!("label_{}", label.number),
+        name => format!("{}_{name}", label.number),
+    }
+}
+
+impl From<Label> for Listed {
+    fn from(label: Label) -> Self {
+        Self {
+            number: label.number,
+            name: label.name,
+            voxels: label.voxels,
+            volume_m3: label.volume,
+        }
+    }
+}
+
+impl Answer {
+    fn text(&self) -> String {
+        if self.surfaces.is_empty() {
+            let rows = self.labels.iter().map(|label| {
+                format!(
+                    "{:>6}  {:<28} {:>10} voxels {:>10.1} ml\n",
+                    label.number,
+                    label.name.as_deref().unwrap_or("(no name)"),
+                    label.voxels,
+                    1e6 * label.volume_m3
+                )
+            });
+            return rows.collect();
+        }
+        let rows = self.surfaces.iter().map(|surface| {
+            format!(
+                "{}  {} triangles, {:.1} ml ({:.1} ml of voxels)\n",
+                surface.written.file.display(),
+                surface.written.triangles,
+                1e6 * surface.written.volume_m3,
+                1e6 * surface.voxel_volume_m3
+            )
+        });
+        rows.collect()
+    }
+}

@@ -1,0 +1,60 @@
+//! `palpate mesh`: organ geometry before it is simulated.
+
+mod convert;
+mod info;
+mod isosurface;
+mod simplify;
+mod written;
+
+use std::path::Path;
+
+use clap::Subcommand;
+use palpate_geometry::{ImportedMesh, LengthUnit, ReadError, ReadFault, read_mesh};
+
+use crate::failure::Failure;
+
+#[derive(Debug, Subcommand)]
+pub(super) enum Mesh {
+    /// Say what a mesh is, what is wrong with it, and whether it can be simulated.
+    Info(info::Arguments),
+    /// Write the same surface with fewer, even triangles, and tell how far it is from the original.
+    Simplify(simplify::Arguments),
+    /// Write a mesh in another format or unit, repaired.
+    Convert(convert::Arguments),
+    /// Make the surface of an organ from a segmented volume: NIfTI or NRRD.
+    Isosurface(isosurface::Arguments),
+}
+
+/// Does what the line says.
+pub(super) fn run(mesh: &Mesh) -> Result<(), Failure> {
+    match mesh {
+        Mesh::Info(arguments) => info::run(arguments),
+        Mesh::Simplify(arguments) => simplify::run(arguments),
+        Mesh::Convert(arguments) => convert::run(arguments),
+        Mesh::Isosurface(arguments) => isosurface::run(arguments),
+    }
+}
+
+/// Reads a mesh; what deserves doubt about it speaks of the option `--unit`.
+fn read(file: &Path, unit: Option<&str>) -> Result<ImportedMesh, Failure> {
+    let unit: Option<LengthUnit> = unit.map(str::parse).transpose()?;
+    let mut imported = read_mesh(file, unit).map_err(about_unit)?;
+    for warning in &mut imported.warnings {
+        *warning = in_words_of_this_command(warning);
+    }
+    Ok(imported)
+}
+
+/// The reader speaks of the scene's key, here it is an option.
+fn about_unit(error: ReadError) -> Failure {
+    match error.fault {
+        ReadFault::UnitNeeded { .. } => {
+            Failure::input(in_words_of_this_command(&error.to_string()))
+        }
+        _ => error.into(),
+    }
+}
+
+fn in_words_of_this_command(message: &str) -> String {
+    message.replace("mesh_unit", "--unit")
+}

@@ -1,0 +1,122 @@
+//! `palpate mesh simplify`: fewer triangles for the same surface.
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use clap::Args;
+use palpate_geometry::{LengthUnit, SimplifySettings, repair, simplify};
+use serde::Serialize;
+
+use super::written::{Distance, Output, Written, told};
+use crate::failure::Failure;
+use crate::output;
+use crate::progress::{Progress, Reader};
+
+/// Examples at the end of the help.
+const EXAMPLES: &str = "\
+Examples:
+  palpate mesh simplify esophagus.ply esophagus-3726.ply --triangles 3726
+  palpate mesh simplify scan.stl small.stl --unit mm --triangles 5000 --json
+
+Sharp edges, borders, handles and the volume stay, and triangles become even, as mechanics wants them. The
+distances are those between the two surfaces: from the original to the result and back.";
+
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Arguments {
+    /// The mesh: STL, OBJ, PLY or glTF.
+    #[arg(value_name = "MESH")]
+    file: PathBuf,
+    /// The file to write, in metres: .stl, .obj, .ply or .vtp.
+    #[arg(value_name = "OUT")]
+    out: PathBuf,
+    /// How many triangles it shall have; a closed mesh has an even number.
+    #[arg(long, value_name = "N")]
+    triangles: usize,
+    /// The unit of the file: m, cm, mm or um.
+    #[arg(long)]
+    unit: Option<String>,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Debug, Serialize)]
+struct Answer {
+    palpate: &'static str,
+    #[serde(flatten)]
+    written: Written,
+    triangles_before: usize,
+    /// Part of the volume before.
+    volume_change: f64,
+    original_to_result: Distance,
+    result_to_original: Distance,
+    seconds: f64,
+    warnings: Vec<String>,
+}
+
+/// Simplifies and tells.
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let out = Output::new(&arguments.out, LengthUnit::Metre)?;
+    let progress = Progress::new(Reader::of_json(arguments.json), None);
+    progress.say("reading the mesh");
+    let mut imported = super::read(&arguments.file, arguments.unit.as_deref())?;
+    let (mesh, repairs) = repair(&imported.mesh)?;
+    let warnings = &mut imported.warnings;
+    warnings.extend(told(&repairs));
+    progress.say(format!(
+        "{} triangles become {}",
+        mesh.triangles().len(),
+        arguments.triangles
+    ));
+    let begin = Instant::now();
+    let settings = SimplifySettings::to(arguments.triangles);
+    let simplified = simplify(&mesh, &settings).map_err(Failure::input)?;
+    let seconds = begin.elapsed().as_secs_f64();
+    if simplified.self_intersections > 0 {
+        warnings.push(format!(
+            "{} triangles of the result meet others; ask for more triangles",
+            simplified.self_intersections
+        ));
+    }
+    let answer = Answer {
+        palpate: output::VERSION,
+        written: out.write(&simplified.mesh)?,
+        triangles_before: mesh.triangles().len(),
+        volume_change: simplified.mesh.volume() / mesh.volume() - 1.0,
+        original_to_result: simplified.of_original.into(),
+        result_to_original: simplified.of_result.into(),
+        seconds,
+        warnings: imported.warnings,
+    };
+    drop(progress);
+    if arguments.json {
+        return output::json(&answer);
+    }
+    output::warnings(&answer.warnings);
+    output::text(answer.text())
+}
+
+impl Answer {
+    fn text(&self) -> String {
+        let millimetres = |distance: &Distance| {
+            format!(
+                "at most {:.3} mm, {:.3} mm on the mean",
+                1e3 * distance.max_m,
+                1e3 * distance.mean_m
+            )
+        };
+        format!(
+            "{} triangles became {}, written to {} in metres\n\
+             from the original to the result  {}\n\
+             from the result to the original  {}\n\
+             volume                           {:+.3} %",
+            self.triangles_before,
+            self.written.triangles,
+            self.written.file.display(),
+            millimetres(&self.original_to_result),
+            millimetres(&self.result_to_original),
+            100.0 * self.volume_change,
+        )
+    }
+}

@@ -1,0 +1,90 @@
+use std::path::{Path, PathBuf};
+
+use palpate_files::{check_writable, write_whole};
+use palpate_geometry::{Deviation, LengthUnit, ReadError, Repairs, TriangleMesh, WriteFormat};
+use serde::Serialize;
+
+use crate::failure::Failure;
+
+/// A file that is going to be written.
+pub(super) struct Output {
+    path: PathBuf,
+    format: WriteFormat,
+    unit: LengthUnit,
+}
+
+/// What was written.
+#[derive(Debug, Serialize)]
+pub(super) struct Written {
+    pub(super) file: PathBuf,
+    unit: &'static str,
+    pub(super) vertices: usize,
+    pub(super) triangles: usize,
+    pub(super) volume_m3: f64,
+}
+
+/// How far one surface is from another.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub(super) struct Distance {
+    pub(super) max_m: f64,
+    pub(super) mean_m: f64,
+}
+
+impl Output {
+    /// Asked before long work, so that nothing is computed in vain.
+    pub(super) fn new(path: &Path, unit: LengthUnit) -> Result<Self, Failure> {
+        let format = WriteFormat::of(path).map_err(|fault| ReadError {
+            path: path.to_owned(),
+            fault,
+        })?;
+        check_writable(path)?;
+        Ok(Self {
+            path: path.to_owned(),
+            format,
+            unit,
+        })
+    }
+
+    /// Writes `mesh`, whole or not at all.
+    pub(super) fn write(self, mesh: &TriangleMesh) -> Result<Written, Failure> {
+        write_whole(&self.path, &self.format.bytes(mesh, self.unit))?;
+        Ok(Written {
+            file: self.path,
+            unit: self.unit.symbol(),
+            vertices: mesh.vertices().len(),
+            triangles: mesh.triangles().len(),
+            volume_m3: mesh.volume(),
+        })
+    }
+}
+
+impl From<Deviation> for Distance {
+    fn from(deviation: Deviation) -> Self {
+        Self {
+            max_m: deviation.max,
+            mean_m: deviation.mean,
+        }
+    }
+}
+
+/// What a repair did, as sentences.
+pub(super) fn told(repairs: &Repairs) -> Vec<String> {
+    let counts = [
+        (
+            repairs.welded_vertices,
+            "vertices were joined to another in the same place",
+        ),
+        (
+            repairs.degenerate_triangles,
+            "triangles without area were dropped",
+        ),
+        (
+            repairs.unused_vertices,
+            "vertices that no triangle uses were dropped",
+        ),
+        (repairs.flipped_triangles, "triangles were turned over"),
+    ];
+    let done = counts.iter().filter(|(count, _)| *count > 0);
+    done.map(|(count, what)| format!("{count} {what}"))
+        .collect()
+}
