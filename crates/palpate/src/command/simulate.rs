@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use palpate_files::scene::Shape;
 use palpate_files::{Motion, Scene};
 use palpate_viewer::FrameWriter;
 
@@ -16,11 +17,24 @@ use crate::progress::Reader;
 /// The scene that is played when none is named.
 pub(crate) const ESOPHAGUS: &str = include_str!("../../../../assets/esophagus/scene.toml");
 
+/// Extensions of meshes.
+const MESHES: [&str; 5] = ["stl", "obj", "ply", "gltf", "glb"];
+
+/// What an organ that comes without a scene is touched by, and made of; its shape takes the place of the
+/// liver's.
+const AROUND_A_MESH: &str = "\
+format = 1
+organ = { builtin = \"liver\", builtin_tissue = \"pig-liver\" }
+tool = [{ name = \"right\", kind = \"probe\", device = \"mouse\", tip = { shape = \"flat\", radius_m = 0.002 } }]
+";
+
 /// Examples at the end of the help.
 const EXAMPLES: &str = "\
 Examples:
   palpate simulate scene.toml
       opens a window in which the mouse moves the tool
+  palpate simulate liver.ply
+      the same with an organ of yours, as if it were pig liver
   palpate simulate scene.toml --headless --motion motion.csv --out session
       writes session/session.csv (forces on the tool at every step), plots and summary.json
   palpate simulate --headless --motion motion.csv --out session --fields 60 --frames 60
@@ -36,8 +50,8 @@ A scene names an organ, its tissue, the model and the tools; a motion says where
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Arguments {
-    /// The scene; without one, the built-in esophagus.
-    #[arg(value_name = "SCENE.toml")]
+    /// The scene, or a mesh of an organ; without one, the built-in esophagus.
+    #[arg(value_name = "SCENE.toml|MESH")]
     scene: Option<PathBuf>,
     /// Play without a window; needs --motion and --out.
     #[arg(long, requires = "motion", requires = "out")]
@@ -72,6 +86,20 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
 }
 
+/// A scene file, or a mesh with a probe over it.
+fn scene_of(path: &Path) -> Result<Scene, Failure> {
+    let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
+    if !MESHES.iter().any(|mesh| extension == *mesh) {
+        return Ok(Scene::read(path)?);
+    }
+    let mut scene = Scene::parse(AROUND_A_MESH, "scene around a mesh")?;
+    scene.organ.shape = Shape::Mesh {
+        path: path.to_owned(),
+        unit: None,
+    };
+    Ok(scene)
+}
+
 /// In a window, until it is closed.
 fn touch(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.json || arguments.frames > 0 || arguments.fields > 0 {
@@ -80,7 +108,7 @@ fn touch(arguments: &Arguments) -> Result<(), Failure> {
         ));
     }
     let scene = match &arguments.scene {
-        Some(path) => Scene::read(path)?,
+        Some(path) => scene_of(path)?,
         None => window::esophagus()?,
     };
     match window::open(scene) {
@@ -106,7 +134,7 @@ fn play(arguments: &Arguments, motion: &Path, out: &Path) -> Result<(), Failure>
 
 fn simulate(arguments: &Arguments, motion: &Path, out: &Path) -> Result<Report, Failure> {
     let scene = match &arguments.scene {
-        Some(path) => Scene::read(path)?,
+        Some(path) => scene_of(path)?,
         None => Scene::parse(ESOPHAGUS, "built-in scene")?,
     };
     // Everything that can be wrong is read before anything is written.

@@ -6,6 +6,7 @@
 )]
 
 mod errors;
+mod mesh;
 mod mesh_info;
 mod quality;
 mod reproduce;

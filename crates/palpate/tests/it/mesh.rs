@@ -1,0 +1,168 @@
+//! `palpate mesh simplify`, `convert` and `isosurface`.
+
+use std::fs;
+use std::path::Path;
+
+use crate::{json, palpate_in, stderr, stdout};
+
+/// A label map of 20 x 20 x 20 voxels of 2 mm: a ball of 12 mm radius is label 5, a corner voxel label 7.
+fn write_ball(path: &Path) {
+    let mut bytes =
+        b"NRRD0004\ntype: uint8\ndimension: 3\nspace: left-posterior-superior\nsizes: 20 20 20\n\
+        space directions: (2,0,0) (0,2,0) (0,0,2)\nspace origin: (0,0,0)\nencoding: raw\n\
+        Segment0_LabelValue:=5\nSegment0_Name:=liver\n\n"
+            .to_vec();
+    for k in 0..20_i32 {
+        for j in 0..20_i32 {
+            for i in 0..20_i32 {
+                let away = [i, j, k].map(|index| 2.0 * f64::from(index) - 19.0);
+                let radius = away.iter().map(|a| a * a).sum::<f64>().sqrt();
+                bytes.push(match (radius < 12.0, (i, j, k)) {
+                    (true, _) => 5,
+                    (_, (0, 0, 0)) => 7,
+                    _ => 0,
+                });
+            }
+        }
+    }
+    fs::write(path, bytes).unwrap();
+}
+
+/// Judge: the ball; 4/3 π r³ to the few percent that voxels of a sixth of its radius leave.
+#[test]
+fn a_label_becomes_an_organ_that_can_be_touched() {
+    let folder = tempfile::tempdir().unwrap();
+    write_ball(&folder.path().join("labels.nrrd"));
+    let run = |line: &[&str]| palpate_in(folder.path(), line);
+    let listed = stdout(&run(&["mesh", "isosurface", "labels.nrrd"]));
+    assert!(listed.contains("liver") && listed.contains('7'), "{listed}");
+
+    let made = json(&run(&[
+        "mesh",
+        "isosurface",
+        "labels.nrrd",
+        "--label",
+        "liver",
+        "--out",
+        "liver.ply",
+        "--json",
+    ]));
+    let volume = made["surfaces"][0]["volume_m3"].as_f64().unwrap();
+    let ball = 4.0 / 3.0 * std::f64::consts::PI * 0.012_f64.powi(3);
+    assert!((volume / ball - 1.0).abs() < 0.04, "{volume} {ball}");
+
+    fs::write(
+        folder.path().join("motion.csv"),
+        "# format = 1\ntime_s,tool,x_m,y_m,z_m\n0.0,right,0.019,0.019,0.033\n0.5,right,0.019,0.019,0.029\n",
+    )
+    .unwrap();
+    let touched = json(&run(&[
+        "simulate",
+        "liver.ply",
+        "--headless",
+        "--motion",
+        "motion.csv",
+        "--out",
+        "out",
+        "--json",
+    ]));
+    assert!(touched["peak_force_n"].as_f64().unwrap() > 0.0, "{touched}");
+
+    let all = run(&[
+        "mesh",
+        "isosurface",
+        "labels.nrrd",
+        "--label",
+        "all",
+        "--out",
+        "organs",
+    ]);
+    assert!(all.status.success(), "{}", stderr(&all));
+    assert!(folder.path().join("organs/5_liver.ply").exists());
+
+    let absent = run(&[
+        "mesh",
+        "isosurface",
+        "labels.nrrd",
+        "--label",
+        "livr",
+        "--out",
+        "x.ply",
+    ]);
+    assert_eq!(absent.status.code(), Some(2));
+    let words = stderr(&absent);
+    assert!(
+        words.contains("nearest is liver") && words.contains('7'),
+        "{words}"
+    );
+    assert!(!folder.path().join("x.ply").exists());
+}
+
+/// Judge: volumes and counts of the built-in hemisphere that are measured again by `mesh info`.
+#[test]
+fn a_mesh_is_converted_and_made_smaller() {
+    let folder = tempfile::tempdir().unwrap();
+    write_ball(&folder.path().join("labels.nrrd"));
+    let run = |line: &[&str]| palpate_in(folder.path(), line);
+    run(&[
+        "mesh",
+        "isosurface",
+        "labels.nrrd",
+        "--label",
+        "5",
+        "--out",
+        "ball.ply",
+    ]);
+    let smaller = json(&run(&[
+        "mesh",
+        "simplify",
+        "ball.ply",
+        "small.stl",
+        "--triangles",
+        "300",
+        "--json",
+    ]));
+    assert_eq!(smaller["triangles"], 300);
+    assert!(smaller["original_to_result"]["max_m"].as_f64().unwrap() < 2e-3);
+    let converted = run(&[
+        "mesh",
+        "convert",
+        "small.stl",
+        "small.obj",
+        "--unit",
+        "m",
+        "--to-unit",
+        "mm",
+    ]);
+    assert!(converted.status.success(), "{}", stderr(&converted));
+    let info = json(&run(&[
+        "mesh",
+        "info",
+        "small.obj",
+        "--unit",
+        "mm",
+        "--json",
+    ]));
+    assert_eq!(info["triangles"], 300);
+    assert_eq!(info["closed"], true);
+    let [before, after] = [&smaller, &info].map(|answer| answer["volume_m3"].as_f64().unwrap());
+    // Single precision of STL.
+    assert!((after / before - 1.0).abs() < 1e-5, "{before} {after}");
+
+    for (line, words) in [
+        (vec!["mesh", "convert", "small.stl", "small.docx"], "docx"),
+        (
+            vec!["mesh", "convert", "small.stl", "nowhere/small.ply"],
+            "nowhere",
+        ),
+        (
+            vec!["mesh", "simplify", "ball.ply", "x.ply", "--triangles", "2"],
+            "4 or more",
+        ),
+        (vec!["mesh", "isosurface", "small.stl"], "small.stl"),
+    ] {
+        let refused = run(&line);
+        assert_eq!(refused.status.code(), Some(2), "{line:?}");
+        assert!(stderr(&refused).contains(words), "{}", stderr(&refused));
+    }
+}
