@@ -19,9 +19,11 @@ mod checked;
 mod read;
 mod write;
 
+use std::borrow::Cow;
+
 /// How a surface moves under a unit force on each of its touchable triangles, times Young's modulus.
 #[derive(Debug, Clone, PartialEq)]
-pub struct StoredResponse {
+pub struct StoredResponse<'a> {
     /// 64 hexadecimal digits that name what it was made from.
     pub key: String,
     /// How it was made, for people: one line.
@@ -31,7 +33,7 @@ pub struct StoredResponse {
     /// How many triangles are moved.
     pub triangles: usize,
     /// Displacements of all triangles, column by column [1/m].
-    pub displacements: Vec<f32>,
+    pub displacements: Cow<'a, [f32]>,
 }
 
 /// The first line of the file.

@@ -15,7 +15,7 @@ struct Header {
     triangles: usize,
 }
 
-impl StoredResponse {
+impl StoredResponse<'static> {
     /// Reads a file and compares its checksum.
     ///
     /// # Errors
@@ -51,7 +51,7 @@ impl Header {
     }
 
     /// What follows the header, and whether the checksum is its own.
-    fn body(self, file: impl Read) -> io::Result<(StoredResponse, bool)> {
+    fn body(self, file: impl Read) -> io::Result<(StoredResponse<'static>, bool)> {
         let mut checked = Checked::new(io::Cursor::new(self.text.as_bytes()).chain(file));
         checked.bytes(&mut vec![0; self.text.len()])?;
         let count = 9 * self.triangles * self.touchable;
@@ -65,7 +65,7 @@ impl Header {
             made_by: self.made_by,
             touchable,
             triangles: self.triangles,
-            displacements,
+            displacements: displacements.into(),
         };
         Ok((response, digest == stated))
     }

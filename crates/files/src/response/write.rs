@@ -6,7 +6,7 @@ use super::{FIRST_LINE, StoredResponse};
 use crate::Error;
 use crate::whole_file::write_whole_by;
 
-impl StoredResponse {
+impl StoredResponse<'_> {
     /// Writes the file, whole or not at all.
     ///
     /// # Errors

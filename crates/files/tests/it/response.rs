@@ -4,14 +4,14 @@ use std::fs;
 
 use palpate_files::StoredResponse;
 
-fn example() -> StoredResponse {
+fn example() -> StoredResponse<'static> {
     let values = (0..72).map(|number| 0.25 * number as f32 - 7.0);
     StoredResponse {
         key: "0f".repeat(32),
         made_by: "palpate 0.1.0, boundary elements".to_owned(),
         touchable: vec![1, 3],
         triangles: 4,
-        displacements: values.collect(),
+        displacements: values.collect::<Vec<_>>().into(),
     }
 }
 

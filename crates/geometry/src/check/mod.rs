@@ -43,6 +43,10 @@ pub struct MeshReport {
     pub area_m2: f64,
     /// Size along x, y and z [m].
     pub extent_m: [f64; 3],
+    /// Its smallest coordinates [m].
+    pub low_m: [f64; 3],
+    /// Its largest coordinates [m].
+    pub high_m: [f64; 3],
     /// What is wrong, with the mend; nothing when the mesh bounds a solid of even triangles.
     pub problems: Vec<MeshProblem>,
 }
@@ -67,6 +71,8 @@ pub fn inspect(mesh: &TriangleMesh) -> MeshReport {
         volume_m3,
         area_m2: mesh.area(),
         extent_m: (high - low).into(),
+        low_m: low.into(),
+        high_m: high.into(),
         problems: Vec::new(),
     };
     report.problems = problems(mesh, &topology, &report);

@@ -20,13 +20,14 @@ mod key;
 mod mechanical_surface;
 mod press;
 mod solve;
+mod walls;
 
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use nalgebra::Matrix3;
 use palpate_files::Scene;
-use palpate_files::scene::Organ;
+use palpate_files::scene::{Organ, Smoothing};
 use palpate_geometry::{AabbTree, Surface, TriangleId, Vec3};
 use palpate_mechanics::LinearElastic;
 use palpate_mechanics::enhance::{Carrier, EnhancementModel, Press, SurfaceField};
@@ -118,11 +119,12 @@ impl GlobalProblem {
     /// That of the organ of `scene`, which is seen as `shown`.
     pub(crate) fn new(scene: &Scene, shown: &Surface, law: &LinearElastic) -> Result<Self, Error> {
         let wanted = scene.model.mechanical_triangles;
-        let (surface, doubts) = mechanical_surface::mechanical_surface(shown, wanted)?;
+        let (surface, mut doubts) = mechanical_surface::mechanical_surface(shown, wanted)?;
         let (held, touchable) = sort(&scene.organ, &surface);
         if touchable.is_empty() {
             return Err(Error::NothingTouchable);
         }
+        doubts.extend(walls::doubt(&surface, &touchable));
         Ok(Self {
             surface,
             poissons_ratio: law.poissons_ratio(),
@@ -150,7 +152,12 @@ impl GlobalProblem {
         };
         let same = self.surface.mesh() == shown.mesh();
         let tree = AabbTree::new(self.surface.mesh());
-        let enhancement = EnhancementModel::new(self.surface, scene.model.enhancement)?;
+        let mut settings = scene.model.enhancement;
+        if !same && settings.smoothing == Smoothing::None {
+            // A fine surface would show the facets of the coarse one.
+            settings.smoothing = Smoothing::MovingLeastSquares;
+        }
+        let enhancement = EnhancementModel::new(self.surface, settings)?;
         let interpolation = enhancement.interpolation();
         let carrier = match same {
             true => Carrier::of_vertices(interpolation),

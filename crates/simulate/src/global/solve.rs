@@ -115,7 +115,7 @@ fn read(ingredients: &Ingredients<'_>, place: &Path) -> Result<SurfaceResponse, 
         poissons_ratio: ingredients.poissons_ratio,
         touchable: touchable.collect(),
         triangles: stored.triangles,
-        displacements: stored.displacements,
+        displacements: stored.displacements.into_owned(),
     })?)
 }
 
@@ -140,7 +140,7 @@ fn store(
         ),
         touchable: ingredients.touchable.iter().map(|t| t.0).collect(),
         triangles: parts.triangles,
-        displacements: parts.displacements.clone(),
+        displacements: parts.displacements.as_slice().into(),
     };
     Ok(stored.write(place)?)
 }

@@ -3,11 +3,13 @@
 use std::fs;
 use std::ops::ControlFlow;
 
-use palpate_files::Scene;
+use palpate_files::{Pose, Scene};
 use palpate_geometry::{AabbTree, Vec3};
 use palpate_mechanics::LinearElastic;
 use palpate_mechanics::contact::{Bond, half_space_stiffness};
-use palpate_simulate::{Error, Resources, Simulation, Work};
+use palpate_simulate::{
+    Error, Resources, Simulation, SimulationState, SimulationWorkspace, Work, step,
+};
 
 use crate::scenes::{Hand, Random, Setting, YOUNGS_MODULUS, motion, nearest, played};
 use crate::slides::{Count, slides};
@@ -295,4 +297,117 @@ fn a_closed_way_gives_no_energy() {
     }
     println!("{:.2e} of what was stored", work / stored);
     assert!(work.abs() < 0.01 * stored, "{work} {stored}");
+}
+
+/// The forces on two tools that are stepped to places [m]: numbers, and never into the organ.
+fn pinch(simulation: &Simulation, ways: impl IntoIterator<Item = [Vec3; 2]>) -> Vec<[Vec3; 2]> {
+    let mut state = SimulationState::new(simulation);
+    let mut workspace = SimulationWorkspace::new(simulation);
+    let mut felt = Vec::new();
+    for (number, tips) in ways.into_iter().enumerate() {
+        let poses = tips.map(|tip| {
+            Some(Pose {
+                position_m: tip.into(),
+                orientation: None,
+                grip: 0.0,
+                cut: false,
+            })
+        });
+        let time = simulation.step() * number as f64;
+        step(
+            simulation,
+            (time, simulation.step()),
+            &poses,
+            &mut state,
+            &mut workspace,
+        );
+        for tool in &state.tools {
+            assert!(tool.force.iter().all(|component| component.is_finite()));
+            // Where it touches, it pushes outward.
+            let outward = tool
+                .contact
+                .map_or(0.0, |contact| contact.normal().dot(&tool.force));
+            assert!(
+                outward > 0.0 || tool.force == Vec3::zeros(),
+                "{}",
+                tool.force
+            );
+        }
+        felt.push([state.tools[0].force, state.tools[1].force]);
+    }
+    felt
+}
+
+fn two_tools() -> Simulation {
+    let mut scene = KIDNEY.scene();
+    let mut left = scene.tools[0].clone();
+    left.name = "left".to_owned();
+    scene.tools.push(left);
+    Simulation::new(&scene).unwrap()
+}
+
+/// Judge: elasticity. Nothing is gained on a way that both tools close, and each feels what the other
+/// does: a tool beside one that presses meets a surface that has gone down already.
+#[test]
+fn two_tools_feel_one_another() {
+    let simulation = two_tools();
+    let tree = AabbTree::new(simulation.surface().mesh());
+    let at = |near: Vec3| nearest(&simulation, &tree, &near);
+    let (first, inward) = at(Vec3::new(0.0, 0.0, 1.0));
+    let across = inward.cross(&Vec3::x()).normalize();
+    let (second, outward) = at(first + across * 0.008);
+    let pressed = [first - inward * 2e-3, second - outward * 2e-3];
+    let away = first + inward * 0.05;
+    let both = pinch(&simulation, [pressed]);
+    let alone = pinch(&simulation, [[pressed[0], away]]);
+    let (together, apart) = (both[0][0].norm(), alone[0][0].norm());
+    println!("{apart} N alone, {together} N beside the other");
+    assert!(together < 0.99 * apart && together > 0.5 * apart);
+
+    let turns = (0..=1500).map(|k| std::f64::consts::TAU * f64::from(k) / 1500.0);
+    let way: Vec<[Vec3; 2]> = turns
+        .map(|turn| {
+            let depths = [2e-3 + 5e-4 * turn.sin(), 2e-3 + 7e-4 * (2.0 * turn).cos()];
+            let aside = across * (4e-4 * (turn.cos() - 1.0));
+            [
+                first - inward * depths[0] + aside,
+                second - outward * depths[1] - aside,
+            ]
+        })
+        .collect();
+    // Pressed in where they begin: a tip that sticks keeps where it came.
+    let begin = [first - inward * 1e-6, second - outward * 1e-6];
+    let felt = pinch(&simulation, [begin].into_iter().chain(way.iter().copied()));
+    let mut work = 0.0;
+    for (ends, forces) in way.windows(2).zip(felt[1..].windows(2)) {
+        for tool in 0..2 {
+            work += 0.5 * (forces[0][tool] + forces[1][tool]).dot(&(ends[1][tool] - ends[0][tool]));
+        }
+    }
+    let stored = 0.5 * (together * 2e-3) * 2.0;
+    println!("{:.1e} of what was stored", work / stored);
+    assert!(work.abs() < 0.01 * stored, "{work} {stored}");
+}
+
+/// Whatever two tools do (see `pinch`).
+#[test]
+fn random_pinches_are_sound() {
+    let simulation = two_tools();
+    let tree = AabbTree::new(simulation.surface().mesh());
+    let mut random = Random(11);
+    for _ in 0..60 {
+        let (point, normal) = nearest(&simulation, &tree, &random.place(&simulation).0);
+        let aside = normal.cross(&Vec3::new(0.3, 0.5, 0.8)).normalize() * (0.012 * random.unit());
+        let (other, outward) = nearest(&simulation, &tree, &(point + aside));
+        let deep = [4e-3 * random.unit(), 4e-3 * random.unit()];
+        let ways = (0..20).map(|k| {
+            let part = f64::from(k) / 19.0;
+            [
+                point - normal * (deep[0] * part),
+                other - outward * (deep[1] * part),
+            ]
+        });
+        let felt = pinch(&simulation, ways);
+        assert!(felt[19].iter().any(|force| force.norm() > 0.0));
+    }
 }

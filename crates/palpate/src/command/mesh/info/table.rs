@@ -48,7 +48,14 @@ fn facts(report: &MeshReport) -> Vec<(&'static str, String)> {
             "extent",
             format!("{x:.2} x {y:.2} x {z:.2} mm along x, y, z"),
         ),
+        ("from", place(&report.low_m)),
+        ("to", place(&report.high_m)),
     ]
+}
+
+/// Coordinates as a scene writes them.
+fn place([x, y, z]: &[f64; 3]) -> String {
+    format!("[{x:.5}, {y:.5}, {z:.5}] m")
 }
 
 fn problems(report: &MeshReport) -> String {
