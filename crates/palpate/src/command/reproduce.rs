@@ -54,9 +54,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 fn titles(items: &[Item]) -> String {
+    let width = items.iter().map(|item| item.name.len()).max().unwrap_or(0);
     let titles = items
         .iter()
-        .map(|item| format!("{:<15}{}\n", item.name, item.title));
+        .map(|item| format!("{:<width$}  {}\n", item.name, item.title));
     let left = ITEMS.len() - items.len();
     let more = match left {
         0 => String::new(),

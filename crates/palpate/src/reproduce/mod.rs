@@ -4,11 +4,16 @@
 
 mod m01;
 mod m02;
+mod m03;
 mod m04;
 mod m08;
 mod m09;
+mod m12;
 mod m13;
+mod machine;
+mod portrait;
 mod published;
+mod real_mesh;
 mod row;
 mod select;
 mod table;
@@ -31,16 +36,23 @@ pub(crate) struct Item {
 }
 
 /// All that can be reproduced, in the order of the source.
-pub(crate) const ITEMS: [Item; 11] = [
+pub(crate) const ITEMS: [Item; 18] = [
     m01::TABLE_3_1,
     m01::FIGURE_3_3,
     m01::FIGURE_3_4,
     m02::SECTION_3_4,
     m13::FIGURE_3_7,
+    m03::TABLE_4_1[0],
+    m03::TABLE_4_1[1],
+    m03::TABLE_4_1[2],
+    m03::FIGURE_4_2,
     m04::FIGURE_4_5,
+    m04::FIGURE_4_6,
+    m13::FIGURE_4_7,
     m08::FIGURE_6_8,
     m08::FIGURE_6_12,
     m09::SECTION_6_4_5,
+    m12::SECTION_7_4,
     m13::TABLE_7_1,
     m13::FIGURE_7_12,
 ];

@@ -5,6 +5,9 @@ pub(crate) const TABLE_3_1: Table = Table(include_str!(
     "../../../../published/table_3_1_pcmfs_vs_fem.csv"
 ));
 
+/// Table 4-1.
+pub(crate) const TABLE_4_1: Table = Table(include_str!("../../../../published/table_4_1_bem.csv"));
+
 /// Table 5-1.
 pub(crate) const TABLE_5_1: Table = Table(include_str!(
     "../../../../published/table_5_1_static_force.csv"
@@ -32,6 +35,11 @@ pub(crate) const TABLE_7_1: Table = Table(include_str!(
 /// Section 6.4.5.
 pub(crate) const SECTION_6_4_5: Table =
     Table(include_str!("../../../../published/esophagus_6_4_5.csv"));
+
+/// Section 7.4.
+pub(crate) const SECTION_7_4: Table = Table(include_str!(
+    "../../../../published/section_7_4_simplification.csv"
+));
 
 /// A table of the source: comments, names of columns, rows named by their first cell.
 #[derive(Debug, Clone, Copy)]

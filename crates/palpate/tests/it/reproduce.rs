@@ -107,6 +107,62 @@ fn figure_4_5_sums_to_one_and_is_a_picture() {
     );
 }
 
+/// The cube has as many points and triangles as the source's; numbers are judged in crate mechanics.
+#[test]
+fn table_4_1_tells_what_is_done_beforehand_and_on_line() {
+    let (_folder, rows) = reproduce(&["table-4-1/cube"]);
+    assert!(
+        rows.iter()
+            .all(|row| row["row"].as_str().unwrap().starts_with("table-4-1/cube/"))
+    );
+    for count in ["points", "triangles"] {
+        assert_eq!(
+            find(&rows, &format!("table-4-1/cube/{count}"))["ratio"],
+            1.0
+        );
+    }
+    let seconds = |name| {
+        let row = find(&rows, &format!("table-4-1/cube/{name}"));
+        assert!(row["unit"] == "s" && !row["note"].as_str().unwrap().is_empty());
+        row["ours"].as_f64().unwrap()
+    };
+    let solution = seconds("solution_s");
+    let parts = seconds("solution_s/factors") + seconds("solution_s/columns");
+    // Rounding of two sums.
+    assert!((solution - parts).abs() <= 1e-12 * solution && seconds("modelling_s") > 0.0);
+    assert!(seconds("update_s/force") < seconds("update_s"));
+    assert_eq!(find(&rows, "table-4-1/cube/solution_s")["published"], 11.0);
+}
+
+/// As many triangles as the source's; likeness is judged in crate geometry.
+#[test]
+fn section_7_4_reaches_the_published_number() {
+    let (_folder, rows) = reproduce(&["section-7-4"]);
+    assert_eq!(find(&rows, "section-7-4/triangles")["ratio"], 1.0);
+    let deviation = |name| {
+        let row = find(&rows, &format!("section-7-4/{name}"));
+        assert!(row["published"].is_null() && row["unit"] == "mm");
+        row["ours"].as_f64().unwrap()
+    };
+    assert!(deviation("deviation_mean") < deviation("deviation_max"));
+    let meeting = find(&rows, "section-7-4/self_intersections");
+    assert_eq!(meeting["ours"], 0.0);
+}
+
+/// Where there is no adapter, rows say so instead.
+#[test]
+fn figure_4_6_is_drawn_or_says_why_not() {
+    let (folder, rows) = reproduce(&["figure-4-6"]);
+    for name in ["coarse", "edge", "edge_shepard", "vertex", "vertex_shepard"] {
+        let row = find(&rows, &format!("figure-4-6/{name}"));
+        assert!(!row["note"].as_str().unwrap().is_empty());
+        if let Some(file) = row["file"].as_str() {
+            let picture = std::fs::read(folder.path().join(file)).unwrap();
+            assert!(picture.starts_with(b"\x89PNG"));
+        }
+    }
+}
+
 /// Forces of the weak form with any number of particles, judged by finite elements; the tolerance is the
 /// 1 % that curvature and an odd number of particles leave. The strong form is shown as it is.
 #[test]

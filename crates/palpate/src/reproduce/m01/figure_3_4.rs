@@ -4,9 +4,10 @@ use palpate_mechanics::{Error, LinearElastic};
 
 use super::plots;
 use super::pole::{FORMS, POISSONS_RATIOS, YOUNGS_MODULUS, contact, finite_elements};
-use super::timing::{machine, measure};
+use super::timing::measure;
 use crate::failure::Failure;
 use crate::plot::Series;
+use crate::reproduce::machine::processor;
 use crate::reproduce::row::Value;
 use crate::reproduce::{Item, Rows};
 
@@ -111,8 +112,9 @@ fn force_errors(
 fn times(rows: &mut Rows<'_>) -> Result<Vec<Series>, Failure> {
     let law = LinearElastic::new(YOUNGS_MODULUS, POISSONS_RATIOS[0])?;
     let note = format!(
-        "placement, equations and direct solution of one step, median, ν = 0.3, tip of 3 mm radius, on {}",
-        machine()
+        "placement, equations and direct solution of one step, median, ν = 0.3, tip of 3 mm radius, on {}, one \
+         thread",
+        processor()
     );
     let mut series = Vec::new();
     for (form, word) in FORMS {

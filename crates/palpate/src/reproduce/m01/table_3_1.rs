@@ -5,8 +5,9 @@ use palpate_mechanics::contact::Bond;
 use palpate_mechanics::finite_spheres::{FiniteSphereModel, FiniteSphereSettings, Form, Solver};
 
 use super::pole::{FORMS, YOUNGS_MODULUS, contact, hemisphere_problem};
-use super::timing::{Timing, machine, measure};
+use super::timing::{Timing, measure};
 use crate::failure::Failure;
+use crate::reproduce::machine::processor;
 use crate::reproduce::published::TABLE_3_1 as PUBLISHED;
 use crate::reproduce::row::Value;
 use crate::reproduce::{Item, Rows};
@@ -43,7 +44,7 @@ fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
         let value = beside(LOCAL, quantity, Some(ours), unit);
         rows.add(name, value, "");
     }
-    let machine = machine();
+    let machine = format!("{}, one thread", processor());
     for (form, word) in FORMS {
         for (solver, way) in solvers() {
             let timing = time(form, solver)?;

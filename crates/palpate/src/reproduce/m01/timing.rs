@@ -4,6 +4,8 @@ use std::time::Instant;
 
 use palpate_mechanics::finite_spheres::{FiniteSphereModel, LocalContact};
 
+use crate::reproduce::machine::median;
+
 /// Steps that are thrown away, until the processor runs at its speed.
 const WARM_UP: usize = 50;
 
@@ -52,25 +54,4 @@ pub(super) fn measure(model: &FiniteSphereModel, contact: &LocalContact) -> Timi
         iterations: Some(workspace.iterations()).filter(|&iterations| iterations > 0),
         steps: totals.len(),
     }
-}
-
-fn median(times: &mut [f64]) -> f64 {
-    times.sort_by(f64::total_cmp);
-    times[times.len() / 2]
-}
-
-/// What the times were measured on.
-pub(super) fn machine() -> String {
-    let build = if cfg!(debug_assertions) {
-        ", debug build"
-    } else {
-        ""
-    };
-    let told = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let model = told.lines().find_map(|line| {
-        let (key, value) = line.split_once(':')?;
-        (key.trim() == "model name").then(|| value.trim().to_owned())
-    });
-    let model = model.unwrap_or_else(|| format!("a {} processor", std::env::consts::ARCH));
-    format!("{model}, one thread{build}")
 }

@@ -1,7 +1,10 @@
-//! M4, local enhancement: the interpolation functions of section 4.3 in one dimension, as the library makes
-//! them of the weights (`palpate_mechanics::enhance`).
+//! M4, local enhancement (`palpate_mechanics::enhance`): the interpolation functions of section 4.3 in one
+//! dimension, as the library makes them of the weights, and a cube that it smooths.
 
+mod figure_4_6;
 mod plots;
+
+pub(super) use figure_4_6::FIGURE_4_6;
 
 use nalgebra::Vector2;
 use palpate_mechanics::enhance::{moving_least_squares, shepard};

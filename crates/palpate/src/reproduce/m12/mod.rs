@@ -1,0 +1,5 @@
+//! M12, organ geometry: the simplification of section 7.4.
+
+mod section_7_4;
+
+pub(super) use section_7_4::SECTION_7_4;
