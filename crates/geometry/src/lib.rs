@@ -47,7 +47,7 @@ pub use patch_field::{Patch, PatchField};
 pub use proximity::{PointOnTriangle, closest_on_triangle};
 pub use refine::{Focus, Resolved, refine_near, refine_to, refine_uniformly, resolve_sphere};
 pub use simplify::{Simplified, SimplifyError, SimplifySettings, simplify};
-pub use surface::Surface;
+pub use surface::{SHARP_EDGE, Surface};
 pub use weld::{Repairs, repair, weld_exactly};
 
 /// A point or a vector in space [m, unless said otherwise].

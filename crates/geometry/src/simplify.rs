@@ -30,9 +30,6 @@ use crate::check::self_intersection::count_self_intersections;
 use crate::deviation::{Deviation, deviation_with_tree};
 use crate::{AabbTree, TriangleMesh};
 
-/// An edge is sharp when the cosine between its triangles is less [-]: they turn by 50°.
-const SHARP: f64 = 0.6428;
-
 /// The fewest triangles of a closed surface.
 const FEWEST: usize = 4;
 

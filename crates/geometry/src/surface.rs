@@ -1,6 +1,10 @@
 use crate::check::topology::Topology;
 use crate::{Adjacency, MeshError, NodeId, TriangleMesh, Vec3};
 
+/// Two triangles have a sharp edge between them, as those of a cube have, when the cosine between their
+/// normals is less [-]: they turn by 50°.
+pub const SHARP_EDGE: f64 = 0.64;
+
 /// A mesh that bounds a solid: closed, manifold, oriented outward, in one piece, without triangles
 /// that have no area and without vertices that no triangle uses.
 ///

@@ -67,7 +67,7 @@ words! {
     pub enum Smoothing {
         /// They are not.
         None = "none",
-        /// Shepard's inverse distances.
+        /// Shepard's method: a mean, weighted by distance.
         Shepard = "shepard",
         /// Moving least squares.
         MovingLeastSquares = "moving_least_squares",

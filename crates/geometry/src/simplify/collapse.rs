@@ -1,11 +1,11 @@
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
+use super::SimplifySettings;
 use super::guard::{Demands, Fresh, Guard, double_area};
 use super::net::Net;
 use super::quadric::Quadric;
-use super::{SHARP, SimplifySettings};
-use crate::Vec3;
+use crate::{SHARP_EDGE, Vec3};
 
 /// How much more the planes that stand on borders and sharp edges weigh than the surface [-].
 const EDGE_WEIGHT: f64 = 5.0;
@@ -110,7 +110,7 @@ impl<'a> Run<'a> {
             let normals = beside.iter().map(|&t| double_area(&self.net.placed(t)));
             let normals: Vec<_> = normals.filter_map(|n| n.try_normalize(0.0)).collect();
             if let [one, other] = normals[..]
-                && one.dot(&other) > SHARP
+                && one.dot(&other) > SHARP_EDGE
             {
                 continue;
             }

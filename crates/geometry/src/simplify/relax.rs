@@ -1,8 +1,7 @@
-use super::SHARP;
 use super::guard::{Demands, Fresh, Guard, double_area, shape};
 use super::net::Net;
 use super::reference::Reference;
-use crate::Vec3;
+use crate::{SHARP_EDGE, Vec3};
 
 /// Rounds of flipping, sliding and fitting.
 const ROUNDS: usize = 3;
@@ -39,7 +38,7 @@ fn flip_all(net: &mut Net, guard: &mut Guard) {
         };
         let [(left, apex), (right, opposite)] = diamond;
         let areas = [left, right].map(|t| double_area(&net.placed(t)));
-        let is_sharp = areas[0].dot(&areas[1]) <= SHARP * areas[0].norm() * areas[1].norm();
+        let is_sharp = areas[0].dot(&areas[1]) <= SHARP_EDGE * areas[0].norm() * areas[1].norm();
         let few = [a, b].iter().any(|&v| net.around(v).len() < 4);
         if is_sharp || few {
             continue;

@@ -1,9 +1,6 @@
-use palpate_geometry::{Surface, TriangleId};
+use palpate_geometry::{SHARP_EDGE, Surface, TriangleId};
 
 use crate::Vec3;
-
-/// Triangles that meet at more than this angle have an edge between them, as a cube has: cos 50°.
-const SMOOTH: f64 = 0.64;
 
 /// Normals of a surface that may have sharp edges: smooth around each vertex up to the next edge.
 #[derive(Debug, Clone)]
@@ -21,7 +18,7 @@ impl CornerNormals {
         let sharp = mesh.triangle_ids().map(|triangle| {
             let across = surface.adjacency().across(triangle);
             across.map(|other| {
-                other.is_none_or(|other| facing(triangle).dot(&facing(other)) < SMOOTH)
+                other.is_none_or(|other| facing(triangle).dot(&facing(other)) < SHARP_EDGE)
             })
         });
         let mut found = Self {

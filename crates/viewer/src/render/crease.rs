@@ -1,7 +1,4 @@
-use palpate_geometry::{NodeId, Vec3};
-
-/// Triangles that meet at more than this angle have an edge between them, as a cube has: cos 50°.
-const SMOOTH: f64 = 0.64;
+use palpate_geometry::{NodeId, SHARP_EDGE, Vec3};
 
 /// A mesh for drawing: a vertex at a crease is there once for each side.
 pub(super) struct Creased {
@@ -29,7 +26,7 @@ pub(super) fn crease(vertices: &[Vec3], triangles: &[[NodeId; 3]]) -> Creased {
                         *side = Some(normal);
                         return at;
                     }
-                    (Some(side), _) if side.dot(&normal) > SMOOTH => return at,
+                    (Some(side), _) if side.dot(&normal) > SHARP_EDGE => return at,
                     (_, Some(next)) => at = *next,
                     (_, next) => {
                         let new = nodes.len() as u32;
