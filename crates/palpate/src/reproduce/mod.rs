@@ -36,7 +36,7 @@ pub(crate) struct Item {
 }
 
 /// All that can be reproduced, in the order of the source.
-pub(crate) const ITEMS: [Item; 18] = [
+pub(crate) const ITEMS: [Item; 19] = [
     m01::TABLE_3_1,
     m01::FIGURE_3_3,
     m01::FIGURE_3_4,
@@ -46,6 +46,7 @@ pub(crate) const ITEMS: [Item; 18] = [
     m03::TABLE_4_1[1],
     m03::TABLE_4_1[2],
     m03::FIGURE_4_2,
+    m04::FIGURE_4_4,
     m04::FIGURE_4_5,
     m04::FIGURE_4_6,
     m13::FIGURE_4_7,

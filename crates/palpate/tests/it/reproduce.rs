@@ -149,6 +149,16 @@ fn section_7_4_reaches_the_published_number() {
     assert_eq!(meeting["ours"], 0.0);
 }
 
+#[test]
+fn figure_4_4_is_three_pictures() {
+    let (folder, rows) = reproduce(&["figure-4-4"]);
+    for name in ["touched", "edge", "vertex"] {
+        let row = find(&rows, &format!("figure-4-4/{name}"));
+        let picture = std::fs::read(folder.path().join(row["file"].as_str().unwrap())).unwrap();
+        assert!(picture.starts_with(b"\x89PNG"));
+    }
+}
+
 /// Where there is no adapter, rows say so instead.
 #[test]
 fn figure_4_6_is_drawn_or_says_why_not() {

@@ -107,7 +107,7 @@ impl Body {
     }
 
     /// The free triangles, nearest first, about the place that lies opposite of what holds the body.
-    pub(super) fn opposite(&self) -> Vec<TriangleId> {
+    pub(in crate::reproduce) fn opposite(&self) -> Vec<TriangleId> {
         let middle = |ids: &[TriangleId]| {
             let sum: Vec3 = ids.iter().map(|&id| self.centroid(id)).sum();
             sum / ids.len() as f64

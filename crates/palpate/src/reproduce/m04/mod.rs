@@ -1,9 +1,11 @@
 //! M4, local enhancement (`palpate_mechanics::enhance`): the interpolation functions of section 4.3 in one
-//! dimension, as the library makes them of the weights, and a cube that it smooths.
+//! dimension, as the library makes them of the weights, and a cube that it makes finer and smooths.
 
+mod figure_4_4;
 mod figure_4_6;
 mod plots;
 
+pub(super) use figure_4_4::FIGURE_4_4;
 pub(super) use figure_4_6::FIGURE_4_6;
 
 use nalgebra::Vector2;
