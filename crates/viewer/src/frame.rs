@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use image::RgbaImage;
 use palpate_files::{Scene, scene, write_whole};
+use palpate_geometry::Vec3;
 use palpate_simulate::{Frame, Simulation, SimulationState, read_organ};
 
 use crate::render::{Body, Renderer, Target, Tint, ToolPicture, View, single_precision};
@@ -54,7 +55,7 @@ impl Studio {
             tools: scene.tools.clone(),
             target: Target::new(&gpu, size, 4),
             view: View {
-                camera: scene_camera(&scene.view, mesh, aspect),
+                camera: scene_camera(&scene.view, (mesh, None), aspect),
                 shading: scene.view.shading,
                 detail: true,
                 reach: (high - low).norm(),
@@ -127,6 +128,16 @@ impl FrameWriter {
             wanted,
             written: Vec::new(),
         })
+    }
+
+    /// From the side of the organ where `place` [m] is, unless the scene says where the eye is.
+    #[must_use]
+    pub fn facing(mut self, (scene, simulation): (&Scene, &Simulation), place: &Vec3) -> Self {
+        let (width, height) = FRAME_SIZE;
+        let mesh = simulation.surface().mesh();
+        let aspect = f64::from(width) / f64::from(height);
+        self.studio.view.camera = scene_camera(&scene.view, (mesh, Some(place)), aspect);
+        self
     }
 
     /// Writes this step's picture when it is due: the first step's, and so on to the last.

@@ -9,6 +9,12 @@ const FILLED: f64 = 0.86;
 /// Steepest look from above or below [rad]; beyond it up and sight would be one.
 const STEEPEST: f64 = 1.5;
 
+/// How far beside a place it is looked at [rad], and the flattest and steepest looks at it [rad]: not along
+/// a tool that stands there.
+const BESIDE: f64 = 0.5;
+const LOWEST: f64 = 0.4;
+const HIGHEST: f64 = 0.9;
+
 /// Angle of an endoscope [rad], and its way to the organ over that of the camera in the room [-].
 const WIDE: f64 = 1.25;
 const NEARER: f64 = 0.66;
@@ -33,22 +39,42 @@ impl Orbit {
     /// over height.
     pub fn framing(mesh: &TriangleMesh, field_of_view: f64, aspect: f64) -> Self {
         let (low, high) = mesh.bounds();
-        let mut orbit = Self {
+        let orbit = Self {
             target: 0.5 * (low + high),
             distance: (high - low).norm(),
             azimuth: 0.30,
             elevation: 0.38,
             field_of_view,
         };
-        let camera = orbit.camera();
+        orbit.filled_by(mesh, aspect)
+    }
+
+    /// From the same direction, as far away as `mesh` needs.
+    fn filled_by(mut self, mesh: &TriangleMesh, aspect: f64) -> Self {
+        let camera = self.camera();
         let to_eye = camera.eye_frame();
-        let half = FILLED * (0.5 * field_of_view).tan();
+        let half = FILLED * (0.5 * self.field_of_view).tan();
         let needed = mesh.vertices().iter().map(|vertex| {
-            let seen = to_eye * (vertex - orbit.target);
+            let seen = to_eye * (vertex - self.target);
             seen.z + (seen.x.abs() / (half * aspect)).max(seen.y.abs() / half)
         });
-        orbit.distance = needed.fold(0.0, f64::max);
-        orbit
+        self.distance = needed.fold(0.0, f64::max);
+        self
+    }
+
+    /// The same organ with `place` [m] before it: from there if it would be hidden, and else as it is.
+    fn before_place(self, place: &Vec3, (mesh, aspect): (&TriangleMesh, f64)) -> Self {
+        let out = place - self.target;
+        let [_, _, back] = self.camera().axes();
+        if out.dot(&back) >= 0.0 {
+            return self;
+        }
+        let turned = Self {
+            azimuth: out.x.atan2(-out.y) + BESIDE,
+            elevation: (out.z / out.norm()).asin().clamp(-LOWEST, HIGHEST),
+            ..self
+        };
+        turned.filled_by(mesh, aspect)
     }
 
     /// The same organ from where `camera` is, upright.
@@ -114,9 +140,17 @@ impl Orbit {
     }
 }
 
-/// The camera that a scene asks for; what it does not say frames `mesh`.
-pub fn scene_camera(view: &scene::View, mesh: &TriangleMesh, aspect: f64) -> Camera {
-    let framing = Orbit::framing(mesh, view.field_of_view_rad, aspect).camera();
+/// The camera that a scene asks for; what it does not say frames `mesh`, from the side of `place` [m].
+pub fn scene_camera(
+    view: &scene::View,
+    (mesh, place): (&TriangleMesh, Option<&Vec3>),
+    aspect: f64,
+) -> Camera {
+    let orbit = Orbit::framing(mesh, view.field_of_view_rad, aspect);
+    let framing = match place {
+        Some(place) => orbit.before_place(place, (mesh, aspect)).camera(),
+        None => orbit.camera(),
+    };
     let target = view.target_m.map_or(framing.target, Vec3::from);
     Camera {
         // A target alone is looked at from where the whole organ would be.
@@ -126,5 +160,28 @@ pub fn scene_camera(view: &scene::View, mesh: &TriangleMesh, aspect: f64) -> Cam
         target,
         up: view.up.map_or(framing.up, Vec3::from),
         ..framing
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use palpate_geometry::Organ;
+
+    /// Judge: the line of sight. What is hidden behind the organ comes before it, all of it in the picture.
+    #[test]
+    fn a_place_behind_the_organ_is_looked_at_from_there() {
+        let mesh = Organ::Kidney.surface_mesh(400).unwrap();
+        let first = Orbit::framing(&mesh, 0.785, 1.6);
+        for vertex in mesh.vertices() {
+            let orbit = first.before_place(vertex, (&mesh, 1.6));
+            let [_, _, back] = orbit.camera().axes();
+            assert!((vertex - orbit.target).dot(&back) >= 0.0, "{vertex}");
+            let camera = orbit.camera();
+            for other in mesh.vertices() {
+                let seen = camera.eye_frame() * (other - camera.eye);
+                assert!((seen.y / seen.z).abs() < (0.5_f64 * 0.785).tan());
+            }
+        }
     }
 }

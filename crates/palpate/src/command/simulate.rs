@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use palpate_files::scene::Shape;
 use palpate_files::{Motion, Scene};
+use palpate_geometry::{AabbTree, Vec3};
+use palpate_simulate::Simulation;
 use palpate_viewer::FrameWriter;
 
 use super::window;
@@ -132,6 +134,22 @@ fn play(arguments: &Arguments, motion: &Path, out: &Path) -> Result<(), Failure>
     report.outcome()
 }
 
+/// Rows of a motion that are looked at for where to look from.
+const MOST_ROWS: usize = 1000;
+
+/// The place of a tool that is deepest in the organ, or nearest to it, over the rows of `motion` [m].
+fn touched(simulation: &Simulation, motion: &Motion) -> Option<Vec3> {
+    let surface = simulation.surface();
+    let tree = AabbTree::new(surface.mesh());
+    let count: usize = motion.tools().iter().map(|tool| tool.rows().len()).sum();
+    let rows = motion.tools().iter().flat_map(|tool| tool.rows());
+    let rows = rows.step_by(1 + count / MOST_ROWS);
+    let places = rows.map(|row| Vec3::from(row.pose.position_m));
+    let depths = places.map(|place| (surface.signed_distance(&tree, &place).1, place));
+    let deepest = depths.min_by(|(one, _), (other, _)| one.total_cmp(other));
+    deepest.map(|(_, place)| place)
+}
+
 fn simulate(arguments: &Arguments, motion: &Path, out: &Path) -> Result<Report, Failure> {
     let scene = match &arguments.scene {
         Some(path) => scene_of(path)?,
@@ -143,7 +161,13 @@ fn simulate(arguments: &Arguments, motion: &Path, out: &Path) -> Result<Report, 
     let simulation = preparation::simulation(&scene, &preparation::resources(), reader)?;
     let frames = match arguments.frames {
         0 => None,
-        wanted => Some(FrameWriter::new(&scene, &simulation, (out, wanted))?),
+        wanted => {
+            let frames = FrameWriter::new(&scene, &simulation, (out, wanted))?;
+            Some(match touched(&simulation, &motion) {
+                Some(place) => frames.facing((&scene, &simulation), &place),
+                None => frames,
+            })
+        }
     };
     let recording = Recording {
         folder: out,

@@ -79,7 +79,7 @@ impl Picture {
         let view = &play.scene.view;
         let mut orbit = self.orbit.unwrap_or_else(|| {
             let framing = Orbit::framing(mesh, view.field_of_view_rad, aspect);
-            framing.from_the_side_of(&scene_camera(view, mesh, aspect))
+            framing.from_the_side_of(&scene_camera(view, (mesh, None), aspect))
         });
         self.steer(ui, &response, &mut orbit, extent);
         let before = orbit.before((mesh, &play.tree));
