@@ -21,6 +21,8 @@ pub struct SimulationState {
     pub(crate) moved: Vec<NodeId>,
     /// The least time between two shapes of a whole organ [s]; zero follows every step.
     pub(crate) show_every: f64,
+    /// Whether the whole organ was shaped otherwise than at rest.
+    pub(crate) shown_deformed: bool,
     /// When the whole organ was shaped last [s].
     pub(crate) shown_at: f64,
 }
@@ -75,6 +77,7 @@ impl SimulationState {
             tree: simulation.tree.clone(),
             moved: Vec::with_capacity(simulation.surface.mesh().vertices().len()),
             show_every: 0.0,
+            shown_deformed: false,
             shown_at: f64::NEG_INFINITY,
         }
     }

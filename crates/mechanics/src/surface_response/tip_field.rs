@@ -151,7 +151,7 @@ impl<T: Precision> SurfaceResponse<T> {
         sum
     }
 
-    /// Adds to `field`, three numbers for each vertex, the displacements times E [N/m] from `force` [N] on
+    /// Adds to `field`, three numbers for each triangle, the displacements times E [N/m] from `force` [N] on
     /// a tip.
     pub fn add_field_of_tip(&self, load: &TipLoad<'_>, force: &Vec3, field: &mut [T]) {
         for share in load.shares() {

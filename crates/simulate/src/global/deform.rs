@@ -20,10 +20,10 @@ impl GlobalModel {
         }
         state.shown_at = time;
         let touched = state.tools.iter().any(|tool| tool.contact.is_some());
-        if !touched && !workspace.deformed {
+        if !touched && !state.shown_deformed {
             return;
         }
-        workspace.deformed = touched;
+        state.shown_deformed = touched;
         self.find_field(simulation, state, workspace);
         self.carrier.carry(&workspace.field, &mut workspace.shown);
         let rest = simulation.surface.mesh();

@@ -27,7 +27,7 @@ use std::path::PathBuf;
 
 use nalgebra::Matrix3;
 use palpate_files::Scene;
-use palpate_files::scene::{Organ, Smoothing};
+use palpate_files::scene::{EnhancementArea, Organ, Smoothing};
 use palpate_geometry::{AabbTree, Surface, TriangleId, Vec3};
 use palpate_mechanics::LinearElastic;
 use palpate_mechanics::enhance::{Carrier, EnhancementModel, Press, SurfaceField};
@@ -80,8 +80,6 @@ pub(crate) struct GlobalWorkspace {
     presses: Vec<Press>,
     /// Displacements of the shown vertices [m].
     shown: Vec<Vec3>,
-    /// Whether the shown surface is not at rest.
-    deformed: bool,
 }
 
 impl GlobalModel {
@@ -101,7 +99,6 @@ impl GlobalModel {
             field: SurfaceField::default(),
             presses: Vec::with_capacity(tools),
             shown: vec![Vec3::zeros(); self.carrier.places().len()],
-            deformed: false,
         }
     }
 }
@@ -121,6 +118,11 @@ impl GlobalProblem {
         let wanted = scene.model.mechanical_triangles;
         let (surface, mut doubts) = mechanical_surface::mechanical_surface(shown, wanted)?;
         let (held, touchable) = sort(&scene.organ, &surface);
+        if scene.model.enhancement.area != EnhancementArea::None {
+            doubts.push(
+                "`model.enhancement.area` is read, but no finer triangles are shown around a tip yet".to_owned(),
+            );
+        }
         if touchable.is_empty() {
             return Err(Error::NothingTouchable);
         }
