@@ -1,0 +1,13 @@
+//! From recordings to tissue.
+//!
+//! ```text
+//! Recording ──clean──▶ CleanRecording ──▶ analyze   (what was measured: statistics, no model)
+//!                                     └─▶ models ── fit ──▶ parameters, their uncertainty, doubts ──▶ Tissue
+//! ```
+//!
+//! The crate reads and writes no file and prints nothing; it starts no thread that outlives a call.
+
+pub mod clean;
+mod error;
+
+pub use error::Error;
