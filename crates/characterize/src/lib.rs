@@ -9,5 +9,6 @@
 
 pub mod clean;
 mod error;
+pub mod fit;
 
 pub use error::Error;

@@ -1,0 +1,97 @@
+//! Least squares between bounds, and how well what it finds is known.
+//!
+//! [`least_squares`] makes Σ r² least by a damped Gauss-Newton method [Levenberg 1944, Marquardt 1963]:
+//! with J scaled by the largest norms of its columns so far [Moré 1978], a step solves
+//!
+//! ```text
+//! min |J s + r|² + μ |D s|²,   lower ≤ p + s ≤ upper
+//! ```
+//!
+//! by reflections, never by JᵀJ. What leaves its bounds is put on them [Kanzow, Yamashita and Fukushima
+//! 2004]; μ follows the ratio of gained to promised reduction [Nielsen 1999]. Where the residuals cannot be
+//! found the step is shortened. [`uncertainty`] then says how well the parameters are known.
+//!
+//! *How we know*: `fit::certified` (the certified problems of NIST, with their standard deviations),
+//! `fit::bounds` (closed forms).
+//!
+//! *Limits*: a local minimum.
+
+mod derivatives;
+mod least_squares;
+mod parameter;
+mod student;
+mod triangle;
+mod uncertainty;
+
+use nalgebra::DMatrix;
+
+pub use derivatives::Differences;
+pub use least_squares::{Settings, least_squares, least_squares_with_jacobian};
+pub use parameter::Parameter;
+pub use uncertainty::{Uncertainty, uncertainty};
+
+/// What a fit came to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fit {
+    /// The parameters, with the values where the fit ended.
+    pub parameters: Vec<Parameter>,
+    /// The residuals there [unit of the residuals].
+    pub residuals: Vec<f64>,
+    /// Their derivatives there, a column for each parameter; those of fixed ones mean nothing.
+    pub jacobian: DMatrix<f64>,
+    /// The way there, beginning with the start.
+    pub iterations: Vec<Iteration>,
+    /// Why it went no further.
+    pub stop: Stop,
+    /// How often residuals were evaluated, for derivatives too.
+    pub evaluations: usize,
+}
+
+/// A place on the way of a fit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Iteration {
+    /// The values of all parameters.
+    pub values: Vec<f64>,
+    /// Σ r² [square of the unit of the residuals].
+    pub sum_of_squares: f64,
+    /// The damping μ of the step that led here [-].
+    pub damping: f64,
+    /// The length |D s| of that step [unit of the residuals].
+    pub step: f64,
+    /// How often residuals had been evaluated.
+    pub evaluations: usize,
+}
+
+/// Why a fit went no further.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stop {
+    /// It arrived: the residuals are orthogonal to what the parameters can change, or the last step was
+    /// shorter than asked for.
+    Converged,
+    /// No step, however short, was better, though one was promised; the residuals are less precise than
+    /// the settings say.
+    NoBetter,
+    /// The derivatives could not be found.
+    NoDerivatives,
+    /// The steps were used up.
+    Iterations,
+}
+
+impl Fit {
+    /// Σ r² [square of the unit of the residuals].
+    pub fn sum_of_squares(&self) -> f64 {
+        self.residuals.iter().map(|r| r * r).sum()
+    }
+
+    /// The value of the parameter of this name.
+    pub fn value(&self, name: &str) -> Option<f64> {
+        let found = self.parameters.iter().find(|p| p.name == name);
+        found.map(|parameter| parameter.value)
+    }
+
+    /// The parameters that the fit chose: neither fixed nor on a bound.
+    pub fn chosen(&self) -> Vec<usize> {
+        let chosen = |&i: &usize| !self.parameters[i].fixed && !self.parameters[i].at_bound();
+        (0..self.parameters.len()).filter(chosen).collect()
+    }
+}

@@ -1,0 +1,125 @@
+//! How well a fit knows its parameters: covariance, intervals, correlation.
+
+use nalgebra::DMatrix;
+
+use super::Fit;
+use super::student::student_quantile;
+use super::triangle::triangularize;
+
+/// How well a fit knows its parameters.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Uncertainty {
+    /// The places of the parameters it speaks of: those that the fit chose, neither fixed nor on a bound.
+    pub chosen: Vec<usize>,
+    /// Their covariance [products of their units].
+    pub covariance: DMatrix<f64>,
+    /// What their covariance would be if each residual had the variance one and knew nothing of the others.
+    pub unit_covariance: DMatrix<f64>,
+    /// How many independent samples would tell as much [-].
+    pub effective_samples: f64,
+}
+
+/// The uncertainty when residuals are independent and of one size: s² (JᵀJ)⁻¹.
+pub fn uncertainty(fit: &Fit) -> Uncertainty {
+    let whitened = Whitened::new(fit);
+    let count = whitened.count() as f64;
+    let freedom = (fit.residuals.len() as f64 - count).max(1.0);
+    let variance = fit.sum_of_squares() / freedom;
+    Uncertainty {
+        covariance: &whitened.unit_covariance() * variance,
+        unit_covariance: whitened.unit_covariance(),
+        effective_samples: fit.residuals.len() as f64,
+        chosen: whitened.chosen,
+    }
+}
+
+/// The derivatives of a fit in coordinates in which they are orthonormal.
+struct Whitened {
+    chosen: Vec<usize>,
+    /// From these coordinates to parameters.
+    back: DMatrix<f64>,
+}
+
+impl Whitened {
+    fn new(fit: &Fit) -> Self {
+        let chosen = fit.chosen();
+        let count = chosen.len();
+        let scale = |&i: &usize| match fit.jacobian.column(i).norm() {
+            0.0 => fit.parameters[i].scale.recip(),
+            norm => norm,
+        };
+        let scales: Vec<f64> = chosen.iter().map(scale).collect();
+        let scaled = DMatrix::from_fn(fit.residuals.len(), count, |row, k| {
+            fit.jacobian[(row, chosen[k])] / scales[k]
+        });
+        let mut triangle = scaled;
+        triangularize(&mut triangle, count);
+        let decomposition = triangle.rows(0, count).upper_triangle().svd(false, true);
+        let largest = decomposition.singular_values.max();
+        let right = decomposition.v_t.expect("asked for").transpose();
+        let mut within = right;
+        for (k, mut column) in within.column_iter_mut().enumerate() {
+            // What the recording says nothing about stays finite, and enormous.
+            let floor = f64::EPSILON * largest;
+            column /= decomposition.singular_values[k].max(floor);
+        }
+        for (mut row, scale) in within.row_iter_mut().zip(&scales) {
+            row /= *scale;
+        }
+        Self {
+            chosen,
+            back: within,
+        }
+    }
+
+    fn count(&self) -> usize {
+        self.chosen.len()
+    }
+
+    fn unit_covariance(&self) -> DMatrix<f64> {
+        &self.back * self.back.transpose()
+    }
+}
+
+impl Uncertainty {
+    /// Degrees of freedom of Student's distribution: the samples that are left [-].
+    pub fn degrees_of_freedom(&self) -> f64 {
+        (self.effective_samples - self.chosen.len() as f64).max(1.0)
+    }
+
+    /// The t [-] of intervals that hold the truth with the probability `level`.
+    pub fn quantile(&self, level: f64) -> f64 {
+        student_quantile(self.degrees_of_freedom(), level)
+    }
+
+    /// Where a parameter stands among those that the fit chose.
+    fn place(&self, parameter: usize) -> Option<usize> {
+        self.chosen.iter().position(|&i| i == parameter)
+    }
+
+    /// The standard error of a parameter [its unit], when the fit chose it.
+    pub fn standard_error(&self, parameter: usize) -> Option<f64> {
+        let place = self.place(parameter)?;
+        Some(self.covariance[(place, place)].sqrt())
+    }
+
+    /// The standard error that residuals of standard deviation one, independent of one another, would give.
+    pub fn unit_error(&self, parameter: usize) -> Option<f64> {
+        let place = self.place(parameter)?;
+        Some(self.unit_covariance[(place, place)].sqrt())
+    }
+
+    /// The interval that holds a parameter [its unit] with the probability `level`.
+    pub fn interval(&self, fit: &Fit, parameter: usize, level: f64) -> Option<[f64; 2]> {
+        let reach = self.quantile(level) * self.standard_error(parameter)?;
+        let value = fit.parameters[parameter].value;
+        Some([value - reach, value + reach])
+    }
+
+    /// Correlations of the parameters [-], in the order of `chosen`.
+    pub fn correlation(&self) -> DMatrix<f64> {
+        let errors = self.covariance.diagonal().map(f64::sqrt);
+        self.covariance
+            .map_with_location(|row, column, value| value / (errors[row] * errors[column]))
+    }
+}
