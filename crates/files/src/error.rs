@@ -160,6 +160,32 @@ pub enum Error {
         /// The columns found.
         found: String,
     },
+    /// No column of another program's table looks like a quantity.
+    #[error(
+        "{place}: no column looks like the {quantity} among {found}; say which it is with --{quantity} NAME"
+    )]
+    UnrecognizedColumn {
+        /// The line with the names of the columns.
+        place: Place,
+        /// The quantity: `time`, `depth` or `force`.
+        quantity: &'static str,
+        /// The columns found.
+        found: String,
+    },
+    /// Several columns of another program's table look like a quantity.
+    #[error(
+        "{place}: the {quantity} may be {found}; say which it is, as in --{quantity} \"{first}\""
+    )]
+    AmbiguousColumn {
+        /// The line with the names of the columns.
+        place: Place,
+        /// The quantity: `time`, `depth` or `force`.
+        quantity: &'static str,
+        /// The columns that it may be.
+        found: String,
+        /// The first of them.
+        first: String,
+    },
     /// A row that does not fit the columns.
     #[error("{place}: found {found}; give {expected}")]
     BadRow {

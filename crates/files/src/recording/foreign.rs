@@ -1,22 +1,25 @@
 use std::fs;
 use std::path::Path;
 
-use super::{Recording, RecordingHeader, foreign_table, foreign_units, samples};
+use super::foreign_names::Wanted;
+use super::samples::{self, Repeated};
+use super::{Recording, RecordingHeader, foreign_table, foreign_units};
 use crate::Error;
-use crate::table::Row;
+use crate::table::{Column, Row};
 
-/// Where a table that is not in the format of this project holds time, depth and force.
+/// Where a table that is not in the format of this project holds time, depth and force. A column
+/// that is not named is recognised by its name, when only one can be meant.
 ///
 /// The unit is taken from the name (`Load (mN)`, `Load [mN]`, `load_mn`, `Load mN`), from a row of
 /// units below the names, or as stated here. A time without a unit is in seconds.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct ForeignColumns {
     /// The column of the time.
-    pub time: String,
+    pub time: Option<String>,
     /// The column of the depth.
-    pub depth: String,
+    pub depth: Option<String>,
     /// The column of the force.
-    pub force: String,
+    pub force: Option<String>,
     /// The unit of the depth, such as `mm`.
     pub depth_unit: Option<String>,
     /// The unit of the force, such as `mN`.
@@ -41,7 +44,8 @@ impl Recording {
     ///
     /// Fields are separated by commas, semicolons or tabs; with the latter two a decimal comma is
     /// understood. Lines above the names of the columns are passed over, but for comments
-    /// `# key = value` with the keys of a recording.
+    /// `# key = value` with the keys of a recording. A row that repeats the one above it in every
+    /// field is left out. What was taken for what is told by [`Recording::remarks`].
     ///
     /// # Errors
     /// When a column is not there, its unit is not known or its numbers make no recording.
@@ -57,11 +61,32 @@ impl Recording {
         let header = RecordingHeader::from_keys(&keys)?;
         let (found, has_units) = foreign_units::columns(&table, columns)?;
         let is_unit_row = |row: &Row<'_>| has_units && foreign_units::of_row(row, &found).is_some();
-        let (samples, extra_columns) = samples::read(&table, &found, is_unit_row)?;
+        let read = samples::read(&table, &found, is_unit_row, Repeated::LeftOut)?;
+        let mut remarks = Vec::new();
+        if columns.wanted().iter().any(Wanted::is_recognised) {
+            remarks.push(taken(&found));
+        }
+        if read.repeated > 0 {
+            let rows = read.repeated;
+            remarks.push(format!(
+                "{rows} rows that repeat the row above them were left out"
+            ));
+        }
         Ok(Self {
             header,
-            samples,
-            extra_columns,
+            samples: read.samples,
+            extra_columns: read.extra_columns,
+            remarks: Some(remarks),
         })
     }
+}
+
+fn taken([time, depth, force]: &[Column; 3]) -> String {
+    let name = |column: &Column| format!("`{}` in {}", column.name, column.spelling());
+    format!(
+        "the time was taken from {}, the depth from {}, the force from {}; name the columns if that is wrong",
+        name(time),
+        name(depth),
+        name(force)
+    )
 }

@@ -1,5 +1,6 @@
 use std::path::Path;
 
+use super::foreign_names::Wanted;
 use super::{ForeignColumns, RecordingHeader};
 use crate::Error;
 use crate::table::{Header, Layout, TableText};
@@ -7,19 +8,20 @@ use crate::table::{Header, Layout, TableText};
 /// Lines that are looked at even if they hold none of the names, to say what was found instead.
 const HEAD: usize = 50;
 
-/// The table in `text` whose first line holds the names of all three columns.
+/// The table in `text` whose first line holds the names of all three columns, or as many of them as
+/// any line does.
 pub(super) fn find<'t>(
     text: &'t str,
     path: &Path,
     columns: &ForeignColumns,
 ) -> Result<TableText<'t>, Error> {
-    let wanted = [&columns.time, &columns.depth, &columns.force].map(|name| name.trim());
+    let wanted = columns.wanted();
     let mut above = Vec::new();
     let mut rest = text;
     let mut nearest: Option<(Likeness, TableText<'t>)> = None;
     while !rest.is_empty() {
         let (line, next) = rest.split_once('\n').unwrap_or((rest, ""));
-        if above.len() < HEAD || wanted.iter().any(|name| line.contains(name)) {
+        if above.len() < HEAD || wanted.iter().any(|quantity| quantity.may_be_in(line)) {
             for (likeness, mut table) in tables_at(rest, above.len() + 1, path, &wanted) {
                 if likeness.names == wanted.len() {
                     table.header = Header::of_foreign(&above, path, RecordingHeader::KEYS)?;
@@ -33,16 +35,11 @@ pub(super) fn find<'t>(
         above.push(line);
         rest = next;
     }
-    Err(match nearest {
-        None => Error::NoRows {
+    nearest
+        .map(|(_, table)| table)
+        .ok_or_else(|| Error::NoRows {
             path: path.to_owned(),
-        },
-        Some((_, table)) => {
-            let is_missing = |name: &&&str| !table.columns().iter().any(|own| own == **name);
-            let missing = wanted.iter().find(is_missing).unwrap_or(&wanted[0]);
-            table.missing_column(missing)
-        }
-    })
+        })
 }
 
 /// How much a line looks like the names of the columns: more of the names, then more columns.
@@ -57,7 +54,7 @@ fn tables_at<'t>(
     text: &'t str,
     line: usize,
     path: &Path,
-    wanted: &[&str],
+    wanted: &[Wanted<'_>],
 ) -> impl Iterator<Item = (Likeness, TableText<'t>)> {
     // Some programs write the names of the columns as a comment.
     let text = text.trim_start_matches(['#', ' ']);
@@ -67,10 +64,12 @@ fn tables_at<'t>(
             decimal_comma: delimiter != b',',
         };
         let table = TableText::below(text, line, layout, path).ok().flatten()?;
-        let has = |name: &&&str| table.columns().iter().any(|own| own == **name);
+        let columns = table.columns();
+        let is_there = |quantity: &&Wanted<'_>| !quantity.candidates(columns).is_empty();
         let likeness = Likeness {
-            names: wanted.iter().filter(has).count(),
-            columns: table.columns().len().min(3),
+            // With the wrong delimiter one column holds all the words.
+            names: wanted.iter().filter(is_there).count().min(columns.len()),
+            columns: columns.len().min(3),
         };
         Some((likeness, table))
     })

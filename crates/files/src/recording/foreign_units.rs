@@ -18,16 +18,13 @@ pub(super) fn columns(
     table: &TableText<'_>,
     wanted: &ForeignColumns,
 ) -> Result<([Column; 3], bool), Error> {
+    let [time, depth, force] = wanted.wanted().map(|quantity| quantity.choose(table));
     let quantities = [
-        (&wanted.time, None, "s"),
-        (&wanted.depth, wanted.depth_unit.as_deref(), "m"),
-        (&wanted.force, wanted.force_unit.as_deref(), "n"),
+        (time?, None, "s"),
+        (depth?, wanted.depth_unit.as_deref(), "m"),
+        (force?, wanted.force_unit.as_deref(), "n"),
     ]
-    .map(|(name, stated, si)| Quantity {
-        name: name.trim(),
-        stated,
-        si,
-    });
+    .map(|(name, stated, si)| Quantity { name, stated, si });
     let [time, depth, force] = quantities.each_ref().map(|quantity| {
         let unit = Unit::named(quantity.si).expect("SI units are in the table");
         table.foreign_column(quantity.name, unit, unit)
@@ -51,7 +48,7 @@ pub(super) fn columns(
 pub(super) fn of_row(row: &Row<'_>, columns: &[Column; 3]) -> Option<[&'static Unit; 3]> {
     let [time, depth, force] = columns.each_ref().map(|column| {
         let word = row.text(column);
-        Unit::named(word.trim_matches(['(', ')', '[', ']']))
+        named(word.trim_matches(['(', ')', '[', ']']))
     });
     Some([time?, depth?, force?])
 }
@@ -70,7 +67,7 @@ impl Quantity<'_> {
         let stated = match self.stated {
             None => None,
             Some(text) => Some(
-                Unit::named(text)
+                named(text)
                     .ok_or_else(|| self.unknown(table, &format!("{} [{text}]", self.name)))?,
             ),
         };
@@ -115,13 +112,41 @@ enum Written {
 
 /// The unit of `Load (mN)`, `Load [mN]`, `load_mn` or `Load mN`.
 fn in_name(name: &str) -> Option<Written> {
-    if let Some(inner) = name.strip_suffix([')', ']'])
-        && let Some((_, unit)) = inner.rsplit_once(['(', '['])
-    {
-        return Some(Unit::named(unit.trim()).map_or(Written::Strange, Written::Unit));
+    let (_, unit, in_brackets) = parts(name)?;
+    match named(unit) {
+        Some(unit) => Some(Written::Unit(unit)),
+        None => in_brackets.then_some(Written::Strange),
     }
-    let (_, end) = name.rsplit_once(['_', ' '])?;
-    Unit::named(end).map(Written::Unit)
+}
+
+/// A name without the unit that it carries.
+pub(super) fn base(name: &str) -> &str {
+    match parts(name) {
+        Some((base, unit, in_brackets)) if in_brackets || named(unit).is_some() => base,
+        _ => name,
+    }
+}
+
+/// What stands before a unit, what stands where one may stand, and whether that is in brackets.
+fn parts(name: &str) -> Option<(&str, &str, bool)> {
+    if let Some(inner) = name.strip_suffix([')', ']'])
+        && let Some((base, unit)) = inner.rsplit_once(['(', '['])
+    {
+        return Some((base, unit.trim(), true));
+    }
+    let (base, end) = name.rsplit_once(['_', ' '])?;
+    Some((base, end, false))
+}
+
+/// A unit as programs write it, some of them in words.
+fn named(text: &str) -> Option<&'static Unit> {
+    let text = match text.to_lowercase().as_str() {
+        "sec" | "second" | "seconds" => "s",
+        "msec" => "ms",
+        "newton" => "N",
+        _ => text,
+    };
+    Unit::named(text)
 }
 
 #[cfg(test)]
@@ -139,8 +164,11 @@ mod tests {
         assert_eq!(spelling("Load [ mN ]"), "mN");
         assert_eq!(spelling("force_N"), "N");
         assert_eq!(spelling("Time s"), "s");
+        assert_eq!(spelling("Time (sec)"), "s");
         assert_eq!(spelling("Load (lbf)"), "strange");
         assert_eq!(spelling("Load"), "none");
         assert_eq!(spelling("raw_load"), "none");
+        assert_eq!(base("Load (lbf)").trim(), "Load");
+        assert_eq!(base("raw_load"), "raw_load");
     }
 }

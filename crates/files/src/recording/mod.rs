@@ -2,6 +2,7 @@
 //! specimen, the indenter and the stimulus.
 
 mod foreign;
+mod foreign_names;
 mod foreign_table;
 mod foreign_units;
 mod header;
@@ -13,6 +14,7 @@ use std::path::Path;
 
 pub use foreign::ForeignColumns;
 pub use header::{Condition, IndenterShape, RecordingHeader, Specimen, Stimulus};
+use samples::Repeated;
 pub use samples::{ExtraColumn, Samples};
 
 pub use crate::table::ExtraKey;
@@ -22,13 +24,16 @@ use crate::table::TableText;
 use crate::whole_file::read_text;
 
 /// A recording. Depth is positive into the tissue from first contact; force is positive on the
-/// tissue.
+/// tissue. One that was read from a table of another program ([`Recording::is_foreign`]) keeps that
+/// program's zeros and signs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Recording {
     /// What is known of the specimen, the indenter and the stimulus.
     pub header: RecordingHeader,
     samples: Samples,
     extra_columns: Vec<ExtraColumn>,
+    /// What was done to read the table of another program; none for one of this project's.
+    remarks: Option<Vec<String>>,
 }
 
 impl Recording {
@@ -43,6 +48,7 @@ impl Recording {
             header,
             samples,
             extra_columns: Vec::new(),
+            remarks: None,
         })
     }
 
@@ -81,11 +87,12 @@ impl Recording {
             table.column("depth_m")?,
             table.column("force_n")?,
         ];
-        let (samples, extra_columns) = samples::read(&table, &columns, |_| false)?;
+        let read = samples::read(&table, &columns, |_| false, Repeated::Refused)?;
         Ok(Self {
             header,
-            samples,
-            extra_columns,
+            samples: read.samples,
+            extra_columns: read.extra_columns,
+            remarks: None,
         })
     }
 
@@ -102,6 +109,17 @@ impl Recording {
     /// The forces [N].
     pub fn force_n(&self) -> &[f64] {
         &self.samples.force_n
+    }
+
+    /// Whether it is from a table of another program: its depth need not begin at first contact, and
+    /// its signs need not be those of this project.
+    pub fn is_foreign(&self) -> bool {
+        self.remarks.is_some()
+    }
+
+    /// What was done to read the table of another program, in plain sentences.
+    pub fn remarks(&self) -> &[String] {
+        self.remarks.as_deref().unwrap_or_default()
     }
 
     /// The columns that are kept although they mean nothing here.

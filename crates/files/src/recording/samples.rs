@@ -102,21 +102,50 @@ impl ExtraColumn {
     }
 }
 
+/// What becomes of a row that repeats the one above it in every field.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Repeated {
+    /// It is an error, because time stands still.
+    Refused,
+    /// It is left out.
+    LeftOut,
+}
+
+/// The samples of a table with what else it holds.
+#[derive(Debug, Default)]
+pub(super) struct Read {
+    pub(super) samples: Samples,
+    pub(super) extra_columns: Vec<ExtraColumn>,
+    /// Rows that were left out because they repeat another.
+    pub(super) repeated: usize,
+}
+
 /// The samples of a table, of which `columns` are the time, the depth and the force. Rows that
 /// `is_passed_over` are left out.
 pub(super) fn read(
     table: &TableText<'_>,
     columns: &[Column; 3],
     is_passed_over: impl Fn(&Row<'_>) -> bool,
-) -> Result<(Samples, Vec<ExtraColumn>), Error> {
+    on_repeated: Repeated,
+) -> Result<Read, Error> {
     let [time, depth, force] = columns;
-    let mut samples = Samples::default();
+    let mut read = Read::default();
     let mut extra = extra_columns(table, columns);
+    let mut above: Vec<String> = Vec::new();
     let mut rows = table.rows();
     while let Some(row) = rows.next()? {
         if is_passed_over(&row) {
             continue;
         }
+        if on_repeated == Repeated::LeftOut {
+            if row.fields().eq(above.iter().map(String::as_str)) {
+                read.repeated += 1;
+                continue;
+            }
+            above.clear();
+            above.extend(row.fields().map(str::to_owned));
+        }
+        let samples = &mut read.samples;
         let time_s = row.number(time, Domain::FINITE)?;
         row.check_after(time, time_s, samples.time_s.last().copied())?;
         samples.time_s.push(time_s);
@@ -126,14 +155,12 @@ pub(super) fn read(
             column.values.push(row.field(*index).to_owned());
         }
     }
-    if samples.time_s.is_empty() {
+    if read.samples.time_s.is_empty() {
         let path = table.path.clone();
         return Err(Error::NoRows { path });
     }
-    Ok((
-        samples,
-        extra.into_iter().map(|(_, column)| column).collect(),
-    ))
+    read.extra_columns = extra.into_iter().map(|(_, column)| column).collect();
+    Ok(read)
 }
 
 fn extra_columns(table: &TableText<'_>, columns: &[Column; 3]) -> Vec<(usize, ExtraColumn)> {

@@ -16,6 +16,14 @@ impl Column {
     pub(super) fn convert(&self, value: f64) -> f64 {
         self.unit.convert(value)
     }
+
+    /// The unit of a foreign column, as it is printed.
+    pub(crate) fn spelling(&self) -> &'static str {
+        match self.unit {
+            Match::Exact => "",
+            Match::Converted(from, _) => from.spelling,
+        }
+    }
 }
 
 impl TableText<'_> {

@@ -3,9 +3,9 @@ use palpate_files::recording::ForeignColumns;
 
 fn columns(time: &str, depth: &str, force: &str) -> ForeignColumns {
     ForeignColumns {
-        time: time.to_owned(),
-        depth: depth.to_owned(),
-        force: force.to_owned(),
+        time: Some(time.to_owned()),
+        depth: Some(depth.to_owned()),
+        force: Some(force.to_owned()),
         depth_unit: None,
         force_unit: None,
     }
@@ -91,4 +91,64 @@ fn what_is_wrong_with_a_foreign_table_is_named() {
         "a.csv line 4: `d_mm` is \"x\"; give a finite number"
     );
     assert!(refused("", &wanted).contains("no rows"));
+}
+
+#[test]
+fn columns_are_recognised_by_their_names() {
+    let text =
+        "Prüfung;7\nPrüfzeit;Zeit;Standardweg;Standardkraft\n;s;mm;mN\n1;0;0;0\n1;0,5;1,25;-3,5\n";
+    let columns = ForeignColumns::default();
+    let recording = Recording::parse_foreign(text, "a.csv", &columns).unwrap();
+    assert_eq!(recording.time_s(), [0.0, 0.5]);
+    assert_eq!(recording.depth_m(), [0.0, 0.00125]);
+    assert_eq!(recording.force_n(), [0.0, -0.0035]);
+    assert!(recording.is_foreign());
+    assert_eq!(
+        recording.remarks(),
+        [
+            "the time was taken from `Zeit` in s, the depth from `Standardweg` in mm, \
+          the force from `Standardkraft` in mN; name the columns if that is wrong"
+        ]
+    );
+    // A depth is meant before a height, a whole name before a part of one.
+    let text = "t [sec],height_mm,tip depth (mm),peak force (N),Force (N)\n0,1,2,3,4\n";
+    let recording = Recording::parse_foreign(text, "a.csv", &columns).unwrap();
+    assert_eq!(
+        (recording.depth_m()[0], recording.force_n()[0]),
+        (0.001, 4.0)
+    );
+}
+
+#[test]
+fn columns_that_are_not_recognised_are_asked_for() {
+    let refused = |text: &str| {
+        let columns = ForeignColumns::default();
+        let error = Recording::parse_foreign(text, "a.csv", &columns).unwrap_err();
+        error.to_string()
+    };
+    assert_eq!(
+        refused("# made by hand\ntime_s,force_N,height_measured_m,height_piezo_m\n0,1,2,3\n"),
+        "a.csv line 2: the depth may be `height_measured_m` or `height_piezo_m`; \
+         say which it is, as in --depth \"height_measured_m\""
+    );
+    assert_eq!(
+        refused("time_s,strain,force_N\n0,1,2\n"),
+        "a.csv line 1: no column looks like the depth among `time_s`, `strain`, `force_N`; \
+         say which it is with --depth NAME"
+    );
+}
+
+#[test]
+fn repeated_rows_are_left_out_and_other_times_that_stand_still_refused() {
+    let columns = ForeignColumns::default();
+    let text = "time_s,depth_mm,force_N\n0,1,2\n0,1,2\n1,1,2\n";
+    let recording = Recording::parse_foreign(text, "a.csv", &columns).unwrap();
+    assert_eq!(recording.time_s(), [0.0, 1.0]);
+    let remark = recording.remarks().last().unwrap();
+    assert!(remark.starts_with("1 rows that repeat"), "{remark}");
+    for (second, third) in [("0,1,2.5", "1,1,2"), ("1,1,2", "0.5,1,2")] {
+        let text = format!("time_s,depth_mm,force_N\n0,1,2\n{second}\n{third}\n");
+        let error = Recording::parse_foreign(&text, "a.csv", &columns).unwrap_err();
+        assert!(error.to_string().contains("sort the rows"), "{error}");
+    }
 }

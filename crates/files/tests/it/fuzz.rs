@@ -9,9 +9,9 @@ use crate::{MOTION, RECORDING, SCENE, SESSION, TISSUE, tries};
 /// Gives a text to every reader. An error must say something of itself.
 fn read_all(text: &str) {
     let foreign = ForeignColumns {
-        time: "time_ms".to_owned(),
-        depth: "depth_mm".to_owned(),
-        force: "force_mn".to_owned(),
+        time: Some("time_ms".to_owned()),
+        depth: Some("depth_mm".to_owned()),
+        force: Some("force_mn".to_owned()),
         ..ForeignColumns::default()
     };
     let errors = [
@@ -21,6 +21,7 @@ fn read_all(text: &str) {
         Session::parse(text, "f").err(),
         Recording::parse(text, "f").err(),
         Recording::parse_foreign(text, "f", &foreign).err(),
+        Recording::parse_foreign(text, "f", &ForeignColumns::default()).err(),
     ];
     for error in errors.into_iter().flatten() {
         assert!(error.is_input());
