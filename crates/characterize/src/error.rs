@@ -15,6 +15,40 @@ pub enum Error {
         /// What for.
         task: &'static str,
     },
+    /// The force never changes.
+    #[error("the force is {force} N in every sample; check that the sensor was connected")]
+    ConstantForce {
+        /// The force [N].
+        force: f64,
+    },
+    /// The indenter never touches.
+    #[error(
+        "no contact is found, because {cause}; check the signs and units, or record until the tissue is pressed"
+    )]
+    NoContact {
+        /// Why.
+        cause: &'static str,
+    },
+    /// A contact is stated at a time that was not recorded.
+    #[error("the contact is stated at {time} s; give a time from {first} to {last} s")]
+    ContactOutside {
+        /// The time stated [s].
+        time: f64,
+        /// The first time recorded [s].
+        first: f64,
+        /// The last time recorded [s].
+        last: f64,
+    },
+    /// A filter that the samples cannot carry.
+    #[error(
+        "the cut-off is {cutoff} Hz with {rate} samples a second; give one above 0 and below half of that"
+    )]
+    BadCutoff {
+        /// The cut-off [Hz].
+        cutoff: f64,
+        /// The rate [Hz].
+        rate: f64,
+    },
     /// A parameter of a fit makes no sense.
     #[error(
         "{} starts at {:e} with the scale {:e}, which does not lie between its bounds {:e} and {:e} or is no number; start inside, with a scale above 0",

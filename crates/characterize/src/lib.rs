@@ -11,4 +11,5 @@ pub mod clean;
 mod error;
 pub mod fit;
 
+pub use clean::{CleanRecording, CleanSettings, clean};
 pub use error::Error;

@@ -1,6 +1,56 @@
 //! A recording made ready: first contact, offset, stimulus, disturbances.
+//!
+//! ```text
+//! Recording ─signs─▶ ─contact, offset─▶ ─segments─▶ ─ripple─▶ ─low-pass─▶ CleanRecording
+//! ```
+//!
+//! The force that is fitted is what was measured, less the sensor's zero; ripple and filter touch only
+//! the force that is drawn. Whatever was done or deserves doubt stands in [`CleanRecording::doubts`].
 
+mod contact;
+mod contact_search;
+mod filter;
+mod noise;
+mod oriented;
+mod plausible;
+pub(crate) mod regression;
+mod ripple;
+mod sampling;
+mod segments;
+mod stimulus;
+pub(crate) mod swing;
+
+use palpate_files::Recording;
 use palpate_files::recording::RecordingHeader;
+
+pub use contact::Contact;
+pub use filter::LowPass;
+use oriented::Oriented;
+pub use ripple::Ripple;
+pub use sampling::Sampling;
+
+use crate::Error;
+
+/// Fewest samples of a recording.
+const FEWEST_SAMPLES: usize = 5;
+/// The cut-off over the fastest thing in the stimulus [-].
+const CUTOFF: f64 = 10.0;
+/// Lowest cut-off by default [Hz].
+const LOWEST_CUTOFF: f64 = 2.0;
+/// Highest cut-off by default over the rate [-].
+const HIGHEST_CUTOFF: f64 = 0.4;
+
+/// What is up to the user in the making of a clean recording.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct CleanSettings {
+    /// Cut-off of the filter [Hz]; by default ten times the fastest thing in the stimulus (a frequency,
+    /// or the inverse of a ramp's duration), but at least 2 Hz and at most 0.4 of the rate.
+    pub cutoff_hz: Option<f64>,
+    /// When the indenter first touched, in the recording's own time [s]; found by default.
+    pub contact_time_s: Option<f64>,
+    /// Whether a heart's ripple is taken out of the filtered force.
+    pub removes_ripple: bool,
+}
 
 /// A recording made ready for statistics and fits. All columns have one number for each sample.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,10 +65,27 @@ pub struct CleanRecording {
     pub force: Vec<f64>,
     /// The same forces [N] after the filter. This is drawn.
     pub filtered_force: Vec<f64>,
-    /// What the indenter did, in the order of time.
+    /// What the indenter did, in the order of time; rests out of the tissue are left out.
     pub segments: Vec<Segment>,
+    /// What was found and done on the way.
+    pub handling: Handling,
     /// What was done to it and what deserves doubt, in plain sentences.
     pub doubts: Vec<String>,
+}
+
+/// What was found and done on the way to a clean recording.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Handling {
+    /// The first contact.
+    pub contact: Contact,
+    /// How the samples lie in time.
+    pub sampling: Sampling,
+    /// A heart's ripple, if one was seen.
+    pub ripple: Option<Ripple>,
+    /// Cut-off of the filter [Hz]; none when the recording was not filtered.
+    pub cutoff_hz: Option<f64>,
+    /// Factors that turned depth and force, 1 or −1 [-].
+    pub signs: [f64; 2],
 }
 
 /// A part of the stimulus.
@@ -45,4 +112,130 @@ pub enum SegmentKind {
     Sine(f64),
     /// It swings with a frequency [Hz] that goes from the first to the second.
     Chirp(f64, f64),
+}
+
+/// Makes a recording ready.
+///
+/// # Errors
+/// When it is too short, its force never changes, no contact is found, or the settings do not fit it.
+pub fn clean(recording: &Recording, settings: &CleanSettings) -> Result<CleanRecording, Error> {
+    let mut doubts = recording.remarks().to_vec();
+    let samples = Oriented::new(recording, &mut doubts);
+    check(&samples)?;
+    let sampling = Sampling::of(&samples.time);
+    sampling.tell(&mut doubts);
+    let contact = find_contact(recording, &samples, settings)?;
+    let shifted = |values: &[f64], by: f64| values.iter().map(|value| value - by).collect();
+    let mut clean = CleanRecording {
+        header: recording.header.clone(),
+        time: shifted(&samples.time, contact.time_s),
+        depth: shifted(&samples.depth, contact.depth_m),
+        force: shifted(&samples.force, contact.offset_n),
+        filtered_force: Vec::new(),
+        segments: Vec::new(),
+        handling: Handling {
+            contact,
+            sampling,
+            signs: samples.signs,
+            ..Handling::default()
+        },
+        doubts,
+    };
+    clean.segments = segments::find(&clean.time, &clean.depth, contact.sample);
+    clean.handling.ripple = Ripple::find(&clean.time, &clean.force, &clean.segments);
+    clean.smooth(settings)?;
+    clean.tell(recording, settings);
+    Ok(clean)
+}
+
+fn check(samples: &Oriented) -> Result<(), Error> {
+    let count = samples.time.len();
+    if count < FEWEST_SAMPLES {
+        return Err(Error::TooShort {
+            samples: count,
+            least: FEWEST_SAMPLES,
+            task: "finding the contact",
+        });
+    }
+    let force = samples.force[0];
+    if samples.force.iter().all(|other| *other == force) {
+        return Err(Error::ConstantForce { force });
+    }
+    Ok(())
+}
+
+fn find_contact(
+    recording: &Recording,
+    samples: &Oriented,
+    settings: &CleanSettings,
+) -> Result<Contact, Error> {
+    match settings.contact_time_s {
+        Some(time) => contact::at(samples, time),
+        None if recording.is_foreign() => contact::by_force(samples),
+        None => contact::by_depth(samples),
+    }
+}
+
+impl CleanRecording {
+    fn smooth(&mut self, settings: &CleanSettings) -> Result<(), Error> {
+        let mut force = self.force.clone();
+        if let Some(ripple) = &self.handling.ripple
+            && settings.removes_ripple
+        {
+            for (value, time) in force
+                .iter_mut()
+                .zip(&self.time)
+                .take(ripple.end)
+                .skip(ripple.first)
+            {
+                *value -= ripple.force(*time);
+            }
+        }
+        let cutoff = settings.cutoff_hz.unwrap_or_else(|| self.usual_cutoff());
+        self.filtered_force = self.handling.sampling.smooth(&self.time, &force, cutoff)?;
+        self.handling.cutoff_hz = Some(cutoff);
+        Ok(())
+    }
+
+    fn usual_cutoff(&self) -> f64 {
+        let rate = self.handling.sampling.rate_hz;
+        let fastest = self
+            .segments
+            .iter()
+            .map(|own| match own.kind {
+                SegmentKind::Ramp | SegmentKind::Retreat => 1.0 / self.duration(own),
+                SegmentKind::Hold => 0.0,
+                SegmentKind::Sine(frequency) => frequency,
+                SegmentKind::Chirp(first, last) => first.max(last),
+            })
+            .fold(0.0, f64::max);
+        (CUTOFF * fastest)
+            .max(LOWEST_CUTOFF)
+            .min(HIGHEST_CUTOFF * rate)
+    }
+
+    /// How long a segment takes [s], from its first sample to the first of the next.
+    pub fn duration(&self, segment: &Segment) -> f64 {
+        let last = self.time.len() - 1;
+        self.time[segment.end.min(last)] - self.time[segment.first]
+    }
+
+    fn tell(&mut self, recording: &Recording, settings: &CleanSettings) {
+        let mut doubts = std::mem::take(&mut self.doubts);
+        contact::tell(&self.handling.contact, self, &mut doubts);
+        stimulus::tell(self, &mut doubts);
+        plausible::tell(self, recording, &mut doubts);
+        if let Some(ripple) = &self.handling.ripple {
+            let done = if settings.removes_ripple {
+                "it was taken out of the filtered force"
+            } else {
+                "it was left in"
+            };
+            doubts.push(format!(
+                "the force of the hold swings by {:.2e} N at {:.2} Hz, as a heart does; {done}",
+                ripple.amplitude_n, ripple.frequency_hz
+            ));
+        }
+        self.doubts = doubts;
+    }
 }

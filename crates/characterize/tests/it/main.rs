@@ -1,3 +1,19 @@
 //! Tests of the crate, one binary.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "clippy.toml allows both in tests, but does not see helpers as tests"
+)]
+
+mod contact;
+mod data;
+mod doubts;
+mod errors;
+mod filter;
 mod fit;
+mod made_up;
+mod random;
+mod real;
+mod ripple;
+mod segments;

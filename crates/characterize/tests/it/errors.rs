@@ -1,0 +1,47 @@
+//! Every error is one sentence: cause, then mend.
+
+use palpate_characterize::Error;
+
+#[test]
+fn messages() {
+    let cases = [
+        (
+            Error::ConstantForce { force: 0.5 },
+            "the force is 0.5 N in every sample; check that the sensor was connected",
+        ),
+        (
+            Error::NoContact {
+                cause: "the depth never gets above zero",
+            },
+            "no contact is found, because the depth never gets above zero; \
+             check the signs and units, or record until the tissue is pressed",
+        ),
+        (
+            Error::ContactOutside {
+                time: 11.0,
+                first: 0.0,
+                last: 10.0,
+            },
+            "the contact is stated at 11 s; give a time from 0 to 10 s",
+        ),
+        (
+            Error::BadCutoff {
+                cutoff: 60.0,
+                rate: 100.0,
+            },
+            "the cut-off is 60 Hz with 100 samples a second; give one above 0 and below half of that",
+        ),
+        (
+            Error::TooShort {
+                samples: 1,
+                least: 5,
+                task: "finding the contact",
+            },
+            "the recording has 1 samples, and finding the contact takes at least 5; \
+             record for longer or faster",
+        ),
+    ];
+    for (error, message) in cases {
+        assert_eq!(error.to_string(), message);
+    }
+}
