@@ -7,9 +7,11 @@
 //!
 //! The crate reads and writes no file and prints nothing; it starts no thread that outlives a call.
 
+pub mod analyze;
 pub mod clean;
 mod error;
 pub mod fit;
 
+pub use analyze::{Analysis, analyze};
 pub use clean::{CleanRecording, CleanSettings, clean};
 pub use error::Error;

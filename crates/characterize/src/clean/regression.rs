@@ -60,3 +60,13 @@ pub(crate) fn regress<const N: usize>(
         sum_squared_error,
     })
 }
+
+/// Times of the exponentials below, in lengths of the part [-].
+const TIMES: [f64; 3] = [1.0 / 40.0, 1.0 / 10.0, 1.0 / 3.0];
+
+/// Columns that take up relaxation at `share` [-] of a part, from 0 to 1: a constant, a slope and three
+/// exponentials.
+pub(crate) fn relaxation(share: f64) -> [f64; 5] {
+    let [a, b, c] = TIMES.map(|time| (-share / time).exp());
+    [1.0, share, a, b, c]
+}

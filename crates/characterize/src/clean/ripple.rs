@@ -11,7 +11,7 @@
 
 use std::f64::consts::TAU;
 
-use super::regression::regress;
+use super::regression::{regress, relaxation};
 use super::{Segment, SegmentKind, noise};
 
 /// Frequencies of a heart [Hz].
@@ -24,8 +24,6 @@ const SLOWEST: f64 = 8.0;
 const ENOUGH_RATE: f64 = 25.0;
 /// Power of the line over the usual power [-].
 const STANDS_OUT: f64 = 25.0;
-/// Times of the exponentials, in lengths of the hold [-].
-const TIMES: [f64; 3] = [1.0 / 40.0, 1.0 / 10.0, 1.0 / 3.0];
 
 /// A line in the spectrum of the force, as a heart makes it.
 #[derive(Debug, Clone, PartialEq)]
@@ -125,9 +123,7 @@ impl Held {
 
     fn relaxation(&self, sample: usize) -> [f64; 5] {
         let length = self.time[self.time.len() - 1] - self.time[0];
-        let t = (self.time[sample] - self.time[0]) / length;
-        let [a, b, c] = TIMES.map(|time| (-t / time).exp());
-        [1.0, t, a, b, c]
+        relaxation((self.time[sample] - self.time[0]) / length)
     }
 
     /// The frequency [Hz] of a line that stands out.

@@ -223,7 +223,7 @@ impl Model {
             (depth[sample] - there).abs() < NEAR * self.amplitude.abs()
         };
         let phase = |sample: usize| self.phase.at(time[sample]);
-        let quarter = 0.25 * TAU * (1.0 + STEADY);
+        let quarter = 0.25 * TAU;
         let (earliest, latest) = (phase(first) - quarter, phase(last) + quarter);
         let before = (0..first)
             .rev()

@@ -15,5 +15,8 @@ mod fit;
 mod made_up;
 mod random;
 mod real;
+mod relaxation;
 mod ripple;
 mod segments;
+mod sinusoid;
+mod static_response;

@@ -1,6 +1,6 @@
 //! No recording makes a panic or a number that is none.
 
-use palpate_characterize::{CleanSettings, clean};
+use palpate_characterize::{CleanSettings, analyze, clean};
 use palpate_files::Recording;
 use palpate_files::recording::{RecordingHeader, Samples};
 use proptest::prelude::*;
@@ -59,7 +59,7 @@ proptest! {
     #![proptest_config(tries(5000))]
 
     #[test]
-    fn any_recording_is_cleaned_or_refused(recording in recordings(), removes_ripple in any::<bool>()) {
+    fn any_recording_is_analyzed_or_refused(recording in recordings(), removes_ripple in any::<bool>()) {
         let settings = CleanSettings { removes_ripple, ..CleanSettings::default() };
         for recording in [foreign(&recording), recording] {
             let Ok(clean) = clean(&recording, &settings) else {
@@ -76,6 +76,8 @@ proptest! {
             for pair in clean.segments.windows(2) {
                 prop_assert!(pair[0].end <= pair[1].first);
             }
+            let analysis = format!("{:?}", analyze(&clean));
+            prop_assert!(!analysis.contains("NaN") && !analysis.contains("inf"), "{}", analysis);
             prop_assert!(clean.doubts.iter().all(|doubt| !doubt.contains("NaN")));
         }
     }

@@ -1,0 +1,60 @@
+//! What was measured, without a model: relaxation, static response, swings.
+//!
+//! ```text
+//! CleanRecording ─▶ Analysis: holds, relaxation, sinusoids, sweeps
+//! all holds      ─▶ static response: per organ, condition, time after death and depth
+//! ```
+
+mod relaxation;
+mod sinusoid;
+mod static_response;
+mod sweep;
+
+pub use relaxation::{Hold, Relaxation};
+pub use sinusoid::Sinusoid;
+pub use static_response::{StaticGroup, StaticPoint, StaticRow, static_response};
+pub use sweep::{Sweep, SweepPoint};
+
+use crate::CleanRecording;
+use crate::clean::SegmentKind;
+
+/// What one recording shows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Analysis {
+    /// Every hold, in the order of time.
+    pub holds: Vec<Hold>,
+    /// Relaxation in the longest hold; none without a hold.
+    pub relaxation: Option<Relaxation>,
+    /// The answer to each sine, in the order of time.
+    pub sinusoids: Vec<Sinusoid>,
+    /// The answer to each chirp, in the order of time.
+    pub sweeps: Vec<Sweep>,
+    /// What deserves doubt, in plain sentences, beside the doubts of the recording.
+    pub doubts: Vec<String>,
+}
+
+/// Analyzes a recording.
+pub fn analyze(recording: &CleanRecording) -> Analysis {
+    let mut doubts = Vec::new();
+    let holds = relaxation::holds(recording, &mut doubts);
+    let mut sinusoids = Vec::new();
+    let mut sweeps = Vec::new();
+    for segment in &recording.segments {
+        match segment.kind {
+            SegmentKind::Sine(frequency) => {
+                sinusoids.extend(Sinusoid::of(recording, segment, frequency, &mut doubts));
+            }
+            SegmentKind::Chirp(first, last) => {
+                sweeps.extend(Sweep::of(recording, segment, [first, last], &mut doubts));
+            }
+            SegmentKind::Ramp | SegmentKind::Hold | SegmentKind::Retreat => {}
+        }
+    }
+    Analysis {
+        relaxation: relaxation::longest(recording, &mut doubts),
+        holds,
+        sinusoids,
+        sweeps,
+        doubts,
+    }
+}

@@ -1,0 +1,251 @@
+//! Answers to sines and chirps, against closed forms.
+
+use std::f64::consts::{PI, TAU};
+
+use palpate_characterize::analyze::{Sinusoid, Sweep};
+use palpate_characterize::{Analysis, CleanSettings, analyze, clean};
+use palpate_mechanics::{ForceHistory, PronySeries, Vec3};
+
+use crate::made_up::{Dice, own, times};
+
+/// Ramp of 0.5 s to 4 mm, a second's rest, then `swing` (in mm) from 2 s on, after half a second away.
+fn depth(swing: impl Fn(f64) -> f64 + Copy) -> impl Fn(f64) -> f64 + Copy {
+    move |t| {
+        let swings = if t > 2.0 { swing(t - 2.0) } else { 0.0 };
+        1e-3 * ((8.0 * (t - 0.5)).clamp(0.0, 4.0) + swings)
+    }
+}
+
+fn analyzed(
+    rate: f64,
+    end: f64,
+    depth: impl Fn(f64) -> f64 + Copy,
+    force: impl FnMut(f64) -> f64,
+) -> Analysis {
+    let recording = own(&times(rate, end), depth, force);
+    analyze(&clean(&recording, &CleanSettings::default()).unwrap())
+}
+
+fn only(analysis: Analysis) -> Sinusoid {
+    assert_eq!(analysis.sinusoids.len(), 1, "{analysis:?}");
+    analysis.sinusoids[0]
+}
+
+/// Judge: a Kelvin solid, F = k₁ d + b ḋ: stiffness √(k₁² + (bω)²), phase atan(bω/k₁), loss π b ω A².
+/// Tolerance: the frequency is known to 1e-6, rounding.
+#[test]
+fn kelvin_solid() {
+    let (spring, dashpot) = (12.0, 0.4);
+    for frequency in [0.5, 2.0, 5.0] {
+        let omega = TAU * frequency;
+        let depth = depth(move |t| (omega * t).sin());
+        let speed = move |t: f64| {
+            let ramps = if (0.5..1.0).contains(&t) { 8e-3 } else { 0.0 };
+            ramps
+                + if t > 2.0 {
+                    1e-3 * omega * (omega * (t - 2.0)).cos()
+                } else {
+                    0.0
+                }
+        };
+        let force = move |t: f64| spring * depth(t) + dashpot * speed(t);
+        let seen = only(analyzed(500.0, 10.0, depth, force));
+        assert!((seen.frequency_hz / frequency - 1.0).abs() < 1e-6);
+        let stiffness = spring.hypot(dashpot * omega);
+        assert!(
+            (seen.stiffness_n_per_m / stiffness - 1.0).abs() < 1e-6,
+            "{seen:?}"
+        );
+        let phase = (dashpot * omega / spring).atan();
+        assert!(
+            (seen.phase_rad - phase).abs() < 1e-6,
+            "{seen:?} for {phase}"
+        );
+        let lost = PI * dashpot * omega * 1e-6;
+        assert!(
+            (seen.hysteresis_j / lost - 1.0).abs() < 1e-6,
+            "{seen:?} for {lost}"
+        );
+        let ellipse = PI * seen.amplitude_m.powi(2) * seen.stiffness_n_per_m * seen.phase_rad.sin();
+        assert!((seen.hysteresis_j / ellipse - 1.0).abs() < 1e-6);
+        assert!((seen.amplitude_m - 1e-3).abs() < 1e-9 && (seen.depth_m - 4e-3).abs() < 1e-9);
+        assert!(seen.distortion < 1e-6);
+    }
+}
+
+/// Force [N] of a linear tissue that relaxes as `series`, sample by sample.
+fn relaxing<'s>(
+    series: &'s PronySeries,
+    stiffness: f64,
+    rate: f64,
+    depth: impl Fn(f64) -> f64 + 's,
+) -> impl FnMut(f64) -> f64 + 's {
+    let mut history = ForceHistory::default();
+    move |t| {
+        let elastic = Vec3::new(0.0, 0.0, stiffness * depth(t));
+        history.advance(series, elastic, 1.0 / rate).z
+    }
+}
+
+/// Stiffness [N/m] and phase [rad] of the same: K = k [1 − Σ g / (1 + iωτ)].
+fn dynamic(series: &PronySeries, stiffness: f64, frequency: f64) -> [f64; 2] {
+    let (mut real, mut imaginary) = (1.0, 0.0);
+    for (g, tau) in series.terms() {
+        let x = TAU * frequency * tau;
+        real -= g / (1.0 + x * x);
+        imaginary += g * x / (1.0 + x * x);
+    }
+    [
+        stiffness * f64::hypot(real, imaginary),
+        imaginary.atan2(real),
+    ]
+}
+
+fn liver() -> PronySeries {
+    PronySeries::new(&[(0.2866, 1.537), (0.2022, 6.090)]).unwrap()
+}
+
+/// Judge: the complex stiffness of the Prony series; the force is its convolution, with the transient of
+/// the ramp. Tolerance: what a parabola leaves of that transient.
+#[test]
+fn prony_series() {
+    let series = liver();
+    for frequency in [0.5, 1.0, 4.0] {
+        let depth = depth(move |t| (TAU * frequency * t).sin());
+        let force = relaxing(&series, 20.0, 1000.0, depth);
+        let seen = only(analyzed(1000.0, 14.0, depth, force));
+        let [stiffness, phase] = dynamic(&series, 20.0, frequency);
+        assert!(
+            (seen.stiffness_n_per_m / stiffness - 1.0).abs() < 2e-3,
+            "{seen:?} for {stiffness}"
+        );
+        assert!(
+            (seen.phase_rad - phase).abs() < 2e-3,
+            "{seen:?} for {phase}"
+        );
+        assert!(seen.hysteresis_j > 0.0);
+    }
+}
+
+/// Judge: ∮ F dd of the samples by the trapezoidal rule, for a force that is far from linear. Tolerance:
+/// that rule, and the harmonics above the third.
+#[test]
+fn area_is_the_integral() {
+    let omega = TAU;
+    let depth = depth(move |t| 2.0 * (omega * t).sin());
+    let speed = move |t: f64| {
+        if t > 2.0 {
+            2e-3 * omega * (omega * (t - 2.0)).cos()
+        } else {
+            0.0
+        }
+    };
+    let force = move |t: f64| 4e3 * depth(t).powi(2) + 1.0 * speed(t) * depth(t) / 4e-3;
+    let analysis = analyzed(500.0, 10.0, depth, force);
+    assert!(
+        analysis
+            .doubts
+            .iter()
+            .any(|doubt| doubt.contains("harmonics of"))
+    );
+    let seen = only(analysis);
+    let steps = 20_000;
+    let at = |step: i32| 4.0 + f64::from(step) / f64::from(steps);
+    let area: f64 = (0..steps)
+        .map(|step| {
+            let (a, b) = (at(step), at(step + 1));
+            0.5 * (force(a) + force(b)) * (depth(b) - depth(a))
+        })
+        .sum();
+    assert!(
+        (seen.hysteresis_j / area - 1.0).abs() < 1e-5,
+        "{} for {area}",
+        seen.hysteresis_j
+    );
+    assert!(seen.distortion > 0.1);
+}
+
+/// Judge: the same tissue without noise. Tolerance: four of the standard errors that are told.
+#[test]
+fn errors_are_those_of_the_noise() {
+    let depth = depth(|t| (TAU * 2.0 * t).sin());
+    for seed in 0..10 {
+        let mut dice = Dice(seed);
+        let seen = only(analyzed(200.0, 10.0, depth, |t| {
+            15.0 * depth(t) + 0.002 * dice.normal()
+        }));
+        assert!(
+            (seen.stiffness_n_per_m - 15.0).abs() < 4.0 * seen.stiffness_error_n_per_m,
+            "{seen:?}"
+        );
+        assert!(
+            seen.phase_rad.abs() < 4.0 * seen.phase_error_rad,
+            "{seen:?}"
+        );
+        // 1480 samples of 2 mN against 15 mN.
+        assert!(
+            (0.5..2.0).contains(&(seen.phase_error_rad / (0.002 / 0.015 * (2.0 / 1480f64).sqrt())))
+        );
+    }
+}
+
+/// A chirp from 0.5 to 6 Hz in 30 s.
+fn chirp(t: f64) -> f64 {
+    (TAU * (0.5 * t + 0.5 * 5.5 / 30.0 * t * t)).sin()
+}
+
+fn swept(noise: f64) -> (Sweep, Vec<String>) {
+    let mut dice = Dice(4);
+    let series = liver();
+    let depth = depth(chirp);
+    let mut force = relaxing(&series, 20.0, 500.0, depth);
+    let analysis = analyzed(500.0, 32.0, depth, |t| force(t) + noise * dice.normal());
+    assert_eq!(analysis.sweeps.len(), 1, "{analysis:?}");
+    (analysis.sweeps[0].clone(), analysis.doubts)
+}
+
+/// Judge: the complex stiffness of the Prony series. Tolerance: over the 0.3 Hz that are put together the
+/// stiffness changes by less than 1 %.
+#[test]
+fn chirps_give_the_same_stiffness() {
+    let (sweep, doubts) = swept(0.0);
+    let series = liver();
+    assert!(sweep.points.len() > 15);
+    for point in &sweep.points {
+        let [stiffness, phase] = dynamic(&series, 20.0, point.frequency_hz);
+        let off = (point.stiffness_n_per_m / stiffness - 1.0).abs();
+        assert!(
+            off < 0.01 && (point.phase_rad - phase).abs() < 0.01,
+            "{point:?} for {stiffness}, {phase}"
+        );
+        assert!(point.is_coherent, "{point:?}");
+    }
+    assert!(
+        doubts.iter().all(|doubt| !doubt.contains("chirp")),
+        "{doubts:?}"
+    );
+}
+
+/// Judge: noise as large as the force, which leaves little coherence.
+#[test]
+fn noise_is_marked() {
+    let (sweep, doubts) = swept(0.5);
+    let marked = sweep
+        .points
+        .iter()
+        .filter(|point| !point.is_coherent)
+        .count();
+    assert!(marked > 0);
+    assert!(
+        doubts
+            .iter()
+            .any(|doubt| doubt.starts_with(&format!("at {marked} of"))),
+        "{doubts:?}"
+    );
+    assert!(
+        sweep
+            .points
+            .iter()
+            .all(|point| (0.0..=1.0 + 1e-9).contains(&point.coherence))
+    );
+}
