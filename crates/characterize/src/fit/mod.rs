@@ -9,26 +9,43 @@
 //!
 //! by reflections, never by JᵀJ. What leaves its bounds is put on them [Kanzow, Yamashita and Fukushima
 //! 2004]; μ follows the ratio of gained to promised reduction [Nielsen 1999]. Where the residuals cannot be
-//! found the step is shortened. [`uncertainty`] then says how well the parameters are known.
+//! found the step is shortened. [`uncertainty`] and [`correlated_uncertainty`] then say how well the
+//! parameters are known, [`doubts`] in words.
 //!
 //! *How we know*: `fit::certified` (the certified problems of NIST, with their standard deviations),
-//! `fit::bounds` (closed forms).
+//! `fit::agreement` (another library), `fit::bounds` (closed forms), `fit::coverage` (intervals that hold the
+//! truth as often as they say).
 //!
-//! *Limits*: a local minimum.
+//! *Limits*: a local minimum; [`multi_start`] looks for others.
 
+mod correlated;
+mod criterion;
 mod derivatives;
+mod doubts;
 mod least_squares;
+mod multi_start;
 mod parameter;
+mod profile;
+mod random;
+mod resample;
 mod student;
 mod triangle;
+mod unbounded;
 mod uncertainty;
 
 use nalgebra::DMatrix;
 
+pub use criterion::information_criterion;
 pub use derivatives::Differences;
+pub use doubts::doubts;
 pub use least_squares::{Settings, least_squares, least_squares_with_jacobian};
+pub use multi_start::{Minimum, multi_start};
 pub use parameter::Parameter;
-pub use uncertainty::{Uncertainty, uncertainty};
+pub use profile::{Profile, profile};
+pub use random::Random;
+pub use resample::{Draws, PooledMean, Spread, block_bootstrap, bootstrap_subjects, noise_study};
+pub use unbounded::{UnboundedWay, unbounded_iteration};
+pub use uncertainty::{Uncertainty, correlated_uncertainty, uncertainty};
 
 /// What a fit came to.
 #[derive(Debug, Clone, PartialEq)]

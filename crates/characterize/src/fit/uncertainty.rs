@@ -3,6 +3,7 @@
 use nalgebra::DMatrix;
 
 use super::Fit;
+use super::correlated::score_covariance;
 use super::student::student_quantile;
 use super::triangle::triangularize;
 
@@ -33,9 +34,37 @@ pub fn uncertainty(fit: &Fit) -> Uncertainty {
     }
 }
 
+/// The uncertainty when neighbouring residuals of a recording tell of one another: the beat of a heart, noise
+/// that is filtered, a sensor with steps. `recordings` are the lengths of the recordings, in the order of
+/// the residuals, each sampled evenly.
+///
+/// Their correlation is taken from the residuals (see [`correlated`](super::correlated)); the parameters
+/// are those of least squares all the same.
+pub fn correlated_uncertainty(fit: &Fit, recordings: &[usize]) -> Uncertainty {
+    let independent = uncertainty(fit);
+    let whitened = Whitened::new(fit);
+    if whitened.chosen.is_empty() {
+        return independent;
+    }
+    let middle = score_covariance(&whitened.directions, &fit.residuals, recordings);
+    let covariance = &whitened.back * &middle * whitened.back.transpose();
+    let samples = fit.residuals.len() as f64;
+    let count = whitened.count() as f64;
+    let variance = fit.sum_of_squares() / (samples - count).max(1.0);
+    // How many times smaller the variance would be without correlation, in the direction that suffers most.
+    let share = variance / middle.symmetric_eigenvalues().max();
+    Uncertainty {
+        covariance,
+        effective_samples: (samples * share.min(1.0)).max(1.0),
+        ..independent
+    }
+}
+
 /// The derivatives of a fit in coordinates in which they are orthonormal.
 struct Whitened {
     chosen: Vec<usize>,
+    /// Orthonormal columns that span those of J.
+    directions: DMatrix<f64>,
     /// From these coordinates to parameters.
     back: DMatrix<f64>,
 }
@@ -52,7 +81,7 @@ impl Whitened {
         let scaled = DMatrix::from_fn(fit.residuals.len(), count, |row, k| {
             fit.jacobian[(row, chosen[k])] / scales[k]
         });
-        let mut triangle = scaled;
+        let mut triangle = scaled.clone();
         triangularize(&mut triangle, count);
         let decomposition = triangle.rows(0, count).upper_triangle().svd(false, true);
         let largest = decomposition.singular_values.max();
@@ -63,11 +92,13 @@ impl Whitened {
             let floor = f64::EPSILON * largest;
             column /= decomposition.singular_values[k].max(floor);
         }
+        let directions = scaled * &within;
         for (mut row, scale) in within.row_iter_mut().zip(&scales) {
             row /= *scale;
         }
         Self {
             chosen,
+            directions,
             back: within,
         }
     }

@@ -1,8 +1,12 @@
 //! Tests of fits and of what is said about their uncertainty.
 
+mod agreement;
 mod bounds;
 mod certified;
+mod coverage;
 mod nist;
+mod repeated;
+mod words;
 
 use palpate_characterize::fit::Parameter;
 

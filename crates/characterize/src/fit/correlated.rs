@@ -1,0 +1,227 @@
+//! The covariance of Σ u r over correlated residuals r, for orthonormal columns u.
+//!
+//! Recordings are cut into blocks. What happens within a block is taken as independent of other blocks:
+//! Σ over blocks of s sᵀ with s = Σ (u − ū)(r − r̄). The means r̄ of the blocks follow an autoregressive process
+//! of an order that reaches over a beat of the heart, so
+//!
+//! ```text
+//! cov = Sᵀ Γ S + Σ s sᵀ,    S = sums of u over blocks,  Γ = autocovariances of the process
+//! ```
+//!
+//! A fit takes from the noise what its parameters can follow, which makes the residuals' autocovariances too
+//! small. Those of the process are therefore raised until its own residuals, r̄ = (1 − Ū Sᵀ) n̄, would be
+//! expected to show what was found, and multiplied with (N + k)/(N − k) for the k that were estimated
+//! [Akaike 1969].
+//!
+//! *How we know*: `fit::coverage`.
+//!
+//! *Limits*: noise of one kind throughout; a recording of many correlation times.
+
+use std::ops::Range;
+
+use nalgebra::DMatrix;
+
+/// Blocks of one recording, at most.
+const BLOCKS: usize = 800;
+/// The order of the process, at most; less for few blocks.
+const LARGEST_ORDER: usize = 60;
+/// Rounds in which the autocovariances are raised.
+const ROUNDS: usize = 6;
+
+/// The covariance of Σ u r for the columns u of `directions`.
+pub(super) fn score_covariance(
+    directions: &DMatrix<f64>,
+    residuals: &[f64],
+    recordings: &[usize],
+) -> DMatrix<f64> {
+    let blocks = Blocks::new(directions, residuals, recordings);
+    blocks.between() + &blocks.within
+}
+
+/// Residuals and directions by blocks.
+struct Blocks {
+    /// Mean residuals.
+    means: Vec<f64>,
+    /// Sums of the directions.
+    sums: DMatrix<f64>,
+    /// Means of the directions.
+    averages: DMatrix<f64>,
+    /// Σ s sᵀ.
+    within: DMatrix<f64>,
+    /// The blocks of each recording.
+    recordings: Vec<Range<usize>>,
+}
+
+impl Blocks {
+    fn new(directions: &DMatrix<f64>, residuals: &[f64], recordings: &[usize]) -> Self {
+        let mut samples: Vec<Range<usize>> = Vec::new();
+        let mut blocks: Vec<Range<usize>> = Vec::new();
+        let mut start = 0;
+        for &length in recordings {
+            let count = length.min(BLOCKS);
+            blocks.push(samples.len()..samples.len() + count);
+            let cut = |k: usize| start + k * length / count;
+            samples.extend((0..count).map(|k| cut(k)..cut(k + 1)));
+            start += length;
+        }
+        let width = directions.ncols();
+        let mut found = Self {
+            means: Vec::with_capacity(samples.len()),
+            sums: DMatrix::zeros(samples.len(), width),
+            averages: DMatrix::zeros(samples.len(), width),
+            within: DMatrix::zeros(width, width),
+            recordings: blocks,
+        };
+        for (block, rows) in samples.into_iter().enumerate() {
+            let count = rows.len() as f64;
+            let mean = residuals[rows.clone()].iter().sum::<f64>() / count;
+            let part = directions.rows_range(rows.clone());
+            let sum = part.row_sum();
+            let deviations = residuals[rows].iter().map(|r| r - mean);
+            let score = part
+                .row_iter()
+                .zip(deviations)
+                .fold(sum.clone() * 0.0, |score, (u, r)| score + u * r);
+            found.within += score.transpose() * &score;
+            found.averages.set_row(block, &(&sum / count));
+            found.sums.set_row(block, &sum);
+            found.means.push(mean);
+        }
+        found
+    }
+
+    /// Sᵀ Γ S.
+    fn between(&self) -> DMatrix<f64> {
+        let longest = self.recordings.iter().map(Range::len).max().unwrap_or(0);
+        let order = (longest / 8).min(LARGEST_ORDER);
+        let observed = self.autocovariances(order);
+        let mut raised = observed.clone();
+        let mut process = Process::new(raised.clone());
+        for _ in 0..ROUNDS {
+            let expected = self.expected(&process.autocovariances(longest), order);
+            for (raised, (observed, expected)) in
+                raised.iter_mut().zip(observed.iter().zip(expected))
+            {
+                *raised += observed - expected;
+            }
+            process = Process::new(raised.clone());
+            raised.copy_from_slice(&process.autocovariances(order + 1));
+        }
+        let shared = self.shared(&process.autocovariances(longest));
+        let [count, order] = [self.means.len(), order].map(|n| n as f64);
+        self.sums.transpose() * shared * ((count + order) / (count - order))
+    }
+
+    /// Mean products of residuals so many blocks apart.
+    fn autocovariances(&self, most: usize) -> Vec<f64> {
+        let product = |lag: usize| {
+            let pairs = self.pairs(lag);
+            pairs
+                .map(|(i, j)| self.means[i] * self.means[j])
+                .sum::<f64>()
+        };
+        let count = self.means.len() as f64;
+        (0..=most).map(|lag| product(lag) / count).collect()
+    }
+
+    fn pairs(&self, lag: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let pairs = move |range: &Range<usize>| {
+            let last = range.end.saturating_sub(lag).max(range.start);
+            (range.start..last).map(move |i| (i, i + lag))
+        };
+        self.recordings.iter().flat_map(pairs)
+    }
+
+    /// Γ S.
+    fn shared(&self, autocovariances: &[f64]) -> DMatrix<f64> {
+        let mut shared = DMatrix::zeros(self.sums.nrows(), self.sums.ncols());
+        for range in &self.recordings {
+            for column in 0..self.sums.ncols() {
+                for i in range.clone() {
+                    let sum = range
+                        .clone()
+                        .map(|j| autocovariances[i.abs_diff(j)] * self.sums[(j, column)]);
+                    shared[(i, column)] = sum.sum();
+                }
+            }
+        }
+        shared
+    }
+
+    /// The mean products that residuals of a process are expected to show.
+    fn expected(&self, autocovariances: &[f64], most: usize) -> Vec<f64> {
+        let shared = self.shared(autocovariances);
+        let twice = &self.averages * (self.sums.transpose() * &shared);
+        let count = self.means.len() as f64;
+        let lost = |i: usize, j: usize| -> f64 {
+            (0..self.sums.ncols())
+                .map(|k| {
+                    self.averages[(i, k)] * (shared[(j, k)] - twice[(j, k)])
+                        + shared[(i, k)] * self.averages[(j, k)]
+                })
+                .sum()
+        };
+        let product = |lag: usize| {
+            let pairs = self.pairs(lag);
+            pairs
+                .map(|(i, j)| autocovariances[lag] - lost(i, j))
+                .sum::<f64>()
+                / count
+        };
+        (0..=most).map(product).collect()
+    }
+}
+
+/// An autoregressive process, from its autocovariances by the recursion of Levinson and Durbin.
+struct Process {
+    first: Vec<f64>,
+    coefficients: Vec<f64>,
+}
+
+impl Process {
+    /// Autocovariances that no process has are brought back to where one does.
+    fn new(mut first: Vec<f64>) -> Self {
+        let mut coefficients: Vec<f64> = Vec::new();
+        first[0] = first[0].max(0.0);
+        let mut left = first[0];
+        for order in 1..first.len() {
+            let predicted: f64 = coefficients
+                .iter()
+                .enumerate()
+                .map(|(k, c)| c * first[order - 1 - k])
+                .sum();
+            let reflection = if left > 0.0 {
+                ((first[order] - predicted) / left).clamp(-0.9999, 0.9999)
+            } else {
+                0.0
+            };
+            first[order] = predicted + reflection * left;
+            let before = coefficients.clone();
+            for (coefficient, other) in coefficients.iter_mut().zip(before.iter().rev()) {
+                *coefficient -= reflection * other;
+            }
+            coefficients.push(reflection);
+            left *= 1.0 - reflection * reflection;
+        }
+        Self {
+            first,
+            coefficients,
+        }
+    }
+
+    /// So many autocovariances.
+    fn autocovariances(&self, count: usize) -> Vec<f64> {
+        let mut values = self.first.clone();
+        for _ in values.len()..count {
+            let next = self
+                .coefficients
+                .iter()
+                .zip(values.iter().rev())
+                .map(|(c, v)| c * v)
+                .sum();
+            values.push(next);
+        }
+        values.truncate(count);
+        values
+    }
+}

@@ -1,0 +1,217 @@
+//! What a fit does not know, in plain sentences.
+//!
+//! Errors relative to the parameters' sizes have a covariance whose eigenvectors are the combinations that the
+//! recording tells of, each with its own error. Where that error is large, the parameters that take part
+//! cannot be told apart (or, if it is one alone, it is not known); of their simple combinations the best
+//! known is named with its value.
+
+use nalgebra::{DMatrix, SymmetricEigen};
+
+use super::{Fit, Stop, Uncertainty};
+
+/// A relative error above which something counts as hardly known [-].
+const POOR: f64 = 0.25;
+/// The part of an eigenvector from which on a parameter takes part in it [-].
+const TAKES_PART: f64 = 0.3;
+
+/// Sentences on what deserves doubt in a fit; none when there is nothing. `duration` [s] is that of the
+/// recording, to which time constants (parameters in seconds) are compared.
+pub fn doubts(fit: &Fit, uncertainty: &Uncertainty, duration: Option<f64>) -> Vec<String> {
+    let mut sentences = Vec::new();
+    let early = match fit.stop {
+        Stop::Converged => None,
+        Stop::NoBetter => Some("no further step was better"),
+        Stop::NoDerivatives => Some("the model had no answer beside the last one"),
+        Stop::Iterations => Some("its steps were used up"),
+    };
+    sentences.extend(early.map(|why| format!("the fit stopped before it arrived, as {why}")));
+    for parameter in fit.parameters.iter().filter(|p| !p.fixed) {
+        let (name, value) = (&parameter.name, parameter.value);
+        if parameter.at_bound() {
+            sentences.push(format!(
+                "{name} ended on its bound {value}, which is no estimate"
+            ));
+        } else if let Some(duration) = duration.filter(|d| unit(name) == "s" && value > *d) {
+            let shown = format!(
+                "{} s in a recording of {} s",
+                digits(value, 3),
+                digits(duration, 3)
+            );
+            sentences.push(format!(
+                "{name} is longer than the recording shows: {shown}"
+            ));
+        }
+    }
+    sentences.extend(hardly_known(fit, uncertainty));
+    sentences
+}
+
+fn hardly_known(fit: &Fit, uncertainty: &Uncertainty) -> Vec<String> {
+    let count = uncertainty.chosen.len();
+    if count == 0 {
+        return Vec::new();
+    }
+    let size = |k: usize| {
+        let parameter = &fit.parameters[uncertainty.chosen[k]];
+        if parameter.value == 0.0 {
+            parameter.scale
+        } else {
+            parameter.value.abs()
+        }
+    };
+    let relative = DMatrix::from_fn(count, count, |i, j| {
+        uncertainty.covariance[(i, j)] / (size(i) * size(j))
+    });
+    let mut told = vec![false; count];
+    let mut sentences = Vec::new();
+    let eigen = SymmetricEigen::new(relative.clone());
+    let mut order: Vec<usize> = (0..count).collect();
+    order.sort_by(|&a, &b| eigen.eigenvalues[b].total_cmp(&eigen.eigenvalues[a]));
+    for k in order {
+        let vector = eigen.eigenvectors.column(k);
+        let part: Vec<usize> = (0..count)
+            .filter(|&i| vector[i].abs() > TAKES_PART && !told[i])
+            .collect();
+        let worst = part
+            .iter()
+            .map(|&i| relative[(i, i)].sqrt())
+            .fold(0.0, f64::max);
+        if eigen.eigenvalues[k].max(0.0).sqrt() <= POOR || worst <= POOR {
+            continue;
+        }
+        let members: Vec<Member> = part
+            .iter()
+            .map(|&i| Member::new(fit, uncertainty, i))
+            .collect();
+        let covariance = uncertainty
+            .covariance
+            .select_rows(&part)
+            .select_columns(&part);
+        sentences.push(match best_combination(&members, &covariance, worst) {
+            Some(combination) => format!(
+                "{} cannot be told apart from this recording; {combination}",
+                joined(&members)
+            ),
+            None => alone(&members, &covariance),
+        });
+        part.iter().for_each(|&i| told[i] = true);
+    }
+    sentences
+}
+
+/// A parameter of a combination.
+struct Member<'a> {
+    name: &'a str,
+    value: f64,
+}
+
+impl<'a> Member<'a> {
+    fn new(fit: &'a Fit, uncertainty: &Uncertainty, place: usize) -> Self {
+        let parameter = &fit.parameters[uncertainty.chosen[place]];
+        Self {
+            name: &parameter.name,
+            value: parameter.value,
+        }
+    }
+}
+
+/// The best known of the simple combinations, if it is known and much better than the members are.
+fn best_combination(members: &[Member], covariance: &DMatrix<f64>, worst: f64) -> Option<String> {
+    let units: Vec<&str> = members.iter().map(|member| unit(member.name)).collect();
+    let alike = units.iter().all(|unit| *unit == units[0]);
+    let gradient_error = |gradient: &[f64]| {
+        let gradient = nalgebra::DVector::from_column_slice(gradient);
+        gradient.dot(&(covariance * &gradient)).max(0.0).sqrt()
+    };
+    let mut candidates: Vec<(&str, f64, f64, &str)> = Vec::new();
+    if alike && members.len() > 1 {
+        let sum: f64 = members.iter().map(|member| member.value).sum();
+        let error = gradient_error(&vec![1.0; members.len()]);
+        candidates.push(("their sum", sum, error, units[0]));
+    }
+    if let [a, b] = members {
+        let product = gradient_error(&[b.value, a.value]);
+        candidates.push(("their product", a.value * b.value, product, ""));
+        let ratio = gradient_error(&[b.value.recip(), -a.value / b.value.powi(2)]);
+        candidates.push(("their ratio", a.value / b.value, ratio, ""));
+        if alike {
+            let difference = gradient_error(&[1.0, -1.0]);
+            candidates.push(("their difference", a.value - b.value, difference, units[0]));
+        }
+    }
+    // The first is the simplest; another must be twice as well known to be named instead.
+    let relative = |candidate: &(&str, f64, f64, &str)| candidate.2 / candidate.1.abs();
+    let best = candidates.iter().enumerate().min_by(|(i, a), (j, b)| {
+        let weight = |place: usize| if place == 0 { 1.0 } else { 2.0 };
+        (weight(*i) * relative(a)).total_cmp(&(weight(*j) * relative(b)))
+    });
+    let (what, value, error, unit) = best.map(|(_, best)| *best)?;
+    let known = error / value.abs() <= POOR.min(0.25 * worst);
+    known.then(|| format!("{what} is {}", stated(value, error, unit)))
+}
+
+fn alone(members: &[Member], covariance: &DMatrix<f64>) -> String {
+    let each = members.iter().enumerate().map(|(i, member)| {
+        let error = covariance[(i, i)].sqrt();
+        let value = stated(member.value, error, unit(member.name));
+        format!(
+            "{} is hardly known from this recording: {value}",
+            member.name
+        )
+    });
+    each.collect::<Vec<_>>().join("; ")
+}
+
+fn joined(members: &[Member]) -> String {
+    let names: Vec<&str> = members.iter().map(|member| member.name).collect();
+    match names.split_last() {
+        Some((last, others)) if !others.is_empty() => format!("{} and {last}", others.join(", ")),
+        _ => names.concat(),
+    }
+}
+
+/// The unit in which a name ends, for people.
+fn unit(name: &str) -> &'static str {
+    const UNITS: [(&str, &str); 6] = [
+        ("_n_s_per_m", "N s/m"),
+        ("_n_per_m", "N/m"),
+        ("_pa", "Pa"),
+        ("_m2", "m²"),
+        ("_m", "m"),
+        ("_s", "s"),
+    ];
+    let found = UNITS.iter().find(|(ending, _)| name.ends_with(ending));
+    found.map_or("", |(_, unit)| unit)
+}
+
+/// A value and its standard error, to the digits that the error allows.
+pub(super) fn stated(value: f64, error: f64, unit: &str) -> String {
+    let space = if unit.is_empty() { "" } else { " " };
+    if !(error > 0.0 && error.is_finite()) {
+        return format!("{}{space}{unit}", digits(value, 4));
+    }
+    let leading = error.log10().floor();
+    // Two digits of an error that begins with a one, which one digit would round by half.
+    let last = leading - f64::from(u8::from(error / 10_f64.powf(leading) < 2.0));
+    if last < -6.0 || leading > 6.0 {
+        return format!("{value:.3e} ± {error:.1e}{space}{unit}");
+    }
+    let unit_of_last = 10_f64.powf(last);
+    let [value, error] = [value, error].map(|x| (x / unit_of_last).round() * unit_of_last);
+    let decimals = (-last).max(0.0) as usize;
+    format!("{value:.decimals$} ± {error:.decimals$}{space}{unit}")
+}
+
+/// A number to so many digits, without those that say nothing.
+fn digits(value: f64, count: i32) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return format!("{value}");
+    }
+    let last = 10_f64.powf(value.abs().log10().floor() + 1.0 - f64::from(count));
+    let decimals = (-last.log10().round()).max(0.0) as usize;
+    let shown = format!("{:.decimals$}", (value / last).round() * last);
+    match shown.contains('.') {
+        true => shown.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => shown,
+    }
+}

@@ -1,0 +1,109 @@
+use super::{Fit, Parameter, Random};
+use crate::Error;
+
+/// A minimum, and how many starts led to it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Minimum {
+    /// The best fit that ended there.
+    pub fit: Fit,
+    /// How many of the starts ended there.
+    pub starts: usize,
+}
+
+/// Sums of squares and parameters closer than this, relatively, are of one minimum.
+const SAME: f64 = 1e-3;
+
+/// Fits from where `parameters` start and from `starts` other places, and the minima to which they lead, the
+/// best first.
+///
+/// The places are a Latin hypercube between the bounds [McKay, Beckman and Conover 1979]: each parameter
+/// comes once into each of `starts` parts of its range, which are of equal ratio when the lower bound is above
+/// zero. Without two bounds, a tenth to ten times its scale takes their place. Fits that cannot start are
+/// passed over.
+///
+/// # Errors
+/// When no fit could start.
+pub fn multi_start(
+    parameters: &[Parameter],
+    starts: usize,
+    seed: u64,
+    mut fit: impl FnMut(&[Parameter]) -> Result<Fit, Error>,
+) -> Result<Vec<Minimum>, Error> {
+    let mut minima: Vec<Minimum> = Vec::new();
+    let first = fit(parameters);
+    let refused = first.as_ref().err().cloned();
+    let places = hypercube(parameters, starts, &mut Random::new(seed));
+    let others = places.iter().map(|place| fit(place));
+    for found in std::iter::once(first).chain(others).flatten() {
+        match minima.iter_mut().find(|minimum| same(&minimum.fit, &found)) {
+            Some(minimum) => {
+                minimum.starts += 1;
+                if found.sum_of_squares() < minimum.fit.sum_of_squares() {
+                    minimum.fit = found;
+                }
+            }
+            None => minima.push(Minimum {
+                fit: found,
+                starts: 1,
+            }),
+        }
+    }
+    let sum = |minimum: &Minimum| minimum.fit.sum_of_squares();
+    minima.sort_by(|a, b| sum(a).total_cmp(&sum(b)));
+    match refused {
+        Some(refused) if minima.is_empty() => Err(refused),
+        _ => Ok(minima),
+    }
+}
+
+fn same(a: &Fit, b: &Fit) -> bool {
+    let near = |x: f64, y: f64, size: f64| (x - y).abs() <= SAME * size;
+    let [p, q] = [a, b].map(Fit::sum_of_squares);
+    // Sums below what rounding leaves of the residuals are all zero.
+    let pairs = a.parameters.iter().zip(&b.parameters);
+    near(p, q, p.max(q))
+        || pairs
+            .clone()
+            .all(|(x, y)| near(x.value, y.value, x.value.abs()))
+}
+
+fn hypercube(parameters: &[Parameter], starts: usize, random: &mut Random) -> Vec<Vec<Parameter>> {
+    let mut places = vec![parameters.to_vec(); starts];
+    for (i, parameter) in parameters.iter().enumerate().filter(|(_, p)| !p.fixed) {
+        let mut order: Vec<usize> = (0..starts).collect();
+        for k in (1..starts).rev() {
+            order.swap(k, random.below(k + 1));
+        }
+        for (place, part) in places.iter_mut().zip(order) {
+            let share = (part as f64 + random.uniform()) / starts as f64;
+            place[i].value = between(parameter, share);
+        }
+    }
+    places
+}
+
+/// The value a part `share` of the way from the lower to the upper end of a parameter's range.
+fn between(parameter: &Parameter, share: f64) -> f64 {
+    let Parameter {
+        lower,
+        upper,
+        scale,
+        ..
+    } = *parameter;
+    let [low, high] = match (lower.is_finite(), upper.is_finite()) {
+        (true, true) => [lower, upper],
+        (true, false) => [
+            lower.max(0.1 * scale),
+            lower.max(0.1 * scale) + 10.0 * scale,
+        ],
+        (false, true) => [upper - 10.0 * scale, upper],
+        (false, false) if parameter.value < 0.0 => [-10.0 * scale, -0.1 * scale],
+        (false, false) => [0.1 * scale, 10.0 * scale],
+    };
+    let value = if low > 0.0 {
+        low * (high / low).powf(share)
+    } else {
+        low + share * (high - low)
+    };
+    value.clamp(lower, upper)
+}

@@ -1,0 +1,63 @@
+//! What a fit says about itself in words. Judge: problems made so that the sentence is known.
+
+use palpate_characterize::fit::{Parameter, Random, Settings, doubts, least_squares, uncertainty};
+
+/// A curve to which two moduli add, one of them by the part `apart` more toward its end.
+fn sentences(apart: f64) -> Vec<String> {
+    let parameters = [
+        Parameter::new("c10_pa", 200.0).within(-1e5, 1e5),
+        Parameter::new("c01_pa", 200.0).within(-1e5, 1e5),
+    ];
+    let mut noise = Random::new(11);
+    let drawn: Vec<f64> = (0..100).map(|_| 20.0 * noise.normal()).collect();
+    let residuals = |p: &[f64], residuals: &mut [f64]| {
+        for (i, residual) in residuals.iter_mut().enumerate() {
+            let x = i as f64 / 100.0 - 0.495;
+            *residual = (p[0] - 323.0) + (p[1] - 162.0) * (1.0 + apart * x) - drawn[i];
+        }
+        Some(())
+    };
+    let fit =
+        least_squares(&parameters, 100, &Settings::default(), residuals).expect("the curve starts");
+    doubts(&fit, &uncertainty(&fit), None)
+}
+
+/// With nearly the same effect only the sum of two moduli is known, and it is named; with their own, nothing
+/// is left to say.
+#[test]
+fn moduli_that_cannot_be_told_apart_are_named_with_their_sum() {
+    let found = sentences(0.005);
+    assert_eq!(found.len(), 1, "{found:?}");
+    let start = "c10_pa and c01_pa cannot be told apart from this recording; their sum is 48";
+    assert!(found[0].starts_with(start), "{found:?}");
+    // 20 Pa over √100, to two digits as they begin with a one.
+    assert!(found[0].ends_with(" ± 2.0 Pa"), "{found:?}");
+    assert!(sentences(2.0).is_empty());
+}
+
+/// A time constant beyond the recording, a parameter on its bound, and one that is not seen.
+#[test]
+fn what_a_recording_does_not_show_is_said() {
+    let parameters = [
+        Parameter::new("steady_n", 0.5),
+        Parameter::new("tau_2_s", 30.0).within(1.0, 40.0),
+        Parameter::new("offset_m", 1.0).within(0.0, 1.0),
+    ];
+    let residuals = |p: &[f64], residuals: &mut [f64]| {
+        for (i, residual) in residuals.iter_mut().enumerate() {
+            let t = 0.2 * i as f64;
+            *residual = p[0] * (-t / p[1]).exp() - (-t / 35.0).exp() + 0.01 * (p[2] - 2.0);
+        }
+        Some(())
+    };
+    let fit = least_squares(&parameters, 100, &Settings::default(), residuals).unwrap();
+    let found = doubts(&fit, &uncertainty(&fit), Some(20.0));
+    assert!(
+        found[0].starts_with("tau_2_s is longer than the recording shows: "),
+        "{found:?}"
+    );
+    assert_eq!(
+        found[1],
+        "offset_m ended on its bound 1, which is no estimate"
+    );
+}
