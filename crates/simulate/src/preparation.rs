@@ -32,7 +32,9 @@ pub enum Work {
     Reading,
     /// The influences of the organ's triangles on one another.
     Influences,
-    /// The factors of their equations.
+    /// The tetrahedra that fill the organ, and their equations.
+    Tetrahedra,
+    /// The factors of the equations.
     Factors,
     /// The answer to a force on each touchable triangle.
     Responses,
@@ -47,6 +49,7 @@ impl Work {
             Self::ForceOverDepth => "the tissue's force over depth",
             Self::Reading => "the organ's stored response",
             Self::Influences => "the organ's response: influences",
+            Self::Tetrahedra => "the organ's response: tetrahedra",
             Self::Factors => "the organ's response: factors",
             Self::Responses => "the organ's response: a force on each triangle",
             Self::Storing => "storing the organ's response",

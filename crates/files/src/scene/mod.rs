@@ -14,8 +14,8 @@ use std::path::{Path, PathBuf};
 
 pub use model::{Enhancement, LocalSettings, Model};
 pub use model_words::{
-    Assembly, EnhancementArea, Form, HandOver, IntegrationPoints, ModelKind, Placement, Smoothing,
-    Solver,
+    Assembly, EnhancementArea, Form, HandOver, IntegrationPoints, ModelKind, Placement,
+    ResponseMethod, Smoothing, Solver,
 };
 pub use organ::{Layer, Neighbour, Organ};
 pub use region::{Region, RegionBox, RegionPlane, RegionSphere};

@@ -1,6 +1,6 @@
 use super::model_words::{
-    Assembly, EnhancementArea, Form, HandOver, IntegrationPoints, ModelKind, Placement, Smoothing,
-    Solver,
+    Assembly, EnhancementArea, Form, HandOver, IntegrationPoints, ModelKind, Placement,
+    ResponseMethod, Smoothing, Solver,
 };
 use crate::{Domain, Error, Keys};
 
@@ -19,6 +19,8 @@ pub struct Model {
     /// How many triangles carry the hybrid model's mechanics at most; the shown surface keeps its own. The
     /// default is chosen by the model.
     pub mechanical_triangles: Option<usize>,
+    /// How its response is solved.
+    pub response: ResponseMethod,
     /// What is handed over to the servo loop.
     pub hand_over: HandOver,
     /// Factor on every force that a device displays [-]; the factor itself is shown and recorded, forces are
@@ -86,6 +88,7 @@ impl Default for Model {
             local: LocalSettings::default(),
             enhancement: Enhancement::default(),
             mechanical_triangles: None,
+            response: ResponseMethod::Automatic,
             hand_over: HandOver::LocalModel,
             force_scale: 1.0,
         }
@@ -104,6 +107,7 @@ impl Model {
         "integration_points",
         "enhancement",
         "mechanical_triangles",
+        "response",
         "hand_over",
         "force_scale",
     ];
@@ -122,6 +126,9 @@ impl Model {
             local: LocalSettings::from_keys(keys)?,
             enhancement: Enhancement::from_keys(keys)?,
             mechanical_triangles: triangles.map(|number| number as usize),
+            response: keys
+                .word("response", ResponseMethod::WORDS)?
+                .unwrap_or(default.response),
             hand_over: keys
                 .word("hand_over", HandOver::WORDS)?
                 .unwrap_or(default.hand_over),

@@ -5,8 +5,20 @@ words! {
     pub enum ModelKind {
         /// Finite spheres around each tool.
         Local = "local",
-        /// Boundary elements over the whole organ, with local enhancement.
+        /// The response of the whole organ, solved beforehand, with local enhancement.
         Hybrid = "hybrid",
+    }
+}
+
+words! {
+    /// How the hybrid model's response of the whole organ is solved.
+    pub enum ResponseMethod {
+        /// By finite elements where walls are too thin for boundary elements, else by these.
+        Automatic = "automatic",
+        /// By boundary elements.
+        BoundaryElements = "boundary_elements",
+        /// By finite elements, condensed to the surface.
+        FiniteElements = "finite_elements",
     }
 }
 

@@ -141,6 +141,18 @@ fn the_hybrid_model_has_its_own_settings() {
     let text = text.replace("[model]", "[model]\nmechanical_triangles = 2000");
     let scene = parse(&text);
     assert_eq!(scene.model.mechanical_triangles, Some(2000));
+    assert_eq!(scene.model.response, ResponseMethod::Automatic);
+    let chosen = text.replace("[model]", "[model]\nresponse = \"finite_elements\"");
+    let response = parse(&chosen).model.response;
+    assert_eq!(response, ResponseMethod::FiniteElements);
+    let unknown = chosen.replace("finite_elements", "finite_element");
+    let error = Scene::parse(&unknown, "scene.toml")
+        .unwrap_err()
+        .to_string();
+    assert!(
+        error.contains("model.response") && error.contains("finite_elements"),
+        "{error}"
+    );
     let touchable = scene.organ.touchable.unwrap();
     assert!(touchable.holds([0.0, 0.0, 0.1]) && !touchable.holds([0.0, 0.0, -0.1]));
 }

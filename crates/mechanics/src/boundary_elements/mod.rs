@@ -40,4 +40,5 @@ pub use integrals::{PanelIntegrals, Place, integrate};
 pub use kelvin::Kelvin;
 pub use panel::Panel;
 pub use precision::Precision;
+pub(crate) use problem::held_triangles;
 pub use problem::{BoundaryProblem, Progress, ResponseMemory, Stage};

@@ -8,7 +8,7 @@ use super::kelvin::Kelvin;
 use super::panel::Panel;
 use super::precision::Precision;
 use crate::cores::{cores, on_all_cores};
-use crate::surface_response::{ResponseParts, SurfaceResponse, TouchableTriangle};
+use crate::surface_response::{ResponseParts, Sampling, SurfaceResponse, TouchableTriangle};
 use crate::{Error, LinearElastic};
 
 /// A linear solid that is held in some triangles of its surface and can be touched in others.
@@ -80,7 +80,8 @@ impl BoundaryProblem<'_> {
         progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
     ) -> Result<SurfaceResponse<T>, Error> {
         let law = LinearElastic::new(1.0, self.poissons_ratio)?;
-        let held = self.held_triangles()?;
+        let triangles = self.surface.mesh().triangles().len();
+        let held = held_triangles(triangles, self.held, self.touchable)?;
         let needed = self.memory::<T>().most;
         if needed > memory {
             return Err(Error::NotEnoughMemory { needed, memory });
@@ -111,22 +112,6 @@ impl BoundaryProblem<'_> {
                 })
             })
             .collect()
-    }
-
-    /// Whether each triangle is held.
-    fn held_triangles(&self) -> Result<Vec<bool>, Error> {
-        if self.held.is_empty() {
-            return Err(Error::NothingHeld);
-        }
-        let mut held = vec![false; self.surface.mesh().triangles().len()];
-        for triangle in self.held {
-            held[triangle.index()] = true;
-        }
-        let both = self.touchable.iter().filter(|t| held[t.index()]).count();
-        if both > 0 {
-            return Err(Error::TouchableIsHeld { triangles: both });
-        }
-        Ok(held)
     }
 
     fn parts<T: Precision>(
@@ -175,6 +160,7 @@ impl BoundaryProblem<'_> {
             self.poissons_ratio,
             touchable.collect(),
             influences.panels.len(),
+            Sampling::Centroids,
         );
         let rows = self.size();
         let mut solved = 0;
@@ -198,6 +184,26 @@ impl BoundaryProblem<'_> {
         }
         ControlFlow::Continue(parts)
     }
+}
+
+/// Whether each of so many triangles is held.
+pub(crate) fn held_triangles(
+    triangles: usize,
+    held: &[TriangleId],
+    touchable: &[TriangleId],
+) -> Result<Vec<bool>, Error> {
+    if held.is_empty() {
+        return Err(Error::NothingHeld);
+    }
+    let mut is_held = vec![false; triangles];
+    for triangle in held {
+        is_held[triangle.index()] = true;
+    }
+    let both = touchable.iter().filter(|t| is_held[t.index()]).count();
+    if both > 0 {
+        return Err(Error::TouchableIsHeld { triangles: both });
+    }
+    Ok(is_held)
 }
 
 /// [½ 1 + T of free panels, −U of held ones]. The unknowns of held panels are tractions over E and the

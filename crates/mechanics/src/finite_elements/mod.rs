@@ -5,6 +5,7 @@
 
 mod assembly;
 mod cavity;
+pub mod condensed;
 #[cfg(test)]
 mod derivatives;
 mod element;

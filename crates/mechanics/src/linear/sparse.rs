@@ -9,6 +9,8 @@
 //! *Limits*: no pivoting; an exactly singular matrix is reported, a nearly singular one is the caller's
 //! to notice.
 
+mod many;
+
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
 use faer::sparse::linalg::SupernodalThreshold;
@@ -231,12 +233,34 @@ mod tests {
         factors.factor(&pattern, &values).unwrap();
         assert_eq!(factors.negative_eigenvalues(), constraints);
         let exact: Vec<f64> = (0..size).map(|i| (i as f64).sin()).collect();
-        let mut right = vec![0.0; size];
-        pattern.multiply(&values, &exact, &mut right);
+        let mut right = right_side(&pattern, &values, &exact);
         factors.solve(&mut right);
         for (found, exact) in right.iter().zip(&exact) {
             // Six digits go to the weak diagonal.
             assert!((found - exact).abs() < 1e-9, "{found} {exact}");
+        }
+        solves_many(&factors, &exact, &right_side(&pattern, &values, &exact));
+    }
+
+    fn right_side(pattern: &Pattern, values: &[f64], exact: &[f64]) -> Vec<f64> {
+        let mut right = vec![0.0; exact.len()];
+        pattern.multiply(values, exact, &mut right);
+        right
+    }
+
+    /// The same side once as it is, once zero and once doubled.
+    fn solves_many(factors: &Factors, exact: &[f64], right: &[f64]) {
+        let places = factors.places();
+        let mut sides = vec![0.0; 3 * right.len()];
+        for (value, &place) in right.iter().zip(&places) {
+            sides[3 * place..][..3].copy_from_slice(&[*value, 0.0, 2.0 * value]);
+        }
+        factors.solve_many(&mut sides, 3);
+        for (exact, &place) in exact.iter().zip(&places) {
+            let [once, zero, twice] = [0, 1, 2].map(|k| sides[3 * place + k]);
+            // As above.
+            assert!((once - exact).abs() < 1e-9 && (twice - 2.0 * exact).abs() < 2e-9);
+            assert!(zero == 0.0);
         }
     }
 }

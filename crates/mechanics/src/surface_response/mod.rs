@@ -20,7 +20,7 @@ mod patch;
 mod response;
 mod tip_field;
 
-pub use parts::{ResponseParts, TouchableTriangle};
+pub use parts::{ResponseParts, Sampling, TouchableTriangle};
 pub use patch::{MovedTriangle, PatchContact, PatchWorkspace, Reciprocity};
 pub use response::{SurfaceResponse, TouchId};
 pub use tip_field::{Share, TipField, TipLoad};

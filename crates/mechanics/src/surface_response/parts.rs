@@ -1,7 +1,7 @@
-use palpate_geometry::TriangleId;
+use palpate_geometry::{Surface, TriangleId};
 
 use crate::Vec3;
-use crate::boundary_elements::Precision;
+use crate::boundary_elements::{Panel, Precision};
 
 /// A triangle that a contact may load.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,6 +16,28 @@ pub struct TouchableTriangle {
     pub area: f64,
 }
 
+impl TouchableTriangle {
+    /// A triangle of `surface`; none where it spans no area.
+    pub fn of(surface: &Surface, triangle: TriangleId) -> Option<Self> {
+        let panel = Panel::new(surface.mesh().positions(triangle))?;
+        Some(Self {
+            triangle,
+            centroid: panel.centroid,
+            normal: panel.normal,
+            area: panel.area,
+        })
+    }
+}
+
+/// Of what the displacements of a response are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Sampling {
+    /// The centroids of the triangles, as boundary elements collocate.
+    Centroids,
+    /// The triangles' means, as forces that are spread over them do work.
+    Means,
+}
+
 /// What a response consists of: to be written, and to be made one again.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ResponseParts<T> {
@@ -25,7 +47,9 @@ pub struct ResponseParts<T> {
     pub touchable: Vec<TouchableTriangle>,
     /// Number of triangles of the mesh.
     pub triangles: usize,
-    /// Displacements of the centroids from unit forces on the touchable triangles, times E [1/m]: number
+    /// Of what the displacements are.
+    pub sampling: Sampling,
+    /// Displacements of the triangles from unit forces on the touchable triangles, times E [1/m]: number
     /// 3 n (3 j + b) + 3 i + a is component a of triangle i from the component b on the j-th touchable one.
     pub displacements: Vec<T>,
 }
@@ -36,11 +60,13 @@ impl<T: Precision> ResponseParts<T> {
         poissons_ratio: f64,
         touchable: Vec<TouchableTriangle>,
         triangles: usize,
+        sampling: Sampling,
     ) -> Self {
         let columns = 3 * touchable.len();
         Self {
             poissons_ratio,
             triangles,
+            sampling,
             displacements: vec![T::of(0.0); columns * 3 * triangles],
             touchable,
         }

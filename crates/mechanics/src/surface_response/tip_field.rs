@@ -10,8 +10,9 @@
 //! c_self = (1 + ν)/π ((1 − ν) J 1 + ν M),   J = Σ w w′ ⟨1/r⟩,   M = Σ w w′ ⟨t tᵀ/r³⟩
 //! ```
 //!
-//! with ⟨⟩ the mean over the loaded triangle and t the tangential part of r [Johnson 1985]. What couples
-//! normal and tangent is odd in r and falls out of the sum.
+//! with ⟨⟩ the mean over the loaded triangle, and over the moved one where the response is of means, and t
+//! the tangential part of r [Johnson 1985]. What couples normal and tangent is odd in r and falls out of
+//! the sum.
 //! c_ext hardly depends on the weights. They are (1 − (r/R)²)² times area and cosine, about each vertex,
 //! with R = max(1.7 a, 2.2 √(2 A)); between vertices loads and c_ext go over linearly, so that a slide has
 //! no steps. R > 1.69 a makes c_self less than the compliance of the tip at every ν, and the tips of several
@@ -28,6 +29,7 @@ use std::f64::consts::PI;
 use nalgebra::Matrix3;
 use palpate_geometry::{NodeId, Surface, TriangleId};
 
+use super::parts::Sampling;
 use super::response::{SurfaceResponse, TouchId};
 use crate::Vec3;
 use crate::boundary_elements::{Panel, Place, Precision, Source};
@@ -40,6 +42,17 @@ const REACH_IN_SIZES: f64 = 2.2;
 
 /// Triangles farther apart than this many of their lengths see each other as points.
 const FAR: f64 = 5.0;
+
+/// Nearer than this, its mean over a triangle is not its value at the centroid; a hundredth beyond.
+const NEAR: f64 = 2.0;
+
+/// Centroids of the four equal parts of a triangle, as barycentric coordinates [-].
+const QUARTERS: [[f64; 3]; 4] = [
+    [1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0],
+    [2.0 / 3.0, 1.0 / 6.0, 1.0 / 6.0],
+    [1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0],
+    [1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0],
+];
 
 /// A share of a force.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -224,17 +237,20 @@ fn further<T: Precision>(
     surface: &Surface,
     (shares, normal): (&[Share], &Vec3),
 ) -> Matrix3<f64> {
-    let nu = response.parts().poissons_ratio;
+    let parts = response.parts();
+    let nu = parts.poissons_ratio;
     let tangents = Matrix3::identity() - normal * normal.transpose();
+    let panel = |share: &Share| {
+        let triangle = parts.touchable[share.triangle.index()].triangle;
+        let panel = Panel::new(surface.mesh().positions(triangle));
+        panel.expect("the response has a column for it")
+    };
+    let panels: Vec<_> = shares.iter().map(panel).collect();
     let (mut inverse, mut along, mut yields) = (0.0, Matrix3::zeros(), Matrix3::zeros());
-    for loaded in shares {
-        let source = &response.touchable()[loaded.triangle.index()];
-        let corners = surface.mesh().positions(source.triangle);
-        let panel = Panel::new(corners).expect("the response has a column for it");
-        for moved in shares {
+    for (loaded, source) in shares.iter().zip(&panels) {
+        for (moved, target) in shares.iter().zip(&panels) {
             let weight = loaded.weight * moved.weight;
-            let x = &response.touchable()[moved.triangle.index()].centroid;
-            let (here, there) = mean_distances(&panel, x);
+            let (here, there) = mean_distances(source, target, parts.sampling);
             inverse += weight * here;
             along += weight * there;
             yields += weight * response.influence(moved.triangle, loaded.triangle);
@@ -246,11 +262,11 @@ fn further<T: Precision>(
     0.5 * (further + further.transpose())
 }
 
-/// Means of 1/r and r rᵀ/r³ over `panel`, seen from the centroid of another one or its own [1/m].
-fn mean_distances(panel: &Panel, x: &Vec3) -> (f64, Matrix3<f64>) {
-    let r = panel.centroid - x;
-    let distance = r.norm();
-    if distance > FAR * (2.0 * panel.area).sqrt() {
+/// Means of 1/r and r rᵀ/r³ over `source`, seen from `target`, another panel or the same [1/m].
+fn mean_distances(source: &Panel, target: &Panel, sampling: Sampling) -> (f64, Matrix3<f64>) {
+    let r = source.centroid - target.centroid;
+    let (distance, size) = (r.norm(), (2.0 * source.area).sqrt());
+    if distance > FAR * size {
         return (1.0 / distance, r * r.transpose() / distance.powi(3));
     }
     let place = if distance == 0.0 {
@@ -258,6 +274,15 @@ fn mean_distances(panel: &Panel, x: &Vec3) -> (f64, Matrix3<f64>) {
     } else {
         Place::Elsewhere
     };
-    let (inverse, along) = Source::new(panel).distances(x, place);
-    (inverse / panel.area, along / panel.area)
+    let panel = Source::new(source);
+    let (inverse, along) = if sampling == Sampling::Means && distance < NEAR * size {
+        let [a, b, c] = target.corners;
+        let seen = QUARTERS.map(|[u, v, w]| panel.distances(&(a * u + b * v + c * w), place));
+        let sum = |sum: (f64, Matrix3<f64>), one: &(f64, _)| (sum.0 + one.0, sum.1 + one.1);
+        let (inverse, along) = seen.iter().fold((0.0, Matrix3::zeros()), sum);
+        (0.25 * inverse, 0.25 * along)
+    } else {
+        panel.distances(&target.centroid, place)
+    };
+    (inverse / source.area, along / source.area)
 }

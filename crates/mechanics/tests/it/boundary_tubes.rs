@@ -13,14 +13,14 @@ use palpate_mechanics::{LinearElastic, Vec3};
 use crate::boundary_response::Held;
 use crate::tip_field::{stiffness, under};
 
-const LENGTH: f64 = 0.04;
-const NU: f64 = 0.45;
+pub(crate) const LENGTH: f64 = 0.04;
+pub(crate) const NU: f64 = 0.45;
 /// Radius of the punch [m].
-const PUNCH: f64 = 2e-3;
+pub(crate) const PUNCH: f64 = 2e-3;
 
 /// A tube along z, its middle at the origin: `around` by `along` squares in two triangles each, inside and
 /// outside, and `across` rings on its ends.
-fn tube(inner: f64, outer: f64, [around, along, across]: [usize; 3]) -> Surface {
+pub(crate) fn tube(inner: f64, outer: f64, [around, along, across]: [usize; 3]) -> Surface {
     // A closed line through the wall, from the inner edge of the lower end up the outside and back.
     let part = |k: usize, of: usize| k as f64 / of as f64;
     let low = -0.5 * LENGTH;
@@ -52,7 +52,7 @@ fn tube(inner: f64, outer: f64, [around, along, across]: [usize; 3]) -> Surface 
 
 /// Force per depth of a sliding punch at mid-length over E [m], by finite elements: the slope once the
 /// whole face touches.
-fn by_finite_elements(inner_radius: f64, outer_radius: f64) -> f64 {
+pub(crate) fn by_finite_elements(inner_radius: f64, outer_radius: f64) -> f64 {
     let problem = TubeProblem {
         tube: Tube {
             length: LENGTH,

@@ -1,8 +1,11 @@
 use palpate_geometry::{Surface, TriangleId};
 use sha2::{Digest, Sha256};
 
-/// Changes with the equations, so that what was stored before is solved anew.
-const EDITION: &str = "boundary elements 1";
+use super::method::Method;
+
+/// Change with the equations, so that what was stored before is solved anew.
+const BOUNDARY_ELEMENTS: &str = "boundary elements 1";
+const FINITE_ELEMENTS: &str = "condensed finite elements 1";
 
 /// What a response is made from.
 pub(super) struct Ingredients<'a> {
@@ -11,13 +14,20 @@ pub(super) struct Ingredients<'a> {
     pub(super) poissons_ratio: f64,
     pub(super) held: &'a [TriangleId],
     pub(super) touchable: &'a [TriangleId],
+    pub(super) method: Method,
 }
 
 impl Ingredients<'_> {
     /// 64 hexadecimal digits that no other ingredients have.
     pub(super) fn key(&self) -> String {
         let mut hash = Sha256::new();
-        hash.update(EDITION);
+        match self.method {
+            Method::BoundaryElements => hash.update(BOUNDARY_ELEMENTS),
+            Method::FiniteElements { edge } => {
+                hash.update(FINITE_ELEMENTS);
+                hash.update(edge.to_le_bytes());
+            }
+        }
         hash.update(self.poissons_ratio.to_le_bytes());
         let mesh = self.surface.mesh();
         hash.update((mesh.vertices().len() as u64).to_le_bytes());
@@ -48,26 +58,33 @@ mod tests {
         let surface =
             |triangles| Surface::new(Organ::Cube.surface_mesh(triangles).unwrap()).unwrap();
         let (fine, coarse) = (surface(108), surface(48));
-        let key = |surface, poissons_ratio, held: &[u32], touchable: &[u32]| {
+        let boundary = Method::BoundaryElements;
+        let key = |surface, poissons_ratio, held: &[u32], touchable: &[u32], method| {
             let of = |list: &[u32]| list.iter().map(|&t| TriangleId(t)).collect::<Vec<_>>();
             Ingredients {
                 surface,
                 poissons_ratio,
                 held: &of(held),
                 touchable: &of(touchable),
+                method,
             }
             .key()
         };
-        let first = key(&fine, 0.3, &[0, 1], &[2]);
-        assert_eq!(first, key(&fine, 0.3, &[0, 1], &[2]));
+        let first = key(&fine, 0.3, &[0, 1], &[2], boundary);
+        assert_eq!(first, key(&fine, 0.3, &[0, 1], &[2], boundary));
         assert_eq!(first.len(), 64);
-        for other in [
-            key(&coarse, 0.3, &[0, 1], &[2]),
-            key(&fine, 0.31, &[0, 1], &[2]),
-            key(&fine, 0.3, &[0], &[1, 2]),
-            key(&fine, 0.3, &[0, 1], &[3]),
-        ] {
-            assert_ne!(first, other);
-        }
+        let finite = |edge| Method::FiniteElements { edge };
+        let mut all = vec![
+            first,
+            key(&coarse, 0.3, &[0, 1], &[2], boundary),
+            key(&fine, 0.31, &[0, 1], &[2], boundary),
+            key(&fine, 0.3, &[0], &[1, 2], boundary),
+            key(&fine, 0.3, &[0, 1], &[3], boundary),
+            key(&fine, 0.3, &[0, 1], &[2], finite(1e-3)),
+            key(&fine, 0.3, &[0, 1], &[2], finite(2e-3)),
+        ];
+        all.sort();
+        all.dedup();
+        assert_eq!(all.len(), 7);
     }
 }

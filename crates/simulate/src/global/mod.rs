@@ -1,7 +1,7 @@
 //! The whole organ: how its surface answers forces anywhere on it, prepared once (section 4.2).
 //!
 //! ```text
-//! shown surface ──simplify──▶ mechanical surface ──boundary elements──▶ SurfaceResponse ◀──▶ stored file
+//! shown surface ──simplify──▶ mechanical surface ─────solved once─────▶ SurfaceResponse ◀──▶ stored file
 //!       ▲                                                                     │
 //!       └───────── carried by the displacements of its triangles ◀────────────┘ forces of the tips
 //! ```
@@ -9,7 +9,10 @@
 //! A coarse mesh is enough for the mechanics, since the tip has its own law ([`TipLaw`]) and the organ
 //! around it only yields further; the fine one is what is seen.
 //!
-//! *How we know*: `hybrid::…`.
+//! Boundary elements solve for it, or, where walls are too thin for them (`walls`) or the scene asks for
+//! them, finite elements condensed to the surface.
+//!
+//! *How we know*: `hybrid::…`, `thin_walls::…`.
 //!
 //! *Limits*: the organ around a tip answers as at small strain; nothing of it moves through its anchor.
 //!
@@ -18,6 +21,7 @@
 mod deform;
 mod key;
 mod mechanical_surface;
+mod method;
 mod press;
 mod solve;
 mod walls;
@@ -36,6 +40,9 @@ use palpate_mechanics::surface_response::{SurfaceResponse, TipField};
 use crate::tool::Tool;
 use crate::{Error, Progress, Resources, held_region};
 use key::Ingredients;
+use method::Method;
+use solve::Found;
+use walls::Walls;
 
 /// How the whole organ answers.
 #[derive(Debug, Clone)]
@@ -56,6 +63,8 @@ pub(crate) struct GlobalModel {
 /// What was prepared of the whole organ, and where it came from.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ResponseOrigin {
+    /// How it was solved, in words.
+    pub method: &'static str,
     /// Triangles that carry the mechanics.
     pub triangles: usize,
     /// Those of them that can be touched.
@@ -109,6 +118,9 @@ pub(crate) struct GlobalProblem {
     poissons_ratio: f64,
     held: Vec<TriangleId>,
     touchable: Vec<TriangleId>,
+    walls: Walls,
+    /// Finite elements to try, the best first; without any, boundary elements are meant.
+    finite: Vec<Method>,
     pub(crate) doubts: Vec<String>,
 }
 
@@ -126,8 +138,10 @@ impl GlobalProblem {
         if touchable.is_empty() {
             return Err(Error::NothingTouchable);
         }
-        doubts.extend(walls::doubt(&surface, &touchable));
+        let walls = Walls::new(&surface, &touchable);
         Ok(Self {
+            finite: Method::finite(scene.model.response, &surface, &walls),
+            walls,
             surface,
             poissons_ratio: law.poissons_ratio(),
             held,
@@ -143,9 +157,10 @@ impl GlobalProblem {
         resources: &Resources,
         watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
     ) -> Result<(GlobalModel, Vec<String>), Error> {
-        let found = solve::response(&self.ingredients(), resources, watch)?;
+        let (method, found) = self.response(resources, watch)?;
         let parts = found.response.parts();
         let origin = ResponseOrigin {
+            method: method.words(),
             triangles: parts.triangles,
             touchable: parts.touchable.len(),
             bytes: size_of_val(parts.displacements.as_slice()),
@@ -176,8 +191,36 @@ impl GlobalProblem {
         Ok((model, [self.doubts, found.doubts].concat()))
     }
 
-    fn ingredients(&self) -> Ingredients<'_> {
+    /// By finite elements where they are wanted and can be, else by boundary elements.
+    fn response(
+        &self,
+        resources: &Resources,
+        watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+    ) -> Result<(Method, Found), Error> {
+        let mut missed = None;
+        for &method in &self.finite {
+            match solve::response(&self.ingredients(method), resources, watch) {
+                Ok(found) => return Ok((method, found)),
+                Err(error @ Error::Model(palpate_mechanics::Error::BrokenOff)) => {
+                    return Err(error);
+                }
+                Err(error) => missed = Some(error),
+            }
+        }
+        let method = Method::BoundaryElements;
+        let mut found = solve::response(&self.ingredients(method), resources, watch)?;
+        found.doubts.extend(missed.map(|error| {
+            format!(
+                "the organ is solved by boundary elements, for finite elements have none: {error}"
+            )
+        }));
+        found.doubts.extend(self.walls.doubt());
+        Ok((method, found))
+    }
+
+    fn ingredients(&self, method: Method) -> Ingredients<'_> {
         Ingredients {
+            method,
             surface: &self.surface,
             poissons_ratio: self.poissons_ratio,
             held: &self.held,

@@ -2,10 +2,14 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use palpate_files::StoredResponse;
-use palpate_mechanics::boundary_elements::{BoundaryProblem, Panel, Progress as Solving, Stage};
-use palpate_mechanics::surface_response::{ResponseParts, SurfaceResponse, TouchableTriangle};
+use palpate_mechanics::boundary_elements::{BoundaryProblem, Progress as Solving, Stage};
+use palpate_mechanics::finite_elements::condensed::CondensedProblem;
+use palpate_mechanics::surface_response::{
+    ResponseParts, Sampling, SurfaceResponse, TouchableTriangle,
+};
 
 use super::key::Ingredients;
+use super::method::Method;
 use crate::{Error, Progress, Resources, Work};
 
 /// Where the response of `ingredients` is stored, or would be.
@@ -48,13 +52,7 @@ pub(super) fn response(
             Err(error) => doubts.push(format!("{error} (done just now)")),
         }
     }
-    let problem = BoundaryProblem {
-        surface: ingredients.surface,
-        poissons_ratio: ingredients.poissons_ratio,
-        held: ingredients.held,
-        touchable: ingredients.touchable,
-    };
-    let response = problem.solve(resources.memory, &mut |solving| watch(of_stage(solving)))?;
+    let response = solve(ingredients, resources.memory, watch)?;
     if let Some(place) = &file {
         tell(watch, Work::Storing)?;
         if let Err(error) = store(ingredients, &response, place) {
@@ -70,6 +68,39 @@ pub(super) fn response(
     })
 }
 
+fn solve(
+    ingredients: &Ingredients<'_>,
+    memory: usize,
+    watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+) -> Result<SurfaceResponse, Error> {
+    let &Ingredients {
+        surface,
+        poissons_ratio,
+        held,
+        touchable,
+        method,
+    } = ingredients;
+    let mut watch = |solving| watch(of_stage(solving, method));
+    let response = match method {
+        Method::BoundaryElements => BoundaryProblem {
+            surface,
+            poissons_ratio,
+            held,
+            touchable,
+        }
+        .solve(memory, &mut watch),
+        Method::FiniteElements { edge } => CondensedProblem {
+            surface,
+            poissons_ratio,
+            held,
+            touchable,
+            edge,
+        }
+        .solve(memory, &mut watch),
+    };
+    Ok(response?)
+}
+
 fn tell(watch: &mut dyn FnMut(Progress) -> ControlFlow<()>, work: Work) -> Result<(), Error> {
     match watch(Progress { work, part: 0.0 }) {
         ControlFlow::Continue(()) => Ok(()),
@@ -77,11 +108,12 @@ fn tell(watch: &mut dyn FnMut(Progress) -> ControlFlow<()>, work: Work) -> Resul
     }
 }
 
-fn of_stage(solving: Solving) -> Progress {
-    let work = match solving.stage {
-        Stage::Assembly => Work::Influences,
-        Stage::Factors => Work::Factors,
-        Stage::Columns => Work::Responses,
+fn of_stage(solving: Solving, method: Method) -> Progress {
+    let work = match (solving.stage, method) {
+        (Stage::Assembly, Method::BoundaryElements) => Work::Influences,
+        (Stage::Assembly, Method::FiniteElements { .. }) => Work::Tetrahedra,
+        (Stage::Factors, _) => Work::Factors,
+        (Stage::Columns, _) => Work::Responses,
     };
     Progress {
         work,
@@ -101,20 +133,15 @@ fn read(ingredients: &Ingredients<'_>, place: &Path) -> Result<SurfaceResponse, 
             path: place.to_owned(),
         });
     }
-    let mesh = ingredients.surface.mesh();
-    let touchable = ingredients.touchable.iter().filter_map(|&triangle| {
-        let panel = Panel::new(mesh.positions(triangle))?;
-        Some(TouchableTriangle {
-            triangle,
-            centroid: panel.centroid,
-            normal: panel.normal,
-            area: panel.area,
-        })
-    });
+    let of = |&triangle| TouchableTriangle::of(ingredients.surface, triangle);
     Ok(SurfaceResponse::new(ResponseParts {
         poissons_ratio: ingredients.poissons_ratio,
-        touchable: touchable.collect(),
+        touchable: ingredients.touchable.iter().filter_map(of).collect(),
         triangles: stored.triangles,
+        sampling: match ingredients.method {
+            Method::BoundaryElements => Sampling::Centroids,
+            Method::FiniteElements { .. } => Sampling::Means,
+        },
         displacements: stored.displacements.into_owned(),
     })?)
 }
@@ -132,8 +159,9 @@ fn store(
     let stored = StoredResponse {
         key: ingredients.key(),
         made_by: format!(
-            "palpate {}, boundary elements, {} triangles of which {} can be touched, Poisson's ratio {}",
+            "palpate {}, {}, {} triangles of which {} can be touched, Poisson's ratio {}",
             env!("CARGO_PKG_VERSION"),
+            ingredients.method.words(),
             parts.triangles,
             parts.touchable.len(),
             parts.poissons_ratio,

@@ -7,35 +7,81 @@ const COARSEST: f64 = 0.6;
 /// Part of the touchable triangles that may lie on thinner walls: rims are thin too [-].
 const FEW: f64 = 0.1;
 
-/// What deserves doubt where triangles are too large for the walls that they bound.
-pub(super) fn doubt(surface: &Surface, touchable: &[TriangleId]) -> Option<String> {
-    let mesh = surface.mesh();
-    let tree = AabbTree::new(mesh);
-    let (low, high) = mesh.bounds();
-    let reach = (high - low).norm();
-    let wall = |triangle: TriangleId| {
-        let [a, b, c] = mesh.positions(triangle);
-        let area = mesh.area_vector(triangle);
-        let edge = (2.0 * area.norm()).sqrt();
-        let inward: Vec3 = -area.normalize();
-        let start = (a + b + c) / 3.0 + inward * (1e-3 * edge);
-        let thickness = tree.cast(mesh, &start, &inward, reach)?.distance;
-        Some((edge, thickness)).filter(|(edge, thickness)| *edge > COARSEST * thickness)
-    };
-    let coarse: Vec<_> = touchable.iter().copied().filter_map(wall).collect();
-    if coarse.len() as f64 <= FEW * touchable.len() as f64 {
-        return None;
+/// Longest edge of tetrahedra in parts of a wall [-] (`docs/theory/condensed_elements.md`).
+const OF_A_WALL: f64 = 0.7;
+
+/// What lies under the triangles that can be touched.
+pub(super) struct Walls {
+    /// Size of a triangle and thickness of the body under it [m], for each that can be touched.
+    under: Vec<(f64, f64)>,
+    /// Those of triangles too large for their walls.
+    thin: Vec<(f64, f64)>,
+    /// Triangles of the surface.
+    triangles: usize,
+}
+
+impl Walls {
+    pub(super) fn new(surface: &Surface, touchable: &[TriangleId]) -> Self {
+        let mesh = surface.mesh();
+        let tree = AabbTree::new(mesh);
+        let (low, high) = mesh.bounds();
+        let reach = (high - low).norm();
+        let wall = |&triangle: &TriangleId| {
+            let [a, b, c] = mesh.positions(triangle);
+            let area = mesh.area_vector(triangle);
+            let edge = (2.0 * area.norm()).sqrt();
+            let inward: Vec3 = -area.normalize();
+            let start = (a + b + c) / 3.0 + inward * (1e-3 * edge);
+            let hit = tree.cast(mesh, &start, &inward, reach)?;
+            Some((edge, hit.distance))
+        };
+        let under: Vec<_> = touchable.iter().filter_map(wall).collect();
+        let thin = under.iter().copied();
+        let thin = thin.filter(|(edge, thickness)| *edge > COARSEST * thickness);
+        Self {
+            thin: thin.collect(),
+            under,
+            triangles: mesh.triangles().len(),
+        }
     }
-    let mean =
-        |of: fn(&(f64, f64)) -> f64| 1e3 * coarse.iter().map(of).sum::<f64>() / coarse.len() as f64;
-    let triangles = mesh.triangles().len();
-    Some(format!(
-        "{:.0} % of what can be touched are walls of {:.1} mm under triangles of {:.1} mm: more than 10 % too \
-         stiff where they bend; raise `model.mechanical_triangles` above {triangles}",
-        100.0 * coarse.len() as f64 / touchable.len() as f64,
-        mean(|(_, thickness)| *thickness),
-        mean(|(edge, _)| *edge),
-    ))
+
+    /// Whether they are too thin for boundary elements on these triangles.
+    pub(super) fn are_thin(&self) -> bool {
+        self.thin.len() as f64 > FEW * self.under.len() as f64
+    }
+
+    /// Longest edge of tetrahedra that bend as the walls do, and are no larger than a triangle [m].
+    pub(super) fn edge_of_tetrahedra(&self) -> f64 {
+        let walls = if self.are_thin() {
+            &self.thin
+        } else {
+            &self.under
+        };
+        let [size, thickness] = [median(walls, |wall| wall.0), median(walls, |wall| wall.1)];
+        size.min(OF_A_WALL * thickness)
+    }
+
+    /// What deserves doubt when boundary elements are taken.
+    pub(super) fn doubt(&self) -> Option<String> {
+        self.are_thin().then(|| {
+            format!(
+                "{:.0} % of what can be touched are walls of {:.1} mm under triangles of {:.1} mm: more than 10 % too \
+                 stiff where they bend by boundary elements; raise `model.mechanical_triangles` above {}, or \
+                 set `model.response` to \"finite_elements\"",
+                100.0 * self.thin.len() as f64 / self.under.len() as f64,
+                1e3 * median(&self.thin, |wall| wall.1),
+                1e3 * median(&self.thin, |wall| wall.0),
+                self.triangles,
+            )
+        })
+    }
+}
+
+/// The upper one of two; none of nothing is zero.
+fn median(walls: &[(f64, f64)], of: fn(&(f64, f64)) -> f64) -> f64 {
+    let mut values: Vec<f64> = walls.iter().map(of).collect();
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(0.0)
 }
 
 #[cfg(test)]
@@ -45,14 +91,18 @@ mod tests {
 
     #[test]
     fn a_thin_wall_is_doubted_and_a_solid_is_not() {
-        let doubted = |organ: Organ, triangles| {
+        let walls = |organ: Organ, triangles| {
             let surface = Surface::new(organ.surface_mesh(triangles).unwrap()).unwrap();
             let all: Vec<_> = surface.mesh().triangle_ids().collect();
-            doubt(&surface, &all)
+            Walls::new(&surface, &all)
         };
-        assert_eq!(doubted(Organ::Kidney, 1000), None);
-        let words = doubted(Organ::Esophagus, 1000).unwrap();
+        assert_eq!(walls(Organ::Kidney, 1000).doubt(), None);
+        let thin = walls(Organ::Esophagus, 1000);
+        let words = thin.doubt().unwrap();
         assert!(words.contains("mechanical_triangles` above"), "{words}");
-        assert_eq!(doubted(Organ::Esophagus, 20_000), None);
+        // A wall of 2.5 mm, which chords make thinner.
+        let edge = thin.edge_of_tetrahedra();
+        assert!(edge > 0.6 * OF_A_WALL * 2.5e-3 && edge < OF_A_WALL * 2.5e-3);
+        assert_eq!(walls(Organ::Esophagus, 20_000).doubt(), None);
     }
 }

@@ -17,3 +17,4 @@ mod invariants;
 mod no_allocation;
 mod scenes;
 mod slides;
+mod thin_walls;

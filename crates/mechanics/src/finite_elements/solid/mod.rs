@@ -24,6 +24,8 @@ mod run;
 mod solve;
 mod supports;
 
+pub(super) use mesh::{Face, faces};
+
 pub use answer::{SolidAnswer, SolidFields};
 pub use problem::{Body, MovedPatch, SolidProblem};
 pub use run::{solve, solve_at};

@@ -1,0 +1,264 @@
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use palpate_geometry::{AabbTree, FillSettings, Surface, TriangleId, fill};
+
+use super::super::mesh::ElementMesh;
+use super::super::model::{
+    FiniteElementModel, FiniteElementState, FiniteElementWorkspace, Formulation,
+};
+use super::super::newton;
+use super::super::supports::Supports;
+use super::projection::{Boundary, Projection};
+use crate::boundary_elements::{Precision, Progress, ResponseMemory, Stage, held_triangles};
+use crate::cores::{cores, on_all_cores};
+use crate::linear::sparse::Factors;
+use crate::surface_response::{ResponseParts, Sampling, SurfaceResponse, TouchableTriangle};
+use crate::{Error, LinearElastic, Vec3};
+
+/// Touchable triangles whose columns a core solves for at once.
+const AT_ONCE: usize = 16;
+
+/// Memory of a tetrahedron with its part of the factors in a wall of two of them [bytes].
+const OF_A_TETRAHEDRON: f64 = 40e3;
+
+/// A linear solid that is held in some triangles of its surface and can be touched in others, to be
+/// filled with tetrahedra.
+#[derive(Debug, Clone, Copy)]
+pub struct CondensedProblem<'a> {
+    /// Its surface.
+    pub surface: &'a Surface,
+    /// Poisson's ratio [-].
+    pub poissons_ratio: f64,
+    /// Triangles that cannot move.
+    pub held: &'a [TriangleId],
+    /// Triangles that a contact may load, ascending; none of them held.
+    pub touchable: &'a [TriangleId],
+    /// Longest edge of the tetrahedra [m]; seven tenths of a wall are short enough.
+    pub edge: f64,
+}
+
+/// K in factors, and the way from its unknowns to the triangles.
+struct Condensed {
+    factors: Factors,
+    projection: Projection,
+    /// Number of unknowns.
+    size: usize,
+    /// Where the displacements of each node stand among the unknowns in their order of elimination; none
+    /// of one that is held.
+    rows: Vec<Option<[usize; 3]>>,
+}
+
+impl CondensedProblem<'_> {
+    /// About how many tetrahedra fill the solid.
+    fn tetrahedra(&self) -> f64 {
+        12.0 * self.surface.mesh().volume() / self.edge.powi(3)
+    }
+
+    /// What a solution in `T` takes, about; of a thick solid it is more, which `solve` knows before it
+    /// makes the factors.
+    pub fn memory<T: Precision>(&self) -> ResponseMemory {
+        let rows = 3 * self.surface.mesh().triangles().len();
+        let response = rows * 3 * self.touchable.len() * size_of::<T>();
+        ResponseMemory {
+            response,
+            most: response + (OF_A_TETRAHEDRON * self.tetrahedra()) as usize,
+        }
+    }
+
+    /// Solves for a unit force on each touchable triangle in each direction. `memory` [bytes] is what may
+    /// be used. The factors are made on one core, their use on all of them.
+    ///
+    /// # Errors
+    /// When the memory does not suffice, the surface cannot be filled with tetrahedra of this size, nothing
+    /// is held or touchable, a touchable triangle is held, or `progress` breaks off, which it cannot while
+    /// the factors are made.
+    pub fn solve<T: Precision>(
+        &self,
+        memory: usize,
+        progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+    ) -> Result<SurfaceResponse<T>, Error> {
+        let triangles = self.surface.mesh().triangles().len();
+        let is_held = held_triangles(triangles, self.held, self.touchable)?;
+        let touchable: Vec<_> = self
+            .touchable
+            .iter()
+            .map(|&triangle| {
+                TouchableTriangle::of(self.surface, triangle).ok_or(Error::SliverTriangle {
+                    triangle: triangle.index(),
+                })
+            })
+            .collect::<Result<_, _>>()?;
+        let needed = self.memory::<T>();
+        if needed.most > memory {
+            return Err(Error::NotEnoughMemory {
+                needed: needed.most,
+                memory,
+            });
+        }
+        let condensed = self.condense(&is_held, (needed.response, memory), progress)?;
+        let sampling = Sampling::Means;
+        let mut parts = ResponseParts::zeros(self.poissons_ratio, touchable, triangles, sampling);
+        match self.columns(&condensed, &mut parts.displacements, progress) {
+            ControlFlow::Continue(()) => SurfaceResponse::new(parts),
+            ControlFlow::Break(()) => Err(Error::BrokenOff),
+        }
+    }
+
+    fn condense(
+        &self,
+        is_held: &[bool],
+        (response, memory): (usize, usize),
+        progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+    ) -> Result<Condensed, Error> {
+        let law = LinearElastic::new(1.0, self.poissons_ratio)?;
+        tell(progress, Stage::Assembly, 0.0)?;
+        let filling = fill(self.surface, &FillSettings::new(self.edge))?;
+        tell(progress, Stage::Assembly, 0.01)?;
+        let boundary = Boundary::new(&filling)?;
+        let projection = Projection::new(self.surface, &boundary);
+        let elements = ElementMesh::from_tetrahedra(&filling);
+        let held = self.held_nodes(is_held, &elements.nodes, (&boundary, &projection));
+        let model = FiniteElementModel::new(elements, Arc::new(law), Formulation::Mixed)?;
+        tell(progress, Stage::Assembly, 0.05)?;
+        let mut workspace = FiniteElementWorkspace::new(&model)?;
+        let size = model.size();
+        let at_once = 3 * AT_ONCE * cores() * size;
+        let numbers = workspace.factor_entries() + 4 * model.pattern.entries() + at_once;
+        let needed = response + size_of::<f64>() * numbers;
+        if needed > memory {
+            return Err(Error::NotEnoughMemory { needed, memory });
+        }
+        tell(progress, Stage::Factors, 0.1)?;
+        factor(&model, &held, &mut workspace)?;
+        tell(progress, Stage::Columns, COLUMNS_BEGIN)?;
+        let places = workspace.factors.places();
+        let row = |(node, &held): (usize, &bool)| {
+            (!held).then(|| [0, 1, 2].map(|axis| places[3 * node + axis]))
+        };
+        Ok(Condensed {
+            rows: held.iter().enumerate().map(row).collect(),
+            factors: workspace.factors,
+            projection,
+            size,
+        })
+    }
+
+    /// Whether each node is held: those of the boundary that are nearest to a held triangle, unless a
+    /// triangle that can be touched has no others.
+    fn held_nodes(
+        &self,
+        is_held: &[bool],
+        nodes: &[Vec3],
+        (boundary, projection): (&Boundary, &Projection),
+    ) -> Vec<bool> {
+        let mesh = self.surface.mesh();
+        let tree = AabbTree::new(mesh);
+        let mut held = vec![false; nodes.len()];
+        for node in boundary.nodes() {
+            held[node] = is_held[tree.nearest(mesh, &nodes[node]).triangle.index()];
+        }
+        for &triangle in self.touchable {
+            let own = projection.of(triangle);
+            if own.iter().all(|(node, _)| held[*node]) {
+                for (node, _) in own {
+                    held[*node] = false;
+                }
+            }
+        }
+        held
+    }
+
+    fn columns<T: Precision>(
+        &self,
+        condensed: &Condensed,
+        displacements: &mut [T],
+        progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        let rows = 3 * self.surface.mesh().triangles().len();
+        let mut solved = 0;
+        while solved < self.touchable.len() {
+            let many = (AT_ONCE * cores()).min(self.touchable.len() - solved);
+            let loaded = self.touchable[solved..solved + many].chunks(AT_ONCE);
+            let kept = displacements[3 * rows * solved..].chunks_mut(3 * rows * AT_ONCE);
+            on_all_cores(loaded.zip(kept), |(loaded, kept)| {
+                condensed.solve(loaded, self.surface, &mut kept[..3 * rows * loaded.len()]);
+            });
+            solved += many;
+            let part = solved as f64 / self.touchable.len() as f64;
+            progress(Progress {
+                stage: Stage::Columns,
+                part: COLUMNS_BEGIN + (1.0 - COLUMNS_BEGIN) * part,
+            })?;
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+/// Part of all the work that is done before the first column, where thousands of triangles can be
+/// touched [-].
+const COLUMNS_BEGIN: f64 = 0.2;
+
+fn tell(
+    progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+    stage: Stage,
+    part: f64,
+) -> Result<(), Error> {
+    match progress(Progress { stage, part }) {
+        ControlFlow::Continue(()) => Ok(()),
+        ControlFlow::Break(()) => Err(Error::BrokenOff),
+    }
+}
+
+/// Makes the factors of the stiffness with `held` nodes.
+fn factor(
+    model: &FiniteElementModel,
+    held: &[bool],
+    workspace: &mut FiniteElementWorkspace,
+) -> Result<(), Error> {
+    let mut supports = Supports::none(model);
+    for axis in 0..3 {
+        let nodes = (0..held.len()).filter(|&node| held[node]);
+        supports = supports.hold(model, nodes, axis, 0.0);
+    }
+    if supports.leave_free(model) {
+        return Err(Error::NothingHeld);
+    }
+    let rest = FiniteElementState::at_rest(model).unknowns;
+    let rows = newton::held_rows(model, &supports);
+    newton::assemble(model, &supports, &rest, workspace)
+        .and_then(|()| {
+            workspace.supported.copy_from_slice(&workspace.tangent);
+            workspace.step.fill(0.0);
+            newton::eliminate(model, &rows, workspace, &mut vec![0.0; model.size()]);
+            newton::factor(model, workspace)
+        })
+        .map_err(|_| Error::UnsoundResponse {
+            fault: "its stiffness has no factors",
+        })
+}
+
+impl Condensed {
+    /// Puts the columns of unit forces on `loaded` into `kept`.
+    fn solve<T: Precision>(&self, loaded: &[TriangleId], surface: &Surface, kept: &mut [T]) {
+        let width = 3 * loaded.len();
+        let mut sides = vec![0.0; self.size * width];
+        for (number, &triangle) in loaded.iter().enumerate() {
+            let sides = (sides.as_mut_slice(), width, 3 * number);
+            self.projection.load(triangle, &self.rows, sides);
+        }
+        self.factors.solve_many(&mut sides, width);
+        let mut means = vec![0.0; 3 * width];
+        let height = kept.len() / width;
+        for triangle in surface.mesh().triangle_ids() {
+            self.projection
+                .mean(triangle, &self.rows, (&sides, &mut means));
+            for (axis, means) in means.chunks_exact(width).enumerate() {
+                let row = 3 * triangle.index() + axis;
+                for (column, mean) in means.iter().enumerate() {
+                    kept[column * height + row] = T::of(*mean);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,53 @@
+use palpate_files::scene::ResponseMethod;
+use palpate_geometry::Surface;
+
+use super::walls::Walls;
+
+/// More tetrahedra are not tried: a wall of so many takes minutes, a thick body some gigabytes.
+const MOST_TETRAHEDRA: f64 = 25_000.0;
+
+/// Where a wall is lost between tetrahedra, ones with this part of the edge are tried [-], so many times
+/// in all.
+const SHORTER: f64 = 0.8;
+const TRIES: i32 = 3;
+
+/// How a response is solved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Method {
+    BoundaryElements,
+    /// With tetrahedra whose edges are no longer than this [m].
+    FiniteElements {
+        edge: f64,
+    },
+}
+
+impl Method {
+    /// Its name, for people.
+    pub(super) fn words(self) -> &'static str {
+        match self {
+            Self::BoundaryElements => "boundary elements",
+            Self::FiniteElements { .. } => "condensed finite elements",
+        }
+    }
+
+    /// Finite elements for `surface`, where they are wanted: the best first, the next where walls are lost
+    /// between its tetrahedra.
+    pub(super) fn finite(wanted: ResponseMethod, surface: &Surface, walls: &Walls) -> Vec<Self> {
+        let finite = match wanted {
+            ResponseMethod::Automatic => walls.are_thin(),
+            ResponseMethod::BoundaryElements => false,
+            ResponseMethod::FiniteElements => true,
+        };
+        if !finite {
+            return Vec::new();
+        }
+        let shortest = (12.0 * surface.mesh().volume() / MOST_TETRAHEDRA).cbrt();
+        // Where no wall bends, they need not be as small as the triangles.
+        let edge = walls.edge_of_tetrahedra().max(shortest);
+        (0..TRIES)
+            .map(|tries| edge * SHORTER.powi(tries))
+            .filter(|edge| *edge >= shortest)
+            .map(|edge| Self::FiniteElements { edge })
+            .collect()
+    }
+}
