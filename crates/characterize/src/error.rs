@@ -1,3 +1,5 @@
+use palpate_files::tissue::LawName;
+
 use crate::fit::Parameter;
 
 /// Why something cannot be found from a recording.
@@ -64,6 +66,36 @@ pub enum Error {
         /// The parameters there.
         parameters: Vec<Parameter>,
     },
+    /// There is no force, or no depth, that a law could be found from.
+    #[error(
+        "no force that grows with depth is found in the recording; check the signs and the units of depth and force"
+    )]
+    NothingFelt,
+    /// The recordings do not say something.
+    #[error(
+        "the recording does not say `{key}`; add the line `# {key} = ...` at its top, or state it with --set"
+    )]
+    Unknown {
+        /// The key.
+        key: &'static str,
+    },
+    /// A law that is not sought in tubes.
+    #[error("`{}` is not sought in a hollow organ, whose force takes minutes to solve for each shape of a law; use neo_hookean", .law.word())]
+    TubeLaw {
+        /// The law.
+        law: LawName,
+    },
+    /// An indenter that is not solved on a tube.
+    #[error("only a flat indenter is solved on a hollow organ; use a flat one")]
+    TubeIndenter,
+    /// An indenter that finite elements are not made for.
+    #[error(
+        "a cone is not solved by finite elements here; use its mean elastic modulus, or a flat or spherical indenter"
+    )]
+    Cone,
+    /// The mechanics have no answer.
+    #[error(transparent)]
+    Mechanics(#[from] palpate_mechanics::Error),
 }
 
 fn listed(parameters: &[Parameter]) -> String {

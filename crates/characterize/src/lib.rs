@@ -11,7 +11,11 @@ pub mod analyze;
 pub mod clean;
 mod error;
 pub mod fit;
+pub mod inverse;
+mod specimen;
+pub mod viscoelastic;
 
 pub use analyze::{Analysis, analyze};
 pub use clean::{CleanRecording, CleanSettings, clean};
 pub use error::Error;
+pub use specimen::{Characterization, CharacterizeSettings, characterize};

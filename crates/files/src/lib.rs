@@ -12,6 +12,7 @@
 //! The documents hold plain numbers. They know nothing of meshes, mechanics or devices, so that
 //! each verb (measure, characterize, simulate) can be used without the others.
 
+pub mod card;
 mod domain;
 mod error;
 mod estimate;

@@ -25,7 +25,7 @@ pub use material::linear_elastic::LinearElastic;
 pub use material::material::Material;
 pub use material::mooney_rivlin::MooneyRivlin;
 pub use material::neo_hookean::NeoHookean;
-pub use material::prony::{ForceHistory, MAX_TERMS, PronySeries};
+pub use material::prony::{ForceHistory, MAX_TERMS, PronySeries, branch};
 pub use material::volume::{Strain, Volume};
 pub use palpate_geometry::Vec3;
 pub use tip_law::{NormalForce, TipForce, TipLaw};

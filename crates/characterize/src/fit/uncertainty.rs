@@ -113,6 +113,17 @@ impl Whitened {
 }
 
 impl Uncertainty {
+    /// The covariance of all of so many parameters: nothing is uncertain of those that were not chosen.
+    pub fn of_all(&self, parameters: usize) -> DMatrix<f64> {
+        let mut all = DMatrix::zeros(parameters, parameters);
+        for (row, &i) in self.chosen.iter().enumerate() {
+            for (column, &j) in self.chosen.iter().enumerate() {
+                all[(i, j)] = self.covariance[(row, column)];
+            }
+        }
+        all
+    }
+
     /// Degrees of freedom of Student's distribution: the samples that are left [-].
     pub fn degrees_of_freedom(&self) -> f64 {
         (self.effective_samples - self.chosen.len() as f64).max(1.0)

@@ -19,4 +19,7 @@ mod relaxation;
 mod ripple;
 mod segments;
 mod sinusoid;
+mod specimen;
 mod static_response;
+mod tables;
+mod viscoelastic;

@@ -110,3 +110,26 @@ pub struct RecordingHeader {
     /// Keys that mean nothing here and are kept.
     pub extra: Vec<ExtraKey>,
 }
+
+impl RecordingHeader {
+    /// The same, with what it does not say taken from `other`.
+    pub fn completed_by(mut self, other: &Self) -> Self {
+        macro_rules! complete {
+            ($($field:ident)*) => {
+                $(if self.$field.is_none() {
+                    self.$field.clone_from(&other.$field);
+                })*
+            };
+        }
+        complete!(
+            organ subject weight_kg site repeat
+            condition post_mortem_s breath_held stimulus ramp_s
+            amplitude_m pre_indentation_m frequency_hz end_frequency_hz sample_rate_hz
+            indenter_shape indenter_radius_m indenter_half_angle_deg area_m2 height_m
+            specimen inner_radius_m outer_radius_m length_m pressure_pa
+            source
+        );
+        self.extra.extend(other.extra.iter().cloned());
+        self
+    }
+}

@@ -1,0 +1,187 @@
+use palpate_mechanics::finite_elements::indentation::{
+    Block, IndentationRun, IndentationSettings, Indenter,
+};
+use palpate_mechanics::finite_elements::tube::{Ends, Tube, TubeProblem, TubePunch, indent};
+use palpate_mechanics::{IndentationCurve, PronySeries};
+
+use super::body::Body;
+use super::law::SoughtLaw;
+use super::tables;
+use crate::Error;
+
+/// Elastic force per unit of the modulus [m²] over the depth [m], of one shape.
+#[derive(Debug, Clone, PartialEq)]
+pub struct UnitCurve {
+    /// The shape [-].
+    pub shape: f64,
+    /// The force.
+    pub force: IndentationCurve,
+    /// Its change with the shape; zero where the law has none.
+    pub by_shape: IndentationCurve,
+    /// Part of the force that the elements may be off [-].
+    pub discretisation: f64,
+}
+
+/// Where unit curves come from: what has been solved is kept, what has been tabulated is not solved.
+#[derive(Debug, Clone)]
+pub struct Curves {
+    body: Body,
+    law: SoughtLaw,
+    /// Down to which they are known [m].
+    deepest: f64,
+    direct: bool,
+    kept: Vec<(f64, UnitCurve)>,
+    solves: usize,
+}
+
+/// Depths of a curve, in radii of the indenter [-], until they grow by the last step.
+const DEPTHS: [f64; 5] = [0.1, 0.25, 0.5, 0.75, 1.0];
+const STEP: f64 = 0.5;
+/// Depths of a curve of a tube.
+const TUBE_DEPTHS: usize = 6;
+/// What is asked of a tube's force [-]: as much as meshes give that take seconds.
+const TUBE_ACCURACY: f64 = 0.1;
+
+impl Curves {
+    /// Of `law` in `body` down to `deepest` [m].
+    pub fn new(body: Body, law: SoughtLaw, deepest: f64) -> Self {
+        Self {
+            body,
+            law,
+            deepest,
+            direct: false,
+            kept: Vec::new(),
+            solves: 0,
+        }
+    }
+
+    /// The same, every curve solved by finite elements although it has been tabulated.
+    pub fn directly(self) -> Self {
+        Self {
+            direct: true,
+            ..self
+        }
+    }
+
+    /// The law.
+    pub fn law(&self) -> SoughtLaw {
+        self.law
+    }
+
+    /// How many runs of finite elements it took so far.
+    pub fn solves(&self) -> usize {
+        self.solves
+    }
+
+    /// The curve of `shape` [-] at a `modulus` [Pa], which matters only under pressure: an infinite one feels none.
+    ///
+    /// # Errors
+    /// When no equilibrium is found down to the deepest depth.
+    pub fn of(&mut self, modulus: f64, shape: f64) -> Result<UnitCurve, Error> {
+        if let Some((_, known)) = self.kept.iter().find(|(at, known)| {
+            known.shape == shape && (*at == modulus || !self.depend_on_modulus())
+        }) {
+            return Ok(known.clone());
+        }
+        let tabulated = if self.direct {
+            None
+        } else {
+            tables::curve(&self.body, self.law, shape, self.deepest)
+        };
+        let curve = match (tabulated, self.body) {
+            (Some(curve), _) => curve,
+            (None, Body::Block { block, indenter }) => {
+                self.solve_block((block, indenter), shape)?
+            }
+            (
+                None,
+                Body::Tube {
+                    tube,
+                    radius,
+                    face,
+                    pressure,
+                },
+            ) => {
+                let punch = TubePunch {
+                    radius,
+                    face,
+                    pressure: pressure / modulus,
+                    depths: tube_depths(self.deepest),
+                };
+                self.solve_tube(tube, &punch, shape)?
+            }
+        };
+        self.kept.push((modulus, curve.clone()));
+        Ok(curve)
+    }
+
+    /// Whether a curve is that of one modulus alone: under pressure.
+    pub(super) fn depend_on_modulus(&self) -> bool {
+        matches!(self.body, Body::Tube { pressure, .. } if pressure > 0.0)
+    }
+
+    fn depths(&self) -> Vec<f64> {
+        let last = self.deepest / self.body.radius();
+        let further = (3..).map(|i| STEP * f64::from(i)).take_while(|x| *x < last);
+        let inner = DEPTHS.into_iter().take_while(|x| *x < last);
+        let all = inner.chain(further).chain([last]);
+        all.map(|x| x * self.body.radius()).collect()
+    }
+
+    fn solve_block(
+        &mut self,
+        (block, indenter): (Block, Indenter),
+        shape: f64,
+    ) -> Result<UnitCurve, Error> {
+        self.solves += 1;
+        let mut run = IndentationRun::new(&IndentationSettings {
+            block,
+            indenter,
+            law: self.law.unit(shape)?,
+            prony: PronySeries::default(),
+            halvings: 0,
+        })?
+        .with_sensitivities();
+        let (mut depths, mut forces, mut slopes) = (Vec::new(), Vec::new(), Vec::new());
+        for depth in self.depths() {
+            let point = run.press(depth, depth, |_| ())?;
+            // The elements are too stiff at the punch's edge, about alike for every law.
+            let right = tables::correction(&self.body, depth);
+            depths.push(depth);
+            forces.push(right * point.force);
+            slopes.push(right * self.law.by_shape(&point.by_parameter));
+        }
+        Ok(UnitCurve {
+            shape,
+            force: IndentationCurve::through(&depths, &forces),
+            by_shape: IndentationCurve::through(&depths, &slopes),
+            discretisation: tables::discretisation(&self.body),
+        })
+    }
+    fn solve_tube(
+        &mut self,
+        tube: Tube,
+        punch: &TubePunch,
+        shape: f64,
+    ) -> Result<UnitCurve, Error> {
+        self.solves += 1;
+        let problem = TubeProblem {
+            tube,
+            law: self.law.unit(shape)?,
+            ends: Ends::Held,
+        };
+        let found = indent(&problem, punch, TUBE_ACCURACY, &mut |_| ())?;
+        Ok(UnitCurve {
+            shape,
+            force: IndentationCurve::through(&punch.depths, &found.answer.forces),
+            by_shape: IndentationCurve::untouched(),
+            discretisation: found.error,
+        })
+    }
+}
+
+fn tube_depths(deepest: f64) -> Vec<f64> {
+    (1..=TUBE_DEPTHS)
+        .map(|i| deepest * i as f64 / TUBE_DEPTHS as f64)
+        .collect()
+}

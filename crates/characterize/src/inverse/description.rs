@@ -1,0 +1,139 @@
+use nalgebra::{DMatrix, Matrix2};
+use palpate_files::Estimate;
+
+use super::forces::Indentation;
+use super::law::LawParameter;
+use super::law_fit::LawFit;
+use crate::fit::{
+    Fit, Parameter, Uncertainty, correlated_uncertainty, doubts, information_criterion,
+};
+
+/// A law that was found, in its own parameters, and how well they are known.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LawDescription {
+    /// How it was found.
+    pub found: LawFit,
+    /// Its parameters in the order of its keys, each with its name and its error by noise.
+    pub parameters: Vec<(&'static str, Estimate)>,
+    /// What the parameters may be off by the elements [unit of each]: not in their errors.
+    pub discretisation: Vec<f64>,
+    /// Correlation of the first two parameters [-]; none of one alone.
+    pub correlation: Option<f64>,
+    /// Σ ε² [N²].
+    pub sum_of_squares: f64,
+    /// The part of the force that the law does not follow: its root mean square over the largest [-].
+    pub misfit: f64,
+    /// How many independent samples would tell as much [-].
+    pub effective_samples: f64,
+    /// What deserves doubt.
+    pub doubts: Vec<String>,
+}
+
+/// A misfit from which on a law is said to miss the curve [-].
+const MISSES: f64 = 0.05;
+
+impl LawDescription {
+    /// Of a fit to `indentations`.
+    pub fn of(found: LawFit, indentations: &[Indentation<'_>]) -> Self {
+        let lengths: Vec<usize> = indentations.iter().map(|each| each.time.len()).collect();
+        let own = in_its_parameters(&found);
+        let uncertainty = correlated_uncertainty(&own, &lengths);
+        let each = found.law.parameters(found.modulus(), found.shape());
+        let known = |(place, parameter): (usize, &LawParameter)| {
+            let estimate = Estimate {
+                value: parameter.value,
+                standard_error: uncertainty.standard_error(place),
+            };
+            (parameter.name, estimate)
+        };
+        let largest = indentations
+            .iter()
+            .flat_map(|each| each.force)
+            .copied()
+            .fold(0.0, f64::max);
+        let sum_of_squares = own.sum_of_squares();
+        let misfit = (sum_of_squares / own.residuals.len() as f64).sqrt() / largest;
+        let mut said = doubts(&own, &among(&uncertainty, each.len()), None);
+        if misfit > MISSES {
+            said.push(format!(
+                "{} misses the shape of the force: {:.0} % of the largest force on average",
+                found.law.name().word(),
+                100.0 * misfit
+            ));
+        }
+        Self {
+            parameters: each.iter().enumerate().map(known).collect(),
+            discretisation: each
+                .iter()
+                .map(|p| found.discretisation * p.value.abs())
+                .collect(),
+            correlation: correlation(&uncertainty.of_all(own.parameters.len()), each.len()),
+            sum_of_squares,
+            misfit,
+            effective_samples: uncertainty.effective_samples,
+            doubts: said,
+            found,
+        }
+    }
+
+    /// Akaike's criterion [-], for comparison with other laws of the same recordings at the same number of
+    /// `effective_samples` [-].
+    pub fn criterion(&self, effective_samples: f64) -> f64 {
+        information_criterion(&self.found.fit, effective_samples)
+    }
+}
+
+/// The same fit in the law's own parameters; what follows them is left as it is.
+fn in_its_parameters(found: &LawFit) -> Fit {
+    let own = found.law.parameters(found.modulus(), found.shape());
+    let mut fit = found.fit.clone();
+    let shape_is_free = !found.fit.parameters[1].at_bound();
+    let named = |parameter: &LawParameter| {
+        let lower = if parameter.name.ends_with("_pa") {
+            0.0
+        } else {
+            f64::NEG_INFINITY
+        };
+        Parameter::new(parameter.name, parameter.value).within(lower, f64::INFINITY)
+    };
+    fit.parameters[0] = named(&own[0]);
+    let (modulus, shape) = (found.fit.jacobian.column(0), found.fit.jacobian.column(1));
+    let [first, second] = match own.get(1) {
+        None => [modulus.into_owned(), shape.into_owned()],
+        Some(second) if shape_is_free => {
+            fit.parameters[1] = named(second);
+            let back = Matrix2::from_rows(&[own[0].by.into(), second.by.into()]).try_inverse();
+            let back = back.unwrap_or_else(Matrix2::zeros);
+            [0, 1].map(|new| modulus * back[(0, new)] + shape * back[(1, new)])
+        }
+        // On its bound it is no estimate.
+        Some(second) => {
+            fit.parameters[1] = named(second).within(second.value, second.value);
+            [modulus / own[0].by[0], shape.into_owned()]
+        }
+    };
+    fit.jacobian.set_column(0, &first);
+    fit.jacobian.set_column(1, &second);
+    fit
+}
+
+/// What is known of the first `count` parameters.
+fn among(all: &Uncertainty, count: usize) -> Uncertainty {
+    let chosen: Vec<usize> = all.chosen.iter().copied().filter(|&i| i < count).collect();
+    let of = |matrix: &DMatrix<f64>| {
+        matrix
+            .view((0, 0), (chosen.len(), chosen.len()))
+            .into_owned()
+    };
+    Uncertainty {
+        covariance: of(&all.covariance),
+        unit_covariance: of(&all.unit_covariance),
+        effective_samples: all.effective_samples,
+        chosen,
+    }
+}
+
+fn correlation(covariance: &DMatrix<f64>, count: usize) -> Option<f64> {
+    let size = (covariance[(0, 0)] * covariance[(1, 1)]).sqrt();
+    (count > 1 && size > 0.0).then(|| covariance[(0, 1)] / size)
+}

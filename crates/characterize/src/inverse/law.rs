@@ -1,0 +1,102 @@
+use std::sync::Arc;
+
+use palpate_files::Estimate;
+use palpate_files::tissue::{Elasticity, LawName};
+use palpate_mechanics::{Blatz, Law, MooneyRivlin, NeoHookean};
+
+/// A law that can be sought: a modulus, which all force grows with, and perhaps a number for the shape of
+/// the force. Seen so, the two hardly disturb one another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum SoughtLaw {
+    /// The modulus is C₁₀.
+    NeoHookean,
+    /// The modulus is C₁₀ + C₀₁, the shape C₀₁ over it.
+    MooneyRivlin,
+    /// Blatz's exponential law: the modulus is γ, the shape α.
+    Exponential,
+}
+
+impl SoughtLaw {
+    /// All, the simplest first.
+    pub const ALL: [Self; 3] = [Self::NeoHookean, Self::MooneyRivlin, Self::Exponential];
+
+    /// Its name in files.
+    pub fn name(self) -> LawName {
+        match self {
+            Self::NeoHookean => LawName::NeoHookean,
+            Self::MooneyRivlin => LawName::MooneyRivlin,
+            Self::Exponential => LawName::Blatz,
+        }
+    }
+
+    /// Lower bound, start and upper bound of the shape [-]; none where there is none.
+    pub fn shapes(self) -> Option<[f64; 3]> {
+        match self {
+            Self::NeoHookean => None,
+            Self::MooneyRivlin => Some([0.0, 0.3, 0.75]),
+            Self::Exponential => Some([0.0, 0.5, 20.0]),
+        }
+    }
+
+    /// The law of unit modulus with a `shape` [-].
+    pub(super) fn unit(self, shape: f64) -> Result<Arc<dyn Law>, palpate_mechanics::Error> {
+        Ok(match self {
+            Self::NeoHookean => Arc::new(NeoHookean::incompressible(1.0)?),
+            Self::MooneyRivlin => Arc::new(MooneyRivlin::incompressible(1.0 - shape, shape)?),
+            Self::Exponential => Arc::new(Blatz::incompressible(1.0, shape)?),
+        })
+    }
+
+    /// Change of a force with the shape [N], from its changes with the parameters of the law.
+    pub(super) fn by_shape(self, by_parameter: &[f64]) -> f64 {
+        match self {
+            Self::NeoHookean => 0.0,
+            Self::MooneyRivlin => by_parameter[1] - by_parameter[0],
+            Self::Exponential => by_parameter[1],
+        }
+    }
+
+    /// The law's own parameters and their derivatives with modulus and shape, each a row.
+    pub fn parameters(self, modulus: f64, shape: f64) -> Vec<LawParameter> {
+        let of = |name, value, by| LawParameter { name, value, by };
+        match self {
+            Self::NeoHookean => vec![of("c10_pa", modulus, [1.0, 0.0])],
+            Self::MooneyRivlin => vec![
+                of("c10_pa", modulus * (1.0 - shape), [1.0 - shape, -modulus]),
+                of("c01_pa", modulus * shape, [shape, modulus]),
+            ],
+            Self::Exponential => vec![
+                of("gamma_pa", modulus, [1.0, 0.0]),
+                of("alpha", shape, [0.0, 1.0]),
+            ],
+        }
+    }
+
+    /// The law as files hold it, from its parameters in their order.
+    pub fn elasticity(self, parameters: &[Estimate]) -> Elasticity {
+        match self {
+            Self::NeoHookean => Elasticity::NeoHookean {
+                c10_pa: parameters[0],
+            },
+            Self::MooneyRivlin => Elasticity::MooneyRivlin {
+                c10_pa: parameters[0],
+                c01_pa: parameters[1],
+            },
+            Self::Exponential => Elasticity::Blatz {
+                gamma_pa: parameters[0],
+                alpha: parameters[1],
+            },
+        }
+    }
+}
+
+/// A parameter of a law, by the name that files give it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LawParameter {
+    /// Its name, with its unit.
+    pub name: &'static str,
+    /// Its value [unit of its name].
+    pub value: f64,
+    /// Its change with the modulus and with the shape [unit of its name].
+    pub by: [f64; 2],
+}

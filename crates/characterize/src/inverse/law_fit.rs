@@ -1,0 +1,157 @@
+use nalgebra::DMatrix;
+use palpate_mechanics::PronySeries;
+
+use super::curves::Curves;
+use super::forces::{self, Indentation};
+use super::law::SoughtLaw;
+use crate::Error;
+use crate::fit::{Fit, Parameter, Settings, least_squares_with_jacobian};
+
+/// A law that was found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LawFit {
+    /// Which.
+    pub law: SoughtLaw,
+    /// The modulus [Pa] and the shape [-], and after them the relaxation that was given, as ratios and
+    /// logarithms of times: free, so that its doubt is part of theirs.
+    pub fit: Fit,
+    /// Forces of the law in each recording [N].
+    pub forces: Vec<Vec<f64>>,
+    /// How many runs of finite elements it took.
+    pub solves: usize,
+    /// Part of the force that the elements may be off [-].
+    pub discretisation: f64,
+}
+
+impl LawFit {
+    /// The modulus [Pa].
+    pub fn modulus(&self) -> f64 {
+        self.fit.parameters[0].value
+    }
+
+    /// The shape [-].
+    pub fn shape(&self) -> f64 {
+        self.fit.parameters[1].value
+    }
+}
+
+/// Relative change of the parameters below which a fit has arrived [-]: far less than they are known.
+const TOLERANCE: f64 = 1e-6;
+/// Rounds in which the modulus under pressure is found, and the change at which they end [-].
+const ROUNDS: usize = 6;
+const SETTLED: f64 = 1e-3;
+
+/// The law of `curves` that comes nearest to `indentations` of a tissue that relaxes by `series`.
+///
+/// # Errors
+/// When the body cannot be indented like that, or nothing is felt.
+pub fn law_fit(
+    curves: &mut Curves,
+    indentations: &[Indentation<'_>],
+    series: &PronySeries,
+) -> Result<LawFit, Error> {
+    let mut modulus = start(curves, indentations, series)?;
+    let mut found = from(curves, indentations, series, modulus)?;
+    // Under pressure the curve is that of one modulus.
+    for _ in 0..ROUNDS {
+        let change = (found.modulus() / modulus - 1.0).abs();
+        if !curves.depend_on_modulus() || change < SETTLED {
+            break;
+        }
+        modulus = found.modulus();
+        found = from(curves, indentations, series, modulus)?;
+    }
+    Ok(found)
+}
+
+/// The modulus [Pa] with which the force of the first shape is nearest: force is linear in it.
+fn start(
+    curves: &mut Curves,
+    indentations: &[Indentation<'_>],
+    series: &PronySeries,
+) -> Result<f64, Error> {
+    let shape = curves.law().shapes().map_or(0.0, |shapes| shapes[1]);
+    let curve = curves.of(f64::INFINITY, shape)?;
+    let (mut products, mut squares) = (0.0, 0.0);
+    for each in indentations {
+        let (unit, _) = forces::forces((each.time, each.depth), &curve, 1.0, series);
+        for (unit, force) in unit.iter().zip(each.force) {
+            products += unit * force;
+            squares += unit * unit;
+        }
+    }
+    let modulus = products / squares;
+    if modulus > 0.0 && modulus.is_finite() {
+        Ok(modulus)
+    } else {
+        Err(Error::NothingFelt)
+    }
+}
+
+fn from(
+    curves: &mut Curves,
+    indentations: &[Indentation<'_>],
+    series: &PronySeries,
+    modulus: f64,
+) -> Result<LawFit, Error> {
+    let law = curves.law();
+    let parameters = parameters(law, series, modulus);
+    let samples = indentations.iter().map(|each| each.time.len()).sum();
+    let settings = Settings {
+        tolerance: TOLERANCE,
+        ..Settings::default()
+    };
+    let mut evaluate = |values: &[f64], residuals: &mut [f64], jacobian: &mut DMatrix<f64>| {
+        let curve = curves.of(modulus, values[1]).ok()?;
+        let mut start = 0;
+        for each in indentations {
+            let course = (each.time, each.depth);
+            let (forces, columns) = forces::forces(course, &curve, values[0], series);
+            forces::write(&columns, start, jacobian);
+            for (row, force) in forces.iter().enumerate() {
+                residuals[start + row] = force - each.force[row];
+            }
+            start += forces.len();
+        }
+        residuals.iter().all(|r| r.is_finite()).then_some(())
+    };
+    let mut fit = least_squares_with_jacobian(&parameters, samples, &settings, &mut evaluate)?;
+    let values: Vec<f64> = fit.parameters.iter().map(|p| p.value).collect();
+    // The columns of what was fixed were not asked for.
+    evaluate(&values, &mut fit.residuals, &mut fit.jacobian);
+    for parameter in fit.parameters.iter_mut().skip(2) {
+        parameter.fixed = false;
+    }
+    let curve = curves.of(modulus, values[1])?;
+    let of_each = |each: &Indentation<'_>| {
+        forces::forces((each.time, each.depth), &curve, values[0], series).0
+    };
+    Ok(LawFit {
+        law,
+        fit,
+        forces: indentations.iter().map(of_each).collect(),
+        solves: curves.solves(),
+        discretisation: curve.discretisation,
+    })
+}
+
+fn parameters(law: SoughtLaw, series: &PronySeries, modulus: f64) -> Vec<Parameter> {
+    let first = Parameter::new("modulus_pa", modulus).within(0.0, f64::INFINITY);
+    let second = match law.shapes() {
+        Some([lower, start, upper]) => Parameter::new("shape", start)
+            .within(lower, upper)
+            .scaled(1.0),
+        None => Parameter::new("shape", 0.0).fixed(),
+    };
+    let left = 1.0 - series.terms().iter().map(|(g, _)| g).sum::<f64>();
+    let relaxation = series
+        .terms()
+        .iter()
+        .enumerate()
+        .flat_map(|(place, (g, tau))| {
+            let ratio = Parameter::new(format!("ratio_{}", place + 1), g / left);
+            let time = Parameter::new(format!("log_tau_{}", place + 1), tau.ln()).scaled(1.0);
+            [ratio.fixed(), time.fixed()]
+        });
+    [first, second].into_iter().chain(relaxation).collect()
+}

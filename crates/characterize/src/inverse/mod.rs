@@ -1,0 +1,29 @@
+//! The law of a tissue from the force of an indentation: inverse finite elements (section 6.4.3).
+//!
+//! All force grows with the modulus M, so with a punch of radius a the elastic force is
+//!   Fₑ(d) = M f(d; w),
+//! f from finite elements, once for each shape w of the law ([`Curves`]); the relaxed force is its
+//! convolution with a relaxation that is known already ([`crate::viscoelastic`]). [`law_fit`] looks for M and
+//! w. ∂f/∂w comes from the factors that the run has made, so that no run is made to find a slope. The
+//! source's own iteration (6.16), with runs of perturbed parameters, is beside it.
+//!
+//! *How we know*: `inverse::…`: forces of full viscoelastic runs, at other meshes and Poisson's ratios.
+//!
+//! *Limits*: one law and one relaxation for the whole body, homogeneous, isotropic and incompressible; the
+//! block's size is assumed; a tube has no other law than the neo-Hookean.
+
+mod body;
+mod curves;
+mod description;
+mod forces;
+mod law;
+mod law_fit;
+mod tables;
+
+pub use body::{BLOCK, Body};
+pub use curves::{Curves, UnitCurve};
+pub use description::LawDescription;
+pub use forces::Indentation;
+pub use law::{LawParameter, SoughtLaw};
+pub use law_fit::{LawFit, law_fit};
+pub use tables::{PUNCH, SHAPES};

@@ -1,0 +1,115 @@
+//! Forces under a bonded punch that need no run, found by `tables::…` (the tests that make them again).
+
+use palpate_mechanics::IndentationCurve;
+
+use super::body::Body;
+use super::curves::UnitCurve;
+use super::law::SoughtLaw;
+
+/// Shapes C₀₁/(C₁₀ + C₀₁) of the columns [-]; the first is neo-Hookean.
+pub const SHAPES: [f64; 5] = [0.0, 0.1, 0.25, 0.5, 0.75];
+
+/// Depth [radii]; force of neo-Hookean tissue, over C₁₀ a² [-], extrapolated to elements of no size from the
+/// coarsest mesh and the one with every element halved; force over (C₁₀ + C₀₁) a² for each of [`SHAPES`] on
+/// the coarsest mesh.
+pub const PUNCH: [(f64, f64, [f64; 5]); 19] = [
+    (0.1, 1.586, [1.589, 1.591, 1.595, 1.601, 1.607]),
+    (0.25, 3.915, [3.912, 3.928, 3.952, 3.990, 4.028]),
+    (0.5, 7.750, [7.739, 7.803, 7.896, 8.044, 8.185]),
+    (0.75, 11.443, [11.506, 11.650, 11.858, 12.187, 12.496]),
+    (1.0, 15.176, [15.176, 15.433, 15.801, 16.372, 16.910]),
+    (1.5, 22.478, [22.569, 23.156, 23.977, 25.226, 26.366]),
+    (2.0, 29.829, [30.033, 31.095, 32.543, 34.687, 36.599]),
+    (2.5, 37.438, [37.633, 39.322, 41.553, 44.781, 47.623]),
+    (3.0, 45.230, [45.491, 47.976, 51.148, 55.611, 59.461]),
+    (3.5, 53.200, [53.703, 57.177, 61.415, 67.263, 72.259]),
+    (4.0, 61.644, [62.299, 66.974, 72.430, 79.742, 85.890]),
+    (4.5, 70.505, [71.365, 77.341, 84.165, 93.157, 100.621]),
+    (5.0, 79.719, [80.718, 88.355, 96.555, 107.285, 116.166]),
+    (5.5, 89.185, [90.711, 100.289, 109.901, 122.326, 132.636]),
+    (6.0, 99.889, [100.526, 112.629, 123.877, 138.178, 150.061]),
+    (6.5, 110.128, [111.370, 125.539, 138.606, 154.820, 168.137]),
+    (7.0, 121.021, [123.012, 139.201, 154.060, 172.265, 186.239]),
+    (7.5, 132.636, [134.945, 152.931, 170.463, 190.855, 205.563]),
+    (8.0, 144.105, [146.873, 167.722, 187.354, 210.168, 226.475]),
+];
+
+/// How much too stiff the coarsest mesh is per radius of depth [-]: the trend of the table's columns.
+const TOO_STIFF: f64 = 0.0024;
+/// What is left of that [-]: the scatter about the trend, and that of other laws.
+const LEFT: f64 = 0.004;
+/// What the coarsest mesh is off under other indenters [-], which have not been tabulated.
+const COARSE: f64 = 0.015;
+
+/// The tabulated curve of `law` in `body` down to `deepest` [m]; none where there is none.
+pub(super) fn curve(body: &Body, law: SoughtLaw, shape: f64, deepest: f64) -> Option<UnitCurve> {
+    let radius = body.radius();
+    let last = PUNCH[PUNCH.len() - 1].0;
+    if *body != Body::under_punch(radius) || deepest > last * radius {
+        return None;
+    }
+    let depths: Vec<f64> = PUNCH.iter().map(|row| row.0 * radius).collect();
+    let through = |values: Vec<f64>| {
+        let forces: Vec<f64> = values.iter().map(|value| value * radius * radius).collect();
+        IndentationCurve::through(&depths, &forces)
+    };
+    let (force, by_shape) = match law {
+        SoughtLaw::NeoHookean => {
+            let force = PUNCH.iter().map(|row| row.1);
+            (through(force.collect()), IndentationCurve::untouched())
+        }
+        SoughtLaw::MooneyRivlin => {
+            let of = |row: &(f64, f64, [f64; 5])| {
+                let right = 1.0 - TOO_STIFF * row.0;
+                let (value, slope) = polynomial(&row.2, shape);
+                (right * value, right * slope)
+            };
+            let (forces, slopes) = PUNCH.iter().map(of).unzip();
+            (through(forces), through(slopes))
+        }
+        SoughtLaw::Exponential => return None,
+    };
+    Some(UnitCurve {
+        shape,
+        force,
+        by_shape,
+        discretisation: LEFT,
+    })
+}
+
+/// By what a force on the coarsest mesh at `depth` [m] has to be multiplied [-].
+pub(super) fn correction(body: &Body, depth: f64) -> f64 {
+    let radius = body.radius();
+    if *body == Body::under_punch(radius) {
+        1.0 - TOO_STIFF * depth / radius
+    } else {
+        1.0
+    }
+}
+
+/// What is left wrong on the coarsest mesh after that [-].
+pub(super) fn discretisation(body: &Body) -> f64 {
+    if *body == Body::under_punch(body.radius()) {
+        LEFT
+    } else {
+        COARSE
+    }
+}
+
+/// The polynomial through `values` at [`SHAPES`], and its slope.
+fn polynomial(values: &[f64; 5], at: f64) -> (f64, f64) {
+    let (mut sum, mut slope) = (0.0, 0.0);
+    for (i, value) in values.iter().enumerate() {
+        let (mut weight, mut weight_slope) = (1.0, 0.0);
+        for (j, other) in SHAPES.iter().enumerate() {
+            if j != i {
+                let width = SHAPES[i] - other;
+                weight_slope = weight_slope * (at - other) / width + weight / width;
+                weight *= (at - other) / width;
+            }
+        }
+        sum += weight * value;
+        slope += weight_slope * value;
+    }
+    (sum, slope)
+}

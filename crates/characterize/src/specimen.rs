@@ -1,0 +1,218 @@
+//! All that is found about one specimen from its recordings.
+//!
+//! ```text
+//! CleanRecordings ─▶ relaxation ─▶ laws, given the relaxation ─▶ Characterization
+//! ```
+
+use palpate_files::recording::{IndenterShape, RecordingHeader, Specimen, Stimulus};
+use palpate_mechanics::finite_elements::indentation::Grip;
+use palpate_mechanics::finite_elements::tube::Tube;
+
+use crate::clean::SegmentKind;
+use crate::inverse::{Body, Curves, Indentation, LawDescription, SoughtLaw, law_fit};
+use crate::viscoelastic::{
+    Course, Relaxation, RelaxationSettings, relaxation, relaxation_of_steps,
+};
+use crate::{CleanRecording, Error};
+
+/// What may be chosen about a characterization.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CharacterizeSettings {
+    /// How relaxation is sought.
+    pub relaxation: RelaxationSettings,
+    /// The laws that are sought.
+    pub laws: Vec<SoughtLaw>,
+}
+
+impl Default for CharacterizeSettings {
+    fn default() -> Self {
+        Self {
+            relaxation: RelaxationSettings::default(),
+            laws: SoughtLaw::ALL.to_vec(),
+        }
+    }
+}
+
+/// What was found about one specimen. Where nothing was, the reason stands.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Characterization {
+    /// How it relaxes.
+    pub relaxation: Result<Relaxation, Error>,
+    /// The same if every ramp is taken for a step.
+    pub relaxation_of_steps: Result<Relaxation, Error>,
+    /// The laws that were sought, in their order.
+    pub laws: Vec<(SoughtLaw, Result<LawDescription, Error>)>,
+    /// What can be told apart and what cannot, in plain sentences.
+    pub identifiability: Vec<String>,
+    /// What else deserves doubt, in plain sentences.
+    pub doubts: Vec<String>,
+}
+
+/// Characterizes one specimen from all its `recordings`; `at_step` hears what is being done.
+pub fn characterize(
+    recordings: &[CleanRecording],
+    settings: &CharacterizeSettings,
+    at_step: &mut dyn FnMut(&'static str),
+) -> Characterization {
+    let pressed: Vec<Pressed> = recordings.iter().filter_map(Pressed::of).collect();
+    let body = body(recordings);
+    at_step("relaxation");
+    let courses = courses(&pressed, body.as_ref().ok().copied());
+    let relaxing = relaxation(&courses, settings.relaxation);
+    let of_steps = relaxation_of_steps(&courses, settings.relaxation);
+    let mut found = Characterization {
+        relaxation: relaxing,
+        relaxation_of_steps: of_steps,
+        laws: Vec::new(),
+        identifiability: Vec::new(),
+        doubts: Vec::new(),
+    };
+    for &law in &settings.laws {
+        at_step(law.name().word());
+        let answer = body
+            .clone()
+            .and_then(|body| sought(law, body, &pressed, &found.relaxation));
+        found.laws.push((law, answer));
+    }
+    found.speak(&pressed);
+    found
+}
+
+fn sought(
+    law: SoughtLaw,
+    body: Body,
+    pressed: &[Pressed],
+    relaxation: &Result<Relaxation, Error>,
+) -> Result<LawDescription, Error> {
+    if matches!(body, Body::Tube { .. }) && law != SoughtLaw::NeoHookean {
+        return Err(Error::TubeLaw { law: law.name() });
+    }
+    let relaxation = relaxation.as_ref().map_err(Clone::clone)?;
+    let deepest = pressed.iter().map(Pressed::deepest).fold(0.0, f64::max);
+    let mut curves = Curves::new(body, law, deepest);
+    let indentations: Vec<Indentation<'_>> = pressed.iter().map(Pressed::indentation).collect();
+    let fit = law_fit(&mut curves, &indentations, &relaxation.series)?;
+    Ok(LawDescription::of(fit, &indentations))
+}
+
+/// What of a recording is fitted: from first contact to where the indenter goes back.
+struct Pressed {
+    time: Vec<f64>,
+    depth: Vec<f64>,
+    force: Vec<f64>,
+    largest: f64,
+}
+
+impl Pressed {
+    fn of(recording: &CleanRecording) -> Option<Self> {
+        if recording.header.stimulus == Some(Stimulus::Uniaxial) {
+            return None;
+        }
+        let first = recording.time.iter().position(|t| *t >= 0.0)?;
+        let back = recording
+            .segments
+            .iter()
+            .rposition(|s| s.kind != SegmentKind::Retreat);
+        let end = back.map_or(recording.time.len(), |place| recording.segments[place].end);
+        let of = |values: &[f64]| values.get(first..end).map(<[f64]>::to_vec);
+        let largest = recording.filtered_force.get(first..end)?;
+        Some(Self {
+            time: of(&recording.time)?,
+            depth: of(&recording.depth)?.iter().map(|d| d.max(0.0)).collect(),
+            force: of(&recording.force)?,
+            largest: largest.iter().copied().fold(0.0, f64::max),
+        })
+    }
+
+    fn deepest(&self) -> f64 {
+        self.depth.iter().copied().fold(0.0, f64::max)
+    }
+
+    fn indentation(&self) -> Indentation<'_> {
+        Indentation {
+            time: &self.time,
+            depth: &self.depth,
+            force: &self.force,
+        }
+    }
+}
+
+/// The courses of relaxation; the elastic force is taken for that of neo-Hookean tissue, where the body is
+/// known, and for a linear one else.
+fn courses(pressed: &[Pressed], body: Option<Body>) -> Vec<Course> {
+    let deepest = pressed.iter().map(Pressed::deepest).fold(0.0, f64::max);
+    let tabulated = body.filter(|body| matches!(body, Body::Block { .. }));
+    let curve = tabulated.and_then(|body| {
+        Curves::new(body, SoughtLaw::NeoHookean, deepest)
+            .of(f64::INFINITY, 0.0)
+            .ok()
+    });
+    let each = pressed.iter().filter_map(|each| {
+        let course = (&each.time[..], &each.depth[..], &each.force[..]);
+        match &curve {
+            Some(curve) => Course::new(course, each.largest, |d| curve.force.force(d)),
+            None => Course::new(course, each.largest, |d| d),
+        }
+    });
+    each.collect()
+}
+
+/// What was indented: the same in all recordings.
+fn body(recordings: &[CleanRecording]) -> Result<Body, Error> {
+    let header = &recordings.first().ok_or(Error::NothingFelt)?.header;
+    let radius = header.indenter_radius_m;
+    let radius = radius.ok_or(Error::Unknown {
+        key: "indenter_radius_m",
+    })?;
+    let shape = header.indenter_shape.unwrap_or(IndenterShape::Flat);
+    match (header.specimen, shape) {
+        (Some(Specimen::Tube), IndenterShape::Flat) => tube(header, radius),
+        (Some(Specimen::Tube), _) => Err(Error::TubeIndenter),
+        (None, IndenterShape::Flat) => Ok(Body::under_punch(radius)),
+        (None, IndenterShape::Sphere) => Ok(Body::under_sphere(radius)),
+        (None, IndenterShape::Cone) => Err(Error::Cone),
+    }
+}
+
+fn tube(header: &RecordingHeader, radius: f64) -> Result<Body, Error> {
+    let known = |value: Option<f64>, key| value.ok_or(Error::Unknown { key });
+    Ok(Body::Tube {
+        tube: Tube {
+            length: known(header.length_m, "length_m")?,
+            inner_radius: known(header.inner_radius_m, "inner_radius_m")?,
+            outer_radius: known(header.outer_radius_m, "outer_radius_m")?,
+        },
+        radius,
+        face: Grip::Stick,
+        pressure: header.pressure_pa.unwrap_or(0.0),
+    })
+}
+
+impl Characterization {
+    /// The law to be preferred: the simplest that no other beats by the information criterion.
+    pub fn preferred(&self) -> Option<&LawDescription> {
+        let found = || self.laws.iter().filter_map(|(_, law)| law.as_ref().ok());
+        // What the nearest leaves is noise, so all are compared as if that noise had been seen.
+        let nearest = found().min_by(|a, b| a.sum_of_squares.total_cmp(&b.sum_of_squares))?;
+        let criterion = |law: &LawDescription| law.criterion(nearest.effective_samples);
+        let least = found().map(criterion).fold(f64::INFINITY, f64::min);
+        found().find(|law| criterion(law) <= least + WORTH)
+    }
+
+    fn speak(&mut self, pressed: &[Pressed]) {
+        let longest = pressed.iter().filter_map(|each| each.time.last().copied());
+        let duration = longest.fold(0.0, f64::max);
+        if let Ok(relaxation) = &self.relaxation {
+            self.identifiability.extend(relaxation.doubts(duration));
+        }
+        for (_, law) in &self.laws {
+            if let Ok(law) = law {
+                self.identifiability.extend(law.doubts.iter().cloned());
+            }
+        }
+        self.identifiability.dedup();
+    }
+}
+
+/// By how much a criterion must be less for a law with more parameters to be preferred [-].
+const WORTH: f64 = 10.0;

@@ -1,0 +1,222 @@
+use nalgebra::DMatrix;
+use palpate_mechanics::branch;
+
+/// One recording as its relaxation is seen: the force relative to its largest.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Course {
+    /// Times [s], ascending.
+    pub time: Vec<f64>,
+    /// Elastic force of the depths relative to that of the largest, as far as it is known [-].
+    pub shape: Vec<f64>,
+    /// ln of the depths relative to the largest [-]; of no depth, zero, where the shape is zero too.
+    pub logarithm: Vec<f64>,
+    /// Force relative to the largest [-].
+    pub force: Vec<f64>,
+}
+
+/// Samples of a moving depth that a thinned course keeps, at most about.
+const THINNED: usize = 200;
+/// A thinned hold keeps one of so many samples of those before it [-].
+const SCALE: f64 = 50.0;
+
+impl Course {
+    /// Of `force` [N] at `depth` [m], where an elastic force of `shape` [any unit] is felt; none when
+    /// nothing is pressed or felt.
+    pub fn new(
+        (time, depth, force): (&[f64], &[f64], &[f64]),
+        largest_force: f64,
+        shape: impl Fn(f64) -> f64,
+    ) -> Option<Self> {
+        let deepest = depth.iter().copied().fold(0.0, f64::max);
+        let most = shape(deepest);
+        if !(deepest > 0.0 && most > 0.0 && largest_force > 0.0) {
+            return None;
+        }
+        let relative = |d: f64| (d / deepest).max(0.0);
+        Some(Self {
+            time: time.to_vec(),
+            shape: depth.iter().map(|&d| shape(d.max(0.0)) / most).collect(),
+            logarithm: depth
+                .iter()
+                .map(|&d| relative(d).max(f64::MIN_POSITIVE).ln())
+                .collect(),
+            force: force.iter().map(|f| f / largest_force).collect(),
+        })
+    }
+
+    /// What is seen of it when its hold is taken for that of a step: from the largest force on.
+    pub(super) fn after_the_peak(&self) -> Self {
+        let most = |best: usize, at: usize| {
+            if self.force[at] > self.force[best] {
+                at
+            } else {
+                best
+            }
+        };
+        let peak = (0..self.force.len()).fold(0, most);
+        let start = self.time[peak];
+        Self {
+            time: self.time[peak..].iter().map(|t| t - start).collect(),
+            shape: vec![1.0; self.time.len() - peak],
+            logarithm: vec![0.0; self.time.len() - peak],
+            force: self.force[peak..].to_vec(),
+        }
+    }
+
+    /// Some of its samples: where the depth changes and, of a hold, some of each time scale. Between them the
+    /// elastic force goes on linearly, as it did.
+    pub(super) fn thinned(&self) -> Self {
+        let moves = |i: usize| i > 0 && self.shape[i] != self.shape[i - 1];
+        let moving = (0..self.time.len()).filter(|&i| moves(i)).count();
+        let every = (moving / THINNED).max(1);
+        let (mut kept, mut moved, mut next) = (Vec::new(), 0, 0);
+        for i in 0..self.time.len() {
+            moved += usize::from(moves(i));
+            let turns = i + 1 < self.time.len() && moves(i) != moves(i + 1);
+            if i >= next || turns || (moves(i) && moved % every == 0) {
+                kept.push(i);
+                next = i + 1 + (i as f64 / SCALE) as usize;
+            }
+        }
+        let of = |values: &[f64]| kept.iter().map(|&i| values[i]).collect();
+        Self {
+            time: of(&self.time),
+            shape: of(&self.shape),
+            logarithm: of(&self.logarithm),
+            force: of(&self.force),
+        }
+    }
+
+    /// How long it lasts [s].
+    pub(super) fn length(&self) -> f64 {
+        self.time.last().unwrap_or(&0.0) - self.time.first().unwrap_or(&0.0)
+    }
+
+    /// Samples in which the depth changes.
+    pub(super) fn ramp(&self) -> usize {
+        let partly = |x: &&f64| **x > 0.02 && **x < 0.98;
+        self.shape.iter().filter(partly).count()
+    }
+
+    /// The largest force over that of the last tenth, less one [-].
+    pub(super) fn drop(&self) -> f64 {
+        let last = &self.force[self.force.len() - self.force.len().div_ceil(10)..];
+        let end = last.iter().sum::<f64>() / last.len() as f64;
+        (1.0 / end.max(1e-3) - 1.0).clamp(1e-2, 1e2)
+    }
+
+    /// Elastic force with the exponent `mu` [-], and its change with it [-].
+    fn elastic(&self, mu: f64) -> (Vec<f64>, Vec<f64>) {
+        let each = self
+            .shape
+            .iter()
+            .zip(&self.logarithm)
+            .map(|(&shape, &log)| {
+                let value = if shape > 0.0 {
+                    shape * (mu * log).exp()
+                } else {
+                    0.0
+                };
+                (value, if value > 0.0 { value * log } else { 0.0 })
+            });
+        each.unzip()
+    }
+}
+
+/// The forces of several courses with one relaxation: parameters are μ, then for each term the ratio
+/// ρᵢ = gᵢ/(1 − Σ g) and ln τᵢ, then the size of each course. With ρ ≥ 0 every series is one that relaxes.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Model<'a> {
+    pub(super) courses: &'a [Course],
+    pub(super) terms: usize,
+}
+
+impl Model<'_> {
+    pub(super) fn samples(&self) -> usize {
+        self.courses.iter().map(|course| course.force.len()).sum()
+    }
+
+    /// Residuals [-] and their derivatives; none where a number is out of hand.
+    pub(super) fn evaluate(
+        &self,
+        parameters: &[f64],
+        residuals: &mut [f64],
+        jacobian: &mut DMatrix<f64>,
+    ) -> Option<()> {
+        let series = terms(parameters, self.terms);
+        let mut start = 0;
+        for (number, course) in self.courses.iter().enumerate() {
+            let size = parameters[1 + 2 * self.terms + number];
+            let (elastic, by_mu) = course.elastic(parameters[0]);
+            let (force, columns) = relaxed(&course.time, (&elastic, &by_mu), &series);
+            let rows = course.force.len();
+            for row in 0..rows {
+                residuals[start + row] = size * force[row] - course.force[row];
+            }
+            for (place, column) in columns.iter().enumerate() {
+                for row in 0..rows {
+                    jacobian[(start + row, place)] = size * column[row];
+                }
+            }
+            for other in 0..self.courses.len() {
+                let place = 1 + 2 * self.terms + other;
+                let own = other == number;
+                for row in 0..rows {
+                    jacobian[(start + row, place)] = if own { force[row] } else { 0.0 };
+                }
+            }
+            start += rows;
+        }
+        residuals.iter().all(|r| r.is_finite()).then_some(())
+    }
+}
+
+/// Pairs of gᵢ [-] and τᵢ [s] of the parameters.
+pub(super) fn terms(parameters: &[f64], terms: usize) -> Vec<(f64, f64)> {
+    let pairs = || (0..terms).map(|i| (parameters[1 + 2 * i], parameters[2 + 2 * i]));
+    let whole = 1.0 + pairs().map(|(ratio, _)| ratio).sum::<f64>();
+    pairs()
+        .map(|(ratio, log)| (ratio / whole, log.exp()))
+        .collect()
+}
+
+/// Relaxed force of a course of size one, and its change with μ and with each ρᵢ and ln τᵢ.
+fn relaxed(
+    time: &[f64],
+    (elastic, by_mu): (&[f64], &[f64]),
+    series: &[(f64, f64)],
+) -> (Vec<f64>, Vec<Vec<f64>>) {
+    let left: f64 = 1.0 - series.iter().map(|(g, _)| g).sum::<f64>();
+    let branches: Vec<_> = series
+        .iter()
+        .map(|&(_, tau)| branch(tau, time, elastic))
+        .collect();
+    let mut lost = vec![0.0; time.len()];
+    for ((g, _), (values, _)) in series.iter().zip(&branches) {
+        add(&mut lost, *g, values);
+    }
+    let mut columns = Vec::with_capacity(1 + 2 * series.len());
+    let mut mu = by_mu.to_vec();
+    for &(g, tau) in series {
+        add(&mut mu, -g, &branch(tau, time, by_mu).0);
+    }
+    columns.push(mu);
+    for ((g, _), (values, slopes)) in series.iter().zip(&branches) {
+        // ∂gⱼ/∂ρᵢ = (δᵢⱼ − gⱼ)(1 − Σ g).
+        columns.push(
+            lost.iter()
+                .zip(values)
+                .map(|(l, h)| left * (l - h))
+                .collect(),
+        );
+        columns.push(slopes.iter().map(|slope| -g * slope).collect());
+    }
+    let force = elastic.iter().zip(&lost).map(|(e, l)| e - l).collect();
+    (force, columns)
+}
+
+fn add(sum: &mut [f64], factor: f64, values: &[f64]) {
+    for (sum, value) in sum.iter_mut().zip(values) {
+        *sum += factor * value;
+    }
+}

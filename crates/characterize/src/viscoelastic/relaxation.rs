@@ -1,0 +1,299 @@
+use nalgebra::DMatrix;
+use palpate_files::Estimate;
+use palpate_mechanics::PronySeries;
+
+use super::model::{Course, Model, terms};
+use super::product_form::ProductForm;
+use crate::Error;
+use crate::fit::{
+    Fit, Parameter, Settings, correlated_uncertainty, information_criterion,
+    least_squares_with_jacobian,
+};
+
+/// What may be chosen about a relaxation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct RelaxationSettings {
+    /// How many terms it has; the information criterion chooses from one to four when none is said.
+    pub terms: Option<usize>,
+}
+
+/// How a tissue relaxes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Relaxation {
+    /// The relaxation function.
+    pub series: PronySeries,
+    /// Its gᵢ [-] and τᵢ [s] with their errors.
+    pub terms: Vec<[Estimate; 2]>,
+    /// The same as a product (6.10).
+    pub product: ProductForm,
+    /// The exponent μ by which the elastic force grows faster with depth than was assumed [-].
+    pub exponent: Estimate,
+    /// The instantaneous elastic force at the largest depth of each course, relative to its largest force [-].
+    pub sizes: Vec<f64>,
+    /// Σ ε² of the forces relative to the largest [-].
+    pub sum_of_squares: f64,
+    /// What each number of terms comes to: their number, Σ ε² and the information criterion [-].
+    pub tried: Vec<(usize, f64, f64)>,
+    /// The fit; its parameters are μ, the ratios and logarithms of times, the sizes.
+    pub fit: Fit,
+    /// Covariance of the parameters of the fit, in their order.
+    pub covariance: DMatrix<f64>,
+    /// How many independent samples would tell as much [-].
+    pub effective_samples: f64,
+    /// Forces of the fit relative to the largest [-], course by course.
+    pub forces: Vec<Vec<f64>>,
+}
+
+/// Most terms that are tried.
+const MOST_TERMS: usize = 4;
+/// Part of Σ ε² that one more term must gain for yet another to be tried [-].
+const NOTHING_GAINED: f64 = 1e-3;
+/// By how much the criterion must fall for one more term: "strong" in [Burnham and Anderson 2002].
+const WORTH: f64 = 10.0;
+/// Samples that must lie where the depth changes for the exponent to be sought.
+const RAMP: usize = 8;
+/// The exponents that are sought.
+const EXPONENTS: [f64; 2] = [-0.9, 3.0];
+/// A term of more than this ratio would leave nothing after relaxation.
+const LARGEST_RATIO: f64 = 1e3;
+/// Times are sought up to this many lengths of the recording.
+const LONGEST: f64 = 10.0;
+/// A relative error above which a term counts as hardly known [-].
+const UNSURE: f64 = 0.5;
+/// Relative change of the parameters below which a fit has arrived [-].
+const TOLERANCE: f64 = 1e-7;
+
+impl Relaxation {
+    /// What deserves doubt in it, after recordings of `duration` [s].
+    pub fn doubts(&self, duration: f64) -> Vec<String> {
+        let mut said = Vec::new();
+        for (place, [g, tau]) in (1..).zip(&self.terms) {
+            let unsure = |estimate: &Estimate| {
+                estimate
+                    .standard_error
+                    .is_some_and(|error| error > UNSURE * estimate.value)
+            };
+            if tau.value > duration {
+                said.push(format!(
+                    "tau_{place} is longer than the recording shows: {:.3} s in a recording of {duration:.3} s",
+                    tau.value
+                ));
+            } else if unsure(g) || unsure(tau) {
+                said.push(format!(
+                    "term {place} of the relaxation is hardly known: g {:.3} ± {:.3}, tau {:.3} ± {:.3} s",
+                    g.value,
+                    g.standard_error.unwrap_or(0.0),
+                    tau.value,
+                    tau.standard_error.unwrap_or(0.0)
+                ));
+            }
+        }
+        said
+    }
+}
+
+/// The relaxation that is nearest to all `courses` at once.
+///
+/// # Errors
+/// When there is nothing to fit, or too little of it.
+pub fn relaxation(courses: &[Course], settings: RelaxationSettings) -> Result<Relaxation, Error> {
+    let mut fits: Vec<Fit> = Vec::new();
+    for count in settings.terms.map_or(1..=MOST_TERMS, |terms| terms..=terms) {
+        let fit = with_terms(courses, count, fits.last())?;
+        let gained = fits.last().is_none_or(|before| {
+            fit.sum_of_squares() < (1.0 - NOTHING_GAINED) * before.sum_of_squares()
+        });
+        fits.push(fit);
+        if !gained {
+            break;
+        }
+    }
+    // What the richest leaves is noise, so all are compared as if that noise had been seen.
+    let lengths: Vec<usize> = courses.iter().map(|course| course.time.len()).collect();
+    let richest = fits.last().ok_or(Error::NothingFelt)?;
+    let samples = correlated_uncertainty(richest, &lengths).effective_samples;
+    let criterion = |fit: &Fit| information_criterion(fit, samples);
+    let least = fits.iter().map(criterion).fold(f64::INFINITY, f64::min);
+    let tried = fits
+        .iter()
+        .map(|fit| (terms_of(fit, courses), fit.sum_of_squares(), criterion(fit)));
+    let tried: Vec<_> = tried.collect();
+    let worth = |fit: &Fit| criterion(fit) <= least + WORTH || settings.terms.is_some();
+    let chosen = fits.into_iter().find(worth).ok_or(Error::NothingFelt)?;
+    described(courses, chosen, tried)
+}
+
+fn terms_of(fit: &Fit, courses: &[Course]) -> usize {
+    (fit.parameters.len() - 1 - courses.len()) / 2
+}
+
+/// The same as if the hold had begun with a step: only what follows the largest force is seen.
+///
+/// # Errors
+/// As [`relaxation`].
+pub fn relaxation_of_steps(
+    courses: &[Course],
+    settings: RelaxationSettings,
+) -> Result<Relaxation, Error> {
+    let steps: Vec<Course> = courses.iter().map(Course::after_the_peak).collect();
+    relaxation(&steps, settings)
+}
+
+fn with_terms(courses: &[Course], count: usize, before: Option<&Fit>) -> Result<Fit, Error> {
+    let thinned: Vec<Course> = courses.iter().map(Course::thinned).collect();
+    let mut best: Option<Fit> = None;
+    for parameters in starts(courses, count, before) {
+        let fit = fitted(&thinned, count, &parameters)?;
+        if best
+            .as_ref()
+            .is_none_or(|best| fit.sum_of_squares() < best.sum_of_squares())
+        {
+            best = Some(fit);
+        }
+    }
+    let best = best.ok_or(Error::NothingFelt)?;
+    fitted(courses, count, &best.parameters)
+}
+
+fn fitted(courses: &[Course], terms: usize, parameters: &[Parameter]) -> Result<Fit, Error> {
+    let model = Model { courses, terms };
+    let settings = Settings {
+        tolerance: TOLERANCE,
+        ..Settings::default()
+    };
+    least_squares_with_jacobian(
+        parameters,
+        model.samples(),
+        &settings,
+        |values, residuals, jacobian| model.evaluate(values, residuals, jacobian),
+    )
+}
+
+/// Where the fit starts: times spread evenly over what the recordings show, and the terms of one fewer
+/// with one more before or after.
+fn starts(courses: &[Course], count: usize, before: Option<&Fit>) -> Vec<Vec<Parameter>> {
+    let [shortest, longest] = visible_times(courses);
+    let at = |part: f64| shortest * (longest / shortest).powf(part);
+    let drop = courses.iter().map(Course::drop).sum::<f64>() / courses.len() as f64;
+    let spread = |from: f64, to: f64| {
+        let times = (0..count).map(|i| at(from + (to - from) * (i as f64 + 0.5) / count as f64));
+        times
+            .map(|tau| (drop / count as f64, tau))
+            .collect::<Vec<_>>()
+    };
+    let mut series = vec![spread(0.0, 1.0), spread(0.4, 1.0)];
+    if let Some(before) = before {
+        let value = |place: usize| before.parameters[place].value;
+        let known = (1..count).map(|term| (value(2 * term - 1), value(2 * term).exp()));
+        for more in [0.1, 0.9].map(|part| shortest * (longest / shortest).powf(part)) {
+            series.push(known.clone().chain([(0.1 * drop, more)]).collect());
+        }
+    }
+    let exponent = Parameter::new("exponent", 0.0)
+        .within(EXPONENTS[0], EXPONENTS[1])
+        .scaled(1.0);
+    let exponent = if courses.iter().any(|course| course.ramp() >= RAMP) {
+        exponent
+    } else {
+        exponent.fixed()
+    };
+    let of_series = |terms: Vec<(f64, f64)>| {
+        let each = terms
+            .into_iter()
+            .enumerate()
+            .flat_map(|(place, (ratio, tau))| {
+                let ratio = ratio.clamp(1e-3, LARGEST_RATIO);
+                let (least, most) = ((0.1 * shortest).ln(), (LONGEST * longest).ln());
+                [
+                    Parameter::new(format!("ratio_{}", place + 1), ratio)
+                        .within(0.0, LARGEST_RATIO),
+                    Parameter::new(
+                        format!("log_tau_{}", place + 1),
+                        tau.ln().clamp(least, most),
+                    )
+                    .within(least, most)
+                    .scaled(1.0),
+                ]
+            });
+        let sizes = (0..courses.len())
+            .map(|place| Parameter::new(format!("size_{}", place + 1), 1.0).within(0.0, 1e3));
+        [exponent.clone()]
+            .into_iter()
+            .chain(each)
+            .chain(sizes)
+            .collect()
+    };
+    series.into_iter().map(of_series).collect()
+}
+
+/// The shortest and the longest time [s] that can be seen: of two samples, and of the longest course.
+fn visible_times(courses: &[Course]) -> [f64; 2] {
+    let steps = courses.iter().flat_map(|course| course.time.windows(2));
+    let shortest = steps
+        .map(|pair| pair[1] - pair[0])
+        .fold(f64::INFINITY, f64::min);
+    let longest = courses.iter().map(Course::length).fold(0.0, f64::max);
+    [(2.0 * shortest).min(0.1 * longest), longest]
+}
+
+fn described(
+    courses: &[Course],
+    fit: Fit,
+    tried: Vec<(usize, f64, f64)>,
+) -> Result<Relaxation, Error> {
+    let count = terms_of(&fit, courses);
+    let lengths: Vec<usize> = courses.iter().map(|course| course.time.len()).collect();
+    let uncertainty = correlated_uncertainty(&fit, &lengths);
+    let covariance = uncertainty.of_all(fit.parameters.len());
+    let values: Vec<f64> = fit.parameters.iter().map(|p| p.value).collect();
+    let pairs = terms(&values, count);
+    let left = 1.0 - pairs.iter().map(|(g, _)| g).sum::<f64>();
+    let error = |by: &[(usize, f64)]| {
+        let each = by
+            .iter()
+            .flat_map(|&(i, x)| by.iter().map(move |&(j, y)| (i, j, x * y)));
+        each.map(|(i, j, xy)| xy * covariance[(i, j)])
+            .sum::<f64>()
+            .max(0.0)
+            .sqrt()
+    };
+    let known = |value: f64, error: f64| Estimate {
+        value,
+        standard_error: Some(error),
+    };
+    let mut described: Vec<[Estimate; 2]> = Vec::with_capacity(count);
+    for (place, &(g, tau)) in pairs.iter().enumerate() {
+        let by = |j: usize| left * (if j == place { 1.0 } else { 0.0 } - g);
+        let of_ratios: Vec<_> = (0..count).map(|j| (1 + 2 * j, by(j))).collect();
+        described.push([
+            known(g, error(&of_ratios)),
+            known(tau, error(&[(2 + 2 * place, tau)])),
+        ]);
+    }
+    described.sort_by(|a, b| a[1].value.total_cmp(&b[1].value));
+    let of_terms: Vec<_> = described
+        .iter()
+        .map(|[g, tau]| (g.value, tau.value))
+        .collect();
+    let series = PronySeries::new(&of_terms)?;
+    let mut start = 0;
+    let forces = courses.iter().map(|course| {
+        let rows = start..start + course.force.len();
+        start = rows.end;
+        let each = fit.residuals[rows].iter().zip(&course.force);
+        each.map(|(residual, force)| residual + force).collect()
+    });
+    Ok(Relaxation {
+        product: ProductForm::of(&series),
+        series,
+        terms: described,
+        exponent: known(values[0], error(&[(0, 1.0)])),
+        sizes: values[1 + 2 * count..].to_vec(),
+        sum_of_squares: fit.sum_of_squares(),
+        tried,
+        forces: forces.collect(),
+        covariance: covariance.clone(),
+        effective_samples: uncertainty.effective_samples,
+        fit,
+    })
+}

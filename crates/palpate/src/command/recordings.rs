@@ -1,0 +1,177 @@
+//! The recordings that a command is given: files and folders, of this project and of other programs.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use palpate_characterize::CleanRecording;
+use palpate_characterize::clean::{CleanSettings, clean};
+use palpate_files::Recording;
+use palpate_files::recording::{ForeignColumns, RecordingHeader};
+use serde::Serialize;
+
+use crate::failure::Failure;
+
+/// Which recordings, and what they do not say themselves.
+#[derive(Debug, Args)]
+pub(crate) struct Recordings {
+    /// Recordings, or folders of them; tables of other programs are read too.
+    #[arg(required = true, value_name = "RECORDING.csv")]
+    paths: Vec<PathBuf>,
+    /// The column of the time, in a table of another program; found by its name if not given.
+    #[arg(long, value_name = "COLUMN")]
+    time: Option<String>,
+    /// The column of the depth.
+    #[arg(long, value_name = "COLUMN")]
+    depth: Option<String>,
+    /// The column of the force.
+    #[arg(long, value_name = "COLUMN")]
+    force: Option<String>,
+    /// The unit of the depth, where its name does not say it: m, mm, um, nm.
+    #[arg(long, value_name = "UNIT")]
+    depth_unit: Option<String>,
+    /// The unit of the force, where its name does not say it: N, mN, uN, nN.
+    #[arg(long, value_name = "UNIT")]
+    force_unit: Option<String>,
+    /// What the files do not say, by the keys of a recording: --set indenter_radius_m=0.001
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    said: Vec<String>,
+}
+
+/// A recording that was read.
+#[derive(Debug)]
+pub(crate) struct ReadRecording {
+    pub(crate) path: PathBuf,
+    pub(crate) clean: CleanRecording,
+}
+
+/// A recording that could not be used, and why.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct Unusable {
+    pub(crate) file: PathBuf,
+    pub(crate) reason: String,
+}
+
+impl Recordings {
+    /// All that can be read, and all that cannot: one bad file does not stop the others.
+    pub(crate) fn read(
+        &self,
+        mut at_file: impl FnMut(&Path),
+    ) -> Result<(Vec<ReadRecording>, Vec<Unusable>), Failure> {
+        let said = self.header()?;
+        let (mut good, mut bad) = (Vec::new(), Vec::new());
+        for path in self.files()? {
+            at_file(&path);
+            match self.one(&path, &said) {
+                Ok(clean) => good.push(ReadRecording { path, clean }),
+                Err(reason) => bad.push(Unusable { file: path, reason }),
+            }
+        }
+        match (good.is_empty(), bad.as_slice()) {
+            (true, [only]) => Err(Failure::input(&only.reason)),
+            (true, [first, ..]) => Err(Failure::input(format!(
+                "none of the {} recordings can be used; the first: {}",
+                bad.len(),
+                first.reason
+            ))),
+            _ => Ok((good, bad)),
+        }
+    }
+
+    /// The files that were named, and those of the folders in alphabetical order.
+    fn files(&self) -> Result<Vec<PathBuf>, Failure> {
+        let mut files = Vec::new();
+        for path in &self.paths {
+            if path.is_dir() {
+                let inside = tables(path)?;
+                if inside.is_empty() {
+                    let path = path.display();
+                    return Err(Failure::input(format!(
+                        "{path} holds no .csv, .txt or .tsv file; name a folder that does, or files"
+                    )));
+                }
+                files.extend(inside);
+            } else {
+                files.push(path.clone());
+            }
+        }
+        Ok(files)
+    }
+
+    fn one(&self, path: &Path, said: &RecordingHeader) -> Result<CleanRecording, String> {
+        let recording = if self.is_of_this_project(path) {
+            Recording::read(path)
+        } else {
+            let columns = ForeignColumns {
+                time: self.time.clone().unwrap_or_default(),
+                depth: self.depth.clone().unwrap_or_default(),
+                force: self.force.clone().unwrap_or_default(),
+                depth_unit: self.depth_unit.clone(),
+                force_unit: self.force_unit.clone(),
+            };
+            Recording::read_foreign(path, &columns)
+        };
+        let mut recording = recording.map_err(|error| error.to_string())?;
+        recording.header = recording.header.completed_by(said);
+        clean(&recording, &CleanSettings::default())
+            .map_err(|error| format!("{}: {error}", path.display()))
+    }
+
+    /// A recording of this project says its format; columns are named for tables of others.
+    fn is_of_this_project(&self, path: &Path) -> bool {
+        let named = [&self.time, &self.depth, &self.force].iter().any(|name| name.is_some());
+        let says_format = |text: String| {
+            let comments = text.lines().take_while(|line| line.trim_start().starts_with('#'));
+            let mut keys = comments.map(|line| line.trim_start_matches(['#', ' ']));
+            keys.any(|key| key.starts_with("format"))
+        };
+        // What cannot be read has its error from the reader.
+        !named && fs::read_to_string(path).map_or(true, says_format)
+    }
+
+    /// What `--set` says, by the rules of a recording's own header.
+    fn header(&self) -> Result<RecordingHeader, Failure> {
+        let mut text = "# format = 1\n".to_owned();
+        for said in &self.said {
+            let Some((key, value)) = said.split_once('=') else {
+                return Err(Failure::input(format!(
+                    "--set {said}: write a key and its value, such as indenter_radius_m=0.001"
+                )));
+            };
+            let plain = value.parse::<f64>().is_ok() || value == "true" || value == "false";
+            let quoted = if plain || value.starts_with('"') {
+                value.to_owned()
+            } else {
+                format!("{value:?}")
+            };
+            text += &format!("# {} = {quoted}\n", key.trim());
+        }
+        text += "time_s,depth_m,force_n\n0,0,0\n";
+        Ok(Recording::parse(&text, "--set")?.header)
+    }
+}
+
+/// The tables in a folder, in alphabetical order.
+fn tables(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+    let unreadable = |error| {
+        Failure::input(format!(
+            "{} cannot be read: {error}; check that you may read it",
+            folder.display()
+        ))
+    };
+    let mut files = Vec::new();
+    for entry in fs::read_dir(folder).map_err(unreadable)? {
+        let path = entry.map_err(unreadable)?.path();
+        let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
+        let is_table = ["csv", "txt", "tsv"].contains(&extension.to_ascii_lowercase().as_str());
+        let is_license = path.file_stem().is_some_and(|stem| {
+            let stem = stem.to_string_lossy().to_ascii_lowercase();
+            stem.starts_with("license") || stem.starts_with("readme")
+        });
+        if is_table && !is_license && path.is_file() {
+            files.push(path);
+        }
+    }
+    files.sort();
+    Ok(files)
+}
