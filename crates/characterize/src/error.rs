@@ -60,6 +60,11 @@ pub enum Error {
         /// The parameter.
         parameter: Box<Parameter>,
     },
+    /// A formula of the half-space was asked about a tube.
+    #[error(
+        "the organ is hollow, and a mean modulus is that of a half-space; fit a tube to it instead"
+    )]
+    HollowOrgan,
     /// A fit has nowhere to start.
     #[error("the model has no answer where its fit starts, at {}; start elsewhere", listed(.parameters))]
     NoStart {

@@ -12,6 +12,7 @@ pub mod clean;
 mod error;
 pub mod fit;
 pub mod inverse;
+pub mod lumped;
 mod specimen;
 pub mod viscoelastic;
 

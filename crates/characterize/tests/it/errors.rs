@@ -1,6 +1,7 @@
 //! Every error is one sentence: cause, then mend.
 
 use palpate_characterize::Error;
+use palpate_characterize::fit::Parameter;
 
 #[test]
 fn messages() {
@@ -39,6 +40,25 @@ fn messages() {
             },
             "the recording has 1 samples, and finding the contact takes at least 5; \
              record for longer or faster",
+        ),
+        (
+            Error::BadParameter {
+                parameter: Box::new(Parameter::new("c10_pa", 5.0).within(10.0, 20.0)),
+            },
+            "c10_pa starts at 5e0 with the scale 5e0, which does not lie between its bounds 1e1 \
+             and 2e1 or is no number; start inside, with a scale above 0",
+        ),
+        (
+            Error::NoStart {
+                parameters: vec![Parameter::new("c10_pa", 5.0), Parameter::new("c01_pa", 7.0)],
+            },
+            "the model has no answer where its fit starts, at c10_pa = 5, c01_pa = 7; \
+             start elsewhere",
+        ),
+        (
+            Error::HollowOrgan,
+            "the organ is hollow, and a mean modulus is that of a half-space; \
+             fit a tube to it instead",
         ),
     ];
     for (error, message) in cases {

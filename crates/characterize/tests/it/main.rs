@@ -12,6 +12,7 @@ mod doubts;
 mod errors;
 mod filter;
 mod fit;
+mod lumped;
 mod made_up;
 mod random;
 mod real;
