@@ -30,7 +30,7 @@ mod tool;
 
 pub use contact::Contact;
 pub use error::Error;
-pub use global::ResponseOrigin;
+pub use global::{EnhancedSurface, OrganField, ResponseOrigin};
 pub use organ::{builtin_organ, held_region, read_organ};
 pub use play::{Flow, Frame, play};
 pub use preparation::{Progress, Resources, Work};

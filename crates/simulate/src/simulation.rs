@@ -1,6 +1,6 @@
 use std::ops::ControlFlow;
 
-use palpate_files::scene::{HandOver, ModelKind};
+use palpate_files::scene::{Enhancement, HandOver, ModelKind};
 use palpate_files::{Scene, SessionHeader};
 use palpate_geometry::{AabbTree, Surface};
 use palpate_mechanics::Material;
@@ -116,6 +116,18 @@ impl Simulation {
     /// What was prepared of the whole organ, if the scene wants that.
     pub fn response(&self) -> Option<&ResponseOrigin> {
         self.global.as_ref().map(|global| &global.origin)
+    }
+
+    /// How the whole organ is shown around its contacts, if the scene wants one.
+    pub fn enhancement(&self) -> Option<&Enhancement> {
+        let global = self.global.as_ref()?;
+        Some(global.enhancement.settings())
+    }
+
+    /// Whether the shown surface has a mesh of its own, finer than the one that carries the mechanics.
+    pub fn is_carried(&self) -> bool {
+        let global = self.global.as_ref();
+        global.is_some_and(|global| global.enhancement.is_finer())
     }
 
     /// Length of a step [s].

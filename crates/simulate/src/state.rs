@@ -5,7 +5,7 @@ use palpate_mechanics::ForceHistory;
 use palpate_mechanics::enhance::SurfacePoint;
 use palpate_mechanics::finite_spheres::{FiniteSphereWorkspace, Response};
 
-use crate::global::GlobalWorkspace;
+use crate::global::{GlobalWorkspace, OrganField};
 use crate::{Contact, Simulation};
 
 /// All that a step changes.
@@ -15,6 +15,8 @@ pub struct SimulationState {
     pub tools: Vec<ToolState>,
     /// The organ as it is deformed now.
     pub deformed: TriangleMesh,
+    /// What moved it, if the whole organ answers.
+    pub whole: Option<OrganField>,
     /// The boxes around it.
     pub(crate) tree: AabbTree,
     /// The vertices that are not at rest.
@@ -74,6 +76,7 @@ impl SimulationState {
         Self {
             tools,
             deformed: simulation.surface.mesh().clone(),
+            whole: OrganField::at_rest(simulation),
             tree: simulation.tree.clone(),
             moved: Vec::with_capacity(simulation.surface.mesh().vertices().len()),
             show_every: 0.0,

@@ -10,6 +10,7 @@ use palpate_geometry::Vec3;
 use palpate_simulate::{Frame, Simulation, SimulationState, read_organ};
 
 use crate::render::{Body, Renderer, Target, Tint, ToolPicture, View, single_precision};
+use crate::seen_organ::SeenOrgan;
 use crate::{Error, Gpu, TissuePicture, scene_camera};
 
 /// Width and height of a frame [pixels].
@@ -22,7 +23,7 @@ pub struct Studio {
     /// How it is looked at.
     pub view: View,
     renderer: Renderer,
-    organ: Body,
+    organ: SeenOrgan,
     neighbours: Vec<Body>,
     tools: Vec<scene::Tool>,
     target: Target,
@@ -50,7 +51,7 @@ impl Studio {
         let (low, high) = mesh.bounds();
         Ok(Self {
             renderer: Renderer::new(&gpu),
-            organ: Body::new(&gpu, simulation.surface(), Tint::of(&scene.organ.shape)),
+            organ: SeenOrgan::new(&gpu, simulation, Tint::of(&scene.organ.shape))?,
             neighbours,
             tools: scene.tools.clone(),
             target: Target::new(&gpu, size, 4),
@@ -75,8 +76,9 @@ impl Studio {
     /// When the adapter was lost.
     pub fn picture(&mut self, state: &SimulationState) -> Result<RgbaImage, Error> {
         let vertices = single_precision(state.deformed.vertices());
-        self.organ.deform(&self.gpu, &vertices);
-        let bodies: Vec<&Body> = std::iter::once(&self.organ)
+        self.organ
+            .deform(&self.gpu, &vertices, state.whole.as_ref());
+        let bodies: Vec<&Body> = std::iter::once(&self.organ.body)
             .chain(&self.neighbours)
             .collect();
         let tools = tool_pictures(&self.tools, state);

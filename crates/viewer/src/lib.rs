@@ -10,6 +10,7 @@ mod gpu;
 mod orbit;
 mod pick;
 mod render;
+mod seen_organ;
 mod window;
 
 pub use camera::{Camera, Lamp};

@@ -17,9 +17,18 @@ pub struct SurfaceField {
 }
 
 impl SurfaceField {
+    /// Zero, with room for any `presses` at a time: to take them allocates nothing from the first time on.
+    pub fn with_room(interpolation: &Interpolation, presses: usize) -> Self {
+        Self {
+            residual: Vec::with_capacity(interpolation.nodes().len()),
+            dimples: Vec::with_capacity(presses),
+            rows: Weights::with_room(presses, presses * interpolation.longest_row()),
+        }
+    }
+
     /// Takes the `displacements` of all centroids [m] and the `presses` that made them. With these the
     /// surface touches its tips; without, the displacements are only spread, and the dimple is shallower.
-    /// Allocates nothing from the second time on.
+    /// Allocates nothing where there is room: see [`SurfaceField::with_room`].
     ///
     /// # Panics
     /// When there are not as many displacements as triangles.

@@ -86,6 +86,14 @@ impl Interpolation {
         interpolation
     }
 
+    /// The same nodes with another way to spread.
+    pub(super) fn with_smoothing(&self, smoothing: Smoothing) -> Self {
+        Self {
+            smoothing,
+            ..self.clone()
+        }
+    }
+
     /// The coarse surface.
     pub fn surface(&self) -> &Surface {
         &self.surface
@@ -134,6 +142,18 @@ impl Interpolation {
             }
         });
         best
+    }
+
+    /// The most weights that a row may have.
+    pub(super) fn longest_row(&self) -> usize {
+        let mesh = self.surface.mesh();
+        let around = |node: NodeId| self.surface.adjacency().around(node).len();
+        let of_means = |triangle| mesh.corners(triangle).map(around).iter().sum();
+        let row = |triangle| match self.smoothing {
+            Smoothing::None => of_means(triangle),
+            Smoothing::Shepard | Smoothing::MovingLeastSquares => self.reaching(triangle).len(),
+        };
+        mesh.triangle_ids().map(row).max().unwrap_or(0)
     }
 
     pub(super) fn nodes(&self) -> &[Node] {

@@ -8,7 +8,8 @@
 //!
 //! Φ alone would shrink the dimple, which is narrower than a coarse triangle. So it spreads only what the
 //! closed form p of the half-space under each tip leaves: u = Σ A_k p_k(x) + Σ Φ_i(x) (û_i − Σ d_k p_k(x_i)),
-//! with A_k such that u = d_k at contact k. The same rows carry the field to a finer mesh of the whole organ.
+//! with A_k such that u = d_k at contact k. The same rows carry the field to a finer mesh of the whole organ,
+//! whose own triangles are then made finer around a contact.
 //!
 //! *How we know*: `enhance::every_patch_is_watertight`, `enhance::patches_converge_to_the_sphere`,
 //! `carried_field::moving_least_squares_carry_a_linear_field`, `carried_field::a_thin_wall_does_not_leak`,

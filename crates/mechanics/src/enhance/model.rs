@@ -1,46 +1,122 @@
 use palpate_files::scene::Enhancement;
-use palpate_geometry::Surface;
+use palpate_geometry::{AabbTree, Surface};
 
+use super::carrier::Carrier;
 use super::corner_normals::CornerNormals;
-use super::interpolation::Interpolation;
-use crate::Error;
+use super::interpolation::{Interpolation, SurfacePoint};
+use crate::{Error, Vec3};
 
 /// More subdivisions would make more than 4096 triangles of one.
 pub const MOST_LEVELS: usize = 6;
 
-/// A coarse surface and how it is enhanced.
+/// A coarse surface, the one that is seen, and how it is enhanced.
 #[derive(Debug, Clone)]
 pub struct EnhancementModel {
     interpolation: Interpolation,
+    /// A finer surface of the same organ, with the boxes around the coarse one.
+    finer: Option<(Surface, AabbTree)>,
+    /// Of the surface that is seen.
     pub(super) normals: CornerNormals,
     settings: Enhancement,
 }
 
 impl EnhancementModel {
-    /// For the coarse `surface`.
+    /// For the coarse `surface`, which is seen.
     ///
     /// # Errors
     /// When there are more than [`MOST_LEVELS`].
     pub fn new(surface: Surface, settings: Enhancement) -> Result<Self, Error> {
+        let normals = CornerNormals::new(&surface);
+        let interpolation = Interpolation::new(surface, settings.smoothing);
+        Self::with_parts(interpolation, None, normals, settings)
+    }
+
+    /// For a coarse surface that carries `finer`, which is seen.
+    ///
+    /// # Errors
+    /// When there are more than [`MOST_LEVELS`].
+    pub fn carrying(
+        finer: Surface,
+        surface: Surface,
+        settings: Enhancement,
+    ) -> Result<Self, Error> {
+        let normals = CornerNormals::new(&finer);
+        let tree = AabbTree::new(surface.mesh());
+        let interpolation = Interpolation::new(surface, settings.smoothing);
+        Self::with_parts(interpolation, Some((finer, tree)), normals, settings)
+    }
+
+    /// The same surfaces, enhanced otherwise.
+    ///
+    /// # Errors
+    /// When there are more than [`MOST_LEVELS`].
+    pub fn with_settings(&self, settings: Enhancement) -> Result<Self, Error> {
+        let interpolation = self.interpolation.with_smoothing(settings.smoothing);
+        let (finer, normals) = (self.finer.clone(), self.normals.clone());
+        Self::with_parts(interpolation, finer, normals, settings)
+    }
+
+    fn with_parts(
+        interpolation: Interpolation,
+        finer: Option<(Surface, AabbTree)>,
+        normals: CornerNormals,
+        settings: Enhancement,
+    ) -> Result<Self, Error> {
         if settings.levels > MOST_LEVELS {
             return Err(Error::TooManyLevels {
                 levels: settings.levels,
             });
         }
         Ok(Self {
-            normals: CornerNormals::new(&surface),
-            interpolation: Interpolation::new(surface, settings.smoothing),
+            interpolation,
+            finer,
+            normals,
             settings,
         })
     }
 
-    /// How displacements are spread over the surface.
+    /// How displacements are spread over the coarse surface.
     pub fn interpolation(&self) -> &Interpolation {
         &self.interpolation
+    }
+
+    /// The surface that is seen.
+    pub fn surface(&self) -> &Surface {
+        match &self.finer {
+            Some((finer, _)) => finer,
+            None => self.interpolation.surface(),
+        }
+    }
+
+    /// Whether the coarse surface is not the one that is seen.
+    pub fn is_finer(&self) -> bool {
+        self.finer.is_some()
     }
 
     /// What was chosen.
     pub fn settings(&self) -> &Enhancement {
         &self.settings
+    }
+
+    /// All vertices that are seen.
+    pub fn carrier(&self) -> Carrier {
+        match &self.finer {
+            Some((finer, _)) => Carrier::of_surface(&self.interpolation, finer),
+            None => Carrier::of_vertices(&self.interpolation),
+        }
+    }
+
+    /// Where on the coarse surface a point follows that lies over `at` of the one that is seen, at rest at
+    /// `place` [m].
+    pub(super) fn site(&self, at: &SurfacePoint, place: &Vec3) -> SurfacePoint {
+        let Some((finer, tree)) = &self.finer else {
+            return *at;
+        };
+        let corners = finer.mesh().corners(at.triangle);
+        let normals = corners.iter().zip(at.barycentric);
+        let facing = normals
+            .map(|(node, share)| finer.vertex_normals()[node.index()] * share)
+            .sum();
+        self.interpolation.nearest_facing(tree, (place, &facing))
     }
 }

@@ -1,4 +1,4 @@
-use palpate_geometry::{NodeId, TriangleId, TriangleMesh};
+use palpate_geometry::{NodeId, TriangleId, TriangleMesh, closest_on_triangle};
 
 use super::carrier::Carrier;
 use super::field::SurfaceField;
@@ -8,15 +8,16 @@ use super::neighborhood::Neighborhood;
 use super::pn_triangle::PnTriangle;
 use crate::Vec3;
 
-/// The finer triangles around some contacts, and the coarse ones whose place they take. Built anew, into the
-/// same buffers, when a contact comes to another triangle.
+/// The finer triangles around some contacts, and those of the seen surface whose place they take. Built anew,
+/// into the same buffers, when a contact comes to another triangle.
 ///
-/// Its first points are vertices of the coarse mesh, and move as [`Carrier::of_vertices`] moves those, to
+/// Its first points are vertices of that surface, and move as [`EnhancementModel::carrier`] moves those, to
 /// the last bit: the surface has no cracks, at rest or moved.
 #[derive(Debug, Clone, Default)]
 pub struct EnhancedPatch {
     neighborhood: Neighborhood,
     corners: Vec<NodeId>,
+    sites: Vec<SurfacePoint>,
     carrier: Carrier,
     triangles: Vec<[u32; 3]>,
     cuts: Vec<Cut>,
@@ -31,7 +32,7 @@ struct Cut {
     first: u32,
 }
 
-/// Number of parts of an edge, with the maps from coarse numbers to the patch's.
+/// Number of parts of an edge, with the maps from the surface's numbers to the patch's.
 struct Grid<'a> {
     parts: usize,
     corners: &'a [NodeId],
@@ -41,9 +42,10 @@ struct Grid<'a> {
 impl EnhancedPatch {
     /// Replaces the neighbourhood of the triangles `touched`; that of none is empty.
     pub fn build(&mut self, model: &EnhancementModel, touched: &[TriangleId]) {
-        let surface = model.interpolation().surface();
+        let surface = model.surface();
         let area = model.settings().area;
         self.neighborhood.gather(surface, touched, area);
+        self.sites.clear();
         self.carrier.clear();
         self.triangles.clear();
         self.cuts.clear();
@@ -63,15 +65,20 @@ impl EnhancedPatch {
         }
     }
 
-    /// The coarse triangles that are replaced.
+    /// The triangles that are replaced.
     pub fn replaced(&self) -> impl Iterator<Item = TriangleId> {
         let refined = self.neighborhood.refined().iter();
         refined.chain(self.neighborhood.border()).copied()
     }
 
-    /// The coarse vertices that the first points are.
+    /// The vertices that the first points are.
     pub fn corners(&self) -> &[NodeId] {
         &self.corners
+    }
+
+    /// Over which points of the seen surface they lie.
+    pub fn sites(&self) -> &[SurfacePoint] {
+        &self.sites
     }
 
     /// The points at rest [m].
@@ -84,6 +91,17 @@ impl EnhancedPatch {
         &self.triangles
     }
 
+    /// The point of the patch at rest that is nearest to `place` [m]; that itself where there is no patch.
+    pub fn nearest(&self, place: &Vec3) -> Vec3 {
+        let on = self.triangles.iter().map(|points| {
+            let corners = points.map(|point| self.places()[point as usize]);
+            closest_on_triangle(&corners, place).position
+        });
+        let away = |on: &Vec3| (on - place).norm_squared();
+        on.min_by(|one, other| away(one).total_cmp(&away(other)))
+            .unwrap_or(*place)
+    }
+
     /// Displacements of the points [m]. Allocates nothing.
     ///
     /// # Panics
@@ -92,22 +110,22 @@ impl EnhancedPatch {
         self.carrier.carry(field, displacements);
     }
 
-    /// The `coarse` mesh with the patch in it, whose points are at `places` [m]: the coarse vertices keep
-    /// their numbers and positions, new points follow.
+    /// The seen mesh with the patch in it, whose points are at `places` [m]: its vertices keep their numbers
+    /// and positions, new points follow.
     ///
     /// # Panics
     /// When the mesh is not the model's, or `places` has not the length of [`EnhancedPatch::places`].
-    pub fn in_mesh(&self, coarse: &TriangleMesh, places: &[Vec3]) -> TriangleMesh {
+    pub fn in_mesh(&self, seen: &TriangleMesh, places: &[Vec3]) -> TriangleMesh {
         assert_eq!(places.len(), self.places().len(), "one per point");
-        let (old, shared) = (coarse.vertices().len(), self.corners.len());
-        let mut vertices = coarse.vertices().to_vec();
+        let (old, shared) = (seen.vertices().len(), self.corners.len());
+        let mut vertices = seen.vertices().to_vec();
         vertices.extend_from_slice(&places[shared..]);
-        let mut gone = vec![false; coarse.triangles().len()];
+        let mut gone = vec![false; seen.triangles().len()];
         for triangle in self.replaced() {
             gone[triangle.index()] = true;
         }
-        let kept = coarse.triangle_ids().filter(|id| !gone[id.index()]);
-        let mut triangles: Vec<_> = kept.map(|id| coarse.corners(id)).collect();
+        let kept = seen.triangle_ids().filter(|id| !gone[id.index()]);
+        let mut triangles: Vec<_> = kept.map(|id| seen.corners(id)).collect();
         let number = |point: u32| match self.corners.get(point as usize) {
             Some(node) => *node,
             None => NodeId((old + point as usize - shared) as u32),
@@ -117,7 +135,7 @@ impl EnhancedPatch {
     }
 
     fn place_corners(&mut self, model: &EnhancementModel) {
-        let surface = model.interpolation().surface();
+        let surface = model.surface();
         self.corners.clear();
         let replaced = self.neighborhood.refined().iter();
         for &triangle in replaced.chain(self.neighborhood.border()) {
@@ -128,13 +146,15 @@ impl EnhancedPatch {
         for &node in &self.corners {
             let at = SurfacePoint::vertex(surface, node);
             let place = surface.mesh().vertices()[node.index()];
-            self.carrier.push(model.interpolation(), &at, place);
+            self.sites.push(at);
+            let site = model.site(&at, &place);
+            self.carrier.push(model.interpolation(), &site, place);
         }
     }
 
     /// Cuts one triangle into `parts` along each edge.
     fn refine(&mut self, model: &EnhancementModel, triangle: TriangleId, parts: usize) {
-        let mesh = model.interpolation().surface().mesh();
+        let mesh = model.surface().mesh();
         let normals = &model.normals;
         let curved = PnTriangle::new(
             mesh.positions(triangle),
@@ -142,7 +162,7 @@ impl EnhancedPatch {
             normals.sharp(triangle),
         );
         let corners = mesh.corners(triangle);
-        let carrier = &mut self.carrier;
+        let (carrier, sites) = (&mut self.carrier, &mut self.sites);
         let mut next = carrier.places().len() as u32;
         let mut push = |steps: [usize; 3]| {
             let barycentric = steps.map(|step| step as f64 / parts as f64);
@@ -150,7 +170,9 @@ impl EnhancedPatch {
                 triangle,
                 barycentric,
             };
-            carrier.push(model.interpolation(), &at, curved.at(&barycentric));
+            let place = curved.at(&barycentric);
+            sites.push(at);
+            carrier.push(model.interpolation(), &model.site(&at, &place), place);
             carrier.places().len() as u32
         };
         for k in 0..3 {

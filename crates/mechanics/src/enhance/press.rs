@@ -9,6 +9,9 @@ use crate::finite_spheres::quartic;
 /// leaves is smooth on the coarse mesh [-].
 const REACH: f64 = 2.0;
 
+/// How far over a coarse triangle a curved or finer surface may lie, in radii of influence [-].
+const CURVED: f64 = 0.25;
+
 /// A tip in contact: where, of which form, and where it has taken the surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Press {
@@ -45,6 +48,8 @@ pub(super) struct Dimple {
     radius: f64,
     /// Nothing is left at this distance from the contact [m].
     reach: f64,
+    /// A point this far below or above the contact is still at it [m].
+    leeway: f64,
 }
 
 impl Dimple {
@@ -58,6 +63,7 @@ impl Dimple {
             tip: press.tip,
             radius,
             reach: REACH * (influence + radius),
+            leeway: radius.hypot(CURVED * influence),
         }
     }
 
@@ -79,10 +85,7 @@ impl Dimple {
     /// faces the same way: one up to 30° down, zero from 60° on [-].
     fn beside(&self, away: &Vec3) -> f64 {
         let down = away.dot(&self.normal);
-        let square = away.norm_squared();
-        if square == 0.0 {
-            return 1.0;
-        }
+        let square = away.norm_squared() + self.leeway.powi(2);
         smooth_step(1.5 - 2.0 * down * down / square)
     }
 }

@@ -12,6 +12,15 @@ pub struct Weights {
 }
 
 impl Weights {
+    /// Empty, with room for so many rows of so many `weights` together.
+    pub(super) fn with_room(rows: usize, weights: usize) -> Self {
+        Self {
+            ends: Vec::with_capacity(rows),
+            triangles: Vec::with_capacity(weights),
+            values: Vec::with_capacity(weights),
+        }
+    }
+
     /// Number of points.
     pub fn rows(&self) -> usize {
         self.ends.len()

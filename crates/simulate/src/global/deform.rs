@@ -1,11 +1,19 @@
 //! The organ that is seen: every vertex carried by the displacements of the mechanical triangles.
 
 use palpate_geometry::{NodeId, Vec3};
-use palpate_mechanics::enhance::Press;
 
+use super::enhanced_surface::SeenContact;
 use super::{GlobalModel, GlobalWorkspace};
 use crate::simulation::Simulation;
 use crate::state::SimulationState;
+
+/// Where a vertex goes [m]; it stays where its displacement is no number.
+pub(super) fn moved(from: &Vec3, by: &Vec3) -> Vec3 {
+    match by.iter().all(|component| component.is_finite()) {
+        true => from + by,
+        false => *from,
+    }
+}
 
 impl GlobalModel {
     /// Moves all vertices of the shown surface, if it is time.
@@ -28,8 +36,7 @@ impl GlobalModel {
         self.carrier.carry(&workspace.field, &mut workspace.shown);
         let rest = simulation.surface.mesh();
         for (number, (from, by)) in rest.vertices().iter().zip(&workspace.shown).enumerate() {
-            let finite = by.iter().all(|component| component.is_finite());
-            let to = if finite { from + by } else { *from };
+            let to = moved(from, by);
             state.deformed.move_vertex(NodeId(number as u32), to);
         }
         state.tree.refit_all(&state.deformed);
@@ -38,30 +45,26 @@ impl GlobalModel {
     fn find_field(
         &self,
         simulation: &Simulation,
-        state: &SimulationState,
+        state: &mut SimulationState,
         workspace: &mut GlobalWorkspace,
     ) {
+        let Some(organ) = &mut state.whole else {
+            return;
+        };
         workspace.sums.fill(0.0);
-        workspace.presses.clear();
         let modulus = simulation.material.at_rest.youngs_modulus();
-        for (tool, own) in simulation.tools.iter().zip(&state.tools) {
-            let (Some(contact), Some(pose), Some(site)) = (&own.contact, &own.pose, own.site)
-            else {
+        for (number, (tool, own)) in simulation.tools.iter().zip(&state.tools).enumerate() {
+            organ.contacts[number] = SeenContact::of(tool, own);
+            if organ.contacts[number].is_none() {
                 continue;
-            };
+            }
             if let Some(load) = self.load(tool, own) {
                 let pushed = -own.elastic / modulus;
                 self.response
                     .add_field_of_tip(&load, &pushed, &mut workspace.sums);
             }
-            let moved = contact.displacement(tool, &Vec3::from(pose.position_m));
-            workspace.presses.push(Press {
-                at: site,
-                tip: tool.tip,
-                displacement: contact.place.frame * moved,
-            });
         }
-        for (vector, sums) in workspace
+        for (vector, sums) in organ
             .displacements
             .iter_mut()
             .zip(workspace.sums.as_chunks().0)
@@ -70,9 +73,13 @@ impl GlobalModel {
             *vector = Vec3::new(x, y, z);
         }
         let interpolation = self.enhancement.interpolation();
-        let presses = &workspace.presses;
+        let contacts = organ.contacts.iter().flatten();
+        workspace.presses.clear();
+        workspace
+            .presses
+            .extend(contacts.map(|contact| contact.press));
         workspace
             .field
-            .update(interpolation, &workspace.displacements, presses);
+            .update(interpolation, &organ.displacements, &workspace.presses);
     }
 }

@@ -12,13 +12,17 @@
 //! Boundary elements solve for it, or, where walls are too thin for them (`walls`) or the scene asks for
 //! them, finite elements condensed to the surface.
 //!
-//! *How we know*: `hybrid::…`, `thin_walls::…`.
+//! Finer triangles around a contact are made by who looks at it ([`EnhancedSurface`]), of what a step tells
+//! ([`OrganField`]).
+//!
+//! *How we know*: `hybrid::…`, `enhanced::…`, `thin_walls::…`.
 //!
 //! *Limits*: the organ around a tip answers as at small strain; nothing of it moves through its anchor.
 //!
 //! [`TipLaw`]: palpate_mechanics::TipLaw
 
 mod deform;
+mod enhanced_surface;
 mod key;
 mod mechanical_surface;
 mod method;
@@ -31,7 +35,7 @@ use std::path::PathBuf;
 
 use nalgebra::Matrix3;
 use palpate_files::Scene;
-use palpate_files::scene::{EnhancementArea, Organ, Smoothing};
+use palpate_files::scene::{Organ, Smoothing};
 use palpate_geometry::{AabbTree, Surface, TriangleId, Vec3};
 use palpate_mechanics::LinearElastic;
 use palpate_mechanics::enhance::{Carrier, EnhancementModel, Press, SurfaceField};
@@ -39,6 +43,7 @@ use palpate_mechanics::surface_response::{SurfaceResponse, TipField};
 
 use crate::tool::Tool;
 use crate::{Error, Progress, Resources, held_region};
+pub use enhanced_surface::{EnhancedSurface, OrganField};
 use key::Ingredients;
 use method::Method;
 use solve::Found;
@@ -50,14 +55,12 @@ pub(crate) struct GlobalModel {
     /// Of the mechanical surface.
     pub(crate) response: SurfaceResponse,
     pub(crate) origin: ResponseOrigin,
-    /// How displacements of triangles are spread over it.
+    /// How displacements of its triangles are spread over it, and to the shown surface.
     pub(crate) enhancement: EnhancementModel,
     /// The vertices that are shown.
     pub(crate) carrier: Carrier,
     /// Around the mechanical surface.
     pub(crate) tree: AabbTree,
-    /// Whether the shown surface is the mechanical one.
-    pub(crate) carries_itself: bool,
 }
 
 /// What was prepared of the whole organ, and where it came from.
@@ -82,9 +85,8 @@ pub struct ResponseOrigin {
 pub(crate) struct GlobalWorkspace {
     /// Compliance [m/N] of tool i to a force on tool j, at i tools + j.
     between: Vec<Matrix3<f64>>,
-    /// Displacements of triangles [m], three numbers each, and as vectors.
+    /// Displacements of triangles [m], three numbers each.
     sums: Vec<f32>,
-    displacements: Vec<Vec3>,
     field: SurfaceField,
     presses: Vec<Press>,
     /// Displacements of the shown vertices [m].
@@ -104,8 +106,7 @@ impl GlobalModel {
         GlobalWorkspace {
             between: vec![Matrix3::zeros(); tools * tools],
             sums: vec![0.0; 3 * triangles],
-            displacements: vec![Vec3::zeros(); triangles],
-            field: SurfaceField::default(),
+            field: SurfaceField::with_room(self.enhancement.interpolation(), tools),
             presses: Vec::with_capacity(tools),
             shown: vec![Vec3::zeros(); self.carrier.places().len()],
         }
@@ -128,13 +129,8 @@ impl GlobalProblem {
     /// That of the organ of `scene`, which is seen as `shown`.
     pub(crate) fn new(scene: &Scene, shown: &Surface, law: &LinearElastic) -> Result<Self, Error> {
         let wanted = scene.model.mechanical_triangles;
-        let (surface, mut doubts) = mechanical_surface::mechanical_surface(shown, wanted)?;
+        let (surface, doubts) = mechanical_surface::mechanical_surface(shown, wanted)?;
         let (held, touchable) = sort(&scene.organ, &surface);
-        if scene.model.enhancement.area != EnhancementArea::None {
-            doubts.push(
-                "`model.enhancement.area` is read, but no finer triangles are shown around a tip yet".to_owned(),
-            );
-        }
         if touchable.is_empty() {
             return Err(Error::NothingTouchable);
         }
@@ -174,19 +170,16 @@ impl GlobalProblem {
             // A fine surface would show the facets of the coarse one.
             settings.smoothing = Smoothing::MovingLeastSquares;
         }
-        let enhancement = EnhancementModel::new(self.surface, settings)?;
-        let interpolation = enhancement.interpolation();
-        let carrier = match same {
-            true => Carrier::of_vertices(interpolation),
-            false => Carrier::of_surface(interpolation, shown),
+        let enhancement = match same {
+            true => EnhancementModel::new(self.surface, settings)?,
+            false => EnhancementModel::carrying(shown.clone(), self.surface, settings)?,
         };
         let model = GlobalModel {
             response: found.response,
             origin,
-            carrier,
+            carrier: enhancement.carrier(),
             enhancement,
             tree,
-            carries_itself: same,
         };
         Ok((model, [self.doubts, found.doubts].concat()))
     }

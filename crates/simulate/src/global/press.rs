@@ -29,7 +29,7 @@ impl GlobalModel {
     ) -> Option<SurfacePoint> {
         let contact = state.contact.as_ref()?;
         let place = contact.place;
-        if self.carries_itself {
+        if !self.enhancement.is_finer() {
             let corners = simulation.surface.mesh().positions(place.triangle);
             return Some(SurfacePoint {
                 triangle: place.triangle,

@@ -2,8 +2,8 @@ use palpate_files::Pose;
 use palpate_geometry::Vec3;
 
 use super::{Happenings, ModelReport};
-use crate::Simulation;
 use crate::state::{SimulationState, ToolState};
+use crate::{OrganField, Simulation};
 
 /// What there is to see after a step of the model.
 #[derive(Debug, Clone)]
@@ -12,6 +12,8 @@ pub struct Snapshot {
     pub time: f64,
     /// The vertices of the deformed organ [m], in the order of the surface's.
     pub vertices: Vec<[f32; 3]>,
+    /// What moved them, if the whole organ answers.
+    pub whole: Option<OrganField>,
     /// Per tool, in the scene's order.
     pub tools: Vec<ToolSnapshot>,
     /// The last things that happened.
@@ -60,6 +62,7 @@ impl Snapshot {
         Self {
             time: 0.0,
             vertices: vertices.iter().map(single).collect(),
+            whole: OrganField::at_rest(simulation),
             tools: vec![nobody; simulation.tools().len()],
             happenings: Happenings::default(),
             report: ModelReport::default(),
@@ -71,6 +74,9 @@ impl Snapshot {
         self.time = time;
         for (seen, vertex) in self.vertices.iter_mut().zip(state.deformed.vertices()) {
             *seen = single(vertex);
+        }
+        if let (Some(seen), Some(whole)) = (&mut self.whole, &state.whole) {
+            seen.copy(whole);
         }
         for ((seen, tool), felt) in self.tools.iter_mut().zip(&state.tools).zip(felt) {
             *seen = ToolSnapshot::new(tool, *felt);

@@ -12,7 +12,7 @@ use palpate_simulate::{
 };
 
 use crate::scenes::{Hand, Random, Setting, YOUNGS_MODULUS, motion, nearest, played};
-use crate::slides::{Count, slides};
+use crate::slides::{Count, pokes_with_a_stuck_tip, slides};
 
 const KIDNEY: Setting<'_> = Setting {
     organ: "builtin = \"kidney\"\ntriangles = 800",
@@ -241,29 +241,54 @@ fn a_place_that_was_not_prepared_is_told() {
     assert!(told, "{:?}", summary.warnings);
 }
 
+const ORGANS: [&str; 4] = ["kidney", "liver", "stomach", "esophagus"];
+
+/// The scene of an organ that is seen finer than it is solved.
+fn carried(organ: &str, contact: &str) -> Scene {
+    let builtin = format!("builtin = \"{organ}\"\ntriangles = 1200");
+    let setting = Setting {
+        organ: &builtin,
+        kind: "hybrid",
+        // Walls too thin for it: `thin_walls` has the better answer, which takes longer.
+        model: "mechanical_triangles = 600\nresponse = \"boundary_elements\"",
+        contact,
+        radius: 1.5e-3,
+        ..Setting::default()
+    };
+    setting.scene()
+}
+
 /// Judge: what a hand does not feel as a click (see `slides`).
 #[test]
 fn organs_under_random_pokes_and_slides() {
-    for (organ, contact) in [
-        ("kidney", "slip"),
-        ("liver", "slip"),
-        ("stomach", "slip"),
-        ("esophagus", "slip"),
-    ] {
-        let builtin = format!("builtin = \"{organ}\"\ntriangles = 1200");
-        let simulation = Setting {
-            organ: &builtin,
-            kind: "hybrid",
-            // Walls too thin for it: `thin_walls` has the better answer, which takes longer.
-            model: "mechanical_triangles = 600\nresponse = \"boundary_elements\"",
-            contact,
-            radius: 1.5e-3,
-            ..Setting::default()
-        }
-        .simulation();
+    for organ in ORGANS {
+        let simulation = Simulation::new(&carried(organ, "slip")).unwrap();
         let mut count = Count::default();
         slides(&simulation, 40, &mut count);
         println!("{organ}: {count}");
+        count.assert_sound(organ);
+    }
+}
+
+/// As `organs_under_random_pokes_and_slides`, `random_pinches_are_sound` and with a tip that sticks, 2,500
+/// times on each organ.
+#[test]
+#[ignore = "slow: ten thousand touches, many minutes"]
+fn ten_thousand_touches() {
+    for organ in ORGANS {
+        let stuck = carried(organ, "stick");
+        let mut count = Count::default();
+        pokes_with_a_stuck_tip(&Simulation::new(&stuck).unwrap(), 625, &mut count);
+        println!("{organ}, stuck: {count}");
+        count.assert_sound(organ);
+        pinches(&two_tools(stuck), 625);
+        let mut count = Count::default();
+        slides(
+            &Simulation::new(&carried(organ, "slip")).unwrap(),
+            1_250,
+            &mut count,
+        );
+        println!("{organ}, sliding: {count}");
         count.assert_sound(organ);
     }
 }
@@ -339,8 +364,7 @@ fn pinch(simulation: &Simulation, ways: impl IntoIterator<Item = [Vec3; 2]>) -> 
     felt
 }
 
-fn two_tools() -> Simulation {
-    let mut scene = KIDNEY.scene();
+fn two_tools(mut scene: Scene) -> Simulation {
     let mut left = scene.tools[0].clone();
     left.name = "left".to_owned();
     scene.tools.push(left);
@@ -351,7 +375,7 @@ fn two_tools() -> Simulation {
 /// does: a tool beside one that presses meets a surface that has gone down already.
 #[test]
 fn two_tools_feel_one_another() {
-    let simulation = two_tools();
+    let simulation = two_tools(KIDNEY.scene());
     let tree = AabbTree::new(simulation.surface().mesh());
     let at = |near: Vec3| nearest(&simulation, &tree, &near);
     let (first, inward) = at(Vec3::new(0.0, 0.0, 1.0));
@@ -393,13 +417,17 @@ fn two_tools_feel_one_another() {
 /// Whatever two tools do (see `pinch`).
 #[test]
 fn random_pinches_are_sound() {
-    let simulation = two_tools();
+    pinches(&two_tools(KIDNEY.scene()), 60);
+}
+
+/// So many, at random places up to 12 mm apart.
+fn pinches(simulation: &Simulation, number: usize) {
     let tree = AabbTree::new(simulation.surface().mesh());
     let mut random = Random(11);
-    for _ in 0..60 {
-        let (point, normal) = nearest(&simulation, &tree, &random.place(&simulation).0);
+    for _ in 0..number {
+        let (point, normal) = nearest(simulation, &tree, &random.place(simulation).0);
         let aside = normal.cross(&Vec3::new(0.3, 0.5, 0.8)).normalize() * (0.012 * random.unit());
-        let (other, outward) = nearest(&simulation, &tree, &(point + aside));
+        let (other, outward) = nearest(simulation, &tree, &(point + aside));
         let deep = [4e-3 * random.unit(), 4e-3 * random.unit()];
         let ways = (0..20).map(|k| {
             let part = f64::from(k) / 19.0;
@@ -408,7 +436,7 @@ fn random_pinches_are_sound() {
                 other - outward * (deep[1] * part),
             ]
         });
-        let felt = pinch(&simulation, ways);
+        let felt = pinch(simulation, ways);
         assert!(felt[19].iter().any(|force| force.norm() > 0.0));
     }
 }

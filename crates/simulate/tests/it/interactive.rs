@@ -17,7 +17,9 @@ use palpate_simulate::interactive::{
     ExtrapolationError, Interaction, Mount, SceneDevices, Station, VirtualInteraction,
     judge_samples,
 };
-use palpate_simulate::{Error, Simulation, SimulationState, SimulationWorkspace, step};
+use palpate_simulate::{
+    EnhancedSurface, Error, Simulation, SimulationState, SimulationWorkspace, step,
+};
 
 use crate::scenes::{Random, Setting, motion, played};
 
@@ -181,15 +183,31 @@ fn the_same_hand_gives_the_same_bytes() {
     assert!(run() == run());
 }
 
-/// Ticks, steps, hand-over and snapshots, in and out of contact.
+/// Ticks, steps, hand-over and snapshots, in and out of contact; what the snapshot of a whole organ tells is
+/// enough for finer triangles.
 #[test]
 fn neither_tick_nor_step_allocates() {
-    let simulation = simulation("", "slip", "[{ g = 0.3, tau_s = 1.5 }]");
-    let mut interaction = virtual_interaction(&simulation, 2.0);
-    reset_violation_count();
-    assert_no_alloc(|| advance(&mut interaction, 10_000));
-    assert_eq!(violation_count(), 0);
-    assert!(interaction.snapshot().happenings.count() > 20);
+    let local = simulation("", "slip", "[{ g = 0.3, tau_s = 1.5 }]");
+    let whole = Setting {
+        organ: "builtin = \"hemisphere\"\ntriangles = 400",
+        kind: "hybrid",
+        model: "enhancement = { area = \"vertex\", levels = 3 }",
+        ..Setting::default()
+    };
+    for simulation in [local, Arc::new(whole.simulation())] {
+        let mut interaction = virtual_interaction(&simulation, 2.0);
+        reset_violation_count();
+        assert_no_alloc(|| advance(&mut interaction, 10_000));
+        assert_eq!(violation_count(), 0);
+        let snapshot = interaction.snapshot();
+        assert!(snapshot.happenings.count() > 20);
+        let wanted = simulation.enhancement().copied().unwrap_or_default();
+        let seen = EnhancedSurface::new(&simulation, wanted).unwrap();
+        assert_eq!(seen.is_some(), snapshot.whole.is_some());
+        if let (Some(mut seen), Some(whole)) = (seen, &snapshot.whole) {
+            assert!(seen.follow(whole) && seen.new_vertices().count() > 100);
+        }
+    }
 }
 
 #[test]

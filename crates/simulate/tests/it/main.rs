@@ -9,6 +9,7 @@
 mod agreement;
 mod analytic;
 mod data;
+mod enhanced;
 mod errors;
 mod hand_over;
 mod hybrid;

@@ -31,6 +31,11 @@ fn a_sliding_step_allocates_nothing() {
         ("local", "slip", "assembly = \"reused\""),
         ("local", "slip", "form = \"strong\""),
         ("hybrid", "stick", "mechanical_triangles = 400"),
+        (
+            "hybrid",
+            "slip",
+            "mechanical_triangles = 400\nenhancement = { area = \"vertex\", levels = 3 }",
+        ),
     ] {
         let simulation = Setting {
             organ: "builtin = \"liver\"",

@@ -1,5 +1,5 @@
 use nalgebra::Vector3;
-use palpate_geometry::{Surface, Vec3};
+use palpate_geometry::{Surface, TriangleMesh, Vec3};
 use wgpu::util::DeviceExt;
 
 use super::Tint;
@@ -26,9 +26,13 @@ pub struct Body {
 impl Body {
     /// `surface` at rest, in the colours of `tint`.
     pub fn new(gpu: &Gpu, surface: &Surface, tint: Tint) -> Self {
-        let vertices = surface.mesh().vertices();
-        let drawn = crease(vertices, surface.mesh().triangles());
-        let open = openness(surface);
+        Self::with_openness(gpu, surface.mesh(), &openness(surface), tint)
+    }
+
+    /// `mesh` at rest, each vertex as open to light from all sides as `open` says [-].
+    pub(crate) fn with_openness(gpu: &Gpu, mesh: &TriangleMesh, open: &[f32], tint: Tint) -> Self {
+        let vertices = mesh.vertices();
+        let drawn = crease(vertices, mesh.triangles());
         let resting: Vec<[f32; 4]> = drawn
             .nodes
             .iter()

@@ -15,7 +15,7 @@ pub(crate) mod environment;
 mod light;
 mod maps;
 mod noise;
-mod openness;
+pub(crate) mod openness;
 mod pipelines;
 mod target;
 mod tint;

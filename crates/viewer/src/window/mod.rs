@@ -13,6 +13,7 @@
 mod choice;
 mod display;
 mod effort;
+mod enhancement;
 pub mod gesture;
 mod history;
 mod overlay;
@@ -172,13 +173,13 @@ impl SimulatorWindow {
                 .is_none_or(|last| last.scene.organ.shape != play.scene.organ.shape)
         };
         match outcome.play {
-            Ok(play) => {
+            Ok(mut play) => {
                 if other_organ(&play, &self.play) {
                     self.picture.frame_anew();
                 }
-                self.picture.draw_anew();
                 self.fault = None;
-                self.notice = None;
+                let enhanced = self.picture.enhance(&self.gpu, &mut play);
+                self.notice = enhanced.err().map(|error| error.to_string());
                 self.play = Some(play);
             }
             Err(error) if outcome.second => self.notice = Some(error.to_string()),

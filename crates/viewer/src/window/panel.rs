@@ -5,6 +5,7 @@ use palpate_files::scene::{BuiltinOrgan, ModelKind, Shading, TipContact, TipShap
 use palpate_simulate::TRUSTED_DEPTH;
 
 use super::SimulatorWindow;
+use super::enhancement;
 use super::history::SPAN;
 use super::preparation::Preparation;
 use super::rates::Rates;
@@ -24,6 +25,8 @@ pub(super) fn side(window: &mut SimulatorWindow, ui: &mut Ui) {
             }
             ui.separator();
             look(window, ui);
+            ui.separator();
+            enhancement::show(window, ui);
             ui.separator();
             felt(window, ui);
             ui.separator();

@@ -2,13 +2,13 @@ use std::time::Duration;
 
 use eframe::egui::{self, Color32, PointerButton, Pos2, Rect, Response, Sense, Vec2};
 use eframe::egui_wgpu::RenderState;
-use palpate_files::scene::Shading;
+use palpate_files::scene::{Enhancement, Shading};
 
 use super::effort::Effort;
 use super::gesture::{Gesture, Ground, Mouse};
 use super::play::Play;
 use crate::render::{Body, Renderer, Target, ToolPicture, View};
-use crate::{Camera, Gpu, Orbit, TissuePicture, pick, scene_camera};
+use crate::{Camera, Error, Gpu, Orbit, TissuePicture, pick, scene_camera};
 
 /// Turn of the camera per point of the window [rad].
 const TURN: f64 = 0.007;
@@ -18,6 +18,8 @@ pub(super) struct Picture {
     pub(super) shading: Shading,
     pub(super) detail: bool,
     pub(super) endoscope: bool,
+    /// How the whole organ is shown around its contacts, if not as the scene wants it.
+    pub(super) enhancement: Option<Enhancement>,
     pub(super) effort: Effort,
     pub(super) gesture: Gesture,
     orbit: Option<Orbit>,
@@ -35,6 +37,7 @@ impl Picture {
             shading,
             detail: true,
             endoscope: false,
+            enhancement: None,
             effort: Effort::new(gpu.is_software()),
             gesture: Gesture::default(),
             orbit: None,
@@ -45,9 +48,13 @@ impl Picture {
         }
     }
 
-    /// Draws the next picture whatever it shows: the organ is another one.
-    pub(super) fn draw_anew(&mut self) {
+    /// Shows the organ of `play` as it was chosen.
+    pub(super) fn enhance(&mut self, gpu: &Gpu, play: &mut Play) -> Result<(), Error> {
         self.drawn = None;
+        match self.enhancement {
+            None => Ok(()),
+            Some(wanted) => play.organ.enhance(gpu, &play.simulation, wanted),
+        }
     }
 
     /// Frames the organ anew with the next picture.
@@ -196,8 +203,9 @@ impl Picture {
         if self.drawn.as_ref() == Some(&now) {
             return texture;
         }
-        play.organ.deform(gpu, &snapshot.vertices);
-        let bodies: Vec<&Body> = std::iter::once(&play.organ)
+        play.organ
+            .deform(gpu, &snapshot.vertices, snapshot.whole.as_ref());
+        let bodies: Vec<&Body> = std::iter::once(&play.organ.body)
             .chain(&play.neighbours)
             .collect();
         if let Some((target, _)) = &self.target {

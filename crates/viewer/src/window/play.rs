@@ -9,6 +9,7 @@ use palpate_simulate::{Progress, Resources, Simulation, read_organ};
 
 use super::gesture::Aim;
 use crate::render::{Body, Tint};
+use crate::seen_organ::SeenOrgan;
 use crate::{Error, Gpu};
 
 /// A scene that is being touched.
@@ -18,7 +19,7 @@ pub(super) struct Play {
     /// Around the organ at rest.
     pub(super) tree: AabbTree,
     pub(super) interaction: Interaction,
-    pub(super) organ: Body,
+    pub(super) organ: SeenOrgan,
     pub(super) neighbours: Vec<Body>,
     /// What deserves doubt.
     pub(super) doubts: Vec<String>,
@@ -54,7 +55,7 @@ impl Play {
         )?;
         Ok(Self {
             tree: AabbTree::new(simulation.surface().mesh()),
-            organ: Body::new(gpu, simulation.surface(), Tint::of(&scene.organ.shape)),
+            organ: SeenOrgan::new(gpu, &simulation, Tint::of(&scene.organ.shape))?,
             neighbours,
             doubts,
             interaction,

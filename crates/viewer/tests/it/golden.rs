@@ -22,8 +22,13 @@ const MEAN: f64 = 0.6;
 
 /// A ball pressed 10 mm into the hemisphere's pole.
 fn studio(shading: &str) -> (Studio, SimulationState) {
+    pressed("", shading)
+}
+
+/// The same, with more lines on organ and model.
+fn pressed(more: &str, shading: &str) -> (Studio, SimulationState) {
     let text = format!(
-        "format = 1\n[organ]\nbuiltin = \"hemisphere\"\nbuiltin_tissue = \"pig-liver\"\n\
+        "format = 1\n[organ]\nbuiltin = \"hemisphere\"\nbuiltin_tissue = \"pig-liver\"\n{more}\n\
          [view]\nshading = \"{shading}\"\n[[tool]]\nname = \"right\"\n\
          tip = {{ shape = \"sphere\", radius_m = 0.006, contact = \"slip\" }}\n"
     );
@@ -101,6 +106,38 @@ fn every_shading_looks_as_it_did() {
         assert!(
             seen.iter().all(|other| difference(other, &picture) > 0.3),
             "{word}"
+        );
+        seen.push(picture);
+    }
+}
+
+/// Judge: the kept pictures, which were looked at (figure 4-6 of the source): coarse triangles, finer ones
+/// around the tip, and the displacements smoothed as well, each unlike the others.
+#[test]
+fn finer_triangles_look_as_they_did() {
+    if !is_comparable() {
+        return;
+    }
+    let _turn = TURN.lock();
+    let mut seen: Vec<RgbaImage> = Vec::new();
+    for (name, wanted) in [
+        ("coarse", "area = \"none\""),
+        ("finer", "area = \"vertex\", levels = 3"),
+        (
+            "smooth",
+            "area = \"vertex\", levels = 3, smoothing = \"shepard\"",
+        ),
+    ] {
+        let more = format!(
+            "triangles = 250\n[model]\nkind = \"hybrid\"\nresponse = \"boundary_elements\"\n\
+             enhancement = {{ {wanted} }}"
+        );
+        let (mut studio, state) = pressed(&more, "plain");
+        let picture = studio.picture(&state).unwrap();
+        compare(name, &picture);
+        assert!(
+            seen.iter().all(|other| difference(other, &picture) > 0.1),
+            "{name}"
         );
         seen.push(picture);
     }

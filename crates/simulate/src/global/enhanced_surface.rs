@@ -1,0 +1,173 @@
+use palpate_files::scene::{Enhancement, EnhancementArea};
+use palpate_geometry::{NodeId, TriangleId, TriangleMesh, Vec3};
+use palpate_mechanics::enhance::{Carrier, EnhancedPatch, EnhancementModel, Press, SurfaceField};
+
+use super::deform::moved;
+use crate::state::ToolState;
+use crate::tool::Tool;
+use crate::{Error, Simulation};
+
+/// What moves the shown surface of a whole organ, at one instant.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OrganField {
+    /// Of the mechanical triangles [m].
+    pub(crate) displacements: Vec<Vec3>,
+    /// Per tool, if it touches.
+    pub(crate) contacts: Vec<Option<SeenContact>>,
+}
+
+/// A tool that touches the shown surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct SeenContact {
+    pub(crate) triangle: TriangleId,
+    /// Where it touches, at rest [m].
+    pub(crate) place: Vec3,
+    /// What it does to the mechanical surface.
+    pub(crate) press: Press,
+}
+
+impl OrganField {
+    /// That of an untouched organ; none where no whole organ answers.
+    pub(crate) fn at_rest(simulation: &Simulation) -> Option<Self> {
+        let global = simulation.global.as_ref()?;
+        Some(Self {
+            displacements: vec![Vec3::zeros(); global.response.parts().triangles],
+            contacts: vec![None; simulation.tools.len()],
+        })
+    }
+
+    /// Takes over `other`, which is of the same simulation; nothing is allocated.
+    pub(crate) fn copy(&mut self, other: &Self) {
+        self.displacements.copy_from_slice(&other.displacements);
+        self.contacts.copy_from_slice(&other.contacts);
+    }
+}
+
+impl SeenContact {
+    /// Of a tool, if it touches.
+    pub(super) fn of(tool: &Tool, state: &ToolState) -> Option<Self> {
+        let (contact, pose) = (state.contact.as_ref()?, state.pose.as_ref()?);
+        let moved = contact.displacement(tool, &Vec3::from(pose.position_m));
+        let press = Press {
+            at: state.site?,
+            tip: tool.tip,
+            displacement: contact.place.frame * moved,
+        };
+        Some(Self {
+            triangle: contact.place.triangle,
+            place: contact.point(),
+            press,
+        })
+    }
+}
+
+/// The surface of a whole organ with finer triangles around its contacts, for who looks at it: made of what
+/// a simulation tells, at the display's rate, by no thread of the touch.
+#[derive(Debug, Clone)]
+pub struct EnhancedSurface {
+    model: EnhancementModel,
+    /// Of the vertices that are there without a patch.
+    carrier: Carrier,
+    field: SurfaceField,
+    patch: EnhancedPatch,
+    touched: Vec<TriangleId>,
+    presses: Vec<Press>,
+    displacements: Vec<Vec3>,
+    of_patch: Vec<Vec3>,
+    /// At rest.
+    mesh: TriangleMesh,
+    places: Vec<Vec3>,
+}
+
+impl EnhancedSurface {
+    /// As `settings` say; none where the simulation moves the same vertices by itself, or has no whole organ.
+    ///
+    /// # Errors
+    /// When there are too many levels.
+    pub fn new(simulation: &Simulation, settings: Enhancement) -> Result<Option<Self>, Error> {
+        let Some(global) = &simulation.global else {
+            return Ok(None);
+        };
+        let own = global.enhancement.settings();
+        if settings.area == EnhancementArea::None && settings.smoothing == own.smoothing {
+            return Ok(None);
+        }
+        let model = global.enhancement.with_settings(settings)?;
+        let mesh = model.surface().mesh().clone();
+        Ok(Some(Self {
+            carrier: model.carrier(),
+            field: SurfaceField::default(),
+            patch: EnhancedPatch::default(),
+            touched: Vec::new(),
+            presses: Vec::new(),
+            displacements: vec![Vec3::zeros(); mesh.vertices().len()],
+            of_patch: Vec::new(),
+            places: mesh.vertices().to_vec(),
+            mesh,
+            model,
+        }))
+    }
+
+    /// Moves it to where `field` has the organ; whether its triangles are other ones now.
+    ///
+    /// # Panics
+    /// When the field is that of another organ.
+    pub fn follow(&mut self, field: &OrganField) -> bool {
+        let contacts = field.contacts.iter().flatten();
+        let touched = contacts.clone().map(|contact| contact.triangle);
+        let refines = self.model.settings().area != EnhancementArea::None;
+        let anew = refines && !self.touched.iter().copied().eq(touched.clone());
+        if anew {
+            self.touched.clear();
+            self.touched.extend(touched);
+            self.patch.build(&self.model, &self.touched);
+            let surface = self.model.surface();
+            self.mesh = self.patch.in_mesh(surface.mesh(), self.patch.places());
+        }
+        self.presses.clear();
+        self.presses.extend(contacts.map(|contact| Press {
+            // A curved patch lies over the place that is touched, and has to meet the tip as well.
+            displacement: contact.press.displacement + contact.place
+                - self.patch.nearest(&contact.place),
+            ..contact.press
+        }));
+        let interpolation = self.model.interpolation();
+        self.field
+            .update(interpolation, &field.displacements, &self.presses);
+        self.carry();
+        anew
+    }
+
+    /// At rest: the vertices of the shown surface, then those of the finer triangles.
+    pub fn mesh(&self) -> &TriangleMesh {
+        &self.mesh
+    }
+
+    /// Where the vertices of [`Self::mesh`] are now [m].
+    pub fn places(&self) -> &[Vec3] {
+        &self.places
+    }
+
+    /// The new vertices, as means of three vertices of the shown surface with weights [-].
+    pub fn new_vertices(&self) -> impl Iterator<Item = ([NodeId; 3], [f64; 3])> {
+        let shown = self.model.surface().mesh();
+        let new = &self.patch.sites()[self.patch.corners().len()..];
+        new.iter()
+            .map(|at| (shown.corners(at.triangle), at.barycentric))
+    }
+
+    fn carry(&mut self) {
+        let shown = self.carrier.places().len();
+        self.displacements.truncate(shown);
+        self.carrier.carry(&self.field, &mut self.displacements);
+        self.of_patch
+            .resize(self.patch.places().len(), Vec3::zeros());
+        self.patch.displace(&self.field, &mut self.of_patch);
+        let new = &self.of_patch[self.patch.corners().len()..];
+        self.displacements.extend_from_slice(new);
+        self.places.clear();
+        let vertices = self.mesh.vertices().iter().zip(&self.displacements);
+        self.places
+            .extend(vertices.map(|(from, by)| moved(from, by)));
+    }
+}

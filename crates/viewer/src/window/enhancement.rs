@@ -1,0 +1,88 @@
+use eframe::egui::{self, Key, RichText, Ui};
+use palpate_files::scene::{Enhancement, EnhancementArea, Smoothing};
+
+use super::SimulatorWindow;
+use super::style::QUIET;
+
+/// So many times each triangle is cut into four at most; more is drawn too slowly while the tip slides.
+const MOST: usize = 4;
+
+/// How the whole organ is shown around its contacts; switched while it is touched.
+pub(super) fn show(window: &mut SimulatorWindow, ui: &mut Ui) {
+    let chosen = window.picture.enhancement;
+    let wanted = window
+        .play
+        .as_ref()
+        .and_then(|play| play.simulation.enhancement())
+        .map(|of_scene| chosen.unwrap_or(*of_scene));
+    let (Some(mut wanted), Some(play)) = (wanted, &mut window.play) else {
+        let hint = "around a tip the whole organ's model can show finer triangles";
+        ui.label(RichText::new(hint).small().color(QUIET));
+        return;
+    };
+    let before = wanted;
+    choose(&mut wanted, ui);
+    let simulation = &play.simulation;
+    let (shown, solved) = (
+        simulation.surface().mesh().triangles().len(),
+        simulation
+            .response()
+            .map_or(0, |response| response.triangles),
+    );
+    let told = match simulation.is_carried() {
+        true => format!("{shown} triangles are seen, carried by {solved} that are solved"),
+        false => format!("{solved} triangles are solved and seen"),
+    };
+    ui.label(RichText::new(told).small().color(QUIET));
+    if wanted != before {
+        window.picture.enhancement = Some(wanted);
+        let enhanced = window.picture.enhance(&window.gpu, play);
+        window.notice = enhanced.err().map(|error| error.to_string());
+    }
+}
+
+/// The switches, and keys for a hand that presses: it has the mouse.
+fn choose(wanted: &mut Enhancement, ui: &mut Ui) {
+    if ui.input(|input| input.key_pressed(Key::F)) {
+        wanted.area = after(wanted.area, EnhancementArea::WORDS);
+    }
+    if ui.input(|input| input.key_pressed(Key::S)) {
+        wanted.smoothing = after(wanted.smoothing, Smoothing::WORDS);
+    }
+    egui::Grid::new("enhancement")
+        .num_columns(2)
+        .show(ui, |ui| {
+            // A scene may have others.
+            let range = wanted.levels.min(1)..=wanted.levels.max(MOST);
+            ui.label("finer (F)").on_hover_text(
+            "which triangles around the touched one are made finer: none, those that share an edge \
+             with it, or those that share a vertex",
+        );
+            ui.horizontal(|ui| {
+                ui.selectable_value(&mut wanted.area, EnhancementArea::None, "no");
+                ui.selectable_value(&mut wanted.area, EnhancementArea::Edge, "edge");
+                ui.selectable_value(&mut wanted.area, EnhancementArea::Vertex, "vertex");
+                let levels = egui::Slider::new(&mut wanted.levels, range).show_value(false);
+                ui.add_enabled(wanted.area != EnhancementArea::None, levels)
+                    .on_hover_text("how often each triangle is cut into four");
+            });
+            ui.end_row();
+            ui.label("smooth (S)").on_hover_text(
+                "how displacements of triangles are spread: linearly, or by these functions",
+            );
+            ui.horizontal(|ui| {
+                ui.selectable_value(&mut wanted.smoothing, Smoothing::None, "no");
+                ui.selectable_value(&mut wanted.smoothing, Smoothing::Shepard, "Shepard");
+                let squares = Smoothing::MovingLeastSquares;
+                ui.selectable_value(&mut wanted.smoothing, squares, "least squares");
+            });
+            ui.end_row();
+        });
+}
+
+/// The choice after `now`, and the first after the last.
+fn after<T: Copy + PartialEq>(now: T, words: &[(&str, T)]) -> T {
+    let choices = words.iter().map(|(_, choice)| *choice);
+    let mut later = choices.clone().cycle().skip_while(|choice| *choice != now);
+    later.nth(1).unwrap_or(now)
+}
