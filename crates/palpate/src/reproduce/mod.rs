@@ -36,7 +36,7 @@ pub(crate) struct Item {
 }
 
 /// All that can be reproduced, in the order of the source.
-pub(crate) const ITEMS: [Item; 19] = [
+pub(crate) const ITEMS: [Item; 21] = [
     m01::TABLE_3_1,
     m01::FIGURE_3_3,
     m01::FIGURE_3_4,
@@ -45,6 +45,8 @@ pub(crate) const ITEMS: [Item; 19] = [
     m03::TABLE_4_1[0],
     m03::TABLE_4_1[1],
     m03::TABLE_4_1[2],
+    m03::GROWTH,
+    m03::EQUATION_4_3,
     m03::FIGURE_4_2,
     m04::FIGURE_4_4,
     m04::FIGURE_4_5,

@@ -1,4 +1,6 @@
-use palpate_geometry::{AnchorPlane, Organ, Surface, TriangleId, Vec3};
+use palpate_geometry::{
+    AnchorPlane, Organ, SimplifySettings, Surface, TriangleId, TriangleMesh, Vec3, simplify,
+};
 use palpate_mechanics::boundary_elements::BoundaryProblem;
 
 use crate::failure::Failure;
@@ -49,35 +51,56 @@ pub(in crate::reproduce) const MODELS: [Model; 3] = [
     },
 ];
 
+impl Model {
+    fn real_mesh(&self) -> Result<Option<(TriangleMesh, &'static str)>, Failure> {
+        match self.real {
+            Some(name) => Ok(real_mesh(name)?.map(|mesh| (mesh, name))),
+            None => Ok(None),
+        }
+    }
+}
+
 impl Body {
     /// With as many triangles as published, or one more.
-    pub(in crate::reproduce) fn new(Model { row, real, organ }: Model) -> Result<Self, Failure> {
-        let triangles = TABLE_4_1.value(row, "triangles");
+    pub(in crate::reproduce) fn new(model: Model) -> Result<Self, Failure> {
+        let organ = model.organ;
+        let triangles = TABLE_4_1.value(model.row, "triangles");
         let triangles = triangles.map_or(organ.default_triangles(), |count| count as usize);
-        let found = match real {
-            Some(name) => real_mesh(name)?.map(|mesh| (mesh, name)),
-            None => None,
+        match model.real_mesh()? {
+            Some((mesh, name)) => Self::real(&mesh, &format!("the real mesh {name}")),
+            None => Self::built_in(organ, triangles),
+        }
+    }
+
+    /// The last kidney of the table with at most so many triangles.
+    pub(super) fn kidney(triangles: usize) -> Result<Self, Failure> {
+        let Some((mesh, name)) = MODELS[2].real_mesh()? else {
+            return Self::built_in(MODELS[2].organ, triangles);
         };
-        let (mesh, anchor, whose) = match found {
-            Some((mesh, name)) => {
-                // From y up and z to the front to the axes of the built-in organs.
-                let mesh = mesh.map_vertices(|v| Vec3::new(v.x, -v.z, v.y))?;
-                let (low, high) = mesh.bounds();
-                let plane = AnchorPlane {
-                    point: high - HELD * (high - low),
-                    normal: -Vec3::y(),
-                };
-                let whose = format!("the real mesh {name}, held on the back quarter");
-                (mesh, vec![plane], whose)
-            }
-            None => {
-                let mesh = organ.surface_mesh(triangles)?;
-                let held = organ.description().held;
-                let whose = format!("the built-in {organ}, held on {held}");
-                (mesh, organ.anchor(), whose)
-            }
+        let settings = SimplifySettings::to(triangles);
+        let coarse = simplify(&mesh, &settings).map_err(Failure::input)?;
+        Self::real(&coarse.mesh, &format!("the real mesh {name} made coarser"))
+    }
+
+    fn real(mesh: &TriangleMesh, whose: &str) -> Result<Self, Failure> {
+        // From y up and z to the front to the axes of the built-in organs.
+        let mesh = mesh.map_vertices(|v| Vec3::new(v.x, -v.z, v.y))?;
+        let (low, high) = mesh.bounds();
+        let plane = AnchorPlane {
+            point: high - HELD * (high - low),
+            normal: -Vec3::y(),
         };
-        let surface = Surface::new(mesh)?;
+        let whose = format!("{whose}, held on the back quarter");
+        Self::held(Surface::new(mesh)?, &[plane], &whose)
+    }
+
+    fn built_in(organ: Organ, triangles: usize) -> Result<Self, Failure> {
+        let mesh = organ.surface_mesh(triangles)?;
+        let whose = format!("the built-in {organ}, held on {}", organ.description().held);
+        Self::held(Surface::new(mesh)?, &organ.anchor(), &whose)
+    }
+
+    fn held(surface: Surface, anchor: &[AnchorPlane], whose: &str) -> Result<Self, Failure> {
         let mesh = surface.mesh();
         let (held, free) = mesh.triangle_ids().partition(|&triangle| {
             let centroid = centroid(&surface, triangle);

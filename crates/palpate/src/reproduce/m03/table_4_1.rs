@@ -34,7 +34,7 @@ fn run(rows: &mut Rows<'_>, model: Model) -> Result<(), Failure> {
     let row = model.row;
     let body = Body::new(model)?;
     add_size(rows, row, &body);
-    let (response, times) = match solve(rows, &body) {
+    let (response, times) = match solve(rows, &body.problem()) {
         Ok(solved) => solved,
         Err(why @ Error::NotEnoughMemory { .. }) => {
             rows.add_missing("solution_s", "s", why.to_string());

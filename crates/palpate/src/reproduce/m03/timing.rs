@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 use palpate_mechanics::Error;
-use palpate_mechanics::boundary_elements::Stage;
+use palpate_mechanics::boundary_elements::{BoundaryProblem, Stage};
 use palpate_mechanics::contact::Bond;
 use palpate_mechanics::surface_response::{
     MovedTriangle, PatchContact, PatchWorkspace, Reciprocity, SurfaceResponse, TouchId,
@@ -43,12 +43,15 @@ const DEPTH: f64 = 1e-3;
 /// Young's modulus [Pa]; no time depends on it.
 const YOUNGS_MODULUS: f64 = 1e4;
 
-/// Solves for all touchable triangles of `body`.
-pub(super) fn solve(rows: &Rows<'_>, body: &Body) -> Result<(SurfaceResponse, OffLine), Error> {
+/// Solves for all touchable triangles.
+pub(super) fn solve(
+    rows: &Rows<'_>,
+    problem: &BoundaryProblem<'_>,
+) -> Result<(SurfaceResponse, OffLine), Error> {
     let memory = preparation::resources().memory;
     let start = Instant::now();
     let mut ends = [0.0; 3];
-    let solved = body.problem().solve(memory, &mut |progress| {
+    let solved = problem.solve(memory, &mut |progress| {
         let (stage, words) = match progress.stage {
             Stage::Assembly => (0, "the matrix"),
             Stage::Factors => (1, "its factors"),
