@@ -32,6 +32,7 @@ mod linear_system;
 mod no_allocation;
 mod patch_on_hemisphere;
 mod path;
+mod real_organs;
 mod solid;
 mod solid_fields;
 mod stiffening;

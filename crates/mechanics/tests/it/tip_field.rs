@@ -16,7 +16,7 @@ use crate::boundary_response::Held;
 use crate::contacts::{RADIUS, Random, shaken_hemisphere};
 use crate::solid::plane;
 
-fn law(nu: f64) -> LinearElastic {
+pub(crate) fn law(nu: f64) -> LinearElastic {
     LinearElastic::new(1.0, nu).unwrap()
 }
 
