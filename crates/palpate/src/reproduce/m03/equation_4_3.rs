@@ -16,7 +16,7 @@ pub(crate) const EQUATION_4_3: Item = Item {
 const TRIANGLES: usize = 192;
 const POISSONS_RATIO: f64 = 0.45;
 
-/// How the cube is stretched along each axis, the last from the held face up [-].
+/// Strain along the third axis [-].
 const STRETCH: f64 = 0.1;
 
 /// The kernels' integrals as they are used.
@@ -59,7 +59,7 @@ fn without_bracket(integrals: &PanelIntegrals) -> Matrix3<f64> {
     0.5 * (integrals.traction + integrals.traction.transpose())
 }
 
-/// A cube that is stretched evenly, and what holds it: the true answer is known.
+/// A cube that is stretched evenly, so that the true answer is known.
 struct Stretched {
     panels: Vec<Panel>,
     law: LinearElastic,
@@ -94,13 +94,13 @@ impl Stretched {
         })
     }
 
-    /// Along the third axis, and narrower across.
+    /// Longer along the third axis, and narrower across [m].
     fn moved(panel: &Panel) -> Vec3 {
         let [x, y, z] = panel.centroid.into();
         STRETCH * Vec3::new(-POISSONS_RATIO * x, -POISSONS_RATIO * y, z)
     }
 
-    /// With E = 1.
+    /// The traction that does it, with E = 1 [Pa].
     fn pulled(panel: &Panel) -> Vec3 {
         STRETCH * panel.normal.z * Vec3::z()
     }
