@@ -3,13 +3,16 @@
 //! ```text
 //! CleanRecording ─▶ Analysis: holds, relaxation, sinusoids, sweeps
 //! all holds      ─▶ static response: per organ, condition, time after death and depth
+//! all analyses   ─▶ organ responses: relaxation and swings per organ
 //! ```
 
+mod organ_response;
 mod relaxation;
 mod sinusoid;
 mod static_response;
 mod sweep;
 
+pub use organ_response::{FrequencyRow, OrganResponse, Spread, organ_responses};
 pub use relaxation::{Hold, Relaxation};
 pub use sinusoid::Sinusoid;
 pub use static_response::{StaticGroup, StaticPoint, StaticRow, static_response};

@@ -55,9 +55,16 @@ pub struct Contact {
 }
 
 /// The contact where the depth, which counts from it, leaves zero.
-pub(super) fn by_depth(samples: &Oriented) -> Result<Contact, Error> {
+pub(super) fn by_depth(samples: &Oriented, is_uniaxial: bool) -> Result<Contact, Error> {
     let (time, depth) = (&samples.time, &samples.depth);
     let deepest = depth.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    if deepest <= 0.0 && is_uniaxial {
+        // A piece that is pulled is held from the first.
+        return Ok(Contact {
+            time_s: time[0],
+            ..Contact::default()
+        });
+    }
     if deepest <= 0.0 {
         return Err(Error::NoContact {
             cause: "the depth never gets above zero",
@@ -201,7 +208,9 @@ pub(super) fn tell(contact: &Contact, clean: &CleanRecording, doubts: &mut Vec<S
             contact.time_s, contact.depth_m
         ));
     }
-    if contact.sample == 0 {
+    if clean.is_uniaxial() {
+        // Nothing touches: the piece is held.
+    } else if contact.sample == 0 {
         doubts.push(
             "the recording begins in contact: nothing shows the sensor's zero, and the indenter may have touched before"
                 .to_owned(),

@@ -21,7 +21,7 @@ mod stimulus;
 pub(crate) mod swing;
 
 use palpate_files::Recording;
-use palpate_files::recording::RecordingHeader;
+use palpate_files::recording::{RecordingHeader, Stimulus};
 
 pub use contact::Contact;
 pub use filter::LowPass;
@@ -172,7 +172,10 @@ fn find_contact(
     match settings.contact_time_s {
         Some(time) => contact::at(samples, time),
         None if recording.is_foreign() => contact::by_force(samples),
-        None => contact::by_depth(samples),
+        None => {
+            let is_uniaxial = recording.header.stimulus == Some(Stimulus::Uniaxial);
+            contact::by_depth(samples, is_uniaxial)
+        }
     }
 }
 
@@ -212,6 +215,10 @@ impl CleanRecording {
         (CUTOFF * fastest)
             .max(LOWEST_CUTOFF)
             .min(HIGHEST_CUTOFF * rate)
+    }
+
+    fn is_uniaxial(&self) -> bool {
+        self.header.stimulus == Some(Stimulus::Uniaxial)
     }
 
     /// How long a segment takes [s], from its first sample to the first of the next.

@@ -37,6 +37,14 @@ pub(super) fn tell(clean: &CleanRecording, recording: &Recording, doubts: &mut V
 
 fn wrong_unit(clean: &CleanRecording, deepest: f64, strongest: f64) -> Option<String> {
     let millimetres = 1e3 * deepest;
+    if let Some(height) = clean.header.height_m {
+        return (deepest >= height).then(|| {
+            format!(
+                "the piece is {:.2} mm high and pressed by {millimetres:.2} mm",
+                1e3 * height
+            )
+        });
+    }
     if deepest > TOO_DEEP {
         return Some(format!(
             "the depth goes to {millimetres:.0} mm, more than tissue is thick"

@@ -122,3 +122,29 @@ fn real_optical_indentation_is_read_without_a_word() {
     assert!(clean.depth.iter().all(|depth| depth.is_finite()));
     assert_eq!(clean.segments[0].kind, Ramp);
 }
+
+/// Judge: the tables themselves.
+#[test]
+fn real_rubber_is_read_as_a_cube() {
+    let Some(folder) = data::folder() else {
+        return;
+    };
+    let columns = ForeignColumns {
+        force_unit: Some("MPa".to_owned()),
+        ..ForeignColumns::default()
+    };
+    for (file, rows) in [
+        ("treloar1944_uniaxial.csv", 24),
+        ("treloar1944_uniaxial_example.csv", 21),
+    ] {
+        let clean = cleaned(&folder.join("rubber").join(file), &columns);
+        assert_eq!(clean.time.len(), rows, "{file}");
+        assert_eq!(clean.doubts.len(), 1, "{file}: {:?}", clean.doubts);
+        let pulled = -clean.depth[rows - 1];
+        let stress = -clean.force[rows - 1];
+        assert!(
+            (4.0..8.0).contains(&pulled) && (3e6..8e6).contains(&stress),
+            "{file}: {pulled} {stress}"
+        );
+    }
+}

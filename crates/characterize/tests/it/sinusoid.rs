@@ -2,8 +2,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use palpate_characterize::analyze::{Sinusoid, Sweep};
+use palpate_characterize::analyze::{Sinusoid, Sweep, organ_responses};
 use palpate_characterize::{Analysis, CleanSettings, analyze, clean};
+use palpate_files::recording::RecordingHeader;
 use palpate_mechanics::{ForceHistory, PronySeries, Vec3};
 
 use crate::made_up::{Dice, own, times};
@@ -248,4 +249,42 @@ fn noise_is_marked() {
             .iter()
             .all(|point| (0.0..=1.0 + 1e-9).contains(&point.coherence))
     );
+}
+
+/// Judge: three springs, two of them the same organ.
+#[test]
+fn organs_are_put_together_by_frequency() {
+    let spring = |organ: &str, stiffness: f64, frequency: f64| {
+        let depth = depth(move |t| (TAU * frequency * t).sin());
+        let header = RecordingHeader {
+            organ: Some(organ.to_owned()),
+            ..RecordingHeader::default()
+        };
+        (
+            header,
+            analyzed(100.0, 10.0, depth, |t| stiffness * depth(t)),
+        )
+    };
+    let all = [
+        spring("liver", 12.0, 2.0),
+        spring("kidney", 40.0, 1.0),
+        spring("liver", 18.0, 2.02),
+        spring("liver", 16.0, 0.5),
+    ];
+    let recordings: Vec<_> = all
+        .iter()
+        .map(|(header, analysis)| (header, analysis))
+        .collect();
+    let [kidney, liver] = organ_responses(&recordings).try_into().unwrap();
+    assert_eq!(kidney.organ.as_deref(), Some("kidney"));
+    assert_eq!(kidney.sinusoids.len(), 1);
+    let [slow, fast] = liver.sinusoids.try_into().unwrap();
+    assert!((slow.stiffness_n_per_m.mean - 16.0).abs() < 1e-6 && slow.stiffness_n_per_m.n == 1);
+    let stiffness = fast.stiffness_n_per_m;
+    assert!(
+        (stiffness.mean - 15.0).abs() < 1e-6 && stiffness.n == 2,
+        "{stiffness:?}"
+    );
+    assert!((stiffness.min - 12.0).abs() < 1e-6 && (stiffness.max - 18.0).abs() < 1e-6);
+    assert!((fast.frequency_hz - 2.01).abs() < 1e-4 && fast.phase_rad.mean.abs() < 1e-6);
 }

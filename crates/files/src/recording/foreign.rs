@@ -3,7 +3,7 @@ use std::path::Path;
 
 use super::foreign_names::Wanted;
 use super::samples::{self, Repeated};
-use super::{Recording, RecordingHeader, foreign_table, foreign_units};
+use super::{Recording, RecordingHeader, foreign_table, foreign_units, stretches};
 use crate::Error;
 use crate::table::{Column, Row};
 
@@ -45,7 +45,8 @@ impl Recording {
     /// Fields are separated by commas, semicolons or tabs; with the latter two a decimal comma is
     /// understood. Lines above the names of the columns are passed over, but for comments
     /// `# key = value` with the keys of a recording. A row that repeats the one above it in every
-    /// field is left out. What was taken for what is told by [`Recording::remarks`].
+    /// field is left out. A table of stretches and stresses without times is read as the recording of
+    /// a cube of one metre. What was taken for what is told by [`Recording::remarks`].
     ///
     /// # Errors
     /// When a column is not there, its unit is not known or its numbers make no recording.
@@ -56,14 +57,22 @@ impl Recording {
     ) -> Result<Self, Error> {
         let path = path.as_ref();
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let table = foreign_table::find(text, path, columns)?;
+        let wanted = columns.wanted();
+        let (table, has_all) = foreign_table::find(text, path, &wanted)?;
+        let is_open = wanted.iter().all(Wanted::is_recognised);
+        if !has_all
+            && is_open
+            && let Some(recording) = stretches::parse(text, path, columns)?
+        {
+            return Ok(recording);
+        }
         let keys = table.header.keys(path, RecordingHeader::KEYS);
         let header = RecordingHeader::from_keys(&keys)?;
         let (found, has_units) = foreign_units::columns(&table, columns)?;
         let is_unit_row = |row: &Row<'_>| has_units && foreign_units::of_row(row, &found).is_some();
         let read = samples::read(&table, &found, is_unit_row, Repeated::LeftOut)?;
         let mut remarks = Vec::new();
-        if columns.wanted().iter().any(Wanted::is_recognised) {
+        if wanted.iter().any(Wanted::is_recognised) {
             remarks.push(taken(&found));
         }
         if read.repeated > 0 {
@@ -76,7 +85,8 @@ impl Recording {
             header,
             samples: read.samples,
             extra_columns: read.extra_columns,
-            remarks: Some(remarks),
+            remarks,
+            is_foreign: true,
         })
     }
 }

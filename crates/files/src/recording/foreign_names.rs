@@ -20,13 +20,13 @@ const DEPTH: &[&str] = &[
     "height",
 ];
 const FORCE: &[&str] = &["force", "load", "f", "kraft", "standardkraft", "last"];
-/// A name of more words is a sentence.
-const MOST_WORDS: usize = 4;
+/// A name of more words, its unit included, is a sentence.
+const MOST_WORDS: usize = 6;
 
 /// How the column of a quantity is found.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Wanted<'c> {
-    /// The quantity: `time`, `depth` or `force`.
+    /// The quantity, such as `time`.
     pub(super) quantity: &'static str,
     /// The name that the user gives.
     named: Option<&'c str>,
@@ -45,7 +45,11 @@ impl ForeignColumns {
 }
 
 impl<'c> Wanted<'c> {
-    fn new(quantity: &'static str, named: Option<&'c str>, words: &'static [&'static str]) -> Self {
+    pub(super) fn new(
+        quantity: &'static str,
+        named: Option<&'c str>,
+        words: &'static [&'static str],
+    ) -> Self {
         Self {
             quantity,
             named: named.map(str::trim),
@@ -86,14 +90,11 @@ impl<'c> Wanted<'c> {
         if let Some(named) = self.named {
             return (own == named).then_some(0);
         }
-        let base = base(own).to_lowercase();
-        let parts: Vec<_> = base
-            .split(|c: char| !c.is_alphanumeric())
-            .filter(|part| !part.is_empty())
-            .collect();
-        if parts.len() > MOST_WORDS {
+        if words(own).count() > MOST_WORDS {
             return None;
         }
+        let base = base(own).to_lowercase();
+        let parts: Vec<_> = words(&base).collect();
         let place = |part: &str| self.words.iter().position(|word| *word == part);
         match parts.as_slice() {
             [only] => place(only),
@@ -128,6 +129,11 @@ impl<'c> Wanted<'c> {
             }),
         }
     }
+}
+
+fn words(name: &str) -> impl Iterator<Item = &str> {
+    let parts = name.split(|c: char| !c.is_alphanumeric());
+    parts.filter(|part| !part.is_empty())
 }
 
 fn quoted(names: &[impl AsRef<str>]) -> Vec<String> {

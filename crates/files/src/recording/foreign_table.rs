@@ -1,31 +1,30 @@
 use std::path::Path;
 
+use super::RecordingHeader;
 use super::foreign_names::Wanted;
-use super::{ForeignColumns, RecordingHeader};
 use crate::Error;
 use crate::table::{Header, Layout, TableText};
 
 /// Lines that are looked at even if they hold none of the names, to say what was found instead.
 const HEAD: usize = 50;
 
-/// The table in `text` whose first line holds the names of all three columns, or as many of them as
-/// any line does.
+/// The table in `text` whose first line holds the names of all columns that are `wanted`, or as many
+/// of them as any line does; and whether it holds all.
 pub(super) fn find<'t>(
     text: &'t str,
     path: &Path,
-    columns: &ForeignColumns,
-) -> Result<TableText<'t>, Error> {
-    let wanted = columns.wanted();
+    wanted: &[Wanted<'_>],
+) -> Result<(TableText<'t>, bool), Error> {
     let mut above = Vec::new();
     let mut rest = text;
     let mut nearest: Option<(Likeness, TableText<'t>)> = None;
     while !rest.is_empty() {
         let (line, next) = rest.split_once('\n').unwrap_or((rest, ""));
         if above.len() < HEAD || wanted.iter().any(|quantity| quantity.may_be_in(line)) {
-            for (likeness, mut table) in tables_at(rest, above.len() + 1, path, &wanted) {
+            for (likeness, mut table) in tables_at(rest, above.len() + 1, path, wanted) {
                 if likeness.names == wanted.len() {
                     table.header = Header::of_foreign(&above, path, RecordingHeader::KEYS)?;
-                    return Ok(table);
+                    return Ok((table, true));
                 }
                 if nearest.as_ref().is_none_or(|(most, _)| likeness > *most) {
                     nearest = Some((likeness, table));
@@ -36,7 +35,7 @@ pub(super) fn find<'t>(
         rest = next;
     }
     nearest
-        .map(|(_, table)| table)
+        .map(|(_, table)| (table, false))
         .ok_or_else(|| Error::NoRows {
             path: path.to_owned(),
         })

@@ -44,6 +44,20 @@ pub(super) fn columns(
     Ok(([column(0)?, column(1)?, column(2)?], row_units.is_some()))
 }
 
+/// The unit of the column of a stress, by its name or as it is stated for forces.
+pub(super) fn stress(
+    table: &TableText<'_>,
+    name: &str,
+    wanted: &ForeignColumns,
+) -> Result<&'static Unit, Error> {
+    let quantity = Quantity {
+        name,
+        stated: wanted.force_unit.as_deref(),
+        si: "pa",
+    };
+    quantity.unit(table, None)
+}
+
 /// The units in a row that holds units in place of numbers.
 pub(super) fn of_row(row: &Row<'_>, columns: &[Column; 3]) -> Option<[&'static Unit; 3]> {
     let [time, depth, force] = columns.each_ref().map(|column| {

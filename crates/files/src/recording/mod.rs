@@ -8,6 +8,7 @@ mod foreign_units;
 mod header;
 mod header_keys;
 mod samples;
+mod stretches;
 mod write;
 
 use std::path::Path;
@@ -32,8 +33,9 @@ pub struct Recording {
     pub header: RecordingHeader,
     samples: Samples,
     extra_columns: Vec<ExtraColumn>,
-    /// What was done to read the table of another program; none for one of this project's.
-    remarks: Option<Vec<String>>,
+    /// What was done to read the table of another program.
+    remarks: Vec<String>,
+    is_foreign: bool,
 }
 
 impl Recording {
@@ -48,7 +50,8 @@ impl Recording {
             header,
             samples,
             extra_columns: Vec::new(),
-            remarks: None,
+            remarks: Vec::new(),
+            is_foreign: false,
         })
     }
 
@@ -92,7 +95,8 @@ impl Recording {
             header,
             samples: read.samples,
             extra_columns: read.extra_columns,
-            remarks: None,
+            remarks: Vec::new(),
+            is_foreign: false,
         })
     }
 
@@ -114,12 +118,12 @@ impl Recording {
     /// Whether it is from a table of another program: its depth need not begin at first contact, and
     /// its signs need not be those of this project.
     pub fn is_foreign(&self) -> bool {
-        self.remarks.is_some()
+        self.is_foreign
     }
 
     /// What was done to read the table of another program, in plain sentences.
     pub fn remarks(&self) -> &[String] {
-        self.remarks.as_deref().unwrap_or_default()
+        &self.remarks
     }
 
     /// The columns that are kept although they mean nothing here.

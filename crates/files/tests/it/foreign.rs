@@ -152,3 +152,29 @@ fn repeated_rows_are_left_out_and_other_times_that_stand_still_refused() {
         assert!(error.to_string().contains("sort the rows"), "{error}");
     }
 }
+
+#[test]
+fn stretches_and_stresses_are_a_cube_of_one_metre() {
+    let text =
+        "# Rubber, simple tension, 20 C; by hand\nstretch,nominal_stress_MPa\n1.0,0\n1.5,0.25\n";
+    let mut columns = ForeignColumns::default();
+    let recording = Recording::parse_foreign(text, "a.csv", &columns).unwrap();
+    assert_eq!(recording.depth_m(), [0.0, -0.5]);
+    assert_eq!(recording.force_n(), [0.0, -0.25e6]);
+    assert_eq!(
+        (recording.header.area_m2, recording.header.height_m),
+        (Some(1.0), Some(1.0))
+    );
+    assert!(!recording.is_foreign() && recording.remarks().len() == 1);
+    let text = "Stretch,Stress\n1.0,0\n1.5,0.25\n";
+    let error = Recording::parse_foreign(text, "a.csv", &columns).unwrap_err();
+    assert!(
+        error
+            .to_string()
+            .contains("the unit of `Stress` is not known here"),
+        "{error}"
+    );
+    columns.force_unit = Some("MPa".to_owned());
+    let recording = Recording::parse_foreign(text, "a.csv", &columns).unwrap();
+    assert_eq!(recording.force_n()[1], -0.25e6);
+}
