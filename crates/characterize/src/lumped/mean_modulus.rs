@@ -24,6 +24,16 @@ impl Contact {
             Self::Cone(angle) => 2.0 / std::f64::consts::PI * angle.tan() * depth * depth,
         }
     }
+
+    /// The radius [m] of what touches at `depth` [m], in the same closed forms.
+    pub(super) fn face_radius(self, depth: f64) -> f64 {
+        let depth = depth.max(0.0);
+        match self {
+            Self::Flat(radius) => radius,
+            Self::Sphere(radius) => (radius * depth).sqrt().min(radius),
+            Self::Cone(angle) => 2.0 / std::f64::consts::PI * angle.tan() * depth,
+        }
+    }
 }
 
 /// Young's modulus [Pa] of incompressible tissue, ν = ½, from one `force` [N] at `depth` [m]: a secant.

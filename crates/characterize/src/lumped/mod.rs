@@ -4,12 +4,29 @@
 //! [Sneddon 1965]. *Kelvin*: two springs and a damper, (6.3) as it must read: a step of depth d gives
 //! d (k₂ + (k₁ − k₂) exp(−t k₁/b)); the printed form rises with time (`docs/errata.md`).
 //!
-//! *How we know*: `lumped::…`: closed forms, recordings made from known parameters.
+//! *Blatz*: the exponential law (6.2) on a column with the indenter's face, pressed to λ = 1 − d/L of its
+//! length L ([`column_size`]); the source gives neither face nor length, and inverts λ.
 //!
-//! *Limits*: small strain; the numbers belong to one indenter on one specimen.
+//! *Nonlinear springs*: a spring, and beside it one or two that relax since each holds a unit mass and a unit
+//! damper, (6.4) with its signs mended (`docs/errata.md`):
+//!   F = k₀₁ [x]^k₀₂ + Σ kᵢ₃ [eᵢ]^kᵢ₂,  eᵢ = x − yᵢ,  ÿᵢ = kᵢ₁ [eᵢ]^kᵢ₂ − ẏᵢ,  [e]^k = sign(e) |e|^k,
+//! with x in mm, by the method of Runge and Kutta in steps of a twentieth of the fastest time; the changes
+//! with the parameters go along.
+//!
+//! *How we know*: `lumped…::…`: closed forms, recordings made from known parameters; the printed springs
+//! against the steady forces of table 5-1.
+//!
+//! *Limits*: small strain but for the column and the springs; the numbers belong to one indenter on one specimen. A spring does not see that the
+//! indenter may let go: on a fast way back it pulls.
 
+mod column;
 mod kelvin;
 mod mean_modulus;
+mod springs;
+mod springs_fit;
 
+pub use column::{ColumnFit, column_force, column_size, fit_column};
 pub use kelvin::{DepthHistory, KelvinFit, fit_kelvin};
 pub use mean_modulus::{Contact, fit_modulus, mean_modulus};
+pub use springs::springs_force;
+pub use springs_fit::{SpringsFit, fit_springs};

@@ -6,7 +6,8 @@ use palpate_characterize::lumped::{
     Contact, DepthHistory, KelvinFit, fit_kelvin, fit_modulus, mean_modulus,
 };
 
-fn published(file: &str) -> Vec<Vec<String>> {
+/// The rows of a printed table, without its heads.
+pub(crate) fn published(file: &str) -> Vec<Vec<String>> {
     let path = format!("{}/../../published/{file}", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(path).unwrap();
     let lines = text.lines().filter(|line| !line.starts_with('#')).skip(1);

@@ -13,6 +13,8 @@ mod errors;
 mod filter;
 mod fit;
 mod lumped;
+mod lumped_column;
+mod lumped_springs;
 mod made_up;
 mod random;
 mod real;

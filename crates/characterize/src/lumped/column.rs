@@ -1,0 +1,107 @@
+use palpate_files::Estimate;
+use palpate_files::tissue::EffectiveColumn;
+use palpate_mechanics::Blatz;
+use palpate_mechanics::finite_elements::uniaxial::nominal_stress;
+
+use super::Contact;
+use crate::Error;
+use crate::fit::{Fit, Parameter, Settings, doubts, least_squares, uncertainty};
+
+/// Blatz's law on a column (6.2), and the fit that found it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ColumnFit {
+    /// The parameters with their standard errors; area and length were chosen, not found.
+    pub column: EffectiveColumn,
+    /// The fit of γ and α.
+    pub fit: Fit,
+    /// The part of the force that the law does not follow: its root mean square over the largest [-].
+    pub misfit: f64,
+    /// What deserves doubt, in plain sentences.
+    pub doubts: Vec<String>,
+}
+
+/// The least length of a column over the largest depth [-]. Pressed to less than three quarters of its
+/// length a column stiffens more than tissue under an indenter does, even with α = 0.
+const LEAST_LENGTH: f64 = 4.0;
+/// The least α [-]: what the law needs to be told from a neo-Hookean one, and where its search starts.
+const ALPHAS: [f64; 3] = [1e-3, 1.0, 100.0];
+/// A misfit from which on the law is said to miss the curve [-].
+const MISSES: f64 = 0.05;
+
+/// Cross-section [m²] and length [m] of the column that stands for the tissue under an indenter.
+///
+/// Its face is that of the indenter at the largest depth, πa². Its length 3πa/8 makes EA/L the stiffness
+/// (8/3) E a of the half-space, unless that is less than four times the depth: then it is four times that.
+pub fn column_size(contact: Contact, deepest: f64) -> [f64; 2] {
+    let radius = contact.face_radius(deepest);
+    let half_space = 3.0 * std::f64::consts::PI / 8.0 * radius;
+    let area = std::f64::consts::PI * radius * radius;
+    [area, half_space.max(LEAST_LENGTH * deepest)]
+}
+
+/// Steady force [N] of a column at `depth` [m]: (6.2) with λ = 1 − d/L, times the area.
+///
+/// # Errors
+/// Where the law has no stress, as at depths beyond the length.
+pub fn column_force(column: &EffectiveColumn, depth: f64) -> Result<f64, Error> {
+    let law = Blatz::incompressible(column.gamma_pa.value, column.alpha.value)?;
+    let stretch = 1.0 - depth / column.effective_length_m.value;
+    Ok(-nominal_stress(&law, stretch)? * column.effective_area_m2.value)
+}
+
+/// γ and α of a column from a static response: steady `forces` [N] at `depths` [m], each an observation of
+/// its own.
+///
+/// # Errors
+/// When nothing is pressed or felt, or there are fewer than two observations.
+pub fn fit_column(contact: Contact, depths: &[f64], forces: &[f64]) -> Result<ColumnFit, Error> {
+    let most = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
+    let (deepest, largest) = (most(depths), most(forces));
+    let [area, length] = column_size(contact, deepest);
+    if !(area > 0.0 && largest > 0.0) {
+        return Err(Error::NothingFelt);
+    }
+    let column = |gamma: f64, alpha: f64| EffectiveColumn {
+        gamma_pa: gamma.into(),
+        alpha: alpha.into(),
+        effective_area_m2: area.into(),
+        effective_length_m: length.into(),
+    };
+    let [least, start, greatest] = ALPHAS;
+    let gamma = largest / column_force(&column(1.0, start), deepest)?;
+    let parameters = [
+        Parameter::new("gamma_pa", gamma).within(0.0, f64::INFINITY),
+        Parameter::new("alpha", start).within(least, greatest),
+    ];
+    let settings = Settings::default();
+    let fit = least_squares(&parameters, depths.len(), &settings, |p, residuals| {
+        let column = column(p[0], p[1]);
+        for (residual, (&depth, force)) in residuals.iter_mut().zip(depths.iter().zip(forces)) {
+            *residual = column_force(&column, depth).ok()? - force;
+        }
+        Some(())
+    })?;
+    let known = uncertainty(&fit);
+    let misfit = (fit.sum_of_squares() / depths.len() as f64).sqrt() / largest;
+    let mut said = doubts(&fit, &known, None);
+    if misfit > MISSES {
+        said.push(format!(
+            "blatz on a column misses the shape of the force: {:.0} % of the largest force on average",
+            100.0 * misfit
+        ));
+    }
+    let [gamma_pa, alpha] = [0, 1].map(|place| Estimate {
+        value: fit.parameters[place].value,
+        standard_error: known.standard_error(place),
+    });
+    Ok(ColumnFit {
+        column: EffectiveColumn {
+            gamma_pa,
+            alpha,
+            ..column(1.0, start)
+        },
+        misfit,
+        doubts: said,
+        fit,
+    })
+}

@@ -1,0 +1,238 @@
+use nalgebra::DMatrix;
+use palpate_files::Estimate;
+use palpate_files::tissue::NonlinearSprings;
+
+use super::springs::{OF_BRANCH, STATIC, respond};
+use crate::Error;
+use crate::fit::{
+    Fit, Parameter, Settings, Uncertainty, correlated_uncertainty, doubts, information_criterion,
+    least_squares_with_jacobian,
+};
+use crate::inverse::Indentation;
+
+/// The springs of (6.4) that were found, and how.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SpringsFit {
+    /// The parameters, with their standard errors; of a second spring that is not worth it all are zero.
+    pub springs: NonlinearSprings,
+    /// How many springs relax: one or two, the one with the larger force first.
+    pub branches: usize,
+    /// What each number of them comes to: their number, Σ ε² [N²] and the information criterion [-].
+    pub tried: Vec<(usize, f64, f64)>,
+    /// The fit of the parameters, in the order of their names.
+    pub fit: Fit,
+    /// How well they are known.
+    pub uncertainty: Uncertainty,
+    /// The part of the force that the springs do not follow: its root mean square over the largest [-].
+    pub misfit: f64,
+    /// What deserves doubt, in plain sentences.
+    pub doubts: Vec<String>,
+}
+
+/// Names of the parameters, in their order.
+const NAMES: [&str; 8] = ["k01", "k02", "k11", "k12", "k13", "k21", "k22", "k23"];
+/// Exponents that are sought for the static spring and for those that relax [-]: below one, the stiffness of
+/// a spring at rest would have no bound.
+const EXPONENTS: [[f64; 2]; 2] = [[0.5, 6.0], [1.0, 6.0]];
+/// The exponent that fits start from [-].
+const EXPONENT: f64 = 1.5;
+/// Times in which a spring gives way at first, where fits start, in lengths of the recording [-].
+const TIMES: [f64; 3] = [0.01, 0.05, 0.3];
+/// By how much the criterion must fall for a second spring: "strong" in [Burnham and Anderson 2002].
+const WORTH: f64 = 10.0;
+/// A misfit from which on the springs are said to miss the curve [-].
+const MISSES: f64 = 0.05;
+/// Relative change of the parameters below which a fit has arrived [-]: far less than they are known.
+const TOLERANCE: f64 = 1e-8;
+
+/// The springs of (6.4) that come nearest to all `indentations` at once.
+///
+/// # Errors
+/// When nothing is pressed or felt, or the samples are fewer than the parameters.
+pub fn fit_springs(indentations: &[Indentation<'_>]) -> Result<SpringsFit, Error> {
+    let felt = Felt::of(indentations)?;
+    let one = best(indentations, &felt.starts(None))?;
+    let two = best(indentations, &felt.starts(Some(&one)))?;
+    let lengths: Vec<usize> = indentations.iter().map(|each| each.time.len()).collect();
+    // What the richer leaves is noise, so both are compared as if that noise had been seen.
+    let samples = correlated_uncertainty(&two, &lengths).effective_samples;
+    let [first, second] = [&one, &two].map(|fit| information_criterion(fit, samples));
+    let tried = vec![
+        (1, one.sum_of_squares(), first),
+        (2, two.sum_of_squares(), second),
+    ];
+    let branches = if second < first - WORTH { 2 } else { 1 };
+    let mut fit = if branches == 2 { two } else { one };
+    stronger_first(&mut fit, felt.depth);
+    let uncertainty = correlated_uncertainty(&fit, &lengths);
+    let misfit = (fit.sum_of_squares() / fit.residuals.len() as f64).sqrt() / felt.peak;
+    let mut said = doubts(&fit, &uncertainty, None);
+    if misfit > MISSES {
+        said.push(format!(
+            "the nonlinear springs miss the shape of the force: {:.0} % of the largest force on average",
+            100.0 * misfit
+        ));
+    }
+    Ok(SpringsFit {
+        springs: described(&fit, &uncertainty),
+        branches,
+        tried,
+        uncertainty,
+        misfit,
+        doubts: said,
+        fit,
+    })
+}
+
+/// Sizes that fits start from.
+struct Felt {
+    /// The largest depth [mm].
+    depth: f64,
+    /// The largest force [N].
+    peak: f64,
+    /// The force that is left at the end of the deepest recording [N].
+    left: f64,
+    /// The length of the longest recording [s].
+    duration: f64,
+}
+
+impl Felt {
+    fn of(indentations: &[Indentation<'_>]) -> Result<Self, Error> {
+        let most = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
+        let deepest = indentations
+            .iter()
+            .max_by(|a, b| most(a.depth).total_cmp(&most(b.depth)));
+        let deepest = deepest.ok_or(Error::NothingFelt)?;
+        let duration = |each: &Indentation<'_>| match each.time {
+            [first, .., last] => last - first,
+            _ => 0.0,
+        };
+        let felt = Self {
+            depth: 1e3 * most(deepest.depth),
+            peak: most(deepest.force),
+            left: deepest.force.last().copied().unwrap_or(0.0),
+            duration: indentations.iter().map(duration).fold(0.0, f64::max),
+        };
+        if felt.depth > 0.0 && felt.peak > 0.0 && felt.duration > 0.0 {
+            Ok(felt)
+        } else {
+            Err(Error::NothingFelt)
+        }
+    }
+
+    /// Where fits start: with one relaxing spring, or with a second beside what `one` came to.
+    fn starts(&self, one: Option<&Fit>) -> Vec<Vec<Parameter>> {
+        let start = |time: &f64| match one {
+            None => [self.at_rest(), self.branch(0, *time)].concat(),
+            Some(one) => [one.parameters.clone(), self.branch(1, *time)].concat(),
+        };
+        TIMES.iter().map(start).collect()
+    }
+
+    fn at_rest(&self) -> Vec<Parameter> {
+        let left = self.left.clamp(0.1 * self.peak, self.peak);
+        let [lower, upper] = EXPONENTS[0];
+        vec![
+            factor(NAMES[0], left / self.depth.powf(EXPONENT)),
+            Parameter::new(NAMES[1], EXPONENT).within(lower, upper),
+        ]
+    }
+
+    fn branch(&self, place: usize, time: f64) -> Vec<Parameter> {
+        let names = &NAMES[STATIC + place * OF_BRANCH..];
+        let lost = (self.peak - self.left).clamp(0.05 * self.peak, self.peak);
+        let [lower, upper] = EXPONENTS[1];
+        let rate = self.depth.powf(1.0 - EXPONENT) / (time * self.duration);
+        vec![
+            factor(names[0], rate),
+            Parameter::new(names[1], EXPONENT).within(lower, upper),
+            factor(names[2], 0.5 * lost / self.depth.powf(EXPONENT)),
+        ]
+    }
+}
+
+fn factor(name: &str, value: f64) -> Parameter {
+    Parameter::new(name, value).within(0.0, f64::INFINITY)
+}
+
+fn best(indentations: &[Indentation<'_>], starts: &[Vec<Parameter>]) -> Result<Fit, Error> {
+    let mut best: Result<Fit, Error> = Err(Error::NothingFelt);
+    for parameters in starts {
+        let found = fitted(indentations, parameters);
+        best = match (best, found) {
+            (Ok(best), Ok(found)) if best.sum_of_squares() <= found.sum_of_squares() => Ok(best),
+            (Ok(best), Err(_)) => Ok(best),
+            (_, found) => found,
+        };
+    }
+    best
+}
+
+fn fitted(indentations: &[Indentation<'_>], parameters: &[Parameter]) -> Result<Fit, Error> {
+    let samples = indentations.iter().map(|each| each.time.len()).sum();
+    let settings = Settings {
+        tolerance: TOLERANCE,
+        ..Settings::default()
+    };
+    let evaluate = |values: &[f64], residuals: &mut [f64], jacobian: &mut DMatrix<f64>| {
+        let mut start = 0;
+        for each in indentations {
+            for (row, force) in each.force.iter().enumerate() {
+                residuals[start + row] = -force;
+            }
+            respond(values, (each.time, each.depth), &mut |row, first, share| {
+                residuals[start + row] += share.force;
+                let count = if first == 0 { STATIC } else { OF_BRANCH };
+                for (place, change) in share.by.iter().take(count).enumerate() {
+                    jacobian[(start + row, first + place)] = *change;
+                }
+            })?;
+            start += each.force.len();
+        }
+        Some(())
+    };
+    least_squares_with_jacobian(parameters, samples, &settings, evaluate)
+}
+
+/// Of two relaxing springs the one that would be the stronger at `depth` [mm] comes first.
+fn stronger_first(fit: &mut Fit, depth: f64) {
+    let places = [STATIC, STATIC + OF_BRANCH];
+    if fit.parameters.len() < places[1] + OF_BRANCH {
+        return;
+    }
+    let strength = |first: usize| {
+        let [exponent, factor] = [1, 2].map(|i| fit.parameters[first + i].value);
+        factor * depth.powf(exponent)
+    };
+    if strength(places[0]) >= strength(places[1]) {
+        return;
+    }
+    for [a, b] in (0..OF_BRANCH).map(|i| places.map(|first| first + i)) {
+        fit.parameters.swap(a, b);
+        fit.jacobian.swap_columns(a, b);
+    }
+    for (parameter, name) in fit.parameters.iter_mut().zip(NAMES) {
+        name.clone_into(&mut parameter.name);
+    }
+}
+
+fn described(fit: &Fit, uncertainty: &Uncertainty) -> NonlinearSprings {
+    let of = |place: usize| match fit.parameters.get(place) {
+        Some(parameter) => Estimate {
+            value: parameter.value,
+            standard_error: uncertainty.standard_error(place),
+        },
+        None => Estimate::exactly(0.0),
+    };
+    let [k01, k02, k11, k12, k13, k21, k22, k23] = std::array::from_fn(of);
+    NonlinearSprings {
+        k01,
+        k02,
+        k11,
+        k12,
+        k13,
+        k21,
+        k22,
+        k23,
+    }
+}
