@@ -65,6 +65,11 @@ pub enum Error {
         "the organ is hollow, and a mean modulus is that of a half-space; fit a tube to it instead"
     )]
     HollowOrgan,
+    /// A steady force was asked for where the indenter never stays.
+    #[error(
+        "no recording stays at a depth, and a mean modulus is that of a steady force; record a ramp and a hold"
+    )]
+    NoHold,
     /// A fit has nowhere to start.
     #[error("the model has no answer where its fit starts, at {}; start elsewhere", listed(.parameters))]
     NoStart {

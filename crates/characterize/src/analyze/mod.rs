@@ -13,6 +13,7 @@ mod static_response;
 mod sweep;
 
 pub use organ_response::{FrequencyRow, OrganResponse, Spread, organ_responses};
+pub(crate) use relaxation::holds;
 pub use relaxation::{Hold, Relaxation};
 pub use sinusoid::Sinusoid;
 pub use static_response::{StaticGroup, StaticPoint, StaticRow, static_response};
@@ -39,7 +40,7 @@ pub struct Analysis {
 /// Analyzes a recording.
 pub fn analyze(recording: &CleanRecording) -> Analysis {
     let mut doubts = Vec::new();
-    let holds = relaxation::holds(recording, &mut doubts);
+    let holds = holds(recording, &mut doubts);
     let mut sinusoids = Vec::new();
     let mut sweeps = Vec::new();
     for segment in &recording.segments {

@@ -54,7 +54,7 @@ pub struct Relaxation {
 }
 
 /// Every hold of a recording.
-pub(super) fn holds(recording: &CleanRecording, doubts: &mut Vec<String>) -> Vec<Hold> {
+pub(crate) fn holds(recording: &CleanRecording, doubts: &mut Vec<String>) -> Vec<Hold> {
     let segments = recording.segments.iter();
     let holds: Vec<_> = segments
         .filter(|own| own.kind == SegmentKind::Hold)

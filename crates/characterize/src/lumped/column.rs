@@ -4,6 +4,7 @@ use palpate_mechanics::Blatz;
 use palpate_mechanics::finite_elements::uniaxial::nominal_stress;
 
 use super::Contact;
+use super::misfit::{misfit, missed};
 use crate::Error;
 use crate::fit::{Fit, Parameter, Settings, doubts, least_squares, uncertainty};
 
@@ -23,10 +24,8 @@ pub struct ColumnFit {
 /// The least length of a column over the largest depth [-]. Pressed to less than three quarters of its
 /// length a column stiffens more than tissue under an indenter does, even with α = 0.
 const LEAST_LENGTH: f64 = 4.0;
-/// The least α [-]: what the law needs to be told from a neo-Hookean one, and where its search starts.
-const ALPHAS: [f64; 3] = [1e-3, 1.0, 100.0];
-/// A misfit from which on the law is said to miss the curve [-].
-const MISSES: f64 = 0.05;
+/// Least α, start and largest α [-]; below the least the law is a neo-Hookean one.
+pub(super) const ALPHAS: [f64; 3] = [1e-3, 1.0, 100.0];
 
 /// Cross-section [m²] and length [m] of the column that stands for the tissue under an indenter.
 ///
@@ -82,14 +81,9 @@ pub fn fit_column(contact: Contact, depths: &[f64], forces: &[f64]) -> Result<Co
         Some(())
     })?;
     let known = uncertainty(&fit);
-    let misfit = (fit.sum_of_squares() / depths.len() as f64).sqrt() / largest;
+    let misfit = misfit(&fit, largest);
     let mut said = doubts(&fit, &known, None);
-    if misfit > MISSES {
-        said.push(format!(
-            "blatz on a column misses the shape of the force: {:.0} % of the largest force on average",
-            100.0 * misfit
-        ));
-    }
+    said.extend(missed("blatz on a column", "force", misfit));
     let [gamma_pa, alpha] = [0, 1].map(|place| Estimate {
         value: fit.parameters[place].value,
         standard_error: known.standard_error(place),

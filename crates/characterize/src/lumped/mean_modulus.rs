@@ -1,7 +1,9 @@
 use palpate_files::Estimate;
+use palpate_files::recording::{IndenterShape, RecordingHeader, Specimen, Stimulus};
 
-use crate::Error;
+use crate::analyze::{Hold, holds};
 use crate::fit::{Fit, Parameter, Settings, correlated_uncertainty, least_squares};
+use crate::{CleanRecording, Error};
 
 /// The end of an indenter, for a half-space of linear tissue without friction.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,6 +17,23 @@ pub enum Contact {
 }
 
 impl Contact {
+    /// The indenter of a recording.
+    ///
+    /// # Errors
+    /// When the header does not say its radius, or its angle; an indenter of no stated shape is flat.
+    pub fn of(header: &RecordingHeader) -> Result<Self, Error> {
+        let known = |value: Option<f64>, key| value.ok_or(Error::Unknown { key });
+        let radius = || known(header.indenter_radius_m, "indenter_radius_m");
+        match header.indenter_shape.unwrap_or(IndenterShape::Flat) {
+            IndenterShape::Flat => radius().map(Self::Flat),
+            IndenterShape::Sphere => radius().map(Self::Sphere),
+            IndenterShape::Cone => {
+                let angle = known(header.indenter_half_angle_deg, "indenter_half_angle_deg")?;
+                Ok(Self::Cone(angle.to_radians()))
+            }
+        }
+    }
+
     /// The force [N] at `depth` [m] of a tissue with E/(1 − ν²) = 1 Pa.
     fn unit_force(self, depth: f64) -> f64 {
         let depth = depth.max(0.0);
@@ -50,6 +69,62 @@ pub fn mean_modulus(contact: Contact, hollow: bool, depth: f64, force: f64) -> R
     }
     Err(Error::NoContact {
         cause: "the depth is not above zero",
+    })
+}
+
+/// The mean elastic modulus of a specimen (6.1), as table 6-1 has it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeanModulus {
+    /// The mean over the holds at the largest depth [Pa].
+    pub value: f64,
+    /// Their standard deviation [Pa]: a spread, no error of the mean; none of one hold alone.
+    pub standard_deviation: Option<f64>,
+    /// Their mean depth [m].
+    pub depth_m: f64,
+    /// How many they are.
+    pub holds: usize,
+}
+
+/// Depths that differ by less than this part are one [-].
+const ALIKE: f64 = 0.05;
+
+/// The mean elastic modulus of incompressible tissue from all `recordings` of a specimen: that of the steady
+/// force, the mean of the last tenth of a hold, over all holds at the largest depth.
+///
+/// # Errors
+/// When the specimen is hollow, nothing is held, or a header does not say what indenter it was.
+pub fn mean_elastic_modulus(recordings: &[CleanRecording]) -> Result<MeanModulus, Error> {
+    let mut all: Vec<(Contact, Hold)> = Vec::new();
+    for recording in recordings {
+        let header = &recording.header;
+        if header.specimen == Some(Specimen::Tube) {
+            return Err(Error::HollowOrgan);
+        }
+        if header.stimulus == Some(Stimulus::Uniaxial) {
+            continue;
+        }
+        let contact = Contact::of(header)?;
+        let held = holds(recording, &mut Vec::new());
+        all.extend(held.into_iter().map(|hold| (contact, hold)));
+    }
+    let deepest = all.iter().map(|(_, hold)| hold.depth_m).fold(0.0, f64::max);
+    all.retain(|(_, hold)| hold.depth_m > 0.0 && hold.depth_m >= (1.0 - ALIKE) * deepest);
+    let moduli: Result<Vec<f64>, Error> = all
+        .iter()
+        .map(|(contact, hold)| mean_modulus(*contact, false, hold.depth_m, hold.steady_n))
+        .collect();
+    let moduli = moduli?;
+    if moduli.is_empty() {
+        return Err(Error::NoHold);
+    }
+    let count = moduli.len() as f64;
+    let mean = moduli.iter().sum::<f64>() / count;
+    let squares: f64 = moduli.iter().map(|modulus| (modulus - mean).powi(2)).sum();
+    Ok(MeanModulus {
+        value: mean,
+        standard_deviation: (count > 1.0).then(|| (squares / (count - 1.0)).sqrt()),
+        depth_m: all.iter().map(|(_, hold)| hold.depth_m).sum::<f64>() / count,
+        holds: moduli.len(),
     })
 }
 

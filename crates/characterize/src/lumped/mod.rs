@@ -13,20 +13,26 @@
 //! with x in mm, by the method of Runge and Kutta in steps of a twentieth of the fastest time; the changes
 //! with the parameters go along.
 //!
-//! *How we know*: `lumped…::…`: closed forms, recordings made from known parameters; the printed springs
-//! against the steady forces of table 5-1.
+//! *A piece that is pressed or pulled* between faces that it slips on: the nominal stress of the neo-Hookean,
+//! Mooney-Rivlin and exponential laws at λ = 1 − d/H, −F/A, in closed form.
 //!
-//! *Limits*: small strain but for the column and the springs; the numbers belong to one indenter on one specimen. A spring does not see that the
+//! *How we know*: `lumped…::…`: closed forms, recordings made from known parameters; the printed springs
+//! against the steady forces of table 5-1; silicone against its authors' parameters.
+//!
+//! *Limits*: small strain but for the column, the springs and the piece; the numbers belong to one indenter on one specimen. A spring does not see that the
 //! indenter may let go: on a fast way back it pulls.
 
 mod column;
 mod kelvin;
 mod mean_modulus;
+mod misfit;
 mod springs;
 mod springs_fit;
+mod uniaxial;
 
 pub use column::{ColumnFit, column_force, column_size, fit_column};
 pub use kelvin::{DepthHistory, KelvinFit, fit_kelvin};
-pub use mean_modulus::{Contact, fit_modulus, mean_modulus};
+pub use mean_modulus::{Contact, MeanModulus, fit_modulus, mean_elastic_modulus, mean_modulus};
 pub use springs::springs_force;
 pub use springs_fit::{SpringsFit, fit_springs};
+pub use uniaxial::{UniaxialFit, fit_uniaxial, fit_uniaxial_recordings};

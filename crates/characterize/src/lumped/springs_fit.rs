@@ -2,6 +2,7 @@ use nalgebra::DMatrix;
 use palpate_files::Estimate;
 use palpate_files::tissue::NonlinearSprings;
 
+use super::misfit::{misfit, missed};
 use super::springs::{OF_BRANCH, STATIC, respond};
 use crate::Error;
 use crate::fit::{
@@ -40,8 +41,6 @@ const EXPONENT: f64 = 1.5;
 const TIMES: [f64; 3] = [0.01, 0.05, 0.3];
 /// By how much the criterion must fall for a second spring: "strong" in [Burnham and Anderson 2002].
 const WORTH: f64 = 10.0;
-/// A misfit from which on the springs are said to miss the curve [-].
-const MISSES: f64 = 0.05;
 /// Relative change of the parameters below which a fit has arrived [-]: far less than they are known.
 const TOLERANCE: f64 = 1e-8;
 
@@ -65,14 +64,9 @@ pub fn fit_springs(indentations: &[Indentation<'_>]) -> Result<SpringsFit, Error
     let mut fit = if branches == 2 { two } else { one };
     stronger_first(&mut fit, felt.depth);
     let uncertainty = correlated_uncertainty(&fit, &lengths);
-    let misfit = (fit.sum_of_squares() / fit.residuals.len() as f64).sqrt() / felt.peak;
+    let misfit = misfit(&fit, felt.peak);
     let mut said = doubts(&fit, &uncertainty, None);
-    if misfit > MISSES {
-        said.push(format!(
-            "the nonlinear springs miss the shape of the force: {:.0} % of the largest force on average",
-            100.0 * misfit
-        ));
-    }
+    said.extend(missed("the system of nonlinear springs", "force", misfit));
     Ok(SpringsFit {
         springs: described(&fit, &uncertainty),
         branches,

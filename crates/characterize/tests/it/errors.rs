@@ -60,6 +60,11 @@ fn messages() {
             "the organ is hollow, and a mean modulus is that of a half-space; \
              fit a tube to it instead",
         ),
+        (
+            Error::NoHold,
+            "no recording stays at a depth, and a mean modulus is that of a steady force; \
+             record a ramp and a hold",
+        ),
     ];
     for (error, message) in cases {
         assert_eq!(error.to_string(), message);

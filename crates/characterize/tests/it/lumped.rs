@@ -1,10 +1,13 @@
 //! Laws without geometry.
 
-use palpate_characterize::Error;
 use palpate_characterize::fit::Random;
 use palpate_characterize::lumped::{
-    Contact, DepthHistory, KelvinFit, fit_kelvin, fit_modulus, mean_modulus,
+    Contact, DepthHistory, KelvinFit, fit_kelvin, fit_modulus, mean_elastic_modulus, mean_modulus,
 };
+use palpate_characterize::{CleanRecording, CleanSettings, Error, clean};
+use palpate_files::recording::Specimen;
+
+use crate::made_up::{own, ramp_and_hold, times};
 
 /// The rows of a printed table, without its heads.
 pub(crate) fn published(file: &str) -> Vec<Vec<String>> {
@@ -88,6 +91,46 @@ fn a_tube_has_no_mean_modulus() {
     assert!(matches!(nothing, Err(Error::NoContact { .. })));
     let empty = fit_modulus(contact, false, &[], &[]);
     assert!(matches!(empty, Err(Error::NoContact { .. })));
+}
+
+/// A recording of a linear half-space that relaxes by a fifth, pressed by a flat punch of 1 mm radius.
+fn pressed(youngs_modulus: f64, depth: f64) -> CleanRecording {
+    let course = ramp_and_hold(1.0, 1e-2, depth);
+    let stiffness = 2.0 * 1e-3 * youngs_modulus / 0.75;
+    let mut random = Random::new(4);
+    let force = |t: f64| {
+        let left = 1.0 + 0.25 * (-(t - 1.0).max(0.0)).exp();
+        stiffness * course(t) * left + 1e-5 * random.normal()
+    };
+    let mut recording = own(&times(100.0, 21.0), course, force);
+    recording.header.indenter_radius_m = Some(1e-3);
+    clean(&recording, &CleanSettings::default()).unwrap()
+}
+
+/// Judge: the moduli of the half-spaces, 4, 5 and 6 kPa at 8 mm: their mean and their spread of 1 kPa; what was
+/// held at another depth does not count. Tolerance: the contact, found to a sample of 0.1 mm of 8 mm.
+#[test]
+fn the_mean_modulus_is_that_of_the_deepest_holds() {
+    let mut recordings: Vec<CleanRecording> =
+        [4e3, 5e3, 6e3].map(|modulus| pressed(modulus, 8e-3)).into();
+    recordings.push(pressed(9e3, 4e-3));
+    let found = mean_elastic_modulus(&recordings).unwrap();
+    assert_eq!(found.holds, 3);
+    assert!((found.value / 5e3 - 1.0).abs() < 0.0125, "{found:?}");
+    let spread = found.standard_deviation.unwrap();
+    assert!((spread / 1e3 - 1.0).abs() < 0.0125, "{found:?}");
+    assert!((found.depth_m / 8e-3 - 1.0).abs() < 0.0125, "{found:?}");
+    let one = mean_elastic_modulus(&recordings[..1]).unwrap();
+    assert_eq!(one.standard_deviation, None);
+
+    recordings[0].header.specimen = Some(Specimen::Tube);
+    let hollow = mean_elastic_modulus(&recordings);
+    assert_eq!(hollow, Err(Error::HollowOrgan));
+    assert_eq!(mean_elastic_modulus(&[]), Err(Error::NoHold));
+    recordings[0].header.specimen = None;
+    recordings[0].header.indenter_radius_m = None;
+    let unknown = mean_elastic_modulus(&recordings);
+    assert!(matches!(unknown, Err(Error::Unknown { .. })));
 }
 
 /// A ramp of `ramp` [s] to 6 mm and a hold until 40 s, of the published Kelvin liver. Closed form: during a

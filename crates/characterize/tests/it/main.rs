@@ -15,6 +15,7 @@ mod fit;
 mod lumped;
 mod lumped_column;
 mod lumped_springs;
+mod lumped_uniaxial;
 mod made_up;
 mod random;
 mod real;
