@@ -118,7 +118,8 @@ impl<'a> Member<'a> {
 /// The best known of the simple combinations, if it is known and much better than the members are.
 fn best_combination(members: &[Member], covariance: &DMatrix<f64>, worst: f64) -> Option<String> {
     let units: Vec<&str> = members.iter().map(|member| unit(member.name)).collect();
-    let alike = units.iter().all(|unit| *unit == units[0]);
+    // A name without a unit may have any, and no two of those can be added.
+    let alike = !units[0].is_empty() && units.iter().all(|unit| *unit == units[0]);
     let gradient_error = |gradient: &[f64]| {
         let gradient = nalgebra::DVector::from_column_slice(gradient);
         gradient.dot(&(covariance * &gradient)).max(0.0).sqrt()

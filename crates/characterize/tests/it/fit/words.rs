@@ -2,12 +2,11 @@
 
 use palpate_characterize::fit::{Parameter, Random, Settings, doubts, least_squares, uncertainty};
 
-/// A curve to which two moduli add, one of them by the part `apart` more toward its end.
-fn sentences(apart: f64) -> Vec<String> {
-    let parameters = [
-        Parameter::new("c10_pa", 200.0).within(-1e5, 1e5),
-        Parameter::new("c01_pa", 200.0).within(-1e5, 1e5),
-    ];
+const MODULI: [&str; 2] = ["c10_pa", "c01_pa"];
+
+/// A curve to which two parameters add, one of them by the part `apart` more toward its end.
+fn sentences(names: [&str; 2], apart: f64) -> Vec<String> {
+    let parameters = names.map(|name| Parameter::new(name, 200.0).within(-1e5, 1e5));
     let mut noise = Random::new(11);
     let drawn: Vec<f64> = (0..100).map(|_| 20.0 * noise.normal()).collect();
     let residuals = |p: &[f64], residuals: &mut [f64]| {
@@ -26,13 +25,20 @@ fn sentences(apart: f64) -> Vec<String> {
 /// is left to say.
 #[test]
 fn moduli_that_cannot_be_told_apart_are_named_with_their_sum() {
-    let found = sentences(0.005);
+    let found = sentences(MODULI, 0.005);
     assert_eq!(found.len(), 1, "{found:?}");
     let start = "c10_pa and c01_pa cannot be told apart from this recording; their sum is 48";
     assert!(found[0].starts_with(start), "{found:?}");
     // 20 Pa over √100, to two digits as they begin with a one.
     assert!(found[0].ends_with(" ± 2.0 Pa"), "{found:?}");
-    assert!(sentences(2.0).is_empty());
+    assert!(sentences(MODULI, 2.0).is_empty());
+}
+
+/// Of parameters whose names have no unit no sum is told: they may be newtons and seconds.
+#[test]
+fn what_has_no_unit_is_not_added() {
+    let found = sentences(["k01", "k11"], 0.005).join("\n");
+    assert!(found.contains("k01") && !found.contains("sum"), "{found}");
 }
 
 /// A time constant beyond the recording, a parameter on its bound, and one that is not seen.
