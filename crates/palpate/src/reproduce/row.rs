@@ -105,11 +105,13 @@ impl<'a> Rows<'a> {
 
     /// The name of a figure's row, and its file in a folder that is there.
     fn figure(&self, name: Option<&str>) -> Result<(String, PathBuf), Failure> {
+        // A part of a table has no folder of its own.
+        let stem = self.item.replace('/', "-");
         let (row, file) = match name {
-            None => (self.item.to_owned(), format!("{}.png", self.item)),
+            None => (self.item.to_owned(), format!("{stem}.png")),
             Some(name) => (
                 format!("{}/{name}", self.item),
-                format!("{}-{name}.png", self.item),
+                format!("{stem}-{name}.png"),
             ),
         };
         make_folder(self.folder)?;
