@@ -11,12 +11,16 @@ pub mod analyze;
 pub mod clean;
 mod error;
 pub mod fit;
+mod grouping;
 pub mod inverse;
 pub mod lumped;
 mod specimen;
 pub mod viscoelastic;
+mod without_geometry;
 
 pub use analyze::{Analysis, analyze};
 pub use clean::{CleanRecording, CleanSettings, clean};
 pub use error::Error;
+pub use grouping::specimens;
 pub use specimen::{Characterization, CharacterizeSettings, characterize};
+pub use without_geometry::WithoutGeometry;

@@ -5,15 +5,17 @@
 //! ```
 
 use palpate_files::recording::{IndenterShape, RecordingHeader, Specimen, Stimulus};
+use palpate_files::{Estimate, PronyTerm, Tissue};
 use palpate_mechanics::finite_elements::indentation::Grip;
 use palpate_mechanics::finite_elements::tube::Tube;
 
 use crate::clean::SegmentKind;
 use crate::inverse::{Body, Curves, Indentation, LawDescription, SoughtLaw, law_fit};
+use crate::lumped::{UniaxialFit, fit_uniaxial_recordings};
 use crate::viscoelastic::{
     Course, Relaxation, RelaxationSettings, relaxation, relaxation_of_steps,
 };
-use crate::{CleanRecording, Error};
+use crate::{CleanRecording, Error, WithoutGeometry};
 
 /// What may be chosen about a characterization.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,9 +42,15 @@ pub struct Characterization {
     pub relaxation: Result<Relaxation, Error>,
     /// The same if every ramp is taken for a step.
     pub relaxation_of_steps: Result<Relaxation, Error>,
+    /// What needs no geometry.
+    pub without_geometry: WithoutGeometry,
     /// The laws that were sought, in their order.
     pub laws: Vec<(SoughtLaw, Result<LawDescription, Error>)>,
-    /// What can be told apart and what cannot, in plain sentences.
+    /// The same from pieces that were pressed or pulled along one axis; empty without any.
+    pub uniaxial: Vec<(SoughtLaw, Result<UniaxialFit, Error>)>,
+    /// What deserves doubt in the relaxation.
+    pub relaxation_doubts: Vec<String>,
+    /// What can be told apart and what cannot, in plain sentences, of relaxation and laws.
     pub identifiability: Vec<String>,
     /// What else deserves doubt, in plain sentences.
     pub doubts: Vec<String>,
@@ -60,15 +68,31 @@ pub fn characterize(
     let courses = courses(&pressed, body.as_ref().ok().copied());
     let relaxing = relaxation(&courses, settings.relaxation);
     let of_steps = relaxation_of_steps(&courses, settings.relaxation);
+    at_step("springs and dampers");
+    let indentations: Vec<Indentation<'_>> = pressed.iter().map(Pressed::indentation).collect();
     let mut found = Characterization {
         relaxation: relaxing,
         relaxation_of_steps: of_steps,
+        without_geometry: WithoutGeometry::of(recordings, &indentations),
         laws: Vec::new(),
+        uniaxial: Vec::new(),
+        relaxation_doubts: Vec::new(),
         identifiability: Vec::new(),
         doubts: Vec::new(),
     };
+    let pieces: Vec<CleanRecording> = recordings
+        .iter()
+        .filter(|own| is_piece(own))
+        .cloned()
+        .collect();
     for &law in &settings.laws {
         at_step(law.name().word());
+        if !pieces.is_empty() {
+            found
+                .uniaxial
+                .push((law, fit_uniaxial_recordings(law, &pieces)));
+            continue;
+        }
         let answer = body
             .clone()
             .and_then(|body| sought(law, body, &pressed, &found.relaxation));
@@ -95,6 +119,11 @@ fn sought(
     Ok(LawDescription::of(fit, &indentations))
 }
 
+/// Whether a whole piece was pressed or pulled along one axis.
+fn is_piece(recording: &CleanRecording) -> bool {
+    recording.header.stimulus == Some(Stimulus::Uniaxial)
+}
+
 /// What of a recording is fitted: from first contact to where the indenter goes back.
 struct Pressed {
     time: Vec<f64>,
@@ -105,7 +134,7 @@ struct Pressed {
 
 impl Pressed {
     fn of(recording: &CleanRecording) -> Option<Self> {
-        if recording.header.stimulus == Some(Stimulus::Uniaxial) {
+        if is_piece(recording) {
             return None;
         }
         let first = recording.time.iter().position(|t| *t >= 0.0)?;
@@ -199,20 +228,111 @@ impl Characterization {
         found().find(|law| criterion(law) <= least + WORTH)
     }
 
+    /// The same for pieces along one axis.
+    fn preferred_uniaxial(&self) -> Option<&UniaxialFit> {
+        let found = || {
+            self.uniaxial
+                .iter()
+                .filter_map(|(_, law)| law.as_ref().ok())
+        };
+        let nearest = found().min_by(|a, b| a.misfit.total_cmp(&b.misfit))?;
+        let criterion = |law: &UniaxialFit| law.criterion(nearest.uncertainty.effective_samples);
+        let least = found().map(criterion).fold(f64::INFINITY, f64::min);
+        found().find(|law| criterion(law) <= least + WORTH)
+    }
+
+    /// The law to be preferred, however it was found.
+    pub fn preferred_law(&self) -> Option<SoughtLaw> {
+        let pressed = self.preferred().map(|law| law.found.law);
+        pressed.or_else(|| self.preferred_uniaxial().map(|law| law.law))
+    }
+
+    /// The tissue of `law`, or else of the one to be preferred: without a name and the files it came from.
+    ///
+    /// # Errors
+    /// When no law was found.
+    pub fn tissue(&self, law: Option<SoughtLaw>) -> Result<Tissue, Error> {
+        let law = law
+            .or_else(|| self.preferred_law())
+            .ok_or_else(|| self.why_no_law())?;
+        let mut tissue = if self.uniaxial.is_empty() {
+            self.indented_tissue(law)?
+        } else {
+            self.uniaxial_tissue(law)?
+        };
+        tissue.source.warnings.extend(self.doubts.iter().cloned());
+        Ok(tissue)
+    }
+
+    fn indented_tissue(&self, law: SoughtLaw) -> Result<Tissue, Error> {
+        let relaxation = self.relaxation.as_ref().map_err(Clone::clone)?;
+        let found = self.laws.iter().find(|(of, _)| *of == law);
+        let (_, found) = found.ok_or(Error::NothingFelt)?;
+        let found = found.as_ref().map_err(Clone::clone)?;
+        let parameters: Vec<_> = found
+            .parameters
+            .iter()
+            .map(|(_, estimate)| *estimate)
+            .collect();
+        let mut tissue = Tissue::new(law.elasticity(&parameters));
+        let term = |[g, tau_s]: &[Estimate; 2]| PronyTerm {
+            g: *g,
+            tau_s: *tau_s,
+        };
+        tissue.lumped = self.without_geometry.lumped();
+        tissue.prony = relaxation.terms.iter().map(term).collect();
+        tissue.source.method = Some(METHOD.to_owned());
+        tissue.source.warnings = [&self.relaxation_doubts[..], &found.doubts].concat();
+        Ok(tissue)
+    }
+
+    fn uniaxial_tissue(&self, law: SoughtLaw) -> Result<Tissue, Error> {
+        let found = self.uniaxial.iter().find(|(of, _)| *of == law);
+        let (_, found) = found.ok_or(Error::NothingFelt)?;
+        let found = found.as_ref().map_err(Clone::clone)?;
+        let mut tissue = Tissue::new(found.elasticity);
+        tissue.source.method = Some(UNIAXIAL.to_owned());
+        tissue.source.warnings.clone_from(&found.doubts);
+        Ok(tissue)
+    }
+
+    /// Why there is no law, when there is none.
+    fn why_no_law(&self) -> Error {
+        let pressed = self.laws.iter().filter_map(|(_, law)| law.as_ref().err());
+        let pulled = self
+            .uniaxial
+            .iter()
+            .filter_map(|(_, law)| law.as_ref().err());
+        pressed
+            .chain(pulled)
+            .next()
+            .cloned()
+            .unwrap_or(Error::NothingFelt)
+    }
+
     fn speak(&mut self, pressed: &[Pressed]) {
         let longest = pressed.iter().filter_map(|each| each.time.last().copied());
         let duration = longest.fold(0.0, f64::max);
         if let Ok(relaxation) = &self.relaxation {
-            self.identifiability.extend(relaxation.doubts(duration));
+            self.relaxation_doubts = relaxation.doubts(duration);
         }
-        for (_, law) in &self.laws {
-            if let Ok(law) = law {
-                self.identifiability.extend(law.doubts.iter().cloned());
-            }
+        self.identifiability.clone_from(&self.relaxation_doubts);
+        for (law, found) in &self.laws {
+            let said = found.iter().flat_map(|found| &found.doubts);
+            let of_law = said.map(|doubt| format!("{}: {doubt}", law.name().word()));
+            self.identifiability.extend(of_law);
         }
-        self.identifiability.dedup();
+        for (law, found) in &self.uniaxial {
+            let said = found.iter().flat_map(|found| &found.doubts);
+            let of_law = said.map(|doubt| format!("{}: {doubt}", law.name().word()));
+            self.identifiability.extend(of_law);
+        }
     }
 }
 
 /// By how much a criterion must be less for a law with more parameters to be preferred [-].
 const WORTH: f64 = 10.0;
+/// How a tissue is found, for its file.
+const METHOD: &str = "relaxation from the normalised force with the recorded course of depth, then the law by inverse finite elements";
+/// The same for a piece along one axis.
+const UNIAXIAL: &str = "nominal stress over stretch in closed form";

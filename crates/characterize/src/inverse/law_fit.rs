@@ -35,8 +35,8 @@ impl LawFit {
     }
 }
 
-/// Relative change of the parameters below which a fit has arrived [-]: far less than they are known.
-const TOLERANCE: f64 = 1e-6;
+/// Relative change of the parameters below which a fit has arrived [-]: less than the elements are off.
+const TOLERANCE: f64 = 1e-4;
 /// Rounds in which the modulus under pressure is found, and the change at which they end [-].
 const ROUNDS: usize = 6;
 const SETTLED: f64 = 1e-3;

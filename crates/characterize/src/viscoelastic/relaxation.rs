@@ -46,6 +46,8 @@ pub struct Relaxation {
 
 /// Most terms that are tried.
 const MOST_TERMS: usize = 4;
+/// A root mean square of ε below which there is nothing left to tell [-]: elastic force is known no better.
+const NEGLIGIBLE: f64 = 3e-4;
 /// Part of Σ ε² that one more term must gain for yet another to be tried [-].
 const NOTHING_GAINED: f64 = 1e-3;
 /// By how much the criterion must fall for one more term: "strong" in [Burnham and Anderson 2002].
@@ -103,8 +105,9 @@ pub fn relaxation(courses: &[Course], settings: RelaxationSettings) -> Result<Re
         let gained = fits.last().is_none_or(|before| {
             fit.sum_of_squares() < (1.0 - NOTHING_GAINED) * before.sum_of_squares()
         });
+        let left = (fit.sum_of_squares() / fit.residuals.len() as f64).sqrt();
         fits.push(fit);
-        if !gained {
+        if !gained || left < NEGLIGIBLE {
             break;
         }
     }

@@ -79,7 +79,7 @@ impl Lumped {
     }
 
     /// The tables that are there, each with its keys.
-    pub(super) fn tables(&self) -> Vec<(&'static str, Vec<(&'static str, Estimate)>)> {
+    pub fn tables(&self) -> Vec<(&'static str, Vec<(&'static str, Estimate)>)> {
         [
             self.kelvin.map(|kelvin| ("kelvin", kelvin.parameters())),
             self.blatz.map(|blatz| ("blatz", blatz.parameters())),

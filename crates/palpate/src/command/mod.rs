@@ -1,9 +1,12 @@
 //! The command line: one file per command.
 
+mod analyze;
+mod characterize;
 mod demonstration;
 mod mesh;
 mod precompute;
 mod quality;
+mod recordings;
 mod reproduce;
 mod simulate;
 mod solve;
@@ -27,6 +30,8 @@ Examples:
       prepares the whole organ of the hybrid model once; then the scene opens at once
   palpate solve problem.toml --plot force.png
       the force of an indenter, the swelling of a tube and more, by finite elements
+  palpate characterize liver-2mm.csv liver-4mm.csv --out liver.toml
+      the tissue behind recordings, with its uncertainty
   palpate quality
       how late a 1 kHz loop is on this machine, and how far its forces are off
   palpate mesh info kidney.stl --unit mm
@@ -57,6 +62,10 @@ enum Command {
     Precompute(precompute::Arguments),
     /// Solve a described problem with finite elements, the reference for everything else.
     Solve(solve::Arguments),
+    /// What recordings show without a model: static force, relaxation, answers to sines and chirps.
+    Analyze(analyze::Arguments),
+    /// Find the tissue behind recordings: relaxation and laws, with how well they are known.
+    Characterize(characterize::Arguments),
     /// Recompute the tables and figures of the source, published values beside ours.
     Reproduce(reproduce::Arguments),
     /// Measure how good touch is on this machine: rates, lateness, errors.
@@ -74,6 +83,8 @@ impl CommandLine {
             Some(Command::Simulate(arguments)) => simulate::run(&arguments),
             Some(Command::Precompute(arguments)) => precompute::run(&arguments),
             Some(Command::Solve(arguments)) => solve::run(&arguments),
+            Some(Command::Analyze(arguments)) => analyze::run(&arguments),
+            Some(Command::Characterize(arguments)) => characterize::run(&arguments),
             Some(Command::Reproduce(arguments)) => reproduce::run(&arguments),
             Some(Command::Quality(arguments)) => quality::run(&arguments),
             Some(Command::Mesh(command)) => mesh::run(&command),

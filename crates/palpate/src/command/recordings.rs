@@ -103,9 +103,9 @@ impl Recordings {
             Recording::read(path)
         } else {
             let columns = ForeignColumns {
-                time: self.time.clone().unwrap_or_default(),
-                depth: self.depth.clone().unwrap_or_default(),
-                force: self.force.clone().unwrap_or_default(),
+                time: self.time.clone(),
+                depth: self.depth.clone(),
+                force: self.force.clone(),
                 depth_unit: self.depth_unit.clone(),
                 force_unit: self.force_unit.clone(),
             };
@@ -119,9 +119,13 @@ impl Recordings {
 
     /// A recording of this project says its format; columns are named for tables of others.
     fn is_of_this_project(&self, path: &Path) -> bool {
-        let named = [&self.time, &self.depth, &self.force].iter().any(|name| name.is_some());
+        let named = [&self.time, &self.depth, &self.force]
+            .iter()
+            .any(|name| name.is_some());
         let says_format = |text: String| {
-            let comments = text.lines().take_while(|line| line.trim_start().starts_with('#'));
+            let comments = text
+                .lines()
+                .take_while(|line| line.trim_start().starts_with('#'));
             let mut keys = comments.map(|line| line.trim_start_matches(['#', ' ']));
             keys.any(|key| key.starts_with("format"))
         };
@@ -162,7 +166,10 @@ fn tables(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     let mut files = Vec::new();
     for entry in fs::read_dir(folder).map_err(unreadable)? {
         let path = entry.map_err(unreadable)?.path();
-        let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
+        let extension = path
+            .extension()
+            .and_then(|e| e.to_str())
+            .unwrap_or_default();
         let is_table = ["csv", "txt", "tsv"].contains(&extension.to_ascii_lowercase().as_str());
         let is_license = path.file_stem().is_some_and(|stem| {
             let stem = stem.to_string_lossy().to_ascii_lowercase();
@@ -174,4 +181,15 @@ fn tables(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     }
     files.sort();
     Ok(files)
+}
+
+impl Unusable {
+    /// The reason, which names the file.
+    pub(crate) fn sentence(&self) -> String {
+        let file = self.file.display().to_string();
+        match self.reason.contains(&file) {
+            true => self.reason.clone(),
+            false => format!("{file}: {}", self.reason),
+        }
+    }
 }

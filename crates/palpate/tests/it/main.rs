@@ -9,6 +9,7 @@ mod errors;
 mod mesh;
 mod mesh_info;
 mod quality;
+mod recordings;
 mod reproduce;
 mod simulate;
 mod solve;
@@ -47,7 +48,7 @@ fn stderr(output: &Output) -> String {
 
 #[test]
 fn every_help_is_printed_and_is_no_error() {
-    let commands: [&[&str]; 8] = [
+    let commands: [&[&str]; 10] = [
         &["--help"],
         &["--version"],
         &["simulate", "--help"],
@@ -56,6 +57,8 @@ fn every_help_is_printed_and_is_no_error() {
         &["reproduce", "--help"],
         &["solve", "--help"],
         &["quality", "--help"],
+        &["analyze", "--help"],
+        &["characterize", "--help"],
     ];
     for command in commands {
         let output = palpate(command);

@@ -1,0 +1,106 @@
+use palpate_files::tissue::Lumped;
+
+use crate::analyze::Hold;
+use crate::clean::SegmentKind;
+use crate::inverse::Indentation;
+use crate::lumped::{
+    ColumnFit, Contact, DepthHistory, KelvinFit, MeanModulus, SpringsFit, fit_column, fit_kelvin,
+    fit_springs, mean_elastic_modulus,
+};
+use crate::{CleanRecording, Error, analyze};
+
+/// What is found about a specimen without its geometry. Where nothing was, the reason stands.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WithoutGeometry {
+    /// The mean elastic modulus (6.1).
+    pub mean_modulus: Result<MeanModulus, Error>,
+    /// Two springs and a damper (6.3), from the recording of the largest depth.
+    pub kelvin: Result<KelvinFit, Error>,
+    /// Blatz's law on a column (6.2): from steady forces where there are three depths, else from the ramps.
+    pub column: Result<ColumnFit, Error>,
+    /// Nonlinear springs (6.4), from all recordings.
+    pub springs: Result<SpringsFit, Error>,
+}
+
+/// Depths that differ by less than this part are one [-].
+const ALIKE: f64 = 0.05;
+/// Depths of holds that make a static response.
+const STATIC: usize = 3;
+/// Samples of a recording that are enough for springs.
+const SAMPLES: usize = 1500;
+
+impl WithoutGeometry {
+    /// Of the recordings of one specimen, and of the same as they are fitted.
+    pub fn of(recordings: &[CleanRecording], indentations: &[Indentation<'_>]) -> Self {
+        let first = recordings.first().ok_or(Error::NothingFelt);
+        let contact = first.and_then(|recording| Contact::of(&recording.header));
+        let holds: Vec<Hold> = recordings
+            .iter()
+            .flat_map(|own| analyze(own).holds)
+            .collect();
+        Self {
+            mean_modulus: mean_elastic_modulus(recordings),
+            kelvin: kelvin(indentations),
+            column: contact.and_then(|contact| column(contact, recordings, &holds)),
+            springs: springs(indentations),
+        }
+    }
+
+    /// The parameters as files hold them.
+    pub fn lumped(&self) -> Lumped {
+        Lumped {
+            kelvin: self.kelvin.as_ref().ok().map(|found| found.kelvin),
+            blatz: self.column.as_ref().ok().map(|found| found.column),
+            nonlinear_springs: self.springs.as_ref().ok().map(|found| found.springs),
+        }
+    }
+}
+
+fn kelvin(indentations: &[Indentation<'_>]) -> Result<KelvinFit, Error> {
+    let deepest = |each: &&Indentation<'_>| each.depth.iter().copied().fold(0.0, f64::max);
+    let most = indentations
+        .iter()
+        .max_by(|a, b| deepest(a).total_cmp(&deepest(b)));
+    let most = most.ok_or(Error::NothingFelt)?;
+    fit_kelvin(most.time, most.depth, most.force, DepthHistory::Recorded)
+}
+
+fn column(
+    contact: Contact,
+    recordings: &[CleanRecording],
+    holds: &[Hold],
+) -> Result<ColumnFit, Error> {
+    let mut depths: Vec<f64> = holds.iter().map(|hold| hold.depth_m).collect();
+    depths.sort_by(f64::total_cmp);
+    depths.dedup_by(|deeper, before| *deeper < (1.0 + ALIKE) * *before);
+    if depths.len() >= STATIC {
+        let of = |number: fn(&Hold) -> f64| holds.iter().map(number).collect::<Vec<_>>();
+        return fit_column(contact, &of(|hold| hold.depth_m), &of(|hold| hold.steady_n));
+    }
+    let ramps = recordings.iter().flat_map(|own| {
+        let ramps = own
+            .segments
+            .iter()
+            .filter(|segment| segment.kind == SegmentKind::Ramp);
+        let samples = ramps.flat_map(|segment| segment.first..segment.end);
+        samples.map(|sample| (own.depth[sample].max(0.0), own.force[sample]))
+    });
+    let (depths, forces): (Vec<f64>, Vec<f64>) = ramps.unzip();
+    fit_column(contact, &depths, &forces)
+}
+
+fn springs(indentations: &[Indentation<'_>]) -> Result<SpringsFit, Error> {
+    let thinned: Vec<[Vec<f64>; 3]> = indentations
+        .iter()
+        .map(|each| {
+            let every = each.time.len().div_ceil(SAMPLES).max(1);
+            let of = |values: &[f64]| values.iter().copied().step_by(every).collect();
+            [of(each.time), of(each.depth), of(each.force)]
+        })
+        .collect();
+    let all = thinned
+        .iter()
+        .map(|[time, depth, force]| Indentation { time, depth, force });
+    let all: Vec<Indentation<'_>> = all.collect();
+    fit_springs(&all)
+}
