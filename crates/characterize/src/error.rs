@@ -89,6 +89,11 @@ pub enum Error {
         /// The key.
         key: &'static str,
     },
+    /// Too little is seen of the elastic force for Blatz's law.
+    #[error(
+        "the recordings tell too little of how force grows with depth for Blatz's law; hold at three depths or more, or record the ramp faster"
+    )]
+    ColumnUnknown,
     /// A law that is not sought in tubes.
     #[error("`{}` is not sought in a hollow organ, whose force takes minutes to solve for each shape of a law; use neo_hookean", .law.word())]
     TubeLaw {

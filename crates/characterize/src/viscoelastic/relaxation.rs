@@ -48,6 +48,9 @@ pub struct Relaxation {
 const MOST_TERMS: usize = 4;
 /// A root mean square of ε below which there is nothing left to tell [-]: elastic force is known no better.
 const NEGLIGIBLE: f64 = 3e-4;
+/// Samples for each parameter that the criterion takes for granted [-]: what no series follows looks like noise
+/// of which hardly two samples are independent.
+const ENOUGH: f64 = 4.0;
 /// Part of Σ ε² that one more term must gain for yet another to be tried [-].
 const NOTHING_GAINED: f64 = 1e-3;
 /// By how much the criterion must fall for one more term: "strong" in [Burnham and Anderson 2002].
@@ -114,7 +117,10 @@ pub fn relaxation(courses: &[Course], settings: RelaxationSettings) -> Result<Re
     // What the richest leaves is noise, so all are compared as if that noise had been seen.
     let lengths: Vec<usize> = courses.iter().map(|course| course.time.len()).collect();
     let richest = fits.last().ok_or(Error::NothingFelt)?;
-    let samples = correlated_uncertainty(richest, &lengths).effective_samples;
+    let enough = ENOUGH * richest.chosen().len() as f64;
+    let samples = correlated_uncertainty(richest, &lengths)
+        .effective_samples
+        .max(enough);
     let criterion = |fit: &Fit| information_criterion(fit, samples);
     let least = fits.iter().map(criterion).fold(f64::INFINITY, f64::min);
     let tried = fits

@@ -139,8 +139,9 @@ impl Answer {
                             .map(move |doubt| format!("{}: {doubt}", file.display()))
                     });
             warnings.extend(said);
+            let unknown = specimen.reasons.get("neo_hookean");
             let found = specimen.identifiability.iter().chain(&studied.found.doubts);
-            warnings.extend(found.map(|doubt| match several {
+            warnings.extend(found.chain(unknown).map(|doubt| match several {
                 true => format!("{}: {doubt}", specimen.title),
                 false => doubt.clone(),
             }));
