@@ -38,7 +38,7 @@ pub fn uncertainty(fit: &Fit) -> Uncertainty {
 /// that is filtered, a sensor with steps. `recordings` are the lengths of the recordings, in the order of
 /// the residuals, each sampled evenly.
 ///
-/// Their correlation is taken from the residuals (see [`correlated`](super::correlated)); the parameters
+/// Their correlation is taken from the residuals (`fit/correlated.rs`); the parameters
 /// are those of least squares all the same.
 pub fn correlated_uncertainty(fit: &Fit, recordings: &[usize]) -> Uncertainty {
     let independent = uncertainty(fit);
