@@ -48,6 +48,8 @@ struct Answer {
     palpate: &'static str,
     triangles: usize,
     mechanical_triangles: usize,
+    /// How they are solved.
+    method: &'static str,
     touchable_triangles: usize,
     memory_bytes: usize,
     /// Whether it had been made before.
@@ -77,6 +79,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         palpate: output::VERSION,
         triangles: simulation.surface().mesh().triangles().len(),
         mechanical_triangles: response.triangles,
+        method: response.method,
         touchable_triangles: response.touchable,
         memory_bytes: response.bytes,
         was_kept: response.was_kept,
@@ -95,9 +98,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 impl Answer {
     fn text(&self) -> String {
         let what = format!(
-            "{} of {} mechanical triangles can be touched; {:.1} MB; {:.1} s",
+            "{} of {} mechanical triangles can be touched, by {}; {:.1} MB; {:.1} s",
             self.touchable_triangles,
             self.mechanical_triangles,
+            self.method,
             1e-6 * self.memory_bytes as f64,
             self.seconds,
         );
