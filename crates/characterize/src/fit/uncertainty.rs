@@ -73,6 +73,13 @@ impl Whitened {
     fn new(fit: &Fit) -> Self {
         let chosen = fit.chosen();
         let count = chosen.len();
+        if count == 0 {
+            return Self {
+                chosen,
+                directions: DMatrix::zeros(fit.residuals.len(), 0),
+                back: DMatrix::zeros(0, 0),
+            };
+        }
         let scale = |&i: &usize| match fit.jacobian.column(i).norm() {
             0.0 => fit.parameters[i].scale.recip(),
             norm => norm,

@@ -102,6 +102,9 @@ impl Relaxation {
 /// # Errors
 /// When there is nothing to fit, or too little of it.
 pub fn relaxation(courses: &[Course], settings: RelaxationSettings) -> Result<Relaxation, Error> {
+    if courses.is_empty() {
+        return Err(Error::NothingFelt);
+    }
     let mut fits: Vec<Fit> = Vec::new();
     for count in settings.terms.map_or(1..=MOST_TERMS, |terms| terms..=terms) {
         let fit = with_terms(courses, count, fits.last())?;

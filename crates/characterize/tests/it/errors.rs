@@ -70,3 +70,18 @@ fn messages() {
         assert_eq!(error.to_string(), message);
     }
 }
+
+#[test]
+fn what_cannot_be_characterized_is_said() {
+    let said = |error: Error| error.to_string();
+    assert_eq!(
+        said(Error::Unknown { key: "area_m2" }),
+        "the recording does not say `area_m2`; add the line `# area_m2 = ...` at its top, or state it with --set"
+    );
+    assert!(said(Error::NothingFelt).ends_with("check the signs and the units of depth and force"));
+    let law = palpate_files::tissue::LawName::MooneyRivlin;
+    assert!(said(Error::TubeLaw { law }).starts_with("`mooney_rivlin` is not sought"));
+    assert!(said(Error::TubeIndenter).ends_with("use a flat one"));
+    assert!(said(Error::Cone).ends_with("or a flat or spherical indenter"));
+    assert!(said(Error::ColumnUnknown).ends_with("or record the ramp faster"));
+}

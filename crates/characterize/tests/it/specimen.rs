@@ -153,6 +153,69 @@ fn intervals_hold_the_truth() {
     assert!(held.iter().all(|held| *held >= 90), "{held:?}");
 }
 
+/// Whatever is in a recording: an answer or a reason, no panic and no number that is none.
+#[test]
+fn some_noise_is_answered() {
+    assert_answered(0..3);
+}
+
+#[test]
+#[ignore = "slow: springs are sought in noise, too"]
+fn much_noise_is_answered() {
+    assert_answered(3..40);
+}
+
+fn assert_answered(seeds: std::ops::Range<u64>) {
+    for seed in seeds {
+        let mut random = Random::new(seed);
+        let count = 5 + random.below(60);
+        let mut time = 0.0;
+        let times: Vec<f64> = (0..count)
+            .map(|_| {
+                time += 1e-3 + random.uniform();
+                time
+            })
+            .collect();
+        let scale = 10_f64.powi(random.below(8) as i32 - 6);
+        let history = History {
+            depths: (0..count)
+                .map(|i| scale * (random.normal() + i as f64))
+                .collect(),
+            times,
+        };
+        let samples = Samples {
+            time_s: history.times.clone(),
+            depth_m: history.depths.clone(),
+            force_n: (0..count).map(|_| scale * random.normal()).collect(),
+        };
+        let header = RecordingHeader {
+            indenter_radius_m: Some(10.0 * scale * count as f64),
+            ..RecordingHeader::default()
+        };
+        let recording = Recording::new(header, samples).unwrap();
+        let Ok(recording) = clean(&recording, &CleanSettings::default()) else {
+            continue;
+        };
+        let found = found(
+            &[recording],
+            &[SoughtLaw::NeoHookean, SoughtLaw::MooneyRivlin],
+        );
+        for law in found.laws.iter().filter_map(|(_, law)| law.as_ref().ok()) {
+            assert!(
+                law.parameters
+                    .iter()
+                    .all(|(_, known)| known.value.is_finite()),
+                "{seed}"
+            );
+        }
+        let terms = found.relaxation.iter().flat_map(|found| &found.terms);
+        assert!(
+            terms.flatten().all(|known| known.value.is_finite()),
+            "{seed}"
+        );
+    }
+}
+
 /// The full viscoelastic run with internal variables at ν = 0.49: G(t) and the force curve to 2 %.
 #[test]
 #[ignore = "slow: a viscoelastic run of 1,500 steps on two meshes"]

@@ -8,7 +8,8 @@ const HALF_ANGLE: Domain = Domain {
 };
 
 impl RecordingHeader {
-    pub(super) const KEYS: &'static [&'static str] = &[
+    /// The keys that mean something in a recording.
+    pub const KEYS: &'static [&'static str] = &[
         "organ",
         "subject",
         "weight_kg",

@@ -11,6 +11,7 @@ use palpate_files::recording::{ForeignColumns, RecordingHeader};
 use serde::Serialize;
 
 use crate::failure::Failure;
+use crate::nearest;
 
 /// Which recordings, and what they do not say themselves.
 #[derive(Debug, Args)]
@@ -151,7 +152,19 @@ impl Recordings {
             text += &format!("# {} = {quoted}\n", key.trim());
         }
         text += "time_s,depth_m,force_n\n0,0,0\n";
-        Ok(Recording::parse(&text, "--set")?.header)
+        let header = Recording::parse(&text, "--set")?.header;
+        match header.extra.first() {
+            None => Ok(header),
+            Some(unknown) => {
+                let (key, meant) = (
+                    &unknown.key,
+                    nearest::name(&unknown.key, RecordingHeader::KEYS),
+                );
+                Err(Failure::input(format!(
+                    "--set {key}: a recording has no key `{key}`; the nearest is `{meant}`"
+                )))
+            }
+        }
     }
 }
 

@@ -3,7 +3,8 @@
 use nalgebra::DMatrix;
 use palpate_characterize::Error;
 use palpate_characterize::fit::{
-    Parameter, Settings, Stop, least_squares, least_squares_with_jacobian, uncertainty,
+    Parameter, Settings, Stop, correlated_uncertainty, least_squares, least_squares_with_jacobian,
+    uncertainty,
 };
 
 use super::parameters;
@@ -138,4 +139,17 @@ fn given_derivatives_lead_to_the_same_place() {
     assert!(given.evaluations < found.evaluations / 2);
     let again = least_squares(&start, 20, &Settings::default(), decay).unwrap();
     assert_eq!(again, found, "the same bits twice");
+}
+
+/// Noise may leave every parameter on a bound; nothing is known of any then, and that is no panic.
+#[test]
+fn when_all_end_on_bounds_nothing_is_known() {
+    let start = [Parameter::new("slope", 1.0).within(1.0, 1.0)];
+    let fit = least_squares(&start, 4, &Settings::default(), |values, residuals| {
+        residuals.iter_mut().for_each(|r| *r = values[0] - 3.0);
+        Some(())
+    })
+    .unwrap();
+    assert!(fit.chosen().is_empty());
+    assert_eq!(correlated_uncertainty(&fit, &[4]).standard_error(0), None);
 }
