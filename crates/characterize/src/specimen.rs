@@ -10,6 +10,7 @@ use palpate_mechanics::finite_elements::indentation::Grip;
 use palpate_mechanics::finite_elements::tube::Tube;
 
 use crate::clean::SegmentKind;
+use crate::fit::simplest;
 use crate::inverse::{Body, Curves, Indentation, LawDescription, SoughtLaw, law_fit};
 use crate::lumped::{UniaxialFit, fit_uniaxial_recordings};
 use crate::viscoelastic::{
@@ -80,6 +81,7 @@ pub fn characterize(
         identifiability: Vec::new(),
         doubts: Vec::new(),
     };
+    found.doubts = found.without_geometry.doubts();
     let pieces: Vec<CleanRecording> = recordings
         .iter()
         .filter(|own| is_piece(own))
@@ -220,25 +222,26 @@ fn tube(header: &RecordingHeader, radius: f64) -> Result<Body, Error> {
 impl Characterization {
     /// The law to be preferred: the simplest that no other beats by the information criterion.
     pub fn preferred(&self) -> Option<&LawDescription> {
-        let found = || self.laws.iter().filter_map(|(_, law)| law.as_ref().ok());
-        // What the nearest leaves is noise, so all are compared as if that noise had been seen.
-        let nearest = found().min_by(|a, b| a.sum_of_squares.total_cmp(&b.sum_of_squares))?;
-        let criterion = |law: &LawDescription| law.criterion(nearest.effective_samples);
-        let least = found().map(criterion).fold(f64::INFINITY, f64::min);
-        found().find(|law| criterion(law) <= least + WORTH)
+        let found: Vec<_> = self
+            .laws
+            .iter()
+            .filter_map(|(_, law)| law.as_ref().ok())
+            .collect();
+        let fits: Vec<_> = found.iter().map(|law| &law.found.fit).collect();
+        let nearest = found.iter().min_by(|a, b| a.misfit.total_cmp(&b.misfit))?;
+        Some(found[simplest(&fits, nearest.effective_samples).0])
     }
 
     /// The same for pieces along one axis.
     fn preferred_uniaxial(&self) -> Option<&UniaxialFit> {
-        let found = || {
-            self.uniaxial
-                .iter()
-                .filter_map(|(_, law)| law.as_ref().ok())
-        };
-        let nearest = found().min_by(|a, b| a.misfit.total_cmp(&b.misfit))?;
-        let criterion = |law: &UniaxialFit| law.criterion(nearest.uncertainty.effective_samples);
-        let least = found().map(criterion).fold(f64::INFINITY, f64::min);
-        found().find(|law| criterion(law) <= least + WORTH)
+        let found: Vec<_> = self
+            .uniaxial
+            .iter()
+            .filter_map(|(_, law)| law.as_ref().ok())
+            .collect();
+        let fits: Vec<_> = found.iter().map(|law| &law.fit).collect();
+        let nearest = found.iter().min_by(|a, b| a.misfit.total_cmp(&b.misfit))?;
+        Some(found[simplest(&fits, nearest.uncertainty.effective_samples).0])
     }
 
     /// The law to be preferred, however it was found.
@@ -317,21 +320,21 @@ impl Characterization {
             self.relaxation_doubts = relaxation.doubts(duration);
         }
         self.identifiability.clone_from(&self.relaxation_doubts);
-        for (law, found) in &self.laws {
-            let said = found.iter().flat_map(|found| &found.doubts);
-            let of_law = said.map(|doubt| format!("{}: {doubt}", law.name().word()));
-            self.identifiability.extend(of_law);
-        }
-        for (law, found) in &self.uniaxial {
-            let said = found.iter().flat_map(|found| &found.doubts);
-            let of_law = said.map(|doubt| format!("{}: {doubt}", law.name().word()));
-            self.identifiability.extend(of_law);
+        let of_laws = self.laws.iter();
+        let pressed = of_laws.filter_map(|(law, found)| Some((law, &found.as_ref().ok()?.doubts)));
+        let of_pieces = self.uniaxial.iter();
+        let pulled = of_pieces.filter_map(|(law, found)| Some((law, &found.as_ref().ok()?.doubts)));
+        for (law, doubts) in pressed.chain(pulled) {
+            let name = law.name().word();
+            let named = doubts.iter().map(|doubt| match doubt.starts_with(name) {
+                true => doubt.clone(),
+                false => format!("{name}: {doubt}"),
+            });
+            self.identifiability.extend(named);
         }
     }
 }
 
-/// By how much a criterion must be less for a law with more parameters to be preferred [-].
-const WORTH: f64 = 10.0;
 /// How a tissue is found, for its file.
 const METHOD: &str = "relaxation from the normalised force with the recorded course of depth, then the law by inverse finite elements";
 /// The same for a piece along one axis.

@@ -1,13 +1,13 @@
 use palpate_files::tissue::Lumped;
 
-use crate::analyze::Hold;
+use crate::analyze::{Hold, holds};
 use crate::clean::SegmentKind;
 use crate::inverse::Indentation;
 use crate::lumped::{
     ColumnFit, Contact, DepthHistory, KelvinFit, MeanModulus, SpringsFit, fit_column, fit_kelvin,
     fit_springs, mean_elastic_modulus,
 };
-use crate::{CleanRecording, Error, analyze};
+use crate::{CleanRecording, Error};
 
 /// What is found about a specimen without its geometry. Where nothing was, the reason stands.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,7 +36,7 @@ impl WithoutGeometry {
         let contact = first.and_then(|recording| Contact::of(&recording.header));
         let holds: Vec<Hold> = recordings
             .iter()
-            .flat_map(|own| analyze(own).holds)
+            .flat_map(|own| holds(own, &mut Vec::new()))
             .collect();
         Self {
             mean_modulus: mean_elastic_modulus(recordings),
@@ -44,6 +44,15 @@ impl WithoutGeometry {
             column: contact.and_then(|contact| column(contact, recordings, &holds)),
             springs: springs(indentations),
         }
+    }
+
+    /// What deserves doubt in the fits, each by the name of its law in files.
+    pub fn doubts(&self) -> Vec<String> {
+        let column = self.column.iter().flat_map(|found| &found.doubts);
+        let springs = self.springs.iter().flat_map(|found| &found.doubts);
+        let column = column.map(|doubt| format!("blatz on a column: {doubt}"));
+        let springs = springs.map(|doubt| format!("nonlinear_springs: {doubt}"));
+        column.chain(springs).collect()
     }
 
     /// The parameters as files hold them.

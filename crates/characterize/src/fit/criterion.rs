@@ -10,3 +10,26 @@ pub fn information_criterion(fit: &Fit, effective_samples: f64) -> f64 {
     let left = (effective_samples - count - 1.0).max(f64::MIN_POSITIVE);
     effective_samples * mean_square.ln() + 2.0 * count * (1.0 + (count + 1.0) / left)
 }
+
+/// By how much a model with more parameters must be better: "strong" in [Burnham and Anderson 2002].
+const WORTH: f64 = 10.0;
+/// Samples for each parameter that are taken for granted [-]: what no model follows looks like noise of which
+/// hardly two samples are independent.
+const ENOUGH: f64 = 4.0;
+
+/// Which of `fits` to the same data, the simplest first, is to be preferred: the first that none beats by much;
+/// and the criterion of each. All are compared as if the noise had `effective_samples` [-] independent
+/// samples: those of the nearest fit, which leaves hardly more than noise.
+pub fn simplest(fits: &[&Fit], effective_samples: f64) -> (usize, Vec<f64>) {
+    let most = fits.iter().map(|fit| fit.chosen().len()).max().unwrap_or(0);
+    let samples = effective_samples.max(ENOUGH * most as f64);
+    let each: Vec<f64> = fits
+        .iter()
+        .map(|fit| information_criterion(fit, samples))
+        .collect();
+    let least = each.iter().copied().fold(f64::INFINITY, f64::min);
+    let first = each
+        .iter()
+        .position(|criterion| *criterion <= least + WORTH);
+    (first.unwrap_or(0), each)
+}

@@ -23,6 +23,7 @@ mod criterion;
 mod derivatives;
 mod doubts;
 mod least_squares;
+mod misfit;
 mod multi_start;
 mod parameter;
 mod profile;
@@ -35,10 +36,11 @@ mod uncertainty;
 
 use nalgebra::DMatrix;
 
-pub use criterion::information_criterion;
+pub use criterion::{information_criterion, simplest};
 pub use derivatives::Differences;
 pub use doubts::doubts;
 pub use least_squares::{Settings, least_squares, least_squares_with_jacobian};
+pub(crate) use misfit::{misfit, missed};
 pub use multi_start::{Minimum, multi_start};
 pub use parameter::Parameter;
 pub use profile::{Profile, profile};

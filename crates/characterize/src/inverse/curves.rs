@@ -29,7 +29,6 @@ pub struct Curves {
     law: SoughtLaw,
     /// Down to which they are known [m].
     deepest: f64,
-    direct: bool,
     kept: Vec<(f64, UnitCurve)>,
     solves: usize,
 }
@@ -49,17 +48,8 @@ impl Curves {
             body,
             law,
             deepest,
-            direct: false,
             kept: Vec::new(),
             solves: 0,
-        }
-    }
-
-    /// The same, every curve solved by finite elements although it has been tabulated.
-    pub fn directly(self) -> Self {
-        Self {
-            direct: true,
-            ..self
         }
     }
 
@@ -83,11 +73,7 @@ impl Curves {
         }) {
             return Ok(known.clone());
         }
-        let tabulated = if self.direct {
-            None
-        } else {
-            tables::curve(&self.body, self.law, shape, self.deepest)
-        };
+        let tabulated = tables::curve(&self.body, self.law, shape, self.deepest);
         let curve = match (tabulated, self.body) {
             (Some(curve), _) => curve,
             (None, Body::Block { block, indenter }) => {

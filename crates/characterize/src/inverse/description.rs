@@ -4,9 +4,7 @@ use palpate_files::Estimate;
 use super::forces::Indentation;
 use super::law::LawParameter;
 use super::law_fit::LawFit;
-use crate::fit::{
-    Fit, Parameter, Uncertainty, correlated_uncertainty, doubts, information_criterion,
-};
+use crate::fit::{Fit, Parameter, Uncertainty, correlated_uncertainty, doubts, misfit, missed};
 
 /// A law that was found, in its own parameters, and how well they are known.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,9 +27,6 @@ pub struct LawDescription {
     pub doubts: Vec<String>,
 }
 
-/// A misfit from which on a law is said to miss the curve [-].
-const MISSES: f64 = 0.05;
-
 impl LawDescription {
     /// Of a fit to `indentations`.
     pub fn of(found: LawFit, indentations: &[Indentation<'_>]) -> Self {
@@ -52,15 +47,9 @@ impl LawDescription {
             .copied()
             .fold(0.0, f64::max);
         let sum_of_squares = own.sum_of_squares();
-        let misfit = (sum_of_squares / own.residuals.len() as f64).sqrt() / largest;
+        let misfit = misfit(&own, largest);
         let mut said = doubts(&own, &among(&uncertainty, each.len()), None);
-        if misfit > MISSES {
-            said.push(format!(
-                "{} misses the shape of the force: {:.0} % of the largest force on average",
-                found.law.name().word(),
-                100.0 * misfit
-            ));
-        }
+        said.extend(missed(found.law.name().word(), "force", misfit));
         Self {
             parameters: each.iter().enumerate().map(known).collect(),
             discretisation: each
@@ -74,12 +63,6 @@ impl LawDescription {
             doubts: said,
             found,
         }
-    }
-
-    /// Akaike's criterion [-], for comparison with other laws of the same recordings at the same number of
-    /// `effective_samples` [-].
-    pub fn criterion(&self, effective_samples: f64) -> f64 {
-        information_criterion(&self.found.fit, effective_samples)
     }
 }
 

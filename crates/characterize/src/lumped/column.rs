@@ -4,9 +4,9 @@ use palpate_mechanics::Blatz;
 use palpate_mechanics::finite_elements::uniaxial::nominal_stress;
 
 use super::Contact;
-use super::misfit::{misfit, missed};
 use crate::Error;
 use crate::fit::{Fit, Parameter, Settings, doubts, least_squares, uncertainty};
+use crate::fit::{misfit, missed};
 
 /// Blatz's law on a column (6.2), and the fit that found it.
 #[derive(Debug, Clone, PartialEq)]

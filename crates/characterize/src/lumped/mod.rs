@@ -25,7 +25,6 @@
 mod column;
 mod kelvin;
 mod mean_modulus;
-mod misfit;
 mod springs;
 mod springs_fit;
 mod uniaxial;

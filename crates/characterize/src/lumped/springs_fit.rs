@@ -2,13 +2,13 @@ use nalgebra::DMatrix;
 use palpate_files::Estimate;
 use palpate_files::tissue::NonlinearSprings;
 
-use super::misfit::{misfit, missed};
 use super::springs::{OF_BRANCH, STATIC, respond};
 use crate::Error;
 use crate::fit::{
-    Fit, Parameter, Settings, Uncertainty, correlated_uncertainty, doubts, information_criterion,
-    least_squares_with_jacobian,
+    Fit, Parameter, Settings, Uncertainty, correlated_uncertainty, doubts,
+    least_squares_with_jacobian, simplest,
 };
+use crate::fit::{misfit, missed};
 use crate::inverse::Indentation;
 
 /// The springs of (6.4) that were found, and how.
@@ -39,8 +39,6 @@ const EXPONENTS: [[f64; 2]; 2] = [[0.5, 6.0], [1.0, 6.0]];
 const EXPONENT: f64 = 1.5;
 /// Times in which a spring gives way at first, where fits start, in lengths of the recording [-].
 const TIMES: [f64; 3] = [0.01, 0.05, 0.3];
-/// By how much the criterion must fall for a second spring: "strong" in [Burnham and Anderson 2002].
-const WORTH: f64 = 10.0;
 /// Relative change of the parameters below which a fit has arrived [-]: far less than they are known.
 const TOLERANCE: f64 = 1e-8;
 
@@ -55,12 +53,12 @@ pub fn fit_springs(indentations: &[Indentation<'_>]) -> Result<SpringsFit, Error
     let lengths: Vec<usize> = indentations.iter().map(|each| each.time.len()).collect();
     // What the richer leaves is noise, so both are compared as if that noise had been seen.
     let samples = correlated_uncertainty(&two, &lengths).effective_samples;
-    let [first, second] = [&one, &two].map(|fit| information_criterion(fit, samples));
+    let (chosen, criteria) = simplest(&[&one, &two], samples);
     let tried = vec![
-        (1, one.sum_of_squares(), first),
-        (2, two.sum_of_squares(), second),
+        (1, one.sum_of_squares(), criteria[0]),
+        (2, two.sum_of_squares(), criteria[1]),
     ];
-    let branches = if second < first - WORTH { 2 } else { 1 };
+    let branches = chosen + 1;
     let mut fit = if branches == 2 { two } else { one };
     stronger_first(&mut fit, felt.depth);
     let uncertainty = correlated_uncertainty(&fit, &lengths);

@@ -4,11 +4,10 @@ use palpate_mechanics::finite_elements::uniaxial::nominal_stress;
 use palpate_mechanics::{Blatz, Law, MooneyRivlin, NeoHookean};
 
 use super::column::ALPHAS;
-use super::misfit::{misfit, missed};
 use crate::fit::{
-    Fit, Parameter, Settings, Uncertainty, correlated_uncertainty, doubts, information_criterion,
-    least_squares,
+    Fit, Parameter, Settings, Uncertainty, correlated_uncertainty, doubts, least_squares,
 };
+use crate::fit::{misfit, missed};
 use crate::inverse::SoughtLaw;
 use crate::{CleanRecording, Error};
 
@@ -42,12 +41,6 @@ impl UniaxialFit {
     pub fn nominal_stress(&self, stretch: f64) -> Result<f64, Error> {
         let values: Vec<f64> = self.fit.parameters.iter().map(|p| p.value).collect();
         Ok(stress(self.law, &values, stretch)?)
-    }
-
-    /// Akaike's criterion [-], for comparison with other laws of the same samples at the same number of
-    /// `effective_samples` [-].
-    pub fn criterion(&self, effective_samples: f64) -> f64 {
-        information_criterion(&self.fit, effective_samples)
     }
 }
 

@@ -6,8 +6,7 @@ use super::model::{Course, Model, terms};
 use super::product_form::ProductForm;
 use crate::Error;
 use crate::fit::{
-    Fit, Parameter, Settings, correlated_uncertainty, information_criterion,
-    least_squares_with_jacobian,
+    Fit, Parameter, Settings, correlated_uncertainty, least_squares_with_jacobian, simplest,
 };
 
 /// What may be chosen about a relaxation.
@@ -48,13 +47,8 @@ pub struct Relaxation {
 const MOST_TERMS: usize = 4;
 /// A root mean square of ε below which there is nothing left to tell [-]: elastic force is known no better.
 const NEGLIGIBLE: f64 = 3e-4;
-/// Samples for each parameter that the criterion takes for granted [-]: what no series follows looks like noise
-/// of which hardly two samples are independent.
-const ENOUGH: f64 = 4.0;
 /// Part of Σ ε² that one more term must gain for yet another to be tried [-].
 const NOTHING_GAINED: f64 = 1e-3;
-/// By how much the criterion must fall for one more term: "strong" in [Burnham and Anderson 2002].
-const WORTH: f64 = 10.0;
 /// Samples that must lie where the depth changes for the exponent to be sought.
 const RAMP: usize = 8;
 /// The exponents that are sought.
@@ -120,18 +114,13 @@ pub fn relaxation(courses: &[Course], settings: RelaxationSettings) -> Result<Re
     // What the richest leaves is noise, so all are compared as if that noise had been seen.
     let lengths: Vec<usize> = courses.iter().map(|course| course.time.len()).collect();
     let richest = fits.last().ok_or(Error::NothingFelt)?;
-    let enough = ENOUGH * richest.chosen().len() as f64;
-    let samples = correlated_uncertainty(richest, &lengths)
-        .effective_samples
-        .max(enough);
-    let criterion = |fit: &Fit| information_criterion(fit, samples);
-    let least = fits.iter().map(criterion).fold(f64::INFINITY, f64::min);
-    let tried = fits
-        .iter()
-        .map(|fit| (terms_of(fit, courses), fit.sum_of_squares(), criterion(fit)));
+    let samples = correlated_uncertainty(richest, &lengths).effective_samples;
+    let (chosen, criteria) = simplest(&fits.iter().collect::<Vec<_>>(), samples);
+    let tried = fits.iter().zip(criteria);
+    let tried =
+        tried.map(|(fit, criterion)| (terms_of(fit, courses), fit.sum_of_squares(), criterion));
     let tried: Vec<_> = tried.collect();
-    let worth = |fit: &Fit| criterion(fit) <= least + WORTH || settings.terms.is_some();
-    let chosen = fits.into_iter().find(worth).ok_or(Error::NothingFelt)?;
+    let chosen = fits.swap_remove(chosen);
     described(courses, chosen, tried)
 }
 

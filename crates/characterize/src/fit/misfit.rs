@@ -1,15 +1,15 @@
-use crate::fit::Fit;
+use super::Fit;
 
 /// A misfit from which on a law is said to miss the curve [-].
 const MISSES: f64 = 0.05;
 
 /// The part of what was measured that a fit does not follow: its root mean square over the `largest` [-].
-pub(super) fn misfit(fit: &Fit, largest: f64) -> f64 {
+pub(crate) fn misfit(fit: &Fit, largest: f64) -> f64 {
     (fit.sum_of_squares() / fit.residuals.len() as f64).sqrt() / largest
 }
 
 /// The sentence on a law that misses the shape of `what` was measured; none when it does not.
-pub(super) fn missed(law: &str, what: &str, misfit: f64) -> Option<String> {
+pub(crate) fn missed(law: &str, what: &str, misfit: f64) -> Option<String> {
     (misfit > MISSES).then(|| {
         format!(
             "{law} misses the shape of the {what}: {:.0} % of the largest {what} on average",
