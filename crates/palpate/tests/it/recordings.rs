@@ -81,6 +81,61 @@ fn a_folder_is_a_study() {
     assert!(warnings.contains("broken.csv line 4"), "{warnings}");
 }
 
+/// A study is gone on with: what is kept is not found again, what was damaged or has changed is.
+#[test]
+fn a_study_goes_on_where_it_stopped() {
+    let folder = folder();
+    let at = |name: &str| folder.path().join("kept").join(name);
+    let run = || {
+        let asked = [
+            "characterize",
+            ".",
+            "--study",
+            "kept",
+            "--law",
+            "neo_hookean",
+            "--json",
+        ];
+        json(&palpate_in(folder.path(), &asked))
+    };
+    let first = run();
+    let summary = fs::read_to_string(at("summary.csv")).unwrap();
+    assert!(
+        summary.starts_with("# format = 1\nspecimen,organ,"),
+        "{summary}"
+    );
+    assert_eq!(
+        summary.lines().count(),
+        5,
+        "two specimens and what is no recording: {summary}"
+    );
+    assert!(summary.contains("broken.csv line 4"), "{summary}");
+    assert!(
+        fs::read_to_string(at("pooled.csv"))
+            .unwrap()
+            .contains("liver.neo_hookean.c10_pa,2,")
+    );
+    palpate_files::Tissue::read(at("liver-A.toml")).unwrap();
+    // What is kept is taken as it stands, which a mark shows.
+    let marked = fs::read_to_string(at("liver-A.json"))
+        .unwrap()
+        .replace("\"A\"", "\"kept\"");
+    fs::write(at("liver-A.json"), marked).unwrap();
+    fs::write(at("liver-B.json"), "{ half").unwrap();
+    let second = run();
+    assert_eq!(second["specimens"][0]["subject"], "kept");
+    assert_eq!(second["specimens"][1], first["specimens"][1]);
+    // Another recording is another specimen.
+    fs::write(
+        folder.path().join("a1.csv"),
+        recording(0.001, 9.0, &liver("A")),
+    )
+    .unwrap();
+    let third = run();
+    assert_eq!(third["specimens"][0]["subject"], "A");
+    assert_ne!(third["specimens"][0], first["specimens"][0]);
+}
+
 #[test]
 fn a_tissue_and_its_cards_are_written() {
     let folder = folder();

@@ -3,17 +3,17 @@ use std::collections::BTreeMap;
 use palpate_characterize::fit::{Draws, bootstrap_subjects};
 use serde::Serialize;
 
-use super::Studied;
+use super::answer::Specimen;
 
 /// A number over the specimens of an organ.
 #[derive(Debug, Serialize)]
 pub(super) struct Pooled {
-    n: usize,
-    mean: f64,
-    /// Between specimens; zero for one.
-    standard_deviation: f64,
-    /// What holds the mean with a probability of 95 %, by drawing specimens anew.
-    interval_95: [f64; 2],
+    pub(super) n: usize,
+    pub(super) mean: f64,
+    /// Between specimens; null for one.
+    pub(super) standard_deviation: Option<f64>,
+    /// What holds the mean with a probability of 95 %, by drawing specimens anew; null for one.
+    pub(super) interval_95: Option<[f64; 2]>,
 }
 
 /// How often specimens are drawn anew.
@@ -22,38 +22,37 @@ const DRAWS: Draws = Draws {
     seed: 1,
 };
 
-/// Every parameter of every law and of the relaxation, over the specimens that have it, by organ:
-/// `liver.neo_hookean.c10_pa`. Of specimens that name no organ, without one.
-pub(super) fn of(studied: &[Studied]) -> BTreeMap<String, Pooled> {
+/// Every parameter of every law, the mean modulus and what relaxes, over the specimens that have it, by
+/// organ: `liver.neo_hookean.c10_pa`. Of specimens that name no organ, without one.
+pub(super) fn of(specimens: &[Specimen]) -> BTreeMap<String, Pooled> {
     let mut values: BTreeMap<String, Vec<f64>> = BTreeMap::new();
-    for studied in studied {
-        let organ = studied.recordings[0].header.organ.as_deref();
+    for specimen in specimens {
         let mut add = |key: String, value: f64| {
+            let organ = specimen.organ.as_ref();
             let key = organ.map_or(key.clone(), |organ| format!("{organ}.{key}"));
             values.entry(key).or_default().push(value);
         };
-        for (law, found) in &studied.found.laws {
-            for (name, estimate) in found.iter().flat_map(|law| &law.parameters) {
-                add(format!("{}.{name}", law.name().word()), estimate.value);
+        for (law, found) in specimen.laws() {
+            for (name, known) in &found.parameters {
+                add(format!("{law}.{name}"), known.value);
             }
         }
-        let terms = studied
-            .found
-            .relaxation
-            .iter()
-            .flat_map(|found| &found.terms);
-        let total: f64 = terms.map(|[g, _]| g.value).sum();
-        if studied.found.relaxation.is_ok() {
+        if let Some(modulus) = &specimen.mean_elastic_modulus {
+            add("mean_elastic_modulus".to_owned(), modulus.value);
+        }
+        if let Some(relaxation) = &specimen.relaxation {
+            let total = relaxation.g.iter().map(|g| g.value).sum();
             add("relaxation.sum_of_g".to_owned(), total);
         }
     }
     let pooled = |(key, values): (String, Vec<f64>)| {
         let mean = bootstrap_subjects(&values, 0.95, DRAWS)?;
+        let several = values.len() > 1;
         let pooled = Pooled {
             n: values.len(),
             mean: mean.mean,
-            standard_deviation: mean.deviation,
-            interval_95: mean.interval,
+            standard_deviation: several.then_some(mean.deviation),
+            interval_95: several.then_some(mean.interval),
         };
         Some((key, pooled))
     };

@@ -1,20 +1,19 @@
 use std::fmt::Write;
 
-use super::Studied;
 use super::answer::{Answer, Known, LawAnswer, Specimen};
 
 /// What was found, for people.
-pub(super) fn of(studied: &[Studied], answer: &Answer) -> String {
+pub(super) fn of(answer: &Answer) -> String {
     let mut text = String::new();
-    for (studied, specimen) in studied.iter().zip(&answer.specimens) {
+    for specimen in &answer.specimens {
         // Writing to a string does not fail.
-        let _ = write(&mut text, studied, specimen);
+        let _ = write(&mut text, specimen);
     }
     text
 }
 
-fn write(text: &mut String, studied: &Studied, specimen: &Specimen) -> std::fmt::Result {
-    let files = studied.files.len();
+fn write(text: &mut String, specimen: &Specimen) -> std::fmt::Result {
+    let files = specimen.files.len();
     let recordings = if files == 1 {
         "recording"
     } else {
@@ -35,16 +34,10 @@ fn write(text: &mut String, studied: &Studied, specimen: &Specimen) -> std::fmt:
             writeln!(text, "  relaxation {place}     g {g:<22} tau {tau} s")?;
         }
     }
-    let laws = [
-        ("neo_hookean", &specimen.neo_hookean),
-        ("mooney_rivlin", &specimen.mooney_rivlin),
-        ("exponential", &specimen.exponential),
-    ];
-    for (name, law) in laws {
-        let Some(law) = law else { continue };
+    for (name, law) in specimen.laws() {
         writeln!(text, "  {name:<16} {}", of_law(law))?;
     }
-    if let Some(law) = specimen.preferred {
+    if let Some(law) = specimen.preferred.as_deref() {
         let law = if law == "blatz" { "exponential" } else { law };
         writeln!(text, "  preferred        {law}")?;
     }

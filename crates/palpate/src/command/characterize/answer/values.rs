@@ -1,0 +1,159 @@
+use std::collections::BTreeMap;
+
+use palpate_characterize::inverse::LawDescription;
+use palpate_characterize::lumped::UniaxialFit;
+use palpate_characterize::viscoelastic::Relaxation;
+use palpate_files::Estimate;
+use serde::{Deserialize, Serialize};
+
+/// Parameters by their names.
+pub(in super::super) type Named = BTreeMap<String, Known>;
+
+/// The mean elastic modulus (6.1).
+#[derive(Debug, Serialize, Deserialize)]
+pub(in super::super) struct Modulus {
+    pub(in super::super) value: f64,
+    /// Over the holds at that depth; null for one.
+    pub(in super::super) standard_deviation: Option<f64>,
+    pub(in super::super) depth_m: f64,
+    pub(in super::super) holds: usize,
+}
+
+/// A number with its error by noise and what the model's elements may be off.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+pub(in super::super) struct Known {
+    pub(in super::super) value: f64,
+    pub(in super::super) standard_error: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(in super::super) discretisation_error: Option<f64>,
+}
+
+/// A relaxation function.
+#[derive(Debug, Serialize, Deserialize)]
+pub(in super::super) struct RelaxationAnswer {
+    pub(in super::super) g: Vec<Known>,
+    pub(in super::super) tau_s: Vec<Known>,
+    alpha: Vec<f64>,
+    sum_squared_error: f64,
+    /// By what power the elastic force grows faster with depth than a neo-Hookean (or linear) one [-].
+    shape_exponent: Known,
+    /// The same if every ramp is taken for a step.
+    as_step: Option<Steps>,
+    /// What one, two, three and four terms come to.
+    tried: Vec<Tried>,
+}
+
+/// A relaxation function without its errors.
+#[derive(Debug, Serialize, Deserialize)]
+struct Steps {
+    g: Vec<f64>,
+    tau_s: Vec<f64>,
+    sum_squared_error: f64,
+}
+
+/// A number of terms that was tried.
+#[derive(Debug, Serialize, Deserialize)]
+struct Tried {
+    terms: usize,
+    sum_squared_error: f64,
+    information_criterion: f64,
+}
+
+/// An elastic law.
+#[derive(Debug, Serialize, Deserialize)]
+pub(in super::super) struct LawAnswer {
+    #[serde(flatten)]
+    pub(in super::super) parameters: BTreeMap<String, Known>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    correlation: Option<f64>,
+    iterations: usize,
+    /// Runs of finite elements: none where the force is tabulated.
+    solves: usize,
+    /// Σ ε² [N²], or of nominal stresses [Pa²].
+    sum_squared_error: f64,
+    /// Root mean square of what the law does not follow, over the largest force [-].
+    pub(in super::super) misfit: f64,
+}
+
+impl Known {
+    pub(super) fn of(estimate: &Estimate) -> Self {
+        Self {
+            value: estimate.value,
+            standard_error: estimate.standard_error,
+            discretisation_error: None,
+        }
+    }
+}
+
+impl RelaxationAnswer {
+    pub(super) fn new(found: &Relaxation, steps: Option<&Relaxation>) -> Self {
+        let column = |place: usize| found.terms.iter().map(move |term| Known::of(&term[place]));
+        Self {
+            g: column(0).collect(),
+            tau_s: column(1).collect(),
+            alpha: found
+                .product
+                .terms
+                .iter()
+                .map(|(alpha, _)| *alpha)
+                .collect(),
+            sum_squared_error: found.sum_of_squares,
+            shape_exponent: Known::of(&found.exponent),
+            as_step: steps.map(|steps| Steps {
+                g: steps.series.terms().iter().map(|(g, _)| *g).collect(),
+                tau_s: steps.series.terms().iter().map(|(_, tau)| *tau).collect(),
+                sum_squared_error: steps.sum_of_squares,
+            }),
+            tried: found
+                .tried
+                .iter()
+                .map(|&(terms, sum_squared_error, information_criterion)| Tried {
+                    terms,
+                    sum_squared_error,
+                    information_criterion,
+                })
+                .collect(),
+        }
+    }
+}
+
+impl LawAnswer {
+    pub(super) fn new(law: &LawDescription) -> Self {
+        let known = |((name, estimate), off): (&(&'static str, Estimate), &f64)| {
+            let known = Known {
+                discretisation_error: Some(*off),
+                ..Known::of(estimate)
+            };
+            ((*name).to_owned(), known)
+        };
+        Self {
+            parameters: law
+                .parameters
+                .iter()
+                .zip(&law.discretisation)
+                .map(known)
+                .collect(),
+            correlation: law.correlation,
+            iterations: law.found.fit.iterations.len() - 1,
+            solves: law.found.solves,
+            sum_squared_error: law.sum_of_squares,
+            misfit: law.misfit,
+        }
+    }
+
+    pub(super) fn of_uniaxial(law: &UniaxialFit) -> Self {
+        let correlation = law.uncertainty.correlation();
+        Self {
+            parameters: law
+                .parameters
+                .iter()
+                .map(|(name, known)| ((*name).to_owned(), Known::of(known)))
+                .collect(),
+            correlation: (correlation.ncols() > 1).then(|| correlation[(0, 1)]),
+            iterations: law.fit.iterations.len() - 1,
+            solves: 0,
+            sum_squared_error: law.fit.sum_of_squares(),
+            misfit: law.misfit,
+        }
+    }
+}

@@ -1,0 +1,34 @@
+use std::collections::BTreeMap;
+
+use super::answer::Answer;
+use crate::command::recordings::Unusable;
+
+/// Specimens whose doubts are all said one by one.
+const FEW: usize = 4;
+
+/// The doubts of `answer` as lines on a screen: all of a few specimens; of many, what is said of several of
+/// them once, and how much else there is.
+pub(super) fn for_people(answer: &Answer) -> Vec<String> {
+    let count = answer.specimens.len();
+    if count <= FEW {
+        return answer.warnings.clone();
+    }
+    let mut said: BTreeMap<&str, usize> = BTreeMap::new();
+    let doubts = answer.specimens.iter().flat_map(|own| &own.warnings);
+    for doubt in doubts {
+        *said.entry(doubt).or_default() += 1;
+    }
+    let (common, single): (Vec<_>, Vec<_>) = said.into_iter().partition(|(_, times)| *times > 1);
+    let mut lines: Vec<String> = common
+        .iter()
+        .map(|(doubt, times)| format!("{times} of {count} specimens: {doubt}"))
+        .collect();
+    if !single.is_empty() {
+        let more = single.len();
+        lines.push(format!(
+            "{more} more doubts are about single specimens; see them with --json, or in the files of --study"
+        ));
+    }
+    lines.extend(answer.unusable.iter().map(Unusable::sentence));
+    lines
+}
