@@ -50,6 +50,13 @@ def ours(*words):
 
 
 def law_cards(law):
+    """The material TISSUE: of a law with its numbers, or a whole card as palpate writes it."""
+    if "*MATERIAL" in law:
+        return law.rstrip()
+    return f"*MATERIAL,NAME=TISSUE\n{numbered_card(law)}"
+
+
+def numbered_card(law):
     name, *numbers = law.split(":")
     numbers = [float(number) for number in numbers]
     if name == "linear":
@@ -129,7 +136,7 @@ def axisymmetric(law, nodes, elements, sets, step, longest="0.2"):
     lines += [f"*ELEMENT,TYPE=CAX8R,ELSET=BODY"]
     lines += [f"{e + 1}," + ",".join(map(str, ns)) for e, ns in enumerate(elements)]
     lines += [listed(name, numbers) for name, numbers in sets.items()]
-    lines += ["*MATERIAL,NAME=TISSUE", law_cards(law), "*SOLID SECTION,ELSET=BODY,MATERIAL=TISSUE"]
+    lines += [law_cards(law), "*SOLID SECTION,ELSET=BODY,MATERIAL=TISSUE"]
     lines += ["*STEP,NLGEOM,INC=1000" if finite else "*STEP"]
     # The default stops at half a percent of the mean force.
     lines += ["*STATIC", f"{longest},1.,1.e-6,{longest}" if finite else "1.,1."]
@@ -199,7 +206,7 @@ def cube_deck(law, how, amount):
     for name, axis in [("X", 0), ("Y", 1), ("Z", 2)]:
         lines.append(listed(name, where(axis, 0)))
     lines.append(listed("TOP", where(2, 2)))
-    lines += ["*MATERIAL,NAME=TISSUE", law_cards(law), "*SOLID SECTION,ELSET=BODY,MATERIAL=TISSUE"]
+    lines += [law_cards(law), "*SOLID SECTION,ELSET=BODY,MATERIAL=TISSUE"]
     lines += ["*STEP,NLGEOM,INC=1000", "*STATIC", "0.1,1.,1.e-5,0.2"]
     lines += ["*CONTROLS,PARAMETERS=FIELD", "1.e-9,1.e-7", "*BOUNDARY"]
     if how == "stretch":
@@ -234,6 +241,26 @@ def cubes(folder):
             if how == "shear":
                 row(f"{title}, along", "N", theirs[0], mine["fx"], "1 / 1 element")
             row(f"{title}, normal" if how == "shear" else title, "N", theirs[2], mine["fz"], "1 / 1 element")
+
+
+def cards(folder):
+    """The material card that `palpate characterize` writes, read by CalculiX: the stress of a cube against the
+    closed form of the incompressible law that the card means, 2 (C10 + C01 / s) (s - 1 / s^2)."""
+    package = ["--package", "palpate", "--bin", "palpate"]
+    subprocess.run(["cargo", "build", "--quiet", "--release", *package], cwd=ROOT, check=True)
+    palpate = pathlib.Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "release/palpate"
+    stress = lambda s, c10, c01: 2 * (c10 + c01 / s) * (s - s**-2)
+    for law, c10, c01 in [("neo_hookean", 1000, 0), ("mooney_rivlin", 400, 600)]:
+        rows = [f"{1 + i / 100},{stress(1 + i / 100, c10, c01)}" for i in range(51)]
+        (folder / "piece.csv").write_text("\n".join(["stretch,stress_pa", *rows]) + "\n")
+        words = ["characterize", "piece.csv", "--law", law, "--abaqus", "card.inp", "--json"]
+        subprocess.run([palpate, *words], cwd=folder, check=True, capture_output=True)
+        card = (folder / "card.inp").read_text()
+        name = card.split("NAME=")[1].splitlines()[0]
+        for amount in [1.2, 1.5, 0.7]:
+            deck = cube_deck(card, "stretch", amount).replace("MATERIAL=TISSUE", f"MATERIAL={name}")
+            theirs = calculix(deck, folder, f"card_{law}")["TOP"][-1][2]
+            row(f"card, {law}, stretch {amount}", "N", theirs, stress(amount, c10, c01), "1 element")
 
 
 def extrapolated(values):
@@ -289,10 +316,10 @@ def tubes(folder):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--keep", help="folder for the decks and their answers")
-    parser.add_argument("name", nargs="*", help="cubes, punches, tubes; all without")
+    parser.add_argument("name", nargs="*", help="cubes, cards, punches, tubes; all without")
     arguments = parser.parse_args()
     build()
-    groups = {"cubes": cubes, "punches": punches, "tubes": tubes}
+    groups = {"cubes": cubes, "cards": cards, "punches": punches, "tubes": tubes}
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(arguments.keep or scratch)
         folder.mkdir(exist_ok=True)

@@ -100,6 +100,12 @@ pub enum Error {
         /// The law.
         law: LawName,
     },
+    /// Fits that would take runs of finite elements each.
+    #[error("fits of `{}` are not repeated, because each takes runs of finite elements; its standard errors hold for small changes", .law.word())]
+    CostlyToRepeat {
+        /// The law.
+        law: LawName,
+    },
     /// An indenter that is not solved on a tube.
     #[error("only a flat indenter is solved on a hollow organ; use a flat one")]
     TubeIndenter,

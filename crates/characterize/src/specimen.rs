@@ -10,8 +10,8 @@ use palpate_mechanics::finite_elements::indentation::Grip;
 use palpate_mechanics::finite_elements::tube::Tube;
 
 use crate::clean::SegmentKind;
-use crate::fit::simplest;
-use crate::inverse::{Body, Curves, Indentation, LawDescription, SoughtLaw, law_fit};
+use crate::fit::{Draws, simplest};
+use crate::inverse::{Body, Curves, Indentation, LawDescription, SoughtLaw, law_fit, repeated};
 use crate::lumped::{UniaxialFit, fit_uniaxial_recordings};
 use crate::viscoelastic::{
     Course, Relaxation, RelaxationSettings, relaxation, relaxation_of_steps,
@@ -25,6 +25,8 @@ pub struct CharacterizeSettings {
     pub relaxation: RelaxationSettings,
     /// The laws that are sought.
     pub laws: Vec<SoughtLaw>,
+    /// How often their fits are made again to see how well they are known.
+    pub draws: Option<Draws>,
 }
 
 impl Default for CharacterizeSettings {
@@ -32,6 +34,10 @@ impl Default for CharacterizeSettings {
         Self {
             relaxation: RelaxationSettings::default(),
             laws: SoughtLaw::ALL.to_vec(),
+            draws: Some(Draws {
+                count: 100,
+                seed: 1,
+            }),
         }
     }
 }
@@ -97,7 +103,7 @@ pub fn characterize(
         }
         let answer = body
             .clone()
-            .and_then(|body| sought(law, body, &pressed, &found.relaxation));
+            .and_then(|body| sought(law, body, &pressed, &found.relaxation, settings.draws));
         found.laws.push((law, answer));
     }
     found.speak(&pressed);
@@ -109,6 +115,7 @@ fn sought(
     body: Body,
     pressed: &[Pressed],
     relaxation: &Result<Relaxation, Error>,
+    draws: Option<Draws>,
 ) -> Result<LawDescription, Error> {
     if matches!(body, Body::Tube { .. }) && law != SoughtLaw::NeoHookean {
         return Err(Error::TubeLaw { law: law.name() });
@@ -118,7 +125,10 @@ fn sought(
     let mut curves = Curves::new(body, law, deepest);
     let indentations: Vec<Indentation<'_>> = pressed.iter().map(Pressed::indentation).collect();
     let fit = law_fit(&mut curves, &indentations, &relaxation.series)?;
-    Ok(LawDescription::of(fit, &indentations))
+    let mut description = LawDescription::of(fit, &indentations);
+    description.repeated =
+        draws.map(|draws| repeated(&description, &mut curves, &indentations, draws));
+    Ok(description)
 }
 
 /// Whether a whole piece was pressed or pulled along one axis.

@@ -5,7 +5,7 @@
 //! cannot be told apart (or, if it is one alone, it is not known); of their simple combinations the best
 //! known is named with its value.
 
-use nalgebra::{DMatrix, SymmetricEigen};
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 use super::{Fit, Stop, Uncertainty};
 
@@ -13,6 +13,8 @@ use super::{Fit, Stop, Uncertainty};
 const POOR: f64 = 0.25;
 /// The part of an eigenvector from which on a parameter takes part in it [-].
 const TAKES_PART: f64 = 0.3;
+/// Rounding of a model's values [-].
+const ROUNDING: f64 = 1e-12;
 
 /// Sentences on what deserves doubt in a fit; none when there is nothing. `duration` [s] is that of the
 /// recording, to which time constants (parameters in seconds) are compared.
@@ -20,6 +22,8 @@ pub fn doubts(fit: &Fit, uncertainty: &Uncertainty, duration: Option<f64>) -> Ve
     let mut sentences = Vec::new();
     let early = match fit.stop {
         Stop::Converged => None,
+        // Of an exact fit nothing is left to be better by.
+        Stop::NoBetter if is_exact(fit) => None,
         Stop::NoBetter => Some("no further step was better"),
         Stop::NoDerivatives => Some("the model had no answer beside the last one"),
         Stop::Iterations => Some("its steps were used up"),
@@ -44,6 +48,13 @@ pub fn doubts(fit: &Fit, uncertainty: &Uncertainty, duration: Option<f64>) -> Ve
     }
     sentences.extend(hardly_known(fit, uncertainty));
     sentences
+}
+
+/// Whether the residuals are nothing but rounding beside what the parameters give.
+fn is_exact(fit: &Fit) -> bool {
+    let values = fit.parameters.iter().map(|p| p.value);
+    let given = &fit.jacobian * DVector::from_iterator(fit.parameters.len(), values);
+    fit.sum_of_squares().sqrt() < ROUNDING * given.norm()
 }
 
 fn hardly_known(fit: &Fit, uncertainty: &Uncertainty) -> Vec<String> {

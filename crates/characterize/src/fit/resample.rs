@@ -4,7 +4,9 @@
 //! [`block_bootstrap`] e is put together from runs of the residuals themselves [Künsch 1989], for
 //! [`noise_study`] it is drawn.
 
-use super::{Fit, Random, Settings, least_squares};
+use nalgebra::DMatrix;
+
+use super::{Fit, Random, Settings, least_squares_with_jacobian};
 
 /// How often something is drawn, and from which seed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -52,7 +54,7 @@ pub fn block_bootstrap(
     (recordings, block): (&[usize], usize),
     draws: Draws,
     settings: &Settings,
-    residuals: impl FnMut(&[f64], &mut [f64]) -> Option<()>,
+    evaluate: impl FnMut(&[f64], &mut [f64], &mut DMatrix<f64>) -> Option<()>,
 ) -> Spread {
     let count = fit.residuals.len();
     // The fit has taken part of the noise.
@@ -70,7 +72,7 @@ pub fn block_bootstrap(
             start += length;
         }
     };
-    repeat(fit, draws, settings, drawn, residuals)
+    repeat(fit, draws, settings, drawn, evaluate)
 }
 
 /// Fits to what the model itself gives at the parameters of `fit`, with independent normal noise of the
@@ -80,13 +82,13 @@ pub fn noise_study(
     noise: f64,
     draws: Draws,
     settings: &Settings,
-    residuals: impl FnMut(&[f64], &mut [f64]) -> Option<()>,
+    evaluate: impl FnMut(&[f64], &mut [f64], &mut DMatrix<f64>) -> Option<()>,
 ) -> Spread {
     let count = fit.residuals.len();
     let drawn = |random: &mut Random, values: &mut Vec<f64>| {
         values.extend((0..count).map(|_| noise * random.normal()));
     };
-    repeat(fit, draws, settings, drawn, residuals)
+    repeat(fit, draws, settings, drawn, evaluate)
 }
 
 fn repeat(
@@ -94,7 +96,7 @@ fn repeat(
     draws: Draws,
     settings: &Settings,
     drawn: impl Fn(&mut Random, &mut Vec<f64>),
-    mut residuals: impl FnMut(&[f64], &mut [f64]) -> Option<()>,
+    mut evaluate: impl FnMut(&[f64], &mut [f64], &mut DMatrix<f64>) -> Option<()>,
 ) -> Spread {
     let mut random = Random::new(draws.seed);
     let mut noise = Vec::with_capacity(fit.residuals.len());
@@ -105,14 +107,15 @@ fn repeat(
     for _ in 0..draws.count {
         noise.clear();
         drawn(&mut random, &mut noise);
-        let with_noise = |values: &[f64], found: &mut [f64]| {
-            residuals(values, found)?;
+        let with_noise = |values: &[f64], found: &mut [f64], jacobian: &mut DMatrix<f64>| {
+            evaluate(values, found, jacobian)?;
             for (i, residual) in found.iter_mut().enumerate() {
                 *residual += noise[i] - fit.residuals[i];
             }
             Some(())
         };
-        match least_squares(&fit.parameters, fit.residuals.len(), settings, with_noise) {
+        let samples = fit.residuals.len();
+        match least_squares_with_jacobian(&fit.parameters, samples, settings, with_noise) {
             Ok(again) => spread
                 .values
                 .push(again.parameters.iter().map(|p| p.value).collect()),

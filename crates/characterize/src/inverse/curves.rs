@@ -106,6 +106,13 @@ impl Curves {
         matches!(self.body, Body::Tube { pressure, .. } if pressure > 0.0)
     }
 
+    /// Whether any shape is known without a run of finite elements.
+    pub(super) fn are_free(&self) -> bool {
+        let tabulated = tables::curve(&self.body, self.law, 0.0, self.deepest).is_some();
+        let is_one = self.law.shapes().is_none() && !self.kept.is_empty();
+        (tabulated || is_one) && !self.depend_on_modulus()
+    }
+
     fn depths(&self) -> Vec<f64> {
         let last = self.deepest / self.body.radius();
         let further = (3..).map(|i| STEP * f64::from(i)).take_while(|x| *x < last);

@@ -4,6 +4,8 @@ use palpate_files::Estimate;
 use super::forces::Indentation;
 use super::law::LawParameter;
 use super::law_fit::LawFit;
+use super::repeated::Repeated;
+use crate::Error;
 use crate::fit::{Fit, Parameter, Uncertainty, correlated_uncertainty, doubts, misfit, missed};
 
 /// A law that was found, in its own parameters, and how well they are known.
@@ -25,6 +27,8 @@ pub struct LawDescription {
     pub effective_samples: f64,
     /// What deserves doubt.
     pub doubts: Vec<String>,
+    /// What fits say that are made again, where they were asked for.
+    pub repeated: Option<Result<Repeated, Error>>,
 }
 
 impl LawDescription {
@@ -61,13 +65,14 @@ impl LawDescription {
             misfit,
             effective_samples: uncertainty.effective_samples,
             doubts: said,
+            repeated: None,
             found,
         }
     }
 }
 
 /// The same fit in the law's own parameters; what follows them is left as it is.
-fn in_its_parameters(found: &LawFit) -> Fit {
+pub(super) fn in_its_parameters(found: &LawFit) -> Fit {
     let own = found.law.parameters(found.modulus(), found.shape());
     let mut fit = found.fit.clone();
     let shape_is_free = !found.fit.parameters[1].at_bound();

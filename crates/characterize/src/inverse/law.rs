@@ -72,6 +72,36 @@ impl SoughtLaw {
         }
     }
 
+    /// The law's own two parameters as modulus and shape; of one alone, the second means nothing. None where
+    /// the shape is beyond what is sought.
+    pub(super) fn seen_as_shape(self, [first, second]: [f64; 2]) -> Option<SeenAsShape> {
+        let seen = match self {
+            Self::NeoHookean => SeenAsShape {
+                modulus: first,
+                shape: 0.0,
+                by: [[1.0, 0.0], [0.0, 0.0]],
+            },
+            Self::MooneyRivlin => {
+                let modulus = first + second;
+                let shape = second / modulus;
+                SeenAsShape {
+                    modulus,
+                    shape,
+                    by: [[1.0, -shape / modulus], [1.0, (1.0 - shape) / modulus]],
+                }
+            }
+            Self::Exponential => SeenAsShape {
+                modulus: first,
+                shape: second,
+                by: [[1.0, 0.0], [0.0, 1.0]],
+            },
+        };
+        let known = self
+            .shapes()
+            .map_or(0.0..=0.0, |[lower, _, upper]| lower..=upper);
+        (seen.modulus > 0.0 && known.contains(&seen.shape)).then_some(seen)
+    }
+
     /// The law as files hold it, from its parameters in their order.
     pub fn elasticity(self, parameters: &[Estimate]) -> Elasticity {
         match self {
@@ -99,4 +129,15 @@ pub struct LawParameter {
     pub value: f64,
     /// Its change with the modulus and with the shape [unit of its name].
     pub by: [f64; 2],
+}
+
+/// A law's own parameters as modulus and shape.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SeenAsShape {
+    /// The modulus [Pa].
+    pub modulus: f64,
+    /// The shape [-].
+    pub shape: f64,
+    /// Change of modulus and shape with each of the law's own parameters.
+    pub by: [[f64; 2]; 2],
 }

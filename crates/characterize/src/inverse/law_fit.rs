@@ -5,7 +5,7 @@ use super::curves::Curves;
 use super::forces::{self, Indentation};
 use super::law::SoughtLaw;
 use crate::Error;
-use crate::fit::{Fit, Parameter, Settings, least_squares_with_jacobian};
+use crate::fit::{Differences, Fit, Parameter, Settings, least_squares_with_jacobian};
 
 /// A law that was found.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,7 +36,12 @@ impl LawFit {
 }
 
 /// Relative change of the parameters below which a fit has arrived [-]: less than the elements are off.
-const TOLERANCE: f64 = 1e-4;
+pub(super) const SETTINGS: Settings = Settings {
+    tolerance: 1e-4,
+    iterations: 500,
+    differences: Differences::Forward,
+    precision: f64::EPSILON,
+};
 /// Rounds in which the modulus under pressure is found, and the change at which they end [-].
 const ROUNDS: usize = 6;
 const SETTLED: f64 = 1e-3;
@@ -97,10 +102,6 @@ fn from(
     let law = curves.law();
     let parameters = parameters(law, series, modulus);
     let samples = indentations.iter().map(|each| each.time.len()).sum();
-    let settings = Settings {
-        tolerance: TOLERANCE,
-        ..Settings::default()
-    };
     let mut evaluate = |values: &[f64], residuals: &mut [f64], jacobian: &mut DMatrix<f64>| {
         let curve = curves.of(modulus, values[1]).ok()?;
         let mut start = 0;
@@ -115,7 +116,7 @@ fn from(
         }
         residuals.iter().all(|r| r.is_finite()).then_some(())
     };
-    let mut fit = least_squares_with_jacobian(&parameters, samples, &settings, &mut evaluate)?;
+    let mut fit = least_squares_with_jacobian(&parameters, samples, &SETTINGS, &mut evaluate)?;
     let values: Vec<f64> = fit.parameters.iter().map(|p| p.value).collect();
     // The columns of what was fixed were not asked for.
     evaluate(&values, &mut fit.residuals, &mut fit.jacobian);

@@ -18,6 +18,7 @@ mod description;
 mod forces;
 mod law;
 mod law_fit;
+mod repeated;
 mod tables;
 
 pub use body::{BLOCK, Body};
@@ -26,4 +27,5 @@ pub use description::LawDescription;
 pub use forces::Indentation;
 pub use law::{LawParameter, SoughtLaw};
 pub use law_fit::{LawFit, law_fit};
+pub use repeated::{NoiseEffect, Repeated, repeated};
 pub use tables::{PUNCH, SHAPES};

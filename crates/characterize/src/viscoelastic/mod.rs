@@ -18,5 +18,6 @@ mod product_form;
 mod relaxation;
 
 pub use model::Course;
+pub(crate) use model::terms;
 pub use product_form::ProductForm;
 pub use relaxation::{Relaxation, RelaxationSettings, relaxation, relaxation_of_steps};

@@ -172,7 +172,7 @@ impl Model<'_> {
 }
 
 /// Pairs of gᵢ [-] and τᵢ [s] of the parameters.
-pub(super) fn terms(parameters: &[f64], terms: usize) -> Vec<(f64, f64)> {
+pub(crate) fn terms(parameters: &[f64], terms: usize) -> Vec<(f64, f64)> {
     let pairs = || (0..terms).map(|i| (parameters[1 + 2 * i], parameters[2 + 2 * i]));
     let whole = 1.0 + pairs().map(|(ratio, _)| ratio).sum::<f64>();
     pairs()

@@ -81,6 +81,9 @@ fn what_cannot_be_characterized_is_said() {
     assert!(said(Error::NothingFelt).ends_with("check the signs and the units of depth and force"));
     let law = palpate_files::tissue::LawName::MooneyRivlin;
     assert!(said(Error::TubeLaw { law }).starts_with("`mooney_rivlin` is not sought"));
+    assert!(
+        said(Error::CostlyToRepeat { law }).starts_with("fits of `mooney_rivlin` are not repeated")
+    );
     assert!(said(Error::TubeIndenter).ends_with("use a flat one"));
     assert!(said(Error::Cone).ends_with("or a flat or spherical indenter"));
     assert!(said(Error::ColumnUnknown).ends_with("or record the ramp faster"));

@@ -14,11 +14,11 @@ use palpate_mechanics::finite_elements::indentation::{
 use palpate_mechanics::{IndentationCurve, Law, MooneyRivlin, NeoHookean, PronySeries};
 
 /// Table 6-3's liver.
-const LIVER: [(f64, f64); 2] = [(0.2866, 1.537), (0.2022, 6.090)];
+pub(super) const LIVER: [(f64, f64); 2] = [(0.2866, 1.537), (0.2022, 6.090)];
 const RADIUS: f64 = 1e-3;
 
 /// A ramp of 0.2 s to `depth` [m] and a hold, at 50 Hz, under a punch of 1 mm.
-fn history(depth: f64) -> History {
+pub(super) fn history(depth: f64) -> History {
     let times: Vec<f64> = (0..=1500).map(|i| f64::from(i) * 0.02).collect();
     History {
         depths: times.iter().map(|t| depth * (t / 0.2).min(1.0)).collect(),
@@ -27,7 +27,7 @@ fn history(depth: f64) -> History {
 }
 
 /// What a sensor with white noise of 20 µN records of `forces` [N]: little, since bias is asked for here.
-fn recording(history: &History, forces: &[f64], seed: u64) -> CleanRecording {
+pub(super) fn recording(history: &History, forces: &[f64], seed: u64) -> CleanRecording {
     let mut random = Random::new(seed);
     let mut felt = |force: &f64| force + 2e-5 * random.normal();
     let header = RecordingHeader {
@@ -46,8 +46,8 @@ fn recording(history: &History, forces: &[f64], seed: u64) -> CleanRecording {
     clean(&recording, &CleanSettings::default()).unwrap()
 }
 
-/// Forces [N] of a law in the block of the fits, on a mesh to 2 %.
-fn forces(law: Arc<dyn Law>, history: &History, relaxing: Relaxing) -> Vec<f64> {
+/// Forces [N] of a law in the block of the fits, on a mesh to 2 %, and their error [-].
+fn forces(law: Arc<dyn Law>, history: &History, relaxing: Relaxing) -> (Vec<f64>, f64) {
     let Body::Block { block, indenter } = Body::under_punch(RADIUS) else {
         panic!("a punch is pressed into a block");
     };
@@ -58,17 +58,14 @@ fn forces(law: Arc<dyn Law>, history: &History, relaxing: Relaxing) -> Vec<f64> 
         law,
     };
     let solved = solve_history(&problem, (&series, relaxing), history, 0.02, &mut |_| ()).unwrap();
-    solved
-        .answer
-        .points
-        .iter()
-        .map(|point| point.force)
-        .collect()
+    let points = solved.answer.points.iter();
+    (points.map(|point| point.force).collect(), solved.error)
 }
 
 fn found(recordings: &[CleanRecording], laws: &[SoughtLaw]) -> Characterization {
     let settings = CharacterizeSettings {
         laws: laws.to_vec(),
+        draws: None,
         ..CharacterizeSettings::default()
     };
     characterize(recordings, &settings, &mut |_| ())
@@ -80,7 +77,7 @@ fn found(recordings: &[CleanRecording], laws: &[SoughtLaw]) -> Characterization 
 fn a_law_is_found_from_finite_elements() {
     let law = Arc::new(MooneyRivlin::incompressible(322.96, 161.47).unwrap());
     let history = history(1.5e-3);
-    let forces = forces(law, &history, Relaxing::Convolution);
+    let (forces, _) = forces(law, &history, Relaxing::Convolution);
     let found = found(
         &[recording(&history, &forces, 3)],
         &[SoughtLaw::NeoHookean, SoughtLaw::MooneyRivlin],
@@ -222,7 +219,7 @@ fn assert_answered(seeds: std::ops::Range<u64>) {
 fn a_law_is_found_from_a_viscoelastic_run() {
     let law = Arc::new(NeoHookean::compressible(452.92, 49.33 * 2.0 * 452.92).unwrap());
     let history = history(4e-3);
-    let forces = forces(law, &history, Relaxing::Full);
+    let (forces, error) = forces(law, &history, Relaxing::Full);
     let found = found(&[recording(&history, &forces, 7)], &[SoughtLaw::NeoHookean]);
     let relaxation = found.relaxation.as_ref().unwrap();
     let truth = PronySeries::new(&LIVER).unwrap();
@@ -231,8 +228,32 @@ fn a_law_is_found_from_a_viscoelastic_run() {
         println!("G({time}): {ratio}");
         assert!((ratio - 1.0).abs() < 0.02, "G({time}): {ratio}");
     }
+    // What is stated, by noise and by the elements and the product form, holds the truth; the recording's own
+    // elements are added.
     let answer = found.laws[0].1.as_ref().unwrap();
-    println!("{:?}", answer.parameters);
+    println!(
+        "{:?}, elements {:?}, of the recording {error}",
+        answer.parameters, answer.discretisation
+    );
+    let c10 = answer.parameters[0].1;
+    let stated = 1.96 * c10.standard_error.unwrap() + answer.discretisation[0];
+    assert!(
+        (c10.value - 452.92).abs() < stated + error * 452.92,
+        "{c10:?} {stated}"
+    );
+    let off: f64 = relaxation.quasi_linear_errors().iter().sum();
+    let total: f64 = relaxation.terms.iter().map(|[g, _]| g.value).sum();
+    let spread: f64 = relaxation
+        .terms
+        .iter()
+        .map(|[g, _]| g.standard_error.unwrap())
+        .sum();
+    let truth = LIVER.iter().map(|(g, _)| g).sum::<f64>();
+    println!("sum of g {total} of {truth}, stated {off} and {spread}");
+    assert!(
+        (total - truth).abs() < off + 1.96 * spread,
+        "{total} {truth}"
+    );
     for (ours, theirs) in answer.found.forces[0].iter().zip(&forces).skip(5) {
         assert!((ours / theirs - 1.0).abs() < 0.02, "{ours} {theirs}");
     }

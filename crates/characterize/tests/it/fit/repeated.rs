@@ -21,6 +21,21 @@ fn polynomial(values: &[f64], residuals: &mut [f64]) -> Option<()> {
     Some(())
 }
 
+/// The same with its derivatives, the powers of x.
+fn with_powers(
+    values: &[f64],
+    residuals: &mut [f64],
+    jacobian: &mut nalgebra::DMatrix<f64>,
+) -> Option<()> {
+    for (i, mut row) in jacobian.row_iter_mut().enumerate() {
+        let x = i as f64 / 100.0 - 1.0;
+        row.iter_mut()
+            .zip(0..)
+            .for_each(|(by, power)| *by = x.powi(power));
+    }
+    polynomial(values, residuals)
+}
+
 const SETTINGS: Settings = Settings {
     tolerance: 1e-8,
     iterations: 100,
@@ -71,8 +86,8 @@ fn repetition_spreads_as_the_covariance_says() {
         seed: 7,
     };
     let noise = (fit.sum_of_squares() / 198.0).sqrt();
-    let drawn = noise_study(&fit, noise, draws, &SETTINGS, polynomial);
-    let blocks = block_bootstrap(&fit, (&[120, 80], 5), draws, &SETTINGS, polynomial);
+    let drawn = noise_study(&fit, noise, draws, &SETTINGS, with_powers);
+    let blocks = block_bootstrap(&fit, (&[120, 80], 5), draws, &SETTINGS, with_powers);
     for spread in [&drawn, &blocks] {
         assert_eq!(spread.failed, 0);
         for parameter in 0..2 {
@@ -82,7 +97,7 @@ fn repetition_spreads_as_the_covariance_says() {
             assert!((low..high).contains(&fit.parameters[parameter].value));
         }
     }
-    let again = block_bootstrap(&fit, (&[120, 80], 5), draws, &SETTINGS, polynomial);
+    let again = block_bootstrap(&fit, (&[120, 80], 5), draws, &SETTINGS, with_powers);
     assert_eq!(again, blocks, "the same seed gives the same");
 }
 

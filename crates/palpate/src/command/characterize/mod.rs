@@ -13,6 +13,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use palpate_characterize::CharacterizeSettings;
+use palpate_characterize::fit::Draws;
 use palpate_characterize::inverse::SoughtLaw;
 use palpate_characterize::viscoelastic::RelaxationSettings;
 use palpate_files::{Tissue, check_writable, write_whole};
@@ -68,6 +69,10 @@ pub(crate) struct Arguments {
     /// Seek this law alone; by default all are, and the simplest that no other beats is preferred.
     #[arg(long, value_enum)]
     law: Option<Law>,
+    /// How often fits are made again, with residuals in other blocks and with noise, to see how well
+    /// parameters are known; 0 for never.
+    #[arg(long, value_name = "TIMES", default_value_t = 100, value_parser = clap::value_parser!(u64).range(..=10_000))]
+    draws: u64,
     /// Terms of the relaxation, 1 to 4; by default as many as the recordings can tell.
     #[arg(long, value_parser = clap::value_parser!(u64).range(1..=4))]
     terms: Option<u64>,
@@ -129,6 +134,10 @@ impl Arguments {
             relaxation: RelaxationSettings {
                 terms: self.terms.map(|terms| terms as usize),
             },
+            draws: (self.draws > 1).then_some(Draws {
+                count: self.draws as usize,
+                seed: 1,
+            }),
             laws: self.law.map_or(all.laws, |law| vec![law.into()]),
         }
     }

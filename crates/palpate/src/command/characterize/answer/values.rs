@@ -24,8 +24,24 @@ pub(in super::super) struct Modulus {
 pub(in super::super) struct Known {
     pub(in super::super) value: f64,
     pub(in super::super) standard_error: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none", default)]
     pub(in super::super) discretisation_error: Option<f64>,
+    /// The spread when the fit is made again with its residuals in other blocks.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    bootstrap_error: Option<f64>,
+    /// Between which the objective stays below its 95 % bound, with the relaxation held; a side without a
+    /// bound is null.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    profile_95: Option<[Option<f64>; 2]>,
+}
+
+/// How far noise spreads the parameters of a law.
+#[derive(Debug, Serialize, Deserialize)]
+struct Noise {
+    /// Standard deviation of independent noise, over the largest force [-].
+    noise: f64,
+    /// Spread of each parameter, in its unit.
+    spread: BTreeMap<String, f64>,
 }
 
 /// A relaxation function.
@@ -64,8 +80,14 @@ struct Tried {
 pub(in super::super) struct LawAnswer {
     #[serde(flatten)]
     pub(in super::super) parameters: BTreeMap<String, Known>,
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none", default)]
     correlation: Option<f64>,
+    /// What noise does to the parameters (6.4.6).
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    noise_study: Vec<Noise>,
+    /// Why the fit was not made again.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    not_repeated: Option<String>,
     iterations: usize,
     /// Runs of finite elements: none where the force is tabulated.
     solves: usize,
@@ -81,6 +103,8 @@ impl Known {
             value: estimate.value,
             standard_error: estimate.standard_error,
             discretisation_error: None,
+            bootstrap_error: None,
+            profile_95: None,
         }
     }
 }
@@ -88,8 +112,13 @@ impl Known {
 impl RelaxationAnswer {
     pub(super) fn new(found: &Relaxation, steps: Option<&Relaxation>) -> Self {
         let column = |place: usize| found.terms.iter().map(move |term| Known::of(&term[place]));
+        let off = found.quasi_linear_errors();
+        let of_g = |(known, off)| Known {
+            discretisation_error: Some(off),
+            ..known
+        };
         Self {
-            g: column(0).collect(),
+            g: column(0).zip(off).map(of_g).collect(),
             tau_s: column(1).collect(),
             alpha: found
                 .product
@@ -119,20 +148,27 @@ impl RelaxationAnswer {
 
 impl LawAnswer {
     pub(super) fn new(law: &LawDescription) -> Self {
-        let known = |((name, estimate), off): (&(&'static str, Estimate), &f64)| {
+        let repeated = law.repeated.as_ref().and_then(|found| found.as_ref().ok());
+        let known = |(place, (name, estimate)): (usize, &(&'static str, Estimate))| {
             let known = Known {
-                discretisation_error: Some(*off),
+                discretisation_error: Some(law.discretisation[place]),
+                bootstrap_error: repeated.map(|again| again.bootstrap[place]),
+                profile_95: repeated.and_then(|again| again.profiles[place]),
                 ..Known::of(estimate)
             };
             ((*name).to_owned(), known)
         };
+        let names = || law.parameters.iter().map(|(name, _)| (*name).to_owned());
+        let noise = repeated.iter().flat_map(|again| &again.noise);
+        let noise = noise.map(|effect| Noise {
+            noise: effect.noise,
+            spread: names().zip(effect.spread.iter().copied()).collect(),
+        });
+        let refused = law.repeated.as_ref().and_then(|found| found.as_ref().err());
         Self {
-            parameters: law
-                .parameters
-                .iter()
-                .zip(&law.discretisation)
-                .map(known)
-                .collect(),
+            parameters: law.parameters.iter().enumerate().map(known).collect(),
+            noise_study: noise.collect(),
+            not_repeated: refused.map(ToString::to_string),
             correlation: law.correlation,
             iterations: law.found.fit.iterations.len() - 1,
             solves: law.found.solves,
@@ -149,6 +185,8 @@ impl LawAnswer {
                 .iter()
                 .map(|(name, known)| ((*name).to_owned(), Known::of(known)))
                 .collect(),
+            noise_study: Vec::new(),
+            not_repeated: None,
             correlation: (correlation.ncols() > 1).then(|| correlation[(0, 1)]),
             iterations: law.fit.iterations.len() - 1,
             solves: 0,

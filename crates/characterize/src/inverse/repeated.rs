@@ -1,0 +1,168 @@
+use nalgebra::DMatrix;
+use palpate_mechanics::PronySeries;
+
+use super::curves::Curves;
+use super::description::{LawDescription, in_its_parameters};
+use super::forces::{self, Indentation};
+use super::law::SoughtLaw;
+use super::law_fit::SETTINGS;
+use crate::Error;
+use crate::fit::{
+    Draws, Fit, Spread, block_bootstrap, correlated_uncertainty, least_squares_with_jacobian,
+    noise_study, profile,
+};
+use crate::viscoelastic::terms;
+
+/// What fits say that are made again, beside what the covariance says.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Repeated {
+    /// For each parameter the values [its unit] between which Σ ε² stays below what a probability of 95 %
+    /// allows, with the relaxation held; a side is `None` where it never rises so far.
+    pub profiles: Vec<Option<[Option<f64>; 2]>>,
+    /// The spread of each parameter [its unit] when the residuals are drawn anew in blocks, relaxation and
+    /// all.
+    pub bootstrap: Vec<f64>,
+    /// Noise, and how far it spreads the parameters (6.4.6).
+    pub noise: Vec<NoiseEffect>,
+}
+
+/// How far noise spreads the parameters.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NoiseEffect {
+    /// Standard deviation of independent noise, over the largest force [-].
+    pub noise: f64,
+    /// Spread of each parameter [its unit].
+    pub spread: Vec<f64>,
+}
+
+/// Noise that is tried, over the largest force [-].
+const NOISE: [f64; 3] = [0.01, 0.05, 0.1];
+/// Correlation times in a block of residuals.
+const BLOCK: f64 = 5.0;
+/// The probability of the profile's interval.
+const LEVEL: f64 = 0.95;
+
+/// Fits of `law` made again: with each parameter moved, with residuals in another order, with more noise.
+///
+/// # Errors
+/// When each of them would take runs of finite elements, and those of the fits.
+pub fn repeated(
+    law: &LawDescription,
+    curves: &mut Curves,
+    indentations: &[Indentation<'_>],
+    draws: Draws,
+) -> Result<Repeated, Error> {
+    if !curves.are_free() {
+        return Err(Error::CostlyToRepeat {
+            law: law.found.law.name(),
+        });
+    }
+    let own = in_its_parameters(&law.found);
+    let count = law.parameters.len();
+    let lengths: Vec<usize> = indentations.iter().map(|each| each.time.len()).collect();
+    let samples: usize = lengths.iter().sum();
+    let mut model = OwnModel {
+        law: law.found.law,
+        curves,
+        indentations,
+    };
+    let profiles = profiles(&own, count, &lengths, &mut model)?;
+    let block = (BLOCK * samples as f64 / law.effective_samples).ceil() as usize;
+    let evaluate = |p: &[f64], r: &mut [f64], j: &mut DMatrix<f64>| model.evaluate(p, r, j);
+    let drawn = block_bootstrap(&own, (&lengths, block), draws, &SETTINGS, evaluate);
+    if drawn.values.is_empty() {
+        return Err(Error::NoStart {
+            parameters: own.parameters,
+        });
+    }
+    let largest = indentations
+        .iter()
+        .flat_map(|each| each.force)
+        .copied()
+        .fold(0.0, f64::max);
+    let mut noise_effect = |noise: f64| {
+        let evaluate = |p: &[f64], r: &mut [f64], j: &mut DMatrix<f64>| model.evaluate(p, r, j);
+        let spread = noise_study(&own, noise * largest, draws, &SETTINGS, evaluate);
+        (!spread.values.is_empty()).then(|| NoiseEffect {
+            noise,
+            spread: spreads(&spread, count),
+        })
+    };
+    Ok(Repeated {
+        profiles,
+        bootstrap: spreads(&drawn, count),
+        noise: NOISE.into_iter().filter_map(&mut noise_effect).collect(),
+    })
+}
+
+/// Half of what holds the middle 68.3 %: of a normal law its standard deviation, and not led astray by the few
+/// fits that noise leads to another minimum.
+fn spreads(spread: &Spread, count: usize) -> Vec<f64> {
+    let half = |place| {
+        let [low, high] = spread.interval(place, 0.683);
+        0.5 * (high - low)
+    };
+    (0..count).map(half).collect()
+}
+
+fn profiles(
+    own: &Fit,
+    count: usize,
+    lengths: &[usize],
+    model: &mut OwnModel<'_>,
+) -> Result<Vec<Option<[Option<f64>; 2]>>, Error> {
+    let mut held = own.clone();
+    for parameter in held.parameters.iter_mut().skip(2) {
+        parameter.fixed = true;
+    }
+    let uncertainty = correlated_uncertainty(&held, lengths);
+    let mut one = |place: usize| {
+        if !held.chosen().contains(&place) {
+            return Ok(None);
+        }
+        let found = profile(&held, place, &uncertainty, LEVEL, |parameters| {
+            let samples = held.residuals.len();
+            let evaluate = |p: &[f64], r: &mut [f64], j: &mut DMatrix<f64>| model.evaluate(p, r, j);
+            least_squares_with_jacobian(parameters, samples, &SETTINGS, evaluate)
+        })?;
+        Ok(Some(found.interval))
+    };
+    (0..count).map(&mut one).collect()
+}
+
+/// Forces by a law's own parameters and a relaxation.
+struct OwnModel<'a> {
+    law: SoughtLaw,
+    curves: &'a mut Curves,
+    indentations: &'a [Indentation<'a>],
+}
+
+impl OwnModel<'_> {
+    /// The parameters are two of the law (of one alone, the second means nothing) and the relaxation's.
+    fn evaluate(
+        &mut self,
+        values: &[f64],
+        residuals: &mut [f64],
+        jacobian: &mut DMatrix<f64>,
+    ) -> Option<()> {
+        let own = self.law.seen_as_shape([values[0], values[1]])?;
+        let curve = self.curves.of(f64::INFINITY, own.shape).ok()?;
+        let pairs = terms(&values[1..], (values.len() - 2) / 2);
+        let series = PronySeries::new(&pairs).ok()?;
+        let mut start = 0;
+        for each in self.indentations {
+            let course = (each.time, each.depth);
+            let (forces, mut columns) = forces::forces(course, &curve, own.modulus, &series);
+            for row in 0..forces.len() {
+                residuals[start + row] = forces[row] - each.force[row];
+                let (modulus, shape) = (columns[0][row], columns[1][row]);
+                for (place, [by_modulus, by_shape]) in own.by.into_iter().enumerate() {
+                    columns[place][row] = modulus * by_modulus + shape * by_shape;
+                }
+            }
+            forces::write(&columns, start, jacobian);
+            start += forces.len();
+        }
+        residuals.iter().all(|r| r.is_finite()).then_some(())
+    }
+}

@@ -1,0 +1,75 @@
+//! Fits of a law that are made again. Judge: what theory says of a force that is linear in its parameter.
+
+use palpate_characterize::fit::{Draws, Random};
+use palpate_characterize::inverse::{LawDescription, PUNCH, SoughtLaw};
+use palpate_characterize::{CharacterizeSettings, characterize};
+use palpate_mechanics::{IndentationCurve, PronySeries};
+
+use crate::specimen::{LIVER, history, recording};
+
+/// Standard deviation of independent noise [N].
+const NOISE: f64 = 1e-3;
+const C10: f64 = 1872.74;
+/// Samples of the recording.
+const SAMPLES: f64 = 1501.0;
+
+/// Laws of a press of 5 mm with independent noise, each made again 100 times; and the largest force [N].
+fn laws() -> (Vec<LawDescription>, f64) {
+    let history = history(5e-3);
+    let depths: Vec<f64> = PUNCH.iter().map(|row| 1e-3 * row.0).collect();
+    let elastic: Vec<f64> = PUNCH.iter().map(|row| C10 * 1e-6 * row.1).collect();
+    let curve = IndentationCurve::through(&depths, &elastic);
+    let series = PronySeries::new(&LIVER).unwrap();
+    let forces = curve.relaxed(&series, &history.times, &history.depths);
+    let mut random = Random::new(5);
+    let felt: Vec<f64> = forces.iter().map(|f| f + NOISE * random.normal()).collect();
+    let settings = CharacterizeSettings {
+        laws: vec![SoughtLaw::NeoHookean, SoughtLaw::MooneyRivlin],
+        draws: Some(Draws {
+            count: 100,
+            seed: 2,
+        }),
+        ..CharacterizeSettings::default()
+    };
+    let found = characterize(&[recording(&history, &felt, 5)], &settings, &mut |_| ());
+    let largest = forces.into_iter().fold(0.0, f64::max);
+    let laws = found.laws.into_iter().map(|(_, law)| law.unwrap());
+    (laws.collect(), largest)
+}
+
+/// A spread of 100 draws is known to 7 %; three times that, and what the relaxation bends, is allowed.
+#[test]
+fn one_modulus_spreads_as_its_standard_error() {
+    let (laws, largest) = laws();
+    let law = &laws[0];
+    let error = law.parameters[0].1.standard_error.unwrap();
+    let repeated = law.repeated.clone().unwrap().unwrap();
+    let ratio = repeated.bootstrap[0] / error;
+    assert!((ratio - 1.0).abs() < 0.3, "{ratio}");
+    // Standard errors count the samples that are independent as far as the residuals show.
+    let independent = (law.effective_samples / SAMPLES).sqrt() * error;
+    for effect in &repeated.noise {
+        let expected = independent / NOISE * effect.noise * largest;
+        let ratio = effect.spread[0] / expected;
+        assert!((ratio - 1.0).abs() < 0.3, "{effect:?}: {ratio}");
+    }
+    // With the relaxation held, the modulus is known better than without.
+    let [low, high] = repeated.profiles[0].unwrap().map(Option::unwrap);
+    assert!(low < law.parameters[0].1.value && law.parameters[0].1.value < high);
+    assert!(high - low < 2.0 * 1.97 * error, "{low} {high} {error}");
+}
+
+/// Two parameters that are hardly told apart: each alone is known worse than their sum.
+#[test]
+fn profiles_see_what_cannot_be_told_apart() {
+    let (laws, _) = laws();
+    let law = &laws[1];
+    let repeated = law.repeated.clone().unwrap().unwrap();
+    let [sum, each] = [
+        laws[0].parameters[0].1.standard_error.unwrap(),
+        repeated.bootstrap[0],
+    ];
+    // C01 is on its bound of zero, or near it.
+    assert!(each.is_finite() && each >= 0.5 * sum, "{each} {sum}");
+    assert_eq!(repeated.profiles.len(), 2);
+}
