@@ -16,6 +16,7 @@ mod arming_request;
 mod clock;
 mod controller;
 mod device;
+pub mod dynamics;
 mod extrapolate;
 mod fault;
 mod histogram;

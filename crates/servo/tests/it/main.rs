@@ -7,6 +7,7 @@
 )]
 
 mod devices;
+mod dynamics;
 mod errors;
 mod hand_over;
 mod limits;

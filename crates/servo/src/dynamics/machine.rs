@@ -1,0 +1,136 @@
+use nalgebra::{SMatrix, SVector};
+
+use super::TwoMass;
+
+/// Numbers that a machine remembers.
+const STATES: usize = 6;
+/// Those and the two forces.
+const ALL: usize = STATES + 2;
+
+type StateMatrix = SMatrix<f64, STATES, STATES>;
+type ForceMatrix = SMatrix<f64, STATES, 2>;
+
+/// One axis of a device in time, linear. Between two changes of the forces it is exact, whatever the step: ẋ =
+/// A x + B F is solved by the exponential of A.
+#[derive(Debug, Clone)]
+pub struct Machine {
+    rates: StateMatrix,
+    forces: ForceMatrix,
+    /// Over one step.
+    advance: StateMatrix,
+    push: ForceMatrix,
+    step: f64,
+}
+
+/// What a machine remembers: place [m] and velocity [m/s] of the handle, then what is inside.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct MachineState(pub(super) SVector<f64, STATES>);
+
+impl MachineState {
+    /// A handle at rest at `position` [m].
+    pub fn at(position: f64) -> Self {
+        let mut state = SVector::zeros();
+        state[0] = position;
+        // Of two masses, the rotor is there too.
+        state[2] = position;
+        Self(state)
+    }
+
+    /// Where the handle is [m].
+    pub fn position(&self) -> f64 {
+        self.0[0]
+    }
+
+    /// How it moves [m/s].
+    pub fn velocity(&self) -> f64 {
+        self.0[1]
+    }
+}
+
+impl Machine {
+    /// Two masses, in steps of `step` [s].
+    pub fn of_two_masses(machine: &TwoMass, step: f64) -> Self {
+        let TwoMass {
+            link_mass: ml,
+            rotor_mass: mm,
+            structure_stiffness: ks,
+            structure_damping: bs,
+            stiffness: k,
+            damping: b,
+        } = *machine;
+        let mut rates = StateMatrix::zeros();
+        rates[(0, 1)] = 1.0;
+        rates[(2, 3)] = 1.0;
+        let link = [-ks, -bs, ks, bs].map(|c| c / ml);
+        let rotor = [ks, bs, -ks - k, -bs - b].map(|c| c / mm);
+        for column in 0..4 {
+            rates[(1, column)] = link[column];
+            rates[(3, column)] = rotor[column];
+        }
+        let mut forces = ForceMatrix::zeros();
+        forces[(1, 0)] = 1.0 / ml;
+        forces[(3, 1)] = 1.0 / mm;
+        Self::of(rates, forces, step)
+    }
+
+    /// (7.6) as printed: a mass on a spring and a damper, to which the motor's force comes through two
+    /// oscillators that nothing damps, at 26.8 Hz and 9.35 kHz. What once swings in them swings for ever.
+    pub fn as_printed(step: f64) -> Self {
+        let (mass, damping, stiffness) = (0.09641, 2.6, 32.0);
+        let [quartic, square, constant]: [f64; 3] = [3.97e-9, 13.71, 3.9e5];
+        // c₄ s⁴ + c₂ s² + c₀ = c₄ (s² + ω₁²)(s² + ω₂²); the smaller root without cancellation.
+        let root = (square * square - 4.0 * quartic * constant).sqrt();
+        let fast = (square + root) / (2.0 * quartic);
+        let slow = constant / (quartic * fast);
+        let gain = constant / quartic / (fast - slow);
+        let mut rates = StateMatrix::zeros();
+        let mut forces = ForceMatrix::zeros();
+        rates[(0, 1)] = 1.0;
+        rates[(1, 0)] = -stiffness / mass;
+        rates[(1, 1)] = -damping / mass;
+        forces[(1, 0)] = 1.0 / mass;
+        for (first, square, sign) in [(2, slow, 1.0), (4, fast, -1.0)] {
+            // q̈ = −ω² q + gain F as q and q̇/ω, which have the same size.
+            let omega: f64 = f64::sqrt(square);
+            rates[(first, first + 1)] = omega;
+            rates[(first + 1, first)] = -omega;
+            forces[(first + 1, 1)] = gain / omega;
+            rates[(1, first)] = sign / mass;
+        }
+        Self::of(rates, forces, step)
+    }
+
+    fn of(rates: StateMatrix, forces: ForceMatrix, step: f64) -> Self {
+        let mut both = SMatrix::<f64, ALL, ALL>::zeros();
+        both.fixed_view_mut::<STATES, STATES>(0, 0)
+            .copy_from(&(rates * step));
+        both.fixed_view_mut::<STATES, 2>(0, STATES)
+            .copy_from(&(forces * step));
+        let over_step = both.exp();
+        Self {
+            rates,
+            forces,
+            advance: over_step.fixed_view::<STATES, STATES>(0, 0).into(),
+            push: over_step.fixed_view::<STATES, 2>(0, STATES).into(),
+            step,
+        }
+    }
+
+    /// Its step [s].
+    pub fn step(&self) -> f64 {
+        self.step
+    }
+
+    /// One step on, under the force of the hand and the one of the motor [N].
+    pub fn advance(&self, state: &mut MachineState, hand: f64, motor: f64) {
+        state.0 = self.advance * state.0 + self.push * SVector::<f64, 2>::new(hand, motor);
+    }
+
+    pub(super) fn rates(&self) -> &StateMatrix {
+        &self.rates
+    }
+
+    pub(super) fn forces(&self) -> &ForceMatrix {
+        &self.forces
+    }
+}

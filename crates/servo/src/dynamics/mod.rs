@@ -1,0 +1,31 @@
+//! How a haptic device moves: what stands between a hand and the force that a computer wants it to feel
+//! (section 7.3).
+//!
+//! ```text
+//! F_h = G₁ x_h + G₂ F_e         (7.1)      x_h, F_h: place and force of the hand
+//! Z_h = G₁ + G₂ Z_tissue        (7.2)      F_e: force of the motors, against the hand
+//! ```
+//!
+//! [`TwoPort`] is this in frequency: (7.6) as it is printed, and of two masses with one unit for
+//! everything. [`Machine`] is the same in time, exact between two changes of a force. [`RigidBody`] is the
+//! three-jointed machine itself [Çavuşoğlu, Feygin and Tendick 2002].
+//!
+//! *How we know*: `dynamics::…`: sine injection beside the closed forms, energy that stays, masses at rest,
+//! the largest stiffness of a rendered wall.
+//!
+//! *Limits*: the numbers of the machine are those of publications, not of a machine that was measured here;
+//! links do not bend but for one spring.
+
+mod frequency_response;
+mod machine;
+mod rigid_body;
+mod transfer;
+mod two_mass;
+mod two_port;
+
+pub use frequency_response::{Port, inject};
+pub use machine::{Machine, MachineState};
+pub use rigid_body::{Joints, RigidBody};
+pub use transfer::Transfer;
+pub use two_mass::TwoMass;
+pub use two_port::TwoPort;

@@ -1,0 +1,199 @@
+use nalgebra::{Matrix3, Vector3};
+
+use crate::Vec3;
+
+/// Joints of the machine: about the upright axis, of the upper and of the lower link [rad], and how they turn
+/// [rad/s].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Joints {
+    /// q [rad].
+    pub angles: Vec3,
+    /// q̇ [rad/s].
+    pub rates: Vec3,
+}
+
+/// A PHANTOM Premium 1.5 as links without weightless parts: M(q) q̈ + C(q, q̇) q̇ + g(q) = τ + Jᵀ F
+/// [Çavuşoğlu, Feygin and Tendick 2002].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RigidBody {
+    /// Lengths l₁, l₂, l₃, l₅, l₆ [m].
+    lengths: [f64; 5],
+    /// Masses of links a, c and the balanced bodies be, df [kg].
+    masses: [f64; 4],
+    /// Inertias about x, y and z of a, c, be, df, and about y of the base [kg m²].
+    inertias: [[f64; 3]; 4],
+    base: f64,
+    /// What gravity pulls with [m/s²]; zero of a machine whose weight is made up for.
+    pub gravity: f64,
+    /// Damping of each joint [N m s].
+    pub damping: f64,
+}
+
+/// Longest step of its motion [s].
+const LONGEST: f64 = 100e-6;
+
+impl RigidBody {
+    /// The published numbers, with the weight of the links and without friction.
+    pub fn premium() -> Self {
+        Self {
+            lengths: [0.215, 0.170, 0.0325, -0.0368, 0.0527],
+            masses: [0.0202, 0.0249, 0.2359, 0.1906],
+            inertias: [
+                [0.4864e-4, 0.001843e-4, 0.4864e-4],
+                [0.959e-4, 0.959e-4, 0.0051e-4],
+                [11.09e-4, 10.06e-4, 0.591e-4],
+                [7.11e-4, 0.629e-4, 6.246e-4],
+            ],
+            base: 11.87e-4,
+            gravity: 9.81,
+            damping: 0.0,
+        }
+    }
+
+    /// Where the handle is [m], for joints at `angles` [rad]: x right, y up, z toward the user, zero at rest.
+    pub fn position(&self, angles: &Vec3) -> Vec3 {
+        let [l1, l2, ..] = self.lengths;
+        let reach = l1 * angles.y.cos() + l2 * angles.z.sin();
+        Vec3::new(
+            angles.x.sin() * reach,
+            l2 - l2 * angles.z.cos() + l1 * angles.y.sin(),
+            -l1 + angles.x.cos() * reach,
+        )
+    }
+
+    /// The handle's move with each joint, a column each [m].
+    pub fn jacobian(&self, angles: &Vec3) -> Matrix3<f64> {
+        let [l1, l2, ..] = self.lengths;
+        let (s1, c1) = angles.x.sin_cos();
+        let (s2, c2) = angles.y.sin_cos();
+        let (s3, c3) = angles.z.sin_cos();
+        let reach = l1 * c2 + l2 * s3;
+        Matrix3::from_columns(&[
+            Vector3::new(c1 * reach, 0.0, -s1 * reach),
+            Vector3::new(-s1 * l1 * s2, l1 * c2, -c1 * l1 * s2),
+            Vector3::new(s1 * l2 * c3, l2 * s3, c1 * l2 * c3),
+        ])
+    }
+
+    /// M(q) [kg m²].
+    pub fn inertia(&self, angles: &Vec3) -> Matrix3<f64> {
+        let [l1, l2, l3, ..] = self.lengths;
+        let [ma, mc, ..] = self.masses;
+        let [a, c, be, df] = self.inertias;
+        let turning = [a, c, be, df].iter().map(|i| i[1] + i[2]).sum::<f64>();
+        let reaching = 4.0 * l1 * l1 * ma + l2 * l2 * ma + l1 * l1 * mc + 4.0 * l3 * l3 * mc;
+        let [upper, lower, both] = self.waves();
+        let m11 = 0.5 * turning
+            + self.base
+            + reaching / 8.0
+            + upper * (2.0 * angles.y).cos()
+            + lower * (2.0 * angles.z).cos()
+            + both * angles.y.cos() * angles.z.sin();
+        let m22 = be[0] + c[0] + l1 * l1 * ma + 0.25 * l1 * l1 * mc;
+        let m33 = a[0] + df[0] + 0.25 * l2 * l2 * ma + l3 * l3 * mc;
+        let m23 = -0.5 * both * (angles.y - angles.z).sin();
+        Matrix3::new(m11, 0.0, 0.0, 0.0, m22, m23, 0.0, m23, m33)
+    }
+
+    /// How much of M₁₁ goes with cos 2 q₂, cos 2 q₃ and cos q₂ sin q₃ [kg m²].
+    fn waves(&self) -> [f64; 3] {
+        let [l1, l2, l3, ..] = self.lengths;
+        let [ma, mc, ..] = self.masses;
+        let [a, c, be, df] = self.inertias;
+        [
+            0.5 * (be[1] - be[2] + c[1] - c[2]) + l1 * l1 * (4.0 * ma + mc) / 8.0,
+            0.5 * (a[1] - a[2] + df[1] - df[2]) - (l2 * l2 * ma + 4.0 * l3 * l3 * mc) / 8.0,
+            l1 * (l2 * ma + l3 * mc),
+        ]
+    }
+
+    /// ∂M/∂q₂ and ∂M/∂q₃ [kg m²]; with q₁ it does not change.
+    fn inertia_changes(&self, angles: &Vec3) -> [Matrix3<f64>; 2] {
+        let [upper, lower, both] = self.waves();
+        let (s2, c2) = angles.y.sin_cos();
+        let (s3, c3) = angles.z.sin_cos();
+        let m23 = 0.5 * both * (angles.y - angles.z).cos();
+        let changes = [
+            (-2.0 * upper * (2.0 * angles.y).sin() - both * s2 * s3, -m23),
+            (-2.0 * lower * (2.0 * angles.z).sin() + both * c2 * c3, m23),
+        ];
+        changes.map(|(m11, m23)| Matrix3::new(m11, 0.0, 0.0, 0.0, 0.0, m23, 0.0, m23, 0.0))
+    }
+
+    /// The torque with which gravity pulls at each joint [N m] against its sense of rotation, as g(q) of the
+    /// equation of motion: ∂V/∂q.
+    pub fn weight(&self, angles: &Vec3) -> Vec3 {
+        let [upper, lower] = self.weights();
+        Vec3::new(0.0, upper * angles.y.cos(), lower * angles.z.sin())
+    }
+
+    fn weights(&self) -> [f64; 2] {
+        let [l1, l2, l3, l5, l6] = self.lengths;
+        let [ma, mc, mbe, mdf] = self.masses;
+        [
+            0.5 * self.gravity * (2.0 * l1 * ma + 2.0 * l5 * mbe + l1 * mc),
+            0.5 * self.gravity * (l2 * ma + 2.0 * l3 * mc - 2.0 * l6 * mdf),
+        ]
+    }
+
+    /// Kinetic and potential energy [J], the latter from joints at zero.
+    pub fn energy(&self, joints: &Joints) -> f64 {
+        let moving = 0.5
+            * joints
+                .rates
+                .dot(&(self.inertia(&joints.angles) * joints.rates));
+        let [upper, lower] = self.weights();
+        moving + upper * joints.angles.y.sin() + lower * (1.0 - joints.angles.z.cos())
+    }
+
+    /// The mass that a hand feels along each axis [kg] with joints at `angles` [rad]: the diagonal of
+    /// J⁻ᵀ M J⁻¹. None where a joint cannot move the handle.
+    pub fn apparent_mass(&self, angles: &Vec3) -> Option<Vec3> {
+        let back = self.jacobian(angles).try_inverse()?;
+        Some((back.transpose() * self.inertia(angles) * back).diagonal())
+    }
+
+    /// Moves `joints` on for `elapsed` [s] under the torques of the motors [N m] and a `force` on the handle
+    /// [N]: the classical method of Runge and Kutta in steps of 100 µs at most.
+    pub fn advance(&self, joints: &mut Joints, torque: &Vec3, force: &Vec3, elapsed: f64) {
+        let steps = (elapsed / LONGEST).ceil().clamp(1.0, 20_000.0);
+        let step = elapsed / steps;
+        for _ in 0..steps as u32 {
+            *joints = self.step(joints, torque, force, step);
+        }
+    }
+
+    fn step(&self, joints: &Joints, torque: &Vec3, force: &Vec3, step: f64) -> Joints {
+        let after = |change: &Joints, part: f64| Joints {
+            angles: joints.angles + change.angles * (part * step),
+            rates: joints.rates + change.rates * (part * step),
+        };
+        let change = |joints: &Joints| Joints {
+            angles: joints.rates,
+            rates: self.acceleration(joints, torque, force),
+        };
+        let a = change(joints);
+        let b = change(&after(&a, 0.5));
+        let c = change(&after(&b, 0.5));
+        let d = change(&after(&c, 1.0));
+        let mean = Joints {
+            angles: (a.angles + (b.angles + c.angles) * 2.0 + d.angles) / 6.0,
+            rates: (a.rates + (b.rates + c.rates) * 2.0 + d.rates) / 6.0,
+        };
+        after(&mean, 1.0)
+    }
+
+    /// q̈ [rad/s²]. C q̇ = Ṁ q̇ − ½ ∂(q̇ᵀ M q̇)/∂q.
+    fn acceleration(&self, joints: &Joints, torque: &Vec3, force: &Vec3) -> Vec3 {
+        let Joints { angles, rates } = joints;
+        let [by_upper, by_lower] = self.inertia_changes(angles);
+        let changing = (by_upper * rates.y + by_lower * rates.z) * rates;
+        let half = |change: &Matrix3<f64>| 0.5 * rates.dot(&(change * rates));
+        let turning = changing - Vec3::new(0.0, half(&by_upper), half(&by_lower));
+        let driven = torque + self.jacobian(angles).transpose() * force;
+        let left = driven - turning - self.weight(angles) - rates * self.damping;
+        // A mass that moves has an inverse; at worst the joints stay.
+        let inertia = self.inertia(angles).cholesky();
+        inertia.map_or_else(Vec3::zeros, |factor| factor.solve(&left))
+    }
+}
