@@ -23,6 +23,7 @@ mod histogram;
 pub mod latest;
 pub mod limits;
 pub mod log;
+mod pid;
 mod priority;
 mod report;
 mod sample;
@@ -37,13 +38,14 @@ pub use arming_request::ArmingRequest;
 pub use clock::Clock;
 pub use controller::Controller;
 pub use device::{
-    Command, Device, DeviceSpec, DeviceState, Hand, NoDevice, Pointer, PointerHand, Trajectory,
-    VirtualDevice, Waypoint,
+    Command, Device, DeviceSpec, DeviceState, Hand, MECHANICS_STEP, NoDevice, Pointer, PointerHand,
+    Touch, Trajectory, VirtualDevice, VirtualPhantom, Waypoint,
 };
 pub use extrapolate::{Extrapolator, HandOver};
 pub use fault::Fault;
 pub use histogram::{Histogram, Percentiles};
 pub use limits::{Guard, Limits, Stage};
+pub use pid::{Pid, PidGains};
 pub use priority::{Priority, raise_priority};
 pub use report::{LoopReport, measure_lateness};
 pub use sample::Sample;

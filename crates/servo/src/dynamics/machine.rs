@@ -126,6 +126,13 @@ impl Machine {
         state.0 = self.advance * state.0 + self.push * SVector::<f64, 2>::new(hand, motor);
     }
 
+    /// Dry friction of up to `friction` [N] at the handle during a step: it takes speed and never turns it, so
+    /// that what it can hold sticks.
+    pub(crate) fn rub(&self, state: &mut MachineState, friction: f64) {
+        let most = friction * self.forces[(1, 0)] * self.step;
+        state.0[1] -= state.0[1].clamp(-most, most);
+    }
+
     pub(super) fn rates(&self) -> &StateMatrix {
         &self.rates
     }

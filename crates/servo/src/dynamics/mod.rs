@@ -8,7 +8,8 @@
 //!
 //! [`TwoPort`] is this in frequency: (7.6) as it is printed, and of two masses with one unit for
 //! everything. [`Machine`] is the same in time, exact between two changes of a force. [`RigidBody`] is the
-//! three-jointed machine itself [Çavuşoğlu, Feygin and Tendick 2002].
+//! three-jointed machine itself [Çavuşoğlu, Feygin and Tendick 2002]. With [`Imperfections`], either is a
+//! device: [`VirtualPhantom`](crate::VirtualPhantom).
 //!
 //! *How we know*: `dynamics::…`: sine injection beside the closed forms, energy that stays, masses at rest,
 //! the largest stiffness of a rendered wall.
@@ -17,6 +18,7 @@
 //! links do not bend but for one spring.
 
 mod frequency_response;
+mod imperfections;
 mod machine;
 mod rigid_body;
 mod transfer;
@@ -24,6 +26,8 @@ mod two_mass;
 mod two_port;
 
 pub use frequency_response::{Port, inject};
+pub use imperfections::Imperfections;
+pub(crate) use imperfections::LONGEST_DELAY;
 pub use machine::{Machine, MachineState};
 pub use rigid_body::{Joints, RigidBody};
 pub use transfer::Transfer;

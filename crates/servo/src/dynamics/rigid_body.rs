@@ -183,6 +183,17 @@ impl RigidBody {
         after(&mean, 1.0)
     }
 
+    /// Dry friction of up to `friction` [N] at the handle during `elapsed` [s], as torques on the lengths of the
+    /// links: it takes speed and never turns it.
+    pub(crate) fn rub(&self, joints: &mut Joints, friction: f64, elapsed: f64) {
+        let [l1, l2, ..] = self.lengths;
+        let inertia = self.inertia(&joints.angles);
+        for (joint, arm) in [l1, l1, l2].into_iter().enumerate() {
+            let most = friction * arm * elapsed / inertia[(joint, joint)];
+            joints.rates[joint] -= joints.rates[joint].clamp(-most, most);
+        }
+    }
+
     /// q̈ [rad/s²]. C q̇ = Ṁ q̇ − ½ ∂(q̇ᵀ M q̇)/∂q.
     fn acceleration(&self, joints: &Joints, torque: &Vec3, force: &Vec3) -> Vec3 {
         let Joints { angles, rates } = joints;

@@ -12,5 +12,6 @@ mod errors;
 mod hand_over;
 mod limits;
 mod no_allocation;
+mod phantom;
 mod servo;
 mod stability;

@@ -1,0 +1,171 @@
+//! A PHANTOM that is not there: the mechanics of [`crate::dynamics`] with encoders, amplifiers, friction and
+//! delay, between a loop and whatever touches the handle.
+//!
+//! Between two exchanges the motors keep their force, and the machine moves in steps of 50 µs under it and under
+//! what touches it: a hand, or a specimen under the tip.
+//!
+//! *How we know*: `phantom::…`: tracking, a rendered wall at the edge of stability, sticking friction.
+//!
+//! *Limits*: the axes of a linear machine do not know one another; encoders are seen at the handle.
+
+use std::time::Duration;
+
+use super::{Command, Device, DeviceSpec, DeviceState};
+use crate::dynamics::{Imperfections, Joints, LONGEST_DELAY, Machine, MachineState, RigidBody};
+use crate::{Fault, Vec3};
+
+/// What touches a handle: its force on it [N], given the time [s], the place [m] and the velocity [m/s].
+pub type Touch = Box<dyn FnMut(f64, &Vec3, &Vec3) -> Vec3 + Send>;
+
+/// Steps of the mechanics [s].
+pub const MECHANICS_STEP: f64 = 50e-6;
+
+/// A handle with mechanics.
+pub struct VirtualPhantom {
+    spec: DeviceSpec,
+    mechanics: Mechanics,
+    imperfections: Imperfections,
+    touch: Touch,
+    time: f64,
+    /// The last commands; the newest is at `exchanges`.
+    commands: [Vec3; LONGEST_DELAY + 1],
+    exchanges: usize,
+}
+
+/// What moves.
+enum Mechanics {
+    /// Three axes alike.
+    Axes(Box<Machine>, [MachineState; 3]),
+    /// Three joints.
+    Links(Box<RigidBody>, Joints),
+}
+
+impl VirtualPhantom {
+    /// Three axes like `machine`, which must step by [`MECHANICS_STEP`], at rest at `position` [m].
+    pub fn with_axes(machine: Machine, position: &Vec3, imperfections: Imperfections) -> Self {
+        let states = [position.x, position.y, position.z].map(MachineState::at);
+        Self::new(Mechanics::Axes(Box::new(machine), states), imperfections)
+    }
+
+    /// Three joints at rest, the handle at zero.
+    pub fn with_links(body: RigidBody, imperfections: Imperfections) -> Self {
+        let joints = Joints {
+            angles: Vec3::zeros(),
+            rates: Vec3::zeros(),
+        };
+        Self::new(Mechanics::Links(Box::new(body), joints), imperfections)
+    }
+
+    fn new(mechanics: Mechanics, imperfections: Imperfections) -> Self {
+        Self {
+            spec: DeviceSpec {
+                name: "virtual PHANTOM".to_owned(),
+                workspace: None,
+                peak_force: imperfections.peak_force,
+                displays_force: true,
+            },
+            mechanics,
+            imperfections,
+            touch: Box::new(|_, _, _| Vec3::zeros()),
+            time: 0.0,
+            commands: [Vec3::zeros(); LONGEST_DELAY + 1],
+            exchanges: 0,
+        }
+    }
+
+    /// The same with something that touches its handle.
+    pub fn touched_by(mut self, touch: Touch) -> Self {
+        self.touch = touch;
+        self
+    }
+
+    /// The same that can move its handle between two corners [m].
+    pub fn within(mut self, workspace: [Vec3; 2]) -> Self {
+        self.spec.workspace = Some(workspace);
+        self
+    }
+
+    /// The force of the motors now [N].
+    fn driven(&self) -> Vec3 {
+        let delay = self.imperfections.delay.min(LONGEST_DELAY);
+        if self.exchanges < delay {
+            return Vec3::zeros();
+        }
+        let command = self.commands[(self.exchanges - delay) % self.commands.len()];
+        command.map(|force| self.imperfections.amplified(force))
+    }
+
+    /// Moves on until `time` [s].
+    fn move_on(&mut self, time: f64) {
+        let motor = self.driven();
+        let steps = ((time - self.time) / MECHANICS_STEP)
+            .round()
+            .clamp(0.0, 1e6) as u32;
+        for _ in 0..steps {
+            let (position, velocity) = self.mechanics.handle();
+            let touched = (self.touch)(self.time, &position, &velocity);
+            let friction = self.imperfections.friction;
+            self.mechanics.step(&touched, &motor, friction);
+            self.time += MECHANICS_STEP;
+        }
+    }
+}
+
+impl Mechanics {
+    /// Place [m] and velocity [m/s] of the handle.
+    fn handle(&self) -> (Vec3, Vec3) {
+        match self {
+            Self::Axes(_, states) => (
+                Vec3::from_fn(|axis, _| states[axis].position()),
+                Vec3::from_fn(|axis, _| states[axis].velocity()),
+            ),
+            Self::Links(body, joints) => (
+                body.position(&joints.angles),
+                body.jacobian(&joints.angles) * joints.rates,
+            ),
+        }
+    }
+
+    fn step(&mut self, touched: &Vec3, motor: &Vec3, friction: f64) {
+        match self {
+            Self::Axes(machine, states) => {
+                for (axis, state) in states.iter_mut().enumerate() {
+                    machine.advance(state, touched[axis], motor[axis]);
+                    machine.rub(state, friction);
+                }
+            }
+            Self::Links(body, joints) => {
+                let torque = body.jacobian(&joints.angles).transpose() * motor;
+                body.advance(joints, &torque, touched, MECHANICS_STEP);
+                body.rub(joints, friction, MECHANICS_STEP);
+            }
+        }
+    }
+}
+
+impl Device for VirtualPhantom {
+    fn spec(&self) -> &DeviceSpec {
+        &self.spec
+    }
+
+    fn exchange(&mut self, command: &Command, _patience: Duration) -> Result<DeviceState, Fault> {
+        // The last force acted until now; this one acts from now on.
+        self.move_on(command.time);
+        self.exchanges += 1;
+        let newest = self.exchanges % self.commands.len();
+        self.commands[newest] = command.force;
+        let (position, _) = self.mechanics.handle();
+        let seen = position.map(|place| self.imperfections.encoded(place));
+        Ok(DeviceState::at(command.time, seen))
+    }
+
+    fn stop(&mut self) {
+        self.commands = [Vec3::zeros(); LONGEST_DELAY + 1];
+    }
+}
+
+impl Drop for VirtualPhantom {
+    fn drop(&mut self) {
+        self.stop();
+    }
+}

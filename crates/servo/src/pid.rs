@@ -1,0 +1,75 @@
+use std::f64::consts::TAU;
+
+/// How hard an error is driven away (5.1).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PidGains {
+    /// K_p [N/m].
+    pub proportional: f64,
+    /// K_d [N s/m].
+    pub derivative: f64,
+    /// K_i [N/(m s)].
+    pub integral: f64,
+    /// The largest force of the integral [N]: what it wants beyond is forgotten, so that it does not wind up.
+    pub integral_force: f64,
+    /// Corner of the filter of the velocity [Hz].
+    pub cutoff: f64,
+}
+
+impl PidGains {
+    /// Tuned on the virtual PHANTOM: sines of 2 mm from 0.5 to 8 Hz within 3 % and 2°. The source gives no
+    /// gains.
+    pub fn tuned() -> Self {
+        Self {
+            proportional: 3000.0,
+            derivative: 20.0,
+            integral: 20_000.0,
+            integral_force: 1.0,
+            cutoff: 150.0,
+        }
+    }
+
+    /// Half as hard, for devices with more delay.
+    pub fn gentle() -> Self {
+        Self {
+            proportional: 1500.0,
+            derivative: 12.0,
+            integral: 8000.0,
+            ..Self::tuned()
+        }
+    }
+}
+
+/// The force that drives one axis to where it is wanted (5.1).
+#[derive(Debug, Clone, Copy)]
+pub struct Pid {
+    gains: PidGains,
+    integral: f64,
+    velocity: f64,
+    last: Option<f64>,
+}
+
+impl Pid {
+    /// At rest.
+    pub fn new(gains: PidGains) -> Self {
+        Self {
+            gains,
+            integral: 0.0,
+            velocity: 0.0,
+            last: None,
+        }
+    }
+
+    /// The force [N] at `place` [m], `dt` [s] after the last, where place [m] and velocity [m/s] are `wanted`.
+    pub fn force(&mut self, place: f64, wanted: [f64; 2], dt: f64) -> f64 {
+        let gains = self.gains;
+        if dt > 0.0 {
+            let moved = self.last.map_or(0.0, |last| (place - last) / dt);
+            self.velocity += (moved - self.velocity) * (1.0 - (-TAU * gains.cutoff * dt).exp());
+        }
+        self.last = Some(place);
+        let error = wanted[0] - place;
+        let most = gains.integral_force;
+        self.integral = (self.integral + gains.integral * error * dt).clamp(-most, most);
+        gains.proportional * error + gains.derivative * (wanted[1] - self.velocity) + self.integral
+    }
+}
