@@ -1,0 +1,64 @@
+/// Why something cannot be measured.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum Error {
+    /// A number of a stimulus makes no sense.
+    #[error("{what} is {found}; give a number above zero")]
+    Stimulus {
+        /// Which one.
+        what: &'static str,
+        /// What it is.
+        found: f64,
+    },
+    /// A stimulus goes deeper than allowed.
+    #[error(
+        "the stimulus goes {depth_mm:.1} mm deep, beyond the limit of {limit_mm:.1} mm; press less deep, or raise the limit"
+    )]
+    TooDeep {
+        /// How deep it goes [mm].
+        depth_mm: f64,
+        /// How deep it may go [mm].
+        limit_mm: f64,
+    },
+    /// A stimulus is faster than allowed.
+    #[error(
+        "the stimulus moves at up to {speed_mm_s:.0} mm/s, beyond the limit of {limit_mm_s:.0} mm/s; take a longer ramp, or swing less far or less often"
+    )]
+    TooFast {
+        /// How fast it moves [mm/s].
+        speed_mm_s: f64,
+        /// How fast it may move [mm/s].
+        limit_mm_s: f64,
+    },
+    /// A breath cannot be held so long.
+    #[error(
+        "the stimulus takes {duration:.1} s, and a breath is held for {breath:.1} s; hold for less time, or raise the budget"
+    )]
+    OutOfBreath {
+        /// How long it takes with the way to the tissue [s].
+        duration: f64,
+        /// How long a breath is held [s].
+        breath: f64,
+    },
+    /// Nothing is under the indenter.
+    #[error("no tissue was met on {way_mm:.0} mm; bring the indenter nearer")]
+    NoContact {
+        /// How far it went [mm].
+        way_mm: f64,
+    },
+    /// The force became too large.
+    #[error(
+        "the force reached {force:.2} N, beyond the limit of {limit:.2} N, and the indenter was withdrawn; press less deep, or raise the limit"
+    )]
+    TooMuchForce {
+        /// What the sensor showed [N].
+        force: f64,
+        /// What it may show [N].
+        limit: f64,
+    },
+    /// The device, or the loop that drives it.
+    #[error(transparent)]
+    Device(#[from] palpate_servo::Fault),
+    /// The tissue of a specimen.
+    #[error(transparent)]
+    Mechanics(#[from] palpate_mechanics::Error),
+}

@@ -1,0 +1,49 @@
+use palpate_servo::PidGains;
+
+/// What may be chosen about a rig.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RigSettings {
+    /// Time from tick to tick [s].
+    pub period: f64,
+    /// How hard the indenter is driven.
+    pub gains: PidGains,
+    /// How fast it goes to the tissue [m/s].
+    pub approach_speed: f64,
+    /// The force above the sensor's zero that is a contact [N].
+    pub contact_force: f64,
+    /// How far it looks for tissue [m].
+    pub approach_way: f64,
+    /// How far above the tissue it waits [m].
+    pub clearance: f64,
+    /// How fast it leaves the tissue [m/s].
+    pub withdrawal_speed: f64,
+    /// The largest force that the sensor may show [N].
+    pub force_limit: f64,
+    /// The deepest that it may go [m].
+    pub depth_limit: f64,
+    /// The fastest that it may be [m/s].
+    pub speed_limit: f64,
+    /// How long a breath is held at most [s]; none for what does not breathe.
+    pub breath: Option<f64>,
+    /// How long the tissue rests between two stimuli [s].
+    pub recovery: f64,
+}
+
+impl Default for RigSettings {
+    fn default() -> Self {
+        Self {
+            period: 1e-3,
+            gains: PidGains::tuned(),
+            approach_speed: 0.002,
+            contact_force: 4.0 / 1280.0,
+            approach_way: 0.030,
+            clearance: 0.002,
+            withdrawal_speed: 0.02,
+            force_limit: 2.0,
+            depth_limit: 0.012,
+            speed_limit: 0.060,
+            breath: None,
+            recovery: 30.0,
+        }
+    }
+}

@@ -1,0 +1,179 @@
+//! Tissue that is not there.
+//!
+//! The indenter's tip is met by the force of a half-space of a law, or of a static response that was measured,
+//! which then relaxes by a Prony series. The surface moves with a heart that beats and a breath that is drawn or
+//! held.
+//!
+//! *How we know*: `specimen::…`, and the chain: what `characterize` finds in its recordings is what it was made
+//! of.
+//!
+//! *Limits*: it feels the tip along its axis alone, and nothing of how the tip came there sideways.
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use palpate_files::recording::{IndenterShape, RecordingHeader};
+use palpate_files::{Elasticity, Tissue};
+use palpate_mechanics::contact::{Bond, Tip};
+use palpate_mechanics::finite_elements::indentation::Stiffening;
+use palpate_mechanics::{
+    ForceHistory, IndentationCurve, Material, PronySeries, TipLaw, Vec3, contact,
+};
+
+use crate::Error;
+use crate::noise::Noise;
+
+/// A motion of a surface that comes again and again.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rhythm {
+    /// How often [Hz].
+    pub frequency: f64,
+    /// From rest to its end [m].
+    pub amplitude: f64,
+}
+
+/// How tissue answers at once.
+#[derive(Debug, Clone)]
+enum Elastic {
+    /// A law under the tip.
+    Law { law: Box<TipLaw>, stiffness: f64 },
+    /// A static response.
+    Response(IndentationCurve),
+}
+
+/// A specimen under the indenter.
+#[derive(Debug, Clone)]
+pub struct VirtualSpecimen {
+    /// What its recordings say of it and of the indenter.
+    pub header: RecordingHeader,
+    /// How much stiffer than its tissue this one is [-].
+    pub factor: f64,
+    /// A heart that moves its surface.
+    pub heart: Option<Rhythm>,
+    /// A breath that does.
+    pub breath: Option<Rhythm>,
+    /// Height of its surface at rest [m].
+    pub surface: f64,
+    elastic: Elastic,
+    series: PronySeries,
+    history: ForceHistory,
+    breath_held: Arc<AtomicBool>,
+    breath_level: f64,
+    phases: [f64; 2],
+}
+
+/// Time in which a breath comes to rest [s].
+const BREATH_RESTS: f64 = 0.3;
+
+impl VirtualSpecimen {
+    /// A wide and deep piece of `tissue` under a flat bonded punch of `radius` [m].
+    ///
+    /// # Errors
+    /// When the tissue makes no material.
+    pub fn of_tissue(tissue: &Tissue, radius: f64) -> Result<Self, Error> {
+        let material = Material::from_tissue(tissue)?;
+        let (tip, bond) = (Tip::Flat { radius }, Bond::Stick);
+        let law = match tissue.elasticity {
+            Elasticity::Linear { .. } => TipLaw::linear(tip, bond, material.at_rest),
+            Elasticity::NeoHookean { .. } => {
+                let stiffening = Stiffening::neo_hookean(tip, bond);
+                TipLaw::stiffening(tip, bond, &material, stiffening)
+            }
+            _ => {
+                let stiffening = Stiffening::of(&material, (tip, bond), &mut |_| ())?;
+                TipLaw::stiffening(tip, bond, &material, stiffening)
+            }
+        };
+        let stiffness = contact::half_space_stiffness(&material.at_rest, radius, bond);
+        let elastic = Elastic::Law {
+            law: Box::new(law),
+            stiffness,
+        };
+        let mut specimen = Self::new(elastic, material.prony.clone(), radius);
+        specimen.header.organ.clone_from(&tissue.name);
+        Ok(specimen)
+    }
+
+    /// One whose force [N] over depth [m] is `response` when it has been held for `after` [s], under a flat
+    /// punch of `radius` [m].
+    pub fn of_response(
+        response: &IndentationCurve,
+        (series, after): (PronySeries, f64),
+        radius: f64,
+    ) -> Self {
+        let at_once = response.scaled(1.0, 1.0 / series.relaxation(after));
+        Self::new(Elastic::Response(at_once), series, radius)
+    }
+
+    fn new(elastic: Elastic, series: PronySeries, radius: f64) -> Self {
+        Self {
+            header: RecordingHeader {
+                indenter_shape: Some(IndenterShape::Flat),
+                indenter_radius_m: Some(radius),
+                ..RecordingHeader::default()
+            },
+            factor: 1.0,
+            heart: None,
+            breath: None,
+            surface: -0.005,
+            elastic,
+            series,
+            history: ForceHistory::default(),
+            breath_held: Arc::default(),
+            breath_level: 0.0,
+            phases: [0.0; 2],
+        }
+    }
+
+    /// The same with a heart of 1.5 Hz that moves it by 0.4 mm and a breath of 0.25 Hz by 8 mm, each beginning
+    /// somewhere.
+    pub fn alive(mut self, seed: u64) -> Self {
+        let mut random = Noise::new(seed);
+        self.phases = [random.uniform(), random.uniform()];
+        self.heart = Some(Rhythm {
+            frequency: 1.5,
+            amplitude: 0.4e-3,
+        });
+        self.breath = Some(Rhythm {
+            frequency: 0.25,
+            amplitude: 8e-3,
+        });
+        self
+    }
+
+    /// Holds its breath while it is true.
+    pub fn breath_held(&self) -> Arc<AtomicBool> {
+        self.breath_held.clone()
+    }
+
+    /// The force on a tip [N], upward, with its face at `height` [m] at `time` [s], `step` [s] after the last.
+    pub fn force(&mut self, time: f64, height: f64, step: f64) -> f64 {
+        let depth = self.height(time, step) - height;
+        let elastic = match &self.elastic {
+            _ if depth <= 0.0 => 0.0,
+            Elastic::Law { law, stiffness } => law.normal_force(depth, *stiffness).force,
+            Elastic::Response(response) => response.force(depth),
+        };
+        let upward = Vec3::new(0.0, 0.0, self.factor * elastic);
+        let relaxed = self.history.advance(&self.series, upward, step).z;
+        // Tissue that has given way does not pull a tip that leaves it.
+        if depth > 0.0 { relaxed.max(0.0) } else { 0.0 }
+    }
+
+    /// Height of the surface [m].
+    fn height(&mut self, time: f64, step: f64) -> f64 {
+        let turns = |rhythm: Rhythm, phase: f64| rhythm.frequency * time + phase;
+        let heart = self.heart.map_or(0.0, |heart| {
+            heart.amplitude * (TAU * turns(heart, self.phases[0])).sin()
+        });
+        let drawn = self.breath.map_or(0.0, |breath| {
+            0.5 * breath.amplitude * (1.0 - (TAU * turns(breath, self.phases[1])).cos())
+        });
+        let held = self.breath_held.load(Ordering::Relaxed);
+        let aim = if held { 0.0 } else { drawn };
+        let follow = 1.0 - (-step / BREATH_RESTS).exp();
+        self.breath_level += (aim - self.breath_level) * follow;
+        self.surface + heart + self.breath_level
+    }
+}

@@ -1,0 +1,3 @@
+//! Tests of the rig on a virtual clock.
+
+mod rig;
