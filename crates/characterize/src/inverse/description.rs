@@ -7,6 +7,7 @@ use super::law_fit::LawFit;
 use super::repeated::Repeated;
 use crate::Error;
 use crate::fit::{Fit, Parameter, Uncertainty, correlated_uncertainty, doubts, misfit, missed};
+use crate::viscoelastic::QUASI_LINEAR;
 
 /// A law that was found, in its own parameters, and how well they are known.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,7 +16,8 @@ pub struct LawDescription {
     pub found: LawFit,
     /// Its parameters in the order of its keys, each with its name and its error by noise.
     pub parameters: Vec<(&'static str, Estimate)>,
-    /// What the parameters may be off by the elements [unit of each]: not in their errors.
+    /// What the parameters may be off by the elements and by the product of force and G(t) [unit of each]: not
+    /// in their errors.
     pub discretisation: Vec<f64>,
     /// Correlation of the first two parameters [-]; none of one alone.
     pub correlation: Option<f64>,
@@ -54,11 +56,14 @@ impl LawDescription {
         let misfit = misfit(&own, largest);
         let mut said = doubts(&own, &among(&uncertainty, each.len()), None);
         said.extend(missed(found.law.name().word(), "force", misfit));
+        // What the product of force and G(t) misses goes into the modulus.
+        let ratios = own.parameters.iter().skip(2).step_by(2);
+        let relaxed = QUASI_LINEAR * (1.0 - 1.0 / (1.0 + ratios.map(|p| p.value).sum::<f64>()));
         Self {
             parameters: each.iter().enumerate().map(known).collect(),
             discretisation: each
                 .iter()
-                .map(|p| found.discretisation * p.value.abs())
+                .map(|p| (found.discretisation + relaxed) * p.value.abs())
                 .collect(),
             correlation: correlation(&uncertainty.of_all(own.parameters.len()), each.len()),
             sum_of_squares,

@@ -43,10 +43,10 @@ pub struct Relaxation {
     pub forces: Vec<Vec<f64>>,
 }
 
-/// Part of G(t) by which a body with internal variables relaxes otherwise than the product of an elastic
-/// force and G(t) says [-]: found at a depth of four radii and ν = 0.49
+/// Part of what relaxes by which a body with internal variables relaxes otherwise than the product of an
+/// elastic force and G(t) says [-]: found at a depth of four radii and ν = 0.49
 /// (`specimen::a_law_is_found_from_a_viscoelastic_run`).
-const QUASI_LINEAR: f64 = 0.01;
+pub(crate) const QUASI_LINEAR: f64 = 0.02;
 /// Most terms that are tried.
 const MOST_TERMS: usize = 4;
 /// A root mean square of ε below which there is nothing left to tell [-]: elastic force is known no better.
@@ -70,10 +70,7 @@ impl Relaxation {
     /// What each gᵢ may be off because force is taken for an elastic one times G(t) [-]: not in its error.
     pub fn quasi_linear_errors(&self) -> Vec<f64> {
         let total: f64 = self.terms.iter().map(|[g, _]| g.value).sum();
-        let share = |[g, _]: &[Estimate; 2]| match total > 0.0 {
-            true => QUASI_LINEAR * (1.0 - total).max(0.0) * g.value / total,
-            false => 0.0,
-        };
+        let share = |[g, _]: &[Estimate; 2]| QUASI_LINEAR * (1.0 - total) * g.value;
         self.terms.iter().map(share).collect()
     }
 
