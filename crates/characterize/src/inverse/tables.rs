@@ -96,14 +96,17 @@ pub(super) fn discretisation(body: &Body) -> f64 {
     }
 }
 
-/// The polynomial through `values` at [`SHAPES`], and its slope.
-fn polynomial(values: &[f64; 5], at: f64) -> (f64, f64) {
+/// The polynomial in ln(1 + 2w) through `values` at the shapes w of [`SHAPES`], and its slope in w: force rises
+/// steeply from no C₀₁ and then evenly, and a polynomial in w itself would waver.
+fn polynomial(values: &[f64; 5], shape: f64) -> (f64, f64) {
+    let even = |shape: f64| (1.0 + 2.0 * shape).ln();
+    let (shapes, at) = (SHAPES.map(even), even(shape));
     let (mut sum, mut slope) = (0.0, 0.0);
     for (i, value) in values.iter().enumerate() {
         let (mut weight, mut weight_slope) = (1.0, 0.0);
-        for (j, other) in SHAPES.iter().enumerate() {
+        for (j, other) in shapes.iter().enumerate() {
             if j != i {
-                let width = SHAPES[i] - other;
+                let width = shapes[i] - other;
                 weight_slope = weight_slope * (at - other) / width + weight / width;
                 weight *= (at - other) / width;
             }
@@ -111,5 +114,5 @@ fn polynomial(values: &[f64; 5], at: f64) -> (f64, f64) {
         sum += weight * value;
         slope += weight_slope * value;
     }
-    (sum, slope)
+    (sum, slope * 2.0 / (1.0 + 2.0 * shape))
 }
