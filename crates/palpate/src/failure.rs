@@ -104,6 +104,12 @@ impl From<palpate_mechanics::Error> for Failure {
     }
 }
 
+impl From<palpate_characterize::Error> for Failure {
+    fn from(error: palpate_characterize::Error) -> Self {
+        Self::input(error)
+    }
+}
+
 impl From<palpate_simulate::Error> for Failure {
     fn from(error: palpate_simulate::Error) -> Self {
         match error.is_input() {

@@ -88,7 +88,7 @@ fn draw(plot: &Plot, series: &Series) -> Vec<Drawn> {
         .with_data(points)
         .with_color(color)
         .with_size(4.0);
-    let is_named = plot.series.len() > 1;
+    let is_named = plot.series.len() > 1 && !series.name.is_empty();
     match series.style {
         Style::DashedLine | Style::DashedLineWithSquares => line.line_style = LineStyle::Dashed,
         Style::DottedLine => line.line_style = LineStyle::Dotted,

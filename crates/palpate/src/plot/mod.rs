@@ -34,7 +34,7 @@ pub(crate) enum Axis {
 /// Points that belong together.
 #[derive(Debug, Clone)]
 pub(crate) struct Series {
-    /// In the legend.
+    /// In the legend; one without a name is not in it.
     pub(crate) name: String,
     /// x and y; what is not finite is left out.
     pub(crate) points: Vec<(f64, f64)>,
@@ -73,6 +73,20 @@ impl Plot {
 }
 
 impl Series {
+    pub(crate) fn new(
+        name: impl Into<String>,
+        points: Vec<(f64, f64)>,
+        style: Style,
+        color: usize,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            points,
+            style,
+            color,
+        }
+    }
+
     /// The points that the axes of `plot` can show.
     fn drawable(&self, plot: &Plot) -> Vec<(f64, f64)> {
         let both = |(x, y): &(f64, f64)| plot.x_axis.shows(*x) && plot.y_axis.shows(*y);

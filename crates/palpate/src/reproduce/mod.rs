@@ -6,6 +6,8 @@ mod m01;
 mod m02;
 mod m03;
 mod m04;
+mod m06;
+mod m07;
 mod m08;
 mod m09;
 mod m12;
@@ -17,6 +19,7 @@ mod real_mesh;
 mod row;
 mod select;
 mod table;
+mod virtual_rig;
 
 pub(crate) use row::{Row, Rows};
 pub(crate) use select::select;
@@ -36,7 +39,7 @@ pub(crate) struct Item {
 }
 
 /// All that can be reproduced, in the order of the source.
-pub(crate) const ITEMS: [Item; 21] = [
+pub(crate) const ITEMS: [Item; 42] = [
     m01::TABLE_3_1,
     m01::FIGURE_3_3,
     m01::FIGURE_3_4,
@@ -52,10 +55,31 @@ pub(crate) const ITEMS: [Item; 21] = [
     m04::FIGURE_4_5,
     m04::FIGURE_4_6,
     m13::FIGURE_4_7,
+    m06::FIGURE_5_1,
+    m06::FIGURE_5_14,
+    m06::TABLE_5_1,
+    m06::FIGURE_5_15,
+    m06::FIGURE_5_16,
+    m07::TABLE_6_1,
+    m07::FIGURE_6_3,
+    m07::EQUATION_6_3,
+    m07::FIGURE_6_4,
+    m07::TABLE_6_2,
+    m07::FIGURE_6_5,
+    m08::TABLE_6_3,
+    m08::FIGURE_6_7,
     m08::FIGURE_6_8,
+    m08::SECTION_6_4_4,
+    m08::TABLE_6_4,
+    m08::TABLE_6_5,
+    m08::FIGURE_6_9,
+    m08::FIGURE_6_10,
+    m08::FIGURE_6_11,
     m08::FIGURE_6_12,
     m09::SECTION_6_4_5,
+    m09::FIGURE_6_15,
     m12::SECTION_7_4,
     m13::TABLE_7_1,
     m13::FIGURE_7_12,
+    m09::FIGURE_7_17,
 ];

@@ -1,5 +1,9 @@
 //! The source's tables, as given.
 
+use palpate_mechanics::PronySeries;
+
+use crate::failure::Failure;
+
 /// Table 3-1.
 pub(crate) const TABLE_3_1: Table = Table(include_str!(
     "../../../../published/table_3_1_pcmfs_vs_fem.csv"
@@ -12,6 +16,20 @@ pub(crate) const TABLE_4_1: Table = Table(include_str!("../../../../published/ta
 pub(crate) const TABLE_5_1: Table = Table(include_str!(
     "../../../../published/table_5_1_static_force.csv"
 ));
+
+/// Table 6-1.
+pub(crate) const TABLE_6_1: Table = Table(include_str!(
+    "../../../../published/table_6_1_mean_elastic_modulus.csv"
+));
+
+/// Table 6-2.
+pub(crate) const TABLE_6_2: Table = Table(include_str!(
+    "../../../../published/table_6_2_nonlinear_springs.csv"
+));
+
+/// Section 6.3.2.
+pub(crate) const EQUATION_6_3: Table =
+    Table(include_str!("../../../../published/kelvin_liver.csv"));
 
 /// Table 6-3.
 pub(crate) const TABLE_6_3: Table =
@@ -41,6 +59,10 @@ pub(crate) const SECTION_7_4: Table = Table(include_str!(
     "../../../../published/section_7_4_simplification.csv"
 ));
 
+/// Appendix A.
+pub(crate) const APPENDIX_A: Table =
+    Table(include_str!("../../../../published/appendix_a_pigs.csv"));
+
 /// A table of the source: comments, names of columns, rows named by their first cell.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Table(&'static str);
@@ -58,6 +80,33 @@ impl Table {
         let found = lines.find(|line| line.split(',').take(N).eq(row))?;
         found.split(',').nth(at)?.parse().ok()
     }
+
+    /// The number under the name `column` in the first row, whatever it begins with.
+    pub(crate) fn first(self, column: &str) -> Option<f64> {
+        self.value_of([], column)
+    }
+
+    /// The sum of the numbers under the name `column`.
+    pub(crate) fn sum(self, column: &str) -> Option<f64> {
+        let mut lines = self.0.lines().filter(|line| !line.starts_with('#'));
+        let at = lines.next()?.split(',').position(|name| name == column)?;
+        lines
+            .map(|line| line.split(',').nth(at)?.parse::<f64>().ok())
+            .sum()
+    }
+}
+
+/// How `organ` relaxes by the row of table 6-3 at `depth_mm`.
+pub(crate) fn prony(organ: &str, depth_mm: u32) -> Result<PronySeries, Failure> {
+    let row = [organ, &depth_mm.to_string()];
+    let terms: Vec<_> = [("g1", "tau1_s"), ("g2", "tau2_s")]
+        .into_iter()
+        .filter_map(|(g, tau)| {
+            let g = TABLE_6_3.value_of(row, g)?;
+            Some((g, TABLE_6_3.value_of(row, tau)?))
+        })
+        .collect();
+    Ok(PronySeries::new(&terms)?)
 }
 
 #[cfg(test)]
@@ -71,5 +120,7 @@ mod tests {
         assert_eq!(TABLE_3_1.value("nodes", "no such column"), None);
         assert_eq!(TABLE_3_1.value("no such row", "pcmfs_local"), None);
         assert_eq!(TABLE_5_1.value_of(["kidney", "8"], "mean_n"), Some(0.4541));
+        assert_eq!(EQUATION_6_3.first("k2_n_per_mm"), Some(0.007));
+        assert_eq!(APPENDIX_A.sum("esophagus"), Some(8.0));
     }
 }

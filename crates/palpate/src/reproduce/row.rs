@@ -36,6 +36,22 @@ pub(crate) struct Value {
     pub(crate) unit: &'static str,
 }
 
+impl Value {
+    /// A number that the source does not print.
+    pub(crate) fn own(ours: f64, unit: &'static str) -> Self {
+        Self::beside(None, ours, unit)
+    }
+
+    /// A number beside what the source prints, if it does.
+    pub(crate) fn beside(published: Option<f64>, ours: f64, unit: &'static str) -> Self {
+        Self {
+            published,
+            ours: Some(ours),
+            unit,
+        }
+    }
+}
+
 /// Where the rows of a table or figure are gathered; each is as long as it took since the last.
 pub(crate) struct Rows<'a> {
     item: &'static str,
@@ -99,6 +115,20 @@ impl<'a> Rows<'a> {
     ) -> Result<(), Failure> {
         let (row, path) = self.figure(name)?;
         write_whole(&path, png)?;
+        self.push_figure(row, path, note.into());
+        Ok(())
+    }
+
+    /// Writes `text` to the file `item.extension`, and adds its row.
+    pub(crate) fn add_text(
+        &mut self,
+        extension: &str,
+        text: &str,
+        note: impl Into<String>,
+    ) -> Result<(), Failure> {
+        let (row, path) = self.figure(None)?;
+        let path = path.with_extension(extension);
+        write_whole(&path, text.as_bytes())?;
         self.push_figure(row, path, note.into());
         Ok(())
     }

@@ -11,6 +11,7 @@ mod mesh_info;
 mod quality;
 mod recordings;
 mod reproduce;
+mod reproduce_recordings;
 mod simulate;
 mod solve;
 mod solve_errors;

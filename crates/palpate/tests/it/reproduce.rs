@@ -14,7 +14,7 @@ const KEYS: [&str; 8] = [
     "seconds",
 ];
 
-fn reproduce(words: &[&str]) -> (tempfile::TempDir, Vec<Value>) {
+pub(crate) fn reproduce(words: &[&str]) -> (tempfile::TempDir, Vec<Value>) {
     let folder = tempfile::tempdir().unwrap();
     let line = [&["reproduce"], words, &["--json"]].concat();
     let answer = json(&palpate_in(folder.path(), &line));
@@ -32,7 +32,7 @@ fn reproduce(words: &[&str]) -> (tempfile::TempDir, Vec<Value>) {
     (folder, rows)
 }
 
-fn find<'r>(rows: &'r [Value], name: &str) -> &'r Value {
+pub(crate) fn find<'r>(rows: &'r [Value], name: &str) -> &'r Value {
     let row = rows.iter().find(|row| row["row"] == name);
     row.unwrap_or_else(|| panic!("there is no row {name}"))
 }

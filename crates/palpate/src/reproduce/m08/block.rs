@@ -6,11 +6,11 @@ use palpate_mechanics::finite_elements::estimate::Progress;
 use palpate_mechanics::finite_elements::indentation::{
     Block, Grip, IndentationProblem, Indenter, IndenterShape, Side, solve,
 };
-use palpate_mechanics::{IndentationCurve, Law, MooneyRivlin, NeoHookean, PronySeries};
+use palpate_mechanics::{IndentationCurve, Law, MooneyRivlin, NeoHookean};
 
 use crate::failure::Failure;
 use crate::reproduce::Rows;
-use crate::reproduce::published::{TABLE_6_3, TABLE_6_4, TABLE_6_5};
+use crate::reproduce::published::{TABLE_6_4, TABLE_6_5, prony};
 
 /// The source's cube of 100 mm, as a cylinder of the same height and volume.
 const BLOCK: Block = Block {
@@ -23,6 +23,9 @@ const RADIUS: f64 = 1e-3;
 
 /// Depths of table 5-1 [mm].
 pub(super) const DEPTHS_MM: [u32; 6] = [1, 2, 4, 5, 6, 8];
+
+/// Organs of tables 6-4 and 6-5, with their depths [mm].
+pub(super) const ORGANS: [(&str, u32); 2] = [("kidney", 5), ("liver", 6)];
 
 /// Of the whole curve [-]; the readings differ by tens of per cent.
 const ACCURACY: f64 = 0.03;
@@ -46,8 +49,8 @@ pub(super) fn published(rows: &Rows<'_>) -> Result<Vec<Published>, Failure> {
     let unit: Arc<dyn Law> = Arc::new(NeoHookean::incompressible(1.0)?);
     let (unit_curve, error) = curve(rows, "neo-Hookean", unit)?;
     let mut all = Vec::new();
-    for organ in ["kidney", "liver"] {
-        let relaxed = relaxed(organ)?;
+    for (organ, depth_mm) in ORGANS {
+        let relaxed = prony(organ, depth_mm)?.relaxation(f64::INFINITY);
         if let Some(c10) = TABLE_6_4.value(organ, "final_c10_pa") {
             all.push(Published {
                 organ,
@@ -100,13 +103,4 @@ fn curve(
     };
     let found = solve(&problem, &depths, ACCURACY, &mut say)?;
     Ok((found.answer.curve, found.error))
-}
-
-/// What table 6-3 leaves of the force of `organ` after long [-]; the first row of the organ.
-fn relaxed(organ: &str) -> Result<f64, Failure> {
-    let terms: Vec<_> = [("g1", "tau1_s"), ("g2", "tau2_s")]
-        .into_iter()
-        .filter_map(|(g, tau)| TABLE_6_3.value(organ, g).zip(TABLE_6_3.value(organ, tau)))
-        .collect();
-    Ok(PronySeries::new(&terms)?.relaxation(f64::INFINITY))
 }

@@ -1,13 +1,20 @@
 use std::sync::Arc;
 
-use palpate_mechanics::NeoHookean;
+use palpate_characterize::lumped::{Contact, mean_modulus};
+use palpate_characterize::viscoelastic::{
+    Course, RelaxationSettings, relaxation, relaxation_of_steps,
+};
 use palpate_mechanics::finite_elements::estimate::{Estimated, Progress};
-use palpate_mechanics::finite_elements::tube::{Ends, Inflated, Tube, TubeProblem, inflate};
+use palpate_mechanics::finite_elements::tube::{Ends, Inflated, TubeProblem, inflate};
+use palpate_mechanics::{IndentationCurve, NeoHookean};
+
+use super::organ::{Printed, printed};
 
 use crate::failure::Failure;
 use crate::plot::{Plot, Series, Style};
-use crate::reproduce::published::{SECTION_6_4_5 as PUBLISHED, TABLE_5_1};
+use crate::reproduce::published::TABLE_5_1;
 use crate::reproduce::row::Value;
+use crate::reproduce::virtual_rig::{RADIUS, ramp_and_hold, recorded};
 use crate::reproduce::{Item, Rows};
 
 pub(crate) const SECTION_6_4_5: Item = Item {
@@ -16,42 +23,25 @@ pub(crate) const SECTION_6_4_5: Item = Item {
     run,
 };
 
-/// The source gives a diameter of about 15 mm (section 7.1) and no wall; 2.5 mm is a reading.
-const INNER_RADIUS: f64 = 5e-3;
-const OUTER_RADIUS: f64 = 7.5e-3;
+/// The depth at which (6.1) gives the source's modulus [m].
+const DEPTH: f64 = 8e-3;
 const PASCAL_PER_MMHG: f64 = 133.322_387_415;
 const ACCURACY: f64 = 0.01;
 
 fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
-    // The file's one row begins with the modulus.
-    let printed = |column| PUBLISHED.value("5.222", column);
-    let (Some(modulus_kpa), Some(pressure_mmhg), Some(length_mm)) = (
-        printed("youngs_modulus_kpa"),
-        printed("internal_pressure_mmhg"),
-        printed("length_mm"),
-    ) else {
-        rows.add_missing(
-            "limit_pressure",
-            "mmHg",
-            "the published values cannot be read",
-        );
-        return Ok(());
-    };
-    add_modulus(rows, modulus_kpa);
-    let law = NeoHookean::incompressible(1e3 * modulus_kpa / 6.0)?;
+    let printed = printed()?;
+    add_modulus(rows, printed.modulus_kpa);
+    add_relaxation(rows, &printed)?;
+    let law = NeoHookean::incompressible(1e3 * printed.modulus_kpa / 6.0)?;
     let problem = TubeProblem {
-        tube: Tube {
-            length: 1e-3 * length_mm,
-            inner_radius: INNER_RADIUS,
-            outer_radius: OUTER_RADIUS,
-        },
+        tube: printed.tube,
         law: Arc::new(law),
         ends: Ends::Held,
     };
     let found = solve(rows, &problem, &[])?;
     let limit = found.answer.limit_pressure;
     let value = Value {
-        published: Some(pressure_mmhg),
+        published: Some(printed.pressure_mmhg),
         ours: limit.map(|p| p / PASCAL_PER_MMHG),
         unit: "mmHg",
     };
@@ -74,19 +64,63 @@ fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
 
 /// The source's modulus is that of a half-space, not of a tube.
 fn add_modulus(rows: &mut Rows<'_>, modulus_kpa: f64) {
-    let (depth, radius) = (8e-3, 1e-3);
-    // (6.1) with nu = 0.5.
+    // As if it were no hollow organ.
     let half_space = TABLE_5_1
         .value_of(["esophagus", "8"], "mean_n")
-        .map(|force| 1e-3 * 0.75 * force / (2.0 * radius * depth));
+        .and_then(|force| mean_modulus(Contact::Flat(RADIUS), false, DEPTH, force).ok())
+        .map(|modulus| 1e-3 * modulus);
     let value = Value {
         published: Some(modulus_kpa),
         ours: half_space,
         unit: "kPa",
     };
     let note = "published as the result of inverse finite elements on the tube; ours: the half-space \
-                formula (6.1) with the mean of table 5-1 at 8 mm, which is the same number to four digits";
+                formula (6.1) with the mean of table 5-1 at 8 mm, which is the same number to four digits; what the tube gives is figure-6-15/tube_modulus";
     rows.add("youngs_modulus", value, note);
+}
+
+/// The one term, found again.
+fn add_relaxation(rows: &mut Rows<'_>, printed: &Printed) -> Result<(), Failure> {
+    let course = ramp_and_hold(DEPTH);
+    let force = TABLE_5_1.value_of(["esophagus", "8"], "mean_n");
+    let series = printed.series()?;
+    let elastic = force.unwrap_or(0.0) / series.relaxation(f64::INFINITY);
+    let curve = IndentationCurve::through(&[DEPTH], &[elastic]);
+    let felt = curve.relaxed(&series, &course.times, &course.depths);
+    let recording = recorded(("esophagus", 0), &course, &felt, 1)?;
+    let largest = recording.filtered_force.iter().copied().fold(0.0, f64::max);
+    let columns = (
+        &recording.time[..],
+        &recording.depth[..],
+        &recording.force[..],
+    );
+    let seen: Vec<Course> = Course::new(columns, largest, |depth| depth)
+        .into_iter()
+        .collect();
+    let one = RelaxationSettings { terms: Some(1) };
+    let note = "refitted from a virtual recording with the printed term that ends at the mean of table 5-1 at 8 mm, ramp of 0.5 s, hold \
+                until 40 s, noise of 0.225 mN";
+    for ([g, tau], (prefix, how)) in relaxation(&seen, one)?
+        .terms
+        .into_iter()
+        .zip([("", "the ramp as recorded")])
+        .chain(
+            relaxation_of_steps(&seen, one)?
+                .terms
+                .into_iter()
+                .zip([("step/", "the ramp taken for a step")]),
+        )
+    {
+        let note = format!("{note}; {how}; the source prints the second on g instead of tau");
+        let tau = Value::beside(Some(printed.tau), tau.value, "s");
+        rows.add(&format!("{prefix}tau"), tau, note.clone());
+        rows.add(
+            &format!("{prefix}g"),
+            Value::beside(Some(printed.g), g.value, "1"),
+            note,
+        );
+    }
+    Ok(())
 }
 
 fn solve(

@@ -1,0 +1,78 @@
+use palpate_characterize::CleanRecording;
+use palpate_characterize::analyze::Sinusoid;
+
+use super::swing::{NOTE, ORGANS, Organ};
+use crate::failure::Failure;
+use crate::plot::{Plot, Series, Style};
+use crate::reproduce::row::Value;
+use crate::reproduce::{Item, Rows};
+
+pub(crate) const FIGURE_5_15: Item = Item {
+    name: "figure-5-15",
+    title: "response to a swing of 2 Hz: force over time and over depth",
+    run,
+};
+
+const FREQUENCY: f64 = 2.0;
+
+fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
+    let (mut loops, mut courses) = (Vec::new(), Vec::new());
+    for (color, name) in ORGANS.into_iter().enumerate() {
+        let Some(organ) = Organ::printed(name)? else {
+            rows.add_missing(name, "N", "no law is printed");
+            continue;
+        };
+        let (recording, found) = organ.swung(FREQUENCY)?;
+        let Some(found) = found else {
+            rows.add_missing(name, "N", "no swing is seen in the recording");
+            continue;
+        };
+        add(rows, name, &found);
+        let drawn = |points| Series {
+            name: name.to_owned(),
+            points,
+            style: Style::Line,
+            color,
+        };
+        let [over_depth, over_time] = one_period(&recording, &found);
+        loops.push(drawn(over_depth));
+        courses.push(drawn(over_time));
+    }
+    let plot = |x_label: &str, series| Plot {
+        title: "Response to a swing of 2 Hz about 2 mm".to_owned(),
+        x_label: x_label.to_owned(),
+        y_label: "force [mN]".to_owned(),
+        series,
+        ..Plot::default()
+    };
+    let note = "the last period but one, after the filter; the area is what is lost in it";
+    rows.add_figure(None, &plot("depth [mm]", loops), note)?;
+    rows.add_figure(Some("time"), &plot("time [s]", courses), note)
+}
+
+fn add(rows: &mut Rows<'_>, name: &str, found: &Sinusoid) {
+    let numbers = [
+        ("stiffness", found.stiffness_n_per_m, "N/m"),
+        ("phase", found.phase_rad, "rad"),
+        ("hysteresis", found.hysteresis_j, "J"),
+    ];
+    for (word, ours, unit) in numbers {
+        rows.add(&format!("{name}/{word}"), Value::own(ours, unit), NOTE);
+    }
+}
+
+/// Filtered force [mN] over depth [mm] and over time [s] in the last period but one: the filter has no neighbours
+/// at the end.
+fn one_period(recording: &CleanRecording, found: &Sinusoid) -> [Vec<(f64, f64)>; 2] {
+    let period = 1.0 / found.frequency_hz;
+    let start = recording.time[found.end - 1] - 2.0 * period;
+    let within = |&i: &usize| (start..=start + period).contains(&(recording.time[i] + 1e-9));
+    let last: Vec<usize> = (found.first..found.end).filter(within).collect();
+    let force = |i: usize| 1e3 * recording.filtered_force[i];
+    let over_depth = |&i: &usize| (1e3 * recording.depth[i], force(i));
+    let over_time = |&i: &usize| (recording.time[i] - start, force(i));
+    [
+        last.iter().map(over_depth).collect(),
+        last.iter().map(over_time).collect(),
+    ]
+}

@@ -1,0 +1,137 @@
+use std::sync::Arc;
+
+use palpate_mechanics::finite_elements::estimate::Progress;
+use palpate_mechanics::finite_elements::indentation::Grip;
+use palpate_mechanics::finite_elements::tube::{Ends, Tube, TubeProblem, TubePunch, indent};
+use palpate_mechanics::{IndentationCurve, NeoHookean, PronySeries};
+
+use super::organ::printed;
+use crate::failure::Failure;
+use crate::plot::{Plot, Series, Style};
+use crate::reproduce::m06::Printed;
+use crate::reproduce::row::Value;
+use crate::reproduce::virtual_rig::{END, RADIUS, ramp_and_hold};
+use crate::reproduce::{Item, Rows};
+
+pub(crate) const FIGURE_6_15: Item = Item {
+    name: "figure-6-15",
+    title: "the probe on the esophagus as a tube; takes minutes",
+    run,
+};
+
+const ACCURACY: f64 = 0.1;
+
+fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
+    let organ = printed()?;
+    let measured = Printed::all("esophagus");
+    let (curve, error) = indented(rows, organ.tube, &measured)?;
+    let series = organ.series()?;
+    let note = format!(
+        "tube of 60 mm with radii of 5 and 7.5 mm, of which the source gives only the length and about 15 mm of diameter; held ends, \
+         bonded punch without a side, neo-Hookean, without its 30 mmHg, which such a tube does not bear (section-6-4-5/limit_pressure); \
+         relative error {error:.3}"
+    );
+    for row in &measured {
+        // E = 6 C10.
+        let elastic = 1e3 * organ.modulus_kpa / 6.0 * curve.force(1e-3 * f64::from(row.depth_mm));
+        let own = series.relaxation(f64::INFINITY) * elastic;
+        let name = format!("{}_mm", row.depth_mm);
+        let remark = format!(
+            "published: mean of table 5-1; ours: steady force with the printed modulus as instantaneous; {note}"
+        );
+        rows.add(&name, Value::beside(Some(row.mean), own, "N"), remark);
+    }
+    let modulus = nearest_modulus(&curve, &measured);
+    let remark = format!(
+        "published as found with the tube; ours: the tube whose steady forces come nearest to all means of table 5-1, without relaxation, so \
+         that it is a relaxed modulus; a tube gives way as a whole, so its tissue has to be several times stiffer than (6.1) says; {note}"
+    );
+    let value = Value::beside(Some(organ.modulus_kpa), modulus, "kPa");
+    rows.add("tube_modulus", value, remark);
+    let plot = drawn(&curve, (organ.modulus_kpa, modulus), &series, &measured);
+    rows.add_figure(None, &plot, note)
+}
+
+/// The elastic curve [N over m] for C10 = 1 Pa through the measured depths, and its relative error [-]: without
+/// pressure all force is proportional to C10.
+fn indented(
+    rows: &Rows<'_>,
+    tube: Tube,
+    measured: &[Printed],
+) -> Result<(IndentationCurve, f64), Failure> {
+    let problem = TubeProblem {
+        tube,
+        law: Arc::new(NeoHookean::incompressible(1.0)?),
+        ends: Ends::Held,
+    };
+    let depths = measured.iter().map(|row| 1e-3 * f64::from(row.depth_mm));
+    let punch = TubePunch {
+        radius: RADIUS,
+        face: Grip::Stick,
+        pressure: 0.0,
+        depths: depths.collect(),
+    };
+    let found = indent(&problem, &punch, ACCURACY, &mut |progress: Progress| {
+        let (mesh, part) = (progress.halvings + 1, 100.0 * progress.part);
+        rows.say(format!("mesh {mesh}, {part:.0} %"));
+    })?;
+    let curve = IndentationCurve::through(&punch.depths, &found.answer.forces);
+    Ok((curve, found.error))
+}
+
+/// The relaxed modulus [kPa] with which a tube of this `curve` for C10 = 1 Pa comes nearest to the means.
+fn nearest_modulus(curve: &IndentationCurve, measured: &[Printed]) -> f64 {
+    let (mut products, mut squares) = (0.0, 0.0);
+    for row in measured {
+        let unit = curve.force(1e-3 * f64::from(row.depth_mm));
+        products += unit * row.mean;
+        squares += unit * unit;
+    }
+    6e-3 * products / squares
+}
+
+/// Force over time at the last measured depth with both moduli [kPa].
+fn drawn(
+    curve: &IndentationCurve,
+    (printed, own): (f64, f64),
+    series: &PronySeries,
+    measured: &[Printed],
+) -> Plot {
+    let last = measured
+        .last()
+        .map_or((0, 0.0), |row| (row.depth_mm, row.mean));
+    let course = ramp_and_hold(1e-3 * f64::from(last.0));
+    let line = |modulus_kpa: f64, name: &str, color| {
+        let scaled = curve.scaled(1.0, 1e3 * modulus_kpa / 6.0);
+        let forces = scaled.relaxed(series, &course.times, &course.depths);
+        Series {
+            name: name.to_owned(),
+            points: course
+                .times
+                .iter()
+                .zip(forces)
+                .map(|(t, f)| (*t, 1e3 * f))
+                .collect(),
+            style: Style::Line,
+            color,
+        }
+    };
+    // What is left after relaxation is the modulus that was found.
+    let instantaneous = own / series.relaxation(f64::INFINITY);
+    Plot {
+        title: format!("Force on the esophagus as a tube at {} mm", last.0),
+        x_label: "time [s]".to_owned(),
+        y_label: "force [mN]".to_owned(),
+        series: vec![
+            line(printed, "printed modulus", 0),
+            line(instantaneous, "modulus found with the tube", 1),
+            Series {
+                name: "steady mean of table 5-1".to_owned(),
+                points: vec![(0.0, 1e3 * last.1), (END, 1e3 * last.1)],
+                style: Style::DashedLine,
+                color: 5,
+            },
+        ],
+        ..Plot::default()
+    }
+}
