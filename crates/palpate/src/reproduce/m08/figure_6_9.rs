@@ -28,6 +28,9 @@ pub(crate) const FIGURE_6_10: Item = Item {
     },
 };
 
+/// Steps that the figures show.
+const SHOWN: usize = 21;
+
 const NOTE: &str = "steps from the printed start until all parameters stay within 1 % of the printed end, on virtual forces of that \
     end without noise";
 
@@ -59,7 +62,7 @@ fn run(
             let note = format!("{NOTE}; {}; {}", algorithm.told(), remark(names.len()));
             rows.add(&format!("{organ}/{word}/steps"), value, note);
             for (number, name) in names.iter().enumerate() {
-                let each = way.iter().enumerate();
+                let each = way.iter().enumerate().take(SHOWN);
                 let word = format!(
                     "{organ}, {}, {}",
                     name.to_uppercase(),
@@ -72,10 +75,7 @@ fn run(
         }
     }
     let plot = Plot {
-        title: format!(
-            "Parameters of the {} law",
-            law.name().word().replace('_', "-")
-        ),
+        title: format!("Parameters of the {} law", law_name(law)),
         x_label: "step [-]".to_owned(),
         y_label: "parameter [Pa]".to_owned(),
         series,
@@ -83,6 +83,14 @@ fn run(
     };
     let note = "from the initial to the final parameters of the source's table, own fit and (6.16)";
     rows.add_figure(None, &plot, note)
+}
+
+fn law_name(law: SoughtLaw) -> &'static str {
+    match law {
+        SoughtLaw::NeoHookean => "neo-Hookean",
+        SoughtLaw::MooneyRivlin => "Mooney-Rivlin",
+        SoughtLaw::Exponential => "exponential",
+    }
 }
 
 fn remark(parameters: usize) -> &'static str {

@@ -44,11 +44,17 @@ fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
                 rows.say(format!("{}, {which}, {word}", case.name));
                 let arrived = arrived(&case, algorithm, &moved)?;
                 add(rows, (&case.name, which, word), algorithm, &arrived);
-                series.push(drawn((which, algorithm, word), color, count, &arrived));
+                // The truth alone makes no line.
+                if arrived.iter().filter(|(_, steps)| steps.is_some()).count() > 1 {
+                    series.push(drawn((which, algorithm, word), color, count, &arrived));
+                }
             }
         }
         let plot = Plot {
-            title: format!("Steps to the truth, {}", case.name.replace(['/', '_'], " ")),
+            title: format!(
+                "Steps to the printed parameters, {}",
+                case.name.replace(['/', '_'], " ")
+            ),
             x_label: "start over truth [-]".to_owned(),
             y_label: "steps until within 1 % [-]".to_owned(),
             x_axis: Axis::Logarithmic,
