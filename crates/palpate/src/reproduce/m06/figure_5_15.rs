@@ -66,7 +66,8 @@ fn add(rows: &mut Rows<'_>, name: &str, found: &Sinusoid) {
 fn one_period(recording: &CleanRecording, found: &Sinusoid) -> [Vec<(f64, f64)>; 2] {
     let period = 1.0 / found.frequency_hz;
     let start = recording.time[found.end - 1] - 2.0 * period;
-    let within = |&i: &usize| (start..=start + period).contains(&(recording.time[i] + 1e-9));
+    // Whatever the last digits of the times are.
+    let within = |&i: &usize| (-1e-6..=period + 1e-6).contains(&(recording.time[i] - start));
     let last: Vec<usize> = (found.first..found.end).filter(within).collect();
     let force = |i: usize| 1e3 * recording.filtered_force[i];
     let over_depth = |&i: &usize| (1e3 * recording.depth[i], force(i));
