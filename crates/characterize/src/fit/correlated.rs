@@ -25,7 +25,7 @@ use nalgebra::DMatrix;
 const BLOCKS: usize = 800;
 /// The order of the process, at most; less for few blocks.
 const LARGEST_ORDER: usize = 60;
-/// Rounds in which the autocovariances are raised.
+/// Rounds in which the autocovariances are raised, at most.
 const ROUNDS: usize = 6;
 
 /// The covariance of Σ u r for the columns u of `directions`.
@@ -97,17 +97,22 @@ impl Blocks {
         let observed = self.autocovariances(order);
         let mut raised = observed.clone();
         let mut process = Process::new(raised.clone());
-        for _ in 0..ROUNDS {
+        let (mut nearest, mut least) = (process.clone(), f64::INFINITY);
+        for _ in 0..=ROUNDS {
             let expected = self.expected(&process.autocovariances(longest), order);
-            for (raised, (observed, expected)) in
-                raised.iter_mut().zip(observed.iter().zip(expected))
-            {
-                *raised += observed - expected;
+            let missing = observed.iter().zip(&expected).map(|(o, e)| o - e);
+            let missing: Vec<f64> = missing.collect();
+            let off: f64 = missing.iter().map(|m| m * m).sum();
+            // Residuals that hardly forget are no end of raised: it stops where it leads away.
+            if off.is_nan() || off >= least {
+                break;
             }
+            (nearest, least) = (process.clone(), off);
+            raised.iter_mut().zip(missing).for_each(|(r, m)| *r += m);
             process = Process::new(raised.clone());
             raised.copy_from_slice(&process.autocovariances(order + 1));
         }
-        let shared = self.shared(&process.autocovariances(longest));
+        let shared = self.shared(&nearest.autocovariances(longest));
         let [count, order] = [self.means.len(), order].map(|n| n as f64);
         self.sums.transpose() * shared * ((count + order) / (count - order))
     }
@@ -173,6 +178,7 @@ impl Blocks {
 }
 
 /// An autoregressive process, from its autocovariances by the recursion of Levinson and Durbin.
+#[derive(Clone)]
 struct Process {
     first: Vec<f64>,
     coefficients: Vec<f64>,
