@@ -22,5 +22,8 @@ pub use analyze::{Analysis, analyze};
 pub use clean::{CleanRecording, CleanSettings, clean};
 pub use error::Error;
 pub use grouping::specimens;
-pub use specimen::{Characterization, CharacterizeSettings, characterize};
+pub use specimen::{
+    Characterization, CharacterizeSettings, FittedLaw, FittedRecording, FittedRelaxation,
+    characterize,
+};
 pub use without_geometry::WithoutGeometry;

@@ -4,6 +4,11 @@
 //! CleanRecordings ─▶ relaxation ─▶ laws, given the relaxation ─▶ Characterization
 //! ```
 
+mod criteria;
+mod fitted;
+
+use std::ops::Range;
+
 use palpate_files::recording::{IndenterShape, RecordingHeader, Specimen, Stimulus};
 use palpate_files::{Estimate, PronyTerm, Tissue};
 use palpate_mechanics::finite_elements::indentation::Grip;
@@ -17,6 +22,8 @@ use crate::viscoelastic::{
     Course, Relaxation, RelaxationSettings, relaxation, relaxation_of_steps,
 };
 use crate::{CleanRecording, Error, WithoutGeometry};
+
+pub use fitted::{FittedLaw, FittedRecording, FittedRelaxation};
 
 /// What may be chosen about a characterization.
 #[derive(Debug, Clone, PartialEq)]
@@ -146,6 +153,18 @@ struct Pressed {
 
 impl Pressed {
     fn of(recording: &CleanRecording) -> Option<Self> {
+        let samples = Self::samples(recording)?;
+        let of = |values: &[f64]| values.get(samples.clone()).map(<[f64]>::to_vec);
+        let largest = recording.filtered_force.get(samples.clone())?;
+        Some(Self {
+            time: of(&recording.time)?,
+            depth: of(&recording.depth)?.iter().map(|d| d.max(0.0)).collect(),
+            force: of(&recording.force)?,
+            largest: largest.iter().copied().fold(0.0, f64::max),
+        })
+    }
+
+    fn samples(recording: &CleanRecording) -> Option<Range<usize>> {
         if is_piece(recording) {
             return None;
         }
@@ -155,14 +174,12 @@ impl Pressed {
             .iter()
             .rposition(|s| s.kind != SegmentKind::Retreat);
         let end = back.map_or(recording.time.len(), |place| recording.segments[place].end);
-        let of = |values: &[f64]| values.get(first..end).map(<[f64]>::to_vec);
-        let largest = recording.filtered_force.get(first..end)?;
-        Some(Self {
-            time: of(&recording.time)?,
-            depth: of(&recording.depth)?.iter().map(|d| d.max(0.0)).collect(),
-            force: of(&recording.force)?,
-            largest: largest.iter().copied().fold(0.0, f64::max),
-        })
+        (first <= end).then_some(first..end)
+    }
+
+    /// Whether there is a depth and a force at all.
+    fn is_felt(&self) -> bool {
+        self.deepest() > 0.0 && self.largest > 0.0
     }
 
     fn deepest(&self) -> f64 {

@@ -11,8 +11,8 @@ pub fn information_criterion(fit: &Fit, effective_samples: f64) -> f64 {
     effective_samples * mean_square.ln() + 2.0 * count * (1.0 + (count + 1.0) / left)
 }
 
-/// By how much a model with more parameters must be better: "strong" in [Burnham and Anderson 2002].
-const WORTH: f64 = 10.0;
+/// By how much a model with more parameters must be better [-]: "strong" in [Burnham and Anderson 2002].
+pub const WORTH: f64 = 10.0;
 /// Samples for each parameter that are taken for granted [-]: what no model follows looks like noise of which
 /// hardly two samples are independent.
 const ENOUGH: f64 = 4.0;

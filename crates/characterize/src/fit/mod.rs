@@ -36,7 +36,7 @@ mod uncertainty;
 
 use nalgebra::DMatrix;
 
-pub use criterion::{information_criterion, simplest};
+pub use criterion::{WORTH, information_criterion, simplest};
 pub use derivatives::Differences;
 pub use doubts::doubts;
 pub use least_squares::{Settings, least_squares, least_squares_with_jacobian};

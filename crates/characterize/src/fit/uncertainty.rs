@@ -158,6 +158,14 @@ impl Uncertainty {
         Some(self.unit_covariance[(place, place)].sqrt())
     }
 
+    /// The standard error of what the model gives for each sample [unit of the residuals].
+    pub fn errors_of_values(&self, fit: &Fit) -> Vec<f64> {
+        let derivatives = fit.jacobian.select_columns(&self.chosen);
+        let spread = &derivatives * &self.covariance;
+        let products = spread.row_iter().zip(derivatives.row_iter());
+        products.map(|(a, b)| a.dot(&b).max(0.0).sqrt()).collect()
+    }
+
     /// The interval that holds a parameter [its unit] with the probability `level`.
     pub fn interval(&self, fit: &Fit, parameter: usize, level: f64) -> Option<[f64; 2]> {
         let reach = self.quantile(level) * self.standard_error(parameter)?;

@@ -13,6 +13,7 @@
 //! block's size is assumed; a tube has no other law than the neo-Hookean.
 
 mod body;
+mod correlations;
 mod curves;
 mod description;
 mod forces;
@@ -22,6 +23,7 @@ mod repeated;
 mod tables;
 
 pub use body::{BLOCK, Body};
+pub use correlations::Correlations;
 pub use curves::{Curves, UnitCurve};
 pub use description::LawDescription;
 pub use forces::Indentation;

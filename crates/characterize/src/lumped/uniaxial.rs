@@ -1,3 +1,5 @@
+use std::ops::Range;
+
 use palpate_files::Estimate;
 use palpate_files::tissue::Elasticity;
 use palpate_mechanics::finite_elements::uniaxial::nominal_stress;
@@ -28,6 +30,41 @@ pub struct UniaxialFit {
     pub misfit: f64,
     /// What deserves doubt, in plain sentences.
     pub doubts: Vec<String>,
+}
+
+/// What of a recording of a piece is fitted: from first contact to its largest strain.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pulled {
+    /// The samples.
+    pub samples: Range<usize>,
+    /// Their stretches [-], deformed over undeformed length.
+    pub stretches: Vec<f64>,
+    /// Their nominal stresses [Pa], above zero in tension.
+    pub stresses: Vec<f64>,
+}
+
+impl Pulled {
+    /// # Errors
+    /// When the recording does not say area or height.
+    pub fn of(recording: &CleanRecording) -> Result<Self, Error> {
+        let known = |value: Option<f64>, key| value.ok_or(Error::Unknown { key });
+        let area = known(recording.header.area_m2, "area_m2")?;
+        let height = known(recording.header.height_m, "height_m")?;
+        let first = recording.time.partition_point(|t| *t < 0.0);
+        let depths = &recording.depth;
+        let largest =
+            (first..depths.len()).max_by(|&a, &b| depths[a].abs().total_cmp(&depths[b].abs()));
+        let samples = first..largest.map_or(first, |last| last + 1);
+        let forces = &recording.force[samples.clone()];
+        Ok(Self {
+            stretches: depths[samples.clone()]
+                .iter()
+                .map(|d| 1.0 - d / height)
+                .collect(),
+            stresses: forces.iter().map(|f| -f / area).collect(),
+            samples,
+        })
+    }
 }
 
 /// Where the exponent α is first looked for [-].
@@ -68,18 +105,10 @@ pub fn fit_uniaxial_recordings(
 ) -> Result<UniaxialFit, Error> {
     let (mut stretches, mut stresses, mut lengths) = (Vec::new(), Vec::new(), Vec::new());
     for recording in recordings {
-        let known = |value: Option<f64>, key| value.ok_or(Error::Unknown { key });
-        let area = known(recording.header.area_m2, "area_m2")?;
-        let height = known(recording.header.height_m, "height_m")?;
-        let first = recording.time.partition_point(|t| *t < 0.0);
-        let depths = &recording.depth[first..];
-        let largest =
-            (0..depths.len()).max_by(|&a, &b| depths[a].abs().total_cmp(&depths[b].abs()));
-        let count = largest.map_or(0, |last| last + 1);
-        let forces = &recording.force[first..];
-        stretches.extend(depths.iter().take(count).map(|d| 1.0 - d / height));
-        stresses.extend(forces.iter().take(count).map(|f| -f / area));
-        lengths.push(count);
+        let own = Pulled::of(recording)?;
+        lengths.push(own.samples.len());
+        stretches.extend(own.stretches);
+        stresses.extend(own.stresses);
     }
     fitted(law, &stretches, &stresses, &lengths)
 }

@@ -12,6 +12,7 @@ mod doubts;
 mod errors;
 mod filter;
 mod fit;
+mod fitted;
 mod law_repeated;
 mod lumped;
 mod lumped_column;

@@ -1,6 +1,7 @@
 //! Tests of fits and of what is said about their uncertainty.
 
 mod agreement;
+mod bands;
 mod bounds;
 mod certified;
 mod coverage;

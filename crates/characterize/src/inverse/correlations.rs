@@ -1,0 +1,59 @@
+use nalgebra::DMatrix;
+
+use super::description::{LawDescription, in_its_parameters};
+use crate::fit::correlated_uncertainty;
+
+/// How the errors of parameters go together.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Correlations {
+    /// The parameters, by their names.
+    pub names: Vec<String>,
+    /// Their correlations [-].
+    pub matrix: DMatrix<f64>,
+}
+
+impl Correlations {
+    /// Of parameters with a `covariance`; those without an error are left out.
+    pub fn of(names: Vec<String>, covariance: &DMatrix<f64>) -> Self {
+        let chosen: Vec<usize> = (0..names.len())
+            .filter(|&i| covariance[(i, i)] > 0.0)
+            .collect();
+        let matrix = DMatrix::from_fn(chosen.len(), chosen.len(), |row, column| {
+            let (i, j) = (chosen[row], chosen[column]);
+            covariance[(i, j)] / (covariance[(i, i)] * covariance[(j, j)]).sqrt()
+        });
+        Self {
+            names: chosen.iter().map(|&i| names[i].clone()).collect(),
+            matrix,
+        }
+    }
+}
+
+impl LawDescription {
+    /// Correlations of its parameters and of gᵢ and τᵢ of the relaxation it was found with.
+    pub fn correlations(&self) -> Correlations {
+        let lengths: Vec<usize> = self.found.forces.iter().map(Vec::len).collect();
+        let own = in_its_parameters(&self.found);
+        let covariance = correlated_uncertainty(&own, &lengths).of_all(own.parameters.len());
+        let ratios: Vec<f64> = own.parameters[2..]
+            .iter()
+            .step_by(2)
+            .map(|p| p.value)
+            .collect();
+        let whole = 1.0 + ratios.iter().sum::<f64>();
+        // gᵢ = ρᵢ/(1 + Σ ρ); a correlation of ln τ is one of τ.
+        let mut to_terms = DMatrix::identity(own.parameters.len(), own.parameters.len());
+        for (i, ratio) in ratios.iter().enumerate() {
+            for j in 0..ratios.len() {
+                let own = if i == j { 1.0 } else { 0.0 };
+                to_terms[(2 + 2 * i, 2 + 2 * j)] = (own - ratio / whole) / whole;
+            }
+        }
+        let of_terms = (1..=ratios.len()).flat_map(|i| [format!("g_{i}"), format!("tau_{i}_s")]);
+        let of_law = own.parameters[..2].iter().map(|p| p.name.clone());
+        Correlations::of(
+            of_law.chain(of_terms).collect(),
+            &(&to_terms * covariance * to_terms.transpose()),
+        )
+    }
+}

@@ -1,0 +1,142 @@
+use std::ops::Range;
+
+use super::{Characterization, Pressed, is_piece};
+use crate::CleanRecording;
+use crate::fit::{Fit, correlated_uncertainty};
+use crate::inverse::SoughtLaw;
+use crate::lumped::Pulled;
+
+/// A recording beside what was found from it, sample by sample.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FittedRecording {
+    /// Its place among the recordings of the specimen.
+    pub place: usize,
+    /// The samples that were fitted.
+    pub samples: Range<usize>,
+    /// The relaxation, if one was found.
+    pub relaxation: Option<FittedRelaxation>,
+    /// The laws that were found.
+    pub laws: Vec<FittedLaw>,
+}
+
+/// Forces over the instantaneous elastic force at the largest depth [-].
+#[derive(Debug, Clone, PartialEq)]
+pub struct FittedRelaxation {
+    /// As measured.
+    pub measured: Vec<f64>,
+    /// Of the relaxation with the recorded course of the depth.
+    pub fitted: Vec<f64>,
+    /// Of the relaxation that takes ramps for steps, for the last samples; empty when none was found.
+    pub of_step: Vec<f64>,
+}
+
+/// What a law gives: forces [N], or nominal stresses [Pa] of a piece along one axis.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FittedLaw {
+    /// Which.
+    pub law: SoughtLaw,
+    /// What it gives [N or Pa].
+    pub values: Vec<f64>,
+    /// How far from them, up and down, the curve of the true parameters lies at most, with the probability
+    /// that was asked for [N or Pa]: by noise, and by what the elements may be off.
+    pub reach: Vec<f64>,
+}
+
+impl Characterization {
+    /// The `recordings` that this was found from beside what was found; the reach of a law holds with the
+    /// probability `level` [-]. Recordings of which nothing is fitted are left out.
+    pub fn fitted(&self, recordings: &[CleanRecording], level: f64) -> Vec<FittedRecording> {
+        let samples = |recording: &CleanRecording| match self.uniaxial.is_empty() {
+            true => Pressed::samples(recording),
+            false if is_piece(recording) => Pulled::of(recording).ok().map(|own| own.samples),
+            false => None,
+        };
+        let each = recordings.iter().enumerate();
+        let mut all: Vec<FittedRecording> = each
+            .filter_map(|(place, recording)| {
+                Some(FittedRecording {
+                    place,
+                    samples: samples(recording)?,
+                    relaxation: None,
+                    laws: Vec::new(),
+                })
+            })
+            .collect();
+        for found in self.laws.iter().filter_map(|(_, law)| law.as_ref().ok()) {
+            let off = found.found.discretisation;
+            add(
+                &mut all,
+                (found.found.law, off),
+                &found.found.forces.concat(),
+                &found.found.fit,
+                level,
+            );
+        }
+        for found in self
+            .uniaxial
+            .iter()
+            .filter_map(|(_, law)| law.as_ref().ok())
+        {
+            let measured = all
+                .iter()
+                .filter_map(|own| Pulled::of(&recordings[own.place]).ok());
+            let measured = measured.flat_map(|own| own.stresses);
+            let residuals = &found.fit.residuals;
+            let values: Vec<f64> = measured.zip(residuals).map(|(own, r)| own + r).collect();
+            add(&mut all, (found.law, 0.0), &values, &found.fit, level);
+        }
+        self.relax(recordings, &mut all);
+        all
+    }
+
+    fn relax(&self, recordings: &[CleanRecording], all: &mut [FittedRecording]) {
+        let Ok(relaxation) = &self.relaxation else {
+            return;
+        };
+        let felt = all.iter_mut().filter_map(|own| {
+            let pressed = Pressed::of(&recordings[own.place])?;
+            pressed.is_felt().then_some((own, pressed))
+        });
+        let found = relaxation.forces.iter().zip(&relaxation.sizes);
+        for (course, ((own, pressed), (forces, &size))) in felt.zip(found).enumerate() {
+            let steps = self.relaxation_of_steps.as_ref().ok();
+            let of_step = steps.and_then(|steps| steps.forces.get(course));
+            let over = |values: &[f64], whole: f64| values.iter().map(|v| v / whole).collect();
+            own.relaxation = (size > 0.0).then(|| FittedRelaxation {
+                measured: over(&pressed.force, size * pressed.largest),
+                fitted: over(forces, size),
+                of_step: of_step.map_or_else(Vec::new, |forces| over(forces, size)),
+            });
+        }
+    }
+}
+
+/// Hands each recording its part of the `values` of a law, whose elements are `off` by so much [-].
+fn add(
+    all: &mut [FittedRecording],
+    (law, off): (SoughtLaw, f64),
+    values: &[f64],
+    fit: &Fit,
+    level: f64,
+) {
+    let lengths: Vec<usize> = all.iter().map(|own| own.samples.len()).collect();
+    let known = correlated_uncertainty(fit, &lengths);
+    let errors = known.errors_of_values(fit);
+    let quantile = known.quantile(level);
+    let mut first = 0;
+    for (own, length) in all.iter_mut().zip(lengths) {
+        let (values, errors) = (
+            &values[first..first + length],
+            &errors[first..first + length],
+        );
+        let reach = values.iter().zip(errors);
+        own.laws.push(FittedLaw {
+            law,
+            values: values.to_vec(),
+            reach: reach
+                .map(|(value, error)| quantile * error + off * value.abs())
+                .collect(),
+        });
+        first += length;
+    }
+}
