@@ -3,14 +3,15 @@
 use std::sync::Arc;
 
 use kuva::backend::png::PngBackend;
-use kuva::plot::{LegendPosition, LinePlot, LineStyle, MarkerShape, ScatterPlot};
+use kuva::plot::{BandPlot, LegendPosition, LinePlot, LineStyle, MarkerShape, ScatterPlot};
+use kuva::render::annotations::ShadedRegion;
 use kuva::render::layout::Layout;
 use kuva::render::plots::Plot as Drawn;
 use kuva::render::render::{Primitive, Scene, render_multiple};
-use kuva::{TickAlign, TickFormat};
+use kuva::{Theme, TickAlign, TickFormat};
 
 use super::retouch::{self, SIZE};
-use super::{Axis, Plot, Series, Style, span};
+use super::{Axis, Band, Plot, Series, Shade, Style, span};
 
 /// Pixels of the picture per unit of the layout.
 const PIXELS: f32 = 1.6;
@@ -23,21 +24,54 @@ const COLORS: [&str; 6] = [
     "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#000000",
 ];
 
+/// How a picture looks, whatever is drawn.
+pub(super) struct Look {
+    /// Width and height, in units of the layout.
+    pub(super) size: [f64; 2],
+    /// Of titles, names of axes, and numbers, in units of the layout.
+    pub(super) letters: [u32; 3],
+    /// Of the dots.
+    pub(super) dots: f64,
+    pub(super) theme: Theme,
+    /// Of series, bands and shades.
+    pub(super) colors: [&'static str; 6],
+    /// Of broad lines.
+    pub(super) pale: &'static str,
+}
+
 /// The picture of `plot`.
 pub(super) fn png(plot: &Plot) -> Result<Vec<u8>, String> {
-    // How many lines the legend takes shows only in the drawing, so it is made twice.
-    let unused = SIZE[1] - MARGIN - lowest(&scene(plot, SIZE[1]));
-    let mut scene = scene(plot, SIZE[1] + unused);
-    (scene.width, scene.height) = (SIZE[0], SIZE[1]);
-    retouch::retouch(&mut scene, plot);
+    let look = Look {
+        size: SIZE,
+        letters: [18, 14, 13],
+        dots: 4.0,
+        theme: Theme::light(),
+        colors: COLORS,
+        pale: "#BBBBBB",
+    };
+    let mut scene = scene(plot, &look);
+    retouch::dash(&mut scene);
     PngBackend::new().with_scale(PIXELS).render_scene(&scene)
 }
 
-fn scene(plot: &Plot, height: f64) -> Scene {
+/// The drawing of `plot`, all of whose height is used.
+pub(super) fn scene(plot: &Plot, look: &Look) -> Scene {
+    let [width, height] = look.size;
+    // How many lines the legend takes shows only in the drawing, so it is made twice.
+    let unused = height - MARGIN - lowest(&drawn(plot, look, height));
+    let mut scene = drawn(plot, look, height + unused);
+    (scene.width, scene.height) = (width, height);
+    retouch::titles(&mut scene, plot);
+    scene
+}
+
+fn drawn(plot: &Plot, look: &Look, height: f64) -> Scene {
+    let bands = plot.bands.iter().map(|band| fill(plot, band, look));
     let series = plot.series.iter();
-    let drawn: Vec<Drawn> = series.flat_map(|series| draw(plot, series)).collect();
-    let layout = layout(plot, &drawn);
-    let layout = layout.with_width(SIZE[0] - MARGIN).with_height(height);
+    let series = series.flat_map(|series| draw(plot, series, look));
+    let drawn: Vec<Drawn> = bands.chain(series).collect();
+    let layout = layout(plot, &drawn, look);
+    let layout = layout.with_width(look.size[0] - MARGIN).with_height(height);
     render_multiple(drawn, layout)
 }
 
@@ -50,17 +84,19 @@ fn lowest(scene: &Scene) -> f64 {
     heights.fold(0.0, f64::max)
 }
 
-fn layout(plot: &Plot, drawn: &[Drawn]) -> Layout {
+fn layout(plot: &Plot, drawn: &[Drawn], look: &Look) -> Layout {
+    let [title, label, number] = look.letters;
     let mut layout = Layout::auto_from_plots(drawn)
+        .with_theme(look.theme.clone())
         .with_title(&*plot.title)
         // A word that stands upright is hard to read; see `retouch`.
         .with_subtitle(&*plot.y_label)
         .with_x_label(&*plot.x_label)
-        .with_title_size(18)
-        .with_subtitle_size(14)
-        .with_label_size(14)
-        .with_tick_size(13)
-        .with_body_size(13)
+        .with_title_size(title)
+        .with_subtitle_size(label)
+        .with_label_size(label)
+        .with_tick_size(number)
+        .with_body_size(number)
         .with_tick_align(TickAlign::Outside)
         .with_legend_box(false)
         .with_legend_position(LegendPosition::OutsideBottomColumns);
@@ -73,6 +109,9 @@ fn layout(plot: &Plot, drawn: &[Drawn]) -> Layout {
     let (low, high) = span::x(plot);
     layout.x_range = (low, high);
     layout = layout.with_x_axis_min(low).with_x_axis_max(high);
+    for shade in &plot.shades {
+        layout = shaded(layout, shade, look);
+    }
     if let Some((low, high)) = span::y(plot) {
         layout.y_range = (low, high);
         layout = layout.with_y_axis_min(low).with_y_axis_max(high);
@@ -80,16 +119,38 @@ fn layout(plot: &Plot, drawn: &[Drawn]) -> Layout {
     layout
 }
 
-fn draw(plot: &Plot, series: &Series) -> Vec<Drawn> {
-    let color = COLORS[series.color % COLORS.len()];
+fn shaded(layout: Layout, shade: &Shade, look: &Look) -> Layout {
+    let [from, to] = shade.span;
+    let color = look.colors[shade.color % look.colors.len()];
+    let region = ShadedRegion::vertical(from, to);
+    layout.with_shaded_region(region.with_color(color).with_opacity(0.12))
+}
+
+fn fill(plot: &Plot, band: &Band, look: &Look) -> Drawn {
+    let points = band.drawable(plot);
+    let of = |y: fn(&[f64; 2]) -> f64| points.iter().map(|(_, both)| y(both)).collect::<Vec<_>>();
+    let x: Vec<f64> = points.iter().map(|(x, _)| *x).collect();
+    BandPlot::new(x, of(|y| y[0]), of(|y| y[1]))
+        .with_color(look.colors[band.color % look.colors.len()])
+        .with_opacity(0.25)
+        .into()
+}
+
+fn draw(plot: &Plot, series: &Series, look: &Look) -> Vec<Drawn> {
+    let color = look.colors[series.color % look.colors.len()];
     let points = series.drawable(plot);
     let mut line = LinePlot::new().with_data(points.clone()).with_color(color);
     let mut dots = ScatterPlot::new()
         .with_data(points)
         .with_color(color)
-        .with_size(4.0);
+        .with_size(look.dots);
     let is_named = plot.series.len() > 1 && !series.name.is_empty();
     match series.style {
+        Style::FineLine => line.stroke_width = 1.0,
+        Style::BroadLine => {
+            line.stroke_width = 5.0;
+            line = line.with_color(look.pale);
+        }
         Style::DashedLine | Style::DashedLineWithSquares => line.line_style = LineStyle::Dashed,
         Style::DottedLine => line.line_style = LineStyle::Dotted,
         Style::Line | Style::LineWithDots | Style::Dots => {}

@@ -1,8 +1,9 @@
-//! Line plots as PNG pictures.
+//! Line plots, as PNG pictures and as SVG for pages.
 
 mod drawing;
 mod retouch;
 mod span;
+mod svg;
 
 use std::path::Path;
 
@@ -20,6 +21,28 @@ pub(crate) struct Plot {
     pub(crate) y_axis: Axis,
     /// In the order of the legend; a single one needs no name.
     pub(crate) series: Vec<Series>,
+    /// Behind the series.
+    pub(crate) bands: Vec<Band>,
+    /// Behind everything.
+    pub(crate) shades: Vec<Shade>,
+}
+
+/// What lies between two curves.
+#[derive(Debug, Clone)]
+pub(crate) struct Band {
+    /// x, and the lower and the upper y; what is not finite is left out.
+    pub(crate) points: Vec<(f64, [f64; 2])>,
+    /// As of a series.
+    pub(crate) color: usize,
+}
+
+/// A part of the x axis.
+#[derive(Debug, Clone)]
+pub(crate) struct Shade {
+    /// From where to where.
+    pub(crate) span: [f64; 2],
+    /// As of a series.
+    pub(crate) color: usize,
 }
 
 /// How an axis divides.
@@ -48,6 +71,10 @@ pub(crate) struct Series {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Style {
     Line,
+    /// Of what trembles.
+    FineLine,
+    /// Of what others lie on; it has no color of its own.
+    BroadLine,
     DashedLine,
     DottedLine,
     Dots,
@@ -64,6 +91,12 @@ impl Plot {
                 "the plot `{title}` cannot be drawn ({cause}); please report this"
             ))
         })
+    }
+
+    /// The picture for a page, 560 units wide, in the page's own colors: `--series-0` to `--series-5`, `--ink`,
+    /// `--muted`, `--pale`, `--grid`. Its title is left to the page.
+    pub(crate) fn svg(&self) -> String {
+        svg::svg(self)
     }
 
     /// Writes the picture to `path`.
@@ -91,6 +124,16 @@ impl Series {
     fn drawable(&self, plot: &Plot) -> Vec<(f64, f64)> {
         let both = |(x, y): &(f64, f64)| plot.x_axis.shows(*x) && plot.y_axis.shows(*y);
         self.points.iter().copied().filter(both).collect()
+    }
+}
+
+impl Band {
+    /// The points that the axes of `plot` can show.
+    fn drawable(&self, plot: &Plot) -> Vec<(f64, [f64; 2])> {
+        let all = |(x, y): &(f64, [f64; 2])| {
+            plot.x_axis.shows(*x) && y.iter().all(|y| plot.y_axis.shows(*y))
+        };
+        self.points.iter().copied().filter(all).collect()
     }
 }
 

@@ -11,18 +11,23 @@ pub(super) const SIZE: [f64; 2] = [750.0, 500.0];
 /// Where titles begin.
 const LEFT: f64 = 14.0;
 
-/// Changes `scene`, the drawing of `plot`.
-pub(super) fn retouch(scene: &mut Scene, plot: &Plot) {
-    let elements = std::mem::take(&mut scene.elements);
-    for mut element in elements {
+/// Puts the titles of `scene`, the drawing of `plot`, where they belong.
+pub(super) fn titles(scene: &mut Scene, plot: &Plot) {
+    for element in &mut scene.elements {
         if let Primitive::Text {
             x, content, anchor, ..
-        } = &mut element
+        } = element
             && (*content == plot.title || *content == plot.y_label)
         {
             *x = LEFT;
             *anchor = TextAnchor::Start;
         }
+    }
+}
+
+/// Cuts dashed lines into their dashes.
+pub(super) fn dash(scene: &mut Scene) {
+    for element in std::mem::take(&mut scene.elements) {
         match element {
             Primitive::PolyLine {
                 points,

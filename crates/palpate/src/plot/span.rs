@@ -35,8 +35,10 @@ fn empty(axis: Axis) -> (f64, f64) {
 
 /// Lowest and highest of what is drawn.
 fn values(plot: &Plot, of: fn((f64, f64)) -> f64) -> Option<(f64, f64)> {
+    let of_bands = plot.bands.iter().flat_map(|band| band.drawable(plot));
+    let edges = of_bands.flat_map(|(x, y)| y.map(|y| (x, y)));
     let values = plot.series.iter().flat_map(|series| series.drawable(plot));
-    let both = values.map(of).map(|value| (value, value));
+    let both = values.chain(edges).map(of).map(|value| (value, value));
     both.reduce(|(low, high), (_, value)| (low.min(value), high.max(value)))
 }
 

@@ -21,6 +21,7 @@ pub(super) fn of_errors(series: Vec<Series>) -> Plot {
         x_axis: Axis::Logarithmic,
         y_axis: Axis::Linear,
         series,
+        ..Plot::default()
     }
 }
 
@@ -33,5 +34,6 @@ pub(super) fn of_times(series: Vec<Series>) -> Plot {
         x_axis: Axis::Logarithmic,
         y_axis: Axis::Logarithmic,
         series,
+        ..Plot::default()
     }
 }

@@ -90,6 +90,7 @@ fn plots(measured: &[Measured]) -> [(&'static str, String, Plot); 3] {
         x_axis: Axis::Logarithmic,
         y_axis: Axis::Logarithmic,
         series,
+        ..Plot::default()
     };
     let off_line = vec![
         line("influences", 0, &|one| one.off_line.assembly),

@@ -1,0 +1,13 @@
+//! Pages that stand alone: one file of HTML that needs no network and runs no script, on a screen, light or
+//! dark, and on paper. Markup is that of XHTML, so that any reader of XML can judge it; pictures are drawn by
+//! [`crate::plot`]. What a page says is up to the command that writes it.
+
+mod markup;
+mod page;
+mod quantity;
+mod table;
+
+pub(crate) use markup::Markup;
+pub(crate) use page::{Page, figure};
+pub(crate) use quantity::{Scale, quantity, rounded, symbol, unit};
+pub(crate) use table::Table;
