@@ -12,6 +12,7 @@ mod performance;
 mod plot;
 mod preparation;
 mod progress;
+mod report;
 mod reproduce;
 
 use std::process::ExitCode;

@@ -9,6 +9,7 @@ use palpate_characterize::clean::{CleanSettings, clean};
 use palpate_files::Recording;
 use palpate_files::recording::{ForeignColumns, RecordingHeader};
 use serde::Serialize;
+use sha2::{Digest, Sha256};
 
 use crate::failure::Failure;
 use crate::nearest;
@@ -44,6 +45,8 @@ pub(crate) struct Recordings {
 pub(crate) struct ReadRecording {
     pub(crate) path: PathBuf,
     pub(crate) clean: CleanRecording,
+    /// SHA-256 of the file.
+    pub(crate) digest: String,
 }
 
 /// A recording that could not be used, and why.
@@ -64,7 +67,11 @@ impl Recordings {
         for path in self.files()? {
             at_file(&path);
             match self.one(&path, &said) {
-                Ok(clean) => good.push(ReadRecording { path, clean }),
+                Ok(clean) => good.push(ReadRecording {
+                    digest: digest(&path),
+                    path,
+                    clean,
+                }),
                 Err(reason) => bad.push(Unusable { file: path, reason }),
             }
         }
@@ -77,6 +84,24 @@ impl Recordings {
             ))),
             _ => Ok((good, bad)),
         }
+    }
+
+    /// What was said about the recordings, by name and value.
+    pub(crate) fn said(&self) -> Vec<(String, String)> {
+        let columns = [
+            ("--time", &self.time),
+            ("--depth", &self.depth),
+            ("--force", &self.force),
+            ("--depth-unit", &self.depth_unit),
+            ("--force-unit", &self.force_unit),
+        ];
+        let columns = columns
+            .into_iter()
+            .filter_map(|(name, value)| Some((name, value.as_ref()?)));
+        columns
+            .chain(self.said.iter().map(|said| ("--set", said)))
+            .map(|(name, value)| (name.to_owned(), value.clone()))
+            .collect()
     }
 
     /// The files that were named, and those of the folders in alphabetical order.
@@ -166,6 +191,17 @@ impl Recordings {
             }
         }
     }
+}
+
+/// SHA-256 of a file; of one that is gone meanwhile, of nothing.
+fn digest(path: &Path) -> String {
+    let content = fs::read(path).unwrap_or_default();
+    hexadecimal(&Sha256::digest(content))
+}
+
+/// `bytes` as text.
+pub(crate) fn hexadecimal(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// The tables in a folder, in alphabetical order.

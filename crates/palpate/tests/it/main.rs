@@ -10,6 +10,7 @@ mod mesh;
 mod mesh_info;
 mod quality;
 mod recordings;
+mod report;
 mod reproduce;
 mod reproduce_recordings;
 mod simulate;

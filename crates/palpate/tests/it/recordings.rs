@@ -8,7 +8,7 @@ use crate::{json, palpate_in, stderr};
 
 /// A ramp of 0.2 s and a hold of 20 s at 20 Hz of tissue with the stiffness `stiffness` [N/m] that relaxes by
 /// g = 0.4 and τ = 2 s: F(t) = k v (t − g (t − τ (1 − exp(−t/τ)))) on the ramp, in closed form.
-fn recording(depth: f64, stiffness: f64, keys: &str) -> String {
+pub(crate) fn recording(depth: f64, stiffness: f64, keys: &str) -> String {
     let (g, tau, ramp) = (0.4, 2.0, 0.2);
     let speed = depth / ramp;
     let risen = |t: f64| t.max(0.0) - g * (t.max(0.0) - tau * (1.0 - (-t.max(0.0) / tau).exp()));
@@ -31,7 +31,7 @@ fn liver(subject: &str) -> String {
 }
 
 /// Two depths of one subject, one of another, and a file that is no recording.
-fn folder() -> tempfile::TempDir {
+pub(crate) fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
     write("a1.csv", &recording(0.001, 8.0, &liver("A")));

@@ -5,11 +5,14 @@ use palpate_files::Tissue;
 use serde::{Deserialize, Serialize};
 
 use super::answer::Specimen;
+use super::portrait::Portrait;
 use crate::output;
 
 /// One specimen with its recordings and all that was found.
 pub(super) struct Studied {
     pub(super) files: Vec<PathBuf>,
+    /// SHA-256 of the files.
+    pub(super) digests: Vec<String>,
     pub(super) recordings: Vec<CleanRecording>,
     pub(super) found: Characterization,
 }
@@ -20,6 +23,8 @@ pub(super) struct Finished {
     pub(super) specimen: Specimen,
     /// The text of its tissue file, or why there is none.
     pub(super) tissue: Result<String, String>,
+    /// What a report draws of it.
+    pub(super) portrait: Portrait,
 }
 
 impl Finished {
@@ -27,6 +32,7 @@ impl Finished {
         let tissue = studied.tissue();
         Self {
             specimen: Specimen::new(studied),
+            portrait: Portrait::of(studied),
             tissue: tissue
                 .map(|tissue| tissue.to_toml())
                 .map_err(|why| why.to_string()),

@@ -4,7 +4,6 @@
 //! The first names what it was found from, by a digest of recordings and settings: what does not fit, or
 //! cannot be read, is found again.
 
-use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -15,7 +14,7 @@ use sha2::{Digest, Sha256};
 
 use super::answer::Specimen;
 use super::finished::Finished;
-use crate::command::recordings::ReadRecording;
+use crate::command::recordings::{ReadRecording, hexadecimal};
 use crate::failure::Failure;
 use crate::interrupt::{self, Unbroken};
 use crate::output;
@@ -142,12 +141,7 @@ fn digest(group: &[ReadRecording], settings: &CharacterizeSettings) -> String {
             }
         }
     }
-    let mut text = String::new();
-    for byte in hash.finalize() {
-        // Writing to a string does not fail.
-        let _ = write!(text, "{byte:02x}");
-    }
-    text
+    hexadecimal(&hash.finalize())
 }
 
 #[cfg(test)]

@@ -5,6 +5,8 @@ mod doubts;
 mod finished;
 mod folder;
 mod pooled;
+mod portrait;
+mod report;
 mod study;
 mod summary;
 mod table;
@@ -36,6 +38,8 @@ Examples:
   palpate characterize recordings/ --study livers/
       the same, kept: livers/summary.csv, pooled.csv and a tissue for each specimen; the same command
       goes on where it was stopped
+  palpate characterize recordings/ --report livers.html
+      a page with plots, to look at and to print
   palpate characterize meat.csv --set indenter_radius_m=0.004 --set indenter_shape=sphere
       what a file does not say itself
   palpate characterize liver.csv --law neo_hookean --abaqus liver.inp --febio liver.feb
@@ -66,6 +70,9 @@ pub(crate) struct Arguments {
     /// Write its material card for FEBio.
     #[arg(long, value_name = "FILE.feb")]
     febio: Option<PathBuf>,
+    /// Write a page with plots of all that was found, for a browser or a printer.
+    #[arg(long, value_name = "FILE.html")]
+    report: Option<PathBuf>,
     /// Seek this law alone; by default all are, and the simplest that no other beats is preferred.
     #[arg(long, value_enum)]
     law: Option<Law>,
@@ -99,7 +106,7 @@ impl From<Law> for SoughtLaw {
 
 /// Characterizes, writes and prints.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    for file in arguments.files() {
+    for file in arguments.files().chain(&arguments.report) {
         check_writable(file)?;
     }
     let folder = arguments.study.as_deref().map(StudyFolder::open);
@@ -111,8 +118,15 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     drop(progress);
     let finished = study::of(recordings, &arguments.settings(), folder.as_ref(), reader)?;
     arguments.write(&finished)?;
-    let specimens = finished.into_iter().map(|finished| finished.specimen);
-    let answer = Answer::new(specimens.collect(), &unusable);
+    let (specimens, portraits): (Vec<_>, Vec<_>) = finished
+        .into_iter()
+        .map(|finished| (finished.specimen, finished.portrait))
+        .unzip();
+    let answer = Answer::new(specimens, &unusable);
+    if let Some(path) = &arguments.report {
+        let page = report::html(&answer, &portraits, &arguments.said());
+        write_whole(path, page.as_bytes())?;
+    }
     if let Some(folder) = &folder {
         summary::write(&answer, folder)?;
     }
@@ -120,7 +134,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         return output::json(&answer);
     }
     output::text(table::of(&answer))?;
-    for path in arguments.files().chain(&arguments.study) {
+    let written = [&arguments.study, &arguments.report].into_iter().flatten();
+    for path in arguments.files().chain(written) {
         output::text(format!("written: {}", path.display()))?;
     }
     output::warnings(&doubts::for_people(&answer));
@@ -142,7 +157,22 @@ impl Arguments {
         }
     }
 
-    /// What is to be written.
+    /// What was asked for, by name and value.
+    fn said(&self) -> Vec<(String, String)> {
+        let mut said = Vec::new();
+        let mut say = |name: &str, value: String| said.push((name.to_owned(), value));
+        if let Some(law) = self.law {
+            say("--law", SoughtLaw::from(law).name().word().to_owned());
+        }
+        if let Some(terms) = self.terms {
+            say("--terms", terms.to_string());
+        }
+        say("--draws", self.draws.to_string());
+        said.extend(self.recordings.said());
+        said
+    }
+
+    /// What is to be written of a single specimen.
     fn files(&self) -> impl Iterator<Item = &PathBuf> {
         [&self.out, &self.abaqus, &self.febio].into_iter().flatten()
     }

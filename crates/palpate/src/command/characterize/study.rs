@@ -85,6 +85,7 @@ fn finish(
     let found = characterize(&recordings, settings, &mut |doing| say(doing));
     let finished = Finished::of(&Studied {
         files: group.iter().map(|read| read.path.clone()).collect(),
+        digests: group.iter().map(|read| read.digest.clone()).collect(),
         recordings,
         found,
     });

@@ -12,7 +12,7 @@ use crate::command::recordings::Unusable;
 use crate::output::VERSION;
 
 pub(super) use self::specimen::Specimen;
-pub(super) use self::values::{Known, LawAnswer};
+pub(super) use self::values::{Known, LawAnswer, Named};
 
 /// The machine-readable answer.
 #[derive(Debug, Serialize)]

@@ -26,16 +26,16 @@ pub(in super::super) struct Specimen {
     pub(in super::super) neo_hookean: Option<LawAnswer>,
     pub(in super::super) mooney_rivlin: Option<LawAnswer>,
     pub(in super::super) exponential: Option<LawAnswer>,
-    kelvin: Option<Named>,
-    blatz: Option<Named>,
-    nonlinear_springs: Option<Named>,
+    pub(in super::super) kelvin: Option<Named>,
+    pub(in super::super) blatz: Option<Named>,
+    pub(in super::super) nonlinear_springs: Option<Named>,
     /// The law to be preferred, by its name in a tissue file.
     pub(in super::super) preferred: Option<String>,
     pub(in super::super) identifiability: Vec<String>,
     /// What deserves doubt, in recordings and in what was found.
     pub(in super::super) warnings: Vec<String>,
     /// Why something is null.
-    reasons: BTreeMap<String, String>,
+    pub(in super::super) reasons: BTreeMap<String, String>,
 }
 
 impl Specimen {

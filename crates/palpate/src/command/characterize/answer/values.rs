@@ -28,11 +28,11 @@ pub(in super::super) struct Known {
     pub(in super::super) discretisation_error: Option<f64>,
     /// The spread when the fit is made again with its residuals in other blocks.
     #[serde(skip_serializing_if = "Option::is_none", default)]
-    bootstrap_error: Option<f64>,
+    pub(in super::super) bootstrap_error: Option<f64>,
     /// Between which the objective stays below its 95 % bound, with the relaxation held; a side without a
     /// bound is null.
     #[serde(skip_serializing_if = "Option::is_none", default)]
-    profile_95: Option<[Option<f64>; 2]>,
+    pub(in super::super) profile_95: Option<[Option<f64>; 2]>,
 }
 
 /// How far noise spreads the parameters of a law.
@@ -88,9 +88,9 @@ pub(in super::super) struct LawAnswer {
     /// Why the fit was not made again.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     not_repeated: Option<String>,
-    iterations: usize,
+    pub(in super::super) iterations: usize,
     /// Runs of finite elements: none where the force is tabulated.
-    solves: usize,
+    pub(in super::super) solves: usize,
     /// Σ ε² [N²], or of nominal stresses [Pa²].
     sum_squared_error: f64,
     /// Root mean square of what the law does not follow, over the largest force [-].

@@ -1,0 +1,108 @@
+use super::super::answer::Specimen;
+use super::super::portrait::{DrawnLaw, Portrait};
+use super::curves::line;
+use super::words;
+use crate::plot::{Plot, Style};
+use crate::report::{Markup, Table, figure, quantity, symbol};
+
+/// How the fits went.
+pub(super) fn figures(portrait: &Portrait) -> Markup {
+    let moved = portrait.laws.iter().filter(|law| law.iterations.len() > 1);
+    moved.map(|law| figure(&way(law), said(law))).collect()
+}
+
+/// How the errors of the preferred law go together.
+pub(super) fn correlations(own: &Specimen, portrait: &Portrait) -> Markup {
+    let preferred = own.preferred.as_deref().map(words::key);
+    let chosen = portrait
+        .laws
+        .iter()
+        .filter(|law| Some(law.law.as_str()) == preferred);
+    chosen.map(heat).collect()
+}
+
+/// Parameters relative to where they ended, step by step.
+fn way(law: &DrawnLaw) -> Plot {
+    let last = law.iterations.last().map_or(&[][..], Vec::as_slice);
+    let series = law
+        .names
+        .iter()
+        .zip(last)
+        .enumerate()
+        .map(|(place, (name, last))| {
+            let most = law
+                .iterations
+                .iter()
+                .fold(0.0_f64, |most, step| most.max(step[place].abs()));
+            let size = if last.abs() > 1e-3 * most {
+                *last
+            } else {
+                most.max(f64::MIN_POSITIVE)
+            };
+            let each = law.iterations.iter().enumerate();
+            let points = each.map(|(step, values)| (step as f64, values[place] / size));
+            line(plain(name), points.collect(), Style::LineWithDots, place)
+        });
+    let most = law.sums_of_squares.iter().copied().fold(0.0, f64::max);
+    let sums = law.sums_of_squares.iter().enumerate();
+    let sums = sums.map(|(step, sum)| (step as f64, if most > 0.0 { sum / most } else { 0.0 }));
+    let sums = line(
+        "sum of squares, over its largest".to_owned(),
+        sums.collect(),
+        Style::DashedLine,
+        5,
+    );
+    Plot {
+        title: format!("Convergence: {}", words::law(&law.law)),
+        x_label: "iteration".to_owned(),
+        y_label: "value over where it ended (or its largest, where that is zero) [-]".to_owned(),
+        series: series.chain([sums]).collect(),
+        ..Plot::default()
+    }
+}
+
+fn said(law: &DrawnLaw) -> String {
+    let ends = law
+        .names
+        .iter()
+        .zip(law.iterations.last().into_iter().flatten());
+    let ends = ends.map(|(name, end)| format!("{} = {}", plain(name), quantity(name, *end, None)));
+    format!("Ended at {}.", ends.collect::<Vec<_>>().join(", "))
+}
+
+/// The name of a parameter without its unit.
+fn plain(name: &str) -> String {
+    name.trim_end_matches("_pa").to_owned()
+}
+
+/// Correlations as a table of colors with numbers.
+fn heat(law: &DrawnLaw) -> Markup {
+    if law.correlated.len() < 2 {
+        return Markup::default();
+    }
+    let names = law.correlated.iter().map(|name| symbol(name));
+    let mut table = Table::new([Markup::default()].into_iter().chain(names)).of_class("heat");
+    for (name, row) in law.correlated.iter().zip(&law.correlations) {
+        let cells = row.iter().map(|value| {
+            // Blue for together, orange for against.
+            let color = if *value < 0.0 { 1 } else { 0 };
+            let part = (100.0 * value.abs()).round() * 0.55;
+            let style = format!(
+                "background: color-mix(in srgb, var(--series-{color}) {part:.0}%, transparent)"
+            );
+            let shown = format!("{value:.2}").replace('-', "−");
+            Markup::element(
+                "span",
+                &[("class", "cell"), ("style", style.as_str())],
+                shown,
+            )
+        });
+        table.row([symbol(name)].into_iter().chain(cells).collect());
+    }
+    let title = format!("Correlation of errors: {}", words::law(&law.law));
+    let note =
+        "Near 1 or −1 two parameters can hardly be told apart: what one gains the other loses.";
+    Markup::plain("h3", title)
+        .and(table)
+        .and(Markup::of_class("p", "muted", note))
+}

@@ -1,0 +1,142 @@
+use palpate_characterize::fit::WORTH;
+
+use super::super::answer::{Known, Specimen};
+use super::super::portrait::Portrait;
+use super::words;
+use crate::report::{Markup, Table, quantity, rounded, symbol, unit};
+
+/// The laws side by side, and which is to be preferred.
+pub(super) fn comparison(own: &Specimen, portrait: &Portrait) -> Markup {
+    if portrait.laws.is_empty() {
+        return Markup::default();
+    }
+    let preferred = own.preferred.as_deref().map(words::key);
+    let least = portrait
+        .laws
+        .iter()
+        .map(|law| law.criterion)
+        .fold(f64::INFINITY, f64::min);
+    let mut table = Table::new([
+        "law",
+        "parameters",
+        "misfit",
+        "criterion",
+        "behind the best",
+        "iterations",
+        "runs of finite elements",
+    ]);
+    for (key, law) in own.laws() {
+        let Some(drawn) = portrait.laws.iter().find(|drawn| drawn.law == key) else {
+            continue;
+        };
+        let name = Markup::from(words::law(key));
+        let is_preferred = Some(key) == preferred;
+        let name = if is_preferred { name.and(" ✓") } else { name };
+        let cells = vec![
+            name,
+            law.parameters.len().to_string().into(),
+            format!("{:.2} %", 100.0 * law.misfit).into(),
+            rounded(drawn.criterion, 5).into(),
+            format!("{:.1}", drawn.criterion - least).into(),
+            law.iterations.to_string().into(),
+            law.solves.to_string().into(),
+        ];
+        match is_preferred {
+            true => table.marked_row(cells),
+            false => table.row(cells),
+        }
+    }
+    let verdict = preferred.map_or_else(Markup::default, |key| verdict(key, portrait, least));
+    Markup::plain("h3", "Which law").and(verdict).and(table)
+}
+
+/// Why a law is preferred.
+fn verdict(preferred: &str, portrait: &Portrait, least: f64) -> Markup {
+    let Some(own) = portrait.laws.iter().find(|law| law.law == preferred) else {
+        return Markup::default();
+    };
+    let name = words::law(preferred);
+    let why = match portrait.laws.as_slice() {
+        [_] => format!("The {name} law is the only one that was found."),
+        _ if own.criterion <= least => {
+            format!("The {name} law is preferred: no other is better by the information criterion.")
+        }
+        _ => format!(
+            "The {name} law is preferred: it is the simplest that no other beats by more than {WORTH}, and the best is ahead by {:.1} only.",
+            own.criterion - least
+        ),
+    };
+    let how = format!(
+        " Criterion: Akaike's with the correction for few samples, as if the {} samples were {} independent ones. The misfit is the root mean \
+         square of what a law does not follow, over the largest value measured. A law without iterations is linear in its parameter: its fit ends where it starts.",
+        own.samples,
+        rounded(own.effective_samples, 2),
+    );
+    Markup::plain("p", Markup::plain("strong", why).and(how))
+}
+
+/// All parameters, with both errors apart.
+pub(super) fn parameters(own: &Specimen) -> Markup {
+    let mut table = Table::new([
+        "parameter",
+        "of",
+        "value",
+        "standard error",
+        "relative",
+        "error of the model",
+        "spread of fits made again",
+        "95 % profile",
+    ]);
+    let mut add = |of: &str, name: &str, key: &str, known: &Known, marked: bool| {
+        let relative = known.standard_error.filter(|_| known.value != 0.0);
+        let relative = relative.map(|error| 100.0 * (error / known.value).abs());
+        let cells = vec![
+            symbol(name),
+            of.into(),
+            quantity(key, known.value, known.standard_error).into(),
+            alone(key, known.standard_error).into(),
+            relative
+                .map_or("–".to_owned(), |part| format!("{} %", rounded(part, 2)))
+                .into(),
+            alone(key, known.discretisation_error).into(),
+            alone(key, known.bootstrap_error).into(),
+            profile(key, known.profile_95).into(),
+        ];
+        match marked {
+            true => table.marked_row(cells),
+            false => table.row(cells),
+        }
+    };
+    let preferred = own.preferred.as_deref().map(words::key);
+    for (law, found) in own.laws() {
+        for (name, known) in &found.parameters {
+            add(words::law(law), name, name, known, Some(law) == preferred);
+        }
+    }
+    if let Some(relaxation) = &own.relaxation {
+        for (place, (g, tau)) in (1..).zip(relaxation.g.iter().zip(&relaxation.tau_s)) {
+            add("relaxation", &format!("g_{place}"), "", g, false);
+            add("relaxation", &format!("tau_{place}_s"), "_s", tau, false);
+        }
+    }
+    match table.is_empty() {
+        true => Markup::default(),
+        false => Markup::plain("h3", "Parameters").and(table),
+    }
+}
+
+/// From where to where the objective says a parameter is.
+fn profile(key: &str, bounds: Option<[Option<f64>; 2]>) -> String {
+    let end = |bound: Option<f64>| bound.map_or("?".to_owned(), |end| quantity(key, end, None));
+    bounds.map_or("–".to_owned(), |[low, high]| {
+        format!("{} to {}", end(low), end(high))
+    })
+}
+
+/// An error by itself, to two digits.
+pub(super) fn alone(key: &str, error: Option<f64>) -> String {
+    error.map_or("–".to_owned(), |error| {
+        let scale = unit(key, error);
+        format!("{}\u{202f}{}", rounded(scale.factor * error, 2), scale.unit)
+    })
+}

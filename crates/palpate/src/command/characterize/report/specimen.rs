@@ -1,0 +1,146 @@
+use super::super::answer::{Known, Specimen};
+use super::super::portrait::Portrait;
+use super::{convergence, curves, laws, lumped, relaxation, words};
+use crate::report::{Markup, quantity, symbol};
+
+/// The section on one specimen, with its title if it is one of `several`.
+pub(super) fn section(
+    place: usize,
+    (own, several): (&Specimen, bool),
+    portrait: &Portrait,
+) -> Markup {
+    let files = own
+        .files
+        .iter()
+        .map(|file| Markup::plain("code", file.display().to_string()));
+    let files = files.enumerate().map(|(place, file)| match place {
+        0 => file,
+        _ => Markup::from(", ").and(file),
+    });
+    let title = match several {
+        true => Markup::plain("h2", &*own.title),
+        false => Markup::default(),
+    };
+    let files = Markup::of_class("p", "muted", files.collect::<Markup>());
+    let figures = curves::figures(own, portrait)
+        .and(relaxation::drawn(portrait))
+        .and(convergence::figures(portrait));
+    let inside = title
+        .and(files)
+        .and(headline(own, portrait))
+        .and(told(own))
+        .and(Markup::of_class("div", "figures", figures))
+        .and(laws::comparison(own, portrait))
+        .and(laws::parameters(own))
+        .and(convergence::correlations(own, portrait))
+        .and(lumped::tables(own))
+        .and(missing(own));
+    let id = format!("specimen-{}", place + 1);
+    Markup::element(
+        "section",
+        &[("id", id.as_str()), ("class", "specimen")],
+        inside,
+    )
+}
+
+/// The preferred law with its numbers, relaxation, and what the recordings say of the specimen.
+fn headline(own: &Specimen, portrait: &Portrait) -> Markup {
+    let mut cards = Vec::new();
+    let preferred = own.preferred.as_deref().map(words::key);
+    let law = own.laws().find(|(key, _)| Some(*key) == preferred);
+    match law {
+        Some((key, law)) => {
+            let misfit = format!("misfit {:.2} %", 100.0 * law.misfit);
+            cards.push(card("preferred law", words::law(key), misfit));
+            for (name, known) in &law.parameters {
+                cards.push(known_card(symbol(name), name, known));
+            }
+        }
+        None => cards.push(card("preferred law", "none", "the reasons stand below")),
+    }
+    if let Some(relaxation) = &own.relaxation {
+        let relaxed: f64 = relaxation.g.iter().map(|g| g.value).sum();
+        let terms = words::count(relaxation.g.len(), "term");
+        cards.push(card(
+            "relaxes by",
+            format!("{:.1} %", 100.0 * relaxed),
+            terms,
+        ));
+    }
+    if let Some(modulus) = &own.mean_elastic_modulus {
+        let depth = quantity("depth_m", modulus.depth_m, None);
+        let value = quantity("_pa", modulus.value, modulus.standard_deviation);
+        cards.push(card(
+            "mean elastic modulus",
+            value,
+            format!("relaxed, at {depth}"),
+        ));
+    }
+    let cards = Markup::of_class("dl", "cards", cards.into_iter().collect::<Markup>());
+    Markup::of_class("p", "muted", said(own, portrait)).and(cards)
+}
+
+/// What the recordings say of the specimen.
+fn said(own: &Specimen, portrait: &Portrait) -> String {
+    let named = [
+        ("organ", &own.organ),
+        ("subject", &own.subject),
+        ("site", &own.site),
+    ];
+    let named = named
+        .into_iter()
+        .filter_map(|(name, value)| Some((name, value.as_deref()?)));
+    let facts = portrait
+        .facts
+        .iter()
+        .map(|(name, value)| (&**name, &**value));
+    let said = named
+        .chain(facts)
+        .map(|(name, value)| format!("{name}: {value}"));
+    said.collect::<Vec<_>>().join(" · ")
+}
+
+fn card(name: impl Into<Markup>, value: impl Into<Markup>, note: impl Into<Markup>) -> Markup {
+    let name = Markup::plain("dt", name);
+    let note = Markup::plain("small", note);
+    let value = Markup::plain("dd", value.into().and(note));
+    Markup::plain("div", name.and(value))
+}
+
+fn known_card(name: Markup, key: &str, known: &Known) -> Markup {
+    let off = known.discretisation_error.filter(|off| *off > 0.0);
+    let note = off.map_or(String::new(), |off| {
+        format!("± {} by the model", laws::alone(key, Some(off)))
+    });
+    card(name, quantity(key, known.value, known.standard_error), note)
+}
+
+/// What can be told apart, and what else deserves doubt.
+fn told(own: &Specimen) -> Markup {
+    let others = own
+        .warnings
+        .iter()
+        .filter(|said| !own.identifiability.contains(said));
+    let others: Vec<String> = others.cloned().collect();
+    let apart = match own.identifiability.is_empty() && own.preferred.is_some() {
+        true => Markup::plain(
+            "p",
+            "Every parameter is known by itself from these recordings.",
+        ),
+        false => words::doubts("What these recordings cannot tell", &own.identifiability),
+    };
+    apart.and(words::doubts("What else deserves doubt", &others))
+}
+
+/// Why something was not found.
+fn missing(own: &Specimen) -> Markup {
+    if own.reasons.is_empty() {
+        return Markup::default();
+    }
+    let each = own.reasons.iter().map(|(key, reason)| {
+        let name = Markup::plain("strong", words::quantity(key));
+        Markup::plain("li", name.and(format!(": {reason}")))
+    });
+    let list = Markup::plain("ul", each.collect::<Markup>());
+    Markup::plain("h3", "What was not found, and why").and(list)
+}
