@@ -1,23 +1,29 @@
-//! The tetrahedra on which a solid is solved: a coarse filling, refined towards the edge of the patch.
+//! The tetrahedra on which a solid is solved: a coarse filling, refined towards the edges of the patch and
+//! of the anchor.
 //!
-//! Stress is infinite along that edge, where the surface and a sphere around the centre meet. With d the
-//! distance to it and k the number of halvings, no edge is longer than
-//!   h(d) = min(max(h₀ 2⁻ᵏ, g d 2^(−k/4)), H 2^(−k/4)).
-//! The force errs with h at the edge of the patch and with h⁴ where the answer is smooth, so that both
-//! parts fall alike, and a level has about twice as many unknowns as the one before.
+//! Stress is infinite along both: where the surface and a sphere around the centre meet, and where the
+//! anchor ends. With d and e the distances to them and k the number of halvings, no edge is longer than
+//!   h = min(max(h₀ 2⁻ᵏ, g d 2^(−k/4)), max(½ H 2^(−k/2), g e 2^(−k/4)), H 2^(−k/4)).
+//! The force errs with h at the edges and with h⁴ where the answer is smooth, so that the first and the last
+//! part fall alike; that of the anchor, of which there is much to refine, falls by less and is seen in the
+//! change all the same. A level has about twice as many unknowns as the one before.
 
 use std::f64::consts::TAU;
 
+use palpate_files::scene::Region;
 use palpate_geometry::{
     FillSettings, TetrahedronError, TetrahedronMesh, closest_on_triangle, fill, refine_to,
     resolve_sphere,
 };
 
-use super::problem::{Body, MovedPatch};
+use super::problem::{Body, SolidProblem};
 use crate::{Error, Vec3};
 
 /// h₀, in radii of the patch [-].
 const EDGE: f64 = 0.4;
+
+/// Longest edges at the end of the anchor, in those of the filling [-].
+const AT_ANCHOR: f64 = 0.5;
 
 /// g [-].
 const GROWTH: f64 = 1.5;
@@ -43,11 +49,14 @@ pub(super) struct Ground<'a> {
     radius: f64,
     /// Points of the edge of the patch [m].
     edge: Vec<Vec3>,
+    /// Points where the anchor ends [m].
+    rim: Vec<Vec3>,
     pub(super) doubts: Vec<String>,
 }
 
 impl<'a> Ground<'a> {
-    pub(super) fn new(body: &'a Body, patch: &MovedPatch) -> Result<Self, Error> {
+    pub(super) fn new(problem: &'a SolidProblem) -> Result<Self, Error> {
+        let SolidProblem { body, patch, .. } = problem;
         let triangles = triangles(body);
         let nearest = triangles
             .iter()
@@ -74,9 +83,14 @@ impl<'a> Ground<'a> {
         if edge.is_empty() {
             return Err(Error::PatchCoversBody { radius });
         }
+        let filling = filling(body)?;
+        let spacing = AT_ANCHOR * filling.quality().longest_edge;
+        let rim = triangles.iter();
+        let rim = rim.flat_map(|triangle| rim_in(triangle, &problem.anchor, spacing));
         Ok(Self {
             body,
-            filling: filling(body)?,
+            rim: rim.collect(),
+            filling,
             center,
             radius,
             edge,
@@ -93,20 +107,23 @@ impl<'a> Ground<'a> {
         let halves = f64::from(halvings);
         let follow = 2.0_f64.powf(-halves / 4.0);
         let shortest = EDGE * self.radius * 2.0_f64.powf(-halves);
-        let longest = self.filling.quality().longest_edge * follow * (1.0 + 1e-9);
+        let filling = self.filling.quality().longest_edge;
+        let at_anchor = AT_ANCHOR * filling * 2.0_f64.powf(-halves / 2.0);
         let mesh = refine_to(&self.filling, surface, |point| {
-            let squared = self
-                .edge
-                .iter()
-                .map(|on| (on - point).norm_squared())
-                .fold(f64::INFINITY, f64::min);
-            (GROWTH * follow * squared.sqrt())
-                .max(shortest)
-                .min(longest)
+            let away = |from| GROWTH * follow * distance(from, point);
+            let longest = filling * follow * (1.0 + 1e-9);
+            let near_anchor = away(&self.rim).max(at_anchor);
+            away(&self.edge).max(shortest).min(near_anchor).min(longest)
         })?;
         let (mesh, resolved) = resolve_sphere(&mesh, surface, &self.center, self.radius)?;
         Ok((mesh, resolved.crossing))
     }
+}
+
+/// Distance of `point` to the nearest of some others [m].
+fn distance(others: &[Vec3], point: &Vec3) -> f64 {
+    let squared = others.iter().map(|other| (other - point).norm_squared());
+    squared.fold(f64::INFINITY, f64::min).sqrt()
 }
 
 /// The triangles of the boundary [m].
@@ -137,6 +154,26 @@ fn filling(body: &Body) -> Result<TetrahedronMesh, Error> {
             done => return Ok(done?),
         }
     }
+}
+
+/// Points of a triangle between ones that `anchor` holds and ones that it does not, on a grid of this
+/// `spacing` [m].
+fn rim_in([a, b, c]: &[Vec3; 3], anchor: &Region, spacing: f64) -> Vec<Vec3> {
+    let longest = (b - a).norm().max((c - b).norm()).max((a - c).norm());
+    let parts = (longest / spacing).ceil().max(1.0) as usize;
+    let at = |i: usize, j: usize| a + ((b - a) * i as f64 + (c - a) * j as f64) / parts as f64;
+    let cells = (0..parts).flat_map(|i| (0..parts - i).map(move |j| (i, j)));
+    cells
+        .flat_map(|(i, j)| {
+            let [from, right, up] = [at(i, j), at(i + 1, j), at(i, j + 1)];
+            [[from, right], [from, up], [right, up]]
+        })
+        .filter(|ends| {
+            let [first, last] = ends.map(|end| anchor.holds(end.into()));
+            first != last
+        })
+        .map(|[first, last]| 0.5 * (first + last))
+        .collect()
 }
 
 /// Points where the sphere around `center` of `radius` [m] meets a triangle.

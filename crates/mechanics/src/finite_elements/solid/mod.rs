@@ -1,7 +1,7 @@
 //! A solid of any shape, held in one place and moved by a tool in another.
 //!
 //! Its body is filled with quadratic tetrahedra with a pressure field [Taylor and Hood 1973], refined
-//! towards the edge of the patch that the tool moves (`grading`). The patch is a set of whole triangles
+//! towards the edge of the patch that the tool moves and that of the anchor (`grading`). The patch is a set of whole triangles
 //! within a radius of a point; *stick* prescribes all three components of its displacement, *slip* only
 //! the one along the displacement. With K the tangent and r the residual,
 //!   K Δu = −r, u given where the body is held or moved,

@@ -32,7 +32,7 @@ pub fn solve(
     progress: &mut dyn FnMut(Progress),
 ) -> Result<Estimated<SolidAnswer>, Error> {
     problem.check()?;
-    let ground = Ground::new(&problem.body, &problem.patch)?;
+    let ground = Ground::new(problem)?;
     let mut coarse = problem.solve_on(&ground, 0, progress)?.force_along;
     let mut halvings = 1;
     loop {
@@ -57,7 +57,7 @@ pub fn solve_at(
     progress: &mut dyn FnMut(Progress),
 ) -> Result<SolidAnswer, Error> {
     problem.check()?;
-    let ground = Ground::new(&problem.body, &problem.patch)?;
+    let ground = Ground::new(problem)?;
     problem.solve_on(&ground, halvings, progress)
 }
 
