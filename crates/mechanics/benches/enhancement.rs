@@ -38,6 +38,7 @@ fn enhancement(c: &mut Criterion) {
         at: SurfacePoint::centroid(TriangleId(1_234)),
         tip: Tip::Flat { radius: 2e-3 },
         displacement: Vec3::new(0.0, 0.0, 3e-3),
+        own: Vec3::new(0.0, 0.0, 3e-3),
     };
     let mut field = SurfaceField::default();
     c.bench_function("update/5000", |b| {

@@ -45,6 +45,10 @@ pub struct ToolState {
     pub(crate) response: Option<Response>,
     /// Force on the tool as it is displaced now, before relaxation [N].
     pub(crate) elastic: Vec3,
+    /// Displacement of the touched point where the whole organ answers [m].
+    pub(crate) displaced: Vec3,
+    /// What of it a half-space would yield [m].
+    pub(crate) own: Vec3,
     /// Where it touches the whole organ's mechanical surface.
     pub(crate) site: Option<SurfacePoint>,
     /// Whether it touches the whole organ where nothing was prepared.
@@ -115,6 +119,8 @@ impl ToolState {
             response: None,
             elastic: Vec3::zeros(),
             site: None,
+            displaced: Vec3::zeros(),
+            own: Vec3::zeros(),
             off_model: false,
             with_pull: Vec3::zeros(),
             history: ForceHistory::default(),

@@ -104,8 +104,8 @@ impl Tally {
         warn(
             self.off_model > 0,
             format!(
-                "a tool touched where the organ is held or was not prepared, in {} steps; there it answered \
-                 as a half-space: see `organ.anchor` and `organ.touchable`",
+                "a tool touched where the organ is held or was not prepared, in {} steps; its force \
+                 there is not the organ's: see `organ.anchor` and `organ.touchable`",
                 self.off_model
             ),
         );

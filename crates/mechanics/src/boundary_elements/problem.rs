@@ -159,7 +159,7 @@ impl BoundaryProblem<'_> {
         let mut parts = ResponseParts::zeros(
             self.poissons_ratio,
             touchable.collect(),
-            influences.panels.len(),
+            (influences.panels.len(), self.held),
             Sampling::Centroids,
         );
         let rows = self.size();

@@ -53,9 +53,9 @@ impl SurfaceField {
                 .sum();
             let dimple = Dimple::new(interpolation, press, influence);
             for (left, node) in self.residual.iter_mut().zip(nodes) {
-                *left -= dimple.at(&node.place, &node.normal) * press.displacement;
+                *left -= dimple.at(&node.place, &node.normal) * press.own;
             }
-            self.dimples.push((dimple, press.displacement));
+            self.dimples.push((dimple, press.own));
         }
         self.meet_the_tips(interpolation, presses);
     }

@@ -7,8 +7,8 @@
 //! least squares (4.11) in two tangent coordinates, with the quartic weight (4.13).
 //!
 //! Φ alone would shrink the dimple, which is narrower than a coarse triangle. So it spreads only what the
-//! closed form p of the half-space under each tip leaves: u = Σ A_k p_k(x) + Σ Φ_i(x) (û_i − Σ d_k p_k(x_i)),
-//! with A_k such that u = d_k at contact k. The same rows carry the field to a finer mesh of the whole organ,
+//! closed form p of the half-space under each tip leaves: u = Σ A_k p_k(x) + Σ Φ_i(x) (û_i − Σ s_k p_k(x_i)),
+//! with s_k the part of it that the half-space yields and A_k such that u is the displacement at contact k. The same rows carry the field to a finer mesh of the whole organ,
 //! whose own triangles are then made finer around a contact.
 //!
 //! *How we know*: `enhance::every_patch_is_watertight`, `enhance::patches_converge_to_the_sphere`,

@@ -21,6 +21,8 @@ pub struct Press {
     pub tip: Tip,
     /// Displacement of the contact point [m].
     pub displacement: Vec3,
+    /// What of it a half-space would yield [m]: the dimple's part, which no coarse triangle shows.
+    pub own: Vec3,
 }
 
 /// The surface of a half-space at `distance` [m] from the middle of a tip whose contact has `radius` [m], in

@@ -15,11 +15,13 @@
 //!
 //! *Limits*: small strain; a triangle that is pulled inward by its neighbours is not let go.
 
+mod dimple;
 mod parts;
 mod patch;
 mod response;
 mod tip_field;
 
+pub use dimple::PressedTip;
 pub use parts::{ResponseParts, Sampling, TouchableTriangle};
 pub use patch::{MovedTriangle, PatchContact, PatchWorkspace, Reciprocity};
 pub use response::{SurfaceResponse, TouchId};

@@ -45,6 +45,8 @@ pub struct ResponseParts<T> {
     pub poissons_ratio: f64,
     /// The triangles that can be loaded, ascending in their numbers.
     pub touchable: Vec<TouchableTriangle>,
+    /// The triangles that cannot move, ascending; none of them touchable.
+    pub held: Vec<TriangleId>,
     /// Number of triangles of the mesh.
     pub triangles: usize,
     /// Of what the displacements are.
@@ -59,12 +61,15 @@ impl<T: Precision> ResponseParts<T> {
     pub(crate) fn zeros(
         poissons_ratio: f64,
         touchable: Vec<TouchableTriangle>,
-        triangles: usize,
+        (triangles, held): (usize, &[TriangleId]),
         sampling: Sampling,
     ) -> Self {
         let columns = 3 * touchable.len();
+        let mut held = held.to_vec();
+        held.sort();
         Self {
             poissons_ratio,
+            held,
             triangles,
             sampling,
             displacements: vec![T::of(0.0); columns * 3 * triangles],
@@ -93,6 +98,8 @@ impl<T: Precision> ResponseParts<T> {
             Some("no triangle can be touched")
         } else if !self.touchable.windows(2).all(ascends) {
             Some("its triangles do not ascend")
+        } else if !self.held.is_sorted() {
+            Some("its held triangles do not ascend")
         } else if !self.touchable.iter().all(sound) {
             Some("a triangle has no area, normal or place")
         } else if !self.touchable.iter().all(known) {

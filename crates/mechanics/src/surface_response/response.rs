@@ -55,6 +55,11 @@ impl<T: Precision> SurfaceResponse<T> {
         found.ok().map(|index| TouchId(index as u32))
     }
 
+    /// Whether a triangle of the mesh is held.
+    pub fn holds(&self, triangle: TriangleId) -> bool {
+        self.parts.held.binary_search(&triangle).is_ok()
+    }
+
     /// Displacement of `moved` from a unit force on `loaded`, times E [1/m], as it was solved.
     pub fn influence(&self, moved: TouchId, loaded: TouchId) -> Matrix3<f64> {
         let rows = 3 * self.parts.triangles;

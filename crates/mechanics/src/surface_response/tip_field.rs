@@ -18,11 +18,14 @@
 //! no steps. R > 1.69 a makes c_self less than the compliance of the tip at every ν, and the tips of several
 //! tools together make no energy.
 //!
+//! What lies on the anchor keeps its weight and yields nothing, Ξ = 0. What was not prepared yields as a
+//! half-space does: its terms fall out of both sums.
+//!
 //! *How we know*: `tip_field::a_tip_on_a_hemisphere_feels_finite_elements`, `real_kidney_under_a_tip`,
 //! `a_slide_has_no_steps`, `several_tips_take_work`; what else was tried: `docs/theory/boundary_elements.md`.
 //!
-//! *Limits*: nearer than R to the anchor or to the end of what can be touched, the load lies on what is
-//! left; two tips nearer than R to each other feel each other's force spread.
+//! *Limits*: on the anchor a tip is as stiff as its load there, not rigid; two tips nearer than R to each
+//! other feel each other's force spread.
 
 use std::f64::consts::PI;
 
@@ -73,10 +76,15 @@ pub struct TipField {
 /// A tip over one vertex.
 #[derive(Debug, Clone, PartialEq, Default)]
 struct VertexLoad {
-    /// Ascending; none where nothing can be touched.
+    /// Of those that can be touched, ascending.
     shares: Vec<Share>,
     /// c_ext [1/m].
     further: Matrix3<f64>,
+    /// R [m].
+    reach: f64,
+    /// The free triangles on this side of the organ within twice that, and a triangle more; with what they
+    /// see of the load, Σ w ⟨1/r⟩ [1/m].
+    around: Vec<(TriangleId, f32)>,
 }
 
 /// The load of a tip at one place.
@@ -97,7 +105,9 @@ impl TipField {
         on_all_cores(vertices.iter_mut().enumerate(), |(vertex, load)| {
             let spread = Spread::about(surface, NodeId(vertex as u32), radius);
             load.shares = spread.shares(response);
-            load.further = further(response, surface, (&load.shares, &spread.normal));
+            load.further = further(response, surface, &spread);
+            load.around = seen_from(response, surface, (&spread, &load.shares));
+            load.reach = spread.reach;
         });
         Self { radius, vertices }
     }
@@ -107,19 +117,17 @@ impl TipField {
         self.radius
     }
 
-    /// The load of a tip at the point of `triangle` with the weights `barycentric` [-]; none where nothing
-    /// can be touched.
+    /// The load of a tip at the point of `triangle` with the weights `barycentric` [-].
     pub fn at(
         &self,
         surface: &Surface,
         triangle: TriangleId,
         barycentric: &[f64; 3],
-    ) -> Option<TipLoad<'_>> {
+    ) -> TipLoad<'_> {
         let nodes = surface.mesh().corners(triangle);
-        let corners = [0, 1, 2].map(|k| (&self.vertices[nodes[k].index()], barycentric[k]));
-        let loaded =
-            |(load, weight): &(&VertexLoad, f64)| *weight == 0.0 || !load.shares.is_empty();
-        corners.iter().all(loaded).then_some(TipLoad { corners })
+        TipLoad {
+            corners: [0, 1, 2].map(|k| (&self.vertices[nodes[k].index()], barycentric[k])),
+        }
     }
 }
 
@@ -133,7 +141,22 @@ impl TipLoad<'_> {
             .sum()
     }
 
-    /// Who bears the force, ascending.
+    /// R, the radius of the load [m].
+    pub(super) fn reach(&self) -> f64 {
+        let corners = self.corners.iter();
+        corners.map(|(load, weight)| load.reach * weight).sum()
+    }
+
+    /// The free triangles within twice that: of each vertex its part, with what they see of its load [1/m].
+    pub(super) fn around(&self) -> impl Iterator<Item = (TriangleId, f64, f64)> {
+        let corners = self.corners.iter();
+        corners.flat_map(|(load, part)| {
+            let around = load.around.iter();
+            around.map(|&(triangle, inverse)| (triangle, *part, f64::from(inverse)))
+        })
+    }
+
+    /// Who bears the force, ascending: less than all of it near what is held or was not prepared.
     pub fn shares(&self) -> impl Iterator<Item = Share> {
         let mut next = [0; 3];
         std::iter::from_fn(move || {
@@ -175,91 +198,151 @@ impl<T: Precision> SurfaceResponse<T> {
 
 /// The triangles about a vertex that a tip loads.
 struct Spread {
+    vertex: NodeId,
     normal: Vec3,
-    /// With a weight that is not yet in parts of the sum.
+    /// Of the triangles at the vertex, and R [m].
+    size: f64,
+    reach: f64,
+    /// Weights that sum to one.
     weights: Vec<(TriangleId, f64)>,
 }
 
 impl Spread {
-    /// Of those that hang together with the vertex.
     fn about(surface: &Surface, vertex: NodeId, radius: f64) -> Self {
-        let (mesh, adjacency) = (surface.mesh(), surface.adjacency());
-        let around = adjacency.around(vertex);
+        let (mesh, around) = (surface.mesh(), surface.adjacency().around(vertex));
         let area: f64 = around.iter().map(|&t| mesh.area_vector(t).norm()).sum();
         let size = (2.0 * area / around.len() as f64).sqrt();
         let reach = (REACH_IN_RADII * radius).max(REACH_IN_SIZES * size);
-        let (x, normal) = (
-            mesh.vertices()[vertex.index()],
-            surface.vertex_normals()[vertex.index()],
-        );
-        let mut weights = Vec::new();
-        let mut seen = around.to_vec();
+        let mut spread = Self {
+            vertex,
+            normal: surface.vertex_normals()[vertex.index()],
+            size,
+            reach,
+            weights: Vec::new(),
+        };
+        let weight = |triangle| {
+            let near = 1.0 - spread.distance(surface, triangle).powi(2) / reach.powi(2);
+            let facing = mesh.area_vector(triangle).dot(&spread.normal);
+            (triangle, near.powi(2) * facing)
+        };
+        let near = spread.around(surface, reach).into_iter();
+        let mut weights: Vec<_> = near.map(weight).collect();
+        let sum: f64 = weights.iter().map(|(_, weight)| weight).sum();
+        for (_, weight) in &mut weights {
+            *weight /= sum;
+        }
+        spread.weights = weights;
+        spread
+    }
+
+    /// Of a triangle's centroid from the vertex [m].
+    fn distance(&self, surface: &Surface, triangle: TriangleId) -> f64 {
+        let mesh = surface.mesh();
+        let centroid = mesh.positions(triangle).iter().sum::<Vec3>() / 3.0;
+        (centroid - mesh.vertices()[self.vertex.index()]).norm()
+    }
+
+    /// The triangles within `reach` [m] that hang together with the vertex and face as it does, ascending.
+    fn around(&self, surface: &Surface, reach: f64) -> Vec<TriangleId> {
+        let (mesh, adjacency) = (surface.mesh(), surface.adjacency());
+        let belongs = |&triangle: &TriangleId| {
+            mesh.area_vector(triangle).dot(&self.normal) > 0.0
+                && self.distance(surface, triangle) < reach
+        };
+        let mut found: Vec<_> = adjacency.around(self.vertex).to_vec();
+        found.retain(belongs);
         let mut next = 0;
-        while let Some(&triangle) = seen.get(next) {
+        while let Some(&triangle) = found.get(next) {
             next += 1;
-            let centroid = mesh.positions(triangle).iter().sum::<Vec3>() / 3.0;
-            let near = 1.0 - (centroid - x).norm_squared() / reach.powi(2);
-            let facing = mesh.area_vector(triangle).dot(&normal);
-            if near <= 0.0 || facing <= 0.0 {
-                continue;
-            }
-            weights.push((triangle, near.powi(2) * facing));
             for node in mesh.corners(triangle) {
                 for other in adjacency.around(node) {
-                    if !seen.contains(other) {
-                        seen.push(*other);
+                    if !found.contains(other) && belongs(other) {
+                        found.push(*other);
                     }
                 }
             }
         }
-        Self { normal, weights }
+        found.sort();
+        found
     }
 
-    /// The whole force shared among those that can be touched.
+    /// What those bear that can be touched.
     fn shares<T: Precision>(&self, response: &SurfaceResponse<T>) -> Vec<Share> {
         let touchable = |&(triangle, weight): &(TriangleId, f64)| {
             let triangle = response.find(triangle)?;
             Some(Share { triangle, weight })
         };
-        let mut shares: Vec<_> = self.weights.iter().filter_map(touchable).collect();
-        let sum: f64 = shares.iter().map(|share| share.weight).sum();
-        for share in &mut shares {
-            share.weight /= sum;
-        }
-        shares.sort_by_key(|share| share.triangle);
-        shares
+        self.weights.iter().filter_map(touchable).collect()
     }
+}
+
+/// The free triangles around a load, with Σ w ⟨1/r⟩ [1/m].
+fn seen_from<T: Precision>(
+    response: &SurfaceResponse<T>,
+    surface: &Surface,
+    (spread, shares): (&Spread, &[Share]),
+) -> Vec<(TriangleId, f32)> {
+    let (mesh, sampling) = (surface.mesh(), response.parts().sampling);
+    let source = |share: &Share| {
+        let triangle = response.touchable()[share.triangle.index()].triangle;
+        Some((share.weight, Panel::new(mesh.positions(triangle))?))
+    };
+    let sources: Vec<_> = shares.iter().filter_map(source).collect();
+    let sees = |triangle: TriangleId| {
+        let target = Panel::new(mesh.positions(triangle))?;
+        let terms = sources.iter();
+        let terms = terms.map(|(weight, from)| weight * mean_inverse(from, &target, sampling));
+        Some((triangle, terms.sum::<f64>() as f32))
+    };
+    let around = spread.around(surface, 2.0 * spread.reach + spread.size);
+    let free = around.into_iter().filter(|&id| !response.holds(id));
+    free.filter_map(sees).collect()
 }
 
 /// wᵀ Ξ w − c_self [1/m].
 fn further<T: Precision>(
     response: &SurfaceResponse<T>,
     surface: &Surface,
-    (shares, normal): (&[Share], &Vec3),
+    spread: &Spread,
 ) -> Matrix3<f64> {
     let parts = response.parts();
     let nu = parts.poissons_ratio;
-    let tangents = Matrix3::identity() - normal * normal.transpose();
-    let panel = |share: &Share| {
-        let triangle = parts.touchable[share.triangle.index()].triangle;
-        let panel = Panel::new(surface.mesh().positions(triangle));
-        panel.expect("the response has a column for it")
+    let tangents = Matrix3::identity() - spread.normal * spread.normal.transpose();
+    let known = |&(triangle, weight): &(TriangleId, f64)| {
+        let touched = response.find(triangle);
+        if touched.is_none() && !response.holds(triangle) {
+            return None;
+        }
+        let panel = Panel::new(surface.mesh().positions(triangle))?;
+        Some((touched, weight, panel))
     };
-    let panels: Vec<_> = shares.iter().map(panel).collect();
+    let known: Vec<_> = spread.weights.iter().filter_map(known).collect();
     let (mut inverse, mut along, mut yields) = (0.0, Matrix3::zeros(), Matrix3::zeros());
-    for (loaded, source) in shares.iter().zip(&panels) {
-        for (moved, target) in shares.iter().zip(&panels) {
-            let weight = loaded.weight * moved.weight;
-            let (here, there) = mean_distances(source, target, parts.sampling);
-            inverse += weight * here;
-            along += weight * there;
-            yields += weight * response.influence(moved.triangle, loaded.triangle);
+    for (loaded, there, source) in &known {
+        for (moved, here, target) in &known {
+            let weight = there * here;
+            let (inverses, alongs) = mean_distances(source, target, parts.sampling);
+            inverse += weight * inverses;
+            along += weight * alongs;
+            if let (Some(moved), Some(loaded)) = (*moved, *loaded) {
+                yields += weight * response.influence(moved, loaded);
+            }
         }
     }
     let along = tangents * along * tangents;
     let own = (Matrix3::identity() * ((1.0 - nu) * inverse) + along * nu) * ((1.0 + nu) / PI);
     let further = yields - own;
     0.5 * (further + further.transpose())
+}
+
+/// Mean of 1/r over `source`, seen from `target`, another panel or the same [1/m].
+fn mean_inverse(source: &Panel, target: &Panel, sampling: Sampling) -> f64 {
+    let distance = (source.centroid - target.centroid).norm();
+    // A fraction of a hundredth off.
+    if distance > NEAR * (2.0 * source.area).sqrt() {
+        return 1.0 / distance;
+    }
+    mean_distances(source, target, sampling).0
 }
 
 /// Means of 1/r and r rᵀ/r³ over `source`, seen from `target`, another panel or the same [1/m].

@@ -125,6 +125,7 @@ fn pressed(
         at,
         tip,
         displacement,
+        own: displacement,
     };
     (moved, press)
 }

@@ -45,7 +45,7 @@ fn felt<T: Precision>(
 ) -> f64 {
     let field = TipField::new(response, &solid.surface, a);
     let (triangle, at) = under(&solid.surface, place);
-    let load = field.at(&solid.surface, triangle, &at).unwrap();
+    let load = field.at(&solid.surface, triangle, &at);
     stiffness(&load, normal, (a, solid.nu, bond))
 }
 

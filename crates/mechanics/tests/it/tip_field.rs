@@ -4,12 +4,16 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use nalgebra::{DMatrix, Matrix3};
+use palpate_files::scene::Smoothing;
 use palpate_geometry::{Organ, Surface, TriangleId, read_mesh};
-use palpate_mechanics::contact::{Bond, half_space_stiffness, half_space_tangential_stiffness};
+use palpate_mechanics::contact::{
+    Bond, Tip, half_space_stiffness, half_space_tangential_stiffness,
+};
+use palpate_mechanics::enhance::{Interpolation, Press, SurfaceField, SurfacePoint};
 use palpate_mechanics::finite_elements::hemisphere::{HemisphereProblem, Patch};
 use palpate_mechanics::finite_elements::indentation::Grip;
 use palpate_mechanics::finite_elements::solid::{Body, MovedPatch, SolidProblem, solve};
-use palpate_mechanics::surface_response::{SurfaceResponse, TipField, TipLoad};
+use palpate_mechanics::surface_response::{PressedTip, SurfaceResponse, TipField, TipLoad};
 use palpate_mechanics::{LinearElastic, Vec3};
 
 use crate::boundary_response::Held;
@@ -49,7 +53,11 @@ fn top(solid: &Held, count: usize) -> Vec<TriangleId> {
 }
 
 /// Compliance of a flat tip, times E [1/m].
-fn compliance(load: &TipLoad<'_>, normal: &Vec3, (a, nu, bond): (f64, f64, Bond)) -> Matrix3<f64> {
+pub(crate) fn compliance(
+    load: &TipLoad<'_>,
+    normal: &Vec3,
+    (a, nu, bond): (f64, f64, Bond),
+) -> Matrix3<f64> {
     let normals = normal * normal.transpose();
     let across = half_space_tangential_stiffness(&law(nu), a);
     load.further_compliance()
@@ -97,7 +105,7 @@ fn force_error(nu: f64, triangles: usize) -> f64 {
             for (name, solid, response) in &solids {
                 let field = TipField::new(response, &solid.surface, a);
                 let (triangle, place) = under(&solid.surface, &(RADIUS * Vec3::z()));
-                let load = field.at(&solid.surface, triangle, &place).unwrap();
+                let load = field.at(&solid.surface, triangle, &place);
                 let error = stiffness(&load, &Vec3::z(), (a, nu, bond)) / force - 1.0;
                 println!(
                     "nu {nu}, {name}, {triangles}, a {a}, {bond:?}: {:+.2} %",
@@ -157,7 +165,7 @@ fn the_field_of_a_tip_is_that_of_finite_elements() {
         let response = solid.response::<f32>(&top(&solid, triangles / 3));
         let field = TipField::new(&response, &solid.surface, a);
         let (triangle, place) = under(&solid.surface, &(RADIUS * Vec3::z()));
-        let load = field.at(&solid.surface, triangle, &place).unwrap();
+        let load = field.at(&solid.surface, triangle, &place);
         let force = stiffness(&load, &Vec3::z(), (a, nu, Bond::Slip));
         let mut moved = vec![0.0_f32; 3 * response.parts().triangles];
         response.add_field_of_tip(&load, &(-force * Vec3::z()), &mut moved);
@@ -177,6 +185,85 @@ fn the_field_of_a_tip_is_that_of_finite_elements() {
     assert!(errors[0] < 0.1 && errors[2] < 0.5 * errors[0], "{errors:?}");
 }
 
+/// A flat tip of radius a at the pole of a hemisphere, moved by one: what it leaves of the surface.
+fn pressed_pole(solid: &Held, (a, nu, bond): (f64, f64, Bond)) -> (Interpolation, SurfaceField) {
+    let response = solid.response::<f32>(&top(solid, solid.free.len() / 3));
+    let tips = TipField::new(&response, &solid.surface, a);
+    let (triangle, barycentric) = under(&solid.surface, &(RADIUS * Vec3::z()));
+    let load = tips.at(&solid.surface, triangle, &barycentric);
+    let force = -stiffness(&load, &Vec3::z(), (a, nu, bond)) * Vec3::z();
+    let interpolation = Interpolation::new(solid.surface.clone(), Smoothing::MovingLeastSquares);
+    let at = SurfacePoint {
+        triangle,
+        barycentric,
+    };
+    let tip = PressedTip {
+        tip: Tip::Flat { radius: a },
+        radius: a,
+        place: interpolation.place(&at),
+        normal: Vec3::z(),
+        own: force / half_space_stiffness(&law(nu), a, bond),
+        force,
+    };
+    let mut moved = vec![0.0_f32; 3 * response.parts().triangles];
+    response.add_field_of_tip(&load, &force, &mut moved);
+    response.sharpen(&solid.surface, &load, &tip, &mut moved);
+    let moved: Vec<_> = moved
+        .as_chunks()
+        .0
+        .iter()
+        .map(|u: &[f32; 3]| Vec3::from(u.map(f64::from)))
+        .collect();
+    let mut field = SurfaceField::default();
+    let press = Press {
+        at,
+        tip: tip.tip,
+        displacement: -Vec3::z(),
+        own: tip.own,
+    };
+    field.update(&interpolation, &moved, &[press]);
+    (interpolation, field)
+}
+
+/// Judge: the axisymmetric profile, from the tip outward, but for a twentieth of its radius about its edge:
+/// the judge's elements are no finer there. Tolerance: a tenth of the depth is asked for; the error falls with
+/// the size of the triangles, here of 2.3 and 4.6 radii of the tip.
+#[test]
+fn the_dimple_of_a_tip_is_that_of_finite_elements() {
+    let (a, nu) = (3e-3, 0.45);
+    let judge = HemisphereProblem {
+        radius: RADIUS,
+        patch_radius: a,
+        patch: Patch::Slip,
+        law: law(nu),
+        depth: 1.0,
+    };
+    let profile = judge.solve_on(0.02, 0).unwrap().profile;
+    let clear = |(arc, _): &&(f64, f64)| (arc / a - 1.0).abs() > 0.05;
+    let mut errors = Vec::new();
+    for triangles in [200, 800] {
+        let mut worst = 0.0_f64;
+        for (_, solid) in hemispheres(nu, triangles) {
+            let (interpolation, field) = pressed_pole(&solid, (a, nu, Bond::Slip));
+            for (number, (arc, expected)) in profile.iter().filter(clear).enumerate() {
+                let (sine, cosine) = (arc / RADIUS).sin_cos();
+                let (east, north) = (number as f64).sin_cos();
+                let out = Vec3::new(sine * east, sine * north, cosine);
+                let (triangle, barycentric) = under(&solid.surface, &(RADIUS * out));
+                let at = SurfacePoint {
+                    triangle,
+                    barycentric,
+                };
+                let along = field.displacement(&interpolation, &at).dot(&out);
+                worst = worst.max((along - expected).abs());
+            }
+        }
+        println!("{triangles} triangles: the dimple is off by {worst:.4} of the depth");
+        errors.push(worst);
+    }
+    assert!(errors[1] < 0.1 && errors[1] < 0.5 * errors[0], "{errors:?}");
+}
+
 /// A kidney with places at which it can be touched.
 fn kidney() -> (Held, SurfaceResponse) {
     let solid = Held::organ(Organ::Kidney, 688, 0.45);
@@ -185,22 +272,28 @@ fn kidney() -> (Held, SurfaceResponse) {
 }
 
 /// What is asked for: a slide of 0.1 mm changes the force at a given depth by 5 % at most; here along an edge of
-/// every triangle.
+/// every triangle, over the anchor too, and over what was not prepared.
 #[test]
 fn a_slide_has_no_steps() {
     let (solid, response) = kidney();
+    no_steps(&solid, &response);
+    let near = solid.near(solid.free[0], solid.free.len() / 2);
+    no_steps(&solid, &solid.response::<f32>(&near));
+}
+
+fn no_steps(solid: &Held, response: &SurfaceResponse) {
     let tip = (2e-3, solid.nu, Bond::Slip);
-    let field = TipField::new(&response, &solid.surface, tip.0);
+    let field = TipField::new(response, &solid.surface, tip.0);
     let (mesh, normals) = (solid.surface.mesh(), solid.surface.vertex_normals());
     let mut worst: f64 = 0.0;
-    for &id in &solid.free {
+    for id in mesh.triangle_ids() {
         let [p, q, _] = mesh.positions(id);
         let steps = ((p - q).norm() / 1e-4).ceil();
         let forces: Vec<_> = (0..=steps as usize)
             .map(|step| {
                 let t = step as f64 / steps;
                 let [from, to, _] = mesh.corners(id).map(|node| normals[node.index()]);
-                let load = field.at(&solid.surface, id, &[1.0 - t, t, 0.0]).unwrap();
+                let load = field.at(&solid.surface, id, &[1.0 - t, t, 0.0]);
                 stiffness(&load, &(from * (1.0 - t) + to * t).normalize(), tip)
             })
             .collect();
@@ -229,7 +322,7 @@ fn several_tips_take_work() {
                 .map(|_| {
                     let id = solid.free[(random.unit() * solid.free.len() as f64) as usize];
                     let place = [0.2, 0.3, 0.5];
-                    let load = field.at(&solid.surface, id, &place).unwrap();
+                    let load = field.at(&solid.surface, id, &place);
                     (load, solid.surface.mesh().area_vector(id).normalize())
                 })
                 .collect();
@@ -253,20 +346,40 @@ fn several_tips_take_work() {
     }
 }
 
-/// The whole force is borne, and by triangles near the tip.
+/// The whole force is borne, but for what lies on the anchor.
 #[test]
 fn a_force_is_shared() {
     let (solid, response) = kidney();
     let field = TipField::new(&response, &solid.surface, 2e-3);
+    let mut whole = 0;
     for &id in &solid.free {
-        let load = field.at(&solid.surface, id, &[0.5, 0.25, 0.25]).unwrap();
+        let load = field.at(&solid.surface, id, &[0.5, 0.25, 0.25]);
         let sum: f64 = load.shares().map(|share| share.weight).sum();
-        assert!((sum - 1.0).abs() < 1e-12);
+        // Rounding.
+        assert!(sum > 0.0 && sum < 1.0 + 1e-12);
+        whole += usize::from(sum > 1.0 - 1e-12);
         assert!(load.shares().all(|share| share.weight >= 0.0));
         assert!(load.shares().is_sorted_by(|a, b| a.triangle < b.triangle));
     }
-    let free_of = |id: &TriangleId| field.at(&solid.surface, *id, &[0.5, 0.25, 0.25]).is_some();
-    assert!(!solid.held.iter().all(free_of));
+    assert!(whole > solid.free.len() / 2, "{whole}");
+}
+
+/// Judge: the closed form of the load on a half-space, by which a tip is stiffer on the anchor. Tolerance:
+/// what triangles of two fifths of its radius make of the load.
+#[test]
+fn an_anchor_yields_nothing() {
+    let nu = 0.3;
+    let solid = Held::organ(Organ::Hemisphere, 1_000, nu);
+    let response = solid.response::<f32>(&solid.near(solid.free[0], 1));
+    let a = 1e-2;
+    let field = TipField::new(&response, &solid.surface, a);
+    let (middle, place) = under(&solid.surface, &Vec3::zeros());
+    assert!(response.holds(middle));
+    let load = field.at(&solid.surface, middle, &place);
+    assert_eq!(load.shares().count(), 0);
+    let along = load.further_compliance()[(2, 2)];
+    let own = 2.408 * (1.0 - nu * nu) / (std::f64::consts::PI * 1.7 * a);
+    assert!((along / -own - 1.0).abs() < 0.03, "{along} {own}");
 }
 
 fn real_kidney(triangles: usize) -> Option<Surface> {
@@ -306,7 +419,7 @@ fn real_kidney_error(triangles: usize) -> Option<f64> {
         (Grip::Slide, Bond::Slip),
     ]) {
         let normal = surface.mesh().area_vector(id).normalize();
-        let load = field.at(&solid.surface, id, &[1.0 / 3.0; 3]).unwrap();
+        let load = field.at(&solid.surface, id, &[1.0 / 3.0; 3]);
         let force = depth * stiffness(&load, &normal, (a, nu, bond));
         let problem = SolidProblem {
             body: Body::Surface(surface.clone()),

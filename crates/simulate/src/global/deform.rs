@@ -1,6 +1,8 @@
 //! The organ that is seen: every vertex carried by the displacements of the mechanical triangles.
 
 use palpate_geometry::{NodeId, Vec3};
+use palpate_mechanics::enhance::Press;
+use palpate_mechanics::surface_response::PressedTip;
 
 use super::enhanced_surface::SeenContact;
 use super::{GlobalModel, GlobalWorkspace};
@@ -42,6 +44,19 @@ impl GlobalModel {
         state.tree.refit_all(&state.deformed);
     }
 
+    /// A tip with its `force` over Young's modulus [m²].
+    fn pressed(&self, press: &Press, force: &Vec3) -> PressedTip {
+        let interpolation = self.enhancement.interpolation();
+        PressedTip {
+            tip: press.tip,
+            radius: press.tip.contact_radius(press.displacement.norm()),
+            place: interpolation.place(&press.at),
+            normal: interpolation.normal(&press.at),
+            own: press.own,
+            force: *force,
+        }
+    }
+
     fn find_field(
         &self,
         simulation: &Simulation,
@@ -54,14 +69,14 @@ impl GlobalModel {
         workspace.sums.fill(0.0);
         let modulus = simulation.material.at_rest.youngs_modulus();
         for (number, (tool, own)) in simulation.tools.iter().zip(&state.tools).enumerate() {
-            organ.contacts[number] = SeenContact::of(tool, own);
-            if organ.contacts[number].is_none() {
-                continue;
-            }
-            if let Some(load) = self.load(tool, own) {
-                let pushed = -own.elastic / modulus;
-                self.response
-                    .add_field_of_tip(&load, &pushed, &mut workspace.sums);
+            let contact = SeenContact::of(tool, own);
+            organ.contacts[number] = contact;
+            if let (Some(contact), Some(load)) = (contact, self.load(tool, own)) {
+                let tip = self.pressed(&contact.press, &(-own.elastic / modulus));
+                let sums = &mut workspace.sums;
+                self.response.add_field_of_tip(&load, &tip.force, sums);
+                let surface = self.enhancement.interpolation().surface();
+                self.response.sharpen(surface, &load, &tip, sums);
             }
         }
         for (vector, sums) in organ

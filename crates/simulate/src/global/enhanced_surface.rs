@@ -46,12 +46,12 @@ impl OrganField {
 impl SeenContact {
     /// Of a tool, if it touches.
     pub(super) fn of(tool: &Tool, state: &ToolState) -> Option<Self> {
-        let (contact, pose) = (state.contact.as_ref()?, state.pose.as_ref()?);
-        let moved = contact.displacement(tool, &Vec3::from(pose.position_m));
+        let contact = state.contact.as_ref()?;
         let press = Press {
             at: state.site?,
             tip: tool.tip,
-            displacement: contact.place.frame * moved,
+            displacement: state.displaced,
+            own: state.own,
         };
         Some(Self {
             triangle: contact.place.triangle,

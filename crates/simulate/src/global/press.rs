@@ -6,6 +6,7 @@
 
 use nalgebra::Matrix3;
 use palpate_geometry::{Vec3, closest_on_triangle};
+use palpate_mechanics::contact::Bond;
 use palpate_mechanics::enhance::SurfacePoint;
 use palpate_mechanics::surface_response::TipLoad;
 
@@ -40,11 +41,11 @@ impl GlobalModel {
         Some(interpolation.nearest_facing(&self.tree, (&place.point, &contact.normal())))
     }
 
-    /// How a tool at a site loads the organ; none where nothing was prepared.
+    /// How a tool at a site loads the organ; none without a site.
     pub(crate) fn load<'a>(&self, tool: &'a Tool, state: &ToolState) -> Option<TipLoad<'a>> {
         let (field, site) = (tool.field.as_ref()?, state.site?);
         let surface = self.enhancement.interpolation().surface();
-        field.at(surface, site.triangle, &site.barycentric)
+        Some(field.at(surface, site.triangle, &site.barycentric))
     }
 
     /// Finds the elastic force and the stiffness of every tool in contact.
@@ -58,6 +59,8 @@ impl GlobalModel {
         for state in tools.iter_mut() {
             state.site = self.locate(simulation, state);
             state.elastic = Vec3::zeros();
+            state.own = Vec3::zeros();
+            state.displaced = Vec3::zeros();
             state.stiffness = Matrix3::zeros();
         }
         self.couple(simulation, tools, softness, workspace);
@@ -130,8 +133,18 @@ impl GlobalModel {
             frame.tr_mul(&load.further_compliance()) * frame * softness
         });
         let state = &mut tools[number];
-        state.off_model = load.is_none();
+        let touched = state
+            .site
+            .and_then(|site| self.response.find(site.triangle));
+        state.off_model = touched.is_none();
         let answer = tool.law.force_before(&moved, &further);
+        let mut own = moved + further * answer.force;
+        if tool.bond == Bond::Slip {
+            own = Vec3::new(0.0, 0.0, own.z);
+        }
+        state.own = frame * own;
+        // A tip that slips is carried along by the organ.
+        state.displaced = frame * (own - further * answer.force) + carried;
         state.elastic = frame * answer.force;
         state.stiffness = answer.stiffness;
     }

@@ -137,6 +137,7 @@ fn read(ingredients: &Ingredients<'_>, place: &Path) -> Result<SurfaceResponse, 
     Ok(SurfaceResponse::new(ResponseParts {
         poissons_ratio: ingredients.poissons_ratio,
         touchable: ingredients.touchable.iter().filter_map(of).collect(),
+        held: ingredients.held.to_vec(),
         triangles: stored.triangles,
         sampling: match ingredients.method {
             Method::BoundaryElements => Sampling::Centroids,

@@ -211,7 +211,7 @@ fn what_cannot_be_prepared_is_refused() {
 #[test]
 fn a_place_that_was_not_prepared_is_told() {
     let organ = format!(
-        "{}\ntouchable = {{ planes = [{{ point_m = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }}] }}",
+        "{}\ntouchable = {{ planes = [{{ point_m = [0.0, 0.0, 0.0], normal = [0.0, 0.0, -1.0] }}] }}",
         KIDNEY.organ
     );
     let simulation = Setting {
@@ -220,7 +220,7 @@ fn a_place_that_was_not_prepared_is_told() {
     }
     .simulation();
     let tree = AabbTree::new(simulation.surface().mesh());
-    let (point, normal) = nearest(&simulation, &tree, &Vec3::new(0.0, 0.0, 1.0));
+    let (point, normal) = nearest(&simulation, &tree, &Vec3::new(0.0, 0.0, -1.0));
     let tip = point - normal * 1e-3;
     let (rows, summary) = played(
         &simulation,

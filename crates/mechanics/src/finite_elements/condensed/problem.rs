@@ -97,8 +97,12 @@ impl CondensedProblem<'_> {
             });
         }
         let condensed = self.condense(&is_held, (needed.response, memory), progress)?;
-        let sampling = Sampling::Means;
-        let mut parts = ResponseParts::zeros(self.poissons_ratio, touchable, triangles, sampling);
+        let mut parts = ResponseParts::zeros(
+            self.poissons_ratio,
+            touchable,
+            (triangles, self.held),
+            Sampling::Means,
+        );
         match self.columns(&condensed, &mut parts.displacements, progress) {
             ControlFlow::Continue(()) => SurfaceResponse::new(parts),
             ControlFlow::Break(()) => Err(Error::BrokenOff),

@@ -92,6 +92,7 @@ fn enhanced(
         at: SurfacePoint::centroid(pressed.triangle),
         tip: Tip::Flat { radius },
         displacement: -DEPTH * pressed.normal,
+        own: -DEPTH * pressed.normal,
     };
     let mut field = SurfaceField::default();
     field.update(model.interpolation(), &pressed.displacements, &[press]);
