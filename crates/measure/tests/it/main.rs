@@ -1,3 +1,9 @@
 //! Tests of the rig on a virtual clock.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "clippy.toml allows both in tests, but does not see helpers as tests"
+)]
+
 mod rig;
