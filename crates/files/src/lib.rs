@@ -1,8 +1,8 @@
-//! The five open documents of palpate: what is measured, what is played, what happened, what an
+//! The six open documents of palpate: what shall be measured, what was, what is played, what happened, what an
 //! organ is made of and what stands in a scene.
 //!
-//! [`Recording`], [`Motion`] and [`Session`] are tables of numbers (CSV), [`Tissue`] and [`Scene`]
-//! are TOML. All are in SI units; a key or a column in another unit says so in its name
+//! [`Recording`], [`Motion`] and [`Session`] are tables of numbers (CSV), [`Tissue`], [`Scene`] and
+//! [`Protocol`] are TOML. All are in SI units; a key or a column in another unit says so in its name
 //! (`depth_mm`) and is converted on reading, see [`units`]. An [`Error`] names the file, the line,
 //! the value found and the value expected.
 //!
@@ -17,6 +17,7 @@ mod domain;
 mod error;
 mod estimate;
 pub mod motion;
+pub mod protocol;
 pub mod recording;
 mod response;
 pub mod scene;
@@ -32,6 +33,7 @@ pub use domain::Domain;
 pub use error::{Error, Place};
 pub use estimate::Estimate;
 pub use motion::{Motion, Pose};
+pub use protocol::Protocol;
 pub use recording::Recording;
 pub use response::StoredResponse;
 pub use scene::Scene;

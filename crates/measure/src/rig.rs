@@ -8,6 +8,7 @@ use palpate_servo::{
 };
 
 use crate::approach::contact_height;
+use crate::rig_settings::{LEAD, STANDOFF};
 use crate::{Error, ForceSensor, Indenter, Reference, RigSettings, Stimulus, VirtualSpecimen};
 
 /// What the rig does.
@@ -65,9 +66,6 @@ pub struct Rig {
     contact: Option<f64>,
 }
 
-/// Time before a stimulus that is recorded too [s], and how far above the tissue the indenter then is [m].
-const LEAD: f64 = 0.5;
-const STANDOFF: f64 = 0.5e-3;
 /// Time over which the zero of the sensor is taken [s].
 const ZEROING: f64 = 0.5;
 
@@ -190,7 +188,7 @@ impl Rig {
     /// # Errors
     /// When it goes beyond a limit, which is known before it begins, or the force does.
     pub fn press(&mut self, stimulus: &Stimulus, listener: Listener<'_>) -> Result<Ended, Error> {
-        self.check(stimulus)?;
+        self.settings.check(stimulus)?;
         let contact = self.contact.ok_or(Error::NoContact { way_mm: 0.0 })?;
         self.breath_held.store(true, Ordering::Relaxed);
         let pressed = self.press_from(contact, stimulus, listener);
@@ -225,34 +223,6 @@ impl Rig {
             }
         }
         Ok(Ended::Whole)
-    }
-
-    /// Whether `stimulus` keeps within the limits.
-    ///
-    /// # Errors
-    /// When it does not: too deep, too fast, too long for a breath.
-    pub fn check(&self, stimulus: &Stimulus) -> Result<(), Error> {
-        stimulus.check()?;
-        let settings = &self.settings;
-        if stimulus.deepest() > settings.depth_limit {
-            return Err(Error::TooDeep {
-                depth_mm: 1e3 * stimulus.deepest(),
-                limit_mm: 1e3 * settings.depth_limit,
-            });
-        }
-        if stimulus.fastest() > settings.speed_limit {
-            return Err(Error::TooFast {
-                speed_mm_s: 1e3 * stimulus.fastest(),
-                limit_mm_s: 1e3 * settings.speed_limit,
-            });
-        }
-        let [_, speed] = stimulus.at(0.0);
-        let way = (settings.clearance - STANDOFF).abs() / settings.approach_speed;
-        let duration = way + LEAD + STANDOFF / speed + stimulus.duration();
-        match settings.breath {
-            Some(breath) if duration > breath => Err(Error::OutOfBreath { duration, breath }),
-            _ => Ok(()),
-        }
     }
 
     /// What a recording of `stimulus` says at its top.

@@ -1,5 +1,7 @@
 use palpate_servo::PidGains;
 
+use crate::{Error, Stimulus};
+
 /// What may be chosen about a rig.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RigSettings {
@@ -44,6 +46,39 @@ impl Default for RigSettings {
             speed_limit: 0.060,
             breath: None,
             recovery: 30.0,
+        }
+    }
+}
+
+/// Time before a stimulus that is recorded too [s], and how far above the tissue the indenter then is [m].
+pub(crate) const LEAD: f64 = 0.5;
+pub(crate) const STANDOFF: f64 = 0.5e-3;
+
+impl RigSettings {
+    /// Whether `stimulus` keeps within the limits.
+    ///
+    /// # Errors
+    /// When it does not: too deep, too fast, too long for a breath.
+    pub fn check(&self, stimulus: &Stimulus) -> Result<(), Error> {
+        stimulus.check()?;
+        if stimulus.deepest() > self.depth_limit {
+            return Err(Error::TooDeep {
+                depth_mm: 1e3 * stimulus.deepest(),
+                limit_mm: 1e3 * self.depth_limit,
+            });
+        }
+        if stimulus.fastest() > self.speed_limit {
+            return Err(Error::TooFast {
+                speed_mm_s: 1e3 * stimulus.fastest(),
+                limit_mm_s: 1e3 * self.speed_limit,
+            });
+        }
+        let [_, speed] = stimulus.at(0.0);
+        let way = (self.clearance - STANDOFF).abs() / self.approach_speed;
+        let duration = way + LEAD + STANDOFF / speed + stimulus.duration();
+        match self.breath {
+            Some(breath) if duration > breath => Err(Error::OutOfBreath { duration, breath }),
+            _ => Ok(()),
         }
     }
 }

@@ -16,7 +16,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use palpate_files::recording::{IndenterShape, RecordingHeader};
 use palpate_files::{Elasticity, Tissue};
 use palpate_mechanics::contact::{Bond, Tip};
-use palpate_mechanics::finite_elements::indentation::Stiffening;
+use palpate_mechanics::finite_elements::indentation::{
+    self, Block, Grip, IndentationProblem, Indenter, Side,
+};
 use palpate_mechanics::{
     ForceHistory, IndentationCurve, Material, PronySeries, TipLaw, Vec3, contact,
 };
@@ -67,30 +69,28 @@ pub struct VirtualSpecimen {
 const BREATH_RESTS: f64 = 0.3;
 
 impl VirtualSpecimen {
-    /// A wide and deep piece of `tissue` under a flat bonded punch of `radius` [m].
+    /// A wide and deep piece of `tissue` under a flat punch of `radius` [m] that it sticks to, on its face and on
+    /// its side, down to `deepest` [m]. A nonlinear law is solved by finite elements, which takes seconds;
+    /// `at_step` hears the part that is done [-].
     ///
     /// # Errors
-    /// When the tissue makes no material.
-    pub fn of_tissue(tissue: &Tissue, radius: f64) -> Result<Self, Error> {
+    /// When the tissue makes no material, or no equilibrium is found down to there.
+    pub fn of_tissue(
+        tissue: &Tissue,
+        (radius, deepest): (f64, f64),
+        at_step: &mut dyn FnMut(f64),
+    ) -> Result<Self, Error> {
         let material = Material::from_tissue(tissue)?;
-        let (tip, bond) = (Tip::Flat { radius }, Bond::Stick);
-        let law = match tissue.elasticity {
-            Elasticity::Linear { .. } => TipLaw::linear(tip, bond, material.at_rest),
-            Elasticity::NeoHookean { .. } => {
-                let stiffening = Stiffening::neo_hookean(tip, bond);
-                TipLaw::stiffening(tip, bond, &material, stiffening)
+        let elastic = if matches!(tissue.elasticity, Elasticity::Linear { .. }) {
+            let (tip, bond) = (Tip::Flat { radius }, Bond::Stick);
+            Elastic::Law {
+                law: Box::new(TipLaw::linear(tip, bond, material.at_rest)),
+                stiffness: contact::half_space_stiffness(&material.at_rest, radius, bond),
             }
-            _ => {
-                let stiffening = Stiffening::of(&material, (tip, bond), &mut |_| ())?;
-                TipLaw::stiffening(tip, bond, &material, stiffening)
-            }
+        } else {
+            Elastic::Response(solved(&material, (radius, deepest), at_step)?)
         };
-        let stiffness = contact::half_space_stiffness(&material.at_rest, radius, bond);
-        let elastic = Elastic::Law {
-            law: Box::new(law),
-            stiffness,
-        };
-        let mut specimen = Self::new(elastic, material.prony.clone(), radius);
+        let mut specimen = Self::new(elastic, material.prony, radius);
         specimen.header.organ.clone_from(&tissue.name);
         Ok(specimen)
     }
@@ -176,4 +176,44 @@ impl VirtualSpecimen {
         self.breath_level += (aim - self.breath_level) * follow;
         self.surface + heart + self.breath_level
     }
+}
+
+/// Depths of a solved response, in parts of the deepest [-].
+const DEPTHS: [f64; 10] = [0.02, 0.06, 0.12, 0.2, 0.3, 0.4, 0.55, 0.7, 0.85, 1.0];
+/// What is asked of its forces [-].
+const ACCURACY: f64 = 0.02;
+/// Radius and height of the piece, in radii of the punch [-]: the source's cube of 100 mm under 1 mm.
+const PIECE: [f64; 2] = [56.42, 100.0];
+
+/// Force over depth by finite elements, on meshes that are refined until they are accurate.
+fn solved(
+    material: &Material,
+    (radius, deepest): (f64, f64),
+    at_step: &mut dyn FnMut(f64),
+) -> Result<IndentationCurve, Error> {
+    let problem = IndentationProblem {
+        block: Block {
+            radius: PIECE[0] * radius,
+            height: PIECE[1] * radius,
+        },
+        indenter: Indenter {
+            shape: indentation::IndenterShape::Flat {
+                side: Side::Touches(Grip::Stick),
+            },
+            radius,
+            face: Grip::Stick,
+        },
+        law: material.law.clone(),
+    };
+    let depths = DEPTHS.map(|part| part * deepest);
+    let found = indentation::solve(&problem, &depths, ACCURACY, &mut |progress| {
+        at_step(progress.part);
+    })?;
+    let forces: Vec<f64> = found
+        .answer
+        .points
+        .iter()
+        .map(|point| point.force)
+        .collect();
+    Ok(IndentationCurve::through(&depths, &forces))
 }

@@ -48,6 +48,19 @@ impl Failure {
         }
     }
 
+    /// The same, with the file that it is about.
+    pub(crate) fn about(self, file: &std::path::Path) -> Self {
+        let named = |message: String| match message.contains(&*file.to_string_lossy()) {
+            true => message,
+            false => format!("{}: {message}", file.display()),
+        };
+        match self {
+            Self::Input(message) => Self::Input(named(message)),
+            Self::Failed(message) => Self::Failed(named(message)),
+            Self::NobodyReads => Self::NobodyReads,
+        }
+    }
+
     pub(crate) fn exit_status(&self) -> u8 {
         match self {
             Self::Input(_) => BAD_INPUT,

@@ -35,6 +35,9 @@ const ENOUGH_FOR_DRIFT: usize = 100;
 const CERTAIN: f64 = 4.0;
 /// What a drift may leave, in deviations of the noise [-].
 const NOISE_ALONE: f64 = 1.5;
+/// How far above the tissue nothing touches, in parts of the largest depth [-].
+const CLEAR: f64 = 0.05;
+
 /// Where the indenter first touched, as the recording counts time, depth and force.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Contact {
@@ -80,7 +83,12 @@ pub(super) fn by_depth(samples: &Oriented, is_uniaxial: bool) -> Result<Contact,
     };
     let share = -depth[sample] / (depth[sample + 1] - depth[sample]);
     let time_s = time[sample] + share * (time[sample + 1] - time[sample]);
-    let zero = Zero::before(samples, sample);
+    // Nobody knows the first contact exactly: what is well above the tissue tells the zero, if it is enough.
+    let clear = depth[..=sample]
+        .iter()
+        .rposition(|&d| d <= -CLEAR * deepest);
+    let clear = clear.filter(|&last| last >= noise::ENOUGH);
+    let zero = Zero::before(samples, clear.unwrap_or(sample));
     Ok(Contact {
         sample,
         time_s,

@@ -4,6 +4,9 @@
 pub(super) const ENOUGH: usize = 5;
 /// Parts into which a signal is cut to see whether it goes anywhere.
 const PARTS: usize = 40;
+/// Steps of an encoder from sample to sample that are few, and how near they are to whole ones [-].
+const FEW_STEPS: f64 = 8.5;
+const WHOLE: f64 = 0.02;
 /// How far apart means must lie, in their own standard errors [-].
 const FAR: f64 = 8.0;
 
@@ -18,6 +21,31 @@ pub(super) fn deviation(values: &[f64]) -> f64 {
         return 0.0;
     }
     median(&differences) / (0.6745 * 6f64.sqrt())
+}
+
+/// The step of an encoder that flickers in `values`: the smallest way from sample to sample, if nearly all ways
+/// are few whole ones of it and many go back and forth; else zero.
+pub(super) fn step(values: &[f64]) -> f64 {
+    let ways: Vec<f64> = values
+        .windows(2)
+        .map(|pair| pair[1] - pair[0])
+        .filter(|way| *way != 0.0)
+        .collect();
+    let step = ways
+        .iter()
+        .map(|way| way.abs())
+        .fold(f64::INFINITY, f64::min);
+    let is_whole = |way: &&f64| {
+        let steps = way.abs() / step;
+        steps < FEW_STEPS && (steps - steps.round()).abs() < WHOLE
+    };
+    let whole = ways.iter().filter(is_whole).count();
+    let turns = ways
+        .windows(2)
+        .filter(|pair| pair[0] * pair[1] < 0.0)
+        .count();
+    let flickers = 10 * whole > 9 * ways.len() && 10 * turns > ways.len();
+    if flickers { step } else { 0.0 }
 }
 
 /// Whether the values go anywhere beyond their noise.

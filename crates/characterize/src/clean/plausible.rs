@@ -17,6 +17,8 @@ const REACH: [f64; 2] = [1e-3, 100.0];
 const SOFT: [f64; 2] = [1.0, 1e8];
 /// Equal samples at the largest force that make a sensor at its end.
 const STUCK: usize = 5;
+/// How many times longer than elsewhere a force rests at its largest value there [-].
+const TELLING: usize = 3;
 /// Least noise, over the largest force, that shows a sensor to be awake [-].
 const AWAKE: f64 = 1e-4;
 
@@ -91,5 +93,9 @@ fn stuck(recording: &Recording) -> Option<(f64, f64)> {
         return None;
     }
     let length = force[first..].iter().take_while(|f| **f == largest).count();
-    Some((time[first], time[first + length - 1]))
+    // A sensor with coarse steps shows the same number for as long at other large forces too.
+    let elsewhere = force.chunk_by(|a, b| a == b);
+    let large = elsewhere.filter(|run| run[0] != largest && run[0].abs() > 0.5 * largest.abs());
+    let longest = large.map(<[f64]>::len).max().unwrap_or(0);
+    (length > TELLING * longest).then(|| (time[first], time[first + length - 1]))
 }

@@ -19,6 +19,8 @@ const STRAIGHT: f64 = 0.015;
 const SWINGING: f64 = 0.03;
 /// What noise may do, in its standard deviations [-].
 const NOISY: f64 = 5.0;
+/// What an encoder may do, in its steps [-].
+const STEPS: f64 = 2.0;
 
 /// The segments of `depth` [m] at `time` [s] from the sample `from` on. A rest out of the tissue is
 /// none.
@@ -30,7 +32,7 @@ pub(super) fn find(time: &[f64], depth: &[f64], from: usize) -> Vec<Segment> {
         .fold(f64::NEG_INFINITY, f64::max);
     // One that starts in contact has travelled all the way to there.
     let travel = (high - low).max(high);
-    let trembling = NOISY * noise::deviation(depth);
+    let trembling = (NOISY * noise::deviation(depth)).max(STEPS * noise::step(depth));
     let scales = Scales {
         straight: (STRAIGHT * travel).max(trembling),
         swinging: (SWINGING * travel).max(2.0 * trembling),

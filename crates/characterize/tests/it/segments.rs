@@ -4,7 +4,8 @@ use std::f64::consts::TAU;
 
 use palpate_characterize::clean::SegmentKind::{self, Chirp, Hold, Ramp, Retreat, Sine};
 use palpate_characterize::{CleanRecording, CleanSettings, clean};
-use palpate_files::recording::Stimulus;
+use palpate_files::Recording;
+use palpate_files::recording::{RecordingHeader, Samples, Stimulus};
 
 use crate::made_up::{Dice, own, times};
 
@@ -147,4 +148,44 @@ fn contradictions_are_told() {
             "{key}: {told:?}"
         );
     }
+}
+
+/// A ramp and a hold under an encoder of 30 µm at 1 kHz, which shows the ramp as stairs and the hold as a
+/// flicker between two steps: one ramp, one hold, and no sensor at its end although a force with steps of 1/1280 N
+/// stays at its largest for a while.
+#[test]
+fn the_steps_of_an_encoder_are_no_segments() {
+    let to = |step: f64, value: f64| (value / step).round() * step;
+    let times: Vec<f64> = (0..5000).map(|i| 1e-3 * f64::from(i)).collect();
+    let depth = |t: f64| 2e-3 * ((t - 0.6) / 0.5).clamp(-0.25, 1.0);
+    let samples = Samples {
+        depth_m: times
+            .iter()
+            .map(|t| to(30e-6, depth(*t) + 1.5e-5 * (40.0 * t).sin()))
+            .collect(),
+        force_n: times
+            .iter()
+            .map(|t| {
+                to(
+                    1.0 / 1280.0,
+                    7.0 * depth(*t).max(0.0) + 4e-4 * (911.0 * t).sin(),
+                )
+            })
+            .collect(),
+        time_s: times,
+    };
+    let recording = Recording::new(RecordingHeader::default(), samples).unwrap();
+    let clean = clean(&recording, &CleanSettings::default()).unwrap();
+    let kinds: Vec<SegmentKind> = clean.segments.iter().map(|own| own.kind).collect();
+    assert_eq!(
+        kinds,
+        [SegmentKind::Ramp, SegmentKind::Hold],
+        "{:?}",
+        clean.segments
+    );
+    let said = clean.doubts.join("; ");
+    assert!(
+        !said.contains("as a sensor does at its end") && !said.contains("zero moved"),
+        "{said}"
+    );
 }

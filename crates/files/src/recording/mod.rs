@@ -10,6 +10,7 @@ mod header_keys;
 mod samples;
 mod stretches;
 mod write;
+mod writer;
 
 use std::path::Path;
 
@@ -17,6 +18,7 @@ pub use foreign::ForeignColumns;
 pub use header::{Condition, IndenterShape, RecordingHeader, Specimen, Stimulus};
 use samples::Repeated;
 pub use samples::{ExtraColumn, Samples};
+pub use writer::RecordingWriter;
 
 pub use crate::table::ExtraKey;
 

@@ -42,7 +42,7 @@ impl Recording {
 }
 
 impl RecordingHeader {
-    fn print(&self) -> String {
+    pub(super) fn print(&self) -> String {
         let mut text = header_line("format", 1);
         for (key, value) in self.entries() {
             text += &header_line(key, value);
@@ -54,7 +54,7 @@ impl RecordingHeader {
     }
 
     /// The fields can be filled with anything; the reader knows what they may hold.
-    fn check(&self, path: &Path) -> Result<(), Error> {
+    pub(super) fn check(&self, path: &Path) -> Result<(), Error> {
         let text = self.print() + "time_s\n";
         let table = TableText::parse(&text, path, Self::KEYS).map_err(Error::of_content)?;
         let keys = table.header.keys(path, Self::KEYS);

@@ -36,7 +36,7 @@ const RAMP: Stimulus = Stimulus::RampAndHold {
 };
 
 fn pressed(seed: u64) -> Vec<RigSample> {
-    let specimen = VirtualSpecimen::of_tissue(&tissue(), RADIUS).unwrap();
+    let specimen = VirtualSpecimen::of_tissue(&tissue(), (RADIUS, 8e-3), &mut |_| ()).unwrap();
     let mut rig = rig(specimen, RigSettings::default(), seed);
     assert_eq!(rig.approach(&mut |_| true).unwrap(), Ended::Whole);
     let mut samples = Vec::new();
@@ -73,7 +73,7 @@ fn the_same_seed_gives_the_same_samples() {
 /// Limits are known before the indenter moves, and one on the force while it does.
 #[test]
 fn limits_hold() {
-    let specimen = || VirtualSpecimen::of_tissue(&tissue(), RADIUS).unwrap();
+    let specimen = || VirtualSpecimen::of_tissue(&tissue(), (RADIUS, 8e-3), &mut |_| ()).unwrap();
     let deep = Stimulus::RampAndHold {
         depth: 20e-3,
         ramp: 2.0,
@@ -88,11 +88,10 @@ fn limits_hold() {
         breath: Some(5.0),
         ..RigSettings::default()
     };
-    let checked = rig(specimen(), settings, 1);
-    assert!(matches!(checked.check(&deep), Err(Error::TooDeep { .. })));
-    assert!(matches!(checked.check(&fast), Err(Error::TooFast { .. })));
+    assert!(matches!(settings.check(&deep), Err(Error::TooDeep { .. })));
+    assert!(matches!(settings.check(&fast), Err(Error::TooFast { .. })));
     assert!(matches!(
-        checked.check(&RAMP),
+        settings.check(&RAMP),
         Err(Error::OutOfBreath { .. })
     ));
     let settings = RigSettings {
@@ -119,7 +118,7 @@ fn limits_hold() {
 /// Whoever listens may stop; the indenter leaves the tissue.
 #[test]
 fn a_stopped_stimulus_is_withdrawn() {
-    let specimen = VirtualSpecimen::of_tissue(&tissue(), RADIUS).unwrap();
+    let specimen = VirtualSpecimen::of_tissue(&tissue(), (RADIUS, 8e-3), &mut |_| ()).unwrap();
     let mut rig = rig(specimen, RigSettings::default(), 1);
     rig.approach(&mut |_| true).unwrap();
     let ended = rig.press(&RAMP, &mut |sample| sample.force < 0.05).unwrap();
@@ -136,7 +135,7 @@ fn a_stopped_stimulus_is_withdrawn() {
 /// Where nothing is, nothing is met.
 #[test]
 fn a_missing_specimen_is_told() {
-    let mut specimen = VirtualSpecimen::of_tissue(&tissue(), RADIUS).unwrap();
+    let mut specimen = VirtualSpecimen::of_tissue(&tissue(), (RADIUS, 8e-3), &mut |_| ()).unwrap();
     specimen.surface = -1.0;
     let mut rig = rig(specimen, RigSettings::default(), 1);
     let said = rig.approach(&mut |_| true).unwrap_err();

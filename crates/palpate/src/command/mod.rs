@@ -3,6 +3,7 @@
 mod analyze;
 mod characterize;
 mod demonstration;
+mod measure;
 mod mesh;
 mod precompute;
 mod quality;
@@ -30,6 +31,8 @@ Examples:
       prepares the whole organ of the hybrid model once; then the scene opens at once
   palpate solve problem.toml --plot force.png
       the force of an indenter, the swelling of a tube and more, by finite elements
+  palpate measure --headless --out recordings
+      a protocol on a specimen that is not there, recorded as a rig would
   palpate characterize liver-2mm.csv liver-4mm.csv --out liver.toml
       the tissue behind recordings, with its uncertainty
   palpate quality
@@ -62,6 +65,8 @@ enum Command {
     Precompute(precompute::Arguments),
     /// Solve a described problem with finite elements, the reference for everything else.
     Solve(solve::Arguments),
+    /// Press an indenter into specimens and record depth and force.
+    Measure(measure::Arguments),
     /// What recordings show without a model: static force, relaxation, answers to sines and chirps.
     Analyze(analyze::Arguments),
     /// Find the tissue behind recordings: relaxation and laws, with how well they are known.
@@ -83,6 +88,7 @@ impl CommandLine {
             Some(Command::Simulate(arguments)) => simulate::run(&arguments),
             Some(Command::Precompute(arguments)) => precompute::run(&arguments),
             Some(Command::Solve(arguments)) => solve::run(&arguments),
+            Some(Command::Measure(arguments)) => measure::run(&arguments),
             Some(Command::Analyze(arguments)) => analyze::run(&arguments),
             Some(Command::Characterize(arguments)) => characterize::run(&arguments),
             Some(Command::Reproduce(arguments)) => reproduce::run(&arguments),

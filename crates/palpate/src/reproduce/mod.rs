@@ -14,7 +14,7 @@ mod m12;
 mod m13;
 mod machine;
 mod portrait;
-mod published;
+pub(crate) mod published;
 mod real_mesh;
 mod row;
 mod select;

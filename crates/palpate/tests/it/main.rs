@@ -6,6 +6,7 @@
 )]
 
 mod errors;
+mod measure;
 mod mesh;
 mod mesh_info;
 mod quality;

@@ -1,0 +1,70 @@
+//! What an experimenter wants measured: specimens, stimuli, and how careful the rig is.
+
+mod rig;
+mod specimen;
+mod stimulus;
+
+use std::path::Path;
+
+pub use rig::{Gains, RigLimits};
+pub use specimen::{Measured, MeasuredTissue, PublishedOrgan};
+pub use stimulus::{StimulusKind, StimulusPlan};
+
+use crate::whole_file::read_text;
+use crate::{Document, Error};
+
+/// A protocol: every stimulus on every specimen. What is not stated in the file has its default here.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Protocol {
+    /// How the rig goes about it.
+    pub rig: RigLimits,
+    /// What is measured: one or more.
+    pub specimens: Vec<Measured>,
+    /// What is done to each: one or more.
+    pub stimuli: Vec<StimulusPlan>,
+}
+
+const KEYS: &[&str] = &["rig", "specimen", "stimulus"];
+
+impl Protocol {
+    /// Reads a protocol file.
+    ///
+    /// # Errors
+    /// When the file cannot be read or does not describe a protocol.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
+        let path = path.as_ref();
+        Self::parse(&read_text(path)?, path)
+    }
+
+    /// Reads the text of a protocol file; `path` is its name in errors, and relative paths in it begin in its
+    /// folder.
+    ///
+    /// # Errors
+    /// When the text does not describe a protocol.
+    pub fn parse(text: &str, path: impl AsRef<Path>) -> Result<Self, Error> {
+        let path = path.as_ref();
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let document = Document::parse(text, path)?;
+        let keys = document.keys(KEYS)?;
+        let specimens = keys.tables("specimen", Measured::KEYS)?;
+        let stimuli = keys.tables("stimulus", StimulusPlan::KEYS)?;
+        if specimens.is_empty() {
+            return Err(keys.missing("specimen", "a table `[[specimen]]` for each specimen"));
+        }
+        if stimuli.is_empty() {
+            return Err(keys.missing("stimulus", "a table `[[stimulus]]` for each stimulus"));
+        }
+        let mut plans = Vec::new();
+        for keys in &stimuli {
+            plans.extend(StimulusPlan::from_keys(keys)?);
+        }
+        Ok(Self {
+            rig: RigLimits::from_keys(keys.table("rig", RigLimits::KEYS)?.as_ref())?,
+            specimens: specimens
+                .iter()
+                .map(|keys| Measured::from_keys(keys, folder))
+                .collect::<Result<_, _>>()?,
+            stimuli: plans,
+        })
+    }
+}

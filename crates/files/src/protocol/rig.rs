@@ -1,0 +1,59 @@
+use crate::words::words;
+use crate::{Domain, Error, Keys};
+
+words! {
+    /// How hard the indenter is driven.
+    pub enum Gains {
+        /// As tuned on the virtual device.
+        Tuned = "tuned",
+        /// Half as hard.
+        Gentle = "gentle",
+    }
+}
+
+/// How the rig goes about it. None is the rig's own default.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct RigLimits {
+    /// How fast the indenter goes to the tissue [m/s].
+    pub approach_speed_m_per_s: Option<f64>,
+    /// The largest force on the tissue [N].
+    pub force_limit_n: Option<f64>,
+    /// The deepest that it may go [m].
+    pub depth_limit_m: Option<f64>,
+    /// The fastest that it may be [m/s].
+    pub speed_limit_m_per_s: Option<f64>,
+    /// How long a breath is held at most [s].
+    pub breath_s: Option<f64>,
+    /// How long tissue rests between two stimuli [s].
+    pub recovery_s: Option<f64>,
+    /// How hard the indenter is driven.
+    pub gains: Option<Gains>,
+}
+
+impl RigLimits {
+    pub(super) const KEYS: &[&str] = &[
+        "approach_speed_m_per_s",
+        "force_limit_n",
+        "depth_limit_m",
+        "speed_limit_m_per_s",
+        "breath_s",
+        "recovery_s",
+        "gains",
+    ];
+
+    pub(super) fn from_keys(keys: Option<&Keys<'_>>) -> Result<Self, Error> {
+        let Some(keys) = keys else {
+            return Ok(Self::default());
+        };
+        let positive = |key| keys.number(key, Domain::POSITIVE);
+        Ok(Self {
+            approach_speed_m_per_s: positive("approach_speed_m_per_s")?,
+            force_limit_n: positive("force_limit_n")?,
+            depth_limit_m: positive("depth_limit_m")?,
+            speed_limit_m_per_s: positive("speed_limit_m_per_s")?,
+            breath_s: positive("breath_s")?,
+            recovery_s: keys.number("recovery_s", Domain::NOT_NEGATIVE)?,
+            gains: keys.word("gains", Gains::WORDS)?,
+        })
+    }
+}

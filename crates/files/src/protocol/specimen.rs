@@ -1,0 +1,95 @@
+use std::path::Path;
+
+use crate::recording::Condition;
+use crate::scene::TissueChoice;
+use crate::words::words;
+use crate::{Domain, Error, Keys};
+
+words! {
+    /// An organ whose forces were published.
+    pub enum PublishedOrgan {
+        /// Of pigs.
+        Liver = "liver",
+        /// Of pigs.
+        Kidney = "kidney",
+        /// Of pigs.
+        Spleen = "spleen",
+        /// Of pigs.
+        Esophagus = "esophagus",
+    }
+}
+
+/// What is under the indenter where no device is.
+#[derive(Debug, Clone, PartialEq)]
+pub enum MeasuredTissue {
+    /// A wide and deep piece of a tissue.
+    Tissue(TissueChoice),
+    /// The static response of table 5-1, and the relaxation of table 6-3.
+    Published(PublishedOrgan),
+}
+
+/// A specimen.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measured {
+    /// What it is made of.
+    pub tissue: MeasuredTissue,
+    /// The organ, for its recordings.
+    pub organ: Option<String>,
+    /// The animal, person or body.
+    pub subject: Option<String>,
+    /// The subject's weight [kg].
+    pub weight_kg: Option<f64>,
+    /// The place on the organ.
+    pub site: Option<String>,
+    /// The state of the tissue.
+    pub condition: Option<Condition>,
+    /// Whether a heart beats in it and breath moves it.
+    pub alive: bool,
+    /// How much stiffer than its tissue it is [-].
+    pub factor: f64,
+    /// The radius, not the diameter, of the indenter [m].
+    pub indenter_radius_m: f64,
+}
+
+impl Measured {
+    pub(super) const KEYS: &[&str] = &[
+        "tissue",
+        "builtin_tissue",
+        "published",
+        "organ",
+        "subject",
+        "weight_kg",
+        "site",
+        "condition",
+        "alive",
+        "factor",
+        "indenter_radius_m",
+    ];
+
+    pub(super) fn from_keys(keys: &Keys<'_>, folder: &Path) -> Result<Self, Error> {
+        let published = keys.word("published", PublishedOrgan::WORDS)?;
+        let tissue = match published {
+            Some(_) if keys.contains("tissue") => {
+                return Err(keys.given_twice("published", "tissue"));
+            }
+            Some(_) if keys.contains("builtin_tissue") => {
+                return Err(keys.given_twice("published", "builtin_tissue"));
+            }
+            Some(organ) => MeasuredTissue::Published(organ),
+            None => MeasuredTissue::Tissue(TissueChoice::from_keys(keys, folder)?),
+        };
+        Ok(Self {
+            tissue,
+            organ: keys.text("organ")?,
+            subject: keys.text_or_integer("subject")?,
+            weight_kg: keys.number("weight_kg", Domain::POSITIVE)?,
+            site: keys.text_or_integer("site")?,
+            condition: keys.word("condition", Condition::WORDS)?,
+            alive: keys.truth("alive")?.unwrap_or(false),
+            factor: keys.number("factor", Domain::POSITIVE)?.unwrap_or(1.0),
+            indenter_radius_m: keys
+                .number("indenter_radius_m", Domain::POSITIVE)?
+                .unwrap_or(0.001),
+        })
+    }
+}
