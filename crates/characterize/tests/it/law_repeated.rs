@@ -37,7 +37,8 @@ fn laws() -> (Vec<LawDescription>, f64) {
     (laws.collect(), largest)
 }
 
-/// A spread of 100 draws is known to 7 %; three times that, and what the relaxation bends, is allowed.
+/// A spread of 100 draws is known to 7 %, one of the 25 of each noise to 14 %; three times that, and what the
+/// relaxation bends, is allowed.
 #[test]
 fn one_modulus_spreads_as_its_standard_error() {
     let (laws, largest) = laws();
@@ -51,7 +52,7 @@ fn one_modulus_spreads_as_its_standard_error() {
     for effect in &repeated.noise {
         let expected = independent / NOISE * effect.noise * largest;
         let ratio = effect.spread[0] / expected;
-        assert!((ratio - 1.0).abs() < 0.3, "{effect:?}: {ratio}");
+        assert!((ratio - 1.0).abs() < 0.5, "{effect:?}: {ratio}");
     }
     // With the relaxation held, the modulus is known better than without.
     let [low, high] = repeated.profiles[0].unwrap().map(Option::unwrap);
