@@ -12,7 +12,7 @@ pub(super) struct Answer {
     palpate: &'static str,
     recordings: Vec<Recording>,
     /// Whether Ctrl-C came before the end.
-    stopped: bool,
+    pub(super) stopped: bool,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(super) warnings: Vec<String>,
 }
@@ -38,17 +38,11 @@ impl Answer {
             peak_force_n: recorded.peak,
             stopped: recorded.stopped,
         });
-        let mut warnings = measuring.doubts.clone();
-        if stopped {
-            warnings.push(
-                "stopped before the end of the protocol; the indenter was withdrawn".to_owned(),
-            );
-        }
         Self {
             palpate: VERSION,
             recordings: each.collect(),
             stopped,
-            warnings,
+            warnings: measuring.doubts.clone(),
         }
     }
 }

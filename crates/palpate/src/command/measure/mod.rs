@@ -87,11 +87,17 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     drop(progress);
     let answer = Answer::new(recorded, &measuring);
     if arguments.json {
-        return output::json(&answer);
+        output::json(&answer)?;
+    } else {
+        output::text(&answer)?;
+        output::warnings(&answer.warnings);
     }
-    output::text(&answer)?;
-    output::warnings(&answer.warnings);
-    Ok(())
+    match answer.stopped {
+        true => Err(Failure::failed(
+            "stopped before the end of the protocol; the indenter was withdrawn, and what was recorded is kept",
+        )),
+        false => Ok(()),
+    }
 }
 
 impl Arguments {
