@@ -14,13 +14,10 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use palpate_characterize::clean::{CleanSettings, clean};
 use palpate_characterize::fit::Random;
 use palpate_characterize::inverse::{Body, Curves, Indentation, PUNCH, SoughtLaw, law_fit};
-use palpate_characterize::viscoelastic::RelaxationSettings;
-use palpate_characterize::{CharacterizeSettings, CleanRecording, characterize};
-use palpate_files::Recording;
-use palpate_files::recording::{IndenterShape, RecordingHeader, Samples, Stimulus};
+use palpate_characterize::viscoelastic::{Course, RelaxationSettings, relaxation};
+use palpate_files::recording::Samples;
 use palpate_mechanics::{IndentationCurve, PronySeries};
 
 const LIVER: [(f64, f64); 2] = [(0.2866, 1.537), (0.2022, 6.090)];
@@ -44,30 +41,18 @@ fn samples() -> Samples {
     }
 }
 
-fn recording() -> CleanRecording {
-    let header = RecordingHeader {
-        stimulus: Some(Stimulus::RampAndHold),
-        indenter_shape: Some(IndenterShape::Flat),
-        indenter_radius_m: Some(1e-3),
-        ..RecordingHeader::default()
-    };
-    let recording = Recording::new(header, samples()).unwrap();
-    clean(&recording, &CleanSettings::default()).unwrap()
-}
-
 fn of_relaxation(criterion: &mut Criterion) {
-    let recording = [recording()];
-    let settings = CharacterizeSettings {
-        relaxation: RelaxationSettings { terms: Some(2) },
-        laws: Vec::new(),
-        draws: None,
-    };
-    criterion.bench_function(
-        "relaxation of two terms, springs and Kelvin (budget 50 ms)",
-        |b| {
-            b.iter(|| characterize(black_box(&recording), &settings, &mut |_| ()));
-        },
-    );
+    let Samples {
+        time_s,
+        depth_m,
+        force_n,
+    } = samples();
+    let largest = force_n.iter().copied().fold(0.0, f64::max);
+    let course = Course::new((&time_s, &depth_m, &force_n), largest, |depth| depth).unwrap();
+    let settings = RelaxationSettings { terms: Some(2) };
+    criterion.bench_function("relaxation of two terms (budget 50 ms)", |b| {
+        b.iter(|| relaxation(black_box(std::slice::from_ref(&course)), settings).unwrap());
+    });
 }
 
 fn of_laws(criterion: &mut Criterion) {
