@@ -9,7 +9,7 @@ mod fitted;
 
 use std::ops::Range;
 
-use palpate_files::recording::{IndenterShape, RecordingHeader, Specimen, Stimulus};
+use palpate_files::recording::{IndenterShape, RecordingHeader, Specimen, StimulusKind};
 use palpate_files::{Estimate, PronyTerm, Tissue};
 use palpate_mechanics::finite_elements::indentation::Grip;
 use palpate_mechanics::finite_elements::tube::Tube;
@@ -140,7 +140,7 @@ fn sought(
 
 /// Whether a whole piece was pressed or pulled along one axis.
 fn is_piece(recording: &CleanRecording) -> bool {
-    recording.header.stimulus == Some(Stimulus::Uniaxial)
+    recording.header.stimulus == Some(StimulusKind::Uniaxial)
 }
 
 /// What of a recording is fitted: from first contact to where the indenter goes back.

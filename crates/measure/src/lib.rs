@@ -2,17 +2,18 @@
 //! 5).
 //!
 //! ```text
-//!  Stimulus ─▶ Rig ──latest(Reference)──▶ Indenter (PID) ─▶ servo loop ─▶ device ─▶ tip on a specimen
+//!  Course ───▶ Rig ──latest(Reference)──▶ Indenter (PID) ─▶ servo loop ─▶ device ─▶ tip on a specimen
 //!               ▲                                                            │            │
 //!               └──── RigSample ◀── encoders ────────────────────────────────┘   sensor ──┘
 //! ```
 //!
-//! [`Rig`] approaches until first contact, presses one [`Stimulus`] at a time and withdraws. It runs on a real
+//! [`Rig`] approaches until first contact, presses one [`Course`] of a stimulus at a time and withdraws. It runs on a real
 //! clock and on a virtual one. Where there is no device, a [`VirtualSpecimen`] under a virtual PHANTOM stands
 //! for both; what is recorded of it has the sensor's steps, the encoder's steps, a heart that beats and a
 //! breath that is held.
 
 mod approach;
+mod course;
 mod error;
 mod indenter;
 mod noise;
@@ -20,12 +21,11 @@ mod rig;
 mod rig_settings;
 mod sensor;
 mod specimen;
-mod stimulus;
 
+pub use course::Course;
 pub use error::Error;
 pub use indenter::{Indenter, Reference};
 pub use rig::{Ended, Listener, Phase, Rig, RigSample};
 pub use rig_settings::RigSettings;
 pub use sensor::ForceSensor;
 pub use specimen::{Rhythm, VirtualSpecimen};
-pub use stimulus::Stimulus;

@@ -9,7 +9,7 @@ use palpate_servo::{
 
 use crate::approach::contact_height;
 use crate::rig_settings::{LEAD, STANDOFF};
-use crate::{Error, ForceSensor, Indenter, Reference, RigSettings, Stimulus, VirtualSpecimen};
+use crate::{Course, Error, ForceSensor, Indenter, Reference, RigSettings, VirtualSpecimen};
 
 /// What the rig does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -182,16 +182,16 @@ impl Rig {
         mean(last) - mean(&forces[..resting]) > self.settings.contact_force
     }
 
-    /// Presses `stimulus` from first contact and withdraws. `listener` hears what is to be recorded: it begins
+    /// Presses `course` from first contact and withdraws. `listener` hears what is to be recorded: it begins
     /// half a second before, above the tissue.
     ///
     /// # Errors
     /// When it goes beyond a limit, which is known before it begins, or the force does.
-    pub fn press(&mut self, stimulus: &Stimulus, listener: Listener<'_>) -> Result<Ended, Error> {
-        self.settings.check(stimulus)?;
+    pub fn press(&mut self, course: &Course, listener: Listener<'_>) -> Result<Ended, Error> {
+        self.settings.check(course)?;
         let contact = self.contact.ok_or(Error::NoContact { way_mm: 0.0 })?;
         self.breath_held.store(true, Ordering::Relaxed);
-        let pressed = self.press_from(contact, stimulus, listener);
+        let pressed = self.press_from(contact, course, listener);
         let withdrawn = self.withdraw();
         self.breath_held.store(false, Ordering::Relaxed);
         let ended = pressed?;
@@ -201,17 +201,17 @@ impl Rig {
     fn press_from(
         &mut self,
         contact: f64,
-        stimulus: &Stimulus,
+        course: &Course,
         listener: Listener<'_>,
     ) -> Result<Ended, Error> {
         self.go(contact + STANDOFF, Phase::Waiting)?;
-        let [_, speed] = stimulus.at(0.0);
+        let [_, speed] = course.at(0.0);
         let lead = LEAD + STANDOFF / speed;
-        let ticks = ((lead + stimulus.duration()) / self.settings.period).round() as usize;
+        let ticks = ((lead + course.duration()) / self.settings.period).round() as usize;
         for tick in 0..=ticks {
             let time = tick as f64 * self.settings.period - lead;
             let [depth, speed] = if time >= 0.0 {
-                stimulus.at(time)
+                course.at(time)
             } else if speed * time > -STANDOFF {
                 [speed * time, speed]
             } else {
@@ -225,10 +225,10 @@ impl Rig {
         Ok(Ended::Whole)
     }
 
-    /// What a recording of `stimulus` says at its top.
-    pub fn describe(&self, stimulus: &Stimulus, repeat: u64) -> RecordingHeader {
+    /// What a recording of `course` says at its top.
+    pub fn describe(&self, course: &Course, repeat: u64) -> RecordingHeader {
         let mut header = self.header.clone();
-        stimulus.describe(&mut header);
+        course.describe(&mut header);
         header.repeat = Some(repeat);
         header.sample_rate_hz = Some(1.0 / self.settings.period);
         header.breath_held = self.settings.breath.map(|_| true);

@@ -1,6 +1,6 @@
 use palpate_servo::PidGains;
 
-use crate::{Error, Stimulus};
+use crate::{Course, Error};
 
 /// What may be chosen about a rig.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,27 +55,26 @@ pub(crate) const LEAD: f64 = 0.5;
 pub(crate) const STANDOFF: f64 = 0.5e-3;
 
 impl RigSettings {
-    /// Whether `stimulus` keeps within the limits.
+    /// Whether `course` keeps within the limits.
     ///
     /// # Errors
     /// When it does not: too deep, too fast, too long for a breath.
-    pub fn check(&self, stimulus: &Stimulus) -> Result<(), Error> {
-        stimulus.check()?;
-        if stimulus.deepest() > self.depth_limit {
+    pub fn check(&self, course: &Course) -> Result<(), Error> {
+        if course.deepest() > self.depth_limit {
             return Err(Error::TooDeep {
-                depth_mm: 1e3 * stimulus.deepest(),
+                depth_mm: 1e3 * course.deepest(),
                 limit_mm: 1e3 * self.depth_limit,
             });
         }
-        if stimulus.fastest() > self.speed_limit {
+        if course.fastest() > self.speed_limit {
             return Err(Error::TooFast {
-                speed_mm_s: 1e3 * stimulus.fastest(),
+                speed_mm_s: 1e3 * course.fastest(),
                 limit_mm_s: 1e3 * self.speed_limit,
             });
         }
-        let [_, speed] = stimulus.at(0.0);
+        let [_, speed] = course.at(0.0);
         let way = (self.clearance - STANDOFF).abs() / self.approach_speed;
-        let duration = way + LEAD + STANDOFF / speed + stimulus.duration();
+        let duration = way + LEAD + STANDOFF / speed + course.duration();
         match self.breath {
             Some(breath) if duration > breath => Err(Error::OutOfBreath { duration, breath }),
             _ => Ok(()),

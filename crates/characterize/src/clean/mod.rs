@@ -21,7 +21,7 @@ mod stimulus;
 pub(crate) mod swing;
 
 use palpate_files::Recording;
-use palpate_files::recording::{RecordingHeader, Stimulus};
+use palpate_files::recording::{RecordingHeader, StimulusKind};
 
 pub use contact::Contact;
 pub use filter::LowPass;
@@ -173,7 +173,7 @@ fn find_contact(
         Some(time) => contact::at(samples, time),
         None if recording.is_foreign() => contact::by_force(samples),
         None => {
-            let is_uniaxial = recording.header.stimulus == Some(Stimulus::Uniaxial);
+            let is_uniaxial = recording.header.stimulus == Some(StimulusKind::Uniaxial);
             contact::by_depth(samples, is_uniaxial)
         }
     }
@@ -218,7 +218,7 @@ impl CleanRecording {
     }
 
     fn is_uniaxial(&self) -> bool {
-        self.header.stimulus == Some(Stimulus::Uniaxial)
+        self.header.stimulus == Some(StimulusKind::Uniaxial)
     }
 
     /// How long a segment takes [s], from its first sample to the first of the next.

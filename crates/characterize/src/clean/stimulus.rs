@@ -1,6 +1,6 @@
 //! What the header says of the stimulus, held against what the depth shows.
 
-use palpate_files::recording::Stimulus;
+use palpate_files::recording::StimulusKind;
 
 use super::swing::Sine;
 use super::{CleanRecording, Segment, SegmentKind};
@@ -71,11 +71,11 @@ fn tell_kind(clean: &CleanRecording, doubts: &mut Vec<String>) {
     let swings = shows(|kind| matches!(kind, SegmentKind::Sine(_)));
     let sweeps = shows(|kind| matches!(kind, SegmentKind::Chirp(..)));
     let (is_so, looks) = match clean.header.stimulus {
-        Some(Stimulus::Sine) => (swings, "no steady swing"),
-        Some(Stimulus::ChirpLinear | Stimulus::ChirpExponential) => {
+        Some(StimulusKind::Sine) => (swings, "no steady swing"),
+        Some(StimulusKind::ChirpLinear | StimulusKind::ChirpExponential) => {
             (sweeps, "no swing of changing frequency")
         }
-        Some(Stimulus::RampAndHold) => (
+        Some(StimulusKind::RampAndHold) => (
             shows(|kind| *kind == SegmentKind::Hold) && !swings && !sweeps,
             "no ramp with a hold alone",
         ),

@@ -1,5 +1,5 @@
 use palpate_files::Estimate;
-use palpate_files::recording::{IndenterShape, RecordingHeader, Specimen, Stimulus};
+use palpate_files::recording::{IndenterShape, RecordingHeader, Specimen, StimulusKind};
 
 use crate::analyze::{Hold, holds};
 use crate::fit::{Fit, Parameter, Settings, correlated_uncertainty, least_squares};
@@ -100,7 +100,7 @@ pub fn mean_elastic_modulus(recordings: &[CleanRecording]) -> Result<MeanModulus
         if header.specimen == Some(Specimen::Tube) {
             return Err(Error::HollowOrgan);
         }
-        if header.stimulus == Some(Stimulus::Uniaxial) {
+        if header.stimulus == Some(StimulusKind::Uniaxial) {
             continue;
         }
         let contact = Contact::of(header)?;

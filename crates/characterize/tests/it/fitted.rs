@@ -5,7 +5,7 @@ use palpate_characterize::inverse::{PUNCH, SoughtLaw};
 use palpate_characterize::{Characterization, CharacterizeSettings, CleanRecording};
 use palpate_characterize::{CleanSettings, characterize, clean};
 use palpate_files::Recording;
-use palpate_files::recording::{RecordingHeader, Samples, Stimulus};
+use palpate_files::recording::{RecordingHeader, Samples, StimulusKind};
 use palpate_mechanics::{IndentationCurve, PronySeries};
 
 const C10: f64 = 500.0;
@@ -27,7 +27,7 @@ fn recording(seed: u64) -> CleanRecording {
     let [time_s, depth_m, force] = truth();
     let mut random = Random::new(seed);
     let header = RecordingHeader {
-        stimulus: Some(Stimulus::RampAndHold),
+        stimulus: Some(StimulusKind::RampAndHold),
         indenter_radius_m: Some(1e-3),
         ..RecordingHeader::default()
     };

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use palpate_characterize::clean::SegmentKind::{self, Chirp, Hold, Ramp, Retreat, Sine};
 use palpate_characterize::{CleanRecording, CleanSettings, clean};
 use palpate_files::Recording;
-use palpate_files::recording::{RecordingHeader, Samples, Stimulus};
+use palpate_files::recording::{RecordingHeader, Samples, StimulusKind};
 
 use crate::made_up::{Dice, own, times};
 
@@ -125,14 +125,14 @@ fn linear_and_exponential_chirps() {
 fn contradictions_are_told() {
     let depth = |t: f64| (0.03 * (t - 0.5)).clamp(0.0, 0.006);
     let mut recording = own(&times(500.0, 5.0), depth, |t| 20.0 * depth(t));
-    recording.header.stimulus = Some(Stimulus::RampAndHold);
+    recording.header.stimulus = Some(StimulusKind::RampAndHold);
     recording.header.ramp_s = Some(0.2);
     recording.header.amplitude_m = Some(0.006);
     recording.header.sample_rate_hz = Some(500.0);
     let settings = CleanSettings::default();
     let agreed = clean(&recording, &settings).unwrap().doubts;
     assert!(agreed.is_empty(), "{agreed:?}");
-    recording.header.stimulus = Some(Stimulus::Sine);
+    recording.header.stimulus = Some(StimulusKind::Sine);
     recording.header.ramp_s = Some(2.0);
     recording.header.amplitude_m = Some(0.008);
     recording.header.sample_rate_hz = Some(1000.0);

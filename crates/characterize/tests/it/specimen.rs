@@ -7,7 +7,7 @@ use palpate_characterize::fit::Random;
 use palpate_characterize::inverse::{Body, PUNCH, SoughtLaw};
 use palpate_characterize::{Characterization, CharacterizeSettings, CleanRecording, characterize};
 use palpate_files::Recording;
-use palpate_files::recording::{IndenterShape, RecordingHeader, Samples, Stimulus};
+use palpate_files::recording::{IndenterShape, RecordingHeader, Samples, StimulusKind};
 use palpate_mechanics::finite_elements::indentation::{
     History, IndentationProblem, Relaxing, solve_history,
 };
@@ -32,7 +32,7 @@ pub(super) fn recording(history: &History, forces: &[f64], seed: u64) -> CleanRe
     let mut felt = |force: &f64| force + 2e-5 * random.normal();
     let header = RecordingHeader {
         organ: Some("liver".into()),
-        stimulus: Some(Stimulus::RampAndHold),
+        stimulus: Some(StimulusKind::RampAndHold),
         indenter_shape: Some(IndenterShape::Flat),
         indenter_radius_m: Some(RADIUS),
         ..RecordingHeader::default()

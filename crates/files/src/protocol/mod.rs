@@ -8,7 +8,7 @@ use std::path::Path;
 
 pub use rig::{Gains, RigLimits};
 pub use specimen::{Measured, MeasuredTissue, PublishedOrgan};
-pub use stimulus::{StimulusKind, StimulusPlan};
+pub use stimulus::{Stimulus, StimulusPlan, Sweep};
 
 use crate::whole_file::read_text;
 use crate::{Document, Error};

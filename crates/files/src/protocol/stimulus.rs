@@ -1,17 +1,63 @@
-use crate::words::words;
+use crate::recording::StimulusKind;
 use crate::{Domain, Error, Keys};
 
-words! {
-    /// What the indenter does.
-    pub enum StimulusKind {
-        /// It goes to a depth and stays there.
-        RampAndHold = "ramp_and_hold",
-        /// It swings with one frequency.
-        Sine = "sine",
-        /// It swings with a frequency that grows linearly.
-        ChirpLinear = "chirp_linear",
-        /// It swings with a frequency that grows exponentially.
-        ChirpExponential = "chirp_exponential",
+/// What an indenter does, from first contact (figure 5-8).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Stimulus {
+    /// It goes to a depth and stays there.
+    RampAndHold {
+        /// The depth [m].
+        depth_m: f64,
+        /// How long the way takes [s].
+        ramp_s: f64,
+        /// How long it stays [s].
+        hold_s: f64,
+    },
+    /// It swings about a depth, from it downward first.
+    Swing {
+        /// From the middle to an end [m].
+        amplitude_m: f64,
+        /// The middle [m].
+        pre_indentation_m: f64,
+        /// How often.
+        sweep: Sweep,
+        /// How long it swings [s].
+        duration_s: f64,
+    },
+}
+
+/// How often something swings, from its beginning to its end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Sweep {
+    /// Always with one frequency [Hz].
+    Constant(f64),
+    /// From one frequency to another [Hz], by equal steps in equal times.
+    Linear([f64; 2]),
+    /// From one frequency to another [Hz], by equal parts in equal times.
+    Exponential([f64; 2]),
+}
+
+impl Sweep {
+    /// The first and the last frequency [Hz].
+    pub fn ends(self) -> [f64; 2] {
+        match self {
+            Self::Constant(frequency) => [frequency; 2],
+            Self::Linear(ends) | Self::Exponential(ends) => ends,
+        }
+    }
+}
+
+impl Stimulus {
+    /// The word for it in documents.
+    pub fn kind(&self) -> StimulusKind {
+        match self {
+            Self::RampAndHold { .. } => StimulusKind::RampAndHold,
+            Self::Swing { sweep, .. } => match sweep {
+                Sweep::Constant(_) => StimulusKind::Sine,
+                Sweep::Linear(_) => StimulusKind::ChirpLinear,
+                Sweep::Exponential(_) => StimulusKind::ChirpExponential,
+            },
+        }
     }
 }
 
@@ -19,21 +65,7 @@ words! {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StimulusPlan {
     /// What the indenter does.
-    pub kind: StimulusKind,
-    /// The depth of a hold, or the amplitude of a swing [m].
-    pub amplitude_m: f64,
-    /// The depth that is swung about [m]; zero for a hold.
-    pub pre_indentation_m: f64,
-    /// Duration of the ramp [s]; zero for a swing.
-    pub ramp_s: f64,
-    /// How long it is held, or a chirp takes [s]; zero for a sine.
-    pub duration_s: f64,
-    /// Frequency of a sine, or the one with which a chirp begins [Hz]; zero for a hold.
-    pub frequency_hz: f64,
-    /// Frequency with which a chirp ends [Hz]; zero for others.
-    pub end_frequency_hz: f64,
-    /// How often a sine swings [-]; zero for others.
-    pub cycles: f64,
+    pub stimulus: Stimulus,
     /// How often it is done.
     pub repeats: u64,
 }
@@ -41,6 +73,7 @@ pub struct StimulusPlan {
 impl StimulusPlan {
     pub(super) const KEYS: &[&str] = &[
         "kind",
+        "repeats",
         "depth_m",
         "depths_m",
         "ramp_s",
@@ -52,113 +85,97 @@ impl StimulusPlan {
         "end_frequency_hz",
         "duration_s",
         "cycles",
-        "repeats",
     ];
 
     /// One for each depth or frequency of a table.
     pub(super) fn from_keys(keys: &Keys<'_>) -> Result<Vec<Self>, Error> {
+        const EXPECTED: &str = "`ramp_and_hold`, `sine`, `chirp_linear` or `chirp_exponential`";
         let kind = keys.word("kind", StimulusKind::WORDS)?;
-        let kind = kind.ok_or_else(|| {
-            keys.missing(
-                "kind",
-                "`ramp_and_hold`, `sine`, `chirp_linear` or `chirp_exponential`",
-            )
-        })?;
+        let stimuli = match kind.ok_or_else(|| keys.missing("kind", EXPECTED))? {
+            StimulusKind::RampAndHold => holds(keys)?,
+            StimulusKind::Sine => sines(keys)?,
+            StimulusKind::ChirpLinear => chirp(keys, Sweep::Linear)?,
+            StimulusKind::ChirpExponential => chirp(keys, Sweep::Exponential)?,
+            StimulusKind::Uniaxial | StimulusKind::Other => {
+                return Err(keys.bad("kind", EXPECTED));
+            }
+        };
         let repeats = keys.integer("repeats", 1..=1000)?.unwrap_or(1);
-        let plan = Self {
-            kind,
-            amplitude_m: 0.0,
-            pre_indentation_m: 0.0,
-            ramp_s: 0.0,
-            duration_s: 0.0,
-            frequency_hz: 0.0,
-            end_frequency_hz: 0.0,
-            cycles: 0.0,
-            repeats,
-        };
-        match kind {
-            StimulusKind::RampAndHold => plan.holds(keys),
-            StimulusKind::Sine => plan.sines(keys),
-            StimulusKind::ChirpLinear | StimulusKind::ChirpExponential => plan.chirps(keys),
-        }
-    }
-
-    fn holds(self, keys: &Keys<'_>) -> Result<Vec<Self>, Error> {
-        refuse(
-            keys,
-            &[
-                "amplitude_m",
-                "pre_indentation_m",
-                "frequency_hz",
-                "frequencies_hz",
-                "end_frequency_hz",
-                "duration_s",
-                "cycles",
-            ],
-            "a ramp and hold has none",
-        )?;
-        let ramp_s = keys.number("ramp_s", Domain::POSITIVE)?.unwrap_or(0.5);
-        let duration_s = keys.number("hold_s", Domain::POSITIVE)?.unwrap_or(20.0);
-        let each = several(keys, ["depth_m", "depths_m"])?.into_iter();
-        let hold = |amplitude_m| Self {
-            amplitude_m,
-            ramp_s,
-            duration_s,
-            ..self
-        };
-        Ok(each.map(hold).collect())
-    }
-
-    fn sines(self, keys: &Keys<'_>) -> Result<Vec<Self>, Error> {
-        let of_others = [
-            "depth_m",
-            "depths_m",
-            "ramp_s",
-            "hold_s",
-            "end_frequency_hz",
-            "duration_s",
-        ];
-        refuse(keys, &of_others, "a sine has none")?;
-        let swing = self.swing(keys)?;
-        let cycles = keys.number("cycles", Domain::POSITIVE)?.unwrap_or(10.0);
-        let each = several(keys, ["frequency_hz", "frequencies_hz"])?.into_iter();
-        let sine = |frequency_hz| Self {
-            frequency_hz,
-            cycles,
-            ..swing
-        };
-        Ok(each.map(sine).collect())
-    }
-
-    fn chirps(self, keys: &Keys<'_>) -> Result<Vec<Self>, Error> {
-        let of_others = [
-            "depth_m",
-            "depths_m",
-            "ramp_s",
-            "hold_s",
-            "frequencies_hz",
-            "cycles",
-        ];
-        refuse(keys, &of_others, "a chirp has none")?;
-        Ok(vec![Self {
-            frequency_hz: keys.required_number("frequency_hz", Domain::POSITIVE)?,
-            end_frequency_hz: keys.required_number("end_frequency_hz", Domain::POSITIVE)?,
-            duration_s: keys.number("duration_s", Domain::POSITIVE)?.unwrap_or(15.0),
-            ..self.swing(keys)?
-        }])
-    }
-
-    fn swing(self, keys: &Keys<'_>) -> Result<Self, Error> {
-        Ok(Self {
-            amplitude_m: keys.required_number("amplitude_m", Domain::POSITIVE)?,
-            pre_indentation_m: keys.required_number("pre_indentation_m", Domain::POSITIVE)?,
-            ..self
-        })
+        let plan = |stimulus| Self { stimulus, repeats };
+        Ok(stimuli.into_iter().map(plan).collect())
     }
 }
 
-fn refuse(keys: &Keys<'_>, unknown: &[&'static str], why: &'static str) -> Result<(), Error> {
-    unknown.iter().try_for_each(|key| keys.refuse(key, why))
+fn holds(keys: &Keys<'_>) -> Result<Vec<Stimulus>, Error> {
+    let own = ["depth_m", "depths_m", "ramp_s", "hold_s"];
+    only(keys, &own, "a ramp and hold has none")?;
+    let ramp_s = keys.number("ramp_s", Domain::POSITIVE)?.unwrap_or(0.5);
+    let hold_s = keys.number("hold_s", Domain::POSITIVE)?.unwrap_or(20.0);
+    let hold = |depth_m| Stimulus::RampAndHold {
+        depth_m,
+        ramp_s,
+        hold_s,
+    };
+    let depths = several(keys, ["depth_m", "depths_m"])?;
+    Ok(depths.into_iter().map(hold).collect())
+}
+
+fn sines(keys: &Keys<'_>) -> Result<Vec<Stimulus>, Error> {
+    let own = [
+        "amplitude_m",
+        "pre_indentation_m",
+        "frequency_hz",
+        "frequencies_hz",
+        "cycles",
+    ];
+    only(keys, &own, "a sine has none")?;
+    let [amplitude_m, pre_indentation_m] = swing(keys)?;
+    let cycles = keys.number("cycles", Domain::POSITIVE)?.unwrap_or(10.0);
+    let sine = |frequency| Stimulus::Swing {
+        amplitude_m,
+        pre_indentation_m,
+        sweep: Sweep::Constant(frequency),
+        duration_s: cycles / frequency,
+    };
+    let frequencies = several(keys, ["frequency_hz", "frequencies_hz"])?;
+    Ok(frequencies.into_iter().map(sine).collect())
+}
+
+fn chirp(keys: &Keys<'_>, sweep: fn([f64; 2]) -> Sweep) -> Result<Vec<Stimulus>, Error> {
+    let own = [
+        "amplitude_m",
+        "pre_indentation_m",
+        "frequency_hz",
+        "end_frequency_hz",
+        "duration_s",
+    ];
+    only(keys, &own, "a chirp has none")?;
+    let [amplitude_m, pre_indentation_m] = swing(keys)?;
+    Ok(vec![Stimulus::Swing {
+        amplitude_m,
+        pre_indentation_m,
+        sweep: sweep([
+            keys.required_number("frequency_hz", Domain::POSITIVE)?,
+            keys.required_number("end_frequency_hz", Domain::POSITIVE)?,
+        ]),
+        duration_s: keys.number("duration_s", Domain::POSITIVE)?.unwrap_or(15.0),
+    }])
+}
+
+/// Amplitude and middle of a swing [m].
+fn swing(keys: &Keys<'_>) -> Result<[f64; 2], Error> {
+    Ok([
+        keys.required_number("amplitude_m", Domain::POSITIVE)?,
+        keys.required_number("pre_indentation_m", Domain::POSITIVE)?,
+    ])
+}
+
+/// Refuses every key that belongs to another kind.
+fn only(keys: &Keys<'_>, own: &[&str], why: &'static str) -> Result<(), Error> {
+    const OF_ALL: [&str; 2] = ["kind", "repeats"];
+    let is_foreign = |key: &&&str| !own.contains(*key) && !OF_ALL.contains(*key);
+    let mut foreign = StimulusPlan::KEYS.iter().filter(is_foreign);
+    foreign.try_for_each(|key| keys.refuse(key, why))
 }
 
 /// One number, or a list of them.

@@ -15,7 +15,7 @@ words! {
 
 words! {
     /// What the indenter did.
-    pub enum Stimulus {
+    pub enum StimulusKind {
         /// It went to a depth and stayed there.
         RampAndHold = "ramp_and_hold",
         /// It swung with one frequency.
@@ -72,7 +72,7 @@ pub struct RecordingHeader {
     /// Whether breath was held.
     pub breath_held: Option<bool>,
     /// What the indenter did.
-    pub stimulus: Option<Stimulus>,
+    pub stimulus: Option<StimulusKind>,
     /// Duration of the ramp [s].
     pub ramp_s: Option<f64>,
     /// Depth of the hold, or amplitude of the swing [m].

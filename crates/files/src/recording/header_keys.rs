@@ -1,4 +1,4 @@
-use super::{Condition, IndenterShape, RecordingHeader, Specimen, Stimulus};
+use super::{Condition, IndenterShape, RecordingHeader, Specimen, StimulusKind};
 use crate::toml_document::{quoted, toml_number};
 use crate::{Domain, Error, Keys};
 
@@ -50,7 +50,7 @@ impl RecordingHeader {
             condition: keys.word("condition", Condition::WORDS)?,
             post_mortem_s: not_negative("post_mortem_s")?,
             breath_held: keys.truth("breath_held")?,
-            stimulus: keys.word("stimulus", Stimulus::WORDS)?,
+            stimulus: keys.word("stimulus", StimulusKind::WORDS)?,
             ramp_s: not_negative("ramp_s")?,
             amplitude_m: not_negative("amplitude_m")?,
             pre_indentation_m: not_negative("pre_indentation_m")?,

@@ -1,7 +1,7 @@
 use std::path::Path;
 
 use super::foreign_names::Wanted;
-use super::{ForeignColumns, Recording, RecordingHeader, Samples, Stimulus};
+use super::{ForeignColumns, Recording, RecordingHeader, Samples, StimulusKind};
 use super::{foreign_table, foreign_units};
 use crate::table::TableText;
 use crate::units::Unit;
@@ -27,7 +27,7 @@ pub(super) fn parse(
     }
     let keys = table.header.keys(path, RecordingHeader::KEYS);
     let mut header = RecordingHeader::from_keys(&keys)?;
-    header.stimulus = Some(Stimulus::Uniaxial);
+    header.stimulus = Some(StimulusKind::Uniaxial);
     header.area_m2 = Some(1.0);
     header.height_m = Some(1.0);
     let [stretch, stress] = [wanted[0].choose(&table)?, wanted[1].choose(&table)?];

@@ -1,8 +1,9 @@
 //! The rig over tissue that is not there. Judges: the closed form of a linear half-space that relaxes, limits
 //! that hold, the same bytes for the same seed.
 
+use palpate_files::protocol::Stimulus;
 use palpate_files::{Elasticity, Estimate, PronyTerm, Tissue};
-use palpate_measure::{Ended, Error, Rig, RigSample, RigSettings, Stimulus, VirtualSpecimen};
+use palpate_measure::{Course, Ended, Error, Rig, RigSample, RigSettings, VirtualSpecimen};
 use palpate_servo::dynamics::{Imperfections, Machine, TwoMass};
 use palpate_servo::{Clock, MECHANICS_STEP};
 
@@ -29,18 +30,25 @@ fn rig(specimen: VirtualSpecimen, settings: RigSettings, seed: u64) -> Rig {
     Rig::over(specimen, device, settings, (Clock::virtual_time(), seed)).unwrap()
 }
 
-const RAMP: Stimulus = Stimulus::RampAndHold {
-    depth: 4e-3,
-    ramp: 0.5,
-    hold: 8.0,
-};
+fn ramp(depth_m: f64, ramp_s: f64, hold_s: f64) -> Course {
+    let ramp = Stimulus::RampAndHold {
+        depth_m,
+        ramp_s,
+        hold_s,
+    };
+    Course::of(ramp).unwrap()
+}
+
+fn usual() -> Course {
+    ramp(4e-3, 0.5, 8.0)
+}
 
 fn pressed(seed: u64) -> Vec<RigSample> {
     let specimen = VirtualSpecimen::of_tissue(&tissue(), (RADIUS, 8e-3), &mut |_| ()).unwrap();
     let mut rig = rig(specimen, RigSettings::default(), seed);
     assert_eq!(rig.approach(&mut |_| true).unwrap(), Ended::Whole);
     let mut samples = Vec::new();
-    let ended = rig.press(&RAMP, &mut |sample| {
+    let ended = rig.press(&usual(), &mut |sample| {
         samples.push(*sample);
         true
     });
@@ -74,16 +82,8 @@ fn the_same_seed_gives_the_same_samples() {
 #[test]
 fn limits_hold() {
     let specimen = || VirtualSpecimen::of_tissue(&tissue(), (RADIUS, 8e-3), &mut |_| ()).unwrap();
-    let deep = Stimulus::RampAndHold {
-        depth: 20e-3,
-        ramp: 2.0,
-        hold: 1.0,
-    };
-    let fast = Stimulus::RampAndHold {
-        depth: 4e-3,
-        ramp: 0.02,
-        hold: 1.0,
-    };
+    let deep = ramp(20e-3, 2.0, 1.0);
+    let fast = ramp(4e-3, 0.02, 1.0);
     let settings = RigSettings {
         breath: Some(5.0),
         ..RigSettings::default()
@@ -91,7 +91,7 @@ fn limits_hold() {
     assert!(matches!(settings.check(&deep), Err(Error::TooDeep { .. })));
     assert!(matches!(settings.check(&fast), Err(Error::TooFast { .. })));
     assert!(matches!(
-        settings.check(&RAMP),
+        settings.check(&usual()),
         Err(Error::OutOfBreath { .. })
     ));
     let settings = RigSettings {
@@ -100,7 +100,7 @@ fn limits_hold() {
     };
     let mut rig = rig(specimen(), settings, 1);
     rig.approach(&mut |_| true).unwrap();
-    let refused = rig.press(&RAMP, &mut |_| true);
+    let refused = rig.press(&usual(), &mut |_| true);
     assert!(
         matches!(refused, Err(Error::TooMuchForce { .. })),
         "{refused:?}"
@@ -121,7 +121,9 @@ fn a_stopped_stimulus_is_withdrawn() {
     let specimen = VirtualSpecimen::of_tissue(&tissue(), (RADIUS, 8e-3), &mut |_| ()).unwrap();
     let mut rig = rig(specimen, RigSettings::default(), 1);
     rig.approach(&mut |_| true).unwrap();
-    let ended = rig.press(&RAMP, &mut |sample| sample.force < 0.05).unwrap();
+    let ended = rig
+        .press(&usual(), &mut |sample| sample.force < 0.05)
+        .unwrap();
     assert_eq!(ended, Ended::Stopped);
     let mut depth = 0.0;
     rig.wait(0.2, &mut |sample| {

@@ -1,9 +1,9 @@
 use std::path::{Path, PathBuf};
 
 use palpate_files::Protocol;
-use palpate_files::protocol::{Gains, RigLimits, StimulusKind, StimulusPlan};
+use palpate_files::protocol::{Gains, RigLimits, Stimulus, Sweep};
 use palpate_files::recording::RecordingWriter;
-use palpate_measure::{Ended, Rig, RigSample, RigSettings, Stimulus, VirtualSpecimen};
+use palpate_measure::{Course, Ended, Rig, RigSample, RigSettings, VirtualSpecimen};
 use palpate_servo::dynamics::{Imperfections, Machine, TwoMass};
 use palpate_servo::{Clock, MECHANICS_STEP, PidGains};
 
@@ -24,7 +24,7 @@ pub(super) struct Measuring {
     settings: RigSettings,
     specimens: Vec<VirtualSpecimen>,
     /// Each with what it is called and which repetition it is.
-    stimuli: Vec<(String, u64, Stimulus)>,
+    stimuli: Vec<(String, u64, Course)>,
     seed: u64,
     pub(super) doubts: Vec<String>,
 }
@@ -47,24 +47,26 @@ impl Measuring {
         let mut doubts = Vec::new();
         let mut stimuli = Vec::new();
         for plan in &protocol.stimuli {
-            let stimulus = stimulus(plan);
-            settings.check(&stimulus).map_err(Failure::input)?;
-            let name = name(plan);
-            if stimulus.deepest() > TRUSTED[0] {
+            let name = name(&plan.stimulus);
+            let course = Course::of(plan.stimulus).map_err(Failure::input)?;
+            settings.check(&course).map_err(Failure::input)?;
+            if course.deepest() > TRUSTED[0] {
                 doubts.push(format!(
                     "{name}: deeper than 10 mm, where no tissue here was measured"
                 ));
             }
-            if plan.frequency_hz.max(plan.end_frequency_hz) > TRUSTED[1] {
+            if let Stimulus::Swing { sweep, .. } = plan.stimulus
+                && sweep.ends().iter().any(|frequency| *frequency > TRUSTED[1])
+            {
                 doubts.push(format!(
                     "{name}: beyond 8 Hz, where the device itself is felt"
                 ));
             }
-            stimuli.extend((1..=plan.repeats).map(|repeat| (name.clone(), repeat, stimulus)));
+            stimuli.extend((1..=plan.repeats).map(|repeat| (name.clone(), repeat, course)));
         }
         let deepest = stimuli
             .iter()
-            .map(|(_, _, own): &(_, _, Stimulus)| own.deepest());
+            .map(|(_, _, own): &(_, _, Course)| own.deepest());
         let deepest = deepest.fold(0.0, f64::max);
         let mut specimens = Vec::new();
         for (measured, place) in protocol.specimens.iter().zip(0..) {
@@ -117,12 +119,12 @@ impl Measuring {
         let mut files = files.iter();
         for (place, specimen) in (0..).zip(&self.specimens) {
             let mut rig = self.rig(specimen, place)?;
-            for ((name, repeat, stimulus), file) in self.stimuli.iter().zip(files.by_ref()) {
+            for ((name, repeat, course), file) in self.stimuli.iter().zip(files.by_ref()) {
                 progress.say(format!("{}", file.display()));
                 if interrupt::is_asked() {
                     return Ok(recorded);
                 }
-                let done = record(&mut rig, (stimulus, *repeat), file);
+                let done = record(&mut rig, (course, *repeat), file);
                 let done = done.map_err(|failure| failure.about(file))?;
                 progress.step();
                 let Some(mut done) = done else {
@@ -146,7 +148,7 @@ impl Measuring {
 /// One stimulus; none when Ctrl-C came before it.
 fn record(
     rig: &mut Rig,
-    (stimulus, repeat): (&Stimulus, u64),
+    (course, repeat): (&Course, u64),
     file: &Path,
 ) -> Result<Option<Recorded>, Failure> {
     let go_on = &mut |_: &RigSample| !interrupt::is_asked();
@@ -159,10 +161,10 @@ fn record(
             return Ok(None);
         }
     }
-    let mut writer = RecordingWriter::create(file, &rig.describe(stimulus, repeat))?;
+    let mut writer = RecordingWriter::create(file, &rig.describe(course, repeat))?;
     let (mut samples, mut peak, mut first) = (0, 0.0_f64, None);
     let mut unwritten = None;
-    let ended = rig.press(stimulus, &mut |sample| {
+    let ended = rig.press(course, &mut |sample| {
         let begun = *first.get_or_insert(sample.time);
         // To the microsecond, which is what a clock can say.
         let time = (1e6 * (sample.time - begun)).round() / 1e6;
@@ -206,40 +208,17 @@ fn settings(limits: &RigLimits) -> RigSettings {
     }
 }
 
-fn stimulus(plan: &StimulusPlan) -> Stimulus {
-    match plan.kind {
-        StimulusKind::RampAndHold => Stimulus::RampAndHold {
-            depth: plan.amplitude_m,
-            ramp: plan.ramp_s,
-            hold: plan.duration_s,
-        },
-        StimulusKind::Sine => Stimulus::Sine {
-            amplitude: plan.amplitude_m,
-            pre_indentation: plan.pre_indentation_m,
-            frequency: plan.frequency_hz,
-            cycles: plan.cycles,
-        },
-        StimulusKind::ChirpLinear | StimulusKind::ChirpExponential => Stimulus::Chirp {
-            amplitude: plan.amplitude_m,
-            pre_indentation: plan.pre_indentation_m,
-            frequencies: [plan.frequency_hz, plan.end_frequency_hz],
-            duration: plan.duration_s,
-            exponential: plan.kind == StimulusKind::ChirpExponential,
-        },
-    }
-}
-
 /// What a stimulus is called: `ramp-and-hold-4mm`, `sine-2hz`.
-fn name(plan: &StimulusPlan) -> String {
-    match plan.kind {
-        StimulusKind::RampAndHold => format!("{}-{}mm", plan.kind, 1e3 * plan.amplitude_m),
-        StimulusKind::Sine => format!("{}-{}hz", plan.kind, plan.frequency_hz),
-        StimulusKind::ChirpLinear | StimulusKind::ChirpExponential => {
-            format!(
-                "{}-{}-{}hz",
-                plan.kind, plan.frequency_hz, plan.end_frequency_hz
-            )
-        }
+fn name(stimulus: &Stimulus) -> String {
+    let kind = stimulus.kind();
+    match *stimulus {
+        Stimulus::RampAndHold { depth_m, .. } => format!("{kind}-{}mm", 1e3 * depth_m),
+        Stimulus::Swing { sweep, .. } => match sweep {
+            Sweep::Constant(frequency) => format!("{kind}-{frequency}hz"),
+            Sweep::Linear([first, last]) | Sweep::Exponential([first, last]) => {
+                format!("{kind}-{first}-{last}hz")
+            }
+        },
     }
 }
 

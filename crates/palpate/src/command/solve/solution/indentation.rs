@@ -1,5 +1,5 @@
 use palpate_files::Recording;
-use palpate_files::recording::{self, RecordingHeader, Samples, Stimulus};
+use palpate_files::recording::{self, RecordingHeader, Samples, StimulusKind};
 use palpate_mechanics::contact::{Bond, half_space_stiffness, hertz_force};
 use palpate_mechanics::finite_elements::indentation::{
     Grip, History, IndentationProblem, IndenterShape, Side, solve, solve_history,
@@ -155,7 +155,7 @@ fn recording(
         IndenterShape::Sphere => recording::IndenterShape::Sphere,
     };
     let header = RecordingHeader {
-        stimulus: Some(Stimulus::RampAndHold),
+        stimulus: Some(StimulusKind::RampAndHold),
         ramp_s: Some(ramp.ramp),
         amplitude_m: Some(ramp.depth),
         sample_rate_hz: Some((ramp.samples - 1) as f64 / (ramp.ramp + ramp.hold)),
