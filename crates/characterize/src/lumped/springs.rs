@@ -19,8 +19,7 @@ pub fn springs_force(
     times: &[f64],
     depths: &[f64],
 ) -> Option<Vec<f64>> {
-    let s = springs;
-    let all = [s.k01, s.k02, s.k11, s.k12, s.k13, s.k21, s.k22, s.k23].map(|k| k.value);
+    let all = springs.values().map(|parameter| parameter.value);
     let mut forces = vec![0.0; times.len()];
     respond(&all, (times, depths), &mut |row, _, by| {
         forces[row] += by.force;

@@ -31,7 +31,7 @@ pub struct SpringsFit {
 }
 
 /// Names of the parameters, in their order.
-const NAMES: [&str; 8] = ["k01", "k02", "k11", "k12", "k13", "k21", "k22", "k23"];
+const NAMES: [&str; 8] = NonlinearSprings::KEYS;
 /// Exponents that are sought for the static spring and for those that relax [-]: below one, the stiffness of
 /// a spring at rest would have no bound.
 const EXPONENTS: [[f64; 2]; 2] = [[0.5, 6.0], [1.0, 6.0]];
@@ -216,15 +216,5 @@ fn described(fit: &Fit, uncertainty: &Uncertainty) -> NonlinearSprings {
         },
         None => Estimate::exactly(0.0),
     };
-    let [k01, k02, k11, k12, k13, k21, k22, k23] = std::array::from_fn(of);
-    NonlinearSprings {
-        k01,
-        k02,
-        k11,
-        k12,
-        k13,
-        k21,
-        k22,
-        k23,
-    }
+    NonlinearSprings::of(std::array::from_fn(of))
 }

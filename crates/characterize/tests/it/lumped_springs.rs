@@ -11,23 +11,7 @@ use crate::lumped::published;
 use crate::made_up::{ramp_and_hold, times};
 
 fn springs(values: [f64; 8]) -> NonlinearSprings {
-    let [k01, k02, k11, k12, k13, k21, k22, k23] = values.map(Estimate::exactly);
-    NonlinearSprings {
-        k01,
-        k02,
-        k11,
-        k12,
-        k13,
-        k21,
-        k22,
-        k23,
-    }
-}
-
-fn values(of: &NonlinearSprings) -> [Estimate; 8] {
-    [
-        of.k01, of.k02, of.k11, of.k12, of.k13, of.k21, of.k22, of.k23,
-    ]
+    NonlinearSprings::of(values.map(Estimate::exactly))
 }
 
 /// A row of table 6-2.
@@ -165,7 +149,7 @@ fn springs_return() {
         let found = fitted(&recordings(&truth, 1e-4, &CONDITIONS));
         assert_eq!(found.branches, branches, "{organ}: {:?}", found.tried);
         assert!(found.misfit < 0.01, "{organ}: {}", found.misfit);
-        for (i, (estimate, truth)) in values(&found.springs).iter().zip(truth).enumerate() {
+        for (i, (estimate, truth)) in found.springs.values().iter().zip(truth).enumerate() {
             let error = estimate.standard_error.unwrap_or(0.0);
             println!("{organ} {i}: {truth} {} +- {error}", estimate.value);
             let off = (estimate.value - truth).abs();

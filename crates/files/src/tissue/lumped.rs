@@ -66,7 +66,7 @@ impl Lumped {
         };
         let kelvin = lumped.table("kelvin", Kelvin::KEYS)?;
         let blatz = lumped.table("blatz", EffectiveColumn::KEYS)?;
-        let springs = lumped.table("nonlinear_springs", NonlinearSprings::KEYS)?;
+        let springs = lumped.table("nonlinear_springs", &NonlinearSprings::KEYS)?;
         Ok(Self {
             kelvin: kelvin.map(|keys| Kelvin::from_keys(&keys)).transpose()?,
             blatz: blatz
@@ -143,26 +143,40 @@ impl EffectiveColumn {
 }
 
 impl NonlinearSprings {
-    const KEYS: &[&str] = &["k01", "k02", "k11", "k12", "k13", "k21", "k22", "k23"];
+    /// What the parameters are called, in their order.
+    pub const KEYS: [&str; 8] = ["k01", "k02", "k11", "k12", "k13", "k21", "k22", "k23"];
+
+    /// With these parameters [N, mm, s], in the order of [`Self::KEYS`].
+    pub fn of(values: [Estimate; 8]) -> Self {
+        let [k01, k02, k11, k12, k13, k21, k22, k23] = values;
+        Self {
+            k01,
+            k02,
+            k11,
+            k12,
+            k13,
+            k21,
+            k22,
+            k23,
+        }
+    }
+
+    /// The parameters [N, mm, s], in the order of [`Self::KEYS`].
+    pub fn values(&self) -> [Estimate; 8] {
+        [
+            self.k01, self.k02, self.k11, self.k12, self.k13, self.k21, self.k22, self.k23,
+        ]
+    }
 
     fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
-        let parameter = |key| keys.required_estimate(key, Domain::FINITE);
-        Ok(Self {
-            k01: parameter("k01")?,
-            k02: parameter("k02")?,
-            k11: parameter("k11")?,
-            k12: parameter("k12")?,
-            k13: parameter("k13")?,
-            k21: parameter("k21")?,
-            k22: parameter("k22")?,
-            k23: parameter("k23")?,
-        })
+        let mut values = [Estimate::exactly(0.0); 8];
+        for (value, key) in values.iter_mut().zip(Self::KEYS) {
+            *value = keys.required_estimate(key, Domain::FINITE)?;
+        }
+        Ok(Self::of(values))
     }
 
     fn parameters(&self) -> Vec<(&'static str, Estimate)> {
-        let values = [
-            self.k01, self.k02, self.k11, self.k12, self.k13, self.k21, self.k22, self.k23,
-        ];
-        Self::KEYS.iter().copied().zip(values).collect()
+        Self::KEYS.into_iter().zip(self.values()).collect()
     }
 }

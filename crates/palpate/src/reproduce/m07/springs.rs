@@ -7,9 +7,6 @@ use palpate_mechanics::finite_elements::indentation::History;
 
 use crate::reproduce::published::TABLE_6_2;
 
-/// Names of the parameters, in their order.
-pub(super) const NAMES: [&str; 8] = ["k01", "k02", "k11", "k12", "k13", "k21", "k22", "k23"];
-
 /// The organs of the table.
 pub(super) const ORGANS: [&str; 2] = ["liver", "esophagus"];
 
@@ -19,7 +16,7 @@ pub(super) const DEPTHS_MM: [u32; 4] = [2, 4, 6, 8];
 /// The printed parameters of `organ`, in their order.
 pub(super) fn printed(organ: &str) -> Option<[f64; 8]> {
     let mut values = [0.0; 8];
-    for (value, name) in values.iter_mut().zip(NAMES) {
+    for (value, name) in values.iter_mut().zip(NonlinearSprings::KEYS) {
         *value = TABLE_6_2.value(organ, name)?;
     }
     Some(values)
@@ -27,16 +24,6 @@ pub(super) fn printed(organ: &str) -> Option<[f64; 8]> {
 
 /// Forces [N] with these parameters over `course`.
 pub(super) fn forces(values: [f64; 8], course: &History) -> Option<Vec<f64>> {
-    let [k01, k02, k11, k12, k13, k21, k22, k23] = values.map(Estimate::exactly);
-    let springs = NonlinearSprings {
-        k01,
-        k02,
-        k11,
-        k12,
-        k13,
-        k21,
-        k22,
-        k23,
-    };
+    let springs = NonlinearSprings::of(values.map(Estimate::exactly));
     springs_force(&springs, &course.times, &course.depths)
 }

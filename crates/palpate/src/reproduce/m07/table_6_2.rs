@@ -1,8 +1,9 @@
 use palpate_characterize::inverse::Indentation;
 use palpate_characterize::lumped::{SpringsFit, fit_springs};
+use palpate_files::tissue::NonlinearSprings;
 use palpate_mechanics::finite_elements::indentation::History;
 
-use super::springs::{DEPTHS_MM, NAMES, ORGANS, forces, printed};
+use super::springs::{DEPTHS_MM, ORGANS, forces, printed};
 use crate::failure::Failure;
 use crate::reproduce::row::Value;
 use crate::reproduce::virtual_rig::{ramp_and_hold, recorded};
@@ -74,7 +75,7 @@ fn add(rows: &mut Rows<'_>, (organ, word): (&str, &str), values: &[f64; 8], foun
     let springs = if values[7] > 0.0 { 2.0 } else { 1.0 };
     let count = Value::beside(Some(springs), found.branches as f64, "1");
     rows.add(&format!("{organ}/{word}springs"), count, note.clone());
-    for (place, name) in NAMES.into_iter().enumerate() {
+    for (place, name) in NonlinearSprings::KEYS.into_iter().enumerate() {
         // A spring that is not there has no numbers.
         if values[place] == 0.0 {
             continue;
