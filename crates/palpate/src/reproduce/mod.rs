@@ -6,10 +6,12 @@ mod m01;
 mod m02;
 mod m03;
 mod m04;
+mod m05;
 mod m06;
 mod m07;
 mod m08;
 mod m09;
+mod m11;
 mod m12;
 mod m13;
 mod machine;
@@ -39,7 +41,7 @@ pub(crate) struct Item {
 }
 
 /// All that can be reproduced, in the order of the source.
-pub(crate) const ITEMS: [Item; 42] = [
+pub(crate) const ITEMS: [Item; 55] = [
     m01::TABLE_3_1,
     m01::FIGURE_3_3,
     m01::FIGURE_3_4,
@@ -56,10 +58,19 @@ pub(crate) const ITEMS: [Item; 42] = [
     m04::FIGURE_4_6,
     m13::FIGURE_4_7,
     m06::FIGURE_5_1,
+    m11::FIGURE_5_6,
+    m05::SECTION_5_2_2,
+    m05::FIGURE_5_8,
+    m05::FIGURE_5_12,
+    m05::FIGURE_5_13,
     m06::FIGURE_5_14,
     m06::TABLE_5_1,
     m06::FIGURE_5_15,
     m06::FIGURE_5_16,
+    m05::CHAPTER_5[0],
+    m05::CHAPTER_5[1],
+    m05::CHAPTER_5[2],
+    m05::CHAPTER_5[3],
     m07::TABLE_6_1,
     m07::FIGURE_6_3,
     m07::EQUATION_6_3,
@@ -78,6 +89,10 @@ pub(crate) const ITEMS: [Item; 42] = [
     m08::FIGURE_6_12,
     m09::SECTION_6_4_5,
     m09::FIGURE_6_15,
+    m11::SECTION_7_3,
+    m11::EQUATION_7_6,
+    m11::FIGURE_7_7,
+    m11::FIGURE_7_8,
     m12::SECTION_7_4,
     m13::TABLE_7_1,
     m13::FIGURE_7_12,

@@ -59,6 +59,12 @@ pub(crate) const SECTION_7_4: Table = Table(include_str!(
     "../../../../published/section_7_4_simplification.csv"
 ));
 
+/// (7.6).
+pub(crate) const DEVICE_7_6: Table = Table(include_str!("../../../../published/device_7_6.csv"));
+
+/// Numbers in the text and the captions of chapters 5 and 7.
+const RIG_AND_DEVICE: Table = Table(include_str!("../../../../published/rig_and_device.csv"));
+
 /// Appendix A.
 pub(crate) const APPENDIX_A: Table =
     Table(include_str!("../../../../published/appendix_a_pigs.csv"));
@@ -86,6 +92,15 @@ impl Table {
         self.value_of([], column)
     }
 
+    /// The first cells of the rows that have a number other than zero under the name `column`.
+    pub(crate) fn marked(self, column: &str) -> Vec<&'static str> {
+        let names = self.0.lines().filter(|line| !line.starts_with('#'));
+        let names = names.skip(1).filter_map(|line| line.split(',').next());
+        names
+            .filter(|name| self.value(name, column).is_some_and(|value| value != 0.0))
+            .collect()
+    }
+
     /// The sum of the numbers under the name `column`.
     pub(crate) fn sum(self, column: &str) -> Option<f64> {
         let mut lines = self.0.lines().filter(|line| !line.starts_with('#'));
@@ -94,6 +109,11 @@ impl Table {
             .map(|line| line.split(',').nth(at)?.parse::<f64>().ok())
             .sum()
     }
+}
+
+/// What `place` prints of `what`, such as `figure-7-7` of `share`, in its printed unit.
+pub(crate) fn rig_and_device(place: &str, what: &str) -> Option<f64> {
+    RIG_AND_DEVICE.value_of([place, what], "value")
 }
 
 /// How `organ` relaxes by the row of table 6-3 at `depth_mm`.
@@ -122,5 +142,7 @@ mod tests {
         assert_eq!(TABLE_5_1.value_of(["kidney", "8"], "mean_n"), Some(0.4541));
         assert_eq!(EQUATION_6_3.first("k2_n_per_mm"), Some(0.007));
         assert_eq!(APPENDIX_A.sum("esophagus"), Some(8.0));
+        assert_eq!(APPENDIX_A.marked("spleen"), ["B3", "B4", "B5", "B6"]);
+        assert_eq!(rig_and_device("section-5-4-2", "settled_after"), Some(40.0));
     }
 }

@@ -8,7 +8,7 @@ use serde_json::Value;
 use crate::reproduce::{find, reproduce};
 
 /// The cell of a printed table in the first row that begins with `row`.
-fn printed(file: &str, row: &[&str], column: &str) -> f64 {
+pub(crate) fn printed(file: &str, row: &[&str], column: &str) -> f64 {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../published");
     let text = fs::read_to_string(path.join(file)).unwrap();
     let mut lines = text.lines().filter(|line| !line.starts_with('#'));
@@ -18,14 +18,14 @@ fn printed(file: &str, row: &[&str], column: &str) -> f64 {
     found.unwrap().split(',').nth(at).unwrap().parse().unwrap()
 }
 
-fn number(row: &Value, key: &str) -> f64 {
+pub(crate) fn number(row: &Value, key: &str) -> f64 {
     row[key]
         .as_f64()
         .unwrap_or_else(|| panic!("{key} of {row}"))
 }
 
 /// Whatever has a file has it, and whatever has no number says why.
-fn assert_complete(folder: &tempfile::TempDir, rows: &[Value]) {
+pub(crate) fn assert_complete(folder: &tempfile::TempDir, rows: &[Value]) {
     for row in rows {
         let missing = row["ours"].is_null() && row["file"].is_null();
         assert!(

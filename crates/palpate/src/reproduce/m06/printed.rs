@@ -24,7 +24,7 @@ pub(in crate::reproduce) struct Printed {
 
 impl Printed {
     /// The row of `organ` at `depth_mm`; none where the table has none.
-    pub(super) fn of(organ: &str, depth_mm: u32) -> Option<Self> {
+    pub(in crate::reproduce) fn of(organ: &str, depth_mm: u32) -> Option<Self> {
         let cell = |column| TABLE_5_1.value_of([organ, &depth_mm.to_string()], column);
         Some(Self {
             depth_mm,

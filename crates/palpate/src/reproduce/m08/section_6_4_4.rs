@@ -29,6 +29,22 @@ struct Case {
     truth: Vec<f64>,
 }
 
+impl Case {
+    /// What it is called in a title.
+    fn words(&self) -> String {
+        let spelled = [
+            ("/", ", "),
+            ("neo_hookean", "neo-Hookean"),
+            ("mooney_rivlin", "Mooney-Rivlin"),
+            ("blatz", "Blatz"),
+        ];
+        let name = self.name.clone();
+        spelled
+            .into_iter()
+            .fold(name, |name, (key, word)| name.replace(key, word))
+    }
+}
+
 fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
     for case in cases()? {
         let count = case.truth.len();
@@ -51,10 +67,7 @@ fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
             }
         }
         let plot = Plot {
-            title: format!(
-                "Steps to the printed parameters, {}",
-                case.name.replace(['/', '_'], " ")
-            ),
+            title: format!("Steps to the printed parameters, {}", case.words()),
             x_label: "start over truth [-]".to_owned(),
             y_label: "steps until within 1 % [-]".to_owned(),
             x_axis: Axis::Logarithmic,
