@@ -17,7 +17,7 @@ pub(crate) use relaxation::holds;
 pub use relaxation::{Hold, Relaxation};
 pub use sinusoid::Sinusoid;
 pub use static_response::{StaticGroup, StaticPoint, StaticRow, static_response};
-pub use sweep::{Sweep, SweepPoint};
+pub use sweep::{COHERENT, Sweep, SweepPoint};
 
 use crate::CleanRecording;
 use crate::clean::SegmentKind;

@@ -23,7 +23,7 @@ use crate::clean::regression::{regress, relaxation};
 /// Multiples of the lowest frequency that are summed.
 const TOGETHER: usize = 9;
 /// Coherence below which an answer is not to be trusted [-].
-const COHERENT: f64 = 0.9;
+pub const COHERENT: f64 = 0.9;
 
 /// The answer to a chirp.
 #[derive(Debug, Clone, PartialEq)]

@@ -4,8 +4,11 @@ mod drawing;
 mod retouch;
 mod span;
 mod svg;
+mod thinned;
 
 use std::path::Path;
+
+pub(crate) use thinned::kept;
 
 use crate::failure::Failure;
 

@@ -6,7 +6,7 @@ const BUCKETS: usize = 100;
 /// Places of some samples, 900 at most, that draw the same lines as all: over time, over depth, and over the
 /// logarithm of the time since a hold began. In each of as many buckets of each of these the first sample
 /// and the least and largest of `drawn` are kept, so that no peak is lost.
-pub(super) fn kept(time: &[f64], depth: &[f64], drawn: &[f64]) -> Vec<usize> {
+pub(crate) fn kept(time: &[f64], depth: &[f64], drawn: &[f64]) -> Vec<usize> {
     let samples = time.len().min(depth.len()).min(drawn.len());
     if samples <= 3 * BUCKETS {
         return (0..samples).collect();

@@ -17,7 +17,7 @@ fn page(folder: &Path, arguments: &[&str]) -> String {
     fs::read_to_string(folder.join("page.html")).unwrap()
 }
 
-fn parse(page: &str) -> Document<'_> {
+pub(crate) fn parse(page: &str) -> Document<'_> {
     let options = ParsingOptions {
         allow_dtd: true,
         ..ParsingOptions::default()
@@ -25,7 +25,7 @@ fn parse(page: &str) -> Document<'_> {
     Document::parse_with_options(page, options).unwrap()
 }
 
-fn texts(document: &Document<'_>, element: &str) -> Vec<String> {
+pub(crate) fn texts(document: &Document<'_>, element: &str) -> Vec<String> {
     let named = document
         .descendants()
         .filter(|node| node.has_tag_name(("http://www.w3.org/1999/xhtml", element)));

@@ -2,11 +2,11 @@ use std::path::PathBuf;
 
 use palpate_characterize::Analysis;
 use palpate_characterize::analyze::{
-    Hold, OrganResponse, Relaxation, Sinusoid, Spread, StaticGroup, StaticPoint, StaticRow, Sweep,
-    organ_responses, static_response,
+    Hold, OrganResponse, Relaxation, Sinusoid, Spread, StaticGroup, StaticRow, Sweep,
 };
 use serde::Serialize;
 
+use super::analyzed::Analyzed;
 use crate::command::recordings::{ReadRecording, Unusable};
 use crate::output::VERSION;
 
@@ -135,38 +135,17 @@ struct OrganSinusoid {
 }
 
 impl Answer {
-    pub(super) fn new(analyzed: &[(&ReadRecording, Analysis)], unusable: &[Unusable]) -> Self {
-        let points: Vec<StaticPoint> = analyzed
-            .iter()
-            .flat_map(|(read, analysis)| {
-                let header = &read.clean.header;
-                analysis
-                    .holds
-                    .iter()
-                    .map(|hold| StaticPoint::of(header, hold))
-            })
-            .collect();
-        let own: Vec<_> = analyzed
-            .iter()
-            .map(|(read, analysis)| (&read.clean.header, analysis))
-            .collect();
-        let responses = organ_responses(&own);
-        let doubts = analyzed.iter().flat_map(|(read, analysis)| {
-            let all = read.clean.doubts.iter().chain(&analysis.doubts);
-            all.map(|doubt| format!("{}: {doubt}", read.path.display()))
-        });
-        let groups = static_response(&points);
+    pub(super) fn new(analyzed: &Analyzed<'_>) -> Self {
+        let unusable = analyzed.unusable.iter().map(Unusable::sentence);
+        let each = analyzed.recordings.iter();
         Self {
             palpate: VERSION,
-            files: analyzed
-                .iter()
+            files: each
                 .map(|(read, found)| FileAnswer::new(read, found))
                 .collect(),
-            organs: organs(&groups, &responses),
-            unusable: unusable.to_vec(),
-            warnings: doubts
-                .chain(unusable.iter().map(Unusable::sentence))
-                .collect(),
+            organs: organs(&analyzed.groups, &analyzed.responses),
+            unusable: analyzed.unusable.clone(),
+            warnings: analyzed.doubts.iter().cloned().chain(unusable).collect(),
         }
     }
 }

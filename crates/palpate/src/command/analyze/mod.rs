@@ -1,15 +1,18 @@
 //! `palpate analyze`: what recordings show, without a model.
 
+mod analyzed;
 mod answer;
+mod report;
 mod table;
 
 use clap::Args;
 use palpate_characterize::analyze;
-use palpate_files::check_writable;
+use palpate_files::{check_writable, write_whole};
 use std::path::PathBuf;
 
+use self::analyzed::Analyzed;
 use self::answer::Answer;
-use super::recordings::{Recordings, Unusable};
+use super::recordings::Recordings;
 use crate::failure::Failure;
 use crate::output;
 use crate::progress::{Progress, Reader};
@@ -21,6 +24,8 @@ Examples:
       static force, relaxation, and the answer to sines and chirps
   palpate analyze recordings/ --json > analysis.json
       every recording of a folder, and each organ over its subjects
+  palpate analyze recordings/ --report analysis.html
+      the same as a page with plots, to look at and to print
   palpate analyze test.txt --depth 'Extension' --depth-unit mm --force 'Load' --force-unit N
       a table of another program
 
@@ -38,35 +43,39 @@ pub(crate) struct Arguments {
     /// Write the JSON object to a file as well.
     #[arg(long, value_name = "FILE.json")]
     out: Option<PathBuf>,
+    /// Write a page with plots of all that is seen, for a browser or a printer.
+    #[arg(long, value_name = "FILE.html")]
+    report: Option<PathBuf>,
 }
 
 /// Analyzes and prints.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    if let Some(out) = &arguments.out {
-        check_writable(out)?;
+    for file in arguments.out.iter().chain(&arguments.report) {
+        check_writable(file)?;
     }
     let progress = Progress::new(Reader::of_json(arguments.json), None);
     let (recordings, unusable) = arguments
         .recordings
         .read(|path| progress.say(format!("reading {}", path.display())))?;
     progress.say("analyzing");
-    let analyzed: Vec<_> = recordings
-        .iter()
-        .map(|read| (read, analyze(&read.clean)))
-        .collect();
+    let analyses = recordings.iter().map(|read| (read, analyze(&read.clean)));
+    let analyzed = Analyzed::of(analyses.collect(), unusable);
     drop(progress);
-    let answer = Answer::new(&analyzed, &unusable);
+    let answer = Answer::new(&analyzed);
     if let Some(out) = &arguments.out {
-        palpate_files::write_whole(out, output::json_text(&answer)?.as_bytes())?;
+        write_whole(out, output::json_text(&answer)?.as_bytes())?;
+    }
+    if let Some(page) = &arguments.report {
+        let html = report::html(&analyzed, &arguments.recordings.said());
+        write_whole(page, html.as_bytes())?;
     }
     if arguments.json {
         return output::json(&answer);
     }
     output::text(table::of(&answer))?;
-    if let Some(out) = &arguments.out {
-        output::text(format!("written: {}", out.display()))?;
+    for written in arguments.out.iter().chain(&arguments.report) {
+        output::text(format!("written: {}", written.display()))?;
     }
     output::warnings(&answer.warnings);
-    output::warnings(&unusable.iter().map(Unusable::sentence).collect::<Vec<_>>());
     Ok(())
 }

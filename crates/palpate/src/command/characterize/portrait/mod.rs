@@ -3,7 +3,6 @@
 
 mod of_laws;
 mod of_recordings;
-mod thinned;
 
 use palpate_characterize::inverse::SoughtLaw;
 use palpate_files::recording::RecordingHeader;

@@ -3,8 +3,8 @@ use palpate_characterize::lumped::Pulled;
 use palpate_characterize::{CleanRecording, FittedRecording, FittedRelaxation};
 
 use super::super::finished::Studied;
-use super::thinned::kept;
 use super::{DrawnCurve, DrawnFit, DrawnRecording, DrawnRelaxation, LEVEL, key};
+use crate::plot::kept;
 
 /// The recordings of a specimen.
 pub(super) fn drawn(studied: &Studied) -> Vec<DrawnRecording> {

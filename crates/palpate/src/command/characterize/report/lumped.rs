@@ -1,6 +1,6 @@
 use super::super::answer::{Named, Specimen};
 use super::words;
-use crate::report::{Markup, Table, quantity, symbol};
+use crate::report::{Markup, Table, count, quantity, symbol};
 
 /// What was found without geometry.
 pub(super) fn tables(own: &Specimen) -> Markup {
@@ -13,7 +13,7 @@ pub(super) fn tables(own: &Specimen) -> Markup {
     if let Some(modulus) = &own.mean_elastic_modulus {
         let depth = quantity("_m", modulus.depth_m, None);
         let value = quantity("_pa", modulus.value, modulus.standard_deviation);
-        let holds = words::count(modulus.holds, "hold");
+        let holds = count(modulus.holds, "hold");
         let spread = match modulus.standard_deviation {
             Some(_) => ", ± their standard deviation",
             None => "",

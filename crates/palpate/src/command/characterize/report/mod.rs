@@ -13,8 +13,7 @@ mod words;
 
 use super::answer::Answer;
 use super::portrait::Portrait;
-use crate::output::VERSION;
-use crate::report::{Markup, Page, Table};
+use crate::report::{Markup, Page, Provenance, count, provenance};
 
 /// The page on `answer`, whose specimens have `portraits`, in their order. `settings` say how it was asked for:
 /// names and values.
@@ -52,46 +51,22 @@ fn lead(answer: &Answer) -> String {
         1 => "; one file could not be used".to_owned(),
         count => format!("; {count} files could not be used"),
     };
-    let recordings = words::count(recordings, "recording");
+    let recordings = count(recordings, "recording");
     format!("Mechanical parameters of soft tissue, found from {recordings}{unusable}.")
 }
 
 /// Where all this comes from.
 fn foot(portraits: &[Portrait], settings: &[(String, String)]) -> Markup {
-    let mut table = Table::new([
-        "recording",
-        "samples",
-        "rate",
-        "filter",
-        "first contact",
-        "SHA-256",
-    ]);
-    for own in portraits.iter().flat_map(|portrait| &portrait.recordings) {
-        let (time, depth, error) = own.contact;
-        let error = error.map_or(String::new(), |error| format!(" ± {:.3}", 1e3 * error));
-        table.row(vec![
-            Markup::plain("code", &*own.file),
-            own.samples.to_string().into(),
-            format!("{:.4} Hz", own.rate_hz).into(),
-            own.cutoff_hz
-                .map_or("none".to_owned(), |hz| format!("{hz:.4} Hz"))
-                .into(),
-            format!("{time:.3} s, {:.3}{error} mm", 1e3 * depth).into(),
-            Markup::plain("code", &*own.digest),
-        ]);
-    }
-    let mut asked = Table::new(["setting", "value"]);
-    asked.row(vec!["palpate".into(), VERSION.into()]);
-    for (name, value) in settings {
-        asked.row(vec![
-            Markup::plain("code", &**name),
-            Markup::plain("code", &**value),
-        ]);
-    }
-    Markup::plain("h3", "Provenance")
-        .and(asked)
-        .and(table)
-        .and(Markup::plain("p", CONVENTIONS))
+    let recordings = portraits.iter().flat_map(|portrait| &portrait.recordings);
+    let recordings = recordings.map(|own| Provenance {
+        file: own.file.clone(),
+        digest: own.digest.clone(),
+        samples: own.samples,
+        rate_hz: own.rate_hz,
+        cutoff_hz: own.cutoff_hz,
+        contact: own.contact,
+    });
+    provenance(settings, recordings).and(Markup::plain("p", CONVENTIONS))
 }
 
 /// What holds of all numbers.

@@ -1,7 +1,7 @@
 use super::super::answer::{Answer, Specimen};
 use super::super::pooled::Pooled;
 use super::{strips, words};
-use crate::report::{Markup, Table, quantity, symbol};
+use crate::report::{Markup, Table, doubts, quantity, symbol};
 
 /// All specimens at once: each in a row, numbers over organs, files that could not be used.
 pub(super) fn section(answer: &Answer) -> Markup {
@@ -102,5 +102,5 @@ fn unusable(answer: &Answer) -> Markup {
         return Markup::default();
     }
     let sentences: Vec<String> = answer.unusable.iter().map(|own| own.sentence()).collect();
-    words::doubts("Files that could not be used", &sentences)
+    doubts("Files that could not be used", &sentences)
 }

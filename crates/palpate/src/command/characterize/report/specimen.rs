@@ -1,7 +1,7 @@
 use super::super::answer::{Known, Specimen};
 use super::super::portrait::Portrait;
 use super::{convergence, curves, laws, lumped, relaxation, words};
-use crate::report::{Markup, quantity, symbol};
+use crate::report::{Markup, count, doubts, quantity, symbol};
 
 /// The section on one specimen, with its title if it is one of `several`.
 pub(super) fn section(
@@ -60,7 +60,7 @@ fn headline(own: &Specimen, portrait: &Portrait) -> Markup {
     }
     if let Some(relaxation) = &own.relaxation {
         let relaxed: f64 = relaxation.g.iter().map(|g| g.value).sum();
-        let terms = words::count(relaxation.g.len(), "term");
+        let terms = count(relaxation.g.len(), "term");
         cards.push(card(
             "relaxes by",
             format!("{:.1} %", 100.0 * relaxed),
@@ -127,9 +127,9 @@ fn told(own: &Specimen) -> Markup {
             "p",
             "Every parameter is known by itself from these recordings.",
         ),
-        false => words::doubts("What these recordings cannot tell", &own.identifiability),
+        false => doubts("What these recordings cannot tell", &own.identifiability),
     };
-    apart.and(words::doubts("What else deserves doubt", &others))
+    apart.and(doubts("What else deserves doubt", &others))
 }
 
 /// Why something was not found.

@@ -2,14 +2,6 @@
 
 use crate::report::{Markup, symbol};
 
-/// `3 recordings`.
-pub(super) fn count(number: usize, what: &str) -> String {
-    match number {
-        1 => format!("1 {what}"),
-        number => format!("{number} {what}s"),
-    }
-}
-
 /// A law by its key in the answer, or by its name in a tissue file.
 pub(super) fn law(key: &str) -> &str {
     match key {
@@ -45,28 +37,5 @@ pub(super) fn parameter(law_key: &str, key: &str) -> Markup {
     match key {
         "mean_elastic_modulus" | "sum_of_g" => quantity(key).into(),
         key => symbol(key).and(format!(" {}", law(law_key))),
-    }
-}
-
-/// Sentences that deserve doubt, as a list; nothing of none.
-pub(super) fn doubts(title: &str, sentences: &[String]) -> Markup {
-    if sentences.is_empty() {
-        return Markup::default();
-    }
-    let each = sentences
-        .iter()
-        .map(|said| Markup::plain("li", capital(said)));
-    let list = Markup::plain("ul", each.collect::<Markup>());
-    Markup::of_class("div", "doubts", Markup::plain("strong", title).and(list))
-}
-
-/// A sentence with a capital, unless it begins with a name of a file or a key.
-fn capital(sentence: &str) -> String {
-    let first = sentence.split_whitespace().next().unwrap_or_default();
-    let is_word = first.chars().all(|letter| letter.is_ascii_lowercase());
-    let mut letters = sentence.chars();
-    match letters.next().filter(|_| is_word) {
-        Some(first) => first.to_uppercase().chain(letters).collect(),
-        None => sentence.to_owned(),
     }
 }
