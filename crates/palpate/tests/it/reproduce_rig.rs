@@ -86,26 +86,32 @@ fn the_rig_reads_a_spring_as_it_is() {
     }
 }
 
-/// Judge: what was put in, which the notes tell. Tolerances: the heart moves the surface by 0.4 mm either way, and
-/// the tissue is first met where it is highest, so that the depth is too small by up to as much; of 4 mm and more that
-/// is a tenth or two of the force. The bounds of a table that is in order are the printed ones.
+/// Judge: the printed means, which were put in. Tolerance: the heart moves the surface by 0.4 mm either way, so that a
+/// depth may be off by as much, and a force by that times the steepest slope of the table beside it; 3 % from press to
+/// press, over eight presses, and the sensor's 0.4 mN are 2 %.
 #[test]
 fn chapter_5_comes_back_through_the_rig() {
     let (folder, rows) = reproduce(&["chapter-5/spleen"]);
     assert_complete(&folder, &rows);
-    let file = "table_5_1_static_force.csv";
-    for depth in ["4", "5", "6"] {
+    let depths = ["1", "2", "4", "5", "6"];
+    let mean = |depth| printed("table_5_1_static_force.csv", &["spleen", depth], "mean_n");
+    let number_of = |depth: &str| depth.parse::<f64>().unwrap();
+    let slopes = depths.map(|depth| {
+        let apart = depths.windows(2).filter(|pair| pair.contains(&depth));
+        apart
+            .map(|pair| (mean(pair[1]) - mean(pair[0])) / (number_of(pair[1]) - number_of(pair[0])))
+            .fold(0.0, f64::max)
+    });
+    for (depth, slope) in depths.into_iter().zip(slopes) {
         let row = find(&rows, &format!("chapter-5/spleen/{depth}_mm/mean"));
-        assert_eq!(
-            number(row, "published"),
-            printed(file, &["spleen", depth], "mean_n")
-        );
-        assert!((0.75..1.1).contains(&number(row, "ratio")), "{row}");
+        assert_eq!(number(row, "published"), mean(depth));
+        let off = (number(row, "ours") - mean(depth)).abs();
+        assert!(off < 0.4 * slope + 0.02 * mean(depth), "{row}");
     }
     assert_eq!(
         number(find(&rows, "chapter-5/spleen/animals"), "ratio"),
         1.0
     );
     let missed = number(find(&rows, "chapter-5/spleen/contact/mean"), "ours");
-    assert!((0.0..0.5).contains(&missed), "{missed}");
+    assert!(missed.abs() < 0.4, "{missed}");
 }

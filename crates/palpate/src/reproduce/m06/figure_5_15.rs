@@ -16,7 +16,7 @@ pub(crate) const FIGURE_5_15: Item = Item {
 const FREQUENCY: f64 = 2.0;
 
 fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
-    let (mut loops, mut courses) = (Vec::new(), Vec::new());
+    let (mut loops, mut widths, mut courses) = (Vec::new(), Vec::new(), Vec::new());
     for (color, name) in ORGANS.into_iter().enumerate() {
         let Some(organ) = Organ::printed(name)? else {
             rows.add_missing(name, "N", "no law is printed");
@@ -35,19 +35,37 @@ fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
             color,
         };
         let [over_depth, over_time] = one_period(&recording, &found);
+        widths.push(drawn(without_line(&over_depth)));
         loops.push(drawn(over_depth));
         courses.push(drawn(over_time));
     }
-    let plot = |x_label: &str, series| Plot {
+    let plot = |[x_label, y_label]: [&str; 2], series| Plot {
         title: "Response to a swing of 2 Hz about 2 mm".to_owned(),
         x_label: x_label.to_owned(),
-        y_label: "force [mN]".to_owned(),
+        y_label: y_label.to_owned(),
         series,
         ..Plot::default()
     };
     let note = "the last period but one, after the filter; the area is what is lost in it";
-    rows.add_figure(None, &plot("depth [mm]", loops), note)?;
-    rows.add_figure(Some("time"), &plot("time [s]", courses), note)
+    let labels = ["depth [mm]", "force [mN]"];
+    rows.add_figure(None, &plot(labels, loops), note)?;
+    let wide = "the same less the line through it, which leaves the loops wide enough to be seen";
+    let labels = ["depth [mm]", "force less the line through it [mN]"];
+    rows.add_figure(Some("width"), &plot(labels, widths), wide)?;
+    let labels = ["time [s]", "force [mN]"];
+    rows.add_figure(Some("time"), &plot(labels, courses), note)
+}
+
+/// Points less the line that comes nearest to them.
+fn without_line(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let count = points.len() as f64;
+    let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / count;
+    let [x, y] = [mean(|point| point.0), mean(|point| point.1)];
+    let products = points.iter().map(|point| (point.0 - x) * (point.1 - y));
+    let squares = points.iter().map(|point| (point.0 - x).powi(2));
+    let slope = products.sum::<f64>() / squares.sum::<f64>();
+    let less = |point: &(f64, f64)| (point.0, point.1 - y - slope * (point.0 - x));
+    points.iter().map(less).collect()
 }
 
 fn add(rows: &mut Rows<'_>, name: &str, found: &Sinusoid) {

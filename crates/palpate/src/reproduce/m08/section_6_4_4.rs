@@ -56,7 +56,9 @@ fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
         }
         let mut series = Vec::new();
         for (color, (which, moved)) in starts.into_iter().enumerate() {
-            for (algorithm, word) in ALGORITHMS {
+            for (place, (algorithm, word)) in ALGORITHMS.into_iter().enumerate() {
+                // A color for each start, or where there is but one for each algorithm.
+                let color = if count > 1 { color } else { place };
                 rows.say(format!("{}, {which}, {word}", case.name));
                 let arrived = arrived(&case, algorithm, &moved)?;
                 add(rows, (&case.name, which, word), algorithm, &arrived);
