@@ -7,7 +7,6 @@ use super::law_fit::LawFit;
 use super::repeated::Repeated;
 use crate::Error;
 use crate::fit::{Fit, Parameter, Uncertainty, correlated_uncertainty, doubts, misfit, missed};
-use crate::viscoelastic::QUASI_LINEAR;
 
 /// A law that was found, in its own parameters, and how well they are known.
 #[derive(Debug, Clone, PartialEq)]
@@ -56,15 +55,10 @@ impl LawDescription {
         let misfit = misfit(&own, largest);
         let mut said = doubts(&own, &among(&uncertainty, each.len()), None);
         said.extend(missed(found.law.name().word(), "force", misfit));
-        // What the product of force and G(t) misses goes into the modulus.
-        let ratios = own.parameters.iter().skip(2).step_by(2);
-        let relaxed = QUASI_LINEAR * (1.0 - 1.0 / (1.0 + ratios.map(|p| p.value).sum::<f64>()));
+        let off = found.model_error();
         Self {
             parameters: each.iter().enumerate().map(known).collect(),
-            discretisation: each
-                .iter()
-                .map(|p| (found.discretisation + relaxed) * p.value.abs())
-                .collect(),
+            discretisation: each.iter().map(|p| off * p.value.abs()).collect(),
             correlation: correlation(&uncertainty.of_all(own.parameters.len()), each.len()),
             sum_of_squares,
             misfit,

@@ -6,6 +6,7 @@ use super::forces::{self, Indentation};
 use super::law::SoughtLaw;
 use crate::Error;
 use crate::fit::{Differences, Fit, Parameter, Settings, least_squares_with_jacobian};
+use crate::viscoelastic::QUASI_LINEAR;
 
 /// A law that was found.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,6 +33,14 @@ impl LawFit {
     /// The shape [-].
     pub fn shape(&self) -> f64 {
         self.fit.parameters[1].value
+    }
+
+    /// Part of the force, and so of the modulus, that the model may be off [-]: by its elements, and because
+    /// force is taken for an elastic one times G(t).
+    pub fn model_error(&self) -> f64 {
+        let ratios = self.fit.parameters.iter().skip(2).step_by(2);
+        let left = 1.0 / (1.0 + ratios.map(|p| p.value).sum::<f64>());
+        self.discretisation + QUASI_LINEAR * (1.0 - left)
     }
 }
 

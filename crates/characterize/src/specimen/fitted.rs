@@ -38,7 +38,7 @@ pub struct FittedLaw {
     /// What it gives [N or Pa].
     pub values: Vec<f64>,
     /// How far from them, up and down, the curve of the true parameters lies at most, with the probability
-    /// that was asked for [N or Pa]: by noise, and by what the elements may be off.
+    /// that was asked for [N or Pa]: by noise, and by what the model may be off.
     pub reach: Vec<f64>,
 }
 
@@ -63,7 +63,7 @@ impl Characterization {
             })
             .collect();
         for found in self.laws.iter().filter_map(|(_, law)| law.as_ref().ok()) {
-            let off = found.found.discretisation;
+            let off = found.found.model_error();
             add(
                 &mut all,
                 (found.found.law, off),
@@ -111,7 +111,7 @@ impl Characterization {
     }
 }
 
-/// Hands each recording its part of the `values` of a law, whose elements are `off` by so much [-].
+/// Hands each recording its part of the `values` of a law, whose model is `off` by so much [-].
 fn add(
     all: &mut [FittedRecording],
     (law, off): (SoughtLaw, f64),

@@ -79,12 +79,6 @@ impl VirtualPhantom {
         self
     }
 
-    /// The same that can move its handle between two corners [m].
-    pub fn within(mut self, workspace: [Vec3; 2]) -> Self {
-        self.spec.workspace = Some(workspace);
-        self
-    }
-
     /// The force of the motors now [N].
     fn driven(&self) -> Vec3 {
         let delay = self.imperfections.delay.min(LONGEST_DELAY);

@@ -82,6 +82,13 @@ fn difference(a: &RgbaImage, b: &RgbaImage) -> f64 {
     sum as f64 / a.as_raw().len() as f64
 }
 
+/// Whether an eye tells two pictures of one size apart: a pixel differs by more than 8 of 255 levels. One machine
+/// draws the same twice.
+fn is_unlike(a: &RgbaImage, b: &RgbaImage) -> bool {
+    let mut pairs = a.as_raw().iter().zip(b.as_raw());
+    pairs.any(|(a, b)| a.abs_diff(*b) > 8)
+}
+
 /// Whether this machine draws as the kept pictures were drawn.
 fn is_comparable() -> bool {
     let comparable = gpu().is_some_and(|gpu| gpu.adapter().contains("llvmpipe"));
@@ -112,8 +119,8 @@ fn every_shading_looks_as_it_did() {
 }
 
 /// Judge: the kept pictures, which were looked at (figure 4-6 of the source): coarse triangles, finer ones
-/// around the tip, and the displacements smoothed as well, each unlike the others. What is smoothed is what the
-/// tip's own dimple leaves, so that the last two differ by little; one machine draws the same twice.
+/// around the tip, and the displacements smoothed as well, each unlike the others to the eye. What is smoothed is
+/// what the tip's own dimple leaves, so that the last two differ in a few pixels only.
 #[test]
 fn finer_triangles_look_as_they_did() {
     if !is_comparable() {
@@ -137,7 +144,7 @@ fn finer_triangles_look_as_they_did() {
         let picture = studio.picture(&state).unwrap();
         compare(name, &picture);
         assert!(
-            seen.iter().all(|other| difference(other, &picture) > 0.02),
+            seen.iter().all(|other| is_unlike(other, &picture)),
             "{name}"
         );
         seen.push(picture);

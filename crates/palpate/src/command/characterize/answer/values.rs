@@ -19,7 +19,7 @@ pub(in super::super) struct Modulus {
     pub(in super::super) holds: usize,
 }
 
-/// A number with its error by noise and what the model's elements may be off.
+/// A number with its error by noise and what the model may be off.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub(in super::super) struct Known {
     pub(in super::super) value: f64,

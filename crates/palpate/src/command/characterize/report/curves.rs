@@ -59,7 +59,7 @@ impl<'a> Shown<'a> {
         };
         let band = format!(
             "The band holds the true curve of the {law} law with a probability of 95 %: what noise leaves open of its parameters, and what the \
-             elements may be off. It is cut where it leaves the others far behind.{drawn}"
+             model may be off. It is cut where it leaves the others far behind.{drawn}"
         );
         let [along, over_time] = match self.is_piece {
             true => ["Stress over stretch", "Stress over time"],
