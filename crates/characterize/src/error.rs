@@ -76,6 +76,14 @@ pub enum Error {
         /// The parameters there.
         parameters: Vec<Parameter>,
     },
+    /// A law that is solved by finite elements does not settle.
+    #[error(
+        "the shape of the law did not settle in {tried} runs of finite elements; seek a simpler law, or press deeper"
+    )]
+    NoShape {
+        /// How many.
+        tried: usize,
+    },
     /// There is no force, or no depth, that a law could be found from.
     #[error(
         "no force that grows with depth is found in the recording; check the signs and the units of depth and force"

@@ -62,6 +62,12 @@ impl IndentationCurve {
         self.depths.last().copied().unwrap_or(0.0)
     }
 
+    /// Whether another curve through the same depths has the same forces, but for a part [-].
+    pub fn is_like(&self, other: &Self, part: f64) -> bool {
+        let mut pairs = self.points().zip(other.points());
+        pairs.all(|((_, a), (_, b))| (a - b).abs() <= part * b.abs())
+    }
+
     /// The known depths [m] and forces [N].
     pub fn points(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
         self.depths.iter().copied().zip(self.forces.iter().copied())

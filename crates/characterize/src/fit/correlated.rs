@@ -25,6 +25,8 @@ use nalgebra::DMatrix;
 const BLOCKS: usize = 800;
 /// The order of the process, at most; less for few blocks.
 const LARGEST_ORDER: usize = 60;
+/// Autocovariances below this part of the first are none [-]: less than rounding leaves of their sums.
+const FORGOTTEN: f64 = 1e-12;
 /// Rounds in which the autocovariances are raised, at most.
 const ROUNDS: usize = 6;
 
@@ -137,16 +139,21 @@ impl Blocks {
         self.recordings.iter().flat_map(pairs)
     }
 
-    /// Γ S.
+    /// Γ S, lag by lag.
     fn shared(&self, autocovariances: &[f64]) -> DMatrix<f64> {
-        let mut shared = DMatrix::zeros(self.sums.nrows(), self.sums.ncols());
-        for range in &self.recordings {
-            for column in 0..self.sums.ncols() {
-                for i in range.clone() {
-                    let sum = range
-                        .clone()
-                        .map(|j| autocovariances[i.abs_diff(j)] * self.sums[(j, column)]);
-                    shared[(i, column)] = sum.sum();
+        let mut shared = &self.sums * autocovariances[0];
+        let least = FORGOTTEN * autocovariances[0];
+        let last = autocovariances.iter().rposition(|c| c.abs() > least);
+        for column in 0..self.sums.ncols() {
+            let from = self.sums.column(column);
+            let mut into = shared.column_mut(column);
+            for range in &self.recordings {
+                let from = &from.as_slice()[range.clone()];
+                let into = &mut into.as_mut_slice()[range.clone()];
+                let lags = autocovariances[1..=last.unwrap_or(0)].iter().zip(1..);
+                for (covariance, lag) in lags.take_while(|(_, lag)| *lag < from.len()) {
+                    add(covariance, &from[lag..], into);
+                    add(covariance, from, &mut into[lag..]);
                 }
             }
         }
@@ -174,6 +181,13 @@ impl Blocks {
                 / count
         };
         (0..=most).map(product).collect()
+    }
+}
+
+/// Adds `factor` times the first numbers of `from` to `into`, as far as both go.
+fn add(factor: &f64, from: &[f64], into: &mut [f64]) {
+    for (sum, value) in into.iter_mut().zip(from) {
+        *sum += factor * value;
     }
 }
 

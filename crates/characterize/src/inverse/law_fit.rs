@@ -1,7 +1,8 @@
 use nalgebra::DMatrix;
 use palpate_mechanics::PronySeries;
 
-use super::curves::Curves;
+use super::curves::{Curves, UnitCurve};
+use super::family::Family;
 use super::forces::{self, Indentation};
 use super::law::SoughtLaw;
 use crate::Error;
@@ -51,6 +52,8 @@ pub(super) const SETTINGS: Settings = Settings {
     differences: Differences::Forward,
     precision: f64::EPSILON,
 };
+/// How well a solved curve has to be foreseen for a fit to end [-]: far less than the elements are off.
+const FORESEEN: f64 = 3e-4;
 /// Rounds in which the modulus under pressure is found, and the change at which they end [-].
 const ROUNDS: usize = 6;
 const SETTLED: f64 = 1e-3;
@@ -102,47 +105,131 @@ fn start(
     }
 }
 
+/// Rounds in which a shape is found, and halvings of the way to one that has no equilibrium.
+const SHAPES_SOLVED: usize = 12;
+const HALVINGS: usize = 4;
+
 fn from(
     curves: &mut Curves,
     indentations: &[Indentation<'_>],
     series: &PronySeries,
     modulus: f64,
 ) -> Result<LawFit, Error> {
-    let law = curves.law();
-    let parameters = parameters(law, series, modulus);
-    let samples = indentations.iter().map(|each| each.time.len()).sum();
-    let mut evaluate = |values: &[f64], residuals: &mut [f64], jacobian: &mut DMatrix<f64>| {
-        let curve = curves.of(modulus, values[1]).ok()?;
-        let mut start = 0;
-        for each in indentations {
-            let course = (each.time, each.depth);
-            let (forces, columns) = forces::forces(course, &curve, values[0], series);
-            forces::write(&columns, start, jacobian);
-            for (row, force) in forces.iter().enumerate() {
-                residuals[start + row] = force - each.force[row];
-            }
-            start += forces.len();
+    let start = parameters(curves.law(), series, modulus);
+    let (mut fit, curve) = match curves.are_free() {
+        true => {
+            let mut of = |shape| curves.of(modulus, shape).ok();
+            let fit = fitted(&start, indentations, series, &mut of)?;
+            let curve = curves.of(modulus, fit.parameters[1].value)?;
+            (fit, curve)
         }
-        residuals.iter().all(|r| r.is_finite()).then_some(())
+        false => between_solved(curves, indentations, series, (modulus, start))?,
     };
-    let mut fit = least_squares_with_jacobian(&parameters, samples, &SETTINGS, &mut evaluate)?;
+    // The columns of what was fixed were not asked for, and forces are those of a curve that was solved.
     let values: Vec<f64> = fit.parameters.iter().map(|p| p.value).collect();
-    // The columns of what was fixed were not asked for.
-    evaluate(&values, &mut fit.residuals, &mut fit.jacobian);
+    let forces = write(
+        &curve,
+        (indentations, series),
+        &values,
+        (&mut fit.residuals, &mut fit.jacobian),
+    );
     for parameter in fit.parameters.iter_mut().skip(2) {
         parameter.fixed = false;
     }
-    let curve = curves.of(modulus, values[1])?;
-    let of_each = |each: &Indentation<'_>| {
-        forces::forces((each.time, each.depth), &curve, values[0], series).0
-    };
     Ok(LawFit {
-        law,
+        law: curves.law(),
         fit,
-        forces: indentations.iter().map(of_each).collect(),
+        forces,
         solves: curves.solves(),
         discretisation: curve.discretisation,
     })
+}
+
+/// A fit with curves between solved ones, until one that is solved at the fit's own shape is what was foreseen.
+fn between_solved(
+    curves: &mut Curves,
+    indentations: &[Indentation<'_>],
+    series: &PronySeries,
+    (modulus, mut start): (f64, Vec<Parameter>),
+) -> Result<(Fit, UnitCurve), Error> {
+    let mut family = Family::of(curves.of(modulus, start[1].value)?);
+    let mut iterations = Vec::new();
+    for _ in 0..SHAPES_SOLVED {
+        let mut of = |shape| Some(family.at(shape));
+        let mut fit = fitted(&start, indentations, series, &mut of)?;
+        iterations.append(&mut fit.iterations);
+        let shape = fit.parameters[1].value;
+        let solved = solved_toward(curves, modulus, (family.nearest(shape), shape))?;
+        let foreseen = family.at(solved.shape);
+        let as_foreseen = solved.shape == shape && foreseen.force.is_like(&solved.force, FORESEEN);
+        if as_foreseen {
+            fit.iterations = iterations;
+            return Ok((fit, solved));
+        }
+        family.add(solved);
+        start.clone_from(&fit.parameters);
+    }
+    Err(Error::NoShape {
+        tried: SHAPES_SOLVED,
+    })
+}
+
+/// The curve of a shape [-], or of one on the way to it from where there is equilibrium.
+fn solved_toward(
+    curves: &mut Curves,
+    modulus: f64,
+    (known, mut shape): (f64, f64),
+) -> Result<UnitCurve, Error> {
+    let mut found = curves.of(modulus, shape);
+    for _ in 0..HALVINGS {
+        if found.is_ok() {
+            break;
+        }
+        shape = 0.5 * (shape + known);
+        found = curves.of(modulus, shape);
+    }
+    found
+}
+
+/// The fit of a modulus and a shape, whose curves `of` gives.
+fn fitted(
+    start: &[Parameter],
+    indentations: &[Indentation<'_>],
+    series: &PronySeries,
+    of: &mut dyn FnMut(f64) -> Option<UnitCurve>,
+) -> Result<Fit, Error> {
+    let samples = indentations.iter().map(|each| each.time.len()).sum();
+    let evaluate = |values: &[f64], residuals: &mut [f64], jacobian: &mut DMatrix<f64>| {
+        let curve = of(values[1])?;
+        write(
+            &curve,
+            (indentations, series),
+            values,
+            (residuals, jacobian),
+        );
+        residuals.iter().all(|r| r.is_finite()).then_some(())
+    };
+    least_squares_with_jacobian(start, samples, &SETTINGS, evaluate)
+}
+
+/// Forces [N] of a curve in each indentation; writes residuals and derivatives.
+fn write(
+    curve: &UnitCurve,
+    (indentations, series): (&[Indentation<'_>], &PronySeries),
+    values: &[f64],
+    (residuals, jacobian): (&mut [f64], &mut DMatrix<f64>),
+) -> Vec<Vec<f64>> {
+    let mut start = 0;
+    let each = indentations.iter().map(|each| {
+        let (forces, columns) = forces::forces((each.time, each.depth), curve, values[0], series);
+        forces::write(&columns, start, jacobian);
+        for (row, force) in forces.iter().enumerate() {
+            residuals[start + row] = force - each.force[row];
+        }
+        start += forces.len();
+        forces
+    });
+    each.collect()
 }
 
 fn parameters(law: SoughtLaw, series: &PronySeries, modulus: f64) -> Vec<Parameter> {

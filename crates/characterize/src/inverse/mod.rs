@@ -16,6 +16,7 @@ mod body;
 mod correlations;
 mod curves;
 mod description;
+mod family;
 mod forces;
 mod law;
 mod law_fit;

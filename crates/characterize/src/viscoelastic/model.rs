@@ -112,10 +112,11 @@ impl Course {
             .iter()
             .zip(&self.logarithm)
             .map(|(&shape, &log)| {
-                let value = if shape > 0.0 {
-                    shape * (mu * log).exp()
-                } else {
-                    0.0
+                // Most samples are of a hold, where the logarithm is zero.
+                let value = match shape > 0.0 {
+                    true if log == 0.0 => shape,
+                    true => shape * (mu * log).exp(),
+                    false => 0.0,
                 };
                 (value, if value > 0.0 { value * log } else { 0.0 })
             });

@@ -6,7 +6,8 @@ use super::model::{Course, Model, terms};
 use super::product_form::ProductForm;
 use crate::Error;
 use crate::fit::{
-    Fit, Parameter, Settings, correlated_uncertainty, least_squares_with_jacobian, simplest,
+    Fit, Parameter, Settings, Uncertainty, correlated_uncertainty, least_squares_with_jacobian,
+    simplest,
 };
 
 /// What may be chosen about a relaxation.
@@ -125,14 +126,18 @@ pub fn relaxation(courses: &[Course], settings: RelaxationSettings) -> Result<Re
     // What the richest leaves is noise, so all are compared as if that noise had been seen.
     let lengths: Vec<usize> = courses.iter().map(|course| course.time.len()).collect();
     let richest = fits.last().ok_or(Error::NothingFelt)?;
-    let samples = correlated_uncertainty(richest, &lengths).effective_samples;
+    let of_richest = correlated_uncertainty(richest, &lengths);
+    let samples = of_richest.effective_samples;
     let (chosen, criteria) = simplest(&fits.iter().collect::<Vec<_>>(), samples);
     let tried = fits.iter().zip(criteria);
     let tried =
         tried.map(|(fit, criterion)| (terms_of(fit, courses), fit.sum_of_squares(), criterion));
     let tried: Vec<_> = tried.collect();
-    let chosen = fits.swap_remove(chosen);
-    described(courses, chosen, tried)
+    let uncertainty = match chosen + 1 == fits.len() {
+        true => of_richest,
+        false => correlated_uncertainty(&fits[chosen], &lengths),
+    };
+    described(courses, fits.swap_remove(chosen), uncertainty, tried)
 }
 
 fn terms_of(fit: &Fit, courses: &[Course]) -> usize {
@@ -251,11 +256,10 @@ fn visible_times(courses: &[Course]) -> [f64; 2] {
 fn described(
     courses: &[Course],
     fit: Fit,
+    uncertainty: Uncertainty,
     tried: Vec<(usize, f64, f64)>,
 ) -> Result<Relaxation, Error> {
     let count = terms_of(&fit, courses);
-    let lengths: Vec<usize> = courses.iter().map(|course| course.time.len()).collect();
-    let uncertainty = correlated_uncertainty(&fit, &lengths);
     let covariance = uncertainty.of_all(fit.parameters.len());
     let values: Vec<f64> = fit.parameters.iter().map(|p| p.value).collect();
     let pairs = terms(&values, count);

@@ -10,6 +10,7 @@ mod contact;
 mod data;
 mod doubts;
 mod errors;
+mod family;
 mod filter;
 mod fit;
 mod fitted;

@@ -86,17 +86,19 @@ pub fn branch(time_constant: f64, times: &[f64], elastic: &[f64]) -> (Vec<f64>, 
     );
     let (mut h, mut slope) = (0.0, 0.0);
     let mut before: Option<(f64, f64)> = None;
-    let mut known: Option<(f64, Share)> = None;
+    let mut known: Option<(f64, Share, [f64; 2])> = None;
     for (&time, &force) in times.iter().zip(elastic) {
         let (start, from) = before.unwrap_or((time, force));
         let step = time - start;
         // Most recordings are evenly spaced but for the last digits of their file.
-        let share = known.filter(|(length, _)| (step - length).abs() <= 1e-7 * length);
-        let share = share.or_else(|| series.shares(step).next().map(|share| (step, share)));
-        known = share;
-        if let Some((step, share)) = share {
+        let as_before = known.filter(|(length, ..)| (step - length).abs() <= 1e-7 * length);
+        known = as_before.or_else(|| {
+            let share = series.shares(step).next()?;
             let ratio = step / time_constant;
-            let (kept, new) = (ratio * share.kept, (-ratio).exp_m1() + share.new);
+            let by_time = [ratio * share.kept, (-ratio).exp_m1() + share.new];
+            Some((step, share, by_time))
+        });
+        if let Some((_, share, [kept, new])) = known {
             slope = share.kept * slope + kept * (h - from) + new * (force - from);
             h = share.kept * h + share.old * from + share.new * force;
         }
