@@ -109,7 +109,7 @@ pub enum Error {
         law: LawName,
     },
     /// Fits that would take runs of finite elements each.
-    #[error("fits of `{}` are not repeated, because each takes runs of finite elements; its standard errors hold for small changes", .law.word())]
+    #[error("fits of `{}` are not repeated under pressure, because each takes runs of finite elements; its standard errors hold for small changes", .law.word())]
     CostlyToRepeat {
         /// The law.
         law: LawName,

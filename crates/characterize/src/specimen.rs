@@ -133,8 +133,7 @@ fn sought(
     let indentations: Vec<Indentation<'_>> = pressed.iter().map(Pressed::indentation).collect();
     let fit = law_fit(&mut curves, &indentations, &relaxation.series)?;
     let mut description = LawDescription::of(fit, &indentations);
-    description.repeated =
-        draws.map(|draws| repeated(&description, &mut curves, &indentations, draws));
+    description.repeated = draws.map(|draws| repeated(&description, &curves, &indentations, draws));
     Ok(description)
 }
 

@@ -5,6 +5,7 @@ use palpate_mechanics::finite_elements::tube::{Ends, Tube, TubeProblem, TubePunc
 use palpate_mechanics::{IndentationCurve, PronySeries};
 
 use super::body::Body;
+use super::family::Family;
 use super::law::SoughtLaw;
 use super::tables;
 use crate::Error;
@@ -29,7 +30,8 @@ pub struct Curves {
     law: SoughtLaw,
     /// Down to which they are known [m].
     deepest: f64,
-    kept: Vec<(f64, UnitCurve)>,
+    /// What was solved, for each modulus that matters [Pa].
+    solved: Vec<(f64, Family)>,
     solves: usize,
 }
 
@@ -48,7 +50,7 @@ impl Curves {
             body,
             law,
             deepest,
-            kept: Vec::new(),
+            solved: Vec::new(),
             solves: 0,
         }
     }
@@ -68,26 +70,18 @@ impl Curves {
     /// # Errors
     /// When no equilibrium is found down to the deepest depth.
     pub fn of(&mut self, modulus: f64, shape: f64) -> Result<UnitCurve, Error> {
-        if let Some((_, known)) = self.kept.iter().find(|(at, known)| {
-            known.shape == shape && (*at == modulus || !self.depend_on_modulus())
-        }) {
-            return Ok(known.clone());
+        let known = self.foreseen(modulus, shape);
+        if let Some(known) = known.filter(|_| self.nearest(modulus, shape) == Some(shape)) {
+            return Ok(known);
         }
-        let tabulated = tables::curve(&self.body, self.law, shape, self.deepest);
-        let curve = match (tabulated, self.body) {
-            (Some(curve), _) => curve,
-            (None, Body::Block { block, indenter }) => {
-                self.solve_block((block, indenter), shape)?
-            }
-            (
-                None,
-                Body::Tube {
-                    tube,
-                    radius,
-                    face,
-                    pressure,
-                },
-            ) => {
+        let curve = match self.body {
+            Body::Block { block, indenter } => self.solve_block((block, indenter), shape)?,
+            Body::Tube {
+                tube,
+                radius,
+                face,
+                pressure,
+            } => {
                 let punch = TubePunch {
                     radius,
                     face,
@@ -97,20 +91,41 @@ impl Curves {
                 self.solve_tube(tube, &punch, shape)?
             }
         };
-        self.kept.push((modulus, curve.clone()));
+        match self.family(modulus) {
+            Some(place) => self.solved[place].1.add(curve.clone()),
+            None => self.solved.push((modulus, Family::of(curve.clone()))),
+        }
         Ok(curve)
+    }
+
+    /// The curve of `shape` [-] at a `modulus` [Pa], as far as it follows from what was tabulated or solved; none
+    /// where nothing was.
+    pub(super) fn foreseen(&self, modulus: f64, shape: f64) -> Option<UnitCurve> {
+        tables::curve(&self.body, self.law, shape, self.deepest).or_else(|| {
+            let place = self.family(modulus)?;
+            Some(self.solved[place].1.at(shape))
+        })
+    }
+
+    /// The shape next to `shape` [-] that was tabulated or solved at a `modulus` [Pa].
+    pub(super) fn nearest(&self, modulus: f64, shape: f64) -> Option<f64> {
+        match tables::curve(&self.body, self.law, shape, self.deepest) {
+            Some(_) => Some(shape),
+            None => self
+                .family(modulus)
+                .map(|place| self.solved[place].1.nearest(shape)),
+        }
+    }
+
+    fn family(&self, modulus: f64) -> Option<usize> {
+        let matters = self.depend_on_modulus();
+        let is_its = |(of, _): &(f64, Family)| *of == modulus || !matters;
+        self.solved.iter().position(is_its)
     }
 
     /// Whether a curve is that of one modulus alone: under pressure.
     pub(super) fn depend_on_modulus(&self) -> bool {
         matches!(self.body, Body::Tube { pressure, .. } if pressure > 0.0)
-    }
-
-    /// Whether any shape is known without a run of finite elements.
-    pub(super) fn are_free(&self) -> bool {
-        let tabulated = tables::curve(&self.body, self.law, 0.0, self.deepest).is_some();
-        let is_one = self.law.shapes().is_none() && !self.kept.is_empty();
-        (tabulated || is_one) && !self.depend_on_modulus()
     }
 
     fn depths(&self) -> Vec<f64> {

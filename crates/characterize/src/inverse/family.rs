@@ -14,7 +14,7 @@ use palpate_mechanics::IndentationCurve;
 use super::curves::UnitCurve;
 
 /// Curves of one law, by ascending shape.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Family {
     known: Vec<UnitCurve>,
 }

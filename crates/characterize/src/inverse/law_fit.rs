@@ -2,7 +2,6 @@ use nalgebra::DMatrix;
 use palpate_mechanics::PronySeries;
 
 use super::curves::{Curves, UnitCurve};
-use super::family::Family;
 use super::forces::{self, Indentation};
 use super::law::SoughtLaw;
 use crate::Error;
@@ -105,81 +104,64 @@ fn start(
     }
 }
 
-/// Rounds in which a shape is found, and halvings of the way to one that has no equilibrium.
+/// Rounds in which a shape is found, and halvings of the way to one that has no equilibrium, at most.
 const SHAPES_SOLVED: usize = 12;
 const HALVINGS: usize = 4;
 
+/// With curves between those that were solved, until one that is solved at the fit's own shape is as it was foreseen.
 fn from(
     curves: &mut Curves,
     indentations: &[Indentation<'_>],
     series: &PronySeries,
     modulus: f64,
 ) -> Result<LawFit, Error> {
-    let start = parameters(curves.law(), series, modulus);
-    let (mut fit, curve) = match curves.are_free() {
-        true => {
-            let mut of = |shape| curves.of(modulus, shape).ok();
-            let fit = fitted(&start, indentations, series, &mut of)?;
-            let curve = curves.of(modulus, fit.parameters[1].value)?;
-            (fit, curve)
-        }
-        false => between_solved(curves, indentations, series, (modulus, start))?,
-    };
-    // The columns of what was fixed were not asked for, and forces are those of a curve that was solved.
-    let values: Vec<f64> = fit.parameters.iter().map(|p| p.value).collect();
-    let forces = write(
-        &curve,
-        (indentations, series),
-        &values,
-        (&mut fit.residuals, &mut fit.jacobian),
-    );
-    for parameter in fit.parameters.iter_mut().skip(2) {
-        parameter.fixed = false;
-    }
-    Ok(LawFit {
-        law: curves.law(),
-        fit,
-        forces,
-        solves: curves.solves(),
-        discretisation: curve.discretisation,
-    })
-}
-
-/// A fit with curves between solved ones, until one that is solved at the fit's own shape is what was foreseen.
-fn between_solved(
-    curves: &mut Curves,
-    indentations: &[Indentation<'_>],
-    series: &PronySeries,
-    (modulus, mut start): (f64, Vec<Parameter>),
-) -> Result<(Fit, UnitCurve), Error> {
-    let mut family = Family::of(curves.of(modulus, start[1].value)?);
+    let mut start = parameters(curves.law(), series, modulus);
     let mut iterations = Vec::new();
+    curves.of(modulus, start[1].value)?;
     for _ in 0..SHAPES_SOLVED {
-        let mut of = |shape| Some(family.at(shape));
-        let mut fit = fitted(&start, indentations, series, &mut of)?;
+        let of = |shape| curves.foreseen(modulus, shape);
+        let mut fit = fitted(&start, (indentations, series), of)?;
         iterations.append(&mut fit.iterations);
         let shape = fit.parameters[1].value;
-        let solved = solved_toward(curves, modulus, (family.nearest(shape), shape))?;
-        let foreseen = family.at(solved.shape);
-        let as_foreseen = solved.shape == shape && foreseen.force.is_like(&solved.force, FORESEEN);
-        if as_foreseen {
+        let foreseen = curves.foreseen(modulus, shape);
+        let solved = solved_toward(curves, modulus, shape)?;
+        let is_like = |own: UnitCurve| own.force.is_like(&solved.force, FORESEEN);
+        if solved.shape == shape && foreseen.is_some_and(is_like) {
             fit.iterations = iterations;
-            return Ok((fit, solved));
+            return Ok(found(fit, (curves, &solved), (indentations, series)));
         }
-        family.add(solved);
-        start.clone_from(&fit.parameters);
+        start = fit.parameters;
     }
     Err(Error::NoShape {
         tried: SHAPES_SOLVED,
     })
 }
 
+/// A fit with the forces of the curve that was solved at its shape.
+fn found(
+    mut fit: Fit,
+    (curves, curve): (&Curves, &UnitCurve),
+    felt: (&[Indentation<'_>], &PronySeries),
+) -> LawFit {
+    let values: Vec<f64> = fit.parameters.iter().map(|p| p.value).collect();
+    let derivatives = (&mut fit.residuals[..], &mut fit.jacobian);
+    let forces = write(curve, felt, &values, derivatives);
+    // The columns of what was fixed were not asked for.
+    for parameter in fit.parameters.iter_mut().skip(2) {
+        parameter.fixed = false;
+    }
+    LawFit {
+        law: curves.law(),
+        fit,
+        forces,
+        solves: curves.solves(),
+        discretisation: curve.discretisation,
+    }
+}
+
 /// The curve of a shape [-], or of one on the way to it from where there is equilibrium.
-fn solved_toward(
-    curves: &mut Curves,
-    modulus: f64,
-    (known, mut shape): (f64, f64),
-) -> Result<UnitCurve, Error> {
+fn solved_toward(curves: &mut Curves, modulus: f64, mut shape: f64) -> Result<UnitCurve, Error> {
+    let known = curves.nearest(modulus, shape).unwrap_or(shape);
     let mut found = curves.of(modulus, shape);
     for _ in 0..HALVINGS {
         if found.is_ok() {
@@ -194,19 +176,12 @@ fn solved_toward(
 /// The fit of a modulus and a shape, whose curves `of` gives.
 fn fitted(
     start: &[Parameter],
-    indentations: &[Indentation<'_>],
-    series: &PronySeries,
-    of: &mut dyn FnMut(f64) -> Option<UnitCurve>,
+    felt: (&[Indentation<'_>], &PronySeries),
+    of: impl Fn(f64) -> Option<UnitCurve>,
 ) -> Result<Fit, Error> {
-    let samples = indentations.iter().map(|each| each.time.len()).sum();
+    let samples = felt.0.iter().map(|each| each.time.len()).sum();
     let evaluate = |values: &[f64], residuals: &mut [f64], jacobian: &mut DMatrix<f64>| {
-        let curve = of(values[1])?;
-        write(
-            &curve,
-            (indentations, series),
-            values,
-            (residuals, jacobian),
-        );
+        write(&of(values[1])?, felt, values, (residuals, jacobian));
         residuals.iter().all(|r| r.is_finite()).then_some(())
     };
     least_squares_with_jacobian(start, samples, &SETTINGS, evaluate)

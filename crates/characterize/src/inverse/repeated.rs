@@ -45,14 +45,14 @@ const LEVEL: f64 = 0.95;
 /// Fits of `law` made again: with each parameter moved, with residuals in another order, with more noise.
 ///
 /// # Errors
-/// When each of them would take runs of finite elements, and those of the fits.
+/// When each of them would take runs of finite elements, as under pressure, and those of the fits.
 pub fn repeated(
     law: &LawDescription,
-    curves: &mut Curves,
+    curves: &Curves,
     indentations: &[Indentation<'_>],
     draws: Draws,
 ) -> Result<Repeated, Error> {
-    if !curves.are_free() {
+    if curves.depend_on_modulus() {
         return Err(Error::CostlyToRepeat {
             law: law.found.law.name(),
         });
@@ -138,7 +138,7 @@ fn profiles(
 /// Forces by a law's own parameters and a relaxation.
 struct OwnModel<'a> {
     law: SoughtLaw,
-    curves: &'a mut Curves,
+    curves: &'a Curves,
     indentations: &'a [Indentation<'a>],
 }
 
@@ -151,7 +151,7 @@ impl OwnModel<'_> {
         jacobian: &mut DMatrix<f64>,
     ) -> Option<()> {
         let own = self.law.seen_as_shape([values[0], values[1]])?;
-        let curve = self.curves.of(f64::INFINITY, own.shape).ok()?;
+        let curve = self.curves.foreseen(f64::INFINITY, own.shape)?;
         let pairs = terms(&values[1..], (values.len() - 2) / 2);
         let series = PronySeries::new(&pairs).ok()?;
         let mut start = 0;

@@ -27,13 +27,10 @@ pub(crate) struct Principal {
 impl Principal {
     pub(crate) fn of(f: &Matrix3<f64>) -> Self {
         let c = f.tr_mul(f);
-        // The iteration is for numbers.
-        let finite = c.iter().all(|entry| entry.is_finite());
-        let found = finite.then(|| SymmetricEigen::try_new(c, f64::EPSILON, MAX_ITERATIONS));
-        let nowhere = || (Vector3::repeat(f64::NAN), Matrix3::repeat(f64::NAN));
-        let (squares, axes) = found
-            .flatten()
-            .map_or_else(nowhere, |found| (found.eigenvalues, found.eigenvectors));
+        let (squares, axes) = match c[(2, 0)] == 0.0 && c[(2, 1)] == 0.0 {
+            true => in_a_plane(&c),
+            false => in_space(c),
+        };
         Self {
             squares,
             axes,
@@ -68,5 +65,50 @@ impl Principal {
             }
         }
         tangent
+    }
+}
+
+/// Where the third axis is one of the eigenvectors, as in every axisymmetric body. The smaller eigenvalue of the
+/// plane comes from the determinant, which keeps its digits.
+fn in_a_plane(c: &Matrix3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
+    let [first, second, both] = [c[(0, 0)], c[(1, 1)], c[(1, 0)]];
+    let half = 0.5 * (first - second);
+    let large = 0.5 * (first + second) + half.hypot(both);
+    let small = (first * second - both * both) / large;
+    let (sin, cos) = (0.5 * both.atan2(half)).sin_cos();
+    let axes = Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0);
+    (Vector3::new(large, small, c[(2, 2)]), axes)
+}
+
+fn in_space(c: Matrix3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
+    // The iteration is for numbers.
+    let finite = c.iter().all(|entry| entry.is_finite());
+    let found = finite.then(|| SymmetricEigen::try_new(c, f64::EPSILON, MAX_ITERATIONS));
+    let nowhere = || (Vector3::repeat(f64::NAN), Matrix3::repeat(f64::NAN));
+    found
+        .flatten()
+        .map_or_else(nowhere, |found| (found.eigenvalues, found.eigenvectors))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Judge: the iteration for any matrix; a plane's eigenvalues are those, and its vectors make C again to rounding.
+    #[test]
+    fn a_plane_is_as_space() {
+        let f = Matrix3::new(1.3, 0.4, 0.0, -0.2, 0.8, 0.0, 0.0, 0.0, 1.1);
+        for scale in [1.0, 1e-6, 1e6] {
+            let c = (scale * f).tr_mul(&(scale * f));
+            let (values, axes) = in_a_plane(&c);
+            let (mut own, mut other) = (values, in_space(c).0);
+            own.as_mut_slice().sort_by(f64::total_cmp);
+            other.as_mut_slice().sort_by(f64::total_cmp);
+            assert!((own - other).norm() < 1e-14 * c.norm());
+            let again = axes * Matrix3::from_diagonal(&values) * axes.transpose();
+            assert!((again - c).norm() < 1e-14 * c.norm());
+        }
+        let (values, axes) = in_a_plane(&Matrix3::identity());
+        assert_eq!((values, axes), (Vector3::repeat(1.0), Matrix3::identity()));
     }
 }

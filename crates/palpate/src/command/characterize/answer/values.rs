@@ -37,11 +37,11 @@ pub(in super::super) struct Known {
 
 /// How far noise spreads the parameters of a law.
 #[derive(Debug, Serialize, Deserialize)]
-struct Noise {
+pub(in super::super) struct Noise {
     /// Standard deviation of independent noise, over the largest force [-].
-    noise: f64,
+    pub(in super::super) noise: f64,
     /// Spread of each parameter, in its unit.
-    spread: BTreeMap<String, f64>,
+    pub(in super::super) spread: BTreeMap<String, f64>,
 }
 
 /// A relaxation function.
@@ -84,7 +84,7 @@ pub(in super::super) struct LawAnswer {
     correlation: Option<f64>,
     /// What noise does to the parameters (6.4.6).
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
-    noise_study: Vec<Noise>,
+    pub(in super::super) noise_study: Vec<Noise>,
     /// Why the fit was not made again.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     not_repeated: Option<String>,

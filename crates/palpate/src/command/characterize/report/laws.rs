@@ -125,6 +125,39 @@ pub(super) fn parameters(own: &Specimen) -> Markup {
     }
 }
 
+/// What noise would do to the parameters (section 6.4.6).
+pub(super) fn noise(own: &Specimen) -> Markup {
+    let mut table = Table::new(["law", "noise", "parameter", "spread", "of its value"]);
+    for (law, found) in own.laws() {
+        for effect in &found.noise_study {
+            for (name, spread) in &effect.spread {
+                let value = found.parameters.get(name).map(|known| known.value);
+                let part = value
+                    .filter(|value| *value != 0.0)
+                    .map(|value| spread / value);
+                table.row(vec![
+                    words::law(law).into(),
+                    format!("{} %", rounded(100.0 * effect.noise, 2)).into(),
+                    symbol(name),
+                    alone(name, Some(*spread)).into(),
+                    part.map_or("–".to_owned(), |part| {
+                        format!("{} %", rounded(100.0 * part.abs(), 2))
+                    })
+                    .into(),
+                ]);
+            }
+        }
+    }
+    if table.is_empty() {
+        return Markup::default();
+    }
+    let how = "Independent noise, whose standard deviation is so much of the largest force, was added to the model's own force, and the law sought \
+         again: the standard deviation of what was found.";
+    Markup::plain("h3", "What noise would do")
+        .and(Markup::plain("p", how))
+        .and(table)
+}
+
 /// From where to where the objective says a parameter is.
 fn profile(key: &str, bounds: Option<[Option<f64>; 2]>) -> String {
     let end = |bound: Option<f64>| bound.map_or("?".to_owned(), |end| quantity(key, end, None));

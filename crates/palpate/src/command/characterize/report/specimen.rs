@@ -32,6 +32,7 @@ pub(super) fn section(
         .and(Markup::of_class("div", "figures", figures))
         .and(laws::comparison(own, portrait))
         .and(laws::parameters(own))
+        .and(laws::noise(own))
         .and(convergence::correlations(own, portrait))
         .and(lumped::tables(own))
         .and(missing(own));
