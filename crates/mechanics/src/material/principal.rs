@@ -97,9 +97,10 @@ mod tests {
     /// Judge: the iteration for any matrix; a plane's eigenvalues are those, and its vectors make C again to rounding.
     #[test]
     fn a_plane_is_as_space() {
-        let f = Matrix3::new(1.3, 0.4, 0.0, -0.2, 0.8, 0.0, 0.0, 0.0, 1.1);
-        for scale in [1.0, 1e-6, 1e6] {
-            let c = (scale * f).tr_mul(&(scale * f));
+        let f: Matrix3<f64> = Matrix3::new(1.3, 0.4, 0.0, -0.2, 0.8, 0.0, 0.0, 0.0, 1.1);
+        for scale in [1.0_f64, 1e-6, 1e6] {
+            let f = f * scale;
+            let c = f.tr_mul(&f);
             let (values, axes) = in_a_plane(&c);
             let (mut own, mut other) = (values, in_space(c).0);
             own.as_mut_slice().sort_by(f64::total_cmp);
