@@ -13,23 +13,46 @@ pub struct Reference {
 pub struct Indenter {
     axes: [Pid; 3],
     reference: latest::Receiver<Reference>,
+    /// How long no reference has come [s].
+    silent: f64,
 }
+
+/// How long a reference is followed [s]: a rig sends one with every tick.
+const FOLLOWED: f64 = 0.010;
 
 impl Indenter {
     /// With `gains`, and where to send references.
     pub fn new(gains: PidGains, first: Reference) -> (Self, latest::Sender<Reference>) {
         let (sender, reference) = latest::channel(&first);
         let axes = [Pid::new(gains); 3];
-        (Self { axes, reference }, sender)
+        let silent = 0.0;
+        (
+            Self {
+                axes,
+                reference,
+                silent,
+            },
+            sender,
+        )
     }
 }
 
 impl Controller for Indenter {
     fn update(&mut self, state: &DeviceState, dt: f64) -> Vec3 {
+        let heard = self.reference.has_news();
+        self.silent = if heard { 0.0 } else { self.silent + dt };
         let wanted = *self.reference.latest();
         Vec3::from_fn(|axis, _| {
             let aim = [wanted.position[axis], wanted.velocity[axis]];
             self.axes[axis].force(state.position[axis], aim, dt)
         })
+    }
+
+    fn age(&self) -> Option<f64> {
+        Some(self.silent)
+    }
+
+    fn overdue(&self) -> Option<f64> {
+        Some(self.silent - FOLLOWED)
     }
 }

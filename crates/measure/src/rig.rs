@@ -101,12 +101,13 @@ impl Rig {
             // What the device needs for itself and its friction comes on top of what tissue may feel.
             force: settings.force_limit + 2.0,
             speed: 2.0 * settings.speed_limit,
-            ..Limits::default()
+            ..Limits::without_hand()
         };
         let of_loop = ServoSettings {
             period: settings.period,
             limits: Some(limits),
             log: 1,
+            ..ServoSettings::default()
         };
         let (servo, _) = ServoLoop::new(Box::new(device), Box::new(indenter), of_loop)?;
         Ok(Self {
@@ -137,7 +138,6 @@ impl Rig {
 
     fn find_contact(&mut self, listener: Listener<'_>) -> Result<Ended, Error> {
         self.contact = None;
-        let (mut heights, mut forces) = (Vec::new(), Vec::new());
         let ticks = |time: f64, period: f64| (time / period) as usize;
         // Breath and device come to rest.
         if self.wait(2.0, listener)? == Ended::Stopped {
@@ -148,6 +148,9 @@ impl Rig {
             self.settings.approach_way / self.settings.approach_speed,
             self.settings.period,
         );
+        // Room for all of it: a tick allocates nothing.
+        let room = || Vec::with_capacity(resting + way);
+        let (mut heights, mut forces) = (room(), room());
         let from = self.aim;
         for tick in 0..resting + way {
             let gone = tick.saturating_sub(resting) as f64 * self.settings.period;

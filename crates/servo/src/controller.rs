@@ -9,6 +9,12 @@ pub trait Controller: Send {
     fn age(&self) -> Option<f64> {
         None
     }
+
+    /// How far that is beyond the time for which it is used [s]: the force fades then, and the loop takes it
+    /// off. None for what does not age.
+    fn overdue(&self) -> Option<f64> {
+        None
+    }
 }
 
 impl<F: FnMut(&DeviceState, f64) -> Vec3 + Send> Controller for F {

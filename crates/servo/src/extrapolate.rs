@@ -5,7 +5,7 @@
 //!
 //! An answer is used for two of the model's periods and a tick: it is one period old when it arrives, is
 //! followed by the next one period later, and the state that it was made of may be a tick older. Then it
-//! fades: f exp(−(age − used)/20 ms). A force never pulls past the loss of contact.
+//! fades, slowly at first: f (1 − ((age − used)/10 ms)²). A force never pulls past the loss of contact.
 //!
 //! *How we know*: `hand_over::errors_of_a_spring_are_those_of_the_closed_form`,
 //! `hand_over::a_stale_model_fades_to_zero`.
@@ -26,8 +26,8 @@ pub enum HandOver {
     Hold,
 }
 
-/// Time in which a force that is too old falls to 1/e [s].
-const FADE: f64 = 0.020;
+/// Time in which a force that is too old fades to nothing [s].
+pub(crate) const FADE: f64 = 0.010;
 
 /// A force at any time and place, from the answers that have arrived.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -66,6 +66,11 @@ impl Extrapolator {
         time - self.last.time
     }
 
+    /// How far the last answer is beyond the time for which it is used at `time` [s]; below zero before.
+    pub fn overdue(&self, time: f64) -> f64 {
+        self.age(time) - self.used
+    }
+
     /// The force [N] at `time` [s], of a hand at `position` [m] with `velocity` [m/s].
     pub fn force(&self, time: f64, position: &Vec3, velocity: &Vec3) -> Vec3 {
         if !self.last.contact {
@@ -77,7 +82,8 @@ impl Extrapolator {
             HandOver::Hold => self.last.force,
             HandOver::Linear => self.last.without_pull(self.line(age.min(self.used))),
         };
-        force * (-(age - self.used).max(0.0) / FADE).exp()
+        let faded = (self.overdue(time) / FADE).clamp(0.0, 1.0);
+        force * (1.0 - faded * faded)
     }
 
     fn line(&self, ahead: f64) -> Vec3 {
@@ -131,8 +137,9 @@ mod tests {
         let held = after(HandOver::Hold, &[answer(0.0, 1.0)]);
         assert_eq!(force(&held, 0.011), 1.0);
         // After the 11 ms of use, by definition.
-        assert!((force(&held, 0.031) - (-1.0f64).exp()).abs() < 1e-12);
-        assert!(force(&held, 0.25) < 1e-5);
+        assert!((force(&held, 0.016) - 0.75).abs() < 1e-12);
+        assert!(force(&held, 0.0205) > 0.0);
+        assert_eq!(force(&held, 0.021 + 1e-9), 0.0);
         let silent = after(HandOver::LocalModel, &[]);
         assert_eq!(force(&silent, 0.0), 0.0);
         assert!(silent.age(0.0).is_infinite());

@@ -18,12 +18,12 @@ pub enum Fault {
     },
     /// What the force is made of is too old.
     #[error(
-        "the model has been silent for {age:.3} s, beyond {limit} s; take it a longer step and arm again"
+        "the model's answer has been overdue for {overdue:.3} s, beyond {limit} s; free the processor or take a longer step, and arm again"
     )]
     StaleModel {
-        /// How old it is [s].
-        age: f64,
-        /// How old it may be [s].
+        /// How long it has been overdue [s].
+        overdue: f64,
+        /// How long it may be [s].
         limit: f64,
     },
     /// The device waited too long for its next force.

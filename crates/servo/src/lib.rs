@@ -44,7 +44,7 @@ pub use device::{
 pub use extrapolate::{Extrapolator, HandOver};
 pub use fault::Fault;
 pub use histogram::{Histogram, Percentiles};
-pub use limits::{Guard, Limits, Stage};
+pub use limits::{DeadMan, Guard, Interventions, Limits, Stage};
 pub use pid::{Pid, PidGains};
 pub use priority::{Priority, raise_priority};
 pub use report::{LoopReport, measure_lateness};

@@ -2,8 +2,8 @@
 
 use crate::clock::Clock;
 use crate::{
-    Controller, Fault, Histogram, NoDevice, Percentiles, Priority, Sample, ServoLoop,
-    ServoSettings, Vec3,
+    Controller, Fault, Histogram, Interventions, NoDevice, Percentiles, Priority, Sample,
+    ServoLoop, ServoSettings, Vec3,
 };
 
 /// What a servo loop measured of itself. Lateness and work say nothing on a virtual clock.
@@ -30,6 +30,8 @@ pub struct LoopReport {
     pub energy: f64,
     /// Largest force sent [N].
     pub peak_force: f64,
+    /// How often the stages changed a force.
+    pub interventions: Interventions,
     /// Faults.
     pub faults: u64,
     /// Why forces are off, if they are.

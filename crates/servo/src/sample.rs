@@ -15,6 +15,8 @@ pub struct Sample {
     pub wanted: Vec3,
     /// What the limits leave of it, which is sent with the next tick [N].
     pub sent: Vec3,
+    /// What is sent besides against the device's own weight, spring and mass [N].
+    pub compensation: Vec3,
     /// How old what it is made of is [s].
     pub age: Option<f64>,
     /// How far forces are on.

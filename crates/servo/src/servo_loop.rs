@@ -11,6 +11,8 @@
 
 use std::time::Duration;
 
+use crate::dynamics::Compensator;
+use crate::limits::magnitude::shorten;
 use crate::limits::{Guard, Limits, Stage, Wish};
 use crate::priority::{Priority, raise_priority};
 use crate::report::Meter;
@@ -44,10 +46,13 @@ pub struct ServoLoop {
     number: u64,
     last_time: Option<f64>,
     force: Vec3,
+    compensator: Option<Compensator>,
+    compensation: Vec3,
     latest: latest::Sender<Option<Sample>>,
     log: log::Writer<Sample>,
     report: latest::Sender<LoopReport>,
     arming: ArmingRequest,
+    last: Option<Sample>,
     fault: Option<Fault>,
 }
 
@@ -84,10 +89,13 @@ impl ServoLoop {
             number: 0,
             last_time: None,
             force: Vec3::zeros(),
+            compensator: settings.compensation.map(Compensator::new),
+            compensation: Vec3::zeros(),
             latest,
             log,
             report,
             arming,
+            last: None,
             fault: None,
         };
         Ok((servo, reader))
@@ -133,7 +141,7 @@ impl ServoLoop {
     pub fn tick(&mut self, time: f64, lateness: f64) -> Result<Sample, Fault> {
         let command = Command {
             time,
-            force: self.force,
+            force: self.force + self.compensation,
         };
         let patience = Duration::from_secs_f64(self.period);
         let state = match self.device.exchange(&command, patience) {
@@ -142,8 +150,7 @@ impl ServoLoop {
         };
         let sample = self.control(time, state);
         self.meter.tick(&sample, lateness);
-        self.latest.send(Some(sample));
-        self.log.add(sample);
+        self.tell(sample);
         if self.number.is_multiple_of(self.ticks_per_report()) {
             self.report.send(self.report());
         }
@@ -159,6 +166,7 @@ impl ServoLoop {
         };
         LoopReport {
             priority: self.priority,
+            interventions: self.guard.interventions(),
             faults: self.guard.faults(),
             fault: self.fault.or(fault),
             ..self.meter.report()
@@ -180,12 +188,13 @@ impl ServoLoop {
         let wish = Wish {
             force: wanted,
             velocity,
-            age: self.controller.age(),
+            overdue: self.controller.overdue(),
             gap,
             asked: self.arming.take(),
         };
         let held = self.force;
         self.force = self.guard.pass(&wish, &state, gap);
+        self.compensate(&state, gap);
         Sample {
             tick: self.number,
             state,
@@ -193,16 +202,50 @@ impl ServoLoop {
             held,
             wanted,
             sent: self.force,
-            age: wish.age,
+            compensation: self.compensation,
+            age: self.controller.age(),
             stage: self.guard.stage(),
         }
     }
 
+    /// What is added for the device itself: as much of it as forces are on, and no more than it can display.
+    fn compensate(&mut self, state: &DeviceState, dt: f64) {
+        let Some(compensator) = &mut self.compensator else {
+            return;
+        };
+        let part = self.guard.part();
+        if part == 0.0 {
+            compensator.forget();
+            self.compensation = Vec3::zeros();
+            return;
+        }
+        let added = compensator.force(&state.position, dt) * part;
+        let whole = shorten(&(self.force + added), self.device.spec().peak_force);
+        self.compensation = whole - self.force;
+    }
+
+    fn tell(&mut self, sample: Sample) {
+        self.last = Some(sample);
+        self.latest.send(Some(sample));
+        self.log.add(sample);
+    }
+
+    /// The device is stopped, and the log ends with why: nobody is at the handle any more.
     fn fail(&mut self, fault: Fault) -> Fault {
+        self.device.stop();
+        let told = self.fault.is_some();
         self.guard.trip(fault);
         self.fault = Some(fault);
-        self.force = Vec3::zeros();
-        self.device.stop();
+        (self.force, self.compensation) = (Vec3::zeros(), Vec3::zeros());
+        if let Some(mut sample) = self.last.filter(|_| !told) {
+            sample.tick = self.number;
+            sample.state.present = false;
+            let none = Vec3::zeros();
+            (sample.held, sample.wanted, sample.sent) = (none, none, none);
+            sample.compensation = none;
+            sample.stage = Stage::Faulted(fault);
+            self.tell(sample);
+        }
         self.report.send(self.report());
         fault
     }

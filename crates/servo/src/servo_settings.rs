@@ -1,4 +1,5 @@
 use crate::Limits;
+use crate::dynamics::Compensation;
 
 /// How a loop runs.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -7,6 +8,8 @@ pub struct ServoSettings {
     pub period: f64,
     /// What forces have to pass; none means those that belong to the device.
     pub limits: Option<Limits>,
+    /// What is added for the device itself; none for one that does it on its own, or cannot.
+    pub compensation: Option<Compensation>,
     /// Samples that the log has room for.
     pub log: usize,
 }
@@ -17,6 +20,7 @@ impl Default for ServoSettings {
         Self {
             period: 1e-3,
             limits: None,
+            compensation: None,
             log: 4096,
         }
     }

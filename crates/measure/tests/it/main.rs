@@ -6,4 +6,6 @@
     reason = "clippy.toml allows both in tests, but does not see helpers as tests"
 )]
 
+mod loss;
+mod no_allocation;
 mod rig;

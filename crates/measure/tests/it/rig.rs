@@ -9,10 +9,10 @@ use palpate_servo::{Clock, MECHANICS_STEP};
 
 const YOUNG: f64 = 10e3;
 const POISSON: f64 = 0.45;
-const RADIUS: f64 = 1e-3;
+pub(crate) const RADIUS: f64 = 1e-3;
 
 /// Linear tissue that relaxes by 0.4 with 2 s.
-fn tissue() -> Tissue {
+pub(crate) fn tissue() -> Tissue {
     let mut tissue = Tissue::new(Elasticity::Linear {
         youngs_modulus_pa: Estimate::exactly(YOUNG),
         poissons_ratio: Estimate::exactly(POISSON),
@@ -25,8 +25,17 @@ fn tissue() -> Tissue {
 }
 
 fn rig(specimen: VirtualSpecimen, settings: RigSettings, seed: u64) -> Rig {
+    rig_on(Imperfections::premium(), specimen, settings, seed)
+}
+
+pub(crate) fn rig_on(
+    imperfections: Imperfections,
+    specimen: VirtualSpecimen,
+    settings: RigSettings,
+    seed: u64,
+) -> Rig {
     let machine = Machine::of_two_masses(&TwoMass::consistent(), MECHANICS_STEP);
-    let device = (machine, Imperfections::premium());
+    let device = (machine, imperfections);
     Rig::over(specimen, device, settings, (Clock::virtual_time(), seed)).unwrap()
 }
 
@@ -39,7 +48,7 @@ fn ramp(depth_m: f64, ramp_s: f64, hold_s: f64) -> Course {
     Course::of(ramp).unwrap()
 }
 
-fn usual() -> Course {
+pub(crate) fn usual() -> Course {
     ramp(4e-3, 0.5, 8.0)
 }
 

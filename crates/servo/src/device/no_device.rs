@@ -13,12 +13,7 @@ pub struct NoDevice {
 impl NoDevice {
     /// At rest at `position` [m].
     pub fn new(position: Vec3) -> Self {
-        let spec = DeviceSpec {
-            name: "none".to_owned(),
-            workspace: None,
-            peak_force: f64::INFINITY,
-            displays_force: false,
-        };
+        let spec = DeviceSpec::without_force("none");
         Self { spec, position }
     }
 }

@@ -52,12 +52,7 @@ impl Pointer {
         let target = Target::default();
         let (sender, receiver) = channel(&target);
         let pointer = Self {
-            spec: DeviceSpec {
-                name: "mouse".to_owned(),
-                workspace: None,
-                peak_force: f64::INFINITY,
-                displays_force: false,
-            },
+            spec: DeviceSpec::without_force("mouse"),
             receiver,
             smoothing: SMOOTHING,
             position: None,

@@ -31,13 +31,7 @@ impl VirtualDevice {
     /// A hand that is exactly where `trajectory` says.
     pub fn new(trajectory: Trajectory) -> Self {
         Self {
-            spec: DeviceSpec {
-                name: "virtual".to_owned(),
-                workspace: None,
-                // That of a PHANTOM Premium 1.5.
-                peak_force: 8.5,
-                displays_force: true,
-            },
+            spec: DeviceSpec::premium("virtual"),
             trajectory,
             hand: None,
             state: None,

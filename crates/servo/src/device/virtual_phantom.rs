@@ -6,12 +6,15 @@
 //!
 //! *How we know*: `phantom::…`: tracking, a rendered wall at the edge of stability, sticking friction.
 //!
-//! *Limits*: the axes of a linear machine do not know one another; encoders are seen at the handle.
+//! *Limits*: the axes of a linear machine do not know one another; steps of encoders are taken at the handle.
 
 use std::time::Duration;
 
 use super::{Command, Device, DeviceSpec, DeviceState};
-use crate::dynamics::{Imperfections, Joints, LONGEST_DELAY, Machine, MachineState, RigidBody};
+use crate::dynamics::{
+    FlexibleBody, FlexibleJoints, Imperfections, Joints, LONGEST_DELAY, Machine, MachineState,
+    RigidBody,
+};
 use crate::{Fault, Vec3};
 
 /// What touches a handle: its force on it [N], given the time [s], the place [m] and the velocity [m/s].
@@ -38,6 +41,8 @@ enum Mechanics {
     Axes(Box<Machine>, [MachineState; 3]),
     /// Three joints.
     Links(Box<RigidBody>, Joints),
+    /// Three joints behind springs.
+    Flexible(Box<FlexibleBody>, FlexibleJoints),
 }
 
 impl VirtualPhantom {
@@ -56,13 +61,17 @@ impl VirtualPhantom {
         Self::new(Mechanics::Links(Box::new(body), joints), imperfections)
     }
 
+    /// Three joints behind springs at rest, the handle at zero.
+    pub fn with_flexible_links(body: FlexibleBody, imperfections: Imperfections) -> Self {
+        let joints = FlexibleBody::at_rest();
+        Self::new(Mechanics::Flexible(Box::new(body), joints), imperfections)
+    }
+
     fn new(mechanics: Mechanics, imperfections: Imperfections) -> Self {
         Self {
             spec: DeviceSpec {
-                name: "virtual PHANTOM".to_owned(),
-                workspace: None,
                 peak_force: imperfections.peak_force,
-                displays_force: true,
+                ..DeviceSpec::premium("virtual PHANTOM")
             },
             mechanics,
             imperfections,
@@ -117,6 +126,18 @@ impl Mechanics {
                 body.position(&joints.angles),
                 body.jacobian(&joints.angles) * joints.rates,
             ),
+            Self::Flexible(body, joints) => (
+                body.links.position(&joints.links.angles),
+                body.links.jacobian(&joints.links.angles) * joints.links.rates,
+            ),
+        }
+    }
+
+    /// Where its encoders say that the handle is [m].
+    fn encoded(&self) -> Vec3 {
+        match self {
+            Self::Flexible(body, joints) => body.links.position(&joints.rotors.angles),
+            _ => self.handle().0,
         }
     }
 
@@ -133,6 +154,11 @@ impl Mechanics {
                 body.advance(joints, &torque, touched, MECHANICS_STEP);
                 body.rub(joints, friction, MECHANICS_STEP);
             }
+            Self::Flexible(body, joints) => {
+                let torque = body.links.jacobian(&joints.rotors.angles).transpose() * motor;
+                body.advance(joints, &torque, touched, MECHANICS_STEP);
+                body.rub(joints, friction, MECHANICS_STEP);
+            }
         }
     }
 }
@@ -143,13 +169,18 @@ impl Device for VirtualPhantom {
     }
 
     fn exchange(&mut self, command: &Command, _patience: Duration) -> Result<DeviceState, Fault> {
+        if command.time >= self.imperfections.lost_at {
+            return Err(Fault::Silent);
+        }
         // The last force acted until now; this one acts from now on.
         self.move_on(command.time);
         self.exchanges += 1;
         let newest = self.exchanges % self.commands.len();
         self.commands[newest] = command.force;
-        let (position, _) = self.mechanics.handle();
-        let seen = position.map(|place| self.imperfections.encoded(place));
+        let seen = self
+            .mechanics
+            .encoded()
+            .map(|place| self.imperfections.encoded(place));
         Ok(DeviceState::at(command.time, seen))
     }
 

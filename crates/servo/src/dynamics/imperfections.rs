@@ -11,6 +11,8 @@ pub struct Imperfections {
     pub friction: f64,
     /// Ticks from a command to its force.
     pub delay: usize,
+    /// When it is lost: from then on it does not answer [s]; infinite for one that stays.
+    pub lost_at: f64,
 }
 
 /// Most ticks of delay.
@@ -25,6 +27,7 @@ impl Imperfections {
             force_step: 0.0,
             friction: 0.0,
             delay: 0,
+            lost_at: f64::INFINITY,
         }
     }
 
@@ -38,6 +41,7 @@ impl Imperfections {
             force_step: 2.0 * peak_force / 4096.0,
             friction: 0.04,
             delay: 0,
+            lost_at: f64::INFINITY,
         }
     }
 

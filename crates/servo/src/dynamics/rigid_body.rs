@@ -75,6 +75,35 @@ impl RigidBody {
         ])
     }
 
+    /// The joints at which the handle is at `position` [m]; none where it cannot be. The elbow is bent as at rest.
+    pub fn angles(&self, position: &Vec3) -> Option<Vec3> {
+        let [l1, l2, ..] = self.lengths;
+        let (x, z) = (position.x, position.z + l1);
+        let (out, up) = (x.hypot(z), position.y - l2);
+        // out = l₁ cos q₂ + l₂ sin q₃ and up = l₁ sin q₂ − l₂ cos q₃, so that their squares know q₃ − q₂ alone.
+        let sine = (out * out + up * up - l1 * l1 - l2 * l2) / (2.0 * l1 * l2);
+        if sine.is_nan() || sine.abs() > 1.0 {
+            return None;
+        }
+        let elbow = sine.asin();
+        let (along, across) = (l1 + l2 * sine, l2 * elbow.cos());
+        let upper = up.atan2(out) + across.atan2(along);
+        Some(Vec3::new(x.atan2(z), upper, upper + elbow))
+    }
+
+    /// The force on the handle [N] that holds the links' weight at `position` [m]; none where they cannot be.
+    pub fn holding_force(&self, position: &Vec3) -> Option<Vec3> {
+        let angles = self.angles(position)?;
+        let back = self.jacobian(&angles).transpose().try_inverse()?;
+        Some(back * self.weight(&angles))
+    }
+
+    /// The length over which a force at the handle turns each joint [m].
+    pub(super) fn arms(&self) -> Vec3 {
+        let [l1, l2, ..] = self.lengths;
+        Vec3::new(l1, l1, l2)
+    }
+
     /// M(q) [kg m²].
     pub fn inertia(&self, angles: &Vec3) -> Matrix3<f64> {
         let [l1, l2, l3, ..] = self.lengths;
@@ -164,38 +193,33 @@ impl RigidBody {
     }
 
     fn step(&self, joints: &Joints, torque: &Vec3, force: &Vec3, step: f64) -> Joints {
-        let after = |change: &Joints, part: f64| Joints {
-            angles: joints.angles + change.angles * (part * step),
-            rates: joints.rates + change.rates * (part * step),
-        };
         let change = |joints: &Joints| Joints {
             angles: joints.rates,
             rates: self.acceleration(joints, torque, force),
         };
         let a = change(joints);
-        let b = change(&after(&a, 0.5));
-        let c = change(&after(&b, 0.5));
-        let d = change(&after(&c, 1.0));
+        let b = change(&after(joints, &a, 0.5 * step));
+        let c = change(&after(joints, &b, 0.5 * step));
+        let d = change(&after(joints, &c, step));
         let mean = Joints {
             angles: (a.angles + (b.angles + c.angles) * 2.0 + d.angles) / 6.0,
             rates: (a.rates + (b.rates + c.rates) * 2.0 + d.rates) / 6.0,
         };
-        after(&mean, 1.0)
+        after(joints, &mean, step)
     }
 
     /// Dry friction of up to `friction` [N] at the handle during `elapsed` [s], as torques on the lengths of the
     /// links: it takes speed and never turns it.
     pub(crate) fn rub(&self, joints: &mut Joints, friction: f64, elapsed: f64) {
-        let [l1, l2, ..] = self.lengths;
-        let inertia = self.inertia(&joints.angles);
-        for (joint, arm) in [l1, l1, l2].into_iter().enumerate() {
-            let most = friction * arm * elapsed / inertia[(joint, joint)];
+        let (arms, inertia) = (self.arms(), self.inertia(&joints.angles));
+        for joint in 0..3 {
+            let most = friction * arms[joint] * elapsed / inertia[(joint, joint)];
             joints.rates[joint] -= joints.rates[joint].clamp(-most, most);
         }
     }
 
     /// q̈ [rad/s²]. C q̇ = Ṁ q̇ − ½ ∂(q̇ᵀ M q̇)/∂q.
-    fn acceleration(&self, joints: &Joints, torque: &Vec3, force: &Vec3) -> Vec3 {
+    pub(super) fn acceleration(&self, joints: &Joints, torque: &Vec3, force: &Vec3) -> Vec3 {
         let Joints { angles, rates } = joints;
         let [by_upper, by_lower] = self.inertia_changes(angles);
         let changing = (by_upper * rates.y + by_lower * rates.z) * rates;
@@ -206,5 +230,13 @@ impl RigidBody {
         // A mass that moves has an inverse; at worst the joints stay.
         let inertia = self.inertia(angles).cholesky();
         inertia.map_or_else(Vec3::zeros, |factor| factor.solve(&left))
+    }
+}
+
+/// `joints` after `time` [s] of `change`.
+pub(super) fn after(joints: &Joints, change: &Joints, time: f64) -> Joints {
+    Joints {
+        angles: joints.angles + change.angles * time,
+        rates: joints.rates + change.rates * time,
     }
 }

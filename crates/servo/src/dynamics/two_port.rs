@@ -50,3 +50,15 @@ impl TwoPort {
         self.felt(frequency, tissue) / tissue
     }
 }
+
+/// The frequency [Hz] up to which what is `felt` of an impedance [N/m] is that of the tissue within a part
+/// `within` of it [-], read in steps of 1 % up to 1 kHz; none where it is not even nearly at rest.
+pub fn transparent_up_to(
+    felt: impl Fn(f64) -> Complex<f64>,
+    tissue: Complex<f64>,
+    within: f64,
+) -> Option<f64> {
+    let is_clear = |frequency: f64| (felt(frequency) / tissue - 1.0).norm() <= within;
+    let steps = (0..1157).map(|step| 0.01 * 1.01_f64.powi(step));
+    steps.take_while(|frequency| is_clear(*frequency)).last()
+}

@@ -1,9 +1,12 @@
-use super::Limits;
 use super::arming::{Conditions, Stage};
+use super::dead_man::Hold;
+use super::heat::Heat;
 use super::magnitude::shorten;
+use super::passivity::Passivity;
 use super::slew::limit_rise;
 use super::walls::wall_force;
-use super::watchdog::{Verdict, judge_age, judge_gap};
+use super::watchdog::{Verdict, judge_gap, judge_silence};
+use super::{Interventions, Limits};
 use crate::{DeviceSpec, DeviceState, Fault, Vec3};
 
 /// A force that a controller wants, and what is known at the tick.
@@ -13,8 +16,8 @@ pub struct Wish {
     pub force: Vec3,
     /// The velocity of the hand [m/s].
     pub velocity: Vec3,
-    /// How old what it is made of is [s]; infinite when nothing has come yet.
-    pub age: Option<f64>,
+    /// How far what it is made of is beyond its time [s], below zero before; none for what does not age.
+    pub overdue: Option<f64>,
     /// How long the device has had its last force [s].
     pub gap: f64,
     /// Whether somebody asked to arm again.
@@ -25,12 +28,30 @@ pub struct Wish {
 #[derive(Debug, Clone)]
 pub struct Guard {
     limits: Limits,
-    workspace: Option<[Vec3; 2]>,
-    most: f64,
+    device: Bounds,
     period: f64,
     stage: Stage,
+    hold: Hold,
+    heat: Heat,
+    passivity: Passivity,
+    /// Where the hand was at the last tick [m].
+    position: Option<Vec3>,
+    /// The force that was sent last [N], and the one before, which the device had until now.
     last: Vec3,
+    before: Vec3,
     faults: u64,
+    interventions: Interventions,
+}
+
+/// What of a device the stages ask for.
+#[derive(Debug, Clone, Copy)]
+struct Bounds {
+    workspace: Option<[Vec3; 2]>,
+    dead_man: Option<super::DeadMan>,
+    /// The largest force that may be sent [N].
+    most: f64,
+    /// The largest that its motors bear [N].
+    continuous: f64,
 }
 
 impl Guard {
@@ -41,15 +62,33 @@ impl Guard {
     pub fn new(limits: Limits, spec: &DeviceSpec, period: f64) -> Result<Self, Fault> {
         limits.check()?;
         Fault::unless_positive("the largest force of the device [N]", spec.peak_force)?;
+        Fault::unless_positive(
+            "the continuous force of the device [N]",
+            spec.continuous_force,
+        )?;
         Fault::unless_finite_and_positive("the period of the loop [s]", period)?;
+        let part = match spec.dead_man {
+            None if spec.displays_force => limits.without_dead_man,
+            _ => 1.0,
+        };
         Ok(Self {
-            limits,
-            workspace: spec.workspace,
-            most: limits.force.min(spec.peak_force),
+            device: Bounds {
+                workspace: spec.workspace,
+                dead_man: spec.dead_man,
+                most: part * limits.force.min(spec.peak_force),
+                continuous: spec.continuous_force,
+            },
             period,
+            limits,
             stage: Stage::Off,
+            hold: Hold::Free,
+            heat: Heat::default(),
+            passivity: Passivity::default(),
+            position: None,
             last: Vec3::zeros(),
+            before: Vec3::zeros(),
             faults: 0,
+            interventions: Interventions::default(),
         })
     }
 
@@ -58,9 +97,24 @@ impl Guard {
         self.stage
     }
 
+    /// The part of a force that is on [-].
+    pub fn part(&self) -> f64 {
+        self.stage.part(&self.limits) * self.hold.part(self.limits.release)
+    }
+
+    /// The largest force that may be sent now [N].
+    pub fn most(&self) -> f64 {
+        self.heat.most(self.device.most, self.device.continuous)
+    }
+
     /// How many faults there were.
     pub fn faults(&self) -> u64 {
         self.faults
+    }
+
+    /// How often the stages changed a force.
+    pub fn interventions(&self) -> Interventions {
+        self.interventions
     }
 
     /// Takes forces off for a reason from outside.
@@ -74,37 +128,83 @@ impl Guard {
 
     /// The force [N] that may be sent for `wish` at `state`, `dt` [s] after the last.
     pub fn pass(&mut self, wish: &Wish, state: &DeviceState, dt: f64) -> Vec3 {
-        if let Some(fault) = self.fault_of(wish, state) {
-            self.trip(fault);
-            return self.last;
+        self.observe(state, dt);
+        let fault = self.fault_of(wish, state);
+        let may_be_sent = match fault {
+            Some(fault) => {
+                self.trip(fault);
+                Vec3::zeros()
+            }
+            None => self.limited(wish, state, dt),
+        };
+        self.last = may_be_sent;
+        may_be_sent
+    }
+
+    /// What the last forces did.
+    fn observe(&mut self, state: &DeviceState, dt: f64) {
+        let there = state.present && is_finite(&state.position);
+        let place = there.then_some(state.position);
+        if let (Some(from), Some(to)) = (self.position, place) {
+            self.passivity.observe(&self.before, &(to - from), dt);
         }
+        self.position = place;
+        self.heat.add(self.before.norm(), dt, self.limits.heat_time);
+        self.before = self.last;
+    }
+
+    fn limited(&mut self, wish: &Wish, state: &DeviceState, dt: f64) -> Vec3 {
+        self.arm(wish, state, dt);
+        let part = self.part();
+        let late = self.judge_gap(wish) == Verdict::NoForce;
+        let (on, counted) = (part > 0.0, &mut self.interventions);
+        counted.late += u64::from(on && late);
+        let is_overdue = |overdue: f64| overdue > 0.0 && overdue.is_finite();
+        counted.faded += u64::from(on && wish.overdue.is_some_and(is_overdue));
+        if late || !on {
+            return Vec3::zeros();
+        }
+        // Shortened before and after: a rise towards a long force would else turn it.
+        let cold = shorten(&wish.force, self.device.most);
+        let damped = self.passivity.control(&cold, self.limits.allowance);
         let walls = self.walls(state);
+        let most = self.most();
+        let wanted = shorten(&(damped + walls), most) * part;
+        let risen = limit_rise(&self.last, &wanted, self.limits.slew * dt.min(self.period));
+        let counted = &mut self.interventions;
+        counted.damped += u64::from(damped != cold);
+        counted.walls += u64::from(walls != Vec3::zeros());
+        let size = (damped + walls).norm();
+        counted.cooled += u64::from(size > most && most < self.device.most);
+        counted.shortened += u64::from(cold != wish.force || size > self.device.most);
+        counted.slowed += u64::from(risen != wanted);
+        shorten(&risen, most)
+    }
+
+    /// How far forces are on after `dt` [s] more.
+    fn arm(&mut self, wish: &Wish, state: &DeviceState, dt: f64) {
+        let held = self
+            .device
+            .dead_man
+            .is_none_or(|switch| switch.is_held(state));
+        let hold = self.hold.next(held, dt, self.limits.release);
+        let lets_go = self.hold == Hold::Held && hold != Hold::Held;
+        self.interventions.let_go += u64::from(lets_go && self.part() > 0.0);
+        self.hold = hold;
         let conditions = Conditions {
-            ready: state.ready && state.present,
+            ready: state.ready && state.present && hold != Hold::Free,
             speed: wish.velocity.norm(),
             force: wish.force.norm(),
             asked: wish.asked,
         };
         self.stage = self.stage.next(&conditions, &self.limits, dt);
-        let late = self.judge_gap(wish) == Verdict::NoForce;
-        let part = self.stage.part(&self.limits);
-        if late || part == 0.0 {
-            self.last = Vec3::zeros();
-            return self.last;
-        }
-        // Shortened before and after: a rise towards a long force would else turn it.
-        let wanted = shorten(&(shorten(&wish.force, self.most) + walls), self.most) * part;
-        let risen = limit_rise(&self.last, &wanted, self.limits.slew * dt.min(self.period));
-        self.last = shorten(&risen, self.most);
-        self.last
     }
 
     fn fault_of(&self, wish: &Wish, state: &DeviceState) -> Option<Fault> {
-        let finite = |v: &Vec3| v.iter().all(|component| component.is_finite());
-        if !finite(&state.position) || !finite(&wish.velocity) {
+        if !is_finite(&state.position) || !is_finite(&wish.velocity) {
             return Some(Fault::NonFiniteState);
         }
-        if !finite(&wish.force) {
+        if !is_finite(&wish.force) {
             return Some(Fault::NonFiniteForce);
         }
         let (speed, limit) = (wish.velocity.norm(), self.limits.speed);
@@ -113,10 +213,12 @@ impl Guard {
             return Some(Fault::TooFast { speed, limit });
         }
         // Before the first answer there is no force that could be too old.
-        let age = wish.age.filter(|age| on && age.is_finite());
+        let overdue = wish.overdue.filter(|overdue| on && overdue.is_finite());
         let judged = [
             self.judge_gap(wish),
-            age.map_or(Verdict::InTime, |age| judge_age(age, self.limits.silence)),
+            overdue.map_or(Verdict::InTime, |overdue| {
+                judge_silence(overdue, self.limits.silence)
+            }),
         ];
         judged.into_iter().find_map(|verdict| match verdict {
             Verdict::Faulted(fault) if on => Some(fault),
@@ -130,8 +232,17 @@ impl Guard {
     }
 
     fn walls(&self, state: &DeviceState) -> Vec3 {
-        self.workspace.map_or(Vec3::zeros(), |corners| {
-            wall_force(&corners, &state.position, self.limits.wall, self.most)
+        self.device.workspace.map_or(Vec3::zeros(), |corners| {
+            wall_force(
+                &corners,
+                &state.position,
+                self.limits.wall,
+                self.device.most,
+            )
         })
     }
+}
+
+fn is_finite(vector: &Vec3) -> bool {
+    vector.iter().all(|component| component.is_finite())
 }

@@ -3,30 +3,43 @@
 //!
 //! 1. A force or a state that is no number is no force, and a fault.
 //! 2. A hand faster than 1 m/s is a fault.
-//! 3. [`watchdog`]: a device that had to keep a force much too long is a fault, and so is a model that has
-//!    been silent for 100 ms; one that had to keep it too long gets none for a tick.
-//! 4. [`arming`]: no force before the device is ready, the hand slow and the force small; then it is
+//! 3. [`watchdog`]: a device that had to keep a force much too long is a fault, and so is a model whose answer
+//!    is overdue by 10 ms, in which its force has faded; a device that had to keep one too long gets none for a
+//!    tick.
+//! 4. [`dead_man`]: what is let go of has no force 50 ms later, and is armed anew.
+//! 5. [`arming`]: no force before the device is ready and held, the hand slow and the force small; then it is
 //!    raised over half a second.
-//! 5. [`walls`]: a soft wall before the ends of the workspace.
-//! 6. [`slew`]: a force rises by at most 400 N/s and falls at once.
-//! 7. [`magnitude`]: at most 3 N, and at most what the device displays, by shortening the vector.
+//! 6. [`passivity`]: a hand gets back at most the energy that it put in.
+//! 7. [`walls`]: a soft wall before the ends of the workspace.
+//! 8. [`magnitude`]: at most 3 N, and at most what the device displays, by shortening the vector; half of it
+//!    where no dead-man's switch is; [`heat`]: at most what its motors bear.
+//! 9. [`slew`]: a force rises by at most 400 N/s and falls at once.
 //!
-//! A fault keeps forces off until somebody arms them again.
+//! A fault keeps forces off until somebody arms them again. What the stages did is counted
+//! ([`Interventions`]).
 //!
-//! *How we know*: `limits::nothing_passes_the_limits`, and the tests of each stage.
+//! *How we know*: `limits::nothing_passes_the_limits`, `chain::…`, `passivity::…`, and the tests of each stage.
 //!
-//! *Limits*: no dead-man's button, no thermal model, no passivity control yet: no device here needs them.
+//! *Limits*: no second thread watches over a loop that hangs in its device; that is left to the device's own
+//! watchdog. No virtual coupling: tissue is softer than what needs one.
 
 pub mod arming;
+pub mod dead_man;
 mod guard;
+pub mod heat;
+mod interventions;
 pub mod magnitude;
+pub mod passivity;
 pub mod slew;
 pub mod walls;
 pub mod watchdog;
 
 pub use arming::Stage;
+pub use dead_man::DeadMan;
 pub use guard::{Guard, Wish};
+pub use interventions::Interventions;
 
+use crate::extrapolate::FADE;
 use crate::{DeviceSpec, Fault};
 
 /// The numbers of the stages.
@@ -50,8 +63,16 @@ pub struct Limits {
     pub late: f64,
     /// How much longer before that is a fault [s].
     pub much_too_late: f64,
-    /// How long a model may be silent before that is a fault [s].
+    /// How long a model's answer may be overdue before that is a fault [s].
     pub silence: f64,
+    /// Time in which a force is gone from a hand that lets go of its dead-man's switch [s].
+    pub release: f64,
+    /// The part of the largest force that is displayed without such a switch [-].
+    pub without_dead_man: f64,
+    /// The energy that may come out of a contact beyond what a hand put in [J]; infinite to leave it alone.
+    pub allowance: f64,
+    /// τ, in which motors cool [s].
+    pub heat_time: f64,
     /// Whether a fault keeps forces off until somebody arms them; else they are armed when it is over.
     pub latched: bool,
 }
@@ -68,7 +89,11 @@ impl Default for Limits {
             wall: 0.01,
             late: 0.005,
             much_too_late: 0.020,
-            silence: 0.100,
+            silence: FADE,
+            release: 0.050,
+            without_dead_man: 0.5,
+            allowance: 0.25e-3,
+            heat_time: 30.0,
             latched: true,
         }
     }
@@ -87,8 +112,19 @@ impl Limits {
             arming_speed: f64::INFINITY,
             arming_force: f64::INFINITY,
             much_too_late: f64::INFINITY,
+            allowance: f64::INFINITY,
             latched: false,
             ..default
+        }
+    }
+
+    /// The limits of a machine that no hand holds, such as an indenter: it has nothing to let go of, and it is
+    /// there to do work.
+    pub fn without_hand() -> Self {
+        Self {
+            without_dead_man: 1.0,
+            allowance: f64::INFINITY,
+            ..Self::default()
         }
     }
 
@@ -104,6 +140,10 @@ impl Limits {
             late,
             much_too_late,
             silence,
+            release,
+            without_dead_man,
+            allowance,
+            heat_time,
             latched: _,
         } = *self;
         Fault::unless_finite_and_positive("the largest force [N]", force)?;
@@ -115,6 +155,13 @@ impl Limits {
         Fault::unless_positive("the largest force at arming [N]", arming_force)?;
         Fault::unless_positive("the time that is late [s]", late)?;
         Fault::unless_positive("the time that is much too late [s]", much_too_late)?;
-        Fault::unless_positive("the longest silence of the model [s]", silence)
+        Fault::unless_positive("the longest silence of the model [s]", silence)?;
+        Fault::unless_finite_and_positive("the time to let go in [s]", release)?;
+        Fault::unless_finite_and_positive(
+            "the part without a dead-man's switch [-]",
+            without_dead_man,
+        )?;
+        Fault::unless_positive("the energy that may come out [J]", allowance)?;
+        Fault::unless_finite_and_positive("the time in which motors cool [s]", heat_time)
     }
 }

@@ -1,4 +1,4 @@
-//! What becomes of a force that a device had to keep too long.
+//! What becomes of a force that a device had to keep too long, or whose model is silent.
 
 use crate::Fault;
 
@@ -27,10 +27,10 @@ pub fn judge_gap(gap: f64, period: f64, (late, much_too_late): (f64, f64)) -> Ve
     Verdict::InTime
 }
 
-/// Judges the `age` [s] of what a force is made of.
-pub fn judge_age(age: f64, limit: f64) -> Verdict {
-    if age > limit {
-        return Verdict::Faulted(Fault::StaleModel { age, limit });
+/// Judges how long what a force is made of has been `overdue` [s].
+pub fn judge_silence(overdue: f64, limit: f64) -> Verdict {
+    if overdue > limit {
+        return Verdict::Faulted(Fault::StaleModel { overdue, limit });
     }
     Verdict::InTime
 }
@@ -46,7 +46,7 @@ mod tests {
         assert_eq!(judge(5.9e-3), Verdict::InTime);
         assert_eq!(judge(6.1e-3), Verdict::NoForce);
         assert!(matches!(judge(22e-3), Verdict::Faulted(Fault::Late { .. })));
-        assert_eq!(judge_age(0.099, 0.1), Verdict::InTime);
-        assert!(matches!(judge_age(0.101, 0.1), Verdict::Faulted(_)));
+        assert_eq!(judge_silence(0.009, 0.01), Verdict::InTime);
+        assert!(matches!(judge_silence(0.011, 0.01), Verdict::Faulted(_)));
     }
 }

@@ -15,8 +15,8 @@ fn every_fault_is_one_sentence_with_its_mend() {
             limit: 1.0,
         },
         Fault::StaleModel {
-            age: 0.1234,
-            limit: 0.1,
+            overdue: 0.0123,
+            limit: 0.01,
         },
         Fault::Late {
             gap: 0.0321,

@@ -2,17 +2,16 @@
 
 use palpate_servo::limits::slew::fallen_towards;
 use palpate_servo::limits::{Guard, Limits, Wish};
-use palpate_servo::{DeviceSpec, DeviceState, Fault, Stage, Vec3};
+use palpate_servo::{DeadMan, DeviceSpec, DeviceState, Fault, Stage, Vec3};
 use proptest::prelude::*;
 
 const PERIOD: f64 = 1e-3;
 
 fn spec() -> DeviceSpec {
     DeviceSpec {
-        name: "test".to_owned(),
         workspace: Some([Vec3::repeat(-0.1), Vec3::repeat(0.1)]),
-        peak_force: 8.5,
-        displays_force: true,
+        dead_man: Some(DeadMan::Buttons(1)),
+        ..DeviceSpec::premium("test")
     }
 }
 
@@ -20,7 +19,7 @@ fn wish(force: Vec3) -> Wish {
     Wish {
         force,
         velocity: Vec3::zeros(),
-        age: None,
+        overdue: None,
         gap: PERIOD,
         asked: false,
     }
@@ -33,7 +32,8 @@ fn guard() -> Guard {
 /// A guard that is live, with a hand in the middle.
 fn live() -> (Guard, DeviceState) {
     let mut guard = guard();
-    let state = DeviceState::at(0.0, Vec3::zeros());
+    let mut state = DeviceState::at(0.0, Vec3::zeros());
+    state.buttons = 1;
     for _ in 0..600 {
         guard.pass(&wish(Vec3::zeros()), &state, PERIOD);
     }
@@ -42,7 +42,7 @@ fn live() -> (Guard, DeviceState) {
 }
 
 /// Any number, and what is none.
-fn component() -> impl Strategy<Value = f64> {
+pub(crate) fn component() -> impl Strategy<Value = f64> {
     prop_oneof![
         8 => -10.0..10.0f64,
         2 => any::<f64>(),
@@ -52,12 +52,12 @@ fn component() -> impl Strategy<Value = f64> {
     ]
 }
 
-fn vector(component: impl Strategy<Value = f64> + Clone) -> impl Strategy<Value = Vec3> {
+pub(crate) fn vector(component: impl Strategy<Value = f64> + Clone) -> impl Strategy<Value = Vec3> {
     [component.clone(), component.clone(), component].prop_map(Vec3::from)
 }
 
 /// How often a random test tries: `full` times when `PALPATE_FULL=1`, else a tenth of it.
-fn tries(full: u32) -> ProptestConfig {
+pub(crate) fn tries(full: u32) -> ProptestConfig {
     let wants_full = std::env::var("PALPATE_FULL").is_ok_and(|value| value == "1");
     ProptestConfig::with_cases(if wants_full { full } else { full / 10 })
 }
@@ -145,7 +145,7 @@ fn each_fault_has_its_cause() {
         ..still
     };
     let stale = Wish {
-        age: Some(0.2),
+        overdue: Some(0.02),
         ..still
     };
     let late = Wish { gap: 0.05, ..still };
@@ -198,12 +198,7 @@ fn a_wall_keeps_the_hand_inside() {
 /// A mouse cannot hurt: it is as fast as it likes, and a fault is over when its cause is.
 #[test]
 fn a_device_without_force_recovers_by_itself() {
-    let mouse = DeviceSpec {
-        workspace: None,
-        peak_force: f64::INFINITY,
-        displays_force: false,
-        ..spec()
-    };
+    let mouse = DeviceSpec::without_force("mouse");
     let mut guard = Guard::new(Limits::of(&mouse), &mouse, PERIOD).unwrap();
     let state = DeviceState::at(0.0, Vec3::zeros());
     let fast = Wish {

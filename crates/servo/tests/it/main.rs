@@ -6,12 +6,16 @@
     reason = "tests may unwrap, and print what they measured"
 )]
 
+mod chain;
+mod compensation;
 mod devices;
 mod dynamics;
 mod errors;
 mod hand_over;
 mod limits;
 mod no_allocation;
+mod passivity;
 mod phantom;
 mod servo;
+mod slow_model;
 mod stability;

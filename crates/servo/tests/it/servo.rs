@@ -5,7 +5,8 @@ use std::time::Duration;
 
 use palpate_servo::{
     Clock, Command, Controller, Device, DeviceSpec, DeviceState, Fault, Sample, ServoLoop,
-    ServoReader, ServoSettings, ServoThread, Trajectory, Vec3, VirtualDevice, measure_lateness,
+    ServoReader, ServoSettings, ServoThread, Stage, Trajectory, Vec3, VirtualDevice,
+    measure_lateness,
 };
 
 fn sine() -> Trajectory {
@@ -100,18 +101,17 @@ impl Device for Slow {
 /// One tick of 30 ms leaves some 29 out; the next ones are at their times, not all at once.
 #[test]
 fn skips_and_never_bursts() {
-    let spec = DeviceSpec {
-        name: "slow".to_owned(),
-        workspace: None,
-        peak_force: 1.0,
-        displays_force: false,
-    };
+    let spec = DeviceSpec::without_force("slow");
     let (mut servo, mut reader) = servo(Slow { spec, exchanges: 0 });
     let report = servo.run(&mut Clock::real(), |_| true);
     // A busy machine leaves out more.
     assert!(report.missed >= 29, "{report:?}");
     assert_eq!(report.fault, Some(Fault::Silent));
-    let samples: Vec<_> = reader.log.drain().collect();
+    let mut samples: Vec<_> = reader.log.drain().collect();
+    // The last says why there are no more.
+    let last = samples.pop().unwrap();
+    assert_eq!(last.stage, Stage::Faulted(Fault::Silent));
+    assert_eq!((last.sent, last.state.present), (Vec3::zeros(), false));
     assert_eq!(samples.len(), 39);
     let first = samples[0].state.time;
     for sample in &samples {

@@ -1,8 +1,8 @@
 //! A hand on a spring that is rendered by the loop.
 
 use palpate_servo::{
-    Clock, DeviceState, Fault, Hand, ServoLoop, ServoSettings, Trajectory, Vec3, VirtualDevice,
-    Waypoint,
+    Clock, DeviceState, Fault, Hand, Limits, ServoLoop, ServoSettings, Trajectory, Vec3,
+    VirtualDevice, Waypoint,
 };
 
 /// The same at `place` [m] from the beginning, then at zero.
@@ -22,6 +22,8 @@ fn is_stable(hand: Hand, stiffness: f64) -> bool {
         .unwrap();
     let spring = move |state: &DeviceState, _: f64| state.position * -stiffness;
     let settings = ServoSettings {
+        // Those that watch over energy would keep it stable beyond the bound.
+        limits: Some(Limits::without_hand()),
         log: 20_000,
         ..ServoSettings::default()
     };

@@ -49,6 +49,10 @@ impl Controller for ForceRenderer {
     fn age(&self) -> Option<f64> {
         Some(self.extrapolator.age(self.time))
     }
+
+    fn overdue(&self) -> Option<f64> {
+        Some(self.extrapolator.overdue(self.time))
+    }
 }
 
 /// The scene's word as the servo loop has it.

@@ -9,10 +9,7 @@ use palpate_files::scene::DeviceKind;
 use palpate_files::session::Event;
 use palpate_files::{Pose, SessionRow};
 use palpate_geometry::Vec3;
-use palpate_servo::{
-    Command, Device, DeviceSpec, DeviceState, Fault, Pointer, Sample, ServoSettings, Trajectory,
-    VirtualDevice,
-};
+use palpate_servo::{Fault, Pointer, Sample, ServoSettings, Trajectory, VirtualDevice};
 use palpate_simulate::interactive::{
     ExtrapolationError, Interaction, Mount, SceneDevices, Station, VirtualInteraction,
     judge_samples,
@@ -23,10 +20,10 @@ use palpate_simulate::{
 
 use crate::scenes::{Random, Setting, motion, played};
 
-const POLE: Vec3 = Vec3::new(0.0, 0.0, 0.05);
+pub(crate) const POLE: Vec3 = Vec3::new(0.0, 0.0, 0.05);
 
 /// A hand that goes in and out of the hemisphere's pole, 3 mm ± 4 mm deep, and a little to the side.
-fn palpating(frequency: f64) -> VirtualDevice {
+pub(crate) fn palpating(frequency: f64) -> VirtualDevice {
     VirtualDevice::new(Trajectory::Sine {
         center: POLE - Vec3::z() * 3e-3,
         amplitude: Vec3::new(2e-4, -1e-4, -4e-3),
@@ -34,7 +31,7 @@ fn palpating(frequency: f64) -> VirtualDevice {
     })
 }
 
-fn simulation(model: &str, contact: &str, prony: &str) -> Arc<Simulation> {
+pub(crate) fn simulation(model: &str, contact: &str, prony: &str) -> Arc<Simulation> {
     Arc::new(
         Setting {
             model,
@@ -55,7 +52,7 @@ fn virtual_interaction(simulation: &Arc<Simulation>, frequency: f64) -> VirtualI
     VirtualInteraction::new(simulation.clone(), stations, settings).unwrap()
 }
 
-fn advance(interaction: &mut VirtualInteraction, ticks: usize) {
+pub(crate) fn advance(interaction: &mut VirtualInteraction, ticks: usize) {
     (0..ticks).for_each(|_| interaction.advance().unwrap());
 }
 
@@ -301,42 +298,6 @@ fn a_hand_may_leave_in_contact() {
     let stations = vec![Some(Station::new(pointer))];
     drop(Interaction::start(simulation, stations, ServoSettings::default()).unwrap());
     drop(hand);
-}
-
-/// A device that is unplugged in contact.
-struct Unplugged(VirtualDevice);
-
-impl Device for Unplugged {
-    fn spec(&self) -> &DeviceSpec {
-        self.0.spec()
-    }
-
-    fn exchange(&mut self, command: &Command, patience: Duration) -> Result<DeviceState, Fault> {
-        if command.time > 0.1 {
-            return Err(Fault::Silent);
-        }
-        self.0.exchange(command, patience)
-    }
-
-    fn stop(&mut self) {
-        self.0.stop();
-    }
-}
-
-#[test]
-fn a_device_that_fails_ends_its_loop_and_says_why() {
-    let simulation = simulation("", "slip", "[]");
-    let device = palpating(2.0);
-    let stops = device.stops();
-    let stations = vec![Some(Station::new(Unplugged(device)))];
-    let mut interaction =
-        Interaction::start(simulation, stations, ServoSettings::default()).unwrap();
-    while interaction.is_running() {
-        std::thread::sleep(Duration::from_millis(5));
-    }
-    let quality = interaction.stop().unwrap();
-    assert_eq!(quality.loops[0].unwrap().fault, Some(Fault::Silent));
-    assert!(stops.load(Ordering::Relaxed) > 0);
 }
 
 /// A minute of dragging a mouse over an organ, in and out, sixty moves a second.

@@ -15,6 +15,7 @@ mod hand_over;
 mod hybrid;
 mod interactive;
 mod invariants;
+mod loss;
 mod no_allocation;
 mod scenes;
 mod slides;
