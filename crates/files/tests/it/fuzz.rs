@@ -1,10 +1,10 @@
 //! No reader panics, whatever it is given.
 
 use palpate_files::recording::ForeignColumns;
-use palpate_files::{Motion, Recording, Scene, Session, Tissue};
+use palpate_files::{Motion, Protocol, Recording, Scene, Session, Tissue};
 use proptest::prelude::*;
 
-use crate::{MOTION, RECORDING, SCENE, SESSION, TISSUE, tries};
+use crate::{MOTION, PROTOCOL, RECORDING, SCENE, SESSION, TISSUE, tries};
 
 /// Gives a text to every reader. An error must say something of itself.
 fn read_all(text: &str) {
@@ -18,6 +18,7 @@ fn read_all(text: &str) {
         Scene::parse(text, "f").err(),
         Tissue::parse(text, "f").err(),
         Motion::parse(text, "f").err(),
+        Protocol::parse(text, "f").err(),
         Session::parse(text, "f").err(),
         Recording::parse(text, "f").err(),
         Recording::parse_foreign(text, "f", &foreign).err(),
@@ -35,7 +36,7 @@ fn read_all(text: &str) {
 
 /// One of the valid documents with some of its bytes replaced, removed or repeated.
 fn mutated() -> impl Strategy<Value = String> {
-    let documents = [SCENE, TISSUE, MOTION, SESSION, RECORDING];
+    let documents = [SCENE, TISSUE, MOTION, PROTOCOL, SESSION, RECORDING];
     let pieces = prop_oneof![
         Just(""),
         Just("\n"),
@@ -91,9 +92,17 @@ proptest! {
         let path = folder.path().join("bytes");
         std::fs::write(&path, &bytes).unwrap();
         let _ = Scene::read(&path);
+        let _ = Protocol::read(&path);
         let _ = Session::read(&path);
         let _ = Recording::read_foreign(&path, &ForeignColumns::default());
     }
+}
+
+/// What is changed below was right: else the changes would only ever meet the first error.
+#[test]
+fn the_protocol_that_is_changed_is_one() {
+    let protocol = Protocol::parse(PROTOCOL, "f").unwrap();
+    assert_eq!((protocol.specimens.len(), protocol.stimuli.len()), (2, 5));
 }
 
 #[test]

@@ -125,6 +125,49 @@ warnings = ["depth beyond 10 mm"]
 "#;
 
 /// A motion with every column.
+const PROTOCOL: &str = r#"
+format = 1
+[rig]
+force_limit_n = 2.0
+depth_limit_m = 0.012
+speed_limit_m_per_s = 0.06
+recovery_s = 30.0
+breath_s = 25.0
+approach_speed_m_per_s = 0.002
+gains = "gentle"
+[[specimen]]
+builtin_tissue = "pig-liver"
+organ = "liver"
+subject = "pig 1"
+condition = "in_vivo"
+indenter_radius_m = 0.001
+alive = true
+factor = 1.2
+weight_kg = 34.0
+site = "left lobe"
+[[specimen]]
+published = "kidney"
+[[stimulus]]
+kind = "ramp_and_hold"
+depths_m = [0.002, 0.004]
+ramp_s = 0.5
+hold_s = 20.0
+repeats = 2
+[[stimulus]]
+kind = "sine"
+amplitude_m = 0.001
+pre_indentation_m = 0.002
+frequencies_hz = [0.5, 1.0]
+cycles = 10
+[[stimulus]]
+kind = "chirp_exponential"
+amplitude_m = 0.001
+pre_indentation_m = 0.002
+frequency_hz = 0.5
+end_frequency_hz = 5.0
+duration_s = 15.0
+"#;
+
 const MOTION: &str = "# format = 1
 time_s,tool,x_m,y_m,z_m,qx,qy,qz,qw,grip,cut
 0.0,right,0,0,0.01,0,0,0,1,0,0
