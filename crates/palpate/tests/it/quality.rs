@@ -27,6 +27,13 @@ fn a_run_per_rate_with_every_tool() {
             let at = |name: &str| lateness[name].as_f64().unwrap();
             assert!(at("p50") <= at("p99") && at("p99") <= at("p99_9"));
             assert!(at("p99_9") <= at("max"));
+            // Scripted hands press nothing: the most that they may have is half.
+            assert!(tool["peak_force_n"].as_f64().unwrap() <= 1.5);
+            let faults = tool["faults"].as_u64().unwrap();
+            assert!(faults > 0 || tool.get("fault").is_none(), "{run}");
+            for stage in ["let_go", "damped", "walls", "shortened", "cooled"] {
+                assert_eq!(tool["limited_ticks"][stage], 0, "{stage}: {run}");
+            }
         }
         let model = &run["model"];
         assert!(model["extrapolation_peak_n"].as_f64().unwrap() > 0.0);
@@ -38,7 +45,7 @@ fn a_run_per_rate_with_every_tool() {
 fn a_person_reads_it_and_bad_input_is_answered() {
     let output = palpate(&["quality", "--rates", "1000", "--seconds", "1"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    for word in ["1000 Hz asked", "late", "energy", "extrapolation"] {
+    for word in ["1000 Hz asked", "late", "energy", "limits", "extrapolation"] {
         assert!(stdout(&output).contains(word), "{}", stdout(&output));
     }
     for wrong in [["--rates", "5"], ["--rates", "fast"], ["--seconds", "0"]] {

@@ -211,9 +211,11 @@ impl SimulatorWindow {
             self.picture.count(elapsed, late);
         }
         if !play.interaction.is_running() {
-            self.fault = Some(
-                "the touch has stopped, for one of its threads ended; press Start anew".to_owned(),
+            let why = self.rates.touch.fault.map_or_else(
+                || "one of its threads ended".to_owned(),
+                |fault| fault.to_string(),
             );
+            self.fault = Some(format!("the touch has stopped: {why}; press Start anew"));
         }
     }
 

@@ -2,6 +2,7 @@ use eframe::egui::{self, Color32, RichText, Ui};
 use egui_plot::{Line, Plot, PlotPoints};
 use palpate_files::BuiltinTissue;
 use palpate_files::scene::{BuiltinOrgan, ModelKind, Shading, TipContact, TipShape};
+use palpate_servo::LoopReport;
 use palpate_simulate::TRUSTED_DEPTH;
 
 use super::SimulatorWindow;
@@ -262,13 +263,33 @@ fn quality(rates: &Rates, ui: &mut Ui) {
         .on_hover_text("work that the loop did on the hand; tissue only takes some");
     ui.label(format!("{:.3} mJ to the hand", 1e3 * touch.energy));
     ui.end_row();
+    limits(touch, ui);
+}
+
+/// What the stages between model and hand did.
+fn limits(touch: &LoopReport, ui: &mut Ui) {
+    let did = touch.interventions;
+    ui.label("limits").on_hover_text(format!(
+        "ticks in which a force was changed on its way to the hand: late {}, faded {}, damped {}, walls {}, \
+         shortened {}, cooled {}, slowed {}; let go of {} times",
+        did.late, did.faded, did.damped, did.walls, did.shortened, did.cooled, did.slowed, did.let_go
+    ));
+    match touch.fault {
+        Some(fault) => ui
+            .colored_label(FAULT, "forces are off")
+            .on_hover_text(fault.to_string()),
+        None => ui.label(format!("{} ticks, {} faults", did.count(), touch.faults)),
+    };
+    ui.end_row();
 }
 
 /// What went wrong, and what deserves doubt.
 pub(super) fn status(window: &SimulatorWindow, ui: &mut Ui) {
     ui.horizontal_wrapped(|ui| {
         let depth = window.history.last().1;
-        if let Some(fault) = window.fault.as_ref().or(window.notice.as_ref()) {
+        let said = window.fault.as_ref().or(window.notice.as_ref()).cloned();
+        let felt = window.rates.touch.fault.map(|fault| fault.to_string());
+        if let Some(fault) = said.or(felt) {
             ui.colored_label(FAULT, fault);
         } else if let Some(preparation) = &window.preparation {
             waiting(preparation, ui);

@@ -1,4 +1,4 @@
-use palpate_servo::{LoopReport, Percentiles, Priority};
+use palpate_servo::{Interventions, LoopReport, Percentiles, Priority};
 use palpate_simulate::interactive::{ModelReport, Quality};
 use palpate_simulate::{Simulation, Tool};
 use serde::Serialize;
@@ -30,6 +30,23 @@ struct Touch {
     age_s: Times,
     energy_j: f64,
     peak_force_n: f64,
+    faults: u64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fault: Option<String>,
+    limited_ticks: Limited,
+}
+
+/// Ticks in which a stage of the limits changed a force; and how often a hand let go.
+#[derive(Debug, Serialize)]
+struct Limited {
+    let_go: u64,
+    late: u64,
+    faded: u64,
+    damped: u64,
+    walls: u64,
+    shortened: u64,
+    cooled: u64,
+    slowed: u64,
 }
 
 #[derive(Debug, Serialize)]
@@ -81,6 +98,9 @@ impl Touch {
             age_s: report.age.into(),
             energy_j: report.energy,
             peak_force_n: report.peak_force,
+            faults: report.faults,
+            fault: report.fault.map(|fault| fault.to_string()),
+            limited_ticks: report.interventions.into(),
         }
     }
 }
@@ -96,6 +116,43 @@ impl Model {
             extrapolation_max_n: report.extrapolation.max,
             extrapolation_peak_n: report.extrapolation.peak,
         }
+    }
+}
+
+impl From<Interventions> for Limited {
+    fn from(did: Interventions) -> Self {
+        Self {
+            let_go: did.let_go,
+            late: did.late,
+            faded: did.faded,
+            damped: did.damped,
+            walls: did.walls,
+            shortened: did.shortened,
+            cooled: did.cooled,
+            slowed: did.slowed,
+        }
+    }
+}
+
+impl Limited {
+    /// Those that did anything.
+    fn words(&self) -> String {
+        let all = [
+            ("let go", self.let_go),
+            ("late", self.late),
+            ("faded", self.faded),
+            ("damped", self.damped),
+            ("walls", self.walls),
+            ("shortened", self.shortened),
+            ("cooled", self.cooled),
+            ("slowed", self.slowed),
+        ];
+        let did = all.into_iter().filter(|(_, count)| *count > 0);
+        let words: Vec<_> = did.map(|(name, count)| format!("{name} {count}")).collect();
+        if words.is_empty() {
+            return "no force changed".to_owned();
+        }
+        format!("{} ticks", words.join(", "))
     }
 }
 
@@ -146,7 +203,18 @@ impl Run {
                     1e3 * touch.energy_j,
                     1e3 * touch.peak_force_n
                 ),
+                format!(
+                    "    limits  {} faults, {}",
+                    touch.faults,
+                    touch.limited_ticks.words()
+                ),
             ]);
+            lines.extend(
+                touch
+                    .fault
+                    .iter()
+                    .map(|fault| format!("    fault   {fault}")),
+            );
         }
         let model = &self.model;
         lines.extend([
