@@ -1,9 +1,11 @@
 //! A tick that allocates may wait for the allocator longer than it has time.
 
 use assert_no_alloc::{AllocDisabler, assert_no_alloc, reset_violation_count, violation_count};
+use palpate_servo::dynamics::{Compensation, FlexibleBody, Imperfections};
 use palpate_servo::{
-    AffineForce, Clock, Controller, Device, DeviceState, Extrapolator, Hand, HandOver, NoDevice,
-    Pointer, ServoLoop, ServoSettings, Trajectory, Vec3, VirtualDevice, latest,
+    AffineForce, Clock, Controller, Device, DeviceState, Extrapolator, Hand, HandOver, Limits,
+    NoDevice, Pointer, ServoLoop, ServoSettings, Trajectory, Vec3, VirtualDevice, VirtualPhantom,
+    latest,
 };
 
 #[global_allocator]
@@ -39,12 +41,16 @@ fn a_tick_allocates_nothing() {
         .unwrap();
     let (pointer, mut mouse) = Pointer::new();
     mouse.move_to(Vec3::zeros());
-    let devices: [Box<dyn Device>; 4] = [
+    let machine = FlexibleBody::premium();
+    let flexible = VirtualPhantom::with_flexible_links(machine, Imperfections::premium());
+    let devices: [Box<dyn Device>; 5] = [
+        Box::new(flexible),
         Box::new(VirtualDevice::new(sine)),
         Box::new(yielding),
         Box::new(pointer),
         Box::new(NoDevice::new(Vec3::zeros())),
     ];
+    let mut all_damped = 0;
     let kinds = [HandOver::LocalModel, HandOver::Linear, HandOver::Hold];
     for (device, kind) in devices.into_iter().zip(kinds.into_iter().cycle()) {
         let (mut answers, heard) = latest::channel(&AffineForce::none(0.0));
@@ -52,12 +58,27 @@ fn a_tick_allocates_nothing() {
             answers: heard,
             extrapolator: Extrapolator::new(kind, 5e-3, 1e-3),
         };
-        let settings = ServoSettings::default();
+        let weight = Compensation {
+            weight: Some(machine.links),
+            stiffness: 10.0,
+            mass: 0.02,
+            cutoff: 30.0,
+        };
+        // No energy at all may come out, so that the stage that sees to it has to work.
+        let limits = Limits {
+            allowance: 1e-12,
+            ..Limits::default()
+        };
+        let settings = ServoSettings {
+            compensation: Some(weight),
+            limits: Some(limits),
+            ..ServoSettings::default()
+        };
         let (mut servo, reader) = ServoLoop::new(device, Box::new(controller), settings).unwrap();
         let mut clock = Clock::virtual_time();
         reset_violation_count();
         assert_no_alloc(|| {
-            servo.run(&mut clock, |tick| {
+            let report = servo.run(&mut clock, |tick| {
                 let time = tick as f64 * 1e-3;
                 let gradient = -50.0 * nalgebra::Matrix3::identity();
                 answers.send(AffineForce::new(
@@ -68,8 +89,10 @@ fn a_tick_allocates_nothing() {
                 ));
                 tick < 10_000
             });
+            all_damped += report.interventions.damped;
         });
         assert_eq!(violation_count(), 0, "{kind:?}");
         assert_eq!(reader.log.lost(), 10_000 - 4096);
     }
+    assert!(all_damped > 1000, "{all_damped}");
 }
