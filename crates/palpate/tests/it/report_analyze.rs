@@ -51,6 +51,7 @@ fn a_page_shows_what_is_seen() {
     let figures = texts(&document, "h4");
     let expected = [
         "Static response",
+        "Force over depth",
         "Relaxation",
         "Hysteresis",
         "Stiffness over frequency",
@@ -61,7 +62,13 @@ fn a_page_shows_what_is_seen() {
         assert!(figures.iter().any(|own| own == part), "{part}: {figures:?}");
     }
     let parts = texts(&document, "h3");
-    for part in ["Static response", "Relaxation", "Swings", "Provenance"] {
+    for part in [
+        "Static response",
+        "Relaxation",
+        "Swings",
+        "What deserves doubt",
+        "Provenance",
+    ] {
         assert!(parts.iter().any(|own| own == part), "{part}: {parts:?}");
     }
     let cells = texts(&document, "td").join(" ");

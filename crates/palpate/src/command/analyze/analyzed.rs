@@ -37,8 +37,8 @@ impl<'a> Analyzed<'a> {
             .collect();
         let responses = organ_responses(&own);
         let doubts = recordings.iter().flat_map(|(read, analysis)| {
-            let all = read.clean.doubts.iter().chain(&analysis.doubts);
-            all.map(|doubt| format!("{}: {doubt}", read.path.display()))
+            let each = doubts_of(read, analysis);
+            each.map(|doubt| format!("{}: {doubt}", read.path.display()))
         });
         Self {
             doubts: doubts.collect(),
@@ -49,4 +49,12 @@ impl<'a> Analyzed<'a> {
             recordings,
         }
     }
+}
+
+/// What deserves doubt about a recording, and about what it shows.
+pub(super) fn doubts_of<'a>(
+    read: &'a ReadRecording,
+    analysis: &'a Analysis,
+) -> impl Iterator<Item = &'a String> {
+    read.clean.doubts.iter().chain(&analysis.doubts)
 }

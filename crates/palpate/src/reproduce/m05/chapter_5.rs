@@ -228,7 +228,8 @@ fn add_static(rows: &mut Rows<'_>, (printed, spread): (&Printed, &Spread), row: 
     };
     for (word, published, put_in, ours) in put_in {
         let note = format!(
-            "{NOTE}; {} animals spread as the table says, from the depth at which a beating surface was met: {:.1} mN were put in{misprint}",
+            "{NOTE}; {} animals spread as the table says, each pressed twice. Depths count from where a beating surface was met, \
+             which is up to 0.4 mm off: that moves means where the depth is small, and widens bounds. {:.1} mN were put in{misprint}",
             row.subjects,
             1e3 * put_in
         );

@@ -1,14 +1,15 @@
 //! `--report`: what recordings show, as a page for people.
 
+mod pressed;
 mod relaxation;
 mod statics;
 mod swings;
 
 use palpate_characterize::analyze::{OrganResponse, StaticGroup};
 
-use super::analyzed::Analyzed;
+use super::analyzed::{Analyzed, doubts_of};
 use crate::command::recordings::{ReadRecording, Unusable};
-use crate::report::{Markup, Page, Provenance, count, doubts, provenance};
+use crate::report::{Markup, Page, Provenance, Table, count, doubts, provenance};
 
 /// Curves that are drawn in one plot, at most.
 const CURVES: usize = 12;
@@ -28,14 +29,13 @@ pub(super) fn html(analyzed: &Analyzed<'_>, settings: &[(String, String)]) -> St
     let organs: Markup = each
         .map(|response| section(analyzed, response, several))
         .collect();
-    let doubtful = doubts("What deserves doubt", &analyzed.doubts);
     let unusable: Vec<_> = analyzed.unusable.iter().map(Unusable::sentence).collect();
     let unusable = doubts("Files that could not be used", &unusable);
     let recordings = analyzed.recordings.iter().map(|(read, _)| source(read));
     Page {
         title,
         lead: Markup::of_class("p", "lead", lead(analyzed)),
-        body: overview.and(organs).and(doubtful).and(unusable),
+        body: overview.and(organs).and(unusable).and(doubted(analyzed)),
         foot: provenance(settings, recordings).and(Markup::plain("p", CONVENTIONS)),
     }
     .html()
@@ -58,7 +58,7 @@ fn name(response: &OrganResponse) -> &str {
     response
         .organ
         .as_deref()
-        .unwrap_or("an organ without a name")
+        .unwrap_or("recordings without an organ")
 }
 
 /// The section on one organ, with its title if it is one of `several`.
@@ -78,6 +78,7 @@ fn section(analyzed: &Analyzed<'_>, response: &OrganResponse, several: bool) -> 
         .filter(|(read, _)| read.clean.header.organ == response.organ)
         .collect();
     let figures = statics::figure_of(&groups, &analyzed.points)
+        .and(pressed::figure_of(&own))
         .and(relaxation::figure_of(&own))
         .and(swings::figures(&own));
     let inside = title
@@ -86,6 +87,22 @@ fn section(analyzed: &Analyzed<'_>, response: &OrganResponse, several: bool) -> 
         .and(relaxation::table(&own))
         .and(swings::table(&own));
     Markup::plain("section", inside)
+}
+
+/// What deserves doubt, recording by recording.
+fn doubted(analyzed: &Analyzed<'_>) -> Markup {
+    let mut table = Table::new(["recording", "what deserves doubt"]).of_class("text");
+    for (read, analysis) in &analyzed.recordings {
+        let said: Vec<&str> = doubts_of(read, analysis).map(String::as_str).collect();
+        if !said.is_empty() {
+            let file = Markup::plain("code", read.path.display().to_string());
+            table.row(vec![file, said.join("; ").into()]);
+        }
+    }
+    match table.is_empty() {
+        true => Markup::default(),
+        false => Markup::plain("h3", "What deserves doubt").and(table),
+    }
 }
 
 fn source(read: &ReadRecording) -> Provenance {

@@ -8,7 +8,10 @@ pub(super) fn overview(groups: &[StaticGroup]) -> Markup {
     let all: Vec<&StaticGroup> = groups.iter().collect();
     let scale = scale(&all);
     let series = groups.iter().enumerate().map(|(color, group)| {
-        let organ = group.organ.as_deref().unwrap_or("an organ without a name");
+        let organ = group
+            .organ
+            .as_deref()
+            .unwrap_or("recordings without an organ");
         Series::new(
             format!(
                 "{organ}{}",
