@@ -1,6 +1,6 @@
 //! The block under the punch, with the laws that the source found for it.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use palpate_mechanics::finite_elements::estimate::Progress;
 use palpate_mechanics::finite_elements::indentation::{
@@ -44,8 +44,19 @@ pub(super) struct Published {
     pub(super) error: f64,
 }
 
-/// The four sets of tables 6-4 and 6-5.
-pub(super) fn published(rows: &Rows<'_>) -> Result<Vec<Published>, Failure> {
+/// The four sets of tables 6-4 and 6-5. They take minutes, and are solved once for all figures.
+pub(super) fn published(rows: &Rows<'_>) -> Result<&'static [Published], Failure> {
+    static SOLVED: OnceLock<Vec<Published>> = OnceLock::new();
+    match SOLVED.get() {
+        Some(solved) => Ok(solved),
+        None => {
+            let solved = solved(rows)?;
+            Ok(SOLVED.get_or_init(|| solved))
+        }
+    }
+}
+
+fn solved(rows: &Rows<'_>) -> Result<Vec<Published>, Failure> {
     let unit: Arc<dyn Law> = Arc::new(NeoHookean::incompressible(1.0)?);
     let (unit_curve, error) = curve(rows, "neo-Hookean", unit)?;
     let mut all = Vec::new();

@@ -27,7 +27,7 @@ const READINGS: [(Reading, &str); 2] = [
 
 fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
     let sets = published(rows)?;
-    for set in &sets {
+    for set in sets {
         for (reading, word) in READINGS {
             let note = note(set, word);
             for depth in DEPTHS_MM {
@@ -44,7 +44,7 @@ fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
     for organ in ["kidney", "liver"] {
         let note = "neither reading of the printed parameters has the measured shape: forces grow \
                     with the depth to the power 1.3 to 1.5, the laws' to 1.1 to 1.2";
-        rows.add_figure(Some(organ), &plot(organ, &sets), note)?;
+        rows.add_figure(Some(organ), &plot(organ, sets), note)?;
     }
     Ok(())
 }
