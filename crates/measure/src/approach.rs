@@ -1,11 +1,33 @@
+use std::ops::Range;
+
 /// Where a tip met tissue, from heights [m], falling, and forces [N]: the height from which a straight rise of
 /// force comes nearest to all, after the force before it was taken for zero. None without a rise.
 ///
-/// A threshold alone would be met too late, by its force over the stiffness of the tissue.
+/// A threshold alone would be met too late, by its force over the stiffness of the tissue. The rise is looked for
+/// in means first and then about the best of them, so that it takes no longer than a tick may be late.
 pub(crate) fn contact_height(heights: &[f64], forces: &[f64]) -> Option<f64> {
-    let mut best: Option<(f64, f64)> = None;
-    let candidates = (1..heights.len().saturating_sub(SAMPLES_IN_CONTACT)).step_by(STRIDE);
-    for place in candidates {
+    let means = |values: &[f64]| -> Vec<f64> {
+        let blocks = values.chunks_exact(BLOCK);
+        blocks
+            .map(|block| block.iter().sum::<f64>() / BLOCK as f64)
+            .collect()
+    };
+    let (coarse_heights, coarse_forces) = (means(heights), means(forces));
+    let all = 1..coarse_heights.len().saturating_sub(1);
+    let near = BLOCK * best(&coarse_heights, &coarse_forces, (all, 1))?;
+    let last = heights.len().saturating_sub(SAMPLES_IN_CONTACT);
+    let about = near.saturating_sub(2 * BLOCK).max(1)..(near + 3 * BLOCK).min(last);
+    best(heights, forces, (about, STRIDE)).map(|place| heights[place])
+}
+
+/// The place among `candidates`, every so many of them, from which a rise comes nearest to the forces.
+fn best(
+    heights: &[f64],
+    forces: &[f64],
+    (candidates, stride): (Range<usize>, usize),
+) -> Option<usize> {
+    let mut best: Option<(f64, usize)> = None;
+    for place in candidates.step_by(stride) {
         let zero = forces[..place].iter().sum::<f64>() / place as f64;
         let (mut products, mut squares) = (0.0, 0.0);
         for (height, force) in heights[place..].iter().zip(&forces[place..]) {
@@ -23,14 +45,16 @@ pub(crate) fn contact_height(heights: &[f64], forces: &[f64]) -> Option<f64> {
             })
             .sum();
         if slope > 0.0 && best.is_none_or(|(least, _)| missed < least) {
-            best = Some((missed, heights[place]));
+            best = Some((missed, place));
         }
     }
-    best.map(|(_, height)| height)
+    best.map(|(_, place)| place)
 }
 
 /// Samples that must lie in the tissue.
 const SAMPLES_IN_CONTACT: usize = 20;
+/// Samples of one mean.
+const BLOCK: usize = 16;
 /// From one candidate to the next.
 const STRIDE: usize = 8;
 

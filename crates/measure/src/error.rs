@@ -39,6 +39,25 @@ pub enum Error {
         /// How long a breath is held [s].
         breath: f64,
     },
+    /// A breath was held for as long as it may be.
+    #[error(
+        "the breath was held for {breath:.1} s, its whole budget, and the indenter was withdrawn; bring it nearer to the tissue, or raise the budget"
+    )]
+    BreathIsOver {
+        /// How long a breath is held [s].
+        breath: f64,
+    },
+    /// It was not yet looked for tissue.
+    #[error("where the tissue begins is not known; approach it first")]
+    NotApproached,
+    /// The indenter is at an end of where it may go.
+    #[error(
+        "the indenter is at {height_mm:.1} mm, an end of its way; move it the other way, or raise the limit of depth"
+    )]
+    EndOfWay {
+        /// Where it is, from where the rig began [mm].
+        height_mm: f64,
+    },
     /// Nothing is under the indenter.
     #[error("no tissue was met on {way_mm:.0} mm; bring the indenter nearer")]
     NoContact {

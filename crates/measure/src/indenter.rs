@@ -7,10 +7,13 @@ pub struct Reference {
     pub position: Vec3,
     /// [m/s]
     pub velocity: Vec3,
+    /// Whether it shall be driven there, or left alone.
+    pub driven: bool,
 }
 
 /// Drives a device along a reference (5.1), each axis for itself.
 pub struct Indenter {
+    gains: PidGains,
     axes: [Pid; 3],
     reference: latest::Receiver<Reference>,
     /// How long no reference has come [s].
@@ -25,15 +28,13 @@ impl Indenter {
     pub fn new(gains: PidGains, first: Reference) -> (Self, latest::Sender<Reference>) {
         let (sender, reference) = latest::channel(&first);
         let axes = [Pid::new(gains); 3];
-        let silent = 0.0;
-        (
-            Self {
-                axes,
-                reference,
-                silent,
-            },
-            sender,
-        )
+        let own = Self {
+            gains,
+            axes,
+            reference,
+            silent: 0.0,
+        };
+        (own, sender)
     }
 }
 
@@ -42,6 +43,11 @@ impl Controller for Indenter {
         let heard = self.reference.has_news();
         self.silent = if heard { 0.0 } else { self.silent + dt };
         let wanted = *self.reference.latest();
+        if !wanted.driven {
+            // What it would have to undo later is forgotten.
+            self.axes = [Pid::new(self.gains); 3];
+            return Vec3::zeros();
+        }
         Vec3::from_fn(|axis, _| {
             let aim = [wanted.position[axis], wanted.velocity[axis]];
             self.axes[axis].force(state.position[axis], aim, dt)

@@ -10,21 +10,28 @@
 //! [`Rig`] approaches until first contact, presses one [`Course`] of a stimulus at a time and withdraws. It runs on a real
 //! clock and on a virtual one. Where there is no device, a [`VirtualSpecimen`] under a virtual PHANTOM stands
 //! for both; what is recorded of it has the sensor's steps, the encoder's steps, a heart that beats and a
-//! breath that is held.
+//! breath that is held. A [`live`] rig runs on a thread of its own and carries out the orders of a person.
 
 mod approach;
 mod course;
+mod emergency_switch;
 mod error;
 mod indenter;
+pub mod live;
+mod naming;
 mod noise;
+mod recorder;
 mod rig;
 mod rig_settings;
 mod sensor;
 mod specimen;
 
 pub use course::Course;
+pub use emergency_switch::EmergencySwitch;
 pub use error::Error;
 pub use indenter::{Indenter, Reference};
+pub use naming::{recording_name, stimulus_name};
+pub use recorder::{Recorded, Recorder};
 pub use rig::{Ended, Listener, Phase, Rig, RigSample};
 pub use rig_settings::RigSettings;
 pub use sensor::ForceSensor;

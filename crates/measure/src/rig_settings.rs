@@ -17,6 +17,8 @@ pub struct RigSettings {
     pub approach_way: f64,
     /// How far above the tissue it waits [m].
     pub clearance: f64,
+    /// How fast it is moved by hand [m/s].
+    pub jog_speed: f64,
     /// How fast it leaves the tissue [m/s].
     pub withdrawal_speed: f64,
     /// The largest force that the sensor may show [N].
@@ -40,6 +42,7 @@ impl Default for RigSettings {
             contact_force: 4.0 / 1280.0,
             approach_way: 0.030,
             clearance: 0.002,
+            jog_speed: 0.005,
             withdrawal_speed: 0.02,
             force_limit: 2.0,
             depth_limit: 0.012,
@@ -55,6 +58,13 @@ pub(crate) const LEAD: f64 = 0.5;
 pub(crate) const STANDOFF: f64 = 0.5e-3;
 
 impl RigSettings {
+    /// How long `course` takes from the clearance above the tissue [s], for which a breath is held.
+    pub fn time_of(&self, course: &Course) -> f64 {
+        let [_, speed] = course.at(0.0);
+        let way = (self.clearance - STANDOFF).abs() / self.approach_speed;
+        way + LEAD + STANDOFF / speed + course.duration()
+    }
+
     /// Whether `course` keeps within the limits.
     ///
     /// # Errors
@@ -72,9 +82,7 @@ impl RigSettings {
                 limit_mm_s: 1e3 * self.speed_limit,
             });
         }
-        let [_, speed] = course.at(0.0);
-        let way = (self.clearance - STANDOFF).abs() / self.approach_speed;
-        let duration = way + LEAD + STANDOFF / speed + course.duration();
+        let duration = self.time_of(course);
         match self.breath {
             Some(breath) if duration > breath => Err(Error::OutOfBreath { duration, breath }),
             _ => Ok(()),

@@ -81,18 +81,44 @@ impl VirtualSpecimen {
         at_step: &mut dyn FnMut(f64),
     ) -> Result<Self, Error> {
         let material = Material::from_tissue(tissue)?;
-        let elastic = if matches!(tissue.elasticity, Elasticity::Linear { .. }) {
-            let (tip, bond) = (Tip::Flat { radius }, Bond::Stick);
-            Elastic::Law {
-                law: Box::new(TipLaw::linear(tip, bond, material.at_rest)),
-                stiffness: contact::half_space_stiffness(&material.at_rest, radius, bond),
-            }
-        } else {
-            Elastic::Response(solved(&material, (radius, deepest), at_step)?)
+        if !matches!(tissue.elasticity, Elasticity::Linear { .. }) {
+            let curve = solved(&material, (radius, deepest), at_step)?;
+            return Self::of_solved(tissue, radius, curve);
+        }
+        let (tip, bond) = (Tip::Flat { radius }, Bond::Stick);
+        let elastic = Elastic::Law {
+            law: Box::new(TipLaw::linear(tip, bond, material.at_rest)),
+            stiffness: contact::half_space_stiffness(&material.at_rest, radius, bond),
         };
-        let mut specimen = Self::new(elastic, material.prony, radius);
+        Ok(Self::named(tissue, elastic, material.prony, radius))
+    }
+
+    /// The same of a tissue whose `curve` under this punch was [solved](Self::solved) before.
+    ///
+    /// # Errors
+    /// When the tissue makes no material.
+    pub fn of_solved(tissue: &Tissue, radius: f64, curve: IndentationCurve) -> Result<Self, Error> {
+        let series = Material::from_tissue(tissue)?.prony;
+        Ok(Self::named(
+            tissue,
+            Elastic::Response(curve),
+            series,
+            radius,
+        ))
+    }
+
+    /// Its force over depth at once, where that had to be solved.
+    pub fn solved(&self) -> Option<&IndentationCurve> {
+        match &self.elastic {
+            Elastic::Law { .. } => None,
+            Elastic::Response(curve) => Some(curve),
+        }
+    }
+
+    fn named(tissue: &Tissue, elastic: Elastic, series: PronySeries, radius: f64) -> Self {
+        let mut specimen = Self::new(elastic, series, radius);
         specimen.header.organ.clone_from(&tissue.name);
-        Ok(specimen)
+        specimen
     }
 
     /// One whose force [N] over depth [m] is `response` when it has been held for `after` [s], under a flat

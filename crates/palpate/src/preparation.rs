@@ -19,10 +19,16 @@ const STEPS: u64 = 1000;
 /// Part of the memory that is free now that may be taken [-].
 const PART_OF_MEMORY: f64 = 0.8;
 
+/// The folder for what takes minutes and can be made again.
+pub(crate) fn folder() -> Option<PathBuf> {
+    let named = std::env::var_os(FOLDER_VARIABLE).filter(|name| !name.is_empty());
+    named
+        .map(PathBuf::from)
+        .or_else(|| Some(dirs::cache_dir()?.join("palpate")))
+}
+
 /// What this machine offers: its folder for what can be made again, and most of its free memory.
 pub(crate) fn resources() -> Resources {
-    let named = std::env::var_os(FOLDER_VARIABLE).filter(|name| !name.is_empty());
-    let usual = || Some(dirs::cache_dir()?.join("palpate"));
     let mut system = sysinfo::System::new();
     system.refresh_memory();
     let offered = match system.available_memory() {
@@ -31,7 +37,7 @@ pub(crate) fn resources() -> Resources {
         free => (PART_OF_MEMORY * free as f64) as usize,
     };
     Resources {
-        responses: named.map(PathBuf::from).or_else(usual),
+        responses: folder(),
         memory: offered,
     }
 }

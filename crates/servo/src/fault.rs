@@ -45,6 +45,9 @@ pub enum Fault {
         /// Its own number for it.
         code: i32,
     },
+    /// Somebody wants no force at all.
+    #[error("the emergency stop was pressed; look after what is touched and arm again")]
+    EmergencyStop,
     /// The thread of the loop ended in a panic; the device was stopped.
     #[error("the servo thread panicked, and the device was stopped; report it as a defect")]
     Panicked,

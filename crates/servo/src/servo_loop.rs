@@ -158,6 +158,12 @@ impl ServoLoop {
         Ok(sample)
     }
 
+    /// Takes every force off from the next tick on, for a reason from outside, until somebody arms again.
+    pub fn trip(&mut self, fault: Fault) {
+        self.guard.trip(fault);
+        (self.force, self.compensation) = (Vec3::zeros(), Vec3::zeros());
+    }
+
     /// What the loop has measured so far.
     pub fn report(&self) -> LoopReport {
         let fault = match self.guard.stage() {

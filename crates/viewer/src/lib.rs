@@ -1,4 +1,4 @@
-//! An organ seen: pictures of a simulation, and the window in which it is touched.
+//! An organ seen: pictures of a simulation, and the window in which it is touched; and the window of the rig.
 //!
 //! A [`Renderer`] draws bodies and tools into a [`Target`]; a [`Studio`] is one with a scene in it, which
 //! needs no display. A [`FrameWriter`] takes pictures of a motion that is played.
@@ -7,10 +7,14 @@ mod camera;
 mod error;
 mod frame;
 mod gpu;
+mod history;
+mod native;
 mod orbit;
 mod pick;
 mod render;
+pub mod rig;
 mod seen_organ;
+mod style;
 mod window;
 
 pub use camera::{Camera, Lamp};

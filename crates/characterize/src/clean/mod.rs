@@ -120,6 +120,11 @@ pub enum SegmentKind {
 /// When it is too short, its force never changes, no contact is found, or the settings do not fit it.
 pub fn clean(recording: &Recording, settings: &CleanSettings) -> Result<CleanRecording, Error> {
     let mut doubts = recording.remarks().to_vec();
+    if let Some(why) = recording.header.cut_short() {
+        doubts.push(format!(
+            "it was cut short ({why}), so a part of its stimulus is missing"
+        ));
+    }
     let samples = Oriented::new(recording, &mut doubts);
     check(&samples)?;
     let sampling = Sampling::of(&samples.time);

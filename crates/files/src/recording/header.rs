@@ -107,11 +107,21 @@ pub struct RecordingHeader {
     pub pressure_pa: Option<f64>,
     /// Where the recording comes from.
     pub source: Option<String>,
+    /// How it ended: `whole`, `unfinished` while it is made, or why it was cut short.
+    pub ended: Option<String>,
     /// Keys that mean nothing here and are kept.
     pub extra: Vec<ExtraKey>,
 }
 
 impl RecordingHeader {
+    /// [`ended`](Self::ended) of a recording with all its samples.
+    pub const WHOLE: &str = "whole";
+
+    /// Why it ends before its stimulus; none when it is whole, or says nothing.
+    pub fn cut_short(&self) -> Option<&str> {
+        self.ended.as_deref().filter(|ended| *ended != Self::WHOLE)
+    }
+
     /// The same, with what it does not say taken from `other`.
     pub fn completed_by(mut self, other: &Self) -> Self {
         macro_rules! complete {
@@ -127,7 +137,7 @@ impl RecordingHeader {
             amplitude_m pre_indentation_m frequency_hz end_frequency_hz sample_rate_hz
             indenter_shape indenter_radius_m indenter_half_angle_deg area_m2 height_m
             specimen inner_radius_m outer_radius_m length_m pressure_pa
-            source
+            source ended
         );
         self.extra.extend(other.extra.iter().cloned());
         self

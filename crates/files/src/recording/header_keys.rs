@@ -36,6 +36,7 @@ impl RecordingHeader {
         "length_m",
         "pressure_pa",
         "source",
+        "ended",
     ];
 
     pub(super) fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
@@ -68,6 +69,7 @@ impl RecordingHeader {
             length_m: positive("length_m")?,
             pressure_pa: keys.number("pressure_pa", Domain::FINITE)?,
             source: keys.text("source")?,
+            ended: keys.text("ended")?,
             extra: Vec::new(),
         };
         header.check_wall(keys)?;
@@ -115,6 +117,7 @@ impl RecordingHeader {
             number(self.length_m),
             number(self.pressure_pa),
             text(&self.source),
+            text(&self.ended),
         ];
         let keys = Self::KEYS.iter().copied();
         keys.zip(values)

@@ -13,6 +13,7 @@ mod round_trip;
 mod scene;
 mod session;
 mod units;
+mod writer;
 
 use proptest::test_runner::Config;
 

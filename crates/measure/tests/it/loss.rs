@@ -31,7 +31,7 @@ fn lost_at(time: f64) -> (Vec<RigSample>, Option<Error>, Option<Error>, Recordin
         samples.push(*sample);
         true
     });
-    writer.finish().unwrap();
+    writer.finish("the device was lost").unwrap();
     let next = rig.wait(0.1, &mut |_| true).err();
     (samples, said.err(), next, Recording::read(&path).unwrap())
 }
@@ -62,6 +62,7 @@ fn holding(wanted: impl Fn(u64) -> Option<f64>) -> Vec<Sample> {
     let reference = |height: f64| Reference {
         position: Vec3::z() * height,
         velocity: Vec3::zeros(),
+        driven: true,
     };
     let (indenter, mut references) = Indenter::new(PidGains::tuned(), reference(0.0));
     let settings = ServoSettings {

@@ -6,6 +6,7 @@
     reason = "clippy.toml allows both in tests, but does not see helpers as tests"
 )]
 
+mod live;
 mod loss;
 mod no_allocation;
 mod rig;

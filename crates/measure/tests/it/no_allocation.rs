@@ -21,9 +21,9 @@ fn a_tick_of_the_rig_allocates_nothing() {
     reset_violation_count();
     assert_no_alloc(|| approached = rig.approach(&mut |_| true));
     assert_eq!(approached, Ok(Ended::Whole));
-    // Heights and forces, taken and given back.
+    // Heights and forces, and their means when it is met, taken and given back.
     let room = violation_count();
-    assert!(room <= 4, "{room}");
+    assert!(room <= 8, "{room}");
     reset_violation_count();
     let mut pressed = Ok(Ended::Stopped);
     assert_no_alloc(|| {

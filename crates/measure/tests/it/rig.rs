@@ -24,10 +24,17 @@ pub(crate) fn tissue() -> Tissue {
     tissue
 }
 
-fn rig(specimen: VirtualSpecimen, settings: RigSettings, seed: u64) -> Rig {
+/// A wide piece of it.
+pub(crate) fn soft() -> VirtualSpecimen {
+    VirtualSpecimen::of_tissue(&tissue(), (RADIUS, 8e-3), &mut |_| ()).unwrap()
+}
+
+/// A rig over `specimen`, on a virtual clock.
+pub(crate) fn rig(specimen: VirtualSpecimen, settings: RigSettings, seed: u64) -> Rig {
     rig_on(Imperfections::premium(), specimen, settings, seed)
 }
 
+/// The same on a device that is less than perfect in its own way.
 pub(crate) fn rig_on(
     imperfections: Imperfections,
     specimen: VirtualSpecimen,
@@ -48,13 +55,13 @@ fn ramp(depth_m: f64, ramp_s: f64, hold_s: f64) -> Course {
     Course::of(ramp).unwrap()
 }
 
+/// Four millimetres, for eight seconds.
 pub(crate) fn usual() -> Course {
     ramp(4e-3, 0.5, 8.0)
 }
 
 fn pressed(seed: u64) -> Vec<RigSample> {
-    let specimen = VirtualSpecimen::of_tissue(&tissue(), (RADIUS, 8e-3), &mut |_| ()).unwrap();
-    let mut rig = rig(specimen, RigSettings::default(), seed);
+    let mut rig = rig(soft(), RigSettings::default(), seed);
     assert_eq!(rig.approach(&mut |_| true).unwrap(), Ended::Whole);
     let mut samples = Vec::new();
     let ended = rig.press(&usual(), &mut |sample| {
@@ -90,7 +97,6 @@ fn the_same_seed_gives_the_same_samples() {
 /// Limits are known before the indenter moves, and one on the force while it does.
 #[test]
 fn limits_hold() {
-    let specimen = || VirtualSpecimen::of_tissue(&tissue(), (RADIUS, 8e-3), &mut |_| ()).unwrap();
     let deep = ramp(20e-3, 2.0, 1.0);
     let fast = ramp(4e-3, 0.02, 1.0);
     let settings = RigSettings {
@@ -107,7 +113,7 @@ fn limits_hold() {
         force_limit: 0.05,
         ..RigSettings::default()
     };
-    let mut rig = rig(specimen(), settings, 1);
+    let mut rig = rig(soft(), settings, 1);
     rig.approach(&mut |_| true).unwrap();
     let refused = rig.press(&usual(), &mut |_| true);
     assert!(
@@ -127,8 +133,7 @@ fn limits_hold() {
 /// Whoever listens may stop; the indenter leaves the tissue.
 #[test]
 fn a_stopped_stimulus_is_withdrawn() {
-    let specimen = VirtualSpecimen::of_tissue(&tissue(), (RADIUS, 8e-3), &mut |_| ()).unwrap();
-    let mut rig = rig(specimen, RigSettings::default(), 1);
+    let mut rig = rig(soft(), RigSettings::default(), 1);
     rig.approach(&mut |_| true).unwrap();
     let ended = rig
         .press(&usual(), &mut |sample| sample.force < 0.05)
@@ -146,9 +151,37 @@ fn a_stopped_stimulus_is_withdrawn() {
 /// Where nothing is, nothing is met.
 #[test]
 fn a_missing_specimen_is_told() {
-    let mut specimen = VirtualSpecimen::of_tissue(&tissue(), (RADIUS, 8e-3), &mut |_| ()).unwrap();
+    let mut specimen = soft();
     specimen.surface = -1.0;
     let mut rig = rig(specimen, RigSettings::default(), 1);
     let said = rig.approach(&mut |_| true).unwrap_err();
     assert!(matches!(said, Error::NoContact { .. }), "{said}");
+}
+
+/// An approach that ends otherwise than with a contact leaves the tissue too: forces are those of the sensor's
+/// noise (0.4 mN), and the tip is where it began.
+#[test]
+fn an_approach_into_too_much_force_is_withdrawn() {
+    let settings = RigSettings {
+        // Below what is a contact.
+        force_limit: 2.6e-3,
+        ..RigSettings::default()
+    };
+    let mut rig = rig(soft(), settings, 1);
+    let refused = rig.approach(&mut |_| true);
+    assert!(
+        matches!(refused, Err(Error::TooMuchForce { .. })),
+        "{refused:?}"
+    );
+    let (mut force, mut height) = (0.0, -1.0);
+    rig.wait(0.5, &mut |sample| {
+        (force, height) = (sample.force, sample.height);
+        true
+    })
+    .unwrap();
+    // Two steps of the encoder.
+    assert!(
+        force.abs() < 2e-3 && height.abs() < 6e-5,
+        "{force} {height}"
+    );
 }

@@ -31,8 +31,9 @@ Examples:
       prepares the whole organ of the hybrid model once; then the scene opens at once
   palpate solve problem.toml --plot force.png
       the force of an indenter, the swelling of a tube and more, by finite elements
-  palpate measure --headless --out recordings
-      a protocol on a specimen that is not there, recorded as a rig would
+  palpate measure
+      opens the rig's window over a specimen that is not there; with --headless --out recordings
+      a protocol is carried out without one
   palpate characterize liver-2mm.csv liver-4mm.csv --out liver.toml
       the tissue behind recordings, with its uncertainty
   palpate quality
@@ -65,7 +66,7 @@ enum Command {
     Precompute(precompute::Arguments),
     /// Solve a described problem with finite elements, the reference for everything else.
     Solve(solve::Arguments),
-    /// Press an indenter into specimens and record depth and force.
+    /// Press an indenter into specimens, in a window or by a protocol, and record depth and force.
     Measure(measure::Arguments),
     /// What recordings show without a model: static force, relaxation, answers to sines and chirps.
     Analyze(analyze::Arguments),

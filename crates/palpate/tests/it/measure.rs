@@ -1,6 +1,7 @@
 //! `palpate measure`, as an experimenter meets it.
 
 use std::fs;
+use std::process::Command;
 
 use crate::errors::assert_refused;
 use crate::{json, palpate_in, stderr};
@@ -22,20 +23,25 @@ const SOFT: &str = "organ = \"jelly\"\nsubject = \"1\"\n[specimen.tissue]\nlaw =
 fn a_specimen_comes_back_as_its_tissue() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("protocol.toml"), protocol(SOFT, HOLD)).unwrap();
-    let measured = palpate_in(
-        folder.path(),
-        &[
-            "measure",
-            "protocol.toml",
-            "--headless",
-            "--out",
-            "one.csv",
-            "--json",
-        ],
-    );
-    let answer = json(&measured);
+    // Solved once, and kept where nobody else looks.
+    let measured = |file: &str| {
+        let asked = ["measure", "protocol.toml", "--headless", "--json", "--out"];
+        Command::new(env!("CARGO_BIN_EXE_palpate"))
+            .args(asked)
+            .arg(file)
+            .current_dir(folder.path())
+            .env("PALPATE_CACHE", folder.path().join("kept"))
+            .output()
+            .unwrap()
+    };
+    let answer = json(&measured("one.csv"));
     assert_eq!(answer["recordings"][0]["file"], "one.csv", "{answer:#}");
     assert_eq!(answer["stopped"], false);
+    let kept = fs::read_dir(folder.path().join("kept")).unwrap();
+    assert_eq!(kept.count(), 1);
+    json(&measured("two.csv"));
+    let bytes = |file: &str| fs::read(folder.path().join(file)).unwrap();
+    assert!(bytes("one.csv") == bytes("two.csv"));
     let asked = [
         "characterize",
         "one.csv",
@@ -125,4 +131,47 @@ fn a_protocol_beyond_its_limits_is_refused() {
         &["pre-indentation"],
     );
     assert!(!folder.path().join("recordings").exists());
+}
+
+/// What is there is not written over, nor what is left of a recording that was not finished.
+#[test]
+fn recordings_are_not_written_over() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = protocol("published = \"liver\"\nsubject = \"1\"", HOLD);
+    fs::write(folder.path().join("protocol.toml"), text).unwrap();
+    let asked = ["measure", "protocol.toml", "--headless", "--out", "out"];
+    let name = "out/liver-1-ramp-and-hold-1.5mm-1.csv";
+    for there in [format!("{name}.part"), name.to_owned()] {
+        let there = folder.path().join(there);
+        fs::create_dir_all(folder.path().join("out")).unwrap();
+        fs::write(&there, "precious").unwrap();
+        let words = [there.file_name().unwrap().to_str().unwrap(), "--overwrite"];
+        assert_refused(folder.path(), &asked, &words);
+        assert_eq!(fs::read_to_string(&there).unwrap(), "precious");
+        let output = palpate_in(folder.path(), &[&asked[..], &["--overwrite"]].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let text = fs::read_to_string(folder.path().join(name)).unwrap();
+        assert!(text.contains("# ended = \"whole\""), "{text:.600}");
+        fs::remove_dir_all(folder.path().join("out")).unwrap();
+    }
+}
+
+/// A recording that was cut short says why at its top, and whoever reads it is told.
+#[test]
+fn a_force_beyond_its_limit_is_told_to_who_reads() {
+    let folder = tempfile::tempdir().unwrap();
+    let limited = protocol("published = \"liver\"\nsubject = \"1\"", HOLD)
+        .replace("recovery_s = 5", "recovery_s = 5\nforce_limit_n = 0.006");
+    fs::write(folder.path().join("protocol.toml"), limited).unwrap();
+    let asked = ["measure", "protocol.toml", "--headless", "--out", "one.csv"];
+    let output = palpate_in(folder.path(), &asked);
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    let text = fs::read_to_string(folder.path().join("one.csv")).unwrap();
+    assert!(
+        text.contains("# ended = \"the force reached 0.01 N"),
+        "{text:.700}"
+    );
+    let read = palpate_in(folder.path(), &["analyze", "one.csv", "--json"]);
+    let said = String::from_utf8_lossy(&read.stdout).into_owned() + &stderr(&read);
+    assert!(said.contains("cut short (the force reached"), "{said}");
 }

@@ -40,12 +40,15 @@ fn without_a_display_the_demonstration_says_why_and_plays() {
 #[test]
 fn a_window_without_a_display_fails_and_names_what_goes_without() {
     let folder = tempfile::tempdir().unwrap();
-    let output = without_display(folder.path(), &["simulate"], &[]);
-    assert_eq!(output.status.code(), Some(1));
-    let message = stderr(&output);
-    for word in ["palpate: error: ", "no display", "DISPLAY", "--headless"] {
-        assert!(message.contains(word), "{message} lacks {word}");
+    for command in ["simulate", "measure"] {
+        let output = without_display(folder.path(), &[command], &[]);
+        assert_eq!(output.status.code(), Some(1));
+        let message = stderr(&output);
+        for word in ["palpate: error: ", "no display", "DISPLAY", "--headless"] {
+            assert!(message.contains(word), "{message} lacks {word}");
+        }
     }
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
 }
 
 #[test]

@@ -24,6 +24,7 @@ fn every_fault_is_one_sentence_with_its_mend() {
         },
         Fault::Silent,
         Fault::Device { code: 42 },
+        Fault::EmergencyStop,
         Fault::Panicked,
         Fault::NoThread,
     ];

@@ -2,7 +2,7 @@ use eframe::egui::{self, Key, RichText, Ui};
 use palpate_files::scene::{Enhancement, EnhancementArea, Smoothing};
 
 use super::SimulatorWindow;
-use super::style::QUIET;
+use crate::style::QUIET;
 
 /// So many times each triangle is cut into four at most; more is drawn too slowly while the tip slides.
 const MOST: usize = 4;

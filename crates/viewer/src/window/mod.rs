@@ -15,33 +15,27 @@ mod display;
 mod effort;
 mod enhancement;
 pub mod gesture;
-mod history;
 mod overlay;
 mod panel;
 mod picture;
 mod play;
 mod preparation;
 mod rates;
-mod style;
 
-use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use eframe::egui;
 use palpate_files::Scene;
 use palpate_simulate::Resources;
 
-use crate::{Error, Gpu, TissuePicture};
+use crate::history::History;
+use crate::{Error, Gpu, TissuePicture, native, style};
 use choice::Choice;
 pub use display::check_display;
-use history::History;
 use picture::Picture;
 use play::Play;
 use preparation::Preparation;
 use rates::Rates;
-
-/// Name of the window.
-const TITLE: &str = "palpate";
 
 /// How long a picture in which nothing moves is left as it is.
 const REST: Duration = Duration::from_millis(200);
@@ -74,44 +68,9 @@ struct SimulatorWindow {
 /// When there is no display, no adapter, or the window breaks down. What is wrong with the scene is shown in
 /// the window.
 pub fn open_window(scene: Scene, way_out: Scene, resources: Resources) -> Result<(), Error> {
-    check_display()?;
-    // Opened once without a window: its error has a name that a window's has not.
-    drop(Gpu::open()?);
-    let options = eframe::NativeOptions {
-        viewport: egui::ViewportBuilder::default()
-            .with_title(TITLE)
-            .with_app_id("palpate")
-            .with_inner_size([1280.0, 800.0])
-            .with_min_inner_size([560.0, 380.0]),
-        renderer: eframe::Renderer::Wgpu,
-        ..eframe::NativeOptions::default()
-    };
-    // What goes wrong while the window is made is told in our words, not in those of its library.
-    let failure: Arc<Mutex<Option<Error>>> = Arc::default();
-    let told = failure.clone();
-    let make: eframe::AppCreator<'_> =
-        Box::new(
-            move |context| match SimulatorWindow::new(context, (scene, way_out), resources) {
-                Ok(window) => Ok(Box::new(window) as Box<dyn eframe::App>),
-                Err(error) => {
-                    let words = error.to_string();
-                    *told.lock().unwrap_or_else(PoisonError::into_inner) = Some(error);
-                    Err(words.into())
-                }
-            },
-        );
-    let outcome = eframe::run_native(TITLE, options, make);
-    let own = failure
-        .lock()
-        .unwrap_or_else(PoisonError::into_inner)
-        .take();
-    match (own, outcome) {
-        (Some(error), _) => Err(error),
-        (None, Err(cause)) => Err(Error::Window {
-            cause: cause.to_string(),
-        }),
-        (None, Ok(())) => Ok(()),
-    }
+    native::open([[1280.0, 800.0], [560.0, 380.0]], move |context| {
+        SimulatorWindow::new(context, (scene, way_out), resources)
+    })
 }
 
 impl SimulatorWindow {
@@ -125,7 +84,6 @@ impl SimulatorWindow {
                 cause: "it came without a graphics adapter".to_owned(),
             });
         };
-        style::dress(&context.egui_ctx);
         let gpu = Gpu::of(&state.adapter, state.device.clone(), state.queue.clone());
         let choice = Choice::new(scene);
         let mut window = Self {
@@ -196,7 +154,8 @@ impl SimulatorWindow {
         let tool = self.choice.tool;
         for row in play.interaction.rows() {
             if row.tool == tool {
-                self.history.add(&row);
+                let force = row.force_n.iter().map(|c| c * c).sum::<f64>().sqrt();
+                self.history.add(row.time_s, [force, row.depth_m]);
             }
         }
         let quality = play.interaction.quality();

@@ -2,7 +2,7 @@ use eframe::egui::{self, Align2, Color32, FontId, Pos2, Rect, Stroke, Vec2};
 
 use super::picture::Picture;
 use super::play::Play;
-use super::style::{DEPTH, FORCE, QUIET};
+use crate::style::{DEPTH, FORCE, QUIET};
 
 /// Depth that fills the gauge [m].
 const FULL: f64 = 0.015;

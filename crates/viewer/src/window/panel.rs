@@ -7,10 +7,10 @@ use palpate_simulate::TRUSTED_DEPTH;
 
 use super::SimulatorWindow;
 use super::enhancement;
-use super::history::SPAN;
 use super::preparation::Preparation;
 use super::rates::Rates;
-use super::style::{DEPTH, DOUBT, FAULT, FORCE, QUIET};
+use crate::history::SPAN;
+use crate::style::{DEPTH, DOUBT, FAULT, FORCE, QUIET};
 
 /// What can be chosen, and what is felt.
 pub(super) fn side(window: &mut SimulatorWindow, ui: &mut Ui) {

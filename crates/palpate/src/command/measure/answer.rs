@@ -1,9 +1,10 @@
 use std::fmt;
 use std::path::PathBuf;
 
+use palpate_measure::Recorded;
 use serde::Serialize;
 
-use super::measuring::{Measuring, Recorded};
+use super::measuring::Measuring;
 use crate::output::VERSION;
 
 /// The machine-readable answer.
@@ -28,20 +29,21 @@ struct Recording {
 }
 
 impl Answer {
-    pub(super) fn new(recorded: Vec<Recorded>, measuring: &Measuring) -> Self {
-        let stopped = recorded.len() < measuring.names().len()
-            || recorded.iter().any(|recording| recording.stopped);
-        let each = recorded.into_iter().map(|recorded| Recording {
+    /// Of recordings, each with what its stimulus is called.
+    pub(super) fn new(recorded: Vec<(String, Recorded)>, measuring: &Measuring) -> Self {
+        let each = recorded.into_iter().map(|(stimulus, recorded)| Recording {
             file: recorded.file,
-            stimulus: recorded.stimulus,
+            stimulus,
             samples: recorded.samples,
             peak_force_n: recorded.peak,
-            stopped: recorded.stopped,
+            stopped: recorded.cut_short.is_some(),
         });
+        let recordings: Vec<Recording> = each.collect();
         Self {
             palpate: VERSION,
-            recordings: each.collect(),
-            stopped,
+            stopped: recordings.len() < measuring.names().len()
+                || recordings.iter().any(|recording| recording.stopped),
+            recordings,
             warnings: measuring.doubts.clone(),
         }
     }

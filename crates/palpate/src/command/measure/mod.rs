@@ -1,8 +1,12 @@
-//! `palpate measure`: a protocol on specimens, and a recording of each stimulus.
+//! `palpate measure`: the rig in a window, or a protocol on specimens without one, and a recording of each
+//! stimulus.
 
 mod answer;
+mod kept;
 mod measuring;
+mod plan;
 mod specimen;
+mod window;
 
 use std::fs;
 use std::path::PathBuf;
@@ -11,7 +15,8 @@ use clap::Args;
 use palpate_files::Protocol;
 
 use self::answer::Answer;
-use self::measuring::Measuring;
+use self::measuring::{Measuring, what_is_there};
+use self::plan::Plan;
 use crate::failure::Failure;
 use crate::progress::{Progress, Reader};
 use crate::{interrupt, output};
@@ -19,17 +24,23 @@ use crate::{interrupt, output};
 /// Examples at the end of the help.
 const EXAMPLES: &str = "\
 Examples:
+  palpate measure
+      a window in which the rig is operated: jog, approach, a button for each stimulus, what is felt;
+      the space bar is the emergency stop, and recordings/ fills with what was pressed
   palpate measure --headless --out recordings
       three depths on a pig's liver that is not there: recordings/liver-virtual-....csv
   palpate measure --print-protocol > protocol.toml
       that protocol with every key explained, to be changed
+  palpate measure protocol.toml
+      a window with your stimuli and specimens
   palpate measure protocol.toml --headless --out recordings --seed 7 --json
-      yours; the same seed gives the same bytes
+      the same without one; the same seed gives the same bytes
   palpate characterize recordings/
       the tissue behind them
 
 Each stimulus is approached until first contact, pressed, withdrawn and recorded at 1 kHz. Ctrl-C withdraws
-the indenter and keeps what was recorded. A recording that is being made has the ending .part.";
+the indenter and keeps what was recorded. A recording that is being made has the ending .part; one that was
+cut short says why at its top. A window never writes over a recording, it counts on.";
 
 /// What is measured without a protocol, and every key.
 const DEFAULT: &str = include_str!("protocol.toml");
@@ -53,8 +64,11 @@ pub(crate) struct Arguments {
     /// The seed of noise, heart and breath.
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    /// Write over recordings that are there already.
+    #[arg(long, requires = "headless")]
+    overwrite: bool,
     /// Print one JSON object.
-    #[arg(long)]
+    #[arg(long, requires = "headless")]
     json: bool,
     /// Print the protocol that is used without one, and nothing else.
     #[arg(long)]
@@ -70,14 +84,17 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         Some(path) => Protocol::read(path)?,
         None => Protocol::parse(DEFAULT, "the default protocol")?,
     };
-    if !arguments.headless {
-        return Err(Failure::input(
-            "the rig has no window yet; add --headless to measure without one",
-        ));
+    let plan = Plan::of(protocol, arguments.seed)?;
+    match arguments.headless {
+        true => headless(arguments, plan),
+        false => window::open(plan, &arguments.out),
     }
+}
+
+fn headless(arguments: &Arguments, plan: Plan) -> Result<(), Failure> {
     let reader = Reader::of_json(arguments.json);
     let progress = Progress::new(reader, None);
-    let measuring = Measuring::of(&protocol, arguments.seed, &progress)?;
+    let measuring = Measuring::of(plan, &progress)?;
     drop(progress);
     let files = arguments.files(&measuring)?;
     let progress = Progress::new(reader, Some(files.len() as u64));
@@ -125,12 +142,20 @@ impl Arguments {
                 ))
             })?;
         }
-        match is_file {
-            true => Ok(vec![self.out.clone()]),
-            false => Ok(names
+        let files: Vec<PathBuf> = match is_file {
+            true => vec![self.out.clone()],
+            false => names
                 .iter()
                 .map(|name| self.out.join(format!("{name}.csv")))
-                .collect()),
+                .collect(),
+        };
+        let there = files.iter().find_map(|file| what_is_there(file));
+        match there.filter(|_| !self.overwrite) {
+            Some(there) => Err(Failure::input(format!(
+                "{} is there already; move it, name another place with --out, or add --overwrite",
+                there.display()
+            ))),
+            None => Ok(files),
         }
     }
 }

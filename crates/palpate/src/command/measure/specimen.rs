@@ -3,6 +3,7 @@ use palpate_files::{BuiltinTissue, Tissue};
 use palpate_measure::VirtualSpecimen;
 use palpate_mechanics::{IndentationCurve, Material};
 
+use super::kept;
 use crate::failure::Failure;
 use crate::reproduce::published::TABLE_5_1;
 
@@ -21,8 +22,7 @@ pub(super) fn of(
         MeasuredTissue::Tissue(choice) => {
             let tissue = choice.read()?;
             let under = (measured.indenter_radius_m, deepest);
-            let specimen =
-                VirtualSpecimen::of_tissue(&tissue, under, at_step).map_err(Failure::input)?;
+            let specimen = kept::of_tissue(&tissue, under, at_step).map_err(Failure::input)?;
             (specimen, tissue.source.warnings)
         }
         MeasuredTissue::Published(organ) => published(*organ, measured.indenter_radius_m)?,

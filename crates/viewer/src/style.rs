@@ -1,18 +1,18 @@
 use eframe::egui::{self, Color32, Visuals};
 
 /// What went wrong.
-pub(super) const FAULT: Color32 = Color32::from_rgb(242, 122, 106);
+pub(crate) const FAULT: Color32 = Color32::from_rgb(242, 122, 106);
 /// What deserves doubt.
-pub(super) const DOUBT: Color32 = Color32::from_rgb(226, 182, 92);
+pub(crate) const DOUBT: Color32 = Color32::from_rgb(226, 182, 92);
 /// The force.
-pub(super) const FORCE: Color32 = Color32::from_rgb(236, 126, 92);
+pub(crate) const FORCE: Color32 = Color32::from_rgb(236, 126, 92);
 /// The depth, and the mark on the organ.
-pub(super) const DEPTH: Color32 = Color32::from_rgb(84, 196, 178);
+pub(crate) const DEPTH: Color32 = Color32::from_rgb(84, 196, 178);
 /// What is said in passing.
-pub(super) const QUIET: Color32 = Color32::from_rgb(150, 158, 168);
+pub(crate) const QUIET: Color32 = Color32::from_rgb(150, 158, 168);
 
 /// Dark, so that the organ is what is bright.
-pub(super) fn dress(context: &egui::Context) {
+pub(crate) fn dress(context: &egui::Context) {
     let mut visuals = Visuals::dark();
     visuals.panel_fill = Color32::from_rgb(22, 25, 30);
     visuals.window_fill = visuals.panel_fill;

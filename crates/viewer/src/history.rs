@@ -1,48 +1,45 @@
 use std::collections::VecDeque;
 
-use palpate_files::SessionRow;
-
 /// How far back the plots go [s].
-pub(super) const SPAN: f64 = 10.0;
+pub(crate) const SPAN: f64 = 10.0;
 
 /// Points that a curve is drawn with.
 const POINTS: usize = 500;
 
 /// The last seconds of one tool.
 #[derive(Debug, Clone, Default)]
-pub(super) struct History {
+pub(crate) struct History {
     /// Time [s], force [N], depth [m].
     samples: VecDeque<[f64; 3]>,
 }
 
 impl History {
-    /// Takes a row of the session.
-    pub(super) fn add(&mut self, row: &SessionRow) {
-        let force = row.force_n.iter().map(|c| c * c).sum::<f64>().sqrt();
-        self.samples.push_back([row.time_s, force, row.depth_m]);
-        let oldest = row.time_s - SPAN;
+    /// Takes what was felt at `time` [s]: force [N] and depth [m].
+    pub(crate) fn add(&mut self, time: f64, [force, depth]: [f64; 2]) {
+        self.samples.push_back([time, force, depth]);
+        let oldest = time - SPAN;
         while self.samples.front().is_some_and(|s| s[0] < oldest) {
             self.samples.pop_front();
         }
     }
 
     /// Another tool, or another organ.
-    pub(super) fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         self.samples.clear();
     }
 
     /// The last force [N] and depth [m].
-    pub(super) fn last(&self) -> (f64, f64) {
+    pub(crate) fn last(&self) -> (f64, f64) {
         self.samples.back().map_or((0.0, 0.0), |s| (s[1], s[2]))
     }
 
     /// Force [mN] against seconds before now: of each stretch of time the largest, so that no peak is lost.
-    pub(super) fn force(&self) -> Vec<[f64; 2]> {
+    pub(crate) fn force(&self) -> Vec<[f64; 2]> {
         self.curve(1, 1e3)
     }
 
     /// Depth [mm] against seconds before now.
-    pub(super) fn depth(&self) -> Vec<[f64; 2]> {
+    pub(crate) fn depth(&self) -> Vec<[f64; 2]> {
         self.curve(2, 1e3)
     }
 
@@ -70,29 +67,13 @@ impl History {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use palpate_files::session::Events;
-
-    fn row(time_s: f64, force: f64) -> SessionRow {
-        SessionRow {
-            time_s,
-            tool: 0,
-            position_m: [0.0; 3],
-            orientation: [0.0, 0.0, 0.0, 1.0],
-            grip: 0.0,
-            cut: false,
-            force_n: [0.0, 0.0, force],
-            contact: true,
-            depth_m: 0.001,
-            events: Events::NONE,
-        }
-    }
 
     #[test]
     fn a_peak_of_one_step_is_drawn_and_the_past_forgotten() {
         let mut history = History::default();
         for step in 0..20_000 {
             let force = if step == 19_001 { 0.5 } else { 0.1 };
-            history.add(&row(f64::from(step) * 0.005, force));
+            history.add(f64::from(step) * 0.005, [force, 0.001]);
         }
         assert!(history.samples.len() <= 2_001);
         let force = history.force();

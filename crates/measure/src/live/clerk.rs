@@ -1,0 +1,276 @@
+use std::path::PathBuf;
+use std::sync::mpsc::{Receiver, Sender};
+
+use palpate_files::recording::RecordingHeader;
+use palpate_servo::{Fault, log};
+
+use super::console::Switches;
+use super::{Order, Told};
+use crate::{Ended, Error, Phase, Recorded, Recorder, RigSample};
+
+/// A recording that is to be made.
+#[derive(Debug, Clone)]
+pub struct Commission {
+    /// Its number in [`Order::Press`].
+    pub number: u64,
+    /// Where it shall be.
+    pub file: PathBuf,
+    /// What stands at its top.
+    pub header: RecordingHeader,
+}
+
+/// What happened.
+#[derive(Debug)]
+pub enum News {
+    /// The rig begins with an order.
+    Begun(Order),
+    /// It is done with an order.
+    Ended(Order, Result<Ended, Error>),
+    /// It did not begin with an order that had become stale.
+    Dropped(Order),
+    /// Something happened while it waited.
+    Disturbed(Error),
+    /// Forces are off.
+    Faulted(Fault),
+    /// Forces are on again.
+    Armed,
+    /// A recording is there, by its number, with its samples: time [s], depth [m], force [N].
+    Recorded(u64, Recorded, Vec<[f64; 3]>),
+    /// A recording could not be written; the rig was stopped.
+    Unwritten(palpate_files::Error),
+}
+
+/// Writes what the rig says, and passes it on.
+pub(super) struct Clerk {
+    pub(super) told: log::Reader<Told>,
+    pub(super) commissions: Receiver<Commission>,
+    pub(super) samples: log::Writer<RigSample>,
+    pub(super) news: Sender<News>,
+    pub(super) switches: Switches,
+    pub(super) open: Option<Open>,
+}
+
+/// The recording that is being made.
+pub(super) struct Open {
+    commission: Commission,
+    /// None before its first sample: what is refused leaves no file.
+    recorder: Option<Recorder>,
+    rows: Vec<[f64; 3]>,
+}
+
+impl Clerk {
+    /// Takes what has been told so far.
+    pub(super) fn read(&mut self) {
+        while let Some(told) = self.told.next_value() {
+            match told {
+                Told::Sample(sample) => self.take(&sample),
+                Told::Begun(order) => {
+                    self.begin(order);
+                    self.pass_on(News::Begun(order));
+                }
+                Told::Ended(order, ended) => {
+                    self.finish(&ended);
+                    self.pass_on(News::Ended(order, ended));
+                }
+                Told::Dropped(order) => self.pass_on(News::Dropped(order)),
+                Told::Disturbed(error) => self.pass_on(News::Disturbed(error)),
+                Told::Faulted(fault) => self.pass_on(News::Faulted(fault)),
+                Told::Armed => self.pass_on(News::Armed),
+            }
+        }
+    }
+
+    fn pass_on(&self, news: News) {
+        // A window that is gone hears nothing; its recordings are written all the same.
+        let _ = self.news.send(news);
+    }
+
+    fn begin(&mut self, order: Order) {
+        let Order::Press(_, number) = order else {
+            return;
+        };
+        let own = self
+            .commissions
+            .try_iter()
+            .find(|other| other.number == number);
+        self.open = own.map(|commission| Open {
+            commission,
+            recorder: None,
+            rows: Vec::new(),
+        });
+    }
+
+    fn take(&mut self, sample: &RigSample) {
+        self.samples.add(*sample);
+        if sample.phase != Phase::Pressing {
+            return;
+        }
+        let Some(open) = &mut self.open else { return };
+        if let Err(error) = open.take(sample) {
+            self.give_up(error);
+        }
+    }
+
+    fn finish(&mut self, ended: &Result<Ended, Error>) {
+        let Some(open) = self.open.take() else { return };
+        let Some(recorder) = open.recorder else {
+            return;
+        };
+        match recorder.finish(ended) {
+            Ok(recorded) => {
+                self.pass_on(News::Recorded(open.commission.number, recorded, open.rows));
+            }
+            Err(error) => self.give_up(error),
+        }
+    }
+
+    /// Nothing is pressed that is not recorded.
+    fn give_up(&mut self, error: palpate_files::Error) {
+        self.open = None;
+        self.switches.stop();
+        self.pass_on(News::Unwritten(error));
+    }
+}
+
+impl Open {
+    fn take(&mut self, sample: &RigSample) -> Result<(), palpate_files::Error> {
+        let recorder = match &mut self.recorder {
+            Some(recorder) => recorder,
+            None => {
+                let Commission { file, header, .. } = &self.commission;
+                self.recorder.insert(Recorder::begin(file, header)?)
+            }
+        };
+        self.rows.push(recorder.take(sample)?);
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Course;
+    use palpate_files::Recording;
+    use palpate_files::protocol::Stimulus;
+    use palpate_servo::log::Writer;
+    use std::sync::mpsc::channel;
+
+    struct Desk {
+        clerk: Clerk,
+        told: Writer<Told>,
+        news: Receiver<News>,
+        commissions: Sender<Commission>,
+        samples: log::Reader<RigSample>,
+        course: Course,
+    }
+
+    fn desk() -> Desk {
+        let (told, told_reader) = log::ring(100);
+        let (samples, samples_reader) = log::ring(4);
+        let (news, news_reader) = channel();
+        let (commissions, commissioned) = channel();
+        let clerk = Clerk {
+            told: told_reader,
+            commissions: commissioned,
+            samples,
+            news,
+            switches: Switches::default(),
+            open: None,
+        };
+        let course = Course::of(Stimulus::RampAndHold {
+            depth_m: 4e-3,
+            ramp_s: 0.5,
+            hold_s: 1.0,
+        });
+        Desk {
+            clerk,
+            told,
+            news: news_reader,
+            commissions,
+            samples: samples_reader,
+            course: course.unwrap(),
+        }
+    }
+
+    fn sample(tick: u32, phase: Phase) -> RigSample {
+        RigSample {
+            time: 7.0 + 1e-3 * f64::from(tick),
+            phase,
+            height: -5e-3,
+            depth: Some(1e-6 * f64::from(tick)),
+            force: 1e-3,
+            breath: None,
+            waited: 0.0,
+        }
+    }
+
+    impl Desk {
+        fn ask(&self, number: u64, file: PathBuf) -> Order {
+            let header = RecordingHeader::default();
+            let commission = Commission {
+                number,
+                file,
+                header,
+            };
+            self.commissions.send(commission).unwrap();
+            Order::Press(self.course, number)
+        }
+
+        /// Thirty samples on the way and thirty of a stimulus, which then `ended`.
+        fn press(&mut self, order: Order, ended: Result<Ended, Error>) {
+            self.told.add(Told::Begun(order));
+            for tick in 0..60 {
+                let phase = [Phase::Waiting, Phase::Pressing][usize::from(tick >= 30)];
+                self.told.add(Told::Sample(sample(tick, phase)));
+            }
+            self.told.add(Told::Ended(order, ended));
+            self.clerk.read();
+        }
+    }
+
+    /// What is pressed is written, from time zero, and a fault stands at its top. A window that does not read
+    /// loses samples of its own and none of the recording.
+    #[test]
+    fn a_fault_is_recorded() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("one.csv");
+        let mut desk = desk();
+        let order = desk.ask(3, file.clone());
+        desk.press(order, Err(Error::Device(Fault::EmergencyStop)));
+        let read = Recording::read(&file).unwrap();
+        assert_eq!(read.time_s().len(), 30);
+        assert_eq!(read.time_s()[0], 0.0);
+        let why = read.header.cut_short().unwrap();
+        assert_eq!(why, "the emergency stop was pressed");
+        assert_eq!(desk.samples.lost(), 56);
+        let news: Vec<News> = desk.news.try_iter().collect();
+        let [
+            News::Begun(_),
+            News::Recorded(3, recorded, rows),
+            News::Ended(..),
+        ] = &news[..]
+        else {
+            panic!("{news:?}");
+        };
+        assert_eq!(rows.len(), 30);
+        assert_eq!(recorded.cut_short.as_deref(), Some(why));
+    }
+
+    /// What cannot be written stops the rig and says so; what is refused leaves no file.
+    #[test]
+    fn nothing_is_pressed_that_is_not_recorded() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut desk = desk();
+        let order = desk.ask(1, folder.path().join("missing").join("one.csv"));
+        desk.press(order, Ok(Ended::Stopped));
+        assert_eq!(desk.clerk.switches.stops(), 1);
+        let said = |news: News| matches!(news, News::Unwritten(_));
+        assert!(desk.news.try_iter().any(said));
+        let refused = desk.ask(2, folder.path().join("two.csv"));
+        desk.told.add(Told::Begun(refused));
+        let told = Told::Ended(refused, Err(Error::NotApproached));
+        desk.told.add(told);
+        desk.clerk.read();
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+    }
+}

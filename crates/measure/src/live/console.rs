@@ -1,0 +1,109 @@
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+use palpate_servo::log;
+
+use crate::{Course, EmergencySwitch};
+
+/// What a rig is asked to do.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Order {
+    /// To go up by so much [m], down when it is negative.
+    Jog(f64),
+    /// To go up, or down when false, for as long as the order comes again within a sixth of a second.
+    Drive(bool),
+    /// To find where the tissue begins.
+    Approach,
+    /// To press a course, and what number its recording has.
+    Press(Course, u64),
+    /// To leave the tissue.
+    Withdraw,
+    /// To let the tissue rest.
+    Rest,
+}
+
+/// The end from which a rig is operated.
+pub struct Console {
+    orders: log::Writer<Given>,
+    switches: Switches,
+    emergency: EmergencySwitch,
+}
+
+/// An order, and how often everything was stopped before it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Given {
+    pub(super) stops: u64,
+    pub(super) order: Order,
+}
+
+/// What both ends see at once.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Switches {
+    stops: Arc<AtomicU64>,
+    arming: Arc<AtomicBool>,
+    end: Arc<AtomicBool>,
+}
+
+/// Orders that may wait: a long protocol.
+const ORDERS: usize = 8192;
+
+impl Console {
+    pub(super) fn new(emergency: EmergencySwitch) -> (Self, log::Reader<Given>, Switches) {
+        let (orders, reader) = log::ring(ORDERS);
+        let switches = Switches::default();
+        let console = Self {
+            orders,
+            switches: switches.clone(),
+            emergency,
+        };
+        (console, reader, switches)
+    }
+
+    /// Gives an order, which is carried out after those before it.
+    pub fn order(&mut self, order: Order) {
+        let stops = self.switches.stops();
+        self.orders.add(Given { stops, order });
+    }
+
+    /// Ends what is being done, out of the tissue, and drops the orders that wait.
+    pub fn stop(&self) {
+        self.switches.stop();
+    }
+
+    /// No force at once, until somebody arms again; the orders that wait are dropped.
+    pub fn emergency_stop(&self) {
+        self.emergency.press();
+        self.switches.stop();
+    }
+
+    /// Lets forces on again after a fault.
+    pub fn arm(&self) {
+        self.switches.arming.store(true, Ordering::Relaxed);
+    }
+
+    pub(super) fn switches(&self) -> Switches {
+        self.switches.clone()
+    }
+
+    pub(super) fn end(&self) {
+        self.switches.end.store(true, Ordering::Relaxed);
+    }
+}
+
+impl Switches {
+    pub(super) fn stops(&self) -> u64 {
+        self.stops.load(Ordering::Relaxed)
+    }
+
+    pub(super) fn stop(&self) {
+        self.stops.fetch_add(1, Ordering::Relaxed);
+    }
+
+    pub(super) fn is_ending(&self) -> bool {
+        self.end.load(Ordering::Relaxed)
+    }
+
+    pub(super) fn take_arming(&self) -> bool {
+        self.arming.swap(false, Ordering::Relaxed)
+    }
+}

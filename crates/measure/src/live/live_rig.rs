@@ -1,0 +1,110 @@
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{self, Receiver, Sender};
+use std::thread::{Builder, JoinHandle};
+use std::time::Duration;
+
+use palpate_servo::{Fault, log};
+
+use super::clerk::Clerk;
+use super::{Commission, Console, News, Operated, Order};
+use crate::{Course, Error, Rig, RigSample};
+
+/// A rig that runs, and what is seen of it. Dropping it withdraws the indenter and ends its threads.
+pub struct LiveRig {
+    /// From where it is operated.
+    pub console: Console,
+    /// Every sample, for as long as somebody reads.
+    pub samples: log::Reader<RigSample>,
+    /// What happened.
+    pub news: Receiver<News>,
+    commissions: Sender<Commission>,
+    threads: Vec<JoinHandle<()>>,
+}
+
+/// Samples that wait for a window: a quarter of a minute.
+const SAMPLES: usize = 1 << 14;
+
+/// How often what was told is written.
+const CLERK_RESTS: Duration = Duration::from_millis(5);
+
+impl LiveRig {
+    /// Starts `rig`, which shall have a real clock.
+    ///
+    /// # Errors
+    /// When the operating system gives no thread.
+    pub fn start(rig: Rig) -> Result<Self, Error> {
+        let (operated, console, told) = Operated::new(rig);
+        let (samples, samples_reader) = log::ring(SAMPLES);
+        let (news, news_reader) = mpsc::channel();
+        let (commissions, commissioned) = mpsc::channel();
+        let clerk = Clerk {
+            told,
+            commissions: commissioned,
+            samples,
+            news,
+            switches: console.switches(),
+            open: None,
+        };
+        let mut live = Self {
+            console,
+            samples: samples_reader,
+            news: news_reader,
+            commissions,
+            threads: Vec::new(),
+        };
+        let ended = Arc::new(AtomicBool::new(false));
+        let seen = ended.clone();
+        live.spawn("rig", move || run(operated, &ended))?;
+        live.spawn("clerk", move || write(clerk, &seen))?;
+        Ok(live)
+    }
+
+    /// Has a course pressed and recorded.
+    pub fn press(&mut self, course: Course, commission: Commission) {
+        let number = commission.number;
+        // A clerk that has gone says so by `is_running`.
+        let _ = self.commissions.send(commission);
+        self.console.order(Order::Press(course, number));
+    }
+
+    /// Whether its threads still run.
+    pub fn is_running(&self) -> bool {
+        self.threads.iter().all(|thread| !thread.is_finished())
+    }
+
+    fn spawn(&mut self, name: &str, run: impl FnOnce() + Send + 'static) -> Result<(), Error> {
+        let thread = Builder::new().name(name.to_owned());
+        let thread = thread.spawn(run).map_err(|_| Fault::NoThread)?;
+        self.threads.push(thread);
+        Ok(())
+    }
+}
+
+impl Drop for LiveRig {
+    fn drop(&mut self) {
+        self.console.end();
+        for thread in self.threads.drain(..) {
+            // One that panicked has stopped its device.
+            let _ = thread.join();
+        }
+    }
+}
+
+fn run(mut operated: Operated, ended: &AtomicBool) {
+    operated.rig().raise_priority();
+    while operated.turn(&mut |_| ()) {}
+    ended.store(true, Ordering::Release);
+}
+
+fn write(mut clerk: Clerk, ended: &AtomicBool) {
+    loop {
+        // Asked first, so that nothing is told after the last reading.
+        let last = ended.load(Ordering::Acquire);
+        clerk.read();
+        if last {
+            return;
+        }
+        std::thread::sleep(CLERK_RESTS);
+    }
+}

@@ -1,0 +1,197 @@
+use palpate_servo::{Fault, log};
+
+use super::console::{Given, Switches};
+use super::{Console, Order};
+use crate::{Ended, Error, Rig, RigSample};
+
+/// What a rig says.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Told {
+    /// What is seen, at every tick.
+    Sample(RigSample),
+    /// It begins with an order.
+    Begun(Order),
+    /// It is done with an order.
+    Ended(Order, Result<Ended, Error>),
+    /// It did not begin with an order, for everything was stopped since that was given.
+    Dropped(Order),
+    /// Something happened while it waited.
+    Disturbed(Error),
+    /// Forces are off.
+    Faulted(Fault),
+    /// Forces are on again.
+    Armed,
+}
+
+/// A rig that carries out orders.
+pub struct Operated {
+    rig: Rig,
+    orders: log::Reader<Given>,
+    /// An order that was read while another was carried out.
+    next: Option<Given>,
+    told: log::Writer<Told>,
+    switches: Switches,
+    fault: Option<Fault>,
+    limp: bool,
+}
+
+/// What may be told before somebody reads it: half a minute.
+const TOLD: usize = 1 << 15;
+
+/// How long it drives on without being told so again [s].
+const DRIVEN: f64 = 0.16;
+
+impl Operated {
+    /// `rig`, from where it is operated, and what it says.
+    pub fn new(rig: Rig) -> (Self, Console, log::Reader<Told>) {
+        let (console, orders, switches) = Console::new(rig.emergency_switch());
+        let (told, reader) = log::ring(TOLD);
+        let operated = Self {
+            rig,
+            orders,
+            next: None,
+            told,
+            switches,
+            fault: None,
+            limp: false,
+        };
+        (operated, console, reader)
+    }
+
+    /// The rig.
+    pub fn rig(&mut self) -> &mut Rig {
+        &mut self.rig
+    }
+
+    /// Carries out the next order, or waits for a tick; false when that was the last. `watch` hears every sample
+    /// before anybody else.
+    pub fn turn(&mut self, watch: &mut dyn FnMut(&RigSample)) -> bool {
+        if self.switches.is_ending() {
+            if !self.limp {
+                // Nobody is there any more who could be told that this failed.
+                let _ = self.rig.withdraw(&mut |_| true);
+            }
+            return false;
+        }
+        if self.limp {
+            self.rest_limp(watch);
+        } else if let Some(given) = self.next_order() {
+            self.carry_out(given, watch);
+        } else {
+            self.wait(watch);
+        }
+        true
+    }
+
+    fn next_order(&mut self) -> Option<Given> {
+        loop {
+            let given = self.next.take().or_else(|| self.orders.next_value())?;
+            if given.stops == self.switches.stops() {
+                return Some(given);
+            }
+            self.told.add(Told::Dropped(given.order));
+        }
+    }
+
+    fn carry_out(&mut self, given: Given, watch: &mut dyn FnMut(&RigSample)) {
+        let order = given.order;
+        self.told.add(Told::Begun(order));
+        let Self {
+            rig,
+            told,
+            switches,
+            orders,
+            next,
+            ..
+        } = self;
+        let mut heard = |sample: &RigSample| {
+            told.add(Told::Sample(*sample));
+            watch(sample);
+            switches.stops() == given.stops && !switches.is_ending()
+        };
+        let ended = match order {
+            Order::Jog(way) => rig.jog(way, &mut heard),
+            Order::Drive(up) => {
+                let mut told_at = None;
+                rig.drive(&mut |sample| {
+                    let goes_on = heard(sample);
+                    let mut since = *told_at.get_or_insert(sample.time);
+                    if next.is_none()
+                        && let Some(more) = orders.next_value()
+                    {
+                        match more.order == order && more.stops == given.stops {
+                            true => since = sample.time,
+                            false => *next = Some(more),
+                        }
+                    }
+                    told_at = Some(since);
+                    let held = goes_on && next.is_none() && sample.time < since + DRIVEN;
+                    match (held, up) {
+                        (false, _) => 0.0,
+                        (true, true) => 1.0,
+                        (true, false) => -1.0,
+                    }
+                })
+            }
+            Order::Approach => rig.approach(&mut heard),
+            Order::Press(course, _) => rig.press_and_tell(&course, &mut heard),
+            Order::Withdraw => rig.withdraw(&mut heard),
+            Order::Rest => rig.recover(&mut heard),
+        };
+        let failed = ended.is_err();
+        self.told.add(Told::Ended(order, ended));
+        if failed {
+            self.fail();
+        }
+    }
+
+    fn wait(&mut self, watch: &mut dyn FnMut(&RigSample)) {
+        let Self { rig, told, .. } = self;
+        let waited = rig.wait_one_tick(&mut |sample| {
+            told.add(Told::Sample(*sample));
+            watch(sample);
+            true
+        });
+        if let Err(error) = waited {
+            self.told.add(Told::Disturbed(error));
+            self.fail();
+        }
+    }
+
+    /// What waits was planned for a rig that did not fail.
+    fn fail(&mut self) {
+        self.switches.stop();
+        self.notice_fault();
+        self.limp = self.fault.is_some();
+    }
+
+    fn notice_fault(&mut self) {
+        let fault = self.rig.fault();
+        if let Some(fault) = fault.filter(|_| fault != self.fault) {
+            // Whoever asked to arm did not know of this one.
+            self.switches.take_arming();
+            self.told.add(Told::Faulted(fault));
+        }
+        self.fault = fault;
+    }
+
+    fn rest_limp(&mut self, watch: &mut dyn FnMut(&RigSample)) {
+        if self.switches.take_arming() {
+            self.rig.arm();
+        }
+        let Self { rig, told, .. } = self;
+        let live = rig.limp(&mut |sample| {
+            told.add(Told::Sample(*sample));
+            watch(sample);
+            true
+        });
+        if live == Ok(true) {
+            self.limp = false;
+            self.told.add(Told::Armed);
+        }
+        self.notice_fault();
+        while let Some(given) = self.orders.next_value() {
+            self.told.add(Told::Dropped(given.order));
+        }
+    }
+}

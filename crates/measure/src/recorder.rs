@@ -1,0 +1,84 @@
+use std::path::{Path, PathBuf};
+
+use palpate_files::Error;
+use palpate_files::recording::{RecordingHeader, RecordingWriter};
+
+use crate::{Ended, RigSample};
+
+/// A recording while it is made.
+#[derive(Debug)]
+pub struct Recorder {
+    file: PathBuf,
+    writer: RecordingWriter,
+    first: Option<f64>,
+    samples: usize,
+    peak: f64,
+}
+
+/// A recording that was made.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Recorded {
+    /// Where it is.
+    pub file: PathBuf,
+    /// How many samples it has.
+    pub samples: usize,
+    /// The largest force [N].
+    pub peak: f64,
+    /// Why it ends before its stimulus; none when it is whole.
+    pub cut_short: Option<String>,
+}
+
+impl Recorder {
+    /// Begins the recording at `file`, whose folder must exist.
+    ///
+    /// # Errors
+    /// When the operating system refuses, or `header` holds what a recording cannot.
+    pub fn begin(file: &Path, header: &RecordingHeader) -> Result<Self, Error> {
+        Ok(Self {
+            file: file.to_owned(),
+            writer: RecordingWriter::create(file, header)?,
+            first: None,
+            samples: 0,
+            peak: 0.0,
+        })
+    }
+
+    /// Takes a sample, and says what of it is written: time from the first [s], depth [m], force [N].
+    ///
+    /// # Errors
+    /// When the operating system refuses.
+    pub fn take(&mut self, sample: &RigSample) -> Result<[f64; 3], Error> {
+        let begun = *self.first.get_or_insert(sample.time);
+        // To the microsecond, which is what a clock can say.
+        let time = (1e6 * (sample.time - begun)).round() / 1e6;
+        let row = [time, sample.depth.unwrap_or_default(), sample.force];
+        self.writer.write(row)?;
+        self.samples += 1;
+        self.peak = self.peak.max(sample.force);
+        Ok(row)
+    }
+
+    /// Gives it its name, and says at its top how it `ended`.
+    ///
+    /// # Errors
+    /// When the operating system refuses.
+    pub fn finish(self, ended: &Result<Ended, crate::Error>) -> Result<Recorded, Error> {
+        let cut_short = match ended {
+            Ok(Ended::Whole) => None,
+            Ok(Ended::Stopped) => Some("stopped by hand".to_owned()),
+            // The cause without its mend.
+            Err(error) => {
+                let said = error.to_string();
+                Some(said.split("; ").next().unwrap_or_default().to_owned())
+            }
+        };
+        let said = cut_short.as_deref().unwrap_or(RecordingHeader::WHOLE);
+        self.writer.finish(said)?;
+        Ok(Recorded {
+            file: self.file,
+            samples: self.samples,
+            peak: self.peak,
+            cut_short,
+        })
+    }
+}

@@ -1,0 +1,233 @@
+use palpate_files::recording::RecordingHeader;
+
+use super::{Ended, Listener, Phase, Rig};
+use crate::approach::contact_height;
+use crate::rig_settings::{LEAD, STANDOFF};
+use crate::{Course, Error, RigSettings};
+
+/// Time in which breath and device come to rest [s].
+const CALM: f64 = 2.0;
+/// Time over which the zero of the sensor is taken [s].
+const ZEROING: f64 = 0.5;
+
+impl Rig {
+    /// Goes down until tissue is met, finds where that was and waits above it.
+    ///
+    /// # Errors
+    /// When there is none, or a force is too large; the indenter is withdrawn all the same.
+    pub fn approach(&mut self, listener: Listener<'_>) -> Result<Ended, Error> {
+        self.hold_breath(true);
+        self.contact = None;
+        self.retreat = self.aim;
+        let found = self.find_contact(listener);
+        let withdrawn = self.withdraw(listener);
+        self.hold_breath(false);
+        let ended = found?;
+        withdrawn.map(|_| ended)
+    }
+
+    fn find_contact(&mut self, listener: Listener<'_>) -> Result<Ended, Error> {
+        if self.stay(CALM, listener)? == Ended::Stopped {
+            return Ok(Ended::Stopped);
+        }
+        let RigSettings {
+            period,
+            approach_speed,
+            approach_way,
+            ..
+        } = self.settings;
+        let resting = (ZEROING / period) as usize;
+        let ticks = resting + (approach_way / approach_speed / period) as usize;
+        let mut heights = Vec::with_capacity(ticks);
+        let mut forces = Vec::with_capacity(ticks);
+        let from = self.aim;
+        for tick in 0..ticks {
+            let gone = tick.saturating_sub(resting) as f64 * period;
+            let speed = if tick < resting { 0.0 } else { -approach_speed };
+            let height = from - approach_speed * gone;
+            let sample = self.tick(Phase::Approaching, [height, speed])?;
+            if !listener(&sample) {
+                return Ok(Ended::Stopped);
+            }
+            heights.push(sample.height);
+            forces.push(sample.force);
+            if tick > resting && self.is_met(&forces, resting) {
+                self.contact = contact_height(&heights, &forces);
+                return Ok(Ended::Whole);
+            }
+        }
+        Err(Error::NoContact {
+            way_mm: 1e3 * approach_way,
+        })
+    }
+
+    fn is_met(&self, forces: &[f64], resting: usize) -> bool {
+        const AVERAGED: usize = 32;
+        let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len().max(1) as f64;
+        let last = &forces[forces.len().saturating_sub(AVERAGED)..];
+        mean(last) - mean(&forces[..resting]) > self.settings.contact_force
+    }
+
+    /// Presses `course` from first contact and withdraws. `listener` hears what is to be recorded: it begins
+    /// half a second before, above the tissue.
+    ///
+    /// # Errors
+    /// When it goes beyond a limit, which is known before it begins, or the force does.
+    pub fn press(&mut self, course: &Course, listener: Listener<'_>) -> Result<Ended, Error> {
+        self.press_and_tell(course, &mut |sample| {
+            sample.phase != Phase::Pressing || listener(sample)
+        })
+    }
+
+    /// The same, where `listener` also hears the way there and back; what is to be recorded has the phase
+    /// [`Phase::Pressing`].
+    ///
+    /// # Errors
+    /// As for [`press`](Self::press).
+    pub fn press_and_tell(
+        &mut self,
+        course: &Course,
+        listener: Listener<'_>,
+    ) -> Result<Ended, Error> {
+        self.settings.check(course)?;
+        let contact = self.contact.ok_or(Error::NotApproached)?;
+        self.hold_breath(true);
+        let pressed = self.press_from(contact, course, listener);
+        let withdrawn = self.withdraw(listener);
+        self.hold_breath(false);
+        let ended = pressed?;
+        withdrawn.map(|_| ended)
+    }
+
+    fn press_from(
+        &mut self,
+        contact: f64,
+        course: &Course,
+        listener: Listener<'_>,
+    ) -> Result<Ended, Error> {
+        if self.go(contact + STANDOFF, Phase::Waiting, listener)? == Ended::Stopped {
+            return Ok(Ended::Stopped);
+        }
+        let [_, speed] = course.at(0.0);
+        let lead = LEAD + STANDOFF / speed;
+        let ticks = ((lead + course.duration()) / self.settings.period).round() as usize;
+        for tick in 0..=ticks {
+            let time = tick as f64 * self.settings.period - lead;
+            let [depth, speed] = if time >= 0.0 {
+                course.at(time)
+            } else if speed * time > -STANDOFF {
+                [speed * time, speed]
+            } else {
+                [-STANDOFF, 0.0]
+            };
+            let sample = self.tick(Phase::Pressing, [contact - depth, -speed])?;
+            if !listener(&sample) {
+                return Ok(Ended::Stopped);
+            }
+        }
+        Ok(Ended::Whole)
+    }
+
+    /// Waits for `time` [s] where it is.
+    ///
+    /// # Errors
+    /// When the device fails, or what is under the indenter comes up against it: it is withdrawn then.
+    pub fn wait(&mut self, time: f64, listener: Listener<'_>) -> Result<Ended, Error> {
+        let waited = self.stay(time, listener);
+        self.withdraw_unless(waited, listener)
+    }
+
+    /// Waits for one tick.
+    ///
+    /// # Errors
+    /// As for [`wait`](Self::wait).
+    pub fn wait_one_tick(&mut self, listener: Listener<'_>) -> Result<Ended, Error> {
+        self.wait(self.settings.period, listener)
+    }
+
+    /// Lets the tissue rest.
+    ///
+    /// # Errors
+    /// As for [`wait`](Self::wait).
+    pub fn recover(&mut self, listener: Listener<'_>) -> Result<Ended, Error> {
+        self.wait(self.settings.recovery, listener)
+    }
+
+    fn stay(&mut self, time: f64, listener: Listener<'_>) -> Result<Ended, Error> {
+        for _ in 0..(time / self.settings.period).round() as u64 {
+            let sample = self.tick(Phase::Waiting, [self.aim, 0.0])?;
+            if !listener(&sample) {
+                return Ok(Ended::Stopped);
+            }
+        }
+        Ok(Ended::Whole)
+    }
+
+    /// Leaves the tissue: to the clearance above the contact, or to where it was before it looked for one.
+    ///
+    /// # Errors
+    /// When the device fails.
+    pub fn withdraw(&mut self, listener: Listener<'_>) -> Result<Ended, Error> {
+        let above = self
+            .contact
+            .map_or(self.retreat, |contact| contact + self.settings.clearance);
+        self.go(above, Phase::Withdrawing, listener)
+    }
+
+    /// What was done, with the indenter out of the tissue when that failed.
+    pub(super) fn withdraw_unless(
+        &mut self,
+        done: Result<Ended, Error>,
+        listener: Listener<'_>,
+    ) -> Result<Ended, Error> {
+        if done.is_err() {
+            // The reason to withdraw says more than one why that failed too.
+            let _ = self.withdraw(listener);
+        }
+        done
+    }
+
+    /// Goes straight to `height` [m].
+    pub(super) fn go(
+        &mut self,
+        height: f64,
+        phase: Phase,
+        listener: Listener<'_>,
+    ) -> Result<Ended, Error> {
+        let (from, way) = (self.aim, height - self.aim);
+        let speed = match phase {
+            Phase::Withdrawing => self.settings.withdrawal_speed,
+            Phase::Jogging => self.settings.jog_speed,
+            _ => self.settings.approach_speed,
+        };
+        let ticks = (way.abs() / speed / self.settings.period).ceil().max(1.0) as u64;
+        for tick in 1..=ticks + 1 {
+            let (part, speed) = match tick <= ticks {
+                true => (tick as f64 / ticks as f64, speed.copysign(way)),
+                false => (1.0, 0.0),
+            };
+            let sample = self.tick(phase, [from + part * way, speed])?;
+            if !listener(&sample) && phase != Phase::Withdrawing {
+                return Ok(Ended::Stopped);
+            }
+        }
+        Ok(Ended::Whole)
+    }
+}
+
+impl RigSettings {
+    /// What a recording of a course says at its top, with what its `specimen` says of itself and which
+    /// repetition it is.
+    pub fn describe(
+        &self,
+        specimen: &RecordingHeader,
+        (course, repeat): (&Course, u64),
+    ) -> RecordingHeader {
+        let mut header = specimen.clone();
+        course.describe(&mut header);
+        header.repeat = Some(repeat);
+        header.sample_rate_hz = Some(1.0 / self.period);
+        header.breath_held = self.breath.map(|_| true);
+        header
+    }
+}

@@ -1,0 +1,47 @@
+/// What the rig does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Phase {
+    /// It waits where it is, or goes to where it begins.
+    Waiting,
+    /// It is moved by hand.
+    Jogging,
+    /// It looks for tissue.
+    Approaching,
+    /// It presses a stimulus.
+    Pressing,
+    /// It leaves the tissue.
+    Withdrawing,
+    /// It exerts no force, after a fault.
+    Limp,
+}
+
+/// What is seen at a tick.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RigSample {
+    /// On the rig's clock [s].
+    pub time: f64,
+    /// What it does.
+    pub phase: Phase,
+    /// Height of the tip as the encoders say [m].
+    pub height: f64,
+    /// How deep that is from first contact [m]; none before there was one.
+    pub depth: Option<f64>,
+    /// What the sensor shows [N], positive on the tissue.
+    pub force: f64,
+    /// How long the breath has been held [s]; none while it is drawn.
+    pub breath: Option<f64>,
+    /// How long everything has waited for the processor so far [s].
+    pub waited: f64,
+}
+
+/// How a stimulus ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ended {
+    /// With its last sample.
+    Whole,
+    /// Before, as whoever listened said; the indenter is withdrawn.
+    Stopped,
+}
+
+/// Whoever listens to samples; false to stop. A rig that withdraws goes on with that.
+pub type Listener<'a> = &'a mut dyn FnMut(&RigSample) -> bool;

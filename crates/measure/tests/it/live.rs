@@ -1,0 +1,225 @@
+//! A rig that is operated, on a virtual clock. Judges: the order in which orders were given, limits, and the
+//! time from a stop to no force.
+
+use palpate_measure::live::{Console, Operated, Order, Told};
+use palpate_measure::{Ended, Error, Phase, RigSample, RigSettings};
+use palpate_servo::{Fault, log};
+
+use crate::rig::{rig, soft, usual};
+
+/// A rig over soft tissue, and its console.
+struct Bench {
+    operated: Operated,
+    console: Console,
+    told: log::Reader<Told>,
+}
+
+impl Bench {
+    fn new(settings: RigSettings) -> Self {
+        let (operated, console, told) = Operated::new(rig(soft(), settings, 1));
+        let mut bench = Self {
+            operated,
+            console,
+            told,
+        };
+        bench.idle(600);
+        bench
+    }
+
+    /// Waits for some ticks.
+    fn idle(&mut self, ticks: usize) -> Vec<RigSample> {
+        let mut seen = Vec::new();
+        for _ in 0..ticks {
+            assert!(self.operated.turn(&mut |sample| seen.push(*sample)));
+        }
+        self.told.drain().for_each(drop);
+        seen
+    }
+
+    /// Carries out `orders`, and tells what was said but for samples.
+    fn carry_out(&mut self, orders: &[Order]) -> Vec<Told> {
+        orders.iter().for_each(|order| self.console.order(*order));
+        let mut said = Vec::new();
+        for _ in 0..=orders.len() {
+            self.operated.turn(&mut |_| ());
+            said.extend(self.told.drain().filter(|t| !matches!(t, Told::Sample(_))));
+        }
+        said
+    }
+}
+
+fn ended(order: Order) -> [Told; 2] {
+    [Told::Begun(order), Told::Ended(order, Ok(Ended::Whole))]
+}
+
+#[test]
+fn orders_are_carried_out_in_their_order() {
+    let mut bench = Bench::new(RigSettings {
+        recovery: 1.0,
+        ..RigSettings::default()
+    });
+    let orders = [
+        Order::Jog(-1e-3),
+        Order::Jog(5e-4),
+        Order::Approach,
+        Order::Rest,
+        Order::Press(usual(), 7),
+        Order::Withdraw,
+    ];
+    let said = bench.carry_out(&orders);
+    assert_eq!(said, orders.map(ended).concat());
+}
+
+/// What is pressed without an approach is refused, and what was planned after it is dropped.
+#[test]
+fn what_waits_behind_a_failure_is_dropped() {
+    let mut bench = Bench::new(RigSettings::default());
+    let orders = [Order::Press(usual(), 1), Order::Approach];
+    let said = bench.carry_out(&orders);
+    let refused = Told::Ended(orders[0], Err(Error::NotApproached));
+    assert_eq!(
+        said,
+        [Told::Begun(orders[0]), refused, Told::Dropped(orders[1])]
+    );
+}
+
+/// Stop in mid-hold: pressing ends with that tick, the tip is out of the tissue, later orders are stale.
+#[test]
+fn a_stop_withdraws_and_makes_orders_stale() {
+    let mut bench = Bench::new(RigSettings::default());
+    bench.carry_out(&[Order::Approach]);
+    let press = Order::Press(usual(), 1);
+    bench.console.order(press);
+    bench.console.order(Order::Rest);
+    let (console, mut after) = (&bench.console, Vec::new());
+    bench.operated.turn(&mut |sample| {
+        if sample.phase == Phase::Pressing && sample.depth.unwrap() > 3.9e-3 {
+            console.stop();
+        }
+        after.push(*sample);
+    });
+    bench.operated.turn(&mut |_| ());
+    let said = bench.told.drain().filter(|t| !matches!(t, Told::Sample(_)));
+    let expected = [
+        Told::Begun(press),
+        Told::Ended(press, Ok(Ended::Stopped)),
+        Told::Dropped(Order::Rest),
+    ];
+    assert_eq!(said.collect::<Vec<_>>(), expected);
+    let stopped =
+        |sample: &&RigSample| sample.phase == Phase::Pressing && sample.depth.unwrap() > 3.9e-3;
+    assert_eq!(after.iter().filter(stopped).count(), 1);
+    assert!(after.last().unwrap().depth.unwrap() < -1e-3);
+}
+
+/// Judge: the force on the device, which is zero with the tick after the switch; what the sensor still feels is
+/// tissue that pushes a free tip out. Nothing moves it until somebody arms, and then it stays where it is.
+#[test]
+fn an_emergency_stop_is_latched_until_somebody_arms() {
+    let mut bench = Bench::new(RigSettings::default());
+    bench.carry_out(&[Order::Approach]);
+    let press = Order::Press(usual(), 1);
+    bench.console.order(press);
+    bench.console.order(Order::Rest);
+    let (console, mut pressed, mut last) = (&bench.console, None, 0.0);
+    bench.operated.turn(&mut |sample| {
+        last = sample.time;
+        if sample.phase == Phase::Pressing && sample.depth.unwrap() > 3.9e-3 {
+            pressed.get_or_insert(sample.time);
+            console.emergency_stop();
+        }
+    });
+    // No tick of that stimulus comes after the one of the switch.
+    assert_eq!(pressed, Some(last));
+    let fault = Fault::EmergencyStop;
+    let said = |bench: &mut Bench| {
+        let said = bench.told.drain().filter(|t| !matches!(t, Told::Sample(_)));
+        said.collect::<Vec<_>>()
+    };
+    let faulted = [
+        Told::Begun(press),
+        Told::Ended(press, Err(Error::Device(fault))),
+        Told::Faulted(fault),
+    ];
+    assert_eq!(said(&mut bench), faulted);
+    bench.operated.turn(&mut |_| ());
+    assert_eq!(said(&mut bench), [Told::Dropped(Order::Rest)]);
+    let free = bench.idle(3000);
+    assert!(free.iter().all(|sample| sample.phase == Phase::Limp));
+    // Tissue pushes the tip out of it: what is left is the friction of the device (0.04 N) at most.
+    assert!(free[2999].force < 0.05, "{:?}", free[2999]);
+    assert_eq!(
+        bench.carry_out(&[Order::Withdraw]),
+        [Told::Dropped(Order::Withdraw)]
+    );
+    bench.console.arm();
+    let arming = bench.idle(1500);
+    let (before, after) = (free[2999], arming[1499]);
+    assert_eq!(after.phase, Phase::Waiting);
+    // Two steps of the encoder.
+    assert!((after.height - before.height).abs() < 6e-5, "{after:?}");
+    let out = bench.carry_out(&[Order::Withdraw]);
+    assert_eq!(out, ended(Order::Withdraw));
+}
+
+/// By hand it goes no deeper than a stimulus may, and no further than tissue is looked for.
+#[test]
+fn a_jog_ends_at_the_limits() {
+    let mut bench = Bench::new(RigSettings::default());
+    bench.carry_out(&[Order::Approach]);
+    let mut deepest = 0.0_f64;
+    bench.console.order(Order::Jog(-1.0));
+    let mut watch = |sample: &RigSample| deepest = deepest.max(sample.depth.unwrap());
+    for _ in 0..1000 {
+        bench.operated.turn(&mut watch);
+    }
+    // What the drive is off by at most when it comes to rest (0.034 mm), and two steps of the encoder.
+    assert!((deepest - 0.012).abs() < 1e-4, "{deepest}");
+    bench.told.drain().for_each(drop);
+    let said = bench.carry_out(&[Order::Jog(-1.0)]);
+    assert!(
+        matches!(said[1], Told::Ended(_, Err(Error::EndOfWay { .. }))),
+        "{said:?}"
+    );
+    bench.carry_out(&[Order::Jog(1.0)]);
+    let highest = bench.idle(300).last().unwrap().height;
+    assert!((highest - 0.030).abs() < 6e-5, "{highest}");
+}
+
+/// Driving lasts as long as the order comes again, and ends within its time when it does not.
+#[test]
+fn a_held_jog_ends_when_nobody_holds_it() {
+    let mut bench = Bench::new(RigSettings::default());
+    let (console, mut moved) = (&mut bench.console, 0);
+    console.order(Order::Drive(true));
+    let mut next = 0.1;
+    let mut began = None;
+    bench.operated.turn(&mut |sample| {
+        let begun = *began.get_or_insert(sample.time);
+        if sample.time - begun > next && next < 0.95 {
+            console.order(Order::Drive(true));
+            next += 0.1;
+        }
+        moved += 1;
+    });
+    // The last of ten orders comes 0.9 s after the first and lasts for 0.16 s more.
+    assert!((1050..1075).contains(&moved), "{moved}");
+    let height = bench.idle(200).last().unwrap().height;
+    assert!((height - 0.005 * 1.06).abs() < 1e-4, "{height}");
+}
+
+/// Too much force by hand: it is withdrawn.
+#[test]
+fn a_jog_into_too_much_force_is_withdrawn() {
+    let mut bench = Bench::new(RigSettings {
+        force_limit: 0.05,
+        ..RigSettings::default()
+    });
+    let said = bench.carry_out(&[Order::Jog(-0.02)]);
+    assert!(
+        matches!(said[1], Told::Ended(_, Err(Error::TooMuchForce { .. }))),
+        "{said:?}"
+    );
+    let height = bench.idle(200).last().unwrap().height;
+    assert!(height.abs() < 1e-4, "{height}");
+}

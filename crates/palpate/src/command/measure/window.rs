@@ -1,0 +1,81 @@
+//! The rig's window, as the command opens it.
+
+use std::fs;
+use std::path::Path;
+use std::sync::Arc;
+
+use palpate_files::protocol::MeasuredTissue;
+use palpate_servo::Clock;
+use palpate_viewer::rig::{Bench, MadeRig, Place, open_rig_window};
+use palpate_viewer::{Error, check_display};
+
+use super::plan::Plan;
+use crate::command::window::is_absent;
+use crate::failure::Failure;
+
+/// Opens a window with what `plan` prepares, whose recordings go into `folder`, and waits until it is closed.
+pub(super) fn open(plan: Plan, folder: &Path) -> Result<(), Failure> {
+    if folder.extension().is_some_and(|ending| ending == "csv") {
+        return Err(Failure::input(format!(
+            "a window makes as many recordings as one likes, and --out {} is one file; name a folder",
+            folder.display()
+        )));
+    }
+    check_display().or_else(no_window)?;
+    // Before anything is measured that could not be kept.
+    fs::create_dir_all(folder).map_err(|error| {
+        let folder = folder.display();
+        Failure::input(format!(
+            "the folder {folder} cannot be made ({error}); give another with --out"
+        ))
+    })?;
+    let bench = Bench {
+        settings: plan.settings,
+        stimuli: plan.stimuli.clone(),
+        places: (0..plan.specimens.len())
+            .map(|place| self::place(&plan, place))
+            .collect(),
+        folder: folder.to_owned(),
+        doubts: plan.doubts,
+    };
+    open_rig_window(bench).or_else(no_window)
+}
+
+fn no_window(why: Error) -> Result<(), Failure> {
+    match is_absent(&why) {
+        true => Err(Failure::failed(format!(
+            "{why}; --headless measures without a window"
+        ))),
+        false => Err(why.into()),
+    }
+}
+
+/// A specimen of the protocol, with how a rig over it is made.
+fn place(plan: &Plan, place: usize) -> Place {
+    let measured = &plan.specimens[place];
+    let published = match &measured.tissue {
+        MeasuredTissue::Published(organ) => Some(organ.to_string()),
+        MeasuredTissue::Tissue(_) => None,
+    };
+    let organ = measured.organ.clone().or(published);
+    let known = [organ, measured.subject.clone(), measured.site.clone()];
+    let known: Vec<String> = known.into_iter().flatten().collect();
+    let plan = plan.clone();
+    let make = move |at_step: &mut dyn FnMut(f64)| -> Result<MadeRig, String> {
+        let (specimen, doubts) = plan.specimen(place, at_step).map_err(|e| e.to_string())?;
+        let header = specimen.header.clone();
+        let rig = plan.rig((specimen, place), Clock::real());
+        Ok(MadeRig {
+            rig: rig.map_err(|error| error.to_string())?,
+            header,
+            doubts,
+        })
+    };
+    Place {
+        name: match known.as_slice() {
+            [] => format!("specimen {}", place + 1),
+            known => known.join(", "),
+        },
+        make: Arc::new(make),
+    }
+}

@@ -1,0 +1,190 @@
+use std::path::{Path, PathBuf};
+
+use palpate_files::recording::{RecordingHeader, RecordingWriter};
+use palpate_measure::live::Commission;
+use palpate_measure::{Course, Recorded, RigSettings, recording_name, stimulus_name};
+
+use super::curves::{force_over_depth, relaxation};
+
+/// The recordings that were made, and those that were asked for.
+#[derive(Debug, Default)]
+pub(super) struct Journal {
+    folder: PathBuf,
+    last: u64,
+    asked: Vec<Asked>,
+    pub(super) entries: Vec<Entry>,
+    /// The one that is looked at; the newest when there is none.
+    chosen: Option<usize>,
+}
+
+/// A recording that was asked for.
+#[derive(Debug)]
+struct Asked {
+    number: u64,
+    file: PathBuf,
+    entry: What,
+}
+
+/// What was recorded.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct What {
+    /// The number of the specimen.
+    place: usize,
+    course: Course,
+    pub(super) stimulus: String,
+    pub(super) repeat: u64,
+}
+
+/// A recording that was made.
+#[derive(Debug)]
+pub(super) struct Entry {
+    pub(super) what: What,
+    pub(super) recorded: Recorded,
+    /// [mN] over [mm]
+    pub(super) force_over_depth: Vec<[f64; 2]>,
+    /// [-] over the logarithm of seconds
+    pub(super) relaxation: Vec<[f64; 2]>,
+}
+
+impl Journal {
+    /// Of recordings in `folder`.
+    pub(super) fn new(folder: PathBuf) -> Self {
+        Self {
+            folder,
+            ..Self::default()
+        }
+    }
+
+    /// A recording of `course` on the specimen at a place, under a name that is free: repetitions are counted on.
+    pub(super) fn ask(
+        &mut self,
+        course: &Course,
+        settings: &RigSettings,
+        (specimen, place): (&RecordingHeader, usize),
+    ) -> Commission {
+        let stimulus = stimulus_name(&course.stimulus());
+        let mut repeat = 0;
+        let file = loop {
+            repeat += 1;
+            let name = recording_name(specimen, place + 1, (&stimulus, repeat));
+            let file = self.folder.join(format!("{name}.csv"));
+            let asked = self.asked.iter().any(|other| other.file == file);
+            if !asked && !file.exists() && !RecordingWriter::part(&file).exists() {
+                break file;
+            }
+        };
+        self.last += 1;
+        self.asked.push(Asked {
+            number: self.last,
+            file: file.clone(),
+            entry: What {
+                place,
+                course: *course,
+                stimulus,
+                repeat,
+            },
+        });
+        Commission {
+            number: self.last,
+            file,
+            header: settings.describe(specimen, (course, repeat)),
+        }
+    }
+
+    /// A recording was made.
+    pub(super) fn enter(&mut self, number: u64, recorded: Recorded, rows: &[[f64; 3]]) {
+        let Some(place) = self.asked.iter().position(|asked| asked.number == number) else {
+            return;
+        };
+        let what = self.asked.swap_remove(place).entry;
+        self.chosen = None;
+        self.entries.push(Entry {
+            force_over_depth: force_over_depth(rows),
+            relaxation: relaxation(rows, &what.course.stimulus()),
+            what,
+            recorded,
+        });
+    }
+
+    /// A recording will not be made; its name is free again.
+    pub(super) fn forget(&mut self, number: u64) {
+        self.asked.retain(|asked| asked.number != number);
+    }
+
+    /// Where recordings go.
+    pub(super) fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// Looks at an entry by its number in the list.
+    pub(super) fn choose(&mut self, entry: usize) {
+        self.chosen = Some(entry);
+    }
+
+    /// Which entry is looked at.
+    pub(super) fn shown(&self) -> Option<usize> {
+        self.chosen.or(self.entries.len().checked_sub(1))
+    }
+
+    /// The entry that is looked at, and others of the same stimulus on the same specimen.
+    pub(super) fn compared(&self) -> Option<(&Entry, impl Iterator<Item = &Entry>)> {
+        let shown = self.shown()?;
+        let entry = &self.entries[shown];
+        let same =
+            |other: &What| (other.place, other.course) == (entry.what.place, entry.what.course);
+        let others = self.entries.iter().enumerate();
+        let others = others.filter(move |(place, other)| *place != shown && same(&other.what));
+        Some((entry, others.map(|(_, other)| other)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use palpate_files::protocol::Stimulus;
+
+    fn recorded(file: PathBuf) -> Recorded {
+        Recorded {
+            file,
+            samples: 1,
+            peak: 0.1,
+            cut_short: None,
+        }
+    }
+
+    /// A window writes over nothing: names on the disk and names that were promised are passed over.
+    #[test]
+    fn repetitions_are_counted_on() {
+        let folder = tempfile::tempdir().unwrap();
+        let there = folder.path().join("liver-1-ramp-and-hold-4mm-1.csv");
+        std::fs::write(there, "").unwrap();
+        let left = folder.path().join("liver-1-ramp-and-hold-4mm-2.csv.part");
+        std::fs::write(left, "").unwrap();
+        let mut journal = Journal::new(folder.path().to_owned());
+        let course = Course::of(Stimulus::RampAndHold {
+            depth_m: 4e-3,
+            ramp_s: 0.5,
+            hold_s: 1.0,
+        });
+        let course = course.unwrap();
+        let header = RecordingHeader {
+            organ: Some("liver".to_owned()),
+            ..RecordingHeader::default()
+        };
+        let settings = RigSettings::default();
+        let ask = |journal: &mut Journal| {
+            let asked = journal.ask(&course, &settings, (&header, 0));
+            (asked.number, asked.header.repeat, asked.file)
+        };
+        let (first, repeat, file) = ask(&mut journal);
+        assert_eq!(repeat, Some(3));
+        assert_eq!(ask(&mut journal).1, Some(4));
+        journal.forget(first);
+        let (again, repeat, _) = ask(&mut journal);
+        assert_eq!(repeat, Some(3));
+        journal.enter(again, recorded(file), &[[0.0, 0.0, 0.1]]);
+        assert!(journal.compared().is_some_and(|(entry, mut others)| {
+            entry.what.repeat == 3 && others.next().is_none()
+        }));
+    }
+}

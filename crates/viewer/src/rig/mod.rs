@@ -1,0 +1,287 @@
+//! The window in which a rig is operated: what it does and its limits above, what it can be asked on the left,
+//! what is felt and what was recorded in the middle.
+//!
+//! The window owns no rig: it gives orders, and shows what a [`LiveRig`] tells, which goes on in threads of its
+//! own however slow the picture is.
+//!
+//! *How we know*: `rig::journal::…`, `rig::curves::…`, `rig::prepared::…`; the rig by the tests of its crate; the
+//! window itself is looked at.
+//!
+//! *Limits*: one specimen at a time.
+
+mod above;
+mod by_hand;
+mod curves;
+mod journal;
+mod keys;
+mod plots;
+mod preparation;
+mod prepared;
+mod stimuli;
+mod table;
+mod watch;
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Duration;
+
+use eframe::egui;
+use palpate_files::recording::RecordingHeader;
+use palpate_measure::live::{LiveRig, Order};
+use palpate_measure::{Course, Rig, RigSettings};
+
+use crate::{Error, native, style};
+use journal::Journal;
+use preparation::Preparation;
+use prepared::Prepared;
+use watch::Watch;
+
+/// What a rig's window is opened with.
+pub struct Bench {
+    /// The limits and speeds of the rig.
+    pub settings: RigSettings,
+    /// What can be pressed, each with how often a protocol repeats it.
+    pub stimuli: Vec<(Course, u64)>,
+    /// The specimens, one at least.
+    pub places: Vec<Place>,
+    /// Where recordings go.
+    pub folder: PathBuf,
+    /// What deserves doubt before anything is measured.
+    pub doubts: Vec<String>,
+}
+
+/// A specimen that a rig can be put over.
+pub struct Place {
+    /// What it is called.
+    pub name: String,
+    /// Makes the rig, on a thread of its own.
+    pub make: Arc<Make>,
+}
+
+/// Makes a rig, on a real clock, and tells the part that is done [-].
+pub type Make = dyn Fn(&mut dyn FnMut(f64)) -> Result<MadeRig, String> + Send + Sync;
+
+/// A rig over a specimen.
+pub struct MadeRig {
+    /// The rig.
+    pub rig: Rig,
+    /// What its recordings say of the specimen.
+    pub header: RecordingHeader,
+    /// What deserves doubt about it.
+    pub doubts: Vec<String>,
+}
+
+/// Between two pictures.
+const PICTURE: Duration = Duration::from_millis(40);
+
+/// Size of the small letters, which are read from a step away.
+const SMALL: f32 = 11.5;
+
+/// What stands behind the window.
+enum Behind {
+    Preparing(Preparation),
+    Live(Box<LiveRig>),
+    Failed(String),
+}
+
+/// The rig as a window.
+struct RigWindow {
+    settings: RigSettings,
+    prepared: Vec<Prepared>,
+    places: Vec<Place>,
+    place: usize,
+    behind: Behind,
+    header: RecordingHeader,
+    watch: Watch,
+    journal: Journal,
+    /// How far a click moves the indenter [m].
+    step: f64,
+    /// Doubts about the protocol, and about the specimen.
+    doubts: [Vec<String>; 2],
+}
+
+/// Opens a window over the first specimen of `bench` and waits until it is closed; the indenter is withdrawn then.
+///
+/// # Errors
+/// When there is no display, no adapter, or the window breaks down.
+pub fn open_rig_window(bench: Bench) -> Result<(), Error> {
+    native::open([[1280.0, 800.0], [900.0, 600.0]], move |context| {
+        Ok(RigWindow::new(bench, &context.egui_ctx))
+    })
+}
+
+impl RigWindow {
+    fn new(bench: Bench, context: &egui::Context) -> Self {
+        context.all_styles_mut(|style| {
+            let small = egui::FontId::proportional(SMALL);
+            style.text_styles.insert(egui::TextStyle::Small, small);
+        });
+        let stimuli = bench.stimuli.iter();
+        Self {
+            settings: bench.settings,
+            prepared: stimuli.map(|own| Prepared::new(*own)).collect(),
+            behind: Behind::Preparing(Preparation::start(&bench.places[0].make, context.clone())),
+            places: bench.places,
+            place: 0,
+            header: RecordingHeader::default(),
+            watch: Watch::default(),
+            journal: Journal::new(bench.folder),
+            step: 1e-3,
+            doubts: [bench.doubts, Vec::new()],
+        }
+    }
+
+    /// Puts a rig over another specimen; the one before is withdrawn first.
+    fn move_to(&mut self, place: usize, context: &egui::Context) {
+        self.place = place;
+        self.watch = Watch::default();
+        let make = &self.places[place].make;
+        self.behind = Behind::Preparing(Preparation::start(make, context.clone()));
+    }
+
+    /// Takes over what was prepared, and reads what the rig has told.
+    fn read(&mut self) {
+        let outcome = match &self.behind {
+            Behind::Preparing(preparation) => preparation.outcome(),
+            _ => None,
+        };
+        if let Some(outcome) = outcome {
+            let live = outcome.and_then(|made| {
+                self.header = made.header;
+                self.doubts[1] = made.doubts;
+                self.watch.sensor_range = made.rig.sensor_range();
+                LiveRig::start(made.rig).map_err(|error| error.to_string())
+            });
+            self.behind = match live {
+                Ok(live) => Behind::Live(Box::new(live)),
+                Err(sentence) => Behind::Failed(sentence),
+            };
+        }
+        let Behind::Live(live) = &mut self.behind else {
+            return;
+        };
+        self.watch.read(live, &mut self.journal);
+        if !live.is_running() {
+            let sentence =
+                "a thread of the rig has ended, and its device was stopped; open the window anew";
+            self.behind = Behind::Failed(sentence.to_owned());
+        }
+    }
+
+    fn live(&mut self) -> Option<&mut LiveRig> {
+        match &mut self.behind {
+            Behind::Live(live) => Some(live),
+            _ => None,
+        }
+    }
+
+    /// Gives an order that is heard of again.
+    fn order(&mut self, order: Order) {
+        if let Behind::Live(live) = &mut self.behind {
+            live.console.order(order);
+            self.watch.waiting += 1;
+        }
+    }
+
+    /// Has a course pressed and recorded.
+    fn press(&mut self, course: &Course) {
+        if let Behind::Live(live) = &mut self.behind {
+            let specimen = (&self.header, self.place);
+            let commission = self.journal.ask(course, &self.settings, specimen);
+            live.press(*course, commission);
+            self.watch.waiting += 1;
+        }
+    }
+
+    /// Every stimulus as often as the protocol says, each as without a window: the tissue rests, is looked for,
+    /// rests from that and is pressed.
+    fn press_all(&mut self) {
+        let all: Vec<Course> = self.prepared.iter().flat_map(Prepared::repeated).collect();
+        for course in all {
+            for order in [Order::Rest, Order::Approach, Order::Rest] {
+                self.order(order);
+            }
+            self.press(&course);
+        }
+    }
+
+    fn stop(&mut self) {
+        if let Some(live) = self.live() {
+            live.console.stop();
+        }
+    }
+
+    fn emergency_stop(&mut self) {
+        if let Some(live) = self.live() {
+            live.console.emergency_stop();
+        }
+    }
+
+    /// Lets forces on again.
+    fn arm(&mut self) {
+        if let Behind::Live(live) = &mut self.behind {
+            live.console.arm();
+        }
+        if let Some(fault) = &mut self.watch.fault {
+            fault.arming = true;
+        }
+    }
+
+    /// Where there is no rig yet, or none any more.
+    fn show_absence(&self, ui: &mut egui::Ui) {
+        ui.vertical_centered(|ui| {
+            ui.add_space(0.4 * ui.available_height());
+            match &self.behind {
+                Behind::Preparing(preparation) => {
+                    ui.label(format!(
+                        "preparing {}: a law that is not linear is solved once, which takes a minute",
+                        self.places[self.place].name
+                    ));
+                    ui.add_space(8.0);
+                    let bar = egui::ProgressBar::new(preparation.part() as f32);
+                    ui.add(bar.desired_width(280.0).show_percentage());
+                }
+                Behind::Failed(sentence) => {
+                    ui.colored_label(style::FAULT, sentence);
+                }
+                Behind::Live(_) => {}
+            }
+        });
+    }
+}
+
+impl eframe::App for RigWindow {
+    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+        let context = ui.ctx().clone();
+        keys::take(self, &context);
+        self.read();
+        egui::Panel::top("above").show(ui, |ui| above::show(self, ui));
+        egui::Panel::bottom("recordings")
+            .resizable(true)
+            .default_size(168.0)
+            .size_range(80.0..=360.0)
+            .show(ui, |ui| table::show(self, ui));
+        egui::Panel::left("orders")
+            .resizable(false)
+            .exact_size(272.0)
+            .show(ui, |ui| {
+                egui::ScrollArea::vertical()
+                    .auto_shrink([false, false])
+                    .show(ui, |ui| {
+                        by_hand::show(self, ui);
+                        ui.separator();
+                        stimuli::show(self, ui);
+                    });
+            });
+        egui::CentralPanel::default().show(ui, |ui| match &self.behind {
+            Behind::Live(_) => plots::show(self, ui),
+            _ => self.show_absence(ui),
+        });
+        context.request_repaint_after(PICTURE);
+    }
+
+    fn on_exit(&mut self) {
+        // The indenter is withdrawn before the window is gone.
+        self.behind = Behind::Failed(String::new());
+    }
+}

@@ -1,0 +1,46 @@
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+
+use eframe::egui;
+
+use super::{MadeRig, Make};
+
+/// A rig that is being made on a thread of its own.
+pub(super) struct Preparation {
+    outcome: Receiver<Result<MadeRig, String>>,
+    /// The part that is done [-], as bits.
+    part: Arc<AtomicU64>,
+}
+
+impl Preparation {
+    /// Starts, and wakes the window when there is something.
+    pub(super) fn start(make: &Arc<Make>, context: egui::Context) -> Self {
+        let (tell, outcome) = channel();
+        let part = Arc::new(AtomicU64::new(0));
+        let (make, told) = (make.clone(), part.clone());
+        std::thread::spawn(move || {
+            let made = make(&mut |part| told.store(part.to_bits(), Ordering::Relaxed));
+            // Nobody waits any more when another was chosen since.
+            let _ = tell.send(made);
+            context.request_repaint();
+        });
+        Self { outcome, part }
+    }
+
+    /// What came of it; none yet while it lasts.
+    pub(super) fn outcome(&self) -> Option<Result<MadeRig, String>> {
+        match self.outcome.try_recv() {
+            Ok(outcome) => Some(outcome),
+            Err(TryRecvError::Empty) => None,
+            Err(TryRecvError::Disconnected) => {
+                Some(Err("the specimen could not be prepared".to_owned()))
+            }
+        }
+    }
+
+    /// The part that is done [-].
+    pub(super) fn part(&self) -> f64 {
+        f64::from_bits(self.part.load(Ordering::Relaxed))
+    }
+}

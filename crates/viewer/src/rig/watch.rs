@@ -1,0 +1,126 @@
+use palpate_measure::live::{LiveRig, News, Order};
+use palpate_measure::{Phase, RigSample};
+
+use super::journal::Journal;
+use crate::history::History;
+
+/// What is known of a rig that runs.
+#[derive(Debug, Default)]
+pub(super) struct Watch {
+    pub(super) now: Option<RigSample>,
+    /// Force, and the way down from where the rig began.
+    pub(super) history: History,
+    /// What is being done, and since when on the rig's clock [s].
+    pub(super) doing: Option<(Order, f64)>,
+    /// Orders that were given and neither done nor dropped.
+    pub(super) waiting: usize,
+    pub(super) fault: Option<Shown>,
+    /// What did not work, or was dropped.
+    pub(super) notice: Option<String>,
+    /// The largest force that the sensor shows [N].
+    pub(super) sensor_range: f64,
+    last_forces: [f64; AVERAGED],
+    samples: usize,
+}
+
+/// Samples of the force that is shown as a number, which nobody reads a thousand times a second.
+const AVERAGED: usize = 20;
+
+/// A fault that is shown.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Shown {
+    pub(super) sentence: String,
+    /// Whether somebody has read it.
+    pub(super) seen: bool,
+    /// Whether somebody let forces on again since.
+    pub(super) arming: bool,
+}
+
+impl Watch {
+    /// Reads what `live` has told since the last picture.
+    pub(super) fn read(&mut self, live: &mut LiveRig, journal: &mut Journal) {
+        for sample in live.samples.drain() {
+            self.see(sample);
+        }
+        for news in live.news.try_iter() {
+            self.hear(news, journal);
+        }
+    }
+
+    fn see(&mut self, sample: RigSample) {
+        self.history
+            .add(sample.time, [sample.force, -sample.height]);
+        self.last_forces[self.samples % AVERAGED] = sample.force;
+        self.samples += 1;
+        self.now = Some(sample);
+    }
+
+    /// The mean force of the last samples [N].
+    pub(super) fn calm_force(&self) -> f64 {
+        self.last_forces.iter().sum::<f64>() / AVERAGED as f64
+    }
+
+    fn hear(&mut self, news: News, journal: &mut Journal) {
+        match news {
+            News::Begun(order) => {
+                self.doing = Some((order, self.now.map_or(0.0, |now| now.time)));
+            }
+            News::Ended(order, ended) => {
+                self.done_with(order, journal);
+                if let Err(error) = ended {
+                    self.notice = Some(error.to_string());
+                }
+            }
+            News::Dropped(order) => self.done_with(order, journal),
+            News::Disturbed(error) => self.notice = Some(error.to_string()),
+            News::Faulted(fault) => {
+                self.fault = Some(Shown {
+                    sentence: fault.to_string(),
+                    seen: false,
+                    arming: false,
+                });
+                // It says all.
+                self.notice = None;
+            }
+            News::Armed => self.fault = None,
+            News::Recorded(number, recorded, rows) => journal.enter(number, recorded, &rows),
+            News::Unwritten(error) => self.notice = Some(error.to_string()),
+        }
+    }
+
+    fn done_with(&mut self, order: Order, journal: &mut Journal) {
+        self.doing = None;
+        self.waiting = self.waiting.saturating_sub(1);
+        if let Order::Press(_, number) = order {
+            journal.forget(number);
+        }
+    }
+
+    /// Whether an order that moves the indenter would be carried out at once.
+    pub(super) fn is_free(&self) -> bool {
+        self.fault.is_none() && self.waiting == 0 && self.now.is_some()
+    }
+
+    /// How deep first contact is below where the rig began [m]; none before there was one.
+    pub(super) fn contact(&self) -> Option<f64> {
+        let now = self.now?;
+        Some(-now.height - now.depth?)
+    }
+
+    /// What the rig does, in a word or two.
+    pub(super) fn state(&self) -> &'static str {
+        let Some(now) = self.now else {
+            return "starting";
+        };
+        match (now.phase, self.doing) {
+            (Phase::Limp, _) if self.fault.as_ref().is_some_and(|fault| fault.arming) => "arming",
+            (Phase::Limp, _) => "no force",
+            (Phase::Jogging, _) => "by hand",
+            (Phase::Approaching, _) | (_, Some((Order::Approach, _))) => "approaching",
+            (Phase::Withdrawing, _) => "withdrawing",
+            (Phase::Pressing, _) => "pressing",
+            (Phase::Waiting, Some((Order::Rest, _))) => "resting",
+            (Phase::Waiting, _) => "waiting",
+        }
+    }
+}
