@@ -112,6 +112,7 @@ impl Limits {
             arming_speed: f64::INFINITY,
             arming_force: f64::INFINITY,
             much_too_late: f64::INFINITY,
+            silence: f64::INFINITY,
             allowance: f64::INFINITY,
             latched: false,
             ..default
