@@ -35,4 +35,4 @@ pub use recorder::{Recorded, Recorder};
 pub use rig::{Ended, Listener, Phase, Rig, RigSample};
 pub use rig_settings::RigSettings;
 pub use sensor::ForceSensor;
-pub use specimen::{Rhythm, VirtualSpecimen};
+pub use specimen::{BREATH_MOTION, Rhythm, VirtualSpecimen};

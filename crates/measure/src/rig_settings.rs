@@ -17,6 +17,9 @@ pub struct RigSettings {
     pub approach_way: f64,
     /// How far above the tissue it waits [m].
     pub clearance: f64,
+    /// How far up breath moves the tissue [m]: so much higher it waits, and a stimulus begins when the held tissue
+    /// is at rest. Zero for what does not breathe.
+    pub breath_motion: f64,
     /// How fast it is moved by hand [m/s].
     pub jog_speed: f64,
     /// How fast it leaves the tissue [m/s].
@@ -42,6 +45,7 @@ impl Default for RigSettings {
             contact_force: 4.0 / 1280.0,
             approach_way: 0.030,
             clearance: 0.002,
+            breath_motion: 0.0,
             jog_speed: 0.005,
             withdrawal_speed: 0.02,
             force_limit: 2.0,
@@ -53,16 +57,24 @@ impl Default for RigSettings {
     }
 }
 
+/// Time in which breath and device come to rest [s].
+pub(crate) const CALM: f64 = 2.0;
 /// Time before a stimulus that is recorded too [s], and how far above the tissue the indenter then is [m].
 pub(crate) const LEAD: f64 = 0.5;
 pub(crate) const STANDOFF: f64 = 0.5e-3;
 
 impl RigSettings {
-    /// How long `course` takes from the clearance above the tissue [s], for which a breath is held.
+    /// How long `course` takes from where the indenter waits [s], for which a breath is held.
     pub fn time_of(&self, course: &Course) -> f64 {
         let [_, speed] = course.at(0.0);
+        let down = self.breath_motion / self.withdrawal_speed;
         let way = (self.clearance - STANDOFF).abs() / self.approach_speed;
-        way + LEAD + STANDOFF / speed + course.duration()
+        self.calm() + down + way + LEAD + STANDOFF / speed + course.duration()
+    }
+
+    /// How long tissue takes to come to rest when a breath is held [s].
+    pub(crate) fn calm(&self) -> f64 {
+        if self.breath_motion > 0.0 { CALM } else { 0.0 }
     }
 
     /// Whether `course` keeps within the limits.

@@ -65,6 +65,8 @@ pub struct VirtualSpecimen {
     phases: [f64; 2],
 }
 
+/// How far up a breath moves tissue that is alive [m].
+pub const BREATH_MOTION: f64 = 8e-3;
 /// Time in which a breath comes to rest [s].
 const BREATH_RESTS: f64 = 0.3;
 
@@ -163,7 +165,7 @@ impl VirtualSpecimen {
         });
         self.breath = Some(Rhythm {
             frequency: 0.25,
-            amplitude: 8e-3,
+            amplitude: BREATH_MOTION,
         });
         self
     }

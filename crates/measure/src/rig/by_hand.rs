@@ -13,7 +13,7 @@ impl Rig {
         if to == self.aim {
             return Err(self.end_of_way());
         }
-        let gone = self.go(to, Phase::Jogging, listener);
+        let gone = self.go((to, self.settings.jog_speed), Phase::Jogging, listener);
         self.withdraw_unless(gone, listener)
     }
 

@@ -2,11 +2,9 @@ use palpate_files::recording::RecordingHeader;
 
 use super::{Ended, Listener, Phase, Rig};
 use crate::approach::contact_height;
-use crate::rig_settings::{LEAD, STANDOFF};
+use crate::rig_settings::{CALM, LEAD, STANDOFF};
 use crate::{Course, Error, RigSettings};
 
-/// Time in which breath and device come to rest [s].
-const CALM: f64 = 2.0;
 /// Time over which the zero of the sensor is taken [s].
 const ZEROING: f64 = 0.5;
 
@@ -105,14 +103,28 @@ impl Rig {
         course: &Course,
         listener: Listener<'_>,
     ) -> Result<Ended, Error> {
-        if self.go(contact + STANDOFF, Phase::Waiting, listener)? == Ended::Stopped {
-            return Ok(Ended::Stopped);
+        let RigSettings {
+            clearance,
+            approach_speed,
+            withdrawal_speed,
+            period,
+            ..
+        } = self.settings;
+        let mut ended = self.stay(self.settings.calm(), listener)?;
+        for (above, speed) in [(clearance, withdrawal_speed), (STANDOFF, approach_speed)] {
+            if ended == Ended::Whole {
+                ended = self.go((contact + above, speed), Phase::Waiting, listener)?;
+            }
+        }
+        if ended == Ended::Stopped {
+            return Ok(ended);
         }
         let [_, speed] = course.at(0.0);
         let lead = LEAD + STANDOFF / speed;
-        let ticks = ((lead + course.duration()) / self.settings.period).round() as usize;
+        let ticks = ((lead + course.duration()) / period).round() as usize;
         for tick in 0..=ticks {
-            let time = tick as f64 * self.settings.period - lead;
+            // What is asked for now is where the device is at the next tick.
+            let time = (tick + 1) as f64 * period - lead;
             let [depth, speed] = if time >= 0.0 {
                 course.at(time)
             } else if speed * time > -STANDOFF {
@@ -168,10 +180,10 @@ impl Rig {
     /// # Errors
     /// When the device fails.
     pub fn withdraw(&mut self, listener: Listener<'_>) -> Result<Ended, Error> {
-        let above = self
-            .contact
-            .map_or(self.retreat, |contact| contact + self.settings.clearance);
-        self.go(above, Phase::Withdrawing, listener)
+        let waits = self.settings.clearance + self.settings.breath_motion;
+        let above = self.contact.map_or(self.retreat, |contact| contact + waits);
+        let speed = self.settings.withdrawal_speed;
+        self.go((above, speed), Phase::Withdrawing, listener)
     }
 
     /// What was done, with the indenter out of the tissue when that failed.
@@ -187,19 +199,14 @@ impl Rig {
         done
     }
 
-    /// Goes straight to `height` [m].
+    /// Goes straight to a height [m] with a speed [m/s].
     pub(super) fn go(
         &mut self,
-        height: f64,
+        (height, speed): (f64, f64),
         phase: Phase,
         listener: Listener<'_>,
     ) -> Result<Ended, Error> {
         let (from, way) = (self.aim, height - self.aim);
-        let speed = match phase {
-            Phase::Withdrawing => self.settings.withdrawal_speed,
-            Phase::Jogging => self.settings.jog_speed,
-            _ => self.settings.approach_speed,
-        };
         let ticks = (way.abs() / speed / self.settings.period).ceil().max(1.0) as u64;
         for tick in 1..=ticks + 1 {
             let (part, speed) = match tick <= ticks {

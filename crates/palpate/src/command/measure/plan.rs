@@ -1,6 +1,8 @@
 use palpate_files::Protocol;
 use palpate_files::protocol::{Gains, Measured, RigLimits, Stimulus};
-use palpate_measure::{Course, Error, Rig, RigSettings, VirtualSpecimen, stimulus_name};
+use palpate_measure::{
+    BREATH_MOTION, Course, Error, Rig, RigSettings, VirtualSpecimen, stimulus_name,
+};
 use palpate_servo::dynamics::{Imperfections, Machine, TwoMass};
 use palpate_servo::{Clock, MECHANICS_STEP, PidGains};
 
@@ -28,7 +30,11 @@ pub(super) struct Plan {
 impl Plan {
     /// What `protocol` asks for, with the seed of all chance.
     pub(super) fn of(protocol: Protocol, seed: u64) -> Result<Self, Failure> {
-        let settings = settings(&protocol.rig);
+        let breathes = protocol.specimens.iter().any(|own| own.alive);
+        let settings = RigSettings {
+            breath_motion: if breathes { BREATH_MOTION } else { 0.0 },
+            ..settings(&protocol.rig)
+        };
         let mut doubts = Vec::new();
         let mut stimuli = Vec::new();
         for plan in &protocol.stimuli {

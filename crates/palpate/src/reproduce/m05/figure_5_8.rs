@@ -23,10 +23,10 @@ const ENDS: [f64; 2] = [0.5, 5.0];
 const TRACKED: [f64; 5] = [0.5, 1.0, 2.0, 4.0, 8.0];
 
 const ERROR_NOTE: &str = "depth by the encoders less the wanted one, from first contact on, on a virtual liver at rest; the source \
-    prints no error. One step of the encoders is 30 µm; on a way the device follows by one or two ticks of 1 ms";
+    prints no error. One step of the encoders is 30 µm";
 
 const TRACKED_NOTE: &str = "the first harmonic of the depth over that of the wanted one, 2 mm from peak to peak; the source prints no \
-    tracking. A tick of the loop is 1 ms late: 2.9° at 8 Hz";
+    tracking. What is asked for is asked for a tick ahead";
 
 fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
     let liver = specimen("liver", |row| row.mean)?;
