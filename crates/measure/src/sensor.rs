@@ -27,6 +27,7 @@ impl ForceSensor {
     /// What it shows of a `force` [N].
     pub fn read(&mut self, force: f64) -> f64 {
         let felt = (force + self.noise * self.random.normal()).clamp(-self.range, self.range);
-        (felt / self.step).round() * self.step
+        // Not −0.
+        (felt / self.step).round() * self.step + 0.0
     }
 }

@@ -48,6 +48,8 @@ pub struct Bench {
     pub folder: PathBuf,
     /// What deserves doubt before anything is measured.
     pub doubts: Vec<String>,
+    /// Whether the window shall close, as if somebody had closed it: asked at every picture.
+    pub is_ended: fn() -> bool,
 }
 
 /// A specimen that a rig can be put over.
@@ -98,6 +100,7 @@ struct RigWindow {
     step: f64,
     /// Doubts about the protocol, and about the specimen.
     doubts: [Vec<String>; 2],
+    is_ended: fn() -> bool,
 }
 
 /// Opens a window over the first specimen of `bench` and waits until it is closed; the indenter is withdrawn then.
@@ -128,6 +131,7 @@ impl RigWindow {
             journal: Journal::new(bench.folder),
             step: 1e-3,
             doubts: [bench.doubts, Vec::new()],
+            is_ended: bench.is_ended,
         }
     }
 
@@ -253,6 +257,9 @@ impl RigWindow {
 impl eframe::App for RigWindow {
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
         let context = ui.ctx().clone();
+        if (self.is_ended)() {
+            context.send_viewport_cmd(egui::ViewportCommand::Close);
+        }
         keys::take(self, &context);
         self.read();
         egui::Panel::top("above").show(ui, |ui| above::show(self, ui));

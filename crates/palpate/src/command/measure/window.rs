@@ -12,6 +12,7 @@ use palpate_viewer::{Error, check_display};
 use super::plan::Plan;
 use crate::command::window::is_absent;
 use crate::failure::Failure;
+use crate::interrupt;
 
 /// Opens a window with what `plan` prepares, whose recordings go into `folder`, and waits until it is closed.
 pub(super) fn open(plan: Plan, folder: &Path) -> Result<(), Failure> {
@@ -37,7 +38,11 @@ pub(super) fn open(plan: Plan, folder: &Path) -> Result<(), Failure> {
             .collect(),
         folder: folder.to_owned(),
         doubts: plan.doubts,
+        // Ctrl-C withdraws the indenter, as closing the window does.
+        is_ended: interrupt::is_asked,
     };
+    // Asked once, so that Ctrl-C is heard from now on.
+    let _ = interrupt::is_asked();
     open_rig_window(bench).or_else(no_window)
 }
 
