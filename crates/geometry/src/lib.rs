@@ -6,6 +6,7 @@
 
 mod aabb_tree;
 mod check;
+mod cut;
 mod deviation;
 mod fill;
 mod io;
@@ -25,6 +26,9 @@ mod weld;
 pub use aabb_tree::{AabbTree, Hit, Nearest};
 pub use check::problem::{MeshProblem, ProblemKind};
 pub use check::{MeshReport, inspect};
+pub use cut::error::CutError;
+pub use cut::net::{Origin, Side};
+pub use cut::{CutMethod, CutProgress, CutSurface};
 pub use deviation::{Deviation, deviation};
 pub use fill::{FillSettings, fill};
 pub use io::error::{ReadError, ReadFault, UnknownUnit};

@@ -138,6 +138,29 @@ impl TriangleMesh {
         self.vertices[node.index()] = position;
     }
 
+    /// Adds a vertex at a finite `position` [m], for whoever then adds its triangles.
+    pub(crate) fn push_vertex(&mut self, position: Vec3) -> NodeId {
+        self.vertices.push(position);
+        NodeId(self.vertices.len() as u32 - 1)
+    }
+
+    /// Adds a triangle of vertices that are there.
+    pub(crate) fn push_triangle(&mut self, corners: [NodeId; 3]) -> TriangleId {
+        self.triangles.push(corners);
+        TriangleId(self.triangles.len() as u32 - 1)
+    }
+
+    /// Gives a triangle other vertices, which are there.
+    pub(crate) fn replace_corners(&mut self, triangle: TriangleId, corners: [NodeId; 3]) {
+        self.triangles[triangle.index()] = corners;
+    }
+
+    /// Takes back what was added beyond these numbers.
+    pub(crate) fn truncate(&mut self, vertices: usize, triangles: usize) {
+        self.vertices.truncate(vertices);
+        self.triangles.truncate(triangles);
+    }
+
     /// The same mesh with every vertex moved by `map` [m].
     ///
     /// # Errors
