@@ -204,11 +204,14 @@ fn courses(pressed: &[Pressed], body: Option<Body>) -> Vec<Course> {
             .of(f64::INFINITY, 0.0)
             .ok()
     });
-    let each = pressed.iter().filter_map(|each| {
+    // One for all: a sensor's noise is as many newtons in each.
+    let largest = pressed.iter().map(|each| each.largest).fold(0.0, f64::max);
+    let felt = pressed.iter().filter(|each| each.is_felt());
+    let each = felt.filter_map(|each| {
         let course = (&each.time[..], &each.depth[..], &each.force[..]);
         match &curve {
-            Some(curve) => Course::new(course, each.largest, |d| curve.force.force(d)),
-            None => Course::new(course, each.largest, |d| d),
+            Some(curve) => Course::new(course, largest, |d| curve.force.force(d)),
+            None => Course::new(course, largest, |d| d),
         }
     });
     each.collect()

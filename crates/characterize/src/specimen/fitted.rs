@@ -97,13 +97,16 @@ impl Characterization {
             let pressed = Pressed::of(&recordings[own.place])?;
             pressed.is_felt().then_some((own, pressed))
         });
+        let felt: Vec<_> = felt.collect();
+        let largest = felt.iter().map(|(_, pressed)| pressed.largest);
+        let largest = largest.fold(0.0, f64::max);
         let found = relaxation.forces.iter().zip(&relaxation.sizes);
-        for (course, ((own, pressed), (forces, &size))) in felt.zip(found).enumerate() {
+        for (course, ((own, pressed), (forces, &size))) in felt.into_iter().zip(found).enumerate() {
             let steps = self.relaxation_of_steps.as_ref().ok();
             let of_step = steps.and_then(|steps| steps.forces.get(course));
             let over = |values: &[f64], whole: f64| values.iter().map(|v| v / whole).collect();
             own.relaxation = (size > 0.0).then(|| FittedRelaxation {
-                measured: over(&pressed.force, size * pressed.largest),
+                measured: over(&pressed.force, size * largest),
                 fitted: over(forces, size),
                 of_step: of_step.map_or_else(Vec::new, |forces| over(forces, size)),
             });

@@ -1,7 +1,7 @@
 use nalgebra::DMatrix;
 use palpate_mechanics::branch;
 
-/// One recording as its relaxation is seen: the force relative to its largest.
+/// One recording as its relaxation is seen.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Course {
     /// Times [s], ascending.
@@ -10,7 +10,7 @@ pub struct Course {
     pub shape: Vec<f64>,
     /// ln of the depths relative to the largest [-]; of no depth, zero, where the shape is zero too.
     pub logarithm: Vec<f64>,
-    /// Force relative to the largest [-].
+    /// Force relative to the largest of all courses [-].
     pub force: Vec<f64>,
 }
 
@@ -21,7 +21,8 @@ const SCALE: f64 = 50.0;
 
 impl Course {
     /// Of `force` [N] at `depth` [m], where an elastic force of `shape` [any unit] is felt; none when
-    /// nothing is pressed or felt.
+    /// nothing is pressed or felt. `largest_force` [N] is one for all courses of a fit: a sensor's noise is
+    /// as many newtons in each.
     pub fn new(
         (time, depth, force): (&[f64], &[f64], &[f64]),
         largest_force: f64,
@@ -98,11 +99,17 @@ impl Course {
         self.shape.iter().filter(partly).count()
     }
 
-    /// The largest force over that of the last tenth, less one [-].
+    /// Its largest force [-].
+    pub(super) fn peak(&self) -> f64 {
+        self.force.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// Its largest force over that of the last tenth, less one [-].
     pub(super) fn drop(&self) -> f64 {
         let last = &self.force[self.force.len() - self.force.len().div_ceil(10)..];
         let end = last.iter().sum::<f64>() / last.len() as f64;
-        (1.0 / end.max(1e-3) - 1.0).clamp(1e-2, 1e2)
+        let peak = self.peak();
+        (peak / end.max(1e-3 * peak) - 1.0).clamp(1e-2, 1e2)
     }
 
     /// Elastic force with the exponent `mu` [-], and its change with it [-].

@@ -28,7 +28,8 @@ pub struct Relaxation {
     pub product: ProductForm,
     /// The exponent μ by which the elastic force grows faster with depth than was assumed [-].
     pub exponent: Estimate,
-    /// The instantaneous elastic force at the largest depth of each course, relative to its largest force [-].
+    /// The instantaneous elastic force at the largest depth of each course, relative to the largest force of all
+    /// [-].
     pub sizes: Vec<f64>,
     /// Σ ε² of the forces relative to the largest [-].
     pub sum_of_squares: f64,
@@ -232,8 +233,9 @@ fn starts(courses: &[Course], count: usize, before: Option<&Fit>) -> Vec<Vec<Par
                     .scaled(1.0),
                 ]
             });
-        let sizes = (0..courses.len())
-            .map(|place| Parameter::new(format!("size_{}", place + 1), 1.0).within(0.0, 1e3));
+        let sizes = courses.iter().zip(1..).map(|(course, number)| {
+            Parameter::new(format!("size_{number}"), course.peak()).within(0.0, 1e3)
+        });
         [exponent.clone()]
             .into_iter()
             .chain(each)

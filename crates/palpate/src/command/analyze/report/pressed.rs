@@ -29,7 +29,9 @@ pub(super) fn figure_of(own: &[&(&ReadRecording, Analysis)]) -> Markup {
             let [along, up] = [clean.depth[place], clean.filtered_force[place]];
             (depth.factor * along, force.factor * up)
         });
-        Series::new(title(read), points.collect(), Style::FineLine, color)
+        let deepest = 1e3 * clean.depth.iter().copied().fold(0.0, f64::max);
+        let name = format!("{}, {deepest:.1} mm", title(read));
+        Series::new(name, points.collect(), Style::FineLine, color)
     });
     let plot = Plot {
         title: "Force over depth".to_owned(),
