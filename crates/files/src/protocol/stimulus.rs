@@ -108,7 +108,7 @@ impl StimulusPlan {
 
 fn holds(keys: &Keys<'_>) -> Result<Vec<Stimulus>, Error> {
     let own = ["depth_m", "depths_m", "ramp_s", "hold_s"];
-    only(keys, &own, "a ramp and hold has none")?;
+    only(keys, &own, "nothing: a ramp and hold has none")?;
     let ramp_s = keys.number("ramp_s", Domain::POSITIVE)?.unwrap_or(0.5);
     let hold_s = keys.number("hold_s", Domain::POSITIVE)?.unwrap_or(20.0);
     let hold = |depth_m| Stimulus::RampAndHold {
@@ -128,7 +128,7 @@ fn sines(keys: &Keys<'_>) -> Result<Vec<Stimulus>, Error> {
         "frequencies_hz",
         "cycles",
     ];
-    only(keys, &own, "a sine has none")?;
+    only(keys, &own, "nothing: a sine has none")?;
     let [amplitude_m, pre_indentation_m] = swing(keys)?;
     let cycles = keys.number("cycles", Domain::POSITIVE)?.unwrap_or(10.0);
     let sine = |frequency| Stimulus::Swing {
@@ -149,7 +149,7 @@ fn chirp(keys: &Keys<'_>, sweep: fn([f64; 2]) -> Sweep) -> Result<Vec<Stimulus>,
         "end_frequency_hz",
         "duration_s",
     ];
-    only(keys, &own, "a chirp has none")?;
+    only(keys, &own, "nothing: a chirp has none")?;
     let [amplitude_m, pre_indentation_m] = swing(keys)?;
     Ok(vec![Stimulus::Swing {
         amplitude_m,
