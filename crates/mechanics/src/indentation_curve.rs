@@ -62,10 +62,10 @@ impl IndentationCurve {
         self.depths.last().copied().unwrap_or(0.0)
     }
 
-    /// Whether another curve through the same depths has the same forces, but for a part [-].
+    /// Whether it has the forces of `other` at the depths of that one, but for a part [-].
     pub fn is_like(&self, other: &Self, part: f64) -> bool {
-        let mut pairs = self.points().zip(other.points());
-        pairs.all(|((_, a), (_, b))| (a - b).abs() <= part * b.abs())
+        let mut known = other.points();
+        known.all(|(depth, force)| (self.force(depth) - force).abs() <= part * force.abs())
     }
 
     /// The known depths [m] and forces [N].

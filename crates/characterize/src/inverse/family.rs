@@ -75,10 +75,9 @@ impl Family {
 impl UnitCurve {
     /// Depths [m] at which a force was found, each with the logarithm of the force and its change with the shape.
     fn logarithms(&self) -> impl Iterator<Item = (f64, [f64; 2])> + '_ {
-        let pairs = self.force.points().zip(self.by_shape.points());
-        pairs
-            .filter(|((_, force), _)| *force > 0.0)
-            .map(|((depth, force), (_, slope))| (depth, [force.ln(), slope / force]))
+        let felt = self.force.points().filter(|(_, force)| *force > 0.0);
+        // A law without a shape has no curve of changes, which is zero everywhere.
+        felt.map(|(depth, force)| (depth, [force.ln(), self.by_shape.force(depth) / force]))
     }
 }
 
@@ -109,6 +108,20 @@ mod tests {
             by_shape: IndentationCurve::through(&depths, &depths.map(|d| slope(d) * log(d).exp())),
             discretisation: 0.0,
         }
+    }
+
+    /// Judge: the one curve that is known, of a law that has no shape.
+    #[test]
+    fn a_law_without_a_shape_keeps_its_curve() {
+        let known = UnitCurve {
+            by_shape: IndentationCurve::untouched(),
+            ..curve(0.0)
+        };
+        let found = Family::of(known.clone()).at(0.0);
+        assert!(
+            found.force.is_like(&known.force, 1e-14) && known.force.is_like(&found.force, 1e-14)
+        );
+        assert_eq!(found.by_shape.force(2e-3), 0.0);
     }
 
     /// Judge: a force whose logarithm is a cubic, which comes back exactly between two shapes; at known shapes it does
