@@ -1,7 +1,7 @@
 //! What a researcher waits for: the relaxation and the laws of one recording of 1,501 samples, on one core.
 //!
 //! Budgets: relaxation with a stated number of terms 50 ms; neo-Hookean law with the dimensionless curve
-//! 0.1 s, Mooney-Rivlin law 5 s, exponential law 30 s (nine runs of finite elements; ten samples take minutes:
+//! 0.1 s, Mooney-Rivlin law 5 s, exponential law 30 s (three runs of finite elements; ten samples take minutes:
 //! `cargo bench --package palpate-characterize --bench fits -- exponential`). The source: hours a run.
 
 #![allow(missing_docs, reason = "criterion's macros write functions without")]

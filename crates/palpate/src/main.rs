@@ -4,6 +4,7 @@
 //! prints what comes back and decides the exit status. Nothing else in the project prints or exits.
 
 mod command;
+mod cores;
 mod failure;
 mod interrupt;
 mod nearest;

@@ -121,7 +121,9 @@ fn from(
     for _ in 0..SHAPES_SOLVED {
         let of = |shape| curves.foreseen(modulus, shape);
         let mut fit = fitted(&start, (indentations, series), of)?;
-        iterations.append(&mut fit.iterations);
+        // A later round begins where the one before it ended.
+        let again = usize::from(!iterations.is_empty());
+        iterations.extend(fit.iterations.drain(again..));
         let shape = fit.parameters[1].value;
         let foreseen = curves.foreseen(modulus, shape);
         let solved = solved_toward(curves, modulus, shape)?;

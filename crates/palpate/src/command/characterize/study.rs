@@ -1,13 +1,10 @@
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread;
-
 use palpate_characterize::{CharacterizeSettings, characterize, specimens};
 
 use super::answer::Specimen;
 use super::finished::{Finished, Studied};
 use super::folder::{Kept, StudyFolder};
 use crate::command::recordings::ReadRecording;
+use crate::cores::on_all_cores;
 use crate::failure::Failure;
 use crate::progress::{Progress, Reader};
 
@@ -24,30 +21,16 @@ pub(super) fn of(
         folder.say_when_stopped(groups.len());
     }
     let progress = Progress::new(reader, Some(groups.len() as u64));
-    let next = AtomicUsize::new(0);
-    let done = Mutex::new(Vec::with_capacity(groups.len()));
-    let work = || {
-        while let Some((place, group)) = next_of(&groups, &next) {
-            let name = Specimen::title(&group[0].clean.header, &group[0].path);
-            let kept = folder.map(|folder| folder.kept(&groups, place, settings));
-            let finished = finish(group, settings, kept.as_ref(), |doing| {
-                progress.say(format!("{name}: {doing}"));
-            });
-            progress.step();
-            if let Ok(mut done) = done.lock() {
-                done.push((place, finished));
-            }
-        }
+    let work = |place: usize, group: &Vec<ReadRecording>| {
+        let name = Specimen::title(&group[0].clean.header, &group[0].path);
+        let kept = folder.map(|folder| folder.kept(&groups, place, settings));
+        let finished = finish(group, settings, kept.as_ref(), |doing| {
+            progress.say(format!("{name}: {doing}"));
+        });
+        progress.step();
+        finished
     };
-    let cores = thread::available_parallelism().map_or(1, usize::from);
-    thread::scope(|scope| {
-        for _ in 0..cores.min(groups.len()) {
-            scope.spawn(work);
-        }
-    });
-    let mut done = done.into_inner().unwrap_or_default();
-    done.sort_by_key(|(place, _)| *place);
-    done.into_iter().map(|(_, finished)| finished).collect()
+    on_all_cores(&groups, work).into_iter().collect()
 }
 
 /// The recordings of each specimen.
@@ -62,14 +45,6 @@ fn grouped(recordings: Vec<ReadRecording>) -> Vec<Vec<ReadRecording>> {
         each.collect()
     };
     groups.into_iter().map(&mut take).collect()
-}
-
-fn next_of<'a>(
-    groups: &'a [Vec<ReadRecording>],
-    next: &AtomicUsize,
-) -> Option<(usize, &'a [ReadRecording])> {
-    let place = next.fetch_add(1, Ordering::Relaxed);
-    Some((place, groups.get(place)?))
 }
 
 fn finish(

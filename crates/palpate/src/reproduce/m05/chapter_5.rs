@@ -1,6 +1,3 @@
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread;
-
 use palpate_characterize::analyze::{StaticPoint, StaticRow, static_response};
 use palpate_characterize::clean::{CleanSettings, clean};
 use palpate_characterize::fit::Random;
@@ -11,6 +8,7 @@ use palpate_measure::VirtualSpecimen;
 use super::organ::{NOTE, STEADY, beating, specimen};
 use super::rig::measured;
 use super::subjects::Spread;
+use crate::cores::on_all_cores;
 use crate::failure::Failure;
 use crate::plot::{Plot, Series, Style};
 use crate::reproduce::m06::Printed;
@@ -88,7 +86,10 @@ fn run(rows: &mut Rows<'_>, organ: &'static str) -> Result<(), Failure> {
                 repeat,
             })
         });
-        found.extend(all_pressed(&jobs.collect::<Vec<_>>())?);
+        let jobs: Vec<_> = jobs.collect();
+        for pressed in on_all_cores(&jobs, |_, job| pressed(job)) {
+            found.extend(pressed?);
+        }
     }
     let animals_note = "published: animals of this organ in appendix A, each of which is pressed twice at each depth";
     let count = Value::beside(APPENDIX_A.sum(organ), specimens.len() as f64, "1");
@@ -141,31 +142,6 @@ fn specimens(
         Ok(own)
     };
     animals.iter().enumerate().map(of_animal).collect()
-}
-
-/// All jobs on all cores, in their order.
-fn all_pressed(jobs: &[Job<'_>]) -> Result<Vec<Pressed>, Failure> {
-    let next = AtomicUsize::new(0);
-    let cores = thread::available_parallelism().map_or(1, usize::from);
-    let work = || {
-        let mut done = Vec::new();
-        while let Some((at, job)) = {
-            let at = next.fetch_add(1, Ordering::Relaxed);
-            jobs.get(at).map(|job| (at, job))
-        } {
-            done.push((at, pressed(job)));
-        }
-        done
-    };
-    let mut done: Vec<_> = thread::scope(|scope| {
-        let workers: Vec<_> = (0..cores).map(|_| scope.spawn(work)).collect();
-        let each = workers.into_iter();
-        each.flat_map(|worker| worker.join().expect("a worker does not panic"))
-            .collect()
-    });
-    done.sort_by_key(|(at, _)| *at);
-    let found = done.into_iter().filter_map(|(_, found)| found.transpose());
-    found.collect()
 }
 
 /// One press; none when no hold is seen in it.
