@@ -1,5 +1,6 @@
 //! A played motion and its folder: the session, surfaces for ParaView, plots and the summary.
 
+mod cuts;
 mod surfaces;
 mod trace;
 
@@ -14,6 +15,7 @@ use crate::failure::Failure;
 use crate::interrupt;
 use crate::output::VERSION;
 use crate::progress::{Progress, Reader};
+use cuts::CutsAnswer;
 use surfaces::Surfaces;
 use trace::Traces;
 
@@ -37,6 +39,8 @@ pub(crate) struct Report {
     contacts: u64,
     peak_force_n: f64,
     largest_depth_m: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cuts: Option<CutsAnswer>,
     interrupted: bool,
     warnings: Vec<String>,
     files: Vec<PathBuf>,
@@ -129,6 +133,7 @@ impl Report {
             contacts: summary.contacts,
             peak_force_n: summary.peak_force,
             largest_depth_m: summary.deepest,
+            cuts: summary.cuts.map(CutsAnswer::of),
             interrupted: summary.interrupted,
             warnings: summary.warnings,
             files,
@@ -144,7 +149,7 @@ impl Report {
         let times = &self.step_times_s;
         format!(
             "{} steps, {} contact{}, peak force {:.4} N, largest depth {:.2} mm\n\
-             a step took {:.0} µs (median), {:.0} µs (99 %), {:.0} µs (99.9 %), {:.0} µs at most",
+             a step took {:.0} µs (median), {:.0} µs (99 %), {:.0} µs (99.9 %), {:.0} µs at most{}",
             self.steps,
             self.contacts,
             if self.contacts == 1 { "" } else { "s" },
@@ -154,6 +159,7 @@ impl Report {
             1e6 * times.p99,
             1e6 * times.p99_9,
             1e6 * times.max,
+            self.cuts.as_ref().map_or(String::new(), CutsAnswer::line),
         )
     }
 

@@ -180,7 +180,7 @@ fn begin(simulation: &Simulation, tool: &Tool, tip: &Vec3) -> Option<Contact> {
 
 /// The place at `footing`, with tangents carried along from `last`, so that the particles do not turn
 /// under a sliding tip; at first along an edge of the triangle, so that they turn with the organ.
-fn place(
+pub(crate) fn place(
     simulation: &Simulation,
     tool: &Tool,
     (footing, depth): (&Footing, f64),

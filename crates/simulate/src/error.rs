@@ -38,6 +38,32 @@ pub enum Error {
         "no triangle of the organ can be touched: the anchor holds all of them, or `organ.touchable` names none that is free; make `organ.anchor` smaller or `organ.touchable` larger"
     )]
     NothingTouchable,
+    /// The layers are thicker than what they are layers of.
+    #[error(
+        "down to the layer {layer:?} the layers are {sum_mm} mm thick, but the organ is {wall_mm} mm thick in most places; give thinner `organ.layer`s",
+        sum_mm = millimetres(*sum),
+        wall_mm = millimetres(*wall)
+    )]
+    LayersTooThick {
+        /// The layer.
+        layer: String,
+        /// Thickness of the layers down to it [m].
+        sum: f64,
+        /// Thickness of the organ [m].
+        wall: f64,
+    },
+    /// A cut is deeper than the organ is thick.
+    #[error(
+        "a cut would be {depth_mm} mm deep, but the organ is {wall_mm} mm thick in most places; set a smaller `cutting.depth_m`",
+        depth_mm = millimetres(*depth),
+        wall_mm = millimetres(*wall)
+    )]
+    CutTooDeep {
+        /// Its depth [m].
+        depth: f64,
+        /// Thickness of the organ [m].
+        wall: f64,
+    },
     /// A stored response is that of something else.
     #[error("{path} is the response of another organ; delete it, and it is made again when it is needed", path = path.display())]
     OtherResponse {
@@ -92,6 +118,11 @@ pub enum Error {
         /// How many are played at most.
         most: u64,
     },
+}
+
+/// Rounded to a hundredth.
+fn millimetres(length: f64) -> f64 {
+    (1e5 * length).round() / 100.0
 }
 
 impl Error {

@@ -12,6 +12,7 @@
 //! and a display, for a hand.
 
 mod contact;
+mod cutting;
 mod deform;
 mod digest;
 mod error;
@@ -27,8 +28,10 @@ mod step;
 mod summary;
 mod tip_laws;
 mod tool;
+mod walls;
 
 pub use contact::Contact;
+pub use cutting::Cuts;
 pub use error::Error;
 pub use global::{EnhancedSurface, OrganField, ResponseOrigin};
 pub use organ::{builtin_organ, held_region, read_organ};
@@ -37,5 +40,5 @@ pub use preparation::{Progress, Resources, Work};
 pub use simulation::Simulation;
 pub use state::{SimulationState, SimulationWorkspace, ToolState};
 pub use step::{TRUSTED_DEPTH, step};
-pub use summary::{StepTimes, Summary};
+pub use summary::{CutSummary, StepTimes, Summary};
 pub use tool::Tool;

@@ -93,10 +93,10 @@ pub fn play<E: From<Error>>(
             state: &state,
         };
         if observe(&frame)? == Flow::Stop {
-            return Ok(tally.finish(simulation, number + 1 < steps));
+            return Ok(tally.finish((simulation, &state), number + 1 < steps));
         }
     }
-    Ok(tally.finish(simulation, false))
+    Ok(tally.finish((simulation, &state), false))
 }
 
 fn match_tools<'m>(

@@ -5,6 +5,7 @@ use palpate_files::{Scene, SessionHeader};
 use palpate_geometry::{AabbTree, Surface};
 use palpate_mechanics::Material;
 
+use crate::cutting::CuttingModel;
 use crate::global::{GlobalModel, GlobalProblem, ResponseOrigin};
 use crate::tool::{Tool, settings};
 use crate::{Error, Progress, Resources, Work, digest, organ, tip_laws};
@@ -18,6 +19,10 @@ pub struct Simulation {
     pub(crate) tools: Vec<Tool>,
     /// How the whole organ answers, if the scene wants that.
     pub(crate) global: Option<GlobalModel>,
+    /// How it is cut, if anything can.
+    pub(crate) cutting: Option<CuttingModel>,
+    /// Length of the edges of a typical triangle [m].
+    pub(crate) typical_edge: f64,
     pub(crate) organ_radius: f64,
     pub(crate) step: f64,
     hand_over: HandOver,
@@ -84,8 +89,13 @@ impl Simulation {
                 palpate_mechanics::finite_spheres::LARGEST_CALIBRATED_RATIO,
             ));
         }
+        let cutting = CuttingModel::new(scene, &surface)?;
         if !scene.organ.layers.is_empty() {
-            doubts.push("layers are read, but not felt yet".to_owned());
+            doubts.push(
+                "layers are cut, seen and broken through one by one; to a touch the organ answers as its own \
+                 tissue"
+                    .to_owned(),
+            );
         }
         Ok(Self {
             // A hemisphere of the organ's volume V has R³ = 3 V / (2 π).
@@ -94,6 +104,8 @@ impl Simulation {
             step: scene.model.step_s,
             hand_over: scene.model.hand_over,
             force_scale: scene.model.force_scale,
+            typical_edge: typical_edge(&surface),
+            cutting,
             surface,
             tree,
             material,
@@ -164,4 +176,11 @@ impl Simulation {
             force_scale: self.force_scale,
         }
     }
+}
+
+/// The edge of the regular triangle of mean area [m].
+fn typical_edge(surface: &Surface) -> f64 {
+    let mesh = surface.mesh();
+    let mean = mesh.area() / mesh.triangles().len() as f64;
+    (mean * 4.0 / 3_f64.sqrt()).sqrt()
 }

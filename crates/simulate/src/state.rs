@@ -5,6 +5,7 @@ use palpate_mechanics::ForceHistory;
 use palpate_mechanics::enhance::SurfacePoint;
 use palpate_mechanics::finite_spheres::{FiniteSphereWorkspace, Response};
 
+use crate::cutting::{Blade, Cuts};
 use crate::global::{GlobalWorkspace, OrganField};
 use crate::{Contact, Simulation};
 
@@ -17,6 +18,8 @@ pub struct SimulationState {
     pub deformed: TriangleMesh,
     /// What moved it, if the whole organ answers.
     pub whole: Option<OrganField>,
+    /// Its cuts, if anything can cut it.
+    pub cuts: Option<Cuts>,
     /// The boxes around it.
     pub(crate) tree: AabbTree,
     /// The vertices that are not at rest.
@@ -27,6 +30,8 @@ pub struct SimulationState {
     pub(crate) shown_deformed: bool,
     /// When the whole organ was shaped last [s].
     pub(crate) shown_at: f64,
+    /// When the cuts were last taken to where the organ is [s].
+    pub(crate) cuts_shown_at: f64,
 }
 
 /// What one tool does and feels.
@@ -60,6 +65,14 @@ pub struct ToolState {
     pub(crate) history_at: Option<Vec3>,
     pub(crate) shaft_touches: bool,
     pub(crate) beyond_trust: bool,
+    /// Triangles from the end of an opening to the blade that makes it.
+    pub cut_lag: usize,
+    /// Where its edge is, while it cuts.
+    pub(crate) blade: Option<Blade>,
+    /// Whether it cuts because it was pressed too hard.
+    pub(crate) breaks_through: bool,
+    /// Whether the innermost layer has given way under it.
+    pub(crate) perforates: bool,
 }
 
 /// Scratch of a step. Its loss changes no result.
@@ -79,6 +92,10 @@ impl SimulationState {
         let tools = (0..simulation.tools().len()).map(ToolState::new).collect();
         Self {
             tools,
+            cuts: simulation
+                .cutting
+                .as_ref()
+                .map(|model| Cuts::new(simulation, model)),
             deformed: simulation.surface.mesh().clone(),
             whole: OrganField::at_rest(simulation),
             tree: simulation.tree.clone(),
@@ -86,7 +103,23 @@ impl SimulationState {
             show_every: 0.0,
             shown_deformed: false,
             shown_at: f64::NEG_INFINITY,
+            cuts_shown_at: f64::NEG_INFINITY,
         }
+    }
+
+    /// The organ at rest and whole, as if nothing had been touched yet.
+    pub fn begin_anew(&mut self, simulation: &Simulation) {
+        let version = self.cuts.as_ref().map_or(0, Cuts::version);
+        *self = Self::new(simulation).show_every(self.show_every);
+        if let Some(cuts) = &mut self.cuts {
+            cuts.version = version + 1;
+        }
+    }
+
+    /// Closes the last cut again. Whether there was one; while a blade is in the tissue there is none.
+    pub fn undo_cut(&mut self) -> bool {
+        self.cuts_shown_at = f64::NEG_INFINITY;
+        self.cuts.as_mut().is_some_and(Cuts::undo)
     }
 
     /// Shapes a whole organ no more often than every `period` [s]; forces are those of every step. For who
@@ -127,6 +160,10 @@ impl ToolState {
             history_at: None,
             shaft_touches: false,
             beyond_trust: false,
+            cut_lag: 0,
+            blade: None,
+            breaks_through: false,
+            perforates: false,
         }
     }
 }

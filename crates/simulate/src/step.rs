@@ -11,7 +11,7 @@ use crate::contact::{self, Contact};
 use crate::simulation::Simulation;
 use crate::state::{SimulationState, SimulationWorkspace, ToolState};
 use crate::tool::Tool;
-use crate::{deform, orientation};
+use crate::{cutting, deform, orientation};
 
 /// Depth beyond which no model here has been compared with tissue [m].
 pub const TRUSTED_DEPTH: f64 = 0.010;
@@ -30,17 +30,27 @@ pub fn step(
 ) {
     for (number, tool) in simulation.tools.iter().enumerate() {
         let pose = poses.get(number).copied().flatten();
-        state.tools[number].row.events = detect(simulation, tool, pose, &mut state.tools[number]);
+        let own = &mut state.tools[number];
+        own.row.events = detect(simulation, tool, pose, own);
+        if let Some(model) = &simulation.cutting {
+            cutting::lead(simulation, model, tool, own);
+        }
     }
     respond(simulation, state, workspace);
     for (tool, state) in simulation.tools.iter().zip(&mut state.tools) {
         let failed = feel(simulation, tool, elapsed, state);
         record(tool, time, failed, state);
     }
+    if let Some(model) = &simulation.cutting {
+        for number in 0..simulation.tools.len() {
+            cutting::advance(simulation, model, number, state);
+        }
+    }
     match (&simulation.global, &mut workspace.global) {
         (Some(global), Some(workspace)) => global.deform((simulation, time), state, workspace),
         _ => deform::deform(simulation, state, workspace),
     }
+    show_cuts(simulation, time, state);
     for (number, tool) in simulation.tools.iter().enumerate() {
         touch_with_shaft(tool, number, state);
     }
@@ -176,6 +186,19 @@ fn record(tool: &Tool, time: f64, failed: Events, state: &mut ToolState) {
     row.contact = state.contact.is_some();
     row.depth_m = state.contact.map_or(0.0, |contact| contact.depth);
     row.events = row.events | failed;
+}
+
+/// Takes the openings to where the organ is, if it is time.
+fn show_cuts(simulation: &Simulation, time: f64, state: &mut SimulationState) {
+    let due = time >= state.cuts_shown_at + state.show_every;
+    let (Some(model), Some(cuts), true) = (&simulation.cutting, &mut state.cuts, due) else {
+        return;
+    };
+    // One that was undone is closed again.
+    if cuts.are_there() || state.cuts_shown_at == f64::NEG_INFINITY {
+        state.cuts_shown_at = time;
+        cuts.follow(simulation, state.deformed.vertices(), model.width);
+    }
 }
 
 /// Tells when the shaft begins to touch the deformed organ; it is not pushed by it.

@@ -17,10 +17,27 @@ pub struct Summary {
     pub peak_force: f64,
     /// Largest depth [m].
     pub deepest: f64,
+    /// What was cut, if anything could be.
+    pub cuts: Option<CutSummary>,
     /// Whether it was stopped before its end.
     pub interrupted: bool,
     /// Plain sentences on what deserves doubt.
     pub warnings: Vec<String>,
+}
+
+/// What became of the surface.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct CutSummary {
+    /// Cuts that opened something.
+    pub count: usize,
+    /// Length over the resting surface [m].
+    pub length: f64,
+    /// Triangles from the end of an opening to the blade, at most.
+    pub largest_lag: usize,
+    /// Triangles before the first cut, and after the last.
+    pub triangles: [usize; 2],
+    /// Times that the innermost layer was broken through.
+    pub perforations: u64,
 }
 
 /// Times that steps took [s].
@@ -45,6 +62,7 @@ pub(crate) struct Tally {
     shaft_contacts: u64,
     non_finite: u64,
     off_model: u64,
+    perforations: u64,
 }
 
 impl Tally {
@@ -57,6 +75,7 @@ impl Tally {
             shaft_contacts: 0,
             non_finite: 0,
             off_model: 0,
+            perforations: 0,
         }
     }
 
@@ -68,12 +87,17 @@ impl Tally {
             self.shaft_contacts += counts(Event::ShaftContact);
             self.non_finite += counts(Event::NonFiniteForce);
             self.off_model += u64::from(tool.off_model && tool.contact.is_some());
+            self.perforations += counts(Event::Perforation);
             self.peak_force = self.peak_force.max(tool.force.norm());
             self.deepest = self.deepest.max(tool.row.depth_m);
         }
     }
 
-    pub(crate) fn finish(mut self, simulation: &Simulation, interrupted: bool) -> Summary {
+    pub(crate) fn finish(
+        mut self,
+        (simulation, state): (&Simulation, &SimulationState),
+        interrupted: bool,
+    ) -> Summary {
         let mut warnings = simulation.doubts().to_vec();
         let mut warn = |condition: bool, text: String| {
             if condition {
@@ -121,6 +145,14 @@ impl Tally {
             contacts: self.contacts,
             peak_force: self.peak_force,
             deepest: self.deepest,
+            cuts: state.cuts.as_ref().map(|cuts| CutSummary {
+                count: cuts.count(),
+                length: cuts.length(),
+                largest_lag: cuts.largest_lag(),
+                triangles: [simulation.surface().mesh(), cuts.mesh()]
+                    .map(|mesh| mesh.triangles().len()),
+                perforations: self.perforations,
+            }),
             interrupted,
             warnings,
         }

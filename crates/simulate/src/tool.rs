@@ -1,4 +1,4 @@
-use palpate_files::scene;
+use palpate_files::scene::{self, ToolKind};
 use palpate_geometry::{AabbTree, PatchField, Surface, Vec3};
 use palpate_mechanics::contact::{Bond, Tip};
 use palpate_mechanics::finite_spheres::{
@@ -12,6 +12,8 @@ use palpate_mechanics::{Error, LinearElastic, TipLaw};
 pub struct Tool {
     /// Its name in scene, motion and session.
     pub name: String,
+    /// What it can do.
+    pub kind: ToolKind,
     /// The end that touches.
     pub tip: Tip,
     /// Whether the surface can run along the tip.
@@ -54,6 +56,7 @@ impl Tool {
         model.precompute_placement(surface, tree, typical);
         Ok(Self {
             name: tool.name.clone(),
+            kind: tool.kind,
             tip,
             bond,
             law: TipLaw::linear(tip, bond, *law),

@@ -1,6 +1,7 @@
 //! What stands in a scene: an organ and its tissue, what surrounds it, the model that moves it and
 //! the tools that touch it.
 
+mod cutting;
 mod model;
 mod model_words;
 mod organ;
@@ -12,6 +13,7 @@ mod view;
 
 use std::path::{Path, PathBuf};
 
+pub use cutting::{CutMode, Cutting};
 pub use model::{Enhancement, LocalSettings, Model};
 pub use model_words::{
     Assembly, EnhancementArea, Form, HandOver, IntegrationPoints, ModelKind, Placement,
@@ -38,6 +40,8 @@ pub struct Scene {
     pub neighbours: Vec<Neighbour>,
     /// How the organ is moved.
     pub model: Model,
+    /// How it is cut.
+    pub cutting: Cutting,
     /// The tools: one or two, with different names.
     pub tools: Vec<Tool>,
     /// How the scene is looked at.
@@ -46,7 +50,15 @@ pub struct Scene {
     pub task: Task,
 }
 
-const KEYS: &[&str] = &["organ", "neighbour", "model", "tool", "view", "task"];
+const KEYS: &[&str] = &[
+    "organ",
+    "neighbour",
+    "model",
+    "cutting",
+    "tool",
+    "view",
+    "task",
+];
 
 impl Scene {
     /// Reads a scene file.
@@ -79,6 +91,7 @@ impl Scene {
                 .map(|keys| Neighbour::from_keys(keys, &folder))
                 .collect::<Result<_, _>>()?,
             model: Model::from_keys(keys.table("model", Model::KEYS)?.as_ref())?,
+            cutting: Cutting::from_keys(keys.table("cutting", Cutting::KEYS)?.as_ref())?,
             tools: tool::from_keys(&keys)?,
             view: View::from_keys(keys.table("view", View::KEYS)?.as_ref())?,
             task: Task::from_keys(keys.table("task", Task::KEYS)?.as_ref(), &folder)?,

@@ -32,14 +32,21 @@ impl<'a> Surfaces<'a> {
         if !frame.is_due(count, self.wanted) {
             return Ok(());
         }
-        let rest = simulation.surface().mesh().vertices();
-        let moved = frame.state.deformed.vertices();
-        let displacement: Vec<Vec3> = moved.iter().zip(rest).map(|(x, rest)| x - rest).collect();
+        let cuts = frame.state.cuts.as_ref().filter(|cuts| cuts.are_there());
+        let (rest, moved) = match cuts {
+            Some(cuts) => (cuts.mesh(), cuts.places()),
+            None => (simulation.surface().mesh(), frame.state.deformed.vertices()),
+        };
+        let displacement: Vec<Vec3> = moved
+            .iter()
+            .zip(rest.vertices())
+            .map(|(x, rest)| x - rest)
+            .collect();
         let field = vtk::PointField {
             name: "displacement_m",
             values: vtk::FieldValues::Vectors(&displacement),
         };
-        let bytes = vtk::polydata(moved, frame.state.deformed.triangles(), &[field]);
+        let bytes = vtk::polydata(moved, rest.triangles(), &[field]);
         let name = format!("surface-{:04}.vtp", count + 1);
         write_whole(self.folder.join(&name), &bytes)?;
         self.written.push((frame.time, name));

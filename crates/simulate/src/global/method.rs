@@ -1,7 +1,7 @@
 use palpate_files::scene::ResponseMethod;
 use palpate_geometry::Surface;
 
-use super::walls::Walls;
+use crate::walls::Walls;
 
 /// More tetrahedra are not tried: a wall of so many takes minutes, a thick body some gigabytes.
 const MOST_TETRAHEDRA: f64 = 25_000.0;

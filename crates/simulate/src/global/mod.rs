@@ -9,7 +9,7 @@
 //! A coarse mesh is enough for the mechanics, since the tip has its own law ([`TipLaw`]) and the organ
 //! around it only yields further; the fine one is what is seen.
 //!
-//! Boundary elements solve for it, or, where walls are too thin for them (`walls`) or the scene asks for
+//! Boundary elements solve for it, or, where walls are too thin for them (`crate::walls`) or the scene asks for
 //! them, finite elements condensed to the surface.
 //!
 //! Finer triangles around a contact are made by who looks at it ([`EnhancedSurface`]), of what a step tells
@@ -28,7 +28,6 @@ mod mechanical_surface;
 mod method;
 mod press;
 mod solve;
-mod walls;
 
 use std::ops::ControlFlow;
 use std::path::PathBuf;
@@ -42,12 +41,12 @@ use palpate_mechanics::enhance::{Carrier, EnhancementModel, Press, SurfaceField}
 use palpate_mechanics::surface_response::{SurfaceResponse, TipField};
 
 use crate::tool::Tool;
+use crate::walls::Walls;
 use crate::{Error, Progress, Resources, held_region};
 pub use enhanced_surface::{EnhancedSurface, OrganField};
 use key::Ingredients;
 use method::Method;
 use solve::Found;
-use walls::Walls;
 
 /// How the whole organ answers.
 #[derive(Debug, Clone)]

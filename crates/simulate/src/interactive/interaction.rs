@@ -6,8 +6,9 @@ use palpate_files::SessionRow;
 use palpate_servo::{Clock, Fault, LoopReport, Sample, ServoSettings, ServoThread, latest, log};
 
 use super::model_loop::ModelLoop;
+use super::order::orders;
 use super::stations::{Parts, Station, Watch, take_apart};
-use super::{ModelReport, Quality, Snapshot};
+use super::{ModelReport, Order, Quality, Snapshot};
 use crate::{Error, Simulation};
 
 /// Rows that have room until somebody reads them: a minute of two tools at 200 Hz.
@@ -21,6 +22,7 @@ pub struct Interaction {
     servos: Vec<Option<ServoThread>>,
     watches: Vec<Option<Watch>>,
     rows: log::Reader<SessionRow>,
+    orders: log::Writer<Order>,
     snapshots: latest::Receiver<Snapshot>,
     clock: Clock,
 }
@@ -37,6 +39,7 @@ impl Interaction {
     ) -> Result<Self, Error> {
         let parts = take_apart(&simulation, stations, settings)?;
         let (rows, read_rows) = log::ring(ROWS);
+        let (give, orders) = orders();
         let (snapshots, seen) = latest::channel(&Snapshot::new(&simulation));
         let clock = Clock::real();
         let (mut servos, mut lines, mut watches) = (Vec::new(), Vec::new(), Vec::new());
@@ -54,7 +57,7 @@ impl Interaction {
         let stop = Arc::new(AtomicBool::new(false));
         let asked = stop.clone();
         let period = simulation.step();
-        let model = ModelLoop::new(simulation, lines, rows, snapshots);
+        let model = ModelLoop::new(simulation, lines, (orders, rows), snapshots);
         let thread = std::thread::Builder::new().name("model".to_owned());
         let handle = thread.spawn(move || run(model, clock, period, &asked));
         Ok(Self {
@@ -63,6 +66,7 @@ impl Interaction {
             servos,
             watches,
             rows: read_rows,
+            orders: give,
             snapshots: seen,
             clock,
         })
@@ -76,6 +80,11 @@ impl Interaction {
     /// The latest that there is to see.
     pub fn snapshot(&mut self) -> &Snapshot {
         self.snapshots.latest()
+    }
+
+    /// Gives an order to the model, which obeys before its next step.
+    pub fn order(&mut self, order: Order) {
+        self.orders.add(order);
     }
 
     /// The rows of the session that nobody has read yet.

@@ -5,6 +5,8 @@
 //!  writer        ◀─every SessionRow─      step           ◀───latest(Sample)────  extrapolate, limit
 //! ```
 //!
+//! An [`Order`] (pause, undo, anew) goes to the model by a ring of its own.
+//!
 //! Nobody waits for anybody: what was not read is replaced, and what finds no room is counted.
 //! [`Interaction`] runs it on the machine's clock; [`VirtualInteraction`] runs the same parts on a virtual
 //! one, in one thread, the same to the last bit every time.
@@ -20,6 +22,7 @@ mod interaction;
 mod judge;
 mod model_loop;
 mod mount;
+mod order;
 mod quality;
 mod scene_devices;
 mod scripted;
@@ -33,8 +36,9 @@ pub use happenings::{Happening, Happenings};
 pub use interaction::Interaction;
 pub use judge::judge_samples;
 pub use mount::Mount;
+pub use order::Order;
 pub use quality::{ExtrapolationError, ModelReport, Quality};
 pub use scene_devices::SceneDevices;
-pub use snapshot::{ContactSnapshot, Snapshot, ToolSnapshot};
+pub use snapshot::{ContactSnapshot, OpenedSnapshot, Snapshot, ToolSnapshot};
 pub use stations::Station;
 pub use virtual_interaction::VirtualInteraction;

@@ -3,13 +3,13 @@ use std::time::Instant;
 
 use palpate_files::{Pose, SessionRow};
 use palpate_geometry::Vec3;
-use palpate_servo::{Histogram, Sample, latest, log};
+use palpate_servo::{AffineForce, Histogram, Sample, latest, log};
 
 use super::hand_over::affine_force;
 use super::judge::made;
 use super::quality::ExtrapolationError;
 use super::stations::Line;
-use super::{Happenings, ModelReport, Mount, Snapshot};
+use super::{Happenings, ModelReport, Mount, Order, Snapshot};
 use crate::{Simulation, SimulationState, SimulationWorkspace, step};
 
 /// The period of a display [s], with some room: a step that is a little early counts.
@@ -28,6 +28,8 @@ pub(super) struct ModelLoop {
     poses: Vec<Option<Pose>>,
     felt: Vec<Vec3>,
     rows: log::Writer<SessionRow>,
+    orders: log::Reader<Order>,
+    paused: bool,
     snapshots: latest::Sender<Snapshot>,
     happenings: Happenings,
     step_times: Histogram,
@@ -41,7 +43,7 @@ impl ModelLoop {
     pub(super) fn new(
         simulation: Arc<Simulation>,
         lines: Vec<Option<Line>>,
-        rows: log::Writer<SessionRow>,
+        (orders, rows): (log::Reader<Order>, log::Writer<SessionRow>),
         snapshots: latest::Sender<Snapshot>,
     ) -> Self {
         let tools = lines.len();
@@ -54,6 +56,8 @@ impl ModelLoop {
             poses: vec![None; tools],
             felt: vec![Vec3::zeros(); tools],
             rows,
+            orders,
+            paused: false,
             snapshots,
             happenings: Happenings::default(),
             step_times: Histogram::default(),
@@ -68,6 +72,12 @@ impl ModelLoop {
     pub(super) fn step(&mut self, time: f64) {
         let start = Instant::now();
         self.read_hands();
+        self.obey();
+        if self.paused {
+            // What was missed meanwhile is not made up for.
+            self.last = self.last.map(|_| time);
+            return;
+        }
         // Before the first step nothing was touched; the first way in is taken as one period long.
         let elapsed = self.last.map_or(self.simulation.step(), |last| time - last);
         if self.last.is_none() {
@@ -91,8 +101,11 @@ impl ModelLoop {
         let tools = self.simulation.tools().iter().zip(&self.state.tools);
         for ((line, sample), (tool, state)) in self.lines.iter_mut().zip(&self.samples).zip(tools) {
             if let (Some(line), Some(sample)) = (line, sample) {
-                line.answers
-                    .send(affine_force(tool, state, sample.state.time));
+                let time = sample.state.time;
+                line.answers.send(match self.paused {
+                    true => AffineForce::none(time),
+                    false => affine_force(tool, state, time),
+                });
             }
         }
         let report = self.report();
@@ -102,12 +115,14 @@ impl ModelLoop {
             felt,
             happenings,
             last,
+            paused,
             ..
         } = self;
         snapshots.send_with(|snapshot| {
             snapshot.fill(last.unwrap_or(0.0), state, felt);
             snapshot.happenings = *happenings;
             snapshot.report = report;
+            snapshot.paused = *paused;
         });
     }
 
@@ -129,6 +144,19 @@ impl ModelLoop {
             },
             step_times: self.step_times.percentiles(),
             extrapolation: self.error,
+        }
+    }
+
+    fn obey(&mut self) {
+        while let Some(order) = self.orders.next_value() {
+            match order {
+                Order::Pause => self.paused = true,
+                Order::Resume => self.paused = false,
+                Order::Reset => self.state.begin_anew(&self.simulation),
+                Order::UndoCut => {
+                    self.state.undo_cut();
+                }
+            }
         }
     }
 

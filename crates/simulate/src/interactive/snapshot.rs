@@ -2,6 +2,7 @@ use palpate_files::Pose;
 use palpate_geometry::Vec3;
 
 use super::{Happenings, ModelReport};
+use crate::cutting::Cuts;
 use crate::state::{SimulationState, ToolState};
 use crate::{OrganField, Simulation};
 
@@ -12,6 +13,10 @@ pub struct Snapshot {
     pub time: f64,
     /// The vertices of the deformed organ [m], in the order of the surface's.
     pub vertices: Vec<[f32; 3]>,
+    /// What takes the place of these where the organ is cut.
+    pub opened: Option<OpenedSnapshot>,
+    /// Whether everything stands still.
+    pub paused: bool,
     /// What moved them, if the whole organ answers.
     pub whole: Option<OrganField>,
     /// Per tool, in the scene's order.
@@ -35,6 +40,23 @@ pub struct ToolSnapshot {
     pub felt: Vec3,
     /// What it touches.
     pub contact: Option<ContactSnapshot>,
+    /// Whether its edge is in the tissue.
+    pub cuts: bool,
+}
+
+/// The organ's triangles with their openings.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct OpenedSnapshot {
+    /// Another number whenever the triangles are others; with zero nothing is cut, and the rest is empty.
+    pub version: u64,
+    /// Where the vertices are when the organ is at rest and its openings are closed [m].
+    pub rest: Vec<[f32; 3]>,
+    /// Where they are now [m].
+    pub places: Vec<[f32; 3]>,
+    /// The vertices of each triangle, counter-clockwise from outside.
+    pub triangles: Vec<[u32; 3]>,
+    /// The edges at which it is open: two vertices, in the order of their triangle.
+    pub rims: Vec<[u32; 2]>,
 }
 
 /// A contact after a step.
@@ -58,10 +80,16 @@ impl Snapshot {
             force: Vec3::zeros(),
             felt: Vec3::zeros(),
             contact: None,
+            cuts: false,
         };
         Self {
             time: 0.0,
             vertices: vertices.iter().map(single).collect(),
+            opened: simulation
+                .cutting
+                .as_ref()
+                .map(|_| OpenedSnapshot::default()),
+            paused: false,
             whole: OrganField::at_rest(simulation),
             tools: vec![nobody; simulation.tools().len()],
             happenings: Happenings::default(),
@@ -69,11 +97,14 @@ impl Snapshot {
         }
     }
 
-    /// Takes over `state`; nothing is allocated.
+    /// Takes over `state`; nothing is allocated but for triangles that a cut has added.
     pub(super) fn fill(&mut self, time: f64, state: &SimulationState, felt: &[Vec3]) {
         self.time = time;
         for (seen, vertex) in self.vertices.iter_mut().zip(state.deformed.vertices()) {
             *seen = single(vertex);
+        }
+        if let (Some(seen), Some(cuts)) = (&mut self.opened, &state.cuts) {
+            seen.fill(cuts);
         }
         if let (Some(seen), Some(whole)) = (&mut self.whole, &state.whole) {
             seen.copy(whole);
@@ -81,6 +112,43 @@ impl Snapshot {
         for ((seen, tool), felt) in self.tools.iter_mut().zip(&state.tools).zip(felt) {
             *seen = ToolSnapshot::new(tool, *felt);
         }
+    }
+}
+
+impl OpenedSnapshot {
+    /// Takes over `cuts`.
+    fn fill(&mut self, cuts: &Cuts) {
+        if !cuts.are_there() {
+            return self.clear();
+        }
+        self.places.clear();
+        self.places.extend(cuts.places().iter().map(single));
+        if self.version == cuts.version() {
+            return;
+        }
+        self.version = cuts.version();
+        let mesh = cuts.mesh();
+        self.rest.clear();
+        self.rest.extend(mesh.vertices().iter().map(single));
+        self.triangles.clear();
+        self.rims.clear();
+        for id in mesh.triangle_ids() {
+            let corners = mesh.corners(id).map(|node| node.0);
+            self.triangles.push(corners);
+            for (edge, side) in cuts.surface().sides(id).into_iter().enumerate() {
+                if side.is_some() {
+                    self.rims.push([corners[edge], corners[(edge + 1) % 3]]);
+                }
+            }
+        }
+    }
+
+    fn clear(&mut self) {
+        self.version = 0;
+        self.rest.clear();
+        self.places.clear();
+        self.triangles.clear();
+        self.rims.clear();
     }
 }
 
@@ -96,6 +164,7 @@ impl ToolSnapshot {
                 normal: contact.normal(),
                 depth: contact.depth,
             }),
+            cuts: tool.blade.is_some(),
         }
     }
 }

@@ -4,8 +4,9 @@ use palpate_files::SessionRow;
 use palpate_servo::{Fault, Sample, ServoLoop, ServoSettings, latest, log};
 
 use super::model_loop::ModelLoop;
+use super::order::orders;
 use super::stations::{Station, Watch, take_apart};
-use super::{Quality, Snapshot};
+use super::{Order, Quality, Snapshot};
 use crate::{Error, Simulation};
 
 /// An interaction on a virtual clock, in one thread: the same hands give the same bytes. The model's answer
@@ -16,6 +17,7 @@ pub struct VirtualInteraction {
     servos: Vec<Option<ServoLoop>>,
     watches: Vec<Option<Watch>>,
     rows: log::Reader<SessionRow>,
+    orders: log::Writer<Order>,
     snapshots: latest::Receiver<Snapshot>,
     period: f64,
     tick: u64,
@@ -34,6 +36,7 @@ impl VirtualInteraction {
     ) -> Result<Self, Error> {
         let parts = take_apart(&simulation, stations, settings)?;
         let (rows, read_rows) = log::ring(settings.log.max(1) * parts.len());
+        let (give, orders) = orders();
         let (snapshots, seen) = latest::channel(&Snapshot::new(&simulation));
         let (mut servos, mut lines, mut watches) = (Vec::new(), Vec::new(), Vec::new());
         for parts in parts {
@@ -46,10 +49,11 @@ impl VirtualInteraction {
         }
         Ok(Self {
             model_period: simulation.step(),
-            model: ModelLoop::new(simulation, lines, rows, snapshots),
+            model: ModelLoop::new(simulation, lines, (orders, rows), snapshots),
             servos,
             watches,
             rows: read_rows,
+            orders: give,
             snapshots: seen,
             period: settings.period,
             tick: 0,
@@ -87,6 +91,11 @@ impl VirtualInteraction {
     /// The latest that there is to see.
     pub fn snapshot(&mut self) -> &Snapshot {
         self.snapshots.latest()
+    }
+
+    /// Gives an order to the model, which obeys before its next step.
+    pub fn order(&mut self, order: Order) {
+        self.orders.add(order);
     }
 
     /// The rows of the session that nobody has read yet.

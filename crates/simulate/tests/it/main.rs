@@ -8,6 +8,7 @@
 
 mod agreement;
 mod analytic;
+mod cutting;
 mod data;
 mod enhanced;
 mod errors;

@@ -1,3 +1,5 @@
+//! How thick an organ is under its surface.
+
 use palpate_geometry::{AabbTree, Surface, TriangleId, Vec3};
 
 /// Constant boundary elements are 10 % too stiff in bending when their edges are this part of a wall [-]
@@ -11,7 +13,7 @@ const FEW: f64 = 0.1;
 const OF_A_WALL: f64 = 0.7;
 
 /// What lies under the triangles that can be touched.
-pub(super) struct Walls {
+pub(crate) struct Walls {
     /// Size of a triangle and thickness of the body under it [m], for each that can be touched.
     under: Vec<(f64, f64)>,
     /// Those of triangles too large for their walls.
@@ -21,7 +23,7 @@ pub(super) struct Walls {
 }
 
 impl Walls {
-    pub(super) fn new(surface: &Surface, touchable: &[TriangleId]) -> Self {
+    pub(crate) fn new(surface: &Surface, touchable: &[TriangleId]) -> Self {
         let mesh = surface.mesh();
         let tree = AabbTree::new(mesh);
         let (low, high) = mesh.bounds();
@@ -46,12 +48,12 @@ impl Walls {
     }
 
     /// Whether they are too thin for boundary elements on these triangles.
-    pub(super) fn are_thin(&self) -> bool {
+    pub(crate) fn are_thin(&self) -> bool {
         self.thin.len() as f64 > FEW * self.under.len() as f64
     }
 
     /// Longest edge of tetrahedra that bend as the walls do, and are no larger than a triangle [m].
-    pub(super) fn edge_of_tetrahedra(&self) -> f64 {
+    pub(crate) fn edge_of_tetrahedra(&self) -> f64 {
         let walls = if self.are_thin() {
             &self.thin
         } else {
@@ -62,7 +64,7 @@ impl Walls {
     }
 
     /// What deserves doubt when boundary elements are taken.
-    pub(super) fn doubt(&self) -> Option<String> {
+    pub(crate) fn doubt(&self) -> Option<String> {
         self.are_thin().then(|| {
             format!(
                 "{:.0} % of what can be touched are walls of {:.1} mm under triangles of {:.1} mm: more than 10 % too \
@@ -75,6 +77,16 @@ impl Walls {
             )
         })
     }
+}
+
+/// Triangles that are asked for a thickness.
+const ASKED: usize = 2_000;
+
+/// Thickness of the organ under the middle one of its triangles [m].
+pub(crate) fn typical_wall(surface: &Surface) -> f64 {
+    let every = surface.mesh().triangles().len().div_ceil(ASKED);
+    let asked: Vec<_> = surface.mesh().triangle_ids().step_by(every).collect();
+    median(&Walls::new(surface, &asked).under, |wall| wall.1)
 }
 
 /// The upper one of two; none of nothing is zero.

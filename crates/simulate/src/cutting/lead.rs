@@ -1,0 +1,80 @@
+use nalgebra::Vector3;
+use palpate_files::scene::ToolKind;
+use palpate_geometry::{Footing, Vec3, follow};
+
+use super::CuttingModel;
+use super::model::cuts;
+use crate::contact::place;
+use crate::simulation::Simulation;
+use crate::state::ToolState;
+use crate::tool::Tool;
+
+/// An edge that cuts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Blade {
+    /// Where it is on the resting surface.
+    pub(crate) footing: Footing,
+    /// Where the tip would be that is not held back [m].
+    tip: Vec3,
+}
+
+/// Whether a tool that touches cuts.
+pub(super) fn is_down(tool: &Tool, state: &ToolState) -> bool {
+    let by_hand = cuts(tool.kind) && state.pose.is_some_and(|pose| pose.cut);
+    state.contact.is_some() && (by_hand || state.breaks_through)
+}
+
+/// Leads the edge of a tool that cuts along the surface, as far as its resistance lets it, and has the tissue
+/// held there.
+pub(crate) fn lead(
+    simulation: &Simulation,
+    model: &CuttingModel,
+    tool: &Tool,
+    state: &mut ToolState,
+) {
+    let (true, Some(contact), Some(pose)) = (is_down(tool, state), state.contact, state.pose)
+    else {
+        state.blade = None;
+        return;
+    };
+    let tip = Vec3::from(pose.position_m);
+    let frame = contact.place.frame;
+    let flat = |way: &Vec3| {
+        let local = frame.tr_mul(way);
+        frame * Vector3::new(local.x, local.y, 0.0)
+    };
+    let blade = state.blade.unwrap_or_else(|| {
+        // It begins where the tissue is held.
+        let held = tip - flat(&(tip - contact.place.point));
+        let way = (&tip, &held);
+        let footing = follow(&simulation.surface, &tool.patches, &contact.footing, way);
+        Blade {
+            footing: footing.unwrap_or(contact.footing),
+            tip: held,
+        }
+    });
+    let behind = flat(&(tip - blade.tip));
+    let held = reach(model, tool, state).min(behind.norm());
+    let goal = tip - behind.try_normalize(0.0).unwrap_or_default() * held;
+    let way = (&blade.tip, &goal);
+    let footing =
+        follow(&simulation.surface, &tool.patches, &blade.footing, way).unwrap_or(contact.footing);
+    state.blade = Some(Blade { footing, tip: goal });
+    let held_at = (&footing, contact.depth);
+    if let Some(contact) = &mut state.contact {
+        contact.place = place(simulation, tool, held_at, Some(&frame));
+    }
+}
+
+/// How far the tip goes ahead of its edge before that goes on [m].
+fn reach(model: &CuttingModel, tool: &Tool, state: &ToolState) -> f64 {
+    if tool.kind == ToolKind::Scissors {
+        return 0.0;
+    }
+    let stiffness = 0.5 * (state.stiffness[(0, 0)] + state.stiffness[(1, 1)]);
+    if stiffness > 0.0 {
+        model.resistance / stiffness
+    } else {
+        0.0
+    }
+}

@@ -1,0 +1,22 @@
+use palpate_servo::log;
+
+/// What a window asks of the model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Order {
+    /// Stands still, without a force, until it shall go on.
+    Pause,
+    /// Goes on.
+    Resume,
+    /// Begins anew with the organ at rest and whole.
+    Reset,
+    /// Closes the last cut again.
+    UndoCut,
+}
+
+/// Orders that have room until the model's next step.
+const ROOM: usize = 64;
+
+/// Ends of the way that orders take.
+pub(super) fn orders() -> (log::Writer<Order>, log::Reader<Order>) {
+    log::ring(ROOM)
+}
