@@ -45,6 +45,8 @@ pub struct ToolState {
     pub force: Vec3,
     /// Stiffness of the contact in its frame [N/m]; zero without contact.
     pub stiffness: nalgebra::Matrix3<f64>,
+    /// With how much each of its jaws presses on the tissue that it holds [N]; zero without.
+    pub grip_force: f64,
     /// What the session records of the step.
     pub row: SessionRow,
     pub(crate) response: Option<Response>,
@@ -131,12 +133,18 @@ impl SimulationState {
 }
 
 impl ToolState {
+    /// Whether its jaws hold tissue.
+    pub fn holds(&self) -> bool {
+        false
+    }
+
     fn new(number: usize) -> Self {
         Self {
             pose: None,
             contact: None,
             force: Vec3::zeros(),
             stiffness: nalgebra::Matrix3::zeros(),
+            grip_force: 0.0,
             row: SessionRow {
                 time_s: 0.0,
                 tool: number,
@@ -148,6 +156,7 @@ impl ToolState {
                 contact: false,
                 depth_m: 0.0,
                 events: Events::NONE,
+                grip_force_n: 0.0,
             },
             response: None,
             elastic: Vec3::zeros(),

@@ -2,6 +2,7 @@
 //! the tools that touch it.
 
 mod cutting;
+mod jaws;
 mod model;
 mod model_words;
 mod organ;
@@ -14,6 +15,7 @@ mod view;
 use std::path::{Path, PathBuf};
 
 pub use cutting::{CutMode, Cutting};
+pub use jaws::Jaws;
 pub use model::{Enhancement, LocalSettings, Model};
 pub use model_words::{
     Assembly, EnhancementArea, Form, HandOver, IntegrationPoints, ModelKind, Placement,

@@ -1,3 +1,4 @@
+use super::Jaws;
 use crate::words::words;
 use crate::{Domain, Error, Keys};
 
@@ -75,6 +76,13 @@ pub struct Tool {
     pub tip: Tip,
     /// The point through which its shaft always passes [m]; none for a free tool.
     pub trocar_m: Option<[f64; 3]>,
+    /// Friction of its shaft in the trocar [N], which a hand feels along the shaft.
+    pub trocar_friction_n: f64,
+    /// How the abdominal wall resists a shaft that leans away from the organ: force on the hand per way
+    /// of the hand across [N/m].
+    pub trocar_stiffness_n_per_m: f64,
+    /// Its jaws; none of a probe and a hook.
+    pub jaws: Option<Jaws>,
     /// What moves it.
     pub device: DeviceKind,
 }
@@ -98,6 +106,9 @@ impl Default for Tool {
             kind: ToolKind::Probe,
             tip: Tip::default(),
             trocar_m: None,
+            trocar_friction_n: 0.0,
+            trocar_stiffness_n_per_m: 0.0,
+            jaws: None,
             device: DeviceKind::Mouse,
         }
     }
@@ -134,18 +145,38 @@ pub(super) fn from_keys(keys: &Keys<'_>) -> Result<Vec<Tool>, Error> {
 }
 
 impl Tool {
-    const KEYS: &[&str] = &["name", "kind", "tip", "trocar_m", "device"];
+    const KEYS: &[&str] = &[
+        "name",
+        "kind",
+        "tip",
+        "trocar_m",
+        "trocar_friction_n",
+        "trocar_stiffness_n_per_m",
+        "jaws",
+        "device",
+    ];
 
     fn from_keys(keys: &Keys<'_>, default_name: &str) -> Result<Self, Error> {
         let default = Self::default();
         let tip = keys.table("tip", Tip::KEYS)?;
+        let kind = keys.word("kind", ToolKind::WORDS)?.unwrap_or(default.kind);
+        let trocar_m = keys.vector("trocar_m")?;
+        let of_trocar = |key| -> Result<f64, Error> {
+            if trocar_m.is_none() {
+                keys.refuse(key, "`trocar_m` too, for a tool without one has none")?;
+            }
+            Ok(keys.number(key, Domain::NOT_NEGATIVE)?.unwrap_or(0.0))
+        };
         Ok(Self {
             name: keys
                 .text("name")?
                 .unwrap_or_else(|| default_name.to_owned()),
-            kind: keys.word("kind", ToolKind::WORDS)?.unwrap_or(default.kind),
+            kind,
             tip: tip.map_or(Ok(default.tip), |keys| Tip::from_keys(&keys))?,
-            trocar_m: keys.vector("trocar_m")?,
+            trocar_m,
+            trocar_friction_n: of_trocar("trocar_friction_n")?,
+            trocar_stiffness_n_per_m: of_trocar("trocar_stiffness_n_per_m")?,
+            jaws: Jaws::from_keys(keys, kind)?,
             device: keys
                 .word("device", DeviceKind::WORDS)?
                 .unwrap_or(default.device),

@@ -15,6 +15,8 @@ pub(super) struct Columns {
     contact: Column,
     depth: Column,
     event: Column,
+    /// Sessions before there were jaws have none.
+    grip_force: Option<Column>,
 }
 
 impl Columns {
@@ -34,6 +36,7 @@ impl Columns {
             contact: table.column("contact")?,
             depth: table.column("depth_m")?,
             event: table.column("event")?,
+            grip_force: table.optional_column("grip_force_n")?,
         })
     }
 
@@ -61,6 +64,7 @@ impl Columns {
             contact: row.truth(&self.contact)?,
             depth_m: finite(&self.depth)?,
             events: self.events(row)?,
+            grip_force_n: self.grip_force.as_ref().map_or(Ok(0.0), finite)?,
         })
     }
 

@@ -26,11 +26,13 @@ pub struct SessionRow {
     pub depth_m: f64,
     /// What happened.
     pub events: Events,
+    /// With how much each of its jaws presses on the tissue that it holds [N]; 0 without.
+    pub grip_force_n: f64,
 }
 
 /// The names of the columns, as written above the rows.
 pub(super) const COLUMNS: &str = "time_s,tool,x_m,y_m,z_m,qx,qy,qz,qw,grip,cut,\
-                                  fx_n,fy_n,fz_n,contact,depth_m,event";
+                                  fx_n,fy_n,fz_n,contact,depth_m,event,grip_force_n";
 
 impl SessionRow {
     /// The first number of the row that is not finite, with its column.
@@ -40,7 +42,7 @@ impl SessionRow {
             .find(|(_, value)| !value.is_finite())
     }
 
-    fn numbers(&self) -> [(&'static str, f64); 13] {
+    fn numbers(&self) -> [(&'static str, f64); 14] {
         let ([x, y, z], [fx, fy, fz]) = (self.position_m, self.force_n);
         let [qx, qy, qz, qw] = self.orientation;
         [
@@ -57,6 +59,7 @@ impl SessionRow {
             ("fy_n", fy),
             ("fz_n", fz),
             ("depth_m", self.depth_m),
+            ("grip_force_n", self.grip_force_n),
         ]
     }
 
@@ -72,6 +75,7 @@ impl SessionRow {
             write!(text, ",{value:?}")?;
         }
         let contact = u8::from(self.contact);
-        writeln!(text, ",{contact},{:?},{}", self.depth_m, self.events)
+        write!(text, ",{contact},{:?},{}", self.depth_m, self.events)?;
+        writeln!(text, ",{:?}", self.grip_force_n)
     }
 }

@@ -276,6 +276,26 @@ const BAD_SCENES: &[(&str, &str)] = &[
         "`tool[0].trocar_m` is [0, 1]; give a list of three",
     ),
     (
+        "[[tool]]\njaws = { length_m = 0.01 }",
+        "`tool[0].jaws` is a table; give no jaws to a tool that has none",
+    ),
+    (
+        "[[tool]]\nkind = \"scissors\"\njaws = { friction = 0.4 }",
+        "the key `tool[0].jaws.friction`",
+    ),
+    (
+        "[[tool]]\nkind = \"grasper\"\njaws = { opening_m = 0 }",
+        "`tool[0].jaws.opening_m` is 0; give a number above 0",
+    ),
+    (
+        "[[tool]]\ntrocar_friction_n = 0.2",
+        "`tool[0].trocar_friction_n` is 0.2; give `trocar_m` too",
+    ),
+    (
+        "[[tool]]\ntrocar_m = [0, 0, 1]\ntrocar_stiffness_n_per_m = -1",
+        "`tool[0].trocar_stiffness_n_per_m` is -1; give 0 or a number above 0",
+    ),
+    (
         "[[tool]]\n[[tool]]\n[[tool]]\n",
         "`tool` is a list of 3 tools; give at most two",
     ),

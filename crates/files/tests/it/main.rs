@@ -73,6 +73,9 @@ name = "right"
 kind = "grasper"
 tip = { shape = "sphere", radius_mm = 2, contact = "slip" }
 trocar_m = [0.0, -0.1, 0.2]
+trocar_friction_mn = 300
+trocar_stiffness_n_per_m = 20.0
+jaws = { length_mm = 20, width_mm = 5, opening_mm = 12, force_n = 3.0, friction = 0.3 }
 device = "force_dimension"
 [[tool]]
 name = "left"
@@ -184,11 +187,11 @@ const SESSION: &str = "# format = 1
 # step_s = 0.005
 # seed = 7
 # force_scale = 1.0
-time_s,tool,x_m,y_m,z_m,qx,qy,qz,qw,grip,cut,fx_n,fy_n,fz_n,contact,depth_m,event
-0.0,right,0.0,0.0,0.01,0.0,0.0,0.0,1.0,0.0,0,0.0,0.0,0.0,0,0.0,
-0.0,left,1.0,0.0,0.01,0.0,0.0,0.0,1.0,0.0,0,0.0,0.0,0.0,0,0.0,
-0.005,right,0.0,0.0,-0.001,0.0,0.0,0.0,1.0,0.5,1,0.0,1e-7,0.023,1,0.001,contact;cut
-0.005,left,1.0,0.0,0.01,0.0,0.0,0.0,1.0,0.0,0,0.0,0.0,0.0,0,0.0,
+time_s,tool,x_m,y_m,z_m,qx,qy,qz,qw,grip,cut,fx_n,fy_n,fz_n,contact,depth_m,event,grip_force_n
+0.0,right,0.0,0.0,0.01,0.0,0.0,0.0,1.0,0.0,0,0.0,0.0,0.0,0,0.0,,0.0
+0.0,left,1.0,0.0,0.01,0.0,0.0,0.0,1.0,0.0,0,0.0,0.0,0.0,0,0.0,,0.0
+0.005,right,0.0,0.0,-0.001,0.0,0.0,0.0,1.0,0.5,1,0.0,1e-7,0.023,1,0.001,contact;cut,0.25
+0.005,left,1.0,0.0,0.01,0.0,0.0,0.0,1.0,0.0,0,0.0,0.0,0.0,0,0.0,,0.0
 ";
 
 /// A recording with every key and extra columns.

@@ -75,6 +75,16 @@ fn every_key_of_the_tools_is_understood() {
     assert_eq!(tools[0].tip.radius_m, 0.002);
     assert_eq!(tools[0].tip.contact, TipContact::Slip);
     assert_eq!(tools[0].trocar_m, Some([0.0, -0.1, 0.2]));
+    assert_eq!(tools[0].trocar_friction_n, 0.3);
+    assert_eq!(tools[0].trocar_stiffness_n_per_m, 20.0);
+    let jaws = Jaws {
+        length_m: 0.02,
+        width_m: 0.005,
+        opening_m: 0.012,
+        force_n: 3.0,
+        friction: 0.3,
+    };
+    assert_eq!(tools[0].jaws, Some(jaws));
     assert_eq!(tools[0].device, DeviceKind::ForceDimension);
     let left = Tool {
         name: "left".to_owned(),
@@ -118,6 +128,25 @@ fn a_tool_without_a_name_takes_the_free_hand() {
         names("[[tool]]\nname = \"left\"\n[[tool]]"),
         ["left", "right"]
     );
+}
+
+#[test]
+fn jaws_are_those_of_the_kind() {
+    let jaws = |tool: &str| {
+        let organ = "[organ]\nbuiltin = \"cube\"\nbuiltin_tissue = \"pig-liver\"";
+        let scene = parse(&format!("format = 1\n{organ}\n[[tool]]\n{tool}"));
+        scene.tools[0].jaws
+    };
+    assert_eq!(jaws("kind = \"probe\""), None);
+    assert_eq!(jaws("kind = \"hook\""), None);
+    assert_eq!(jaws("kind = \"grasper\""), Some(Jaws::GRASPER));
+    assert_eq!(jaws("kind = \"scissors\""), Some(Jaws::SCISSORS));
+    let wider = Jaws {
+        opening_m: 0.015,
+        ..Jaws::SCISSORS
+    };
+    let stated = "kind = \"scissors\"\njaws = { opening_mm = 15 }";
+    assert_eq!(jaws(stated), Some(wider));
 }
 
 #[test]

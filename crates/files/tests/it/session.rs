@@ -29,6 +29,7 @@ fn row(step: u32) -> SessionRow {
         contact: true,
         depth_m: 0.001,
         events: [Event::Contact, Event::Cut].into_iter().collect(),
+        grip_force_n: 0.1 * time_s,
     }
 }
 
@@ -47,6 +48,24 @@ fn a_session_is_understood() {
     assert!(row.events.contains(Event::Cut) && !row.events.contains(Event::Grip));
     let motion = session.motion().unwrap();
     assert_eq!(motion.pose("right", 0.0025).unwrap().grip, 0.25);
+}
+
+#[test]
+fn a_session_before_there_were_jaws_is_read() {
+    let now = Session::parse(SESSION, "session.csv").unwrap();
+    assert_eq!(now.rows[2].grip_force_n, 0.25);
+    let mut before = String::new();
+    for line in SESSION.lines() {
+        let (kept, _) = match line.starts_with('#') {
+            true => (line, ""),
+            false => line.rsplit_once(',').unwrap(),
+        };
+        before += &format!("{kept}\n");
+    }
+    let before = Session::parse(&before, "session.csv").unwrap();
+    assert_eq!(before.rows.len(), now.rows.len());
+    assert_eq!(before.rows[2].force_n, now.rows[2].force_n);
+    assert!(before.rows.iter().all(|row| row.grip_force_n == 0.0));
 }
 
 #[test]

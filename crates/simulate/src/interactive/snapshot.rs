@@ -42,6 +42,10 @@ pub struct ToolSnapshot {
     pub contact: Option<ContactSnapshot>,
     /// Whether its edge is in the tissue.
     pub cuts: bool,
+    /// With how much each of its jaws presses on the tissue that it holds [N]; zero without.
+    pub grip_force: f64,
+    /// Whether its jaws hold tissue.
+    pub holds: bool,
 }
 
 /// The organ's triangles with their openings.
@@ -81,6 +85,8 @@ impl Snapshot {
             felt: Vec3::zeros(),
             contact: None,
             cuts: false,
+            grip_force: 0.0,
+            holds: false,
         };
         Self {
             time: 0.0,
@@ -165,6 +171,8 @@ impl ToolSnapshot {
                 depth: contact.depth,
             }),
             cuts: tool.blade.is_some(),
+            grip_force: tool.grip_force,
+            holds: tool.holds(),
         }
     }
 }

@@ -1,0 +1,72 @@
+use super::ToolKind;
+use crate::{Domain, Error, Keys};
+
+/// The jaws of a grasper, or the blades of scissors. Shut, they end at the tip and run along the shaft; they
+/// open along the tool's x, and their faces lie across it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Jaws {
+    /// From the joint to the end [m].
+    pub length_m: f64,
+    /// Across, along the tool's y [m]; 0 for blades.
+    pub width_m: f64,
+    /// Between their ends when they are open [m].
+    pub opening_m: f64,
+    /// The most with which each presses on what is between them [N]; 0 for blades.
+    pub force_n: f64,
+    /// Friction of tissue on their faces [-]; 0 for blades.
+    pub friction: f64,
+}
+
+impl Jaws {
+    /// Those of a short grasper of 5 mm shaft.
+    pub const GRASPER: Self = Self {
+        length_m: 0.012,
+        width_m: 0.004,
+        opening_m: 0.010,
+        force_n: 4.0,
+        friction: 0.4,
+    };
+
+    /// Those of scissors of 5 mm shaft.
+    pub const SCISSORS: Self = Self {
+        length_m: 0.012,
+        width_m: 0.0,
+        opening_m: 0.010,
+        force_n: 0.0,
+        friction: 0.0,
+    };
+
+    const OF_GRASPER: &[&str] = &["length_m", "width_m", "opening_m", "force_n", "friction"];
+    const OF_SCISSORS: &[&str] = &["length_m", "opening_m"];
+
+    /// Those of a tool of `kind` with `keys`; what is not stated has its default.
+    pub(super) fn from_keys(keys: &Keys<'_>, kind: ToolKind) -> Result<Option<Self>, Error> {
+        let (default, known) = match kind {
+            ToolKind::Grasper => (Self::GRASPER, Self::OF_GRASPER),
+            ToolKind::Scissors => (Self::SCISSORS, Self::OF_SCISSORS),
+            ToolKind::Probe | ToolKind::Hook => {
+                let mend = "no jaws to a tool that has none, or `kind` \"grasper\" or \"scissors\"";
+                keys.refuse("jaws", mend)?;
+                return Ok(None);
+            }
+        };
+        let Some(keys) = keys.table("jaws", known)? else {
+            return Ok(Some(default));
+        };
+        let positive = |key, default| -> Result<f64, Error> {
+            Ok(keys.number(key, Domain::POSITIVE)?.unwrap_or(default))
+        };
+        let mut jaws = Self {
+            length_m: positive("length_m", default.length_m)?,
+            opening_m: positive("opening_m", default.opening_m)?,
+            ..default
+        };
+        if kind == ToolKind::Grasper {
+            jaws.width_m = positive("width_m", default.width_m)?;
+            jaws.force_n = positive("force_n", default.force_n)?;
+            let friction = keys.number("friction", Domain::NOT_NEGATIVE)?;
+            jaws.friction = friction.unwrap_or(default.friction);
+        }
+        Ok(Some(jaws))
+    }
+}
