@@ -93,6 +93,16 @@ pub enum Error {
         /// The scene's word for the device.
         device: String,
     },
+    /// A tool would pass through the abdominal wall inside the organ.
+    #[error(
+        "the trocar of the tool {tool:?} lies inside the organ, {:.1} mm below its surface; move `trocar_m` to the abdominal wall, outside of it", 1e3 * depth
+    )]
+    TrocarInOrgan {
+        /// The tool.
+        tool: String,
+        /// How deep it lies [m].
+        depth: f64,
+    },
     /// The thread of the model ended in a panic.
     #[error("the model thread panicked, and the devices were stopped; report it as a defect")]
     ModelPanicked,

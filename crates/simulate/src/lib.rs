@@ -28,6 +28,7 @@ mod step;
 mod summary;
 mod tip_laws;
 mod tool;
+mod trocar;
 mod walls;
 
 pub use contact::Contact;
@@ -42,3 +43,4 @@ pub use state::{SimulationState, SimulationWorkspace, ToolState};
 pub use step::{TRUSTED_DEPTH, step};
 pub use summary::{CutSummary, StepTimes, Summary};
 pub use tool::Tool;
+pub use trocar::Trocar;

@@ -8,7 +8,7 @@ use palpate_mechanics::Material;
 use crate::cutting::CuttingModel;
 use crate::global::{GlobalModel, GlobalProblem, ResponseOrigin};
 use crate::tool::{Tool, settings};
-use crate::{Error, Progress, Resources, Work, digest, organ, tip_laws};
+use crate::{Error, Progress, Resources, Work, digest, organ, tip_laws, trocar};
 
 /// An organ and the tools that may touch it. Built once, never changed.
 #[derive(Debug, Clone)]
@@ -56,6 +56,9 @@ impl Simulation {
         let material = Material::from_tissue(&tissue)?;
         doubts.extend(material.doubts.iter().cloned());
         let tree = AabbTree::new(surface.mesh());
+        for tool in &scene.tools {
+            trocar::check(tool, (&surface, &tree))?;
+        }
         let settings = settings(&scene.model.local);
         let mut tools = scene
             .tools

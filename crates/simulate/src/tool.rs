@@ -7,6 +7,8 @@ use palpate_mechanics::finite_spheres::{
 use palpate_mechanics::surface_response::TipField;
 use palpate_mechanics::{Error, LinearElastic, TipLaw};
 
+use crate::trocar::Trocar;
+
 /// A tool of the scene with the model of the tissue under its tip.
 #[derive(Debug, Clone)]
 pub struct Tool {
@@ -22,6 +24,8 @@ pub struct Tool {
     pub(crate) law: TipLaw,
     /// Where it passes through the abdominal wall [m].
     pub trocar: Option<Vec3>,
+    /// What its hand feels there, and how it moves the tip.
+    pub fulcrum: Option<Trocar>,
     pub(crate) model: FiniteSphereModel,
     /// The organ's normals and curvatures as this tip feels them.
     pub(crate) patches: PatchField,
@@ -61,6 +65,14 @@ impl Tool {
             bond,
             law: TipLaw::linear(tip, bond, *law),
             trocar: tool.trocar_m.map(Vec3::from),
+            fulcrum: tool.trocar_m.map(|place| {
+                let (low, high) = surface.mesh().bounds();
+                Trocar {
+                    friction: tool.trocar_friction_n,
+                    stiffness: tool.trocar_stiffness_n_per_m,
+                    ..Trocar::new(Vec3::from(place), &(0.5 * (low + high)))
+                }
+            }),
             patches: PatchField::new(surface, model.held_radius(typical)),
             placement: settings.placement,
             field: None,

@@ -39,11 +39,12 @@ impl Controller for ForceRenderer {
         if !state.present {
             return Vec3::zeros();
         }
-        let place = self.mount.place_in_scene(&state.position);
         let velocity = state.velocity.unwrap_or_else(Vec3::zeros);
-        let velocity = self.mount.vector_in_scene(&velocity);
-        let force = self.extrapolator.force(state.time, &place, &velocity);
-        self.mount.force_in_device(&(force * self.force_scale))
+        let handle = (&state.position, &velocity);
+        let tip = self.mount.tip(&state.position);
+        let of_tip = self.mount.velocity_of_tip(&state.position, &velocity);
+        let force = self.extrapolator.force(state.time, &tip, &of_tip);
+        self.mount.force_on_handle(handle, &force) * self.force_scale
     }
 
     fn age(&self) -> Option<f64> {

@@ -203,7 +203,7 @@ impl ModelLoop {
 /// Where a sample's hand is in the scene; none where nobody is.
 pub(super) fn pose(mount: &Mount, sample: &Sample) -> Option<Pose> {
     let state = sample.state;
-    let place = mount.place_in_scene(&state.position);
+    let place = mount.tip(&state.position);
     let there = state.present && place.iter().all(|coordinate| coordinate.is_finite());
     there.then(|| Pose {
         position_m: place.into(),

@@ -1,7 +1,10 @@
 use nalgebra::UnitQuaternion;
 use palpate_geometry::Vec3;
 
-/// Where a device stands in the scene: x_scene = origin + scale · rotation x_device.
+use crate::Trocar;
+
+/// Where a device stands in the scene: x_scene = origin + scale · rotation x_device. Through a trocar its handle is
+/// the hand, else the tip.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mount {
     /// Where the device's origin is in the scene [m].
@@ -10,6 +13,8 @@ pub struct Mount {
     pub rotation: UnitQuaternion<f64>,
     /// Way in the scene over way of the hand [-].
     pub scale: f64,
+    /// Through which the handle moves the tip; none for a device that moves the tip itself.
+    pub trocar: Option<Trocar>,
 }
 
 impl Default for Mount {
@@ -19,6 +24,7 @@ impl Default for Mount {
             origin: Vec3::zeros(),
             rotation: UnitQuaternion::identity(),
             scale: 1.0,
+            trocar: None,
         }
     }
 }
@@ -32,6 +38,42 @@ impl Mount {
     /// A way [m] or velocity [m/s] of the device in the scene.
     pub fn vector_in_scene(&self, vector: &Vec3) -> Vec3 {
         self.rotation * (vector * self.scale)
+    }
+
+    /// The tip [m] of a handle at `position` of the device [m].
+    pub fn tip(&self, position: &Vec3) -> Vec3 {
+        let hand = self.place_in_scene(position);
+        self.trocar.map_or(hand, |trocar| trocar.tip(&hand))
+    }
+
+    /// The velocity of the tip [m/s] of a handle at `position` [m] with `velocity` [m/s], both of the device.
+    pub fn velocity_of_tip(&self, position: &Vec3, velocity: &Vec3) -> Vec3 {
+        let velocity = self.vector_in_scene(velocity);
+        let hand = self.place_in_scene(position);
+        self.trocar
+            .map_or(velocity, |trocar| trocar.velocity_of_tip(&hand, &velocity))
+    }
+
+    /// What a handle at `position` [m] with `velocity` [m/s] feels, in the device's frame, of a `force` on the tip
+    /// [N], and of the wall.
+    pub fn force_on_handle(&self, (position, velocity): (&Vec3, &Vec3), force: &Vec3) -> Vec3 {
+        let Some(trocar) = &self.trocar else {
+            return self.force_in_device(force);
+        };
+        let hand = self.place_in_scene(position);
+        let wall = trocar.wall_force(&hand, &self.vector_in_scene(velocity));
+        self.force_in_device(&(trocar.force_on_hand(&hand, force) + wall))
+    }
+
+    /// The force on the tip [N] that such a handle feels as `force` in the device's frame [N].
+    pub fn force_on_tip(&self, (position, velocity): (&Vec3, &Vec3), force: &Vec3) -> Vec3 {
+        let force = self.force_in_scene(force);
+        let Some(trocar) = &self.trocar else {
+            return force;
+        };
+        let hand = self.place_in_scene(position);
+        let wall = trocar.wall_force(&hand, &self.vector_in_scene(velocity));
+        trocar.force_on_tip(&hand, &(force - wall))
     }
 
     /// A force in the scene's frame in the device's [N]. Ways are scaled, forces are not.
@@ -55,6 +97,7 @@ mod tests {
             origin: Vec3::x(),
             rotation: UnitQuaternion::from_axis_angle(&Vec3::z_axis(), std::f64::consts::FRAC_PI_2),
             scale: 2.0,
+            trocar: None,
         };
         let place = mount.place_in_scene(&Vec3::x());
         // A quarter turn takes x to y; rounding of the cosine.

@@ -51,7 +51,8 @@ impl SceneDevices {
 
 impl Station {
     /// A scripted hand that moves `tool` on the organ where it is highest: from the surface to 4 mm below
-    /// it, out to 4 mm above it, and so on, twice in four seconds.
+    /// it, out to 4 mm above it, and so on, twice in four seconds. Through a trocar the hand goes straight, and
+    /// the tip nearly.
     pub fn palpating(simulation: &Simulation, tool: &Tool) -> Self {
         let surface = simulation.surface();
         let vertices = surface.mesh().vertices().iter().enumerate();
@@ -59,10 +60,19 @@ impl Station {
         let (place, outward) = highest.map_or((Vec3::zeros(), Vec3::z()), |(number, place)| {
             (*place, surface.vertex_normals()[number])
         });
-        Self::new(VirtualDevice::new(Trajectory::Sine {
-            center: place + outward * tool.overhang(),
-            amplitude: -outward * SCRIPTED_DEPTH,
+        let (mut center, mut amplitude) =
+            (place + outward * tool.overhang(), -outward * SCRIPTED_DEPTH);
+        if let Some(trocar) = &tool.fulcrum {
+            let ends = [center - amplitude, center + amplitude].map(|tip| trocar.hand(&tip));
+            center = 0.5 * (ends[0] + ends[1]);
+            amplitude = ends[1] - center;
+        }
+        let mut station = Self::new(VirtualDevice::new(Trajectory::Sine {
+            center,
+            amplitude,
             frequency: SCRIPTED_RATE,
-        }))
+        }));
+        station.mount.trocar = tool.fulcrum;
+        station
     }
 }

@@ -21,3 +21,4 @@ mod no_allocation;
 mod scenes;
 mod slides;
 mod thin_walls;
+mod trocar;
