@@ -38,6 +38,15 @@ fn press(
 ) {
     let tool = &simulation.tools[number];
     let own = &state.tools[number];
+    if let (Some((place, displaced)), Some(response)) = (own.grip.shown_place(), own.response) {
+        return move_near(
+            simulation,
+            (number, &displaced),
+            (&place, &response),
+            state,
+            workspace,
+        );
+    }
     let (Some(contact), Some(response), Some(pose)) = (&own.contact, &own.response, &own.pose)
     else {
         return;
@@ -46,15 +55,33 @@ fn press(
     let response: Response = *response;
     let moved = contact.displacement(tool, &Vec3::from(pose.position_m));
     let tip = place.frame * moved;
+    move_near(
+        simulation,
+        (number, &tip),
+        (&place, &response),
+        state,
+        workspace,
+    );
+}
+
+/// Moves the vertices near a place whose tip, that of tool `number`, has moved it by `tip` [m].
+fn move_near(
+    simulation: &Simulation,
+    (number, tip): (usize, &Vec3),
+    (place, response): (&LocalContact, &Response),
+    state: &mut SimulationState,
+    workspace: &mut SimulationWorkspace,
+) {
+    let tool = &simulation.tools[number];
     let reach = tool.model.shown_radius(place.radius);
-    collect_near(simulation, workspace, &place, reach);
+    collect_near(simulation, workspace, place, reach);
     for index in 0..workspace.near.len() {
         let node = workspace.near[index];
         let rest = simulation.surface.mesh().vertices()[node.index()];
         let model = &mut workspace.models[number];
         let by = tool
             .model
-            .displacement((&place, &response), model, &tip, &rest);
+            .displacement((place, response), model, tip, &rest);
         let from = state.deformed.vertices()[node.index()];
         if by.iter().all(|component| component.is_finite()) {
             state.deformed.move_vertex(node, from + by);

@@ -17,6 +17,7 @@ mod deform;
 mod digest;
 mod error;
 mod global;
+mod grip;
 pub mod interactive;
 mod organ;
 mod orientation;

@@ -7,6 +7,7 @@ use palpate_mechanics::finite_spheres::{FiniteSphereWorkspace, Response};
 
 use crate::cutting::{Blade, Cuts};
 use crate::global::{GlobalWorkspace, OrganField};
+use crate::grip::Grip;
 use crate::{Contact, Simulation};
 
 /// All that a step changes.
@@ -43,12 +44,13 @@ pub struct ToolState {
     pub contact: Option<Contact>,
     /// Force on the tool [N].
     pub force: Vec3,
-    /// Stiffness of the contact in its frame [N/m]; zero without contact.
+    /// Stiffness of the contact in its frame, of held tissue in the scene's [N/m]; zero without either.
     pub stiffness: nalgebra::Matrix3<f64>,
     /// With how much each of its jaws presses on the tissue that it holds [N]; zero without.
     pub grip_force: f64,
     /// What the session records of the step.
     pub row: SessionRow,
+    pub(crate) grip: Grip,
     pub(crate) response: Option<Response>,
     /// Force on the tool as it is displaced now, before relaxation [N].
     pub(crate) elastic: Vec3,
@@ -133,11 +135,6 @@ impl SimulationState {
 }
 
 impl ToolState {
-    /// Whether its jaws hold tissue.
-    pub fn holds(&self) -> bool {
-        false
-    }
-
     fn new(number: usize) -> Self {
         Self {
             pose: None,
@@ -158,6 +155,7 @@ impl ToolState {
                 events: Events::NONE,
                 grip_force_n: 0.0,
             },
+            grip: Grip::default(),
             response: None,
             elastic: Vec3::zeros(),
             site: None,

@@ -7,11 +7,11 @@ use palpate_geometry::Vec3;
 use palpate_mechanics::contact::Bond;
 use palpate_mechanics::{ForceHistory, NormalForce};
 
-use crate::contact::{self, Contact};
+use crate::contact;
 use crate::simulation::Simulation;
 use crate::state::{SimulationState, SimulationWorkspace, ToolState};
 use crate::tool::Tool;
-use crate::{cutting, deform, orientation};
+use crate::{cutting, deform, grip, orientation};
 
 /// Depth beyond which no model here has been compared with tissue [m].
 pub const TRUSTED_DEPTH: f64 = 0.010;
@@ -37,9 +37,10 @@ pub fn step(
         }
     }
     respond(simulation, state, workspace);
+    grip::act(simulation, elapsed, state, workspace);
     for (tool, state) in simulation.tools.iter().zip(&mut state.tools) {
         let failed = feel(simulation, tool, elapsed, state);
-        record(tool, time, failed, state);
+        record(simulation, tool, (time, failed), state);
     }
     if let Some(model) = &simulation.cutting {
         for number in 0..simulation.tools.len() {
@@ -63,18 +64,19 @@ fn detect(
     pose: Option<Pose>,
     state: &mut ToolState,
 ) -> Events {
-    let mut events = Events::NONE;
-    let touched = state.contact.is_some();
+    let touched = state.touches();
+    let mut events = grip::follow(tool, pose, state);
     state.pose = pose;
     let tip = pose.map(|pose| Vec3::from(pose.position_m));
+    let tip = tip.filter(|_| !state.holds());
     state.contact =
         tip.and_then(|tip| contact::detect(simulation, tool, state.contact.as_ref(), &tip));
     match (touched, state.contact) {
         (false, Some(contact)) => {
             events.insert(Event::Contact);
-            forget_elsewhere(tool, &contact, state);
+            state.forget_elsewhere(tool, &contact.point());
         }
-        (true, None) => events.insert(Event::Release),
+        (true, None) if !state.holds() => events.insert(Event::Release),
         _ => {}
     }
     let beyond = state.contact.is_some_and(|c| c.depth > TRUSTED_DEPTH);
@@ -85,17 +87,18 @@ fn detect(
     events
 }
 
-/// What tissue remembers of an earlier contact does not follow the tool to another place.
-fn forget_elsewhere(tool: &Tool, contact: &Contact, state: &mut ToolState) {
-    let near = tool.patches.radius();
-    let here = contact.point();
-    if state.history_at.is_none_or(|at| (at - here).norm() > near) {
-        state.history = ForceHistory::default();
+impl ToolState {
+    /// What tissue remembers of an earlier contact does not follow the tool to another place, `here` [m].
+    pub(crate) fn forget_elsewhere(&mut self, tool: &Tool, here: &Vec3) {
+        let near = tool.patches.radius();
+        if self.history_at.is_none_or(|at| (at - here).norm() > near) {
+            self.history = ForceHistory::default();
+        }
     }
 }
 
 /// 2. and 3. The elastic force and its stiffness, of the whole organ or of particles around each tip.
-fn respond(
+pub(crate) fn respond(
     simulation: &Simulation,
     state: &mut SimulationState,
     workspace: &mut SimulationWorkspace,
@@ -105,6 +108,9 @@ fn respond(
     }
     let tools = simulation.tools.iter().zip(&mut state.tools);
     for ((tool, state), workspace) in tools.zip(&mut workspace.models) {
+        if grip::answer(simulation, tool, state, workspace) {
+            continue;
+        }
         state.response = state
             .contact
             .filter(|contact| contact.place.radius > 0.0)
@@ -116,22 +122,28 @@ fn respond(
     }
 }
 
-/// 4. The force on the tool: elastic, then relaxed, never pulling.
+/// 4. The force on the tool: elastic, then relaxed; only jaws are pulled.
 fn feel(simulation: &Simulation, tool: &Tool, elapsed: f64, state: &mut ToolState) -> Events {
     let relaxed = state
         .history
         .advance(&simulation.material.prony, state.elastic, elapsed);
     state.force = Vec3::zeros();
     state.with_pull = Vec3::zeros();
-    let Some(contact) = &state.contact else {
+    let held = state.grip.hold.as_ref().map(|hold| hold.seen.place);
+    let Some(here) = held.or(state.contact.map(|contact| contact.point())) else {
         return Events::NONE;
     };
-    state.history_at = Some(contact.point());
+    state.history_at = Some(here);
     if !relaxed.iter().all(|component| component.is_finite()) {
         // A force that is no number is none, and is told.
         state.history = ForceHistory::default();
         return [Event::NonFiniteForce].into_iter().collect();
     }
+    let Some(contact) = &state.contact else {
+        state.with_pull = relaxed;
+        state.force = relaxed;
+        return Events::NONE;
+    };
     // Tissue that has not come back yet does not hold the tool: there is no adhesion.
     let outward = relaxed.dot(&contact.normal());
     state.with_pull = match tool.bond {
@@ -164,18 +176,29 @@ fn elastic_force(tool: &Tool, state: &mut ToolState) -> Vec3 {
     force
 }
 
-fn record(tool: &Tool, time: f64, failed: Events, state: &mut ToolState) {
+fn record(
+    simulation: &Simulation,
+    tool: &Tool,
+    (time, failed): (f64, Events),
+    state: &mut ToolState,
+) {
     let Some(pose) = &state.pose else {
         return;
     };
-    let normal = state.contact.map(|contact| contact.normal());
     let tip = Vec3::from(pose.position_m);
-    let turned = orientation::orientation(
-        &tip,
-        tool.trocar.as_ref(),
-        pose.orientation,
-        normal.as_ref(),
-    );
+    let turned = match &state.grip.hold {
+        Some(hold) => *hold.turned(),
+        None => {
+            let normal = state.contact.map(|contact| contact.normal());
+            let trocar = tool.trocar.as_ref();
+            orientation::orientation(&tip, trocar, pose.orientation, normal.as_ref())
+        }
+    };
+    let held_depth = state.holds().then(|| {
+        let (_, signed) = simulation.surface.signed_distance(&simulation.tree, &tip);
+        (tool.overhang() - signed).max(0.0)
+    });
+    let touches = state.touches();
     let row = &mut state.row;
     row.time_s = time;
     row.position_m = pose.position_m;
@@ -183,8 +206,9 @@ fn record(tool: &Tool, time: f64, failed: Events, state: &mut ToolState) {
     row.grip = pose.grip;
     row.cut = pose.cut;
     row.force_n = state.force.into();
-    row.contact = state.contact.is_some();
-    row.depth_m = state.contact.map_or(0.0, |contact| contact.depth);
+    row.contact = touches;
+    row.depth_m = held_depth.unwrap_or(state.contact.map_or(0.0, |contact| contact.depth));
+    row.grip_force_n = state.grip_force;
     row.events = row.events | failed;
 }
 
@@ -211,6 +235,8 @@ fn touch_with_shaft(tool: &Tool, number: usize, state: &mut SimulationState) {
     let known = tool.trocar.is_some() || pose.orientation.is_some();
     // Near the tip the shaft stands in the dimple that the tip makes.
     let clear = 2.0 * tool.patches.radius();
+    // Jaws are there for what is between them.
+    let clear = tool.jaws.map_or(clear, |jaws| clear.max(jaws.length_m));
     let tip = Vec3::from(pose.position_m);
     let [i, j, k, w] = own.row.orientation;
     let turned = nalgebra::Unit::new_unchecked(nalgebra::Quaternion::new(w, i, j, k));

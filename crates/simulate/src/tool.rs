@@ -22,6 +22,8 @@ pub struct Tool {
     pub bond: Bond,
     /// The force of the tissue on it.
     pub(crate) law: TipLaw,
+    /// Its jaws, if it can hold tissue.
+    pub jaws: Option<scene::Jaws>,
     /// Where it passes through the abdominal wall [m].
     pub trocar: Option<Vec3>,
     /// What its hand feels there, and how it moves the tip.
@@ -64,6 +66,7 @@ impl Tool {
             tip,
             bond,
             law: TipLaw::linear(tip, bond, *law),
+            jaws: tool.jaws.filter(|_| tool.kind == scene::ToolKind::Grasper),
             trocar: tool.trocar_m.map(Vec3::from),
             fulcrum: tool.trocar_m.map(|place| {
                 let (low, high) = surface.mesh().bounds();

@@ -7,7 +7,7 @@ use palpate_mechanics::surface_response::PressedTip;
 use super::enhanced_surface::SeenContact;
 use super::{GlobalModel, GlobalWorkspace};
 use crate::simulation::Simulation;
-use crate::state::SimulationState;
+use crate::state::{SimulationState, ToolState};
 
 /// Where a vertex goes [m]; it stays where its displacement is no number.
 pub(super) fn moved(from: &Vec3, by: &Vec3) -> Vec3 {
@@ -29,7 +29,7 @@ impl GlobalModel {
             return;
         }
         state.shown_at = time;
-        let touched = state.tools.iter().any(|tool| tool.contact.is_some());
+        let touched = state.tools.iter().any(ToolState::touches);
         if !touched && !state.shown_deformed {
             return;
         }
@@ -57,6 +57,30 @@ impl GlobalModel {
         }
     }
 
+    /// Sums the displacements of all triangles [m] that the tips and the jaws make.
+    pub(super) fn sum_field(
+        &self,
+        simulation: &Simulation,
+        tools: &[ToolState],
+        workspace: &mut GlobalWorkspace,
+    ) {
+        let GlobalWorkspace { sums, held, .. } = workspace;
+        sums.fill(0.0);
+        let modulus = simulation.material.at_rest.youngs_modulus();
+        for (tool, own) in simulation.tools.iter().zip(tools) {
+            let contact = SeenContact::of(tool, own);
+            if let (Some(contact), Some(load)) = (contact, self.load(tool, own)) {
+                let tip = self.pressed(&contact.press, &(-own.elastic / modulus));
+                self.response.add_field_of_tip(&load, &tip.force, sums);
+                let surface = self.enhancement.interpolation().surface();
+                self.response.sharpen(surface, &load, &tip, sums);
+            }
+        }
+        for (_, touch, force) in held.forces() {
+            self.response.add_field(touch, &(force / modulus), sums);
+        }
+    }
+
     fn find_field(
         &self,
         simulation: &Simulation,
@@ -66,18 +90,10 @@ impl GlobalModel {
         let Some(organ) = &mut state.whole else {
             return;
         };
-        workspace.sums.fill(0.0);
-        let modulus = simulation.material.at_rest.youngs_modulus();
-        for (number, (tool, own)) in simulation.tools.iter().zip(&state.tools).enumerate() {
-            let contact = SeenContact::of(tool, own);
-            organ.contacts[number] = contact;
-            if let (Some(contact), Some(load)) = (contact, self.load(tool, own)) {
-                let tip = self.pressed(&contact.press, &(-own.elastic / modulus));
-                let sums = &mut workspace.sums;
-                self.response.add_field_of_tip(&load, &tip.force, sums);
-                let surface = self.enhancement.interpolation().surface();
-                self.response.sharpen(surface, &load, &tip, sums);
-            }
+        self.sum_field(simulation, &state.tools, workspace);
+        let tools = simulation.tools.iter().zip(&state.tools);
+        for (contact, (tool, own)) in organ.contacts.iter_mut().zip(tools) {
+            *contact = SeenContact::of(tool, own).or_else(|| SeenContact::of_hold(tool, own));
         }
         for (vector, sums) in organ
             .displacements
@@ -86,6 +102,21 @@ impl GlobalModel {
         {
             let [x, y, z] = sums.map(f64::from);
             *vector = Vec3::new(x, y, z);
+        }
+        // Exactly where the jaws have them: influences are reciprocal to some percent only.
+        for hold in state
+            .tools
+            .iter()
+            .filter_map(|tool| tool.grip.hold.as_ref())
+        {
+            for (part, triangles) in hold.patch().into_iter().flat_map(|patch| patch.parts()) {
+                for one in triangles {
+                    let touchable = self.response.touchable()[one.touch.index()];
+                    let at = touchable.centroid + part.at - part.rest;
+                    organ.displacements[touchable.triangle.index()] =
+                        hold.carried(&at) - touchable.centroid;
+                }
+            }
         }
         let interpolation = self.enhancement.interpolation();
         let contacts = organ.contacts.iter().flatten();

@@ -1,8 +1,10 @@
 use palpate_files::scene::{Enhancement, EnhancementArea};
 use palpate_geometry::{NodeId, TriangleId, TriangleMesh, Vec3};
+use palpate_mechanics::contact::Tip;
 use palpate_mechanics::enhance::{Carrier, EnhancedPatch, EnhancementModel, Press, SurfaceField};
 
 use super::deform::moved;
+use crate::grip::Swept;
 use crate::state::ToolState;
 use crate::tool::Tool;
 use crate::{Error, Simulation};
@@ -44,7 +46,24 @@ impl OrganField {
 }
 
 impl SeenContact {
-    /// Of a tool, if it touches.
+    /// Of a tool whose jaws hold the organ: the faces of jaws carry it as a flat tip of their area does.
+    pub(super) fn of_hold(tool: &Tool, state: &ToolState) -> Option<Self> {
+        let (hold, jaws) = (state.grip.hold.as_ref()?, tool.jaws?);
+        let radius = (Swept::face(&jaws) / std::f64::consts::PI).sqrt();
+        let press = Press {
+            at: hold.seen.at?,
+            tip: Tip::Flat { radius },
+            displacement: hold.displaced(),
+            own: Vec3::zeros(),
+        };
+        Some(Self {
+            triangle: hold.seen.triangle,
+            place: hold.seen.place,
+            press,
+        })
+    }
+
+    /// Of a tool, if its tip touches.
     pub(super) fn of(tool: &Tool, state: &ToolState) -> Option<Self> {
         let contact = state.contact.as_ref()?;
         let press = Press {

@@ -23,11 +23,13 @@
 
 mod deform;
 mod enhanced_surface;
+mod held;
 mod key;
 mod mechanical_surface;
 mod method;
 mod press;
 mod solve;
+mod take_hold;
 
 use std::ops::ControlFlow;
 use std::path::PathBuf;
@@ -44,9 +46,11 @@ use crate::tool::Tool;
 use crate::walls::Walls;
 use crate::{Error, Progress, Resources, held_region};
 pub use enhanced_surface::{EnhancedSurface, OrganField};
+use held::HeldWorkspace;
 use key::Ingredients;
 use method::Method;
 use solve::Found;
+use take_hold::Candidate;
 
 /// How the whole organ answers.
 #[derive(Debug, Clone)]
@@ -84,6 +88,8 @@ pub struct ResponseOrigin {
 pub(crate) struct GlobalWorkspace {
     /// Compliance [m/N] of tool i to a force on tool j, at i tools + j.
     between: Vec<Matrix3<f64>>,
+    held: HeldWorkspace,
+    between_jaws: Vec<Candidate>,
     /// Displacements of triangles [m], three numbers each.
     sums: Vec<f32>,
     field: SurfaceField,
@@ -104,6 +110,8 @@ impl GlobalModel {
         let triangles = self.response.parts().triangles;
         GlobalWorkspace {
             between: vec![Matrix3::zeros(); tools * tools],
+            held: HeldWorkspace::new(tools),
+            between_jaws: Vec::with_capacity(self.response.touchable().len()),
             sums: vec![0.0; 3 * triangles],
             field: SurfaceField::with_room(self.enhancement.interpolation(), tools),
             presses: Vec::with_capacity(tools),

@@ -1,7 +1,7 @@
 //! The forces of all tips on one organ: each has its own law and its share of what the organ yields.
 //!
 //! With d_i the displacement of tip i and C_ij the further compliance between tips, d_i = own law(F_i) +
-//! Σ_j C_ij F_j. Solved tip by tip (Gauss and Seidel); C is that of an elastic solid, so that this
+//! Σ_j C_ij F_j. Solved tip by tip, what jaws hold at once (Gauss and Seidel); C is that of an elastic solid, so that this
 //! converges, and two tips apart by some radii need a few sweeps.
 
 use nalgebra::Matrix3;
@@ -64,6 +64,7 @@ impl GlobalModel {
             state.stiffness = Matrix3::zeros();
         }
         self.couple(simulation, tools, softness, workspace);
+        let holds = self.hold(simulation, tools, workspace);
         for _ in 0..MOST_SWEEPS {
             let (mut change, mut largest) = (0.0_f64, 0.0_f64);
             for number in 0..tools.len() {
@@ -72,6 +73,11 @@ impl GlobalModel {
                 let force = tools[number].elastic;
                 change = change.max((force - before).norm());
                 largest = largest.max(force.norm());
+            }
+            if holds {
+                let (changed, force) = self.answer_held(simulation, tools, workspace);
+                change = change.max(changed);
+                largest = largest.max(force);
             }
             // One tool alone is done after the first.
             if tools.len() < 2 || change <= SETTLED * largest {
@@ -119,7 +125,7 @@ impl GlobalModel {
         let (Some(contact), Some(pose)) = (tools[number].contact, tools[number].pose) else {
             return;
         };
-        let mut carried = Vec3::zeros();
+        let mut carried = workspace.held.carries(number, tools.len());
         for (other, state) in tools.iter().enumerate() {
             if other != number {
                 carried -= workspace.between[number * tools.len() + other] * state.elastic;

@@ -8,8 +8,18 @@ use crate::tool::Tool;
 /// What the servo loop is told of `tool` after a step, in the scene's frame: f₀ is the relaxed force, K
 /// the stiffness at once, for tissue does not relax within two steps. A force that would pull is handed
 /// over as it is, and the loop leaves the pull out: a hand that turns around meets the tissue where it is.
+/// What jaws hold pulls and pushes.
 /// `time` [s] is that of the pose.
 pub fn affine_force(tool: &Tool, state: &ToolState, time: f64) -> AffineForce {
+    if let (true, Some(pose)) = (state.holds(), &state.pose) {
+        let tip = Vec3::from(pose.position_m);
+        let answer = AffineForce::new(time, tip, state.with_pull, -state.stiffness);
+        let finite = answer.gradient.iter().chain(answer.force.iter());
+        return match finite.into_iter().all(|component| component.is_finite()) {
+            true => answer,
+            false => AffineForce::none(time),
+        };
+    }
     let (Some(contact), Some(pose)) = (&state.contact, &state.pose) else {
         return AffineForce::none(time);
     };

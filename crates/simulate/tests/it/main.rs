@@ -12,6 +12,7 @@ mod cutting;
 mod data;
 mod enhanced;
 mod errors;
+mod grip;
 mod hand_over;
 mod hybrid;
 mod interactive;

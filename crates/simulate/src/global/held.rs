@@ -1,0 +1,312 @@
+//! What all jaws hold of one organ: triangles whose displacements are prescribed.
+//!
+//! With Ξ_hh the compliance of the held parts (triangles, or several with the mean of their displacements), d
+//! their displacements and c what the tips carry them by, the forces on them are f = E Ξ_hh⁻¹ (d − c) (4.7). Ξ_hh is symmetric and positive definite; it is factored
+//! by Cholesky where other triangles are held than in the step before, and a step only substitutes back.
+//! Tips and held triangles take turns in the sweeps of `press`. A tool feels −Σ f of its own, and answers a
+//! way of its jaws with S = E Σ Ξ_hh⁻¹ over its own.
+//!
+//! *How we know*: `grip::held_triangles_are_a_new_solution`, `grip::a_pull_is_that_of_finite_elements`,
+//! `grip::a_closed_way_gives_no_energy`.
+//!
+//! *Limits*: S leaves out that tips beside the jaws yield.
+
+use nalgebra::Matrix3;
+use palpate_geometry::Vec3;
+use palpate_mechanics::surface_response::TouchId;
+
+use super::{GlobalModel, GlobalWorkspace};
+use crate::grip::{HeldTriangle, MOST_PARTS, MOST_TRIANGLES};
+use crate::simulation::Simulation;
+use crate::state::ToolState;
+
+/// A pivot smaller than this part of its diagonal is rounding [-]: influences have 24 bits.
+const LEAST_PIVOT: f64 = 1e-6;
+
+/// The equations of what is held. They are made again where they are not those that are wanted.
+#[derive(Debug)]
+pub(super) struct HeldWorkspace {
+    /// The tool of each three of them, and the end of their triangles.
+    who: Vec<(usize, usize)>,
+    triangles: Vec<HeldTriangle>,
+    is_sound: bool,
+    /// Cholesky's factor of Ξ_hh, the rows of its lower half.
+    factor: Vec<f64>,
+    right: Vec<f64>,
+    /// On the held parts [N].
+    forces: Vec<Vec3>,
+    /// Compliance [m/N] of part k to a force on tip i, at k tools + i.
+    to_tips: Vec<Matrix3<f64>>,
+    /// Σ Ξ_hh⁻¹ over each tool's parts [m].
+    stiffness: Vec<Matrix3<f64>>,
+}
+
+impl HeldWorkspace {
+    pub(super) fn new(tools: usize) -> Self {
+        let most = tools * MOST_PARTS;
+        Self {
+            who: Vec::with_capacity(most),
+            triangles: Vec::with_capacity(tools * MOST_TRIANGLES),
+            is_sound: false,
+            factor: vec![0.0; 9 * most * most],
+            right: vec![0.0; 3 * most],
+            forces: vec![Vec3::zeros(); most],
+            to_tips: vec![Matrix3::zeros(); most * tools],
+            stiffness: vec![Matrix3::zeros(); tools],
+        }
+    }
+
+    /// Held triangles with their tools and forces [N].
+    pub(super) fn forces(&self) -> impl Iterator<Item = (usize, TouchId, Vec3)> {
+        (0..self.who.len()).flat_map(move |k| {
+            let triangles = self.part(k).iter();
+            triangles.map(move |one| (self.who[k].0, one.touch, self.forces[k] * one.weight))
+        })
+    }
+
+    /// Displacement [m] of the tip of tool `number`, one of so many, by the forces on what is held.
+    pub(super) fn carries(&self, number: usize, tools: usize) -> Vec3 {
+        let forces = self.forces.iter().take(self.who.len()).enumerate();
+        forces
+            .map(|(k, force)| self.to_tips[k * tools + number].tr_mul(force))
+            .sum()
+    }
+
+    /// The triangles of part `k`.
+    fn part(&self, k: usize) -> &[HeldTriangle] {
+        let start = k.checked_sub(1).map_or(0, |before| self.who[before].1);
+        &self.triangles[start..self.who[k].1]
+    }
+
+    /// Whether the equations are those of what `tools` hold.
+    fn is_of(&self, tools: &[ToolState]) -> bool {
+        let mut k = 0;
+        for (number, tool) in tools.iter().enumerate() {
+            for (_, triangles) in tool
+                .grip
+                .patch()
+                .into_iter()
+                .flat_map(|patch| patch.parts())
+            {
+                let same =
+                    k < self.who.len() && self.who[k].0 == number && self.part(k) == triangles;
+                if !same {
+                    return false;
+                }
+                k += 1;
+            }
+        }
+        k == self.who.len()
+    }
+
+    /// Takes over what `tools` hold.
+    fn fill(&mut self, tools: &[ToolState]) {
+        self.who.clear();
+        self.triangles.clear();
+        for (number, tool) in tools.iter().enumerate() {
+            for (_, triangles) in tool
+                .grip
+                .patch()
+                .into_iter()
+                .flat_map(|patch| patch.parts())
+            {
+                self.triangles.extend_from_slice(triangles);
+                self.who.push((number, self.triangles.len()));
+            }
+        }
+    }
+}
+
+impl GlobalModel {
+    /// Makes the equations of what `tools` hold ready, if they are not; whether they have an answer, where
+    /// anything is held.
+    pub(super) fn hold(
+        &self,
+        simulation: &Simulation,
+        tools: &[ToolState],
+        workspace: &mut GlobalWorkspace,
+    ) -> bool {
+        let softness = 1.0 / simulation.material.at_rest.youngs_modulus();
+        let held = &mut workspace.held;
+        self.factor(tools, held);
+        for k in 0..held.who.len() {
+            for (number, tool) in simulation.tools.iter().enumerate() {
+                let mut sum = Matrix3::zeros();
+                if let Some(load) = self.load(tool, &tools[number]) {
+                    for share in load.shares() {
+                        for one in held.part(k) {
+                            let compliance = self.response.compliance(one.touch, share.triangle);
+                            sum += compliance * (one.weight * share.weight);
+                        }
+                    }
+                }
+                held.to_tips[k * tools.len() + number] = sum * softness;
+            }
+        }
+        held.is_sound
+    }
+
+    /// Displacement of one held part from a unit force on another, times E [1/m].
+    pub(super) fn between_parts(
+        &self,
+        moved: &[HeldTriangle],
+        loaded: &[HeldTriangle],
+    ) -> Matrix3<f64> {
+        let mut sum = Matrix3::zeros();
+        for here in moved {
+            for there in loaded {
+                let compliance = self.response.compliance(here.touch, there.touch);
+                sum += compliance * (here.weight * there.weight);
+            }
+        }
+        sum
+    }
+
+    fn factor(&self, tools: &[ToolState], held: &mut HeldWorkspace) {
+        if held.is_of(tools) {
+            return;
+        }
+        held.fill(tools);
+        let size = 3 * held.who.len();
+        for i in 0..held.who.len() {
+            for j in 0..=i {
+                let block = self.between_parts(held.part(i), held.part(j));
+                for a in 0..3 {
+                    for b in 0..3 {
+                        held.factor[size * (3 * i + a) + 3 * j + b] = block[(a, b)];
+                    }
+                }
+            }
+        }
+        let matrix = &mut held.factor[..size * size];
+        held.is_sound = cholesky(matrix, size);
+        held.stiffness.fill(Matrix3::zeros());
+        if !held.is_sound {
+            return;
+        }
+        for number in 0..tools.len() {
+            for axis in 0..3 {
+                let right = &mut held.right[..size];
+                for (three, (tool, _)) in right.chunks_exact_mut(3).zip(&held.who) {
+                    three.fill(0.0);
+                    three[axis] = f64::from(u8::from(*tool == number));
+                }
+                substitute(matrix, right);
+                let column: Vec3 = right
+                    .chunks_exact(3)
+                    .zip(&held.who)
+                    .filter(|(_, (tool, _))| *tool == number)
+                    .map(|(three, _)| Vec3::from_column_slice(three))
+                    .sum();
+                held.stiffness[number].set_column(axis, &column);
+            }
+        }
+    }
+
+    /// The forces of all that is held beside those of the tips; the largest change of a tool's force, and the
+    /// largest force [N].
+    pub(super) fn answer_held(
+        &self,
+        simulation: &Simulation,
+        tools: &mut [ToolState],
+        workspace: &mut GlobalWorkspace,
+    ) -> (f64, f64) {
+        let modulus = simulation.material.at_rest.youngs_modulus();
+        let held = &mut workspace.held;
+        let size = 3 * held.who.len();
+        let right = &mut held.right[..size];
+        let mut k = 0;
+        for tool in tools.iter() {
+            let Some(hold) = &tool.grip.hold else {
+                continue;
+            };
+            for (part, _) in hold.patch().into_iter().flat_map(|patch| patch.parts()) {
+                let mut by = hold.carried(&part.at) - part.rest;
+                for (number, tip) in tools.iter().enumerate() {
+                    if tip.contact.is_some() {
+                        by += held.to_tips[k * tools.len() + number] * tip.elastic;
+                    }
+                }
+                right[3 * k..3 * k + 3].copy_from_slice((by * modulus).as_slice());
+                k += 1;
+            }
+        }
+        substitute(&held.factor[..size * size], right);
+        for (force, three) in held.forces.iter_mut().zip(right.chunks_exact(3)) {
+            *force = Vec3::from_column_slice(three);
+        }
+        let (mut change, mut largest) = (0.0_f64, 0.0_f64);
+        for (number, state) in tools.iter_mut().enumerate() {
+            if !state.holds() {
+                continue;
+            }
+            let own = held.who.iter().zip(&held.forces);
+            let own = own.filter(|((tool, _), _)| *tool == number);
+            let force = -own.map(|(_, force)| force).sum::<Vec3>();
+            change = change.max((force - state.elastic).norm());
+            largest = largest.max(force.norm());
+            state.elastic = force;
+            state.stiffness = held.stiffness[number] * modulus;
+        }
+        (change, largest)
+    }
+}
+
+/// Puts Cholesky's factor in the place of the lower half of a matrix; false where it has none.
+fn cholesky(matrix: &mut [f64], size: usize) -> bool {
+    for i in 0..size {
+        let (above, row) = matrix.split_at_mut(size * i);
+        let row = &mut row[..size];
+        let diagonal = row[i];
+        for j in 0..i {
+            let before = &above[size * j..size * j + j + 1];
+            let known: f64 = (0..j).map(|k| row[k] * before[k]).sum();
+            row[j] = (row[j] - known) / before[j];
+        }
+        let known: f64 = row[..i].iter().map(|value| value * value).sum();
+        let pivot = diagonal - known;
+        if pivot <= LEAST_PIVOT * diagonal || !pivot.is_finite() {
+            return false;
+        }
+        row[i] = pivot.sqrt();
+    }
+    true
+}
+
+/// Replaces `right` by the solution with Cholesky's `factor`.
+fn substitute(factor: &[f64], right: &mut [f64]) {
+    let size = right.len();
+    for i in 0..size {
+        let row = &factor[size * i..size * i + i + 1];
+        let known: f64 = (0..i).map(|k| row[k] * right[k]).sum();
+        right[i] = (right[i] - known) / row[i];
+    }
+    for i in (0..size).rev() {
+        right[i] /= factor[size * i + i];
+        for k in 0..i {
+            right[k] -= factor[size * i + k] * right[i];
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Judge: the product. And no factor for a matrix that gives energy.
+    #[test]
+    fn a_factor_solves_its_equations() {
+        let matrix = [4.0, 0.0, 0.0, 1.0, 3.0, 0.0, -1.0, 0.5, 2.0];
+        let mut factor = matrix;
+        assert!(cholesky(&mut factor, 3));
+        let mut right = [1.0, -2.0, 0.5];
+        substitute(&factor, &mut right);
+        let at = |i: usize, j: usize| matrix[3 * i.max(j) + i.min(j)];
+        for (i, expected) in [1.0, -2.0, 0.5].into_iter().enumerate() {
+            let found: f64 = (0..3).map(|j| at(i, j) * right[j]).sum();
+            assert!((found - expected).abs() < 1e-14);
+        }
+        assert!(!cholesky(&mut [1.0, 0.0, 2.0, 1.0], 2));
+        assert!(!cholesky(&mut [f64::NAN], 1));
+    }
+}

@@ -1,0 +1,254 @@
+//! Which triangles jaws take hold of that shut.
+//!
+//! Those whose centroids lie, where the organ has been moved to, in the box that the jaws sweep; where
+//! triangles are larger than jaws, those of which any part does. Of many so many are taken as there can be
+//! parts, the nearest to the tip and each next one farthest from those before, and the others go with the
+//! nearest of these, up to what one tool can hold.
+//!
+//! The tip's force becomes theirs, by their areas, and where that takes them is where they are held. So
+//! neither force nor organ jumps.
+
+use palpate_geometry::Vec3;
+use palpate_mechanics::surface_response::TouchId;
+
+use super::enhanced_surface::SeenContact;
+use super::{GlobalModel, GlobalWorkspace};
+use crate::grip::{
+    Held, HeldPart, HeldPatch, HeldTriangle, Hold, MOST_PARTS, MOST_TRIANGLES, SeenHold, Swept,
+};
+use crate::simulation::Simulation;
+use crate::state::ToolState;
+
+/// A triangle between jaws.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Candidate {
+    touch: TouchId,
+    /// Its centroid, in the tool's frame [m].
+    place: Vec3,
+    /// First and last x in that frame [m].
+    across: (f64, f64),
+    /// To the nearest that is taken, squared [m²], and which part that is.
+    apart: f64,
+    part: usize,
+}
+
+impl GlobalModel {
+    /// The jaws of tool `number` take hold; whether there is anything between them.
+    pub(crate) fn take_hold(
+        &self,
+        simulation: &Simulation,
+        number: usize,
+        tools: &mut [ToolState],
+        workspace: &mut GlobalWorkspace,
+    ) -> bool {
+        let tool = &simulation.tools[number];
+        let (Some(swept), Some(jaws)) = (tools[number].swept(tool), tool.jaws) else {
+            return false;
+        };
+        self.sum_field(simulation, tools, workspace);
+        self.find_between(&swept, tools, workspace);
+        let between = &mut workspace.between_jaws;
+        let area: f64 = between.iter().map(|one| self.area(one.touch)).sum();
+        let across = between.iter().map(|one| one.across);
+        let across = across.fold((f64::INFINITY, f64::NEG_INFINITY), |all, one| {
+            (all.0.min(one.0), all.1.max(one.1))
+        });
+        let thickness = swept.thickness(across.0, across.1);
+        divide(between);
+        let Some(mut patch) = self.patch(between) else {
+            return false;
+        };
+        let pressed = (area.min(Swept::face(&jaws)), thickness);
+        let touched = (tools[number].contact, tools[number].site);
+        let before = SeenContact::of(tool, &tools[number]);
+        loop {
+            (tools[number].contact, tools[number].site) = (None, None);
+            self.place(simulation, number, (&mut patch, tools), workspace);
+            let seen = before.map_or_else(|| self.seen(simulation, &patch), SeenHold::of);
+            let held = Held::Patch(patch.clone());
+            tools[number].grip.hold = Some(Hold::new(&swept, pressed, held, seen));
+            if self.hold(simulation, tools, workspace) {
+                self.answer_held(simulation, tools, workspace);
+                return true;
+            }
+            tools[number].grip.hold = None;
+            (tools[number].contact, tools[number].site) = touched;
+            if !patch.halve() {
+                return false;
+            }
+        }
+    }
+
+    fn area(&self, touch: TouchId) -> f64 {
+        self.response.touchable()[touch.index()].area
+    }
+
+    /// Fills the list of what is between jaws from the field that was summed.
+    fn find_between(&self, swept: &Swept, tools: &[ToolState], workspace: &mut GlobalWorkspace) {
+        let GlobalWorkspace {
+            sums, between_jaws, ..
+        } = workspace;
+        let mesh = self.enhancement.interpolation().surface().mesh();
+        let is_free = |touch| {
+            let patches = tools.iter().filter_map(|tool| tool.grip.patch());
+            let mut held = patches.flat_map(|patch| patch.triangles());
+            held.all(|triangle| triangle.touch != touch)
+        };
+        between_jaws.clear();
+        for large in [false, true] {
+            for (index, triangle) in self.response.touchable().iter().enumerate() {
+                let touch = TouchId(index as u32);
+                let start = 3 * triangle.triangle.index();
+                let by = Vec3::from_fn(|axis, _| f64::from(sums[start + axis]));
+                let corners = mesh.positions(triangle.triangle);
+                let corners = corners.map(|corner| swept.inside_of_tool(&(corner + by)));
+                let place = corners.iter().sum::<Vec3>() / 3.0;
+                let lies_between = match large {
+                    false => swept.holds(&place),
+                    true => swept.reaches(&corners),
+                };
+                if !lies_between || !is_free(touch) {
+                    continue;
+                }
+                let [a, b, c] = corners.map(|corner| corner.x);
+                between_jaws.push(Candidate {
+                    touch,
+                    place,
+                    across: (a.min(b).min(c), a.max(b).max(c)),
+                    apart: f64::INFINITY,
+                    part: 0,
+                });
+            }
+            if !between_jaws.is_empty() {
+                return;
+            }
+        }
+    }
+
+    /// The patch of what was divided into parts.
+    fn patch(&self, between: &[Candidate]) -> Option<HeldPatch> {
+        let of = |part: usize| between.iter().filter(move |one| one.part == part);
+        let all: f64 = between.iter().map(|one| self.area(one.touch)).sum();
+        let area = |part| -> f64 { of(part).map(|one| self.area(one.touch)).sum() };
+        let centroid = |touch: TouchId| self.response.touchable()[touch.index()].centroid;
+        let count = between.last().map_or(0, |one| one.part + 1);
+        let parts = (0..count).map(|part| {
+            let moment = of(part).map(|one| centroid(one.touch) * self.area(one.touch));
+            HeldPart {
+                rest: moment.sum::<Vec3>() / area(part),
+                share: area(part) / all,
+                ..HeldPart::default()
+            }
+        });
+        let triangles = between.iter().map(|one| {
+            let triangle = HeldTriangle {
+                touch: one.touch,
+                weight: self.area(one.touch) / area(one.part),
+            };
+            (one.part, triangle)
+        });
+        HeldPatch::new(parts, triangles)
+    }
+
+    /// Where the parts of a patch are when they bear the force of the tip, beside all that other tools do.
+    fn place(
+        &self,
+        simulation: &Simulation,
+        number: usize,
+        (patch, tools): (&mut HeldPatch, &[ToolState]),
+        workspace: &GlobalWorkspace,
+    ) {
+        let softness = 1.0 / simulation.material.at_rest.youngs_modulus();
+        let own = patch.clone();
+        // Fewer than were chosen bear all of it.
+        let all: f64 = own.parts().map(|(part, _)| part.share).sum();
+        let force = -tools[number].elastic / all;
+        for (part, (_, moved)) in patch.parts_mut().iter_mut().zip(own.parts()) {
+            let carried = |touch, force: Vec3| {
+                let one = HeldTriangle { touch, weight: 1.0 };
+                self.between_parts(moved, &[one]) * force * softness
+            };
+            let mut by = Vec3::zeros();
+            for (other, loaded) in own.parts() {
+                by += self.between_parts(moved, loaded) * force * (other.share * softness);
+            }
+            for (tool, touch, force) in workspace.held.forces() {
+                if tool != number {
+                    by += carried(touch, force);
+                }
+            }
+            for (tool, state) in simulation.tools.iter().zip(tools) {
+                for share in self.load(tool, state).iter().flat_map(|load| load.shares()) {
+                    by -= carried(share.triangle, state.elastic * share.weight);
+                }
+            }
+            part.at = part.rest + by;
+        }
+    }
+
+    /// The point that shows a patch that no tip has touched: its middle.
+    fn seen(&self, simulation: &Simulation, patch: &HeldPatch) -> SeenHold {
+        let parts = || patch.parts().map(|(part, _)| part);
+        let all: f64 = parts().map(|part| part.share).sum();
+        let middle = parts().map(|part| part.rest * part.share).sum::<Vec3>() / all;
+        let displaced = parts().map(|part| (part.at - part.rest) * part.share);
+        let triangles = patch.triangles().iter();
+        let touchable = triangles.map(|one| &self.response.touchable()[one.touch.index()]);
+        let facing: Vec3 = touchable.map(|one| one.normal * one.area).sum();
+        let interpolation = self.enhancement.interpolation();
+        let at = interpolation.nearest_facing(&self.tree, (&middle, &facing));
+        let place = interpolation.place(&at);
+        let (triangle, place) = match self.enhancement.is_finer() {
+            false => (at.triangle, place),
+            true => {
+                let nearest = simulation.tree.nearest(simulation.surface.mesh(), &place);
+                (nearest.triangle, nearest.on.position)
+            }
+        };
+        SeenHold {
+            triangle,
+            place,
+            at: Some(at),
+            displaced: displaced.sum::<Vec3>() / all,
+        }
+    }
+}
+
+impl SeenHold {
+    fn of(contact: SeenContact) -> Self {
+        Self {
+            triangle: contact.triangle,
+            place: contact.place,
+            at: Some(contact.press.at),
+            displaced: contact.press.displacement,
+        }
+    }
+}
+
+/// Divides what is between jaws into parts, in their order: about the one nearest to the tip, then each time
+/// about the one farthest from those before.
+fn divide(between: &mut Vec<Candidate>) {
+    let near = |one: &Candidate| one.place.norm_squared();
+    let first = between.iter().min_by(|a, b| near(a).total_cmp(&near(b)));
+    let mut next = first.map(|one| one.place);
+    for part in 0..MOST_PARTS {
+        let Some(place) = next else {
+            break;
+        };
+        for one in between.iter_mut() {
+            let apart = (one.place - place).norm_squared();
+            if apart < one.apart {
+                (one.apart, one.part) = (apart, part);
+            }
+        }
+        let farthest = between.iter().max_by(|a, b| a.apart.total_cmp(&b.apart));
+        next = farthest.filter(|one| one.apart > 0.0).map(|one| one.place);
+    }
+    let nearest_first = |a: &Candidate, b: &Candidate| {
+        let apart = a.apart.total_cmp(&b.apart);
+        apart.then(a.touch.cmp(&b.touch))
+    };
+    between.sort_unstable_by(nearest_first);
+    between.truncate(MOST_TRIANGLES);
+    between.sort_unstable_by_key(|one| (one.part, one.touch));
+}
