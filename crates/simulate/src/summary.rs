@@ -59,6 +59,7 @@ pub(crate) struct Tally {
     contacts: u64,
     peak_force: f64,
     deepest: f64,
+    pulled: f64,
     shaft_contacts: u64,
     non_finite: u64,
     off_model: u64,
@@ -72,6 +73,7 @@ impl Tally {
             contacts: 0,
             peak_force: 0.0,
             deepest: 0.0,
+            pulled: 0.0,
             shaft_contacts: 0,
             non_finite: 0,
             off_model: 0,
@@ -90,6 +92,7 @@ impl Tally {
             self.perforations += counts(Event::Perforation);
             self.peak_force = self.peak_force.max(tool.force.norm());
             self.deepest = self.deepest.max(tool.row.depth_m);
+            self.pulled = self.pulled.max(tool.pulled());
         }
     }
 
@@ -109,6 +112,14 @@ impl Tally {
             format!(
                 "the depth reached {:.1} mm; beyond 10 mm no model here has been compared with tissue",
                 1e3 * self.deepest
+            ),
+        );
+        warn(
+            self.pulled > TRUSTED_DEPTH,
+            format!(
+                "held tissue was moved by {:.1} mm; it answers as at small strain, and beyond 10 mm no \
+                 model here has been compared with tissue",
+                1e3 * self.pulled
             ),
         );
         warn(

@@ -206,6 +206,12 @@ impl ToolState {
         self.contact.is_some() || self.holds()
     }
 
+    /// How far the tissue between its jaws is from its rest [m].
+    pub(crate) fn pulled(&self) -> f64 {
+        let hold = self.grip.hold.as_ref();
+        hold.map_or(0.0, |hold| hold.displaced().norm())
+    }
+
     /// With how much each jaw presses on what they hold [N].
     fn press(&self, simulation: &Simulation, tool: &Tool) -> f64 {
         let modulus = simulation.material.at_rest.youngs_modulus();
