@@ -7,9 +7,9 @@
 //! *How we know*: `filter::gain_is_that_of_butterworth`, `filter::nothing_is_shifted`,
 //! `filter::constants_and_lines_are_kept`.
 //!
-//! *Limits*: even sampling. Beyond its ends a signal is taken to go on turned about its last value,
-//! over five times the inverse cut-off or as far as the signal is long; nearer to an end than the
-//! inverse cut-off what comes out rests on that.
+//! *Limits*: even sampling. Beyond its ends a signal is taken to go on turned about the end of a line
+//! through its last samples, over five times the inverse cut-off or as far as the signal is long; nearer
+//! to an end than the inverse cut-off what comes out rests on that.
 
 use std::f64::consts::PI;
 
@@ -24,6 +24,8 @@ const LEAD_IN: f64 = 5.0;
 pub struct LowPass {
     sections: [Section; 2],
     lead_in: usize,
+    /// Samples of an inverse cut-off.
+    end: usize,
 }
 
 /// y = b₀ x + b₁ x₁ + b₂ x₂ − a₁ y₁ − a₂ y₂, in the transposed form with two sums kept.
@@ -58,14 +60,22 @@ impl LowPass {
             },
         ];
         let lead_in = (LEAD_IN * rate / cutoff).ceil() as usize;
-        Ok(Self { sections, lead_in })
+        Ok(Self {
+            sections,
+            lead_in,
+            end: (rate / cutoff).ceil() as usize,
+        })
     }
 
     /// The signal forward and backward through the filter.
     pub fn smooth(&self, signal: &[f64]) -> Vec<f64> {
-        let (Some(&first), Some(&last)) = (signal.first(), signal.last()) else {
+        if signal.is_empty() {
             return Vec::new();
-        };
+        }
+        // Turned about a last sample as it is, the noise of that one would stay.
+        let near = self.end.min(signal.len());
+        let first = end_of_line(signal[..near].iter().rev());
+        let last = end_of_line(signal[signal.len() - near..].iter());
         let lead_in = self.lead_in.min(signal.len() - 1);
         let before = signal[1..=lead_in].iter().rev().map(|x| 2.0 * first - x);
         let after = signal[signal.len() - 1 - lead_in..signal.len() - 1]
@@ -81,6 +91,21 @@ impl LowPass {
         }
         all[lead_in..lead_in + signal.len()].to_vec()
     }
+}
+
+/// The last value of the straight line nearest to `signal`.
+fn end_of_line<'s>(signal: impl ExactSizeIterator<Item = &'s f64>) -> f64 {
+    let count = signal.len() as f64;
+    let middle = 0.5 * (count - 1.0);
+    let (mut sum, mut moment) = (0.0, 0.0);
+    for (place, value) in signal.enumerate() {
+        sum += value;
+        moment += (place as f64 - middle) * value;
+    }
+    // Σ (k − m)² over 0 .. n − 1.
+    let squares = count * (count * count - 1.0) / 12.0;
+    let slope = if squares > 0.0 { moment / squares } else { 0.0 };
+    sum / count + slope * middle
 }
 
 impl Section {

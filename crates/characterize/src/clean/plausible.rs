@@ -19,6 +19,10 @@ const SOFT: [f64; 2] = [1.0, 1e8];
 const STUCK: usize = 5;
 /// How many times longer than elsewhere a force rests at its largest value there [-].
 const TELLING: usize = 3;
+/// Half a step of the depth that is worth a word, over the deepest press [-].
+const COARSE: f64 = 0.01;
+/// Ways between samples from which steps can be told [-].
+const FEW: usize = 20;
 /// Least noise, over the largest force, that shows a sensor to be awake [-].
 const AWAKE: f64 = 1e-4;
 
@@ -28,6 +32,8 @@ pub(super) fn tell(clean: &CleanRecording, recording: &Recording, doubts: &mut V
     if let Some(wrong) = wrong_unit(clean, deepest, strongest) {
         doubts.push(format!("{wrong}; check the units"));
     }
+    let told = steps(recording.depth_m()).filter(|_| deepest > 0.0);
+    doubts.extend(told.and_then(|step| of_steps(step, deepest)));
     if let Some((from, to)) = stuck(recording) {
         doubts.push(format!(
             "the force stays at exactly {} N from {from} to {to} s, as a sensor does at its end; \
@@ -76,6 +82,44 @@ fn wrong_unit(clean: &CleanRecording, deepest: f64, strongest: f64) -> Option<St
         .then(|| format!("depth and force make a modulus of {modulus:.0e} Pa, which no tissue has"))
 }
 
+/// What is said of a depth that is told in `steps` [m] and goes to `deepest` [m], where that matters.
+fn of_steps(steps: f64, deepest: f64) -> Option<String> {
+    let part = 0.5 * steps / deepest;
+    (part > COARSE).then(|| {
+        format!(
+            "the depth is told in steps of {:.0} µm: half a step is {:.1} % of the deepest press, by which a \
+             modulus may be off beyond its stated error; press deeper or measure finer",
+            1e6 * steps,
+            100.0 * part
+        )
+    })
+}
+
+/// The step [m] of a depth that is not told more finely; none where each sample has its own.
+fn steps(depth: &[f64]) -> Option<f64> {
+    let ways = || depth.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+    let step = ways()
+        .filter(|way| *way > 0.0)
+        .fold(f64::INFINITY, f64::min);
+    let first = ways().position(|way| way > 0.0)?;
+    let last = depth.len() - 2 - ways().rev().position(|way| way > 0.0)?;
+    let moving = ways().skip(first).take(last + 1 - first);
+    let (mut none, mut one, mut more, mut between) = (0, 0, 0, 0);
+    for way in moving {
+        let steps = way / step;
+        match steps.round() {
+            whole if (steps - whole).abs() > 0.05 => between += 1,
+            0.0 => none += 1,
+            1.0 => one += 1,
+            _ => more += 1,
+        }
+    }
+    // A motion in equal samples has one kind of way only.
+    let all = none + one + more;
+    let kinds = [none, one, more].into_iter().filter(|kind| 20 * kind > all);
+    (between == 0 && all >= FEW && kinds.count() > 1).then_some(step)
+}
+
 /// The largest force [N] as recorded, by size.
 fn largest(recording: &Recording) -> f64 {
     let larger = |a: f64, b: &f64| if b.abs() > a.abs() { *b } else { a };
@@ -98,4 +142,30 @@ fn stuck(recording: &Recording) -> Option<(f64, f64)> {
     let large = elsewhere.filter(|run| run[0] != largest && run[0].abs() > 0.5 * largest.abs());
     let longest = large.map(<[f64]>::len).max().unwrap_or(0);
     (length > TELLING * longest).then(|| (time[first], time[first + length - 1]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Judge: rounding to 30 µm, which was put in.
+    #[test]
+    fn steps_of_an_encoder_are_seen() {
+        let ramp: Vec<f64> = (0..400).map(|i| 1e-3 * f64::from(i) / 399.0).collect();
+        let rounded: Vec<f64> = ramp.iter().map(|x| (x / 3e-5).round() * 3e-5).collect();
+        let found = steps(&rounded).unwrap();
+        assert!((found - 3e-5).abs() < 1e-9, "{found}");
+        let words = of_steps(found, 1e-3).unwrap();
+        assert!(
+            words.contains("steps of 30 µm") && words.contains("1.5 %"),
+            "{words}"
+        );
+        assert_eq!(of_steps(found, 8e-3), None);
+        // Even samples of a smooth ramp, and a hold after it, are no steps.
+        let mut smooth = ramp;
+        smooth.extend([1e-3; 100]);
+        assert_eq!(steps(&smooth), None);
+        assert_eq!(steps(&[1e-3; 50]), None);
+        assert_eq!(steps(&[]), None);
+    }
 }

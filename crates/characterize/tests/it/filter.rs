@@ -4,6 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use palpate_characterize::Error;
 use palpate_characterize::clean::LowPass;
+use palpate_characterize::fit::Random;
 
 const RATE: f64 = 200.0;
 
@@ -87,4 +88,22 @@ fn short_signals_and_bad_cutoffs_are_met() {
             Err(Error::BadCutoff { .. })
         ));
     }
+}
+
+/// Judge: the end of a straight line through n samples with noise σ is off by 2 σ/√n, which is 0.24 σ of the 67 samples of
+/// an inverse cut-off; what passes the filter besides is less than that of the middle, σ √(2 f/rate) = 0.17 σ. Together 0.30
+/// σ; of 300 draws within 10 %. Turned about its last sample, a signal would end with σ.
+#[test]
+fn the_noise_of_the_last_sample_is_lost() {
+    let filter = LowPass::new(3.0, RATE).unwrap();
+    let mut random = Random::new(5);
+    let (mut first, mut last) = (0.0, 0.0);
+    for _ in 0..300 {
+        let noise: Vec<f64> = (0..600).map(|_| random.normal()).collect();
+        let smooth = filter.smooth(&noise);
+        first += smooth[0].powi(2) / 300.0;
+        last += smooth[599].powi(2) / 300.0;
+    }
+    println!("ends {:.3} {:.3}", f64::sqrt(first), f64::sqrt(last));
+    assert!(f64::sqrt(first) < 0.33 && f64::sqrt(last) < 0.33);
 }

@@ -3,7 +3,7 @@
 use palpate_files::session::Event;
 use palpate_files::{Pose, Scene};
 use palpate_geometry::{CutMethod, TriangleId, Vec3};
-use palpate_simulate::{Error, Simulation, SimulationState, SimulationWorkspace, step};
+use palpate_simulate::{Simulation, SimulationState, SimulationWorkspace, step};
 
 /// A cube of 0.1 m, whose upper side is at z = 0.05, and one tool called "right".
 fn scene(tool: &str, more: &str) -> Scene {
