@@ -375,4 +375,18 @@ pub enum Error {
         /// Why.
         fault: &'static str,
     },
+    /// No room for another facet of a slit.
+    #[error(
+        "the slit has {most} facets, for which there is room; make longer ones, or room for more"
+    )]
+    SlitIsFull {
+        /// The most there can be.
+        most: usize,
+    },
+    /// What is no facet of a slit.
+    #[error("the slit cannot be opened, for {fault}; give a facet on the surface, along it")]
+    UnsoundSlit {
+        /// Why.
+        fault: &'static str,
+    },
 }

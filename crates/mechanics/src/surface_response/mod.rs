@@ -19,6 +19,7 @@ mod dimple;
 mod parts;
 mod patch;
 mod response;
+pub mod slit;
 mod tip_field;
 
 pub use dimple::PressedTip;

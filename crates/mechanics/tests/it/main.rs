@@ -33,6 +33,8 @@ mod no_allocation;
 mod patch_on_hemisphere;
 mod path;
 mod real_organs;
+mod slit;
+mod slit_judge;
 mod solid;
 mod solid_fields;
 mod stiffening;

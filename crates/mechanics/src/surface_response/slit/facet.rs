@@ -1,0 +1,175 @@
+use nalgebra::Matrix3;
+use palpate_geometry::{AabbTree, Surface, TriangleId};
+
+use super::super::response::SurfaceResponse;
+use crate::boundary_elements::Precision;
+use crate::{Error, Vec3};
+
+/// A slit deeper than this part of what lies under it cuts a wall [-].
+const OF_A_WALL: f64 = 0.4;
+
+/// A slit deeper than this part of a wall goes through [-].
+const THROUGH: f64 = 0.98;
+
+/// Ends nearer than this part of a length belong together [-].
+const TOGETHER: f64 = 0.35;
+
+/// A straight piece of a slit, as it is asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SlitFacet {
+    /// The middle of its edge on the surface at rest [m].
+    pub middle: Vec3,
+    /// Along the slit; its part along the normal does not count [-].
+    pub along: Vec3,
+    /// Outward normal of the surface [-].
+    pub normal: Vec3,
+    /// Length along the slit [m].
+    pub length: f64,
+    /// Depth into the body [m]; infinite, or more than a wall has, goes through.
+    pub depth: f64,
+}
+
+/// The organ that is cut.
+#[derive(Debug)]
+pub struct CutBody<'a, T> {
+    /// The surface at rest that the response is of.
+    pub surface: &'a Surface,
+    /// Its boxes.
+    pub tree: &'a AabbTree,
+    /// How it answers forces, uncut.
+    pub response: &'a SurfaceResponse<T>,
+}
+
+/// What a facet cuts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Under {
+    /// A solid, to a depth that is small beside it [m].
+    Solid { depth: f64 },
+    /// A wall of a thickness [m], to a part of it [-]; one is through.
+    Wall { thickness: f64, part: f64 },
+}
+
+/// A facet on the surface.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Facet {
+    /// Columns: across, to the right of the way (n); along (s); outward (z).
+    pub(super) frame: Matrix3<f64>,
+    pub(super) middle: Vec3,
+    pub(super) length: f64,
+    pub(super) under: Under,
+    /// Triangles at its middle: on the surface, and on the other side of a wall.
+    pub(super) outer: TriangleId,
+    pub(super) inner: Option<TriangleId>,
+    /// Its first row.
+    pub(super) first: usize,
+}
+
+impl Facet {
+    /// The facet that is asked for, on the surface of a body.
+    pub(super) fn new<T: Precision>(
+        body: &CutBody<'_, T>,
+        asked: &SlitFacet,
+        first: usize,
+    ) -> Result<Self, Error> {
+        let fault = |fault: &'static str| Error::UnsoundSlit { fault };
+        let lengths = asked.length > 0.0 && asked.length.is_finite() && asked.depth > 0.0;
+        if !lengths || !asked.middle.iter().all(|x| x.is_finite()) {
+            return Err(fault("a facet has no length, depth or place"));
+        }
+        let outward = unit(&asked.normal).ok_or(fault("a facet has no normal"))?;
+        let flat = asked.along - outward * outward.dot(&asked.along);
+        let along = unit(&flat).ok_or(fault("a facet has no direction along the surface"))?;
+        let mesh = body.surface.mesh();
+        let nearest = body.tree.nearest(mesh, &asked.middle);
+        if nearest.distance > asked.length.max(edge(body.surface, nearest.triangle)) {
+            return Err(fault("a facet lies off the surface"));
+        }
+        if mesh.area_vector(nearest.triangle).dot(&outward) <= 0.0 {
+            return Err(fault("a facet's normal points into the body"));
+        }
+        let middle = nearest.on.position;
+        let (under, inner) = under(body, &middle, &outward, asked);
+        Ok(Self {
+            frame: Matrix3::from_columns(&[along.cross(&outward), along, outward]),
+            middle,
+            length: asked.length,
+            under,
+            outer: nearest.triangle,
+            inner,
+            first,
+        })
+    }
+
+    /// How many rows it has.
+    pub(super) fn modes(&self) -> usize {
+        match self.under {
+            Under::Solid { .. } => 3,
+            Under::Wall { .. } => 5,
+        }
+    }
+
+    pub(super) fn rows(&self) -> std::ops::Range<usize> {
+        self.first..self.first + self.modes()
+    }
+
+    pub(super) fn ends(&self) -> [Vec3; 2] {
+        let half = self.frame.column(1) * (0.5 * self.length);
+        [self.middle - half, self.middle + half]
+    }
+
+    /// Which of its ends meet an end of another.
+    pub(super) fn meets(&self, other: &Self) -> [bool; 2] {
+        let near = TOGETHER * self.length.min(other.length);
+        let there = other.ends();
+        self.ends()
+            .map(|end| there.iter().any(|other| (other - end).norm() < near))
+    }
+
+    /// Depth of what is cut [m].
+    pub(super) fn depth(&self) -> f64 {
+        match self.under {
+            Under::Solid { depth } => depth,
+            Under::Wall { thickness, .. } => thickness,
+        }
+    }
+}
+
+fn unit(vector: &Vec3) -> Option<Vec3> {
+    let unit = vector.try_normalize(0.0)?;
+    unit.iter().all(|x| x.is_finite()).then_some(unit)
+}
+
+/// Longest edge of a triangle [m].
+fn edge(surface: &Surface, triangle: TriangleId) -> f64 {
+    let [a, b, c] = surface.mesh().positions(triangle);
+    (b - a).norm().max((c - b).norm()).max((a - c).norm())
+}
+
+fn under<T: Precision>(
+    body: &CutBody<'_, T>,
+    middle: &Vec3,
+    outward: &Vec3,
+    asked: &SlitFacet,
+) -> (Under, Option<TriangleId>) {
+    let mesh = body.surface.mesh();
+    let (low, high) = mesh.bounds();
+    let reach = (high - low).norm();
+    // The triangle at the middle is not the other side.
+    let skip = 1e-3 * edge(body.surface, body.tree.nearest(mesh, middle).triangle);
+    let hit = body
+        .tree
+        .cast(mesh, &(middle - outward * skip), &-outward, reach)
+        .filter(|hit| mesh.area_vector(hit.triangle).dot(outward) < 0.0);
+    match hit {
+        Some(hit) if asked.depth > OF_A_WALL * (hit.distance + skip) => {
+            let thickness = hit.distance + skip;
+            let part = asked.depth / thickness;
+            let part = if part > THROUGH { 1.0 } else { part };
+            (Under::Wall { thickness, part }, Some(hit.triangle))
+        }
+        _ => {
+            let depth = asked.depth.min(reach);
+            (Under::Solid { depth }, None)
+        }
+    }
+}

@@ -1,0 +1,187 @@
+use nalgebra::Matrix3;
+
+use super::super::response::{SurfaceResponse, TouchId};
+use super::super::tip_field::Share;
+use super::traction::{MODES, Spot};
+use super::{Cut, Slit};
+use crate::Vec3;
+use crate::boundary_elements::Precision;
+
+/// What a unit force along each axis, however spread, does to a slit: L⁻¹ T w. It is that of the slit as it was
+/// when the load was put on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SlitLoad {
+    rows: Vec<Vec3>,
+    /// What the rim beside a spot yields by itself, times E [1/m].
+    rim: Matrix3<f64>,
+}
+
+/// Jumps of the displacement across the facets of a slit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SlitJumps {
+    values: Vec<f64>,
+}
+
+impl<T: Precision> Slit<T> {
+    /// Room for a load.
+    pub fn load(&self) -> SlitLoad {
+        SlitLoad {
+            rows: Vec::with_capacity(self.most * MODES),
+            rim: Matrix3::zeros(),
+        }
+    }
+
+    /// Room for jumps.
+    pub fn jumps(&self) -> SlitJumps {
+        SlitJumps {
+            values: Vec::with_capacity(self.most * MODES),
+        }
+    }
+
+    /// Puts a force on the slit that triangles bear in `shares`. A force that is narrower than they are is told
+    /// by its `spot`: near the slit its place counts, and on which side of it.
+    pub fn put(
+        &self,
+        response: &SurfaceResponse<T>,
+        (shares, spot): (impl Iterator<Item = Share>, Option<&Spot>),
+        load: &mut SlitLoad,
+    ) {
+        load.rows.clear();
+        load.rows.resize(self.size(), Vec3::zeros());
+        load.rim = Matrix3::zeros();
+        let mut beside = 0.0;
+        for Share { triangle, weight } in shares {
+            let Some(touched) = response.touchable().get(triangle.index()) else {
+                continue;
+            };
+            let triangle = touched.triangle;
+            for (row, place) in load.rows.iter_mut().enumerate() {
+                let values = &self.row(row)[3 * triangle.index()..][..3];
+                *place += Vec3::from_fn(|axis, _| values[axis].into()) * weight;
+            }
+            if spot.is_some() {
+                continue;
+            }
+            for cut in &self.facets {
+                let near = &self.near[cut.near[0]..cut.near[1]];
+                let Ok(found) = near.binary_search_by_key(&triangle, |near| near.triangle) else {
+                    continue;
+                };
+                let rows = &mut load.rows[cut.facet.rows()];
+                for (place, near) in rows.iter_mut().zip(&near[found].rows) {
+                    *place += Vec3::from_fn(|axis, _| f64::from(near[axis])) * weight;
+                }
+            }
+        }
+        if let Some(spot) = spot {
+            for cut in &self.facets {
+                let about = (self.poissons_ratio, cut.reach);
+                let Some(found) = cut.facet.of_spot(about, spot) else {
+                    continue;
+                };
+                let rows = &mut load.rows[cut.facet.rows()];
+                for (place, found) in rows.iter_mut().zip(&found) {
+                    *place += found;
+                }
+                if let Some((part, rim)) = cut.facet.rim_of(cut.reach, spot) {
+                    beside += part;
+                    load.rim += rim * part;
+                }
+            }
+        }
+        // Squared: at its end a slit opens less than half as far.
+        load.rim *= beside.clamp(0.0, 1.0);
+        self.h.forward(&mut load.rows);
+    }
+
+    /// What the slit adds to what a load yields to itself, times E [1/m]: symmetric, never negative.
+    pub fn further(&self, load: &SlitLoad) -> Matrix3<f64> {
+        self.between(load, load) + load.rim
+    }
+
+    /// What the slit adds to [`SurfaceResponse::between`] two loads, times E [1/m]: transposed when they are
+    /// exchanged.
+    pub fn between(&self, moved: &SlitLoad, loaded: &SlitLoad) -> Matrix3<f64> {
+        let pairs = moved.rows.iter().zip(&loaded.rows);
+        pairs
+            .map(|(moved, loaded)| moved * loaded.transpose())
+            .sum()
+    }
+
+    /// What the slit adds to [`SurfaceResponse::compliance`] of two triangles, times E [1/m]; `scratch` is two
+    /// loads.
+    pub fn compliance(
+        &self,
+        response: &SurfaceResponse<T>,
+        (moved, loaded): (TouchId, TouchId),
+        scratch: &mut [SlitLoad; 2],
+    ) -> Matrix3<f64> {
+        let whole = |triangle| {
+            let weight = 1.0;
+            std::iter::once(Share { triangle, weight })
+        };
+        let [one, other] = scratch;
+        self.put(response, (whole(moved), None), one);
+        self.put(response, (whole(loaded), None), other);
+        self.between(one, other)
+    }
+
+    /// The jumps under forces [m² times the modulus: N] on loads, over E: give forces over E [m²] for jumps [m].
+    pub fn jump<'a>(
+        &self,
+        loads: impl Iterator<Item = (&'a SlitLoad, Vec3)>,
+        jumps: &mut SlitJumps,
+    ) {
+        jumps.values.clear();
+        jumps.values.resize(self.size(), 0.0);
+        for (load, force) in loads {
+            for (value, row) in jumps.values.iter_mut().zip(&load.rows) {
+                *value += row.dot(&force);
+            }
+        }
+        self.h.backward(&mut jumps.values);
+    }
+
+    /// How far the sides of a facet are apart at the outer surface [m]: the right one's displacement, seen along
+    /// the facet with its normal up, less the left one's. None where there is no such facet.
+    pub fn opening(&self, facet: usize, jumps: &SlitJumps) -> Option<Vec3> {
+        let cut = self.facets.get(facet)?;
+        let jumps = jumps.values.get(cut.facet.rows())?;
+        let local = match *jumps {
+            [n, s, z] => Vec3::new(n, s, z),
+            [n, s, hinge, shear, bend] => Vec3::new(n + hinge, s, shear + bend),
+            _ => return None,
+        };
+        Some(cut.facet.frame * local)
+    }
+
+    /// Adds to `field`, three numbers for each triangle, what jumps do to the surface: displacements [m] of jumps
+    /// [m].
+    pub fn add_field(&self, jumps: &SlitJumps, field: &mut [T]) {
+        if jumps.values.len() != self.size() || field.len() != self.width {
+            return;
+        }
+        for (row, jump) in jumps.values.iter().enumerate() {
+            let jump = T::of(*jump);
+            for (place, &value) in field.iter_mut().zip(self.row(row)) {
+                *place = *place + jump * value;
+            }
+        }
+        for cut in &self.facets {
+            self.add_near(cut, &jumps.values[cut.facet.rows()], field);
+        }
+    }
+
+    fn add_near(&self, cut: &Cut, jumps: &[f64], field: &mut [T]) {
+        for near in &self.near[cut.near[0]..cut.near[1]] {
+            for (axis, place) in field[3 * near.triangle.index()..][..3]
+                .iter_mut()
+                .enumerate()
+            {
+                let rows = near.rows.iter().zip(jumps);
+                let sum: f64 = rows.map(|(row, jump)| f64::from(row[axis]) * jump).sum();
+                *place = *place + T::of(sum);
+            }
+        }
+    }
+}

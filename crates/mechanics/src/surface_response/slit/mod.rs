@@ -1,0 +1,281 @@
+//! A slit in an organ whose response was solved beforehand: its faces bear no traction any more.
+//!
+//! A slit is a row of facets k. In the uncut body a force f makes a traction on facet k; its work on a jump of
+//! the displacement across it is T_k f. By Betti's theorem Tᵀ is what jumps D do to the surface. With −H the
+//! tractions of jumps on all facets, nothing is left on them when
+//!
+//! ```text
+//! D = H⁻¹ T f/E,   u E = Ξ f + Tᵀ H⁻¹ T f
+//! ```
+//!
+//! which adds compliance only. A facet in a solid has three jumps: opening, sliding and tearing, with half an
+//! ellipse over its depth. One in a wall has five: opening and sliding evenly through the wall, opening of the
+//! outer face against the inner (a hinge), and the deflection of one side against the other, by shear and by
+//! bending. T comes from the stresses that the table's displacements are (`gradient`), and near a force from
+//! closed forms (`near`, `plate`, `traction`); H from closed forms (`kernel`), with springs where a wall is cut
+//! to a part of it (`spring`).
+//!
+//! *How we know*: `slit::…`. Derivation, numbers: `docs/theory/cutting.md`.
+//!
+//! *Limits*: small strain; sides that meet go through one another; facets of a wall and of a solid in one slit do
+//! not know one another; H knows neither the organ's borders nor its curvature.
+
+mod cholesky;
+mod facet;
+mod gradient;
+mod kernel;
+mod load;
+mod near;
+mod plate;
+mod spring;
+mod traction;
+
+use palpate_geometry::TriangleId;
+
+use super::response::SurfaceResponse;
+use crate::boundary_elements::Precision;
+use crate::{Error, Vec3};
+use cholesky::Grown;
+use facet::Facet;
+pub use facet::{CutBody, SlitFacet};
+use gradient::Gradient;
+pub use load::{SlitJumps, SlitLoad};
+pub use traction::Spot;
+use traction::{MODES, Near, triangles_near};
+
+/// Near triangles of one face that are known to a facet at most.
+const MOST_NEAR: usize = 160;
+
+/// A slit in an organ, and what it adds to its compliance.
+#[derive(Debug)]
+pub struct Slit<T = f32> {
+    most: usize,
+    /// Numbers of a row: three for each triangle of the mesh.
+    width: usize,
+    poissons_ratio: f64,
+    facets: Vec<Cut>,
+    /// T without what is near, row after row.
+    rows: Vec<T>,
+    near: Vec<Near>,
+    h: Grown,
+    gradients: [Gradient; 2],
+    found: [Vec<TriangleId>; 2],
+    scratch: [Vec<T>; 2],
+}
+
+/// A facet with what belongs to it.
+#[derive(Debug, Clone, Copy)]
+struct Cut {
+    facet: Facet,
+    /// Reach of the closed forms [m].
+    reach: f64,
+    /// Its near triangles begin and end here.
+    near: [usize; 2],
+    /// What H's diagonal is raised by where one end is free, and where both are.
+    ends: [[f64; MODES]; 2],
+    /// Its ends that meet earlier facets.
+    met: [bool; 2],
+}
+
+impl<T: Precision> Slit<T> {
+    /// No slit, with room for up to `most` facets in the organ that `response` is of.
+    pub fn new(response: &SurfaceResponse<T>, most: usize) -> Self {
+        let width = 3 * response.parts().triangles;
+        Self {
+            most,
+            width,
+            poissons_ratio: response.parts().poissons_ratio,
+            facets: Vec::with_capacity(most),
+            rows: vec![T::of(0.0); most * MODES * width],
+            near: Vec::with_capacity(2 * MOST_NEAR * most),
+            h: Grown::new(most * MODES),
+            gradients: [Gradient::new(), Gradient::new()],
+            found: [0, 1].map(|_| Vec::with_capacity(MOST_NEAR)),
+            scratch: [0, 1].map(|_| vec![T::of(0.0); width]),
+        }
+    }
+
+    /// Number of its facets.
+    pub fn facets(&self) -> usize {
+        self.facets.len()
+    }
+
+    /// Opens one more facet, in the same organ each time.
+    ///
+    /// # Errors
+    /// When there is no room, or the facet has no length, depth, place on the surface or direction. Nothing has
+    /// changed then.
+    pub fn open(&mut self, body: &CutBody<'_, T>, asked: &SlitFacet) -> Result<(), Error> {
+        if self.facets.len() == self.most {
+            return Err(Error::SlitIsFull { most: self.most });
+        }
+        let triangles = body.response.parts().triangles;
+        if 3 * triangles != self.width || body.surface.mesh().triangles().len() != triangles {
+            return Err(Error::UnsoundSlit {
+                fault: "its organ has another number of triangles",
+            });
+        }
+        let first = self.facets.last().map_or(0, |cut| cut.facet.rows().end);
+        let facet = Facet::new(body, asked, first)?;
+        let met = self.facets.iter().fold([false; 2], |met, other| {
+            let meets = facet.meets(&other.facet);
+            [met[0] || meets[0], met[1] || meets[1]]
+        });
+        let reach = self.work(body, &facet);
+        let near = self.put_near(body, &facet, reach);
+        let ends = self.put_matrix(&facet);
+        self.facets.push(Cut {
+            facet,
+            reach,
+            near,
+            ends,
+            met,
+        });
+        // The end of the one before may have become none.
+        self.factor(self.facets.len().saturating_sub(2));
+        Ok(())
+    }
+
+    /// Goes back to its first facets.
+    pub fn truncate(&mut self, facets: usize) {
+        if facets >= self.facets.len() {
+            return;
+        }
+        self.facets.truncate(facets);
+        let near = self.facets.last().map_or(0, |cut| cut.near[1]);
+        self.near.truncate(near);
+        let rows = self.facets.last().map_or(0, |cut| cut.facet.rows().end);
+        self.h.truncate(rows);
+        self.factor(facets.saturating_sub(1));
+    }
+
+    /// Closes it.
+    pub fn clear(&mut self) {
+        self.truncate(0);
+    }
+
+    /// Number of its jumps.
+    fn size(&self) -> usize {
+        self.facets.last().map_or(0, |cut| cut.facet.rows().end)
+    }
+
+    fn row(&self, row: usize) -> &[T] {
+        &self.rows[row * self.width..][..self.width]
+    }
+
+    /// Makes the smooth rows of a facet; the reach of its closed forms [m].
+    fn work(&mut self, body: &CutBody<'_, T>, facet: &Facet) -> f64 {
+        let pair = (body.surface, body.response);
+        let start = facet.first * self.width;
+        let rows = &mut self.rows[start..][..facet.modes() * self.width];
+        let [outer, inner] = &mut self.gradients;
+        outer.prepare(pair, (facet.outer, &facet.middle), facet);
+        inner.parts.clear();
+        let (of_outer, of_inner) = facet.of_faces();
+        let (one, rest) = rows.split_at_mut(self.width);
+        let (two, rest) = rest.split_at_mut(self.width);
+        let (three, rest) = rest.split_at_mut(self.width);
+        rest.fill(T::of(0.0));
+        outer.stress(body.response, one, two);
+        let Some(below) = facet.inner else {
+            three.fill(T::of(0.0));
+            let [a, b, _] = of_outer.map(T::of);
+            one.iter_mut().for_each(|value| *value = *value * a);
+            two.iter_mut().for_each(|value| *value = *value * b);
+            return facet.reach(outer.reach);
+        };
+        let under = facet.middle - facet.frame.column(2) * facet.depth();
+        inner.prepare(pair, (below, &under), facet);
+        let [across, along] = &mut self.scratch;
+        inner.stress(body.response, across, along);
+        let (o, i) = (of_outer.map(T::of), of_inner.map(T::of));
+        let both = one.iter_mut().zip(three).zip(across.iter());
+        for ((one, three), &inner) in both {
+            let outer = *one;
+            *one = o[0] * outer + i[0] * inner;
+            *three = o[2] * outer + i[2] * inner;
+        }
+        for (two, &inner) in two.iter_mut().zip(along.iter()) {
+            *two = o[1] * *two + i[1] * inner;
+        }
+        facet.reach(outer.reach)
+    }
+
+    /// Takes the closed forms out of the smooth rows and lists them apart.
+    fn put_near(&mut self, body: &CutBody<'_, T>, facet: &Facet, reach: f64) -> [usize; 2] {
+        let (mesh, start) = (body.surface.mesh(), self.near.len());
+        triangles_near(body.surface, facet, reach, &mut self.found);
+        for &triangle in self.found.iter().flatten() {
+            if body.response.holds(triangle) {
+                continue;
+            }
+            let centroid = mesh.positions(triangle).iter().sum::<Vec3>() / 3.0;
+            let outward = mesh.area_vector(triangle);
+            let area = outward.norm();
+            let of = (&centroid, &(outward / area), area);
+            let about = (self.poissons_ratio, reach);
+            let Some([resolved, closed]) = facet.of_triangle(about, of, &self.gradients) else {
+                continue;
+            };
+            for (mode, resolved) in resolved.iter().enumerate().take(facet.modes()) {
+                let place = (facet.first + mode) * self.width + 3 * triangle.index();
+                for (value, resolved) in self.rows[place..place + 3].iter_mut().zip(resolved) {
+                    *value = *value - T::of(*resolved);
+                }
+            }
+            let rows = closed.map(|row| [row.x as f32, row.y as f32, row.z as f32]);
+            self.near.push(Near { triangle, rows });
+        }
+        self.near[start..].sort_unstable_by_key(|near| near.triangle);
+        [start, self.near.len()]
+    }
+
+    /// Writes the rows of H; what its diagonal is raised by at free ends.
+    fn put_matrix(&mut self, facet: &Facet) -> [[f64; MODES]; 2] {
+        for cut in &self.facets {
+            let block = kernel::coupling(self.poissons_ratio, facet, &cut.facet);
+            for mode in 0..facet.modes() {
+                let row = self.h.row(facet.first + mode);
+                for other in 0..cut.facet.modes() {
+                    row[cut.facet.first + other] = block[(mode, other)];
+                }
+            }
+        }
+        let (block, ends) = kernel::own(self.poissons_ratio, facet);
+        for mode in 0..facet.modes() {
+            let row = &mut self.h.row(facet.first + mode)[facet.first..];
+            for (other, value) in row.iter_mut().enumerate() {
+                *value = block[(mode, other)];
+            }
+        }
+        ends
+    }
+
+    /// Factors the rows of H from a facet on. Where an end that has become none would lock a row, it stays one:
+    /// else the slit could become stiffer.
+    fn factor(&mut self, from: usize) {
+        for number in from..self.facets.len() {
+            let cut = self.facets[number];
+            let next = self.facets.get(number + 1);
+            let next = next.map_or([false; 2], |next| cut.facet.meets(&next.facet));
+            if !self.factor_facet(&cut, next) {
+                self.factor_facet(&cut, [false; 2]);
+            }
+        }
+    }
+
+    /// Factors the rows of a facet whose ends meet the next one or not. Whether none is locked.
+    fn factor_facet(&mut self, cut: &Cut, next: [bool; 2]) -> bool {
+        let free = (0..2).filter(|&end| !cut.met[end] && !next[end]).count();
+        let mut sound = true;
+        for mode in 0..cut.facet.modes() {
+            let more = if free > 0 {
+                cut.ends[free - 1][mode]
+            } else {
+                0.0
+            };
+            sound &= self.h.factor(cut.facet.first + mode, more);
+        }
+        sound
+    }
+}
