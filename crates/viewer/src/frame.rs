@@ -6,12 +6,12 @@ use std::path::{Path, PathBuf};
 
 use image::RgbaImage;
 use palpate_files::{Scene, scene, write_whole};
-use palpate_geometry::Vec3;
+use palpate_geometry::{Surface, Vec3};
 use palpate_simulate::{Frame, Simulation, SimulationState, read_organ};
 
 use crate::render::{Body, Renderer, Target, Tint, ToolPicture, View, single_precision};
 use crate::seen_organ::SeenOrgan;
-use crate::{Error, Gpu, TissuePicture, scene_camera};
+use crate::{Error, Gpu, Opening, TissuePicture, scene_camera};
 
 /// Width and height of a frame [pixels].
 pub const FRAME_SIZE: (u32, u32) = (1280, 800);
@@ -27,6 +27,10 @@ pub struct Studio {
     neighbours: Vec<Body>,
     tools: Vec<scene::Tool>,
     target: Target,
+    surface: Surface,
+    thickness: Option<f64>,
+    /// What is drawn beside the organ, such as its wire frame.
+    pub beside: Vec<Body>,
 }
 
 impl Studio {
@@ -55,6 +59,9 @@ impl Studio {
             neighbours,
             tools: scene.tools.clone(),
             target: Target::new(&gpu, size, 4),
+            surface: simulation.surface().clone(),
+            thickness: scene.organ.layers.first().map(|layer| layer.thickness_m),
+            beside: Vec::new(),
             view: View {
                 camera: scene_camera(&scene.view, (mesh, None), aspect),
                 shading: scene.view.shading,
@@ -75,10 +82,32 @@ impl Studio {
     /// # Errors
     /// When the adapter was lost.
     pub fn picture(&mut self, state: &SimulationState) -> Result<RgbaImage, Error> {
+        self.picture_of(state, None)
+    }
+
+    /// A picture of `state` with what was cut.
+    ///
+    /// # Errors
+    /// When the adapter was lost.
+    pub fn picture_of(
+        &mut self,
+        state: &SimulationState,
+        opening: Option<&Opening<'_>>,
+    ) -> Result<RgbaImage, Error> {
         let vertices = single_precision(state.deformed.vertices());
-        self.organ
-            .deform(&self.gpu, &vertices, state.whole.as_ref());
-        let bodies: Vec<&Body> = std::iter::once(&self.organ.body)
+        match opening {
+            Some(opening) => {
+                let uncut = (&self.surface, vertices.as_slice());
+                self.organ.open(&self.gpu, opening, uncut, self.thickness);
+            }
+            None => self
+                .organ
+                .deform(&self.gpu, &vertices, state.whole.as_ref()),
+        }
+        let bodies: Vec<&Body> = self
+            .organ
+            .bodies()
+            .chain(&self.beside)
             .chain(&self.neighbours)
             .collect();
         let tools = tool_pictures(&self.tools, state);
@@ -97,7 +126,7 @@ pub fn tool_pictures(tools: &[scene::Tool], state: &SimulationState) -> Vec<Tool
         .map(|(tool, own)| {
             let row = &own.row;
             let at = (row.position_m, row.orientation);
-            let picture = ToolPicture::new(&tool.tip, at, tool.trocar_m);
+            let picture = ToolPicture::new(tool, at).gripping(row.grip);
             match &own.contact {
                 Some(contact) => picture.touching(contact.point()),
                 None => picture,

@@ -1,15 +1,23 @@
 use palpate_files::scene::Enhancement;
-use palpate_geometry::Vec3;
+use palpate_geometry::{Surface, Vec3};
 use palpate_simulate::{EnhancedSurface, OrganField, Simulation};
 
 use crate::render::openness::openness;
 use crate::render::{Body, Tint, single_precision};
+use crate::seen_cut::{Opening, SeenCut};
 use crate::{Error, Gpu};
 
-/// The organ that is touched, as it is drawn: with the simulation's vertices, or with finer triangles around
-/// the tips.
+/// Thickness of what a cut goes through when the organ has no layers [m].
+const CUT: f64 = 0.0015;
+
+/// The organ that is touched, as it is drawn: with the simulation's vertices, with finer triangles around
+/// the tips, or with what was cut.
 pub(crate) struct SeenOrgan {
-    pub(crate) body: Body,
+    body: Body,
+    /// Once there was a cut.
+    cut: Option<SeenCut>,
+    /// Whether the last picture was of a cut organ.
+    is_open: bool,
     enhanced: Option<EnhancedSurface>,
     tint: Tint,
     /// How open the vertices of the surface are to light from all sides [-].
@@ -26,6 +34,8 @@ impl SeenOrgan {
         let open = openness(surface);
         let mut organ = Self {
             body: Body::with_openness(gpu, surface.mesh(), &open, tint),
+            cut: None,
+            is_open: false,
             enhanced: None,
             tint,
             open,
@@ -52,8 +62,35 @@ impl SeenOrgan {
         Ok(())
     }
 
-    /// Moves it to `vertices` [m], or to where `whole` has what takes their place.
+    /// What is drawn.
+    pub(crate) fn bodies(&self) -> impl Iterator<Item = &Body> {
+        let cut = self.cut.as_ref().filter(|_| self.is_open);
+        let whole = cut.is_none().then_some(&self.body);
+        whole
+            .into_iter()
+            .chain(cut.into_iter().flat_map(SeenCut::bodies))
+    }
+
+    /// Shows `opening` in place of the uncut surface, whose vertices are at `vertices` [m]. What is cut is
+    /// `thickness` thick [m].
+    pub(crate) fn open(
+        &mut self,
+        gpu: &Gpu,
+        opening: &Opening<'_>,
+        (surface, vertices): (&Surface, &[[f32; 3]]),
+        thickness: Option<f64>,
+    ) {
+        let thickness = thickness.unwrap_or(CUT);
+        let cut = self
+            .cut
+            .get_or_insert_with(|| SeenCut::new(gpu, surface, thickness, self.tint));
+        cut.follow(gpu, opening, (surface, vertices), &self.open);
+        self.is_open = true;
+    }
+
+    /// Moves it to `vertices` [m], or to where `whole` has what takes their place; nothing is cut.
     pub(crate) fn deform(&mut self, gpu: &Gpu, vertices: &[[f32; 3]], whole: Option<&OrganField>) {
+        self.is_open = false;
         let (Some(enhanced), Some(field)) = (&mut self.enhanced, whole) else {
             return self.body.deform(gpu, vertices);
         };

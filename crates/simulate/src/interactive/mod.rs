@@ -35,6 +35,7 @@ pub use hand_over::affine_force;
 pub use happenings::{Happening, Happenings};
 pub use interaction::Interaction;
 pub use judge::judge_samples;
+pub use model_loop::CUTS;
 pub use mount::Mount;
 pub use order::Order;
 pub use quality::{ExtrapolationError, ModelReport, Quality};

@@ -16,7 +16,7 @@ use crate::{Simulation, SimulationState, SimulationWorkspace, step};
 const DISPLAY: f64 = 0.9 / 60.0;
 
 /// The button that cuts.
-pub(super) const CUTS: u32 = 1;
+pub const CUTS: u32 = 1;
 
 /// The model and its ends of all channels. A step allocates nothing and waits for nobody.
 pub(super) struct ModelLoop {

@@ -1,6 +1,5 @@
-use nalgebra::Vector3;
-use palpate_geometry::{Surface, TriangleMesh, Vec3};
-use wgpu::util::DeviceExt;
+use nalgebra::{Matrix3, Vector3};
+use palpate_geometry::{NodeId, Surface, TriangleMesh, Vec3};
 
 use super::Tint;
 use super::crease::crease;
@@ -21,6 +20,33 @@ pub struct Body {
     pub(super) resting_buffer: wgpu::Buffer,
     pub(super) index_buffer: wgpu::Buffer,
     pub(super) tint: Tint,
+    pub(super) fibres: Option<Fibres>,
+}
+
+/// Which way the fibres of a muscular tube run: along an axis outside, around it inside.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Fibres {
+    /// Unit vector along the tube [-].
+    pub(super) axis: Vec3,
+    /// A point of its axis [m].
+    pub(super) center: Vec3,
+}
+
+impl Fibres {
+    /// Along the longest axis of `mesh`.
+    pub(crate) fn along(mesh: &TriangleMesh) -> Self {
+        let vertices = mesh.vertices();
+        let center = vertices.iter().sum::<Vec3>() / vertices.len() as f64;
+        let spread = vertices
+            .iter()
+            .map(|v| (v - center) * (v - center).transpose());
+        let eigen = spread.sum::<Matrix3<f64>>().symmetric_eigen();
+        let longest = eigen.eigenvalues.imax();
+        Self {
+            axis: eigen.eigenvectors.column(longest).into_owned(),
+            center,
+        }
+    }
 }
 
 impl Body {
@@ -29,49 +55,77 @@ impl Body {
         Self::with_openness(gpu, surface.mesh(), &openness(surface), tint)
     }
 
+    /// Triangles that bound no solid, such as those of a wire frame, in the colours of `tint`.
+    pub fn of_mesh(gpu: &Gpu, mesh: &TriangleMesh, tint: Tint) -> Self {
+        Self::with_openness(gpu, mesh, &vec![1.0; mesh.vertices().len()], tint)
+    }
+
     /// `mesh` at rest, each vertex as open to light from all sides as `open` says [-].
     pub(crate) fn with_openness(gpu: &Gpu, mesh: &TriangleMesh, open: &[f32], tint: Tint) -> Self {
-        let vertices = mesh.vertices();
-        let drawn = crease(vertices, mesh.triangles());
-        let resting: Vec<[f32; 4]> = drawn
-            .nodes
-            .iter()
-            .map(|&node| {
-                let [x, y, z] = single(&vertices[node as usize]);
-                [x, y, z, open[node as usize]]
-            })
-            .collect();
-        let buffer = |label, contents: &[u8], usage| {
-            gpu.device
-                .create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                    label: Some(label),
-                    contents,
-                    usage,
-                })
-        };
-        let count = drawn.nodes.len();
-        let moving = vec![[0.0; 6]; count];
-        let copied = wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST;
-        let mut body = Self {
-            moving_buffer: buffer("moving", bytemuck::cast_slice(&moving), copied),
-            resting_buffer: buffer(
-                "resting",
-                bytemuck::cast_slice(&resting),
-                wgpu::BufferUsages::VERTEX,
-            ),
-            index_buffer: buffer(
-                "triangles",
-                bytemuck::cast_slice(&drawn.triangles),
-                wgpu::BufferUsages::INDEX,
-            ),
-            nodes: drawn.nodes,
-            triangles: drawn.triangles,
-            moving,
-            normals: vec![Vec3f::zeros(); count],
-            tint,
-        };
-        body.deform(gpu, &single_precision(vertices));
+        let mut body = Self::empty(gpu, tint);
+        body.replace(gpu, (mesh.vertices(), mesh.triangles()), open);
         body
+    }
+
+    /// Nothing yet.
+    pub(crate) fn empty(gpu: &Gpu, tint: Tint) -> Self {
+        Self {
+            nodes: Vec::new(),
+            triangles: Vec::new(),
+            moving: Vec::new(),
+            normals: Vec::new(),
+            moving_buffer: buffer(gpu, "moving", 0, wgpu::BufferUsages::VERTEX),
+            resting_buffer: buffer(gpu, "resting", 0, wgpu::BufferUsages::VERTEX),
+            index_buffer: buffer(gpu, "triangles", 0, wgpu::BufferUsages::INDEX),
+            tint,
+            fibres: None,
+        }
+    }
+
+    /// The same with fibres that run so.
+    pub(crate) fn with_fibres(mut self, fibres: Fibres) -> Self {
+        self.fibres = Some(fibres);
+        self
+    }
+
+    /// Other `vertices` at rest [m] and triangles in place of those that are there, each vertex as open to
+    /// light from all sides as `open` says [-].
+    pub(crate) fn replace(
+        &mut self,
+        gpu: &Gpu,
+        (vertices, triangles): (&[Vec3], &[[NodeId; 3]]),
+        open: &[f32],
+    ) {
+        let drawn = crease(vertices, triangles);
+        let rest = drawn.nodes.iter().map(|&node| {
+            let [x, y, z] = single(&vertices[node as usize]);
+            [x, y, z, open[node as usize]]
+        });
+        let resting: Vec<[f32; 4]> = rest.collect();
+        let count = drawn.nodes.len();
+        self.moving = vec![[0.0; 6]; count];
+        self.normals = vec![Vec3f::zeros(); count];
+        self.nodes = drawn.nodes;
+        self.triangles = drawn.triangles;
+        let bytes = size_of::<[f32; 6]>() * count;
+        if (self.moving_buffer.size() as usize) < bytes {
+            self.moving_buffer = buffer(gpu, "moving", bytes, wgpu::BufferUsages::VERTEX);
+        }
+        let resting: &[u8] = bytemuck::cast_slice(&resting);
+        keep(
+            gpu,
+            &mut self.resting_buffer,
+            resting,
+            wgpu::BufferUsages::VERTEX,
+        );
+        let corners: &[u8] = bytemuck::cast_slice(&self.triangles);
+        keep(
+            gpu,
+            &mut self.index_buffer,
+            corners,
+            wgpu::BufferUsages::INDEX,
+        );
+        self.deform(gpu, &single_precision(vertices));
     }
 
     /// Moves the vertices to `positions` [m], in the order of the surface, with the normals that follow.
@@ -107,6 +161,25 @@ impl Body {
             [vertex[3], vertex[4], vertex[5]] = (normal / length).into();
         }
     }
+}
+
+/// Room for `bytes`, and a half more: what is cut becomes more while it is cut.
+fn buffer(gpu: &Gpu, label: &'static str, bytes: usize, usage: wgpu::BufferUsages) -> wgpu::Buffer {
+    gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some(label),
+        // Adapters take no empty buffer, and whole words only.
+        size: (bytes + bytes / 2).max(16).next_multiple_of(16) as u64,
+        usage: usage | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    })
+}
+
+/// Writes `contents` into `kept`, or into a larger buffer in its place.
+fn keep(gpu: &Gpu, kept: &mut wgpu::Buffer, contents: &[u8], usage: wgpu::BufferUsages) {
+    if (kept.size() as usize) < contents.len() {
+        *kept = buffer(gpu, "body", contents.len(), usage);
+    }
+    gpu.queue.write_buffer(kept, 0, contents);
 }
 
 /// Places [m] as an adapter takes them.

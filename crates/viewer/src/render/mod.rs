@@ -23,20 +23,23 @@ mod tissue_map;
 mod tool;
 mod uniforms;
 pub(crate) mod user_map;
+mod wire;
 
 use palpate_files::scene::Shading;
 use wgpu::util::DeviceExt;
 
+pub(crate) use body::Fibres;
 pub use body::{Body, single_precision};
 pub use target::Target;
 pub use tint::Tint;
 pub use tool::ToolPicture;
+pub use wire::wire_frame;
 
 use crate::{Camera, Gpu, TissuePicture};
 use maps::Maps;
 use pipelines::{Pipelines, Subject, number};
-use tool::ToolShape;
-use uniforms::{BodyUniform, Globals, InstrumentUniform, TOOLS, columns};
+use tool::{PARTS, Part, ToolShape};
+use uniforms::{BodyUniform, Globals, InstrumentUniform, TOOLS, columns, vector};
 
 /// How a picture is taken.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,7 +61,13 @@ pub struct Renderer {
     globals: Bound,
     bodies: Vec<Bound>,
     instruments: Vec<Bound>,
-    shapes: Vec<Option<(ToolShape, wgpu::Buffer, u32)>>,
+    shapes: Vec<Option<(ToolShape, Vec<KeptPart>)>>,
+}
+
+/// A part of a tool and where its triangles are kept.
+struct KeptPart {
+    part: Part,
+    buffer: wgpu::Buffer,
 }
 
 /// A uniform buffer and its group.
@@ -76,10 +85,10 @@ impl Renderer {
             maps: Maps::new(gpu, &pipelines.maps, None),
             globals: Bound::new(gpu, &pipelines.globals, size_of::<Globals>()),
             bodies: Vec::new(),
-            instruments: (0..TOOLS)
+            instruments: (0..TOOLS * PARTS)
                 .map(|_| Bound::new(gpu, &pipelines.own, instrument))
                 .collect(),
-            shapes: vec![None; TOOLS],
+            shapes: (0..TOOLS).map(|_| None).collect(),
             pipelines,
         }
     }
@@ -113,7 +122,8 @@ impl Renderer {
                 detail: view.detail,
             }));
             pass.set_bind_group(1, &self.maps.bound, &[]);
-            for (body, bound) in bodies.iter().zip(&self.bodies) {
+            let bodies = bodies.iter().zip(&self.bodies);
+            for (body, bound) in bodies.filter(|(body, _)| body.triangles() > 0) {
                 pass.set_bind_group(2, &bound.group, &[]);
                 pass.set_vertex_buffer(0, body.moving_buffer.slice(..));
                 pass.set_vertex_buffer(1, body.resting_buffer.slice(..));
@@ -121,11 +131,14 @@ impl Renderer {
                 pass.draw_indexed(0..3 * body.triangles() as u32, 0, 0..1);
             }
             pass.set_pipeline(&pipeline(Subject::Instrument));
-            let shapes = self.shapes.iter().flatten().zip(&self.instruments);
-            for ((_, buffer, corners), bound) in shapes.take(tools.len()) {
-                pass.set_bind_group(1, &bound.group, &[]);
-                pass.set_vertex_buffer(0, buffer.slice(..));
-                pass.draw(0..*corners, 0..1);
+            let shapes = self.shapes.iter().zip(self.instruments.chunks(PARTS));
+            for (shape, bounds) in shapes.take(tools.len()) {
+                let parts = shape.iter().flat_map(|(_, parts)| parts);
+                for (kept, bound) in parts.zip(bounds) {
+                    pass.set_bind_group(1, &bound.group, &[]);
+                    pass.set_vertex_buffer(0, kept.buffer.slice(..));
+                    pass.draw(0..kept.part.corners.len() as u32, 0..1);
+                }
             }
         }
         gpu.queue.submit([encoder.finish()]);
@@ -145,34 +158,43 @@ impl Renderer {
             self.bodies.push(bound);
         }
         for (body, bound) in bodies.iter().zip(&self.bodies) {
-            let uniform = body.tint.uniform(self.maps.map_as_color);
+            let mut uniform = body.tint.uniform(self.maps.map_as_color);
+            if let Some(fibres) = &body.fibres {
+                uniform.fibres = vector(&fibres.axis, 1.0);
+                uniform.fibre_center = vector(&fibres.center, 0.0);
+            }
             bound.write(gpu, bytemuck::bytes_of(&uniform));
         }
         for (number, tool) in tools.iter().take(TOOLS).enumerate() {
-            let uniform = InstrumentUniform {
-                placed: columns(&tool.placed()),
-                color: [0.78, 0.80, 0.84, 1.0],
-            };
-            self.instruments[number].write(gpu, bytemuck::bytes_of(&uniform));
             self.shape(gpu, number, &tool.shape);
+            let parts = self.shapes[number].iter().flat_map(|(_, parts)| parts);
+            for (kept, bound) in parts.zip(&self.instruments[PARTS * number..]) {
+                let uniform = InstrumentUniform {
+                    placed: columns(&tool.placed(&kept.part)),
+                    color: kept.part.look(),
+                };
+                bound.write(gpu, bytemuck::bytes_of(&uniform));
+            }
         }
     }
 
-    /// Makes the mesh of a tool anew when its shape is another one.
+    /// Makes the meshes of a tool anew when its shape is another one.
     fn shape(&mut self, gpu: &Gpu, number: usize, shape: &ToolShape) {
         let kept = &mut self.shapes[number];
-        if kept.as_ref().is_some_and(|(last, ..)| last == shape) {
+        if kept.as_ref().is_some_and(|(last, _)| last == shape) {
             return;
         }
-        let corners = shape.triangles();
-        let buffer = gpu
-            .device
-            .create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                label: Some("tool"),
-                contents: bytemuck::cast_slice(&corners),
-                usage: wgpu::BufferUsages::VERTEX,
-            });
-        *kept = Some((*shape, buffer, corners.len() as u32));
+        let parts = shape.parts().into_iter().take(PARTS).map(|part| KeptPart {
+            buffer: gpu
+                .device
+                .create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                    label: Some("tool"),
+                    contents: bytemuck::cast_slice(&part.corners),
+                    usage: wgpu::BufferUsages::VERTEX,
+                }),
+            part,
+        });
+        *kept = Some((*shape, parts.collect()));
     }
 }
 

@@ -70,6 +70,30 @@ impl Tint {
         relief: 0.7,
     };
 
+    /// Muscle where it is cut through.
+    pub const MUSCLE_CUT: Self = Self {
+        dark: [0.26, 0.042, 0.034],
+        light: [0.56, 0.165, 0.120],
+        vessel: [0.20, 0.020, 0.020],
+        relief: 1.1,
+    };
+
+    /// The light reddish layer inside of a muscular tube.
+    pub const MUCOSA: Self = Self {
+        dark: [0.60, 0.185, 0.175],
+        light: [0.80, 0.360, 0.335],
+        vessel: [0.52, 0.075, 0.078],
+        relief: 0.35,
+    };
+
+    /// The lines of a wire frame.
+    pub const WIRE: Self = Self {
+        dark: [0.010, 0.012, 0.016],
+        light: [0.010, 0.012, 0.016],
+        vessel: [0.010, 0.012, 0.016],
+        relief: 0.0,
+    };
+
     /// Further away from the one that is looked at: paler and duller.
     #[must_use]
     pub fn receding(self) -> Self {
@@ -94,6 +118,8 @@ impl Tint {
                 map_as_color,
                 1.0,
             ],
+            fibres: [0.0; 4],
+            fibre_center: [0.0; 4],
         }
     }
 }

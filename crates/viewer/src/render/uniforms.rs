@@ -37,6 +37,8 @@ pub(super) struct BodyUniform {
     pub(super) light: [f32; 4],
     pub(super) vessel: [f32; 4],
     pub(super) detail: [f32; 4],
+    pub(super) fibres: [f32; 4],
+    pub(super) fibre_center: [f32; 4],
 }
 
 #[repr(C)]

@@ -43,10 +43,10 @@ pub(super) fn show(window: &mut SimulatorWindow, ui: &mut Ui) {
 
 /// The switches, and keys for a hand that presses: it has the mouse.
 fn choose(wanted: &mut Enhancement, ui: &mut Ui) {
-    if ui.input(|input| input.key_pressed(Key::F)) {
+    if ui.input(|input| input.key_pressed(Key::F2)) {
         wanted.area = after(wanted.area, EnhancementArea::WORDS);
     }
-    if ui.input(|input| input.key_pressed(Key::S)) {
+    if ui.input(|input| input.key_pressed(Key::F3)) {
         wanted.smoothing = after(wanted.smoothing, Smoothing::WORDS);
     }
     egui::Grid::new("enhancement")
@@ -54,7 +54,7 @@ fn choose(wanted: &mut Enhancement, ui: &mut Ui) {
         .show(ui, |ui| {
             // A scene may have others.
             let range = wanted.levels.min(1)..=wanted.levels.max(MOST);
-            ui.label("finer (F)").on_hover_text(
+            ui.label("finer (F2)").on_hover_text(
             "which triangles around the touched one are made finer: none, those that share an edge \
              with it, or those that share a vertex",
         );
@@ -67,7 +67,7 @@ fn choose(wanted: &mut Enhancement, ui: &mut Ui) {
                     .on_hover_text("how often each triangle is cut into four");
             });
             ui.end_row();
-            ui.label("smooth (S)").on_hover_text(
+            ui.label("smooth (F3)").on_hover_text(
                 "how displacements of triangles are spread: linearly, or by these functions",
             );
             ui.horizontal(|ui| {

@@ -6,7 +6,7 @@
 //!
 //! *How we know*: `gestures::…`, `invariants::dragging_over_every_organ`; the window itself is looked at.
 //!
-//! *Limits*: one mouse moves one tool at a time.
+//! Keys and a gamepad move both tools at once, a mouse one of them: `hands`.
 //!
 //! [`Interaction`]: palpate_simulate::interactive::Interaction
 
@@ -15,6 +15,8 @@ mod display;
 mod effort;
 mod enhancement;
 pub mod gesture;
+pub mod hands;
+mod list;
 mod overlay;
 mod panel;
 mod picture;
@@ -26,19 +28,24 @@ use std::time::Duration;
 
 use eframe::egui;
 use palpate_files::Scene;
+use palpate_files::scene::{Tool, ToolKind};
 use palpate_simulate::Resources;
 
 use crate::history::History;
 use crate::{Error, Gpu, TissuePicture, native, style};
 use choice::Choice;
 pub use display::check_display;
+use hands::keys::{self, Action};
 use picture::Picture;
-use play::Play;
+use play::{Play, Wish};
 use preparation::Preparation;
 use rates::Rates;
 
 /// How long a picture in which nothing moves is left as it is.
 const REST: Duration = Duration::from_millis(200);
+
+/// How long a gamepad is not looked at.
+const LOOK: Duration = Duration::from_millis(30);
 
 /// The simulator as a window.
 struct SimulatorWindow {
@@ -59,6 +66,8 @@ struct SimulatorWindow {
     surroundings: Option<String>,
     /// Whether the last picture was asked for at once.
     moves: bool,
+    /// Whether the key was pressed by which the mouse takes the other tool.
+    takes_other: bool,
 }
 
 /// Opens a window with `scene` and waits until it is closed. `way_out` is a scene that works, which is
@@ -100,6 +109,7 @@ impl SimulatorWindow {
             rates: Rates::default(),
             surroundings: None,
             moves: false,
+            takes_other: false,
             gpu,
         };
         window.begin_anew(&context.egui_ctx);
@@ -134,6 +144,8 @@ impl SimulatorWindow {
             Ok(mut play) => {
                 if other_organ(&play, &self.play) {
                     self.picture.frame_anew();
+                    let makes_more = |tool: &Tool| tool.kind != ToolKind::Probe;
+                    self.picture.lists_keys = play.scene.tools.iter().any(makes_more);
                 }
                 self.fault = None;
                 let enhanced = self.picture.enhance(&self.gpu, &mut play);
@@ -194,6 +206,55 @@ impl SimulatorWindow {
         }
     }
 
+    /// Does what keys ask for once.
+    fn act(&mut self, context: &egui::Context) {
+        let mut wanted: Vec<Action> = Vec::new();
+        if !context.egui_wants_keyboard_input() {
+            wanted = context.input(|input| keys::actions(input).collect());
+        }
+        if std::mem::take(&mut self.takes_other) {
+            wanted.push(Action::OtherTool);
+        }
+        for action in wanted {
+            let wish = match action {
+                Action::OtherTool => {
+                    self.take_other(context);
+                    continue;
+                }
+                Action::Hints => {
+                    self.picture.lists_keys = !self.picture.lists_keys;
+                    continue;
+                }
+                Action::Undo => Wish::UndoCut,
+                Action::Pause => Wish::Pause,
+                Action::Reset => Wish::Reset,
+            };
+            if let Some(play) = &mut self.play {
+                let done = play.order(wish);
+                if wish == Wish::Reset {
+                    self.picture.lay_down();
+                    self.history.clear();
+                    if !done {
+                        self.begin_anew(context);
+                    }
+                }
+            }
+        }
+    }
+
+    /// The mouse takes the next tool, which is prepared anew only if nothing could move it before.
+    fn take_other(&mut self, context: &egui::Context) {
+        let before = self.choice.scene();
+        let next = (self.choice.tool + 1) % self.choice.tools().len();
+        self.choice.take(next);
+        self.radius = 1e3 * self.choice.tip.radius_m;
+        self.history.clear();
+        self.picture.gesture = gesture::Gesture::default();
+        if self.choice.scene() != before {
+            self.begin_anew(context);
+        }
+    }
+
     /// What fills the place of the picture when there is no organ.
     fn show_absence(&mut self, ui: &mut egui::Ui) {
         let context = ui.ctx().clone();
@@ -227,6 +288,7 @@ impl eframe::App for SimulatorWindow {
         self.receive();
         self.listen(&context);
         self.take_dropped(&context);
+        self.act(&context);
         egui::Panel::bottom("status").show(ui, |ui| panel::status(self, ui));
         egui::Panel::right("panel")
             .resizable(true)
@@ -247,11 +309,29 @@ impl eframe::App for SimulatorWindow {
             let snapshot = play.interaction.snapshot();
             snapshot.tools.iter().any(|tool| tool.contact.is_some())
         });
-        self.moves = moves || self.picture.gesture.is_pressing();
-        match self.moves {
-            true => context.request_repaint(),
-            false => context.request_repaint_after(REST),
+        self.moves = moves || self.picture.is_busy();
+        match (self.moves, self.picture.has_gamepad()) {
+            (true, _) => context.request_repaint(),
+            (false, true) => context.request_repaint_after(LOOK),
+            (false, false) => context.request_repaint_after(REST),
         }
+    }
+
+    fn raw_input_hook(&mut self, _context: &egui::Context, raw: &mut egui::RawInput) {
+        // Else it would walk through the side panel, which Shift and Tab still do.
+        raw.events.retain(|event| match event {
+            egui::Event::Key {
+                key: egui::Key::Tab,
+                pressed,
+                repeat,
+                modifiers,
+                ..
+            } if modifiers.is_none() => {
+                self.takes_other |= *pressed && !*repeat;
+                false
+            }
+            _ => true,
+        });
     }
 
     fn on_exit(&mut self) {

@@ -1,5 +1,6 @@
 use eframe::egui::{self, Align2, Color32, FontId, Pos2, Rect, Stroke, Vec2};
 
+use super::list;
 use super::picture::Picture;
 use super::play::Play;
 use crate::style::{DEPTH, FORCE, QUIET};
@@ -10,22 +11,34 @@ const FULL: f64 = 0.015;
 /// What is written into the picture: how to touch, and beside a touching tool how deep and how hard.
 pub(super) fn show(ui: &egui::Ui, rect: Rect, picture: &Picture, play: &mut Play, tool: usize) {
     let painter = ui.painter_at(rect);
-    let pressing = picture.gesture.is_pressing();
-    let hint = match pressing {
-        true => "drag down: deeper · up: out · sideways: slide · wheel: fine · let go: leave",
-        false => {
-            "press on the organ: touch, then drag down to go deeper · right drag: turn · middle drag: \
-             move · wheel: nearer"
+    let hand = picture.hands.get(tool).copied().unwrap_or_default();
+    let pressing = picture.gesture.is_pressing() && !hand.holds() || hand.is_pulling();
+    let hint = match (pressing, hand.holds()) {
+        (true, false) => {
+            "drag down: deeper · up: out · sideways: slide · wheel: fine · let go: leave"
         }
+        (true, true) => "drag: pull · wheel: to and fro · G: open the jaws",
+        (false, true) => "the jaws are shut · drag: pull · G: open them · ?: keys",
+        (false, false) => {
+            "press on the organ: touch, then drag down to go deeper · right drag: turn · middle drag: \
+             move · wheel: nearer · ?: keys"
+        }
+    };
+    let hint = match play.scene.tools.as_slice() {
+        [_, _] => format!("{}: {hint}", play.scene.tools[tool].name),
+        _ => hint.to_owned(),
     };
     let at = Pos2::new(rect.center().x, rect.max.y - 14.0);
     let font = FontId::proportional(13.0);
     let wide = 0.96 * rect.width();
-    let text = ui.painter().layout(hint.to_owned(), font, QUIET, wide);
+    let text = ui.painter().layout(hint, font, QUIET, wide);
     let corner = at - Vec2::new(0.5 * text.size().x, text.size().y);
     let back = Rect::from_min_size(corner, text.size()).expand2(Vec2::new(10.0, 5.0));
     painter.rect_filled(back, 6.0, Color32::from_black_alpha(150));
     painter.galley(corner, text, QUIET);
+    if picture.lists_keys {
+        list::show(&painter, rect, play);
+    }
     let pointer = ui.input(|input| input.pointer.latest_pos());
     let snapshot = play.interaction.snapshot();
     let Some(seen) = snapshot.tools.get(tool) else {

@@ -20,7 +20,9 @@ pub(super) fn side(window: &mut SimulatorWindow, ui: &mut Ui) {
             ui.add_space(6.0);
             let before = window.choice.clone();
             scene(window, ui);
-            if ui.button("Start anew").clicked() || window.choice != before {
+            // Which tool the mouse moves is no matter of the scene.
+            let other = window.choice != before && window.choice.scene() != before.scene();
+            if ui.button("Start anew").clicked() || other {
                 let context = ui.ctx().clone();
                 window.begin_anew(&context);
             }

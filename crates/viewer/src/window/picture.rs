@@ -3,9 +3,12 @@ use std::time::Duration;
 use eframe::egui::{self, Color32, PointerButton, Pos2, Rect, Response, Sense, Vec2};
 use eframe::egui_wgpu::RenderState;
 use palpate_files::scene::{Enhancement, Shading};
+use palpate_geometry::Vec3;
 
 use super::effort::Effort;
 use super::gesture::{Gesture, Ground, Mouse};
+use super::hands::gamepad::Gamepad;
+use super::hands::{Hand, Room, keys};
 use super::play::Play;
 use crate::render::{Body, Renderer, Target, ToolPicture, View};
 use crate::{Camera, Error, Gpu, Orbit, TissuePicture, pick, scene_camera};
@@ -22,6 +25,13 @@ pub(super) struct Picture {
     pub(super) enhancement: Option<Enhancement>,
     pub(super) effort: Effort,
     pub(super) gesture: Gesture,
+    /// One per tool.
+    pub(super) hands: Vec<Hand>,
+    /// Whether the keys are listed.
+    pub(super) lists_keys: bool,
+    gamepad: Option<Gamepad>,
+    /// Whether a key or a stick moves a hand.
+    driven: bool,
     orbit: Option<Orbit>,
     /// The left button went down beside the organ: it turns the camera.
     turning: bool,
@@ -40,6 +50,10 @@ impl Picture {
             enhancement: None,
             effort: Effort::new(gpu.is_software()),
             gesture: Gesture::default(),
+            hands: Vec::new(),
+            lists_keys: false,
+            gamepad: Gamepad::first(),
+            driven: false,
             orbit: None,
             turning: false,
             renderer: Renderer::new(gpu),
@@ -61,7 +75,24 @@ impl Picture {
     pub(super) fn frame_anew(&mut self) {
         self.orbit = None;
         self.drawn = None;
+        self.lay_down();
+    }
+
+    /// All hands let go of their tools.
+    pub(super) fn lay_down(&mut self) {
         self.gesture = Gesture::default();
+        self.hands.clear();
+    }
+
+    /// Whether somebody presses, pulls or moves a tool, or may do so without telling the window.
+    pub(super) fn is_busy(&self) -> bool {
+        let pulls = self.hands.iter().any(Hand::is_pulling);
+        self.gesture.is_pressing() || pulls || self.driven
+    }
+
+    /// Whether there is a gamepad, which does not wake the window.
+    pub(super) fn has_gamepad(&self) -> bool {
+        self.gamepad.is_some()
     }
 
     /// Lays a picture around the organ.
@@ -97,7 +128,14 @@ impl Picture {
             true => orbit.endoscope(before),
             false => orbit.camera(),
         };
-        self.touch(ui, (&response, rect), (play, tool), &camera);
+        let room = Room {
+            camera: &camera,
+            aspect,
+            middle: (0.5 * (low + high), extent),
+        };
+        self.take_up(play, &room);
+        self.drive(ui, (play, tool), &room);
+        self.touch(ui, (&response, rect), (play, tool), &room);
         let texture = self.draw((state, gpu), play, &camera, (extent, rect, ui.ctx()));
         let whole = Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0));
         ui.painter().image(texture, rect, whole, Color32::WHITE);
@@ -119,52 +157,108 @@ impl Picture {
             orbit.target += height * (f64::from(drag.y) * up - f64::from(drag.x) * right);
         }
         let wheel = f64::from(ui.input(|input| input.smooth_scroll_delta.y));
-        if response.hovered() && !self.gesture.is_pressing() && wheel != 0.0 {
+        let holds = self.gesture.is_pressing() || self.hands.iter().any(Hand::is_pulling);
+        if response.hovered() && !holds && wheel != 0.0 {
             orbit.approach((-0.0025 * wheel).exp(), (0.15 * extent, 6.0 * extent));
         }
     }
 
-    /// Moves the tool.
+    /// Tools with a trocar wait before the organ.
+    fn take_up(&mut self, play: &Play, room: &Room<'_>) {
+        let tools = &play.scene.tools;
+        if self.hands.len() == tools.len() {
+            return;
+        }
+        self.hands = vec![Hand::default(); tools.len()];
+        for (hand, tool) in self.hands.iter_mut().zip(tools) {
+            if let Some(trocar) = tool.trocar_m.map(Vec3::from) {
+                let towards = room.middle.0 - trocar;
+                let (mesh, way) = (play.surface().mesh(), towards.norm());
+                if let Some(hit) = play.tree.cast(mesh, &trocar, &(towards / way), way) {
+                    hand.wait(&trocar, hit.distance, room);
+                }
+            }
+        }
+    }
+
+    /// Moves the hands by keys and sticks, and tells the model of those that the mouse does not move.
+    fn drive(&mut self, ui: &egui::Ui, (play, tool): (&mut Play, usize), room: &Room<'_>) {
+        let free = !ui.ctx().egui_wants_keyboard_input();
+        let elapsed = f64::from(ui.input(|input| input.unstable_dt)).min(0.05);
+        let pad = self.gamepad.as_ref().map(Gamepad::look);
+        self.driven = false;
+        for (number, hand) in self.hands.iter_mut().enumerate() {
+            let scene_tool = &play.scene.tools[number];
+            let side = side(&scene_tool.name, number);
+            let mut drive = pad.map(|pad| pad.drive(side)).unwrap_or_default();
+            if free {
+                drive = drive.and(ui.input(|input| keys::drive(&keys::HANDS[side], input)));
+            }
+            if number == tool {
+                drive = drive.and(ui.input(|input| keys::of_mouse(input, free)));
+            }
+            let trocar = scene_tool.trocar_m.map(Vec3::from);
+            let before = *hand;
+            hand.drive(&drive, elapsed, trocar.as_ref(), room);
+            self.driven |= *hand != before;
+            play.hold(number, hand, None);
+        }
+    }
+
+    /// Moves the tool of the mouse.
     fn touch(
         &mut self,
         ui: &egui::Ui,
         (response, rect): (&Response, Rect),
         (play, tool): (&mut Play, usize),
-        camera: &Camera,
+        room: &Room<'_>,
     ) {
-        let aspect = f64::from(rect.width() / rect.height().max(1.0));
+        let Some(hand) = self.hands.get_mut(tool) else {
+            return;
+        };
+        let aspect = room.aspect;
         let pointer = ui.input(|input| input.pointer.latest_pos());
         let place = pointer
             .filter(|at| rect.contains(*at))
             .map(|at| ((at - rect.min) / rect.size()).to_f64());
-        let down = ui.input(|input| input.pointer.primary_down());
-        let over = |place| pick((play.surface(), &play.tree), camera, place, aspect).is_some();
-        if response.drag_started_by(PointerButton::Primary) && !self.gesture.is_pressing() {
-            self.turning = !place.is_some_and(over);
+        let (down, moved) = ui.input(|input| {
+            let moved = input.pointer.delta() != Vec2::ZERO;
+            (input.pointer.primary_down(), moved)
+        });
+        let over = |place| pick((play.surface(), &play.tree), room.camera, place, aspect).is_some();
+        let busy = self.gesture.is_pressing() || hand.is_pulling();
+        if response.drag_started_by(PointerButton::Primary) && !busy {
+            self.turning = !hand.holds() && !place.is_some_and(over);
         }
         self.turning &= down;
         // A press that began in the side panel is none here.
-        let held = response.is_pointer_button_down_on() || self.gesture.is_pressing();
+        let held = response.is_pointer_button_down_on() || busy;
         let turned = response.dragged_by(PointerButton::Secondary);
         let wheel = f64::from(ui.input(|input| input.smooth_scroll_delta.y)) / 50.0;
         let mouse = Mouse {
             place,
             pressed: down && held && !self.turning && !turned,
-            wheel: if self.gesture.is_pressing() {
-                wheel
-            } else {
-                0.0
-            },
+            wheel: if busy { wheel } else { 0.0 },
         };
+        if hand.holds() {
+            hand.pull(&mouse, room);
+            play.hold(tool, hand, None);
+            return;
+        }
+        // A mouse that rests takes nothing from the keys.
+        if hand.by_keys && !mouse.pressed && !(moved && place.is_some_and(over)) {
+            return;
+        }
         let ground = Ground {
             surface: play.surface(),
             tree: &play.tree,
-            camera,
+            camera: room.camera,
             aspect,
             tip: play.scene.tools[tool].tip,
         };
         if let Some(aim) = self.gesture.follow(&mouse, &ground) {
-            play.move_hand(tool, &aim);
+            hand.follow(&aim);
+            play.hold(tool, hand, aim.from);
         }
     }
 
@@ -185,7 +279,7 @@ impl Picture {
             .filter_map(|(tool, seen)| {
                 let pose = seen.pose?;
                 let at = (pose.position_m, seen.orientation);
-                let picture = ToolPicture::new(&tool.tip, at, tool.trocar_m);
+                let picture = ToolPicture::new(tool, at).gripping(pose.grip);
                 Some(match seen.contact {
                     Some(contact) => picture.touching(contact.point),
                     None => picture,
@@ -205,9 +299,7 @@ impl Picture {
         }
         play.organ
             .deform(gpu, &snapshot.vertices, snapshot.whole.as_ref());
-        let bodies: Vec<&Body> = std::iter::once(&play.organ.body)
-            .chain(&play.neighbours)
-            .collect();
+        let bodies: Vec<&Body> = play.organ.bodies().chain(&play.neighbours).collect();
         if let Some((target, _)) = &self.target {
             let (view, tools) = &now;
             self.renderer.draw(gpu, view, (&bodies, tools), target);
@@ -258,6 +350,15 @@ impl Picture {
     /// Counts a picture for the effort.
     pub(super) fn count(&mut self, time: Duration, touch_is_late: bool) {
         self.effort.count(time, touch_is_late);
+    }
+}
+
+/// Whose keys move a tool: the left hand's (0) or the right one's (1).
+fn side(name: &str, number: usize) -> usize {
+    match name {
+        "left" => 0,
+        "right" => 1,
+        _ => number.min(1),
     }
 }
 

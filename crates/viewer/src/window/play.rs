@@ -2,15 +2,26 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use palpate_files::Scene;
-use palpate_geometry::{AabbTree, Surface};
+use palpate_geometry::{AabbTree, Surface, Vec3};
 use palpate_servo::{PointerHand, ServoSettings};
-use palpate_simulate::interactive::{Interaction, SceneDevices};
+use palpate_simulate::interactive::{CUTS, Interaction, SceneDevices};
 use palpate_simulate::{Progress, Resources, Simulation, read_organ};
 
-use super::gesture::Aim;
+use super::hands::Hand;
 use crate::render::{Body, Tint};
 use crate::seen_organ::SeenOrgan;
 use crate::{Error, Gpu};
+
+/// What a key wants of the model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Wish {
+    /// The last cut is taken back.
+    UndoCut,
+    /// It stops, or goes on.
+    Pause,
+    /// The organ is as it was at the start.
+    Reset,
+}
 
 /// A scene that is being touched.
 pub(super) struct Play {
@@ -23,7 +34,7 @@ pub(super) struct Play {
     pub(super) neighbours: Vec<Body>,
     /// What deserves doubt.
     pub(super) doubts: Vec<String>,
-    hands: Vec<Option<PointerHand>>,
+    pointers: Vec<Option<PointerHand>>,
 }
 
 impl Play {
@@ -59,7 +70,7 @@ impl Play {
             neighbours,
             doubts,
             interaction,
-            hands: devices.pointers,
+            pointers: devices.pointers,
             simulation,
             scene,
         })
@@ -70,14 +81,26 @@ impl Play {
         self.simulation.surface()
     }
 
-    /// Moves the hand of a tool.
-    pub(super) fn move_hand(&mut self, tool: usize, aim: &Aim) {
-        if let Some(Some(hand)) = self.hands.get_mut(tool) {
-            hand.turn_to(Some(aim.turned));
-            match aim.from {
-                Some(start) => hand.move_from(start, aim.tip),
-                None => hand.move_to(aim.tip),
-            }
+    /// Moves the tool of a hand to where the hand is, with its grip and its cut; from `start` [m] without a
+    /// way there, if that is given.
+    pub(super) fn hold(&mut self, tool: usize, hand: &Hand, start: Option<Vec3>) {
+        let (Some(Some(pointer)), Some((tip, _))) = (self.pointers.get_mut(tool), hand.place)
+        else {
+            return;
+        };
+        pointer.turn_to(hand.turned());
+        pointer.press(hand.grip, if hand.cuts { CUTS } else { 0 });
+        match start {
+            Some(start) => pointer.move_from(start, tip),
+            None => pointer.move_to(tip),
+        }
+    }
+
+    /// Tells the model what is wanted of it; whether it did.
+    pub(super) fn order(&mut self, wish: Wish) -> bool {
+        // The model takes no orders yet.
+        match wish {
+            Wish::UndoCut | Wish::Reset | Wish::Pause => false,
         }
     }
 }

@@ -1,8 +1,9 @@
-// A tool: polished steel in a bright room.
+// A tool in a bright room: polished steel, or what insulates it.
 
 struct Instrument {
     // From the tool's frame to the scene.
     placed: mat4x4f,
+    // Its colour, with the polish in w: 1 for steel.
     color: vec4f,
 };
 
@@ -42,6 +43,11 @@ fn instrument_fragment(in: Varyings) -> @location(0) vec4f {
     let facing = clamp(dot(normal, towards), 0.0, 1.0);
     let grazing = 1.0 - clamp(dot(normal, to_eye), 0.0, 1.0);
     let steel = instrument.color.rgb * (room * (0.8 + 0.9 * grazing * grazing * grazing) + 0.12 * facing);
-    let light = (steel * (0.35 + 0.65 * strength)) + globals.key_color.rgb * glint * strength * 0.6;
+    // Plastic shows its own colour and mirrors little of the room.
+    let plastic = instrument.color.rgb * (0.35 + 1.1 * facing) + 0.05 * room * (1.0 + 4.0 * grazing * grazing);
+    let polish = instrument.color.w;
+    let shown = mix(plastic, steel, polish);
+    let light = (shown * (0.35 + 0.65 * strength))
+        + globals.key_color.rgb * glint * strength * mix(0.12, 0.6, polish);
     return framed(developed(light), in.clip.xy);
 }

@@ -1,0 +1,123 @@
+//! Which key does what. The keys of both hands lie around W A S D and I J K L, each hand's mirror image of
+//! the other's; none is used twice.
+
+use eframe::egui::{InputState, Key, PointerButton};
+
+use super::Drive;
+
+/// The keys of one hand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct HandKeys {
+    /// Left, right, down, up, out and in.
+    pub ways: [Key; 6],
+    /// Clockwise and counter-clockwise.
+    pub roll: [Key; 2],
+    /// Closes and opens the jaws.
+    pub jaws: Key,
+    /// Cuts while it is held.
+    pub cuts: Key,
+}
+
+/// Of the left hand and of the right one.
+pub const HANDS: [HandKeys; 2] = [
+    HandKeys {
+        ways: [Key::A, Key::D, Key::S, Key::W, Key::Q, Key::E],
+        roll: [Key::R, Key::F],
+        jaws: Key::V,
+        cuts: Key::X,
+    },
+    HandKeys {
+        ways: [Key::J, Key::L, Key::K, Key::I, Key::O, Key::U],
+        roll: [Key::Y, Key::H],
+        jaws: Key::N,
+        cuts: Key::M,
+    },
+];
+
+/// What a key does once, whichever hand it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Action {
+    /// The mouse takes the other tool; the window asks for this key itself, which else walks through it.
+    OtherTool,
+    /// The last cut is taken back.
+    Undo,
+    /// The model stops, or goes on.
+    Pause,
+    /// Everything is as it was at the start.
+    Reset,
+    /// The list of keys is shown, or not.
+    Hints,
+}
+
+/// What is done once, and by which key.
+pub const ACTIONS: [(Key, Action); 5] = [
+    (Key::Z, Action::Undo),
+    (Key::P, Action::Pause),
+    (Key::Backspace, Action::Reset),
+    (Key::Questionmark, Action::Hints),
+    (Key::F1, Action::Hints),
+];
+
+/// Jaws and cut of the tool that the mouse moves.
+pub const JAWS: Key = Key::G;
+/// See [`JAWS`].
+pub const CUTS: Key = Key::C;
+
+/// The lines of the list: what is done, and by which keys of the left and of the right hand.
+pub const LINES: [[&str; 3]; 5] = [
+    ["up · left · down · right", "W A S D", "I J K L"],
+    ["in · out, along the shaft", "E · Q", "U · O"],
+    ["roll", "R · F", "Y · H"],
+    ["jaws: close or open", "V", "N"],
+    ["cut, while held", "X", "M"],
+];
+
+/// What else is in the list.
+pub const MORE: [[&str; 2]; 8] = [
+    ["Shift", "finer"],
+    ["Tab", "the mouse takes the other tool"],
+    ["G · C", "jaws · cut of the mouse's tool"],
+    ["drag", "press in; with shut jaws: pull"],
+    ["Z", "undo a cut"],
+    ["P", "pause or go on"],
+    ["Backspace", "begin again"],
+    ["? or F1", "this list"],
+];
+
+/// What the keys of `hand` want.
+pub fn drive(hand: &HandKeys, input: &InputState) -> Drive {
+    let down = |key| f64::from(u8::from(input.key_down(key)));
+    let [left, right, below, above, out, inward] = hand.ways.map(down);
+    let [clockwise, counter] = hand.roll.map(down);
+    Drive {
+        way: [right - left, above - below, inward - out],
+        roll: counter - clockwise,
+        fine: input.modifiers.shift,
+        jaws: pressed(hand.jaws, input),
+        cuts: input.key_down(hand.cuts),
+    }
+}
+
+/// What keys and the further buttons of a mouse want of the tool that it moves; without `keys`, the buttons.
+pub fn of_mouse(input: &InputState, keys: bool) -> Drive {
+    let pointer = &input.pointer;
+    Drive {
+        jaws: keys && pressed(JAWS, input) || pointer.button_pressed(PointerButton::Extra1),
+        cuts: keys && input.key_down(CUTS) || pointer.button_down(PointerButton::Extra2),
+        ..Drive::default()
+    }
+}
+
+/// What is to be done once.
+pub fn actions(input: &InputState) -> impl Iterator<Item = Action> {
+    let wanted = ACTIONS.map(|(key, action)| pressed(key, input).then_some(action));
+    wanted.into_iter().flatten()
+}
+
+/// Whether `key` went down, not counting what it repeats while it is held.
+pub fn pressed(key: Key, input: &InputState) -> bool {
+    use eframe::egui::Event;
+    input.events.iter().any(|event| {
+        matches!(event, Event::Key { key: found, pressed: true, repeat: false, .. } if *found == key)
+    })
+}
