@@ -123,6 +123,11 @@ impl Simulation {
         &self.surface
     }
 
+    /// How deep a cut goes [m]; none where nothing cuts.
+    pub fn cut_depth(&self) -> Option<f64> {
+        self.cutting.map(|cutting| cutting.depth)
+    }
+
     /// The tools in the scene's order.
     pub fn tools(&self) -> &[Tool] {
         &self.tools

@@ -7,11 +7,12 @@ use std::path::{Path, PathBuf};
 use image::RgbaImage;
 use palpate_files::{Scene, scene, write_whole};
 use palpate_geometry::{Surface, Vec3};
+use palpate_simulate::interactive::OpenedSnapshot;
 use palpate_simulate::{Frame, Simulation, SimulationState, read_organ};
 
 use crate::render::{Body, Renderer, Target, Tint, ToolPicture, View, single_precision};
 use crate::seen_organ::SeenOrgan;
-use crate::{Error, Gpu, Opening, TissuePicture, scene_camera};
+use crate::{Error, Gpu, TissuePicture, scene_camera};
 
 /// Width and height of a frame [pixels].
 pub const FRAME_SIZE: (u32, u32) = (1280, 800);
@@ -28,7 +29,7 @@ pub struct Studio {
     tools: Vec<scene::Tool>,
     target: Target,
     surface: Surface,
-    thickness: Option<f64>,
+    opened: OpenedSnapshot,
     /// What is drawn beside the organ, such as its wire frame.
     pub beside: Vec<Body>,
 }
@@ -60,7 +61,7 @@ impl Studio {
             tools: scene.tools.clone(),
             target: Target::new(&gpu, size, 4),
             surface: simulation.surface().clone(),
-            thickness: scene.organ.layers.first().map(|layer| layer.thickness_m),
+            opened: OpenedSnapshot::default(),
             beside: Vec::new(),
             view: View {
                 camera: scene_camera(&scene.view, (mesh, None), aspect),
@@ -82,23 +83,30 @@ impl Studio {
     /// # Errors
     /// When the adapter was lost.
     pub fn picture(&mut self, state: &SimulationState) -> Result<RgbaImage, Error> {
-        self.picture_of(state, None)
+        let mut opened = std::mem::take(&mut self.opened);
+        if let Some(cuts) = &state.cuts {
+            opened.fill(cuts);
+        }
+        let is_cut = opened.version > 0;
+        let picture = self.picture_of(state, is_cut.then_some(&opened));
+        self.opened = opened;
+        picture
     }
 
-    /// A picture of `state` with what was cut.
+    /// A picture of `state` with these openings in place of those that it has.
     ///
     /// # Errors
     /// When the adapter was lost.
     pub fn picture_of(
         &mut self,
         state: &SimulationState,
-        opening: Option<&Opening<'_>>,
+        opening: Option<&OpenedSnapshot>,
     ) -> Result<RgbaImage, Error> {
         let vertices = single_precision(state.deformed.vertices());
         match opening {
             Some(opening) => {
                 let uncut = (&self.surface, vertices.as_slice());
-                self.organ.open(&self.gpu, opening, uncut, self.thickness);
+                self.organ.open(&self.gpu, opening, uncut);
             }
             None => self
                 .organ

@@ -1,8 +1,8 @@
 use std::collections::{BTreeMap, VecDeque};
 
-use palpate_geometry::{CutSurface, NodeId, Origin, Surface, TriangleId, TriangleMesh, Vec3};
+use palpate_geometry::{CutSurface, NodeId, Surface, TriangleId, TriangleMesh, Vec3};
+use palpate_simulate::interactive::OpenedSnapshot;
 
-use crate::Opening;
 use crate::render::single_precision;
 
 /// Passes by which an opening is spread over the triangles beside it.
@@ -15,10 +15,8 @@ const PASSES: usize = 400;
 #[derive(Debug, Clone)]
 pub struct OpenedSurface {
     mesh: TriangleMesh,
-    origins: Vec<Origin>,
     places: Vec<Vec3>,
-    drawn: Vec<[f32; 3]>,
-    rims: Vec<[NodeId; 2]>,
+    drawn: OpenedSnapshot,
 }
 
 impl OpenedSurface {
@@ -30,25 +28,26 @@ impl OpenedSurface {
         for (place, way) in places.iter_mut().zip(ways(cut, &rims, width)) {
             *place += way;
         }
-        let nodes = 0..cut.mesh().vertices().len() as u32;
+        let mesh = cut.mesh().clone();
+        let triangles = mesh.triangles().iter();
         Self {
-            mesh: cut.mesh().clone(),
-            origins: nodes.map(|node| cut.origin(NodeId(node))).collect(),
-            drawn: single_precision(&places),
+            drawn: OpenedSnapshot {
+                version: 1,
+                rest: single_precision(mesh.vertices()),
+                places: single_precision(&places),
+                triangles: triangles
+                    .map(|corners| corners.map(|node| node.0))
+                    .collect(),
+                rims: rims.iter().map(|ends| ends.map(|node| node.0)).collect(),
+            },
             places,
-            rims,
+            mesh,
         }
     }
 
     /// As pictures take it.
-    pub fn opening(&self) -> Opening<'_> {
-        Opening {
-            version: 1,
-            mesh: &self.mesh,
-            origins: &self.origins,
-            places: &self.drawn,
-            rims: &self.rims,
-        }
+    pub fn drawn(&self) -> &OpenedSnapshot {
+        &self.drawn
     }
 
     /// The triangles at rest.

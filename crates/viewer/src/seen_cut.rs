@@ -13,7 +13,8 @@
 use std::collections::VecDeque;
 
 use nalgebra::Vector3;
-use palpate_geometry::{NodeId, Origin, Surface, TriangleId, TriangleMesh, Vec3};
+use palpate_geometry::{AabbTree, NodeId, Origin, Surface, TriangleId, Vec3};
+use palpate_simulate::interactive::OpenedSnapshot;
 
 use crate::Gpu;
 use crate::render::{Body, Fibres, Tint};
@@ -31,28 +32,17 @@ const BELOW: f32 = 1.15;
 const OPEN: (f32, f32) = (1.0, 0.45);
 
 /// How open the inner layer is [-].
-const UNDER: f32 = 0.65;
-
-/// A surface with openings, for a picture.
-#[derive(Debug, Clone, Copy)]
-pub struct Opening<'a> {
-    /// Another number means other triangles.
-    pub version: u64,
-    /// The triangles, and where the vertices are at rest.
-    pub mesh: &'a TriangleMesh,
-    /// Where each vertex was before any cut.
-    pub origins: &'a [Origin],
-    /// Where each is now [m].
-    pub places: &'a [[f32; 3]],
-    /// The two ends of each open edge, in the order of the triangle that has it.
-    pub rims: &'a [[NodeId; 2]],
-}
+const UNDER: f32 = 0.5;
 
 /// A cut organ on the adapter.
 pub(crate) struct SeenCut {
-    version: Option<u64>,
+    version: u64,
     /// Thickness of what is cut [m].
     thickness: f32,
+    /// Around the uncut surface at rest.
+    tree: AabbTree,
+    /// Where each vertex was before any cut.
+    origins: Vec<Origin>,
     outer: Body,
     wall: Body,
     inner: Body,
@@ -74,8 +64,10 @@ impl SeenCut {
     pub(crate) fn new(gpu: &Gpu, surface: &Surface, thickness: f64, tint: Tint) -> Self {
         let fibres = Fibres::along(surface.mesh());
         Self {
-            version: None,
+            version: 0,
             thickness: thickness as f32,
+            tree: AabbTree::new(surface.mesh()),
+            origins: Vec::new(),
             outer: Body::empty(gpu, tint),
             wall: Body::empty(gpu, Tint::MUSCLE_CUT).with_fibres(fibres),
             inner: Body::empty(gpu, Tint::MUCOSA),
@@ -98,22 +90,31 @@ impl SeenCut {
     pub(crate) fn follow(
         &mut self,
         gpu: &Gpu,
-        opening: &Opening<'_>,
+        opening: &OpenedSnapshot,
         (surface, moved): (&Surface, &[[f32; 3]]),
         open: &[f32],
     ) {
-        if self.version != Some(opening.version) {
-            self.version = Some(opening.version);
+        if self.version != opening.version {
+            self.version = opening.version;
             self.make(gpu, opening, surface, open);
         }
-        self.outer.deform(gpu, opening.places);
+        self.outer.deform(gpu, &opening.places);
         self.deform_inner(gpu, moved);
         self.deform_wall(gpu, opening, surface);
     }
 
-    fn make(&mut self, gpu: &Gpu, opening: &Opening<'_>, surface: &Surface, open: &[f32]) {
-        let mesh = opening.mesh;
-        let mixed: Vec<f32> = opening
+    fn make(&mut self, gpu: &Gpu, opening: &OpenedSnapshot, surface: &Surface, open: &[f32]) {
+        let rest: Vec<Vec3> = opening.rest.iter().map(double).collect();
+        let triangles = numbered(&opening.triangles);
+        self.origins.clear();
+        for place in &rest {
+            let nearest = self.tree.nearest(surface.mesh(), place);
+            self.origins.push(Origin {
+                triangle: nearest.triangle,
+                barycentric: nearest.on.barycentric,
+            });
+        }
+        let mixed: Vec<f32> = self
             .origins
             .iter()
             .map(|origin| {
@@ -124,23 +125,22 @@ impl SeenCut {
                     .sum()
             })
             .collect();
-        self.outer
-            .replace(gpu, (mesh.vertices(), mesh.triangles()), &mixed);
-        self.make_wall(gpu, opening);
-        self.make_inner(gpu, opening, surface);
+        self.outer.replace(gpu, (&rest, &triangles), &mixed);
+        self.make_wall(gpu, opening, &rest);
+        self.make_inner(gpu, surface);
     }
 
     /// A column of vertices below each vertex of a rim.
-    fn make_wall(&mut self, gpu: &Gpu, opening: &Opening<'_>) {
+    fn make_wall(&mut self, gpu: &Gpu, opening: &OpenedSnapshot, rest: &[Vec3]) {
+        let rims: Vec<[NodeId; 2]> = numbered(&opening.rims);
         self.wall_nodes.clear();
-        let ends = opening.rims.iter().flatten();
-        self.wall_nodes.extend(ends);
+        self.wall_nodes.extend(rims.iter().flatten());
         self.wall_nodes.sort_unstable();
         self.wall_nodes.dedup();
         let (mut vertices, mut open) = (Vec::new(), Vec::new());
         for node in &self.wall_nodes {
             for row in 0..=ROWS {
-                vertices.push(opening.mesh.vertices()[node.index()]);
+                vertices.push(rest[node.index()]);
                 open.push(OPEN.0 + (OPEN.1 - OPEN.0) * row as f32 / ROWS as f32);
             }
         }
@@ -148,8 +148,8 @@ impl SeenCut {
             let column = self.wall_nodes.binary_search(node);
             column.expect("each end of a rim has a column") * (ROWS + 1)
         };
-        let mut triangles = Vec::with_capacity(2 * ROWS * opening.rims.len());
-        for [from, to] in opening.rims {
+        let mut triangles = Vec::with_capacity(2 * ROWS * rims.len());
+        for [from, to] in &rims {
             let (from, to) = (column(from), column(to));
             for row in 0..ROWS {
                 let [a, b] = [from + row, to + row].map(|k| NodeId(k as u32));
@@ -162,14 +162,14 @@ impl SeenCut {
     }
 
     /// The triangles of the uncut surface around the slits.
-    fn make_inner(&mut self, gpu: &Gpu, opening: &Opening<'_>, surface: &Surface) {
+    fn make_inner(&mut self, gpu: &Gpu, surface: &Surface) {
         let mesh = surface.mesh();
         let reach = AROUND * f64::from(self.thickness);
         self.number.clear();
         self.number.resize(mesh.vertices().len(), None);
         self.inner_nodes.clear();
         self.inner_triangles.clear();
-        for triangle in triangles_near(surface, opening, reach) {
+        for triangle in triangles_near(surface, self.starts(), reach) {
             let corners = mesh.corners(triangle).map(|node| {
                 *self.number[node.index()].get_or_insert_with(|| {
                     self.inner_nodes.push(node);
@@ -183,6 +183,12 @@ impl SeenCut {
         let open = vec![UNDER; rest.len()];
         self.inner
             .replace(gpu, (&rest, &self.inner_triangles), &open);
+    }
+
+    /// The triangles of the uncut surface that a rim passes through.
+    fn starts(&self) -> impl Iterator<Item = TriangleId> {
+        let on_rim = |node: &NodeId| self.origins[node.index()].triangle;
+        self.wall_nodes.iter().map(on_rim)
     }
 
     fn deform_inner(&mut self, gpu: &Gpu, moved: &[[f32; 3]]) {
@@ -207,10 +213,10 @@ impl SeenCut {
     }
 
     /// Walls go down along the normals of the uncut surface: slivers beside a cut have normals of their own.
-    fn deform_wall(&mut self, gpu: &Gpu, opening: &Opening<'_>, surface: &Surface) {
+    fn deform_wall(&mut self, gpu: &Gpu, opening: &OpenedSnapshot, surface: &Surface) {
         self.below.clear();
         for node in &self.wall_nodes {
-            let origin = &opening.origins[node.index()];
+            let origin = &self.origins[node.index()];
             let corners = surface.mesh().corners(origin.triangle);
             let mut normal = Vector3::zeros();
             for (corner, part) in corners.iter().zip(origin.barycentric) {
@@ -228,19 +234,20 @@ impl SeenCut {
     }
 }
 
-/// The triangles of `surface` that are reached from a slit within `reach` [m] of it.
-fn triangles_near(surface: &Surface, opening: &Opening<'_>, reach: f64) -> Vec<TriangleId> {
+/// The triangles of `surface` that are reached from those of `starts` within `reach` [m] of them.
+fn triangles_near(
+    surface: &Surface,
+    starts: impl Iterator<Item = TriangleId>,
+    reach: f64,
+) -> Vec<TriangleId> {
     let mesh = surface.mesh();
     let middle = |triangle| mesh.positions(triangle).iter().sum::<Vec3>() / 3.0;
     let mut from = vec![None; mesh.triangles().len()];
     let mut waiting = VecDeque::new();
-    for ends in opening.rims {
-        for node in ends {
-            let start = opening.origins[node.index()].triangle;
-            if from[start.index()].is_none() {
-                from[start.index()] = Some(middle(start));
-                waiting.push_back(start);
-            }
+    for start in starts {
+        if from[start.index()].is_none() {
+            from[start.index()] = Some(middle(start));
+            waiting.push_back(start);
         }
     }
     let mut found = Vec::new();
@@ -256,4 +263,12 @@ fn triangles_near(surface: &Surface, opening: &Opening<'_>, reach: f64) -> Vec<T
         }
     }
     found
+}
+
+fn numbered<const N: usize>(corners: &[[u32; N]]) -> Vec<[NodeId; N]> {
+    corners.iter().map(|corners| corners.map(NodeId)).collect()
+}
+
+fn double(place: &[f32; 3]) -> Vec3 {
+    Vec3::from(place.map(f64::from))
 }

@@ -1,13 +1,14 @@
 use palpate_files::scene::Enhancement;
 use palpate_geometry::{Surface, Vec3};
+use palpate_simulate::interactive::OpenedSnapshot;
 use palpate_simulate::{EnhancedSurface, OrganField, Simulation};
 
 use crate::render::openness::openness;
 use crate::render::{Body, Tint, single_precision};
-use crate::seen_cut::{Opening, SeenCut};
+use crate::seen_cut::SeenCut;
 use crate::{Error, Gpu};
 
-/// Thickness of what a cut goes through when the organ has no layers [m].
+/// How deep a cut is that somebody shows on an organ which nothing cuts [m].
 const CUT: f64 = 0.0015;
 
 /// The organ that is touched, as it is drawn: with the simulation's vertices, with finer triangles around
@@ -16,6 +17,8 @@ pub(crate) struct SeenOrgan {
     body: Body,
     /// Once there was a cut.
     cut: Option<SeenCut>,
+    /// How deep cuts go [m].
+    cut_depth: f64,
     /// Whether the last picture was of a cut organ.
     is_open: bool,
     enhanced: Option<EnhancedSurface>,
@@ -35,6 +38,7 @@ impl SeenOrgan {
         let mut organ = Self {
             body: Body::with_openness(gpu, surface.mesh(), &open, tint),
             cut: None,
+            cut_depth: simulation.cut_depth().unwrap_or(CUT),
             is_open: false,
             enhanced: None,
             tint,
@@ -71,19 +75,16 @@ impl SeenOrgan {
             .chain(cut.into_iter().flat_map(SeenCut::bodies))
     }
 
-    /// Shows `opening` in place of the uncut surface, whose vertices are at `vertices` [m]. What is cut is
-    /// `thickness` thick [m].
+    /// Shows `opening` in place of the uncut surface, whose vertices are at `vertices` [m].
     pub(crate) fn open(
         &mut self,
         gpu: &Gpu,
-        opening: &Opening<'_>,
+        opening: &OpenedSnapshot,
         (surface, vertices): (&Surface, &[[f32; 3]]),
-        thickness: Option<f64>,
     ) {
-        let thickness = thickness.unwrap_or(CUT);
         let cut = self
             .cut
-            .get_or_insert_with(|| SeenCut::new(gpu, surface, thickness, self.tint));
+            .get_or_insert_with(|| SeenCut::new(gpu, surface, self.cut_depth, self.tint));
         cut.follow(gpu, opening, (surface, vertices), &self.open);
         self.is_open = true;
     }

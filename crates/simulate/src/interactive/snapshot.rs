@@ -123,7 +123,7 @@ impl Snapshot {
 
 impl OpenedSnapshot {
     /// Takes over `cuts`.
-    fn fill(&mut self, cuts: &Cuts) {
+    pub fn fill(&mut self, cuts: &Cuts) {
         if !cuts.are_there() {
             return self.clear();
         }

@@ -230,13 +230,10 @@ impl SimulatorWindow {
                 Action::Reset => Wish::Reset,
             };
             if let Some(play) = &mut self.play {
-                let done = play.order(wish);
+                play.order(wish);
                 if wish == Wish::Reset {
                     self.picture.lay_down();
                     self.history.clear();
-                    if !done {
-                        self.begin_anew(context);
-                    }
                 }
             }
         }

@@ -3,7 +3,7 @@ use eframe::egui::{self, Align2, Color32, FontId, Pos2, Rect, Stroke, Vec2};
 use super::list;
 use super::picture::Picture;
 use super::play::Play;
-use crate::style::{DEPTH, FORCE, QUIET};
+use crate::style::{DEPTH, DOUBT, FORCE, QUIET};
 
 /// Depth that fills the gauge [m].
 const FULL: f64 = 0.015;
@@ -41,6 +41,11 @@ pub(super) fn show(ui: &egui::Ui, rect: Rect, picture: &Picture, play: &mut Play
     }
     let pointer = ui.input(|input| input.pointer.latest_pos());
     let snapshot = play.interaction.snapshot();
+    if snapshot.paused {
+        let at = Pos2::new(rect.center().x, rect.min.y + 22.0);
+        let font = FontId::proportional(16.0);
+        painter.text(at, Align2::CENTER_CENTER, "paused: P goes on", font, DOUBT);
+    }
     let Some(seen) = snapshot.tools.get(tool) else {
         return;
     };

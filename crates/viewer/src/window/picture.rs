@@ -38,7 +38,7 @@ pub(super) struct Picture {
     renderer: Renderer,
     target: Option<(Target, egui::TextureId)>,
     /// What the texture shows; what would look the same is not drawn again.
-    drawn: Option<(View, Vec<ToolPicture>)>,
+    drawn: Option<(View, Vec<ToolPicture>, u64)>,
 }
 
 impl Picture {
@@ -92,7 +92,7 @@ impl Picture {
 
     /// Whether there is a gamepad, which does not wake the window.
     pub(super) fn has_gamepad(&self) -> bool {
-        self.gamepad.is_some()
+        self.gamepad.as_ref().is_some_and(|pad| !pad.is_gone())
     }
 
     /// Lays a picture around the organ.
@@ -293,15 +293,23 @@ impl Picture {
             reach: extent,
         };
         // Places, not forces: tissue that relaxes looks the same. A slow machine has better things to do.
-        let now = (view, tools);
+        let opened = snapshot.opened.as_ref().filter(|opened| opened.version > 0);
+        let now = (view, tools, opened.map_or(0, |opened| opened.version));
         if self.drawn.as_ref() == Some(&now) {
             return texture;
         }
-        play.organ
-            .deform(gpu, &snapshot.vertices, snapshot.whole.as_ref());
+        match opened {
+            Some(opened) => {
+                let uncut = (play.simulation.surface(), snapshot.vertices.as_slice());
+                play.organ.open(gpu, opened, uncut);
+            }
+            None => play
+                .organ
+                .deform(gpu, &snapshot.vertices, snapshot.whole.as_ref()),
+        }
         let bodies: Vec<&Body> = play.organ.bodies().chain(&play.neighbours).collect();
         if let Some((target, _)) = &self.target {
-            let (view, tools) = &now;
+            let (view, tools, _) = &now;
             self.renderer.draw(gpu, view, (&bodies, tools), target);
         }
         self.drawn = Some(now);

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use palpate_files::Scene;
 use palpate_geometry::{AabbTree, Surface, Vec3};
 use palpate_servo::{PointerHand, ServoSettings};
-use palpate_simulate::interactive::{CUTS, Interaction, SceneDevices};
+use palpate_simulate::interactive::{CUTS, Interaction, Order, SceneDevices};
 use palpate_simulate::{Progress, Resources, Simulation, read_organ};
 
 use super::hands::Hand;
@@ -96,11 +96,14 @@ impl Play {
         }
     }
 
-    /// Tells the model what is wanted of it; whether it did.
-    pub(super) fn order(&mut self, wish: Wish) -> bool {
-        // The model takes no orders yet.
-        match wish {
-            Wish::UndoCut | Wish::Reset | Wish::Pause => false,
-        }
+    /// Tells the model what is wanted of it.
+    pub(super) fn order(&mut self, wish: Wish) {
+        let order = match wish {
+            Wish::UndoCut => Order::UndoCut,
+            Wish::Reset => Order::Reset,
+            Wish::Pause if self.interaction.snapshot().paused => Order::Resume,
+            Wish::Pause => Order::Pause,
+        };
+        self.interaction.order(order);
     }
 }

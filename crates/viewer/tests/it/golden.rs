@@ -8,9 +8,9 @@ use std::path::PathBuf;
 use image::RgbaImage;
 use palpate_files::scene::Shading;
 use palpate_files::{Pose, Scene};
-use palpate_geometry::{AabbTree, Vec3};
+use palpate_geometry::{AabbTree, CutMethod, CutSurface, Vec3};
 use palpate_simulate::{Simulation, SimulationState, SimulationWorkspace, step};
-use palpate_viewer::{Orbit, Studio, TissuePicture, png};
+use palpate_viewer::{OpenedSurface, Orbit, Studio, TissuePicture, png};
 
 use crate::{TURN, gpu};
 
@@ -148,6 +148,99 @@ fn finer_triangles_look_as_they_did() {
             "{name}"
         );
         seen.push(picture);
+    }
+}
+
+/// The hemisphere with two tools of these kinds above it, their jaws closed by a third.
+fn with_tools(kinds: [&str; 2]) -> RgbaImage {
+    let tool = |name: &str, kind: &str, x: f64| {
+        format!(
+            "[[tool]]\nname = \"{name}\"\nkind = \"{kind}\"\ntrocar_m = [{x}, -0.1, 0.1]\n\
+             tip = {{ shape = \"flat\", radius_m = 0.001 }}\n"
+        )
+    };
+    let text = format!(
+        "format = 1\n[organ]\nbuiltin = \"hemisphere\"\nbuiltin_tissue = \"pig-liver\"\n\
+         [view]\neye_m = [0.0, -0.09, 0.085]\ntarget_m = [0.0, -0.01, 0.055]\n{}{}",
+        tool("left", kinds[0], 0.05),
+        tool("right", kinds[1], -0.05)
+    );
+    let scene = Scene::parse(&text, "scene.toml").unwrap();
+    let simulation = Simulation::new(&scene).unwrap();
+    let mut state = SimulationState::new(&simulation);
+    let mut workspace = SimulationWorkspace::new(&simulation);
+    let quarter = std::f64::consts::FRAC_1_SQRT_2;
+    let poses = [0.012, -0.012].map(|x| {
+        Some(Pose {
+            position_m: [x, -0.018, 0.056],
+            orientation: Some([0.0, 0.0, quarter, quarter]),
+            grip: 0.33,
+            cut: false,
+        })
+    });
+    step(&simulation, (0.0, 0.0), &poses, &mut state, &mut workspace);
+    let mut studio = Studio::new(&scene, &simulation, SIZE).unwrap();
+    studio.picture(&state).unwrap()
+}
+
+/// Judge: the kept pictures, which were looked at.
+#[test]
+fn tools_look_as_they_did() {
+    if !is_comparable() {
+        return;
+    }
+    let _turn = TURN.lock();
+    compare("grasper_scissors", &with_tools(["grasper", "scissors"]));
+    compare("hook_probe", &with_tools(["hook", "probe"]));
+}
+
+/// The cube with a cut across its top, and without; both from above.
+fn cut_cube() -> [RgbaImage; 2] {
+    let text = "format = 1\n[organ]\nbuiltin = \"cube\"\nbuiltin_tissue = \"pig-esophagus\"\n\
+                [view]\neye_m = [0.0, -0.06, 0.16]\ntarget_m = [0.0, 0.0, 0.05]\n";
+    let scene = Scene::parse(text, "scene.toml").unwrap();
+    let simulation = Simulation::new(&scene).unwrap();
+    let state = SimulationState::new(&simulation);
+    let surface = simulation.surface();
+    let tree = AabbTree::new(surface.mesh());
+    let mut cut = CutSurface::new(surface, CutMethod::SnapVertices);
+    let top = |x: f64| Vec3::new(x, 0.1 * x + 0.001, 0.05);
+    let near = tree.nearest(surface.mesh(), &top(-0.03)).triangle;
+    cut.begin(surface, near, &top(-0.03)).unwrap();
+    for k in 0..=40 {
+        cut.advance(surface, &top(-0.03 + 0.0015 * f64::from(k)))
+            .unwrap();
+    }
+    cut.end(surface).unwrap();
+    let open = OpenedSurface::new(&cut, (surface, surface.mesh().vertices()), 0.012);
+    let mut studio = Studio::new(&scene, &simulation, SIZE).unwrap();
+    [Some(open.drawn()), None].map(|opened| studio.picture_of(&state, opened).unwrap())
+}
+
+/// Judges: the kept picture, which was looked at; and what is under the surface is seen in the opening and
+/// nowhere else.
+#[test]
+fn a_cut_looks_as_it_did() {
+    if gpu().is_none() {
+        return;
+    }
+    let _turn = TURN.lock();
+    let [cut, whole] = cut_cube();
+    let apart = |x: u32, y: u32| {
+        let pairs = cut
+            .get_pixel(x, y)
+            .0
+            .into_iter()
+            .zip(whole.get_pixel(x, y).0);
+        pairs.map(|(a, b)| a.abs_diff(b)).max()
+    };
+    let middle = (SIZE.0 / 2, SIZE.1 / 2);
+    assert!(apart(middle.0, middle.1) > Some(12));
+    for (x, y) in [(60, 80), (100, 80), (10, 10)] {
+        assert!(apart(x, y) <= Some(3), "{x}, {y}");
+    }
+    if is_comparable() {
+        compare("cut", &cut);
     }
 }
 

@@ -10,6 +10,7 @@ mod agreement;
 mod analytic;
 mod errors;
 mod golden;
+mod hands;
 mod invariants;
 
 use std::sync::{Mutex, OnceLock};

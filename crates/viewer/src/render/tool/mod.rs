@@ -19,7 +19,7 @@ mod solid;
 mod tests;
 
 use nalgebra::{Matrix4, UnitQuaternion};
-use palpate_files::scene::{self, Tip, TipShape, ToolKind};
+use palpate_files::scene::{self, Jaws, Tip, TipShape, ToolKind};
 use palpate_geometry::Vec3;
 
 /// Radius of a laparoscopic shaft [m].
@@ -75,12 +75,8 @@ pub(super) struct JawSize {
     opening: f64,
 }
 
-/// The size of jaws of which nothing is said.
-const JAWS: JawSize = JawSize {
-    length: 0.012,
-    width: 0.004,
-    opening: 0.010,
-};
+/// Width of blades, of which a scene says nothing [m].
+const BLADES: f64 = 0.004;
 
 /// What a part is made of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -205,6 +201,19 @@ impl Part {
 }
 
 impl JawSize {
+    fn of(tool: &scene::Tool) -> Self {
+        let jaws = tool.jaws.unwrap_or(match tool.kind {
+            ToolKind::Scissors => Jaws::SCISSORS,
+            _ => Jaws::GRASPER,
+        });
+        let is_blade = jaws.width_m <= 0.0;
+        Self {
+            length: jaws.length_m,
+            width: if is_blade { BLADES } else { jaws.width_m },
+            opening: jaws.opening_m,
+        }
+    }
+
     /// How far each jaw is turned when they are open [rad].
     fn angle(&self) -> f64 {
         // No jaw opens further than a right angle to the shaft.
@@ -229,7 +238,7 @@ impl ToolShape {
                 ToolKind::Probe => shaft,
                 _ => SHAFT,
             },
-            jaws: JAWS,
+            jaws: JawSize::of(tool),
             has_trocar: tool.trocar_m.is_some(),
         }
     }

@@ -76,9 +76,10 @@ fn jaws_open_as_far_as_they_say() {
                 .collect();
             ends[0].x - ends[1].x
         };
-        let half_angle = 2.0 * JAWS.length * (0.5 * JAWS.angle()).sin();
+        let jaws = JawSize::of(&tool);
+        let half_angle = 2.0 * jaws.length * (0.5 * jaws.angle()).sin();
         // Rounding of a sine.
-        assert!((apart(0.0) - JAWS.opening).abs() < 1e-12, "{kind}");
+        assert!((apart(0.0) - jaws.opening).abs() < 1e-12, "{kind}");
         assert!((apart(0.5) - half_angle).abs() < 1e-12, "{kind}");
         assert!(apart(1.0).abs() < 1e-12, "{kind}");
     }
@@ -87,10 +88,11 @@ fn jaws_open_as_far_as_they_say() {
 /// A shut jaw stays on its side, so that two do not pass through one another.
 #[test]
 fn shut_jaws_touch() {
+    let jaws = JawSize::of(&tool(ToolKind::Grasper));
     for part in ToolShape::of(&tool(ToolKind::Grasper)).parts() {
         if let Motion::Turned { side } = part.motion {
             let below = part.corners.iter().map(place);
-            let below = below.filter(|place| place.z < 0.7 * JAWS.length);
+            let below = below.filter(|place| place.z < 0.7 * jaws.length);
             let least = below
                 .map(|place| side * place.x)
                 .fold(f64::INFINITY, f64::min);

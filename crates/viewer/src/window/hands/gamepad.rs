@@ -15,6 +15,7 @@
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::Drive;
@@ -98,6 +99,7 @@ fn alive(axis: f64) -> f64 {
 #[derive(Debug, Clone, Default)]
 pub struct Gamepad {
     pad: Arc<Mutex<Pad>>,
+    gone: Arc<AtomicBool>,
 }
 
 impl Gamepad {
@@ -110,7 +112,8 @@ impl Gamepad {
     pub fn open(path: &Path) -> Option<Self> {
         let file = File::open(path).ok()?;
         let pad = Arc::new(Mutex::new(Pad::default()));
-        let told = Arc::downgrade(&pad);
+        let gone = Arc::new(AtomicBool::new(false));
+        let (told, ended) = (Arc::downgrade(&pad), Arc::clone(&gone));
         let read = move || {
             let mut file = file;
             let mut event = [0; 8];
@@ -122,10 +125,16 @@ impl Gamepad {
             if let Some(pad) = told.upgrade() {
                 *lock(&pad) = Pad::default();
             }
+            ended.store(true, Ordering::Release);
         };
         let thread = std::thread::Builder::new().name("gamepad".to_owned());
         thread.spawn(read).ok()?;
-        Some(Self { pad })
+        Some(Self { pad, gone })
+    }
+
+    /// Whether it was unplugged.
+    pub fn is_gone(&self) -> bool {
+        self.gone.load(Ordering::Acquire)
     }
 
     /// Sticks and buttons as they are, with the buttons that went down since the last look.
