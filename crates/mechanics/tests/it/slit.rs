@@ -280,7 +280,7 @@ fn lines(step: f64, fine: f64, coarse: f64, end: f64) -> Vec<f64> {
 fn compare(name: &str, table: &Table) {
     let (whole, cuts) = judged(name);
     for (depth, more) in cuts {
-        for facets in [8, 12] {
+        for facets in [8] {
             let slit = table.cut(depth * MM, facets);
             println!("{name} {depth} in {facets} facets");
             for (k, square) in squares().iter().enumerate() {

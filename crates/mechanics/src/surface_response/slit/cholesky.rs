@@ -7,8 +7,8 @@ pub(super) struct Grown {
     rows: usize,
 }
 
-/// A row whose pivot is below this part of its diagonal entry is locked [-]: H does not tell its jump from those
-/// before it, as where a slit is cut again. Of a long straight slit pivots are 0.2 and more.
+/// A row whose pivot is below this part of what its facet alone would have is locked [-]: H does not tell its jump
+/// from those before it, as where a slit is cut again. Of a long straight slit pivots are 0.2 and more.
 const LEAST_PIVOT: f64 = 0.1;
 
 fn start(row: usize) -> usize {
@@ -29,9 +29,9 @@ impl Grown {
         &mut self.matrix[start(row)..=start(row) + row]
     }
 
-    /// Makes the factor of a row, whose diagonal is raised by `more`; those above it are made. Whether it is
-    /// not locked.
-    pub(super) fn factor(&mut self, row: usize, more: f64) -> bool {
+    /// Makes the factor of a row, whose diagonal is raised by `more` and whose pivot would be `alone` without those
+    /// of other facets; those above it are made. Whether it is not locked.
+    pub(super) fn factor(&mut self, row: usize, (more, alone): (f64, f64)) -> bool {
         let (above, here) = self.factor.split_at_mut(start(row));
         let here = &mut here[..=row];
         here.copy_from_slice(&self.matrix[start(row)..=start(row) + row]);
@@ -45,7 +45,7 @@ impl Grown {
         let known = dot(&here[..row], &here[..row]);
         let pivot = diagonal - known;
         self.rows = row + 1;
-        let sound = pivot >= LEAST_PIVOT * diagonal && diagonal > 0.0;
+        let sound = pivot >= LEAST_PIVOT * alone && pivot > 0.0;
         if sound {
             here[row] = pivot.sqrt();
         } else {

@@ -2,6 +2,7 @@ use nalgebra::Matrix3;
 use palpate_geometry::{AabbTree, Surface, TriangleId};
 
 use super::super::response::SurfaceResponse;
+use super::gradient::Gradient;
 use crate::boundary_elements::Precision;
 use crate::{Error, Vec3};
 
@@ -60,6 +61,8 @@ pub(super) struct Facet {
     /// Triangles at its middle: on the surface, and on the other side of a wall.
     pub(super) outer: TriangleId,
     pub(super) inner: Option<TriangleId>,
+    /// Curvature of the wall's middle across the facet [1/m].
+    pub(super) curvature: f64,
     /// Its first row.
     pub(super) first: usize,
 }
@@ -96,15 +99,24 @@ impl Facet {
             under,
             outer: nearest.triangle,
             inner,
+            curvature: 0.0,
             first,
         })
+    }
+
+    /// Learns how the wall bends from its outer surface.
+    pub(super) fn bend(&mut self, outer: &Gradient) {
+        if let Under::Wall { thickness, .. } = self.under {
+            let rest = (1.0 - 0.5 * thickness * outer.curvature).max(0.5);
+            self.curvature = (outer.curvature / rest).abs().min(1.0 / thickness);
+        }
     }
 
     /// How many rows it has.
     pub(super) fn modes(&self) -> usize {
         match self.under {
             Under::Solid { .. } => 3,
-            Under::Wall { .. } => 5,
+            Under::Wall { .. } => 6,
         }
     }
 

@@ -13,12 +13,12 @@ use crate::boundary_elements::Precision;
 const REACH: f64 = 1.8;
 
 /// No more triangles are taken.
-const MOST: usize = 64;
+pub(super) const MOST: usize = 64;
 
 /// How a triangle's displacement counts in σ_nn and σ_ns over E at a place [1/m].
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Part {
-    pub(super) touch: TouchId,
+pub(super) struct Stress {
+    touch: TouchId,
     pub(super) centroid: Vec3,
     pub(super) across: Vec3,
     pub(super) along: Vec3,
@@ -29,9 +29,11 @@ pub(super) struct Part {
 pub(super) struct Gradient {
     found: Vec<TriangleId>,
     weights: Vec<f64>,
-    pub(super) parts: Vec<Part>,
+    pub(super) parts: Vec<Stress>,
     /// How far it reaches [m].
     pub(super) reach: f64,
+    /// Curvature of the surface across the facet [1/m].
+    pub(super) curvature: f64,
 }
 
 impl Gradient {
@@ -41,6 +43,7 @@ impl Gradient {
             weights: Vec::with_capacity(MOST),
             parts: Vec::with_capacity(MOST),
             reach: 0.0,
+            curvature: 0.0,
         }
     }
 
@@ -82,7 +85,7 @@ impl Gradient {
             let basis = Vec3::new(1.0, away.dot(&n) / self.reach, away.dot(&s) / self.reach);
             moments += basis * basis.transpose() * weight;
             self.weights.push(weight);
-            self.parts.push(Part {
+            self.parts.push(Stress {
                 touch,
                 centroid: touched.centroid,
                 across: basis,
@@ -97,8 +100,11 @@ impl Gradient {
         };
         let nu = response.parts().poissons_ratio;
         let (plane, shear) = (1.0 / (1.0 - nu * nu), 0.5 / (1.0 + nu));
+        self.curvature = 0.0;
         for (part, weight) in self.parts.iter_mut().zip(&self.weights) {
             let slopes = inverse * part.across * (*weight / self.reach);
+            let normal = response.touchable()[part.touch.index()].normal;
+            self.curvature += slopes.y * normal.dot(&n);
             part.across = (n * slopes.y + s * (nu * slopes.z)) * plane;
             part.along = (s * slopes.y + n * slopes.z) * shear;
         }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::{Matrix3, Matrix5};
+use nalgebra::{Matrix3, Matrix6};
 
 use super::facet::{Facet, Under};
 use super::plate::Plate;
@@ -40,20 +40,41 @@ const BENT_ALONE: f64 = 22.5;
 /// stiff [-].
 const OF_BENDING: f64 = 0.5;
 
+/// The square of what a slit along a tube opens more for its bulging is 1 + this √(12 (1 − ν²)) a²/(R w) for a half
+/// length a [Folias 1965] [-].
+const OF_BULGE: f64 = 0.487;
+
 /// Facets that turn by less from one another are taken as of one plane: cosine [-].
 const ONE_PLANE: f64 = 0.8;
 
 /// The part of H between the modes of two facets, over E [m].
-pub(super) fn coupling(nu: f64, one: &Facet, other: &Facet) -> Matrix5<f64> {
+pub(super) fn coupling(nu: f64, one: &Facet, other: &Facet) -> Matrix6<f64> {
     0.5 * (pull(nu, one, other) + pull(nu, other, one).transpose())
 }
 
+/// Pivots of a block by itself [m].
+pub(super) fn pivots(block: &Matrix6<f64>, modes: usize) -> [f64; 6] {
+    let mut rest = *block;
+    std::array::from_fn(|mode| {
+        let pivot = rest[(mode, mode)];
+        if mode < modes && pivot > 0.0 {
+            for i in mode + 1..6 {
+                let factor = rest[(i, mode)] / pivot;
+                for j in mode + 1..6 {
+                    rest[(i, j)] -= factor * rest[(mode, j)];
+                }
+            }
+        }
+        pivot
+    })
+}
+
 /// H of a facet with itself over E [m], and what its diagonal is raised by where one end is free, or both.
-pub(super) fn own(nu: f64, facet: &Facet) -> (Matrix5<f64>, [[f64; 5]; 2]) {
+pub(super) fn own(nu: f64, facet: &Facet) -> (Matrix6<f64>, [[f64; 6]; 2]) {
     let mut matrix = pull(nu, facet, facet);
-    let mut ends = [[0.0; 5]; 2];
-    for mode in 0..5 {
-        let (one, both) = if mode == 4 {
+    let mut ends = [[0.0; 6]; 2];
+    for mode in 0..6 {
+        let (one, both) = if mode >= 4 {
             (AT_BENT_END, BENT_ALONE)
         } else {
             (AT_END, ALONE)
@@ -70,11 +91,11 @@ pub(super) fn own(nu: f64, facet: &Facet) -> (Matrix5<f64>, [[f64; 5]; 2]) {
 }
 
 /// Less the work of the traction on the modes of `seen` by unit jumps of `jumping`.
-fn pull(nu: f64, seen: &Facet, jumping: &Facet) -> Matrix5<f64> {
+fn pull(nu: f64, seen: &Facet, jumping: &Facet) -> Matrix6<f64> {
     match (seen.under, jumping.under) {
         (Under::Solid { depth }, Under::Solid { depth: other }) => {
             let block = in_solid(nu, (seen, depth), (jumping, other));
-            let mut matrix = Matrix5::zeros();
+            let mut matrix = Matrix6::zeros();
             matrix.fixed_view_mut::<3, 3>(0, 0).copy_from(&block);
             matrix
         }
@@ -84,7 +105,7 @@ fn pull(nu: f64, seen: &Facet, jumping: &Facet) -> Matrix5<f64> {
                 thickness: other, ..
             },
         ) => in_wall(nu, (seen, jumping), 0.5 * (thickness + other)),
-        _ => Matrix5::zeros(),
+        _ => Matrix6::zeros(),
     }
 }
 
@@ -125,7 +146,7 @@ fn in_solid(
     let turn = jumping.frame.tr_mul(&seen.frame);
     let at = jumping.frame.tr_mul(&(seen.middle - jumping.middle));
     let size = jumping.length.max(seen.length);
-    let one_plane = turn[(0, 0)].abs() > ONE_PLANE && at.x.abs() < 0.4 * size;
+    let one_plane = in_one_plane(&turn, &at, size);
     let (mine, yours) = (depth / ROWS as f64, other / ROWS as f64);
     let free = Matrix3::from_diagonal(&Vec3::new(1.0 / OF_SURFACE, 1.0, 1.0 / OF_SURFACE));
     let far = at.norm() > 3.0 * (jumping.length + other);
@@ -151,8 +172,8 @@ fn in_solid(
     }
     let half = [0.5 * jumping.length, 0.5 * yours];
     let mut diagonal = Vec3::zeros();
-    for m in 0..ROWS {
-        for k in 0..ROWS {
+    for (m, of_seen) in PROFILE.iter().enumerate() {
+        for (k, of_jump) in PROFILE.iter().enumerate() {
             for image in [1.0, -1.0] {
                 let height = row(m, mine) - image * row(k, yours);
                 let height = clear(height, yours);
@@ -163,12 +184,17 @@ fn in_solid(
                     shear * all + 3.0 * nu * along,
                     shear * all + 3.0 * nu * down,
                 );
-                diagonal -= each * (PROFILE[m] * PROFILE[k] * area * factor);
+                diagonal -= each * (of_seen * of_jump * area * factor);
             }
         }
     }
     let own = Matrix3::from_diagonal(&(diagonal * OF_ROWS)) * free;
     turn.tr_mul(&own) * turn[(0, 0)].signum()
+}
+
+/// Whether facets are taken as of one plane.
+fn in_one_plane(turn: &Matrix3<f64>, at: &Vec3, size: f64) -> bool {
+    turn[(0, 0)].abs() > ONE_PLANE && at.x.abs() < 0.4 * size
 }
 
 /// A height that is not on the edge of a row.
@@ -221,11 +247,11 @@ fn line(x: f64) -> f64 {
     }
 }
 
-fn in_wall(nu: f64, (seen, jumping): (&Facet, &Facet), thickness: f64) -> Matrix5<f64> {
+fn in_wall(nu: f64, (seen, jumping): (&Facet, &Facet), thickness: f64) -> Matrix6<f64> {
     let turn = jumping.frame.tr_mul(&seen.frame);
     let at = jumping.frame.tr_mul(&(seen.middle - jumping.middle));
     let length = 0.5 * (seen.length + jumping.length);
-    let one_plane = turn[(0, 0)].abs() > ONE_PLANE && at.x.abs() < 0.4 * length;
+    let one_plane = in_one_plane(&turn, &at, length);
     // Along a wall that bends, not through it.
     let away = at.norm().copysign(at.y);
     let plate = Plate { nu, thickness };
@@ -235,7 +261,13 @@ fn in_wall(nu: f64, (seen, jumping): (&Facet, &Facet), thickness: f64) -> Matrix
     let bend = thickness / (12.0 * PI) * thin.powf(OF_BENDING);
     let shear = 5.0 / 6.0 * thickness / (4.0 * PI * (1.0 + nu));
     let lift = plate.bending() * (1.0 - nu) * (3.0 + nu) / (4.0 * PI) / (length * length);
-    let mut matrix = Matrix5::zeros();
+    // A wall that is flat does not bulge: as stiff as much more bending then.
+    let curvature = (0.5 * (seen.curvature + jumping.curvature)).max(1e-3 / thickness);
+    let bulge = thickness * thickness
+        / curvature
+        / (16.0 * PI * OF_BULGE * (12.0 * (1.0 - nu * nu)).sqrt())
+        / (length * length);
+    let mut matrix = Matrix6::zeros();
     let parts = seen.length * jumping.length / (length * length);
     if one_plane {
         let x = away / length;
@@ -251,6 +283,7 @@ fn in_wall(nu: f64, (seen, jumping): (&Facet, &Facet), thickness: f64) -> Matrix
         matrix[(3, 3)] = sign * near * shear;
         let second = 2.0 * line(x) - line(x - 1.0) - line(x + 1.0);
         matrix[(4, 4)] = sign * second * parts * lift;
+        matrix[(5, 5)] = second * parts * bulge;
         return matrix;
     }
     let mut r = at;
@@ -271,5 +304,6 @@ fn in_wall(nu: f64, (seen, jumping): (&Facet, &Facet), thickness: f64) -> Matrix
     matrix[(3, 3)] = -shear * plane.x * seen.length * jumping.length / squared;
     let second = 2.0 * line(x) - line(x - 1.0) - line(x + 1.0);
     matrix[(4, 4)] = plane.x * second * parts * lift;
+    matrix[(5, 5)] = plane.x.abs() * second * parts * bulge;
     matrix
 }

@@ -12,6 +12,8 @@ use crate::boundary_elements::Precision;
 #[derive(Debug, Clone, PartialEq)]
 pub struct SlitLoad {
     rows: Vec<Vec3>,
+    /// φ of each facet, of a spot.
+    fades: Vec<f64>,
     /// What the rim beside a spot yields by itself, times E [1/m].
     rim: Matrix3<f64>,
 }
@@ -27,6 +29,7 @@ impl<T: Precision> Slit<T> {
     pub fn load(&self) -> SlitLoad {
         SlitLoad {
             rows: Vec::with_capacity(self.most * MODES),
+            fades: Vec::with_capacity(self.most),
             rim: Matrix3::zeros(),
         }
     }
@@ -49,7 +52,27 @@ impl<T: Precision> Slit<T> {
         load.rows.clear();
         load.rows.resize(self.size(), Vec3::zeros());
         load.rim = Matrix3::zeros();
+        load.fades.clear();
+        load.fades.resize(self.facets.len(), 0.0);
         let mut beside = 0.0;
+        for (cut, fade) in self.facets.iter().zip(&mut load.fades) {
+            let Some(spot) = spot else {
+                break;
+            };
+            let about = (self.poissons_ratio, cut.reach);
+            let Some(found) = cut.facet.of_spot(about, spot) else {
+                continue;
+            };
+            *fade = found.0;
+            let rows = &mut load.rows[cut.facet.rows()];
+            for (place, found) in rows.iter_mut().zip(&found.1) {
+                *place += found;
+            }
+            if let Some((part, rim)) = cut.facet.rim_of(cut.reach, spot) {
+                beside += part;
+                load.rim += rim * part;
+            }
+        }
         for Share { triangle, weight } in shares {
             let Some(touched) = response.touchable().get(triangle.index()) else {
                 continue;
@@ -59,33 +82,19 @@ impl<T: Precision> Slit<T> {
                 let values = &self.row(row)[3 * triangle.index()..][..3];
                 *place += Vec3::from_fn(|axis, _| values[axis].into()) * weight;
             }
-            if spot.is_some() {
-                continue;
-            }
-            for cut in &self.facets {
+            for (cut, fade) in self.facets.iter().zip(&load.fades) {
+                if spot.is_some() && *fade == 0.0 {
+                    continue;
+                }
                 let near = &self.near[cut.near[0]..cut.near[1]];
                 let Ok(found) = near.binary_search_by_key(&triangle, |near| near.triangle) else {
                     continue;
                 };
                 let rows = &mut load.rows[cut.facet.rows()];
-                for (place, near) in rows.iter_mut().zip(&near[found].rows) {
-                    *place += Vec3::from_fn(|axis, _| f64::from(near[axis])) * weight;
-                }
-            }
-        }
-        if let Some(spot) = spot {
-            for cut in &self.facets {
-                let about = (self.poissons_ratio, cut.reach);
-                let Some(found) = cut.facet.of_spot(about, spot) else {
-                    continue;
-                };
-                let rows = &mut load.rows[cut.facet.rows()];
-                for (place, found) in rows.iter_mut().zip(&found) {
-                    *place += found;
-                }
-                if let Some((part, rim)) = cut.facet.rim_of(cut.reach, spot) {
-                    beside += part;
-                    load.rim += rim * part;
+                if spot.is_some() {
+                    add(rows, &near[found].resolved, -weight * fade);
+                } else {
+                    add(rows, &near[found].more, weight);
                 }
             }
         }
@@ -149,7 +158,7 @@ impl<T: Precision> Slit<T> {
         let jumps = jumps.values.get(cut.facet.rows())?;
         let local = match *jumps {
             [n, s, z] => Vec3::new(n, s, z),
-            [n, s, hinge, shear, bend] => Vec3::new(n + hinge, s, shear + bend),
+            [n, s, hinge, shear, bend, bulge] => Vec3::new(n + hinge + bulge, s, shear + bend),
             _ => return None,
         };
         Some(cut.facet.frame * local)
@@ -164,7 +173,7 @@ impl<T: Precision> Slit<T> {
         for (row, jump) in jumps.values.iter().enumerate() {
             let jump = T::of(*jump);
             for (place, &value) in field.iter_mut().zip(self.row(row)) {
-                *place = *place + jump * value;
+                *place += jump * value;
             }
         }
         for cut in &self.facets {
@@ -178,10 +187,17 @@ impl<T: Precision> Slit<T> {
                 .iter_mut()
                 .enumerate()
             {
-                let rows = near.rows.iter().zip(jumps);
+                let rows = near.more.iter().zip(jumps);
                 let sum: f64 = rows.map(|(row, jump)| f64::from(row[axis]) * jump).sum();
-                *place = *place + T::of(sum);
+                *place += T::of(sum);
             }
         }
+    }
+}
+
+/// Adds rows times a factor.
+fn add(rows: &mut [Vec3], more: &[[f32; 3]], factor: f64) {
+    for (place, more) in rows.iter_mut().zip(more) {
+        *place += Vec3::from_fn(|axis, _| f64::from(more[axis])) * factor;
     }
 }

@@ -38,13 +38,13 @@ use crate::{Error, Vec3};
 use cholesky::Grown;
 use facet::Facet;
 pub use facet::{CutBody, SlitFacet};
-use gradient::Gradient;
+use gradient::{Gradient, MOST};
 pub use load::{SlitJumps, SlitLoad};
 pub use traction::Spot;
-use traction::{MODES, Near, triangles_near};
+use traction::{MODES, Near, Part, triangles_near};
 
-/// Near triangles of one face that are known to a facet at most.
-const MOST_NEAR: usize = 160;
+/// Near triangles that are known to a facet at most.
+const MOST_NEAR: usize = 256;
 
 /// A slit in an organ, and what it adds to its compliance.
 #[derive(Debug)]
@@ -59,7 +59,9 @@ pub struct Slit<T = f32> {
     near: Vec<Near>,
     h: Grown,
     gradients: [Gradient; 2],
-    found: [Vec<TriangleId>; 2],
+    /// B of the last facet.
+    parts: Vec<Part>,
+    found: Vec<TriangleId>,
     scratch: [Vec<T>; 2],
 }
 
@@ -71,6 +73,8 @@ struct Cut {
     reach: f64,
     /// Its near triangles begin and end here.
     near: [usize; 2],
+    /// Its pivots without other facets [m].
+    alone: [f64; MODES],
     /// What H's diagonal is raised by where one end is free, and where both are.
     ends: [[f64; MODES]; 2],
     /// Its ends that meet earlier facets.
@@ -87,10 +91,11 @@ impl<T: Precision> Slit<T> {
             poissons_ratio: response.parts().poissons_ratio,
             facets: Vec::with_capacity(most),
             rows: vec![T::of(0.0); most * MODES * width],
-            near: Vec::with_capacity(2 * MOST_NEAR * most),
+            near: Vec::with_capacity(MOST_NEAR * most),
             h: Grown::new(most * MODES),
             gradients: [Gradient::new(), Gradient::new()],
-            found: [0, 1].map(|_| Vec::with_capacity(MOST_NEAR)),
+            parts: Vec::with_capacity(2 * MOST),
+            found: Vec::with_capacity(MOST_NEAR),
             scratch: [0, 1].map(|_| vec![T::of(0.0); width]),
         }
     }
@@ -116,21 +121,28 @@ impl<T: Precision> Slit<T> {
             });
         }
         let first = self.facets.last().map_or(0, |cut| cut.facet.rows().end);
-        let facet = Facet::new(body, asked, first)?;
+        let mut facet = Facet::new(body, asked, first)?;
         let met = self.facets.iter().fold([false; 2], |met, other| {
             let meets = facet.meets(&other.facet);
             [met[0] || meets[0], met[1] || meets[1]]
         });
         let reach = self.work(body, &facet);
+        facet.bend(&self.gradients[0]);
+        self.parts.clear();
+        for (gradient, face) in self.gradients.iter().zip([1.0, -1.0]) {
+            facet.parts(gradient, face, &mut self.parts);
+        }
         let near = self.put_near(body, &facet, reach);
-        let ends = self.put_matrix(&facet);
-        self.facets.push(Cut {
+        let cut = Cut {
             facet,
             reach,
             near,
-            ends,
+            alone: [0.0; MODES],
+            ends: [[0.0; MODES]; 2],
             met,
-        });
+        };
+        let cut = self.put_matrix(cut);
+        self.facets.push(cut);
         // The end of the one before may have become none.
         self.factor(self.facets.len().saturating_sub(2));
         Ok(())
@@ -172,6 +184,7 @@ impl<T: Precision> Slit<T> {
         outer.prepare(pair, (facet.outer, &facet.middle), facet);
         inner.parts.clear();
         let (of_outer, of_inner) = facet.of_faces();
+        let (rows, last) = rows.split_at_mut((facet.modes().min(5)) * self.width);
         let (one, rest) = rows.split_at_mut(self.width);
         let (two, rest) = rest.split_at_mut(self.width);
         let (three, rest) = rest.split_at_mut(self.width);
@@ -198,14 +211,16 @@ impl<T: Precision> Slit<T> {
         for (two, &inner) in two.iter_mut().zip(along.iter()) {
             *two = o[1] * *two + i[1] * inner;
         }
+        last.copy_from_slice(one);
         facet.reach(outer.reach)
     }
 
-    /// Takes the closed forms out of the smooth rows and lists them apart.
+    /// Lists what is near.
     fn put_near(&mut self, body: &CutBody<'_, T>, facet: &Facet, reach: f64) -> [usize; 2] {
         let (mesh, start) = (body.surface.mesh(), self.near.len());
-        triangles_near(body.surface, facet, reach, &mut self.found);
-        for &triangle in self.found.iter().flatten() {
+        let how_far = (reach, self.gradients[0].reach);
+        triangles_near(body.surface, facet, how_far, &mut self.found);
+        for &triangle in &self.found {
             if body.response.holds(triangle) {
                 continue;
             }
@@ -214,41 +229,41 @@ impl<T: Precision> Slit<T> {
             let area = outward.norm();
             let of = (&centroid, &(outward / area), area);
             let about = (self.poissons_ratio, reach);
-            let Some([resolved, closed]) = facet.of_triangle(about, of, &self.gradients) else {
-                continue;
-            };
-            for (mode, resolved) in resolved.iter().enumerate().take(facet.modes()) {
-                let place = (facet.first + mode) * self.width + 3 * triangle.index();
-                for (value, resolved) in self.rows[place..place + 3].iter_mut().zip(resolved) {
-                    *value = *value - T::of(*resolved);
-                }
+            if let Some([more, resolved]) = facet.of_triangle(about, of, &self.parts) {
+                self.near.push(Near {
+                    triangle,
+                    more,
+                    resolved,
+                });
             }
-            let rows = closed.map(|row| [row.x as f32, row.y as f32, row.z as f32]);
-            self.near.push(Near { triangle, rows });
         }
         self.near[start..].sort_unstable_by_key(|near| near.triangle);
         [start, self.near.len()]
     }
 
-    /// Writes the rows of H; what its diagonal is raised by at free ends.
-    fn put_matrix(&mut self, facet: &Facet) -> [[f64; MODES]; 2] {
-        for cut in &self.facets {
-            let block = kernel::coupling(self.poissons_ratio, facet, &cut.facet);
+    /// Writes the rows of H of a facet, and what belongs to them.
+    fn put_matrix(&mut self, mut cut: Cut) -> Cut {
+        let facet = cut.facet;
+        for number in 0..self.facets.len() {
+            let other = self.facets[number];
+            let block = kernel::coupling(self.poissons_ratio, &facet, &other.facet);
             for mode in 0..facet.modes() {
                 let row = self.h.row(facet.first + mode);
-                for other in 0..cut.facet.modes() {
-                    row[cut.facet.first + other] = block[(mode, other)];
+                for column in 0..other.facet.modes() {
+                    row[other.facet.first + column] = block[(mode, column)];
                 }
             }
         }
-        let (block, ends) = kernel::own(self.poissons_ratio, facet);
+        let (block, ends) = kernel::own(self.poissons_ratio, &facet);
         for mode in 0..facet.modes() {
             let row = &mut self.h.row(facet.first + mode)[facet.first..];
             for (other, value) in row.iter_mut().enumerate() {
                 *value = block[(mode, other)];
             }
         }
-        ends
+        cut.ends = ends;
+        cut.alone = kernel::pivots(&block, facet.modes());
+        cut
     }
 
     /// Factors the rows of H from a facet on. Where an end that has become none would lock a row, it stays one:
@@ -274,7 +289,8 @@ impl<T: Precision> Slit<T> {
             } else {
                 0.0
             };
-            sound &= self.h.factor(cut.facet.first + mode, more);
+            let about = (more, cut.alone[mode]);
+            sound &= self.h.factor(cut.facet.first + mode, about);
         }
         sound
     }

@@ -3,13 +3,13 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use nalgebra::{Matrix2, Matrix5};
+use nalgebra::{Matrix2, Matrix6};
 
 /// Steps of the integral over the depth.
 const STEPS: usize = 24;
 
 /// Stiffness of the ligament over E for a length of one [-], between the modes of a facet in a wall.
-pub(super) fn ligament(nu: f64, part: f64) -> Matrix5<f64> {
+pub(super) fn ligament(nu: f64, part: f64) -> Matrix6<f64> {
     let (mut both, mut across) = (Matrix2::zeros(), 0.0);
     for step in 0..STEPS {
         let x = part * (step as f64 + 0.5) / STEPS as f64;
@@ -25,17 +25,20 @@ pub(super) fn ligament(nu: f64, part: f64) -> Matrix5<f64> {
     }
     let plane = 2.0 * (1.0 - nu * nu);
     let torn = 8.0 * (1.0 + nu) / PI * -(FRAC_PI_2 * part).cos().ln();
-    let mut stiffness = Matrix5::zeros();
+    let mut stiffness = Matrix6::zeros();
     // Of two compliances that are nearly in proportion, as those of a shallow cut are.
     let both = both * plane;
     let slack = 1e-4 * both.trace();
     let inverse = (both + Matrix2::identity() * slack)
         .try_inverse()
         .unwrap_or(Matrix2::identity());
-    stiffness[(0, 0)] = inverse[(0, 0)];
-    stiffness[(0, 2)] = inverse[(0, 1)];
-    stiffness[(2, 0)] = inverse[(1, 0)];
-    stiffness[(2, 2)] = inverse[(1, 1)];
+    // Opening: evenly and by bulging, and the hinge.
+    let kinds = [(0, 0), (5, 0), (2, 1)];
+    for (i, kind) in kinds {
+        for (j, other) in kinds {
+            stiffness[(i, j)] = inverse[(kind, other)];
+        }
+    }
     stiffness[(1, 1)] = 1.0 / torn;
     for i in 3..5 {
         for j in 3..5 {

@@ -2,7 +2,10 @@
 //!
 //! The table knows stress where it changes slowly from triangle to triangle. Near a force it does not, and there
 //! the closed form A of a half-space or a plate is put in the place of what the triangles make of it:
-//! T = Bᵀ Ξ + φ (A − Bᵀ Ξ_A), with φ from one to zero between one and two reaches of the facet.
+//! T = Bᵀ Ξ + φ (A − Bᵀ Ξ_A), with φ of the force's place from one to zero between one and two reaches of the
+//! facet.
+
+use std::f64::consts::FRAC_1_SQRT_2;
 
 use nalgebra::{Matrix3, Rotation3};
 use palpate_geometry::{Surface, TriangleId};
@@ -15,11 +18,13 @@ use super::plate::Plate;
 use crate::Vec3;
 use crate::finite_spheres::quartic;
 
-/// Reach of a facet in radii of its stress on the surface, and in its depths [-], but no more than such triangles
-/// as make up its stress fill so many times over.
-const IN_GRADIENTS: f64 = 1.2;
+/// Reach of a facet in radii of its stress on the surface, and in its depths, but no more than the last [-].
+const IN_GRADIENTS: f64 = 0.9;
 const IN_DEPTHS: f64 = 1.0;
-const MOST_GRADIENTS: f64 = 1.3;
+const MOST_GRADIENTS: f64 = 1.2;
+
+/// Beyond two reaches triangles are known as far as the loads of tips there go, in radii of the stress [-].
+const OF_LOADS: f64 = 1.25;
 
 /// What a force beside a slit yields more, where the slit is deep, over the reciprocal of its distance: across,
 /// along, outward [-].
@@ -29,7 +34,7 @@ const OF_RIM: [f64; 3] = [0.69, 0.3, 0.28];
 const RIM: f64 = 0.75;
 
 /// Modes of a facet at most.
-pub(super) const MODES: usize = 5;
+pub(super) const MODES: usize = 6;
 
 /// A force that is spread over a disc, wherever its triangles are.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,11 +47,14 @@ pub struct Spot {
     pub radius: f64,
 }
 
-/// A triangle near a facet: what is added to its smooth row, mode by mode, for a unit force along each axis.
+/// A triangle near a facet, mode by mode, for a unit force along each axis.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Near {
     pub(super) triangle: TriangleId,
-    pub(super) rows: [[f32; 3]; MODES],
+    /// φ (A − Bᵀ Ξ_A).
+    pub(super) more: [[f32; 3]; MODES],
+    /// Bᵀ Ξ_A.
+    pub(super) resolved: [[f32; 3]; MODES],
 }
 
 /// Places in a disc that stand for it, in parts of its radius, with their weights.
@@ -54,10 +62,10 @@ const DISC: [([f64; 2], f64); 7] = [
     ([0.0, 0.0], 0.25),
     ([0.816_497, 0.0], 0.125),
     ([-0.816_497, 0.0], 0.125),
-    ([0.408_248, 0.707_107], 0.125),
-    ([-0.408_248, 0.707_107], 0.125),
-    ([0.408_248, -0.707_107], 0.125),
-    ([-0.408_248, -0.707_107], 0.125),
+    ([0.408_248, FRAC_1_SQRT_2], 0.125),
+    ([-0.408_248, FRAC_1_SQRT_2], 0.125),
+    ([0.408_248, -FRAC_1_SQRT_2], 0.125),
+    ([-0.408_248, -FRAC_1_SQRT_2], 0.125),
 ];
 
 /// A force in the axes of a facet: where it is along the surface, its face, and how it turns.
@@ -90,9 +98,6 @@ impl Facet {
         }
         let chord = (away - Vec3::new(0.0, 0.0, height)).norm();
         let fade = quartic((chord / reach - 1.0).max(0.0));
-        if fade == 0.0 {
-            return None;
-        }
         // Along a surface that bends, not through it.
         let flat = (away.x * away.x + away.y * away.y).sqrt();
         let longer = if flat > 0.0 {
@@ -134,7 +139,7 @@ impl Facet {
                 for along in ends {
                     let found = plate.resultants([-x, along], face, wide);
                     let [n, s, m, v] = found.map(|row| row * (0.5 * self.length));
-                    for (row, found) in rows.iter_mut().zip([n, s, m, v, v]) {
+                    for (row, found) in rows.iter_mut().zip([n, s, m, v, v, n]) {
                         *row += found;
                     }
                 }
@@ -143,9 +148,16 @@ impl Facet {
         rows
     }
 
-    /// What the closed forms add to a spot's tractions, along the axes of space.
-    pub(super) fn of_spot(&self, (nu, reach): (f64, f64), spot: &Spot) -> Option<[Vec3; MODES]> {
+    /// φ and φ A of a spot, along the axes of space.
+    pub(super) fn of_spot(
+        &self,
+        (nu, reach): (f64, f64),
+        spot: &Spot,
+    ) -> Option<(f64, [Vec3; MODES])> {
         let seen = self.sees(reach, &spot.place, &spot.normal)?;
+        if seen.fade == 0.0 {
+            return None;
+        }
         let mut rows = [Vec3::zeros(); MODES];
         let soft = (0.35 * spot.radius).powi(2);
         let beside = (seen.at[0] / spot.radius).abs().min(1.0).powi(2);
@@ -158,14 +170,14 @@ impl Facet {
                 *row += found * (weight * seen.fade);
             }
         }
-        Some(rows.map(|row| seen.turn.tr_mul(&row)))
+        Some((seen.fade, rows.map(|row| seen.turn.tr_mul(&row))))
     }
 
     /// Within what distance of the slit the rim yields by itself [m].
     fn rim(&self) -> f64 {
-        RIM * match self.under {
-            Under::Solid { depth } => depth,
-            Under::Wall { thickness, part } => thickness * part,
+        match self.under {
+            Under::Solid { depth } => RIM * depth,
+            Under::Wall { thickness, .. } => thickness,
         }
     }
 
@@ -190,57 +202,68 @@ impl Facet {
         Some((ends[1] - ends[0], along))
     }
 
-    /// What the smooth stress of a triangle's force has of the closed form, and the closed form itself.
+    /// φ (A − Bᵀ Ξ_A) and Bᵀ Ξ_A of a triangle.
     pub(super) fn of_triangle(
         &self,
         (nu, reach): (f64, f64),
         (place, normal, area): (&Vec3, &Vec3, f64),
-        gradients: &[Gradient; 2],
-    ) -> Option<[[Vec3; MODES]; 2]> {
+        parts: &[Part],
+    ) -> Option<[[[f32; 3]; MODES]; 2]> {
         let seen = self.sees(reach, place, normal)?;
         let soft = 0.25 * area;
         let closed = self.closed(nu, (seen.at, seen.face), soft);
-        let mut stresses = [[Vec3::zeros(); 2]; 2];
-        for (side, gradient) in gradients.iter().enumerate() {
-            let other = if side == 0 { 1.0 } else { -1.0 };
-            for part in &gradient.parts {
-                let away = self.frame.tr_mul(&(part.centroid - place));
-                let moved = self.moved(nu, &away, (other, seen.face), area);
-                let [across, along] = [part.across, part.along].map(|v| self.frame.tr_mul(&v));
-                stresses[side][0] += moved.tr_mul(&across);
-                stresses[side][1] += moved.tr_mul(&along);
+        let mut resolved = [Vec3::zeros(); MODES];
+        for part in parts {
+            let away = [part.at[0] - seen.at[0], part.at[1] - seen.at[1]];
+            let moved = self.moved(nu, away, (part.face, seen.face), area);
+            for (resolved, work) in resolved.iter_mut().zip(&part.work) {
+                *resolved += moved.tr_mul(work);
             }
         }
-        let resolved = self.of_stress(stresses);
-        let turned = |rows: [Vec3; MODES]| rows.map(|row| seen.turn.tr_mul(&row) * seen.fade);
-        Some([turned(resolved), turned(closed)])
+        if matches!(self.under, Under::Wall { .. }) {
+            resolved[5] = resolved[0];
+        }
+        let turned = |rows: [Vec3; MODES]| rows.map(|row| seen.turn.tr_mul(&row));
+        let (resolved, closed) = (turned(resolved), turned(closed));
+        let short = |row: Vec3| [row.x as f32, row.y as f32, row.z as f32];
+        let more = |mode: usize| short((closed[mode] - resolved[mode]) * seen.fade);
+        Some([
+            std::array::from_fn(more),
+            std::array::from_fn(|mode| short(resolved[mode])),
+        ])
     }
 
-    /// Ξ_A: displacement of a triangle from a force on another.
-    fn moved(&self, nu: f64, away: &Vec3, faces: (f64, f64), area: f64) -> Matrix3<f64> {
-        let flat = away.x * away.x + away.y * away.y;
+    /// Ξ_A: displacement of a triangle from a force on another, `away` from it along the surface.
+    fn moved(&self, nu: f64, away: [f64; 2], faces: (f64, f64), area: f64) -> Matrix3<f64> {
+        let flat = away[0] * away[0] + away[1] * away[1];
         // The mean of 1/r over a disc of the triangle's area is that at 0.59 of its radius.
         let soft = if flat < 1e-3 * area { 0.11 * area } else { 0.0 };
         match self.under {
-            Under::Solid { .. } => near::displacement(nu, away, soft),
+            Under::Solid { .. } => near::displacement(nu, &Vec3::new(away[0], away[1], 0.0), soft),
             Under::Wall { thickness, .. } => {
                 let plate = Plate { nu, thickness };
-                plate.displacement([away.x, away.y], [faces.0, faces.1], soft + 1e-3 * area)
+                plate.displacement(away, [faces.0, faces.1], soft + 1e-3 * area)
             }
         }
     }
 
-    /// The modes' work of the stresses σ_nn, σ_ns on the two faces of what is cut.
-    pub(super) fn of_stress(&self, [outer, inner]: [[Vec3; 2]; 2]) -> [Vec3; MODES] {
+    /// The stress of a face, as the modes' work.
+    pub(super) fn parts(&self, gradient: &Gradient, face: f64, parts: &mut Vec<Part>) {
         let (of_outer, of_inner) = self.of_faces();
-        std::array::from_fn(|mode| {
-            let kind = mode % 2;
-            if mode < 3 {
-                outer[kind] * of_outer[mode] + inner[kind] * of_inner[mode]
-            } else {
-                Vec3::zeros()
-            }
-        })
+        let factors = if face > 0.0 { of_outer } else { of_inner };
+        for stress in &gradient.parts {
+            let normal = self.frame.column(2) * face;
+            let Some(seen) = self.sees(f64::INFINITY, &stress.centroid, &normal) else {
+                continue;
+            };
+            let [across, along] =
+                [stress.across, stress.along].map(|vector| self.frame.tr_mul(&vector));
+            parts.push(Part {
+                at: seen.at,
+                face,
+                work: [across * factors[0], along * factors[1], across * factors[2]],
+            });
+        }
     }
 
     /// How the stresses of the outer and of the inner face count in the first three modes [m²].
@@ -261,30 +284,25 @@ impl Facet {
     }
 }
 
-/// The triangles near a facet on both faces of what it cuts.
+/// A triangle whose displacement counts in the stress on a facet.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Part {
+    /// Along the surface from the facet's middle, in its axes [m].
+    at: [f64; 2],
+    /// 1 on the outer face, −1 on the inner.
+    face: f64,
+    /// B: in the first three modes, in the facet's axes.
+    work: [Vec3; 3],
+}
+
+/// The triangles of the outer face near a facet.
 pub(super) fn triangles_near(
     surface: &Surface,
     facet: &Facet,
-    reach: f64,
-    found: &mut [Vec<TriangleId>; 2],
+    (reach, gradient): (f64, f64),
+    found: &mut Vec<TriangleId>,
 ) {
     let outward = facet.frame.column(2).into_owned();
-    around(
-        surface,
-        (facet.outer, &facet.middle),
-        &outward,
-        2.0 * reach,
-        &mut found[0],
-    );
-    found[1].clear();
-    if let (Some(inner), Under::Wall { thickness, .. }) = (facet.inner, facet.under) {
-        let below = facet.middle - outward * thickness;
-        around(
-            surface,
-            (inner, &below),
-            &-outward,
-            2.0 * reach,
-            &mut found[1],
-        );
-    }
+    let far = 2.0 * reach + OF_LOADS * gradient;
+    around(surface, (facet.outer, &facet.middle), &outward, far, found);
 }
