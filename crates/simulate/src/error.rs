@@ -19,6 +19,14 @@ pub enum Error {
         /// What is wrong with it.
         fault: MeshError,
     },
+    /// A neighbour cannot stand where the scene has it.
+    #[error(
+        "a neighbour bounds no solid where it is placed ({fault}); give `at_m` and `scale` that fit a body"
+    )]
+    Misplaced {
+        /// What is wrong with it there.
+        fault: MeshError,
+    },
     /// A built-in organ cannot be made.
     #[error(transparent)]
     Organ(#[from] OrganError),

@@ -36,7 +36,7 @@ pub use contact::Contact;
 pub use cutting::Cuts;
 pub use error::Error;
 pub use global::{EnhancedSurface, OrganField, ResponseOrigin};
-pub use organ::{builtin_organ, held_region, read_organ};
+pub use organ::{builtin_organ, held_region, read_neighbour, read_organ};
 pub use play::{Flow, Frame, play};
 pub use preparation::{Progress, Resources, Work};
 pub use simulation::Simulation;

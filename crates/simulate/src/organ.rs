@@ -1,6 +1,9 @@
-use palpate_files::scene::{BuiltinOrgan, LengthUnit as FileUnit, Region, RegionPlane, Shape};
+use nalgebra::Rotation3;
+use palpate_files::scene::{
+    BuiltinOrgan, LengthUnit as FileUnit, Location, Neighbour, Region, RegionPlane, Shape,
+};
 use palpate_geometry::{
-    AnchorPlane, LengthUnit, Organ, ProblemKind, Surface, inspect, read_mesh, repair,
+    AnchorPlane, LengthUnit, Organ, ProblemKind, Surface, Vec3, inspect, read_mesh, repair,
 };
 
 use crate::Error;
@@ -49,6 +52,25 @@ pub fn read_organ(shape: &Shape) -> Result<(Surface, Vec<String>), Error> {
     }
 }
 
+/// The surface of `neighbour` where it stands, and what deserves doubt.
+///
+/// # Errors
+/// When its file cannot be read, what it holds bounds no solid, or it stands too far away for numbers.
+pub fn read_neighbour(neighbour: &Neighbour) -> Result<(Surface, Vec<String>), Error> {
+    let (surface, doubts) = read_organ(&neighbour.shape)?;
+    let Location {
+        at_m,
+        turn_rad: [x, y, z],
+        scale,
+    } = neighbour.location;
+    // About fixed axes, x first.
+    let turn = Rotation3::from_euler_angles(x, y, z);
+    let place = |vertex: &Vec3| turn * (scale * vertex) + Vec3::from(at_m);
+    let misplaced = |fault| Error::Misplaced { fault };
+    let mesh = surface.mesh().map_vertices(place).map_err(misplaced)?;
+    Ok((Surface::new(mesh).map_err(misplaced)?, doubts))
+}
+
 /// Where an organ of `shape` is held: as `stated`, or else where a built-in one grows.
 pub fn held_region(shape: &Shape, stated: Option<&Region>) -> Region {
     match (stated, shape) {
@@ -76,6 +98,7 @@ pub fn builtin_organ(organ: BuiltinOrgan) -> Organ {
         BuiltinOrgan::Kidney => Organ::Kidney,
         BuiltinOrgan::Stomach => Organ::Stomach,
         BuiltinOrgan::Spleen => Organ::Spleen,
+        BuiltinOrgan::Diaphragm => Organ::Diaphragm,
         BuiltinOrgan::Hemisphere => Organ::Hemisphere,
         BuiltinOrgan::Cube => Organ::Cube,
     }

@@ -8,7 +8,7 @@ use image::RgbaImage;
 use palpate_files::{Scene, scene, write_whole};
 use palpate_geometry::{Surface, Vec3};
 use palpate_simulate::interactive::OpenedSnapshot;
-use palpate_simulate::{Frame, Simulation, SimulationState, read_organ};
+use palpate_simulate::{Frame, Simulation, SimulationState, read_neighbour};
 
 use crate::render::{Body, Renderer, Target, Tint, ToolPicture, View, single_precision};
 use crate::seen_organ::SeenOrgan;
@@ -48,7 +48,7 @@ impl Studio {
             .neighbours
             .iter()
             .map(|neighbour| {
-                let (surface, _) = read_organ(&neighbour.shape)?;
+                let (surface, _) = read_neighbour(neighbour)?;
                 let tint = Tint::of(&neighbour.shape).receding();
                 Ok(Body::new(&gpu, &surface, tint))
             })

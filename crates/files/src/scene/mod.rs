@@ -21,7 +21,7 @@ pub use model_words::{
     Assembly, EnhancementArea, Form, HandOver, IntegrationPoints, ModelKind, Placement,
     ResponseMethod, Smoothing, Solver,
 };
-pub use organ::{Layer, Neighbour, Organ};
+pub use organ::{Layer, Location, Neighbour, Organ};
 pub use region::{Region, RegionBox, RegionPlane, RegionSphere};
 pub use shape::{BuiltinOrgan, LengthUnit, Shape};
 pub use tissue_choice::TissueChoice;

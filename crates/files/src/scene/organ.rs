@@ -37,8 +37,41 @@ pub struct Layer {
 pub struct Neighbour {
     /// Its surface.
     pub shape: Shape,
+    /// Where it stands.
+    pub location: Location,
     /// Whether tools stop at it.
     pub collides: bool,
+}
+
+/// Where a body stands in the scene: each of its points is scaled about the body's own origin, turned about
+/// x, then y, then z, and moved.
+///
+/// ```toml
+/// [[neighbour]]
+/// builtin = "stomach"
+/// at_m = [0.01, 0.0, -0.08]    # where its origin comes to
+/// turn_deg = [0.0, 0.0, 20.0]  # about x, y and z of the scene, in this order
+/// scale = 1.1
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Location {
+    /// Where its origin comes to [m].
+    pub at_m: [f64; 3],
+    /// About x, then y, then z of the scene, counter-clockwise [rad].
+    pub turn_rad: [f64; 3],
+    /// [-]
+    pub scale: f64,
+}
+
+impl Default for Location {
+    /// As it was made.
+    fn default() -> Self {
+        Self {
+            at_m: [0.0; 3],
+            turn_rad: [0.0; 3],
+            scale: 1.0,
+        }
+    }
 }
 
 impl Organ {
@@ -95,12 +128,25 @@ impl Layer {
 }
 
 impl Neighbour {
-    pub(super) const KEYS: &'static [&'static str] =
-        &["mesh", "mesh_unit", "builtin", "triangles", "collides"];
+    pub(super) const KEYS: &'static [&'static str] = &[
+        "mesh",
+        "mesh_unit",
+        "builtin",
+        "triangles",
+        "at_m",
+        "turn_rad",
+        "scale",
+        "collides",
+    ];
 
     pub(super) fn from_keys(keys: &Keys<'_>, folder: &Path) -> Result<Self, Error> {
         Ok(Self {
             shape: Shape::from_keys(keys, folder)?,
+            location: Location {
+                at_m: keys.vector("at_m")?.unwrap_or_default(),
+                turn_rad: keys.vector("turn_rad")?.unwrap_or_default(),
+                scale: keys.number("scale", Domain::POSITIVE)?.unwrap_or(1.0),
+            },
             collides: keys.truth("collides")?.unwrap_or(false),
         })
     }

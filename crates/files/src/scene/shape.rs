@@ -16,6 +16,8 @@ words! {
         Stomach = "stomach",
         /// The spleen.
         Spleen = "spleen",
+        /// The diaphragm around the esophagus.
+        Diaphragm = "diaphragm",
         /// Radius 0.05 m, base at z = 0 centred on the origin and held, pole at +z.
         Hemisphere = "hemisphere",
         /// Edge 0.1 m, from -0.05 m to 0.05 m along each axis, bottom held.

@@ -55,6 +55,9 @@ mesh = "stomach.stl"
 [[neighbour]]
 builtin = "liver"
 triangles = 2000
+at_mm = [10, -20, 30]
+turn_deg = [0, 0, 90]
+scale = 1.5
 collides = true
 [model]
 kind = "hybrid"

@@ -22,6 +22,13 @@ fn every_key_is_understood() {
     assert_eq!(scene.organ.tissue, TissueChoice::File(tissue));
     assert_eq!(scene.neighbours.len(), 2);
     assert!(scene.neighbours[1].collides && !scene.neighbours[0].collides);
+    assert_eq!(scene.neighbours[0].location, Location::default());
+    let placed = Location {
+        at_m: [0.010, -0.020, 0.030],
+        turn_rad: [0.0, 0.0, 90_f64.to_radians()],
+        scale: 1.5,
+    };
+    assert_eq!(scene.neighbours[1].location, placed);
     assert_eq!(scene.task.expert, Some(PathBuf::from("scenes/expert")));
     assert_eq!(scene.task.force_limit_n, Some(2.0));
     assert_eq!(scene.task.time_limit_s, Some(60.0));

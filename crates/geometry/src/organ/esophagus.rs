@@ -1,8 +1,9 @@
 use std::f64::consts::{PI, TAU};
 
 use super::description::PATIENT_AXES;
+use super::revolved::{PARTS, Profile, Vec2, grid_size, grid_triangles};
 use super::{AnchorPlane, OrganDescription};
-use crate::{MeshError, NodeId, TriangleMesh, Vec3};
+use crate::{MeshError, TriangleMesh, Vec3};
 
 /// Fewer, and the rims of the wall are lost.
 pub(super) const LEAST_TRIANGLES: usize = 400;
@@ -19,6 +20,9 @@ const HIATUS_FLARE: (f64, f64) = (0.001, 0.006);
 const CARDIA_FLARE: (f64, f64) = (0.004, 0.008);
 /// How much of each end is held.
 const HELD_LENGTH: f64 = 0.004;
+
+/// Rows per radian of turn, against rows per radius of length: keeps the rims round.
+const RIM_WEIGHT: f64 = 0.2;
 
 pub(super) fn description() -> OrganDescription {
     OrganDescription {
@@ -51,7 +55,7 @@ pub(super) fn anchor() -> Vec<AnchorPlane> {
 /// Rows of vertices around the wall, each turned by half a step against the last. Rows are spaced
 /// in proportion to their radius, so that triangles are equilateral up to the curvature.
 pub(super) fn surface_mesh(triangles: usize) -> Result<TriangleMesh, MeshError> {
-    let profile = Profile::new();
+    let profile = Profile::new(outline, (RIM_WEIGHT, Vec2::y()));
     let (rows, steps) = grid_size(triangles, profile.conformal_length());
     let mut vertices = Vec::with_capacity(rows * steps);
     for row in 0..rows {
@@ -79,92 +83,8 @@ fn axis(along: f64) -> (Vec3, Vec3, Vec3) {
     )
 }
 
-/// Rows and steps around, both for nearly `triangles` triangles and nearly equilateral ones.
-fn grid_size(triangles: usize, conformal_length: f64) -> (usize, usize) {
-    let rows_per_step = conformal_length / (3f64.sqrt() * PI);
-    let steps = (0.5 * triangles as f64 / rows_per_step).sqrt();
-    let cost = |rows: usize, steps: usize| {
-        let count = (2 * rows * steps) as f64 / triangles as f64;
-        let shape = rows as f64 / (rows_per_step * steps as f64);
-        // A count that is off by 1 % is as bad as triangles that are stretched by 10 %.
-        100.0 * (count - 1.0).powi(2) + shape.ln().powi(2)
-    };
-    (steps as usize / 2..=2 * steps as usize)
-        .flat_map(|steps| {
-            let steps = steps.max(8);
-            // An even number of half turns of a step closes the rows.
-            let pairs = (0.25 * triangles as f64 / steps as f64).round() as usize;
-            [pairs.saturating_sub(1), pairs, pairs + 1].map(|pairs| (2 * pairs.max(4), steps))
-        })
-        .min_by(|&a, &b| cost(a.0, a.1).total_cmp(&cost(b.0, b.1)))
-        .expect("the range of steps holds at least one")
-}
-
-fn grid_triangles(rows: usize, steps: usize) -> Vec<[NodeId; 3]> {
-    let node = |row: usize, step: usize| NodeId(((row % rows) * steps + step % steps) as u32);
-    let mut triangles = Vec::with_capacity(2 * rows * steps);
-    for row in 0..rows {
-        let shift = row % 2;
-        for step in 0..steps {
-            let (here, next) = (node(row, step), node(row, step + 1));
-            let below = node(row + 1, step + shift);
-            let below_next = node(row + 1, step + shift + 1);
-            triangles.extend([[here, below, next], [next, below, below_next]]);
-        }
-    }
-    triangles
-}
-
 /// The outline of the wall in the plane (radius, length along the axis): down the outside, around
 /// the lower rim, up the lumen, around the upper rim.
-struct Profile {
-    /// ∫ ds / radius up to evenly spaced parameters, and more where the outline turns.
-    lengths: Vec<f64>,
-}
-
-/// Radius (x) and length along the axis (y).
-type Vec2 = nalgebra::Vector2<f64>;
-
-/// Rows per radian of turn, against rows per radius of length: keeps the rims round.
-const RIM_WEIGHT: f64 = 0.2;
-
-/// Parameters of the outline run from 0 to 4, one unit per part.
-const PARTS: f64 = 4.0;
-const SAMPLES: usize = 4_000;
-
-impl Profile {
-    fn new() -> Self {
-        let mut lengths = vec![0.0];
-        let mut last = outline(0.0);
-        let mut last_direction = Vec2::y();
-        for sample in 1..=SAMPLES {
-            let next = outline(PARTS * sample as f64 / SAMPLES as f64);
-            let chord = next - last;
-            let own = 2.0 * chord.norm() / (next.x + last.x);
-            let turn = chord.angle(&last_direction);
-            lengths.push(lengths[sample - 1] + own + RIM_WEIGHT * turn);
-            (last, last_direction) = (next, chord);
-        }
-        Self { lengths }
-    }
-
-    fn conformal_length(&self) -> f64 {
-        self.lengths[SAMPLES]
-    }
-
-    /// Radius and length along the axis, a `fraction` of the way around.
-    fn point(&self, fraction: f64) -> Vec2 {
-        let wanted = fraction * self.conformal_length();
-        let after = self
-            .lengths
-            .partition_point(|&l| l <= wanted)
-            .clamp(1, SAMPLES);
-        let (low, high) = (self.lengths[after - 1], self.lengths[after]);
-        let sample = (after - 1) as f64 + (wanted - low) / (high - low);
-        outline(PARTS * sample / SAMPLES as f64)
-    }
-}
-
 fn outline(parameter: f64) -> Vec2 {
     let free_length = LENGTH - 2.0 * HALF_WALL;
     let part = parameter.rem_euclid(PARTS);

@@ -1,16 +1,19 @@
 //! The built-in organs: closed surfaces made from formulas, at any fineness.
 //!
 //! Solid organs are smooth maps of the unit sphere (`sphere_map`), so that every even number of
-//! triangles can be had exactly; the tube, the hemisphere and the cube are grids.
+//! triangles can be had exactly; the tube and the sheet with a hole (`revolved`), the hemisphere and the
+//! cube are grids.
 
 mod anchor;
 mod cube;
 mod description;
+mod diaphragm;
 mod error;
 mod esophagus;
 mod hemisphere;
 mod kidney;
 mod liver;
+mod revolved;
 mod sphere_map;
 mod spleen;
 mod stomach;
@@ -35,6 +38,8 @@ pub enum Organ {
     Stomach,
     /// The spleen.
     Spleen,
+    /// The diaphragm around the esophagus, with its hiatus.
+    Diaphragm,
     /// Half a ball, for comparison with closed forms.
     Hemisphere,
     /// A cube, for comparison with closed forms.
@@ -43,12 +48,13 @@ pub enum Organ {
 
 impl Organ {
     /// Every built-in, in the order in which they are listed to users.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Esophagus,
         Self::Liver,
         Self::Kidney,
         Self::Stomach,
         Self::Spleen,
+        Self::Diaphragm,
         Self::Hemisphere,
         Self::Cube,
     ];
@@ -61,6 +67,7 @@ impl Organ {
             Self::Kidney => "kidney",
             Self::Stomach => "stomach",
             Self::Spleen => "spleen",
+            Self::Diaphragm => "diaphragm",
             Self::Hemisphere => "hemisphere",
             Self::Cube => "cube",
         }
@@ -74,6 +81,7 @@ impl Organ {
             Self::Kidney => kidney::description(),
             Self::Stomach => stomach::description(),
             Self::Spleen => spleen::description(),
+            Self::Diaphragm => diaphragm::description(),
             Self::Hemisphere => hemisphere::description(),
             Self::Cube => cube::description(),
         }
@@ -85,6 +93,7 @@ impl Organ {
             Self::Esophagus => 3_726,
             Self::Liver => 6_000,
             Self::Kidney | Self::Spleen | Self::Stomach => 4_000,
+            Self::Diaphragm => 6_000,
             Self::Hemisphere => 3_072,
             Self::Cube => 3_072,
         }
@@ -94,6 +103,7 @@ impl Organ {
     pub fn least_triangles(self) -> usize {
         match self {
             Self::Esophagus => esophagus::LEAST_TRIANGLES,
+            Self::Diaphragm => diaphragm::LEAST_TRIANGLES,
             Self::Liver | Self::Kidney | Self::Stomach | Self::Spleen => 200,
             Self::Hemisphere => 48,
             Self::Cube => 12,
@@ -121,6 +131,7 @@ impl Organ {
             Self::Kidney => sphere_map::surface_mesh(kidney::shape, triangles),
             Self::Stomach => sphere_map::surface_mesh(stomach::shape, triangles),
             Self::Spleen => sphere_map::surface_mesh(spleen::shape, triangles),
+            Self::Diaphragm => diaphragm::surface_mesh(triangles),
             Self::Hemisphere => hemisphere::surface_mesh(triangles),
             Self::Cube => cube::surface_mesh(triangles),
         };
@@ -139,6 +150,7 @@ impl Organ {
             Self::Kidney => kidney::anchor(),
             Self::Stomach => stomach::anchor(),
             Self::Spleen => spleen::anchor(),
+            Self::Diaphragm => diaphragm::anchor(),
             Self::Hemisphere => hemisphere::anchor(),
             Self::Cube => cube::anchor(),
         }

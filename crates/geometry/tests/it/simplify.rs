@@ -47,11 +47,13 @@ fn organs_stay_closed_and_keep_their_volume() {
         let surface = Surface::new(simple.mesh).unwrap();
         let ratio = surface.mesh().volume() / mesh.volume();
         // A mesh of 1,000 triangles inscribed in a sphere lacks 1 %; a fit lacks far less, but for
-        // the rims of the esophagus, which are narrower than a triangle and so are taken for edges.
-        let tolerance = if organ == Organ::Esophagus {
-            1e-2
-        } else {
-            2e-3
+        // the rims of the esophagus and the diaphragm, which are narrower than a triangle and so are
+        // taken for edges. The diaphragm has 450 mm of them; a half disc of 2 mm is 2.3 mm² more than the
+        // triangle in it: 1.0 of 52 ml.
+        let tolerance = match organ {
+            Organ::Esophagus => 1e-2,
+            Organ::Diaphragm => 2e-2,
+            _ => 2e-3,
         };
         assert!((ratio - 1.0).abs() < tolerance, "{organ}: {ratio}");
         let angle = smallest_angle(surface.mesh());

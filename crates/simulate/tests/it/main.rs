@@ -18,6 +18,7 @@ mod hybrid;
 mod interactive;
 mod invariants;
 mod loss;
+mod neighbours;
 mod no_allocation;
 mod scenes;
 mod slides;

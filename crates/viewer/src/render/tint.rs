@@ -58,6 +58,12 @@ impl Tint {
                 [0.57, 0.255, 0.205],
                 [0.27, 0.022, 0.024],
             ),
+            BuiltinOrgan::Diaphragm => colors(
+                0.60,
+                [0.25, 0.060, 0.050],
+                [0.47, 0.180, 0.140],
+                [0.21, 0.020, 0.020],
+            ),
             BuiltinOrgan::Hemisphere | BuiltinOrgan::Cube => Self::MUSCLE,
         }
     }

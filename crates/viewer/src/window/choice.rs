@@ -100,6 +100,7 @@ fn fineness(organ: BuiltinOrgan) -> usize {
         BuiltinOrgan::Kidney
         | BuiltinOrgan::Spleen
         | BuiltinOrgan::Stomach
+        | BuiltinOrgan::Diaphragm
         | BuiltinOrgan::Hemisphere
         | BuiltinOrgan::Cube => 14_000,
     }

@@ -5,7 +5,7 @@ use palpate_files::Scene;
 use palpate_geometry::{AabbTree, Surface, Vec3};
 use palpate_servo::{PointerHand, ServoSettings};
 use palpate_simulate::interactive::{CUTS, Interaction, Order, SceneDevices};
-use palpate_simulate::{Progress, Resources, Simulation, read_organ};
+use palpate_simulate::{Progress, Resources, Simulation, read_neighbour};
 
 use super::hands::Hand;
 use crate::render::{Body, Tint};
@@ -53,7 +53,7 @@ impl Play {
         let mut doubts = simulation.doubts().to_vec();
         let mut neighbours = Vec::new();
         for neighbour in &scene.neighbours {
-            let (surface, more) = read_organ(&neighbour.shape)?;
+            let (surface, more) = read_neighbour(neighbour)?;
             doubts.extend(more);
             let tint = Tint::of(&neighbour.shape).receding();
             neighbours.push(Body::new(gpu, &surface, tint));
