@@ -1,0 +1,148 @@
+//! Friction and work.
+
+use palpate_files::Event;
+use palpate_files::scene::Jaws;
+use palpate_geometry::Vec3;
+use palpate_simulate::Simulation;
+
+use super::{HEMISPHERE, Hands, POLE, grasping, with_jaws};
+use crate::scenes::{Random, Setting};
+
+/// Judge: friction. Tissue that relaxes is pulled out of its jaws.
+#[test]
+fn a_slip_keeps_the_pull_at_its_limit() {
+    for (kind, prony) in [
+        ("hybrid", "[]"),
+        ("hybrid", "[{ g = 0.4, tau_s = 0.1 }]"),
+        ("local", "[{ g = 0.4, tau_s = 0.1 }]"),
+    ] {
+        let model = if kind == "local" {
+            ""
+        } else {
+            HEMISPHERE.model
+        };
+        let setting = Setting {
+            kind,
+            model,
+            prony,
+            ..HEMISPHERE
+        };
+        let jaws = Jaws {
+            force_n: 0.3,
+            ..Jaws::GRASPER
+        };
+        let simulation = Simulation::new(&grasping(&setting, jaws, 1)).unwrap();
+        let mut hands = Hands::new(&simulation);
+        hands.at(&POLE, 0.0);
+        hands.at(&POLE, 1.0);
+        let (mut at_limit, mut before, mut steps) = (0, 0.0, 0);
+        while hands.tool().holds() && steps < 4000 {
+            steps += 1;
+            let force = hands.at(&(POLE + Vec3::z() * (2e-5 * f64::from(steps))), 1.0);
+            if !hands.tool().holds() {
+                assert_eq!(force, Vec3::zeros());
+                break;
+            }
+            let limit = 2.0 * jaws.friction * hands.tool().grip_force;
+            assert_eq!(hands.tool().grip_force, 0.3);
+            let pull = force.yz().norm();
+            assert!(
+                pull <= limit * (1.0 + 1e-6),
+                "{kind} {prony}: {pull} {limit}"
+            );
+            if pull > limit * (1.0 - 1e-6) {
+                at_limit += 1;
+            } else {
+                // Once it slips it goes on to slip while it is pulled on.
+                assert!(
+                    at_limit == 0 && pull > before,
+                    "{kind} {prony}: {pull} after {before}"
+                );
+            }
+            before = pull;
+        }
+        assert!(hands.did(Event::GripRelease) && hands.did(Event::Release));
+        assert!(hands.is_at_rest() && !hands.tool().row.contact);
+        // 12 mm out of the jaws.
+        println!("{kind} {prony}: {steps} steps of 0.02 mm, {at_limit} at the limit");
+        assert!(
+            at_limit > 500 && f64::from(steps) * 2e-5 > 0.012,
+            "{at_limit} {steps}"
+        );
+    }
+}
+
+/// Judge: elasticity. Work done on jaws along a closed way that does not slip is none; 1 % of what was stored
+/// is allowed.
+#[test]
+fn a_closed_way_gives_no_energy() {
+    let simulation = with_jaws(&HEMISPHERE, |_| Jaws {
+        friction: 1e6,
+        ..Jaws::GRASPER
+    });
+    let mut hands = Hands::new(&simulation);
+    hands.at(&(POLE - Vec3::z() * 1e-3), 0.0);
+    hands.at(&(POLE - Vec3::z() * 1e-3), 1.0);
+    let way = |part: f64| {
+        let turn = std::f64::consts::TAU * part;
+        let up = -1e-3 + 3e-3 * (1.0 - turn.cos());
+        POLE + Vec3::new(2e-3 * turn.sin(), 1e-3 * (2.0 * turn).sin(), up)
+    };
+    let (mut work, mut stored) = (0.0, 0.0_f64);
+    let mut last: Option<(Vec3, Vec3)> = None;
+    for number in 0..=2000 {
+        let tip = way(f64::from(number) / 2000.0);
+        let force = hands.at(&tip, 1.0);
+        if let Some((before, felt)) = last {
+            work += 0.5 * (force + felt).dot(&(tip - before));
+        }
+        stored = stored.max(-work);
+        last = Some((tip, force));
+    }
+    println!("{:.2e} of what was stored", work / stored);
+    assert!(
+        stored > 0.0 && work.abs() < 0.01 * stored,
+        "{work} {stored}"
+    );
+}
+
+/// Judge: energy. Whatever slips on a way that comes back to where the tissue was taken hold of, the tool gets
+/// out no more work than it puts in.
+#[test]
+fn what_slips_takes_energy() {
+    let jaws = Jaws {
+        force_n: 0.2,
+        ..Jaws::GRASPER
+    };
+    let simulation = Simulation::new(&grasping(&HEMISPHERE, jaws, 1)).unwrap();
+    let mut random = Random(3);
+    let (mut most, mut least) = (f64::NEG_INFINITY, 0.0_f64);
+    for _ in 0..20 {
+        let mut hands = Hands::new(&simulation);
+        hands.at(&POLE, 0.0);
+        hands.at(&POLE, 1.0);
+        // Above the organ, so that the tip never touches.
+        let mut corners = vec![POLE];
+        for _ in 0..4 {
+            let up = 6e-3 * random.unit();
+            let aside = [(); 2].map(|()| 6e-3 * (random.unit() - 0.5));
+            corners.push(POLE + Vec3::new(aside[0], aside[1], up));
+        }
+        corners.push(POLE);
+        let mut work = 0.0;
+        let mut last = (POLE, Vec3::zeros());
+        for ends in corners.windows(2) {
+            for step in 1..=50 {
+                let tip = ends[0].lerp(&ends[1], f64::from(step) / 50.0);
+                let force = hands.at(&tip, 1.0);
+                work += 0.5 * (force + last.1).dot(&(tip - last.0));
+                last = (tip, force);
+            }
+        }
+        most = most.max(work);
+        least = least.min(work);
+    }
+    println!("{least:.1e} to {most:.1e} J");
+    // A thousandth of what the worst way takes, for ways that do not slip.
+    assert!(least < 0.0 && most < 1e-3 * -least, "{least} {most}");
+}
