@@ -14,6 +14,7 @@ mod m09;
 mod m11;
 mod m12;
 mod m13;
+mod m16;
 mod machine;
 mod portrait;
 pub(crate) mod published;
@@ -41,7 +42,7 @@ pub(crate) struct Item {
 }
 
 /// All that can be reproduced, in the order of the source.
-pub(crate) const ITEMS: [Item; 55] = [
+pub(crate) const ITEMS: [Item; 56] = [
     m01::TABLE_3_1,
     m01::FIGURE_3_3,
     m01::FIGURE_3_4,
@@ -97,4 +98,5 @@ pub(crate) const ITEMS: [Item; 55] = [
     m13::TABLE_7_1,
     m13::FIGURE_7_12,
     m09::FIGURE_7_17,
+    m16::SECTION_7_8,
 ];
