@@ -104,7 +104,7 @@ pub fn builtin_organ(organ: BuiltinOrgan) -> Organ {
     }
 }
 
-fn length_unit(unit: FileUnit) -> LengthUnit {
+pub(crate) fn length_unit(unit: FileUnit) -> LengthUnit {
     match unit {
         FileUnit::Metre => LengthUnit::Metre,
         FileUnit::Centimetre => LengthUnit::Centimetre,

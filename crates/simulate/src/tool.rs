@@ -1,11 +1,16 @@
+use std::sync::Arc;
+
 use palpate_files::scene::{self, ToolKind};
-use palpate_geometry::{AabbTree, PatchField, Surface, Vec3};
+use palpate_geometry::{AabbTree, PatchField, Surface, TriangleMesh, Vec3, read_mesh};
 use palpate_mechanics::contact::{Bond, Tip};
 use palpate_mechanics::finite_spheres::{
     Assembly, FiniteSphereModel, FiniteSphereSettings, Form, Integration, Placement, Solver,
 };
 use palpate_mechanics::surface_response::TipField;
-use palpate_mechanics::{Error, LinearElastic, TipLaw};
+use palpate_mechanics::{LinearElastic, TipLaw};
+
+use crate::Error;
+use crate::organ::length_unit;
 
 use crate::trocar::Trocar;
 
@@ -20,6 +25,8 @@ pub struct Tool {
     pub tip: Tip,
     /// Whether the surface can run along the tip.
     pub bond: Bond,
+    /// What it looks like in its own frame [m], if not as its kind does.
+    pub look: Option<Arc<TriangleMesh>>,
     /// The force of the tissue on it.
     pub(crate) law: TipLaw,
     /// Its jaws, if it can hold tissue.
@@ -63,6 +70,7 @@ impl Tool {
         Ok(Self {
             name: tool.name.clone(),
             kind: tool.kind,
+            look: look(tool)?,
             tip,
             bond,
             law: TipLaw::linear(tip, bond, *law),
@@ -99,6 +107,15 @@ impl Tool {
             Tip::Flat { radius } | Tip::Sphere { radius } => radius,
         }
     }
+}
+
+/// What a tool looks like by its file, if it has one.
+fn look(tool: &scene::Tool) -> Result<Option<Arc<TriangleMesh>>, Error> {
+    let Some(mesh) = &tool.mesh else {
+        return Ok(None);
+    };
+    let imported = read_mesh(&mesh.path, mesh.unit.map(length_unit))?;
+    Ok(Some(Arc::new(imported.mesh)))
 }
 
 /// The settings of the local model that a scene's words stand for.

@@ -25,7 +25,7 @@ pub use organ::{Layer, Location, Neighbour, Organ};
 pub use region::{Region, RegionBox, RegionPlane, RegionSphere};
 pub use shape::{BuiltinOrgan, LengthUnit, Shape};
 pub use tissue_choice::TissueChoice;
-pub use tool::{DeviceKind, Tip, TipContact, TipShape, Tool, ToolKind};
+pub use tool::{DeviceKind, Tip, TipContact, TipShape, Tool, ToolKind, ToolMesh};
 pub use view::{Shading, Task, View};
 
 use crate::whole_file::read_text;
@@ -94,7 +94,7 @@ impl Scene {
                 .collect::<Result<_, _>>()?,
             model: Model::from_keys(keys.table("model", Model::KEYS)?.as_ref())?,
             cutting: Cutting::from_keys(keys.table("cutting", Cutting::KEYS)?.as_ref())?,
-            tools: tool::from_keys(&keys)?,
+            tools: tool::from_keys(&keys, &folder)?,
             view: View::from_keys(keys.table("view", View::KEYS)?.as_ref())?,
             task: Task::from_keys(keys.table("task", Task::KEYS)?.as_ref(), &folder)?,
             folder,

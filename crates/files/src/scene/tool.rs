@@ -1,4 +1,6 @@
-use super::Jaws;
+use std::path::{Path, PathBuf};
+
+use super::{Jaws, LengthUnit};
 use crate::words::words;
 use crate::{Domain, Error, Keys};
 
@@ -65,6 +67,15 @@ pub struct Tip {
     pub contact: TipContact,
 }
 
+/// What a tool looks like, from a file: in the tool's frame, with the tip at the origin and the shaft along +z.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ToolMesh {
+    /// The file.
+    pub path: PathBuf,
+    /// Its unit; none when the scene does not state it.
+    pub unit: Option<LengthUnit>,
+}
+
 /// A tool.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tool {
@@ -83,6 +94,8 @@ pub struct Tool {
     pub trocar_stiffness_n_per_m: f64,
     /// Its jaws; none of a probe and a hook.
     pub jaws: Option<Jaws>,
+    /// What it looks like, if not as its kind does.
+    pub mesh: Option<ToolMesh>,
     /// What moves it.
     pub device: DeviceKind,
 }
@@ -109,13 +122,14 @@ impl Default for Tool {
             trocar_friction_n: 0.0,
             trocar_stiffness_n_per_m: 0.0,
             jaws: None,
+            mesh: None,
             device: DeviceKind::Mouse,
         }
     }
 }
 
 /// The tools of a scene, of which `keys` are the keys.
-pub(super) fn from_keys(keys: &Keys<'_>) -> Result<Vec<Tool>, Error> {
+pub(super) fn from_keys(keys: &Keys<'_>, folder: &Path) -> Result<Vec<Tool>, Error> {
     let tables = keys.tables("tool", Tool::KEYS)?;
     if let Some(third) = tables.get(2) {
         return Err(Error::BadValue {
@@ -130,7 +144,7 @@ pub(super) fn from_keys(keys: &Keys<'_>) -> Result<Vec<Tool>, Error> {
         // A tool without a name takes the hand that is free.
         let right_is_taken = tools.iter().any(|tool| tool.name == "right");
         let free = if right_is_taken { "left" } else { "right" };
-        tools.push(Tool::from_keys(keys, free)?);
+        tools.push(Tool::from_keys(keys, free, folder)?);
     }
     match tools.as_slice() {
         [] => Ok(vec![Tool::default()]),
@@ -153,10 +167,12 @@ impl Tool {
         "trocar_friction_n",
         "trocar_stiffness_n_per_m",
         "jaws",
+        "mesh",
+        "mesh_unit",
         "device",
     ];
 
-    fn from_keys(keys: &Keys<'_>, default_name: &str) -> Result<Self, Error> {
+    fn from_keys(keys: &Keys<'_>, default_name: &str, folder: &Path) -> Result<Self, Error> {
         let default = Self::default();
         let tip = keys.table("tip", Tip::KEYS)?;
         let kind = keys.word("kind", ToolKind::WORDS)?.unwrap_or(default.kind);
@@ -177,10 +193,24 @@ impl Tool {
             trocar_friction_n: of_trocar("trocar_friction_n")?,
             trocar_stiffness_n_per_m: of_trocar("trocar_stiffness_n_per_m")?,
             jaws: Jaws::from_keys(keys, kind)?,
+            mesh: ToolMesh::from_keys(keys, folder)?,
             device: keys
                 .word("device", DeviceKind::WORDS)?
                 .unwrap_or(default.device),
         })
+    }
+}
+
+impl ToolMesh {
+    fn from_keys(keys: &Keys<'_>, folder: &Path) -> Result<Option<Self>, Error> {
+        let Some(path) = keys.text("mesh")? else {
+            keys.refuse("mesh_unit", "`mesh` too, for nothing else has a unit")?;
+            return Ok(None);
+        };
+        Ok(Some(Self {
+            path: folder.join(path),
+            unit: keys.word("mesh_unit", LengthUnit::WORDS)?,
+        }))
     }
 }
 
