@@ -118,6 +118,11 @@ impl Simulation {
         })
     }
 
+    /// Whether what is cut yields more.
+    pub(crate) fn forces_follow_cuts(&self) -> bool {
+        self.cutting.is_some_and(|model| model.changes_force)
+    }
+
     /// The organ at rest.
     pub fn surface(&self) -> &Surface {
         &self.surface

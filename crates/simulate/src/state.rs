@@ -185,10 +185,9 @@ impl SimulationWorkspace {
                 .iter()
                 .map(|tool| tool.model.workspace())
                 .collect(),
-            global: simulation
-                .global
-                .as_ref()
-                .map(|global| global.workspace(simulation.tools.len())),
+            global: simulation.global.as_ref().map(|global| {
+                global.workspace(simulation.tools.len(), simulation.forces_follow_cuts())
+            }),
             seen: vec![0; mesh.vertices().len()],
             seen_triangles: vec![0; mesh.triangles().len()],
             turn: 0,

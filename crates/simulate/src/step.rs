@@ -28,6 +28,14 @@ pub fn step(
     state: &mut SimulationState,
     workspace: &mut SimulationWorkspace,
 ) {
+    if let (Some(model), Some(cuts), Some(global), Some(workspace)) = (
+        &simulation.cutting,
+        &state.cuts,
+        &simulation.global,
+        &mut workspace.global,
+    ) {
+        global.follow_cuts(model, cuts, workspace);
+    }
     for (number, tool) in simulation.tools.iter().enumerate() {
         let pose = poses.get(number).copied().flatten();
         let own = &mut state.tools[number];

@@ -26,6 +26,8 @@ pub(super) struct Stroke {
     pub(super) tool: usize,
     /// Where the opening has come to [m].
     pub(super) at: Vec3,
+    /// Where the blade is [m].
+    pub(super) blade: Vec3,
     /// Parts of the way before it.
     pub(super) before: usize,
 }
@@ -82,6 +84,22 @@ impl Cuts {
     /// How many cuts there are that can be undone.
     pub fn count(&self) -> usize {
         self.surface.cuts()
+    }
+
+    /// The way of all cuts over the resting surface.
+    pub(crate) fn way(&self) -> &[CutSegment] {
+        &self.way
+    }
+
+    /// Where in the way each cut begins, in no order.
+    pub(crate) fn begins(&self) -> impl Iterator<Item = usize> {
+        let own = self.stroke.map(|stroke| stroke.before);
+        self.before.iter().copied().chain(own)
+    }
+
+    /// Whether a cut is being made.
+    pub(crate) fn goes_on(&self) -> bool {
+        self.stroke.is_some()
     }
 
     /// Length of all cuts over the resting surface [m].

@@ -25,6 +25,7 @@ mod lead;
 mod model;
 mod stroke;
 
+pub(crate) use cuts::CutSegment;
 pub use cuts::Cuts;
 pub(crate) use lead::{Blade, lead};
 pub(crate) use model::CuttingModel;

@@ -10,6 +10,9 @@ use crate::state::SimulationState;
 /// A blade that is farther from its goal than this many of the surface's typical edges has left it [-].
 const LEFT: f64 = 3.0;
 
+/// A blade that is farther from where it was a step before [m] was lifted in between: no hand is that fast.
+const LEAP: f64 = 5e-3;
+
 /// What the force of a tool opens, and what its blade does. Called when the forces are known.
 pub(crate) fn advance(
     simulation: &Simulation,
@@ -71,9 +74,17 @@ impl Cuts {
         if stroke.tool != tool {
             return Opened::default();
         }
+        if (footing.point - stroke.blade).norm() > LEAP {
+            self.lift(simulation, tool);
+            self.put_down(simulation, tool, footing);
+            return Opened::default();
+        }
         let Ok(progress) = self.surface.advance(&simulation.surface, &footing.point) else {
             return Opened::default();
         };
+        if let Some(stroke) = &mut self.stroke {
+            stroke.blade = footing.point;
+        }
         self.largest_lag = self.largest_lag.max(progress.lag);
         if progress.opened > 0 {
             self.version += 1;
@@ -98,6 +109,7 @@ impl Cuts {
             self.stroke = Some(Stroke {
                 tool,
                 at: footing.point,
+                blade: footing.point,
                 before: self.way.len(),
             });
         }

@@ -64,7 +64,9 @@ impl GlobalModel {
         tools: &[ToolState],
         workspace: &mut GlobalWorkspace,
     ) {
-        let GlobalWorkspace { sums, held, .. } = workspace;
+        let GlobalWorkspace {
+            sums, held, slit, ..
+        } = workspace;
         sums.fill(0.0);
         let modulus = simulation.material.at_rest.youngs_modulus();
         for (tool, own) in simulation.tools.iter().zip(tools) {
@@ -78,6 +80,14 @@ impl GlobalModel {
         }
         for (_, touch, force) in held.forces() {
             self.response.add_field(touch, &(force / modulus), sums);
+        }
+        if let Some(slit) = slit {
+            let tips = tools.iter().enumerate();
+            let tips = tips.filter(|(_, own)| own.contact.is_some());
+            let tips = tips.map(|(number, own)| (number, -own.elastic / modulus));
+            let parts = held.forces_on_parts();
+            let parts = parts.map(|(part, _, force)| (part, force / modulus));
+            slit.add_field((tips, parts), sums);
         }
     }
 

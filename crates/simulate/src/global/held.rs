@@ -15,7 +15,7 @@ use nalgebra::Matrix3;
 use palpate_geometry::Vec3;
 use palpate_mechanics::surface_response::TouchId;
 
-use super::{GlobalModel, GlobalWorkspace};
+use super::{GlobalModel, GlobalWorkspace, OrganSlit};
 use crate::grip::{HeldTriangle, MOST_PARTS, MOST_TRIANGLES};
 use crate::simulation::Simulation;
 use crate::state::ToolState;
@@ -30,6 +30,8 @@ pub(super) struct HeldWorkspace {
     who: Vec<(usize, usize)>,
     triangles: Vec<HeldTriangle>,
     is_sound: bool,
+    /// Of the slit that is in them.
+    slit: u64,
     /// Cholesky's factor of Ξ_hh, the rows of its lower half.
     factor: Vec<f64>,
     right: Vec<f64>,
@@ -48,6 +50,7 @@ impl HeldWorkspace {
             who: Vec::with_capacity(most),
             triangles: Vec::with_capacity(tools * MOST_TRIANGLES),
             is_sound: false,
+            slit: 0,
             factor: vec![0.0; 9 * most * most],
             right: vec![0.0; 3 * most],
             forces: vec![Vec3::zeros(); most],
@@ -70,6 +73,12 @@ impl HeldWorkspace {
         forces
             .map(|(k, force)| self.to_tips[k * tools + number].tr_mul(force))
             .sum()
+    }
+
+    /// Forces on the parts, with their tools [N].
+    pub(super) fn forces_on_parts(&self) -> impl Iterator<Item = (usize, usize, Vec3)> {
+        let each = self.who.iter().zip(&self.forces).enumerate();
+        each.map(|(k, (&(tool, _), force))| (k, tool, *force))
     }
 
     /// The triangles of part `k`.
@@ -127,8 +136,8 @@ impl GlobalModel {
         workspace: &mut GlobalWorkspace,
     ) -> bool {
         let softness = 1.0 / simulation.material.at_rest.youngs_modulus();
-        let held = &mut workspace.held;
-        self.factor(tools, held);
+        let GlobalWorkspace { held, slit, .. } = workspace;
+        self.factor(tools, held, slit.as_mut());
         for k in 0..held.who.len() {
             for (number, tool) in simulation.tools.iter().enumerate() {
                 let mut sum = Matrix3::zeros();
@@ -139,6 +148,9 @@ impl GlobalModel {
                             sum += compliance * (one.weight * share.weight);
                         }
                     }
+                }
+                if let Some(slit) = slit {
+                    sum += slit.part_by_tip(k, number);
                 }
                 held.to_tips[k * tools.len() + number] = sum * softness;
             }
@@ -162,15 +174,30 @@ impl GlobalModel {
         sum
     }
 
-    fn factor(&self, tools: &[ToolState], held: &mut HeldWorkspace) {
-        if held.is_of(tools) {
+    fn factor(
+        &self,
+        tools: &[ToolState],
+        held: &mut HeldWorkspace,
+        mut slit: Option<&mut OrganSlit>,
+    ) {
+        let version = slit.as_ref().map_or(0, |slit| slit.version);
+        if held.slit == version && held.is_of(tools) {
             return;
         }
+        held.slit = version;
         held.fill(tools);
+        if let Some(slit) = &mut slit {
+            for k in 0..held.who.len() {
+                slit.put_part(&self.response, k, held.part(k));
+            }
+        }
         let size = 3 * held.who.len();
         for i in 0..held.who.len() {
             for j in 0..=i {
-                let block = self.between_parts(held.part(i), held.part(j));
+                let mut block = self.between_parts(held.part(i), held.part(j));
+                if let Some(slit) = &slit {
+                    block += slit.between_parts(i, j);
+                }
                 for a in 0..3 {
                     for b in 0..3 {
                         held.factor[size * (3 * i + a) + 3 * j + b] = block[(a, b)];

@@ -27,6 +27,7 @@ mod held;
 mod key;
 mod mechanical_surface;
 mod method;
+mod organ_slit;
 mod press;
 mod solve;
 mod take_hold;
@@ -49,6 +50,7 @@ pub use enhanced_surface::{EnhancedSurface, OrganField};
 use held::HeldWorkspace;
 use key::Ingredients;
 use method::Method;
+use organ_slit::OrganSlit;
 use solve::Found;
 use take_hold::Candidate;
 
@@ -89,6 +91,8 @@ pub(crate) struct GlobalWorkspace {
     /// Compliance [m/N] of tool i to a force on tool j, at i tools + j.
     between: Vec<Matrix3<f64>>,
     held: HeldWorkspace,
+    /// What cuts do to it, where the mechanics follow them.
+    slit: Option<OrganSlit>,
     between_jaws: Vec<Candidate>,
     /// Displacements of triangles [m], three numbers each.
     sums: Vec<f32>,
@@ -105,12 +109,13 @@ impl GlobalModel {
         tool.field = Some(TipField::new(&self.response, surface, tool.typical_radius));
     }
 
-    /// Scratch for so many tools.
-    pub(crate) fn workspace(&self, tools: usize) -> GlobalWorkspace {
+    /// Scratch for so many tools on an organ that is cut or not.
+    pub(crate) fn workspace(&self, tools: usize, is_cut: bool) -> GlobalWorkspace {
         let triangles = self.response.parts().triangles;
         GlobalWorkspace {
             between: vec![Matrix3::zeros(); tools * tools],
             held: HeldWorkspace::new(tools),
+            slit: is_cut.then(|| OrganSlit::new(&self.response, tools)),
             between_jaws: Vec::with_capacity(self.response.touchable().len()),
             sums: vec![0.0; 3 * triangles],
             field: SurfaceField::with_room(self.enhancement.interpolation(), tools),

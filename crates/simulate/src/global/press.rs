@@ -63,6 +63,9 @@ impl GlobalModel {
             state.displaced = Vec3::zeros();
             state.stiffness = Matrix3::zeros();
         }
+        if let Some(slit) = &mut workspace.slit {
+            slit.put_tips(self, simulation, tools);
+        }
         self.couple(simulation, tools, softness, workspace);
         let holds = self.hold(simulation, tools, workspace);
         for _ in 0..MOST_SWEEPS {
@@ -103,7 +106,9 @@ impl GlobalModel {
                 );
                 let between = match loads {
                     (Some(moved), Some(loaded)) => {
-                        self.response.between(&moved, &loaded) * softness
+                        let slit = workspace.slit.as_ref();
+                        let more = slit.map_or(Matrix3::zeros(), |slit| slit.between_tips(i, j));
+                        (self.response.between(&moved, &loaded) + more) * softness
                     }
                     _ => Matrix3::zeros(),
                 };
@@ -136,7 +141,9 @@ impl GlobalModel {
         let moved = own - frame.tr_mul(&carried);
         let load = self.load(tool, &tools[number]);
         let further = load.map_or(Matrix3::zeros(), |load| {
-            frame.tr_mul(&load.further_compliance()) * frame * softness
+            let slit = workspace.slit.as_ref();
+            let more = slit.map_or(Matrix3::zeros(), |slit| slit.further(number));
+            frame.tr_mul(&(load.further_compliance() + more)) * frame * softness
         });
         let state = &mut tools[number];
         let touched = state

@@ -156,7 +156,7 @@ impl GlobalModel {
         simulation: &Simulation,
         number: usize,
         (patch, tools): (&mut HeldPatch, &[ToolState]),
-        workspace: &GlobalWorkspace,
+        workspace: &mut GlobalWorkspace,
     ) {
         let softness = 1.0 / simulation.material.at_rest.youngs_modulus();
         let own = patch.clone();
@@ -181,6 +181,15 @@ impl GlobalModel {
                 for share in self.load(tool, state).iter().flat_map(|load| load.shares()) {
                     by -= carried(share.triangle, state.elastic * share.weight);
                 }
+            }
+            if let Some(slit) = &mut workspace.slit {
+                // The tip's force is still on it: what is taken from the tip comes upon the parts.
+                let tips = tools.iter().enumerate();
+                let tips = tips.map(|(tip, state)| (tip, -state.elastic));
+                let others = workspace.held.forces_on_parts();
+                let others = others.filter(|(_, tool, _)| *tool != number);
+                let parts = others.map(|(part, _, force)| (part, force));
+                by += slit.carry(&self.response, moved, (tips, parts)) * softness;
             }
             part.at = part.rest + by;
         }

@@ -8,10 +8,12 @@
 
 mod agreement;
 mod analytic;
+mod cut_mechanics;
 mod cutting;
 mod data;
 mod enhanced;
 mod errors;
+mod gestures;
 mod grip;
 mod hand_over;
 mod hybrid;

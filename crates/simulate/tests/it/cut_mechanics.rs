@@ -1,0 +1,141 @@
+//! What an organ that is cut answers, as a whole.
+
+use palpate_files::{Pose, Scene};
+use palpate_geometry::Vec3;
+use palpate_simulate::{Simulation, SimulationState, SimulationWorkspace, step};
+
+/// The esophagus, or a cube, that a hook cuts and a probe touches.
+fn simulation(organ: &str, cutting: &str) -> Simulation {
+    let tool = |name: &str, kind: &str| {
+        format!(
+            "[[tool]]\nname = \"{name}\"\nkind = \"{kind}\"\n\
+             tip = {{ shape = \"flat\", radius_m = 0.001, contact = \"stick\" }}\n"
+        )
+    };
+    let text = format!(
+        "format = 1\n[organ]\n{organ}\n[organ.tissue]\nlaw = \"linear\"\nyoungs_modulus_pa = 10000.0\n\
+         poissons_ratio = 0.45\n[cutting]\ntoughness_j_per_m2 = 1.0\n{cutting}\n[model]\nkind = \"hybrid\"\n\
+         mechanical_triangles = 1200\nresponse = \"boundary_elements\"\n{}{}",
+        tool("right", "hook"),
+        tool("left", "probe")
+    );
+    Simulation::new(&Scene::parse(&text, "cut.toml").unwrap()).unwrap()
+}
+
+const CUBE: &str = "builtin = \"cube\"\ntriangles = 3072\n\
+    [organ.touchable]\nspheres = [{ center_m = [0.0, 0.0, 0.05], radius_m = 0.03 }]";
+
+struct Hands<'a> {
+    simulation: &'a Simulation,
+    state: SimulationState,
+    workspace: SimulationWorkspace,
+    steps: u32,
+}
+
+impl<'a> Hands<'a> {
+    fn new(simulation: &'a Simulation) -> Self {
+        Self {
+            state: SimulationState::new(simulation),
+            workspace: SimulationWorkspace::new(simulation),
+            simulation,
+            steps: 0,
+        }
+    }
+
+    /// A step with the hook at `hook` [m], cutting, and the probe at `probe` [m], or one of them alone.
+    fn at(&mut self, hook: Option<Vec3>, probe: Option<Vec3>) -> Vec3 {
+        let pose = |place: Vec3, cut| Pose {
+            position_m: place.into(),
+            orientation: None,
+            grip: 0.0,
+            cut,
+        };
+        let poses = [
+            hook.map(|place| pose(place, true)),
+            probe.map(|place| pose(place, false)),
+        ];
+        let elapsed = self.simulation.step();
+        let time = elapsed * f64::from(self.steps);
+        self.steps += 1;
+        step(
+            self.simulation,
+            (time, elapsed),
+            &poses,
+            &mut self.state,
+            &mut self.workspace,
+        );
+        self.state.tools[1].force
+    }
+
+    /// From `from` to `to` [m], and up.
+    fn cut(&mut self, from: Vec3, to: Vec3) {
+        for k in 0..=200 {
+            self.at(Some(from + (to - from) * (f64::from(k) / 200.0)), None);
+        }
+        self.at(None, None);
+    }
+
+    /// The force of a probe that goes straight in to `place` [m].
+    fn feel(&mut self, place: Vec3) -> Vec3 {
+        let force = self.at(None, Some(place));
+        self.at(None, None);
+        force
+    }
+}
+
+/// On the upper side of the cube, 1 mm deep.
+fn top(x: f64, y: f64) -> Vec3 {
+    Vec3::new(x, y, 0.049)
+}
+
+/// A cut softens its rim and nothing far away; undone, it leaves no trace. Judge: the uncut organ; how much it
+/// softens is judged in `mechanics`, against finite elements with a slit.
+#[test]
+fn a_rim_is_softer_and_the_rest_is_not() {
+    let simulation = simulation(CUBE, "depth_m = 0.004");
+    let mut hands = Hands::new(&simulation);
+    let places = [0.0016, 0.0022, 0.0034, 0.026].map(|y| top(0.0, y));
+    let uncut = places.map(|place| hands.feel(place));
+    hands.cut(top(-0.012, 0.0004), top(0.012, 0.0004));
+    // Of 24 mm, what the ends lack: an edge of 8.8 mm at most.
+    assert!(hands.state.cuts.as_ref().unwrap().length() > 0.015);
+    let cut = places.map(|place| hands.feel(place));
+    let parts = [0, 1, 2, 3].map(|k| cut[k].z / uncut[k].z);
+    println!("force over that of the uncut organ: {parts:.3?}");
+    // A quarter-space is softer than a half-space by some tenths; 26 mm are six depths away.
+    assert!(parts[0] < 0.95 && parts[0] > 0.3, "{parts:?}");
+    assert!(parts.is_sorted(), "{parts:?}");
+    assert!((parts[3] - 1.0).abs() < 0.02, "{parts:?}");
+    // Pressed beside a slit, tissue goes towards it.
+    assert!(hands.state.undo_cut());
+    let again = places.map(|place| hands.feel(place));
+    assert_eq!(again, uncut);
+}
+
+/// The source's mode leaves forces alone (section 7.7).
+#[test]
+fn the_source_s_mode_changes_no_force() {
+    let simulation = simulation(CUBE, "depth_m = 0.004\nmode = \"snap\"");
+    let mut hands = Hands::new(&simulation);
+    let uncut = hands.feel(top(0.0, 0.0022));
+    hands.cut(top(-0.012, 0.0004), top(0.012, 0.0004));
+    assert!(hands.state.cuts.as_ref().unwrap().length() > 0.015);
+    assert_eq!(hands.feel(top(0.0, 0.0022)), uncut);
+}
+
+/// A workspace that is lost in the middle of a cut changes nothing: the slit is made again of the cuts.
+#[test]
+fn a_lost_workspace_changes_no_force() {
+    let simulation = simulation(CUBE, "depth_m = 0.004");
+    let (mut kept, mut lost) = (Hands::new(&simulation), Hands::new(&simulation));
+    for k in 0..150 {
+        let hook = Some(top(-0.012 + 1.6e-4 * f64::from(k), 0.0004));
+        let probe = Some(top(0.0, 0.004));
+        if k % 40 == 0 {
+            lost.workspace = SimulationWorkspace::new(&simulation);
+        }
+        let (a, b) = (kept.at(hook, probe), lost.at(hook, probe));
+        assert_eq!(a, b, "step {k}");
+    }
+    assert!(kept.state.cuts.as_ref().unwrap().length() > 0.01);
+}
