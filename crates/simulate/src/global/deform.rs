@@ -86,7 +86,7 @@ impl GlobalModel {
             let tips = tips.filter(|(_, own)| own.contact.is_some());
             let tips = tips.map(|(number, own)| (number, -own.elastic / modulus));
             let parts = held.forces_on_parts();
-            let parts = parts.map(|(part, _, force)| (part, force / modulus));
+            let parts = parts.map(|(part, force)| (part, force / modulus));
             slit.add_field((tips, parts), sums);
         }
     }

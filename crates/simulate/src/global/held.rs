@@ -6,8 +6,8 @@
 //! Tips and held triangles take turns in the sweeps of `press`. A tool feels −Σ f of its own, and answers a
 //! way of its jaws with S = E Σ Ξ_hh⁻¹ over its own.
 //!
-//! *How we know*: `grip::held_triangles_are_a_new_solution`, `grip::a_pull_is_that_of_finite_elements`,
-//! `grip::a_closed_way_gives_no_energy`.
+//! *How we know*: `grip::agreement::…`: the same elements anew, finite elements, a tube pulled at both sides;
+//! `grip::energy::a_closed_way_gives_no_energy`.
 //!
 //! *Limits*: S leaves out that tips beside the jaws yield.
 
@@ -15,7 +15,7 @@ use nalgebra::Matrix3;
 use palpate_geometry::Vec3;
 use palpate_mechanics::surface_response::TouchId;
 
-use super::{GlobalModel, GlobalWorkspace, OrganSlit};
+use super::{GlobalModel, GlobalWorkspace};
 use crate::grip::{HeldTriangle, MOST_PARTS, MOST_TRIANGLES};
 use crate::simulation::Simulation;
 use crate::state::ToolState;
@@ -32,8 +32,8 @@ pub(super) struct HeldWorkspace {
     is_sound: bool,
     /// Of the slit that is in them.
     slit: u64,
-    /// Cholesky's factor of Ξ_hh, the rows of its lower half.
-    factor: Vec<f64>,
+    /// The rows of the lower half of Ξ_hh [1/m], then of its factor.
+    matrix: Vec<f64>,
     right: Vec<f64>,
     /// On the held parts [N].
     forces: Vec<Vec3>,
@@ -51,7 +51,7 @@ impl HeldWorkspace {
             triangles: Vec::with_capacity(tools * MOST_TRIANGLES),
             is_sound: false,
             slit: 0,
-            factor: vec![0.0; 9 * most * most],
+            matrix: vec![0.0; 9 * most * most],
             right: vec![0.0; 3 * most],
             forces: vec![Vec3::zeros(); most],
             to_tips: vec![Matrix3::zeros(); most * tools],
@@ -75,10 +75,10 @@ impl HeldWorkspace {
             .sum()
     }
 
-    /// Forces on the parts, with their tools [N].
-    pub(super) fn forces_on_parts(&self) -> impl Iterator<Item = (usize, usize, Vec3)> {
-        let each = self.who.iter().zip(&self.forces).enumerate();
-        each.map(|(k, (&(tool, _), force))| (k, tool, *force))
+    /// Forces on the parts, in their order [N].
+    pub(super) fn forces_on_parts(&self) -> impl Iterator<Item = (usize, Vec3)> {
+        let forces = self.forces.iter().take(self.who.len());
+        forces.copied().enumerate()
     }
 
     /// The triangles of part `k`.
@@ -106,6 +106,62 @@ impl HeldWorkspace {
             }
         }
         k == self.who.len()
+    }
+
+    /// Displacement of part `i` from a unit force on part `j`, times E [1/m], before they are factored.
+    fn block(&self, i: usize, j: usize) -> Matrix3<f64> {
+        let size = 3 * self.who.len();
+        let (row, column) = (3 * i.max(j), 3 * i.min(j));
+        let block = Matrix3::from_fn(|a, b| self.matrix[size * (row + a) + column + b]);
+        if i < j { block.transpose() } else { block }
+    }
+
+    /// How far E times the parts of tool `number` are moved [N/m], in their order, when they bear `force` [N]
+    /// by their `shares` [-] beside what others hold, whose forces are those of the last equations. Before
+    /// they are factored.
+    pub(super) fn borne<'a>(
+        &'a self,
+        number: usize,
+        force: Vec3,
+        shares: impl Iterator<Item = f64> + Clone + 'a,
+    ) -> impl Iterator<Item = Vec3> + 'a {
+        let of_tool = move |k: &usize| self.who[*k].0 == number;
+        let all = 0..self.who.len();
+        all.clone().filter(of_tool).map(move |moved| {
+            let own = all.clone().filter(of_tool).zip(shares.clone());
+            let own = own.map(|(k, share)| self.block(moved, k) * force * share);
+            let others = all.clone().filter(|k| !of_tool(k)).zip(&self.forces);
+            let others = others.map(|(k, force)| self.block(moved, k) * force);
+            own.sum::<Vec3>() + others.sum::<Vec3>()
+        })
+    }
+
+    /// Factors what was set up for so many tools, if it can be.
+    pub(super) fn factor(&mut self, tools: usize) {
+        let size = 3 * self.who.len();
+        let matrix = &mut self.matrix[..size * size];
+        self.is_sound = cholesky(matrix, size);
+        self.stiffness.fill(Matrix3::zeros());
+        if !self.is_sound {
+            return;
+        }
+        for number in 0..tools {
+            for axis in 0..3 {
+                let right = &mut self.right[..size];
+                for (three, (tool, _)) in right.chunks_exact_mut(3).zip(&self.who) {
+                    three.fill(0.0);
+                    three[axis] = f64::from(u8::from(*tool == number));
+                }
+                substitute(matrix, right);
+                let column: Vec3 = right
+                    .chunks_exact(3)
+                    .zip(&self.who)
+                    .filter(|(_, (tool, _))| *tool == number)
+                    .map(|(three, _)| Vec3::from_column_slice(three))
+                    .sum();
+                self.stiffness[number].set_column(axis, &column);
+            }
+        }
     }
 
     /// Takes over what `tools` hold.
@@ -136,8 +192,12 @@ impl GlobalModel {
         workspace: &mut GlobalWorkspace,
     ) -> bool {
         let softness = 1.0 / simulation.material.at_rest.youngs_modulus();
+        let version = workspace.slit.as_ref().map_or(0, |slit| slit.version);
+        if workspace.held.slit != version || !workspace.held.is_of(tools) {
+            self.assemble(tools, workspace);
+            workspace.held.factor(tools.len());
+        }
         let GlobalWorkspace { held, slit, .. } = workspace;
-        self.factor(tools, held, slit.as_mut());
         for k in 0..held.who.len() {
             for (number, tool) in simulation.tools.iter().enumerate() {
                 let mut sum = Matrix3::zeros();
@@ -174,19 +234,13 @@ impl GlobalModel {
         sum
     }
 
-    fn factor(
-        &self,
-        tools: &[ToolState],
-        held: &mut HeldWorkspace,
-        mut slit: Option<&mut OrganSlit>,
-    ) {
-        let version = slit.as_ref().map_or(0, |slit| slit.version);
-        if held.slit == version && held.is_of(tools) {
-            return;
-        }
-        held.slit = version;
+    /// Sets up the equations of what `tools` hold, which are to be factored next.
+    pub(super) fn assemble(&self, tools: &[ToolState], workspace: &mut GlobalWorkspace) {
+        let GlobalWorkspace { held, slit, .. } = workspace;
         held.fill(tools);
-        if let Some(slit) = &mut slit {
+        held.is_sound = false;
+        held.slit = slit.as_ref().map_or(0, |slit| slit.version);
+        if let Some(slit) = slit {
             for k in 0..held.who.len() {
                 slit.put_part(&self.response, k, held.part(k));
             }
@@ -195,37 +249,14 @@ impl GlobalModel {
         for i in 0..held.who.len() {
             for j in 0..=i {
                 let mut block = self.between_parts(held.part(i), held.part(j));
-                if let Some(slit) = &slit {
+                if let Some(slit) = slit {
                     block += slit.between_parts(i, j);
                 }
                 for a in 0..3 {
                     for b in 0..3 {
-                        held.factor[size * (3 * i + a) + 3 * j + b] = block[(a, b)];
+                        held.matrix[size * (3 * i + a) + 3 * j + b] = block[(a, b)];
                     }
                 }
-            }
-        }
-        let matrix = &mut held.factor[..size * size];
-        held.is_sound = cholesky(matrix, size);
-        held.stiffness.fill(Matrix3::zeros());
-        if !held.is_sound {
-            return;
-        }
-        for number in 0..tools.len() {
-            for axis in 0..3 {
-                let right = &mut held.right[..size];
-                for (three, (tool, _)) in right.chunks_exact_mut(3).zip(&held.who) {
-                    three.fill(0.0);
-                    three[axis] = f64::from(u8::from(*tool == number));
-                }
-                substitute(matrix, right);
-                let column: Vec3 = right
-                    .chunks_exact(3)
-                    .zip(&held.who)
-                    .filter(|(_, (tool, _))| *tool == number)
-                    .map(|(three, _)| Vec3::from_column_slice(three))
-                    .sum();
-                held.stiffness[number].set_column(axis, &column);
             }
         }
     }
@@ -258,7 +289,7 @@ impl GlobalModel {
                 k += 1;
             }
         }
-        substitute(&held.factor[..size * size], right);
+        substitute(&held.matrix[..size * size], right);
         for (force, three) in held.forces.iter_mut().zip(right.chunks_exact(3)) {
             *force = Vec3::from_column_slice(three);
         }

@@ -175,23 +175,18 @@ impl OrganSlit {
         self.slit.between(&self.parts[part], &self.tips[tip])
     }
 
-    /// What it adds to the displacement, times E [N/m], of a part that is not held yet under forces [N] on tips and on
-    /// held parts.
+    /// What it adds to the displacement, times E [N/m], of a part under forces [N] on tips.
     pub(super) fn carry(
         &mut self,
         response: &SurfaceResponse,
         part: &[HeldTriangle],
-        forces: (
-            impl Iterator<Item = (usize, Vec3)>,
-            impl Iterator<Item = (usize, Vec3)>,
-        ),
+        forces: impl Iterator<Item = (usize, Vec3)>,
     ) -> Vec3 {
         self.slit
             .put(response, (shares(part), None), &mut self.scratch);
-        let by = |load: &SlitLoad, force: Vec3| self.slit.between(&self.scratch, load) * force;
-        let tips = forces.0.map(|(tip, force)| by(&self.tips[tip], force));
-        let parts = forces.1.map(|(part, force)| by(&self.parts[part], force));
-        tips.chain(parts).sum()
+        let on = &self.scratch;
+        let by = forces.map(|(tip, force)| self.slit.between(on, &self.tips[tip]) * force);
+        by.sum()
     }
 
     /// Adds to `field` what it does under forces over E [m²] on tips and on held parts.

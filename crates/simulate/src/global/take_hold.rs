@@ -63,10 +63,17 @@ impl GlobalModel {
         let before = SeenContact::of(tool, &tools[number]);
         loop {
             (tools[number].contact, tools[number].site) = (None, None);
+            let hold = |patch: &HeldPatch, seen, tools: &mut [ToolState]| {
+                let held = Held::Patch(patch.clone());
+                tools[number].grip.hold = Some(Hold::new(&swept, pressed, held, seen));
+            };
+            let nowhere = before.map_or_else(|| self.seen(simulation, &patch), SeenHold::of);
+            hold(&patch, nowhere, tools);
+            self.assemble(tools, workspace);
             self.place(simulation, number, (&mut patch, tools), workspace);
             let seen = before.map_or_else(|| self.seen(simulation, &patch), SeenHold::of);
-            let held = Held::Patch(patch.clone());
-            tools[number].grip.hold = Some(Hold::new(&swept, pressed, held, seen));
+            hold(&patch, seen, tools);
+            workspace.held.factor(tools.len());
             if self.hold(simulation, tools, workspace) {
                 self.answer_held(simulation, tools, workspace);
                 return true;
@@ -163,35 +170,26 @@ impl GlobalModel {
         // Fewer than were chosen bear all of it.
         let all: f64 = own.parts().map(|(part, _)| part.share).sum();
         let force = -tools[number].elastic / all;
-        for (part, (_, moved)) in patch.parts_mut().iter_mut().zip(own.parts()) {
-            let carried = |touch, force: Vec3| {
-                let one = HeldTriangle { touch, weight: 1.0 };
-                self.between_parts(moved, &[one]) * force * softness
-            };
-            let mut by = Vec3::zeros();
-            for (other, loaded) in own.parts() {
-                by += self.between_parts(moved, loaded) * force * (other.share * softness);
-            }
-            for (tool, touch, force) in workspace.held.forces() {
-                if tool != number {
-                    by += carried(touch, force);
-                }
-            }
+        let shares = own.parts().map(|(part, _)| part.share);
+        let GlobalWorkspace { held, slit, .. } = workspace;
+        let borne = held.borne(number, force, shares);
+        for ((part, (_, moved)), by) in patch.parts_mut().iter_mut().zip(own.parts()).zip(borne) {
+            part.at = part.rest + by * softness;
             for (tool, state) in simulation.tools.iter().zip(tools) {
                 for share in self.load(tool, state).iter().flat_map(|load| load.shares()) {
-                    by -= carried(share.triangle, state.elastic * share.weight);
+                    let tip = HeldTriangle {
+                        touch: share.triangle,
+                        weight: share.weight,
+                    };
+                    part.at -= self.between_parts(moved, &[tip]) * state.elastic * softness;
                 }
             }
-            if let Some(slit) = &mut workspace.slit {
-                // The tip's force is still on it: what is taken from the tip comes upon the parts.
+            if let Some(slit) = slit {
                 let tips = tools.iter().enumerate();
+                let tips = tips.filter(|(_, state)| state.contact.is_some());
                 let tips = tips.map(|(tip, state)| (tip, -state.elastic));
-                let others = workspace.held.forces_on_parts();
-                let others = others.filter(|(_, tool, _)| *tool != number);
-                let parts = others.map(|(part, _, force)| (part, force));
-                by += slit.carry(&self.response, moved, (tips, parts)) * softness;
+                part.at += slit.carry(&self.response, moved, tips) * softness;
             }
-            part.at = part.rest + by;
         }
     }
 
