@@ -3,10 +3,11 @@
 //! *How we know*: `golden::…`.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use image::RgbaImage;
 use palpate_files::{Scene, scene, write_whole};
-use palpate_geometry::{Surface, Vec3};
+use palpate_geometry::{Surface, TriangleMesh, Vec3};
 use palpate_simulate::interactive::OpenedSnapshot;
 use palpate_simulate::{Frame, Simulation, SimulationState, read_neighbour};
 
@@ -26,7 +27,7 @@ pub struct Studio {
     renderer: Renderer,
     organ: SeenOrgan,
     neighbours: Vec<Body>,
-    tools: Vec<scene::Tool>,
+    tools: Vec<SeenTool>,
     target: Target,
     surface: Surface,
     opened: OpenedSnapshot,
@@ -58,7 +59,7 @@ impl Studio {
             renderer: Renderer::new(&gpu),
             organ: SeenOrgan::new(&gpu, simulation, Tint::of(&scene.organ.shape))?,
             neighbours,
-            tools: scene.tools.clone(),
+            tools: seen_tools(scene, simulation),
             target: Target::new(&gpu, size, 4),
             surface: simulation.surface().clone(),
             opened: OpenedSnapshot::default(),
@@ -125,16 +126,26 @@ impl Studio {
     }
 }
 
+/// A tool of a scene, and what it looks like if not as its kind does.
+pub type SeenTool = (scene::Tool, Option<Arc<TriangleMesh>>);
+
+fn seen_tools(scene: &Scene, simulation: &Simulation) -> Vec<SeenTool> {
+    let looks = simulation.tools().iter().map(|tool| tool.look.clone());
+    scene.tools.iter().cloned().zip(looks).collect()
+}
+
 /// The tools that are there, as a state has them.
-pub fn tool_pictures(tools: &[scene::Tool], state: &SimulationState) -> Vec<ToolPicture> {
+pub fn tool_pictures(tools: &[SeenTool], state: &SimulationState) -> Vec<ToolPicture> {
     tools
         .iter()
         .zip(&state.tools)
         .filter(|(_, own)| own.pose.is_some())
-        .map(|(tool, own)| {
+        .map(|((tool, look), own)| {
             let row = &own.row;
             let at = (row.position_m, row.orientation);
-            let picture = ToolPicture::new(tool, at).gripping(row.grip);
+            let picture = ToolPicture::new(tool, at)
+                .looking_like(look.as_ref())
+                .gripping(row.grip);
             match &own.contact {
                 Some(contact) => picture.touching(contact.point()),
                 None => picture,

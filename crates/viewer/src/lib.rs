@@ -21,7 +21,7 @@ mod window;
 
 pub use camera::{Camera, Lamp};
 pub use error::Error;
-pub use frame::{FRAME_SIZE, FrameWriter, Studio, png, tool_pictures};
+pub use frame::{FRAME_SIZE, FrameWriter, SeenTool, Studio, png, tool_pictures};
 pub use gpu::Gpu;
 pub use opened_surface::OpenedSurface;
 pub use orbit::{Orbit, scene_camera};

@@ -108,7 +108,8 @@ impl Cuts {
             .way
             .iter()
             .map(|part| (part.ends[1] - part.ends[0]).norm());
-        lengths.sum()
+        // A sum of nothing is -0.
+        lengths.fold(0.0, |sum, length| sum + length)
     }
 
     /// Triangles between a blade and the end of its opening, at most so far.

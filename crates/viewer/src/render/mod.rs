@@ -194,7 +194,7 @@ impl Renderer {
                 }),
             part,
         });
-        *kept = Some((*shape, parts.collect()));
+        *kept = Some((shape.clone(), parts.collect()));
     }
 }
 

@@ -276,10 +276,13 @@ impl Picture {
             .tools
             .iter()
             .zip(&snapshot.tools)
-            .filter_map(|(tool, seen)| {
+            .zip(play.simulation.tools())
+            .filter_map(|((tool, seen), model)| {
                 let pose = seen.pose?;
                 let at = (pose.position_m, seen.orientation);
-                let picture = ToolPicture::new(tool, at).gripping(pose.grip);
+                let picture = ToolPicture::new(tool, at)
+                    .looking_like(model.look.as_ref())
+                    .gripping(pose.grip);
                 Some(match seen.contact {
                     Some(contact) => picture.touching(contact.point),
                     None => picture,

@@ -18,9 +18,11 @@ mod solid;
 #[cfg(test)]
 mod tests;
 
+use std::sync::Arc;
+
 use nalgebra::{Matrix4, UnitQuaternion};
 use palpate_files::scene::{self, Jaws, Tip, TipShape, ToolKind};
-use palpate_geometry::Vec3;
+use palpate_geometry::{TriangleMesh, Vec3};
 
 /// Radius of a laparoscopic shaft [m].
 const SHAFT: f64 = 0.0025;
@@ -33,7 +35,7 @@ const BEYOND: f64 = 0.03;
 pub(super) const PARTS: usize = 5;
 
 /// A tool where it is.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ToolPicture {
     /// Its shape.
     pub(super) shape: ToolShape,
@@ -52,7 +54,7 @@ pub struct ToolPicture {
 }
 
 /// What a tool looks like.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct ToolShape {
     kind: ToolKind,
     tip: TipShape,
@@ -62,6 +64,18 @@ pub(super) struct ToolShape {
     pub(super) shaft: f64,
     jaws: JawSize,
     has_trocar: bool,
+    /// Instead of what its kind looks like.
+    look: Option<Look>,
+}
+
+/// A mesh in the tool's frame. Another one is another look, whatever it holds.
+#[derive(Debug, Clone)]
+struct Look(Arc<TriangleMesh>);
+
+impl PartialEq for Look {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
 }
 
 /// The jaws of a grasper, or the blades of scissors.
@@ -134,6 +148,13 @@ impl ToolPicture {
         self
     }
 
+    /// The same with the look of a mesh in its frame, if it has one.
+    #[must_use]
+    pub fn looking_like(mut self, mesh: Option<&Arc<TriangleMesh>>) -> Self {
+        self.shape.look = mesh.cloned().map(Look);
+        self
+    }
+
     /// The same with its jaws closed by `grip`, from 0, open, to 1, shut [-].
     #[must_use]
     pub fn gripping(mut self, grip: f64) -> Self {
@@ -200,6 +221,20 @@ impl Part {
     }
 }
 
+impl Look {
+    /// Position and normal of three corners of each triangle.
+    fn corners(&self) -> Vec<[f32; 6]> {
+        let mesh = &self.0;
+        let corners = mesh.triangle_ids().flat_map(|id| {
+            let normal = mesh.area_vector(id).try_normalize(0.0).unwrap_or_default();
+            mesh.positions(id).map(|at| {
+                [at.x, at.y, at.z, normal.x, normal.y, normal.z].map(|number| number as f32)
+            })
+        });
+        corners.collect()
+    }
+}
+
 impl JawSize {
     fn of(tool: &scene::Tool) -> Self {
         let jaws = tool.jaws.unwrap_or(match tool.kind {
@@ -240,6 +275,7 @@ impl ToolShape {
             },
             jaws: JawSize::of(tool),
             has_trocar: tool.trocar_m.is_some(),
+            look: None,
         }
     }
 
@@ -250,15 +286,16 @@ impl ToolShape {
             material: Material::Steel,
             corners,
         };
-        let mut parts = match self.kind {
-            ToolKind::Probe => {
+        let mut parts = match (&self.look, self.kind) {
+            (Some(look), _) => vec![steel(Motion::Fixed, look.corners())],
+            (None, ToolKind::Probe) => {
                 let (tip, end) = revolved::probe(self.tip, self.radius, self.shaft);
                 vec![
                     steel(Motion::Fixed, tip),
                     steel(Motion::Stretched { from: end }, revolved::shaft(self.shaft)),
                 ]
             }
-            ToolKind::Grasper | ToolKind::Scissors => {
+            (None, ToolKind::Grasper | ToolKind::Scissors) => {
                 let blade = |side: f64| match self.kind {
                     ToolKind::Grasper => jaw::corners(&self.jaws, side),
                     _ => scissors::corners(&self.jaws, side),
@@ -271,7 +308,7 @@ impl ToolShape {
                     self.insulated(from),
                 ]
             }
-            ToolKind::Hook => vec![
+            (None, ToolKind::Hook) => vec![
                 steel(Motion::Fixed, hook::wire()),
                 Part {
                     motion: Motion::Fixed,
