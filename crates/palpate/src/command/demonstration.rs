@@ -23,7 +23,7 @@ const MOTION: &str = include_str!("../../../../assets/esophagus/motion.csv");
 /// The window with the built-in esophagus; where there can be none, a first touch that needs neither window
 /// nor file.
 pub(crate) fn run() -> Result<(), Failure> {
-    match window::open(window::esophagus()?) {
+    match window::open(window::trainer()?) {
         Ok(()) => Ok(()),
         Err(why) if window::is_absent(&why) => play(&why),
         Err(why) => Err(why.into()),

@@ -17,11 +17,17 @@ use clap::{Parser, Subcommand};
 
 use crate::failure::Failure;
 
+/// The lower esophagus where it lies, for two hands.
+pub(crate) const TRAINER: &str = include_str!("../../../../assets/esophagus/trainer.toml");
+
+/// A cut on it that goes down to the mucosa.
+pub(crate) const MYOTOMY: &str = include_str!("../../../../assets/esophagus/myotomy.csv");
+
 /// Examples at the end of `palpate --help`.
 const EXAMPLES: &str = "\
 Examples:
   palpate
-      opens a window: the built-in esophagus under the mouse. Without a display it plays a
+      opens a window: the lower esophagus under a grasper and scissors. Without a display it plays a
       first touch instead and writes ./palpate-demo
   palpate simulate scene.toml
       opens a window with your scene

@@ -111,7 +111,7 @@ fn touch(arguments: &Arguments) -> Result<(), Failure> {
     }
     let scene = match &arguments.scene {
         Some(path) => scene_of(path)?,
-        None => window::esophagus()?,
+        None => window::trainer()?,
     };
     match window::open(scene) {
         Err(why) if window::is_absent(&why) => Err(Failure::failed(format!(

@@ -1,23 +1,16 @@
 //! The window, as the commands open it.
 
 use palpate_files::Scene;
-use palpate_files::scene::Shape;
 use palpate_viewer::{Error, open_window};
 
+use super::TRAINER;
 use super::simulate::ESOPHAGUS;
 use crate::failure::Failure;
 use crate::preparation;
 
-/// Triangles of the built-in esophagus in a window: enough to see the dimple of its tip.
-const TRIANGLES: usize = 14_000;
-
-/// The built-in esophagus, fine enough to be looked at.
-pub(super) fn esophagus() -> Result<Scene, Failure> {
-    let mut scene = Scene::parse(ESOPHAGUS, "built-in scene")?;
-    if let Shape::Builtin { triangles, .. } = &mut scene.organ.shape {
-        *triangles = Some(TRIANGLES);
-    }
-    Ok(scene)
+/// The lower esophagus where it lies, with a grasper and scissors.
+pub(super) fn trainer() -> Result<Scene, Failure> {
+    Ok(Scene::parse(TRAINER, "built-in scene")?)
 }
 
 /// Opens `scene` and waits until the window is closed.

@@ -42,7 +42,7 @@ pub(crate) struct Item {
 }
 
 /// All that can be reproduced, in the order of the source.
-pub(crate) const ITEMS: [Item; 56] = [
+pub(crate) const ITEMS: [Item; 58] = [
     m01::TABLE_3_1,
     m01::FIGURE_3_3,
     m01::FIGURE_3_4,
@@ -99,4 +99,6 @@ pub(crate) const ITEMS: [Item; 56] = [
     m13::FIGURE_7_12,
     m09::FIGURE_7_17,
     m16::SECTION_7_8,
+    m16::FIGURE_7_18,
+    m16::FIGURE_7_19,
 ];
