@@ -1,15 +1,17 @@
 //! What all jaws hold of one organ: triangles whose displacements are prescribed.
 //!
 //! With Ξ_hh the compliance of the held parts (triangles, or several with the mean of their displacements), d
-//! their displacements and c what the tips carry them by, the forces on them are f = E Ξ_hh⁻¹ (d − c) (4.7). Ξ_hh is symmetric and positive definite; it is factored
-//! by Cholesky where other triangles are held than in the step before, and a step only substitutes back.
-//! Tips and held triangles take turns in the sweeps of `press`. A tool feels −Σ f of its own, and answers a
-//! way of its jaws with S = E Σ Ξ_hh⁻¹ over its own.
+//! their displacements and c what the tips carry them by, the forces on them are f = E Ξ_hh⁻¹ (d − c) (4.7).
+//! Ξ_hh is symmetric and positive definite; it is factored by Cholesky where other parts are held than in the
+//! step before, and a step only substitutes back. Tips and held parts take turns in the sweeps of `press`. A
+//! tool feels −Σ f of its own, and answers a way of its jaws with S = E Σ Ξ_hh⁻¹ over its own.
 //!
 //! *How we know*: `grip::agreement::…`: the same elements anew, finite elements, a tube pulled at both sides;
 //! `grip::energy::a_closed_way_gives_no_energy`.
 //!
-//! *Limits*: S leaves out that tips beside the jaws yield.
+//! *Limits*: S leaves out that tips beside the jaws yield. A few constant triangles lack the peak of traction at
+//! the edge of a patch: six are 11 % too soft on every mesh, sixteen parts 2 %. Where triangles are larger than
+//! the jaws, as much is held as they are large.
 
 use nalgebra::Matrix3;
 use palpate_geometry::Vec3;
