@@ -1,4 +1,5 @@
 use std::collections::{BTreeMap, VecDeque};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use palpate_geometry::{CutSurface, NodeId, Surface, TriangleId, TriangleMesh, Vec3};
 use palpate_simulate::interactive::OpenedSnapshot;
@@ -7,6 +8,9 @@ use crate::render::single_precision;
 
 /// Passes by which an opening is spread over the triangles beside it.
 const PASSES: usize = 400;
+
+/// No two surfaces have the same triangles, as far as a picture knows.
+static NEXT: AtomicU64 = AtomicU64::new(1);
 
 /// A cut surface that is held open for a picture, without mechanics.
 ///
@@ -32,7 +36,7 @@ impl OpenedSurface {
         let triangles = mesh.triangles().iter();
         Self {
             drawn: OpenedSnapshot {
-                version: 1,
+                version: NEXT.fetch_add(1, Ordering::Relaxed),
                 rest: single_precision(mesh.vertices()),
                 places: single_precision(&places),
                 triangles: triangles

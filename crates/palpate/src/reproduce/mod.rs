@@ -14,6 +14,7 @@ mod m09;
 mod m11;
 mod m12;
 mod m13;
+mod m15;
 mod m16;
 mod machine;
 mod portrait;
@@ -42,7 +43,7 @@ pub(crate) struct Item {
 }
 
 /// All that can be reproduced, in the order of the source.
-pub(crate) const ITEMS: [Item; 58] = [
+pub(crate) const ITEMS: [Item; 60] = [
     m01::TABLE_3_1,
     m01::FIGURE_3_3,
     m01::FIGURE_3_4,
@@ -97,6 +98,8 @@ pub(crate) const ITEMS: [Item; 58] = [
     m12::SECTION_7_4,
     m13::TABLE_7_1,
     m13::FIGURE_7_12,
+    m15::FIGURE_7_15,
+    m15::FIGURE_7_16,
     m09::FIGURE_7_17,
     m16::SECTION_7_8,
     m16::FIGURE_7_18,

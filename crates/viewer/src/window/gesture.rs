@@ -1,5 +1,6 @@
 //! The hand of a mouse, which has two dimensions: over the organ the tool hovers; a pressed button touches,
-//! dragged down it goes deeper, dragged sideways it slides.
+//! dragged down it goes deeper, dragged sideways it slides. While it cuts it slides both ways and stays as deep
+//! as it was.
 //!
 //! It is arithmetic on places of the picture and knows no window, so that tests can move it for hours.
 //!
@@ -35,6 +36,8 @@ pub struct Mouse {
     pub pressed: bool,
     /// Turns of the wheel, away from the hand [steps].
     pub wheel: f64,
+    /// Whether the tool cuts.
+    pub cuts: bool,
 }
 
 /// Where the tool is to be.
@@ -55,8 +58,9 @@ pub struct Aim {
 /// A press that lasts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Press {
-    /// Where the button went down.
-    began: (f64, f64),
+    /// The line of the picture that it slides along, and the one at which it is not deeper than a touch.
+    line: f64,
+    zero: f64,
     /// What was there, or where the tool has slid to since.
     over: Picked,
     /// Depth by the wheel [m].
@@ -93,20 +97,26 @@ impl Gesture {
         };
         match (mouse.pressed, self.press, mouse.place) {
             (true, Some(mut press), Some(place)) => {
-                // Sideways only: down the picture is into the tissue.
-                if let Some(over) = seen((place.0, press.began.1)) {
+                if mouse.cuts {
+                    let before = self.aim.map_or(TOUCH, |aim| aim.depth);
+                    press.line = place.1;
+                    press.zero = place.1 - (before - TOUCH - press.by_wheel) / DEEPEST;
+                }
+                // Else sideways only: down the picture is into the tissue.
+                if let Some(over) = seen((place.0, press.line)) {
                     press.over = over;
                 }
                 press.by_wheel = (press.by_wheel + WHEEL * mouse.wheel).clamp(-DEEPEST, DEEPEST);
                 self.press = Some(press);
-                let dragged = DEEPEST * (place.1 - press.began.1);
+                let dragged = DEEPEST * (place.1 - press.zero);
                 let depth = (TOUCH + dragged + press.by_wheel).clamp(-HOVER, DEEPEST);
                 self.go(&press.over, depth, ground);
             }
             (true, None, Some(place)) => {
                 let over = seen(place);
                 self.press = over.map(|over| Press {
-                    began: place,
+                    line: place.1,
+                    zero: place.1,
                     over,
                     by_wheel: 0.0,
                 });

@@ -1,3 +1,5 @@
+use std::sync::Arc;
+
 use eframe::egui::{self, Align2, Color32, FontId, Pos2, Rect, Stroke, Vec2};
 
 use super::list;
@@ -32,19 +34,17 @@ pub(super) fn show(ui: &egui::Ui, rect: Rect, picture: &Picture, play: &mut Play
     let font = FontId::proportional(13.0);
     let wide = 0.96 * rect.width();
     let text = ui.painter().layout(hint, font, QUIET, wide);
-    let corner = at - Vec2::new(0.5 * text.size().x, text.size().y);
-    let back = Rect::from_min_size(corner, text.size()).expand2(Vec2::new(10.0, 5.0));
-    painter.rect_filled(back, 6.0, Color32::from_black_alpha(150));
-    painter.galley(corner, text, QUIET);
+    plate(&painter, text, at, QUIET);
     if picture.lists_keys {
         list::show(&painter, rect, play);
     }
     let pointer = ui.input(|input| input.pointer.latest_pos());
     let snapshot = play.interaction.snapshot();
     if snapshot.paused {
-        let at = Pos2::new(rect.center().x, rect.min.y + 22.0);
         let font = FontId::proportional(16.0);
-        painter.text(at, Align2::CENTER_CENTER, "paused: P goes on", font, DOUBT);
+        let words = "paused · P: go on".to_owned();
+        let text = ui.painter().layout(words, font, DOUBT, wide);
+        plate(&painter, text, at - Vec2::new(0.0, 44.0), DOUBT);
     }
     let Some(seen) = snapshot.tools.get(tool) else {
         return;
@@ -53,6 +53,14 @@ pub(super) fn show(ui: &egui::Ui, rect: Rect, picture: &Picture, play: &mut Play
         let depth = seen.contact.map_or(0.0, |contact| contact.depth);
         gauge(&painter, (rect, pointer), depth, seen.force.norm());
     }
+}
+
+/// Writes `text` on a dark plate whose lower middle is `at`.
+fn plate(painter: &egui::Painter, text: Arc<egui::Galley>, at: Pos2, color: Color32) {
+    let corner = at - Vec2::new(0.5 * text.size().x, text.size().y);
+    let back = Rect::from_min_size(corner, text.size()).expand2(Vec2::new(10.0, 5.0));
+    painter.rect_filled(back, 6.0, Color32::from_black_alpha(150));
+    painter.galley(corner, text, color);
 }
 
 /// A bar beside the pointer that fills from the top as the tool goes in.

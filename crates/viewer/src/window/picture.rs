@@ -239,6 +239,7 @@ impl Picture {
             place,
             pressed: down && held && !self.turning && !turned,
             wheel: if busy { wheel } else { 0.0 },
+            cuts: hand.cuts,
         };
         if hand.holds() {
             hand.pull(&mouse, room);

@@ -45,6 +45,7 @@ fn mouse(x: f64, y: f64, pressed: bool) -> Mouse {
         place: Some((x, y)),
         pressed,
         wheel: 0.0,
+        cuts: false,
     }
 }
 

@@ -44,6 +44,7 @@ fn drag(organ: BuiltinOrgan, tip: &str, seconds: f64) {
         place: Some((0.5, 0.5)),
         pressed: false,
         wheel: 0.0,
+        cuts: false,
     };
     let (mut touched, mut deepest, mut velocity) = (0, 0.0_f64, (0.0, 0.0));
     for picture in 0..(60.0 * seconds) as u64 {
@@ -52,6 +53,9 @@ fn drag(organ: BuiltinOrgan, tip: &str, seconds: f64) {
         }
         if dice.roll() < 0.02 {
             mouse.pressed = !mouse.pressed;
+        }
+        if dice.roll() < 0.01 {
+            mouse.cuts = !mouse.cuts;
         }
         if dice.roll() < 0.01 {
             mouse.place = Some((dice.roll(), dice.roll()));
@@ -155,6 +159,7 @@ fn down_is_deeper_sideways_slides_and_letting_go_leaves() {
             place: Some((x, y)),
             pressed,
             wheel,
+            cuts: false,
         };
         gesture.follow(&mouse, &ground)
     };
@@ -174,4 +179,46 @@ fn down_is_deeper_sideways_slides_and_letting_go_leaves() {
     // A flat tip is as deep as it is meant to be along the normal there.
     let below = (deep.over - deep.tip).norm();
     assert!((below - deep.depth).abs() < 1e-12);
+}
+
+/// A tool that cuts follows the mouse over the picture and stays as deep as it was; afterwards down is deeper
+/// again, without a leap.
+#[test]
+fn a_cut_follows_the_mouse_at_one_depth() {
+    let text = "format = 1\n[organ]\nbuiltin = \"liver\"\nbuiltin_tissue = \"pig-liver\"\n";
+    let scene = Scene::parse(text, "scene.toml").unwrap();
+    let simulation = Simulation::new(&scene).unwrap();
+    let surface = simulation.surface();
+    let tree = AabbTree::new(surface.mesh());
+    let camera = Orbit::framing(surface.mesh(), 0.8, 1.6).camera();
+    let ground = Ground {
+        surface,
+        tree: &tree,
+        camera: &camera,
+        aspect: 1.6,
+        tip: scene.tools[0].tip,
+    };
+    let mut gesture = Gesture::default();
+    let mut at = |x: f64, y: f64, cuts| {
+        let mouse = Mouse {
+            place: Some((x, y)),
+            pressed: true,
+            wheel: 0.0,
+            cuts,
+        };
+        gesture.follow(&mouse, &ground).unwrap()
+    };
+    at(0.5, 0.4, false);
+    let before = at(0.5, 0.5, false);
+    for k in 0..=20 {
+        let (x, y) = (0.5 + 0.002 * f64::from(k), 0.4 + 0.01 * f64::from(k));
+        let aim = at(x, y, true);
+        let (seen, _) = camera.project(&aim.over, 1.6).unwrap();
+        // Rounding.
+        assert!((aim.depth - before.depth).abs() < 1e-12);
+        assert!((seen.0 - x).abs() < 1e-9 && (seen.1 - y).abs() < 1e-9);
+    }
+    let after = at(0.54, 0.6, false);
+    assert!((after.depth - before.depth).abs() < 1e-12);
+    assert!(at(0.54, 0.7, false).depth > after.depth + 0.002);
 }

@@ -77,7 +77,7 @@ pub const MORE: [[&str; 2]; 8] = [
     ["Shift", "finer"],
     ["Tab", "the mouse takes the other tool"],
     ["G · C", "jaws · cut of the mouse's tool"],
-    ["drag", "press in; with shut jaws: pull"],
+    ["drag", "press in; cutting: along; jaws shut: pull"],
     ["Z", "undo a cut"],
     ["P", "pause or go on"],
     ["Backspace", "begin again"],
