@@ -33,7 +33,7 @@ mod trocar;
 mod walls;
 
 pub use contact::Contact;
-pub use cutting::Cuts;
+pub use cutting::{Cuts, gape};
 pub use error::Error;
 pub use global::{EnhancedSurface, OrganField, ResponseOrigin};
 pub use organ::{builtin_organ, held_region, read_neighbour, read_organ};

@@ -1,6 +1,6 @@
 use palpate_geometry::{CutSurface, TriangleMesh, Vec3};
 
-use super::CuttingModel;
+use super::{CuttingModel, gape};
 use crate::Simulation;
 
 /// The cuts of an organ.
@@ -13,6 +13,9 @@ pub struct Cuts {
     pub(super) way: Vec<CutSegment>,
     /// Parts of the way before each cut that can be undone.
     pub(super) before: Vec<usize>,
+    /// How far they are moved to gape [m], and of which version that is.
+    ways: Vec<Vec3>,
+    gapes: u64,
     /// Where the vertices are now [m].
     places: Vec<Vec3>,
     pub(crate) version: u64,
@@ -49,6 +52,8 @@ impl Cuts {
             places: surface.mesh().vertices().to_vec(),
             surface,
             stroke: None,
+            ways: Vec::new(),
+            gapes: 0,
             way: Vec::new(),
             before: Vec::new(),
             version: 0,
@@ -127,10 +132,17 @@ impl Cuts {
         undone
     }
 
-    /// Follows the organ to where its vertices are moved [m].
+    /// Follows the organ to where its vertices are moved [m]. It allocates where the triangles are others.
     pub(crate) fn follow(&mut self, simulation: &Simulation, moved: &[Vec3], width: f64) {
+        if self.gapes != self.version {
+            self.gapes = self.version;
+            self.ways = gape(&self.surface, width);
+        }
         self.surface
-            .place(&simulation.surface, moved, width, &mut self.places);
+            .place(&simulation.surface, moved, 0.0, &mut self.places);
+        for (place, way) in self.places.iter_mut().zip(&self.ways) {
+            *place += way;
+        }
     }
 
     /// Whether what lies under the surface is bare within `reach` [m] of a place of it.

@@ -21,12 +21,14 @@
 //! depth. A blade follows the surface at rest, as contacts do.
 
 mod cuts;
+mod gape;
 mod lead;
 mod model;
 mod stroke;
 
 pub(crate) use cuts::CutSegment;
 pub use cuts::Cuts;
+pub use gape::gape;
 pub(crate) use lead::{Blade, lead};
 pub(crate) use model::CuttingModel;
 pub(crate) use stroke::advance;
