@@ -3,12 +3,13 @@
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
+use assert_no_alloc::{assert_no_alloc, violation_count};
 use nalgebra::Matrix3;
 use palpate_geometry::{AabbTree, Organ, TriangleId};
-use palpate_mechanics::Vec3;
 use palpate_mechanics::finite_elements::condensed::CondensedProblem;
-use palpate_mechanics::surface_response::slit::{CutBody, Slit, SlitFacet, SlitLoad, Spot};
+use palpate_mechanics::surface_response::slit::{CutBody, OF_RIM, Slit, SlitFacet, SlitLoad, Spot};
 use palpate_mechanics::surface_response::{Share, SurfaceResponse, TipField, TouchId};
+use palpate_mechanics::{Error, Vec3};
 
 use crate::boundary_response::Held;
 use crate::contacts::{Random, tries};
@@ -94,7 +95,7 @@ const RADIUS: f64 = 1.41e-3;
 
 impl Table {
     fn new(grid: Grid, holds: impl Fn(&Vec3) -> bool, edge: Option<f64>) -> Self {
-        let solid = Held::new(grid.surface(), NU, holds);
+        let solid = Held::new(grid.surface(), grid.poissons_ratio, holds);
         let near = |id: &TriangleId| {
             let c = solid.centroid(*id);
             let off = match grid.around {
@@ -108,7 +109,7 @@ impl Table {
             None => solid.response::<f32>(&touchable),
             Some(edge) => CondensedProblem {
                 surface: &solid.surface,
-                poissons_ratio: NU,
+                poissons_ratio: grid.poissons_ratio,
                 held: &solid.held,
                 touchable: &touchable,
                 edge,
@@ -130,22 +131,22 @@ impl Table {
         }
     }
 
-    fn cut(&self, depth: f64, facets: usize) -> Slit {
+    fn cut(&self, cut: &Cut, facets: usize) -> Slit {
         let mut slit = Slit::new(&self.response, facets);
         let body = CutBody {
             surface: &self.solid.surface,
             tree: &self.tree,
             response: &self.response,
         };
-        let length = 12.0 * MM / facets as f64;
+        let length = cut.length / facets as f64;
         for k in 0..facets {
-            let middle = Vec3::new(0.0, (k as f64 + 0.5) * length - 6.0 * MM, 0.0);
+            let middle = Vec3::new(0.0, (k as f64 + 0.5) * length - 0.5 * cut.length, 0.0);
             let facet = SlitFacet {
                 middle: self.grid.place(&middle),
                 along: Vec3::y(),
                 normal: Vec3::z(),
                 length,
-                depth,
+                depth: cut.depth,
             };
             slit.open(&body, &facet).unwrap();
         }
@@ -153,7 +154,7 @@ impl Table {
     }
 
     /// Compliance of a square uncut, and what the slit adds, along the normal and across.
-    fn felt(&self, slit: &Slit, square: &Square) -> [[f64; 2]; 2] {
+    fn felt(&self, slit: &Slit, square: &Square) -> [[f64; 3]; 2] {
         let [x, y] = square.middle();
         let at = Vec3::new(x, y, 0.0);
         let place = self.grid.place(&at);
@@ -162,10 +163,11 @@ impl Table {
         let tip = self
             .tips
             .at(&self.solid.surface, found.triangle, &found.on.barycentric);
-        let a = square.radius();
-        let mean = 16.0 / (3.0 * PI * PI * a) * (1.0 + NU);
+        let (a, nu) = (square.radius(), self.grid.poissons_ratio);
+        let mean = 16.0 / (3.0 * PI * PI * a) * (1.0 + nu);
         let further = tip.further_compliance();
-        let own = [mean * (1.0 - NU), mean * (1.0 - 0.5 * NU)];
+        let aside = mean * (1.0 - 0.5 * nu);
+        let own = [mean * (1.0 - nu), aside, aside];
         let spot = Spot {
             place,
             normal: axes[0],
@@ -175,92 +177,10 @@ impl Table {
         slit.put(&self.response, (tip.shares(), Some(&spot)), &mut load);
         let more = slit.further(&load);
         [
-            [0, 1].map(|k| own[k] + axes[k].dot(&(further * axes[k]))),
-            [0, 1].map(|k| axes[k].dot(&(more * axes[k]))),
+            [0, 1, 2].map(|k| own[k] + axes[k].dot(&(further * axes[k]))),
+            [0, 1, 2].map(|k| axes[k].dot(&(more * axes[k]))),
         ]
     }
-}
-
-/// Uncut compliances and what a slit adds, by finite elements.
-type Judged = ([[f64; 2]; 4], Vec<(f64, [[f64; 2]; 4])>);
-
-fn judged(name: &str) -> Judged {
-    let (whole, cuts) = match name {
-        "block" => (
-            [
-                [287.19, 434.01],
-                [288.59, 436.59],
-                [290.79, 440.61],
-                [315.22, 451.74],
-            ],
-            vec![(
-                3.0,
-                [
-                    [117.03, 359.27],
-                    [28.60, 93.95],
-                    [0.08, 12.12],
-                    [1.12, 33.36],
-                ],
-            )],
-        ),
-        "plate" => (
-            [
-                [5557.98, 612.60],
-                [4690.78, 603.84],
-                [4392.14, 586.84],
-                [5085.11, 617.77],
-            ],
-            vec![
-                (
-                    2.5,
-                    [
-                        [4985.59, 723.43],
-                        [1460.63, 146.30],
-                        [424.66, 81.29],
-                        [1111.96, 172.75],
-                    ],
-                ),
-                (
-                    1.25,
-                    [
-                        [1118.05, 378.46],
-                        [460.46, 101.61],
-                        [83.58, 29.02],
-                        [231.56, 64.27],
-                    ],
-                ),
-            ],
-        ),
-        _ => (
-            [
-                [1319.57, 1442.35],
-                [1234.02, 1312.29],
-                [1318.31, 1455.04],
-                [1356.70, 1445.26],
-            ],
-            vec![
-                (
-                    2.5,
-                    [
-                        [2693.46, 1738.28],
-                        [343.50, 230.06],
-                        [318.49, 90.57],
-                        [675.05, 286.23],
-                    ],
-                ),
-                (
-                    1.25,
-                    [
-                        [407.91, 353.74],
-                        [117.40, 91.14],
-                        [4.59, 5.91],
-                        [13.69, 15.84],
-                    ],
-                ),
-            ],
-        ),
-    };
-    (whole, cuts)
 }
 
 fn lines(step: f64, fine: f64, coarse: f64, end: f64) -> Vec<f64> {
@@ -277,89 +197,196 @@ fn lines(step: f64, fine: f64, coarse: f64, end: f64) -> Vec<f64> {
     mirrored(&mm(&lines))
 }
 
-fn compare(name: &str, table: &Table) {
-    let (whole, cuts) = judged(name);
-    for (depth, more) in cuts {
-        for facets in [8] {
-            let slit = table.cut(depth * MM, facets);
-            println!("{name} {depth} in {facets} facets");
-            for (k, square) in squares().iter().enumerate() {
+/// A body of the judge, what holds it, and how it is cut.
+struct Judged {
+    name: &'static str,
+    grid: Grid,
+    holds: fn(&Vec3) -> bool,
+    /// Length and depth of the slits [mm].
+    cuts: &'static [[f64; 2]],
+}
+
+fn slit_of([length, depth]: [f64; 2]) -> Cut {
+    Cut {
+        length: length * MM,
+        depth: depth * MM,
+    }
+}
+
+fn on_bottom(at: &Vec3) -> bool {
+    at.z < -19.99 * MM
+}
+
+fn at_borders(at: &Vec3) -> bool {
+    at.x.abs().max(at.y.abs()) > 19.99 * MM
+}
+
+fn at_ends(at: &Vec3) -> bool {
+    at.y.abs() > 19.99 * MM
+}
+
+impl Judged {
+    /// Compliances of the squares uncut, and cut to each depth, by finite elements.
+    fn compliances(&self, squares: &[Square]) -> Vec<Vec<[f64; 3]>> {
+        let cuts = self.cuts.iter().map(|cut| slit_of(*cut));
+        std::iter::once(None)
+            .chain(cuts.map(Some))
+            .map(|cut| self.grid.compliances(cut, self.holds, squares))
+            .collect()
+    }
+
+    /// How far the stiffness of each square, cut over uncut, is off that of finite elements [-]; the largest.
+    fn off(&self, table: &Table, squares: &[Square], judge: &[Vec<[f64; 3]>]) -> f64 {
+        let mut worst: f64 = 0.0;
+        for (&[length, depth], cut) in self.cuts.iter().zip(&judge[1..]) {
+            let slit = table.cut(&slit_of([length, depth]), 8);
+            for (k, square) in squares.iter().enumerate() {
                 let [own, found] = table.felt(&slit, square);
-                for axis in 0..2 {
+                for axis in 0..3 {
                     let ratio = own[axis] / (own[axis] + found[axis]);
-                    let expected = whole[k][axis] / (whole[k][axis] + more[k][axis]);
+                    let expected = judge[0][k][axis] / cut[k][axis];
+                    let off = ratio / expected - 1.0;
                     println!(
-                        "  {k} {}: uncut {:6.1} ({:6.1}) more {:6.1} ({:6.1}) ratio {ratio:.3} ({expected:.3}) {:+.1} %",
-                        ["normal", "across"][axis],
+                        "{} {length} x {depth} mm, square {k} {}: uncut {:.0} ({:.0}), ratio {ratio:.3} ({expected:.3}) {:+.1} %",
+                        self.name,
+                        ["normal", "across", "along"][axis],
                         own[axis],
-                        whole[k][axis],
-                        found[axis],
-                        more[k][axis],
-                        100.0 * (ratio / expected - 1.0)
+                        judge[0][k][axis],
+                        100.0 * off
                     );
+                    worst = worst.max(off.abs());
                 }
             }
+        }
+        worst
+    }
+}
+
+/// A table of the block on squares of `step` [mm] around the slit.
+fn block_grid(step: f64) -> Grid {
+    let fine = lines(step, 9.0, 5.0, 20.0);
+    let z = mm(&[-20.0, -15.0, -10.0, -6.0, -3.0, 0.0]);
+    Grid {
+        lines: [fine.clone(), fine, z],
+        ..block()
+    }
+}
+
+fn block_table(step: f64) -> Table {
+    Table::new(block_grid(step), on_bottom, None)
+}
+
+fn plate_table(step: f64) -> Table {
+    let fine = lines(step, 9.0, 4.0, 20.0);
+    let grid = Grid {
+        lines: [fine.clone(), fine, mm(&[-2.5, -1.25, 0.0])],
+        ..block()
+    };
+    Table::new(grid, at_borders, Some(1.75 * MM))
+}
+
+fn tube_grid(around: usize) -> Grid {
+    let half = around / 2;
+    let step = PI * 7.5 / half as f64;
+    let x: Vec<f64> = (1..=half).map(|k| step * k as f64).collect();
+    let y = lines(step, 9.0, 3.0, 20.0);
+    Grid {
+        lines: [mirrored(&mm(&x)), y, mm(&[-2.5, -1.25, 0.0])],
+        ..tube()
+    }
+}
+
+fn tube_table(around: usize) -> Table {
+    Table::new(tube_grid(around), at_ends, Some(1.75 * MM))
+}
+
+/// Judge: finite elements whose nodes on the slit are doubled. Tolerance: what is asked of the rim.
+#[test]
+#[ignore = "slow: ten minutes"]
+fn the_rim_is_that_of_finite_elements() {
+    let bodies = [
+        Judged {
+            name: "block",
+            grid: block(),
+            holds: on_bottom,
+            cuts: &[[12.0, 3.0]],
+        },
+        Judged {
+            name: "plate",
+            grid: plate(),
+            holds: at_borders,
+            cuts: &[[12.0, 2.5], [12.0, 1.25]],
+        },
+        Judged {
+            name: "tube",
+            grid: tube(),
+            holds: at_ends,
+            cuts: &[[12.0, 2.5], [12.0, 1.25]],
+        },
+    ];
+    for body in bodies {
+        let judge = body.compliances(&squares());
+        let tables: [fn() -> Table; 2] = match body.name {
+            "block" => [|| block_table(2.0), || block_table(3.0)],
+            "plate" => [|| plate_table(2.0), || plate_table(3.0)],
+            _ => [|| tube_table(36), || tube_table(24)],
+        };
+        for table in tables {
+            let off = body.off(&table(), &squares(), &judge);
+            assert!(off < 0.25, "{}: {off}", body.name);
         }
     }
 }
 
+/// What no constant was looked at with: other lengths, depths and another ν. Judge and tolerance: as above.
 #[test]
-#[ignore = "compare"]
-fn compare_block() {
-    for step in [2.0, 3.0] {
-        let fine = lines(step, 9.0, 5.0, 20.0);
-        let z = mm(&[-20.0, -15.0, -10.0, -6.0, -3.0, 0.0]);
-        let grid = Grid {
-            lines: [fine.clone(), fine, z],
-            ..block()
+#[ignore = "slow: five minutes"]
+fn other_slits_are_those_of_finite_elements() {
+    let lines = |grid: Grid| {
+        let z = [-2.5, -2.1, -1.6, -1.25, -0.8, -0.4, 0.0];
+        let wall = grid.lines[2].len() == z.len();
+        let [x, _, own] = grid.lines;
+        let y = [
+            0.625, 1.25, 2.5, 3.5, 4.25, 5.0, 6.25, 7.75, 9.0, 10.25, 13.0, 20.0,
+        ];
+        Grid {
+            lines: [x, mirrored(&mm(&y)), if wall { mm(&z) } else { own }],
+            around: grid.around,
+            poissons_ratio: 0.3,
+        }
+    };
+    let block = Judged {
+        name: "block",
+        grid: lines(block()),
+        holds: on_bottom,
+        cuts: &[[8.5, 1.7], [18.0, 4.5]],
+    };
+    let tube = Judged {
+        name: "tube",
+        grid: lines(tube()),
+        holds: at_ends,
+        cuts: &[[18.0, 2.5], [8.5, 2.5], [18.0, 1.6]],
+    };
+    let squares = [squares()[0], squares()[2], squares()[3]];
+    for body in [block, tube] {
+        let judge = body.compliances(&squares);
+        let mut table = match body.name {
+            "block" => block_grid(2.5),
+            _ => tube_grid(28),
         };
-        let table = Table::new(grid, |at| at.z < -19.99 * MM, None);
-        compare("block", &table);
+        table.poissons_ratio = 0.3;
+        let edge = (body.name == "tube").then_some(1.75 * MM);
+        let off = body.off(&Table::new(table, body.holds, edge), &squares, &judge);
+        assert!(off < 0.25, "{}: {off}", body.name);
     }
 }
 
+/// Judge: finite elements of a block that is cut through most of its depth. What a square beside the slit yields
+/// more goes with the reciprocal of its distance, of which the mechanics make use. Tolerance: a fifth, for the block
+/// has an end.
 #[test]
-#[ignore = "compare"]
-fn compare_plate() {
-    for step in [2.0, 3.0] {
-        let fine = lines(step, 9.0, 4.0, 20.0);
-        let z = mm(&[-2.5, -1.25, 0.0]);
-        let grid = Grid {
-            lines: [fine.clone(), fine, z],
-            ..block()
-        };
-        let table = Table::new(
-            grid,
-            |at| at.x.abs() > 19.99 * MM || at.y.abs() > 19.99 * MM,
-            Some(1.75 * MM),
-        );
-        compare("plate", &table);
-    }
-}
-
-#[test]
-#[ignore = "compare"]
-fn compare_tube() {
-    for around in [36, 24] {
-        let half = std::f64::consts::PI * 7.5;
-        let x: Vec<f64> = (1..=around / 2)
-            .map(|k| half * k as f64 / (around / 2) as f64)
-            .collect();
-        let step = 2.0 * half / around as f64;
-        let y = lines(step, 9.0, 3.0, 20.0);
-        let z = mm(&[-2.5, -1.25, 0.0]);
-        let grid = Grid {
-            lines: [mirrored(&mm(&x)), y, z],
-            ..tube()
-        };
-        let table = Table::new(grid, |at| at.y.abs() > 19.99 * MM, Some(1.75 * MM));
-        compare("tube", &table);
-    }
-}
-
-#[test]
-#[ignore = "quarter"]
-fn quarter() {
+#[ignore = "slow: three minutes"]
+fn a_rim_yields_with_the_reciprocal_of_the_distance() {
     for nu in [0.45, 0.3] {
         let x = [
             0.3125, 0.625, 0.9375, 1.25, 1.875, 2.5, 3.125, 3.75, 6.0, 10.0, 20.0,
@@ -368,56 +395,66 @@ fn quarter() {
         let z = [
             -20.0, -15.0, -10.0, -7.0, -4.5, -3.0, -2.0, -1.2, -0.6, -0.3, 0.0,
         ];
-        let grid = Grid {
-            lines: [mirrored(&mm(&x)), mirrored(&mm(&y)), mm(&z)],
-            around: None,
-            poissons_ratio: nu,
+        let body = Judged {
+            name: "block",
+            grid: Grid {
+                lines: [mirrored(&mm(&x)), mirrored(&mm(&y)), mm(&z)],
+                around: None,
+                poissons_ratio: nu,
+            },
+            holds: on_bottom,
+            cuts: &[[40.1, 15.0]],
         };
-        let holds = |at: &Vec3| at.z < -19.99 * MM;
-        let squares = [0.0, 0.625, 1.25, 2.5].map(|x| square([x, x + 1.25], [-0.625, 0.625]));
-        let whole = grid.compliances(None, holds, &squares);
-        let cut = Cut {
-            length: 40.1 * MM,
-            depth: 15.0 * MM,
-        };
-        let cut = grid.compliances(Some(cut), holds, &squares);
-        let more: Vec<_> = cut
-            .iter()
-            .zip(&whole)
-            .map(|(c, w)| [c[0] - w[0], c[1] - w[1]])
-            .collect();
-        println!("{nu} {whole:.1?} {more:.1?}");
+        let squares = [0.0, 0.625, 1.25].map(|x| square([x, x + 1.25], [-0.625, 0.625]));
+        let found = body.compliances(&squares);
+        for (k, square) in squares.iter().enumerate() {
+            let more = [1, 2, 0].map(|axis| found[1][k][axis] - found[0][k][axis]);
+            let times = more.map(|more| more * square.middle()[0]);
+            println!(
+                "nu {nu}, {:.4} mm: across, along, outward {times:.3?}",
+                square.middle()[0] / MM
+            );
+            for (times, expected) in times.iter().zip(OF_RIM) {
+                assert!((times / expected - 1.0).abs() < 0.2, "{times} {expected}");
+            }
+        }
     }
 }
 
+/// Judge: as above, on a coarser grid, whose slit opens some percent less. Tolerances: what is asked; and two
+/// meshes of which no line is the other's agree in a tenth of the stiffness.
 #[test]
-#[ignore = "judge"]
-fn judge() {
-    for (name, grid, depths) in [
-        ("block", block(), vec![3.0]),
-        ("plate", plate(), vec![2.5, 1.25]),
-        ("tube", tube(), vec![2.5, 1.25]),
-    ] {
-        let holds = |at: &palpate_mechanics::Vec3| match name {
-            "block" => at.z < -19.99 * MM,
-            "plate" => at.x.abs() > 19.99 * MM || at.y.abs() > 19.99 * MM,
-            _ => at.y.abs() > 19.99 * MM,
-        };
-        let whole = grid.compliances(None, holds, &squares());
-        println!("{name} whole {whole:.2?}");
-        for depth in depths {
-            let cut = Cut {
-                length: 12.0 * MM,
-                depth: depth * MM,
-            };
-            let cut = grid.compliances(Some(cut), holds, &squares());
-            println!("{name} cut {depth} {cut:.2?}");
-            let more: Vec<_> = cut
-                .iter()
-                .zip(&whole)
-                .map(|(c, w)| [c[0] - w[0], c[1] - w[1]])
-                .collect();
-            println!("{name} cut {depth} more {more:.2?}");
+fn the_rim_of_a_block_is_that_of_finite_elements() {
+    let x = [1.25, 2.5, 5.0, 6.0, 8.5, 13.0, 20.0];
+    let y = [1.25, 3.0, 4.75, 7.25, 11.0, 20.0];
+    let z = [-20.0, -12.0, -6.5, -4.0, -3.0, -2.0, -1.0, 0.0];
+    let grid = Grid {
+        lines: [mirrored(&mm(&x)), mirrored(&mm(&y)), mm(&z)],
+        ..block()
+    };
+    let mut body = Judged {
+        name: "block",
+        grid,
+        holds: on_bottom,
+        cuts: &[[12.0, 3.0]],
+    };
+    // The slit ends on lines of the grid.
+    body.grid.lines[1] = mirrored(&mm(&[1.25, 3.0, 4.75, 6.0, 7.25, 11.0, 20.0]));
+    let squares = &squares()[..3];
+    let judge = body.compliances(squares);
+    let tables = [3.0, 2.25].map(block_table);
+    for table in &tables {
+        let off = body.off(table, squares, &judge);
+        assert!(off < 0.25, "{off}");
+    }
+    let slits = tables
+        .each_ref()
+        .map(|table| table.cut(&slit_of([12.0, 3.0]), 8));
+    for square in squares {
+        let found = [0, 1].map(|k| tables[k].felt(&slits[k], square));
+        for axis in 0..3 {
+            let [one, other] = found.map(|[own, more]| own[axis] / (own[axis] + more[axis]));
+            assert!((one / other - 1.0).abs() < 0.1, "{one} {other}");
         }
     }
 }
@@ -503,4 +540,140 @@ fn random_slits_never_break() {
             }
         }
     }
+}
+
+/// Judge: the slit as it was, to the last bit.
+#[test]
+fn going_back_is_exact() {
+    let kidney = Kidney::new();
+    let mut random = Random(9);
+    let mut slit = Slit::new(&kidney.response, 12);
+    let facets: Vec<_> = (0..12)
+        .map(|k| kidney.facet(40 + k / 3, &mut random))
+        .collect();
+    let mut loads = Vec::new();
+    for facet in &facets {
+        loads.push(kidney.load(&slit, 30));
+        slit.open(&kidney.body(), facet).unwrap();
+    }
+    let whole = kidney.load(&slit, 30);
+    for (count, load) in loads.iter().enumerate().rev() {
+        slit.truncate(count);
+        assert_eq!(&kidney.load(&slit, 30), load);
+    }
+    assert_eq!(slit.further(&kidney.load(&slit, 30)), Matrix3::zeros());
+    for facet in &facets {
+        slit.open(&kidney.body(), facet).unwrap();
+    }
+    assert_eq!(kidney.load(&slit, 30), whole);
+    slit.clear();
+    assert_eq!(slit.facets(), 0);
+}
+
+/// Judges: reciprocity; Betti's theorem, by which the field of the jumps is what the slit adds between loads; and
+/// an organ that does not notice far away. Tolerance: rounding to 24 bits.
+#[test]
+fn compliance_and_field_are_one() {
+    let kidney = Kidney::new();
+    let mut random = Random(3);
+    let mut slit = Slit::new(&kidney.response, 6);
+    for number in 0..6 {
+        let mut facet = kidney.facet(100 + number, &mut random);
+        facet.depth = 3.0 * MM;
+        slit.open(&kidney.body(), &facet).unwrap();
+    }
+    let touches: Vec<u32> = (0..kidney.solid.free.len() as u32).step_by(9).collect();
+    let force = random.vector();
+    let loaded = kidney.load(&slit, 101);
+    let mut jumps = slit.jumps();
+    slit.jump([(&loaded, force)].into_iter(), &mut jumps);
+    assert!((0..6).all(|facet| slit.opening(facet, &jumps).is_some()));
+    assert!(slit.opening(6, &jumps).is_none());
+    let mut field = vec![0.0; 3 * kidney.response.parts().triangles];
+    slit.add_field(&jumps, &mut field);
+    let most = slit.further(&loaded).norm();
+    let mut scratch = [slit.load(), slit.load()];
+    for touch in touches {
+        let load = kidney.load(&slit, touch);
+        let between = slit.between(&load, &loaded);
+        assert_eq!(between, slit.between(&loaded, &load).transpose());
+        let pair = (TouchId(touch), TouchId(101));
+        assert_eq!(
+            between,
+            slit.compliance(&kidney.response, pair, &mut scratch)
+        );
+        let triangle = kidney.response.touchable()[touch as usize].triangle;
+        let values = &field[3 * triangle.index()..][..3];
+        let moved = Vec3::from_fn(|axis, _| f64::from(values[axis]));
+        assert!((moved - between * force).norm() < 1e-5 * most);
+        let away = kidney.solid.centroid(triangle) - kidney.solid.centroid(kidney.solid.free[101]);
+        if away.norm() > 50.0 * MM {
+            assert!(slit.further(&load).norm() < 1e-2 * most);
+        }
+    }
+}
+
+#[test]
+fn what_is_no_facet_is_refused() {
+    let kidney = Kidney::new();
+    let good = kidney.facet(7, &mut Random(1));
+    let mut slit = Slit::new(&kidney.response, 1);
+    let spoil: [fn(&mut SlitFacet); 8] = [
+        |facet| facet.length = 0.0,
+        |facet| facet.length = f64::NAN,
+        |facet| facet.depth = -1.0,
+        |facet| facet.middle.x = f64::NAN,
+        |facet| facet.middle.x += 0.5,
+        |facet| facet.normal = Vec3::zeros(),
+        |facet| facet.along = facet.normal,
+        |facet| facet.normal = -facet.normal,
+    ];
+    for spoil in spoil {
+        let mut facet = good;
+        spoil(&mut facet);
+        let refused = slit.open(&kidney.body(), &facet).unwrap_err().to_string();
+        assert!(refused.contains("cannot be opened"), "{refused}");
+        assert_eq!(slit.facets(), 0);
+    }
+    slit.open(&kidney.body(), &good).unwrap();
+    let refused = slit.open(&kidney.body(), &good).unwrap_err();
+    assert_eq!(refused, Error::SlitIsFull { most: 1 });
+}
+
+#[test]
+fn a_step_of_a_cut_allocates_nothing() {
+    let kidney = Kidney::new();
+    let mut random = Random(2);
+    let facets = [0, 1, 2].map(|k| kidney.facet(60 + k, &mut random));
+    let mut slit = Slit::new(&kidney.response, 3);
+    let (mut load, mut jumps) = (slit.load(), slit.jumps());
+    let mut field = vec![0.0; 3 * kidney.response.parts().triangles];
+    let share = Share {
+        triangle: TouchId(60),
+        weight: 1.0,
+    };
+    let spot = Spot {
+        place: facets[0].middle,
+        normal: facets[0].normal,
+        radius: 2.0 * MM,
+    };
+    let before = violation_count();
+    let sum = assert_no_alloc(|| {
+        let mut sum = 0.0;
+        for facet in &facets {
+            slit.open(&kidney.body(), facet).unwrap();
+            slit.put(
+                &kidney.response,
+                ([share].into_iter(), Some(&spot)),
+                &mut load,
+            );
+            sum += slit.further(&load).norm();
+            slit.jump([(&load, Vec3::z())].into_iter(), &mut jumps);
+            slit.add_field(&jumps, &mut field);
+        }
+        slit.truncate(1);
+        sum
+    });
+    assert!(sum.is_finite() && sum > 0.0);
+    assert_eq!(violation_count(), before);
 }

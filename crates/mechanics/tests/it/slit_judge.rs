@@ -60,11 +60,15 @@ impl Grid {
         }
     }
 
-    /// Normal, and across the slit, at a point.
-    pub(crate) fn axes(&self, at: &Vec3) -> [Vec3; 2] {
+    /// Normal, across the slit and along it, at a point.
+    pub(crate) fn axes(&self, at: &Vec3) -> [Vec3; 3] {
         let angle = self.around.map_or(0.0, |radius| at.x / radius);
         let (sine, cosine) = angle.sin_cos();
-        [Vec3::new(sine, 0.0, cosine), Vec3::new(cosine, 0.0, -sine)]
+        [
+            Vec3::new(sine, 0.0, cosine),
+            Vec3::new(cosine, 0.0, -sine),
+            Vec3::y(),
+        ]
     }
 
     fn node(&self, [i, j, k]: [usize; 3]) -> usize {
@@ -187,14 +191,14 @@ impl Grid {
         (mesh, kept)
     }
 
-    /// Compliances [m/N] times E = 1 of evenly loaded squares: along the normal and across the slit. `holds`
+    /// Compliances [m/N] times E = 1 of evenly loaded squares: along the normal, across the slit and along it. `holds`
     /// says of a point of the grid whether it is held.
     pub(crate) fn compliances(
         &self,
         cut: Option<Cut>,
         holds: impl Fn(&Vec3) -> bool,
         squares: &[Square],
-    ) -> Vec<[f64; 2]> {
+    ) -> Vec<[f64; 3]> {
         let (mesh, grid_places) = self.tetrahedra(cut);
         let held: Vec<bool> = grid_places.iter().map(&holds).collect();
         let elements = ElementMesh::from_tetrahedra(&mesh);

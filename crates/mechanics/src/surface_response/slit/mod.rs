@@ -40,8 +40,8 @@ use facet::Facet;
 pub use facet::{CutBody, SlitFacet};
 use gradient::{Gradient, MOST};
 pub use load::{SlitJumps, SlitLoad};
-pub use traction::Spot;
 use traction::{MODES, Near, Part, triangles_near};
+pub use traction::{OF_RIM, Spot};
 
 /// Near triangles that are known to a facet at most.
 const MOST_NEAR: usize = 256;

@@ -28,7 +28,7 @@ const OF_LOADS: f64 = 1.25;
 
 /// What a force beside a slit yields more, where the slit is deep, over the reciprocal of its distance: across,
 /// along, outward [-].
-const OF_RIM: [f64; 3] = [0.69, 0.3, 0.28];
+pub const OF_RIM: [f64; 3] = [0.69, 0.3, 0.28];
 
 /// Nearer than this part of the depth, the modes of a facet do not know what a force does to the rim [-].
 const RIM: f64 = 0.75;
