@@ -29,10 +29,10 @@ const ROWS: usize = 3;
 const BELOW: f32 = 1.15;
 
 /// How open the rim and the foot of a wall are to light from all sides [-].
-const OPEN: (f32, f32) = (1.0, 0.45);
+const OPEN: (f32, f32) = (1.0, 0.35);
 
 /// How open the inner layer is [-].
-const UNDER: f32 = 0.5;
+const UNDER: f32 = 0.8;
 
 /// A cut organ on the adapter.
 pub(crate) struct SeenCut {

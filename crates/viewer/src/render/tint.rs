@@ -78,17 +78,17 @@ impl Tint {
 
     /// Muscle where it is cut through.
     pub const MUSCLE_CUT: Self = Self {
-        dark: [0.26, 0.042, 0.034],
-        light: [0.56, 0.165, 0.120],
-        vessel: [0.20, 0.020, 0.020],
+        dark: [0.17, 0.022, 0.018],
+        light: [0.42, 0.095, 0.070],
+        vessel: [0.13, 0.012, 0.012],
         relief: 1.1,
     };
 
     /// The light reddish layer inside of a muscular tube.
     pub const MUCOSA: Self = Self {
-        dark: [0.60, 0.185, 0.175],
-        light: [0.80, 0.360, 0.335],
-        vessel: [0.52, 0.075, 0.078],
+        dark: [0.76, 0.315, 0.295],
+        light: [0.93, 0.490, 0.460],
+        vessel: [0.62, 0.110, 0.110],
         relief: 0.35,
     };
 

@@ -112,8 +112,9 @@ fn an_endoscope_stands_before_the_organ() {
         assert!(near.distance() < far.distance());
         let lamp = near.lamp.unwrap().distance;
         let hit = tree.cast(&mesh, &near.eye, &sight, 10.0);
-        // Some organs are bent around their middle: there the line meets nothing.
-        let expected = hit.map_or(near.distance(), |hit| hit.distance);
+        // Some organs are bent around their middle: there the line meets nothing, or their far side.
+        let hit = hit.map(|hit| hit.distance);
+        let expected = hit.unwrap_or(near.distance()).min(near.distance());
         assert!((lamp - expected).abs() < 1e-9, "{organ}: {lamp} {expected}");
     }
 }

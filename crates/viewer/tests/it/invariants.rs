@@ -54,9 +54,8 @@ fn drag(organ: BuiltinOrgan, tip: &str, seconds: f64) {
         if dice.roll() < 0.02 {
             mouse.pressed = !mouse.pressed;
         }
-        if dice.roll() < 0.01 {
-            mouse.cuts = !mouse.cuts;
-        }
+        // A tenth of the time.
+        mouse.cuts = picture % 240 < 24;
         if dice.roll() < 0.01 {
             mouse.place = Some((dice.roll(), dice.roll()));
         }

@@ -104,7 +104,7 @@ fn looked_up(rest: vec4f) -> vec3f {
     let axis = body.fibres.xyz;
     let out = rest.xyz - body.fibre_center.xyz;
     let around = normalize(cross(axis, out - dot(out, axis) * axis) + vec3f(1e-9, 0.0, 0.0));
-    let run = select(around, axis, rest.w > 0.74);
+    let run = select(around, axis, rest.w > 0.68);
     let drawn = rest.xyz - 0.94 * dot(out, run) * run;
     // A wall's rows differ in depth alone, which its openness tells.
     let stacked = drawn * 1.7 + (1.0 - rest.w) * 0.011 * vec3f(0.61, 0.53, 0.59);
