@@ -102,7 +102,7 @@ impl Table {
                 None => (c.x.powi(2) + c.y.powi(2)).sqrt(),
                 Some(_) => c.y.abs(),
             };
-            off < 14.0 * MM && (edge.is_some() || c.z > -1.0 * MM)
+            off < 14.0 * MM && (edge.is_some() || c.z > -MM)
         };
         let touchable: Vec<_> = solid.free.iter().copied().filter(near).collect();
         let response = match edge {

@@ -193,8 +193,8 @@ impl<T: Precision> Slit<T> {
         let Some(below) = facet.inner else {
             three.fill(T::of(0.0));
             let [a, b, _] = of_outer.map(T::of);
-            one.iter_mut().for_each(|value| *value = *value * a);
-            two.iter_mut().for_each(|value| *value = *value * b);
+            one.iter_mut().for_each(|value| *value *= a);
+            two.iter_mut().for_each(|value| *value *= b);
             return facet.reach(outer.reach);
         };
         let under = facet.middle - facet.frame.column(2) * facet.depth();
