@@ -1,7 +1,7 @@
 //! The hands of the window: one per tool that a mouse, keys or a gamepad may move, all at once.
 //!
 //! A hand keeps what it holds: where nobody moves it, it stays, and shut jaws stay shut. The mouse moves
-//! one hand, as a [`Gesture`] while its jaws are open, and as a [`Pull`] once they are shut; keys and sticks
+//! one hand, as a [`Gesture`] while its jaws are open, and as a `Pull` once they are shut; keys and sticks
 //! move each hand along the picture's axes and along its shaft, x ← x + v Δt.
 //!
 //! It is arithmetic on places and knows no window but for the layout of the keys.
@@ -9,7 +9,7 @@
 //! *How we know*: `hands::…`.
 //!
 //! *Limits*: a hand that is moved by keys may go through an organ, as a mouse may not; it stays within
-//! [`FARTHEST`] sizes of the organ.
+//! `FARTHEST` sizes of the organ.
 //!
 //! [`Gesture`]: super::gesture::Gesture
 
