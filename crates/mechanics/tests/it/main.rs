@@ -34,6 +34,7 @@ mod patch_on_hemisphere;
 mod path;
 mod real_organs;
 mod slit;
+mod slit_bodies;
 mod slit_judge;
 mod solid;
 mod solid_fields;
