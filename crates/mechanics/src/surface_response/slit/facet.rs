@@ -120,6 +120,15 @@ impl Facet {
         }
     }
 
+    /// How far the hinge opens the outer face for a unit of bulging [-]: w R/2 over the square of the length over
+    /// which a shell bends, √(R w)/(12 (1 − ν²))^¼.
+    pub(super) fn tilt(&self, nu: f64) -> f64 {
+        match self.under {
+            Under::Solid { .. } => 0.0,
+            Under::Wall { .. } => 0.5 * (12.0 * (1.0 - nu * nu)).sqrt(),
+        }
+    }
+
     pub(super) fn rows(&self) -> std::ops::Range<usize> {
         self.first..self.first + self.modes()
     }

@@ -5,15 +5,19 @@ use nalgebra::Matrix3;
 use palpate_geometry::{Surface, TriangleId};
 
 use super::super::response::{SurfaceResponse, TouchId};
-use super::facet::Facet;
+use super::facet::{Facet, Under};
 use crate::Vec3;
 use crate::boundary_elements::Precision;
 
-/// Radius of the triangles that are taken, in lengths √(2 A) of one [-].
+/// Radius of the triangles that are taken, in lengths √(2 A) of one; and in a wall, whose faces do not tell how it
+/// bends nearer to a force, in thicknesses, whichever is more [-].
 const REACH: f64 = 1.8;
+const IN_WALLS: f64 = 1.5;
 
-/// No more triangles are taken.
-pub(super) const MOST: usize = 64;
+/// Of so many that lie in it,
+const MOST_FOUND: usize = 160;
+/// so many are taken at most.
+pub(super) const MOST: usize = 24;
 
 /// How a triangle's displacement counts in σ_nn and σ_ns over E at a place [1/m].
 #[derive(Debug, Clone, Copy)]
@@ -30,6 +34,8 @@ pub(super) struct Gradient {
     found: Vec<TriangleId>,
     weights: Vec<f64>,
     pub(super) parts: Vec<Stress>,
+    /// Length √(2 A) of its triangles [m].
+    pub(super) size: f64,
     /// How far it reaches [m].
     pub(super) reach: f64,
     /// Curvature of the surface across the facet [1/m].
@@ -39,9 +45,10 @@ pub(super) struct Gradient {
 impl Gradient {
     pub(super) fn new() -> Self {
         Self {
-            found: Vec::with_capacity(MOST),
+            found: Vec::with_capacity(MOST_FOUND),
             weights: Vec::with_capacity(MOST),
             parts: Vec::with_capacity(MOST),
+            size: 0.0,
             reach: 0.0,
             curvature: 0.0,
         }
@@ -64,7 +71,12 @@ impl Gradient {
         let (sum, count) = areas.fold((mesh.area_vector(start).norm(), 1.0), |(sum, n), area| {
             (sum + area, n + 1.0)
         });
-        self.reach = REACH * f64::sqrt(2.0 * sum / count);
+        self.size = f64::sqrt(2.0 * sum / count);
+        let in_wall = match facet.under {
+            Under::Solid { .. } => 0.0,
+            Under::Wall { thickness, .. } => IN_WALLS * thickness,
+        };
+        self.reach = in_wall.max(REACH * self.size);
         around(
             surface,
             (start, place),
@@ -74,7 +86,9 @@ impl Gradient {
         );
         let [n, s] = [0, 1].map(|k| facet.frame.column(k).into_owned());
         let mut moments = Matrix3::zeros();
-        for &triangle in &self.found {
+        let taken = self.found.len().min(MOST);
+        for number in 0..taken {
+            let triangle = self.found[number * self.found.len() / taken];
             let Some(touch) = response.find(triangle) else {
                 continue;
             };

@@ -85,7 +85,7 @@ pub(super) fn own(nu: f64, facet: &Facet) -> (Matrix6<f64>, [[f64; 6]; 2]) {
     if let Under::Wall { part, .. } = facet.under
         && part < 1.0
     {
-        matrix += spring::ligament(nu, part) * facet.length;
+        matrix += spring::ligament(nu, part, facet.tilt(nu)) * facet.length;
     }
     (matrix, ends)
 }

@@ -158,7 +158,10 @@ impl<T: Precision> Slit<T> {
         let jumps = jumps.values.get(cut.facet.rows())?;
         let local = match *jumps {
             [n, s, z] => Vec3::new(n, s, z),
-            [n, s, hinge, shear, bend, bulge] => Vec3::new(n + hinge + bulge, s, shear + bend),
+            [n, s, hinge, shear, bend, bulge] => {
+                let bulge = bulge * (1.0 + cut.facet.tilt(self.poissons_ratio));
+                Vec3::new(n + hinge + bulge, s, shear + bend)
+            }
             _ => return None,
         };
         Some(cut.facet.frame * local)

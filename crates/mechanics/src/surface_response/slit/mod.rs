@@ -44,7 +44,7 @@ use traction::{MODES, Near, Part, triangles_near};
 pub use traction::{OF_RIM, Spot};
 
 /// Near triangles that are known to a facet at most.
-const MOST_NEAR: usize = 256;
+const MOST_NEAR: usize = 320;
 
 /// A slit in an organ, and what it adds to its compliance.
 #[derive(Debug)]
@@ -126,8 +126,7 @@ impl<T: Precision> Slit<T> {
             let meets = facet.meets(&other.facet);
             [met[0] || meets[0], met[1] || meets[1]]
         });
-        let reach = self.work(body, &facet);
-        facet.bend(&self.gradients[0]);
+        let reach = self.work(body, &mut facet);
         self.parts.clear();
         for (gradient, face) in self.gradients.iter().zip([1.0, -1.0]) {
             facet.parts(gradient, face, &mut self.parts);
@@ -176,12 +175,13 @@ impl<T: Precision> Slit<T> {
     }
 
     /// Makes the smooth rows of a facet; the reach of its closed forms [m].
-    fn work(&mut self, body: &CutBody<'_, T>, facet: &Facet) -> f64 {
+    fn work(&mut self, body: &CutBody<'_, T>, facet: &mut Facet) -> f64 {
         let pair = (body.surface, body.response);
         let start = facet.first * self.width;
         let rows = &mut self.rows[start..][..facet.modes() * self.width];
         let [outer, inner] = &mut self.gradients;
         outer.prepare(pair, (facet.outer, &facet.middle), facet);
+        facet.bend(outer);
         inner.parts.clear();
         let (of_outer, of_inner) = facet.of_faces();
         let (rows, last) = rows.split_at_mut((facet.modes().min(5)) * self.width);
@@ -202,23 +202,24 @@ impl<T: Precision> Slit<T> {
         let [across, along] = &mut self.scratch;
         inner.stress(body.response, across, along);
         let (o, i) = (of_outer.map(T::of), of_inner.map(T::of));
-        let both = one.iter_mut().zip(three).zip(across.iter());
-        for ((one, three), &inner) in both {
+        let both = one.iter_mut().zip(three).zip(last).zip(across.iter());
+        let tilt = T::of(facet.tilt(self.poissons_ratio));
+        for (((one, three), last), &inner) in both {
             let outer = *one;
             *one = o[0] * outer + i[0] * inner;
             *three = o[2] * outer + i[2] * inner;
+            *last = *one + tilt * *three;
         }
         for (two, &inner) in two.iter_mut().zip(along.iter()) {
             *two = o[1] * *two + i[1] * inner;
         }
-        last.copy_from_slice(one);
         facet.reach(outer.reach)
     }
 
     /// Lists what is near.
     fn put_near(&mut self, body: &CutBody<'_, T>, facet: &Facet, reach: f64) -> [usize; 2] {
         let (mesh, start) = (body.surface.mesh(), self.near.len());
-        let how_far = (reach, self.gradients[0].reach);
+        let how_far = (reach, self.gradients[0].size);
         triangles_near(body.surface, facet, how_far, &mut self.found);
         for &triangle in &self.found {
             if body.response.holds(triangle) {

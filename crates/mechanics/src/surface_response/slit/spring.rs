@@ -3,13 +3,13 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use nalgebra::{Matrix2, Matrix6};
+use nalgebra::{Matrix2, Matrix6, Vector2};
 
 /// Steps of the integral over the depth.
 const STEPS: usize = 24;
 
 /// Stiffness of the ligament over E for a length of one [-], between the modes of a facet in a wall.
-pub(super) fn ligament(nu: f64, part: f64) -> Matrix6<f64> {
+pub(super) fn ligament(nu: f64, part: f64, tilt: f64) -> Matrix6<f64> {
     let (mut both, mut across) = (Matrix2::zeros(), 0.0);
     for step in 0..STEPS {
         let x = part * (step as f64 + 0.5) / STEPS as f64;
@@ -32,11 +32,12 @@ pub(super) fn ligament(nu: f64, part: f64) -> Matrix6<f64> {
     let inverse = (both + Matrix2::identity() * slack)
         .try_inverse()
         .unwrap_or(Matrix2::identity());
-    // Opening: evenly and by bulging, and the hinge.
-    let kinds = [(0, 0), (5, 0), (2, 1)];
-    for (i, kind) in kinds {
-        for (j, other) in kinds {
-            stiffness[(i, j)] = inverse[(kind, other)];
+    // Evenly and at the hinge.
+    let mut ways = [Vector2::zeros(); 6];
+    (ways[0], ways[2], ways[5]) = (Vector2::x(), Vector2::y(), Vector2::new(1.0, tilt));
+    for i in [0, 2, 5] {
+        for j in [0, 2, 5] {
+            stiffness[(i, j)] = ways[i].dot(&(inverse * ways[j]));
         }
     }
     stiffness[(1, 1)] = 1.0 / torn;

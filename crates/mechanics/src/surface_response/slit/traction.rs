@@ -19,12 +19,12 @@ use crate::Vec3;
 use crate::finite_spheres::quartic;
 
 /// Reach of a facet in radii of its stress on the surface, and in its depths, but no more than the last [-].
-const IN_GRADIENTS: f64 = 0.9;
+const IN_GRADIENTS: f64 = 0.75;
 const IN_DEPTHS: f64 = 1.0;
 const MOST_GRADIENTS: f64 = 1.2;
 
-/// Beyond two reaches triangles are known as far as the loads of tips there go, in radii of the stress [-].
-const OF_LOADS: f64 = 1.25;
+/// Beyond two reaches triangles are known as far as the loads of tips there go, in lengths √(2 A) of one [-].
+const OF_LOADS: f64 = 2.2;
 
 /// What a force beside a slit yields more, where the slit is deep, over the reciprocal of its distance: across,
 /// along, outward [-].
@@ -135,11 +135,13 @@ impl Facet {
             Under::Wall { thickness, .. } => {
                 let plate = Plate { nu, thickness };
                 // Loads are felt by the wall as if they were this wide at least [Westergaard 1926].
+                let tilt = self.tilt(nu);
                 let wide = soft + 0.1 * thickness * thickness;
                 for along in ends {
                     let found = plate.resultants([-x, along], face, wide);
                     let [n, s, m, v] = found.map(|row| row * (0.5 * self.length));
-                    for (row, found) in rows.iter_mut().zip([n, s, m, v, v, n]) {
+                    let bulge = n + m * tilt;
+                    for (row, found) in rows.iter_mut().zip([n, s, m, v, v, bulge]) {
                         *row += found;
                     }
                 }
@@ -160,14 +162,24 @@ impl Facet {
         }
         let mut rows = [Vec3::zeros(); MODES];
         let soft = (0.35 * spot.radius).powi(2);
+        let in_wall = matches!(self.under, Under::Wall { .. });
         let beside = (seen.at[0] / spot.radius).abs().min(1.0).powi(2);
         let aside = (self.rim() - seen.at[0].abs()).max(0.0) * beside;
         let x = seen.at[0] + aside.copysign(seen.at[0]);
         for ([p, q], weight) in DISC {
-            let at = [x + p * spot.radius, seen.at[1] + q * spot.radius];
-            let found = self.closed(nu, (at, seen.face), soft);
+            let y = seen.at[1] + q * spot.radius;
+            let weight = weight * seen.fade;
+            let found = self.closed(nu, ([x + p * spot.radius, y], seen.face), soft);
             for (row, found) in rows.iter_mut().zip(found) {
-                *row += found * (weight * seen.fade);
+                *row += found * weight;
+            }
+            // What bends a wall is not the rim's.
+            if in_wall {
+                let own = ([seen.at[0] + p * spot.radius, y], seen.face);
+                let own = self.closed(nu, own, soft);
+                for ((row, found), own) in rows.iter_mut().zip(found).zip(own) {
+                    row.z += (own.z - found.z) * weight;
+                }
             }
         }
         Some((seen.fade, rows.map(|row| seen.turn.tr_mul(&row))))
@@ -197,7 +209,11 @@ impl Facet {
             let end = end * self.length - y;
             0.5 * end / (near * near + end * end).sqrt()
         });
-        let own = Matrix3::from_diagonal(&Vec3::from(OF_RIM)) * more;
+        let [across, along, mut outward] = OF_RIM;
+        if matches!(self.under, Under::Wall { .. }) {
+            outward = 0.0;
+        }
+        let own = Matrix3::from_diagonal(&Vec3::new(across, along, outward)) * more;
         let along = seen.turn.tr_mul(&own) * seen.turn;
         Some((ends[1] - ends[0], along))
     }
@@ -221,7 +237,7 @@ impl Facet {
             }
         }
         if matches!(self.under, Under::Wall { .. }) {
-            resolved[5] = resolved[0];
+            resolved[5] = resolved[0] + resolved[2] * self.tilt(nu);
         }
         let turned = |rows: [Vec3; MODES]| rows.map(|row| seen.turn.tr_mul(&row));
         let (resolved, closed) = (turned(resolved), turned(closed));
@@ -299,10 +315,10 @@ pub(super) struct Part {
 pub(super) fn triangles_near(
     surface: &Surface,
     facet: &Facet,
-    (reach, gradient): (f64, f64),
+    (reach, size): (f64, f64),
     found: &mut Vec<TriangleId>,
 ) {
     let outward = facet.frame.column(2).into_owned();
-    let far = 2.0 * reach + OF_LOADS * gradient;
+    let far = 2.0 * reach + OF_LOADS * size;
     around(surface, (facet.outer, &facet.middle), &outward, far, found);
 }
