@@ -217,3 +217,27 @@ fn a_tissue_file_is_read_from_the_folder_of_the_scene() {
     let tissue = scene.organ.tissue.read().unwrap();
     assert_eq!(tissue.name.as_deref(), Some("pig liver"));
 }
+
+/// The scenes and motions that come with the program.
+#[test]
+fn those_that_come_along_are_read() {
+    let folder = PathBuf::from(concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../assets/esophagus"
+    ));
+    let (mut scenes, mut motions) = (0, 0);
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path
+            .extension()
+            .is_some_and(|extension| extension == "toml")
+        {
+            Scene::read(&path).unwrap();
+            scenes += 1;
+        } else {
+            palpate_files::Motion::read(&path).unwrap();
+            motions += 1;
+        }
+    }
+    assert!(scenes >= 2 && motions >= 4, "{scenes} {motions}");
+}
