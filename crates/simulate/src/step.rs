@@ -223,11 +223,10 @@ fn record(
 /// Takes the openings to where the organ is, if it is time.
 fn show_cuts(simulation: &Simulation, time: f64, state: &mut SimulationState) {
     let due = time >= state.cuts_shown_at + state.show_every;
-    let (Some(model), Some(cuts), true) = (&simulation.cutting, &mut state.cuts, due) else {
+    let (Some(model), Some(cuts)) = (&simulation.cutting, &mut state.cuts) else {
         return;
     };
-    // One that was undone is closed again.
-    if cuts.are_there() || state.cuts_shown_at == f64::NEG_INFINITY {
+    if cuts.is_behind() || due && cuts.are_there() {
         state.cuts_shown_at = time;
         cuts.follow(simulation, state.deformed.vertices(), model.width);
     }

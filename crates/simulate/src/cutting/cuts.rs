@@ -145,6 +145,11 @@ impl Cuts {
         }
     }
 
+    /// Whether it has to follow at once: its triangles are others than those whose places are known.
+    pub(crate) fn is_behind(&self) -> bool {
+        self.gapes != self.version
+    }
+
     /// Whether what lies under the surface is bare within `reach` [m] of a place of it.
     pub(super) fn expose(&self, place: &Vec3, reach: f64) -> bool {
         self.way.iter().any(|part| distance(part, place) < reach)

@@ -79,6 +79,7 @@ impl Cuts {
             self.put_down(simulation, tool, footing);
             return Opened::default();
         }
+        let vertices = self.surface.mesh().vertices().len();
         let Ok(progress) = self.surface.advance(&simulation.surface, &footing.point) else {
             return Opened::default();
         };
@@ -86,8 +87,11 @@ impl Cuts {
             stroke.blade = footing.point;
         }
         self.largest_lag = self.largest_lag.max(progress.lag);
-        if progress.opened > 0 {
+        // A vertex may wait for its edge to be opened.
+        if progress.opened > 0 || self.surface.mesh().vertices().len() != vertices {
             self.version += 1;
+        }
+        if progress.opened > 0 {
             self.go_to(&footing.point, &contact.normal());
         }
         if progress.away > LEFT * simulation.typical_edge {

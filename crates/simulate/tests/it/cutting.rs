@@ -1,8 +1,12 @@
 //! Blades: what they open, what they feel, and what lies under an opening.
 
+use std::sync::Arc;
+
 use palpate_files::session::Event;
-use palpate_files::{Pose, Scene};
+use palpate_files::{Motion, Pose, Scene};
 use palpate_geometry::{CutMethod, TriangleId, Vec3};
+use palpate_servo::ServoSettings;
+use palpate_simulate::interactive::{Order, Station, VirtualInteraction};
 use palpate_simulate::{Simulation, SimulationState, SimulationWorkspace, step};
 
 /// A cube of 0.1 m, whose upper side is at z = 0.05, and one tool called "right".
@@ -303,4 +307,36 @@ fn cuts_that_cross_turn_and_end_leave_a_sound_mesh() {
         assert_eq!(open.count(), rims);
         assert!(rims > 20);
     }
+}
+
+/// Who looks sees a place for every vertex, at every step of a model that shapes the organ more rarely than it
+/// steps. Judge: the triangles that are told beside them.
+#[test]
+fn what_is_seen_of_a_cut_is_whole() {
+    let simulation = Arc::new(Simulation::new(&scene(HOOK, "")).unwrap());
+    let motion = "# format = 1\ntime_s,tool,x_m,y_m,z_m,cut\n0.0,right,-0.03,0.002,0.052,0\n\
+                  0.1,right,-0.03,0.002,0.049,1\n1.1,right,0.03,0.004,0.049,1\n1.3,right,0.03,0.0,0.06,0\n";
+    let motion = Motion::parse(motion, "motion.csv").unwrap();
+    let station = Station::playing(&motion.tools()[0]).unwrap();
+    let mut hands =
+        VirtualInteraction::new(simulation, vec![Some(station)], ServoSettings::default()).unwrap();
+    let mut versions = std::collections::HashSet::new();
+    for tick in 0..1500 {
+        if tick == 1400 {
+            hands.order(Order::UndoCut);
+        }
+        hands.advance().unwrap();
+        let opened = hands.snapshot().opened.as_ref().unwrap();
+        assert_eq!(opened.places.len(), opened.rest.len(), "tick {tick}");
+        let nodes = opened.triangles.iter().flatten();
+        assert!(
+            nodes
+                .copied()
+                .all(|node| (node as usize) < opened.places.len())
+        );
+        versions.insert(opened.version);
+    }
+    assert!(versions.len() > 5, "{versions:?}");
+    // Undone.
+    assert_eq!(hands.snapshot().opened.as_ref().unwrap().version, 0);
 }
