@@ -1,10 +1,25 @@
-/// A symmetric positive matrix that grows by rows, and its factor L.
+//! A symmetric positive matrix that grows by blocks of rows, one for each facet, and its factor L.
+
+use super::traction::MODES;
+
+/// The matrix in factors. A block keeps its Schur complement, so that its diagonal may change as long as it is
+/// the last or the last but one.
 #[derive(Debug)]
 pub(super) struct Grown {
-    /// Lower triangles, row after row.
-    matrix: Vec<f64>,
+    /// Rows of L, lower triangles one after the other.
     factor: Vec<f64>,
     rows: usize,
+    /// The rows of a new block, column by column.
+    new: Vec<[f64; MODES]>,
+}
+
+/// What a block's rows are without those before it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Block {
+    /// H − L Lᵀ of the columns before it.
+    rest: [[f64; MODES]; MODES],
+    /// Pivots that it would have alone.
+    pub(super) alone: [f64; MODES],
 }
 
 /// A row whose pivot is below this part of what its facet alone would have is locked [-]: H does not tell its jump
@@ -18,39 +33,73 @@ fn start(row: usize) -> usize {
 impl Grown {
     pub(super) fn new(most: usize) -> Self {
         Self {
-            matrix: vec![0.0; start(most)],
             factor: vec![0.0; start(most)],
             rows: 0,
+            new: vec![[0.0; MODES]; most],
         }
     }
 
-    /// The entries of a row up to its diagonal, to be written before [`Self::factor`].
-    pub(super) fn row(&mut self, row: usize) -> &mut [f64] {
-        &mut self.matrix[start(row)..=start(row) + row]
+    /// The entries of new rows, column by column, to be written before [`Self::eliminate`].
+    pub(super) fn new_columns(&mut self) -> &mut [[f64; MODES]] {
+        &mut self.new
     }
 
-    /// Makes the factor of a row, whose diagonal is raised by `more` and whose pivot would be `alone` without those
-    /// of other facets; those above it are made. Whether it is not locked.
-    pub(super) fn factor(&mut self, row: usize, (more, alone): (f64, f64)) -> bool {
-        let (above, here) = self.factor.split_at_mut(start(row));
-        let here = &mut here[..=row];
-        here.copy_from_slice(&self.matrix[start(row)..=start(row) + row]);
-        here[row] += more;
-        let diagonal = here[row];
-        for column in 0..row {
+    /// Eliminates what is before them from new rows.
+    pub(super) fn eliminate(&mut self, rows: std::ops::Range<usize>, alone: [f64; MODES]) -> Block {
+        let (first, count) = (rows.start, rows.len());
+        let (above, below) = self.factor.split_at_mut(start(first));
+        for column in 0..first {
             let other = &above[start(column)..=start(column) + column];
-            let known = dot(&here[..column], &other[..column]);
-            here[column] = (here[column] - known) / other[column];
+            let known = products(&other[..column], &self.new[..column]);
+            for (value, known) in self.new[column].iter_mut().zip(known) {
+                *value = (*value - known) / other[column];
+            }
         }
-        let known = dot(&here[..row], &here[..row]);
-        let pivot = diagonal - known;
-        self.rows = row + 1;
-        let sound = pivot >= LEAST_PIVOT * alone && pivot > 0.0;
-        if sound {
-            here[row] = pivot.sqrt();
-        } else {
-            here.fill(0.0);
-            here[row] = f64::INFINITY;
+        let mut rest = [[0.0; MODES]; MODES];
+        for i in 0..count {
+            for j in 0..=i {
+                let known: f64 = self.new[..first].iter().map(|row| row[i] * row[j]).sum();
+                rest[i][j] = self.new[first + j][i] - known;
+            }
+        }
+        for mode in 0..count {
+            let own = start(first + mode) - start(first);
+            let row = &mut below[own..][..first];
+            for (value, new) in row.iter_mut().zip(&self.new) {
+                *value = new[mode];
+            }
+        }
+        Block { rest, alone }
+    }
+
+    /// Makes the factor of a block's own columns, its diagonal raised by `more`. Whether no row is locked.
+    pub(super) fn factor(
+        &mut self,
+        rows: std::ops::Range<usize>,
+        block: &Block,
+        more: &[f64; MODES],
+    ) -> bool {
+        let (first, count) = (rows.start, rows.len());
+        self.rows = rows.end;
+        let mut sound = true;
+        let mut l = [[0.0; MODES]; MODES];
+        for i in 0..count {
+            for j in 0..i {
+                let known: f64 = (0..j).map(|k| l[i][k] * l[j][k]).sum();
+                l[i][j] = (block.rest[i][j] - known) / l[j][j];
+            }
+            let known: f64 = (0..i).map(|k| l[i][k] * l[i][k]).sum();
+            let pivot = block.rest[i][i] + more[i] - known;
+            if pivot >= LEAST_PIVOT * block.alone[i] && pivot > 0.0 {
+                l[i][i] = pivot.sqrt();
+            } else {
+                // It bears nothing, whatever stands before its diagonal.
+                l[i] = [0.0; MODES];
+                l[i][i] = f64::INFINITY;
+                sound = false;
+            }
+            let own = start(first + i) + first;
+            self.factor[own..=own + i].copy_from_slice(&l[i][..=i]);
         }
         sound
     }
@@ -86,19 +135,19 @@ impl Grown {
     }
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let (fours_a, fours_b) = (a.chunks_exact(4), b.chunks_exact(4));
-    let rest: f64 = fours_a
-        .remainder()
-        .iter()
-        .zip(fours_b.remainder())
-        .map(|(a, b)| a * b)
-        .sum();
-    let mut sums = [0.0; 4];
-    for (a, b) in fours_a.zip(fours_b) {
-        for k in 0..4 {
-            sums[k] += a[k] * b[k];
+/// Sums of a row of L times each new row; in two halves, so that none waits for the other.
+fn products(row: &[f64], new: &[[f64; MODES]]) -> [f64; MODES] {
+    let mut sums = [[0.0; MODES]; 2];
+    let (pairs, news) = (row.chunks_exact(2), new.chunks_exact(2));
+    if let ([factor], [new]) = (pairs.remainder(), news.remainder()) {
+        sums[0] = new.map(|value| factor * value);
+    }
+    for (factors, news) in pairs.zip(news) {
+        for half in 0..2 {
+            for mode in 0..MODES {
+                sums[half][mode] += factors[half] * news[half][mode];
+            }
         }
     }
-    rest + (sums[0] + sums[1]) + (sums[2] + sums[3])
+    std::array::from_fn(|mode| sums[0][mode] + sums[1][mode])
 }

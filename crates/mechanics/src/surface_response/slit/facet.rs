@@ -15,6 +15,9 @@ const THROUGH: f64 = 0.98;
 /// Ends nearer than this part of a length belong together [-].
 const TOGETHER: f64 = 0.35;
 
+/// Where the thickness of a wall is looked for, in edges [-].
+const BESIDE: [[f64; 2]; 4] = [[0.0, 0.0], [0.037, 0.021], [-0.029, 0.041], [0.011, -0.043]];
+
 /// A straight piece of a slit, as it is asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SlitFacet {
@@ -146,7 +149,7 @@ impl Facet {
             .map(|end| there.iter().any(|other| (other - end).norm() < near))
     }
 
-    /// Depth of what is cut [m].
+    /// Depth of the slit in a solid, or the thickness of the wall [m].
     pub(super) fn depth(&self) -> f64 {
         match self.under {
             Under::Solid { depth } => depth,
@@ -175,12 +178,18 @@ fn under<T: Precision>(
     let mesh = body.surface.mesh();
     let (low, high) = mesh.bounds();
     let reach = (high - low).norm();
+    let size = edge(body.surface, body.tree.nearest(mesh, middle).triangle);
     // The triangle at the middle is not the other side.
-    let skip = 1e-3 * edge(body.surface, body.tree.nearest(mesh, middle).triangle);
-    let hit = body
-        .tree
-        .cast(mesh, &(middle - outward * skip), &-outward, reach)
-        .filter(|hit| mesh.area_vector(hit.triangle).dot(outward) < 0.0);
+    let skip = 1e-3 * size;
+    let along = asked.along.cross(outward);
+    let along = unit(&along).unwrap_or_default();
+    let across = along.cross(outward);
+    // A ray that meets an edge may pass between its triangles; another one beside it does not.
+    let hit = BESIDE.into_iter().find_map(|[p, q]| {
+        let from = middle - outward * skip + (along * p + across * q) * size;
+        let hit = body.tree.cast(mesh, &from, &-outward, reach);
+        hit.filter(|hit| mesh.area_vector(hit.triangle).dot(outward) < 0.0)
+    });
     match hit {
         Some(hit) if asked.depth > OF_A_WALL * (hit.distance + skip) => {
             let thickness = hit.distance + skip;

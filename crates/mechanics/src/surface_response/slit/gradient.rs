@@ -17,7 +17,7 @@ const IN_WALLS: f64 = 1.5;
 /// Of so many that lie in it,
 const MOST_FOUND: usize = 160;
 /// so many are taken at most.
-pub(super) const MOST: usize = 24;
+pub(super) const MOST: usize = 16;
 
 /// How a triangle's displacement counts in σ_nn and σ_ns over E at a place [1/m].
 #[derive(Debug, Clone, Copy)]

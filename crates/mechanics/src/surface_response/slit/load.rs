@@ -173,10 +173,14 @@ impl<T: Precision> Slit<T> {
         if jumps.values.len() != self.size() || field.len() != self.width {
             return;
         }
-        for (row, jump) in jumps.values.iter().enumerate() {
-            let jump = T::of(*jump);
-            for (place, &value) in field.iter_mut().zip(self.row(row)) {
-                *place += jump * value;
+        // Four rows at a time, so that the field is met less often.
+        for (group, jumps) in jumps.values.chunks(4).enumerate() {
+            let row = |k: usize| self.row(4 * group + k.min(jumps.len() - 1));
+            let jump = |k: usize| T::of(jumps.get(k).copied().unwrap_or(0.0));
+            let rows = row(0).iter().zip(row(1)).zip(row(2)).zip(row(3));
+            let [p, q, r, s] = [0, 1, 2, 3].map(jump);
+            for (place, (((&a, &b), &c), &d)) in field.iter_mut().zip(rows) {
+                *place += (p * a + q * b) + (r * c + s * d);
             }
         }
         for cut in &self.facets {

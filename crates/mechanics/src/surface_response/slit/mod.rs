@@ -35,7 +35,7 @@ use palpate_geometry::TriangleId;
 use super::response::SurfaceResponse;
 use crate::boundary_elements::Precision;
 use crate::{Error, Vec3};
-use cholesky::Grown;
+use cholesky::{Block, Grown};
 use facet::Facet;
 pub use facet::{CutBody, SlitFacet};
 use gradient::{Gradient, MOST};
@@ -73,8 +73,8 @@ struct Cut {
     reach: f64,
     /// Its near triangles begin and end here.
     near: [usize; 2],
-    /// Its pivots without other facets [m].
-    alone: [f64; MODES],
+    /// Its rows of H without those before it.
+    block: Block,
     /// What H's diagonal is raised by where one end is free, and where both are.
     ends: [[f64; MODES]; 2],
     /// Its ends that meet earlier facets.
@@ -132,16 +132,15 @@ impl<T: Precision> Slit<T> {
             facet.parts(gradient, face, &mut self.parts);
         }
         let near = self.put_near(body, &facet, reach);
-        let cut = Cut {
+        let (block, ends) = self.put_matrix(&facet);
+        self.facets.push(Cut {
             facet,
             reach,
             near,
-            alone: [0.0; MODES],
-            ends: [[0.0; MODES]; 2],
+            block,
+            ends,
             met,
-        };
-        let cut = self.put_matrix(cut);
-        self.facets.push(cut);
+        });
         // The end of the one before may have become none.
         self.factor(self.facets.len().saturating_sub(2));
         Ok(())
@@ -242,29 +241,24 @@ impl<T: Precision> Slit<T> {
         [start, self.near.len()]
     }
 
-    /// Writes the rows of H of a facet, and what belongs to them.
-    fn put_matrix(&mut self, mut cut: Cut) -> Cut {
-        let facet = cut.facet;
-        for number in 0..self.facets.len() {
-            let other = self.facets[number];
-            let block = kernel::coupling(self.poissons_ratio, &facet, &other.facet);
-            for mode in 0..facet.modes() {
-                let row = self.h.row(facet.first + mode);
-                for column in 0..other.facet.modes() {
-                    row[other.facet.first + column] = block[(mode, column)];
-                }
+    /// Eliminates the rows of H of a facet; what is left, and what its diagonal is raised by at free ends.
+    fn put_matrix(&mut self, facet: &Facet) -> (Block, [[f64; MODES]; 2]) {
+        let columns = self.h.new_columns();
+        for cut in &self.facets {
+            let block = kernel::coupling(self.poissons_ratio, facet, &cut.facet);
+            for (column, values) in columns[cut.facet.rows()]
+                .iter_mut()
+                .zip(block.column_iter())
+            {
+                column.copy_from_slice(values.as_slice());
             }
         }
-        let (block, ends) = kernel::own(self.poissons_ratio, &facet);
-        for mode in 0..facet.modes() {
-            let row = &mut self.h.row(facet.first + mode)[facet.first..];
-            for (other, value) in row.iter_mut().enumerate() {
-                *value = block[(mode, other)];
-            }
+        let (block, ends) = kernel::own(self.poissons_ratio, facet);
+        for (column, values) in columns[facet.rows()].iter_mut().zip(block.column_iter()) {
+            column.copy_from_slice(values.as_slice());
         }
-        cut.ends = ends;
-        cut.alone = kernel::pivots(&block, facet.modes());
-        cut
+        let alone = kernel::pivots(&block, facet.modes());
+        (self.h.eliminate(facet.rows(), alone), ends)
     }
 
     /// Factors the rows of H from a facet on. Where an end that has become none would lock a row, it stays one:
@@ -283,16 +277,10 @@ impl<T: Precision> Slit<T> {
     /// Factors the rows of a facet whose ends meet the next one or not. Whether none is locked.
     fn factor_facet(&mut self, cut: &Cut, next: [bool; 2]) -> bool {
         let free = (0..2).filter(|&end| !cut.met[end] && !next[end]).count();
-        let mut sound = true;
-        for mode in 0..cut.facet.modes() {
-            let more = if free > 0 {
-                cut.ends[free - 1][mode]
-            } else {
-                0.0
-            };
-            let about = (more, cut.alone[mode]);
-            sound &= self.h.factor(cut.facet.first + mode, about);
-        }
-        sound
+        let more = match free {
+            0 => [0.0; MODES],
+            free => cut.ends[free - 1],
+        };
+        self.h.factor(cut.facet.rows(), &cut.block, &more)
     }
 }

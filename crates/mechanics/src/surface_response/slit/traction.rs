@@ -7,7 +7,7 @@
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
-use nalgebra::{Matrix3, Rotation3};
+use nalgebra::{Matrix2x3, Matrix3, Vector2};
 use palpate_geometry::{Surface, TriangleId};
 
 use super::facet::{Facet, Under};
@@ -28,10 +28,7 @@ const OF_LOADS: f64 = 2.2;
 
 /// What a force beside a slit yields more, where the slit is deep, over the reciprocal of its distance: across,
 /// along, outward [-].
-pub const OF_RIM: [f64; 3] = [0.69, 0.3, 0.28];
-
-/// Nearer than this part of the depth, the modes of a facet do not know what a force does to the rim [-].
-const RIM: f64 = 0.75;
+pub const OF_RIM: [f64; 3] = [0.69, 0.2, 0.28];
 
 /// Modes of a facet at most.
 pub(super) const MODES: usize = 6;
@@ -106,12 +103,12 @@ impl Facet {
             1.0
         };
         let own = self.frame.column(2) * face;
-        let turn = Rotation3::rotation_between(normal, &own)?;
+        let turn = between(normal, &own);
         Some(Seen {
             at: [away.x * longer, away.y * longer],
             face,
             fade,
-            turn: self.frame.transpose() * turn.matrix(),
+            turn: self.frame.transpose() * turn,
         })
     }
 
@@ -164,7 +161,7 @@ impl Facet {
         let soft = (0.35 * spot.radius).powi(2);
         let in_wall = matches!(self.under, Under::Wall { .. });
         let beside = (seen.at[0] / spot.radius).abs().min(1.0).powi(2);
-        let aside = (self.rim() - seen.at[0].abs()).max(0.0) * beside;
+        let aside = (self.depth() - seen.at[0].abs()).max(0.0) * beside;
         let x = seen.at[0] + aside.copysign(seen.at[0]);
         for ([p, q], weight) in DISC {
             let y = seen.at[1] + q * spot.radius;
@@ -185,14 +182,6 @@ impl Facet {
         Some((seen.fade, rows.map(|row| seen.turn.tr_mul(&row))))
     }
 
-    /// Within what distance of the slit the rim yields by itself [m].
-    fn rim(&self) -> f64 {
-        match self.under {
-            Under::Solid { depth } => RIM * depth,
-            Under::Wall { thickness, .. } => thickness,
-        }
-    }
-
     /// Part of a spot's rim that the facet is [-], and what a deep slit adds there along the axes of space [1/m].
     pub(super) fn rim_of(&self, reach: f64, spot: &Spot) -> Option<(f64, Matrix3<f64>)> {
         let seen = self.sees(reach, &spot.place, &spot.normal)?;
@@ -204,7 +193,7 @@ impl Facet {
         let x = x.abs();
         let beside = (x / spot.radius).min(1.0).powi(2);
         let near = x.max(0.8 * spot.radius);
-        let more = (1.0 / near - 1.0 / self.rim()).max(0.0) * beside;
+        let more = (1.0 / near - 1.0 / self.depth()).max(0.0) * beside;
         let ends = [-0.5, 0.5].map(|end| {
             let end = end * self.length - y;
             0.5 * end / (near * near + end * end).sqrt()
@@ -227,7 +216,11 @@ impl Facet {
     ) -> Option<[[[f32; 3]; MODES]; 2]> {
         let seen = self.sees(reach, place, normal)?;
         let soft = 0.25 * area;
-        let closed = self.closed(nu, (seen.at, seen.face), soft);
+        let closed = if seen.fade > 0.0 {
+            self.closed(nu, (seen.at, seen.face), soft)
+        } else {
+            [Vec3::zeros(); MODES]
+        };
         let mut resolved = [Vec3::zeros(); MODES];
         for part in parts {
             let away = [part.at[0] - seen.at[0], part.at[1] - seen.at[1]];
@@ -250,12 +243,12 @@ impl Facet {
     }
 
     /// Ξ_A: displacement of a triangle from a force on another, `away` from it along the surface.
-    fn moved(&self, nu: f64, away: [f64; 2], faces: (f64, f64), area: f64) -> Matrix3<f64> {
+    fn moved(&self, nu: f64, away: [f64; 2], faces: (f64, f64), area: f64) -> Matrix2x3<f64> {
         let flat = away[0] * away[0] + away[1] * away[1];
         // The mean of 1/r over a disc of the triangle's area is that at 0.59 of its radius.
         let soft = if flat < 1e-3 * area { 0.11 * area } else { 0.0 };
         match self.under {
-            Under::Solid { .. } => near::displacement(nu, &Vec3::new(away[0], away[1], 0.0), soft),
+            Under::Solid { .. } => near::displacement(nu, away, soft),
             Under::Wall { thickness, .. } => {
                 let plate = Plate { nu, thickness };
                 plate.displacement(away, [faces.0, faces.1], soft + 1e-3 * area)
@@ -273,7 +266,7 @@ impl Facet {
                 continue;
             };
             let [across, along] =
-                [stress.across, stress.along].map(|vector| self.frame.tr_mul(&vector));
+                [stress.across, stress.along].map(|vector| self.frame.tr_mul(&vector).xy());
             parts.push(Part {
                 at: seen.at,
                 face,
@@ -308,7 +301,13 @@ pub(super) struct Part {
     /// 1 on the outer face, −1 on the inner.
     face: f64,
     /// B: in the first three modes, in the facet's axes.
-    work: [Vec3; 3],
+    work: [Vector2<f64>; 3],
+}
+
+/// The shortest turn of a unit vector onto another that is not opposite.
+fn between(from: &Vec3, to: &Vec3) -> Matrix3<f64> {
+    let axis = from.cross(to).cross_matrix();
+    Matrix3::identity() + axis + axis * axis / (1.0 + from.dot(to))
 }
 
 /// The triangles of the outer face near a facet.
