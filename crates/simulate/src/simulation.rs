@@ -1,6 +1,6 @@
 use std::ops::ControlFlow;
 
-use palpate_files::scene::{Enhancement, HandOver, ModelKind};
+use palpate_files::scene::{Enhancement, HandOver, ModelKind, Shape};
 use palpate_files::{Scene, SessionHeader};
 use palpate_geometry::{AabbTree, Surface};
 use palpate_mechanics::Material;
@@ -92,6 +92,7 @@ impl Simulation {
                 palpate_mechanics::finite_spheres::LARGEST_CALIBRATED_RATIO,
             ));
         }
+        doubts.extend(check_neighbours(scene)?);
         let cutting = CuttingModel::new(scene, &surface)?;
         if !scene.organ.layers.is_empty() {
             doubts.push(
@@ -189,6 +190,19 @@ impl Simulation {
             force_scale: self.force_scale,
         }
     }
+}
+
+/// What deserves doubt about the neighbours, of which a file has to be there although only who looks needs it.
+fn check_neighbours(scene: &Scene) -> Result<Option<String>, Error> {
+    for neighbour in &scene.neighbours {
+        if matches!(neighbour.shape, Shape::Mesh { .. }) {
+            organ::read_neighbour(neighbour)?;
+        }
+    }
+    let collides = scene.neighbours.iter().any(|neighbour| neighbour.collides);
+    Ok(collides.then(|| {
+        "tools pass through neighbours: their `collides` is read, and not felt yet".to_owned()
+    }))
 }
 
 /// The edge of the regular triangle of mean area [m].

@@ -44,3 +44,28 @@ fn a_neighbour_too_far_away_is_refused() {
         .to_string();
     assert!(message.contains("at_m"), "{message}");
 }
+
+/// What is only seen is asked for when the scene is prepared, not when somebody looks.
+#[test]
+fn a_neighbour_that_is_not_there_is_refused() {
+    let scene = |neighbour: &str| {
+        let text = format!(
+            "format = 1\n[organ]\nbuiltin = \"hemisphere\"\n[organ.tissue]\nlaw = \"linear\"\n\
+             youngs_modulus_pa = 10000.0\npoissons_ratio = 0.45\n[[neighbour]]\n{neighbour}\n"
+        );
+        palpate_files::Scene::parse(&text, "scene.toml").unwrap()
+    };
+    let missing = palpate_simulate::Simulation::new(&scene("mesh = \"nowhere.stl\""));
+    let words = missing.err().unwrap().to_string();
+    assert!(
+        words.contains("nowhere.stl") && words.contains("no such file"),
+        "{words}"
+    );
+    let hard = scene("builtin = \"spleen\"\ncollides = true");
+    let hard = palpate_simulate::Simulation::new(&hard).unwrap();
+    assert!(
+        hard.doubts()
+            .iter()
+            .any(|doubt| doubt.contains("pass through neighbours"))
+    );
+}
