@@ -8,6 +8,8 @@ mod model_words;
 mod organ;
 mod region;
 mod shape;
+mod standing_alone;
+mod task;
 mod tissue_choice;
 mod tool;
 mod view;
@@ -21,12 +23,14 @@ pub use model_words::{
     Assembly, EnhancementArea, Form, HandOver, IntegrationPoints, ModelKind, Placement,
     ResponseMethod, Smoothing, Solver,
 };
-pub use organ::{Layer, Location, Neighbour, Organ};
+pub use organ::{Layer, Location, Neighbour, Nodule, Organ};
 pub use region::{Region, RegionBox, RegionPlane, RegionSphere};
 pub use shape::{BuiltinOrgan, LengthUnit, Shape};
+pub use standing_alone::standing_alone;
+pub use task::{Goal, Task};
 pub use tissue_choice::TissueChoice;
 pub use tool::{DeviceKind, Tip, TipContact, TipShape, Tool, ToolKind, ToolMesh};
-pub use view::{Shading, Task, View};
+pub use view::{Shading, View};
 
 use crate::whole_file::read_text;
 use crate::{Document, Error};

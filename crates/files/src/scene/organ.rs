@@ -17,6 +17,26 @@ pub struct Organ {
     pub touchable: Option<Region>,
     /// Its layers from outside to inside; empty for an organ of one tissue.
     pub layers: Vec<Layer>,
+    /// Stiff balls in it.
+    pub nodules: Vec<Nodule>,
+}
+
+/// A ball of stiffer tissue in an organ, such as a tumour.
+///
+/// ```toml
+/// [[organ.nodule]]
+/// center_m = [0.02, 0.01, 0.03]
+/// radius_m = 0.005
+/// stiffness_ratio = 6.0        # its modulus over that of the organ
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Nodule {
+    /// Its middle [m].
+    pub center_m: [f64; 3],
+    /// Its radius [m].
+    pub radius_m: f64,
+    /// Its modulus over that of the organ [-].
+    pub stiffness_ratio: f64,
 }
 
 /// A layer of an organ.
@@ -85,6 +105,7 @@ impl Organ {
         "anchor",
         "touchable",
         "layer",
+        "nodule",
     ];
 
     pub(super) fn from_keys(keys: &Keys<'_>, folder: &Path) -> Result<Self, Error> {
@@ -93,7 +114,12 @@ impl Organ {
             table.map(|keys| Region::from_keys(&keys)).transpose()
         };
         let layers = keys.tables("layer", Layer::KEYS)?;
+        let nodules = keys.tables("nodule", Nodule::KEYS)?;
         Ok(Self {
+            nodules: nodules
+                .iter()
+                .map(Nodule::from_keys)
+                .collect::<Result<_, _>>()?,
             shape: Shape::from_keys(keys, folder)?,
             tissue: TissueChoice::from_keys(keys, folder)?,
             anchor: region("anchor")?,
@@ -103,6 +129,23 @@ impl Organ {
                 .enumerate()
                 .map(|(number, keys)| Layer::from_keys(keys, number, folder))
                 .collect::<Result<_, _>>()?,
+        })
+    }
+}
+
+const STIFFER: Domain = Domain {
+    expected: "a number above 1",
+    holds: |ratio| ratio > 1.0,
+};
+
+impl Nodule {
+    const KEYS: &[&str] = &["center_m", "radius_m", "stiffness_ratio"];
+
+    fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
+        Ok(Self {
+            center_m: keys.required_vector("center_m")?,
+            radius_m: keys.required_number("radius_m", Domain::POSITIVE)?,
+            stiffness_ratio: keys.required_number("stiffness_ratio", STIFFER)?,
         })
     }
 }

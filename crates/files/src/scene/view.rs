@@ -1,5 +1,3 @@
-use std::path::{Path, PathBuf};
-
 use crate::words::words;
 use crate::{Domain, Error, Keys};
 
@@ -42,27 +40,6 @@ pub struct View {
     pub shading: Shading,
 }
 
-/// What there is to do, and how a performance is judged.
-///
-/// ```toml
-/// [task]
-/// instructions = "Find the stiff spot."
-/// time_limit_s = 60.0
-/// force_limit_n = 2.0          # forces above it count against the trainee
-/// expert = "expert-session"    # a session's folder to compare with
-/// ```
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Task {
-    /// What the trainee reads.
-    pub instructions: Option<String>,
-    /// How long it may take [s].
-    pub time_limit_s: Option<f64>,
-    /// The force above which tissue would be harmed [N].
-    pub force_limit_n: Option<f64>,
-    /// The folder of an expert's session.
-    pub expert: Option<PathBuf>,
-}
-
 impl Default for View {
     fn default() -> Self {
         Self {
@@ -99,23 +76,6 @@ impl View {
             shading: keys
                 .word("shading", Shading::WORDS)?
                 .unwrap_or(default.shading),
-        })
-    }
-}
-
-impl Task {
-    pub(super) const KEYS: &'static [&'static str] =
-        &["instructions", "time_limit_s", "force_limit_n", "expert"];
-
-    pub(super) fn from_keys(keys: Option<&Keys<'_>>, folder: &Path) -> Result<Self, Error> {
-        let Some(keys) = keys else {
-            return Ok(Self::default());
-        };
-        Ok(Self {
-            instructions: keys.text("instructions")?,
-            time_limit_s: keys.number("time_limit_s", Domain::POSITIVE)?,
-            force_limit_n: keys.number("force_limit_n", Domain::POSITIVE)?,
-            expert: keys.text("expert")?.map(|path| folder.join(path)),
         })
     }
 }

@@ -23,6 +23,14 @@ words! {
         DepthBeyondTrust = "depth_beyond_trust",
         /// The model gave a force that is no number; it was replaced by zero.
         NonFiniteForce = "non_finite_force",
+        /// Its hand says: here, or: done.
+        Mark = "mark",
+        /// Its hand is gone; the row has its last place, and the tool is not there until its next row.
+        Lifted = "lifted",
+        /// Before the step the last cut was closed again.
+        UndoCut = "undo_cut",
+        /// Before the step the organ was made whole and at rest.
+        BeginAnew = "begin_anew",
     }
 }
 
@@ -116,6 +124,6 @@ mod tests {
         assert_eq!(Events::from_words("cut;contact"), Some(events));
         assert_eq!(Events::from_words(""), Some(Events::NONE));
         assert_eq!(Events::from_words("contact;sneeze"), None);
-        assert_eq!(Event::WORDS.len(), 9);
+        assert_eq!(Event::WORDS.len(), 13);
     }
 }

@@ -93,6 +93,14 @@ instructions = "Find the stiff spot."
 time_limit_s = 60
 force_limit_mn = 2000
 expert = "expert"
+title = "palpation"
+[task.find]
+target_mm = [1, 2, 3]
+tolerance_m = 0.004
+[[organ.nodule]]
+center_m = [0, 0, 0.02]
+radius_mm = 5
+stiffness_ratio = 6
 "#;
 
 /// A tissue with every table and every key.

@@ -32,6 +32,18 @@ fn every_key_is_understood() {
     assert_eq!(scene.task.expert, Some(PathBuf::from("scenes/expert")));
     assert_eq!(scene.task.force_limit_n, Some(2.0));
     assert_eq!(scene.task.time_limit_s, Some(60.0));
+    assert_eq!(scene.task.title.as_deref(), Some("palpation"));
+    let goal = Goal::Find {
+        target_m: [0.001, 0.002, 0.003],
+        tolerance_m: 0.004,
+    };
+    assert_eq!(scene.task.goal, goal);
+    let nodule = Nodule {
+        center_m: [0.0, 0.0, 0.02],
+        radius_m: 0.005,
+        stiffness_ratio: 6.0,
+    };
+    assert_eq!(scene.organ.nodules, [nodule]);
     assert!((scene.view.field_of_view_rad - 60_f64.to_radians()).abs() < 1e-15);
     assert_eq!(scene.view.shading, Shading::Plain);
 }
@@ -240,4 +252,39 @@ fn those_that_come_along_are_read() {
         }
     }
     assert!(scenes >= 2 && motions >= 4, "{scenes} {motions}");
+}
+
+#[test]
+fn a_scene_that_stands_alone_is_the_same_elsewhere() {
+    let text = standing_alone(SCENE, "scenes/deep/../scene.toml").unwrap();
+    let here = Scene::parse(&text, "other/place/scene.toml").unwrap();
+    let mut expected =
+        Scene::parse(SCENE, std::path::absolute("scenes/scene.toml").unwrap()).unwrap();
+    expected.folder = here.folder.clone();
+    assert_eq!(here, expected);
+    let refused = standing_alone("[organ", "s.toml").unwrap_err().to_string();
+    assert!(refused.starts_with("s.toml:"), "{refused}");
+}
+
+#[test]
+fn goals_are_one_table_or_none() {
+    let task = |more: &str| {
+        let text = format!(
+            "format = 1\n[organ]\nbuiltin = \"liver\"\nbuiltin_tissue = \"pig-liver\"\n{more}"
+        );
+        Scene::parse(&text, "s.toml").map(|scene| scene.task.goal)
+    };
+    assert_eq!(task("").unwrap(), Goal::Free);
+    let cut = "[task.cut]\nfrom_m = [0, 0, 0]\nto_m = [0, 0, 0.03]\ntolerance_m = 0.002\n";
+    assert_eq!(task(cut).unwrap().word(), "cut");
+    let pull = "[task.traction]\nforce_n = 0.5\ntolerance_n = 0.1\nhold_s = 5\n";
+    assert_eq!(task(pull).unwrap().word(), "traction");
+    for (bad, expected) in [
+        (format!("{cut}{pull}"), "task.traction"),
+        (cut.replace("0.03", "0"), "another place"),
+        (pull.replace("0.5", "-1"), "task.traction.force_n"),
+    ] {
+        let message = task(&bad).unwrap_err().to_string();
+        assert!(message.contains(expected), "{message}");
+    }
 }

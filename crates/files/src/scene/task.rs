@@ -1,0 +1,160 @@
+use std::path::{Path, PathBuf};
+
+use crate::{Domain, Error, Keys};
+
+/// What there is to do, and how a performance is judged.
+///
+/// ```toml
+/// [task]
+/// title = "Find the stiff spot"
+/// instructions = "One place under the surface is stiffer. Press on it and say: here."
+/// time_limit_s = 60.0
+/// force_limit_n = 2.0          # forces above it count against the trainee
+/// expert = "expert-session"    # a session's folder to compare with, or a folder of several
+///
+/// # At most one of these; without one, everybody does what they like:
+/// [task.find]
+/// target_m = [0.02, 0.01, 0.05]
+/// tolerance_m = 0.006          # how far beside it still counts
+///
+/// [task.traction]
+/// tool = "left"
+/// force_n = 0.4
+/// tolerance_n = 0.1
+/// hold_s = 10.0                # how long in all, within the tolerance
+///
+/// [task.cut]
+/// from_m = [0.0, -0.01, 0.015]
+/// to_m = [0.0, -0.01, -0.015]
+/// tolerance_m = 0.002          # how far beside the line still counts
+/// ```
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Task {
+    /// What it is called.
+    pub title: Option<String>,
+    /// What the trainee reads.
+    pub instructions: Option<String>,
+    /// How long it may take [s].
+    pub time_limit_s: Option<f64>,
+    /// The force above which tissue would be harmed [N].
+    pub force_limit_n: Option<f64>,
+    /// The folder of an expert's session, or of several.
+    pub expert: Option<PathBuf>,
+    /// When it is done.
+    pub goal: Goal,
+}
+
+/// When a task is done.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub enum Goal {
+    /// When somebody says so.
+    #[default]
+    Free,
+    /// When a place is marked; it should be the target.
+    Find {
+        /// The place on or under the surface that is meant [m].
+        target_m: [f64; 3],
+        /// How far from it, along the surface, still counts [m].
+        tolerance_m: f64,
+    },
+    /// When a force was held for long enough.
+    Traction {
+        /// By which tool; none for any.
+        tool: Option<String>,
+        /// Its magnitude [N].
+        force_n: f64,
+        /// How far beside it still counts [N].
+        tolerance_n: f64,
+        /// For how long in all [s].
+        hold_s: f64,
+    },
+    /// When a straight cut is as long as its line.
+    Cut {
+        /// Where it should begin [m].
+        from_m: [f64; 3],
+        /// Where it should end [m].
+        to_m: [f64; 3],
+        /// How far beside the line still counts [m].
+        tolerance_m: f64,
+    },
+}
+
+impl Goal {
+    /// Its word: `free`, or the name of its table.
+    pub fn word(&self) -> &'static str {
+        match self {
+            Self::Free => "free",
+            Self::Find { .. } => "find",
+            Self::Traction { .. } => "traction",
+            Self::Cut { .. } => "cut",
+        }
+    }
+}
+
+impl Task {
+    pub(super) const KEYS: &'static [&'static str] = &[
+        "title",
+        "instructions",
+        "time_limit_s",
+        "force_limit_n",
+        "expert",
+        "find",
+        "traction",
+        "cut",
+    ];
+
+    pub(super) fn from_keys(keys: Option<&Keys<'_>>, folder: &Path) -> Result<Self, Error> {
+        let Some(keys) = keys else {
+            return Ok(Self::default());
+        };
+        Ok(Self {
+            title: keys.text("title")?,
+            instructions: keys.text("instructions")?,
+            time_limit_s: keys.number("time_limit_s", Domain::POSITIVE)?,
+            force_limit_n: keys.number("force_limit_n", Domain::POSITIVE)?,
+            expert: keys.text("expert")?.map(|path| folder.join(path)),
+            goal: Goal::from_keys(keys)?,
+        })
+    }
+}
+
+impl Goal {
+    const TABLES: [&'static str; 3] = ["find", "traction", "cut"];
+
+    fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
+        let mut given = Self::TABLES
+            .into_iter()
+            .filter(|table| keys.contains(table));
+        if let (Some(first), Some(second)) = (given.next(), given.next()) {
+            return Err(keys.given_twice(first, second));
+        }
+        let distance = |keys: &Keys<'_>| keys.required_number("tolerance_m", Domain::POSITIVE);
+        if let Some(find) = keys.table("find", &["target_m", "tolerance_m"])? {
+            return Ok(Self::Find {
+                target_m: find.required_vector("target_m")?,
+                tolerance_m: distance(&find)?,
+            });
+        }
+        const TRACTION: &[&str] = &["tool", "force_n", "tolerance_n", "hold_s"];
+        if let Some(traction) = keys.table("traction", TRACTION)? {
+            return Ok(Self::Traction {
+                tool: traction.text("tool")?,
+                force_n: traction.required_number("force_n", Domain::POSITIVE)?,
+                tolerance_n: traction.required_number("tolerance_n", Domain::POSITIVE)?,
+                hold_s: traction.required_number("hold_s", Domain::POSITIVE)?,
+            });
+        }
+        let Some(cut) = keys.table("cut", &["from_m", "to_m", "tolerance_m"])? else {
+            return Ok(Self::Free);
+        };
+        let (from_m, to_m) = (cut.required_vector("from_m")?, cut.required_vector("to_m")?);
+        if from_m == to_m {
+            return Err(cut.bad("to_m", "another place than `from_m`"));
+        }
+        Ok(Self::Cut {
+            from_m,
+            to_m,
+            tolerance_m: distance(&cut)?,
+        })
+    }
+}
