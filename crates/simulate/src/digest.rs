@@ -15,14 +15,15 @@ pub(crate) fn digest(scene: &Scene, surface: &Surface, tissue: &Tissue) -> Strin
         hash.update(node.0.to_le_bytes());
     }
     hash.update(format!(
-        "{:?}{:?}{:?}{:?}{:?}{:?}{:?}",
+        "{:?}{:?}{:?}{:?}{:?}{:?}{:?}{:?}",
         tissue.elasticity,
         tissue.prony,
         scene.organ.anchor,
         scene.model,
         scene.tools,
         scene.cutting,
-        scene.organ.layers
+        scene.organ.layers,
+        scene.organ.nodules
     ));
     let bytes = hash.finalize();
     bytes[..8]

@@ -91,6 +91,32 @@ pub enum Error {
         /// Devices, and nones, that were given.
         stations: usize,
     },
+    /// A stiff ball has its middle outside of the organ.
+    #[error(
+        "`organ.nodule[{number}].center_m` lies {} mm outside of the organ; move it in (`palpate mesh info` tells where the organ lies)",
+        millimetres(*.outside)
+    )]
+    NoduleOutside {
+        /// Its number, from zero.
+        number: usize,
+        /// How far outside [m].
+        outside: f64,
+    },
+    /// A session was recorded under other conditions than those of its scene now.
+    #[error(
+        "the session was recorded with the {what} {was}, and its scene now has {is}; it can be scored, but not be played again"
+    )]
+    OtherSession {
+        /// Which condition.
+        what: &'static str,
+        /// What it was.
+        was: String,
+        /// What it is.
+        is: String,
+    },
+    /// There is nothing to play again.
+    #[error("the session has no row; record one in which a tool moves")]
+    EmptySession,
     /// A tool is moved by a device that cannot be opened.
     #[error(
         "the tool {tool:?} is moved by the device `{device}`, for which there is no driver yet; set its `device` to \"mouse\", \"virtual\" or \"none\""

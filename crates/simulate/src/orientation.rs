@@ -4,6 +4,9 @@
 use nalgebra::{Quaternion, Unit, UnitQuaternion};
 use palpate_geometry::Vec3;
 
+/// How far two directions of length one are apart that are the same but for rounding [-].
+const ROUNDING: f64 = 1e-12;
+
 /// The orientation of a tool at `tip` [m] as the contract has it: with a trocar the shaft runs to it and
 /// a quaternion gives the roll; else the quaternion; else the surface's outward normal, where there is
 /// contact; else upright.
@@ -13,14 +16,24 @@ pub(crate) fn orientation(
     given: Option<[f64; 4]>,
     normal: Option<&Vec3>,
 ) -> UnitQuaternion<f64> {
-    let given = given.map(|[x, y, z, w]| Unit::new_normalize(Quaternion::new(w, x, y, z)));
+    let given = given.map(|[x, y, z, w]| unit(Quaternion::new(w, x, y, z)));
     match (trocar.and_then(|t| (t - tip).try_normalize(1e-9)), given) {
+        // What was recorded is played again to the last bit.
+        (Some(shaft), Some(given)) if (given * Vec3::z() - shaft).norm() < ROUNDING => given,
         (Some(shaft), roll) => {
             let roll = roll.map_or(UnitQuaternion::identity(), |q| twist_about_z(&q));
             from_z_to(&shaft) * roll
         }
         (None, Some(given)) => given,
         (None, None) => normal.map_or(UnitQuaternion::identity(), from_z_to),
+    }
+}
+
+/// What is one but for rounding stays as it is.
+fn unit(quaternion: Quaternion<f64>) -> UnitQuaternion<f64> {
+    match (quaternion.norm_squared() - 1.0).abs() < ROUNDING {
+        true => Unit::new_unchecked(quaternion),
+        false => Unit::new_normalize(quaternion),
     }
 }
 
@@ -53,6 +66,8 @@ mod tests {
         );
         // Rounding.
         assert!((rolled * Vec3::z() - Vec3::x()).norm() < 1e-12);
+        let again = orientation(&tip, Some(&trocar), Some(rolled.coords.into()), None);
+        assert_eq!(again, rolled);
         let unrolled = orientation(&tip, Some(&trocar), None, None);
         let about_shaft = rolled * unrolled.inverse();
         let turned = about_shaft.angle();

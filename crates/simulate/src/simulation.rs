@@ -1,6 +1,6 @@
 use std::ops::ControlFlow;
 
-use palpate_files::scene::{Enhancement, HandOver, ModelKind, Shape};
+use palpate_files::scene::{Enhancement, HandOver, ModelKind, Nodule, Shape};
 use palpate_files::{Scene, SessionHeader};
 use palpate_geometry::{AabbTree, Surface};
 use palpate_mechanics::Material;
@@ -8,7 +8,7 @@ use palpate_mechanics::Material;
 use crate::cutting::CuttingModel;
 use crate::global::{GlobalModel, GlobalProblem, ResponseOrigin};
 use crate::tool::{Tool, settings};
-use crate::{Error, Progress, Resources, Work, digest, organ, tip_laws, trocar};
+use crate::{Error, Progress, Resources, Work, digest, nodule, organ, tip_laws, trocar};
 
 /// An organ and the tools that may touch it. Built once, never changed.
 #[derive(Debug, Clone)]
@@ -21,6 +21,8 @@ pub struct Simulation {
     pub(crate) global: Option<GlobalModel>,
     /// How it is cut, if anything can.
     pub(crate) cutting: Option<CuttingModel>,
+    /// Stiff balls in the organ.
+    pub(crate) nodules: Vec<Nodule>,
     /// Length of the edges of a typical triangle [m].
     pub(crate) typical_edge: f64,
     pub(crate) organ_radius: f64,
@@ -59,6 +61,7 @@ impl Simulation {
         for tool in &scene.tools {
             trocar::check(tool, (&surface, &tree))?;
         }
+        nodule::check(&scene.organ.nodules, (&surface, &tree))?;
         let settings = settings(&scene.model.local);
         let mut tools = scene
             .tools
@@ -109,6 +112,7 @@ impl Simulation {
             hand_over: scene.model.hand_over,
             force_scale: scene.model.force_scale,
             typical_edge: typical_edge(&surface),
+            nodules: scene.organ.nodules.clone(),
             cutting,
             surface,
             tree,

@@ -67,6 +67,8 @@ pub struct ToolState {
     pub(crate) history: ForceHistory,
     /// Where the history was made [m].
     pub(crate) history_at: Option<Vec3>,
+    /// Whether it was not there in the step before.
+    pub(crate) is_away: bool,
     pub(crate) shaft_touches: bool,
     pub(crate) beyond_trust: bool,
     /// Triangles from the end of an opening to the blade that makes it.
@@ -165,6 +167,7 @@ impl ToolState {
             with_pull: Vec3::zeros(),
             history: ForceHistory::default(),
             history_at: None,
+            is_away: true,
             shaft_touches: false,
             beyond_trust: false,
             cut_lag: 0,

@@ -11,7 +11,7 @@ use crate::contact;
 use crate::simulation::Simulation;
 use crate::state::{SimulationState, SimulationWorkspace, ToolState};
 use crate::tool::Tool;
-use crate::{cutting, deform, grip, orientation};
+use crate::{cutting, deform, grip, nodule, orientation};
 
 /// Depth beyond which no model here has been compared with tissue [m].
 pub const TRUSTED_DEPTH: f64 = 0.010;
@@ -45,9 +45,10 @@ pub fn step(
         }
     }
     respond(simulation, state, workspace);
+    find_nodules(simulation, state);
     grip::act(simulation, elapsed, state, workspace);
     for (tool, state) in simulation.tools.iter().zip(&mut state.tools) {
-        let failed = feel(simulation, tool, elapsed, state);
+        let failed = feel(simulation, tool, (time, elapsed), state);
         record(simulation, tool, (time, failed), state);
     }
     if let Some(model) = &simulation.cutting {
@@ -96,6 +97,19 @@ fn detect(
 }
 
 impl ToolState {
+    /// Relaxes while the tool was not there; how long its way into the tissue took [s]. What happens while a
+    /// tool is away follows from its rows alone, so that a session can be played again.
+    fn come_back(&mut self, simulation: &Simulation, (time, elapsed): (f64, f64)) -> f64 {
+        if !std::mem::take(&mut self.is_away) {
+            return elapsed;
+        }
+        let way_in = elapsed.min(simulation.step);
+        let away = (time - self.row.time_s - way_in).max(0.0);
+        self.history
+            .advance(&simulation.material.prony, Vec3::zeros(), away);
+        way_in
+    }
+
     /// What tissue remembers of an earlier contact does not follow the tool to another place, `here` [m].
     pub(crate) fn forget_elsewhere(&mut self, tool: &Tool, here: &Vec3) {
         let near = tool.patches.radius();
@@ -130,8 +144,35 @@ pub(crate) fn respond(
     }
 }
 
+/// Where a stiff ball lies under a tip, it is pushed harder.
+fn find_nodules(simulation: &Simulation, state: &mut SimulationState) {
+    if simulation.nodules.is_empty() {
+        return;
+    }
+    for (tool, own) in simulation.tools.iter().zip(&mut state.tools) {
+        if let (Some(contact), false) = (own.contact, own.holds()) {
+            let place = (&contact.point(), &contact.normal());
+            let harder = nodule::stiffening(&simulation.nodules, tool.typical_radius, place);
+            own.elastic *= harder;
+            own.stiffness *= harder;
+        }
+    }
+}
+
 /// 4. The force on the tool: elastic, then relaxed; only jaws are pulled.
-fn feel(simulation: &Simulation, tool: &Tool, elapsed: f64, state: &mut ToolState) -> Events {
+fn feel(
+    simulation: &Simulation,
+    tool: &Tool,
+    (time, elapsed): (f64, f64),
+    state: &mut ToolState,
+) -> Events {
+    let elapsed = match state.pose {
+        Some(_) => state.come_back(simulation, (time, elapsed)),
+        None => {
+            state.is_away = true;
+            0.0
+        }
+    };
     let relaxed = state
         .history
         .advance(&simulation.material.prony, state.elastic, elapsed);

@@ -1,7 +1,7 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use palpate_files::{Pose, SessionRow};
+use palpate_files::{Event, Events, Pose, SessionRow};
 use palpate_geometry::Vec3;
 use palpate_servo::{AffineForce, Histogram, Sample, latest, log};
 
@@ -30,11 +30,21 @@ pub(super) struct ModelLoop {
     rows: log::Writer<SessionRow>,
     orders: log::Reader<Order>,
     paused: bool,
+    /// What was ordered since the last row.
+    ordered: Events,
+    /// Which tools were there in the step before.
+    were_there: Vec<bool>,
+    /// When it was asked last [s], and how long it stood still in all [s].
+    asked: f64,
+    stood: f64,
     snapshots: latest::Sender<Snapshot>,
     happenings: Happenings,
+    steps: u64,
     step_times: Histogram,
     error: ExtrapolationError,
     began: f64,
+    now: f64,
+    /// The step of the last row [s]; none before the first.
     last: Option<f64>,
     missed: u64,
 }
@@ -58,11 +68,17 @@ impl ModelLoop {
             rows,
             orders,
             paused: false,
+            ordered: Events::NONE,
+            were_there: vec![false; tools],
+            asked: 0.0,
+            stood: 0.0,
             snapshots,
             happenings: Happenings::default(),
             step_times: Histogram::default(),
             error: ExtrapolationError::default(),
             began: 0.0,
+            now: 0.0,
+            steps: 0,
             last: None,
             missed: 0,
         }
@@ -74,16 +90,21 @@ impl ModelLoop {
         self.read_hands();
         self.obey();
         if self.paused {
-            // What was missed meanwhile is not made up for.
-            self.last = self.last.map(|_| time);
+            self.stood += time - self.asked;
+        }
+        self.asked = time;
+        if self.paused {
             return;
         }
-        // Before the first step nothing was touched; the first way in is taken as one period long.
-        let elapsed = self.last.map_or(self.simulation.step(), |last| time - last);
-        if self.last.is_none() {
+        // Time stands still with the organ.
+        let time = time - self.stood;
+        // The first depth comes as a step, as in a motion.
+        let elapsed = self.last.map_or(0.0, |last| time - last);
+        if self.steps == 0 {
             self.began = time;
         }
-        self.last = Some(time);
+        self.steps += 1;
+        self.now = time;
         step(
             &self.simulation,
             (time, elapsed),
@@ -114,12 +135,12 @@ impl ModelLoop {
             state,
             felt,
             happenings,
-            last,
+            now,
             paused,
             ..
         } = self;
         snapshots.send_with(|snapshot| {
-            snapshot.fill(last.unwrap_or(0.0), state, felt);
+            snapshot.fill(*now, state, felt);
             snapshot.happenings = *happenings;
             snapshot.report = report;
             snapshot.paused = *paused;
@@ -133,7 +154,7 @@ impl ModelLoop {
 
     pub(super) fn report(&self) -> ModelReport {
         let steps = self.step_times.count();
-        let elapsed = self.last.map_or(0.0, |last| last - self.began);
+        let elapsed = self.now - self.began;
         ModelReport {
             steps,
             missed: self.missed,
@@ -147,15 +168,26 @@ impl ModelLoop {
         }
     }
 
+    /// Does what was ordered. What changes the organ is told by the next row, one thing at a time.
     fn obey(&mut self) {
-        while let Some(order) = self.orders.next_value() {
+        while self.ordered.is_empty()
+            && let Some(order) = self.orders.next_value()
+        {
             match order {
                 Order::Pause => self.paused = true,
                 Order::Resume => self.paused = false,
-                Order::Reset => self.state.begin_anew(&self.simulation),
-                Order::UndoCut => {
-                    self.state.undo_cut();
+                Order::Reset => {
+                    self.state.begin_anew(&self.simulation);
+                    self.were_there.fill(false);
+                    self.last = None;
+                    self.ordered.insert(Event::BeginAnew);
                 }
+                Order::UndoCut => {
+                    if self.state.undo_cut() {
+                        self.ordered.insert(Event::UndoCut);
+                    }
+                }
+                Order::Mark => self.ordered.insert(Event::Mark),
             }
         }
     }
@@ -187,16 +219,40 @@ impl ModelLoop {
         }
     }
 
+    /// A row for each tool that is there or has just gone; what was ordered is told by the first.
     fn record(&mut self, time: f64) {
+        let nobody = self.state.tools.iter().all(|tool| tool.pose.is_none());
         for (number, tool) in self.state.tools.iter().enumerate() {
-            if tool.pose.is_none() {
+            let is_there = tool.pose.is_some();
+            let was_there = std::mem::replace(&mut self.were_there[number], is_there);
+            let speaks = nobody && number == 0 && !self.ordered.is_empty();
+            if !is_there && !was_there && !speaks {
                 continue;
             }
-            self.rows.add(tool.row);
-            for event in tool.row.events.iter() {
+            let mut row = match is_there {
+                true => tool.row,
+                false => lifted(tool.row, time),
+            };
+            row.events = row.events | std::mem::take(&mut self.ordered);
+            self.last = Some(time);
+            self.rows.add(row);
+            for event in row.events.iter() {
                 self.happenings.add(time, number, event);
             }
         }
+    }
+}
+
+/// The row of a tool that is no longer there.
+fn lifted(last: SessionRow, time: f64) -> SessionRow {
+    SessionRow {
+        time_s: time,
+        force_n: [0.0; 3],
+        contact: false,
+        depth_m: 0.0,
+        grip_force_n: 0.0,
+        events: last.events | [Event::Lifted].into_iter().collect(),
+        ..last
     }
 }
 

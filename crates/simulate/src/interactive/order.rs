@@ -11,6 +11,8 @@ pub enum Order {
     Reset,
     /// Closes the last cut again.
     UndoCut,
+    /// Says in the session that a hand means this place, or that it is done.
+    Mark,
 }
 
 /// Orders that have room until the model's next step.

@@ -22,6 +22,7 @@ mod invariants;
 mod loss;
 mod neighbours;
 mod no_allocation;
+mod replay;
 mod scenes;
 mod slides;
 mod thin_walls;
