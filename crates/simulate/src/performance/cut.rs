@@ -1,0 +1,156 @@
+//! Where was cut, beside where should be.
+
+use palpate_files::scene::Goal;
+use palpate_files::{Event, SessionRow};
+use palpate_geometry::Vec3;
+
+/// A blade that is farther from its last opening than this [m] was lifted in between.
+const LEAP: f64 = 5e-3;
+
+/// The ways of cuts.
+#[derive(Debug, Clone)]
+pub(super) struct CutWay {
+    line: Option<[Vec3; 2]>,
+    /// Places where something was opened [m], with the depth of the tip there [m], cut by cut.
+    strokes: Vec<Vec<(Vec3, f64)>>,
+    /// Which tool makes the last one.
+    by: Option<usize>,
+}
+
+/// What was cut.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CutScore {
+    /// How many cuts there are.
+    pub count: usize,
+    /// The way of the tip while something was opened [m].
+    pub length: f64,
+    /// Of cuts along a line.
+    pub along_line: Option<LineScore>,
+}
+
+/// A cut beside the line that it should follow.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LineScore {
+    /// Length of the line [m].
+    pub wanted: f64,
+    /// What of it is cut [m].
+    pub covered: f64,
+    /// Distance from it, mean over the cuts' length [m].
+    pub mean_deviation: f64,
+    /// The largest distance from it [m].
+    pub largest_deviation: f64,
+}
+
+impl CutWay {
+    pub(super) fn new(goal: &Goal) -> Self {
+        let line = match goal {
+            Goal::Cut { from_m, to_m, .. } => Some([*from_m, *to_m].map(Vec3::from)),
+            _ => None,
+        };
+        Self {
+            line,
+            strokes: Vec::new(),
+            by: None,
+        }
+    }
+
+    pub(super) fn add(&mut self, row: &SessionRow) {
+        let happened = |event| row.events.contains(event);
+        if happened(Event::BeginAnew) {
+            self.strokes.clear();
+            self.by = None;
+        }
+        if happened(Event::UndoCut) {
+            self.strokes.pop();
+            self.by = None;
+        }
+        let ends = !row.contact || happened(Event::Lifted);
+        if self.by == Some(row.tool) && ends {
+            self.by = None;
+        }
+        if !happened(Event::Cut) {
+            return;
+        }
+        let place = Vec3::from(row.position_m);
+        let goes_on = self.by == Some(row.tool)
+            && self
+                .strokes
+                .last()
+                .and_then(|stroke| stroke.last())
+                .is_some_and(|(last, _)| (last - place).norm() < LEAP);
+        if !goes_on {
+            self.strokes.push(Vec::new());
+            self.by = Some(row.tool);
+        }
+        if let Some(stroke) = self.strokes.last_mut() {
+            stroke.push((place, row.depth_m));
+        }
+    }
+
+    /// Length of the line that shall be cut, and what of it is cut [m].
+    pub(super) fn covered(&self) -> Option<(f64, f64)> {
+        let [from, to] = self.line?;
+        let wanted = (to - from).norm();
+        let along = (to - from) / wanted;
+        let mut parts: Vec<[f64; 2]> = Vec::new();
+        for stroke in &self.strokes {
+            let at = stroke.iter().map(|(place, _)| (place - from).dot(&along));
+            let (low, high) = at.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| {
+                (low.min(at), high.max(at))
+            });
+            if low < high {
+                parts.push([low.clamp(0.0, wanted), high.clamp(0.0, wanted)]);
+            }
+        }
+        parts.sort_unstable_by(|one, other| one[0].total_cmp(&other[0]));
+        let (mut covered, mut end) = (0.0, 0.0_f64);
+        for [low, high] in parts {
+            covered += (high - low.max(end)).max(0.0);
+            end = end.max(high);
+        }
+        Some((wanted, covered))
+    }
+
+    pub(super) fn score(&self) -> Option<CutScore> {
+        if self.strokes.is_empty() {
+            return None;
+        }
+        let pieces = self.strokes.iter().flat_map(|stroke| stroke.windows(2));
+        let length = pieces.clone().map(|piece| (piece[1].0 - piece[0].0).norm());
+        Some(CutScore {
+            count: self.strokes.len(),
+            length: length.sum(),
+            along_line: self
+                .line
+                .zip(self.covered())
+                .map(|(line, (wanted, covered))| {
+                    let places = self.strokes.iter().flatten();
+                    let largest = places.map(|place| off(&line, place)).fold(0.0, f64::max);
+                    let (mut weight, mut sum) = (0.0, 0.0);
+                    for piece in pieces.clone() {
+                        let way = (piece[1].0 - piece[0].0).norm();
+                        weight += way;
+                        sum += way * 0.5 * (off(&line, &piece[0]) + off(&line, &piece[1]));
+                    }
+                    LineScore {
+                        wanted,
+                        covered,
+                        mean_deviation: if weight > 0.0 { sum / weight } else { largest },
+                        largest_deviation: largest,
+                    }
+                }),
+        })
+    }
+}
+
+/// How far a tip of a depth is beside a line over the surface [m]: what is below it does not count.
+fn off([from, to]: &[Vec3; 2], (place, depth): &(Vec3, f64)) -> f64 {
+    let line = to - from;
+    let at = ((place - from).dot(&line) / line.norm_squared()).clamp(0.0, 1.0);
+    aside(&(place - (from + line * at)), *depth)
+}
+
+/// The part of a way [m] along the surface when `depth` [m] of it is below it.
+pub(super) fn aside(way: &Vec3, depth: f64) -> f64 {
+    (way.norm_squared() - depth * depth).max(0.0).sqrt()
+}

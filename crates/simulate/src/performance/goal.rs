@@ -1,0 +1,204 @@
+//! How far a task is, and what became of it.
+
+use palpate_files::scene::Goal;
+use palpate_files::{Event, SessionRow};
+use palpate_geometry::Vec3;
+
+use super::Errors;
+use super::cut::{CutWay, aside};
+
+/// A pull below this part of the wanted force is not one yet [-].
+const BEGINS: f64 = 0.2;
+
+/// Watches for the goal.
+#[derive(Debug, Clone)]
+pub(super) struct GoalWatch {
+    goal: Goal,
+    tool: Option<usize>,
+    done: bool,
+    /// How far beside the target was marked [m].
+    beside: Option<f64>,
+    /// Time [s] and force [N] of each tool before.
+    last: Vec<Option<(f64, f64)>>,
+    /// The last force of the tool that pulls [N].
+    force: f64,
+    within: f64,
+    /// Time of the pull [s], and ∫ (F − wanted)² dt [N² s].
+    pulled: (f64, f64),
+}
+
+/// How far a task is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Status {
+    /// It goes on; the part that is done [-], if that can be told.
+    GoesOn {
+        /// From 0 to 1 [-].
+        part: Option<f64>,
+        /// The force of a traction [N].
+        force: Option<f64>,
+    },
+    /// It is over.
+    Over {
+        /// Because its time is.
+        late: bool,
+    },
+}
+
+/// What became of a task.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Outcome {
+    /// There was nothing that had to be done.
+    Free,
+    /// A place was to be found.
+    Find {
+        /// How far beside it was marked [m]; none if nothing was.
+        beside: Option<f64>,
+        /// Whether that is near enough.
+        found: bool,
+    },
+    /// A force was to be held.
+    Traction {
+        /// How long it was held within its tolerance [s].
+        within: f64,
+        /// How far it was from the wanted one, root of the mean square since the pull began [N].
+        error: Option<f64>,
+        /// Whether it was held for long enough.
+        held: bool,
+    },
+    /// A line was to be cut.
+    Cut {
+        /// The part of the line that was cut [-].
+        part: f64,
+        /// Whether it was cut whole, within its tolerance and without a perforation.
+        clean: bool,
+    },
+}
+
+impl GoalWatch {
+    pub(super) fn new(goal: &Goal, tools: &[String]) -> Self {
+        let tool = match goal {
+            Goal::Traction {
+                tool: Some(name), ..
+            } => tools.iter().position(|tool| tool == name),
+            _ => None,
+        };
+        Self {
+            goal: goal.clone(),
+            tool,
+            done: false,
+            beside: None,
+            last: vec![None; tools.len()],
+            force: 0.0,
+            within: 0.0,
+            pulled: (0.0, 0.0),
+        }
+    }
+
+    pub(super) fn add(&mut self, row: &SessionRow) {
+        if row.events.contains(Event::Mark) {
+            match self.goal {
+                Goal::Find { target_m, .. } if row.contact => {
+                    let way = Vec3::from(row.position_m) - Vec3::from(target_m);
+                    self.beside = Some(aside(&way, row.depth_m));
+                    self.done = true;
+                }
+                // In the air nothing is meant.
+                Goal::Find { .. } => {}
+                _ => self.done = true,
+            }
+        }
+        let &Goal::Traction {
+            force_n,
+            tolerance_n,
+            hold_s,
+            ..
+        } = &self.goal
+        else {
+            return;
+        };
+        let force = Vec3::from(row.force_n).norm();
+        let Some(last) = self.last.get_mut(row.tool) else {
+            return;
+        };
+        let before = last.replace((row.time_s, force));
+        // Without a name it is the tool that pulls first.
+        if self.tool.is_none() && force > BEGINS * force_n {
+            self.tool = Some(row.tool);
+        }
+        if self.tool != Some(row.tool) {
+            return;
+        }
+        if let Some((time, before)) = before {
+            let elapsed = row.time_s - time;
+            let middle = 0.5 * (before + force);
+            if (middle - force_n).abs() <= tolerance_n {
+                self.within += elapsed;
+            }
+            if middle > BEGINS * force_n || self.pulled.0 > 0.0 {
+                self.pulled.0 += elapsed;
+                self.pulled.1 += elapsed * (middle - force_n).powi(2);
+            }
+        }
+        self.force = force;
+        self.done |= self.within >= hold_s;
+    }
+
+    pub(super) fn status(&self, cut: &CutWay, late: bool) -> Status {
+        let part = match &self.goal {
+            Goal::Free | Goal::Find { .. } => None,
+            Goal::Traction { hold_s, .. } => Some((self.within / hold_s).min(1.0)),
+            Goal::Cut { .. } => cut.covered().map(|(wanted, covered)| covered / wanted),
+        };
+        let cut = matches!(self.goal, Goal::Cut { .. }) && part.is_some_and(|part| part >= WHOLE);
+        match self.done || cut || late {
+            true => Status::Over {
+                late: late && !self.done && !cut,
+            },
+            false => Status::GoesOn {
+                part,
+                force: matches!(self.goal, Goal::Traction { .. }).then_some(self.force),
+            },
+        }
+    }
+
+    pub(super) fn outcome(&self, cut: &CutWay, errors: &Errors) -> Outcome {
+        match &self.goal {
+            Goal::Free => Outcome::Free,
+            Goal::Find { tolerance_m, .. } => Outcome::Find {
+                beside: self.beside,
+                found: self.beside.is_some_and(|beside| beside <= *tolerance_m),
+            },
+            Goal::Traction { hold_s, .. } => Outcome::Traction {
+                within: self.within,
+                error: (self.pulled.0 > 0.0).then(|| (self.pulled.1 / self.pulled.0).sqrt()),
+                held: self.within >= *hold_s,
+            },
+            Goal::Cut { tolerance_m, .. } => {
+                let part = cut
+                    .covered()
+                    .map_or(0.0, |(wanted, covered)| covered / wanted);
+                let line = cut.score().and_then(|score| score.along_line);
+                let straight = line.is_some_and(|line| line.largest_deviation <= *tolerance_m);
+                Outcome::Cut {
+                    part,
+                    clean: part >= WHOLE && straight && errors.perforations == 0,
+                }
+            }
+        }
+    }
+}
+
+/// The part of a line that counts as all of it [-]: openings end at the edges of triangles.
+const WHOLE: f64 = 0.97;
+
+impl Outcome {
+    /// Whether the task was done as it should be; none where nothing had to be.
+    pub fn passed(&self) -> Option<bool> {
+        match *self {
+            Self::Free => None,
+            Self::Find { found, .. } => Some(found),
+            Self::Traction { held, .. } => Some(held),
+            Self::Cut { clean, .. } => Some(clean),
+        }
+    }
+}

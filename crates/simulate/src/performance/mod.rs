@@ -1,0 +1,154 @@
+//! What a session shows of whoever held the tools: measures of the field, and what became of the task.
+//!
+//! Rows are added one by one, while somebody plays or when a session is read; [`Performance::score`] has the
+//! measures so far. Definitions, formulas and references: `docs/theory/performance.md`.
+//!
+//! *How we know*: `performance::…`.
+//!
+//! *Limits*: a row tells of the tip, so that what the hand did in a trocar's friction is not seen; tremor that is
+//! faster than half the model's rate is none.
+
+mod comparison;
+mod cut;
+mod force;
+mod goal;
+mod hand;
+mod jerk;
+mod measure;
+
+use palpate_files::scene::Task;
+use palpate_files::{Event, SessionRow};
+
+pub use comparison::{Comparison, Standard, compare};
+pub use cut::CutScore;
+pub use force::ForceScore;
+pub use goal::{Outcome, Status};
+pub use hand::HandScore;
+pub use measure::{Better, Measure};
+
+use cut::CutWay;
+use force::Forces;
+use goal::GoalWatch;
+use hand::HandWay;
+
+/// What a task's rows have shown so far.
+#[derive(Debug, Clone)]
+pub struct Performance {
+    task: Task,
+    began: Option<f64>,
+    now: f64,
+    hands: Vec<HandWay>,
+    forces: Vec<Forces>,
+    cut: CutWay,
+    goal: GoalWatch,
+    errors: Errors,
+}
+
+/// What should not happen, counted.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Errors {
+    /// Times that the force rose above its limit.
+    pub force_limit: u64,
+    /// Times that the innermost layer was broken through.
+    pub perforations: u64,
+    /// Times that held tissue was lost to a pull, with shut jaws.
+    pub drops: u64,
+    /// Times that a shaft touched the organ.
+    pub shaft_contacts: u64,
+    /// Cuts that were taken back.
+    pub undone: u64,
+}
+
+/// The measures of a performance.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Score {
+    /// From the first row to the last [s].
+    pub duration: f64,
+    /// Per tool.
+    pub hands: Vec<HandScore>,
+    /// Per tool.
+    pub forces: Vec<ForceScore>,
+    /// What should not happen.
+    pub errors: Errors,
+    /// What was cut, where something was.
+    pub cut: Option<CutScore>,
+    /// What became of the task.
+    pub outcome: Outcome,
+}
+
+impl Performance {
+    /// Nothing has happened yet, with tools of those names.
+    pub fn new(task: &Task, tools: &[String]) -> Self {
+        let limit = task.force_limit_n;
+        Self {
+            task: task.clone(),
+            began: None,
+            now: 0.0,
+            hands: tools.iter().map(|name| HandWay::new(name)).collect(),
+            forces: tools.iter().map(|_| Forces::new(limit)).collect(),
+            cut: CutWay::new(&task.goal),
+            goal: GoalWatch::new(&task.goal, tools),
+            errors: Errors::default(),
+        }
+    }
+
+    /// Adds what a tool did in a step.
+    pub fn add(&mut self, row: &SessionRow) {
+        self.began.get_or_insert(row.time_s);
+        self.now = row.time_s;
+        let (Some(hand), Some(forces)) =
+            (self.hands.get_mut(row.tool), self.forces.get_mut(row.tool))
+        else {
+            return;
+        };
+        let happened = |event| u64::from(row.events.contains(event));
+        hand.add(row);
+        self.errors.force_limit += u64::from(forces.add(row));
+        self.errors.perforations += happened(Event::Perforation);
+        self.errors.shaft_contacts += happened(Event::ShaftContact);
+        self.errors.undone += happened(Event::UndoCut);
+        // Jaws that still are shut lost it.
+        let lost = row.events.contains(Event::GripRelease) && row.grip > 0.5;
+        let lifted = row.events.contains(Event::Lifted);
+        self.errors.drops += u64::from(lost && !lifted);
+        self.cut.add(row);
+        self.goal.add(row);
+    }
+
+    /// How far the task is.
+    pub fn status(&self) -> Status {
+        let late = self
+            .task
+            .time_limit_s
+            .is_some_and(|limit| self.elapsed() >= limit);
+        self.goal.status(&self.cut, late)
+    }
+
+    /// Since the first row [s].
+    pub fn elapsed(&self) -> f64 {
+        self.began.map_or(0.0, |began| self.now - began)
+    }
+
+    /// The measures so far.
+    pub fn score(&self) -> Score {
+        Score {
+            duration: self.elapsed(),
+            hands: self.hands.iter().map(HandWay::score).collect(),
+            forces: self.forces.iter().map(Forces::score).collect(),
+            errors: self.errors,
+            cut: self.cut.score(),
+            outcome: self.goal.outcome(&self.cut, &self.errors),
+        }
+    }
+}
+
+/// The score of rows that are all there.
+pub fn score<'r>(
+    task: &Task,
+    tools: &[String],
+    rows: impl IntoIterator<Item = &'r SessionRow>,
+) -> Score {
+    let mut performance = Performance::new(task, tools);
+    rows.into_iter().for_each(|row| performance.add(row));
+    performance.score()
+}
