@@ -1,0 +1,211 @@
+use std::fs;
+use std::path::{Path, PathBuf, absolute};
+use std::time::Duration;
+
+use rusqlite::{Connection, OpenFlags};
+
+use crate::schema::{self, Found, VERSION};
+use crate::{Attempt, Error, aside, rows};
+
+/// How long another program is waited for.
+const PATIENCE: Duration = Duration::from_secs(2);
+
+/// How often a damaged file is looked at that somebody else changes meanwhile.
+const LOOKS: usize = 3;
+
+/// The training record of one file.
+#[derive(Debug)]
+pub struct Record {
+    path: PathBuf,
+    connection: Connection,
+    doubts: Vec<String>,
+}
+
+/// Which attempts; without anything, all.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Filter {
+    /// Of one trainee.
+    pub trainee: Option<String>,
+    /// At one task.
+    pub task: Option<String>,
+}
+
+impl Record {
+    /// The record in a file, for adding to it. Where there is none it is begun, with its folder. A damaged one is
+    /// kept aside as `NAME.damaged-1` and a new one begun at once, so that the attempt of somebody who has just
+    /// finished is not lost; that is told by [`Record::doubts`].
+    ///
+    /// # Errors
+    /// Another program holds it for longer than two seconds, it is another kind of file or of a later version, or
+    /// the operating system does not let it be written.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
+        let path = path.as_ref();
+        let path = absolute(path).map_err(|error| Error::of_system(path, &error))?;
+        let folder = path.parent().unwrap_or(&path);
+        fs::create_dir_all(folder).map_err(|error| Error::of_system(&path, &error))?;
+        let mut doubts = Vec::new();
+        let mut looks = 0;
+        loop {
+            let stamp = aside::stamp(&path);
+            let reason = match opened(&path, true) {
+                Err(Error::Damaged { reason, .. }) => reason,
+                other => {
+                    let connection = other?;
+                    return Ok(Self {
+                        path,
+                        connection,
+                        doubts,
+                    });
+                }
+            };
+            looks += 1;
+            // Another program may just have set it aside and begun a new one.
+            if aside::stamp(&path) != stamp && looks < LOOKS {
+                continue;
+            }
+            if looks > LOOKS {
+                return Err(Error::Damaged { path, reason });
+            }
+            let kept = aside::set_aside(&path).map_err(|error| Error::of_system(&path, &error))?;
+            doubts.push(format!(
+                "the training record {} was damaged ({reason}); it is kept as {}, and a new one is begun",
+                path.display(),
+                kept.display()
+            ));
+        }
+    }
+
+    /// The record in a file, for reading. No record is begun and none set aside.
+    ///
+    /// # Errors
+    /// There is none, it is damaged, another program holds it for longer than two seconds, it is another kind of
+    /// file or of a later version, or the operating system does not let it be read.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
+        let path = path.as_ref();
+        let path = absolute(path).map_err(|error| Error::of_system(path, &error))?;
+        if !path.exists() {
+            return Err(Error::Missing { path });
+        }
+        let connection = opened(&path, false)?;
+        Ok(Self {
+            path,
+            connection,
+            doubts: Vec::new(),
+        })
+    }
+
+    /// Its file.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// What was found when it was opened.
+    pub fn doubts(&self) -> &[String] {
+        &self.doubts
+    }
+
+    /// Keeps an attempt: on the disk when this returns, or not at all. It takes the place of one with the same
+    /// session. Names are kept without white space around them.
+    ///
+    /// # Errors
+    /// The attempt lacks a name or has a measure that is no number, or another program holds the record for longer
+    /// than two seconds, or it cannot be written.
+    pub fn add(&mut self, attempt: &Attempt) -> Result<(), Error> {
+        attempt.check()?;
+        let session = session(&attempt.session)?;
+        rows::put(&mut self.connection, attempt, &session)
+            .map_err(|error| Error::of_database(&self.path, &error))
+    }
+
+    /// Attempts in the order of their times; of the same second, in the order in which they were added.
+    ///
+    /// # Errors
+    /// Another program holds the record for longer than two seconds, or it cannot be read.
+    pub fn attempts(&self, filter: &Filter) -> Result<Vec<Attempt>, Error> {
+        rows::taken(&self.connection, filter)
+            .map_err(|error| Error::of_database(&self.path, &error))
+    }
+
+    /// Who attempted anything, in alphabetical order.
+    ///
+    /// # Errors
+    /// As of [`Record::attempts`].
+    pub fn trainees(&self) -> Result<Vec<String>, Error> {
+        self.names("SELECT DISTINCT trainee FROM attempt ORDER BY trainee")
+    }
+
+    /// What was attempted, in alphabetical order.
+    ///
+    /// # Errors
+    /// As of [`Record::attempts`].
+    pub fn tasks(&self) -> Result<Vec<String>, Error> {
+        self.names("SELECT DISTINCT task FROM attempt ORDER BY task")
+    }
+
+    fn names(&self, sql: &str) -> Result<Vec<String>, Error> {
+        let names = || -> rusqlite::Result<Vec<String>> {
+            let mut query = self.connection.prepare(sql)?;
+            query.query_map([], |row| row.get(0))?.collect()
+        };
+        names().map_err(|error| Error::of_database(&self.path, &error))
+    }
+}
+
+/// Opens a file that is a record, or that becomes one.
+fn opened(path: &Path, begins: bool) -> Result<Connection, Error> {
+    let looked = looked_at(path, begins);
+    let path = path.to_owned();
+    let error = match looked {
+        Ok((connection, Found::Record)) => return Ok(connection),
+        Ok((_, Found::Nothing)) => Error::Missing { path },
+        Ok((_, Found::Foreign)) => Error::Foreign { path },
+        Ok((_, Found::Damaged(reason))) => Error::Damaged { path, reason },
+        Ok((_, Found::Newer(found))) => Error::Newer {
+            path,
+            found,
+            known: VERSION,
+        },
+        Err(error) => Error::of_database(&path, &error),
+    };
+    match error {
+        Error::Damaged { path, .. } if !aside::was_record(&path) => Err(Error::Foreign { path }),
+        Error::Unusable { path, .. } if path.is_dir() => {
+            let reason = "it is a folder".to_owned();
+            Err(Error::Unusable { path, reason })
+        }
+        other => Err(other),
+    }
+}
+
+/// Opens a file and looks what it is; where it is nothing, a record is begun if that is wanted.
+fn looked_at(path: &Path, begins: bool) -> rusqlite::Result<(Connection, Found)> {
+    let mut flags = OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_NO_MUTEX;
+    if begins {
+        flags |= OpenFlags::SQLITE_OPEN_CREATE;
+    }
+    let is_long = || fs::metadata(path).is_ok_and(|known| known.len() > 0);
+    let was_long = is_long();
+    let mut connection = Connection::open_with_flags(path, flags)?;
+    connection.busy_timeout(PATIENCE)?;
+    // What was added outlives the power: the journal's end is waited for, too.
+    connection.pragma_update(None, "synchronous", "EXTRA")?;
+    let mut found = schema::look(&connection)?;
+    // A file of a few bytes passes for an empty database, and would be written over. The remains of a record whose
+    // beginning was broken off are long before and empty afterwards.
+    if found == Found::Nothing && was_long && is_long() {
+        found = Found::Damaged("it is no database".to_owned());
+    }
+    if found == Found::Nothing && begins {
+        schema::begin(&mut connection)?;
+        found = schema::look(&connection)?;
+    }
+    Ok((connection, found))
+}
+
+/// How the folder of a session is kept: the same one always the same way.
+fn session(folder: &Path) -> Result<String, Error> {
+    let whole = fs::canonicalize(folder).or_else(|_| absolute(folder));
+    let whole = whole.map_err(|error| Error::of_system(folder, &error))?;
+    let text = whole.to_str().map(str::to_owned);
+    text.ok_or(Error::FolderName { path: whole })
+}

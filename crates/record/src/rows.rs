@@ -1,0 +1,93 @@
+//! Attempts as rows of the tables.
+
+use std::path::PathBuf;
+
+use rusqlite::{Connection, Row, Transaction, TransactionBehavior, params};
+
+use crate::{Attempt, Better, Filter, Measure};
+
+/// Puts an attempt in, or in the place of the one with the same session: whole or not at all.
+pub(crate) fn put(
+    connection: &mut Connection,
+    attempt: &Attempt,
+    session: &str,
+) -> rusqlite::Result<()> {
+    let transaction = Transaction::new(connection, TransactionBehavior::Immediate)?;
+    let id: i64 = transaction.query_row(
+        "INSERT INTO attempt (session, trainee, task, scene_digest, when_s, passed, is_expert)
+         VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7)
+         ON CONFLICT (session) DO UPDATE SET trainee = ?2, task = ?3, scene_digest = ?4, when_s = ?5,
+             passed = ?6, is_expert = ?7
+         RETURNING id",
+        params![
+            session,
+            attempt.trainee.trim(),
+            attempt.task.trim(),
+            attempt.scene_digest,
+            attempt.when,
+            attempt.passed,
+            attempt.is_expert
+        ],
+        |row| row.get(0),
+    )?;
+    transaction.execute("DELETE FROM measure WHERE attempt = ?1", [id])?;
+    let mut insert = transaction.prepare(
+        "INSERT INTO measure (attempt, place, key, value, better) VALUES (?1, ?2, ?3, ?4, ?5)",
+    )?;
+    for (place, Measure { key, value, better }) in (0_i64..).zip(&attempt.measures) {
+        insert.execute(params![id, place, key, value, better.word()])?;
+    }
+    drop(insert);
+    transaction.commit()
+}
+
+/// Attempts in order; by one statement, so that all is of one moment.
+pub(crate) fn taken(connection: &Connection, filter: &Filter) -> rusqlite::Result<Vec<Attempt>> {
+    let mut query = connection.prepare(
+        "SELECT attempt.id, session, trainee, task, scene_digest, when_s, passed, is_expert,
+             measure.key, measure.value, measure.better
+         FROM attempt LEFT JOIN measure ON measure.attempt = attempt.id
+         WHERE (?1 IS NULL OR trainee = ?1) AND (?2 IS NULL OR task = ?2)
+         ORDER BY when_s, attempt.id, measure.place",
+    )?;
+    let mut rows = query.query(params![filter.trainee, filter.task])?;
+    let mut attempts: Vec<Attempt> = Vec::new();
+    let mut last = None;
+    while let Some(row) = rows.next()? {
+        let id: i64 = row.get(0)?;
+        if last.replace(id) != Some(id) {
+            attempts.push(attempt(row)?);
+        }
+        if let (Some(measure), Some(attempt)) = (measure(row)?, attempts.last_mut()) {
+            attempt.measures.push(measure);
+        }
+    }
+    Ok(attempts)
+}
+
+fn attempt(row: &Row<'_>) -> rusqlite::Result<Attempt> {
+    Ok(Attempt {
+        session: PathBuf::from(row.get::<_, String>(1)?),
+        trainee: row.get(2)?,
+        task: row.get(3)?,
+        scene_digest: row.get(4)?,
+        when: row.get(5)?,
+        passed: row.get(6)?,
+        is_expert: row.get(7)?,
+        measures: Vec::new(),
+    })
+}
+
+fn measure(row: &Row<'_>) -> rusqlite::Result<Option<Measure>> {
+    let Some(key) = row.get(8)? else {
+        return Ok(None);
+    };
+    let word: String = row.get(10)?;
+    let unknown =
+        || rusqlite::Error::InvalidColumnType(10, word.clone(), rusqlite::types::Type::Text);
+    Ok(Some(Measure {
+        key,
+        value: row.get(9)?,
+        better: Better::of_word(&word).ok_or_else(unknown)?,
+    }))
+}

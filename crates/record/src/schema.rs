@@ -1,0 +1,85 @@
+//! What stands in the file, and how it is told from other files.
+
+use rusqlite::{Connection, Transaction, TransactionBehavior};
+
+/// In the header of every record: `palp`.
+pub(crate) const APPLICATION: i64 = 0x7061_6c70;
+
+/// Of the tables.
+pub(crate) const VERSION: i64 = 1;
+
+/// The tables; a session's folder stands once.
+const TABLES: &str = "
+CREATE TABLE attempt (
+    id INTEGER PRIMARY KEY,
+    session TEXT NOT NULL UNIQUE,
+    trainee TEXT NOT NULL,
+    task TEXT NOT NULL,
+    scene_digest TEXT NOT NULL,
+    when_s INTEGER NOT NULL,
+    passed INTEGER CHECK (passed IN (0, 1)),
+    is_expert INTEGER NOT NULL CHECK (is_expert IN (0, 1))
+) STRICT;
+CREATE TABLE measure (
+    attempt INTEGER NOT NULL REFERENCES attempt (id),
+    place INTEGER NOT NULL,
+    key TEXT NOT NULL,
+    value REAL NOT NULL,
+    better TEXT NOT NULL CHECK (better IN ('less', 'more', 'neither')),
+    PRIMARY KEY (attempt, place)
+) STRICT, WITHOUT ROWID;
+";
+
+/// What a database is.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Found {
+    /// Nothing stands in it.
+    Nothing,
+    /// A record of this version, whole.
+    Record,
+    /// A record of a later version.
+    Newer(i64),
+    /// A record of which something is missing or wrong.
+    Damaged(String),
+    /// Something else.
+    Foreign,
+}
+
+/// What there is.
+pub(crate) fn look(connection: &Connection) -> rusqlite::Result<Found> {
+    let number = |sql: &str| connection.query_row(sql, [], |row| row.get::<_, i64>(0));
+    let application = number("PRAGMA application_id")?;
+    let version = number("PRAGMA user_version")?;
+    let objects = number("SELECT count(*) FROM sqlite_schema")?;
+    if (application, version, objects) == (0, 0, 0) {
+        return Ok(Found::Nothing);
+    }
+    if application != APPLICATION {
+        return Ok(Found::Foreign);
+    }
+    if version > VERSION {
+        return Ok(Found::Newer(version));
+    }
+    let said: String = connection.query_row("PRAGMA integrity_check(1)", [], |row| {
+        row.get::<_, String>(0)
+    })?;
+    if said != "ok" {
+        return Ok(Found::Damaged(said.replace('\n', " ")));
+    }
+    let tables = "SELECT count(*) FROM sqlite_schema WHERE type = 'table' AND name IN ('attempt', 'measure')";
+    if version != VERSION || number(tables)? != 2 {
+        return Ok(Found::Damaged("its tables are missing".to_owned()));
+    }
+    Ok(Found::Record)
+}
+
+/// Makes a record of nothing, whole or not at all; somebody else may have been faster.
+pub(crate) fn begin(connection: &mut Connection) -> rusqlite::Result<()> {
+    let transaction = Transaction::new(connection, TransactionBehavior::Immediate)?;
+    if look(&transaction)? == Found::Nothing {
+        transaction.execute_batch(TABLES)?;
+        transaction.pragma_update(None, "application_id", APPLICATION)?;
+        transaction.pragma_update(None, "user_version", VERSION)?;
+    }
+    transaction.commit()
+}
