@@ -5,16 +5,18 @@
 
 mod command;
 mod cores;
+mod date;
 mod failure;
 mod interrupt;
 mod nearest;
 mod output;
-mod performance;
 mod plot;
 mod preparation;
 mod progress;
+mod recorded;
 mod report;
 mod reproduce;
+mod training;
 
 use std::process::ExitCode;
 

@@ -114,6 +114,14 @@ pub enum Error {
         /// What it is.
         is: String,
     },
+    /// No session where those of experts should be.
+    #[error(
+        "{path} holds no session; name a session's folder, or a folder in which there are some", path = path.display()
+    )]
+    NoExpert {
+        /// Where was looked.
+        path: std::path::PathBuf,
+    },
     /// There is nothing to play again.
     #[error("the session has no row; record one in which a tool moves")]
     EmptySession,

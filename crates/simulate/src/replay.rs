@@ -13,6 +13,7 @@ use std::sync::Arc;
 
 use palpate_files::{Event, Pose, Session, SessionRow};
 
+use crate::interactive::DISPLAY;
 use crate::{Error, Simulation, SimulationState, SimulationWorkspace, step};
 
 /// States that are kept to go back to.
@@ -71,7 +72,7 @@ impl Replay {
             return Err(Error::EmptySession);
         }
         Ok(Self {
-            state: SimulationState::new(&simulation),
+            state: SimulationState::new(&simulation).show_every(DISPLAY),
             workspace: SimulationWorkspace::new(&simulation),
             poses: vec![None; simulation.tools().len()],
             simulation,
@@ -154,14 +155,23 @@ impl Replay {
 
     /// Plays until so many steps were played, forth, or back and forth from the last state that was kept.
     pub fn go_to(&mut self, played: usize) {
-        if played < self.played {
-            let known = self.kept.iter().rposition(|(at, _)| *at <= played);
-            (self.played, self.state) = match known {
-                Some(known) => self.kept[known].clone(),
-                None => (0, SimulationState::new(&self.simulation)),
-            };
-        }
+        self.go_back(played);
         while self.played < played && self.advance() {}
+    }
+
+    /// Back to the last state that was kept before so many steps were played; nothing where fewer were.
+    pub fn go_back(&mut self, played: usize) {
+        if played >= self.played {
+            return;
+        }
+        let known = self.kept.iter().rposition(|(at, _)| *at <= played);
+        (self.played, self.state) = match known {
+            Some(known) => self.kept[known].clone(),
+            None => (
+                0,
+                SimulationState::new(&self.simulation).show_every(DISPLAY),
+            ),
+        };
     }
 
     fn keep(&mut self) {

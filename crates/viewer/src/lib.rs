@@ -28,4 +28,4 @@ pub use orbit::{Orbit, scene_camera};
 pub use pick::{Picked, pick};
 pub use render::user_map::TissuePicture;
 pub use render::{Body, Renderer, Target, Tint, ToolPicture, View, single_precision, wire_frame};
-pub use window::{check_display, gesture, hands, open_window};
+pub use window::{Start, check_display, gesture, hands, open_window, training};

@@ -54,6 +54,8 @@ pub struct Scene {
     pub view: View,
     /// What there is to do.
     pub task: Task,
+    /// Its text, which means the same in any folder ([`standing_alone`]); none once something was changed.
+    pub written: Option<String>,
 }
 
 const KEYS: &[&str] = &[
@@ -102,6 +104,7 @@ impl Scene {
             view: View::from_keys(keys.table("view", View::KEYS)?.as_ref())?,
             task: Task::from_keys(keys.table("task", Task::KEYS)?.as_ref(), &folder)?,
             folder,
+            written: Some(standing_alone(text, path)?),
         };
         if scene.lacks_anchor() {
             return Err(organ.missing(

@@ -15,8 +15,9 @@ const PATHS: [&str; 3] = ["mesh", "tissue", "expert"];
 /// When the text is no TOML.
 pub fn standing_alone(text: &str, path: impl AsRef<Path>) -> Result<String, Error> {
     let path = path.as_ref();
-    let folder = path.parent().unwrap_or(Path::new(""));
-    let folder = std::path::absolute(folder).unwrap_or(folder.to_owned());
+    // The name of a file alone has an empty folder, which has no absolute path.
+    let folder = path.parent().unwrap_or(Path::new("")).join(".");
+    let folder = std::path::absolute(&folder).unwrap_or(folder);
     let bad = |message: &str| Error::Syntax {
         place: Place::file(path),
         message: message.replace('\n', " "),

@@ -4,13 +4,14 @@ use std::path::Path;
 
 use palpate_files::{Motion, Scene, write_whole};
 use palpate_simulate::Simulation;
+use palpate_viewer::Start;
 
 use super::simulate::ESOPHAGUS;
 use super::window;
 use crate::failure::Failure;
 use crate::output;
-use crate::performance::{Recording, record};
 use crate::progress::Reader;
+use crate::recorded::{Recording, record};
 
 /// Where it is written, in the folder that the program is started in.
 const FOLDER: &str = "palpate-demo";
@@ -23,7 +24,7 @@ const MOTION: &str = include_str!("../../../../assets/esophagus/motion.csv");
 /// The window with the built-in esophagus; where there can be none, a first touch that needs neither window
 /// nor file.
 pub(crate) fn run() -> Result<(), Failure> {
-    match window::open(window::trainer()?) {
+    match window::open(Start::Home, Some(crate::training::training()?)) {
         Ok(()) => Ok(()),
         Err(why) if window::is_absent(&why) => play(&why),
         Err(why) => Err(why.into()),
@@ -33,7 +34,8 @@ pub(crate) fn run() -> Result<(), Failure> {
 /// Plays the demonstration, `why` there is no window.
 fn play(why: &palpate_viewer::Error) -> Result<(), Failure> {
     let folder = Path::new(FOLDER);
-    let simulation = Simulation::new(&Scene::parse(ESOPHAGUS, "built-in scene")?)?;
+    let scene = Scene::parse(ESOPHAGUS, "built-in scene")?;
+    let simulation = Simulation::new(&scene)?;
     let motion = Motion::parse(MOTION, "built-in motion")?;
     output::text(format!(
         "palpate {}: two tools palpate the built-in esophagus ({} triangles).\n\
@@ -42,9 +44,11 @@ fn play(why: &palpate_viewer::Error) -> Result<(), Failure> {
         simulation.surface().mesh().triangles().len(),
     ))?;
     let recording = Recording {
+        scene: &scene,
         folder,
         surfaces: SURFACES,
         frames: None,
+        beside: None,
         reader: Reader::Person,
     };
     let report = record(&simulation, &motion, recording)?;

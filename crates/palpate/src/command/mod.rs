@@ -6,9 +6,12 @@ mod demonstration;
 mod measure;
 mod mesh;
 mod precompute;
+pub(crate) mod progress;
 mod quality;
 mod recordings;
+mod replay;
 mod reproduce;
+mod score;
 mod simulate;
 mod solve;
 mod window;
@@ -33,6 +36,10 @@ Examples:
       opens a window with your scene
   palpate simulate scene.toml --headless --motion motion.csv --out session
       plays the tool motions on the scene and writes session/session.csv
+  palpate score session --expert expert
+      how well it was done: time, ways, forces, errors, beside an expert's
+  palpate replay session
+      the session again, from any side
   palpate precompute scene.toml
       prepares the whole organ of the hybrid model once; then the scene opens at once
   palpate solve problem.toml --plot force.png
@@ -42,6 +49,8 @@ Examples:
       a protocol is carried out without one
   palpate characterize liver-2mm.csv liver-4mm.csv --out liver.toml
       the tissue behind recordings, with its uncertainty
+  palpate progress --report progress.html
+      learning curves of all trainees beside the experts
   palpate quality
       how late a 1 kHz loop is on this machine, and how far its forces are off
   palpate mesh info kidney.stl --unit mm
@@ -76,8 +85,14 @@ enum Command {
     Measure(measure::Arguments),
     /// What recordings show without a model: static force, relaxation, answers to sines and chirps.
     Analyze(analyze::Arguments),
+    /// Look at a session again, from any side, or take pictures of it.
+    Replay(replay::Arguments),
+    /// Measure a session: time, ways, forces, errors, the task, and all that beside an expert's.
+    Score(score::Arguments),
     /// Find the tissue behind recordings: relaxation and laws, with how well they are known.
     Characterize(characterize::Arguments),
+    /// How trainees come along: attempts, learning curves, and who is as good as the experts.
+    Progress(progress::Arguments),
     /// Recompute the tables and figures of the source, published values beside ours.
     Reproduce(reproduce::Arguments),
     /// Measure how good touch is on this machine: rates, lateness, errors.
@@ -98,6 +113,9 @@ impl CommandLine {
             Some(Command::Measure(arguments)) => measure::run(&arguments),
             Some(Command::Analyze(arguments)) => analyze::run(&arguments),
             Some(Command::Characterize(arguments)) => characterize::run(&arguments),
+            Some(Command::Replay(arguments)) => replay::run(&arguments),
+            Some(Command::Score(arguments)) => score::run(&arguments),
+            Some(Command::Progress(arguments)) => progress::run(&arguments),
             Some(Command::Reproduce(arguments)) => reproduce::run(&arguments),
             Some(Command::Quality(arguments)) => quality::run(&arguments),
             Some(Command::Mesh(command)) => mesh::run(&command),

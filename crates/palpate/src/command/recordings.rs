@@ -57,6 +57,19 @@ pub(crate) struct Unusable {
 }
 
 impl Recordings {
+    /// A single one that says all itself.
+    pub(crate) fn of(path: &Path) -> Self {
+        Self {
+            paths: vec![path.to_owned()],
+            time: None,
+            depth: None,
+            force: None,
+            depth_unit: None,
+            force_unit: None,
+            said: Vec::new(),
+        }
+    }
+
     /// All that can be read, and all that cannot: one bad file does not stop the others.
     pub(crate) fn read(
         &self,

@@ -1,22 +1,16 @@
 //! The window, as the commands open it.
 
 use palpate_files::Scene;
-use palpate_viewer::{Error, open_window};
+use palpate_viewer::training::Training;
+use palpate_viewer::{Error, Start, open_window};
 
-use super::TRAINER;
 use super::simulate::ESOPHAGUS;
-use crate::failure::Failure;
 use crate::preparation;
 
-/// The lower esophagus where it lies, with a grasper and scissors.
-pub(super) fn trainer() -> Result<Scene, Failure> {
-    Ok(Scene::parse(TRAINER, "built-in scene")?)
-}
-
-/// Opens `scene` and waits until the window is closed.
-pub(super) fn open(scene: Scene) -> Result<(), Error> {
+/// Opens a window and waits until it is closed.
+pub(super) fn open(start: Start, training: Option<Training>) -> Result<(), Error> {
     let way_out = Scene::parse(ESOPHAGUS, "built-in scene")?;
-    open_window(scene, way_out, preparation::resources())
+    open_window(start, way_out, preparation::resources(), training)
 }
 
 /// Whether there can be no window here, whatever the scene.

@@ -39,19 +39,42 @@ pub(super) struct Look {
     pub(super) pale: &'static str,
 }
 
-/// The picture of `plot`.
-pub(super) fn png(plot: &Plot) -> Result<Vec<u8>, String> {
-    let look = Look {
-        size: SIZE,
+/// The size of each of two plots beside one another.
+const HALF: [f64; 2] = [560.0, 400.0];
+
+/// How a picture of a `size` looks.
+fn printed(size: [f64; 2]) -> Look {
+    Look {
+        size,
         letters: [18, 14, 13],
         dots: 4.0,
         theme: Theme::light(),
         colors: COLORS,
         pale: "#BBBBBB",
-    };
-    let mut scene = scene(plot, &look);
+    }
+}
+
+/// The picture of `plot`.
+pub(super) fn png(plot: &Plot) -> Result<Vec<u8>, String> {
+    let mut scene = scene(plot, &printed(SIZE));
     retouch::dash(&mut scene);
     PngBackend::new().with_scale(PIXELS).render_scene(&scene)
+}
+
+/// The picture of two plots beside one another.
+pub(super) fn png_of_two([left, right]: [&Plot; 2]) -> Result<Vec<u8>, String> {
+    let look = printed(HALF);
+    let mut both = scene(left, &look);
+    both.width += look.size[0];
+    both.elements.push(Primitive::GroupStart {
+        transform: Some(format!("translate({},0)", look.size[0])),
+        title: None,
+        extra_attrs: None,
+    });
+    both.elements.extend(scene(right, &look).elements);
+    both.elements.push(Primitive::GroupEnd);
+    retouch::dash(&mut both);
+    PngBackend::new().with_scale(PIXELS).render_scene(&both)
 }
 
 /// The drawing of `plot`, all of whose height is used.
@@ -109,12 +132,18 @@ fn layout(plot: &Plot, drawn: &[Drawn], look: &Look) -> Layout {
     let (low, high) = span::x(plot);
     layout.x_range = (low, high);
     layout = layout.with_x_axis_min(low).with_x_axis_max(high);
+    if plot.x_axis == Axis::Counted {
+        layout = layout.with_x_tick_step(span::step(high - low));
+    }
     for shade in &plot.shades {
         layout = shaded(layout, shade, look);
     }
     if let Some((low, high)) = span::y(plot) {
         layout.y_range = (low, high);
         layout = layout.with_y_axis_min(low).with_y_axis_max(high);
+        if plot.y_axis == Axis::Counted {
+            layout = layout.with_y_tick_step(span::step(high - low));
+        }
     }
     layout
 }

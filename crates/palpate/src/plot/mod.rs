@@ -53,6 +53,8 @@ pub(crate) struct Shade {
 pub(crate) enum Axis {
     #[default]
     Linear,
+    /// By whole numbers, for what is counted.
+    Counted,
     /// By decades; values that are not positive are left out.
     Logarithmic,
 }
@@ -108,6 +110,17 @@ impl Plot {
     }
 }
 
+/// Writes a picture of two plots beside one another to `path`, 1792 by 640 pixels.
+pub(crate) fn write_pair(plots: [&Plot; 2], path: &Path) -> Result<(), Failure> {
+    let png = drawing::png_of_two(plots).map_err(|cause| {
+        let title = &plots[0].title;
+        Failure::failed(format!(
+            "the plots beside `{title}` cannot be drawn ({cause}); please report this"
+        ))
+    })?;
+    Ok(palpate_files::write_whole(path, &png)?)
+}
+
 impl Series {
     pub(crate) fn new(
         name: impl Into<String>,
@@ -142,7 +155,7 @@ impl Band {
 
 impl Axis {
     fn shows(self, value: f64) -> bool {
-        value.is_finite() && (self == Self::Linear || value > 0.0)
+        value.is_finite() && (self != Self::Logarithmic || value > 0.0)
     }
 }
 
@@ -187,7 +200,7 @@ mod tests {
     /// An organ that was not touched has a force of zero all along.
     #[test]
     fn a_plot_of_nothing_or_of_a_constant_is_still_drawn() {
-        for y_axis in [Axis::Linear, Axis::Logarithmic] {
+        for y_axis in [Axis::Linear, Axis::Counted, Axis::Logarithmic] {
             for points in [vec![], vec![(1.0, 0.1)], vec![(0.0, 0.0), (1.0, 0.0)]] {
                 for style in [Style::Line, Style::Dots] {
                     let mut plot = plot(points.clone());

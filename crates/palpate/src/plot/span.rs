@@ -19,7 +19,7 @@ pub(super) fn y(plot: &Plot) -> Option<(f64, f64)> {
     match values(plot, |point| point.1) {
         None => Some(empty(plot.y_axis)),
         Some((low, high)) => {
-            let rounded = plot.y_axis == Axis::Linear && !has_markers(plot) && low < high;
+            let rounded = plot.y_axis != Axis::Logarithmic && !has_markers(plot) && low < high;
             (!rounded).then(|| around(plot, plot.y_axis, low, high))
         }
     }
@@ -28,7 +28,7 @@ pub(super) fn y(plot: &Plot) -> Option<(f64, f64)> {
 /// Of an axis that nothing stands on.
 fn empty(axis: Axis) -> (f64, f64) {
     match axis {
-        Axis::Linear => (0.0, 1.0),
+        Axis::Linear | Axis::Counted => (0.0, 1.0),
         Axis::Logarithmic => (1.0, 10.0),
     }
 }
@@ -51,13 +51,21 @@ fn around(plot: &Plot, axis: Axis, low: f64, high: f64) -> (f64, f64) {
         (false, _) => 0.5 * low.abs(),
     };
     match axis {
-        Axis::Linear => (low - margin, high + margin),
+        Axis::Linear | Axis::Counted => (low - margin, high + margin),
         Axis::Logarithmic => (1.0 / round_up(1.0 / low), round_up(high)),
     }
 }
 
 fn has_markers(plot: &Plot) -> bool {
     plot.series.iter().any(|series| series.style.has_markers())
+}
+
+/// From tick to tick of what is counted over such a span: 1, 2, 5, 10 …, about eight of them.
+pub(super) fn step(span: f64) -> f64 {
+    match span > 8.0 {
+        true => round_up(span / 8.0),
+        false => 1.0,
+    }
 }
 
 /// The next of 1, 2, 5, 10 … that is clearly above `value`.
@@ -77,6 +85,12 @@ mod tests {
         assert_eq!(round_up(300.0), 500.0);
         assert_eq!(round_up(999.0), 2000.0);
         assert_eq!(1.0 / round_up(1.0 / 20.0), 10.0);
+    }
+
+    #[test]
+    fn what_is_counted_has_whole_ticks() {
+        let steps = [0.0, 1.0, 7.9, 9.0, 14.0, 30.0, 300.0].map(step);
+        assert_eq!(steps, [1.0, 1.0, 1.0, 2.0, 2.0, 5.0, 50.0]);
     }
 
     #[test]

@@ -50,5 +50,9 @@ pub(crate) fn provenance(
             Markup::plain("code", &**value),
         ]);
     }
-    Markup::plain("h3", "Provenance").and(asked).and(table)
+    let recordings = match table.is_empty() {
+        true => Markup::default(),
+        false => table.into(),
+    };
+    Markup::plain("h3", "Provenance").and(asked).and(recordings)
 }

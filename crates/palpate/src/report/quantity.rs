@@ -18,13 +18,15 @@ pub(crate) struct Scale {
 }
 
 /// Units by the ending of a key, with the smaller and larger ones that people read.
-const UNITS: [(&str, &[(f64, &str)]); 9] = [
+const UNITS: [(&str, &[(f64, &str)]); 11] = [
     ("_n_s_per_m", &[(1.0, "N s/m")]),
     ("_n_per_m", &[(1.0, "N/m"), (1e-3, "kN/m")]),
     ("_pa", &[(1.0, "Pa"), (1e-3, "kPa"), (1e-6, "MPa")]),
     ("_m2", &[(1e12, "µm²"), (1e6, "mm²")]),
     ("_hz", &[(1.0, "Hz")]),
     ("_m", &[(1e9, "nm"), (1e6, "µm"), (1e3, "mm")]),
+    ("_n_s", &[(1e3, "mN s"), (1.0, "N s")]),
+    ("_rad", &[(1.0, "rad")]),
     ("_s", &[(1.0, "s")]),
     ("_n", &[(1e9, "nN"), (1e6, "µN"), (1e3, "mN"), (1.0, "N")]),
     ("", &[(1.0, "")]),
@@ -164,6 +166,7 @@ mod tests {
             ("k01", 2.5e-8, Some(1e-9), "(2.50 ± 0.10) × 10⁻⁸"),
             ("tau_s", 1.2e7, None, "1.200 × 10⁷\u{202f}s"),
             ("effective_area_m2", 3.1416e-6, None, "3.142\u{202f}mm²"),
+            ("damage_n_s", 0.0321, None, "32.10\u{202f}mN s"),
             ("tau_s", f64::NAN, None, "unknown\u{202f}s"),
         ];
         for (key, value, error, expected) in cases {

@@ -5,10 +5,12 @@
     reason = "a test that cannot run its command has failed"
 )]
 
+mod closed_loop;
 mod errors;
 mod measure;
 mod mesh;
 mod mesh_info;
+mod progress;
 mod quality;
 mod recordings;
 mod report;
@@ -16,6 +18,7 @@ mod report_analyze;
 mod reproduce;
 mod reproduce_recordings;
 mod reproduce_rig;
+mod score;
 mod simulate;
 mod solve;
 mod solve_errors;
@@ -53,7 +56,7 @@ fn stderr(output: &Output) -> String {
 
 #[test]
 fn every_help_is_printed_and_is_no_error() {
-    let commands: [&[&str]; 10] = [
+    let commands: [&[&str]; 11] = [
         &["--help"],
         &["--version"],
         &["simulate", "--help"],
@@ -64,6 +67,7 @@ fn every_help_is_printed_and_is_no_error() {
         &["quality", "--help"],
         &["analyze", "--help"],
         &["characterize", "--help"],
+        &["progress", "--help"],
     ];
     for command in commands {
         let output = palpate(command);

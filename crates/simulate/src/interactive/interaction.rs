@@ -2,17 +2,15 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
 
-use palpate_files::SessionRow;
+use palpate_files::{SessionRow, SessionWriter};
 use palpate_servo::{Clock, Fault, LoopReport, Sample, ServoSettings, ServoThread, latest, log};
 
+use super::clerk::Clerk;
 use super::model_loop::ModelLoop;
 use super::order::orders;
 use super::stations::{Parts, Station, Watch, take_apart};
-use super::{ModelReport, Order, Quality, Snapshot};
+use super::{ModelReport, Order, Quality, ROWS, Snapshot};
 use crate::{Error, Simulation};
-
-/// Rows that have room until somebody reads them: a minute of two tools at 200 Hz.
-const ROWS: usize = 24_000;
 
 /// The model on a thread and a servo loop per device on others, on the machine's clock. Dropping it ends
 /// them and stops the devices.
@@ -21,6 +19,7 @@ pub struct Interaction {
     model: Option<JoinHandle<ModelReport>>,
     servos: Vec<Option<ServoThread>>,
     watches: Vec<Option<Watch>>,
+    clerk: Clerk,
     rows: log::Reader<SessionRow>,
     orders: log::Writer<Order>,
     snapshots: latest::Receiver<Snapshot>,
@@ -39,6 +38,7 @@ impl Interaction {
     ) -> Result<Self, Error> {
         let parts = take_apart(&simulation, stations, settings)?;
         let (rows, read_rows) = log::ring(ROWS);
+        let (clerk, read_rows) = Clerk::start(read_rows).ok_or(Fault::NoThread)?;
         let (give, orders) = orders();
         let (snapshots, seen) = latest::channel(&Snapshot::new(&simulation));
         let clock = Clock::real();
@@ -65,6 +65,7 @@ impl Interaction {
             model: Some(handle.map_err(|_| Fault::NoThread)?),
             servos,
             watches,
+            clerk,
             rows: read_rows,
             orders: give,
             snapshots: seen,
@@ -85,6 +86,21 @@ impl Interaction {
     /// Gives an order to the model, which obeys before its next step.
     pub fn order(&mut self, order: Order) {
         self.orders.add(order);
+    }
+
+    /// Records a session: everything begins anew, and every row from then on is written.
+    pub fn record(&mut self, writer: SessionWriter) {
+        self.clerk.record(writer);
+        self.order(Order::Reset);
+    }
+
+    /// Ends the recording; what was recorded is on the disk then. Rows that are a twentieth of a second old may
+    /// still be missing.
+    ///
+    /// # Errors
+    /// When a row could not be written.
+    pub fn end_recording(&mut self) -> Result<(), Error> {
+        Ok(self.clerk.end()?)
     }
 
     /// The rows of the session that nobody has read yet.
@@ -142,6 +158,8 @@ impl Interaction {
             Some(model) => model.join().map_err(|_| Error::ModelPanicked)?,
             None => self.snapshots.latest().report,
         };
+        // All rows have come through then.
+        self.clerk.end()?;
         let loops: Result<Vec<Option<LoopReport>>, Fault> =
             loops.into_iter().map(Option::transpose).collect();
         Ok(Quality {

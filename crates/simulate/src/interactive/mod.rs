@@ -2,10 +2,11 @@
 //!
 //! ```text
 //!  display 60 Hz ◀─latest(Snapshot)─ model thread 200 Hz ─latest(AffineForce)─▶ servo thread 1 kHz ─▶ device
-//!  writer        ◀─every SessionRow─      step           ◀───latest(Sample)────  extrapolate, limit
+//!  clerk         ◀─every SessionRow─      step           ◀───latest(Sample)────  extrapolate, limit
 //! ```
 //!
-//! An [`Order`] (pause, undo, anew) goes to the model by a ring of its own.
+//! An [`Order`] (pause, undo, anew) goes to the model by a ring of its own. The clerk writes a session that is
+//! recorded, and hands its rows on to who shows them.
 //!
 //! Nobody waits for anybody: what was not read is replaced, and what finds no room is counted.
 //! [`Interaction`] runs it on the machine's clock; [`VirtualInteraction`] runs the same parts on a virtual
@@ -15,6 +16,7 @@
 //!
 //! *Limits*: one device moves one tool; forces only, no torques.
 
+mod clerk;
 mod force_renderer;
 mod hand_over;
 mod happenings;
@@ -30,12 +32,16 @@ mod snapshot;
 mod stations;
 mod virtual_interaction;
 
+/// Rows that have room until somebody reads them: a minute of two tools at 200 Hz.
+const ROWS: usize = 24_000;
+
 pub use force_renderer::ForceRenderer;
 pub use hand_over::affine_force;
 pub use happenings::{Happening, Happenings};
 pub use interaction::Interaction;
 pub use judge::judge_samples;
 pub use model_loop::CUTS;
+pub(crate) use model_loop::DISPLAY;
 pub use mount::Mount;
 pub use order::Order;
 pub use quality::{ExtrapolationError, ModelReport, Quality};

@@ -13,7 +13,7 @@ use super::{Happenings, ModelReport, Mount, Order, Snapshot};
 use crate::{Simulation, SimulationState, SimulationWorkspace, step};
 
 /// The period of a display [s], with some room: a step that is a little early counts.
-const DISPLAY: f64 = 0.9 / 60.0;
+pub(crate) const DISPLAY: f64 = 0.9 / 60.0;
 
 /// The button that cuts.
 pub const CUTS: u32 = 1;

@@ -103,6 +103,12 @@ impl Snapshot {
         }
     }
 
+    /// Shows the `state` of a session that is played again, at `time` [s]; nobody feels it.
+    pub fn show(&mut self, time: f64, state: &SimulationState) {
+        let nobody = [Vec3::zeros(); 2];
+        self.fill(time, state, &nobody);
+    }
+
     /// Takes over `state`; nothing is allocated but for triangles that a cut has added.
     pub(super) fn fill(&mut self, time: f64, state: &SimulationState, felt: &[Vec3]) {
         self.time = time;

@@ -15,6 +15,7 @@ mod goal;
 mod hand;
 mod jerk;
 mod measure;
+mod words;
 
 use palpate_files::scene::Task;
 use palpate_files::{Event, SessionRow};
@@ -25,6 +26,7 @@ pub use force::ForceScore;
 pub use goal::{Outcome, Status};
 pub use hand::HandScore;
 pub use measure::{Better, Measure};
+pub use words::outcome_words;
 
 use cut::CutWay;
 use force::Forces;
@@ -42,6 +44,8 @@ pub struct Performance {
     cut: CutWay,
     goal: GoalWatch,
     errors: Errors,
+    /// The task is over: what comes after does not count.
+    is_over: bool,
 }
 
 /// What should not happen, counted.
@@ -89,11 +93,15 @@ impl Performance {
             cut: CutWay::new(&task.goal),
             goal: GoalWatch::new(&task.goal, tools),
             errors: Errors::default(),
+            is_over: false,
         }
     }
 
-    /// Adds what a tool did in a step.
+    /// Adds what a tool did in a step, unless the task is over.
     pub fn add(&mut self, row: &SessionRow) {
+        if self.is_over {
+            return;
+        }
         self.began.get_or_insert(row.time_s);
         self.now = row.time_s;
         let (Some(hand), Some(forces)) =
@@ -113,6 +121,7 @@ impl Performance {
         self.errors.drops += u64::from(lost && !lifted);
         self.cut.add(row);
         self.goal.add(row);
+        self.is_over = matches!(self.status(), Status::Over { .. });
     }
 
     /// How far the task is.
@@ -122,6 +131,11 @@ impl Performance {
             .time_limit_s
             .is_some_and(|limit| self.elapsed() >= limit);
         self.goal.status(&self.cut, late)
+    }
+
+    /// What should not have happened.
+    pub fn errors(&self) -> Errors {
+        self.errors
     }
 
     /// Since the first row [s].

@@ -57,10 +57,11 @@ pub(crate) fn advance(interaction: &mut VirtualInteraction, ticks: usize) {
 }
 
 /// The forces [N] that plain steps give for times [s] and places of one tool.
-fn stepped(simulation: &Simulation, course: &[(f64, [f64; 3])], first: f64) -> Vec<Vec3> {
+fn stepped(simulation: &Simulation, course: &[(f64, [f64; 3])]) -> Vec<Vec3> {
     let mut state = SimulationState::new(simulation);
     let mut workspace = SimulationWorkspace::new(simulation);
-    let mut before = course[0].0 - first;
+    // The first depth comes as a step.
+    let mut before = course[0].0;
     let forces = course.iter().map(|&(time, position_m)| {
         let pose = Pose {
             position_m,
@@ -87,7 +88,7 @@ fn assert_rows_are_steps(simulation: &Simulation, rows: &[SessionRow]) {
         .iter()
         .map(|row| (row.time_s, row.position_m))
         .collect();
-    let forces = stepped(simulation, &course, simulation.step());
+    let forces = stepped(simulation, &course);
     for (row, force) in rows.iter().zip(&forces) {
         assert_eq!(Vec3::from(row.force_n), *force, "{}", row.time_s);
     }

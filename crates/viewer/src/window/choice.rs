@@ -7,6 +7,8 @@ use palpate_files::{BuiltinTissue, Scene};
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Choice {
     given: Scene,
+    /// As it was written.
+    written: Scene,
     /// Another organ than the scene's.
     pub(super) organ: Option<BuiltinOrgan>,
     /// Another tissue than the scene's.
@@ -27,6 +29,7 @@ impl Choice {
         Self {
             tip: scene.tools[tool].tip,
             model: scene.model.kind,
+            written: scene.clone(),
             given: scene,
             organ: None,
             tissue: None,
@@ -58,6 +61,9 @@ impl Choice {
         if let Some(tool) = scene.tools.get_mut(self.tool) {
             tool.tip = self.tip;
         }
+        if scene != self.written {
+            scene.written = None;
+        }
         scene
     }
 
@@ -68,6 +74,8 @@ impl Choice {
         self.tool = tool.min(self.given.tools.len() - 1);
         self.tip = self.given.tools[self.tool].tip;
         self.given.tools[self.tool].device = DeviceKind::Mouse;
+        // Which hand moves a tool changes nothing that is felt.
+        self.written.tools[self.tool].device = DeviceKind::Mouse;
     }
 
     /// The tools of the scene.

@@ -10,12 +10,16 @@
 //!
 //! [`Interaction`]: palpate_simulate::interactive::Interaction
 
+mod attempt;
+mod cards;
 mod choice;
 mod display;
 mod effort;
 mod enhancement;
 pub mod gesture;
+mod ghosts;
 pub mod hands;
+mod home;
 mod list;
 mod overlay;
 mod panel;
@@ -23,23 +27,32 @@ mod picture;
 mod play;
 mod preparation;
 mod rates;
+mod source;
+mod timeline;
+mod trained;
+pub mod training;
 
+use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::Duration;
 
 use eframe::egui;
 use palpate_files::Scene;
 use palpate_files::scene::{Tool, ToolKind};
-use palpate_simulate::Resources;
+use palpate_simulate::{Replay, Resources, Simulation};
 
 use crate::history::History;
 use crate::{Error, Gpu, TissuePicture, native, style};
+use attempt::Attempt;
 use choice::Choice;
 pub use display::check_display;
 use hands::keys::{self, Action};
+use home::Home;
 use picture::Picture;
 use play::{Play, Wish};
 use preparation::Preparation;
 use rates::Rates;
+use training::Training;
 
 /// How long a picture in which nothing moves is left as it is.
 const REST: Duration = Duration::from_millis(200);
@@ -68,25 +81,50 @@ struct SimulatorWindow {
     moves: bool,
     /// Whether the key was pressed by which the mouse takes the other tool.
     takes_other: bool,
+    /// Who trains, and what.
+    training: Option<Training>,
+    /// The start screen, while it is shown.
+    home: Option<Home>,
+    /// The task that is attempted.
+    attempt: Option<Attempt>,
+    /// The session that shall be looked at again when its organ is prepared.
+    awaited: Option<PathBuf>,
 }
 
-/// Opens a window with `scene` and waits until it is closed. `way_out` is a scene that works, which is
-/// offered when the other does not. Whole organs are prepared with `resources`, beside the touch.
+/// What a window begins with.
+pub enum Start {
+    /// The start screen.
+    Home,
+    /// A scene.
+    Scene(Box<Scene>),
+    /// A session of a scene that is played again.
+    Again(Box<Scene>, Arc<Simulation>, Box<Replay>),
+}
+
+/// Opens a window and waits until it is closed. `way_out` is a scene that works, which is offered when another
+/// does not. Whole organs are prepared with `resources`, beside the touch; with `training` tasks are chosen, and
+/// sessions and results kept.
 ///
 /// # Errors
 /// When there is no display, no adapter, or the window breaks down. What is wrong with the scene is shown in
 /// the window.
-pub fn open_window(scene: Scene, way_out: Scene, resources: Resources) -> Result<(), Error> {
+pub fn open_window(
+    start: Start,
+    way_out: Scene,
+    resources: Resources,
+    training: Option<Training>,
+) -> Result<(), Error> {
     native::open([[1280.0, 800.0], [560.0, 380.0]], move |context| {
-        SimulatorWindow::new(context, (scene, way_out), resources)
+        SimulatorWindow::new(context, start, (way_out, resources), training)
     })
 }
 
 impl SimulatorWindow {
     fn new(
         context: &eframe::CreationContext<'_>,
-        (scene, way_out): (Scene, Scene),
-        resources: Resources,
+        start: Start,
+        (way_out, resources): (Scene, Resources),
+        training: Option<Training>,
     ) -> Result<Self, Error> {
         let Some(state) = &context.wgpu_render_state else {
             return Err(Error::Window {
@@ -94,6 +132,10 @@ impl SimulatorWindow {
             });
         };
         let gpu = Gpu::of(&state.adapter, state.device.clone(), state.queue.clone());
+        let scene = match &start {
+            Start::Home => way_out.clone(),
+            Start::Scene(scene) | Start::Again(scene, ..) => (**scene).clone(),
+        };
         let choice = Choice::new(scene);
         let mut window = Self {
             picture: Picture::new(&gpu, choice.shading()),
@@ -110,9 +152,19 @@ impl SimulatorWindow {
             surroundings: None,
             moves: false,
             takes_other: false,
+            training,
+            home: None,
+            attempt: None,
+            awaited: None,
             gpu,
         };
-        window.begin_anew(&context.egui_ctx);
+        match start {
+            Start::Home => window.home = Some(Home::default()),
+            Start::Scene(_) => window.begin_anew(&context.egui_ctx),
+            Start::Again(scene, simulation, replay) => {
+                window.play = Some(Play::again((*scene, simulation), *replay, &window.gpu)?);
+            }
+        }
         Ok(window)
     }
 
@@ -150,7 +202,13 @@ impl SimulatorWindow {
                 self.fault = None;
                 let enhanced = self.picture.enhance(&self.gpu, &mut play);
                 self.notice = enhanced.err().map(|error| error.to_string());
+                self.take_task(&play);
                 self.play = Some(play);
+                if outcome.last
+                    && let Some(session) = self.awaited.take()
+                {
+                    self.look_again(&session);
+                }
             }
             Err(error) if outcome.second => self.notice = Some(error.to_string()),
             Err(error) => {
@@ -164,13 +222,16 @@ impl SimulatorWindow {
     fn listen(&mut self, context: &egui::Context) {
         let Some(play) = &mut self.play else { return };
         let tool = self.choice.tool;
-        for row in play.interaction.rows() {
+        for row in play.source.rows() {
+            if let Some(attempt) = &mut self.attempt {
+                attempt.add(&row);
+            }
             if row.tool == tool {
                 let force = row.force_n.iter().map(|c| c * c).sum::<f64>().sqrt();
                 self.history.add(row.time_s, [force, row.depth_m]);
             }
         }
-        let quality = play.interaction.quality();
+        let quality = play.source.quality();
         let time = context.input(|input| input.time);
         self.rates.count(time, tool, &quality);
         let wanted = 1.0 / play.simulation.step();
@@ -181,13 +242,19 @@ impl SimulatorWindow {
             let elapsed = Duration::from_secs_f32(elapsed.max(0.0));
             self.picture.count(elapsed, late);
         }
-        if !play.interaction.is_running() {
+        if !play.source.is_running() {
             let why = self.rates.touch.fault.map_or_else(
                 || "one of its threads ended".to_owned(),
                 |fault| fault.to_string(),
             );
             self.fault = Some(format!("the touch has stopped: {why}; press Start anew"));
         }
+    }
+
+    /// How far the whole organ is prepared [-]; none when it is.
+    fn preparing(&self) -> Option<f64> {
+        let preparation = self.preparation.as_ref()?;
+        Some(preparation.progress().map_or(0.0, |progress| progress.part))
     }
 
     /// Wraps the organ in a PNG file that was dropped on the window.
@@ -223,6 +290,10 @@ impl SimulatorWindow {
                 }
                 Action::Hints => {
                     self.picture.lists_keys = !self.picture.lists_keys;
+                    continue;
+                }
+                Action::Mark => {
+                    self.mark();
                     continue;
                 }
                 Action::Undo => Wish::UndoCut,
@@ -283,9 +354,15 @@ impl eframe::App for SimulatorWindow {
     fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
         let context = ui.ctx().clone();
         self.receive();
+        if self.home.is_some() {
+            self.show_home(ui);
+            return;
+        }
         self.listen(&context);
+        self.watch_attempt();
         self.take_dropped(&context);
         self.act(&context);
+        self.show_timeline(ui);
         egui::Panel::bottom("status").show(ui, |ui| panel::status(self, ui));
         egui::Panel::right("panel")
             .resizable(true)
@@ -297,14 +374,23 @@ impl eframe::App for SimulatorWindow {
             match (&mut self.play, frame.wgpu_render_state()) {
                 (Some(play), Some(state)) => {
                     let rect = self.picture.show(ui, (state, &self.gpu), play, tool);
-                    overlay::show(ui, rect, &self.picture, play, tool);
+                    self.picture.show_task(ui, rect, self.attempt.as_ref());
+                    if !self.attempt.as_ref().is_some_and(Attempt::is_over) {
+                        overlay::show(ui, rect, &self.picture, play, tool);
+                    }
                 }
                 _ => self.show_absence(ui),
             }
+            self.show_card(ui);
         });
         let moves = self.play.as_mut().is_some_and(|play| {
-            let snapshot = play.interaction.snapshot();
-            snapshot.tools.iter().any(|tool| tool.contact.is_some())
+            let snapshot = play.source.snapshot();
+            let touches = snapshot.tools.iter().any(|tool| tool.contact.is_some());
+            touches
+                || play
+                    .source
+                    .playback()
+                    .is_some_and(|playback| playback.moves())
         });
         self.moves = moves || self.picture.is_busy();
         match (self.moves, self.picture.has_gamepad()) {

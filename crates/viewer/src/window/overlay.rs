@@ -27,6 +27,9 @@ pub(super) fn show(ui: &egui::Ui, rect: Rect, picture: &Picture, play: &mut Play
         }
     };
     let hint = match play.scene.tools.as_slice() {
+        _ if play.source.playback().is_some() => {
+            "right drag: turn · middle drag: move · wheel: nearer · P: play or stop".to_owned()
+        }
         [_, _] => format!("{}: {hint}", play.scene.tools[tool].name),
         _ => hint.to_owned(),
     };
@@ -39,8 +42,9 @@ pub(super) fn show(ui: &egui::Ui, rect: Rect, picture: &Picture, play: &mut Play
         list::show(&painter, rect, play);
     }
     let pointer = ui.input(|input| input.pointer.latest_pos());
-    let snapshot = play.interaction.snapshot();
-    if snapshot.paused {
+    let again = play.source.playback().is_some();
+    let snapshot = play.source.snapshot();
+    if snapshot.paused && !again {
         let font = FontId::proportional(16.0);
         let words = "paused · P: go on".to_owned();
         let text = ui.painter().layout(words, font, DOUBT, wide);

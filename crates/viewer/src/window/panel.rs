@@ -18,6 +18,22 @@ pub(super) fn side(window: &mut SimulatorWindow, ui: &mut Ui) {
         .auto_shrink([false, false])
         .show(ui, |ui| {
             ui.add_space(6.0);
+            if window.training.is_some() && ui.button("Tasks").clicked() {
+                window.go_home();
+            }
+            // What is played again, or is a task, is as it was written.
+            if !window.can_choose() {
+                look(window, ui);
+                ui.separator();
+                enhancement::show(window, ui);
+                ui.separator();
+                felt(window, ui);
+                if !window.looks_again() {
+                    ui.separator();
+                    rates(window, ui);
+                }
+                return;
+            }
             let before = window.choice.clone();
             scene(window, ui);
             // Which tool the mouse moves is no matter of the scene.

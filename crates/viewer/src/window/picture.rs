@@ -2,11 +2,13 @@ use std::time::Duration;
 
 use eframe::egui::{self, Color32, PointerButton, Pos2, Rect, Response, Sense, Vec2};
 use eframe::egui_wgpu::RenderState;
-use palpate_files::scene::{Enhancement, Shading};
+use palpate_files::scene::{Enhancement, Goal, Shading};
 use palpate_geometry::Vec3;
 
+use super::attempt::Attempt;
 use super::effort::Effort;
 use super::gesture::{Gesture, Ground, Mouse};
+use super::ghosts::Over;
 use super::hands::gamepad::Gamepad;
 use super::hands::{Hand, Room, keys};
 use super::play::Play;
@@ -33,6 +35,8 @@ pub(super) struct Picture {
     /// Whether a key or a stick moves a hand.
     driven: bool,
     orbit: Option<Orbit>,
+    /// From where the last picture was taken.
+    camera: Option<Camera>,
     /// The left button went down beside the organ: it turns the camera.
     turning: bool,
     renderer: Renderer,
@@ -55,6 +59,7 @@ impl Picture {
             gamepad: Gamepad::first(),
             driven: false,
             orbit: None,
+            camera: None,
             turning: false,
             renderer: Renderer::new(gpu),
             target: None,
@@ -128,6 +133,7 @@ impl Picture {
             true => orbit.endoscope(before),
             false => orbit.camera(),
         };
+        self.camera = Some(camera);
         let room = Room {
             camera: &camera,
             aspect,
@@ -140,6 +146,25 @@ impl Picture {
         let whole = Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0));
         ui.painter().image(texture, rect, whole, Color32::WHITE);
         rect
+    }
+
+    /// What a task that goes on draws over the picture.
+    pub(super) fn show_task(&self, ui: &egui::Ui, rect: Rect, attempt: Option<&Attempt>) {
+        let (Some(camera), Some(attempt)) = (&self.camera, attempt) else {
+            return;
+        };
+        let painter = ui.painter_at(rect);
+        let over = Over {
+            painter,
+            rect,
+            camera,
+        };
+        if let (Goal::Cut { from_m, to_m, .. }, false) = (&attempt.task.goal, attempt.is_over()) {
+            over.wanted([*from_m, *to_m].map(Vec3::from));
+        }
+        if let Some(guidance) = &attempt.guidance {
+            over.tools(&guidance.ghosts);
+        }
     }
 
     /// Turns, moves and zooms the camera.
@@ -271,7 +296,7 @@ impl Picture {
         (extent, rect, context): (f64, Rect, &egui::Context),
     ) -> egui::TextureId {
         let texture = self.target((state, gpu), rect.size(), context.pixels_per_point());
-        let snapshot = play.interaction.snapshot();
+        let snapshot = play.source.snapshot();
         let tools: Vec<ToolPicture> = play
             .scene
             .tools

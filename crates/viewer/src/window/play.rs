@@ -5,9 +5,10 @@ use palpate_files::Scene;
 use palpate_geometry::{AabbTree, Surface, Vec3};
 use palpate_servo::{PointerHand, ServoSettings};
 use palpate_simulate::interactive::{CUTS, Interaction, Order, SceneDevices};
-use palpate_simulate::{Progress, Resources, Simulation, read_neighbour};
+use palpate_simulate::{Progress, Replay, Resources, Simulation, read_neighbour};
 
 use super::hands::Hand;
+use super::source::{Playback, Source};
 use crate::render::{Body, Tint};
 use crate::seen_organ::SeenOrgan;
 use crate::{Error, Gpu};
@@ -21,6 +22,8 @@ pub(super) enum Wish {
     Pause,
     /// The organ is as it was at the start.
     Reset,
+    /// This place is meant, or it is done.
+    Mark,
 }
 
 /// A scene that is being touched.
@@ -29,7 +32,7 @@ pub(super) struct Play {
     pub(super) simulation: Arc<Simulation>,
     /// Around the organ at rest.
     pub(super) tree: AabbTree,
-    pub(super) interaction: Interaction,
+    pub(super) source: Source,
     pub(super) organ: SeenOrgan,
     pub(super) neighbours: Vec<Body>,
     /// What deserves doubt.
@@ -50,6 +53,36 @@ impl Play {
         watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
         let simulation = Arc::new(Simulation::prepare(&scene, resources, watch)?);
+        let devices = SceneDevices::open(&scene, &simulation)?;
+        let interaction = Interaction::start(
+            simulation.clone(),
+            devices.stations,
+            ServoSettings::default(),
+        )?;
+        let source = Source::Touched(Box::new(interaction));
+        Self::of((scene, simulation), (source, devices.pointers), gpu)
+    }
+
+    /// A session of `scene` that is played again; its hands move nothing.
+    ///
+    /// # Errors
+    /// When a neighbour cannot be read.
+    pub(super) fn again(
+        (scene, simulation): (Scene, Arc<Simulation>),
+        replay: Replay,
+        gpu: &Gpu,
+    ) -> Result<Self, Error> {
+        let playback = Playback::new(&simulation, replay);
+        let nobody = scene.tools.iter().map(|_| None).collect();
+        let source = Source::Again(Box::new(playback));
+        Self::of((scene, simulation), (source, nobody), gpu)
+    }
+
+    fn of(
+        (scene, simulation): (Scene, Arc<Simulation>),
+        (source, pointers): (Source, Vec<Option<PointerHand>>),
+        gpu: &Gpu,
+    ) -> Result<Self, Error> {
         let mut doubts = simulation.doubts().to_vec();
         let mut neighbours = Vec::new();
         for neighbour in &scene.neighbours {
@@ -58,19 +91,13 @@ impl Play {
             let tint = Tint::of(&neighbour.shape).receding();
             neighbours.push(Body::new(gpu, &surface, tint));
         }
-        let devices = SceneDevices::open(&scene, &simulation)?;
-        let interaction = Interaction::start(
-            simulation.clone(),
-            devices.stations,
-            ServoSettings::default(),
-        )?;
         Ok(Self {
             tree: AabbTree::new(simulation.surface().mesh()),
             organ: SeenOrgan::new(gpu, &simulation, Tint::of(&scene.organ.shape))?,
             neighbours,
             doubts,
-            interaction,
-            pointers: devices.pointers,
+            source,
+            pointers,
             simulation,
             scene,
         })
@@ -101,9 +128,21 @@ impl Play {
         let order = match wish {
             Wish::UndoCut => Order::UndoCut,
             Wish::Reset => Order::Reset,
-            Wish::Pause if self.interaction.snapshot().paused => Order::Resume,
+            Wish::Mark => Order::Mark,
+            Wish::Pause if self.source.snapshot().paused => Order::Resume,
             Wish::Pause => Order::Pause,
         };
-        self.interaction.order(order);
+        self.source.order(order);
+    }
+
+    /// Makes the organ whole and at rest, and goes on if all stood still.
+    pub(super) fn begin_anew(&mut self) {
+        self.go_on();
+        self.source.order(Order::Reset);
+    }
+
+    /// Goes on, if all stood still.
+    pub(super) fn go_on(&mut self) {
+        self.source.order(Order::Resume);
     }
 }

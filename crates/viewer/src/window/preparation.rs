@@ -97,6 +97,8 @@ impl Work {
         if second {
             let mut local = self.scene.clone();
             local.model.kind = ModelKind::Local;
+            // What is felt until then is not what the scene says.
+            local.written = None;
             let play = self.play(local);
             let last = play.is_err();
             // Nobody waits any more when the choice has changed since.

@@ -47,10 +47,13 @@ pub enum Action {
     Reset,
     /// The list of keys is shown, or not.
     Hints,
+    /// This place is meant, or it is done.
+    Mark,
 }
 
 /// What is done once, and by which key.
-pub const ACTIONS: [(Key, Action); 5] = [
+pub const ACTIONS: [(Key, Action); 6] = [
+    (Key::Enter, Action::Mark),
     (Key::Z, Action::Undo),
     (Key::P, Action::Pause),
     (Key::Backspace, Action::Reset),
@@ -73,7 +76,7 @@ pub const LINES: [[&str; 3]; 5] = [
 ];
 
 /// What else is in the list.
-pub const MORE: [[&str; 2]; 8] = [
+pub const MORE: [[&str; 2]; 9] = [
     ["Shift", "finer"],
     ["Tab", "the mouse takes the other tool"],
     ["G · C", "jaws · cut of the mouse's tool"],
@@ -81,6 +84,7 @@ pub const MORE: [[&str; 2]; 8] = [
     ["Z", "undo a cut"],
     ["P", "pause or go on"],
     ["Backspace", "begin again"],
+    ["Enter", "this is the place, or: done"],
     ["? or F1", "this list"],
 ];
 

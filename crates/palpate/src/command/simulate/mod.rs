@@ -1,4 +1,6 @@
-//! `palpate simulate`: an organ in a window, or tool motions on it without one.
+//! `palpate simulate`: an organ in a window, or without one tool motions, or the indentation of a recording.
+
+mod repeated;
 
 use std::path::{Path, PathBuf};
 
@@ -7,17 +9,19 @@ use palpate_files::scene::Shape;
 use palpate_files::{Motion, Scene};
 use palpate_geometry::{AabbTree, Vec3};
 use palpate_simulate::Simulation;
-use palpate_viewer::FrameWriter;
+use palpate_viewer::{FrameWriter, Start};
 
+use self::repeated::Repeated;
 use super::window;
 use crate::failure::Failure;
 use crate::output;
-use crate::performance::{Recording, Report, record};
 use crate::preparation;
 use crate::progress::Reader;
+use crate::recorded::{Recording, Report, record};
+use crate::training;
 
 /// The scene that is played when none is named.
-pub(crate) const ESOPHAGUS: &str = include_str!("../../../../assets/esophagus/scene.toml");
+pub(crate) const ESOPHAGUS: &str = include_str!("../../../../../assets/esophagus/scene.toml");
 
 /// Extensions of meshes.
 const MESHES: [&str; 5] = ["stl", "obj", "ply", "gltf", "glb"];
@@ -39,6 +43,9 @@ Examples:
       the same with an organ of yours, as if it were pig liver
   palpate simulate scene.toml --headless --motion motion.csv --out session
       writes session/session.csv (forces on the tool at every step), plots and summary.json
+  palpate simulate scene.toml --headless --indentation recording.csv --out session
+      presses as deep as was recorded, in the middle of the organ's top or --at another place, and
+      tells how far the force is from the recorded one (session/beside.png)
   palpate simulate --headless --motion motion.csv --out session --fields 60 --frames 60
       on the built-in esophagus, with 60 surfaces for ParaView (open session/surfaces.pvd) and
       60 pictures (session/frame-0001.png and so on)
@@ -55,12 +62,18 @@ pub(crate) struct Arguments {
     /// The scene, or a mesh of an organ; without one, the built-in esophagus.
     #[arg(value_name = "SCENE.toml|MESH")]
     scene: Option<PathBuf>,
-    /// Play without a window; needs --motion and --out.
-    #[arg(long, requires = "motion", requires = "out")]
+    /// Play without a window; needs --motion or --indentation, and --out.
+    #[arg(long, requires = "played", requires = "out")]
     headless: bool,
     /// The tool motions to play: time_s, tool, x_m, y_m, z_m.
-    #[arg(long, value_name = "MOTION.csv")]
+    #[arg(long, value_name = "MOTION.csv", group = "played")]
     motion: Option<PathBuf>,
+    /// The recording of `palpate measure`, or of another rig, whose indentation the first tool repeats.
+    #[arg(long, value_name = "RECORDING.csv", group = "played")]
+    indentation: Option<PathBuf>,
+    /// Where: the place of the organ nearest to this point [m]; else to the middle of the top of its box.
+    #[arg(long, value_name = "X,Y,Z", requires = "indentation", allow_hyphen_values = true, value_parser = repeated::point)]
+    at: Option<[f64; 3]>,
     /// The folder to write the session into; it is made when it is not there.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -77,15 +90,25 @@ pub(crate) struct Arguments {
 
 /// Plays the motions.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let (motion, out) = (arguments.motion.as_deref(), arguments.out.as_deref());
-    match (arguments.headless, motion, out) {
-        (true, Some(motion), Some(out)) => play(arguments, motion, out),
+    let played = match (&arguments.motion, &arguments.indentation) {
+        (Some(motion), _) => Some(Played::Motion(motion)),
+        (None, Some(recording)) => Some(Played::Indentation(recording)),
+        (None, None) => None,
+    };
+    match (arguments.headless, played, &arguments.out) {
+        (true, Some(played), Some(out)) => play(arguments, &played, out),
         (false, None, None) => touch(arguments),
         _ => Err(Failure::input(
             "in a window the mouse moves the tools; play a motion with --headless --motion MOTION.csv \
              --out DIR",
         )),
     }
+}
+
+/// What moves the tools where no window is.
+enum Played<'a> {
+    Motion(&'a Path),
+    Indentation(&'a Path),
 }
 
 /// A scene file, or a mesh with a probe over it.
@@ -109,11 +132,11 @@ fn touch(arguments: &Arguments) -> Result<(), Failure> {
             "--json, --frames and --fields belong to a motion; add --headless --motion MOTION.csv --out DIR",
         ));
     }
-    let scene = match &arguments.scene {
-        Some(path) => scene_of(path)?,
-        None => window::trainer()?,
+    let start = match &arguments.scene {
+        Some(path) => Start::Scene(Box::new(scene_of(path)?)),
+        None => Start::Home,
     };
-    match window::open(scene) {
+    match window::open(start, Some(training::training()?)) {
         Err(why) if window::is_absent(&why) => Err(Failure::failed(format!(
             "{why}; --headless plays a motion without a window"
         ))),
@@ -122,8 +145,8 @@ fn touch(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// Without a window, from a file.
-fn play(arguments: &Arguments, motion: &Path, out: &Path) -> Result<(), Failure> {
-    let report = simulate(arguments, motion, out)?;
+fn play(arguments: &Arguments, played: &Played<'_>, out: &Path) -> Result<(), Failure> {
+    let report = simulate(arguments, played, out)?;
     if arguments.json {
         output::json(&report)?;
     } else {
@@ -150,15 +173,23 @@ fn touched(simulation: &Simulation, motion: &Motion) -> Option<Vec3> {
     deepest.map(|(_, place)| place)
 }
 
-fn simulate(arguments: &Arguments, motion: &Path, out: &Path) -> Result<Report, Failure> {
+fn simulate(arguments: &Arguments, played: &Played<'_>, out: &Path) -> Result<Report, Failure> {
     let scene = match &arguments.scene {
         Some(path) => scene_of(path)?,
         None => Scene::parse(ESOPHAGUS, "built-in scene")?,
     };
-    // Everything that can be wrong is read before anything is written.
-    let motion = Motion::read(motion)?;
     let reader = Reader::of_json(arguments.json);
-    let simulation = preparation::simulation(&scene, &preparation::resources(), reader)?;
+    let prepared = || preparation::simulation(&scene, &preparation::resources(), reader);
+    // Everything that can be wrong is read before anything is prepared or written.
+    let (motion, simulation, beside) = match played {
+        Played::Motion(path) => (Motion::read(path)?, prepared()?, None),
+        Played::Indentation(path) => {
+            let repeated = Repeated::read(path)?;
+            let simulation = prepared()?;
+            let (motion, beside) = repeated.on((&scene, &simulation), arguments.at)?;
+            (motion, simulation, Some(beside))
+        }
+    };
     let frames = match arguments.frames {
         0 => None,
         wanted => {
@@ -170,9 +201,11 @@ fn simulate(arguments: &Arguments, motion: &Path, out: &Path) -> Result<Report, 
         }
     };
     let recording = Recording {
+        scene: &scene,
         folder: out,
         surfaces: arguments.fields,
         frames,
+        beside,
         reader,
     };
     record(&simulation, &motion, recording)

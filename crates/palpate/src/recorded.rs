@@ -1,13 +1,14 @@
 //! A played motion and its folder: the session, surfaces for ParaView, plots and the summary.
 
+mod beside;
 mod cuts;
 mod surfaces;
 mod trace;
 
 use std::path::{Path, PathBuf};
 
-use palpate_files::{Motion, SessionWriter, write_whole};
-use palpate_simulate::{Flow, Simulation, Summary, play};
+use palpate_files::{Motion, Scene, write_whole};
+use palpate_simulate::{Flow, SessionFolder, Simulation, Summary, play};
 use palpate_viewer::FrameWriter;
 use serde::Serialize;
 
@@ -15,18 +16,24 @@ use crate::failure::Failure;
 use crate::interrupt;
 use crate::output::VERSION;
 use crate::progress::{Progress, Reader};
+pub(crate) use beside::Beside;
+use beside::BesideAnswer;
 use cuts::CutsAnswer;
 use surfaces::Surfaces;
 use trace::Traces;
 
 /// Where a motion is recorded, and what besides the session.
 pub(crate) struct Recording<'a> {
+    /// What the simulation was made of.
+    pub(crate) scene: &'a Scene,
     /// The folder; made when it is not there.
     pub(crate) folder: &'a Path,
     /// Surfaces to write for ParaView, evenly over the motion.
     pub(crate) surfaces: u64,
     /// What takes pictures, evenly over the motion.
     pub(crate) frames: Option<FrameWriter>,
+    /// The recording that the first tool repeats.
+    pub(crate) beside: Option<Beside>,
     pub(crate) reader: Reader,
 }
 
@@ -41,6 +48,8 @@ pub(crate) struct Report {
     largest_depth_m: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     cuts: Option<CutsAnswer>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    beside: Option<BesideAnswer>,
     interrupted: bool,
     warnings: Vec<String>,
     files: Vec<PathBuf>,
@@ -62,17 +71,14 @@ pub(crate) fn record(
     mut recording: Recording<'_>,
 ) -> Result<Report, Failure> {
     let folder = recording.folder;
-    std::fs::create_dir_all(folder).map_err(|cause| {
-        Failure::failed(format!(
-            "{}: the folder cannot be made ({cause}); name one that can be written with --out",
-            folder.display()
-        ))
-    })?;
     // From now on Ctrl-C ends the motion, and what was played is written whole.
     interrupt::is_asked();
     let names: Vec<_> = simulation.tools().iter().map(|t| t.name.clone()).collect();
-    let session = folder.join("session.csv");
-    let mut writer = SessionWriter::create(&session, &simulation.session_header(), &names)?;
+    let mut writer =
+        SessionFolder::create(folder, (recording.scene, simulation)).map_err(|error| {
+            let mend = format!("{error}; name a folder that can be written with --out");
+            Failure::failed(mend)
+        })?;
     let mut surfaces = Surfaces::new(folder, recording.surfaces);
     let mut traces = Traces::new(&names);
     let mut progress: Option<Progress> = None;
@@ -87,6 +93,9 @@ pub(crate) fn record(
         }
         for row in frame.rows() {
             writer.write(row)?;
+            if let Some(beside) = recording.beside.as_mut().filter(|_| row.tool == 0) {
+                beside.add(row);
+            }
         }
         traces.add(frame);
         surfaces.add(simulation, frame)?;
@@ -100,7 +109,7 @@ pub(crate) fn record(
     })?;
     drop(progress);
     writer.finish()?;
-    let mut files = vec![session];
+    let mut files = vec![SessionFolder::session_file(folder)];
     files.extend(surfaces.finish()?);
     files.extend(
         recording
@@ -108,10 +117,10 @@ pub(crate) fn record(
             .map(FrameWriter::finish)
             .unwrap_or_default(),
     );
-    files.extend(traces.draw(folder)?);
+    files.extend(traces.draw(folder, recording.beside.as_ref())?);
     let path = folder.join("summary.json");
     files.push(path.clone());
-    let report = Report::new(summary, files);
+    let report = Report::new(summary, files, recording.beside);
     let json = serde_json::to_string_pretty(&report)
         .map_err(|cause| Failure::failed(format!("the summary is no JSON ({cause})")))?
         + "\n";
@@ -120,7 +129,9 @@ pub(crate) fn record(
 }
 
 impl Report {
-    fn new(summary: Summary, files: Vec<PathBuf>) -> Self {
+    fn new(summary: Summary, files: Vec<PathBuf>, beside: Option<Beside>) -> Self {
+        let (beside, doubts) = beside.map(Beside::finish).unzip();
+        let warnings = summary.warnings.into_iter();
         Self {
             palpate: VERSION,
             steps: summary.steps,
@@ -135,7 +146,8 @@ impl Report {
             largest_depth_m: summary.deepest,
             cuts: summary.cuts.map(CutsAnswer::of),
             interrupted: summary.interrupted,
-            warnings: summary.warnings,
+            beside,
+            warnings: warnings.chain(doubts.into_iter().flatten()).collect(),
             files,
         }
     }
@@ -149,7 +161,7 @@ impl Report {
         let times = &self.step_times_s;
         format!(
             "{} steps, {} contact{}, peak force {:.4} N, largest depth {:.2} mm\n\
-             a step took {:.0} µs (median), {:.0} µs (99 %), {:.0} µs (99.9 %), {:.0} µs at most{}",
+             a step took {:.0} µs (median), {:.0} µs (99 %), {:.0} µs (99.9 %), {:.0} µs at most{}{}",
             self.steps,
             self.contacts,
             if self.contacts == 1 { "" } else { "s" },
@@ -160,6 +172,9 @@ impl Report {
             1e6 * times.p99_9,
             1e6 * times.max,
             self.cuts.as_ref().map_or(String::new(), CutsAnswer::line),
+            self.beside
+                .as_ref()
+                .map_or(String::new(), BesideAnswer::line),
         )
     }
 

@@ -2,8 +2,9 @@ use std::path::{Path, PathBuf};
 
 use palpate_simulate::Frame;
 
+use super::Beside;
 use crate::failure::Failure;
-use crate::plot::{Plot, Series, Style};
+use crate::plot::{Plot, Series, Style, write_pair};
 
 /// Points of a curve; more are not seen in a picture.
 const POINTS: u64 = 3000;
@@ -43,11 +44,29 @@ impl Traces {
         }
     }
 
-    /// Draws force against time and against depth.
-    pub(super) fn draw(self, folder: &Path) -> Result<Vec<PathBuf>, Failure> {
-        let over_time = self.plot("Force against time", "Time [s]", |p| (p.time, p.force));
-        let over_depth = self.plot("Force against depth", "Depth [mm]", |p| (p.depth, p.force));
+    /// Draws force against time and against depth; with a recording, both beside one another, too.
+    pub(super) fn draw(
+        self,
+        folder: &Path,
+        beside: Option<&Beside>,
+    ) -> Result<Vec<PathBuf>, Failure> {
+        let recorded = |over| beside.map(|beside| beside.series(over));
+        let over_time = self.plot(
+            ["Force against time", "Time [s]"],
+            |p| (p.time, p.force),
+            recorded(0),
+        );
+        let over_depth = self.plot(
+            ["Force against depth", "Depth [mm]"],
+            |p| (p.depth, p.force),
+            recorded(1),
+        );
         let mut files = Vec::new();
+        if beside.is_some() {
+            let path = folder.join("beside.png");
+            write_pair([&over_time, &over_depth], &path)?;
+            files.push(path);
+        }
         for (plot, name) in [(over_time, "force.png"), (over_depth, "force-depth.png")] {
             let path = folder.join(name);
             plot.write(&path)?;
@@ -56,14 +75,24 @@ impl Traces {
         Ok(files)
     }
 
-    fn plot(&self, title: &str, x_label: &str, of: impl Fn(&Point) -> (f64, f64)) -> Plot {
+    fn plot(
+        &self,
+        [title, x_label]: [&str; 2],
+        of: impl Fn(&Point) -> (f64, f64),
+        recorded: Option<Series>,
+    ) -> Plot {
         let present = self.tools.iter().filter(|(_, points)| !points.is_empty());
-        let series = present.enumerate().map(|(color, (name, points))| Series {
-            name: name.clone(),
+        let own = present.enumerate().map(|(color, (name, points))| Series {
+            name: match recorded {
+                Some(_) if color == 0 => "simulated".to_owned(),
+                _ => name.clone(),
+            },
             points: points.iter().map(&of).collect(),
             style: Style::Line,
             color,
         });
+        let series: Vec<Series> = own.collect();
+        let series = recorded.into_iter().chain(series);
         Plot {
             title: title.to_owned(),
             x_label: x_label.to_owned(),

@@ -1,0 +1,188 @@
+use std::path::{Path, PathBuf};
+
+use palpate_record::{CurvePoint, Spread};
+use serde::Serialize;
+
+use super::course::{Course, Learnt, Made, Trainee};
+use crate::date;
+use crate::output::VERSION;
+
+/// The machine-readable answer.
+#[derive(Debug, Serialize)]
+pub(super) struct Answer {
+    palpate: &'static str,
+    record: PathBuf,
+    rule: String,
+    tasks: Vec<TaskAnswer>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) warnings: Vec<String>,
+}
+
+#[derive(Debug, Serialize)]
+struct TaskAnswer {
+    task: String,
+    /// How many different scenes there are.
+    scenes: usize,
+    /// How many sessions of experts.
+    experts: usize,
+    standards: Vec<StandardAnswer>,
+    trainees: Vec<TraineeAnswer>,
+    learning_curve: CurvesAnswer,
+}
+
+#[derive(Debug, Serialize)]
+struct StandardAnswer {
+    measure: String,
+    better: &'static str,
+    #[serde(flatten)]
+    spread: SpreadAnswer,
+}
+
+#[derive(Debug, Serialize)]
+struct SpreadAnswer {
+    mean: f64,
+    standard_deviation: Option<f64>,
+    n: usize,
+}
+
+#[derive(Debug, Serialize)]
+struct TraineeAnswer {
+    trainee: String,
+    /// Counted from one.
+    proficient_since_attempt: Option<usize>,
+    attempts: Vec<AttemptAnswer>,
+}
+
+#[derive(Debug, Serialize)]
+struct AttemptAnswer {
+    attempt: usize,
+    when_unix_s: i64,
+    date_utc: String,
+    session: PathBuf,
+    scene_digest: String,
+    time_s: Option<f64>,
+    errors: Option<f64>,
+    passed: Option<bool>,
+    proficient: Option<bool>,
+    measures: Vec<MeasureAnswer>,
+}
+
+#[derive(Debug, Serialize)]
+struct MeasureAnswer {
+    measure: String,
+    value: f64,
+    better: &'static str,
+    proficient: Option<bool>,
+}
+
+#[derive(Debug, Serialize)]
+struct CurvesAnswer {
+    time_s: CurveAnswer,
+    errors: CurveAnswer,
+    proficient_percent: CurveAnswer,
+}
+
+#[derive(Debug, Serialize)]
+struct CurveAnswer {
+    experts: Option<SpreadAnswer>,
+    trainees: Vec<PointAnswer>,
+}
+
+#[derive(Debug, Serialize)]
+struct PointAnswer {
+    attempt: usize,
+    #[serde(flatten)]
+    spread: SpreadAnswer,
+}
+
+impl Answer {
+    pub(super) fn new(record: &Path, courses: &[Course<'_>]) -> Self {
+        Self {
+            palpate: VERSION,
+            record: record.to_owned(),
+            rule: super::rule(),
+            tasks: courses.iter().map(TaskAnswer::new).collect(),
+            warnings: courses.iter().flat_map(Course::doubts).collect(),
+        }
+    }
+}
+
+impl TaskAnswer {
+    fn new(course: &Course<'_>) -> Self {
+        let standards = course.standards.each.iter();
+        let standards = standards.map(|own| StandardAnswer {
+            measure: own.key.clone(),
+            better: own.better.word(),
+            spread: own.spread.into(),
+        });
+        let trainees = course.trainees.iter();
+        let curve = |of: Learnt| CurveAnswer {
+            experts: course.of_experts(of).map(SpreadAnswer::from),
+            trainees: course.curve(of).into_iter().map(Into::into).collect(),
+        };
+        Self {
+            task: course.task.to_owned(),
+            scenes: course.scenes,
+            experts: course.experts.len(),
+            standards: standards.collect(),
+            trainees: trainees.map(|own| trainee(course, own)).collect(),
+            learning_curve: CurvesAnswer {
+                time_s: curve(Learnt::Time),
+                errors: curve(Learnt::Errors),
+                proficient_percent: curve(Learnt::ProficientPart),
+            },
+        }
+    }
+}
+
+fn trainee(course: &Course<'_>, trainee: &Trainee<'_>) -> TraineeAnswer {
+    let attempts = (1..).zip(&trainee.attempts);
+    TraineeAnswer {
+        trainee: trainee.name.to_owned(),
+        proficient_since_attempt: trainee.proficient_since,
+        attempts: attempts
+            .map(|(number, own)| attempt(course, number, own))
+            .collect(),
+    }
+}
+
+fn attempt(course: &Course<'_>, number: usize, made: &Made<'_>) -> AttemptAnswer {
+    let own = made.attempt;
+    let measures = own.measures.iter().map(|measure| MeasureAnswer {
+        measure: measure.key.clone(),
+        value: measure.value,
+        better: measure.better.word(),
+        proficient: made.judged(course, &measure.key),
+    });
+    AttemptAnswer {
+        attempt: number,
+        when_unix_s: own.when,
+        date_utc: date::exact(own.when),
+        session: own.session.clone(),
+        scene_digest: own.scene_digest.clone(),
+        time_s: made.time(),
+        errors: made.errors(),
+        passed: own.passed,
+        proficient: made.judgement.proficient,
+        measures: measures.collect(),
+    }
+}
+
+impl From<Spread> for SpreadAnswer {
+    fn from(spread: Spread) -> Self {
+        Self {
+            mean: spread.mean,
+            standard_deviation: spread.standard_deviation,
+            n: spread.count,
+        }
+    }
+}
+
+impl From<CurvePoint> for PointAnswer {
+    fn from(point: CurvePoint) -> Self {
+        Self {
+            attempt: point.attempt,
+            spread: point.spread.into(),
+        }
+    }
+}

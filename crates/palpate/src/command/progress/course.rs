@@ -1,0 +1,193 @@
+//! What became of one task, trainee by trainee.
+
+use palpate_record::{
+    Attempt, CurvePoint, Judgement, Spread, Standards, learning_curve, proficient_since,
+};
+
+/// The measure that is the operation time [s].
+pub(crate) const TIME: &str = "time_s";
+
+/// The measures that count what should not happen.
+pub(crate) const ERRORS: [&str; 5] = [
+    "force_limit_errors",
+    "perforations",
+    "drops",
+    "shaft_contacts",
+    "undone_cuts",
+];
+
+/// A task, and all attempts at it.
+#[derive(Debug)]
+pub(super) struct Course<'r> {
+    pub(super) task: &'r str,
+    /// By name.
+    pub(super) trainees: Vec<Trainee<'r>>,
+    pub(super) experts: Vec<&'r Attempt>,
+    pub(super) standards: Standards,
+    /// How many different scenes there are.
+    pub(super) scenes: usize,
+}
+
+/// Somebody, and their attempts at a task in the order of time.
+#[derive(Debug)]
+pub(super) struct Trainee<'r> {
+    pub(super) name: &'r str,
+    pub(super) attempts: Vec<Made<'r>>,
+    /// The attempt with which they became proficient, counted from one.
+    pub(super) proficient_since: Option<usize>,
+}
+
+/// An attempt beside the experts' standards.
+#[derive(Debug)]
+pub(super) struct Made<'r> {
+    pub(super) attempt: &'r Attempt,
+    pub(super) judgement: Judgement,
+}
+
+/// What learning curves are of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Learnt {
+    /// Operation time [s].
+    Time,
+    /// What should not have happened, counted.
+    Errors,
+    /// The part of the measures that is proficient [%].
+    ProficientPart,
+}
+
+impl<'r> Course<'r> {
+    /// Of all tasks in alphabetical order, with one trainee alone if `only` names them. A task that nobody of
+    /// these attempted is left out, unless all are wanted and experts did.
+    pub(super) fn all(attempts: &'r [Attempt], only: Option<&str>) -> Vec<Self> {
+        let tasks = distinct(attempts.iter().map(|own| own.task.as_str()));
+        let courses = tasks.into_iter().map(|task| Self::of(task, attempts, only));
+        courses
+            .filter(|course| only.is_none() || !course.trainees.is_empty())
+            .collect()
+    }
+
+    fn of(task: &'r str, attempts: &'r [Attempt], only: Option<&str>) -> Self {
+        let own = || attempts.iter().filter(|attempt| attempt.task == task);
+        let experts: Vec<&Attempt> = own().filter(|attempt| attempt.is_expert).collect();
+        let standards = Standards::of(&experts);
+        let is_wanted = |own: &&Attempt| only.is_none_or(|only| only == own.trainee);
+        let made = || own().filter(|own| !own.is_expert).filter(is_wanted);
+        let names = distinct(made().map(|own| own.trainee.as_str()));
+        let trainees = names.into_iter().map(|name| {
+            let own = made().filter(|own| own.trainee == name);
+            let own = own.map(|attempt| Made {
+                judgement: standards.judge(attempt),
+                attempt,
+            });
+            let attempts: Vec<Made<'_>> = own.collect();
+            let judgements: Vec<Judgement> =
+                attempts.iter().map(|own| own.judgement.clone()).collect();
+            Trainee {
+                name,
+                proficient_since: proficient_since(&judgements),
+                attempts,
+            }
+        });
+        Self {
+            task,
+            trainees: trainees.collect(),
+            scenes: distinct(own().map(|own| own.scene_digest.as_str())).len(),
+            experts,
+            standards,
+        }
+    }
+
+    /// How many attempts trainees made.
+    pub(super) fn attempts(&self) -> usize {
+        self.trainees.iter().map(|own| own.attempts.len()).sum()
+    }
+
+    /// A number from attempt to attempt, over trainees.
+    pub(super) fn curve(&self, of: Learnt) -> Vec<CurvePoint> {
+        let each = self.trainees.iter();
+        let each = each.map(|own| own.attempts.iter().map(|own| own.learnt(of)).collect());
+        learning_curve(&each.collect::<Vec<_>>())
+    }
+
+    /// A number over the experts' attempts.
+    pub(super) fn of_experts(&self, of: Learnt) -> Option<Spread> {
+        let judged = self.experts.iter().map(|attempt| Made {
+            judgement: self.standards.judge(attempt),
+            attempt,
+        });
+        Spread::of(&judged.filter_map(|own| own.learnt(of)).collect::<Vec<_>>())
+    }
+
+    /// What deserves doubt.
+    pub(super) fn doubts(&self) -> Vec<String> {
+        let task = self.task;
+        let mut doubts = Vec::new();
+        match self.experts.len() {
+            0 => doubts.push(format!(
+                "no session of an expert at `{task}` is recorded, so nobody can be proficient; record two or more"
+            )),
+            1 => doubts.push(format!(
+                "one session of an expert at `{task}` gives no deviation, so nobody can be proficient; record another"
+            )),
+            _ => {}
+        }
+        if self.scenes > 1 {
+            doubts.push(format!(
+                "`{task}` was attempted in {} different scenes; their numbers may not compare",
+                self.scenes
+            ));
+        }
+        doubts
+    }
+}
+
+impl Made<'_> {
+    /// A number of a learning curve, if there is such.
+    pub(super) fn learnt(&self, of: Learnt) -> Option<f64> {
+        match of {
+            Learnt::Time => self.time(),
+            Learnt::Errors => self.errors(),
+            Learnt::ProficientPart => {
+                let (proficient, told) = self.proficient();
+                (told > 0).then(|| 100.0 * proficient as f64 / told as f64)
+            }
+        }
+    }
+
+    /// Operation time [s].
+    pub(super) fn time(&self) -> Option<f64> {
+        self.attempt.value(TIME)
+    }
+
+    /// What should not have happened, counted.
+    pub(super) fn errors(&self) -> Option<f64> {
+        let counts = ERRORS.iter().filter_map(|key| self.attempt.value(key));
+        counts.reduce(|sum, count| sum + count)
+    }
+
+    /// How many measures are proficient, and of how many that can be told.
+    pub(super) fn proficient(&self) -> (usize, usize) {
+        let told = || {
+            self.judgement
+                .measures
+                .iter()
+                .filter_map(|own| own.proficient)
+        };
+        (told().filter(|is| *is).count(), told().count())
+    }
+
+    /// Whether a measure of it is proficient; none where that cannot be told.
+    pub(super) fn judged(&self, course: &Course<'_>, key: &str) -> Option<bool> {
+        let mut standards = course.standards.each.iter();
+        let place = standards.position(|own| own.key == key)?;
+        self.judgement.measures.get(place)?.proficient
+    }
+}
+
+/// Each once, in alphabetical order.
+fn distinct<'n>(names: impl Iterator<Item = &'n str>) -> Vec<&'n str> {
+    let mut names: Vec<&str> = names.collect();
+    names.sort_unstable();
+    names.dedup();
+    names
+}

@@ -1,0 +1,149 @@
+//! `palpate progress`: how trainees come along, from the training record.
+
+mod answer;
+mod course;
+mod curves;
+mod export;
+mod report;
+mod table;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use palpate_files::{check_writable, write_whole};
+use palpate_record::{Filter, IN_A_ROW, Record};
+
+use self::answer::Answer;
+use self::course::Course;
+pub(crate) use self::course::{ERRORS, TIME};
+use crate::failure::Failure;
+use crate::{nearest, output, training};
+
+/// Examples at the end of the help.
+const EXAMPLES: &str = "\
+Examples:
+  palpate progress
+      attempts of all trainees at all tasks, and who is proficient
+  palpate progress --trainee Anna --task 'Find the stiff spot'
+      one trainee at one task
+  palpate progress --report progress.html
+      the same as a page with learning curves
+  palpate progress --csv attempts.csv
+      every measure of every attempt in a row of its own, for a program of statistics
+
+A measure is proficient when it is not worse than the mean of the experts' sessions by more than one
+standard deviation. A trainee is, after two attempts in a row that did not fail and are proficient in as
+many measures as the experts themselves on average. Dates are in universal time.";
+
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Arguments {
+    /// Only this trainee.
+    #[arg(long, value_name = "NAME")]
+    trainee: Option<String>,
+    /// Only this task.
+    #[arg(long, value_name = "TITLE")]
+    task: Option<String>,
+    /// The training record; without it, the one in the folder of your data.
+    #[arg(long, value_name = "FILE.sqlite")]
+    record: Option<PathBuf>,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+    /// Write a table with a row for each measure of each attempt.
+    #[arg(long, value_name = "FILE.csv")]
+    csv: Option<PathBuf>,
+    /// Write a page with learning curves, for a browser or a printer.
+    #[arg(long, value_name = "FILE.html")]
+    report: Option<PathBuf>,
+}
+
+/// Reads the record and prints.
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let file = training::record_file(arguments.record.as_deref())?;
+    for written in arguments.csv.iter().chain(&arguments.report) {
+        if is_same(written, &file) {
+            let file = written.display();
+            return Err(Failure::input(format!(
+                "{file} is the training record itself; write to another file"
+            )));
+        }
+        check_writable(written)?;
+    }
+    let record = Record::read(&file)?;
+    let trainee = known("trainee", &arguments.trainee, &record.trainees()?)?;
+    let task = known("task", &arguments.task, &record.tasks()?)?;
+    // Of all trainees, for experts are among them.
+    let attempts = record.attempts(&Filter {
+        trainee: None,
+        task,
+    })?;
+    let courses = Course::all(&attempts, trainee.as_deref());
+    let answer = Answer::new(record.path(), &courses);
+    if let Some(table) = &arguments.csv {
+        write_whole(table, export::csv(&courses)?.as_bytes())?;
+    }
+    if let Some(page) = &arguments.report {
+        let html = report::html(&courses, &answer.warnings, &said(arguments, record.path()));
+        write_whole(page, html.as_bytes())?;
+    }
+    if arguments.json {
+        return output::json(&answer);
+    }
+    let asked = arguments.trainee.is_some() || arguments.task.is_some();
+    output::text(table::of(&courses, record.path(), asked))?;
+    for written in arguments.csv.iter().chain(&arguments.report) {
+        output::text(format!("written: {}", written.display()))?;
+    }
+    output::warnings(&answer.warnings);
+    Ok(())
+}
+
+/// What makes a trainee proficient, in words.
+fn rule() -> String {
+    format!(
+        "A measure is proficient when it is not worse than the mean of the experts' sessions by more than one \
+         standard deviation. A trainee is proficient after {IN_A_ROW} attempts in a row that did not fail and are \
+         proficient in as many measures as the experts themselves on average."
+    )
+}
+
+/// The name that was asked for, if the record has it.
+fn known(what: &str, asked: &Option<String>, names: &[String]) -> Result<Option<String>, Failure> {
+    let Some(asked) = asked else {
+        return Ok(None);
+    };
+    if names.contains(asked) {
+        return Ok(Some(asked.clone()));
+    }
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    Err(Failure::input(match names.is_empty() {
+        true => {
+            format!("the record has no {what} `{asked}`, for it is empty; leave `--{what}` out")
+        }
+        false => format!(
+            "the record has no {what} `{asked}`; the nearest is `{}`",
+            nearest::name(asked, &names)
+        ),
+    }))
+}
+
+/// Whether two paths lead to the same file.
+fn is_same(one: &Path, other: &Path) -> bool {
+    let [one, other] = [one, other].map(fs::canonicalize);
+    one.is_ok_and(|one| other.is_ok_and(|other| one == other))
+}
+
+/// How a page was asked for.
+fn said(arguments: &Arguments, record: &Path) -> Vec<(String, String)> {
+    let asked = [
+        ("--record", Some(record.display().to_string())),
+        ("--trainee", arguments.trainee.clone()),
+        ("--task", arguments.task.clone()),
+    ];
+    let asked = asked.into_iter();
+    asked
+        .filter_map(|(name, value)| Some((name.to_owned(), value?)))
+        .collect()
+}

@@ -1,0 +1,185 @@
+//! `palpate replay`: a session again, step by step, on the same organ.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use clap::Args;
+use palpate_files::Scene;
+use palpate_simulate::{Replay, SessionFolder, Simulation};
+use palpate_viewer::{Start, Studio, png};
+use serde::Serialize;
+
+use super::window;
+use crate::failure::Failure;
+use crate::output::{self, VERSION};
+use crate::progress::{Progress, Reader};
+use crate::{interrupt, preparation};
+
+/// Examples at the end of the help.
+const EXAMPLES: &str = "\
+Examples:
+  palpate replay session
+      opens a window: play, stop, go back, look from any side
+  palpate replay session --frames 20 --out pictures
+      without a window: 20 pictures, and whether every force is the recorded one
+
+The folder holds session.csv and scene.toml, as `palpate simulate` and the window write them.";
+
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Arguments {
+    /// The session's folder.
+    #[arg(value_name = "SESSION_DIR")]
+    session: PathBuf,
+    /// The scene, when it is not beside the session.
+    #[arg(long, value_name = "SCENE.toml")]
+    scene: Option<PathBuf>,
+    /// Write this many pictures, evenly over the session, instead of opening a window.
+    #[arg(long, value_name = "N", requires = "out", value_parser = clap::value_parser!(u64).range(0..=100_000))]
+    frames: Option<u64>,
+    /// The folder for pictures; it is made when it is not there.
+    #[arg(long, value_name = "DIR", requires = "frames")]
+    out: Option<PathBuf>,
+    /// Print what came of it as one JSON object; opens no window.
+    #[arg(long)]
+    json: bool,
+}
+
+/// What came of playing a session again.
+#[derive(Debug, Serialize)]
+struct Answer {
+    palpate: &'static str,
+    steps: usize,
+    duration_s: f64,
+    rows_compared: u64,
+    /// Of a force from the recorded one.
+    largest_difference_n: f64,
+    files: Vec<PathBuf>,
+    warnings: Vec<String>,
+}
+
+/// Opens a window, or plays it without one.
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let folder = SessionFolder::read(&arguments.session)?;
+    let scene = match (&arguments.scene, folder.scene.clone()) {
+        (Some(path), _) => Scene::read(path)?,
+        (None, Some(scene)) => scene,
+        (None, None) => {
+            return Err(Failure::input(format!(
+                "{} has no scene.toml beside its session; name the scene with --scene SCENE.toml",
+                arguments.session.display()
+            )));
+        }
+    };
+    let reader = Reader::of_json(arguments.json);
+    let simulation = preparation::simulation(&scene, &preparation::resources(), reader)?;
+    let replay = Replay::new(Arc::new(simulation.clone()), &folder.session)?;
+    if arguments.frames.is_none() && !arguments.json {
+        return match window::open(
+            Start::Again(Box::new(scene), Arc::new(simulation), Box::new(replay)),
+            None,
+        ) {
+            Err(why) if window::is_absent(&why) => Err(Failure::failed(format!(
+                "{why}; --frames N --out DIR takes pictures without a window"
+            ))),
+            outcome => Ok(outcome?),
+        };
+    }
+    let mut answer = play(arguments, (&scene, &simulation), replay)?;
+    if let Some(place) = &folder.session.truncated {
+        answer.warnings.push(format!(
+            "{place}: the last line was cut off when the program was stopped, and is left out"
+        ));
+    }
+    if arguments.json {
+        return output::json(&answer);
+    }
+    output::text(format!(
+        "{} steps over {:.1} s played again; of {} forces the one that is farthest from what was recorded \
+         is off by {:e} N",
+        answer.steps, answer.duration_s, answer.rows_compared, answer.largest_difference_n
+    ))?;
+    for file in &answer.files {
+        output::text(file.display())?;
+    }
+    output::warnings(&answer.warnings);
+    Ok(())
+}
+
+/// Plays all steps, takes pictures and compares.
+fn play(
+    arguments: &Arguments,
+    (scene, simulation): (&Scene, &Simulation),
+    mut replay: Replay,
+) -> Result<Answer, Failure> {
+    let wanted = arguments.frames.unwrap_or(0);
+    let folder = arguments.out.clone().unwrap_or_default();
+    let mut studio = match wanted {
+        0 => None,
+        _ => {
+            std::fs::create_dir_all(&folder).map_err(|cause| {
+                let folder = folder.display();
+                Failure::failed(format!(
+                    "{folder} cannot be made ({cause}); name another with --out"
+                ))
+            })?;
+            Some(Studio::new(scene, simulation, palpate_viewer::FRAME_SIZE)?)
+        }
+    };
+    let steps = replay.steps();
+    let progress = Progress::new(Reader::of_json(arguments.json), Some(steps as u64));
+    progress.say("steps played again");
+    let (mut compared, mut largest) = (0, 0.0_f64);
+    let mut files = Vec::new();
+    while replay.advance() {
+        let number = replay.played() as u64 - 1;
+        if number.is_multiple_of(64) {
+            progress.at(number);
+        }
+        for row in replay.recorded() {
+            let tool = &replay.state().tools[row.tool];
+            if tool.pose.is_some() {
+                let off = (0..3).map(|axis| tool.row.force_n[axis] - row.force_n[axis]);
+                largest = off.fold(largest, |largest, off| largest.max(off.abs()));
+                compared += 1;
+            }
+        }
+        let done = files.len() as u64;
+        let last = steps as u64 - 1;
+        let due = match wanted {
+            0 | 1 => last,
+            _ => done * last / (wanted - 1),
+        };
+        if let Some(studio) = &mut studio
+            && done < wanted
+            && number >= due
+        {
+            let path = folder.join(format!("frame-{:04}.png", done + 1));
+            let picture = studio.picture(replay.state())?;
+            palpate_files::write_whole(&path, &png(&picture)?)?;
+            files.push(path);
+        }
+        if interrupt::is_asked() {
+            return Err(Failure::failed(
+                "interrupted; the pictures so far are whole",
+            ));
+        }
+    }
+    let mut warnings = simulation.doubts().to_vec();
+    if largest > 0.0 {
+        warnings.push(
+            "the forces are not those that were recorded to the last bit; another version or machine \
+             rounds otherwise"
+                .to_owned(),
+        );
+    }
+    Ok(Answer {
+        palpate: VERSION,
+        steps,
+        duration_s: replay.time(steps) - replay.time(0),
+        rows_compared: compared,
+        largest_difference_n: largest,
+        files,
+        warnings,
+    })
+}

@@ -1,0 +1,79 @@
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use palpate_files::scene::Task;
+use palpate_simulate::performance::{Comparison, Outcome, Score};
+use serde::Serialize;
+
+use crate::output::VERSION;
+
+/// What `--json` prints.
+#[derive(Debug, Serialize)]
+pub(super) struct Answer {
+    palpate: &'static str,
+    session: PathBuf,
+    task: TaskAnswer,
+    /// By key, in SI.
+    measures: BTreeMap<String, f64>,
+    /// By key; empty without an expert.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    expert: BTreeMap<String, Beside>,
+    pub(super) warnings: Vec<String>,
+}
+
+#[derive(Debug, Serialize)]
+struct TaskAnswer {
+    kind: &'static str,
+    title: Option<String>,
+    passed: Option<bool>,
+    /// Of a cut line.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    part: Option<f64>,
+}
+
+#[derive(Debug, Serialize)]
+struct Beside {
+    mean: f64,
+    standard_deviation: Option<f64>,
+    sessions: usize,
+    ratio: Option<f64>,
+    proficient: Option<bool>,
+}
+
+impl Answer {
+    pub(super) fn new(
+        (session, task): (&Path, &Task),
+        (score, compared): (&Score, &[Comparison]),
+        warnings: Vec<String>,
+    ) -> Self {
+        let measures = score.measures().into_iter();
+        let beside = |compared: &Comparison| Beside {
+            mean: compared.standard.mean,
+            standard_deviation: compared.standard.standard_deviation,
+            sessions: compared.standard.count,
+            ratio: compared.ratio,
+            proficient: compared.proficient,
+        };
+        Self {
+            palpate: VERSION,
+            session: session.to_owned(),
+            task: TaskAnswer {
+                kind: task.goal.word(),
+                title: task.title.clone(),
+                passed: score.outcome.passed(),
+                part: match score.outcome {
+                    Outcome::Cut { part, .. } => Some(part),
+                    _ => None,
+                },
+            },
+            measures: measures
+                .map(|measure| (measure.key, measure.value))
+                .collect(),
+            expert: compared
+                .iter()
+                .map(|compared| (compared.measure.key.clone(), beside(compared)))
+                .collect(),
+            warnings,
+        }
+    }
+}

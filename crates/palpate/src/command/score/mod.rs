@@ -1,0 +1,136 @@
+//! `palpate score`: the measures of a session, beside an expert's.
+
+mod answer;
+mod table;
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use palpate_files::Scene;
+use palpate_files::scene::Task;
+use palpate_simulate::performance::{Standard, compare};
+use palpate_simulate::{SessionFolder, read_experts};
+
+use crate::failure::Failure;
+use crate::output;
+use crate::training::{self, Who};
+use answer::Answer;
+
+/// Examples at the end of the help.
+const EXAMPLES: &str = "\
+Examples:
+  palpate score session
+      time, ways, turns, economy, smoothness, forces, errors, and what became of the task
+  palpate score session --expert expert --json
+      the same beside the session of an expert, or beside the mean and deviation of those in a folder
+  palpate score session --trainee Anna
+      keeps the score, too; `palpate progress` shows how Anna comes along
+
+The folder holds session.csv, and scene.toml where there was a task. Each measure is defined, with its formula
+and its reference, in docs/theory/performance.md.";
+
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Arguments {
+    /// The session's folder, or its file.
+    #[arg(value_name = "SESSION_DIR")]
+    session: PathBuf,
+    /// An expert's session, or a folder of several; without it, that of the task.
+    #[arg(long, value_name = "DIR")]
+    expert: Option<PathBuf>,
+    /// The scene whose task counts, when it is not beside the session.
+    #[arg(long, value_name = "SCENE.toml")]
+    scene: Option<PathBuf>,
+    /// Keep the score in the training record, as this trainee's.
+    #[arg(long, value_name = "NAME")]
+    trainee: Option<String>,
+    /// With --trainee: others are judged by this session.
+    #[arg(long, requires = "trainee")]
+    as_expert: bool,
+    /// With --trainee: the training record; without it, the one in the folder of your data.
+    #[arg(long, value_name = "FILE.sqlite", requires = "trainee")]
+    record: Option<PathBuf>,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Measures a session.
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let folder = SessionFolder::read(&arguments.session)?;
+    let task = match &arguments.scene {
+        Some(path) => Scene::read(path)?.task,
+        None => folder.task(),
+    };
+    let score = folder.score(&task);
+    let mut warnings = doubts(&folder);
+    let standards = match arguments.expert.as_deref().or(task.expert.as_deref()) {
+        Some(path) => standards(path, &task, &folder, &mut warnings)?,
+        None => Vec::new(),
+    };
+    let compared = compare(&score, &standards);
+    if let Some(trainee) = &arguments.trainee {
+        let file = training::record_file(arguments.record.as_deref())?;
+        let who = Who {
+            trainee,
+            is_expert: arguments.as_expert,
+            scene_digest: &folder.session.header.scene_digest,
+            session: &arguments.session,
+        };
+        warnings.extend(training::keep(&file, who, (&task, &score))?);
+    }
+    let answer = Answer::new((&arguments.session, &task), (&score, &compared), warnings);
+    if arguments.json {
+        return output::json(&answer);
+    }
+    output::text(table::text(&task, (&score, &compared)))?;
+    output::warnings(&answer.warnings);
+    Ok(())
+}
+
+/// What experts reach in this task.
+fn standards(
+    path: &Path,
+    task: &Task,
+    own: &SessionFolder,
+    warnings: &mut Vec<String>,
+) -> Result<Vec<Standard>, Failure> {
+    let experts = read_experts(path)?;
+    let other = |expert: &&SessionFolder| {
+        expert.session.header.scene_digest != own.session.header.scene_digest
+    };
+    if let Some(expert) = experts.iter().find(other) {
+        warnings.push(format!(
+            "{} is a session of another scene; its measures are of another task",
+            expert.path.display()
+        ));
+    }
+    let scores: Vec<_> = experts.iter().map(|expert| expert.score(task)).collect();
+    if let [_] = scores.as_slice() {
+        warnings.push(
+            "a single session of an expert has no deviation; who is proficient is told from two on"
+                .to_owned(),
+        );
+    }
+    Ok(Standard::of(&scores))
+}
+
+fn doubts(folder: &SessionFolder) -> Vec<String> {
+    let mut doubts = Vec::new();
+    if let Some(place) = &folder.session.truncated {
+        doubts.push(format!(
+            "{place}: the last line was cut off when the program was stopped, and is left out"
+        ));
+    }
+    if folder.session.rows.is_empty() {
+        doubts.push("the session has no row: nothing was done".to_owned());
+    }
+    if folder.scene.is_none() {
+        doubts.push(
+            "there is no scene.toml beside the session: its task and its force limit are not known; \
+             name them with --scene"
+                .to_owned(),
+        );
+    }
+    doubts
+}

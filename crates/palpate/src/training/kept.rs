@@ -1,0 +1,129 @@
+use std::path::{Path, PathBuf};
+
+use palpate_files::scene::Task;
+use palpate_record::{Attempt, Filter, Record};
+use palpate_simulate::performance::Score;
+use palpate_viewer::training::{PastResult, TrainingResult};
+
+use super::TrainingRecord;
+use super::record::{measures, record_file};
+use crate::date;
+use crate::failure::Failure;
+
+/// What a task without a title is called.
+const UNTITLED: &str = "without a title";
+
+/// The training record, as a window uses it. It is opened anew each time, for other programs may have it, too.
+pub(super) struct Kept {
+    file: PathBuf,
+    sessions: PathBuf,
+}
+
+/// Who was it, in which scene, and where it was recorded.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Who<'a> {
+    pub(crate) trainee: &'a str,
+    pub(crate) is_expert: bool,
+    pub(crate) scene_digest: &'a str,
+    pub(crate) session: &'a Path,
+}
+
+/// Keeps a score in the record; what deserves doubt.
+pub(crate) fn keep(
+    file: &Path,
+    who: Who<'_>,
+    (task, score): (&Task, &Score),
+) -> Result<Vec<String>, palpate_record::Error> {
+    let mut record = Record::open(file)?;
+    record.add(&Attempt {
+        trainee: who.trainee.to_owned(),
+        task: task.title.clone().unwrap_or_else(|| UNTITLED.to_owned()),
+        scene_digest: who.scene_digest.to_owned(),
+        when: super::now(),
+        session: std::path::absolute(who.session).unwrap_or_else(|_| who.session.to_owned()),
+        passed: score.outcome.passed(),
+        is_expert: who.is_expert,
+        measures: measures(score),
+    })?;
+    Ok(record.doubts().to_vec())
+}
+
+impl Kept {
+    pub(super) fn new(folder: &Path) -> Result<Self, Failure> {
+        Ok(Self {
+            file: record_file(None)?,
+            sessions: folder.join("sessions"),
+        })
+    }
+
+    /// Who trained last.
+    pub(super) fn last_trainee(&self) -> Option<String> {
+        let attempts = self.attempts(None).ok()?;
+        attempts.last().map(|last| last.trainee.clone())
+    }
+
+    fn attempts(&self, trainee: Option<&str>) -> Result<Vec<Attempt>, palpate_record::Error> {
+        if !self.file.exists() {
+            return Ok(Vec::new());
+        }
+        Record::read(&self.file)?.attempts(&Filter {
+            trainee: trainee.map(str::to_owned),
+            task: None,
+        })
+    }
+}
+
+impl TrainingRecord for Kept {
+    fn new_session(&self, task: &Task) -> PathBuf {
+        let plain = |letter: char| match letter.is_ascii_alphanumeric() {
+            true => letter.to_ascii_lowercase(),
+            false => '-',
+        };
+        let title: String = task
+            .title
+            .as_deref()
+            .unwrap_or("session")
+            .chars()
+            .map(plain)
+            .collect();
+        let date = date::exact(super::now()).replace(':', "-");
+        let name = format!("{date}-{title}");
+        let numbered = (2..).map(|number| format!("{name}-{number}"));
+        let mut names = std::iter::once(name.clone()).chain(numbered);
+        let free = names.find(|name| !self.sessions.join(name).exists());
+        self.sessions.join(free.unwrap_or(name))
+    }
+
+    fn keep(&mut self, result: &TrainingResult<'_>) -> Result<(), String> {
+        let who = Who {
+            trainee: result.trainee,
+            is_expert: result.is_expert,
+            scene_digest: result.scene_digest,
+            session: result.session,
+        };
+        let kept = keep(&self.file, who, (&result.scene.task, result.score));
+        match kept.map_err(|error| error.to_string())?.as_slice() {
+            [] => Ok(()),
+            doubts => Err(doubts.join(" ")),
+        }
+    }
+
+    fn results(&self, trainee: &str) -> Result<Vec<PastResult>, String> {
+        let attempts = self
+            .attempts(Some(trainee))
+            .map_err(|error| error.to_string())?;
+        let errors = |attempt: &Attempt| {
+            let counts = crate::command::progress::ERRORS.iter();
+            counts.filter_map(|key| attempt.value(key)).sum::<f64>() as u64
+        };
+        let result = |attempt: &Attempt| PastResult {
+            task: attempt.task.clone(),
+            date: date::short(attempt.when),
+            passed: attempt.passed,
+            time: attempt.value(crate::command::progress::TIME).unwrap_or(0.0),
+            errors: errors(attempt),
+            session: attempt.session.clone(),
+        };
+        Ok(attempts.iter().map(result).collect())
+    }
+}

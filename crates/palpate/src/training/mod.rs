@@ -1,0 +1,52 @@
+//! What trainees do: the tasks that come with the program, and where sessions and results are kept.
+
+mod kept;
+mod record;
+mod tasks;
+
+use std::path::PathBuf;
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use palpate_viewer::training::{Training, TrainingRecord};
+
+pub(crate) use kept::{Who, keep};
+pub(crate) use record::record_file;
+
+use crate::failure::Failure;
+use kept::Kept;
+
+/// The variable that names the folder of sessions and results.
+const FOLDER_VARIABLE: &str = "PALPATE_TRAINING";
+
+/// The folder in which sessions and results are kept.
+fn folder() -> Result<PathBuf, Failure> {
+    let named = std::env::var_os(FOLDER_VARIABLE).filter(|name| !name.is_empty());
+    let own = || Some(dirs::data_dir()?.join("palpate"));
+    named.map(PathBuf::from).or_else(own).ok_or_else(|| {
+        Failure::failed(format!(
+            "this system names no folder for sessions and results; name one with the variable \
+             {FOLDER_VARIABLE}"
+        ))
+    })
+}
+
+/// Seconds since the beginning of 1970.
+fn now() -> i64 {
+    let since = SystemTime::now().duration_since(UNIX_EPOCH);
+    since.map_or(0, |since| since.as_secs() as i64)
+}
+
+/// All that a window needs to train somebody.
+pub(crate) fn training() -> Result<Training, Failure> {
+    let folder = folder()?;
+    let record = Kept::new(&folder)?;
+    let user = std::env::var("USER").unwrap_or_else(|_| "trainee".to_owned());
+    Ok(Training {
+        tasks: tasks::tasks(&folder)?,
+        free: tasks::free()?,
+        sessions: folder.join("sessions"),
+        trainee: record.last_trainee().unwrap_or(user),
+        is_expert: false,
+        record: Box::new(record),
+    })
+}

@@ -1,0 +1,37 @@
+use super::Outcome;
+
+/// What became of a task, in a sentence for who did it.
+pub fn outcome_words(outcome: &Outcome) -> String {
+    match *outcome {
+        Outcome::Free => "Nothing had to be done.".to_owned(),
+        Outcome::Find { beside: None, .. } => "No place was marked.".to_owned(),
+        Outcome::Find {
+            beside: Some(beside),
+            found,
+        } => format!(
+            "{}, {:.1} mm from its middle.",
+            if found { "Found" } else { "Missed" },
+            1e3 * beside
+        ),
+        Outcome::Traction {
+            within,
+            error,
+            held,
+        } => {
+            let off = error.map_or(String::new(), |error| {
+                format!(", {:.0} mN off on average", 1e3 * error)
+            });
+            match held {
+                true => format!("The force was held for {within:.1} s{off}."),
+                false => format!("The force was held for only {within:.1} s{off}."),
+            }
+        }
+        Outcome::Cut { part, clean } => match clean {
+            true => "The line is cut, straight and without a perforation.".to_owned(),
+            false => format!(
+                "{:.0} % of the line is cut; see deviation and perforations.",
+                100.0 * part
+            ),
+        },
+    }
+}

@@ -1,0 +1,170 @@
+//! Where what is shown comes from: hands that touch now, or a session that is played again.
+
+use std::time::{Duration, Instant};
+
+use palpate_files::{SessionRow, SessionWriter};
+use palpate_simulate::interactive::{Interaction, ModelReport, Order, Quality, Snapshot};
+use palpate_simulate::{Replay, Simulation};
+
+/// What a picture has time for [ms]: steps that are played again take their turn with the pictures.
+const BUDGET: Duration = Duration::from_millis(12);
+
+/// Where what is shown comes from.
+pub(super) enum Source {
+    /// Hands that touch now.
+    Touched(Box<Interaction>),
+    /// A session that is played again.
+    Again(Box<Playback>),
+}
+
+/// A session that is played again at a pace that can be chosen, forth and back.
+pub(super) struct Playback {
+    replay: Replay,
+    snapshot: Snapshot,
+    rows: Vec<SessionRow>,
+    pub(super) plays: bool,
+    /// Seconds of the session per second [-].
+    pub(super) pace: f64,
+    /// Where it should be [s].
+    at: f64,
+    /// How many steps shall have been played.
+    goal: usize,
+}
+
+impl Source {
+    /// The latest that there is to see.
+    pub(super) fn snapshot(&mut self) -> &Snapshot {
+        match self {
+            Self::Touched(interaction) => interaction.snapshot(),
+            Self::Again(playback) => &playback.snapshot,
+        }
+    }
+
+    /// The rows that nobody has read yet.
+    pub(super) fn rows(&mut self) -> Vec<SessionRow> {
+        match self {
+            Self::Touched(interaction) => interaction.rows().collect(),
+            Self::Again(playback) => std::mem::take(&mut playback.rows),
+        }
+    }
+
+    /// How good the touch was; a session that is played again has none.
+    pub(super) fn quality(&mut self) -> Quality {
+        match self {
+            Self::Touched(interaction) => interaction.quality(),
+            Self::Again(_) => Quality {
+                model: ModelReport::default(),
+                loops: Vec::new(),
+            },
+        }
+    }
+
+    pub(super) fn is_running(&self) -> bool {
+        match self {
+            Self::Touched(interaction) => interaction.is_running(),
+            Self::Again(_) => true,
+        }
+    }
+
+    pub(super) fn order(&mut self, order: Order) {
+        match self {
+            Self::Touched(interaction) => interaction.order(order),
+            Self::Again(playback) => match order {
+                Order::Pause => playback.plays = false,
+                Order::Resume => playback.plays = true,
+                Order::Reset => playback.go_to(0),
+                Order::UndoCut | Order::Mark => {}
+            },
+        }
+    }
+
+    /// Records what is touched from a new beginning on.
+    pub(super) fn record(&mut self, writer: SessionWriter) {
+        if let Self::Touched(interaction) = self {
+            interaction.record(writer);
+        }
+    }
+
+    /// Ends the recording.
+    pub(super) fn end_recording(&mut self) -> Result<(), palpate_simulate::Error> {
+        match self {
+            Self::Touched(interaction) => interaction.end_recording(),
+            Self::Again(_) => Ok(()),
+        }
+    }
+
+    /// The session that is played again, if one is.
+    pub(super) fn playback(&mut self) -> Option<&mut Playback> {
+        match self {
+            Self::Touched(_) => None,
+            Self::Again(playback) => Some(playback),
+        }
+    }
+}
+
+impl Playback {
+    /// At its beginning, playing.
+    pub(super) fn new(simulation: &Simulation, replay: Replay) -> Self {
+        let mut snapshot = Snapshot::new(simulation);
+        snapshot.show(replay.time(0), replay.state());
+        Self {
+            at: replay.time(0),
+            replay,
+            snapshot,
+            rows: Vec::new(),
+            plays: true,
+            pace: 1.0,
+            goal: 0,
+        }
+    }
+
+    /// Steps that there are, and that were played.
+    pub(super) fn steps(&self) -> [usize; 2] {
+        [self.replay.steps(), self.replay.played()]
+    }
+
+    /// The time of a step since the first one [s].
+    pub(super) fn time(&self, step: usize) -> f64 {
+        self.replay.time(step) - self.replay.time(0)
+    }
+
+    /// Whether there is something to wait for: it plays, or goes to another step.
+    pub(super) fn moves(&self) -> bool {
+        self.plays || self.replay.played() != self.goal
+    }
+
+    /// Goes to where so many steps were played.
+    pub(super) fn go_to(&mut self, step: usize) {
+        self.goal = step.min(self.replay.steps());
+        self.at = self.replay.time(self.goal);
+        self.rows.clear();
+    }
+
+    /// Plays on by so many seconds of the clock, as far as there is time.
+    pub(super) fn go_on(&mut self, elapsed: f64) {
+        let start = Instant::now();
+        if self.replay.played() > self.goal {
+            // Back to a state that was kept; from there it goes forth again.
+            self.replay.go_back(self.goal);
+        }
+        if self.plays && self.replay.played() >= self.goal {
+            self.at += elapsed.min(0.1) * self.pace;
+            while self.goal < self.replay.steps() && self.replay.time(self.goal) <= self.at {
+                self.goal += 1;
+            }
+        }
+        let before = self.replay.played();
+        while self.replay.played() < self.goal && start.elapsed() < BUDGET {
+            self.replay.advance();
+            self.rows.extend_from_slice(self.replay.recorded());
+        }
+        if self.plays && self.replay.played() == self.replay.steps() {
+            self.plays = false;
+        }
+        if self.replay.played() != before || self.snapshot.paused == self.plays {
+            let time = self.replay.time(self.replay.played().saturating_sub(1));
+            self.snapshot.show(time, self.replay.state());
+            self.snapshot.paused = !self.plays;
+        }
+    }
+}

@@ -1,0 +1,250 @@
+//! The window as a trainer: start screen, tasks, results, sessions looked at again.
+
+use std::path::Path;
+
+use eframe::egui;
+use palpate_files::Scene;
+use palpate_simulate::{Replay, SessionFolder};
+
+use super::attempt::{Attempt, Phase};
+use super::cards::{self, Around, Asked};
+use super::choice::Choice;
+use super::home::{Chosen, Home};
+use super::play::{Play, Wish};
+use super::training::TrainingResult;
+use super::{SimulatorWindow, timeline};
+
+impl SimulatorWindow {
+    /// The start screen instead of everything else.
+    pub(super) fn show_home(&mut self, ui: &mut egui::Ui) {
+        let (Some(home), Some(training)) = (&mut self.home, &mut self.training) else {
+            self.home = None;
+            return;
+        };
+        let chosen = egui::CentralPanel::default()
+            .show(ui, |ui| home.show(ui, training))
+            .inner;
+        let context = ui.ctx().clone();
+        let scene = match chosen {
+            None => return,
+            Some(Chosen::Task(number)) => training.tasks[number].clone(),
+            Some(Chosen::Free) => training.free.clone(),
+            Some(Chosen::Session(session)) => match scene_of(&session) {
+                Ok(scene) => {
+                    self.awaited = Some(session);
+                    scene
+                }
+                Err(trouble) => {
+                    self.notice = Some(trouble);
+                    return;
+                }
+            },
+        };
+        self.open(scene, &context);
+    }
+
+    fn open(&mut self, scene: Scene, context: &egui::Context) {
+        self.home = None;
+        self.attempt = None;
+        self.play = None;
+        self.fault = None;
+        self.choice = Choice::new(scene);
+        self.radius = 1e3 * self.choice.tip.radius_m;
+        self.picture.shading = self.choice.shading();
+        self.begin_anew(context);
+    }
+
+    /// Back to the start screen; what was being prepared or touched ends.
+    pub(super) fn go_home(&mut self) {
+        self.preparation = None;
+        self.play = None;
+        self.attempt = None;
+        self.awaited = None;
+        self.notice = None;
+        self.home = Some(Home::default());
+    }
+
+    /// Whether organ, tissue and tools may be changed: not within a task or a session.
+    pub(super) fn can_choose(&mut self) -> bool {
+        self.attempt.is_none() && !self.looks_again()
+    }
+
+    /// Whether a session is played again.
+    pub(super) fn looks_again(&mut self) -> bool {
+        let play = self.play.as_mut();
+        play.is_some_and(|play| play.source.playback().is_some())
+    }
+
+    /// A scene that has something to do becomes an attempt, unless one goes on.
+    pub(super) fn take_task(&mut self, play: &Play) {
+        let goes_on = matches!(
+            &self.attempt,
+            Some(Attempt {
+                phase: Phase::GoesOn(_),
+                ..
+            })
+        );
+        if !goes_on && self.awaited.is_none() {
+            let is_wanted = Attempt::is_wanted(&play.scene.task);
+            self.attempt = is_wanted.then(|| Attempt::new(play));
+        }
+    }
+
+    /// Looks whether the task is over, and keeps its result.
+    pub(super) fn watch_attempt(&mut self) {
+        let (Some(attempt), Some(play)) = (&mut self.attempt, &mut self.play) else {
+            return;
+        };
+        if attempt.look(play) {
+            self.keep_result();
+        }
+    }
+
+    fn keep_result(&mut self) {
+        let (Some(attempt), Some(play), Some(training)) =
+            (&mut self.attempt, &self.play, &mut self.training)
+        else {
+            return;
+        };
+        let Phase::Over(done) = &attempt.phase else {
+            return;
+        };
+        let Some(folder) = &done.folder else {
+            return;
+        };
+        let kept = training.record.keep(&TrainingResult {
+            trainee: training.trainee.trim(),
+            is_expert: training.is_expert,
+            scene: &play.scene,
+            scene_digest: &play.simulation.session_header().scene_digest,
+            session: folder,
+            score: &done.score,
+        });
+        if let Err(trouble) = kept {
+            attempt.trouble = Some(format!("the result is not kept: {trouble}"));
+        }
+    }
+
+    /// The card of the task over the picture.
+    pub(super) fn show_card(&mut self, ui: &egui::Ui) {
+        let around = Around {
+            preparing: self.preparing(),
+            has_home: self.training.is_some(),
+        };
+        let (Some(attempt), Some(_)) = (&self.attempt, &self.play) else {
+            return;
+        };
+        match cards::show(ui, attempt, &around) {
+            None => {}
+            Some(Asked::Begin) => self.begin_attempt(),
+            Some(Asked::End) => self.end_attempt(),
+            Some(Asked::Home) => self.go_home(),
+            Some(Asked::Again) => {
+                let folder = match &attempt.phase {
+                    Phase::Over(done) => done.folder.clone(),
+                    Phase::Reads | Phase::GoesOn(_) => None,
+                };
+                if let Some(folder) = folder {
+                    self.look_again(&folder);
+                }
+            }
+        }
+    }
+
+    /// Enter: begins a task that was read, marks a place, or ends.
+    pub(super) fn mark(&mut self) {
+        match &self.attempt {
+            Some(Attempt {
+                phase: Phase::Reads,
+                ..
+            }) => self.begin_attempt(),
+            Some(Attempt {
+                phase: Phase::Over(_),
+                ..
+            }) => {}
+            Some(Attempt {
+                phase: Phase::GoesOn(_),
+                ..
+            })
+            | None => {
+                if let Some(play) = &mut self.play {
+                    play.order(Wish::Mark);
+                }
+            }
+        }
+    }
+
+    fn begin_attempt(&mut self) {
+        if self.preparing().is_some() {
+            return;
+        }
+        if let (Some(attempt), Some(play)) = (&mut self.attempt, &mut self.play) {
+            let training = self.training.as_ref();
+            let session = training.map(|training| training.record.new_session(&attempt.task));
+            attempt.begin(play, session);
+            self.picture.lay_down();
+            self.picture.lists_keys = false;
+            self.history.clear();
+        }
+    }
+
+    fn end_attempt(&mut self) {
+        if let (Some(attempt), Some(play)) = (&mut self.attempt, &mut self.play) {
+            attempt.end(play, false);
+            self.keep_result();
+        }
+    }
+
+    /// Plays the session of a folder again, on the organ that is there.
+    pub(super) fn look_again(&mut self, session: &Path) {
+        let Some(play) = &self.play else { return };
+        let read = SessionFolder::read(session).and_then(|folder| {
+            let replay = Replay::new(play.simulation.clone(), &folder.session)?;
+            Ok((folder, replay))
+        });
+        let again = read.map_err(crate::Error::from).and_then(|(_, replay)| {
+            Play::again(
+                (play.scene.clone(), play.simulation.clone()),
+                replay,
+                &self.gpu,
+            )
+        });
+        match again {
+            Ok(again) => {
+                self.play = Some(again);
+                self.attempt = None;
+                self.history.clear();
+                self.picture.lay_down();
+                self.picture.lists_keys = false;
+            }
+            Err(error) => self.notice = Some(error.to_string()),
+        }
+    }
+
+    /// The line below a session that is played again.
+    pub(super) fn show_timeline(&mut self, ui: &mut egui::Ui) {
+        let can_leave = self.training.is_some();
+        let elapsed = f64::from(ui.input(|input| input.unstable_dt));
+        let Some(playback) = self.play.as_mut().and_then(|play| play.source.playback()) else {
+            return;
+        };
+        playback.go_on(elapsed);
+        let leaves = egui::Panel::bottom("timeline")
+            .show(ui, |ui| timeline::show(ui, playback, can_leave))
+            .inner;
+        if leaves {
+            self.go_home();
+        }
+    }
+}
+
+/// The scene beside a session.
+fn scene_of(session: &Path) -> Result<Scene, String> {
+    let folder = SessionFolder::read(session).map_err(|error| error.to_string())?;
+    folder.scene.ok_or_else(|| {
+        format!(
+            "{} has no scene.toml, so that it cannot be looked at again",
+            session.display()
+        )
+    })
+}
