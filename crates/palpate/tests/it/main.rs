@@ -10,6 +10,7 @@ mod errors;
 mod measure;
 mod mesh;
 mod mesh_info;
+mod palpation;
 mod progress;
 mod quality;
 mod recordings;
