@@ -45,6 +45,43 @@ pub enum Fault {
         /// Its own number for it.
         code: i32,
     },
+    /// The connection to the device's service is gone.
+    #[error("the connection to the device's service is gone; start the service and begin again")]
+    Disconnected,
+    /// A message of the device's service cannot be used.
+    #[error("the device's service sent {what}; restart it and begin again")]
+    BadMessage {
+        /// What was wrong with it.
+        what: &'static str,
+    },
+    /// The device is no longer among those that its service or library knows.
+    #[error("the device is gone; plug it in and begin again")]
+    Vanished,
+    /// The device has no power any more.
+    #[error("the device lost its power; switch it on and arm again")]
+    Unpowered,
+    /// The device does not know any more where its handle is.
+    #[error("the device lost its calibration; calibrate it and arm again")]
+    Uncalibrated,
+    /// The device took its forces off by itself.
+    #[error("the device took its forces off: {what}; see to that and arm again")]
+    Safety {
+        /// Why.
+        what: &'static str,
+    },
+    /// The device displays no force although one is sent.
+    #[error(
+        "the device displays nothing of the force that is sent; check that its service is of a version that `palpate devices` knows, and arm again"
+    )]
+    Ignored,
+    /// The library of the device reports an error.
+    #[error("the device's library reports {what} ({code:#06x}); see to that and begin again")]
+    Library {
+        /// The library's own number for it.
+        code: u32,
+        /// What it means.
+        what: &'static str,
+    },
     /// Somebody wants no force at all.
     #[error("the emergency stop was pressed; look after what is touched and arm again")]
     EmergencyStop,

@@ -3,6 +3,7 @@
 mod analyze;
 mod characterize;
 mod demonstration;
+mod devices;
 mod measure;
 mod mesh;
 mod precompute;
@@ -53,6 +54,8 @@ Examples:
       learning curves of all trainees beside the experts
   palpate quality
       how late a 1 kHz loop is on this machine, and how far its forces are off
+  palpate devices
+      which haptic devices are there
   palpate mesh info kidney.stl --unit mm
       what is wrong with a mesh, and whether it can be simulated
   palpate mesh isosurface segmentation.nii.gz --label liver --out liver.ply
@@ -97,6 +100,8 @@ enum Command {
     Reproduce(reproduce::Arguments),
     /// Measure how good touch is on this machine: rates, lateness, errors.
     Quality(quality::Arguments),
+    /// List the haptic devices that are there, with their limits, and test them.
+    Devices(devices::Arguments),
     /// Look at meshes, make them smaller, convert them, make them from segmented volumes.
     #[command(subcommand)]
     Mesh(mesh::Mesh),
@@ -118,6 +123,7 @@ impl CommandLine {
             Some(Command::Progress(arguments)) => progress::run(&arguments),
             Some(Command::Reproduce(arguments)) => reproduce::run(&arguments),
             Some(Command::Quality(arguments)) => quality::run(&arguments),
+            Some(Command::Devices(arguments)) => devices::run(&arguments),
             Some(Command::Mesh(command)) => mesh::run(&command),
         }
     }

@@ -6,6 +6,7 @@
 )]
 
 mod closed_loop;
+mod devices;
 mod errors;
 mod measure;
 mod mesh;
@@ -66,6 +67,7 @@ fn every_help_is_printed_and_is_no_error() {
         &["reproduce", "--help"],
         &["solve", "--help"],
         &["quality", "--help"],
+        &["devices", "--help"],
         &["analyze", "--help"],
         &["characterize", "--help"],
         &["progress", "--help"],

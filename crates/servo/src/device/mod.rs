@@ -90,6 +90,11 @@ pub struct DeviceState {
     pub present: bool,
     /// Whether it is calibrated, powered and free to display forces.
     pub ready: bool,
+    /// The force that it says it displays [N]; none when it does not say.
+    pub displayed: Option<Vec3>,
+    /// Why it took its forces off by itself, while it goes on answering; the loop then takes them off until
+    /// somebody arms again.
+    pub fault: Option<Fault>,
 }
 
 impl DeviceState {
@@ -104,6 +109,8 @@ impl DeviceState {
             buttons: 0,
             present: true,
             ready: true,
+            displayed: None,
+            fault: None,
         }
     }
 }
@@ -113,7 +120,8 @@ pub trait Device: Send {
     /// What it is.
     fn spec(&self) -> &DeviceSpec;
 
-    /// Force out, state back, within `patience`: the one call of a tick. It allocates nothing.
+    /// Force out, state back, within `patience`: the one call of a tick. It allocates nothing, unless the
+    /// device's protocol cannot do without.
     ///
     /// # Errors
     /// When the device does not answer or reports a fault; the loop then stops it and ends.

@@ -201,6 +201,9 @@ impl Guard {
     }
 
     fn fault_of(&self, wish: &Wish, state: &DeviceState) -> Option<Fault> {
+        if state.fault.is_some() {
+            return state.fault;
+        }
         if !is_finite(&state.position) || !is_finite(&wish.velocity) {
             return Some(Fault::NonFiniteState);
         }

@@ -1,7 +1,7 @@
 //! What a force passes before it reaches a hand. The order is fixed; each stage is a small type or
 //! function of its own.
 //!
-//! 1. A force or a state that is no number is no force, and a fault.
+//! 1. A force or a state that is no number is no force, and a fault; so is what a device reports of itself.
 //! 2. A hand faster than 1 m/s is a fault.
 //! 3. [`watchdog`]: a device that had to keep a force much too long is a fault, and so is a model whose answer
 //!    is overdue by 10 ms, in which its force has faded; a device that had to keep one too long gets none for a

@@ -1,0 +1,23 @@
+//! The devices of Haply, by their Inverse Service: one message with a force out, one with a state back.
+//!
+//! Both generations of messages are spoken: forces are `vector` from version 3.5 on and `values` before. A grip that
+//! is there turns the tool, shuts it and cuts. Events of the service become faults.
+//!
+//! *How we know*: `haply::…`, `haply_faults::…`, `haply_messages::…` in the tests, against [`crate::stand_in::HaplyStandIn`].
+//!
+//! *Limits*: that `cursor_position` is (x right, y away from the user, z up) follows from the middle of its workspace
+//! and was not seen; so do the axes of a grip. A message is allocated at every tick by the WebSocket. The largest
+//! forces of the devices are ours. Not tried on hardware.
+
+mod address;
+mod channel;
+mod device;
+mod event;
+mod frame;
+pub mod message;
+mod timed_stream;
+
+pub use address::HaplyAddress;
+pub use device::{HaplyDevice, list};
+pub use event::Event;
+pub use message::{Generation, Snapshot, State, force_command};

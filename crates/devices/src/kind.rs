@@ -1,0 +1,51 @@
+use std::fmt;
+
+use palpate_servo::Device;
+
+use crate::haply::{self, HaplyDevice};
+use crate::{Found, OpenError, Places};
+
+/// A kind of devices, with one driver.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// Those of the Haply Inverse Service.
+    Haply,
+}
+
+impl Kind {
+    /// All that there are.
+    pub const ALL: [Self; 1] = [Self::Haply];
+
+    /// Its word, as a scene has it.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Haply => "haply",
+        }
+    }
+
+    /// The devices of this kind that are there.
+    ///
+    /// # Errors
+    /// When what they are reached by is not there.
+    pub fn list(self, places: &Places) -> Result<Vec<Found>, OpenError> {
+        match self {
+            Self::Haply => haply::list(&places.haply),
+        }
+    }
+
+    /// Opens device `number` of this kind, from zero on.
+    ///
+    /// # Errors
+    /// When it is not there.
+    pub fn open(self, number: usize, places: &Places) -> Result<Box<dyn Device>, OpenError> {
+        match self {
+            Self::Haply => Ok(Box::new(HaplyDevice::open(&places.haply, number)?)),
+        }
+    }
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.word())
+    }
+}

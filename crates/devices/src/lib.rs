@@ -1,0 +1,29 @@
+//! Haptic devices that users own, each behind [`palpate_servo::Device`], and stand-ins for them.
+//!
+//! ```text
+//!  ServoLoop ─exchange▶ HaplyDevice ─WebSocket, one message each way▶ Inverse Service ─▶ Inverse3
+//! ```
+//!
+//! A driver turns the axes of its device into those of every device here (x right, y up, z toward the user, zero in
+//! the middle of where the handle goes), and whatever goes wrong into a [`Fault`](palpate_servo::Fault) with a name.
+//! It limits no force: that is the servo loop's, and the same for all. [`Places`] says where services and libraries
+//! are looked for; nothing is looked for anywhere else.
+//!
+//! *How we know*: every driver is run against a stand-in that speaks its protocol ([`stand_in`]), with faults.
+//!
+//! *Limits*: the stand-ins were written from the same documents as the drivers. **Nothing here was tried on
+//! hardware.**
+
+mod error;
+mod found;
+pub mod haply;
+mod kind;
+mod places;
+mod self_test;
+pub mod stand_in;
+
+pub use error::OpenError;
+pub use found::{Found, Origin};
+pub use kind::Kind;
+pub use places::Places;
+pub use self_test::{SelfTest, self_test};

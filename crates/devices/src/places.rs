@@ -1,0 +1,36 @@
+use std::path::PathBuf;
+
+use crate::OpenError;
+use crate::haply::HaplyAddress;
+
+/// Where services and libraries of devices are looked for. A scene does not say it, for scenes come from anywhere,
+/// and a library is a program.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Places {
+    /// The Haply Inverse Service.
+    pub haply: HaplyAddress,
+    /// The library of OpenHaptics; none for its usual names.
+    pub openhaptics: Option<PathBuf>,
+    /// The library of Force Dimension; none for its usual names.
+    pub force_dimension: Option<PathBuf>,
+}
+
+impl Places {
+    /// The usual ones, but for what the variables `PALPATE_HAPLY`, `PALPATE_OPENHAPTICS` and
+    /// `PALPATE_FORCE_DIMENSION` of the environment say.
+    ///
+    /// # Errors
+    /// When the first is no address.
+    pub fn from_environment() -> Result<Self, OpenError> {
+        let path = |name| std::env::var_os(name).map(PathBuf::from);
+        let haply = match std::env::var_os("PALPATE_HAPLY") {
+            Some(address) => address.to_string_lossy().parse()?,
+            None => HaplyAddress::default(),
+        };
+        Ok(Self {
+            haply,
+            openhaptics: path("PALPATE_OPENHAPTICS"),
+            force_dimension: path("PALPATE_FORCE_DIMENSION"),
+        })
+    }
+}

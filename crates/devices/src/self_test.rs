@@ -1,0 +1,118 @@
+//! Three seconds in which a device shows what it can: it answers, it is ready, and it takes a small force.
+//!
+//! The force goes through the servo loop and its limits like every other. Once they are on it is
+//! F(t) = F₀ (1 − cos 2πt/T)/2 along right, up and toward the user in turn, with F₀ = 0.2 N and T = 0.5 s; more than
+//! 0.3 N is never sent, and a handle that is faster than 0.3 m/s ends it.
+//!
+//! *How we know*: `self_test::…` in the tests.
+//!
+//! *Limits*: that a hand feels it where it should is for the hand to say.
+
+use palpate_servo::{
+    Clock, Controller, Device, DeviceState, Fault, Limits, LoopReport, ServoLoop, ServoSettings,
+    Stage, Vec3,
+};
+
+/// The largest force of the test [N], and the largest that its limits let by.
+const LARGEST: f64 = 0.2;
+const LIMIT: f64 = 0.3;
+
+/// How long forces wait to be armed [s], and how long each of three pushes takes.
+const ARMED_BY: f64 = 1.0;
+const PUSH: f64 = 0.5;
+const WHOLE: f64 = ARMED_BY + 3.0 * PUSH + 0.2;
+
+/// What was found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SelfTest {
+    /// Where the handle was first and last [m].
+    pub ends: Option<[Vec3; 2]>,
+    /// The corners of where it went [m].
+    pub reached: Option<[Vec3; 2]>,
+    /// Whether it was ready when it began.
+    pub ready: bool,
+    /// Whether forces were on at the end.
+    pub live: bool,
+    /// The largest force that was sent [N].
+    pub sent: f64,
+    /// The largest that the device said it displays [N]; none when it does not say.
+    pub displayed: Option<f64>,
+    /// What the loop measured: its work is the round trip.
+    pub report: LoopReport,
+    /// Why it ended early.
+    pub fault: Option<Fault>,
+}
+
+impl SelfTest {
+    /// Whether everything was as it should be.
+    pub fn passed(&self) -> bool {
+        // What a device displays may be filtered; half of it has to come.
+        let shows = self.displayed.is_none_or(|force| force > 0.5 * self.sent);
+        self.fault.is_none() && self.live && shows && self.sent > 0.5 * LARGEST
+    }
+}
+
+/// A push along each axis in turn.
+struct Push;
+
+impl Controller for Push {
+    fn update(&mut self, state: &DeviceState, _dt: f64) -> Vec3 {
+        let since = state.time - ARMED_BY;
+        if !(0.0..3.0 * PUSH).contains(&since) {
+            return Vec3::zeros();
+        }
+        let axis = (since / PUSH) as usize;
+        let phase = std::f64::consts::TAU * since / PUSH;
+        let mut force = Vec3::zeros();
+        force[axis.min(2)] = LARGEST * (1.0 - phase.cos()) / 2.0;
+        force
+    }
+}
+
+/// Tests `device` on `clock`, at 1 kHz.
+///
+/// # Errors
+/// When the loop cannot be made.
+pub fn self_test(device: Box<dyn Device>, mut clock: Clock) -> Result<SelfTest, Fault> {
+    let settings = ServoSettings {
+        limits: Some(Limits {
+            force: LIMIT,
+            speed: 0.3,
+            without_dead_man: 1.0,
+            ..Limits::of(device.spec())
+        }),
+        log: 8192,
+        ..ServoSettings::default()
+    };
+    let (mut servo, mut reader) = ServoLoop::new(device, Box::new(Push), settings)?;
+    let last = (WHOLE / settings.period) as u64;
+    let report = servo.run(&mut clock, |tick| tick < last);
+    let mut test = SelfTest {
+        ends: None,
+        reached: None,
+        ready: false,
+        live: false,
+        sent: 0.0,
+        displayed: None,
+        report,
+        fault: report.fault,
+    };
+    for sample in reader.log.drain() {
+        let place = sample.state.position;
+        if !sample.state.present || !place.iter().all(|number| number.is_finite()) {
+            continue;
+        }
+        if test.ends.is_none() {
+            test.ready = sample.state.ready;
+        }
+        test.ends = Some([test.ends.map_or(place, |[first, _]| first), place]);
+        let [least, greatest] = test.reached.unwrap_or([place, place]);
+        test.reached = Some([least.inf(&place), greatest.sup(&place)]);
+        test.live = sample.stage == Stage::Live;
+        test.sent = test.sent.max(sample.sent.norm());
+        if let Some(force) = sample.state.displayed {
+            test.displayed = Some(test.displayed.unwrap_or(0.0).max(force.norm()));
+        }
+    }
+    Ok(test)
+}

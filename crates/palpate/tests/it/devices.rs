@@ -1,0 +1,110 @@
+//! `palpate devices`, without a device and against stand-ins.
+
+use std::process::{Command, Output};
+
+use palpate_devices::haply::HaplyAddress;
+use palpate_devices::stand_in::{HaplyStandIn, HaplyStandInSettings, Misbehaviour, StandInClock};
+use palpate_servo::{Hand, Trajectory, Vec3, VirtualDevice, Waypoint};
+
+use crate::{json, stderr, stdout};
+
+/// The variable that says where the service is.
+fn place(address: &HaplyAddress) -> String {
+    format!("{address},{}", address.events_port)
+}
+
+fn nowhere() -> String {
+    let listener = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
+    listener.local_addr().unwrap().to_string()
+}
+
+fn devices(arguments: &[&str], haply: &str) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_palpate"))
+        .arg("devices")
+        .args(arguments)
+        .env("PALPATE_HAPLY", haply)
+        .output()
+        .unwrap()
+}
+
+fn service() -> HaplyStandIn {
+    let still = Trajectory::way(vec![Waypoint::new(0.0, Vec3::zeros())]).unwrap();
+    let hand = VirtualDevice::new(still)
+        .with_hand(Hand::default())
+        .unwrap();
+    let settings = HaplyStandInSettings {
+        clock: StandInClock::Wall,
+        ..HaplyStandInSettings::default()
+    };
+    HaplyStandIn::start(vec![Box::new(hand)], settings).unwrap()
+}
+
+#[test]
+fn without_a_device_every_kind_says_why() {
+    let output = devices(&[], &nowhere());
+    assert_eq!(output.status.code(), Some(1));
+    assert!(stdout(&output).contains("haply: no Haply Inverse Service answers at 127.0.0.1:"));
+    assert!(stderr(&output).starts_with("palpate: error: no haptic device was found; "));
+}
+
+#[test]
+fn one_that_is_asked_for_and_missing_is_one_sentence() {
+    let output = devices(&["haply"], &nowhere());
+    assert_eq!(output.status.code(), Some(1));
+    assert!(output.stdout.is_empty());
+    let said = stderr(&output);
+    assert!(
+        said.starts_with("palpate: error: no Haply Inverse Service answers"),
+        "{said}"
+    );
+    assert_eq!(said.lines().count(), 1, "{said}");
+}
+
+#[test]
+fn an_address_that_is_none_has_to_be_mended() {
+    let output = devices(&[], "somewhere");
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("\"somewhere\" is no address"));
+}
+
+#[test]
+fn a_device_is_listed_with_its_limits() {
+    let service = service();
+    let found = json(&devices(&["haply", "--json"], &place(service.address())));
+    let device = &found["devices"][0];
+    assert_eq!(device["model"], "inverse3");
+    assert_eq!(device["peak_force_n"], 3.0);
+    assert!(device["self_test"].is_null());
+    // Listing moves nothing.
+    assert!(service.forces(0).is_empty());
+}
+
+/// On the machine's clock. A machine that is busy elsewhere makes a tick late, which takes forces off and is said; one
+/// run of five has to be undisturbed.
+#[test]
+fn a_self_test_pushes_and_says_so() {
+    let service = service();
+    let passed = (0..5).any(|_| {
+        let output = devices(&["haply", "--self-test"], &place(service.address()));
+        let text = stdout(&output);
+        println!("{text}{}", stderr(&output));
+        assert!(
+            text.contains("N sent") && text.contains("self-test"),
+            "{text}"
+        );
+        output.status.code() == Some(0)
+    });
+    assert!(passed);
+    let largest = service.forces(0).iter().map(Vec3::norm).fold(0.0, f64::max);
+    assert!(largest > 0.1 && largest <= 0.3, "{largest}");
+    assert_eq!(service.force(0), Vec3::zeros());
+    service.misbehave(Some(Misbehaviour::NoCalibration));
+    let output = devices(&["haply", "--self-test"], &place(service.address()));
+    assert_eq!(output.status.code(), Some(1));
+    assert!(
+        stdout(&output).contains("it was not ready"),
+        "{}",
+        stdout(&output)
+    );
+    assert!(stderr(&output).contains("did not pass its self-test"));
+}
