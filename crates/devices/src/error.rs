@@ -43,4 +43,10 @@ pub enum OpenError {
         /// What was given.
         found: String,
     },
+    /// There is no driver.
+    #[error("there is no driver for `{kind}` yet; use another device")]
+    NoDriver {
+        /// The kind of device.
+        kind: crate::Kind,
+    },
 }

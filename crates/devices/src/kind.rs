@@ -10,16 +10,22 @@ use crate::{Found, OpenError, Places};
 pub enum Kind {
     /// Those of the Haply Inverse Service.
     Haply,
+    /// Those of OpenHaptics.
+    OpenHaptics,
+    /// Those of Force Dimension.
+    ForceDimension,
 }
 
 impl Kind {
     /// All that there are.
-    pub const ALL: [Self; 1] = [Self::Haply];
+    pub const ALL: [Self; 3] = [Self::Haply, Self::OpenHaptics, Self::ForceDimension];
 
     /// Its word, as a scene has it.
     pub fn word(self) -> &'static str {
         match self {
             Self::Haply => "haply",
+            Self::OpenHaptics => "openhaptics",
+            Self::ForceDimension => "force_dimension",
         }
     }
 
@@ -30,6 +36,7 @@ impl Kind {
     pub fn list(self, places: &Places) -> Result<Vec<Found>, OpenError> {
         match self {
             Self::Haply => haply::list(&places.haply),
+            kind => Err(OpenError::NoDriver { kind }),
         }
     }
 
@@ -40,6 +47,7 @@ impl Kind {
     pub fn open(self, number: usize, places: &Places) -> Result<Box<dyn Device>, OpenError> {
         match self {
             Self::Haply => Ok(Box::new(HaplyDevice::open(&places.haply, number)?)),
+            kind => Err(OpenError::NoDriver { kind }),
         }
     }
 }

@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
+use palpate_devices::Places;
 use palpate_files::Scene;
 use palpate_simulate::{Resources, Simulation};
 
@@ -39,7 +40,16 @@ pub(crate) fn resources() -> Resources {
     Resources {
         responses: folder(),
         memory: offered,
+        devices: Places::default(),
     }
+}
+
+/// The same, with the places of haptic devices that the environment names.
+pub(crate) fn resources_with_devices() -> Result<Resources, Failure> {
+    Ok(Resources {
+        devices: Places::from_environment().map_err(Failure::input)?,
+        ..resources()
+    })
 }
 
 /// Makes the simulation of `scene`, and tells `reader` how far it is. Ctrl-C breaks it off.

@@ -1,5 +1,6 @@
 use std::path::PathBuf;
 
+use palpate_devices::OpenError;
 use palpate_geometry::{MeshError, OrganError, ReadError, SimplifyError};
 
 /// Why a scene cannot be simulated.
@@ -126,14 +127,12 @@ pub enum Error {
     #[error("the session has no row; record one in which a tool moves")]
     EmptySession,
     /// A tool is moved by a device that cannot be opened.
-    #[error(
-        "the tool {tool:?} is moved by the device `{device}`, for which there is no driver yet; set its `device` to \"mouse\", \"virtual\" or \"none\""
-    )]
-    NoDriver {
+    #[error("the tool {tool:?} has no device: {why}")]
+    NoDevice {
         /// The tool.
         tool: String,
-        /// The scene's word for the device.
-        device: String,
+        /// Why it cannot be opened.
+        why: OpenError,
     },
     /// A tool would pass through the abdominal wall inside the organ.
     #[error(
@@ -183,6 +182,7 @@ impl Error {
         match self {
             Self::File(error) => error.is_input(),
             Self::Servo(_)
+            | Self::NoDevice { .. }
             | Self::ModelPanicked
             | Self::Model(palpate_mechanics::Error::BrokenOff) => false,
             _ => true,

@@ -1,5 +1,7 @@
 use std::path::PathBuf;
 
+use palpate_devices::Places;
+
 /// What may be used to make a simulation.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Resources {
@@ -8,6 +10,8 @@ pub struct Resources {
     pub responses: Option<PathBuf>,
     /// Memory [byte] that may be taken; what needs more is refused before it begins.
     pub memory: usize,
+    /// Where services and libraries of haptic devices are looked for.
+    pub devices: Places,
 }
 
 /// Eight gibibytes.
@@ -19,6 +23,7 @@ impl Default for Resources {
         Self {
             responses: None,
             memory: MEMORY,
+            devices: Places::default(),
         }
     }
 }

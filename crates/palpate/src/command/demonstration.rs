@@ -10,6 +10,7 @@ use super::simulate::ESOPHAGUS;
 use super::window;
 use crate::failure::Failure;
 use crate::output;
+use crate::preparation;
 use crate::progress::Reader;
 use crate::recorded::{Recording, record};
 
@@ -24,7 +25,11 @@ const MOTION: &str = include_str!("../../../../assets/esophagus/motion.csv");
 /// The window with the built-in esophagus; where there can be none, a first touch that needs neither window
 /// nor file.
 pub(crate) fn run() -> Result<(), Failure> {
-    match window::open(Start::Home, Some(crate::training::training()?)) {
+    let training = crate::training::training()?;
+    match window::open(
+        (Start::Home, Some(training)),
+        preparation::resources_with_devices()?,
+    ) {
         Ok(()) => Ok(()),
         Err(why) if window::is_absent(&why) => play(&why),
         Err(why) => Err(why.into()),

@@ -75,10 +75,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let simulation = preparation::simulation(&scene, &preparation::resources(), reader)?;
     let replay = Replay::new(Arc::new(simulation.clone()), &folder.session)?;
     if arguments.frames.is_none() && !arguments.json {
-        return match window::open(
-            Start::Again(Box::new(scene), Arc::new(simulation), Box::new(replay)),
-            None,
-        ) {
+        let start = Start::Again(Box::new(scene), Arc::new(simulation), Box::new(replay));
+        return match window::open((start, None), preparation::resources()) {
             Err(why) if window::is_absent(&why) => Err(Failure::failed(format!(
                 "{why}; --frames N --out DIR takes pictures without a window"
             ))),

@@ -1,16 +1,19 @@
 //! The window, as the commands open it.
 
 use palpate_files::Scene;
+use palpate_simulate::Resources;
 use palpate_viewer::training::Training;
 use palpate_viewer::{Error, Start, open_window};
 
 use super::simulate::ESOPHAGUS;
-use crate::preparation;
 
-/// Opens a window and waits until it is closed.
-pub(super) fn open(start: Start, training: Option<Training>) -> Result<(), Error> {
+/// Opens a window with `resources` and waits until it is closed.
+pub(super) fn open(
+    (start, training): (Start, Option<Training>),
+    resources: Resources,
+) -> Result<(), Error> {
     let way_out = Scene::parse(ESOPHAGUS, "built-in scene")?;
-    open_window(start, way_out, preparation::resources(), training)
+    open_window(start, way_out, resources, training)
 }
 
 /// Whether there can be no window here, whatever the scene.

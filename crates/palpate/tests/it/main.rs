@@ -58,7 +58,7 @@ fn stderr(output: &Output) -> String {
 
 #[test]
 fn every_help_is_printed_and_is_no_error() {
-    let commands: [&[&str]; 11] = [
+    let commands: [&[&str]; 12] = [
         &["--help"],
         &["--version"],
         &["simulate", "--help"],

@@ -29,6 +29,7 @@ mod quality;
 mod scene_devices;
 mod scripted;
 mod snapshot;
+mod standing;
 mod stations;
 mod virtual_interaction;
 

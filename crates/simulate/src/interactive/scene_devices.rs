@@ -1,9 +1,11 @@
+use palpate_devices::{Kind, Places};
 use palpate_files::Scene;
 use palpate_files::scene::DeviceKind;
 use palpate_geometry::Vec3;
-use palpate_servo::{Pointer, PointerHand, Trajectory, VirtualDevice};
+use palpate_servo::{Device, Pointer, PointerHand, Trajectory, VirtualDevice};
 
 use super::Station;
+use super::standing::standing;
 use crate::{Error, Simulation, Tool};
 
 /// What the tools of a scene are moved by, each in the scene's order.
@@ -19,33 +21,75 @@ const SCRIPTED_DEPTH: f64 = 4e-3;
 /// How often [Hz].
 const SCRIPTED_RATE: f64 = 0.5;
 
+/// What drives a device of a scene; none of what needs no driver.
+fn driver(device: DeviceKind) -> Option<Kind> {
+    match device {
+        DeviceKind::Haply => Some(Kind::Haply),
+        DeviceKind::OpenHaptics => Some(Kind::OpenHaptics),
+        DeviceKind::ForceDimension => Some(Kind::ForceDimension),
+        DeviceKind::Mouse | DeviceKind::Virtual | DeviceKind::None => None,
+    }
+}
+
+/// The real device of each tool.
+fn devices(scene: &Scene, places: &Places) -> Result<Vec<Option<Box<dyn Device>>>, Error> {
+    let mut opened: Vec<Kind> = Vec::new();
+    let tools = scene.tools.iter().map(|tool| {
+        let Some(kind) = driver(tool.device) else {
+            return Ok(None);
+        };
+        let number = opened.iter().filter(|other| **other == kind).count();
+        opened.push(kind);
+        let device = kind.open(number, places).map_err(|why| Error::NoDevice {
+            tool: tool.name.clone(),
+            why,
+        })?;
+        Ok(Some(device))
+    });
+    tools.collect()
+}
+
 impl SceneDevices {
-    /// Opens the devices that `scene` names for its tools. A virtual device without a motion palpates the
+    /// Opens the devices that `scene` names for its tools, looking for real ones at `places`: the first tool with a
+    /// kind of device has the first of that kind, the next the next. A virtual device without a motion palpates the
     /// organ where it is highest.
     ///
     /// # Errors
-    /// When there is no driver for one of them.
-    pub fn open(scene: &Scene, simulation: &Simulation) -> Result<Self, Error> {
+    /// When one of them is not there.
+    pub fn open(scene: &Scene, simulation: &Simulation, places: &Places) -> Result<Self, Error> {
         let (mut stations, mut pointers) = (Vec::new(), Vec::new());
+        let mut real = devices(scene, places)?.into_iter();
         for (tool, model) in scene.tools.iter().zip(simulation.tools()) {
-            let (station, pointer) = match tool.device {
-                DeviceKind::None => (None, None),
-                DeviceKind::Mouse => {
+            let device = real.next().flatten();
+            let (station, pointer) = match (tool.device, device) {
+                (DeviceKind::Mouse, _) => {
                     let (pointer, hand) = Pointer::new();
                     (Some(Station::new(pointer)), Some(hand))
                 }
-                DeviceKind::Virtual => (Some(Station::palpating(simulation, model)), None),
-                kind => {
-                    return Err(Error::NoDriver {
-                        tool: tool.name.clone(),
-                        device: kind.to_string(),
-                    });
+                (DeviceKind::Virtual, _) => (Some(Station::palpating(simulation, model)), None),
+                (_, Some(device)) => {
+                    let mount = standing((scene, simulation), model);
+                    (Some(Station { device, mount }), None)
                 }
+                (_, None) => (None, None),
             };
             stations.push(station);
             pointers.push(pointer);
         }
         Ok(Self { stations, pointers })
+    }
+
+    /// Whether the real devices that `scene` names are there; none stays open.
+    ///
+    /// # Errors
+    /// When one is not.
+    pub fn check(scene: &Scene, places: &Places) -> Result<(), Error> {
+        devices(scene, places).map(|_| ())
+    }
+
+    /// Whether a tool of `scene` is moved by a real device.
+    pub fn any(scene: &Scene) -> bool {
+        scene.tools.iter().any(|tool| driver(tool.device).is_some())
     }
 }
 

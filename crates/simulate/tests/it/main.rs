@@ -16,6 +16,7 @@ mod errors;
 mod gestures;
 mod grip;
 mod hand_over;
+mod haptic_devices;
 mod hybrid;
 mod indentation;
 mod interactive;

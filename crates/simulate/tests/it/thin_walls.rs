@@ -92,6 +92,7 @@ fn without_tetrahedra_boundary_elements_are_taken() {
     let resources = Resources {
         responses: None,
         memory: 100_000_000,
+        ..Resources::default()
     };
     let simulation = prepared(&esophagus, &resources);
     assert_eq!(simulation.response().unwrap().method, "boundary elements");

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use palpate_devices::Places;
 use palpate_files::SessionRow;
 use palpate_files::scene::DeviceKind;
 use palpate_geometry::Vec3;
@@ -222,7 +223,7 @@ fn devices_of_a_scene_know_their_trocar() {
     let mut scene = scene([0.02, -0.1, 0.2]);
     scene.tools[0].device = DeviceKind::Virtual;
     let simulation = Arc::new(Simulation::new(&scene).unwrap());
-    let mut devices = SceneDevices::open(&scene, &simulation).unwrap();
+    let mut devices = SceneDevices::open(&scene, &simulation, &Places::default()).unwrap();
     let station = devices.stations.remove(0).unwrap();
     assert_eq!(station.mount.trocar, simulation.tools()[0].fulcrum);
     let mut hands = interaction(&simulation, station);
@@ -231,6 +232,6 @@ fn devices_of_a_scene_know_their_trocar() {
     // What is scripted.
     assert!((deepest - 4e-3).abs() < 1e-4, "{deepest}");
     scene.tools[0].device = DeviceKind::Mouse;
-    let devices = SceneDevices::open(&scene, &simulation).unwrap();
+    let devices = SceneDevices::open(&scene, &simulation, &Places::default()).unwrap();
     assert_eq!(devices.stations[0].as_ref().unwrap().mount.trocar, None);
 }

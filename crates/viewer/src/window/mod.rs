@@ -49,7 +49,7 @@ pub use display::check_display;
 use hands::keys::{self, Action};
 use home::Home;
 use picture::Picture;
-use play::{Play, Wish};
+use play::{Play, Prepared, Wish};
 use preparation::Preparation;
 use rates::Rates;
 use training::Training;
@@ -188,33 +188,44 @@ impl SimulatorWindow {
             self.preparation = None;
         }
         self.history.clear();
-        let other_organ = |play: &Play, last: &Option<Play>| {
-            last.as_ref()
-                .is_none_or(|last| last.scene.organ.shape != play.scene.organ.shape)
-        };
         match outcome.play {
-            Ok(mut play) => {
-                if other_organ(&play, &self.play) {
-                    self.picture.frame_anew();
-                    let makes_more = |tool: &Tool| tool.kind != ToolKind::Probe;
-                    self.picture.lists_keys = play.scene.tools.iter().any(makes_more);
-                }
-                self.fault = None;
-                let enhanced = self.picture.enhance(&self.gpu, &mut play);
-                self.notice = enhanced.err().map(|error| error.to_string());
-                self.take_task(&play);
-                self.play = Some(play);
-                if outcome.last
-                    && let Some(session) = self.awaited.take()
-                {
-                    self.look_again(&session);
-                }
-            }
+            Ok(prepared) => self.touch(prepared, outcome.last),
             Err(error) if outcome.second => self.notice = Some(error.to_string()),
             Err(error) => {
                 self.play = None;
                 self.fault = Some(error.to_string());
             }
+        }
+    }
+
+    /// Begins the touch of what was prepared; with the last of it, a session that waited for it is looked at.
+    fn touch(&mut self, prepared: Prepared, is_last: bool) {
+        let before = self.play.as_ref();
+        let before = before.map(|play| play.scene.organ.shape.clone());
+        if prepared.has_devices() {
+            // What is still touched lets go of them first.
+            self.play = None;
+        }
+        let mut play = match Play::start(prepared) {
+            Ok(play) => play,
+            Err(error) => {
+                self.play = None;
+                self.fault = Some(error.to_string());
+                return;
+            }
+        };
+        if before.is_none_or(|shape| shape != play.scene.organ.shape) {
+            self.picture.frame_anew();
+            let makes_more = |tool: &Tool| tool.kind != ToolKind::Probe;
+            self.picture.lists_keys = play.scene.tools.iter().any(makes_more);
+        }
+        self.fault = None;
+        let enhanced = self.picture.enhance(&self.gpu, &mut play);
+        self.notice = enhanced.err().map(|error| error.to_string());
+        self.take_task(&play);
+        self.play = Some(play);
+        if is_last && let Some(session) = self.awaited.take() {
+            self.look_again(&session);
         }
     }
 

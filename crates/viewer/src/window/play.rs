@@ -1,6 +1,7 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
+use palpate_devices::Places;
 use palpate_files::Scene;
 use palpate_geometry::{AabbTree, Surface, Vec3};
 use palpate_servo::{PointerHand, ServoSettings};
@@ -26,6 +27,17 @@ pub(super) enum Wish {
     Mark,
 }
 
+/// A scene that can be touched, once its devices are there.
+pub(super) struct Prepared {
+    scene: Scene,
+    simulation: Arc<Simulation>,
+    tree: AabbTree,
+    organ: SeenOrgan,
+    neighbours: Vec<Body>,
+    doubts: Vec<String>,
+    places: Places,
+}
+
 /// A scene that is being touched.
 pub(super) struct Play {
     pub(super) scene: Scene,
@@ -40,47 +52,26 @@ pub(super) struct Play {
     pointers: Vec<Option<PointerHand>>,
 }
 
-impl Play {
-    /// Reads and prepares what `scene` names, and starts the threads of the touch. It may be called on any
-    /// thread; `watch` hears how far it is, and may break it off.
+impl Prepared {
+    /// Reads and prepares what `scene` names. It may be called on any thread; `watch` hears how far it is, and may
+    /// break it off.
     ///
     /// # Errors
-    /// When a file is missing or wrong, a device has no driver, or a thread does not start.
-    pub(super) fn start(
+    /// When a file is missing or wrong.
+    pub(super) fn of(
         scene: Scene,
         resources: &Resources,
         gpu: &Gpu,
         watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
         let simulation = Arc::new(Simulation::prepare(&scene, resources, watch)?);
-        let devices = SceneDevices::open(&scene, &simulation)?;
-        let interaction = Interaction::start(
-            simulation.clone(),
-            devices.stations,
-            ServoSettings::default(),
-        )?;
-        let source = Source::Touched(Box::new(interaction));
-        Self::of((scene, simulation), (source, devices.pointers), gpu)
+        Self::around((scene, simulation), resources.devices.clone(), gpu)
     }
 
-    /// A session of `scene` that is played again; its hands move nothing.
-    ///
-    /// # Errors
-    /// When a neighbour cannot be read.
-    pub(super) fn again(
+    /// What is seen around a simulation that is there.
+    fn around(
         (scene, simulation): (Scene, Arc<Simulation>),
-        replay: Replay,
-        gpu: &Gpu,
-    ) -> Result<Self, Error> {
-        let playback = Playback::new(&simulation, replay);
-        let nobody = scene.tools.iter().map(|_| None).collect();
-        let source = Source::Again(Box::new(playback));
-        Self::of((scene, simulation), (source, nobody), gpu)
-    }
-
-    fn of(
-        (scene, simulation): (Scene, Arc<Simulation>),
-        (source, pointers): (Source, Vec<Option<PointerHand>>),
+        places: Places,
         gpu: &Gpu,
     ) -> Result<Self, Error> {
         let mut doubts = simulation.doubts().to_vec();
@@ -96,11 +87,60 @@ impl Play {
             organ: SeenOrgan::new(gpu, &simulation, Tint::of(&scene.organ.shape))?,
             neighbours,
             doubts,
-            source,
-            pointers,
             simulation,
             scene,
+            places,
         })
+    }
+
+    /// Whether a tool is moved by a device that only one may drive.
+    pub(super) fn has_devices(&self) -> bool {
+        SceneDevices::any(&self.scene)
+    }
+}
+
+impl Play {
+    /// Opens the devices and starts the threads of the touch. Whatever had these devices before has to be gone: only
+    /// one may drive them.
+    ///
+    /// # Errors
+    /// When a device is not there, or a thread does not start.
+    pub(super) fn start(prepared: Prepared) -> Result<Self, Error> {
+        let (scene, simulation) = (&prepared.scene, prepared.simulation.clone());
+        let devices = SceneDevices::open(scene, &simulation, &prepared.places)?;
+        let settings = ServoSettings::default();
+        let interaction = Interaction::start(simulation, devices.stations, settings)?;
+        let source = Source::Touched(Box::new(interaction));
+        Ok(Self::of(prepared, (source, devices.pointers)))
+    }
+
+    /// A session of `scene` that is played again; its hands move nothing.
+    ///
+    /// # Errors
+    /// When a neighbour cannot be read.
+    pub(super) fn again(
+        (scene, simulation): (Scene, Arc<Simulation>),
+        replay: Replay,
+        gpu: &Gpu,
+    ) -> Result<Self, Error> {
+        let playback = Playback::new(&simulation, replay);
+        let nobody = scene.tools.iter().map(|_| None).collect();
+        let prepared = Prepared::around((scene, simulation), Places::default(), gpu)?;
+        let source = Source::Again(Box::new(playback));
+        Ok(Self::of(prepared, (source, nobody)))
+    }
+
+    fn of(prepared: Prepared, (source, pointers): (Source, Vec<Option<PointerHand>>)) -> Self {
+        Self {
+            scene: prepared.scene,
+            simulation: prepared.simulation,
+            tree: prepared.tree,
+            source,
+            organ: prepared.organ,
+            neighbours: prepared.neighbours,
+            doubts: prepared.doubts,
+            pointers,
+        }
     }
 
     /// The organ at rest.

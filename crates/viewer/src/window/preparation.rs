@@ -8,7 +8,7 @@ use palpate_files::Scene;
 use palpate_files::scene::ModelKind;
 use palpate_simulate::{Progress, Resources};
 
-use super::play::Play;
+use super::play::Prepared;
 use crate::{Error, Gpu};
 
 /// A scene that is being prepared on a thread of its own. One with a model of the whole organ comes twice:
@@ -21,7 +21,7 @@ pub(super) struct Preparation {
 
 /// What came of a scene, so far or at last.
 pub(super) struct Outcome {
-    pub(super) play: Result<Play, Error>,
+    pub(super) play: Result<Prepared, Error>,
     /// Whether nothing more comes.
     pub(super) last: bool,
     /// Whether the local model came before, which stays when this is an error.
@@ -121,8 +121,8 @@ impl Work {
         self.context.request_repaint();
     }
 
-    fn play(&self, scene: Scene) -> Result<Play, Error> {
-        Play::start(scene, &self.resources, &self.gpu, &mut |progress| {
+    fn play(&self, scene: Scene) -> Result<Prepared, Error> {
+        Prepared::of(scene, &self.resources, &self.gpu, &mut |progress| {
             let mut told = self.told.lock().unwrap_or_else(PoisonError::into_inner);
             *told = Some(progress);
             match self.given_up.load(Ordering::Relaxed) {

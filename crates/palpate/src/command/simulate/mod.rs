@@ -9,6 +9,7 @@ use palpate_files::scene::Shape;
 use palpate_files::{Motion, Scene};
 use palpate_geometry::{AabbTree, Vec3};
 use palpate_simulate::Simulation;
+use palpate_simulate::interactive::SceneDevices;
 use palpate_viewer::{FrameWriter, Start};
 
 use self::repeated::Repeated;
@@ -136,7 +137,12 @@ fn touch(arguments: &Arguments) -> Result<(), Failure> {
         Some(path) => Start::Scene(Box::new(scene_of(path)?)),
         None => Start::Home,
     };
-    match window::open(start, Some(training::training()?)) {
+    let resources = preparation::resources_with_devices()?;
+    // Before a window, and the minutes that an organ may take.
+    if let Start::Scene(scene) = &start {
+        SceneDevices::check(scene, &resources.devices)?;
+    }
+    match window::open((start, Some(training::training()?)), resources) {
         Err(why) if window::is_absent(&why) => Err(Failure::failed(format!(
             "{why}; --headless plays a motion without a window"
         ))),

@@ -1,0 +1,164 @@
+//! Devices of a scene: palpated through a driver and its stand-in, an organ feels as through a virtual device.
+
+use std::sync::Arc;
+
+use palpate_devices::Places;
+use palpate_devices::stand_in::{HaplyStandIn, HaplyStandInSettings, Misbehaviour};
+use palpate_files::scene::DeviceKind;
+use palpate_files::{Scene, SessionRow};
+use palpate_geometry::{AabbTree, Vec3};
+use palpate_servo::{
+    Device, DeviceSpec, Fault, NoDevice, Sample, ServoSettings, Stage, Trajectory, VirtualDevice,
+};
+use palpate_simulate::Simulation;
+use palpate_simulate::interactive::{Mount, SceneDevices, Station, VirtualInteraction};
+
+use crate::interactive::{POLE, advance};
+use crate::scenes::Setting;
+
+fn scene(device: DeviceKind) -> (Scene, Arc<Simulation>) {
+    let mut scene = Setting::default().scene();
+    scene.tools[0].device = device;
+    let simulation = Simulation::new(&scene).unwrap();
+    (scene, Arc::new(simulation))
+}
+
+fn service(device: Box<dyn Device>) -> (HaplyStandIn, Places) {
+    let service = HaplyStandIn::start(vec![device], HaplyStandInSettings::default()).unwrap();
+    let places = Places {
+        haply: service.address().clone(),
+        ..Places::default()
+    };
+    (service, places)
+}
+
+/// Down to 4 mm into the pole of the hemisphere and 20 mm up again, by a handle that stands so.
+fn palpating(mount: &Mount) -> VirtualDevice {
+    let handle = |place: Vec3| mount.rotation.inverse() * (place - mount.origin);
+    let [low, high] = [POLE - Vec3::z() * 4e-3, POLE + Vec3::z() * 20e-3].map(handle);
+    VirtualDevice::new(Trajectory::Sine {
+        center: 0.5 * (low + high),
+        // It begins in the middle and goes up.
+        amplitude: 0.5 * (high - low),
+        frequency: 0.4,
+    })
+}
+
+fn palpated(simulation: &Arc<Simulation>, station: Station) -> (Vec<Sample>, Vec<SessionRow>) {
+    let settings = ServoSettings {
+        log: 10_000,
+        ..ServoSettings::default()
+    };
+    let stations = vec![Some(station)];
+    let mut interaction = VirtualInteraction::new(simulation.clone(), stations, settings).unwrap();
+    advance(&mut interaction, 5000);
+    let samples = interaction.samples(0).collect();
+    (samples, interaction.rows().collect())
+}
+
+fn open(scene: &Scene, simulation: &Simulation, places: &Places) -> Station {
+    let devices = SceneDevices::open(scene, simulation, places).unwrap();
+    devices.stations.into_iter().next().unwrap().unwrap()
+}
+
+/// Where the device of a scene stands; its spec.
+fn stands(scene: &Scene, simulation: &Simulation) -> (Mount, DeviceSpec) {
+    let (_service, places) = service(Box::new(NoDevice::new(Vec3::zeros())));
+    let station = open(scene, simulation, &places);
+    (station.mount, station.device.spec().clone())
+}
+
+/// The judge is the same handle in the same place without a driver. What a message loses are the last bits of a number
+/// and millionths of a newton.
+#[test]
+fn an_organ_feels_the_same_through_a_service() {
+    let (scene, simulation) = scene(DeviceKind::Haply);
+    let (mount, spec) = stands(&scene, &simulation);
+    let direct = Station {
+        device: Box::new(palpating(&mount).with_spec(spec)),
+        mount,
+    };
+    let (expected, expected_rows) = palpated(&simulation, direct);
+    let (service, places) = service(Box::new(palpating(&mount)));
+    let (found, rows) = palpated(&simulation, open(&scene, &simulation, &places));
+    assert_eq!(found.len(), expected.len());
+    let largest = expected.iter().map(|sample| sample.sent.norm());
+    let largest = largest.fold(0.0, f64::max);
+    assert!(largest > 0.05, "{largest}");
+    let mut apart: f64 = 0.0;
+    for (found, expected) in found.iter().zip(&expected) {
+        apart = apart.max((found.sent - expected.sent).norm());
+    }
+    println!("{apart} N apart of {largest} N");
+    assert!(apart < 1e-6 * largest, "{apart}");
+    for (row, expected) in rows.iter().zip(&expected_rows) {
+        let apart = Vec3::from(row.force_n) - Vec3::from(expected.force_n);
+        assert!(apart.norm() < 1e-6 * largest, "{apart}");
+    }
+    assert_eq!(service.force(0), Vec3::zeros());
+}
+
+/// Right, up and toward the user are so in the picture; the tip begins clear of the organ.
+#[test]
+fn a_device_stands_as_its_picture_is_seen() {
+    let (mut scene, simulation) = scene(DeviceKind::Haply);
+    let (mount, _) = stands(&scene, &simulation);
+    let axes = [Vec3::x(), Vec3::y(), Vec3::z()].map(|axis| mount.rotation * axis);
+    for (axis, expected) in axes.iter().zip([Vec3::x(), Vec3::z(), -Vec3::y()]) {
+        assert!((axis - expected).norm() < 1e-12, "{axis}");
+    }
+    // From the left and above: what is toward the user is toward the eye.
+    (scene.view.eye_m, scene.view.target_m) = (Some([-0.3, 0.0, 0.3]), Some([0.0, 0.0, 0.04]));
+    let (mount, _) = stands(&scene, &simulation);
+    let toward = mount.rotation * Vec3::z();
+    assert!((toward - Vec3::new(-0.3, 0.0, 0.26).normalize()).norm() < 1e-12);
+    assert!((mount.rotation * Vec3::x() + Vec3::y()).norm() < 1e-12);
+    let surface = simulation.surface();
+    let tree = AabbTree::new(surface.mesh());
+    let clear = surface.signed_distance(&tree, &mount.tip(&Vec3::zeros())).1;
+    assert!(clear > 0.010 && clear < 0.030, "{clear}");
+}
+
+#[test]
+fn a_device_that_is_not_there_is_one_sentence() {
+    let (scene, simulation) = scene(DeviceKind::Haply);
+    let port = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
+    let address = port.local_addr().unwrap().to_string();
+    drop(port);
+    let places = Places {
+        haply: address.parse().unwrap(),
+        ..Places::default()
+    };
+    let error = SceneDevices::check(&scene, &places).unwrap_err();
+    let said = error.to_string();
+    let begins = "the tool \"right\" has no device: no Haply Inverse Service answers at ";
+    assert!(said.starts_with(begins) && !said.contains('\n'), "{said}");
+    assert!(!error.is_input());
+    assert!(SceneDevices::open(&scene, &simulation, &places).is_err());
+}
+
+/// In contact, through the same chain as every other force.
+#[test]
+fn a_fault_of_the_device_ends_the_touch() {
+    let (scene, simulation) = scene(DeviceKind::Haply);
+    let (mount, _) = stands(&scene, &simulation);
+    let (service, places) = service(Box::new(palpating(&mount)));
+    let station = open(&scene, &simulation, &places);
+    let stations = vec![Some(station)];
+    let settings = ServoSettings::default();
+    let mut interaction = VirtualInteraction::new(simulation, stations, settings).unwrap();
+    // Three quarters of a swing, where it is deepest.
+    advance(&mut interaction, 1875);
+    let last = interaction.samples(0).last().unwrap();
+    assert!(
+        last.stage == Stage::Live && last.sent.norm() > 0.01,
+        "{last:?}"
+    );
+    service.misbehave(Some(Misbehaviour::NoPower));
+    advance(&mut interaction, 1);
+    let last = interaction.samples(0).last().unwrap();
+    assert_eq!(last.sent, Vec3::zeros());
+    assert_eq!(last.stage, Stage::Faulted(Fault::Unpowered));
+    service.misbehave(Some(Misbehaviour::Drops));
+    assert_eq!(interaction.advance(), Err(Fault::Disconnected));
+}
