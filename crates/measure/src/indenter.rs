@@ -11,6 +11,17 @@ pub struct Reference {
     pub driven: bool,
 }
 
+impl Reference {
+    /// At zero, where it stays.
+    pub(crate) fn at_rest() -> Self {
+        Self {
+            position: Vec3::zeros(),
+            velocity: Vec3::zeros(),
+            driven: true,
+        }
+    }
+}
+
 /// Drives a device along a reference (5.1), each axis for itself.
 pub struct Indenter {
     gains: PidGains,

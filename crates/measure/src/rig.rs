@@ -1,5 +1,6 @@
 mod by_hand;
 mod motions;
+mod on_device;
 mod sample;
 
 use std::sync::Arc;
@@ -8,8 +9,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use palpate_files::recording::RecordingHeader;
 use palpate_servo::dynamics::{Imperfections, Machine};
 use palpate_servo::{
-    ArmingRequest, Clock, Fault, Limits, MECHANICS_STEP, ServoLoop, ServoSettings, Stage, Vec3,
-    VirtualPhantom, latest,
+    ArmingRequest, Clock, Controller, Device, Fault, Limits, MECHANICS_STEP, ServoLoop,
+    ServoSettings, Stage, Vec3, VirtualPhantom, latest,
 };
 
 pub use sample::{Ended, Listener, Phase, RigSample};
@@ -39,6 +40,8 @@ pub struct Rig {
     emergency: EmergencySwitch,
     /// By how much the rig's time is behind that of its clock [s].
     waited: f64,
+    /// Whether its device is there, and what is late for it is late.
+    is_real: bool,
 }
 
 impl Rig {
@@ -64,19 +67,26 @@ impl Rig {
         };
         let device = VirtualPhantom::with_axes(machine, &Vec3::zeros(), imperfections)
             .touched_by(Box::new(touch));
-        let first = Reference {
-            position: Vec3::zeros(),
-            velocity: Vec3::zeros(),
-            driven: true,
-        };
-        let (indenter, reference) = Indenter::new(settings.gains, first);
+        let (indenter, reference) = Indenter::new(settings.gains, Reference::at_rest());
+        let driven = (Box::new(device) as Box<dyn Device>, Box::new(indenter) as _);
+        let of_specimen = (header, breath_held, felt);
+        Self::new(driven, of_specimen, reference, settings, (clock, seed))
+    }
+
+    fn new(
+        (device, controller): (Box<dyn Device>, Box<dyn Controller>),
+        (header, breath_held, felt): (RecordingHeader, Arc<AtomicBool>, latest::Receiver<f64>),
+        reference: latest::Sender<Reference>,
+        settings: RigSettings,
+        (clock, seed): (Clock, u64),
+    ) -> Result<Self, Error> {
         let of_loop = ServoSettings {
             period: settings.period,
             limits: Some(limits(&settings)),
             log: 1,
             ..ServoSettings::default()
         };
-        let (servo, reader) = ServoLoop::new(Box::new(device), Box::new(indenter), of_loop)?;
+        let (servo, reader) = ServoLoop::new(device, controller, of_loop)?;
         Ok(Self {
             settings,
             header,
@@ -95,6 +105,7 @@ impl Rig {
             arming: reader.arming,
             emergency: EmergencySwitch::default(),
             waited: 0.0,
+            is_real: false,
         })
     }
 
@@ -170,7 +181,12 @@ impl Rig {
         if self.emergency.take() {
             self.servo.trip(Fault::EmergencyStop);
         }
-        let seen = self.servo.tick(time, lateness);
+        let of_loop = if self.is_real {
+            time + self.waited
+        } else {
+            time
+        };
+        let seen = self.servo.tick(of_loop, lateness);
         self.time += self.settings.period;
         let seen = seen.inspect_err(|fault| self.stage = Stage::Faulted(*fault))?;
         self.stage = seen.stage;
@@ -186,9 +202,9 @@ impl Rig {
         })
     }
 
-    /// Waits until the next tick is due, and tells how late it is [s]. Nothing here is real, so whatever is later
-    /// than a period holds up device, tissue and rig together: no force acts for longer than a tick, and no tick
-    /// is made up for.
+    /// Waits until the next tick is due, and tells how late it is [s]. Where nothing is real, whatever is later than a
+    /// period holds up device, tissue and rig together: no force acts for longer than a tick. No tick is made up for,
+    /// and a device that is there has its loop's limits for what is late.
     fn wait_for_tick(&mut self) -> f64 {
         self.clock.wait_until(self.time + self.waited);
         let lateness = self.clock.now() - (self.time + self.waited);

@@ -6,7 +6,7 @@ mod stimulus;
 
 use std::path::Path;
 
-pub use rig::{Gains, RigLimits};
+pub use rig::{Gains, RigDevice, RigLimits};
 pub use specimen::{Measured, MeasuredTissue, PublishedOrgan};
 pub use stimulus::{Stimulus, StimulusPlan, Sweep};
 

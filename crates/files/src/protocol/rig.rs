@@ -11,6 +11,20 @@ words! {
     }
 }
 
+words! {
+    /// What carries the indenter.
+    pub enum RigDevice {
+        /// A PHANTOM that is not there.
+        Virtual = "virtual",
+        /// A Haply device.
+        Haply = "haply",
+        /// A device of OpenHaptics.
+        OpenHaptics = "openhaptics",
+        /// A Force Dimension device.
+        ForceDimension = "force_dimension",
+    }
+}
+
 /// How the rig goes about it. None is the rig's own default.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct RigLimits {
@@ -28,6 +42,8 @@ pub struct RigLimits {
     pub recovery_s: Option<f64>,
     /// How hard the indenter is driven.
     pub gains: Option<Gains>,
+    /// What carries the indenter.
+    pub device: Option<RigDevice>,
 }
 
 impl RigLimits {
@@ -39,6 +55,7 @@ impl RigLimits {
         "breath_s",
         "recovery_s",
         "gains",
+        "device",
     ];
 
     pub(super) fn from_keys(keys: Option<&Keys<'_>>) -> Result<Self, Error> {
@@ -54,6 +71,7 @@ impl RigLimits {
             breath_s: positive("breath_s")?,
             recovery_s: keys.number("recovery_s", Domain::NOT_NEGATIVE)?,
             gains: keys.word("gains", Gains::WORDS)?,
+            device: keys.word("device", RigDevice::WORDS)?,
         })
     }
 }

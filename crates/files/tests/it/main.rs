@@ -150,6 +150,7 @@ recovery_s = 30.0
 breath_s = 25.0
 approach_speed_m_per_s = 0.002
 gains = "gentle"
+device = "haply"
 [[specimen]]
 builtin_tissue = "pig-liver"
 organ = "liver"

@@ -9,4 +9,5 @@
 mod live;
 mod loss;
 mod no_allocation;
+mod real_device;
 mod rig;

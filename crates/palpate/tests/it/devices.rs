@@ -108,3 +108,31 @@ fn a_self_test_pushes_and_says_so() {
     );
     assert!(stderr(&output).contains("did not pass its self-test"));
 }
+
+/// Before a window, and before the organ is prepared.
+#[test]
+fn a_scene_and_a_rig_without_their_device_are_one_sentence() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = "format = 1\norgan = { builtin = \"liver\", builtin_tissue = \"pig-liver\" }\n\
+                 tool = [{ name = \"right\", kind = \"probe\", device = \"haply\", \
+                 tip = { shape = \"flat\", radius_m = 0.002 } }]\n";
+    let protocol = "format = 1\n[rig]\ndevice = \"haply\"\n[[specimen]]\nbuiltin_tissue = \"pig-liver\"\n\
+                    [[stimulus]]\nkind = \"ramp_and_hold\"\ndepth_m = 0.001\nramp_s = 0.5\nhold_s = 1\n";
+    std::fs::write(folder.path().join("scene.toml"), scene).unwrap();
+    std::fs::write(folder.path().join("protocol.toml"), protocol).unwrap();
+    let rig = ["measure", "protocol.toml", "--headless", "--out", "made"];
+    for arguments in [&["simulate", "scene.toml"][..], &rig] {
+        let output = Command::new(env!("CARGO_BIN_EXE_palpate"))
+            .args(arguments)
+            .env("PALPATE_HAPLY", nowhere())
+            .current_dir(folder.path())
+            .output()
+            .unwrap();
+        let said = stderr(&output);
+        assert_eq!(output.status.code(), Some(1), "{said}");
+        assert!(output.stdout.is_empty());
+        assert!(said.contains("no Haply Inverse Service answers"), "{said}");
+        assert_eq!(said.lines().count(), 1, "{said}");
+    }
+    assert!(!folder.path().join("made").exists());
+}

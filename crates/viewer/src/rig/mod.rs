@@ -139,6 +139,8 @@ impl RigWindow {
     fn move_to(&mut self, place: usize, context: &egui::Context) {
         self.place = place;
         self.watch = Watch::default();
+        // It has let go of its device when the next rig asks for one.
+        self.behind = Behind::Failed(String::new());
         let make = &self.places[place].make;
         self.behind = Behind::Preparing(Preparation::start(make, context.clone()));
     }

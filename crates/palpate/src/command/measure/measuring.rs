@@ -5,7 +5,6 @@ use palpate_measure::{
     Course, Ended, Recorded, Recorder, Rig, RigSample, VirtualSpecimen, recording_name,
     stimulus_name,
 };
-use palpate_servo::Clock;
 
 use super::plan::Plan;
 use crate::failure::Failure;
@@ -68,10 +67,8 @@ impl Measuring {
         let mut recorded = Vec::new();
         let mut files = files.iter();
         for (place, specimen) in self.specimens.iter().enumerate() {
-            let rig = self
-                .plan
-                .rig((specimen.clone(), place), Clock::virtual_time());
-            let mut rig = rig.map_err(Failure::failed)?;
+            let clock = self.plan.clock();
+            let mut rig = self.plan.rig((specimen.clone(), place), clock)?;
             for ((name, repeat, course), file) in self.stimuli.iter().zip(files.by_ref()) {
                 progress.say(format!("{}", file.display()));
                 if interrupt::is_asked() {

@@ -1,10 +1,9 @@
+use palpate_devices::{Kind, Places};
 use palpate_files::Protocol;
-use palpate_files::protocol::{Gains, Measured, RigLimits, Stimulus};
-use palpate_measure::{
-    BREATH_MOTION, Course, Error, Rig, RigSettings, VirtualSpecimen, stimulus_name,
-};
+use palpate_files::protocol::{Gains, Measured, RigDevice, RigLimits, Stimulus};
+use palpate_measure::{BREATH_MOTION, Course, Rig, RigSettings, VirtualSpecimen, stimulus_name};
 use palpate_servo::dynamics::{Imperfections, Machine, TwoMass};
-use palpate_servo::{Clock, MECHANICS_STEP, PidGains};
+use palpate_servo::{Clock, Device, MECHANICS_STEP, PidGains};
 
 use super::specimen;
 use crate::failure::Failure;
@@ -24,7 +23,19 @@ pub(super) struct Plan {
     /// Each with how often it is repeated.
     pub(super) stimuli: Vec<(Course, u64)>,
     pub(super) doubts: Vec<String>,
+    /// A device that is there; none for one that is not.
+    device: Option<(Kind, Places)>,
     seed: u64,
+}
+
+/// What a protocol calls a device that is there.
+fn kind(device: RigDevice) -> Option<Kind> {
+    match device {
+        RigDevice::Virtual => None,
+        RigDevice::Haply => Some(Kind::Haply),
+        RigDevice::OpenHaptics => Some(Kind::OpenHaptics),
+        RigDevice::ForceDimension => Some(Kind::ForceDimension),
+    }
 }
 
 impl Plan {
@@ -36,6 +47,16 @@ impl Plan {
             ..settings(&protocol.rig)
         };
         let mut doubts = Vec::new();
+        let device = match protocol.rig.device.and_then(kind) {
+            None => None,
+            Some(kind) => Some((kind, Places::from_environment().map_err(Failure::input)?)),
+        };
+        if let Some((kind, _)) = &device {
+            doubts.push(format!(
+                "the tissue is not there and its force is displayed by `{kind}`, which has no force sensor; it was \
+                 not tried on hardware"
+            ));
+        }
         let mut stimuli = Vec::new();
         for plan in &protocol.stimuli {
             let name = stimulus_name(&plan.stimulus);
@@ -59,12 +80,14 @@ impl Plan {
             specimens: protocol.specimens,
             stimuli,
             doubts,
+            device,
             seed,
         })
     }
 
     /// Refuses, before anything moves, what goes beyond a limit; a window says it on the stimulus's button.
     pub(super) fn check(&self) -> Result<(), Failure> {
+        self.open_device()?;
         let courses = self.stimuli.iter();
         let mut checked = courses.map(|(course, _)| self.settings.check(course));
         checked.try_for_each(|one| one.map_err(Failure::input))
@@ -89,16 +112,36 @@ impl Plan {
         Ok((found, doubts))
     }
 
+    /// The device that is there, if the protocol names one.
+    pub(super) fn open_device(&self) -> Result<Option<Box<dyn Device>>, Failure> {
+        let device = self.device.as_ref();
+        let opened = device.map(|(kind, places)| kind.open(0, places));
+        opened.transpose().map_err(Failure::failed)
+    }
+
+    /// Where a rig without a window has its time from: a device that is there lives in the machine's.
+    pub(super) fn clock(&self) -> Clock {
+        match self.device {
+            Some(_) => Clock::real(),
+            None => Clock::virtual_time(),
+        }
+    }
+
     /// A rig over the specimen at `place`, on `clock`.
     pub(super) fn rig(
         &self,
         (specimen, place): (VirtualSpecimen, usize),
         clock: Clock,
-    ) -> Result<Rig, Error> {
+    ) -> Result<Rig, Failure> {
+        if let Some(device) = self.open_device()? {
+            let seed = self.seed.wrapping_add(place as u64);
+            let rig = Rig::on(device, specimen, self.settings, (clock, seed));
+            return rig.map_err(Failure::failed);
+        }
         let machine = Machine::of_two_masses(&TwoMass::consistent(), MECHANICS_STEP);
         let device = (machine, Imperfections::premium());
         let seed = self.seed.wrapping_add(place as u64);
-        Rig::over(specimen, device, self.settings, (clock, seed))
+        Rig::over(specimen, device, self.settings, (clock, seed)).map_err(Failure::failed)
     }
 }
 

@@ -23,6 +23,8 @@ pub(super) fn open(plan: Plan, folder: &Path) -> Result<(), Failure> {
         )));
     }
     check_display().or_else(no_window)?;
+    // Before a window; each rig opens it anew.
+    plan.open_device()?;
     // Before anything is measured that could not be kept.
     fs::create_dir_all(folder).map_err(|error| {
         let folder = folder.display();

@@ -1,0 +1,100 @@
+//! The rig on a device that is carried by its own mechanics. The judge is the rig whose tissue touches the virtual
+//! machine itself.
+
+use palpate_measure::{Ended, Error, Rig, RigSample, RigSettings};
+use palpate_servo::dynamics::{Imperfections, Machine, TwoMass};
+use palpate_servo::{
+    Clock, Command, Device, DeviceSpec, DeviceState, Fault, MECHANICS_STEP, Vec3, VirtualPhantom,
+};
+
+use crate::rig::{rig, soft, usual};
+
+/// A virtual PHANTOM on a table, whose zero is elsewhere than where its handle rests.
+struct OnTable(VirtualPhantom);
+
+const SOMEWHERE: Vec3 = Vec3::new(0.03, -0.02, 0.05);
+
+impl OnTable {
+    fn new(imperfections: Imperfections) -> Self {
+        let machine = Machine::of_two_masses(&TwoMass::consistent(), MECHANICS_STEP);
+        Self(VirtualPhantom::with_axes(
+            machine,
+            &Vec3::zeros(),
+            imperfections,
+        ))
+    }
+}
+
+impl Device for OnTable {
+    fn spec(&self) -> &DeviceSpec {
+        self.0.spec()
+    }
+
+    fn exchange(
+        &mut self,
+        command: &Command,
+        patience: std::time::Duration,
+    ) -> Result<DeviceState, Fault> {
+        let state = self.0.exchange(command, patience)?;
+        Ok(DeviceState {
+            position: state.position + SOMEWHERE,
+            ..state
+        })
+    }
+
+    fn stop(&mut self) {
+        self.0.stop();
+    }
+}
+
+fn pressed(mut rig: Rig) -> Result<Vec<RigSample>, Error> {
+    assert_eq!(rig.approach(&mut |_| true)?, Ended::Whole);
+    let mut samples = Vec::new();
+    rig.press(&usual(), &mut |sample| {
+        samples.push(*sample);
+        true
+    })?;
+    Ok(samples)
+}
+
+fn on_table(imperfections: Imperfections) -> Rig {
+    let device = Box::new(OnTable::new(imperfections));
+    let clock = (Clock::virtual_time(), 7);
+    Rig::on(device, soft(), RigSettings::default(), clock).unwrap()
+}
+
+/// Tissue that touches the machine is felt at once, displayed tissue two ticks later: at the ramp's 8 mm/s that is
+/// 16 µm. On top come a step of the encoder (30 µm) and of the sensor (0.8 mN), and the contact, which each finds to
+/// 0.02 mm.
+#[test]
+fn displayed_tissue_is_recorded_as_touched_tissue() {
+    let touched = pressed(rig(soft(), RigSettings::default(), 7)).unwrap();
+    let displayed = pressed(on_table(Imperfections::premium())).unwrap();
+    assert_eq!(touched.len(), displayed.len());
+    let peak = touched
+        .iter()
+        .map(|sample| sample.force)
+        .fold(0.0, f64::max);
+    let apart = touched
+        .iter()
+        .zip(&displayed)
+        .map(|(one, other)| (one.force - other.force).abs());
+    let apart = apart.fold(0.0, f64::max);
+    println!("{apart} N apart of {peak} N");
+    // 4 mm carry the peak.
+    assert!(
+        apart < peak * (0.016 + 0.030 + 0.040) / 4.0 + 2.0 / 1280.0,
+        "{apart} of {peak}"
+    );
+}
+
+/// Up at the device is up for the rig, and nothing else moves.
+#[test]
+fn a_loss_ends_it_with_its_name() {
+    let lost = Imperfections {
+        lost_at: 3.0,
+        ..Imperfections::premium()
+    };
+    let error = on_table(lost).approach(&mut |_| true).unwrap_err();
+    assert_eq!(error, Error::from(Fault::Silent));
+}
