@@ -1,5 +1,7 @@
 use std::io;
 
+use crate::Kind;
+
 /// Why a device cannot be opened.
 #[derive(Debug, thiserror::Error)]
 pub enum OpenError {
@@ -43,10 +45,46 @@ pub enum OpenError {
         /// What was given.
         found: String,
     },
-    /// There is no driver.
-    #[error("there is no driver for `{kind}` yet; use another device")]
-    NoDriver {
+    /// A library is not there.
+    #[error("the library of `{kind}` is not there: no {names} can be loaded ({cause}); install its driver and its SDK, or say with {variable} where it is", variable = kind.variable())]
+    NoLibrary {
         /// The kind of device.
-        kind: crate::Kind,
+        kind: Kind,
+        /// What was looked for.
+        names: String,
+        /// What the system said.
+        cause: String,
+    },
+    /// A library is of another version, or another library.
+    #[error("{library} is no library of `{kind}`, for it has no function {function}; install the version that docs/devices.md names, or say with {variable} where it is", variable = kind.variable())]
+    NoFunction {
+        /// The kind of device.
+        kind: Kind,
+        /// Its file.
+        library: String,
+        /// What it has not.
+        function: &'static str,
+    },
+    /// A library opens no device.
+    #[error(
+        "the library of `{kind}` opens no device and reports {what}; plug it in, switch it on and close other programs that drive it"
+    )]
+    NotOpened {
+        /// The kind of device.
+        kind: Kind,
+        /// Why.
+        what: String,
+    },
+    /// A library has fewer devices than are asked for.
+    #[error(
+        "the library of `{kind}` has {there} devices, and number {wanted} is asked for; plug one in"
+    )]
+    NoSuchDevice {
+        /// The kind of device.
+        kind: Kind,
+        /// How many it has.
+        there: usize,
+        /// Which one is asked for, from one on.
+        wanted: usize,
     },
 }

@@ -2,7 +2,9 @@ use std::fmt;
 
 use palpate_servo::Device;
 
+use crate::force_dimension::{self, ForceDimensionDevice};
 use crate::haply::{self, HaplyDevice};
+use crate::open_haptics::{self, OpenHapticsDevice};
 use crate::{Found, OpenError, Places};
 
 /// A kind of devices, with one driver.
@@ -29,6 +31,15 @@ impl Kind {
         }
     }
 
+    /// The variable of the environment that says where it is looked for.
+    pub fn variable(self) -> &'static str {
+        match self {
+            Self::Haply => "PALPATE_HAPLY",
+            Self::OpenHaptics => "PALPATE_OPENHAPTICS",
+            Self::ForceDimension => "PALPATE_FORCE_DIMENSION",
+        }
+    }
+
     /// The devices of this kind that are there.
     ///
     /// # Errors
@@ -36,7 +47,8 @@ impl Kind {
     pub fn list(self, places: &Places) -> Result<Vec<Found>, OpenError> {
         match self {
             Self::Haply => haply::list(&places.haply),
-            kind => Err(OpenError::NoDriver { kind }),
+            Self::OpenHaptics => open_haptics::list(places.openhaptics.as_deref()),
+            Self::ForceDimension => force_dimension::list(places.force_dimension.as_deref()),
         }
     }
 
@@ -46,8 +58,25 @@ impl Kind {
     /// When it is not there.
     pub fn open(self, number: usize, places: &Places) -> Result<Box<dyn Device>, OpenError> {
         match self {
-            Self::Haply => Ok(Box::new(HaplyDevice::open(&places.haply, number)?)),
-            kind => Err(OpenError::NoDriver { kind }),
+            Self::Haply => {
+                let device = HaplyDevice::open(&places.haply, number)?;
+                Ok(Box::new(device.with_patience(places.patience)))
+            }
+            Self::OpenHaptics if number > 0 => Err(OpenError::NoSuchDevice {
+                kind: self,
+                there: 1,
+                wanted: number + 1,
+            }),
+            Self::OpenHaptics => {
+                let named = places.openhaptics.as_deref();
+                let device = OpenHapticsDevice::open(named)?;
+                Ok(Box::new(device.with_patience(places.patience)))
+            }
+            Self::ForceDimension => {
+                let named = places.force_dimension.as_deref();
+                let device = ForceDimensionDevice::open(named, number)?;
+                Ok(Box::new(device.with_patience(places.patience)))
+            }
         }
     }
 }

@@ -1,7 +1,10 @@
-//! Haptic devices that users own, each behind [`palpate_servo::Device`], and stand-ins for them.
+//! Haptic devices that users own, each behind [`palpate_servo::Device`], stand-ins for them, and a server that shows
+//! what is touched to the programs of an operating room ([`openigtlink`]).
 //!
 //! ```text
-//!  ServoLoop ─exchange▶ HaplyDevice ─WebSocket, one message each way▶ Inverse Service ─▶ Inverse3
+//!  ServoLoop ─exchange▶ HaplyDevice ─────────── WebSocket, one message each way ──▶ Inverse Service
+//!                       OpenHapticsDevice ────── latest force, latest state ──────▶ scheduler of libHD
+//!                       ForceDimensionDevice ─── a thread that makes the calls ───▶ libdhd
 //! ```
 //!
 //! A driver turns the axes of its device into those of every device here (x right, y up, z toward the user, zero in
@@ -15,10 +18,15 @@
 //! hardware.**
 
 mod error;
+pub mod force_dimension;
 mod found;
 pub mod haply;
 mod kind;
+mod library;
+pub mod open_haptics;
+pub mod openigtlink;
 mod places;
+mod rotation;
 mod self_test;
 pub mod stand_in;
 

@@ -1,11 +1,12 @@
 use std::path::PathBuf;
+use std::time::Duration;
 
 use crate::OpenError;
 use crate::haply::HaplyAddress;
 
 /// Where services and libraries of devices are looked for. A scene does not say it, for scenes come from anywhere,
 /// and a library is a program.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Places {
     /// The Haply Inverse Service.
     pub haply: HaplyAddress,
@@ -13,6 +14,23 @@ pub struct Places {
     pub openhaptics: Option<PathBuf>,
     /// The library of Force Dimension; none for its usual names.
     pub force_dimension: Option<PathBuf>,
+    /// How long an answer of a device may take.
+    pub patience: Duration,
+}
+
+/// With what the system adds, a silent device is a fault within 25 ms.
+pub(crate) const PATIENCE: Duration = Duration::from_millis(20);
+
+impl Default for Places {
+    /// The usual ones, and 20 ms.
+    fn default() -> Self {
+        Self {
+            haply: HaplyAddress::default(),
+            openhaptics: None,
+            force_dimension: None,
+            patience: PATIENCE,
+        }
+    }
 }
 
 impl Places {
@@ -31,6 +49,7 @@ impl Places {
             haply,
             openhaptics: path("PALPATE_OPENHAPTICS"),
             force_dimension: path("PALPATE_FORCE_DIMENSION"),
+            patience: PATIENCE,
         })
     }
 }

@@ -7,12 +7,10 @@ use super::message::{Generation, Listed, Snapshot, State, force_command};
 use super::{Event, HaplyAddress};
 use crate::OpenError;
 use crate::found::{Found, Origin};
+use crate::places::PATIENCE;
 
 /// How long the service may take for its first message.
 const FIRST_WITHIN: Duration = Duration::from_secs(1);
-
-/// How long an answer may take: with what the system adds, a silent service is a fault within 25 ms.
-const ANSWER_WITHIN: Duration = Duration::from_millis(20);
 
 /// Messages that nobody asked for and that are taken at a tick.
 const UNASKED: usize = 8;
@@ -35,6 +33,7 @@ pub struct HaplyDevice {
     grip: Option<String>,
     generation: Generation,
     message: String,
+    patience: Duration,
     /// Answers that are still to come.
     owed: u32,
     known: Known,
@@ -131,11 +130,19 @@ impl HaplyDevice {
             grip: snapshot.grips.get(number).cloned(),
             generation: snapshot.generation,
             message: String::with_capacity(256),
+            patience: PATIENCE,
             owed: 0,
             known: Known::default(),
             hidden: 0,
             broken: None,
         })
+    }
+
+    /// The same with another time that an answer may take.
+    #[must_use]
+    pub fn with_patience(mut self, patience: Duration) -> Self {
+        self.patience = patience;
+        self
     }
 
     /// Whether the service tells events.
@@ -157,7 +164,7 @@ impl HaplyDevice {
 
     /// The newest state.
     fn receive(&mut self) -> Result<State, Fault> {
-        let until = Instant::now() + ANSWER_WITHIN;
+        let until = Instant::now() + self.patience;
         let mut newest = None;
         while self.owed > 0 {
             newest = Some(self.channel.receive(until)?);

@@ -1,8 +1,12 @@
 //! Hands and walls for all drivers.
 
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Duration;
+
 use palpate_servo::{
-    Clock, Device, DeviceState, Sample, ServoLoop, ServoReader, ServoSettings, Stage, Trajectory,
-    Vec3, VirtualDevice, Waypoint,
+    Command, Device, DeviceSpec, DeviceState, Fault, Sample, ServoLoop, ServoReader, ServoSettings,
+    Stage, Trajectory, Vec3, VirtualDevice, Waypoint,
 };
 
 /// How stiff the wall is [N/m], and how deep a hand presses [m]: 1 N, below what a device without a dead-man's switch
@@ -29,13 +33,45 @@ pub(crate) fn servo(device: Box<dyn Device>) -> (ServoLoop, ServoReader) {
     ServoLoop::new(device, Box::new(wall), ServoSettings::default()).unwrap()
 }
 
-/// Ticks on the virtual clock until the hand is down, and force is on.
-pub(crate) fn press(servo: &mut ServoLoop, reader: &mut ServoReader) -> Vec<Sample> {
-    let mut clock = Clock::virtual_time();
+/// For all that does not try how long a device may be silent: a machine that is busy elsewhere is no fault.
+pub(crate) const PATIENT: Duration = Duration::from_secs(5);
+
+/// A device in the time of a loop on the virtual clock, however often it is asked.
+pub(crate) struct InTime {
+    pub(crate) device: Box<dyn Device>,
+    pub(crate) time: Arc<AtomicU64>,
+}
+
+impl Device for InTime {
+    fn spec(&self) -> &DeviceSpec {
+        self.device.spec()
+    }
+
+    fn exchange(&mut self, command: &Command, patience: Duration) -> Result<DeviceState, Fault> {
+        let time = f64::from_bits(self.time.load(Ordering::Acquire));
+        self.device
+            .exchange(&Command { time, ..*command }, patience)
+    }
+
+    fn stop(&mut self) {
+        self.device.stop();
+    }
+}
+
+/// Ticks on the virtual clock until the hand is down, and force is on. A device [in time](InTime) has it from `time`.
+///
+/// # Errors
+/// When the device fails.
+pub(crate) fn press(
+    servo: &mut ServoLoop,
+    reader: &mut ServoReader,
+    time: &AtomicU64,
+) -> Result<Vec<Sample>, Fault> {
     let last = (1e3 * DOWN) as u64 + 10;
     for tick in 0..last {
-        clock.wait_until(tick as f64 * 1e-3);
-        servo.tick(clock.now(), 0.0).unwrap();
+        let now = tick as f64 * 1e-3;
+        time.store(now.to_bits(), Ordering::Release);
+        servo.tick(now, 0.0)?;
     }
     let samples: Vec<Sample> = reader.log.drain().collect();
     let end = samples.last().unwrap();
@@ -44,5 +80,5 @@ pub(crate) fn press(servo: &mut ServoLoop, reader: &mut ServoReader) -> Vec<Samp
         (end.sent.norm() - STIFFNESS * DEPTH).abs() < 1e-3,
         "{end:?}"
     );
-    samples
+    Ok(samples)
 }

@@ -1,5 +1,6 @@
 //! The driver and its service: what is said both ways, and that a wall feels as on a device without a service.
 
+use std::sync::atomic::AtomicU64;
 use std::time::{Duration, Instant};
 
 use nalgebra::UnitQuaternion;
@@ -12,7 +13,7 @@ use palpate_servo::{
     Waypoint,
 };
 
-use crate::hands::{press, pressing, servo};
+use crate::hands::{PATIENT, press, pressing, servo};
 
 /// As version 3.5 has it, in our words.
 const FIRST: &str = r#"{"session_id": 3,
@@ -75,6 +76,11 @@ fn stand_in(device: impl Device + 'static, settings: HaplyStandInSettings) -> Ha
     HaplyStandIn::start(vec![Box::new(device)], settings).unwrap()
 }
 
+fn open(service: &HaplyStandIn, number: usize) -> HaplyDevice {
+    let device = HaplyDevice::open(service.address(), number).unwrap();
+    device.with_patience(PATIENT)
+}
+
 fn exchange(device: &mut HaplyDevice, time: f64, force: Vec3) -> DeviceState {
     let command = Command { time, force };
     device.exchange(&command, Duration::from_millis(1)).unwrap()
@@ -90,7 +96,7 @@ fn both_generations_take_a_force() {
                 ..HaplyStandInSettings::default()
             },
         );
-        let mut device = HaplyDevice::open(service.address(), 0).unwrap();
+        let mut device = open(&service, 0);
         assert_eq!(device.generation(), generation);
         assert!(device.hears_events());
         let force = Vec3::new(0.1, 0.2, -0.3);
@@ -122,7 +128,7 @@ fn a_force_in_other_words_is_a_fault() {
             ..HaplyStandInSettings::default()
         },
     );
-    let mut device = HaplyDevice::open(service.address(), 0).unwrap();
+    let mut device = open(&service, 0);
     service.misbehave(Some(palpate_devices::stand_in::Misbehaviour::NoForce));
     let faults: Vec<_> = (0..100)
         .filter_map(|tick| exchange(&mut device, f64::from(tick) * 1e-3, Vec3::y()).fault)
@@ -144,7 +150,7 @@ fn a_grip_turns_shuts_and_cuts() {
             ..HaplyStandInSettings::default()
         };
         let service = stand_in(hand, settings);
-        let mut device = HaplyDevice::open(service.address(), 0).unwrap();
+        let mut device = open(&service, 0);
         let state = exchange(&mut device, 0.0, Vec3::zeros());
         let expected = match grip {
             StandInGrip::None => (0, 0.0),
@@ -166,7 +172,7 @@ fn two_hands_have_a_device_each() {
     let devices = places.map(|place| Box::new(NoDevice::new(place)) as Box<dyn Device>);
     let service = HaplyStandIn::start(devices.into(), HaplyStandInSettings::default()).unwrap();
     assert_eq!(list(service.address()).unwrap().len(), 2);
-    let mut hands = [0, 1].map(|number| HaplyDevice::open(service.address(), number).unwrap());
+    let mut hands = [0, 1].map(|number| open(&service, number));
     for (number, hand) in hands.iter_mut().enumerate() {
         let force = Vec3::y() * (0.1 + number as f64);
         let state = exchange(hand, 0.0, force);
@@ -187,11 +193,11 @@ fn two_hands_have_a_device_each() {
 #[test]
 fn a_wall_feels_as_without_a_service() {
     let (mut direct, mut reader) = servo(Box::new(pressing()));
-    let expected = press(&mut direct, &mut reader);
+    let expected = press(&mut direct, &mut reader, &AtomicU64::new(0)).unwrap();
     let service = stand_in(pressing(), HaplyStandInSettings::default());
-    let device = HaplyDevice::open(service.address(), 0).unwrap();
+    let device = open(&service, 0);
     let (mut by_service, mut reader) = servo(Box::new(device));
-    let found = press(&mut by_service, &mut reader);
+    let found = press(&mut by_service, &mut reader, &AtomicU64::new(0)).unwrap();
     assert_eq!(found.len(), expected.len());
     for (found, expected) in found.iter().zip(&expected) {
         assert!((found.state.position - expected.state.position).norm() < 1e-12);
@@ -265,7 +271,7 @@ fn a_round_trip_fits_into_a_tick() {
         NoDevice::new(Vec3::zeros()),
         HaplyStandInSettings::default(),
     );
-    let mut device = HaplyDevice::open(service.address(), 0).unwrap();
+    let mut device = open(&service, 0);
     let mut times = Histogram::default();
     for tick in 0..5000 {
         let began = Instant::now();

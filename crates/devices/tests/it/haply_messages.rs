@@ -16,7 +16,7 @@ const EVENT: &str = r#"{"name": "device-safety-triggered", "category": "device",
  "data": {"device_id": "0", "safety_type": "stall_detected"}, "message": "text"}"#;
 
 /// All cases on demand.
-fn tries() -> ProptestConfig {
+pub(crate) fn tries() -> ProptestConfig {
     let cases = if std::env::var_os("PALPATE_FULL").is_some() {
         20_000
     } else {

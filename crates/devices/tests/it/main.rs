@@ -2,11 +2,15 @@
 
 #![allow(
     clippy::unwrap_used,
-    reason = "clippy.toml allows it in tests, but does not see helpers as tests"
+    clippy::print_stdout,
+    reason = "tests may unwrap, and print what they measured"
 )]
 
 mod hands;
 mod haply;
 mod haply_faults;
 mod haply_messages;
+mod libraries;
+mod library_faults;
+mod openigtlink;
 mod self_test;

@@ -1,5 +1,6 @@
 //! The self-test, on devices that are well and on some that are not.
 
+use crate::hands::PATIENT;
 use palpate_devices::haply::HaplyDevice;
 use palpate_devices::self_test;
 use palpate_devices::stand_in::{HaplyStandIn, HaplyStandInSettings, Misbehaviour};
@@ -18,7 +19,9 @@ fn held() -> HaplyStandIn {
 #[test]
 fn a_device_that_is_well_passes() {
     let service = held();
-    let device = HaplyDevice::open(service.address(), 0).unwrap();
+    let device = HaplyDevice::open(service.address(), 0)
+        .unwrap()
+        .with_patience(PATIENT);
     let test = self_test(Box::new(device), Clock::virtual_time()).unwrap();
     assert!(test.passed() && test.ready, "{test:?}");
     assert!((test.sent - 0.2).abs() < 1e-4, "{}", test.sent);
@@ -42,7 +45,9 @@ fn one_that_is_not_does_not() {
         (Misbehaviour::NoCalibration, None),
     ] {
         let service = held();
-        let device = HaplyDevice::open(service.address(), 0).unwrap();
+        let device = HaplyDevice::open(service.address(), 0)
+            .unwrap()
+            .with_patience(PATIENT);
         service.misbehave(Some(wrong));
         let test = self_test(Box::new(device), Clock::virtual_time()).unwrap();
         assert!(!test.passed(), "{test:?}");

@@ -23,6 +23,8 @@ fn devices(arguments: &[&str], haply: &str) -> Output {
         .arg("devices")
         .args(arguments)
         .env("PALPATE_HAPLY", haply)
+        .env("PALPATE_OPENHAPTICS", "/nowhere/libHD.so")
+        .env("PALPATE_FORCE_DIMENSION", "/nowhere/libdhd.so")
         .output()
         .unwrap()
 }
@@ -49,15 +51,22 @@ fn without_a_device_every_kind_says_why() {
 
 #[test]
 fn one_that_is_asked_for_and_missing_is_one_sentence() {
-    let output = devices(&["haply"], &nowhere());
-    assert_eq!(output.status.code(), Some(1));
-    assert!(output.stdout.is_empty());
-    let said = stderr(&output);
-    assert!(
-        said.starts_with("palpate: error: no Haply Inverse Service answers"),
-        "{said}"
-    );
-    assert_eq!(said.lines().count(), 1, "{said}");
+    let library = |kind: &str, file: &str| {
+        format!("the library of `{kind}` is not there: no /nowhere/{file} can be loaded")
+    };
+    for (kind, begins) in [
+        ("haply", "no Haply Inverse Service answers".to_owned()),
+        ("openhaptics", library("openhaptics", "libHD.so")),
+        ("force_dimension", library("force_dimension", "libdhd.so")),
+    ] {
+        let output = devices(&[kind], &nowhere());
+        assert_eq!(output.status.code(), Some(1));
+        assert!(output.stdout.is_empty());
+        let said = stderr(&output);
+        let begins = format!("palpate: error: {begins}");
+        assert!(said.starts_with(&begins), "{said}");
+        assert_eq!(said.lines().count(), 1, "{said}");
+    }
 }
 
 #[test]

@@ -1,20 +1,50 @@
 //! Devices of a scene: palpated through a driver and its stand-in, an organ feels as through a virtual device.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Duration;
 
-use palpate_devices::Places;
-use palpate_devices::stand_in::{HaplyStandIn, HaplyStandInSettings, Misbehaviour};
+use palpate_devices::stand_in::{
+    HaplyStandIn, HaplyStandInSettings, Misbehaviour, StandInClock, StandInLibrary,
+};
+use palpate_devices::{Kind, Places};
 use palpate_files::scene::DeviceKind;
 use palpate_files::{Scene, SessionRow};
 use palpate_geometry::{AabbTree, Vec3};
 use palpate_servo::{
-    Device, DeviceSpec, Fault, NoDevice, Sample, ServoSettings, Stage, Trajectory, VirtualDevice,
+    Command, Device, DeviceSpec, DeviceState, Fault, NoDevice, Sample, ServoSettings, Stage,
+    Trajectory, VirtualDevice,
 };
 use palpate_simulate::Simulation;
 use palpate_simulate::interactive::{Mount, SceneDevices, Station, VirtualInteraction};
 
 use crate::interactive::{POLE, advance};
 use crate::scenes::Setting;
+
+/// A machine that is busy elsewhere is no fault here.
+const PATIENT: Duration = Duration::from_secs(5);
+
+/// A device in the time of the interaction, however often it is asked.
+struct InTime {
+    device: VirtualDevice,
+    time: Arc<AtomicU64>,
+}
+
+impl Device for InTime {
+    fn spec(&self) -> &DeviceSpec {
+        self.device.spec()
+    }
+
+    fn exchange(&mut self, command: &Command, patience: Duration) -> Result<DeviceState, Fault> {
+        let time = f64::from_bits(self.time.load(Ordering::Acquire));
+        let command = Command { time, ..*command };
+        self.device.exchange(&command, patience)
+    }
+
+    fn stop(&mut self) {
+        self.device.stop();
+    }
+}
 
 fn scene(device: DeviceKind) -> (Scene, Arc<Simulation>) {
     let mut scene = Setting::default().scene();
@@ -27,6 +57,7 @@ fn service(device: Box<dyn Device>) -> (HaplyStandIn, Places) {
     let service = HaplyStandIn::start(vec![device], HaplyStandInSettings::default()).unwrap();
     let places = Places {
         haply: service.address().clone(),
+        patience: PATIENT,
         ..Places::default()
     };
     (service, places)
@@ -45,13 +76,25 @@ fn palpating(mount: &Mount) -> VirtualDevice {
 }
 
 fn palpated(simulation: &Arc<Simulation>, station: Station) -> (Vec<Sample>, Vec<SessionRow>) {
+    palpated_in_time(simulation, station, &AtomicU64::new(0))
+}
+
+/// The same, with its time told.
+fn palpated_in_time(
+    simulation: &Arc<Simulation>,
+    station: Station,
+    time: &AtomicU64,
+) -> (Vec<Sample>, Vec<SessionRow>) {
     let settings = ServoSettings {
         log: 10_000,
         ..ServoSettings::default()
     };
     let stations = vec![Some(station)];
     let mut interaction = VirtualInteraction::new(simulation.clone(), stations, settings).unwrap();
-    advance(&mut interaction, 5000);
+    for _ in 0..5000 {
+        time.store(interaction.time().to_bits(), Ordering::Release);
+        interaction.advance().unwrap();
+    }
     let samples = interaction.samples(0).collect();
     (samples, interaction.rows().collect())
 }
@@ -96,6 +139,64 @@ fn an_organ_feels_the_same_through_a_service() {
         assert!(apart.norm() < 1e-6 * largest, "{apart}");
     }
     assert_eq!(service.force(0), Vec3::zeros());
+}
+
+/// The same through the libraries. One is asked at every tick, and gives the same forces. The scheduler of the other
+/// tells where the handle was at one of the last two ticks, 30 µm away at most each, which is a step of a PHANTOM's
+/// encoders; the tissue's stiffness makes a force of that.
+#[test]
+fn an_organ_feels_the_same_through_a_library() {
+    for (word, kind) in [
+        (DeviceKind::ForceDimension, Kind::ForceDimension),
+        (DeviceKind::OpenHaptics, Kind::OpenHaptics),
+    ] {
+        let (scene, simulation) = scene(word);
+        let folder = tempfile::tempdir().unwrap();
+        let library = StandInLibrary::build(kind, folder.path()).unwrap();
+        let mut places = Places {
+            patience: PATIENT,
+            ..Places::default()
+        };
+        let path = Some(library.path().to_owned());
+        match kind {
+            Kind::OpenHaptics => {
+                places.openhaptics = path;
+                library.set("stand_in_period_us", 50);
+            }
+            _ => places.force_dimension = path,
+        }
+        let station = open(&scene, &simulation, &places);
+        let (mount, spec) = (station.mount, station.device.spec().clone());
+        drop(station);
+        let time = Arc::new(AtomicU64::new(0));
+        let hand = InTime {
+            device: palpating(&mount),
+            time: time.clone(),
+        };
+        library.carry(Box::new(hand), StandInClock::PerCommand(1e-3), 0);
+        let station = open(&scene, &simulation, &places);
+        let (found, _) = palpated_in_time(&simulation, station, &time);
+        let direct = Station {
+            device: Box::new(palpating(&mount).with_spec(spec)),
+            mount,
+        };
+        let (expected, _) = palpated(&simulation, direct);
+        let largest = expected.iter().map(|sample| sample.sent.norm());
+        let largest = largest.fold(0.0, f64::max);
+        let apart = found.iter().zip(&expected);
+        let apart = apart.map(|(found, expected)| (found.sent - expected.sent).norm());
+        let apart = apart.fold(0.0, f64::max);
+        println!("{kind}: {apart} N apart of {largest} N");
+        let allowed = match kind {
+            // 4 mm make the largest force.
+            Kind::OpenHaptics => 2.0 * 30e-6 * largest / 4e-3,
+            _ => 1e-6 * largest,
+        };
+        assert!(
+            largest > 0.05 && apart < allowed,
+            "{kind}: {apart} of {largest}"
+        );
+    }
 }
 
 /// Right, up and toward the user are so in the picture; the tip begins clear of the organ.

@@ -21,7 +21,8 @@ Examples:
       every Haply device answers, and pushes a hand with 0.2 N right, up and toward it: hold the handle
 
 The variable PALPATE_HAPLY says where the Haply Inverse Service is (HOST:PORT, or HOST:PORT,PORT with
-that of its events). None of the drivers was tried on hardware yet: docs/devices.md.";
+that of its events), PALPATE_OPENHAPTICS and PALPATE_FORCE_DIMENSION where libHD and libdhd are, if not
+where the system looks for them. None of the drivers was tried on hardware yet: docs/devices.md.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
@@ -43,12 +44,19 @@ pub(crate) struct Arguments {
 enum Word {
     /// By the Haply Inverse Service
     Haply,
+    /// Touch and PHANTOM, by libHD
+    #[value(name = "openhaptics")]
+    OpenHaptics,
+    /// By libdhd
+    ForceDimension,
 }
 
 impl Word {
     fn kind(self) -> Kind {
         match self {
             Self::Haply => Kind::Haply,
+            Self::OpenHaptics => Kind::OpenHaptics,
+            Self::ForceDimension => Kind::ForceDimension,
         }
     }
 }

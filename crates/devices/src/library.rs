@@ -1,0 +1,107 @@
+//! Libraries that are loaded when a device is opened, so that nobody needs them to build.
+
+use std::ffi::{CStr, OsString, c_char};
+use std::path::Path;
+
+use crate::{Kind, OpenError};
+
+/// A library that stays loaded to the end of the program: its threads may outlive whoever opened it.
+pub(crate) struct Library {
+    loaded: &'static libloading::Library,
+    kind: Kind,
+    name: String,
+}
+
+impl Library {
+    /// Loads the first of `names` that is there, or only `named`.
+    pub(crate) fn load(
+        kind: Kind,
+        names: &[&str],
+        named: Option<&Path>,
+    ) -> Result<Self, OpenError> {
+        let names: Vec<OsString> = match named {
+            Some(path) => vec![path.into()],
+            None => names.iter().map(Into::into).collect(),
+        };
+        let mut causes = Vec::new();
+        for name in &names {
+            match open(name) {
+                Ok(loaded) => {
+                    return Ok(Self {
+                        loaded: Box::leak(Box::new(loaded)),
+                        kind,
+                        name: name.to_string_lossy().into_owned(),
+                    });
+                }
+                Err(cause) => causes.push(cause),
+            }
+        }
+        let names: Vec<_> = names.iter().map(|name| name.to_string_lossy()).collect();
+        Err(OpenError::NoLibrary {
+            kind,
+            names: names.join(" or "),
+            cause: one_line(causes.first()),
+        })
+    }
+
+    /// The function `name`.
+    ///
+    /// # Safety
+    /// `F` has to be the type of a pointer to it.
+    #[allow(
+        unsafe_code,
+        reason = "the types of a library's functions are known from its documents only"
+    )]
+    pub(crate) unsafe fn function<F: Copy>(&self, name: &'static str) -> Result<F, OpenError> {
+        // SAFETY: the caller vouches for the type; the library is never unloaded.
+        let found = unsafe { self.loaded.get::<F>(name.as_bytes()) };
+        found
+            .map(|symbol| *symbol)
+            .map_err(|_| OpenError::NoFunction {
+                kind: self.kind,
+                library: self.name.clone(),
+                function: name,
+            })
+    }
+}
+
+/// With its symbols for all, for libraries of devices load further ones that look for them.
+#[cfg(unix)]
+#[allow(unsafe_code, reason = "loading a library runs its initialisation")]
+fn open(name: &std::ffi::OsStr) -> Result<libloading::Library, libloading::Error> {
+    use libloading::os::unix::{Library, RTLD_GLOBAL, RTLD_LAZY};
+    // SAFETY: what a library does when it is loaded is its own; the person at the machine installed or named it.
+    unsafe { Library::open(Some(name), RTLD_LAZY | RTLD_GLOBAL) }.map(Into::into)
+}
+
+#[cfg(not(unix))]
+#[allow(unsafe_code, reason = "loading a library runs its initialisation")]
+fn open(name: &std::ffi::OsStr) -> Result<libloading::Library, libloading::Error> {
+    // SAFETY: what a library does when it is loaded is its own; the person at the machine installed or named it.
+    unsafe { libloading::Library::new(name) }
+}
+
+fn one_line(cause: Option<&libloading::Error>) -> String {
+    use std::error::Error;
+    let said = cause.map(|cause| {
+        cause
+            .source()
+            .map_or(cause.to_string(), ToString::to_string)
+    });
+    let said = said.unwrap_or_default();
+    said.lines().collect::<Vec<_>>().join(" ")
+}
+
+/// A text of a library; empty for none.
+///
+/// # Safety
+/// `text` has to be null, or end with a zero and live for as long as it is read here.
+#[allow(unsafe_code, reason = "texts of a library are pointers")]
+pub(crate) unsafe fn text(text: *const c_char) -> String {
+    if text.is_null() {
+        return String::new();
+    }
+    // SAFETY: the caller vouches for it.
+    let text = unsafe { CStr::from_ptr(text) };
+    text.to_string_lossy().trim().to_owned()
+}

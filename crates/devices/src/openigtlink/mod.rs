@@ -1,0 +1,24 @@
+//! What is touched, for the pictures of an operating room: an OpenIGTLink server, as 3D Slicer and PLUS read it.
+//!
+//! Fifty times a second every client gets the transform of each tool, the force on it and the status; on request
+//! (`GET_POLYDATA`) the organ's surface. Messages are of version 1, which every reader knows. Lengths are
+//! millimetres; the axes are those of medical pictures, right, anterior and superior, which is a scene's (−x, −y, z).
+//!
+//! It listens on this machine alone, unless told otherwise; it takes no command, and what it is sent is read with care.
+//!
+//! *How we know*: `openigtlink::…` in the tests: the published vectors of the protocol; Debian's own library reads what
+//! is sent, where it is installed.
+//!
+//! *Limits*: no streams on request (`STT_`), no encryption. It is for seeing, not for a loop of forces. How 3D Slicer
+//! shows it was not tried: `docs/slicer.md`.
+
+mod checksum;
+pub mod message;
+mod picture;
+mod request;
+mod server;
+
+pub use checksum::checksum;
+pub use picture::{Picture, ShownSurface, ShownTool};
+pub use request::{Request, Requests};
+pub use server::{OperatingRoom, PORT};

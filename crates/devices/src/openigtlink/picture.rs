@@ -1,0 +1,35 @@
+use nalgebra::UnitQuaternion;
+use palpate_servo::{Fault, Vec3};
+
+/// What there is to show.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Picture {
+    /// The tools.
+    pub tools: Vec<ShownTool>,
+    /// Whether nothing moves, because somebody wants it so.
+    pub paused: bool,
+}
+
+/// A tool, in the scene's axes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ShownTool {
+    /// Its name.
+    pub name: String,
+    /// Where its tip is [m]; none while nobody holds it.
+    pub place: Option<Vec3>,
+    /// The rotation from tool to scene.
+    pub orientation: UnitQuaternion<f64>,
+    /// The force on it [N].
+    pub force: Vec3,
+    /// Why its device has no force, if it has none.
+    pub fault: Option<Fault>,
+}
+
+/// A surface, in the scene's axes.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ShownSurface {
+    /// Its vertices [m].
+    pub vertices: Vec<[f32; 3]>,
+    /// The vertices of each triangle.
+    pub triangles: Vec<[u32; 3]>,
+}
