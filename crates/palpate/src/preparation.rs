@@ -41,6 +41,7 @@ pub(crate) fn resources() -> Resources {
         responses: folder(),
         memory: offered,
         devices: Places::default(),
+        operating_room: None,
     }
 }
 

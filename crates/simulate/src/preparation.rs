@@ -1,6 +1,7 @@
 use std::path::PathBuf;
 
 use palpate_devices::Places;
+use palpate_devices::openigtlink::OperatingRoom;
 
 /// What may be used to make a simulation.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -12,6 +13,8 @@ pub struct Resources {
     pub memory: usize,
     /// Where services and libraries of haptic devices are looked for.
     pub devices: Places,
+    /// Where what is touched is shown besides; none for nowhere.
+    pub operating_room: Option<OperatingRoom>,
 }
 
 /// Eight gibibytes.
@@ -24,6 +27,7 @@ impl Default for Resources {
             responses: None,
             memory: MEMORY,
             devices: Places::default(),
+            operating_room: None,
         }
     }
 }

@@ -17,7 +17,7 @@ const UNASKED: usize = 8;
 
 /// A force that has to show [N], and ticks until it does.
 const SHOWS: f64 = 0.1;
-const SHOWS_WITHIN: u32 = 50;
+const SHOWS_WITHIN: u32 = 20;
 
 /// The largest force [N], and the largest for as long as one likes: ours, for the documents do not say.
 const PEAK: f64 = 3.0;

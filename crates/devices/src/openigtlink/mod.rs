@@ -1,7 +1,7 @@
 //! What is touched, for the pictures of an operating room: an OpenIGTLink server, as 3D Slicer and PLUS read it.
 //!
-//! Fifty times a second every client gets the transform of each tool, the force on it and the status; on request
-//! (`GET_POLYDATA`) the organ's surface. Messages are of version 1, which every reader knows. Lengths are
+//! Fifty times a second every client gets the transform of each tool, the force on it and the status; at first and on
+//! request (`GET_POLYDATA`) the organ's surface. Messages are of version 1, which every reader knows. Lengths are
 //! millimetres; the axes are those of medical pictures, right, anterior and superior, which is a scene's (−x, −y, z).
 //!
 //! It listens on this machine alone, unless told otherwise; it takes no command, and what it is sent is read with care.

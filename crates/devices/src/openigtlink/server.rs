@@ -183,7 +183,8 @@ impl Room {
                     stream,
                     requests: Requests::default(),
                     behind: Vec::new(),
-                    wants_surface: false,
+                    // Once without asking: some have no way to.
+                    wants_surface: true,
                     had_surface: None,
                 });
             }

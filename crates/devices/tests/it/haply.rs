@@ -133,7 +133,8 @@ fn a_force_in_other_words_is_a_fault() {
     let faults: Vec<_> = (0..100)
         .filter_map(|tick| exchange(&mut device, f64::from(tick) * 1e-3, Vec3::y()).fault)
         .collect();
-    assert_eq!(faults, [Fault::Ignored, Fault::Ignored]);
+    // Every twenty ticks.
+    assert_eq!(faults, [Fault::Ignored; 5]);
 }
 
 #[test]

@@ -124,6 +124,7 @@ fn every_fault_takes_the_force_off_and_has_a_name() {
         (Coordinate("-Infinity"), bad(NOT_AS_DOCUMENTED)),
         (NoPower, Some(Fault::Unpowered)),
         (NoCalibration, Some(Fault::Uncalibrated)),
+        (NoForce, Some(Fault::Ignored)),
         // What is odd, and no fault.
         (Fragments(7), None),
         (UnknownKeys, None),

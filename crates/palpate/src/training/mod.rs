@@ -11,6 +11,7 @@ use palpate_viewer::training::{Training, TrainingRecord};
 
 pub(crate) use kept::{Who, keep};
 pub(crate) use record::record_file;
+pub(crate) use tasks::free;
 
 use crate::failure::Failure;
 use kept::Kept;

@@ -83,7 +83,7 @@ impl BuiltIn {
 }
 
 /// What is touched without a task.
-pub(super) fn free() -> Result<Scene, Failure> {
+pub(crate) fn free() -> Result<Scene, Failure> {
     Ok(Scene::parse(FREE, "built-in scene")?)
 }
 

@@ -145,3 +145,69 @@ fn a_scene_and_a_rig_without_their_device_are_one_sentence() {
     }
     assert!(!folder.path().join("made").exists());
 }
+
+/// Without a window a device moves the tools, and who connects sees it; nothing listens but on loopback.
+#[test]
+fn a_touch_without_a_window_is_shown() {
+    use std::io::{BufRead, BufReader, Read};
+    use std::process::Stdio;
+    let folder = tempfile::tempdir().unwrap();
+    let scene = "format = 1\norgan = { builtin = \"liver\", triangles = 2000, builtin_tissue = \"pig-liver\" }\n\
+                 model = { kind = \"local\" }\n\
+                 tool = [{ name = \"right\", kind = \"probe\", device = \"haply\", \
+                 tip = { shape = \"flat\", radius_m = 0.002 } }]\n";
+    std::fs::write(folder.path().join("scene.toml"), scene).unwrap();
+    let service = service();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_palpate"))
+        .args(["simulate", "scene.toml", "--headless", "--openigtlink=0"])
+        .env("PALPATE_HAPLY", place(service.address()))
+        .current_dir(folder.path())
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut said = String::new();
+    let mut lines = BufReader::new(child.stdout.take().unwrap());
+    lines.read_line(&mut said).unwrap();
+    let address = said
+        .strip_prefix("shown at ")
+        .unwrap()
+        .split(',')
+        .next()
+        .unwrap();
+    assert!(address.starts_with("127.0.0.1:"), "{said}");
+    let mut stream = std::net::TcpStream::connect(address).unwrap();
+    let mut seen: Vec<u8> = Vec::new();
+    while !seen.windows(9).any(|nine| nine == b"TRANSFORM") {
+        let mut bytes = [0; 4096];
+        let length = stream.read(&mut bytes).unwrap();
+        assert!(length > 0);
+        seen.extend(&bytes[..length]);
+    }
+    // A device that is lost ends it, with its name.
+    service.misbehave(Some(Misbehaviour::Drops));
+    assert_eq!(child.wait().unwrap().code(), Some(1));
+}
+
+#[test]
+fn what_cannot_be_shown_has_to_be_mended() {
+    let folder = tempfile::tempdir().unwrap();
+    let refused = |arguments: &[&str], word: &str| {
+        crate::errors::assert_refused(folder.path(), arguments, &[word]);
+    };
+    refused(&["simulate", "--headless"], "--motion");
+    refused(
+        &["simulate", "--headless", "--openigtlink=0"],
+        "moved without a window",
+    );
+    refused(&["simulate", "--openigtlink=home"], "0.0.0.0:18944");
+    let motion = [
+        "simulate",
+        "--headless",
+        "--openigtlink",
+        "--motion",
+        "m",
+        "--out",
+        "o",
+    ];
+    refused(&motion, "which nobody could see");
+}

@@ -2,11 +2,13 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
 
+use palpate_devices::openigtlink::OperatingRoom;
 use palpate_files::{SessionRow, SessionWriter};
 use palpate_servo::{Clock, Fault, LoopReport, Sample, ServoSettings, ServoThread, latest, log};
 
 use super::clerk::Clerk;
 use super::model_loop::ModelLoop;
+use super::operating_room::shown_in;
 use super::order::orders;
 use super::stations::{Parts, Station, Watch, take_apart};
 use super::{ModelReport, Order, Quality, ROWS, Snapshot};
@@ -36,11 +38,28 @@ impl Interaction {
         stations: Vec<Option<Station>>,
         settings: ServoSettings,
     ) -> Result<Self, Error> {
+        Self::start_shown(simulation, stations, settings, None)
+    }
+
+    /// The same, shown in an operating room.
+    ///
+    /// # Errors
+    /// As for [`start`](Self::start).
+    pub fn start_shown(
+        simulation: Arc<Simulation>,
+        stations: Vec<Option<Station>>,
+        settings: ServoSettings,
+        room: Option<&OperatingRoom>,
+    ) -> Result<Self, Error> {
         let parts = take_apart(&simulation, stations, settings)?;
         let (rows, read_rows) = log::ring(ROWS);
         let (clerk, read_rows) = Clerk::start(read_rows).ok_or(Fault::NoThread)?;
         let (give, orders) = orders();
         let (snapshots, seen) = latest::channel(&Snapshot::new(&simulation));
+        let mut snapshots = vec![snapshots];
+        if let Some(room) = room {
+            snapshots.push(shown_in(room, &simulation));
+        }
         let clock = Clock::real();
         let (mut servos, mut lines, mut watches) = (Vec::new(), Vec::new(), Vec::new());
         for parts in parts {

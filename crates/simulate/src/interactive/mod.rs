@@ -24,6 +24,7 @@ mod interaction;
 mod judge;
 mod model_loop;
 mod mount;
+mod operating_room;
 mod order;
 mod quality;
 mod scene_devices;

@@ -2,12 +2,12 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use palpate_files::{Event, Events, Pose, SessionRow};
-use palpate_geometry::Vec3;
-use palpate_servo::{AffineForce, Histogram, Sample, latest, log};
+use palpate_servo::{AffineForce, Histogram, Sample, Stage, latest, log};
 
 use super::hand_over::affine_force;
 use super::judge::made;
 use super::quality::ExtrapolationError;
+use super::snapshot::Felt;
 use super::stations::Line;
 use super::{Happenings, ModelReport, Mount, Order, Snapshot};
 use crate::{Simulation, SimulationState, SimulationWorkspace, step};
@@ -26,7 +26,7 @@ pub(super) struct ModelLoop {
     lines: Vec<Option<Line>>,
     samples: Vec<Option<Sample>>,
     poses: Vec<Option<Pose>>,
-    felt: Vec<Vec3>,
+    felt: Vec<Felt>,
     rows: log::Writer<SessionRow>,
     orders: log::Reader<Order>,
     paused: bool,
@@ -37,7 +37,8 @@ pub(super) struct ModelLoop {
     /// When it was asked last [s], and how long it stood still in all [s].
     asked: f64,
     stood: f64,
-    snapshots: latest::Sender<Snapshot>,
+    /// One for each who looks on.
+    snapshots: Vec<latest::Sender<Snapshot>>,
     happenings: Happenings,
     steps: u64,
     step_times: Histogram,
@@ -54,7 +55,7 @@ impl ModelLoop {
         simulation: Arc<Simulation>,
         lines: Vec<Option<Line>>,
         (orders, rows): (log::Reader<Order>, log::Writer<SessionRow>),
-        snapshots: latest::Sender<Snapshot>,
+        snapshots: Vec<latest::Sender<Snapshot>>,
     ) -> Self {
         let tools = lines.len();
         Self {
@@ -64,7 +65,7 @@ impl ModelLoop {
             lines,
             samples: vec![None; tools],
             poses: vec![None; tools],
-            felt: vec![Vec3::zeros(); tools],
+            felt: vec![Felt::NOTHING; tools],
             rows,
             orders,
             paused: false,
@@ -139,12 +140,14 @@ impl ModelLoop {
             paused,
             ..
         } = self;
-        snapshots.send_with(|snapshot| {
-            snapshot.fill(*now, state, felt);
-            snapshot.happenings = *happenings;
-            snapshot.report = report;
-            snapshot.paused = *paused;
-        });
+        for snapshots in snapshots {
+            snapshots.send_with(|snapshot| {
+                snapshot.fill(*now, state, felt);
+                snapshot.happenings = *happenings;
+                snapshot.report = report;
+                snapshot.paused = *paused;
+            });
+        }
     }
 
     /// Counts steps that were left out.
@@ -198,8 +201,12 @@ impl ModelLoop {
             let sample = *line.samples.latest();
             self.samples[number] = sample;
             self.poses[number] = sample.and_then(|sample| pose(&line.mount, &sample));
-            self.felt[number] = sample.map_or(Vec3::zeros(), |sample| {
-                line.mount.force_in_scene(&sample.sent)
+            self.felt[number] = sample.map_or(Felt::NOTHING, |sample| Felt {
+                force: line.mount.force_in_scene(&sample.sent),
+                fault: match sample.stage {
+                    Stage::Faulted(fault) => Some(fault),
+                    _ => None,
+                },
             });
         }
     }

@@ -1,5 +1,6 @@
 use palpate_files::Pose;
 use palpate_geometry::Vec3;
+use palpate_servo::Fault;
 
 use super::{Happenings, ModelReport};
 use crate::cutting::Cuts;
@@ -38,6 +39,8 @@ pub struct ToolSnapshot {
     pub force: Vec3,
     /// The force that its device gets [N]: scaled, extrapolated, limited; in the scene's frame.
     pub felt: Vec3,
+    /// Why its device gets no force, if that has a reason.
+    pub fault: Option<Fault>,
     /// What it touches.
     pub contact: Option<ContactSnapshot>,
     /// Whether its edge is in the tissue.
@@ -46,6 +49,22 @@ pub struct ToolSnapshot {
     pub grip_force: f64,
     /// Whether its jaws hold tissue.
     pub holds: bool,
+}
+
+/// What a hand feels of its tool.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Felt {
+    /// The force that its device gets [N], in the scene's frame.
+    pub(super) force: Vec3,
+    /// Why it gets none, if that has a reason.
+    pub(super) fault: Option<Fault>,
+}
+
+impl Felt {
+    pub(super) const NOTHING: Self = Self {
+        force: Vec3::new(0.0, 0.0, 0.0),
+        fault: None,
+    };
 }
 
 /// The organ's triangles with their openings.
@@ -83,6 +102,7 @@ impl Snapshot {
             orientation: [0.0, 0.0, 0.0, 1.0],
             force: Vec3::zeros(),
             felt: Vec3::zeros(),
+            fault: None,
             contact: None,
             cuts: false,
             grip_force: 0.0,
@@ -105,12 +125,12 @@ impl Snapshot {
 
     /// Shows the `state` of a session that is played again, at `time` [s]; nobody feels it.
     pub fn show(&mut self, time: f64, state: &SimulationState) {
-        let nobody = [Vec3::zeros(); 2];
+        let nobody = [Felt::NOTHING; 2];
         self.fill(time, state, &nobody);
     }
 
     /// Takes over `state`; nothing is allocated but for triangles that a cut has added.
-    pub(super) fn fill(&mut self, time: f64, state: &SimulationState, felt: &[Vec3]) {
+    pub(super) fn fill(&mut self, time: f64, state: &SimulationState, felt: &[Felt]) {
         self.time = time;
         for (seen, vertex) in self.vertices.iter_mut().zip(state.deformed.vertices()) {
             *seen = single(vertex);
@@ -165,12 +185,13 @@ impl OpenedSnapshot {
 }
 
 impl ToolSnapshot {
-    fn new(tool: &ToolState, felt: Vec3) -> Self {
+    fn new(tool: &ToolState, felt: Felt) -> Self {
         Self {
             pose: tool.pose,
             orientation: tool.row.orientation,
             force: tool.force,
-            felt,
+            felt: felt.force,
+            fault: felt.fault,
             contact: tool.contact.map(|contact| ContactSnapshot {
                 point: contact.point(),
                 normal: contact.normal(),

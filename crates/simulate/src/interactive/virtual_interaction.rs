@@ -49,7 +49,7 @@ impl VirtualInteraction {
         }
         Ok(Self {
             model_period: simulation.step(),
-            model: ModelLoop::new(simulation, lines, (orders, rows), snapshots),
+            model: ModelLoop::new(simulation, lines, (orders, rows), vec![snapshots]),
             servos,
             watches,
             rows: read_rows,

@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
+use palpate_devices::openigtlink::{OperatingRoom, message};
 use palpate_devices::stand_in::{
     HaplyStandIn, HaplyStandInSettings, Misbehaviour, StandInClock, StandInLibrary,
 };
@@ -16,7 +17,9 @@ use palpate_servo::{
     Trajectory, VirtualDevice,
 };
 use palpate_simulate::Simulation;
-use palpate_simulate::interactive::{Mount, SceneDevices, Station, VirtualInteraction};
+use palpate_simulate::interactive::{
+    Interaction, Mount, SceneDevices, Station, VirtualInteraction,
+};
 
 use crate::interactive::{POLE, advance};
 use crate::scenes::Setting;
@@ -262,4 +265,51 @@ fn a_fault_of_the_device_ends_the_touch() {
     assert_eq!(last.stage, Stage::Faulted(Fault::Unpowered));
     service.misbehave(Some(Misbehaviour::Drops));
     assert_eq!(interaction.advance(), Err(Fault::Disconnected));
+}
+
+/// The organ that is palpated by a thread's hand is seen by whoever connects: the tool where the snapshot has it, the
+/// force on it, and the surface with as many vertices.
+#[test]
+fn a_touch_is_shown_in_an_operating_room() {
+    use std::io::{Read, Write};
+    let (_, simulation) = scene(DeviceKind::Virtual);
+    let room = OperatingRoom::open("127.0.0.1:0".parse().unwrap()).unwrap();
+    let station = Station::palpating(&simulation, &simulation.tools()[0]);
+    let settings = ServoSettings::default();
+    let stations = vec![Some(station)];
+    let touch =
+        Interaction::start_shown(simulation.clone(), stations, settings, Some(&room)).unwrap();
+    let mut stream = std::net::TcpStream::connect(room.address()).unwrap();
+    let mut request = Vec::new();
+    let now = std::time::SystemTime::now();
+    message::append(&mut request, ("GET_POLYDATA", ""), now, |_| ());
+    stream.write_all(&request).unwrap();
+    let (mut heights, mut vertices, mut largest) = (Vec::new(), None, 0.0_f64);
+    // Two seconds of a hand that goes 4 mm up and down in each.
+    for _ in 0..300 {
+        let mut header = [0; message::HEADER];
+        stream.read_exact(&mut header).unwrap();
+        let size = u64::from_be_bytes(header[42..50].try_into().unwrap());
+        let mut body = vec![0; size as usize];
+        stream.read_exact(&mut body).unwrap();
+        let kind = &header[2..14];
+        if kind.starts_with(b"TRANSFORM") {
+            heights.push(f32::from_be_bytes(body[44..48].try_into().unwrap()));
+        } else if kind.starts_with(b"SENSOR") {
+            largest = largest.max(f64::from_be_bytes(body[26..34].try_into().unwrap()));
+        } else if kind.starts_with(b"POLYDATA") {
+            vertices = Some(u32::from_be_bytes(body[..4].try_into().unwrap()));
+        }
+        touch.arm();
+    }
+    let expected = simulation.surface().mesh().vertices().len();
+    assert_eq!(vertices, Some(expected as u32));
+    let low = heights.iter().copied().fold(f32::INFINITY, f32::min);
+    let high = heights.iter().copied().fold(f32::NEG_INFINITY, f32::max);
+    // Of the pole at 50 mm, as far as 50 pictures a second catch its ends.
+    assert!(
+        (low - 46.0).abs() < 0.5 && (high - 54.0).abs() < 0.5,
+        "{low} to {high} mm"
+    );
+    assert!(largest > 0.01, "{largest} N");
 }

@@ -269,7 +269,8 @@ fn a_cut_is_as_long_and_as_far_off_as_it_is() {
     let mut perforated = cutting(0.0, 0.003, 0.03);
     perforated[300].events.insert(Event::Perforation);
     assert_eq!(clean(&perforated), Some(false));
-    let mut undone = cutting(0.0, 0.003, 0.03);
+    // Of a line that is whole nothing more would count.
+    let mut undone = cutting(0.0, 0.003, 0.02);
     let mut last = row(3.1, Vec3::zeros());
     last.events.insert(Event::UndoCut);
     undone.push(last);

@@ -1,7 +1,6 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use palpate_devices::Places;
 use palpate_files::Scene;
 use palpate_geometry::{AabbTree, Surface, Vec3};
 use palpate_servo::{PointerHand, ServoSettings};
@@ -35,7 +34,7 @@ pub(super) struct Prepared {
     organ: SeenOrgan,
     neighbours: Vec<Body>,
     doubts: Vec<String>,
-    places: Places,
+    resources: Resources,
 }
 
 /// A scene that is being touched.
@@ -65,13 +64,13 @@ impl Prepared {
         watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
         let simulation = Arc::new(Simulation::prepare(&scene, resources, watch)?);
-        Self::around((scene, simulation), resources.devices.clone(), gpu)
+        Self::around((scene, simulation), resources.clone(), gpu)
     }
 
     /// What is seen around a simulation that is there.
     fn around(
         (scene, simulation): (Scene, Arc<Simulation>),
-        places: Places,
+        resources: Resources,
         gpu: &Gpu,
     ) -> Result<Self, Error> {
         let mut doubts = simulation.doubts().to_vec();
@@ -89,7 +88,7 @@ impl Prepared {
             doubts,
             simulation,
             scene,
-            places,
+            resources,
         })
     }
 
@@ -107,9 +106,13 @@ impl Play {
     /// When a device is not there, or a thread does not start.
     pub(super) fn start(prepared: Prepared) -> Result<Self, Error> {
         let (scene, simulation) = (&prepared.scene, prepared.simulation.clone());
-        let devices = SceneDevices::open(scene, &simulation, &prepared.places)?;
-        let settings = ServoSettings::default();
-        let interaction = Interaction::start(simulation, devices.stations, settings)?;
+        let devices = SceneDevices::open(scene, &simulation, &prepared.resources.devices)?;
+        let interaction = Interaction::start_shown(
+            simulation,
+            devices.stations,
+            ServoSettings::default(),
+            prepared.resources.operating_room.as_ref(),
+        )?;
         let source = Source::Touched(Box::new(interaction));
         Ok(Self::of(prepared, (source, devices.pointers)))
     }
@@ -125,7 +128,7 @@ impl Play {
     ) -> Result<Self, Error> {
         let playback = Playback::new(&simulation, replay);
         let nobody = scene.tools.iter().map(|_| None).collect();
-        let prepared = Prepared::around((scene, simulation), Places::default(), gpu)?;
+        let prepared = Prepared::around((scene, simulation), Resources::default(), gpu)?;
         let source = Source::Again(Box::new(playback));
         Ok(Self::of(prepared, (source, nobody)))
     }

@@ -1,15 +1,18 @@
 //! `palpate simulate`: an organ in a window, or without one tool motions, or the indentation of a recording.
 
 mod repeated;
+mod shown;
 
+use std::net::{Ipv4Addr, SocketAddr};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use palpate_devices::openigtlink::OperatingRoom;
 use palpate_files::scene::Shape;
 use palpate_files::{Motion, Scene};
 use palpate_geometry::{AabbTree, Vec3};
-use palpate_simulate::Simulation;
 use palpate_simulate::interactive::SceneDevices;
+use palpate_simulate::{Resources, Simulation};
 use palpate_viewer::{FrameWriter, Start};
 
 use self::repeated::Repeated;
@@ -50,6 +53,10 @@ Examples:
   palpate simulate --headless --motion motion.csv --out session --fields 60 --frames 60
       on the built-in esophagus, with 60 surfaces for ParaView (open session/surfaces.pvd) and
       60 pictures (session/frame-0001.png and so on)
+  palpate simulate scene.toml --openigtlink
+      a window, and 3D Slicer on this machine sees what is touched (docs/slicer.md)
+  palpate simulate scene.toml --headless --openigtlink=0.0.0.0:18944
+      no window: a haptic device moves the tools, and every machine that reaches this one may look on
 
 A scene names an organ, its tissue, the model and the tools; a motion says where the tips are:
   # format = 1
@@ -63,8 +70,8 @@ pub(crate) struct Arguments {
     /// The scene, or a mesh of an organ; without one, the built-in esophagus.
     #[arg(value_name = "SCENE.toml|MESH")]
     scene: Option<PathBuf>,
-    /// Play without a window; needs --motion or --indentation, and --out.
-    #[arg(long, requires = "played", requires = "out")]
+    /// Play without a window; needs --motion or --indentation, and --out; or --openigtlink.
+    #[arg(long)]
     headless: bool,
     /// The tool motions to play: time_s, tool, x_m, y_m, z_m.
     #[arg(long, value_name = "MOTION.csv", group = "played")]
@@ -87,6 +94,20 @@ pub(crate) struct Arguments {
     /// Print the summary as one JSON object.
     #[arg(long)]
     json: bool,
+    /// Show the touch to 3D Slicer and others, on this machine, or where the address says.
+    #[arg(long, value_name = "[ADDRESS:]PORT", num_args = 0..=1, require_equals = true, default_missing_value = "18944", value_parser = room_address)]
+    openigtlink: Option<SocketAddr>,
+}
+
+/// A port of this machine, or of an address.
+fn room_address(text: &str) -> Result<SocketAddr, String> {
+    let port = text
+        .parse()
+        .map(|port: u16| SocketAddr::from((Ipv4Addr::LOCALHOST, port)));
+    let address = port.or_else(|_| text.parse());
+    address.map_err(|_| {
+        "give a port, as in 18944, or an address with one, as in 0.0.0.0:18944".to_owned()
+    })
 }
 
 /// Plays the motions.
@@ -96,9 +117,18 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         (None, Some(recording)) => Some(Played::Indentation(recording)),
         (None, None) => None,
     };
+    let shows = arguments.openigtlink.is_some();
     match (arguments.headless, played, &arguments.out) {
-        (true, Some(played), Some(out)) => play(arguments, &played, out),
+        (true, Some(played), Some(out)) if !shows => play(arguments, &played, out),
+        (true, None, None) if shows => shown::run(arguments.touched()?, arguments.resources()?),
         (false, None, None) => touch(arguments),
+        (true, Some(_), Some(_)) => Err(Failure::input(
+            "a motion is played at once, which nobody could see; leave --openigtlink out, or --motion and --out",
+        )),
+        (true, ..) => Err(Failure::input(
+            "--headless plays a motion or an indentation; add --motion MOTION.csv --out DIR, or --openigtlink \
+             alone to show a touch",
+        )),
         _ => Err(Failure::input(
             "in a window the mouse moves the tools; play a motion with --headless --motion MOTION.csv \
              --out DIR",
@@ -110,6 +140,42 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 enum Played<'a> {
     Motion(&'a Path),
     Indentation(&'a Path),
+}
+
+impl Arguments {
+    /// What is touched, by whatever moves its tools.
+    fn touched(&self) -> Result<Scene, Failure> {
+        self.refuse_pictures()?;
+        match &self.scene {
+            Some(path) => scene_of(path),
+            None => training::free(),
+        }
+    }
+
+    /// Pictures and fields belong to a motion.
+    fn refuse_pictures(&self) -> Result<(), Failure> {
+        match self.json || self.frames > 0 || self.fields > 0 {
+            true => Err(Failure::input(
+                "--json, --frames and --fields belong to a motion; add --headless --motion MOTION.csv --out DIR",
+            )),
+            false => Ok(()),
+        }
+    }
+
+    /// What a touch may use, with the server that shows it.
+    fn resources(&self) -> Result<Resources, Failure> {
+        let room = self.openigtlink.map(|address| {
+            OperatingRoom::open(address).map_err(|error| {
+                Failure::failed(format!(
+                    "nothing can be shown at {address} ({error}); give another port with --openigtlink"
+                ))
+            })
+        });
+        Ok(Resources {
+            operating_room: room.transpose()?,
+            ..preparation::resources_with_devices()?
+        })
+    }
 }
 
 /// A scene file, or a mesh with a probe over it.
@@ -128,16 +194,12 @@ fn scene_of(path: &Path) -> Result<Scene, Failure> {
 
 /// In a window, until it is closed.
 fn touch(arguments: &Arguments) -> Result<(), Failure> {
-    if arguments.json || arguments.frames > 0 || arguments.fields > 0 {
-        return Err(Failure::input(
-            "--json, --frames and --fields belong to a motion; add --headless --motion MOTION.csv --out DIR",
-        ));
-    }
+    arguments.refuse_pictures()?;
     let start = match &arguments.scene {
         Some(path) => Start::Scene(Box::new(scene_of(path)?)),
         None => Start::Home,
     };
-    let resources = preparation::resources_with_devices()?;
+    let resources = arguments.resources()?;
     // Before a window, and the minutes that an organ may take.
     if let Start::Scene(scene) = &start {
         SceneDevices::check(scene, &resources.devices)?;

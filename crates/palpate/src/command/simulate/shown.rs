@@ -1,0 +1,63 @@
+//! A touch without a window: devices move the tools, and clients of OpenIGTLink see it, until Ctrl-C.
+
+use std::sync::Arc;
+use std::thread;
+use std::time::Duration;
+
+use palpate_files::Scene;
+use palpate_files::scene::DeviceKind;
+use palpate_servo::ServoSettings;
+use palpate_simulate::Resources;
+use palpate_simulate::interactive::{Interaction, SceneDevices};
+
+use crate::failure::Failure;
+use crate::progress::Reader;
+use crate::{interrupt, output, preparation};
+
+/// How often it is looked whether it goes on.
+const LOOK: Duration = Duration::from_millis(50);
+
+/// Touches `scene` until somebody presses Ctrl-C.
+pub(super) fn run(scene: Scene, resources: Resources) -> Result<(), Failure> {
+    if scene.tools.iter().all(|tool| !moves_alone(tool.device)) {
+        return Err(Failure::input(
+            "no tool of the scene is moved without a window; set a `device` to a haptic one or to \"virtual\"",
+        ));
+    }
+    SceneDevices::check(&scene, &resources.devices)?;
+    let simulation = Arc::new(preparation::simulation(&scene, &resources, Reader::Person)?);
+    output::warnings(simulation.doubts());
+    let devices = SceneDevices::open(&scene, &simulation, &resources.devices)?;
+    let room = resources.operating_room.as_ref();
+    let settings = ServoSettings::default();
+    let mut touch = Interaction::start_shown(simulation, devices.stations, settings, room)?;
+    if let Some(room) = room {
+        output::text(format!("shown at {}, Ctrl-C ends it", room.address()))?;
+    }
+    // What nobody moves by hand is armed again by nobody either: a fault is told, and stays.
+    let mut told = None;
+    while touch.is_running() && !interrupt::is_asked() {
+        let fault = touch
+            .quality()
+            .loops
+            .iter()
+            .flatten()
+            .find_map(|own| own.fault);
+        if let Some(fault) = fault.filter(|fault| told != Some(*fault)) {
+            output::warnings(&[fault.to_string()]);
+        }
+        told = fault;
+        thread::sleep(LOOK);
+    }
+    let ended = touch.is_running();
+    let quality = touch.stop()?;
+    match quality.loops.iter().flatten().find_map(|own| own.fault) {
+        Some(fault) if !ended => Err(Failure::failed(fault)),
+        _ => Ok(()),
+    }
+}
+
+/// Whether a device needs no window.
+fn moves_alone(device: DeviceKind) -> bool {
+    !matches!(device, DeviceKind::Mouse | DeviceKind::None)
+}
