@@ -161,8 +161,10 @@ fn paths_in_the_documents_exist() {
     let documents = [
         "ARCHITECTURE.md",
         "CONTRIBUTING.md",
+        "docs/devices.md",
         "docs/errata.md",
         "docs/notation.md",
+        "docs/slicer.md",
         "docs/theory/finite_spheres.md",
         "docs/theory/haptics.md",
     ];

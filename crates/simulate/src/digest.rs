@@ -1,9 +1,10 @@
+use palpate_files::scene::DeviceKind;
 use palpate_files::{Scene, Tissue};
 use palpate_geometry::Surface;
 use sha2::{Digest, Sha256};
 
 /// A name for what was simulated: the first 16 hexadecimal digits of the SHA-256 of surface, tissue,
-/// model and tools. Folders and file names do not count.
+/// model and tools. Folders, file names and devices do not count.
 pub(crate) fn digest(scene: &Scene, surface: &Surface, tissue: &Tissue) -> String {
     let mut hash = Sha256::new();
     for vertex in surface.mesh().vertices() {
@@ -14,13 +15,16 @@ pub(crate) fn digest(scene: &Scene, surface: &Surface, tissue: &Tissue) -> Strin
     for node in surface.mesh().triangles().iter().flatten() {
         hash.update(node.0.to_le_bytes());
     }
+    // Who moves a tool does not change what it meets.
+    let mut tools = scene.tools.clone();
+    tools.iter_mut().for_each(|tool| tool.device = DeviceKind::None);
     hash.update(format!(
         "{:?}{:?}{:?}{:?}{:?}{:?}{:?}{:?}",
         tissue.elasticity,
         tissue.prony,
         scene.organ.anchor,
         scene.model,
-        scene.tools,
+        tools,
         scene.cutting,
         scene.organ.layers,
         scene.organ.nodules

@@ -12,5 +12,6 @@ mod haply_faults;
 mod haply_messages;
 mod libraries;
 mod library_faults;
+mod no_allocation;
 mod openigtlink;
 mod self_test;

@@ -56,6 +56,13 @@ words! {
     }
 }
 
+impl DeviceKind {
+    /// Whether it is a device that displays forces to a hand.
+    pub fn is_haptic(self) -> bool {
+        matches!(self, Self::Haply | Self::OpenHaptics | Self::ForceDimension)
+    }
+}
+
 /// The end of a tool that touches.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tip {

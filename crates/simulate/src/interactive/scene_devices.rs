@@ -89,7 +89,7 @@ impl SceneDevices {
 
     /// Whether a tool of `scene` is moved by a real device.
     pub fn any(scene: &Scene) -> bool {
-        scene.tools.iter().any(|tool| driver(tool.device).is_some())
+        scene.tools.iter().any(|tool| tool.device.is_haptic())
     }
 }
 

@@ -67,15 +67,19 @@ impl Choice {
         scene
     }
 
-    /// Makes the tool of that number the one that the mouse moves.
+    /// Makes the tool of that number the one that the mouse moves, unless a hand feels it by a device of its own.
     pub(super) fn take(&mut self, tool: usize) {
         // What was changed at the tool before stays changed.
         self.given.tools[self.tool].tip = self.tip;
         self.tool = tool.min(self.given.tools.len() - 1);
         self.tip = self.given.tools[self.tool].tip;
-        self.given.tools[self.tool].device = DeviceKind::Mouse;
+        let (given, written) = (&mut self.given, &mut self.written);
         // Which hand moves a tool changes nothing that is felt.
-        self.written.tools[self.tool].device = DeviceKind::Mouse;
+        for device in [given, written].map(|scene| &mut scene.tools[self.tool].device) {
+            if !device.is_haptic() {
+                *device = DeviceKind::Mouse;
+            }
+        }
     }
 
     /// The tools of the scene.

@@ -307,8 +307,10 @@ pub(super) fn status(window: &SimulatorWindow, ui: &mut Ui) {
         let depth = window.history.last().1;
         let said = window.fault.as_ref().or(window.notice.as_ref()).cloned();
         let felt = window.rates.touch.fault.map(|fault| fault.to_string());
+        let is_latched = felt.is_some() && said.is_none();
         if let Some(fault) = said.or(felt) {
             ui.colored_label(FAULT, fault);
+            arm(window, is_latched, ui);
         } else if let Some(preparation) = &window.preparation {
             waiting(preparation, ui);
         } else if depth > TRUSTED_DEPTH {
@@ -320,6 +322,18 @@ pub(super) fn status(window: &SimulatorWindow, ui: &mut Ui) {
             doubts(window, ui);
         }
     });
+}
+
+/// Lets the forces of a device on again, where a fault keeps them off.
+fn arm(window: &SimulatorWindow, is_latched: bool, ui: &mut Ui) {
+    let Some(play) = window.play.as_ref().filter(|_| is_latched) else {
+        return;
+    };
+    let button = ui.button("Arm forces");
+    let hint = "forces come back over half a second, once the hand is slow and the force small";
+    if button.on_hover_text(hint).clicked() {
+        play.interaction.arm();
+    }
 }
 
 /// What is being prepared, and how far it is.

@@ -19,7 +19,8 @@ const LOOK: Duration = Duration::from_millis(50);
 
 /// Touches `scene` until somebody presses Ctrl-C.
 pub(super) fn run(scene: Scene, resources: Resources) -> Result<(), Failure> {
-    if scene.tools.iter().all(|tool| !moves_alone(tool.device)) {
+    let moves = |device: DeviceKind| device.is_haptic() || device == DeviceKind::Virtual;
+    if !scene.tools.iter().any(|tool| moves(tool.device)) {
         return Err(Failure::input(
             "no tool of the scene is moved without a window; set a `device` to a haptic one or to \"virtual\"",
         ));
@@ -55,9 +56,4 @@ pub(super) fn run(scene: Scene, resources: Resources) -> Result<(), Failure> {
         Some(fault) if !ended => Err(Failure::failed(fault)),
         _ => Ok(()),
     }
-}
-
-/// Whether a device needs no window.
-fn moves_alone(device: DeviceKind) -> bool {
-    !matches!(device, DeviceKind::Mouse | DeviceKind::None)
 }
