@@ -1,6 +1,8 @@
 //! The rig on a device that is carried by its own mechanics. The judge is the rig whose tissue touches the virtual
 //! machine itself.
 
+use palpate_devices::haply::HaplyDevice;
+use palpate_devices::stand_in::{HaplyStandIn, HaplyStandInSettings, Misbehaviour};
 use palpate_measure::{Ended, Error, Rig, RigSample, RigSettings};
 use palpate_servo::dynamics::{Imperfections, Machine, TwoMass};
 use palpate_servo::{
@@ -97,4 +99,51 @@ fn a_loss_ends_it_with_its_name() {
     };
     let error = on_table(lost).approach(&mut |_| true).unwrap_err();
     assert_eq!(error, Error::from(Fault::Silent));
+}
+
+/// Through a driver and the stand-in of its service, the same machine is driven the same way: forces are written to a
+/// millionth of a newton, which a step of its amplifier (4 mN) or encoder may turn into one more or less at times.
+#[test]
+fn a_driver_drives_the_same_machine() {
+    let direct = pressed(on_table(Imperfections::premium())).unwrap();
+    let (service, rig) = by_service();
+    let found = pressed(rig).unwrap();
+    assert_eq!(found.len(), direct.len());
+    let apart = |of: fn(&RigSample) -> f64| {
+        let both = found.iter().zip(&direct);
+        let apart = both.map(|(one, other)| (of(one) - of(other)).abs());
+        apart.fold(0.0, f64::max)
+    };
+    let [force, height] = [apart(|sample| sample.force), apart(|sample| sample.height)];
+    println!("{force} N and {height} m apart");
+    assert!(height < 2.5 * 30e-6, "{height}");
+    // A tissue of 30 N/m over that way, and a step of the sensor.
+    assert!(force < 2.5 * 30e-6 * 60.0 + 1.5 / 1280.0, "{force}");
+    assert!(service.force(0).norm() < 3.0);
+}
+
+#[test]
+fn a_fault_of_a_service_ends_it_with_its_name() {
+    let (service, mut rig) = by_service();
+    let mut ticks = 0;
+    let error = rig.approach(&mut |_| {
+        ticks += 1;
+        if ticks == 1000 {
+            service.misbehave(Some(Misbehaviour::Vanishes));
+        }
+        true
+    });
+    assert_eq!(error.unwrap_err(), Error::from(Fault::Vanished));
+    assert_eq!(ticks, 1000);
+}
+
+fn by_service() -> (HaplyStandIn, Rig) {
+    let device = Box::new(OnTable::new(Imperfections::premium()));
+    let service = HaplyStandIn::start(vec![device], HaplyStandInSettings::default()).unwrap();
+    let device = HaplyDevice::open(service.address(), 0).unwrap();
+    // A machine that is busy elsewhere is no fault here.
+    let device = device.with_patience(std::time::Duration::from_secs(5));
+    let clock = (Clock::virtual_time(), 7);
+    let rig = Rig::on(Box::new(device), soft(), RigSettings::default(), clock).unwrap();
+    (service, rig)
 }
