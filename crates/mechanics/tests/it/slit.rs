@@ -174,6 +174,24 @@ fn the_rim_of_a_block_is_that_of_finite_elements() {
     }
 }
 
+/// Judge: facets do not know how finely the slit is cut into them. Tolerance: a tenth, for the finest are a quarter
+/// of the depth and the coarsest of its size.
+#[test]
+fn facets_of_any_length_are_one_slit() {
+    let table = block_table(3.0);
+    let square = &squares()[0];
+    let felt = |facets| table.felt(&table.cut(&slit_of([12.0, 3.0]), facets), square)[1];
+    let finest = felt(16);
+    for facets in [4, 6, 8, 12] {
+        for (found, finest) in felt(facets).iter().zip(finest) {
+            assert!(
+                (found / finest - 1.0).abs() < 0.1,
+                "{facets}: {found} {finest}"
+            );
+        }
+    }
+}
+
 /// A kidney by boundary elements, and what is needed to cut it.
 struct Kidney {
     solid: Held,
@@ -253,6 +271,43 @@ fn random_slits_never_break() {
                 );
                 *before = now;
             }
+        }
+    }
+}
+
+/// Judge: a matrix has one inverse, in whatever order its rows are eliminated. A slit that is cut from its other end
+/// is the same. Tolerance: rounding.
+#[test]
+fn a_slit_may_be_cut_from_either_end() {
+    let kidney = Kidney::new();
+    let triangle = kidney.solid.free[100];
+    let normal = kidney
+        .solid
+        .surface
+        .mesh()
+        .area_vector(triangle)
+        .normalize();
+    let along = Vec3::x() - normal * normal.x;
+    for depth in [3.0 * MM, f64::INFINITY] {
+        let facets = [0, 1, 2, 3, 4, 5].map(|k| SlitFacet {
+            middle: kidney.solid.centroid(triangle) + along * (2.0 * MM * f64::from(k)),
+            along,
+            normal,
+            length: 2.0 * MM * along.norm(),
+            depth,
+        });
+        let mut slits = [0, 1].map(|_| Slit::new(&kidney.response, facets.len()));
+        for number in 0..facets.len() {
+            let ends = [number, facets.len() - 1 - number];
+            for (slit, number) in slits.iter_mut().zip(ends) {
+                slit.open(&kidney.body(), &facets[number]).unwrap();
+            }
+        }
+        for touch in [97, 100, 103] {
+            let [one, other] = slits
+                .each_ref()
+                .map(|slit| slit.further(&kidney.load(slit, touch)));
+            assert!((one - other).norm() < 1e-9 * one.norm(), "{one} {other}");
         }
     }
 }

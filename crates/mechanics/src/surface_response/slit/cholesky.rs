@@ -2,8 +2,7 @@
 
 use super::traction::MODES;
 
-/// The matrix in factors. A block keeps its Schur complement, so that its diagonal may change as long as it is
-/// the last or the last but one.
+/// The matrix in factors. The last block's diagonal may change, for it keeps its Schur complement.
 #[derive(Debug)]
 pub(super) struct Grown {
     /// Rows of L, lower triangles one after the other.

@@ -1,4 +1,5 @@
-//! H: what a unit jump on one facet pulls another together with.
+//! H: what a unit jump on one facet pulls another together with, by displacement discontinuities [Crouch and
+//! Starfield 1983].
 
 use std::f64::consts::PI;
 
@@ -216,8 +217,8 @@ fn point(nu: f64, r: &Vec3, soft: f64) -> [Matrix3<f64>; 3] {
     dislocation((nu, 3.0), &u).map(|stress| stress * factor)
 }
 
-/// The shape of the stress from a jump along each axis on the plane x = 0, in `dimensions` less... β = 3 in space,
-/// 2 in the plane.
+/// The shape of the stress from a jump along each axis on the plane x = 0, in the direction `u`; β = 3 in space, 2 in
+/// the plane.
 fn dislocation((nu, beta): (f64, f64), u: &Vec3) -> [Matrix3<f64>; 3] {
     let n = Vec3::x();
     let gamma = beta + 2.0;

@@ -9,16 +9,19 @@
 //! ```
 //!
 //! which adds compliance only. A facet in a solid has three jumps: opening, sliding and tearing, with half an
-//! ellipse over its depth. One in a wall has five: opening and sliding evenly through the wall, opening of the
-//! outer face against the inner (a hinge), and the deflection of one side against the other, by shear and by
-//! bending. T comes from the stresses that the table's displacements are (`gradient`), and near a force from
-//! closed forms (`near`, `plate`, `traction`); H from closed forms (`kernel`), with springs where a wall is cut
-//! to a part of it (`spring`).
+//! ellipse over its depth. One in a wall has six: opening and sliding evenly through the wall; opening of the
+//! outer face against the inner, a hinge; the deflection of one side against the other, by shear and by bending;
+//! and bulging where the wall is curved. T comes from the stresses that the table's displacements are
+//! (`gradient`), and near a force from closed forms (`traction`, `near`, `plate`); H from closed forms (`kernel`),
+//! with springs where a wall is cut to a part of it (`spring`).
 //!
-//! *How we know*: `slit::…`. Derivation, numbers: `docs/theory/cutting.md`.
+//! *How we know*: `slit::the_rim_is_that_of_finite_elements`, `other_slits_are_those_of_finite_elements`,
+//! `facets_of_any_length_are_one_slit`, `a_slit_may_be_cut_from_either_end`. Derivation, numbers:
+//! `docs/theory/cutting.md`.
 //!
 //! *Limits*: small strain; sides that meet go through one another; facets of a wall and of a solid in one slit do
-//! not know one another; H knows neither the organ's borders nor its curvature.
+//! not know one another; H knows no border, and curvature only where a slit along a tube is at most three times
+//! √(R w) long: longer ones are too soft.
 
 mod cholesky;
 mod facet;
@@ -132,6 +135,8 @@ impl<T: Precision> Slit<T> {
             facet.parts(gradient, face, &mut self.parts);
         }
         let near = self.put_near(body, &facet, reach);
+        // The end of the one before may have become none, which those that follow must know.
+        self.factor(Some(&facet));
         let (block, ends) = self.put_matrix(&facet);
         self.facets.push(Cut {
             facet,
@@ -141,8 +146,7 @@ impl<T: Precision> Slit<T> {
             ends,
             met,
         });
-        // The end of the one before may have become none.
-        self.factor(self.facets.len().saturating_sub(2));
+        self.factor(None);
         Ok(())
     }
 
@@ -156,7 +160,7 @@ impl<T: Precision> Slit<T> {
         self.near.truncate(near);
         let rows = self.facets.last().map_or(0, |cut| cut.facet.rows().end);
         self.h.truncate(rows);
-        self.factor(facets.saturating_sub(1));
+        self.factor(None);
     }
 
     /// Closes it.
@@ -261,16 +265,15 @@ impl<T: Precision> Slit<T> {
         (self.h.eliminate(facet.rows(), alone), ends)
     }
 
-    /// Factors the rows of H from a facet on. Where an end that has become none would lock a row, it stays one:
-    /// else the slit could become stiffer.
-    fn factor(&mut self, from: usize) {
-        for number in from..self.facets.len() {
-            let cut = self.facets[number];
-            let next = self.facets.get(number + 1);
-            let next = next.map_or([false; 2], |next| cut.facet.meets(&next.facet));
-            if !self.factor_facet(&cut, next) {
-                self.factor_facet(&cut, [false; 2]);
-            }
+    /// Factors the last facet's own block as it is when `next` follows. Where an end that has become none would
+    /// lock a row, it stays one: else the slit could become stiffer.
+    fn factor(&mut self, next: Option<&Facet>) {
+        let Some(cut) = self.facets.last().copied() else {
+            return;
+        };
+        let meets = next.map_or([false; 2], |next| cut.facet.meets(next));
+        if !self.factor_facet(&cut, meets) {
+            self.factor_facet(&cut, [false; 2]);
         }
     }
 

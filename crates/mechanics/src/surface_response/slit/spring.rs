@@ -1,5 +1,5 @@
 //! What holds a wall together that is cut to a part of its thickness: a row of springs [Rice and Levy 1972],
-//! from the stress intensity of an edge crack in a strip [Tada 1973].
+//! from the stress intensity of an edge crack in a strip [Tada, Paris and Irwin 1973].
 
 use std::f64::consts::{FRAC_PI_2, PI};
 

@@ -131,7 +131,7 @@ impl Facet {
             }
             Under::Wall { thickness, .. } => {
                 let plate = Plate { nu, thickness };
-                // Loads are felt by the wall as if they were this wide at least [Westergaard 1926].
+                // A wall feels no load narrower than this.
                 let tilt = self.tilt(nu);
                 let wide = soft + 0.1 * thickness * thickness;
                 for along in ends {
