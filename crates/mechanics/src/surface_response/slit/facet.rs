@@ -111,7 +111,7 @@ impl Facet {
     pub(super) fn bend(&mut self, outer: &Gradient) {
         if let Under::Wall { thickness, .. } = self.under {
             let rest = (1.0 - 0.5 * thickness * outer.curvature).max(0.5);
-            self.curvature = (outer.curvature / rest).abs().min(1.0 / thickness);
+            self.curvature = (outer.curvature / rest).clamp(-1.0 / thickness, 1.0 / thickness);
         }
     }
 
@@ -119,16 +119,7 @@ impl Facet {
     pub(super) fn modes(&self) -> usize {
         match self.under {
             Under::Solid { .. } => 3,
-            Under::Wall { .. } => 6,
-        }
-    }
-
-    /// How far the hinge opens the outer face for a unit of bulging [-]: w R/2 over the square of the length over
-    /// which a shell bends, √(R w)/(12 (1 − ν²))^¼.
-    pub(super) fn tilt(&self, nu: f64) -> f64 {
-        match self.under {
-            Under::Solid { .. } => 0.0,
-            Under::Wall { .. } => 0.5 * (12.0 * (1.0 - nu * nu)).sqrt(),
+            Under::Wall { .. } => 5,
         }
     }
 

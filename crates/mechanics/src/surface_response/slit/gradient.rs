@@ -64,6 +64,7 @@ impl Gradient {
     ) {
         self.parts.clear();
         self.weights.clear();
+        self.curvature = 0.0;
         let mesh = surface.mesh();
         let outward = mesh.area_vector(start).normalize();
         let near = surface.adjacency().edge_neighborhood(start);
@@ -114,7 +115,6 @@ impl Gradient {
         };
         let nu = response.parts().poissons_ratio;
         let (plane, shear) = (1.0 / (1.0 - nu * nu), 0.5 / (1.0 + nu));
-        self.curvature = 0.0;
         for (part, weight) in self.parts.iter_mut().zip(&self.weights) {
             let slopes = inverse * part.across * (*weight / self.reach);
             let normal = response.touchable()[part.touch.index()].normal;

@@ -3,8 +3,9 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::{Matrix3, Matrix6};
+use nalgebra::{Matrix3, Matrix5};
 
+use super::curvature::Curvature;
 use super::facet::{Facet, Under};
 use super::plate::Plate;
 use super::spring;
@@ -41,27 +42,23 @@ const BENT_ALONE: f64 = 22.5;
 /// stiff [-].
 const OF_BENDING: f64 = 0.5;
 
-/// The square of what a slit along a tube opens more for its bulging is 1 + this √(12 (1 − ν²)) a²/(R w) for a half
-/// length a [Folias 1965] [-].
-const OF_BULGE: f64 = 0.487;
-
 /// Facets that turn by less from one another are taken as of one plane: cosine [-].
 const ONE_PLANE: f64 = 0.8;
 
 /// The part of H between the modes of two facets, over E [m].
-pub(super) fn coupling(nu: f64, one: &Facet, other: &Facet) -> Matrix6<f64> {
-    0.5 * (pull(nu, one, other) + pull(nu, other, one).transpose())
+pub(super) fn coupling(about: (f64, &Curvature), one: &Facet, other: &Facet) -> Matrix5<f64> {
+    0.5 * (pull(about, one, other) + pull(about, other, one).transpose())
 }
 
 /// Pivots of a block by itself [m].
-pub(super) fn pivots(block: &Matrix6<f64>, modes: usize) -> [f64; 6] {
+pub(super) fn pivots(block: &Matrix5<f64>, modes: usize) -> [f64; 5] {
     let mut rest = *block;
     std::array::from_fn(|mode| {
         let pivot = rest[(mode, mode)];
         if mode < modes && pivot > 0.0 {
-            for i in mode + 1..6 {
+            for i in mode + 1..5 {
                 let factor = rest[(i, mode)] / pivot;
-                for j in mode + 1..6 {
+                for j in mode + 1..5 {
                     rest[(i, j)] -= factor * rest[(mode, j)];
                 }
             }
@@ -71,10 +68,10 @@ pub(super) fn pivots(block: &Matrix6<f64>, modes: usize) -> [f64; 6] {
 }
 
 /// H of a facet with itself over E [m], and what its diagonal is raised by where one end is free, or both.
-pub(super) fn own(nu: f64, facet: &Facet) -> (Matrix6<f64>, [[f64; 6]; 2]) {
-    let mut matrix = pull(nu, facet, facet);
-    let mut ends = [[0.0; 6]; 2];
-    for mode in 0..6 {
+pub(super) fn own((nu, tube): (f64, &Curvature), facet: &Facet) -> (Matrix5<f64>, [[f64; 5]; 2]) {
+    let mut matrix = pull((nu, tube), facet, facet);
+    let mut ends = [[0.0; 5]; 2];
+    for mode in 0..5 {
         let (one, both) = if mode >= 4 {
             (AT_BENT_END, BENT_ALONE)
         } else {
@@ -86,17 +83,17 @@ pub(super) fn own(nu: f64, facet: &Facet) -> (Matrix6<f64>, [[f64; 6]; 2]) {
     if let Under::Wall { part, .. } = facet.under
         && part < 1.0
     {
-        matrix += spring::ligament(nu, part, facet.tilt(nu)) * facet.length;
+        matrix += spring::ligament(nu, part) * facet.length;
     }
     (matrix, ends)
 }
 
 /// Less the work of the traction on the modes of `seen` by unit jumps of `jumping`.
-fn pull(nu: f64, seen: &Facet, jumping: &Facet) -> Matrix6<f64> {
+fn pull((nu, tube): (f64, &Curvature), seen: &Facet, jumping: &Facet) -> Matrix5<f64> {
     match (seen.under, jumping.under) {
         (Under::Solid { depth }, Under::Solid { depth: other }) => {
             let block = in_solid(nu, (seen, depth), (jumping, other));
-            let mut matrix = Matrix6::zeros();
+            let mut matrix = Matrix5::zeros();
             matrix.fixed_view_mut::<3, 3>(0, 0).copy_from(&block);
             matrix
         }
@@ -105,8 +102,11 @@ fn pull(nu: f64, seen: &Facet, jumping: &Facet) -> Matrix6<f64> {
             Under::Wall {
                 thickness: other, ..
             },
-        ) => in_wall(nu, (seen, jumping), 0.5 * (thickness + other)),
-        _ => Matrix6::zeros(),
+        ) => {
+            let thickness = 0.5 * (thickness + other);
+            in_wall(nu, (seen, jumping), thickness) + of_curvature(tube, (seen, jumping), thickness)
+        }
+        _ => Matrix5::zeros(),
     }
 }
 
@@ -248,7 +248,28 @@ fn line(x: f64) -> f64 {
     }
 }
 
-fn in_wall(nu: f64, (seen, jumping): (&Facet, &Facet), thickness: f64) -> Matrix6<f64> {
+/// What curvature adds: for facets that lie along one another.
+fn of_curvature(
+    tube: &Curvature,
+    (seen, jumping): (&Facet, &Facet),
+    thickness: f64,
+) -> Matrix5<f64> {
+    let cosine = jumping.frame.column(0).dot(&seen.frame.column(0));
+    let at = jumping.frame.tr_mul(&(seen.middle - jumping.middle));
+    let away = at.norm().copysign(at.y);
+    let curvature = 0.5 * (seen.curvature + jumping.curvature);
+    // Means over both facets by Gauss, two places each.
+    let [near, far] = [seen.length - jumping.length, seen.length + jumping.length]
+        .map(|length| 0.5 * length / 3.0_f64.sqrt());
+    let mut sum = Matrix5::zeros();
+    for off in [near, -near, far, -far] {
+        sum += tube.of_jump((curvature, thickness), away + off);
+    }
+    sum.row_mut(4).scale_mut(cosine.signum());
+    sum * (0.25 * cosine * cosine * seen.length * jumping.length)
+}
+
+fn in_wall(nu: f64, (seen, jumping): (&Facet, &Facet), thickness: f64) -> Matrix5<f64> {
     let turn = jumping.frame.tr_mul(&seen.frame);
     let at = jumping.frame.tr_mul(&(seen.middle - jumping.middle));
     let length = 0.5 * (seen.length + jumping.length);
@@ -262,13 +283,7 @@ fn in_wall(nu: f64, (seen, jumping): (&Facet, &Facet), thickness: f64) -> Matrix
     let bend = thickness / (12.0 * PI) * thin.powf(OF_BENDING);
     let shear = 5.0 / 6.0 * thickness / (4.0 * PI * (1.0 + nu));
     let lift = plate.bending() * (1.0 - nu) * (3.0 + nu) / (4.0 * PI) / (length * length);
-    // A wall that is flat does not bulge: as stiff as much more bending then.
-    let curvature = (0.5 * (seen.curvature + jumping.curvature)).max(1e-3 / thickness);
-    let bulge = thickness * thickness
-        / curvature
-        / (16.0 * PI * OF_BULGE * (12.0 * (1.0 - nu * nu)).sqrt())
-        / (length * length);
-    let mut matrix = Matrix6::zeros();
+    let mut matrix = Matrix5::zeros();
     let parts = seen.length * jumping.length / (length * length);
     if one_plane {
         let x = away / length;
@@ -284,7 +299,6 @@ fn in_wall(nu: f64, (seen, jumping): (&Facet, &Facet), thickness: f64) -> Matrix
         matrix[(3, 3)] = sign * near * shear;
         let second = 2.0 * line(x) - line(x - 1.0) - line(x + 1.0);
         matrix[(4, 4)] = sign * second * parts * lift;
-        matrix[(5, 5)] = second * parts * bulge;
         return matrix;
     }
     let mut r = at;
@@ -305,6 +319,5 @@ fn in_wall(nu: f64, (seen, jumping): (&Facet, &Facet), thickness: f64) -> Matrix
     matrix[(3, 3)] = -shear * plane.x * seen.length * jumping.length / squared;
     let second = 2.0 * line(x) - line(x - 1.0) - line(x + 1.0);
     matrix[(4, 4)] = plane.x * second * parts * lift;
-    matrix[(5, 5)] = plane.x.abs() * second * parts * bulge;
     matrix
 }

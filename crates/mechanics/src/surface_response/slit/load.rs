@@ -59,7 +59,7 @@ impl<T: Precision> Slit<T> {
             let Some(spot) = spot else {
                 break;
             };
-            let about = (self.poissons_ratio, cut.reach);
+            let about = (self.poissons_ratio, &self.curvature, cut.reach);
             let Some(found) = cut.facet.of_spot(about, spot) else {
                 continue;
             };
@@ -158,10 +158,7 @@ impl<T: Precision> Slit<T> {
         let jumps = jumps.values.get(cut.facet.rows())?;
         let local = match *jumps {
             [n, s, z] => Vec3::new(n, s, z),
-            [n, s, hinge, shear, bend, bulge] => {
-                let bulge = bulge * (1.0 + cut.facet.tilt(self.poissons_ratio));
-                Vec3::new(n + hinge + bulge, s, shear + bend)
-            }
+            [n, s, hinge, shear, bend] => Vec3::new(n + hinge, s, shear + bend),
             _ => return None,
         };
         Some(cut.facet.frame * local)

@@ -9,27 +9,28 @@
 //! ```
 //!
 //! which adds compliance only. A facet in a solid has three jumps: opening, sliding and tearing, with half an
-//! ellipse over its depth. One in a wall has six: opening and sliding evenly through the wall; opening of the
-//! outer face against the inner, a hinge; the deflection of one side against the other, by shear and by bending;
-//! and bulging where the wall is curved. T comes from the stresses that the table's displacements are
-//! (`gradient`), and near a force from closed forms (`traction`, `near`, `plate`); H from closed forms (`kernel`),
-//! with springs where a wall is cut to a part of it (`spring`).
+//! ellipse over its depth. One in a wall has five: opening and sliding evenly through the wall; opening of the
+//! outer face against the inner, a hinge; and the deflection of one side against the other, by shear and by
+//! bending. T comes from the stresses that the table's displacements are (`gradient`), and near a force from
+//! closed forms (`traction`, `near`, `plate`); H from closed forms (`kernel`), with springs where a wall is cut to a
+//! part of it (`spring`). What a tube's curvature changes in both is a shell's less a plate's (`curvature`, `shell`).
 //!
 //! *How we know*: `slit::the_rim_is_that_of_finite_elements`, `other_slits_are_those_of_finite_elements`,
 //! `facets_of_any_length_are_one_slit`, `a_slit_may_be_cut_from_either_end`. Derivation, numbers:
 //! `docs/theory/cutting.md`.
 //!
 //! *Limits*: small strain; sides that meet go through one another; facets of a wall and of a solid in one slit do
-//! not know one another; H knows no border, and curvature only where a slit along a tube is at most three times
-//! √(R w) long: longer ones are too soft.
+//! not know one another; H knows no border, and curvature across a facet as that of a whole tube.
 
 mod cholesky;
+mod curvature;
 mod facet;
 mod gradient;
 mod kernel;
 mod load;
 mod near;
 mod plate;
+mod shell;
 mod spring;
 mod traction;
 
@@ -39,6 +40,7 @@ use super::response::SurfaceResponse;
 use crate::boundary_elements::Precision;
 use crate::{Error, Vec3};
 use cholesky::{Block, Grown};
+use curvature::Curvature;
 use facet::Facet;
 pub use facet::{CutBody, SlitFacet};
 use gradient::{Gradient, MOST};
@@ -61,6 +63,7 @@ pub struct Slit<T = f32> {
     rows: Vec<T>,
     near: Vec<Near>,
     h: Grown,
+    curvature: Curvature,
     gradients: [Gradient; 2],
     /// B of the last facet.
     parts: Vec<Part>,
@@ -96,6 +99,7 @@ impl<T: Precision> Slit<T> {
             rows: vec![T::of(0.0); most * MODES * width],
             near: Vec::with_capacity(MOST_NEAR * most),
             h: Grown::new(most * MODES),
+            curvature: Curvature::new(response.parts().poissons_ratio),
             gradients: [Gradient::new(), Gradient::new()],
             parts: Vec::with_capacity(2 * MOST),
             found: Vec::with_capacity(MOST_NEAR),
@@ -186,8 +190,7 @@ impl<T: Precision> Slit<T> {
         outer.prepare(pair, (facet.outer, &facet.middle), facet);
         facet.bend(outer);
         inner.parts.clear();
-        let (of_outer, of_inner) = facet.of_faces();
-        let (rows, last) = rows.split_at_mut((facet.modes().min(5)) * self.width);
+        let (of_outer, of_inner) = facet.of_faces(facet.curvature);
         let (one, rest) = rows.split_at_mut(self.width);
         let (two, rest) = rest.split_at_mut(self.width);
         let (three, rest) = rest.split_at_mut(self.width);
@@ -205,13 +208,10 @@ impl<T: Precision> Slit<T> {
         let [across, along] = &mut self.scratch;
         inner.stress(body.response, across, along);
         let (o, i) = (of_outer.map(T::of), of_inner.map(T::of));
-        let both = one.iter_mut().zip(three).zip(last).zip(across.iter());
-        let tilt = T::of(facet.tilt(self.poissons_ratio));
-        for (((one, three), last), &inner) in both {
+        for ((one, three), &inner) in one.iter_mut().zip(three).zip(across.iter()) {
             let outer = *one;
             *one = o[0] * outer + i[0] * inner;
             *three = o[2] * outer + i[2] * inner;
-            *last = *one + tilt * *three;
         }
         for (two, &inner) in two.iter_mut().zip(along.iter()) {
             *two = o[1] * *two + i[1] * inner;
@@ -232,8 +232,11 @@ impl<T: Precision> Slit<T> {
             let outward = mesh.area_vector(triangle);
             let area = outward.norm();
             let of = (&centroid, &(outward / area), area);
-            let about = (self.poissons_ratio, reach);
-            if let Some([more, resolved]) = facet.of_triangle(about, of, &self.parts) {
+            let about = (self.poissons_ratio, &self.curvature, reach);
+            let known = &self.rows[facet.first * self.width + 3 * triangle.index()..][..3];
+            let known = Vec3::from_fn(|axis, _| known[axis].into());
+            let parts = (&self.parts[..], &known);
+            if let Some([more, resolved]) = facet.of_triangle(about, of, parts) {
                 self.near.push(Near {
                     triangle,
                     more,
@@ -249,7 +252,7 @@ impl<T: Precision> Slit<T> {
     fn put_matrix(&mut self, facet: &Facet) -> (Block, [[f64; MODES]; 2]) {
         let columns = self.h.new_columns();
         for cut in &self.facets {
-            let block = kernel::coupling(self.poissons_ratio, facet, &cut.facet);
+            let block = kernel::coupling((self.poissons_ratio, &self.curvature), facet, &cut.facet);
             for (column, values) in columns[cut.facet.rows()]
                 .iter_mut()
                 .zip(block.column_iter())
@@ -257,7 +260,7 @@ impl<T: Precision> Slit<T> {
                 column.copy_from_slice(values.as_slice());
             }
         }
-        let (block, ends) = kernel::own(self.poissons_ratio, facet);
+        let (block, ends) = kernel::own((self.poissons_ratio, &self.curvature), facet);
         for (column, values) in columns[facet.rows()].iter_mut().zip(block.column_iter()) {
             column.copy_from_slice(values.as_slice());
         }

@@ -3,13 +3,13 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use nalgebra::{Matrix2, Matrix6, Vector2};
+use nalgebra::{Matrix2, Matrix5};
 
 /// Steps of the integral over the depth.
 const STEPS: usize = 24;
 
 /// Stiffness of the ligament over E for a length of one [-], between the modes of a facet in a wall.
-pub(super) fn ligament(nu: f64, part: f64, tilt: f64) -> Matrix6<f64> {
+pub(super) fn ligament(nu: f64, part: f64) -> Matrix5<f64> {
     let (mut both, mut across) = (Matrix2::zeros(), 0.0);
     for step in 0..STEPS {
         let x = part * (step as f64 + 0.5) / STEPS as f64;
@@ -25,7 +25,7 @@ pub(super) fn ligament(nu: f64, part: f64, tilt: f64) -> Matrix6<f64> {
     }
     let plane = 2.0 * (1.0 - nu * nu);
     let torn = 8.0 * (1.0 + nu) / PI * -(FRAC_PI_2 * part).cos().ln();
-    let mut stiffness = Matrix6::zeros();
+    let mut stiffness = Matrix5::zeros();
     // Of two compliances that are nearly in proportion, as those of a shallow cut are.
     let both = both * plane;
     let slack = 1e-4 * both.trace();
@@ -33,11 +33,9 @@ pub(super) fn ligament(nu: f64, part: f64, tilt: f64) -> Matrix6<f64> {
         .try_inverse()
         .unwrap_or(Matrix2::identity());
     // Evenly and at the hinge.
-    let mut ways = [Vector2::zeros(); 6];
-    (ways[0], ways[2], ways[5]) = (Vector2::x(), Vector2::y(), Vector2::new(1.0, tilt));
-    for i in [0, 2, 5] {
-        for j in [0, 2, 5] {
-            stiffness[(i, j)] = ways[i].dot(&(inverse * ways[j]));
+    for (i, row) in [0, 2].into_iter().enumerate() {
+        for (j, column) in [0, 2].into_iter().enumerate() {
+            stiffness[(row, column)] = inverse[(i, j)];
         }
     }
     stiffness[(1, 1)] = 1.0 / torn;

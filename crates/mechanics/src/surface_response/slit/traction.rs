@@ -10,6 +10,7 @@ use std::f64::consts::FRAC_1_SQRT_2;
 use nalgebra::{Matrix2x3, Matrix3, Vector2};
 use palpate_geometry::{Surface, TriangleId};
 
+use super::curvature::Curvature;
 use super::facet::{Facet, Under};
 use super::gradient::{Gradient, around};
 use super::kernel::{FULLNESS, PROFILE, ROWS};
@@ -30,8 +31,14 @@ const OF_LOADS: f64 = 2.2;
 /// along, outward [-].
 pub const OF_RIM: [f64; 3] = [0.69, 0.2, 0.28];
 
+/// A spot is as wide as this part of its radius beyond its places [-].
+const OF_SPOT: f64 = 0.35;
+
+/// A wall bends under a force on a triangle as if it were spread by the root of this part of the thickness's square [-].
+const SOFT: f64 = 0.1;
+
 /// Modes of a facet at most.
-pub(super) const MODES: usize = 6;
+pub(super) const MODES: usize = 5;
 
 /// A force that is spread over a disc, wherever its triangles are.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -113,11 +120,16 @@ impl Facet {
     }
 
     /// A: mode by mode, of a unit force along each axis of the facet, at a place along the surface.
-    fn closed(&self, nu: f64, ([x, y], face): ([f64; 2], f64), soft: f64) -> [Vec3; MODES] {
+    fn closed(
+        &self,
+        (nu, tube): (f64, &Curvature),
+        ([x, y], face): ([f64; 2], f64),
+        soft: f64,
+    ) -> [Vec3; MODES] {
         let mut rows = [Vec3::zeros(); MODES];
-        let ends = [-0.25, 0.25].map(|part| part * self.length - y);
         match self.under {
             Under::Solid { depth } => {
+                let ends = [-0.25, 0.25].map(|part| part * self.length - y);
                 for (m, profile) in PROFILE.iter().enumerate() {
                     let z = -(m as f64 + 0.5) * depth / ROWS as f64;
                     let weight = 0.5 * profile * self.length * depth / ROWS as f64;
@@ -131,15 +143,14 @@ impl Facet {
             }
             Under::Wall { thickness, .. } => {
                 let plate = Plate { nu, thickness };
-                // A wall feels no load narrower than this.
-                let tilt = self.tilt(nu);
-                let wide = soft + 0.1 * thickness * thickness;
-                for along in ends {
-                    let found = plate.resultants([-x, along], face, wide);
-                    let [n, s, m, v] = found.map(|row| row * (0.5 * self.length));
-                    let bulge = n + m * tilt;
-                    for (row, found) in rows.iter_mut().zip([n, s, m, v, v, bulge]) {
-                        *row += found;
+                let bent = (self.curvature, thickness);
+                for along in [-0.375, -0.125, 0.125, 0.375].map(|part| part * self.length - y) {
+                    let [mut n, s, m, mut v] = plate.resultants([-x, along], face, soft);
+                    let [of_n, of_v, of_across] = tube.of_force(bent, [-x, along], face);
+                    n.z += of_n;
+                    v += Vec3::new(of_across, 0.0, of_v);
+                    for (row, found) in rows.iter_mut().zip([n, s, m, v, v]) {
+                        *row += found * (0.25 * self.length);
                     }
                 }
             }
@@ -150,32 +161,48 @@ impl Facet {
     /// φ and φ A of a spot, along the axes of space.
     pub(super) fn of_spot(
         &self,
-        (nu, reach): (f64, f64),
+        (nu, tube, reach): (f64, &Curvature, f64),
         spot: &Spot,
     ) -> Option<(f64, [Vec3; MODES])> {
         let seen = self.sees(reach, &spot.place, &spot.normal)?;
-        if seen.fade == 0.0 {
-            return None;
-        }
+        let (about, [x, y]) = ((nu, tube), seen.at);
+        let soft = (OF_SPOT * spot.radius).powi(2);
+        let beside = (x / spot.radius).abs().min(1.0);
         let mut rows = [Vec3::zeros(); MODES];
-        let soft = (0.35 * spot.radius).powi(2);
-        let in_wall = matches!(self.under, Under::Wall { .. });
-        let beside = (seen.at[0] / spot.radius).abs().min(1.0).powi(2);
-        let aside = (self.depth() - seen.at[0].abs()).max(0.0) * beside;
-        let x = seen.at[0] + aside.copysign(seen.at[0]);
-        for ([p, q], weight) in DISC {
-            let y = seen.at[1] + q * spot.radius;
-            let weight = weight * seen.fade;
-            let found = self.closed(nu, ([x + p * spot.radius, y], seen.face), soft);
-            for (row, found) in rows.iter_mut().zip(found) {
-                *row += found * weight;
+        if matches!(self.under, Under::Solid { .. }) {
+            if seen.fade == 0.0 {
+                return None;
             }
-            // What bends a wall is not the rim's.
-            if in_wall {
-                let own = ([seen.at[0] + p * spot.radius, y], seen.face);
-                let own = self.closed(nu, own, soft);
-                for ((row, found), own) in rows.iter_mut().zip(found).zip(own) {
-                    row.z += (own.z - found.z) * weight;
+            let aside = (self.depth() - x.abs()).max(0.0) * beside * beside;
+            let x = x + aside.copysign(x);
+            for ([p, q], weight) in DISC {
+                let place = [x + p * spot.radius, y + q * spot.radius];
+                let found = self.closed(about, (place, seen.face), soft);
+                for (row, found) in rows.iter_mut().zip(found) {
+                    *row += found * (weight * seen.fade);
+                }
+            }
+        } else {
+            // The table knows nothing of what shears a wall, so that this goes farther.
+            let far = self.sees(2.0 * reach, &spot.place, &spot.normal)?.fade;
+            if far == 0.0 {
+                return None;
+            }
+            // A force pulls at the side alone that it is on, and in the middle of the slit at none.
+            let narrow = x.abs().min(spot.radius);
+            let odd = beside * (2.0 - beside);
+            let [across, along, outward] = [0, 1, 2].map(|axis| {
+                let mut parts = Vec3::repeat(1.0);
+                parts[axis] = odd;
+                parts
+            });
+            let sides = [across, along, across, outward, outward];
+            for ([p, q], weight) in DISC {
+                let place = [x + p * narrow, y + q * spot.radius];
+                let found = self.closed(about, (place, seen.face), soft);
+                for (mode, row) in rows.iter_mut().enumerate() {
+                    let fade = if mode < 3 { seen.fade } else { far };
+                    *row += found[mode].component_mul(&sides[mode]) * (weight * fade);
                 }
             }
         }
@@ -191,7 +218,8 @@ impl Facet {
         }
         let [x, y] = seen.at;
         let x = x.abs();
-        let beside = (x / spot.radius).min(1.0).powi(2);
+        let beside = (x / spot.radius).min(1.0);
+        let beside = beside * (2.0 - beside);
         let near = x.max(0.8 * spot.radius);
         let more = (1.0 / near - 1.0 / self.depth()).max(0.0) * beside;
         let ends = [-0.5, 0.5].map(|end| {
@@ -210,14 +238,18 @@ impl Facet {
     /// φ (A − Bᵀ Ξ_A) and Bᵀ Ξ_A of a triangle.
     pub(super) fn of_triangle(
         &self,
-        (nu, reach): (f64, f64),
+        (nu, tube, reach): (f64, &Curvature, f64),
         (place, normal, area): (&Vec3, &Vec3, f64),
-        parts: &[Part],
+        (parts, known): (&[Part], &Vec3),
     ) -> Option<[[[f32; 3]; MODES]; 2]> {
         let seen = self.sees(reach, place, normal)?;
-        let soft = 0.25 * area;
+        let spread = match self.under {
+            Under::Solid { .. } => 0.0,
+            Under::Wall { thickness, .. } => SOFT * thickness * thickness,
+        };
+        let soft = 0.25 * area + spread;
         let closed = if seen.fade > 0.0 {
-            self.closed(nu, (seen.at, seen.face), soft)
+            self.closed((nu, tube), (seen.at, seen.face), soft)
         } else {
             [Vec3::zeros(); MODES]
         };
@@ -229,8 +261,9 @@ impl Facet {
                 *resolved += moved.tr_mul(work);
             }
         }
+        // Triangles do not tell how a curved wall bears a force outward beside it; the tube does.
         if matches!(self.under, Under::Wall { .. }) {
-            resolved[5] = resolved[0] + resolved[2] * self.tilt(nu);
+            resolved[0].z = (seen.turn * known).z;
         }
         let turned = |rows: [Vec3; MODES]| rows.map(|row| seen.turn.tr_mul(&row));
         let (resolved, closed) = (turned(resolved), turned(closed));
@@ -258,7 +291,7 @@ impl Facet {
 
     /// The stress of a face, as the modes' work.
     pub(super) fn parts(&self, gradient: &Gradient, face: f64, parts: &mut Vec<Part>) {
-        let (of_outer, of_inner) = self.of_faces();
+        let (of_outer, of_inner) = self.of_faces(0.0);
         let factors = if face > 0.0 { of_outer } else { of_inner };
         for stress in &gradient.parts {
             let normal = self.frame.column(2) * face;
@@ -275,8 +308,10 @@ impl Facet {
         }
     }
 
-    /// How the stresses of the outer and of the inner face count in the first three modes [m²].
-    pub(super) fn of_faces(&self) -> ([f64; 3], [f64; 3]) {
+    /// How the stresses of the outer and of the inner face count in the first three modes [m²], of a wall whose
+    /// middle is so curved [1/m]: over a curved wall stress goes with the reciprocal of the radius, and a moment
+    /// alone makes no mean of the faces' stresses that is zero [Winkler 1858].
+    pub(super) fn of_faces(&self, curvature: f64) -> ([f64; 3], [f64; 3]) {
         match self.under {
             Under::Solid { depth } => {
                 let area = FULLNESS * depth * self.length;
@@ -284,9 +319,10 @@ impl Facet {
             }
             Under::Wall { thickness, .. } => {
                 let area = thickness * self.length;
+                let more = thickness * curvature / 6.0;
                 (
-                    [0.5 * area, 0.5 * area, area / 6.0],
-                    [0.5 * area, 0.5 * area, -area / 6.0],
+                    [(0.5 + more) * area, 0.5 * area, area / 6.0],
+                    [(0.5 - more) * area, 0.5 * area, -area / 6.0],
                 )
             }
         }
