@@ -17,7 +17,9 @@ pub(crate) fn digest(scene: &Scene, surface: &Surface, tissue: &Tissue) -> Strin
     }
     // Who moves a tool does not change what it meets.
     let mut tools = scene.tools.clone();
-    tools.iter_mut().for_each(|tool| tool.device = DeviceKind::None);
+    tools
+        .iter_mut()
+        .for_each(|tool| tool.device = DeviceKind::None);
     hash.update(format!(
         "{:?}{:?}{:?}{:?}{:?}{:?}{:?}{:?}",
         tissue.elasticity,
