@@ -332,7 +332,7 @@ fn arm(window: &SimulatorWindow, is_latched: bool, ui: &mut Ui) {
     let button = ui.button("Arm forces");
     let hint = "forces come back over half a second, once the hand is slow and the force small";
     if button.on_hover_text(hint).clicked() {
-        play.interaction.arm();
+        play.source.arm();
     }
 }
 

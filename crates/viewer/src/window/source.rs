@@ -78,6 +78,13 @@ impl Source {
         }
     }
 
+    /// Arms the forces of all devices again after a fault.
+    pub(super) fn arm(&self) {
+        if let Self::Touched(interaction) = self {
+            interaction.arm();
+        }
+    }
+
     /// Records what is touched from a new beginning on.
     pub(super) fn record(&mut self, writer: SessionWriter) {
         if let Self::Touched(interaction) = self {
