@@ -254,13 +254,15 @@ fn a_cut_is_as_long_and_as_far_off_as_it_is() {
     let cut = score.cut.unwrap();
     let along = cut.along_line.unwrap();
     assert_eq!(cut.count, 1);
-    for (found, expected) in [
-        (cut.length, 0.03),
-        (along.covered, 0.03),
-        (along.mean_deviation, 0.0015),
-        (along.largest_deviation, 0.0015),
+    // With 97 % of the line the task is over; rows are 0.05 mm apart.
+    let whole = 0.97 * 0.03;
+    for (found, expected, tolerance) in [
+        (cut.length, whole, 6e-5),
+        (along.covered, whole, 6e-5),
+        (along.mean_deviation, 0.0015, 1e-9),
+        (along.largest_deviation, 0.0015, 1e-9),
     ] {
-        assert!((found - expected).abs() < 1e-9, "{found} {expected}");
+        assert!((found - expected).abs() < tolerance, "{found} {expected}");
     }
     let clean = |rows: &[SessionRow]| measured(&line(), rows).outcome.passed();
     assert_eq!(score.outcome.passed(), Some(true));
