@@ -21,6 +21,8 @@ pub(super) enum Chosen {
 /// The start screen.
 #[derive(Default)]
 pub(super) struct Home {
+    /// What went wrong with what was chosen last.
+    pub(super) trouble: Option<String>,
     /// Whose results are shown, and what they are.
     results: Option<(String, Result<Vec<PastResult>, String>)>,
 }
@@ -45,6 +47,9 @@ impl Home {
                     ui.label(
                         RichText::new("organs that answer a touch, to practise on").color(QUIET),
                     );
+                    if let Some(trouble) = &self.trouble {
+                        ui.colored_label(FAULT, trouble);
+                    }
                     ui.add_space(14.0);
                     let wide = ui.available_width() > 760.0;
                     if wide {

@@ -35,7 +35,7 @@ impl SimulatorWindow {
                     scene
                 }
                 Err(trouble) => {
-                    self.notice = Some(trouble);
+                    home.trouble = Some(trouble);
                     return;
                 }
             },
