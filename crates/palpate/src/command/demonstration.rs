@@ -4,7 +4,7 @@ use std::path::Path;
 
 use palpate_files::{Motion, Scene, write_whole};
 use palpate_simulate::Simulation;
-use palpate_viewer::Start;
+use palpate_viewer::{Start, check_display};
 
 use super::simulate::ESOPHAGUS;
 use super::window;
@@ -25,6 +25,10 @@ const MOTION: &str = include_str!("../../../../assets/esophagus/motion.csv");
 /// The window with the built-in esophagus; where there can be none, a first touch that needs neither window
 /// nor file.
 pub(crate) fn run() -> Result<(), Failure> {
+    // Before anything is looked for in the user's folders.
+    if let Err(why) = check_display() {
+        return play(&why);
+    }
     let training = crate::training::training()?;
     match window::open(
         (Start::Home, Some(training)),
