@@ -78,9 +78,13 @@ impl<T: Precision> Slit<T> {
                 continue;
             };
             let triangle = touched.triangle;
-            for (row, place) in load.rows.iter_mut().enumerate() {
-                let values = &self.row(row)[3 * triangle.index()..][..3];
-                *place += Vec3::from_fn(|axis, _| values[axis].into()) * weight;
+            for (facet, cut) in self.facets.iter().enumerate() {
+                let rows = self.smooth(facet).chunks_exact(self.width);
+                let places = &mut load.rows[cut.facet.rows()];
+                for (place, row) in places.iter_mut().zip(rows) {
+                    let values = &row[3 * triangle.index()..][..3];
+                    *place += Vec3::from_fn(|axis, _| values[axis].into()) * weight;
+                }
             }
             for (cut, fade) in self.facets.iter().zip(&load.fades) {
                 if spot.is_some() && *fade == 0.0 {
@@ -170,14 +174,26 @@ impl<T: Precision> Slit<T> {
         if jumps.values.len() != self.size() || field.len() != self.width {
             return;
         }
-        // Four rows at a time, so that the field is met less often.
-        for (group, jumps) in jumps.values.chunks(4).enumerate() {
-            let row = |k: usize| self.row(4 * group + k.min(jumps.len() - 1));
-            let jump = |k: usize| T::of(jumps.get(k).copied().unwrap_or(0.0));
-            let rows = row(0).iter().zip(row(1)).zip(row(2)).zip(row(3));
-            let [p, q, r, s] = [0, 1, 2, 3].map(jump);
-            for (place, (((&a, &b), &c), &d)) in field.iter_mut().zip(rows) {
-                *place += (p * a + q * b) + (r * c + s * d);
+        // Two facets at a time, so that the field is met less often.
+        for (pair, cuts) in self.facets.chunks(2).enumerate() {
+            let last = cuts.len() - 1;
+            let rows = |k: usize| self.smooth(2 * pair + k.min(last));
+            let jump = |k: usize, mode: usize| {
+                let own = cuts
+                    .get(k)
+                    .map_or(0.0, |cut| jumps.values[cut.facet.first + mode]);
+                T::of(own)
+            };
+            let [one, other] = [0, 1].map(|k| [0, 1, 2].map(|mode| jump(k, mode)));
+            let of = |k: usize| {
+                let (a, rest) = rows(k).split_at(self.width);
+                let (b, c) = rest.split_at(self.width);
+                a.iter().zip(b).zip(c)
+            };
+            for ((place, ((&a, &b), &c)), ((&d, &e), &f)) in field.iter_mut().zip(of(0)).zip(of(1))
+            {
+                let first = one[0] * a + one[1] * b + one[2] * c;
+                *place += first + (other[0] * d + other[1] * e + other[2] * f);
             }
         }
         for cut in &self.facets {

@@ -51,6 +51,9 @@ pub use traction::{OF_RIM, Spot};
 /// Near triangles that are known to a facet at most.
 const MOST_NEAR: usize = 320;
 
+/// Jumps of a facet whose T is smooth far from it: the first.
+const SMOOTH: usize = 3;
+
 /// A slit in an organ, and what it adds to its compliance.
 #[derive(Debug)]
 pub struct Slit<T = f32> {
@@ -59,7 +62,7 @@ pub struct Slit<T = f32> {
     width: usize,
     poissons_ratio: f64,
     facets: Vec<Cut>,
-    /// T without what is near, row after row.
+    /// T without what is near, row after row; what deflects a wall is near alone.
     rows: Vec<T>,
     near: Vec<Near>,
     h: Grown,
@@ -96,7 +99,7 @@ impl<T: Precision> Slit<T> {
             width,
             poissons_ratio: response.parts().poissons_ratio,
             facets: Vec::with_capacity(most),
-            rows: vec![T::of(0.0); most * MODES * width],
+            rows: vec![T::of(0.0); most * SMOOTH * width],
             near: Vec::with_capacity(MOST_NEAR * most),
             h: Grown::new(most * MODES),
             curvature: Curvature::new(response.parts().poissons_ratio),
@@ -177,24 +180,23 @@ impl<T: Precision> Slit<T> {
         self.facets.last().map_or(0, |cut| cut.facet.rows().end)
     }
 
-    fn row(&self, row: usize) -> &[T] {
-        &self.rows[row * self.width..][..self.width]
+    /// The smooth rows of a facet, one after the other.
+    fn smooth(&self, facet: usize) -> &[T] {
+        &self.rows[facet * SMOOTH * self.width..][..SMOOTH * self.width]
     }
 
     /// Makes the smooth rows of a facet; the reach of its closed forms [m].
     fn work(&mut self, body: &CutBody<'_, T>, facet: &mut Facet) -> f64 {
         let pair = (body.surface, body.response);
-        let start = facet.first * self.width;
-        let rows = &mut self.rows[start..][..facet.modes() * self.width];
+        let start = self.facets.len() * SMOOTH * self.width;
+        let rows = &mut self.rows[start..][..SMOOTH * self.width];
         let [outer, inner] = &mut self.gradients;
         outer.prepare(pair, (facet.outer, &facet.middle), facet);
         facet.bend(outer);
         inner.parts.clear();
         let (of_outer, of_inner) = facet.of_faces(facet.curvature);
         let (one, rest) = rows.split_at_mut(self.width);
-        let (two, rest) = rest.split_at_mut(self.width);
-        let (three, rest) = rest.split_at_mut(self.width);
-        rest.fill(T::of(0.0));
+        let (two, three) = rest.split_at_mut(self.width);
         outer.stress(body.response, one, two);
         let Some(below) = facet.inner else {
             three.fill(T::of(0.0));
@@ -233,7 +235,7 @@ impl<T: Precision> Slit<T> {
             let area = outward.norm();
             let of = (&centroid, &(outward / area), area);
             let about = (self.poissons_ratio, &self.curvature, reach);
-            let known = &self.rows[facet.first * self.width + 3 * triangle.index()..][..3];
+            let known = &self.smooth(self.facets.len())[3 * triangle.index()..][..3];
             let known = Vec3::from_fn(|axis, _| known[axis].into());
             let parts = (&self.parts[..], &known);
             if let Some([more, resolved]) = facet.of_triangle(about, of, parts) {
