@@ -129,8 +129,9 @@ impl SimulationState {
     }
 
     /// Shapes a whole organ no more often than every `period` [s]; forces are those of every step. For who
-    /// only looks at it.
-    pub(crate) fn show_every(mut self, period: f64) -> Self {
+    /// only looks at it: a display that shows 60 pictures a second needs no more shapes.
+    #[must_use]
+    pub fn show_every(mut self, period: f64) -> Self {
         self.show_every = period;
         self
     }
