@@ -48,19 +48,6 @@ impl Failure {
         }
     }
 
-    /// The same, with the file that it is about.
-    pub(crate) fn about(self, file: &std::path::Path) -> Self {
-        let named = |message: String| match message.contains(&*file.to_string_lossy()) {
-            true => message,
-            false => format!("{}: {message}", file.display()),
-        };
-        match self {
-            Self::Input(message) => Self::Input(named(message)),
-            Self::Failed(message) => Self::Failed(named(message)),
-            Self::NobodyReads => Self::NobodyReads,
-        }
-    }
-
     pub(crate) fn exit_status(&self) -> u8 {
         match self {
             Self::Input(_) => BAD_INPUT,
@@ -83,6 +70,15 @@ impl From<palpate_files::Error> for Failure {
         match error.is_input() {
             true => Self::input(error),
             false => Self::failed(error),
+        }
+    }
+}
+
+impl From<palpate_jobs::Error> for Failure {
+    fn from(error: palpate_jobs::Error) -> Self {
+        match error {
+            palpate_jobs::Error::Input(message) => Self::Input(message),
+            palpate_jobs::Error::Failed(message) => Self::Failed(message),
         }
     }
 }

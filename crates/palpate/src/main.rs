@@ -4,11 +4,9 @@
 //! prints what comes back and decides the exit status. Nothing else in the project prints or exits.
 
 mod command;
-mod cores;
 mod date;
 mod failure;
 mod interrupt;
-mod nearest;
 mod output;
 mod plot;
 mod preparation;

@@ -5,6 +5,12 @@
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use palpate_jobs::Watch;
+
+use crate::interrupt::{self, Unbroken};
+
+/// Steps of the bar of one long work.
+const PARTS: u64 = 1000;
 
 /// How often the spinner turns.
 const TURN: Duration = Duration::from_millis(120);
@@ -47,13 +53,18 @@ impl Progress {
     }
 
     /// A bar over the parts of one long work, with the time that is left.
-    pub(crate) fn of_parts(reader: Reader, parts: u64) -> Self {
-        let bar = Self::new(reader, Some(parts));
+    pub(crate) fn of_parts(reader: Reader) -> Self {
+        let bar = Self::new(reader, Some(PARTS));
         let template = "{spinner} {bar:30} {percent:>3} % {msg}, {eta} left";
         if let Ok(style) = ProgressStyle::with_template(template) {
             bar.0.set_style(style);
         }
         bar
+    }
+
+    /// A bar over one solution, whose end is not known.
+    pub(crate) fn of_solution(reader: Reader) -> Self {
+        Self::new(reader, Some(PARTS))
     }
 
     /// Says what is being done now.
@@ -69,6 +80,28 @@ impl Progress {
     /// Sets how many steps of the bar are done.
     pub(crate) fn at(&self, step: u64) {
         self.0.set_position(step);
+    }
+}
+
+/// Ctrl-C asks a job to stop; a job whose command ends between files by itself asks nobody.
+impl Watch for Progress {
+    fn say(&self, doing: &str) {
+        self.0.set_message(doing.to_owned());
+    }
+
+    fn at(&self, part: f64) {
+        if let Some(steps) = self.0.length() {
+            self.0.set_position((part * steps as f64).round() as u64);
+        }
+    }
+
+    fn is_asked_to_stop(&self) -> bool {
+        interrupt::is_asked()
+    }
+
+    fn unbroken(&self, write: &mut dyn FnMut()) {
+        let _unbroken = Unbroken::begin();
+        write();
     }
 }
 

@@ -1,18 +1,8 @@
 //! The recordings that a command is given: files and folders, of this project and of other programs.
 
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
-use palpate_characterize::CleanRecording;
-use palpate_characterize::clean::{CleanSettings, clean};
-use palpate_files::Recording;
-use palpate_files::recording::{ForeignColumns, RecordingHeader};
-use serde::Serialize;
-use sha2::{Digest, Sha256};
-
-use crate::failure::Failure;
-use crate::nearest;
 
 /// Which recordings, and what they do not say themselves.
 #[derive(Debug, Args)]
@@ -40,218 +30,17 @@ pub(crate) struct Recordings {
     said: Vec<String>,
 }
 
-/// A recording that was read.
-#[derive(Debug)]
-pub(crate) struct ReadRecording {
-    pub(crate) path: PathBuf,
-    pub(crate) clean: CleanRecording,
-    /// SHA-256 of the file.
-    pub(crate) digest: String,
-}
-
-/// A recording that could not be used, and why.
-#[derive(Debug, Clone, Serialize)]
-pub(crate) struct Unusable {
-    pub(crate) file: PathBuf,
-    pub(crate) reason: String,
-}
-
 impl Recordings {
-    /// A single one that says all itself.
-    pub(crate) fn of(path: &Path) -> Self {
-        Self {
-            paths: vec![path.to_owned()],
-            time: None,
-            depth: None,
-            force: None,
-            depth_unit: None,
-            force_unit: None,
-            said: Vec::new(),
-        }
-    }
-
-    /// All that can be read, and all that cannot: one bad file does not stop the others.
-    pub(crate) fn read(
-        &self,
-        mut at_file: impl FnMut(&Path),
-    ) -> Result<(Vec<ReadRecording>, Vec<Unusable>), Failure> {
-        let said = self.header()?;
-        let (mut good, mut bad) = (Vec::new(), Vec::new());
-        for path in self.files()? {
-            at_file(&path);
-            match self.one(&path, &said) {
-                Ok(clean) => good.push(ReadRecording {
-                    digest: digest(&path),
-                    path,
-                    clean,
-                }),
-                Err(reason) => bad.push(Unusable { file: path, reason }),
-            }
-        }
-        match (good.is_empty(), bad.as_slice()) {
-            (true, [only]) => Err(Failure::input(&only.reason)),
-            (true, [first, ..]) => Err(Failure::input(format!(
-                "none of the {} recordings can be used; the first: {}",
-                bad.len(),
-                first.reason
-            ))),
-            _ => Ok((good, bad)),
-        }
-    }
-
-    /// What was said about the recordings, by name and value.
-    pub(crate) fn said(&self) -> Vec<(String, String)> {
-        let columns = [
-            ("--time", &self.time),
-            ("--depth", &self.depth),
-            ("--force", &self.force),
-            ("--depth-unit", &self.depth_unit),
-            ("--force-unit", &self.force_unit),
-        ];
-        let columns = columns
-            .into_iter()
-            .filter_map(|(name, value)| Some((name, value.as_ref()?)));
-        columns
-            .chain(self.said.iter().map(|said| ("--set", said)))
-            .map(|(name, value)| (name.to_owned(), value.clone()))
-            .collect()
-    }
-
-    /// The files that were named, and those of the folders in alphabetical order.
-    fn files(&self) -> Result<Vec<PathBuf>, Failure> {
-        let mut files = Vec::new();
-        for path in &self.paths {
-            if path.is_dir() {
-                let inside = tables(path)?;
-                if inside.is_empty() {
-                    let path = path.display();
-                    return Err(Failure::input(format!(
-                        "{path} holds no .csv, .txt or .tsv file; name a folder that does, or files"
-                    )));
-                }
-                files.extend(inside);
-            } else {
-                files.push(path.clone());
-            }
-        }
-        Ok(files)
-    }
-
-    fn one(&self, path: &Path, said: &RecordingHeader) -> Result<CleanRecording, String> {
-        let recording = if self.is_of_this_project(path) {
-            Recording::read(path)
-        } else {
-            let columns = ForeignColumns {
-                time: self.time.clone(),
-                depth: self.depth.clone(),
-                force: self.force.clone(),
-                depth_unit: self.depth_unit.clone(),
-                force_unit: self.force_unit.clone(),
-            };
-            Recording::read_foreign(path, &columns)
-        };
-        let mut recording = recording.map_err(|error| error.to_string())?;
-        recording.header = recording.header.completed_by(said);
-        clean(&recording, &CleanSettings::default())
-            .map_err(|error| format!("{}: {error}", path.display()))
-    }
-
-    /// A recording of this project says its format; columns are named for tables of others.
-    fn is_of_this_project(&self, path: &Path) -> bool {
-        let named = [&self.time, &self.depth, &self.force]
-            .iter()
-            .any(|name| name.is_some());
-        let says_format = |text: String| {
-            let comments = text
-                .lines()
-                .take_while(|line| line.trim_start().starts_with('#'));
-            let mut keys = comments.map(|line| line.trim_start_matches(['#', ' ']));
-            keys.any(|key| key.starts_with("format"))
-        };
-        // What cannot be read has its error from the reader.
-        !named && fs::read_to_string(path).map_or(true, says_format)
-    }
-
-    /// What `--set` says, by the rules of a recording's own header.
-    fn header(&self) -> Result<RecordingHeader, Failure> {
-        let mut text = "# format = 1\n".to_owned();
-        for said in &self.said {
-            let Some((key, value)) = said.split_once('=') else {
-                return Err(Failure::input(format!(
-                    "--set {said}: write a key and its value, such as indenter_radius_m=0.001"
-                )));
-            };
-            let plain = value.parse::<f64>().is_ok() || value == "true" || value == "false";
-            let quoted = if plain || value.starts_with('"') {
-                value.to_owned()
-            } else {
-                format!("{value:?}")
-            };
-            text += &format!("# {} = {quoted}\n", key.trim());
-        }
-        text += "time_s,depth_m,force_n\n0,0,0\n";
-        let header = Recording::parse(&text, "--set")?.header;
-        match header.extra.first() {
-            None => Ok(header),
-            Some(unknown) => {
-                let (key, meant) = (
-                    &unknown.key,
-                    nearest::name(&unknown.key, RecordingHeader::KEYS),
-                );
-                Err(Failure::input(format!(
-                    "--set {key}: a recording has no key `{key}`; the nearest is `{meant}`"
-                )))
-            }
-        }
-    }
-}
-
-/// SHA-256 of a file; of one that is gone meanwhile, of nothing.
-fn digest(path: &Path) -> String {
-    let content = fs::read(path).unwrap_or_default();
-    hexadecimal(&Sha256::digest(content))
-}
-
-/// `bytes` as text.
-pub(crate) fn hexadecimal(bytes: &[u8]) -> String {
-    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
-}
-
-/// The tables in a folder, in alphabetical order.
-fn tables(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
-    let unreadable = |error| {
-        Failure::input(format!(
-            "{} cannot be read: {error}; check that you may read it",
-            folder.display()
-        ))
-    };
-    let mut files = Vec::new();
-    for entry in fs::read_dir(folder).map_err(unreadable)? {
-        let path = entry.map_err(unreadable)?.path();
-        let extension = path
-            .extension()
-            .and_then(|e| e.to_str())
-            .unwrap_or_default();
-        let is_table = ["csv", "txt", "tsv"].contains(&extension.to_ascii_lowercase().as_str());
-        let is_license = path.file_stem().is_some_and(|stem| {
-            let stem = stem.to_string_lossy().to_ascii_lowercase();
-            stem.starts_with("license") || stem.starts_with("readme")
-        });
-        if is_table && !is_license && path.is_file() {
-            files.push(path);
-        }
-    }
-    files.sort();
-    Ok(files)
-}
-
-impl Unusable {
-    /// The reason, which names the file.
-    pub(crate) fn sentence(&self) -> String {
-        let file = self.file.display().to_string();
-        match self.reason.contains(&file) {
-            true => self.reason.clone(),
-            false => format!("{file}: {}", self.reason),
+    /// The same for a job.
+    pub(crate) fn asked(&self) -> palpate_jobs::Recordings {
+        palpate_jobs::Recordings {
+            paths: self.paths.clone(),
+            time: self.time.clone(),
+            depth: self.depth.clone(),
+            force: self.force.clone(),
+            depth_unit: self.depth_unit.clone(),
+            force_unit: self.force_unit.clone(),
+            said: self.said.clone(),
         }
     }
 }

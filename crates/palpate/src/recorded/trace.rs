@@ -4,7 +4,7 @@ use palpate_simulate::Frame;
 
 use super::Beside;
 use crate::failure::Failure;
-use crate::plot::{Plot, Series, Style, write_pair};
+use crate::plot::{Draw, Plot, Series, Style, write_pair};
 
 /// Points of a curve; more are not seen in a picture.
 const POINTS: u64 = 3000;

@@ -5,13 +5,14 @@
 mod markup;
 mod page;
 mod provenance;
-mod quantity;
+mod symbol;
 mod table;
 mod words;
 
 pub(crate) use markup::Markup;
 pub(crate) use page::{Page, figure};
+pub(crate) use palpate_jobs::{Scale, quantity, rounded, unit};
 pub(crate) use provenance::{Provenance, provenance};
-pub(crate) use quantity::{Scale, quantity, rounded, symbol, unit};
+pub(crate) use symbol::symbol;
 pub(crate) use table::Table;
 pub(crate) use words::{count, doubts};

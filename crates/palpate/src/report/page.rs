@@ -1,5 +1,5 @@
 use super::Markup;
-use crate::plot::Plot;
+use crate::plot::{Draw, Plot};
 
 /// How all pages look.
 const STYLE: &str = include_str!("style.css");

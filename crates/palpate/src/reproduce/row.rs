@@ -6,7 +6,7 @@ use palpate_files::write_whole;
 use serde::Serialize;
 
 use crate::failure::Failure;
-use crate::plot::Plot;
+use crate::plot::{Draw, Plot};
 use crate::progress::Progress;
 
 /// A number or a figure of the source beside ours.

@@ -2,7 +2,7 @@
 
 use super::{ITEMS, Item, Row};
 use crate::failure::Failure;
-use crate::nearest;
+use palpate_jobs::nearest;
 
 /// What was asked for; nothing means everything.
 #[derive(Debug, Clone)]
@@ -48,7 +48,7 @@ fn is_meant(item: &Item, word: &str) -> bool {
 fn unknown(word: &str, known: Vec<&str>) -> Failure {
     Failure::input(format!(
         "there is no row `{word}`; the nearest is `{}`, and there are {}",
-        nearest::name(word, &known),
+        nearest(word, &known),
         known.join(", ")
     ))
 }

@@ -1,17 +1,14 @@
 //! `palpate analyze`: what recordings show, without a model.
 
-mod analyzed;
-mod answer;
 mod report;
 mod table;
 
 use clap::Args;
-use palpate_characterize::analyze;
 use palpate_files::{check_writable, write_whole};
+use palpate_jobs::analyze::{Answer, analyze};
+use palpate_jobs::json_text;
 use std::path::PathBuf;
 
-use self::analyzed::Analyzed;
-use self::answer::Answer;
 use super::recordings::Recordings;
 use crate::failure::Failure;
 use crate::output;
@@ -54,19 +51,15 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         check_writable(file)?;
     }
     let progress = Progress::new(Reader::of_json(arguments.json), None);
-    let (recordings, unusable) = arguments
-        .recordings
-        .read(|path| progress.say(format!("reading {}", path.display())))?;
-    progress.say("analyzing");
-    let analyses = recordings.iter().map(|read| (read, analyze(&read.clean)));
-    let analyzed = Analyzed::of(analyses.collect(), unusable);
+    let recordings = arguments.recordings.asked();
+    let analyzed = analyze(&recordings, &progress)?;
     drop(progress);
     let answer = Answer::new(&analyzed);
     if let Some(out) = &arguments.out {
-        write_whole(out, output::json_text(&answer)?.as_bytes())?;
+        write_whole(out, json_text(&answer)?.as_bytes())?;
     }
     if let Some(page) = &arguments.report {
-        let html = report::html(&analyzed, &arguments.recordings.said());
+        let html = report::html(&analyzed, &recordings.said());
         write_whole(page, html.as_bytes())?;
     }
     if arguments.json {

@@ -1,6 +1,6 @@
 use std::fmt::Write;
 
-use super::answer::{Answer, FileAnswer, StaticAnswer};
+use palpate_jobs::analyze::{Answer, FileAnswer, StaticAnswer};
 
 /// What was found, for people: forces in millinewtons, depths in millimetres.
 pub(super) fn of(answer: &Answer) -> String {

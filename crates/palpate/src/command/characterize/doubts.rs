@@ -1,7 +1,7 @@
 use std::collections::BTreeMap;
 
-use super::answer::Answer;
-use crate::command::recordings::Unusable;
+use palpate_jobs::Unusable;
+use palpate_jobs::characterize::Answer;
 
 /// Specimens whose doubts are all said one by one.
 const FEW: usize = 4;

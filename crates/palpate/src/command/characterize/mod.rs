@@ -1,32 +1,20 @@
 //! `palpate characterize`: the tissue behind recordings, with how well it is known.
 
-mod answer;
 mod doubts;
-mod finished;
-mod folder;
-mod pooled;
-mod portrait;
 mod report;
-mod study;
-mod summary;
 mod table;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
-use palpate_characterize::CharacterizeSettings;
-use palpate_characterize::fit::Draws;
 use palpate_characterize::inverse::SoughtLaw;
-use palpate_characterize::viscoelastic::RelaxationSettings;
 use palpate_files::{Tissue, check_writable, write_whole};
+use palpate_jobs::characterize::{Choice, StudyFolder, characterize};
 
-use self::answer::Answer;
-use self::finished::Finished;
-use self::folder::StudyFolder;
 use super::recordings::Recordings;
 use crate::failure::Failure;
-use crate::output;
 use crate::progress::{Progress, Reader};
+use crate::{interrupt, output};
 
 /// Examples at the end of the help.
 const EXAMPLES: &str = "\
@@ -111,24 +99,18 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let folder = arguments.study.as_deref().map(StudyFolder::open);
     let folder = folder.transpose()?;
-    let reader = Reader::of_json(arguments.json);
-    let progress = Progress::new(reader, None);
-    let reading = |path: &std::path::Path| progress.say(format!("reading {}", path.display()));
-    let (recordings, unusable) = arguments.recordings.read(reading)?;
-    drop(progress);
-    let finished = study::of(recordings, &arguments.settings(), folder.as_ref(), reader)?;
-    arguments.write(&finished)?;
-    let (specimens, portraits): (Vec<_>, Vec<_>) = finished
-        .into_iter()
-        .map(|finished| (finished.specimen, finished.portrait))
-        .unzip();
-    let answer = Answer::new(specimens, &unusable);
-    if let Some(path) = &arguments.report {
-        let page = report::html(&answer, &portraits, &arguments.said());
-        write_whole(path, page.as_bytes())?;
+    if let Some(path) = &arguments.study {
+        say_when_stopped(path);
     }
-    if let Some(folder) = &folder {
-        summary::write(&answer, folder)?;
+    let recordings = arguments.recordings.asked();
+    let progress = Progress::of_solution(Reader::of_json(arguments.json));
+    let found = characterize(&recordings, arguments.choice(), folder.as_ref(), &progress)?;
+    drop(progress);
+    arguments.write(&found.tissues)?;
+    let answer = found.answer;
+    if let Some(path) = &arguments.report {
+        let page = report::html(&answer, &found.portraits, &arguments.said());
+        write_whole(path, page.as_bytes())?;
     }
     if arguments.json {
         return output::json(&answer);
@@ -142,18 +124,23 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     Ok(())
 }
 
+/// From now on Ctrl-C ends the study between two files and says how to go on.
+fn say_when_stopped(folder: &Path) {
+    let folder = folder.display().to_string();
+    interrupt::ends_between_files(move || {
+        output::error(&Failure::failed(format!(
+            "stopped; what was finished is kept in {folder}, and the same command goes on"
+        )));
+    });
+}
+
 impl Arguments {
-    fn settings(&self) -> CharacterizeSettings {
-        let all = CharacterizeSettings::default();
-        CharacterizeSettings {
-            relaxation: RelaxationSettings {
-                terms: self.terms.map(|terms| terms as usize),
-            },
-            draws: (self.draws > 1).then_some(Draws {
-                count: self.draws as usize,
-                seed: 1,
-            }),
-            laws: self.law.map_or(all.laws, |law| vec![law.into()]),
+    fn choice(&self) -> Choice {
+        Choice {
+            law: self.law.map(SoughtLaw::from),
+            terms: self.terms.map(|terms| terms as usize),
+            draws: self.draws as usize,
+            ..Choice::default()
         }
     }
 
@@ -168,7 +155,7 @@ impl Arguments {
             say("--terms", terms.to_string());
         }
         say("--draws", self.draws.to_string());
-        said.extend(self.recordings.said());
+        said.extend(self.recordings.asked().said());
         said
     }
 
@@ -177,17 +164,17 @@ impl Arguments {
         [&self.out, &self.abaqus, &self.febio].into_iter().flatten()
     }
 
-    fn write(&self, finished: &[Finished]) -> Result<(), Failure> {
+    fn write(&self, tissues: &[Result<String, String>]) -> Result<(), Failure> {
         if self.files().next().is_none() {
             return Ok(());
         }
-        let [only] = finished else {
+        let [only] = tissues else {
             return Err(Failure::input(format!(
                 "there are {} specimens, and a tissue is of one; name the recordings of one, or use --study for a tissue of each",
-                finished.len()
+                tissues.len()
             )));
         };
-        let text = only.tissue.as_ref().map_err(Failure::input)?;
+        let text = only.as_ref().map_err(Failure::input)?;
         if let Some(path) = &self.out {
             write_whole(path, text.as_bytes())?;
         }

@@ -1,6 +1,6 @@
 use std::fmt::Write;
 
-use super::answer::{Answer, Known, LawAnswer, Specimen};
+use palpate_jobs::characterize::{Answer, Known, LawAnswer, Specimen};
 
 /// What was found, for people.
 pub(super) fn of(answer: &Answer) -> String {

@@ -1,22 +1,14 @@
 //! `palpate measure`: the rig in a window, or a protocol on specimens without one, and a recording of each
 //! stimulus.
 
-mod answer;
-mod kept;
-mod measuring;
-mod plan;
-mod specimen;
 mod window;
 
-use std::fs;
 use std::path::PathBuf;
 
 use clap::Args;
 use palpate_files::Protocol;
+use palpate_jobs::measure::{Answer, DEFAULT, Measuring, Out, Plan, files};
 
-use self::answer::Answer;
-use self::measuring::{Measuring, what_is_there};
-use self::plan::Plan;
 use crate::failure::Failure;
 use crate::progress::{Progress, Reader};
 use crate::{interrupt, output};
@@ -41,9 +33,6 @@ Examples:
 Each stimulus is approached until first contact, pressed, withdrawn and recorded at 1 kHz. Ctrl-C withdraws
 the indenter and keeps what was recorded. A recording that is being made has the ending .part; one that was
 cut short says why at its top. A window never writes over a recording, it counts on.";
-
-/// What is measured without a protocol, and every key.
-const DEFAULT: &str = include_str!("protocol.toml");
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
@@ -96,7 +85,11 @@ fn headless(arguments: &Arguments, plan: Plan) -> Result<(), Failure> {
     let progress = Progress::new(reader, None);
     let measuring = Measuring::of(plan, &progress)?;
     drop(progress);
-    let files = arguments.files(&measuring)?;
+    let out = Out {
+        path: &arguments.out,
+        overwrite: arguments.overwrite,
+    };
+    let files = files(&measuring, out)?;
     let progress = Progress::new(reader, Some(files.len() as u64));
     // Asked once, so that Ctrl-C is heard from now on.
     let _ = interrupt::is_asked();
@@ -114,48 +107,5 @@ fn headless(arguments: &Arguments, plan: Plan) -> Result<(), Failure> {
             "stopped before the end of the protocol; the indenter was withdrawn, and what was recorded is kept",
         )),
         false => Ok(()),
-    }
-}
-
-impl Arguments {
-    /// A file for each recording, in a folder that is there.
-    fn files(&self, measuring: &Measuring) -> Result<Vec<PathBuf>, Failure> {
-        let names = measuring.names();
-        let is_file = self.out.extension().is_some_and(|ending| ending == "csv");
-        let folder = if is_file {
-            self.out.parent()
-        } else {
-            Some(self.out.as_path())
-        };
-        if is_file && names.len() != 1 {
-            return Err(Failure::input(format!(
-                "the protocol makes {} recordings, and --out {} is one file; name a folder",
-                names.len(),
-                self.out.display()
-            )));
-        }
-        if let Some(folder) = folder.filter(|folder| !folder.as_os_str().is_empty()) {
-            fs::create_dir_all(folder).map_err(|error| {
-                let folder = folder.display();
-                Failure::input(format!(
-                    "the folder {folder} cannot be made ({error}); give another with --out"
-                ))
-            })?;
-        }
-        let files: Vec<PathBuf> = match is_file {
-            true => vec![self.out.clone()],
-            false => names
-                .iter()
-                .map(|name| self.out.join(format!("{name}.csv")))
-                .collect(),
-        };
-        let there = files.iter().find_map(|file| what_is_there(file));
-        match there.filter(|_| !self.overwrite) {
-            Some(there) => Err(Failure::input(format!(
-                "{} is there already; move it, name another place with --out, or add --overwrite",
-                there.display()
-            ))),
-            None => Ok(files),
-        }
     }
 }

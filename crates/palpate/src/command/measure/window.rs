@@ -5,11 +5,11 @@ use std::path::Path;
 use std::sync::Arc;
 
 use palpate_files::protocol::MeasuredTissue;
+use palpate_jobs::measure::Plan;
 use palpate_servo::Clock;
 use palpate_viewer::rig::{Bench, MadeRig, Place, open_rig_window};
 use palpate_viewer::{Error, check_display};
 
-use super::plan::Plan;
 use crate::command::window::is_absent;
 use crate::failure::Failure;
 use crate::interrupt;

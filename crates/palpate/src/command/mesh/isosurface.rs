@@ -11,7 +11,9 @@ use serde::Serialize;
 use super::written::{Output, Written};
 use crate::failure::Failure;
 use crate::progress::{Progress, Reader};
-use crate::{nearest, output};
+use palpate_jobs::nearest;
+
+use crate::output;
 
 /// Examples at the end of the help.
 const EXAMPLES: &str = "\
@@ -141,7 +143,7 @@ fn absent(labels: &[Label], wanted: &str) -> Failure {
         .collect();
     let nearest = match names.is_empty() {
         true => String::new(),
-        false => format!("the nearest is {}, and ", nearest::name(wanted, &names)),
+        false => format!("the nearest is {}, and ", nearest(wanted, &names)),
     };
     match there.is_empty() {
         true => Failure::input("the volume has no label but zero; give one that is segmented"),

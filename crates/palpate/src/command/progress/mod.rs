@@ -18,7 +18,9 @@ use self::answer::Answer;
 use self::course::Course;
 pub(crate) use self::course::{ERRORS, TIME};
 use crate::failure::Failure;
-use crate::{nearest, output, training};
+use palpate_jobs::nearest;
+
+use crate::{output, training};
 
 /// Examples at the end of the help.
 const EXAMPLES: &str = "\
@@ -124,7 +126,7 @@ fn known(what: &str, asked: &Option<String>, names: &[String]) -> Result<Option<
         }
         false => format!(
             "the record has no {what} `{asked}`; the nearest is `{}`",
-            nearest::name(asked, &names)
+            nearest(asked, &names)
         ),
     }))
 }

@@ -7,9 +7,9 @@ use palpate_files::recording::{IndenterShape, StimulusKind};
 use palpate_files::scene::{Tip, TipShape};
 use palpate_files::{Motion, Scene};
 use palpate_geometry::Vec3;
+use palpate_jobs::Recordings;
 use palpate_simulate::Simulation;
 
-use crate::command::recordings::Recordings;
 use crate::failure::Failure;
 use crate::recorded::Beside;
 

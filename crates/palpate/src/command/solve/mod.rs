@@ -1,25 +1,18 @@
 //! `palpate solve`: the finite element reference on a described problem.
 
-mod answer;
-mod problem;
-mod solution;
-mod table;
-mod waiting;
-
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::Args;
 use palpate_files::check_writable;
+use palpate_jobs::json_text;
+use palpate_jobs::solve::{Answer, Problem, Solution, Wanted, in_words, solve};
 
-use self::answer::Answer;
-use self::problem::Problem;
-use self::solution::{Solution, Wanted};
-use self::waiting::Waiting;
 use crate::failure::Failure;
-use crate::interrupt::Unbroken;
+use crate::interrupt::{self, Unbroken};
 use crate::output;
-use crate::progress::Reader;
+use crate::plot::Draw;
+use crate::progress::{Progress, Reader};
 
 /// Examples at the end of the help.
 const EXAMPLES: &str = concat!(
@@ -83,19 +76,22 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let problem = Problem::read(&arguments.problem)?;
     check_files(arguments, &problem)?;
     let begun = Instant::now();
-    let waiting = Waiting::new(Reader::of_json(arguments.json));
+    interrupt::ends_between_files(|| {
+        output::error(&Failure::failed("interrupted; no answer was found"));
+    });
+    let progress = Progress::of_solution(Reader::of_json(arguments.json));
     let wanted = Wanted {
         plot: arguments.plot.is_some(),
         vtu: arguments.vtu.is_some(),
     };
-    let solution = solution::of(&problem, wanted, &waiting)?;
+    let solution = solve(&problem, wanted, &progress)?;
     let answer = Answer::new(&problem, &solution, begun.elapsed());
     write(arguments, &solution, &answer)?;
-    drop(waiting);
+    drop(progress);
     if arguments.json {
         return output::json(&answer);
     }
-    output::text(table::of(&problem, &solution, &answer))?;
+    output::text(in_words(&problem, &solution, &answer))?;
     for path in arguments.files() {
         output::text(format!("written: {}", path.display()))?;
     }
@@ -106,13 +102,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 /// Whether each file can be written, no two are the same, and there is something to write: said before
 /// the work, not after it.
 fn check_files(arguments: &Arguments, problem: &Problem) -> Result<(), Failure> {
-    if arguments.vtu.is_some() && !problem.case.has_field() {
+    if arguments.vtu.is_some() && !problem.has_field() {
         return Err(Failure::input(
             "--vtu: only a solid and an indentation are written for ParaView; leave it out, or use \
              --plot",
         ));
     }
-    if arguments.recording.is_some() && !problem.case.has_recording() {
+    if arguments.recording.is_some() && !problem.has_recording() {
         return Err(Failure::input(
             "--recording: only an indentation with a `ramp` has a course in time; leave it out, or \
              use --out",
@@ -144,7 +140,7 @@ fn write(arguments: &Arguments, solution: &Solution, answer: &Answer) -> Result<
         recording.write(path)?;
     }
     if let Some(path) = &arguments.out {
-        let json = output::json_text(answer)? + "\n";
+        let json = json_text(answer)? + "\n";
         palpate_files::write_whole(path, json.as_bytes())?;
     }
     Ok(())

@@ -8,7 +8,6 @@ use palpate_measure::VirtualSpecimen;
 use super::organ::{NOTE, STEADY, beating, specimen};
 use super::rig::measured;
 use super::subjects::Spread;
-use crate::cores::on_all_cores;
 use crate::failure::Failure;
 use crate::plot::{Plot, Series, Style};
 use crate::reproduce::m06::Printed;
@@ -16,6 +15,7 @@ use crate::reproduce::published::{APPENDIX_A, rig_and_device};
 use crate::reproduce::row::Value;
 use crate::reproduce::virtual_rig::RAMP;
 use crate::reproduce::{Item, Rows};
+use palpate_jobs::on_all_cores;
 
 /// One for each organ of table 5-1.
 pub(crate) const CHAPTER_5: [Item; 4] = [

@@ -7,15 +7,15 @@ mod swings;
 
 use palpate_characterize::analyze::{OrganResponse, StaticGroup};
 
-use super::analyzed::{Analyzed, doubts_of};
-use crate::command::recordings::{ReadRecording, Unusable};
 use crate::report::{Markup, Page, Provenance, Table, count, doubts, provenance};
+use palpate_jobs::analyze::{Analyzed, doubts_of};
+use palpate_jobs::{ReadRecording, Unusable};
 
 /// Curves that are drawn in one plot, at most.
 const CURVES: usize = 12;
 
 /// The page on `analyzed`; `settings` say how it was asked for: names and values.
-pub(super) fn html(analyzed: &Analyzed<'_>, settings: &[(String, String)]) -> String {
+pub(super) fn html(analyzed: &Analyzed, settings: &[(String, String)]) -> String {
     let several = analyzed.responses.len() > 1;
     let title = match analyzed.responses.as_slice() {
         [only] => name(only).to_owned(),
@@ -45,7 +45,7 @@ pub(super) fn html(analyzed: &Analyzed<'_>, settings: &[(String, String)]) -> St
 const CONVENTIONS: &str = "Steady force is the mean of the last tenth of a hold. A phase is positive when force leads depth, a hysteresis when \
 energy is lost. Within: standard deviation from press to press of one subject; between: of the subjects' means.";
 
-fn lead(analyzed: &Analyzed<'_>) -> String {
+fn lead(analyzed: &Analyzed) -> String {
     let recordings = count(analyzed.recordings.len(), "recording");
     let unusable = match analyzed.unusable.len() {
         0 => String::new(),
@@ -62,7 +62,7 @@ fn name(response: &OrganResponse) -> &str {
 }
 
 /// The section on one organ, with its title if it is one of `several`.
-fn section(analyzed: &Analyzed<'_>, response: &OrganResponse, several: bool) -> Markup {
+fn section(analyzed: &Analyzed, response: &OrganResponse, several: bool) -> Markup {
     let title = match several {
         true => Markup::plain("h2", name(response)),
         false => Markup::default(),
@@ -90,7 +90,7 @@ fn section(analyzed: &Analyzed<'_>, response: &OrganResponse, several: bool) -> 
 }
 
 /// What deserves doubt, recording by recording.
-fn doubted(analyzed: &Analyzed<'_>) -> Markup {
+fn doubted(analyzed: &Analyzed) -> Markup {
     let mut table = Table::new(["recording", "what deserves doubt"]).of_class("text");
     for (read, analysis) in &analyzed.recordings {
         let said: Vec<&str> = doubts_of(read, analysis).map(String::as_str).collect();

@@ -1,16 +1,16 @@
 use palpate_characterize::Analysis;
 
 use super::{CURVES, some_of, title};
-use crate::command::recordings::ReadRecording;
 use crate::plot::{Plot, Series, Style, kept};
 use crate::report::{Markup, figure, unit};
+use palpate_jobs::ReadRecording;
 
 /// Force over depth of the recordings that do not swing.
-pub(super) fn figure_of(own: &[&(&ReadRecording, Analysis)]) -> Markup {
+pub(super) fn figure_of(own: &[&(ReadRecording, Analysis)]) -> Markup {
     let pressed: Vec<&ReadRecording> = own
         .iter()
         .filter(|(_, analysis)| analysis.sinusoids.is_empty() && analysis.sweeps.is_empty())
-        .map(|(read, _)| *read)
+        .map(|(read, _)| read)
         .collect();
     if pressed.is_empty() {
         return Markup::default();

@@ -2,17 +2,17 @@ use palpate_characterize::analyze::Relaxation;
 use palpate_characterize::{Analysis, CleanRecording};
 
 use super::{CURVES, some_of, title};
-use crate::command::recordings::ReadRecording;
 use crate::plot::{Axis, Plot, Series, Style, kept};
 use crate::report::{Markup, Table, figure, quantity};
+use palpate_jobs::ReadRecording;
 
 /// The shortest hold that is told of beside the longest [-].
 const SHORTEST: f64 = 0.5;
 
-type Own<'a> = (&'a ReadRecording, Analysis);
+type Own = (ReadRecording, Analysis);
 
 /// Forces of the longest holds over their peaks.
-pub(super) fn figure_of(own: &[&Own<'_>]) -> Markup {
+pub(super) fn figure_of(own: &[&Own]) -> Markup {
     let held: Vec<_> = relaxing(own).collect();
     if held.is_empty() {
         return Markup::default();
@@ -48,12 +48,10 @@ pub(super) fn figure_of(own: &[&Own<'_>]) -> Markup {
 }
 
 /// Recordings with a hold that is not much shorter than the longest: one before a swing only settles.
-fn relaxing<'a>(
-    own: &'a [&'a Own<'a>],
-) -> impl Iterator<Item = (&'a ReadRecording, &'a Relaxation)> {
+fn relaxing<'a>(own: &'a [&'a Own]) -> impl Iterator<Item = (&'a ReadRecording, &'a Relaxation)> {
     let each = own
         .iter()
-        .filter_map(|(read, analysis)| Some((*read, analysis.relaxation.as_ref()?)));
+        .filter_map(|(read, analysis)| Some((read, analysis.relaxation.as_ref()?)));
     let longest = each.clone().map(|(_, own)| own.hold_s).fold(0.0, f64::max);
     each.filter(move |(_, own)| own.hold_s >= SHORTEST * longest)
 }
@@ -65,7 +63,7 @@ fn depth_at(clean: &CleanRecording, time: f64) -> f64 {
 }
 
 /// The same in numbers.
-pub(super) fn table(own: &[&Own<'_>]) -> Markup {
+pub(super) fn table(own: &[&Own]) -> Markup {
     let mut table = Table::new([
         "recording",
         "peak",

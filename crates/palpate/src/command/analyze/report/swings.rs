@@ -2,14 +2,14 @@ use palpate_characterize::Analysis;
 use palpate_characterize::analyze::{COHERENT, Sinusoid, SweepPoint};
 
 use super::{CURVES, some_of, title};
-use crate::command::recordings::ReadRecording;
 use crate::plot::{Axis, Plot, Series, Style, kept};
 use crate::report::{Markup, Table, figure, quantity, unit};
+use palpate_jobs::ReadRecording;
 
-type Own<'a> = (&'a ReadRecording, Analysis);
+type Own = (ReadRecording, Analysis);
 
 /// Loops, and stiffness, phase and coherence over frequency; each where there is something to draw.
-pub(super) fn figures(own: &[&Own<'_>]) -> Markup {
+pub(super) fn figures(own: &[&Own]) -> Markup {
     let answers: [(&str, &str, Of); 2] = [
         (
             "Stiffness",
@@ -43,7 +43,7 @@ struct Of {
 }
 
 /// Filtered force over depth in the last period but one of each sine: the filter has no neighbours at the end.
-fn loops(own: &[&Own<'_>]) -> Markup {
+fn loops(own: &[&Own]) -> Markup {
     let sines: Vec<_> = sines(own).collect();
     if sines.is_empty() {
         return Markup::default();
@@ -85,24 +85,22 @@ fn loops(own: &[&Own<'_>]) -> Markup {
     figure(&plot, caption)
 }
 
-fn sines<'a>(own: &'a [&'a Own<'a>]) -> impl Iterator<Item = (&'a ReadRecording, &'a Sinusoid)> {
+fn sines<'a>(own: &'a [&'a Own]) -> impl Iterator<Item = (&'a ReadRecording, &'a Sinusoid)> {
     own.iter()
-        .flat_map(|(read, analysis)| analysis.sinusoids.iter().map(|sine| (*read, sine)))
+        .flat_map(|(read, analysis)| analysis.sinusoids.iter().map(move |sine| (read, sine)))
 }
 
-fn chirps<'a>(
-    own: &'a [&'a Own<'a>],
-) -> impl Iterator<Item = (&'a ReadRecording, &'a [SweepPoint])> {
+fn chirps<'a>(own: &'a [&'a Own]) -> impl Iterator<Item = (&'a ReadRecording, &'a [SweepPoint])> {
     own.iter().flat_map(|(read, analysis)| {
         analysis
             .sweeps
             .iter()
-            .map(|sweep| (*read, sweep.points.as_slice()))
+            .map(move |sweep| (read, sweep.points.as_slice()))
     })
 }
 
 /// Sines as dots, chirps as lines where they are coherent.
-fn over_frequency(own: &[&Own<'_>], (name, label, of): (&str, &str, Of)) -> Markup {
+fn over_frequency(own: &[&Own], (name, label, of): (&str, &str, Of)) -> Markup {
     let dots: Vec<_> = sines(own)
         .map(|(_, sine)| (sine.frequency_hz, (of.sine)(sine)))
         .collect();
@@ -133,7 +131,7 @@ fn over_frequency(own: &[&Own<'_>], (name, label, of): (&str, &str, Of)) -> Mark
     )
 }
 
-fn coherence(own: &[&Own<'_>]) -> Markup {
+fn coherence(own: &[&Own]) -> Markup {
     let series = chirps(own)
         .take(CURVES)
         .enumerate()
@@ -177,7 +175,7 @@ fn of_frequency(title: &str, label: &str, series: Vec<Series>) -> Plot {
 }
 
 /// The answers to sines in numbers.
-pub(super) fn table(own: &[&Own<'_>]) -> Markup {
+pub(super) fn table(own: &[&Own]) -> Markup {
     let head = [
         "recording",
         "frequency",

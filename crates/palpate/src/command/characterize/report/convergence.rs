@@ -1,9 +1,9 @@
-use super::super::answer::Specimen;
-use super::super::portrait::{DrawnLaw, Portrait};
 use super::curves::line;
 use super::words;
 use crate::plot::{Plot, Style};
 use crate::report::{Markup, Table, figure, quantity, symbol};
+use palpate_jobs::characterize::Specimen;
+use palpate_jobs::characterize::{DrawnLaw, Portrait};
 
 /// How the fits went.
 pub(super) fn figures(portrait: &Portrait) -> Markup {

@@ -1,8 +1,8 @@
-use super::super::answer::Specimen;
-use super::super::portrait::{DrawnCurve, DrawnFit, Portrait};
 use super::{recorded, words};
 use crate::plot::{Band, Plot, Series, Style};
 use crate::report::{Markup, Scale, figure, unit};
+use palpate_jobs::characterize::Specimen;
+use palpate_jobs::characterize::{DrawnCurve, DrawnFit, Portrait};
 
 /// Recordings that are drawn in one plot, at most.
 const RECORDINGS: usize = 6;

@@ -1,9 +1,9 @@
 use palpate_characterize::fit::WORTH;
 
-use super::super::answer::{Known, Specimen};
-use super::super::portrait::Portrait;
 use super::words;
 use crate::report::{Markup, Table, quantity, rounded, symbol, unit};
+use palpate_jobs::characterize::Portrait;
+use palpate_jobs::characterize::{Known, Specimen};
 
 /// The laws side by side, and which is to be preferred.
 pub(super) fn comparison(own: &Specimen, portrait: &Portrait) -> Markup {

@@ -1,6 +1,6 @@
-use super::super::answer::{Named, Specimen};
 use super::words;
 use crate::report::{Markup, Table, count, quantity, symbol};
+use palpate_jobs::characterize::{Named, Specimen};
 
 /// What was found without geometry.
 pub(super) fn tables(own: &Specimen) -> Markup {

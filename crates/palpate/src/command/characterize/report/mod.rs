@@ -11,9 +11,9 @@ mod specimen;
 mod strips;
 mod words;
 
-use super::answer::Answer;
-use super::portrait::Portrait;
 use crate::report::{Markup, Page, Provenance, count, provenance};
+use palpate_jobs::characterize::Answer;
+use palpate_jobs::characterize::Portrait;
 
 /// The page on `answer`, whose specimens have `portraits`, in their order. `settings` say how it was asked for:
 /// names and values.

@@ -1,7 +1,7 @@
-use super::super::answer::{Answer, Specimen};
-use super::super::pooled::Pooled;
 use super::{strips, words};
 use crate::report::{Markup, Table, doubts, quantity, symbol};
+use palpate_jobs::characterize::Pooled;
+use palpate_jobs::characterize::{Answer, Specimen};
 
 /// All specimens at once: each in a row, numbers over organs, files that could not be used.
 pub(super) fn section(answer: &Answer) -> Markup {

@@ -1,7 +1,7 @@
-use super::super::portrait::DrawnRecording;
 use super::curves::{MEASURED, TIME, line, scaled};
 use crate::plot::{Plot, Shade, Style};
 use crate::report::{Markup, figure, unit};
+use palpate_jobs::characterize::DrawnRecording;
 
 /// What was recorded, with what was recognised of it.
 pub(super) fn figure_of(own: &DrawnRecording) -> Markup {

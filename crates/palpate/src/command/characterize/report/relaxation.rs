@@ -1,7 +1,7 @@
-use super::super::portrait::{DrawnRelaxation, Portrait};
 use super::curves::{self, TIME, line};
 use crate::plot::{Axis, Plot, Style};
 use crate::report::{Markup, figure};
+use palpate_jobs::characterize::{DrawnRelaxation, Portrait};
 
 /// Forces over the instantaneous elastic force, and the relaxation functions, over the logarithm of time.
 fn plot(portrait: &Portrait) -> Option<Plot> {

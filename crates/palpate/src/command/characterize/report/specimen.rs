@@ -1,7 +1,7 @@
-use super::super::answer::{Known, Specimen};
-use super::super::portrait::Portrait;
 use super::{convergence, curves, laws, lumped, relaxation, words};
 use crate::report::{Markup, count, doubts, quantity, symbol};
+use palpate_jobs::characterize::Portrait;
+use palpate_jobs::characterize::{Known, Specimen};
 
 /// The section on one specimen, with its title if it is one of `several`.
 pub(super) fn section(

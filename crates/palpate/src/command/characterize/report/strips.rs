@@ -1,9 +1,9 @@
 use std::collections::BTreeMap;
 
-use super::super::answer::{Answer, Specimen};
 use super::curves::line;
 use crate::plot::{Plot, Style};
 use crate::report::{Markup, figure, unit};
+use palpate_jobs::characterize::{Answer, Specimen};
 
 /// Values by organ.
 type Strips = BTreeMap<String, Vec<f64>>;

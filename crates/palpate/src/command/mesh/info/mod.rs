@@ -83,7 +83,7 @@ fn unknown_builtin(name: &str) -> Failure {
     let names = Organ::ALL.map(Organ::name);
     Failure::input(format!(
         "there is no built-in organ `{name}`; the nearest is `{}`, and there are {}",
-        crate::nearest::name(name, &names),
+        palpate_jobs::nearest(name, &names),
         names.join(", ")
     ))
 }

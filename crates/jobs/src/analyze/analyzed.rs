@@ -1,0 +1,61 @@
+use palpate_characterize::Analysis;
+use palpate_characterize::analyze::{
+    OrganResponse, StaticGroup, StaticPoint, organ_responses, static_response,
+};
+
+use crate::{ReadRecording, Unusable};
+
+/// What recordings show, one by one and together.
+#[derive(Debug)]
+pub struct Analyzed {
+    /// Each with what it shows.
+    pub recordings: Vec<(ReadRecording, Analysis)>,
+    /// What could not be read, and why.
+    pub unusable: Vec<Unusable>,
+    /// Every hold.
+    pub points: Vec<StaticPoint>,
+    /// Steady forces by organ and state.
+    pub groups: Vec<StaticGroup>,
+    /// Relaxation and sines by organ.
+    pub responses: Vec<OrganResponse>,
+    /// What deserves doubt, each with its file.
+    pub doubts: Vec<String>,
+}
+
+impl Analyzed {
+    pub(crate) fn of(recordings: Vec<(ReadRecording, Analysis)>, unusable: Vec<Unusable>) -> Self {
+        let points: Vec<StaticPoint> = recordings
+            .iter()
+            .flat_map(|(read, analysis)| {
+                let header = &read.clean.header;
+                let holds = analysis.holds.iter();
+                holds.map(|hold| StaticPoint::of(header, hold))
+            })
+            .collect();
+        let own: Vec<_> = recordings
+            .iter()
+            .map(|(read, analysis)| (&read.clean.header, analysis))
+            .collect();
+        let responses = organ_responses(&own);
+        let doubts = recordings.iter().flat_map(|(read, analysis)| {
+            let each = doubts_of(read, analysis);
+            each.map(|doubt| format!("{}: {doubt}", read.path.display()))
+        });
+        Self {
+            doubts: doubts.collect(),
+            groups: static_response(&points),
+            responses,
+            points,
+            unusable,
+            recordings,
+        }
+    }
+}
+
+/// What deserves doubt about a recording, and about what it shows.
+pub fn doubts_of<'a>(
+    read: &'a ReadRecording,
+    analysis: &'a Analysis,
+) -> impl Iterator<Item = &'a String> {
+    read.clean.doubts.iter().chain(&analysis.doubts)
+}

@@ -1,0 +1,55 @@
+//! The machine-readable answer: what stays of a characterization.
+
+mod specimen;
+mod values;
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use super::pooled::{self, Pooled};
+use crate::{Unusable, VERSION};
+
+pub use self::specimen::Specimen;
+pub use self::values::{Known, LawAnswer, Modulus, Named, Noise, RelaxationAnswer, Steps, Tried};
+
+/// The machine-readable answer.
+#[derive(Debug, Serialize)]
+pub struct Answer {
+    palpate: &'static str,
+    /// In the order of their first files.
+    pub specimens: Vec<Specimen>,
+    /// Parameters over specimens, by organ and key.
+    pub pooled: BTreeMap<String, Pooled>,
+    /// What could not be read, and why.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub unusable: Vec<Unusable>,
+    /// What deserves doubt.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<String>,
+}
+
+impl Answer {
+    pub(crate) fn new(specimens: Vec<Specimen>, unusable: &[Unusable]) -> Self {
+        let several = specimens.len() > 1;
+        let of = |specimen: &Specimen, doubt: &String| match several {
+            true => format!("{}: {doubt}", specimen.title),
+            false => doubt.clone(),
+        };
+        let each = specimens.iter().flat_map(|specimen| {
+            specimen
+                .warnings
+                .iter()
+                .map(move |doubt| of(specimen, doubt))
+        });
+        Self {
+            palpate: VERSION,
+            pooled: pooled::of(&specimens),
+            warnings: each
+                .chain(unusable.iter().map(Unusable::sentence))
+                .collect(),
+            specimens,
+            unusable: unusable.to_vec(),
+        }
+    }
+}

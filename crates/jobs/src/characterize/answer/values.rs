@@ -1,0 +1,207 @@
+use std::collections::BTreeMap;
+
+use palpate_characterize::inverse::LawDescription;
+use palpate_characterize::lumped::UniaxialFit;
+use palpate_characterize::viscoelastic::Relaxation;
+use palpate_files::Estimate;
+use serde::{Deserialize, Serialize};
+
+/// Parameters by their names.
+pub type Named = BTreeMap<String, Known>;
+
+/// The mean elastic modulus (6.1).
+#[derive(Debug, Serialize, Deserialize)]
+pub struct Modulus {
+    /// In the unit of its key.
+    pub value: f64,
+    /// Over the holds at that depth; null for one.
+    pub standard_deviation: Option<f64>,
+    /// [m]
+    pub depth_m: f64,
+    /// How many were averaged.
+    pub holds: usize,
+}
+
+/// A number with its error by noise and what the model may be off.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+pub struct Known {
+    /// In the unit of its key.
+    pub value: f64,
+    /// By noise.
+    pub standard_error: Option<f64>,
+    /// By the elements.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub discretisation_error: Option<f64>,
+    /// The spread when the fit is made again with its residuals in other blocks.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub bootstrap_error: Option<f64>,
+    /// Between which the objective stays below its 95 % bound, with the relaxation held; a side without a
+    /// bound is null.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub profile_95: Option<[Option<f64>; 2]>,
+}
+
+/// How far noise spreads the parameters of a law.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct Noise {
+    /// Standard deviation of independent noise, over the largest force [-].
+    pub noise: f64,
+    /// Spread of each parameter, in its unit.
+    pub spread: BTreeMap<String, f64>,
+}
+
+/// A relaxation function.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct RelaxationAnswer {
+    /// Relative to the instantaneous modulus [-].
+    pub g: Vec<Known>,
+    /// [s]
+    pub tau_s: Vec<Known>,
+    alpha: Vec<f64>,
+    sum_squared_error: f64,
+    /// By what power the elastic force grows faster with depth than a neo-Hookean (or linear) one [-].
+    shape_exponent: Known,
+    /// The same if every ramp is taken for a step.
+    as_step: Option<Steps>,
+    /// What one, two, three and four terms come to.
+    tried: Vec<Tried>,
+}
+
+/// A relaxation function without its errors.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct Steps {
+    g: Vec<f64>,
+    tau_s: Vec<f64>,
+    sum_squared_error: f64,
+}
+
+/// A number of terms that was tried.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct Tried {
+    terms: usize,
+    sum_squared_error: f64,
+    information_criterion: f64,
+}
+
+/// An elastic law.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct LawAnswer {
+    /// By their keys.
+    #[serde(flatten)]
+    pub parameters: BTreeMap<String, Known>,
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    correlation: Option<f64>,
+    /// What noise does to the parameters (6.4.6).
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub noise_study: Vec<Noise>,
+    /// Why the fit was not made again.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    not_repeated: Option<String>,
+    /// Steps of the fit.
+    pub iterations: usize,
+    /// Runs of finite elements: none where the force is tabulated.
+    pub solves: usize,
+    /// Σ ε² [N²], or of nominal stresses [Pa²].
+    sum_squared_error: f64,
+    /// Root mean square of what the law does not follow, over the largest force [-].
+    pub misfit: f64,
+}
+
+impl Known {
+    pub(crate) fn of(estimate: &Estimate) -> Self {
+        Self {
+            value: estimate.value,
+            standard_error: estimate.standard_error,
+            discretisation_error: None,
+            bootstrap_error: None,
+            profile_95: None,
+        }
+    }
+}
+
+impl RelaxationAnswer {
+    pub(crate) fn new(found: &Relaxation, steps: Option<&Relaxation>) -> Self {
+        let column = |place: usize| found.terms.iter().map(move |term| Known::of(&term[place]));
+        let off = found.quasi_linear_errors();
+        let of_g = |(known, off)| Known {
+            discretisation_error: Some(off),
+            ..known
+        };
+        Self {
+            g: column(0).zip(off).map(of_g).collect(),
+            tau_s: column(1).collect(),
+            alpha: found
+                .product
+                .terms
+                .iter()
+                .map(|(alpha, _)| *alpha)
+                .collect(),
+            sum_squared_error: found.sum_of_squares,
+            shape_exponent: Known::of(&found.exponent),
+            as_step: steps.map(|steps| Steps {
+                g: steps.series.terms().iter().map(|(g, _)| *g).collect(),
+                tau_s: steps.series.terms().iter().map(|(_, tau)| *tau).collect(),
+                sum_squared_error: steps.sum_of_squares,
+            }),
+            tried: found
+                .tried
+                .iter()
+                .map(|&(terms, sum_squared_error, information_criterion)| Tried {
+                    terms,
+                    sum_squared_error,
+                    information_criterion,
+                })
+                .collect(),
+        }
+    }
+}
+
+impl LawAnswer {
+    pub(crate) fn new(law: &LawDescription) -> Self {
+        let repeated = law.repeated.as_ref().and_then(|found| found.as_ref().ok());
+        let known = |(place, (name, estimate)): (usize, &(&'static str, Estimate))| {
+            let known = Known {
+                discretisation_error: Some(law.discretisation[place]),
+                bootstrap_error: repeated.map(|again| again.bootstrap[place]),
+                profile_95: repeated.and_then(|again| again.profiles[place]),
+                ..Known::of(estimate)
+            };
+            ((*name).to_owned(), known)
+        };
+        let names = || law.parameters.iter().map(|(name, _)| (*name).to_owned());
+        let noise = repeated.iter().flat_map(|again| &again.noise);
+        let noise = noise.map(|effect| Noise {
+            noise: effect.noise,
+            spread: names().zip(effect.spread.iter().copied()).collect(),
+        });
+        let refused = law.repeated.as_ref().and_then(|found| found.as_ref().err());
+        Self {
+            parameters: law.parameters.iter().enumerate().map(known).collect(),
+            noise_study: noise.collect(),
+            not_repeated: refused.map(ToString::to_string),
+            correlation: law.correlation,
+            iterations: law.found.fit.iterations.len() - 1,
+            solves: law.found.solves,
+            sum_squared_error: law.sum_of_squares,
+            misfit: law.misfit,
+        }
+    }
+
+    pub(crate) fn of_uniaxial(law: &UniaxialFit) -> Self {
+        let correlation = law.uncertainty.correlation();
+        Self {
+            parameters: law
+                .parameters
+                .iter()
+                .map(|(name, known)| ((*name).to_owned(), Known::of(known)))
+                .collect(),
+            noise_study: Vec::new(),
+            not_repeated: None,
+            correlation: (correlation.ncols() > 1).then(|| correlation[(0, 1)]),
+            iterations: law.fit.iterations.len() - 1,
+            solves: 0,
+            sum_squared_error: law.fit.sum_of_squares(),
+            misfit: law.misfit,
+        }
+    }
+}

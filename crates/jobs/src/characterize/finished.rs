@@ -1,0 +1,55 @@
+use std::path::PathBuf;
+
+use palpate_characterize::{Characterization, CleanRecording};
+use palpate_files::Tissue;
+use serde::{Deserialize, Serialize};
+
+use super::answer::Specimen;
+use super::portrait::Portrait;
+use crate::VERSION;
+
+/// One specimen with its recordings and all that was found.
+pub(crate) struct Studied {
+    pub(crate) files: Vec<PathBuf>,
+    /// SHA-256 of the files.
+    pub(crate) digests: Vec<String>,
+    pub(crate) recordings: Vec<CleanRecording>,
+    pub(crate) found: Characterization,
+}
+
+/// What stays of a specimen.
+#[derive(Debug, Serialize, Deserialize)]
+pub(crate) struct Finished {
+    pub(crate) specimen: Specimen,
+    /// The text of its tissue file, or why there is none.
+    pub(crate) tissue: Result<String, String>,
+    /// What a report draws of it.
+    pub(crate) portrait: Portrait,
+}
+
+impl Finished {
+    pub(crate) fn of(studied: &Studied) -> Self {
+        let tissue = studied.tissue();
+        Self {
+            specimen: Specimen::new(studied),
+            portrait: Portrait::of(studied),
+            tissue: tissue
+                .map(|tissue| tissue.to_toml())
+                .map_err(|why| why.to_string()),
+        }
+    }
+}
+
+impl Studied {
+    /// The tissue of the law that is to be preferred.
+    fn tissue(&self) -> Result<Tissue, palpate_characterize::Error> {
+        let mut tissue = self.found.tissue(None)?;
+        tissue.name.clone_from(&self.recordings[0].header.organ);
+        let doubts = self.recordings.iter().flat_map(|own| &own.doubts);
+        tissue.source.warnings.extend(doubts.cloned());
+        let named = self.files.iter().map(|path| path.display().to_string());
+        tissue.source.recordings = named.collect();
+        tissue.source.version = Some(format!("palpate {}", VERSION));
+        Ok(tissue)
+    }
+}

@@ -1,0 +1,114 @@
+//! The tissue behind recordings, specimen by specimen, with how well it is known.
+
+mod answer;
+mod finished;
+mod folder;
+mod pooled;
+mod portrait;
+mod study;
+mod summary;
+
+use palpate_characterize::CharacterizeSettings;
+use palpate_characterize::fit::Draws;
+use palpate_characterize::inverse::SoughtLaw;
+use palpate_characterize::viscoelastic::RelaxationSettings;
+
+pub use answer::{
+    Answer, Known, LawAnswer, Modulus, Named, Noise, RelaxationAnswer, Specimen, Steps, Tried,
+};
+pub use folder::StudyFolder;
+pub use pooled::Pooled;
+pub use portrait::{
+    DrawnCurve, DrawnFit, DrawnLaw, DrawnRecording, DrawnRelaxation, DrawnSeries, LEVEL, Portrait,
+};
+
+use crate::{Error, Recordings, Watch};
+
+/// What may be chosen, in the words of the command.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Choice {
+    /// The only law that is sought; none: all.
+    pub law: Option<SoughtLaw>,
+    /// Terms of the relaxation; none: as many as the recordings can tell.
+    pub terms: Option<usize>,
+    /// How often fits are made again to see how well parameters are known.
+    pub draws: usize,
+    /// The seed of these draws.
+    pub seed: u64,
+}
+
+impl Default for Choice {
+    fn default() -> Self {
+        Self {
+            law: None,
+            terms: None,
+            draws: 100,
+            seed: 1,
+        }
+    }
+}
+
+impl Choice {
+    /// The laws by the names of their options, which are those of a tissue file.
+    pub const LAWS: [(&'static str, SoughtLaw); 3] = [
+        ("neo_hookean", SoughtLaw::NeoHookean),
+        ("mooney_rivlin", SoughtLaw::MooneyRivlin),
+        ("blatz", SoughtLaw::Exponential),
+    ];
+
+    fn settings(self) -> CharacterizeSettings {
+        let all = CharacterizeSettings::default();
+        CharacterizeSettings {
+            relaxation: RelaxationSettings { terms: self.terms },
+            draws: (self.draws > 1).then_some(Draws {
+                count: self.draws,
+                seed: self.seed,
+            }),
+            laws: self.law.map_or(all.laws, |law| vec![law]),
+        }
+    }
+}
+
+/// Specimens that were characterized.
+#[derive(Debug)]
+pub struct Characterized {
+    /// What `--json` prints.
+    pub answer: Answer,
+    /// What is drawn of each specimen.
+    pub portraits: Vec<Portrait>,
+    /// The text of the tissue file of each specimen, or why there is none.
+    pub tissues: Vec<Result<String, String>>,
+}
+
+/// Characterizes every specimen of `recordings`, as many at once as there are cores, in their order. What
+/// `folder` keeps already is taken from there, and what is finished goes there at once, tables of all at last.
+///
+/// # Errors
+/// When no recording can be used, or a file cannot be written.
+pub fn characterize(
+    recordings: &Recordings,
+    choice: Choice,
+    folder: Option<&StudyFolder>,
+    watch: &dyn Watch,
+) -> Result<Characterized, Error> {
+    let (read, unusable) =
+        recordings.read(|path| watch.say(&format!("reading {}", path.display())))?;
+    let finished = study::of(read, &choice.settings(), folder, watch)?;
+    let mut tissues = Vec::new();
+    let (specimens, portraits): (Vec<_>, Vec<_>) = finished
+        .into_iter()
+        .map(|finished| {
+            tissues.push(finished.tissue);
+            (finished.specimen, finished.portrait)
+        })
+        .unzip();
+    let answer = Answer::new(specimens, &unusable);
+    if let Some(folder) = folder {
+        summary::write(&answer, folder)?;
+    }
+    Ok(Characterized {
+        answer,
+        portraits,
+        tissues,
+    })
+}

@@ -1,0 +1,212 @@
+//! What is drawn of a specimen: curves of few points, and the way of its fits. It is plain data, kept beside
+//! the answer, so that a report can be made of what was found earlier.
+
+mod of_laws;
+mod of_recordings;
+
+use palpate_characterize::inverse::SoughtLaw;
+use palpate_files::recording::RecordingHeader;
+use serde::{Deserialize, Serialize};
+
+use super::finished::Studied;
+use crate::quantity;
+
+/// Probability of the bands [-].
+pub const LEVEL: f64 = 0.95;
+
+/// What is drawn of one specimen.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct Portrait {
+    /// What the recordings say of specimen and indenter: names and values.
+    pub facts: Vec<(String, String)>,
+    /// Of the specimen.
+    pub recordings: Vec<DrawnRecording>,
+    /// That were found.
+    pub laws: Vec<DrawnLaw>,
+    /// That was found.
+    pub relaxation: Option<DrawnSeries>,
+}
+
+/// One recording.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct DrawnRecording {
+    /// As it was named.
+    pub file: String,
+    /// SHA-256 of the file.
+    pub digest: String,
+    /// How many.
+    pub samples: usize,
+    /// [Hz]
+    pub rate_hz: f64,
+    /// Cut-off of the filter [Hz].
+    pub cutoff_hz: Option<f64>,
+    /// First contact, as the recording counts time [s] and depth [m], and the depth's standard error [m].
+    pub contact: (f64, f64, Option<f64>),
+    /// What the indenter did, and from when to when [s].
+    pub segments: Vec<(String, [f64; 2])>,
+    /// Times [s] from first contact.
+    pub time: Vec<f64>,
+    /// Depths [m].
+    pub depth: Vec<f64>,
+    /// Forces [N].
+    pub force: Vec<f64>,
+    /// The same after the filter [N].
+    pub filtered_force: Vec<f64>,
+    /// What was fitted.
+    pub fitted: Option<DrawnFit>,
+}
+
+/// What of a recording was fitted, beside the models.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct DrawnFit {
+    /// Times [s] from first contact.
+    pub time: Vec<f64>,
+    /// Depths [m]; of a piece along one axis, stretches [-].
+    pub course: Vec<f64>,
+    /// Forces [N]; of a piece, nominal stresses [Pa].
+    pub measured: Vec<f64>,
+    /// Whether it is of a piece along one axis.
+    pub is_piece: bool,
+    /// That were found.
+    pub laws: Vec<DrawnCurve>,
+    /// That was found.
+    pub relaxation: Option<DrawnRelaxation>,
+}
+
+/// The curve of a law.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct DrawnCurve {
+    /// By its key in the answer.
+    pub law: String,
+    /// As what was measured.
+    pub values: Vec<f64>,
+    /// How far up and down the band of [`LEVEL`] reaches.
+    pub reach: Vec<f64>,
+}
+
+/// Forces over the instantaneous elastic force at the largest depth [-].
+#[derive(Debug, Serialize, Deserialize)]
+pub struct DrawnRelaxation {
+    /// What was measured.
+    pub measured: Vec<f64>,
+    /// What was fitted.
+    pub fitted: Vec<f64>,
+    /// Times [s] from first contact and values if ramps are taken for steps.
+    pub of_step: Vec<(f64, f64)>,
+}
+
+/// G(t)/G(0) [-] at times [s] after a step, evenly on a logarithm.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct DrawnSeries {
+    /// Times [s] and values.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// How a law was found.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct DrawnLaw {
+    /// By its key in the answer.
+    pub law: String,
+    /// Its parameters, by their keys.
+    pub names: Vec<String>,
+    /// Their values after each step of the fit, the first being the start.
+    pub iterations: Vec<Vec<f64>>,
+    /// Σ ε² there.
+    pub sums_of_squares: Vec<f64>,
+    /// The information criterion [-].
+    pub criterion: f64,
+    /// How many.
+    pub samples: usize,
+    /// How many independent samples would tell as much [-].
+    pub effective_samples: f64,
+    /// What is correlated, and how [-].
+    pub correlated: Vec<String>,
+    /// Row by row [-].
+    pub correlations: Vec<Vec<f64>>,
+}
+
+impl Portrait {
+    pub(crate) fn of(studied: &Studied) -> Self {
+        let recordings = of_recordings::drawn(studied);
+        let longest = recordings.iter().filter_map(|own| own.time.last().copied());
+        let longest = longest.fold(0.0, f64::max);
+        let shortest = recordings.iter().map(|own| 0.5 / own.rate_hz);
+        let shortest = shortest.fold(f64::INFINITY, f64::min);
+        let relaxation = studied.found.relaxation.as_ref().ok();
+        Self {
+            facts: facts(&studied.recordings[0].header),
+            recordings,
+            laws: of_laws::drawn(&studied.found),
+            relaxation: relaxation
+                .filter(|_| 0.0 < shortest && shortest < longest)
+                .map(|found| DrawnSeries {
+                    points: spread(shortest, longest)
+                        .map(|time| (time, found.series.relaxation(time)))
+                        .collect(),
+                }),
+        }
+    }
+}
+
+/// Times [s] evenly on a logarithm.
+fn spread(from: f64, to: f64) -> impl Iterator<Item = f64> {
+    const POINTS: u32 = 160;
+    (0..=POINTS).map(move |i| from * (to / from).powf(f64::from(i) / f64::from(POINTS)))
+}
+
+/// The key of a law in the answer.
+fn key(law: SoughtLaw) -> String {
+    let key = match law {
+        SoughtLaw::NeoHookean => "neo_hookean",
+        SoughtLaw::MooneyRivlin => "mooney_rivlin",
+        SoughtLaw::Exponential => "exponential",
+    };
+    key.to_owned()
+}
+
+/// What a header says of specimen and indenter.
+fn facts(header: &RecordingHeader) -> Vec<(String, String)> {
+    let length = |of: Option<f64>| of.map(|m| quantity("_m", m, None));
+    let said = [
+        (
+            "condition",
+            header.condition.map(|own| own.word().replace('_', " ")),
+        ),
+        (
+            "time after death",
+            header.post_mortem_s.map(|s| format!("{:.1} h", s / 3600.0)),
+        ),
+        (
+            "stimulus",
+            header.stimulus.map(|own| own.word().replace('_', " ")),
+        ),
+        (
+            "indenter",
+            header.indenter_shape.map(|own| own.word().to_owned()),
+        ),
+        ("radius of the indenter", length(header.indenter_radius_m)),
+        (
+            "half angle",
+            header
+                .indenter_half_angle_deg
+                .map(|angle| format!("{angle}°")),
+        ),
+        (
+            "area",
+            header.area_m2.map(|area| quantity("_m2", area, None)),
+        ),
+        ("height", length(header.height_m)),
+        ("inner radius", length(header.inner_radius_m)),
+        ("outer radius", length(header.outer_radius_m)),
+        ("length", length(header.length_m)),
+        (
+            "pressure",
+            header.pressure_pa.map(|pressure| format!("{pressure} Pa")),
+        ),
+        ("made by", header.source.clone()),
+    ];
+    let known = said.into_iter();
+    known
+        .filter_map(|(name, value)| Some((name.to_owned(), value?)))
+        .collect()
+}

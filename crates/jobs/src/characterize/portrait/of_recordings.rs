@@ -1,0 +1,111 @@
+use palpate_characterize::clean::SegmentKind;
+use palpate_characterize::lumped::Pulled;
+use palpate_characterize::{CleanRecording, FittedRecording, FittedRelaxation};
+
+use super::super::finished::Studied;
+use super::{DrawnCurve, DrawnFit, DrawnRecording, DrawnRelaxation, LEVEL, key};
+use crate::plot::kept;
+
+/// The recordings of a specimen.
+pub(crate) fn drawn(studied: &Studied) -> Vec<DrawnRecording> {
+    let mut fitted = studied
+        .found
+        .fitted(&studied.recordings, LEVEL)
+        .into_iter()
+        .peekable();
+    let is_piece = !studied.found.uniaxial.is_empty();
+    let recordings = studied.recordings.iter().zip(&studied.files).enumerate();
+    let each = recordings.map(|(place, (recording, file))| {
+        let own = fitted.next_if(|fitted| fitted.place == place);
+        DrawnRecording {
+            file: file.display().to_string(),
+            digest: studied.digests[place].clone(),
+            fitted: own.and_then(|own| beside(recording, &own, is_piece)),
+            ..alone(recording)
+        }
+    });
+    each.collect()
+}
+
+fn alone(recording: &CleanRecording) -> DrawnRecording {
+    let kept = kept(&recording.time, &recording.depth, &recording.force);
+    let handling = &recording.handling;
+    let contact = handling.contact;
+    let last = recording.time.len().saturating_sub(1);
+    let segments = recording.segments.iter().map(|own| {
+        let span = [own.first, own.end].map(|sample| recording.time[sample.min(last)]);
+        (kind(own.kind), span)
+    });
+    DrawnRecording {
+        file: String::new(),
+        digest: String::new(),
+        samples: recording.time.len(),
+        rate_hz: handling.sampling.rate_hz,
+        cutoff_hz: handling.cutoff_hz,
+        contact: (contact.time_s, contact.depth_m, contact.depth_error_m),
+        segments: segments.collect(),
+        time: some(&recording.time, &kept),
+        depth: some(&recording.depth, &kept),
+        force: some(&recording.force, &kept),
+        filtered_force: some(&recording.filtered_force, &kept),
+        fitted: None,
+    }
+}
+
+fn some(values: &[f64], kept: &[usize]) -> Vec<f64> {
+    kept.iter().map(|&sample| values[sample]).collect()
+}
+
+fn kind(kind: SegmentKind) -> String {
+    match kind {
+        SegmentKind::Ramp => "ramp".to_owned(),
+        SegmentKind::Hold => "hold".to_owned(),
+        SegmentKind::Retreat => "retreat".to_owned(),
+        SegmentKind::Sine(frequency) => format!("sine of {frequency:.3} Hz"),
+        SegmentKind::Chirp(from, to) => format!("chirp from {from:.3} to {to:.3} Hz"),
+    }
+}
+
+fn beside(
+    recording: &CleanRecording,
+    fitted: &FittedRecording,
+    is_piece: bool,
+) -> Option<DrawnFit> {
+    let of = |values: &[f64]| values.get(fitted.samples.clone()).map(<[f64]>::to_vec);
+    let time = of(&recording.time)?;
+    let (course, measured) = match is_piece {
+        true => Pulled::of(recording)
+            .ok()
+            .map(|own| (own.stretches, own.stresses))?,
+        false => (of(&recording.depth)?, of(&recording.force)?),
+    };
+    let kept = kept(&time, &course, &measured);
+    let laws = fitted.laws.iter().map(|law| DrawnCurve {
+        law: key(law.law),
+        values: some(&law.values, &kept),
+        reach: some(&law.reach, &kept),
+    });
+    Some(DrawnFit {
+        laws: laws.collect(),
+        relaxation: fitted
+            .relaxation
+            .as_ref()
+            .map(|own| relaxation(own, &time, &kept)),
+        time: some(&time, &kept),
+        course: some(&course, &kept),
+        measured: some(&measured, &kept),
+        is_piece,
+    })
+}
+
+fn relaxation(own: &FittedRelaxation, time: &[f64], kept: &[usize]) -> DrawnRelaxation {
+    let first = time.len() - own.of_step.len();
+    let after = kept.iter().filter(|&&sample| sample >= first);
+    DrawnRelaxation {
+        measured: some(&own.measured, kept),
+        fitted: some(&own.fitted, kept),
+        of_step: after
+            .map(|&sample| (time[sample], own.of_step[sample - first]))
+            .collect(),
+    }
+}

@@ -1,0 +1,68 @@
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use palpate_characterize::{CharacterizeSettings, characterize, specimens};
+
+use super::answer::Specimen;
+use super::finished::{Finished, Studied};
+use super::folder::{Kept, StudyFolder};
+use crate::{Error, ReadRecording, Watch, on_all_cores};
+
+/// Every specimen of `recordings`, as many at once as there are cores, in their order. What `folder` keeps
+/// already is taken from there, and what is finished goes there at once.
+pub(crate) fn of(
+    recordings: Vec<ReadRecording>,
+    settings: &CharacterizeSettings,
+    folder: Option<&StudyFolder>,
+    watch: &dyn Watch,
+) -> Result<Vec<Finished>, Error> {
+    let groups = grouped(recordings);
+    watch.at(0.0);
+    let done = AtomicUsize::new(0);
+    let work = |place: usize, group: &Vec<ReadRecording>| {
+        let name = Specimen::title(&group[0].clean.header, &group[0].path);
+        let kept = folder.map(|folder| folder.kept(&groups, place, settings));
+        let say = |doing: &str| watch.say(&format!("{name}: {doing}"));
+        let finished = match kept.as_ref().and_then(Kept::read) {
+            Some(finished) => Ok(finished),
+            None => {
+                let finished = finish(group, settings, &say);
+                let written = kept.map_or(Ok(()), |kept| kept.write(&finished, watch));
+                written.map(|()| finished)
+            }
+        };
+        let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+        watch.at(done as f64 / groups.len() as f64);
+        finished
+    };
+    on_all_cores(&groups, work).into_iter().collect()
+}
+
+/// The recordings of each specimen.
+fn grouped(recordings: Vec<ReadRecording>) -> Vec<Vec<ReadRecording>> {
+    let headers: Vec<_> = recordings.iter().map(|read| &read.clean.header).collect();
+    let groups = specimens(&headers);
+    let mut recordings: Vec<Option<ReadRecording>> = recordings.into_iter().map(Some).collect();
+    let mut take = |group: Vec<usize>| {
+        let each = group
+            .into_iter()
+            .filter_map(|place| recordings[place].take());
+        each.collect()
+    };
+    groups.into_iter().map(&mut take).collect()
+}
+
+/// What is found of one specimen; `say` hears what is being done.
+fn finish(
+    group: &[ReadRecording],
+    settings: &CharacterizeSettings,
+    say: &dyn Fn(&str),
+) -> Finished {
+    let recordings: Vec<_> = group.iter().map(|read| read.clean.clone()).collect();
+    let found = characterize(&recordings, settings, &mut |doing| say(doing));
+    Finished::of(&Studied {
+        files: group.iter().map(|read| read.path.clone()).collect(),
+        digests: group.iter().map(|read| read.digest.clone()).collect(),
+        recordings,
+        found,
+    })
+}

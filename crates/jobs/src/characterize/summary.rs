@@ -1,0 +1,153 @@
+use std::path::PathBuf;
+
+use super::answer::{Answer, Known, Specimen};
+use super::folder::StudyFolder;
+use crate::Error;
+
+/// Most terms of a relaxation.
+const TERMS: usize = 4;
+/// Laws with their parameters, in the order of their columns.
+const LAWS: [(&str, &[&str]); 3] = [
+    ("neo_hookean", &["c10_pa"]),
+    ("mooney_rivlin", &["c10_pa", "c01_pa"]),
+    ("exponential", &["gamma_pa", "alpha"]),
+];
+
+/// Writes `summary.csv`, a row for each specimen and for each file that could not be used, and `pooled.csv`.
+pub(crate) fn write(answer: &Answer, folder: &StudyFolder) -> Result<(), Error> {
+    folder.write("summary.csv", &table(&columns(), specimens(answer))?)?;
+    let names = [
+        "parameter",
+        "n",
+        "mean",
+        "standard_deviation",
+        "low_95",
+        "high_95",
+    ];
+    let pooled = answer.pooled.iter().map(|(name, pooled)| {
+        let [low, high] = pooled
+            .interval_95
+            .map_or([None; 2], |bounds| bounds.map(Some));
+        vec![
+            name.clone(),
+            pooled.n.to_string(),
+            pooled.mean.to_string(),
+            shown(pooled.standard_deviation),
+            shown(low),
+            shown(high),
+        ]
+    });
+    folder.write("pooled.csv", &table(&names.map(str::to_owned), pooled)?)
+}
+
+fn specimens(answer: &Answer) -> impl Iterator<Item = Vec<String>> {
+    let unusable = answer.unusable.iter().map(|unusable| {
+        let mut row = vec![String::new(); columns().len()];
+        row[0] = unusable.file.display().to_string();
+        row[4] = row[0].clone();
+        if let Some(problem) = row.last_mut() {
+            problem.clone_from(&unusable.reason);
+        }
+        row
+    });
+    answer.specimens.iter().map(row).chain(unusable)
+}
+
+fn columns() -> Vec<String> {
+    let mut names: Vec<String> = ["specimen", "organ", "subject", "site", "files"]
+        .map(str::to_owned)
+        .into();
+    let modulus = [
+        "mean_elastic_modulus_pa",
+        "mean_elastic_modulus_standard_deviation_pa",
+    ];
+    names.extend(modulus.map(str::to_owned));
+    names.push("mean_elastic_modulus_depth_m".to_owned());
+    for term in 1..=TERMS {
+        names.extend([
+            format!("g_{term}"),
+            format!("g_{term}_standard_error"),
+            format!("tau_{term}_s"),
+            format!("tau_{term}_standard_error_s"),
+        ]);
+    }
+    for (law, parameters) in LAWS {
+        for parameter in parameters {
+            let bare = parameter.trim_end_matches("_pa");
+            let unit = &parameter[bare.len()..];
+            for of in ["", "_standard_error", "_discretisation_error"] {
+                names.push(format!("{law}_{bare}{of}{unit}"));
+            }
+        }
+        names.push(format!("{law}_misfit"));
+    }
+    names.extend(["preferred", "warnings", "problem"].map(str::to_owned));
+    names
+}
+
+/// What stands in [`columns`] of a specimen.
+fn row(specimen: &Specimen) -> Vec<String> {
+    let named = |name: &Option<String>| name.clone().unwrap_or_default();
+    let path = |path: &PathBuf| path.display().to_string();
+    let files: Vec<String> = specimen.files.iter().map(path).collect();
+    let mut row = vec![
+        specimen.title.clone(),
+        named(&specimen.organ),
+        named(&specimen.subject),
+        named(&specimen.site),
+        files.join(";"),
+    ];
+    let modulus = specimen.mean_elastic_modulus.as_ref();
+    row.push(shown(modulus.map(|modulus| modulus.value)));
+    row.push(shown(
+        modulus.and_then(|modulus| modulus.standard_deviation),
+    ));
+    row.push(shown(modulus.map(|modulus| modulus.depth_m)));
+    let relaxation = specimen.relaxation.as_ref();
+    for term in 0..TERMS {
+        let of = |known: Option<&Known>| {
+            [known.map(|k| k.value), known.and_then(|k| k.standard_error)].map(shown)
+        };
+        row.extend(of(relaxation.and_then(|found| found.g.get(term))));
+        row.extend(of(relaxation.and_then(|found| found.tau_s.get(term))));
+    }
+    for (name, parameters) in LAWS {
+        let law = specimen
+            .laws()
+            .find(|(key, _)| *key == name)
+            .map(|(_, law)| law);
+        for parameter in parameters {
+            let known = law.and_then(|law| law.parameters.get(*parameter));
+            row.push(shown(known.map(|known| known.value)));
+            row.push(shown(known.and_then(|known| known.standard_error)));
+            row.push(shown(known.and_then(|known| known.discretisation_error)));
+        }
+        row.push(shown(law.map(|law| law.misfit)));
+    }
+    row.push(named(&specimen.preferred));
+    row.push(specimen.warnings.len().to_string());
+    row.push(String::new());
+    row
+}
+
+fn shown(value: Option<f64>) -> String {
+    value.map_or_else(String::new, |value| value.to_string())
+}
+
+/// A table as a document of this project.
+fn table(columns: &[String], rows: impl Iterator<Item = Vec<String>>) -> Result<String, Error> {
+    let cannot = |error: csv::Error| {
+        Error::failed(format!(
+            "a table of the study cannot be written: {error}; please report this"
+        ))
+    };
+    let mut writer = csv::Writer::from_writer(b"# format = 1\n".to_vec());
+    writer.write_record(columns).map_err(cannot)?;
+    for row in rows {
+        writer.write_record(&row).map_err(cannot)?;
+    }
+    let bytes = writer
+        .into_inner()
+        .map_err(|error| cannot(error.into_error().into()))?;
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}

@@ -1,0 +1,49 @@
+//! What palpate is asked to do, whole: a document comes in, progress is told, and one answer comes out. The
+//! command line and the Python package both stand on it, so that they answer alike to the last digit.
+//!
+//! | job | from | to |
+//! |---|---|---|
+//! | [`solve`] | a problem | forces and fields by finite elements, with their estimated error |
+//! | [`analyze`] | recordings | what they show without a model |
+//! | [`characterize`] | recordings | the tissue behind them, specimen by specimen |
+//! | [`measure`] | a protocol | recordings by the rig |
+//! | [`preparation`] | a scene | a simulation, from what was prepared before where there is such |
+//!
+//! *How we know*: the tests of the command, which runs every job, and `it::jobs` here: a job that is broken off
+//! leaves no half file, and what is answered does not depend on who waits. *Limits*: jobs read and write the
+//! files that they are asked to, start threads that end with them, and never print or exit.
+
+pub mod analyze;
+pub mod characterize;
+mod cores;
+mod error;
+pub mod measure;
+mod nearest;
+pub mod plot;
+pub mod preparation;
+mod quantity;
+mod recordings;
+pub mod solve;
+mod watch;
+
+pub use cores::on_all_cores;
+pub use error::Error;
+pub use nearest::nearest;
+pub use quantity::{Scale, quantity, rounded, unit, without_unit};
+pub use recordings::{ReadRecording, Recordings, Unusable, hexadecimal};
+pub use watch::{Nobody, Watch};
+
+/// The version that stands in every machine-readable answer as `palpate`.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// `answer` as one JSON document.
+///
+/// # Errors
+/// When it holds what JSON has no words for.
+pub fn json_text(answer: &impl serde::Serialize) -> Result<String, Error> {
+    serde_json::to_string_pretty(answer).map_err(|error| {
+        Error::failed(format!(
+            "the answer is no JSON ({error}); use the text output"
+        ))
+    })
+}

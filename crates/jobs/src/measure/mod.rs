@@ -1,0 +1,16 @@
+//! The rig carries a protocol out, and makes a recording of each stimulus.
+
+mod answer;
+mod files;
+mod kept;
+mod measuring;
+mod plan;
+mod specimen;
+
+pub use answer::Answer;
+pub use files::{Out, files};
+pub use measuring::Measuring;
+pub use plan::Plan;
+
+/// What is measured without a protocol, with every key explained.
+pub const DEFAULT: &str = include_str!("protocol.toml");

@@ -1,0 +1,168 @@
+use palpate_devices::{Kind, Places};
+use palpate_files::Protocol;
+use palpate_files::protocol::{Gains, Measured, RigDevice, RigLimits, Stimulus};
+use palpate_measure::{BREATH_MOTION, Course, Rig, RigSettings, VirtualSpecimen, stimulus_name};
+use palpate_servo::dynamics::{Imperfections, Machine, TwoMass};
+use palpate_servo::{Clock, Device, MECHANICS_STEP, PidGains};
+
+use super::specimen;
+use crate::Error;
+
+/// Beyond this depth [m] and this frequency [Hz] an answer deserves doubt.
+const TRUSTED: [f64; 2] = [0.010, 8.0];
+
+/// How much deeper than asked for a tip can come [m]: the contact is not met exactly, and a heart moves it.
+const MISSED: f64 = 0.3e-3;
+const BEATING: f64 = 1e-3;
+
+/// What a protocol asks for.
+#[derive(Debug, Clone)]
+pub struct Plan {
+    /// The rig's limits and speeds.
+    pub settings: RigSettings,
+    /// In the order of the protocol.
+    pub specimens: Vec<Measured>,
+    /// Each with how often it is repeated.
+    pub stimuli: Vec<(Course, u64)>,
+    /// What deserves doubt.
+    pub doubts: Vec<String>,
+    /// A device that is there; none for one that is not.
+    device: Option<(Kind, Places)>,
+    seed: u64,
+}
+
+/// What a protocol calls a device that is there.
+fn kind(device: RigDevice) -> Option<Kind> {
+    match device {
+        RigDevice::Virtual => None,
+        RigDevice::Haply => Some(Kind::Haply),
+        RigDevice::OpenHaptics => Some(Kind::OpenHaptics),
+        RigDevice::ForceDimension => Some(Kind::ForceDimension),
+    }
+}
+
+impl Plan {
+    /// What `protocol` asks for, with the seed of all chance.
+    pub fn of(protocol: Protocol, seed: u64) -> Result<Self, Error> {
+        let breathes = protocol.specimens.iter().any(|own| own.alive);
+        let settings = RigSettings {
+            breath_motion: if breathes { BREATH_MOTION } else { 0.0 },
+            ..settings(&protocol.rig)
+        };
+        let mut doubts = Vec::new();
+        let device = match protocol.rig.device.and_then(kind) {
+            None => None,
+            Some(kind) => Some((kind, Places::from_environment().map_err(Error::input)?)),
+        };
+        if let Some((kind, _)) = &device {
+            doubts.push(format!(
+                "the tissue is not there and its force is displayed by `{kind}`, which has no force sensor; it was \
+                 not tried on hardware"
+            ));
+        }
+        let mut stimuli = Vec::new();
+        for plan in &protocol.stimuli {
+            let name = stimulus_name(&plan.stimulus);
+            let course = Course::of(plan.stimulus).map_err(Error::input)?;
+            if course.deepest() > TRUSTED[0] {
+                doubts.push(format!(
+                    "{name}: deeper than 10 mm, where no tissue here was measured"
+                ));
+            }
+            if let Stimulus::Swing { sweep, .. } = plan.stimulus
+                && sweep.ends().iter().any(|frequency| *frequency > TRUSTED[1])
+            {
+                doubts.push(format!(
+                    "{name}: beyond 8 Hz, where the device itself is felt"
+                ));
+            }
+            stimuli.push((course, plan.repeats));
+        }
+        Ok(Self {
+            settings,
+            specimens: protocol.specimens,
+            stimuli,
+            doubts,
+            device,
+            seed,
+        })
+    }
+
+    /// Refuses, before anything moves, what goes beyond a limit; a window says it on the stimulus's button.
+    pub fn check(&self) -> Result<(), Error> {
+        self.open_device()?;
+        let courses = self.stimuli.iter();
+        let mut checked = courses.map(|(course, _)| self.settings.check(course));
+        checked.try_for_each(|one| one.map_err(Error::input))
+    }
+
+    /// The specimen at `place` of the protocol, and what deserves doubt about it. A nonlinear law is solved
+    /// before, which takes a minute the first time; `at_step` hears the part that is done [-].
+    pub fn specimen(
+        &self,
+        place: usize,
+        at_step: &mut dyn FnMut(f64),
+    ) -> Result<(VirtualSpecimen, Vec<String>), Error> {
+        let measured = &self.specimens[place];
+        let deepest = self.stimuli.iter().map(|(course, _)| course.deepest());
+        let deepest = deepest.fold(0.0, f64::max);
+        let further = if measured.alive { BEATING } else { MISSED };
+        let (found, doubts) = specimen::of(measured, deepest + further, at_step)?;
+        let found = match measured.alive {
+            true => found.alive(self.seed.wrapping_add(place as u64)),
+            false => found,
+        };
+        Ok((found, doubts))
+    }
+
+    /// The device that is there, if the protocol names one.
+    pub fn open_device(&self) -> Result<Option<Box<dyn Device>>, Error> {
+        let device = self.device.as_ref();
+        let opened = device.map(|(kind, places)| kind.open(0, places));
+        opened.transpose().map_err(Error::failed)
+    }
+
+    /// Where a rig without a window has its time from: a device that is there lives in the machine's.
+    pub fn clock(&self) -> Clock {
+        match self.device {
+            Some(_) => Clock::real(),
+            None => Clock::virtual_time(),
+        }
+    }
+
+    /// A rig over the specimen at `place`, on `clock`.
+    pub fn rig(
+        &self,
+        (specimen, place): (VirtualSpecimen, usize),
+        clock: Clock,
+    ) -> Result<Rig, Error> {
+        if let Some(device) = self.open_device()? {
+            let seed = self.seed.wrapping_add(place as u64);
+            let rig = Rig::on(device, specimen, self.settings, (clock, seed));
+            return rig.map_err(Error::failed);
+        }
+        let machine = Machine::of_two_masses(&TwoMass::consistent(), MECHANICS_STEP);
+        let device = (machine, Imperfections::premium());
+        let seed = self.seed.wrapping_add(place as u64);
+        Rig::over(specimen, device, self.settings, (clock, seed)).map_err(Error::failed)
+    }
+}
+
+fn settings(limits: &RigLimits) -> RigSettings {
+    let default = RigSettings::default();
+    RigSettings {
+        approach_speed: limits
+            .approach_speed_m_per_s
+            .unwrap_or(default.approach_speed),
+        force_limit: limits.force_limit_n.unwrap_or(default.force_limit),
+        depth_limit: limits.depth_limit_m.unwrap_or(default.depth_limit),
+        speed_limit: limits.speed_limit_m_per_s.unwrap_or(default.speed_limit),
+        breath: limits.breath_s,
+        recovery: limits.recovery_s.unwrap_or(default.recovery),
+        gains: match limits.gains {
+            Some(Gains::Gentle) => PidGains::gentle(),
+            Some(Gains::Tuned) | None => default.gains,
+        },
+        ..default
+    }
+}

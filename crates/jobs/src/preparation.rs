@@ -1,0 +1,76 @@
+//! Simulations are made from what was prepared before where there is such.
+
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+
+use palpate_devices::Places;
+use palpate_files::Scene;
+use palpate_simulate::{Resources, Simulation};
+
+use crate::{Error, Watch};
+
+/// The variable that names the folder of prepared responses.
+pub const FOLDER_VARIABLE: &str = "PALPATE_CACHE";
+
+/// Part of the memory that is free now that may be taken [-].
+const PART_OF_MEMORY: f64 = 0.8;
+
+/// The folder for what takes minutes and can be made again.
+pub fn folder() -> Option<PathBuf> {
+    let named = std::env::var_os(FOLDER_VARIABLE).filter(|name| !name.is_empty());
+    named
+        .map(PathBuf::from)
+        .or_else(|| Some(dirs::cache_dir()?.join("palpate")))
+}
+
+/// What this machine offers: its folder for what can be made again, and most of its free memory.
+pub fn resources() -> Resources {
+    let mut system = sysinfo::System::new();
+    system.refresh_memory();
+    let offered = match system.available_memory() {
+        // Not told on this system.
+        0 => Resources::default().memory,
+        free => (PART_OF_MEMORY * free as f64) as usize,
+    };
+    Resources {
+        responses: folder(),
+        memory: offered,
+        devices: Places::default(),
+        operating_room: None,
+    }
+}
+
+/// The same, with the places of haptic devices that the environment names.
+///
+/// # Errors
+/// When the environment names no place.
+pub fn resources_with_devices() -> Result<Resources, Error> {
+    Ok(Resources {
+        devices: Places::from_environment().map_err(Error::input)?,
+        ..resources()
+    })
+}
+
+/// Makes the simulation of `scene`, and tells `watch` how far it is, which may break it off.
+///
+/// # Errors
+/// When the scene describes none, memory does not suffice, or it was broken off.
+pub fn simulation(
+    scene: &Scene,
+    resources: &Resources,
+    watch: &dyn Watch,
+) -> Result<Simulation, Error> {
+    watch.say("preparing the organ and its model");
+    let mut last = None;
+    let made = Simulation::prepare(scene, resources, &mut |progress| {
+        if last.replace(progress.work) != Some(progress.work) {
+            watch.say(progress.work.words());
+        }
+        watch.at(progress.part.clamp(0.0, 1.0));
+        match watch.is_asked_to_stop() {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
+    });
+    Ok(made?)
+}

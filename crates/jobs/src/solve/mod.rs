@@ -1,0 +1,12 @@
+//! The finite element reference on a described problem.
+
+mod answer;
+mod problem;
+mod solution;
+mod table;
+mod telling;
+
+pub use answer::Answer;
+pub use problem::Problem;
+pub use solution::{Figures, Profile, Solution, TubeFigures, Wanted, solve};
+pub use table::in_words;

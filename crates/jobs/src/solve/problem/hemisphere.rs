@@ -1,0 +1,46 @@
+use std::f64::consts::FRAC_PI_2;
+
+use palpate_files::{Domain, Error, Keys};
+use palpate_mechanics::contact::Bond;
+
+use super::length_below;
+
+/// Half a ball on its fixed base, pressed at the pole.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Hemisphere {
+    /// [m]
+    pub(crate) radius: f64,
+    /// Arc from the pole within which every point of the surface moves [m].
+    pub(crate) patch_radius: f64,
+    pub(crate) patch: Bond,
+    /// How far the patch moves along −z [m].
+    pub(crate) depth: f64,
+}
+
+const PATCHES: &[(&str, Bond)] = &[
+    ("slip", Bond::Slip),
+    ("bonded", Bond::Stick),
+    ("stick", Bond::Stick),
+];
+
+impl Hemisphere {
+    pub(crate) const KEYS: &'static [&'static str] =
+        &["radius_m", "patch_radius_m", "patch", "depth_m"];
+
+    pub(crate) fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
+        let radius = keys.required_number("radius_m", Domain::POSITIVE)?;
+        let quarter = FRAC_PI_2 * radius;
+        let what = "the arc from the pole to the base";
+        let depth = keys.required_number("depth_m", Domain::NOT_NEGATIVE)?;
+        if depth >= radius {
+            return Err(keys.bad("depth_m", format!("less than the radius, {radius} m")));
+        }
+        let patch = keys.word("patch", PATCHES)?;
+        Ok(Self {
+            radius,
+            patch_radius: length_below(keys, "patch_radius_m", quarter, what)?,
+            patch: patch.ok_or_else(|| keys.missing("patch", "\"slip\" or \"bonded\""))?,
+            depth,
+        })
+    }
+}

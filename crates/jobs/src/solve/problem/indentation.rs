@@ -1,0 +1,134 @@
+use palpate_files::{Domain, Error, Keys};
+use palpate_mechanics::finite_elements::indentation::{
+    Block, Grip, Indenter, IndenterShape, Relaxing, Side,
+};
+
+use super::{length_below, required_table, some_numbers};
+
+/// A rigid indenter pressed into a block.
+#[derive(Debug, Clone)]
+pub(crate) struct Indentation {
+    pub(crate) block: Block,
+    pub(crate) indenter: Indenter,
+    pub(crate) loading: Loading,
+}
+
+/// How it is pressed.
+#[derive(Debug, Clone)]
+pub(crate) enum Loading {
+    /// To these depths [m], each with instantaneous moduli.
+    Depths(Vec<f64>),
+    /// In time.
+    Ramp(Ramp),
+}
+
+/// To a depth at a constant speed, and held there.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Ramp {
+    /// [m]
+    pub(crate) depth: f64,
+    /// Duration of the ramp [s].
+    pub(crate) ramp: f64,
+    /// Duration of the hold [s].
+    pub(crate) hold: f64,
+    /// Times that are answered for, evenly, ends included.
+    pub(crate) samples: usize,
+    /// How relaxation is taken into account.
+    pub(crate) method: Relaxing,
+}
+
+/// Whether the indenter's end is flat.
+#[derive(Debug, Clone, Copy)]
+enum End {
+    Flat,
+    Sphere,
+}
+
+const FACES: &[(&str, Grip)] = &[("stick", Grip::Stick), ("slip", Grip::Slide)];
+
+const SIDES: &[(&str, Side)] = &[
+    ("stick", Side::Touches(Grip::Stick)),
+    ("slide", Side::Touches(Grip::Slide)),
+    ("none", Side::Absent),
+];
+
+const SHAPES: &[(&str, End)] = &[("flat", End::Flat), ("sphere", End::Sphere)];
+
+const METHODS: &[(&str, Relaxing)] = &[
+    ("convolution", Relaxing::Convolution),
+    ("full", Relaxing::Full),
+];
+
+impl Indentation {
+    pub(crate) const KEYS: &'static [&'static str] = &["block", "indenter", "depths_m", "ramp"];
+
+    pub(crate) fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
+        let block = required_table(
+            keys,
+            "block",
+            &["radius_m", "height_m"],
+            "block = { radius_m = 0.05, height_m = 0.1 }",
+        )?;
+        let block = Block {
+            radius: block.required_number("radius_m", Domain::POSITIVE)?,
+            height: block.required_number("height_m", Domain::POSITIVE)?,
+        };
+        Ok(Self {
+            indenter: indenter(keys, &block)?,
+            loading: loading(keys, &block)?,
+            block,
+        })
+    }
+}
+
+fn indenter(keys: &Keys<'_>, block: &Block) -> Result<Indenter, Error> {
+    let keys = required_table(
+        keys,
+        "indenter",
+        &["shape", "radius_m", "face", "side"],
+        "indenter = { radius_m = 0.001 }",
+    )?;
+    let side = keys.word("side", SIDES)?;
+    let shape = match keys.word("shape", SHAPES)? {
+        None | Some(End::Flat) => IndenterShape::Flat {
+            side: side.unwrap_or(Side::Touches(Grip::Stick)),
+        },
+        Some(End::Sphere) => {
+            keys.refuse("side", "no side, for a sphere has none")?;
+            IndenterShape::Sphere
+        }
+    };
+    Ok(Indenter {
+        shape,
+        radius: length_below(&keys, "radius_m", block.radius, "the radius of the block")?,
+        face: keys.word("face", FACES)?.unwrap_or(Grip::Stick),
+    })
+}
+
+fn loading(keys: &Keys<'_>, block: &Block) -> Result<Loading, Error> {
+    let height = (block.height, "the height of the block");
+    let ramp = keys.table(
+        "ramp",
+        &["depth_m", "ramp_s", "hold_s", "samples", "method"],
+    )?;
+    match (ramp, keys.contains("depths_m")) {
+        (Some(_), true) => Err(keys.given_twice("depths_m", "ramp")),
+        (Some(ramp), false) => Ok(Loading::Ramp(Ramp {
+            depth: length_below(&ramp, "depth_m", height.0, height.1)?,
+            ramp: ramp.required_number("ramp_s", Domain::POSITIVE)?,
+            hold: ramp.required_number("hold_s", Domain::NOT_NEGATIVE)?,
+            samples: ramp.integer("samples", 2..=100_000)?.unwrap_or(200) as usize,
+            method: ramp
+                .word("method", METHODS)?
+                .unwrap_or(Relaxing::Convolution),
+        })),
+        (None, true) => {
+            some_numbers(keys, "depths_m", Domain::NOT_NEGATIVE, Some(height)).map(Loading::Depths)
+        }
+        (None, false) => Err(keys.missing(
+            "depths_m",
+            "a list such as [0.001, 0.002], or \
+             `ramp = { depth_m = 0.005, ramp_s = 0.5, hold_s = 40.0, samples = 200 }`",
+        )),
+    }
+}

@@ -1,0 +1,290 @@
+//! The document of a problem: which body, of which tissue, loaded how.
+//!
+//! Reading is checking: a `Problem` that exists has a solution, as far as its numbers can tell.
+
+mod hemisphere;
+mod indentation;
+mod solid;
+mod tube;
+mod uniaxial;
+
+use std::path::{Path, PathBuf};
+
+use palpate_files::scene::TissueChoice;
+use palpate_files::tissue::LawName;
+use palpate_files::{Document, Domain, Keys, Tissue};
+use palpate_mechanics::Material;
+
+pub(crate) use hemisphere::Hemisphere;
+pub(crate) use indentation::{Indentation, Loading, Ramp};
+pub(crate) use solid::Solid;
+pub(crate) use tube::{Tube, TubeIndent};
+pub(crate) use uniaxial::Uniaxial;
+
+use crate::Error;
+
+/// What is to be solved, and how well.
+#[derive(Debug)]
+pub struct Problem {
+    path: PathBuf,
+    pub(crate) case: Case,
+    pub(crate) tissue: Tissue,
+    pub(crate) material: Material,
+    /// Relative error asked for [-].
+    pub(crate) accuracy: f64,
+}
+
+/// The kinds of problems.
+#[derive(Debug)]
+pub(crate) enum Case {
+    Indentation(Indentation),
+    Hemisphere(Hemisphere),
+    Tube(Tube),
+    Uniaxial(Uniaxial),
+    Solid(Solid),
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Kind {
+    Indentation,
+    Hemisphere,
+    Tube,
+    Uniaxial,
+    Solid,
+}
+
+const KINDS: &[(&str, Kind)] = &[
+    ("indentation", Kind::Indentation),
+    ("hemisphere", Kind::Hemisphere),
+    ("tube", Kind::Tube),
+    ("uniaxial", Kind::Uniaxial),
+    ("solid", Kind::Solid),
+];
+
+const DEFAULT_ACCURACY: f64 = 0.01;
+
+const ACCURACY: Domain = Domain {
+    expected: "a relative error from 0.0001 to 0.2",
+    holds: |error| (1e-4..=0.2).contains(&error),
+};
+
+/// The keys of every kind.
+const SHARED: [&str; 4] = ["kind", "tissue", "builtin_tissue", "accuracy"];
+
+/// The keys of all kinds together.
+const KEYS: &[&str] = &[
+    "kind",
+    "tissue",
+    "builtin_tissue",
+    "accuracy",
+    "block",
+    "indenter",
+    "depths_m",
+    "ramp",
+    "radius_m",
+    "patch_radius_m",
+    "patch",
+    "depth_m",
+    "length_m",
+    "inner_radius_m",
+    "outer_radius_m",
+    "pressure_pa",
+    "pressures_pa",
+    "indent",
+    "stretches",
+    "mesh",
+    "mesh_unit",
+    "builtin",
+    "triangles",
+    "anchor",
+];
+
+impl Problem {
+    /// Reads a problem and the tissue that it names.
+    ///
+    /// # Errors
+    /// When it cannot be read, or describes what has no solution.
+    pub fn read(path: &Path) -> Result<Self, Error> {
+        Self::understand(&Document::read(path)?, path)
+    }
+
+    /// Reads a problem from `text`, whose files are looked for beside `path`, by which errors call it.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    pub fn parse(text: &str, path: &Path) -> Result<Self, Error> {
+        Self::understand(&Document::parse(text, path)?, path)
+    }
+
+    fn understand(document: &Document, path: &Path) -> Result<Self, Error> {
+        let keys = document.open_keys(KEYS);
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let kind = match keys.word("kind", KINDS)? {
+            Some(kind) => kind,
+            None => {
+                // A misspelt `kind` is worth more than the news that it is missing.
+                keys.only(KEYS)?;
+                let words: Vec<_> = KINDS.iter().map(|(word, _)| format!("{word:?}")).collect();
+                return Err(keys
+                    .missing("kind", format!("one of {}", words.join(", ")))
+                    .into());
+            }
+        };
+        keys.only(&[&SHARED, own_keys(kind)].concat())?;
+        let accuracy = keys.number("accuracy", ACCURACY)?;
+        let tissue = TissueChoice::from_keys(&keys, folder)?.read()?;
+        let case = match kind {
+            Kind::Indentation => Case::Indentation(Indentation::from_keys(&keys)?),
+            Kind::Hemisphere => {
+                refuse_large_strain(&keys, &tissue)?;
+                Case::Hemisphere(Hemisphere::from_keys(&keys)?)
+            }
+            Kind::Tube => Case::Tube(Tube::from_keys(&keys)?),
+            Kind::Uniaxial => Case::Uniaxial(Uniaxial::from_keys(&keys)?),
+            Kind::Solid => Case::Solid(Solid::from_keys(&keys, folder)?),
+        };
+        Ok(Self {
+            path: path.to_owned(),
+            case,
+            material: Material::from_tissue(&tissue)?,
+            tissue,
+            accuracy: accuracy.unwrap_or(DEFAULT_ACCURACY),
+        })
+    }
+
+    /// What the solver says to this problem.
+    pub(crate) fn refused(&self, error: palpate_mechanics::Error) -> Error {
+        Error::input(format!("{}: {error}", self.path.display()))
+    }
+
+    /// The word of its kind.
+    pub fn kind(&self) -> &'static str {
+        self.case.word()
+    }
+
+    /// Whether there is a deformed body to show.
+    pub fn has_field(&self) -> bool {
+        matches!(self.case, Case::Indentation(_) | Case::Solid(_))
+    }
+
+    /// Whether there is a course in time.
+    pub fn has_recording(&self) -> bool {
+        matches!(&self.case, Case::Indentation(case) if matches!(case.loading, Loading::Ramp(_)))
+    }
+
+    /// Whether the law is for small strain only.
+    pub(crate) fn is_small_strain(&self) -> bool {
+        self.tissue.elasticity.law() == LawName::Linear
+    }
+
+    /// The tissue, its law and its parameters on one line.
+    pub(crate) fn tissue_in_words(&self) -> String {
+        let name = self.tissue.name.as_deref().unwrap_or("tissue");
+        let parameters = self.tissue.elasticity.parameters();
+        let parameters = parameters
+            .iter()
+            .map(|(key, estimate)| format!(", {key} = {}", estimate.value));
+        let law = self.tissue.elasticity.law();
+        format!("{name}: {law}{}", parameters.collect::<String>())
+    }
+}
+
+impl Case {
+    /// The word of its kind.
+    pub(crate) fn word(&self) -> &'static str {
+        match self {
+            Self::Indentation(_) => "indentation",
+            Self::Hemisphere(_) => "hemisphere",
+            Self::Tube(_) => "tube",
+            Self::Uniaxial(_) => "uniaxial",
+            Self::Solid(_) => "solid",
+        }
+    }
+}
+
+fn own_keys(kind: Kind) -> &'static [&'static str] {
+    match kind {
+        Kind::Indentation => Indentation::KEYS,
+        Kind::Hemisphere => Hemisphere::KEYS,
+        Kind::Tube => Tube::KEYS,
+        Kind::Uniaxial => Uniaxial::KEYS,
+        Kind::Solid => Solid::KEYS,
+    }
+}
+
+fn refuse_large_strain(keys: &Keys<'_>, tissue: &Tissue) -> Result<(), palpate_files::Error> {
+    let law = tissue.elasticity.law();
+    match law {
+        LawName::Linear => Ok(()),
+        _ => Err(palpate_files::Error::BadValue {
+            place: keys.place_of_key("tissue"),
+            key: keys.full_name("tissue.law"),
+            found: format!("\"{law}\""),
+            expected: "\"linear\", for the hemisphere is solved at small strain".into(),
+        }),
+    }
+}
+
+/// The error for an entry of a list, counted from zero.
+fn bad_entry(
+    keys: &Keys<'_>,
+    key: &'static str,
+    entry: (usize, f64),
+    expected: String,
+) -> palpate_files::Error {
+    let (number, value) = entry;
+    palpate_files::Error::BadValue {
+        place: keys.place_of_key(key),
+        key: keys.full_name(&format!("{key}[{number}]")),
+        found: value.to_string(),
+        expected: expected.into(),
+    }
+}
+
+/// A list with at least one number, each of a `domain` and below `limit` if there is one.
+fn some_numbers(
+    keys: &Keys<'_>,
+    key: &'static str,
+    domain: Domain,
+    limit: Option<(f64, &str)>,
+) -> Result<Vec<f64>, palpate_files::Error> {
+    let expected = || format!("a list of numbers, each {}", domain.expected);
+    let numbers = keys
+        .numbers(key, domain)?
+        .ok_or_else(|| keys.missing(key, expected()))?;
+    if numbers.is_empty() {
+        return Err(keys.bad(key, "at least one number in the list"));
+    }
+    if let Some((limit, what)) = limit
+        && let Some(entry) = numbers.iter().position(|number| *number >= limit)
+    {
+        let expected = format!("less than {what}, {limit} m");
+        return Err(bad_entry(keys, key, (entry, numbers[entry]), expected));
+    }
+    Ok(numbers)
+}
+
+/// A length above zero [m] that must be less than `limit` [m], which is named `what`.
+fn length_below(
+    keys: &Keys<'_>,
+    key: &'static str,
+    limit: f64,
+    what: &str,
+) -> Result<f64, palpate_files::Error> {
+    let length = keys.required_number(key, Domain::POSITIVE)?;
+    match length < limit {
+        true => Ok(length),
+        false => Err(keys.bad(key, format!("less than {what}, {limit} m"))),
+    }
+}
+
+/// A table that must be there.
+fn required_table<'d>(
+    keys: &Keys<'d>,
+    key: &'static str,
+    known: &'static [&'static str],
+    example: &'static str,
+) -> Result<Keys<'d>, palpate_files::Error> {
+    keys.table(key, known)?
+        .ok_or_else(|| keys.missing(key, format!("a table such as `{example}`")))
+}

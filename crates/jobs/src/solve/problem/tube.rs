@@ -1,0 +1,94 @@
+use palpate_files::{Domain, Error, Keys};
+use palpate_mechanics::contact::Bond;
+
+use super::{length_below, some_numbers};
+
+/// A tube with fixed ends under pressure, and perhaps indented.
+#[derive(Debug, Clone)]
+pub(crate) struct Tube {
+    /// [m]
+    pub(crate) length: f64,
+    /// [m]
+    pub(crate) inner_radius: f64,
+    /// [m]
+    pub(crate) outer_radius: f64,
+    /// Pressures inside [Pa].
+    pub(crate) pressures: Vec<f64>,
+    /// After the last pressure.
+    pub(crate) indent: Option<TubeIndent>,
+}
+
+/// A flat indenter, pressed radially at mid-length.
+#[derive(Debug, Clone)]
+pub(crate) struct TubeIndent {
+    /// [m]
+    pub(crate) radius: f64,
+    /// [m]
+    pub(crate) depths: Vec<f64>,
+    pub(crate) contact: Bond,
+}
+
+const CONTACTS: &[(&str, Bond)] = &[
+    ("stick", Bond::Stick),
+    ("slip", Bond::Slip),
+    ("bonded", Bond::Stick),
+];
+
+impl Tube {
+    pub(crate) const KEYS: &'static [&'static str] = &[
+        "length_m",
+        "inner_radius_m",
+        "outer_radius_m",
+        "pressure_pa",
+        "pressures_pa",
+        "indent",
+    ];
+
+    pub(crate) fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
+        let outer_radius = keys.required_number("outer_radius_m", Domain::POSITIVE)?;
+        let tube = Self {
+            length: keys.required_number("length_m", Domain::POSITIVE)?,
+            inner_radius: length_below(keys, "inner_radius_m", outer_radius, "the outer radius")?,
+            outer_radius,
+            pressures: Vec::new(),
+            indent: None,
+        };
+        let indent = keys.table("indent", &["radius_m", "depths_m", "contact"])?;
+        let indent = indent.map(|keys| tube.indent(&keys)).transpose()?;
+        Ok(Self {
+            pressures: pressures(keys, indent.is_some())?,
+            indent,
+            ..tube
+        })
+    }
+
+    fn indent(&self, keys: &Keys<'_>) -> Result<TubeIndent, Error> {
+        let outer = (self.outer_radius, "the outer radius of the tube");
+        let radius = length_below(keys, "radius_m", outer.0, outer.1)?;
+        if 2.0 * radius >= self.length {
+            let expected = format!("less than half the length of the tube, {} m", self.length);
+            return Err(keys.bad("radius_m", expected));
+        }
+        Ok(TubeIndent {
+            radius,
+            depths: some_numbers(keys, "depths_m", Domain::NOT_NEGATIVE, Some(outer))?,
+            contact: keys.word("contact", CONTACTS)?.unwrap_or(Bond::Stick),
+        })
+    }
+}
+
+fn pressures(keys: &Keys<'_>, indented: bool) -> Result<Vec<f64>, Error> {
+    match (keys.contains("pressure_pa"), keys.contains("pressures_pa")) {
+        (true, true) => Err(keys.given_twice("pressure_pa", "pressures_pa")),
+        (true, false) => Ok(vec![
+            keys.required_number("pressure_pa", Domain::NOT_NEGATIVE)?,
+        ]),
+        (false, true) => some_numbers(keys, "pressures_pa", Domain::NOT_NEGATIVE, None),
+        (false, false) if indented => Ok(vec![0.0]),
+        (false, false) => Err(keys.missing(
+            "pressures_pa",
+            "a list of pressures, or one `pressure_pa`, or \
+             `indent = { radius_m = 0.001, depths_m = [0.001] }`",
+        )),
+    }
+}

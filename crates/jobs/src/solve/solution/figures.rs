@@ -1,0 +1,93 @@
+use serde::Serialize;
+
+/// The figures of an answer, by kind, under the names of the contract.
+#[derive(Debug, Clone, Serialize)]
+#[serde(untagged)]
+pub enum Figures {
+    /// A block under an indenter.
+    Indentation {
+        /// [m]
+        depth_m: Vec<f64>,
+        /// [N]
+        force_n: Vec<f64>,
+        /// Of a ramp [s].
+        #[serde(skip_serializing_if = "Option::is_none")]
+        time_s: Option<Vec<f64>>,
+    },
+    /// A patch of a hemisphere.
+    Hemisphere {
+        /// [m]
+        depth_m: f64,
+        /// [N]
+        force_n: f64,
+        /// How the surface moves.
+        profile: Profile,
+    },
+    /// A tube under pressure, perhaps indented.
+    Tube(TubeFigures),
+    /// A bar.
+    Uniaxial {
+        /// [-]
+        stretch: Vec<f64>,
+        /// [Pa]
+        nominal_stress_pa: Vec<f64>,
+    },
+    /// An organ of any shape.
+    Solid {
+        /// On the tool.
+        force_n: [f64; 3],
+        /// On the tissue, along the displacement: positive where the tissue resists.
+        force_along_displacement_n: f64,
+        /// Of the patch [m].
+        displacement_m: [f64; 3],
+    },
+}
+
+impl Figures {
+    /// Whether all are finite.
+    pub(crate) fn are_numbers(&self) -> bool {
+        let all = |lists: &[&[f64]]| lists.iter().all(|list| list.iter().all(|x| x.is_finite()));
+        match self {
+            Self::Indentation { force_n, .. } => all(&[force_n]),
+            Self::Hemisphere {
+                force_n, profile, ..
+            } => all(&[&[*force_n], &profile.normal_displacement_m]),
+            Self::Tube(tube) => {
+                let known = |list: &[Option<f64>]| list.iter().copied().flatten().collect();
+                let moved: Vec<f64> = known(&tube.inner_displacement_m);
+                let forces: Vec<f64> = known(tube.force_n.as_deref().unwrap_or(&[]));
+                all(&[&moved, &forces, &[tube.limit_pressure_pa.unwrap_or(0.0)]])
+            }
+            Self::Uniaxial {
+                nominal_stress_pa, ..
+            } => all(&[nominal_stress_pa]),
+            Self::Solid { force_n, .. } => all(&[force_n]),
+        }
+    }
+}
+
+/// The surface of the hemisphere, from the pole to the equator.
+#[derive(Debug, Clone, Serialize)]
+pub struct Profile {
+    /// From the pole along the surface [m].
+    pub arc_m: Vec<f64>,
+    /// Outward positive [m].
+    pub normal_displacement_m: Vec<f64>,
+}
+
+/// The figures of a tube.
+#[derive(Debug, Clone, Serialize)]
+pub struct TubeFigures {
+    /// [Pa]
+    pub pressure_pa: Vec<f64>,
+    /// Of the inner wall at mid-length; none beyond the limit.
+    pub inner_displacement_m: Vec<Option<f64>>,
+    /// None for a linear law, and where there is no limit.
+    pub limit_pressure_pa: Option<f64>,
+    /// [m]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub depth_m: Option<Vec<f64>>,
+    /// [N]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub force_n: Option<Vec<Option<f64>>>,
+}

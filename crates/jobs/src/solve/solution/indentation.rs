@@ -1,0 +1,263 @@
+use palpate_files::Recording;
+use palpate_files::recording::{self, RecordingHeader, Samples, StimulusKind};
+use palpate_mechanics::contact::{Bond, half_space_stiffness, hertz_force};
+use palpate_mechanics::finite_elements::indentation::{
+    Grip, History, IndentationProblem, IndenterShape, Side, solve, solve_history,
+};
+
+use super::super::problem::{Indentation, Loading, Problem, Ramp};
+use super::super::table::Table;
+use super::{Figures, Solution, Wanted, doubts, field, millimetres, millinewtons, plots};
+use crate::Error;
+use crate::VERSION;
+use crate::plot::Plot;
+use crate::solve::telling::Telling;
+
+/// Force at each depth, or at each time of a ramp.
+pub(crate) fn solution(
+    problem: &Problem,
+    case: &Indentation,
+    wanted: Wanted,
+    telling: &Telling<'_>,
+) -> Result<Solution, Error> {
+    let solution = match &case.loading {
+        Loading::Depths(depths) => at_depths(problem, case, depths, telling),
+        Loading::Ramp(ramp) => in_time(problem, case, ramp, telling),
+    }?;
+    let vtu = wanted.vtu.then(|| field::of_indentation(problem, case));
+    Ok(Solution {
+        vtu: vtu.transpose()?,
+        ..solution
+    })
+}
+
+fn at_depths(
+    problem: &Problem,
+    case: &Indentation,
+    depths: &[f64],
+    telling: &Telling<'_>,
+) -> Result<Solution, Error> {
+    let found = solve(
+        &mechanical(problem, case),
+        depths,
+        problem.accuracy,
+        &mut |progress| telling.at(progress),
+    )
+    .map_err(|error| problem.refused(error))?;
+    let forces: Vec<f64> = found.answer.points.iter().map(|p| p.force).collect();
+    let closed = |depth: f64| half_space_force(problem, case, depth);
+    let table = Table::default()
+        .with("depth [mm]", millimetres(depths))
+        .with("force [mN]", millinewtons(&forces))
+        .with("half-space [mN]", depths.iter().map(|&d| 1e3 * closed(d)));
+    Ok(Solution {
+        heading: heading(case),
+        tables: vec![table],
+        plot: over_depth(case, depths, &forces, &closed),
+        figures: Figures::Indentation {
+            depth_m: depths.to_vec(),
+            force_n: forces,
+            time_s: None,
+        },
+        unknowns: found.answer.unknowns,
+        estimated_error: found.error,
+        warnings: doubts::of_depths(problem, contact_radius(case, depths), depths),
+        vtu: None,
+        recording: None,
+    })
+}
+
+fn in_time(
+    problem: &Problem,
+    case: &Indentation,
+    ramp: &Ramp,
+    telling: &Telling<'_>,
+) -> Result<Solution, Error> {
+    let (history, wanted) = ramp.history();
+    let found = solve_history(
+        &mechanical(problem, case),
+        (&problem.material.prony, ramp.method),
+        &history,
+        problem.accuracy,
+        &mut |progress| telling.at(progress),
+    )
+    .map_err(|error| problem.refused(error))?;
+    let pick = |values: &[f64]| wanted.iter().map(|&k| values[k]).collect::<Vec<_>>();
+    let forces: Vec<f64> = found.answer.points.iter().map(|p| p.force).collect();
+    // With the end of the ramp, where the force has its peak.
+    let drawn = history.times.iter().copied().zip(millinewtons(&forces));
+    let drawn = plots::line("", drawn);
+    let (times, depths, forces) = (pick(&history.times), pick(&history.depths), pick(&forces));
+    let table = Table::default()
+        .with("time [s]", times.iter().copied())
+        .with("depth [mm]", millimetres(&depths))
+        .with("force [mN]", millinewtons(&forces))
+        .keeping_the_peak(&forces);
+    let mut warnings = doubts::of_depths(problem, contact_radius(case, &depths), &depths);
+    warnings.extend(doubts::of_ramp(problem, ramp.ramp));
+    Ok(Solution {
+        heading: heading(case),
+        tables: vec![table],
+        plot: Plot {
+            title: format!(
+                "{}, pressed {} mm and held",
+                title(case),
+                plots::short(1e3 * ramp.depth)
+            ),
+            x_label: "Time [s]".to_owned(),
+            y_label: "Force on the tissue [mN]".to_owned(),
+            series: vec![drawn],
+            ..Plot::default()
+        },
+        recording: Some(recording(case, ramp, (&times, &depths, &forces))?),
+        figures: Figures::Indentation {
+            depth_m: depths,
+            force_n: forces,
+            time_s: Some(times),
+        },
+        unknowns: found.answer.unknowns,
+        estimated_error: found.error,
+        warnings,
+        vtu: None,
+    })
+}
+
+impl Ramp {
+    /// The depth over time, with the end of the ramp among its times, and which of the times are asked
+    /// for.
+    fn history(&self) -> (History, Vec<usize>) {
+        let last = self.ramp + self.hold;
+        let parts = (self.samples - 1) as f64;
+        let samples = (0..self.samples).map(|k| last * k as f64 / parts);
+        let mut times: Vec<(f64, bool)> = samples.map(|time| (time, true)).collect();
+        let end = times.partition_point(|(time, _)| *time < self.ramp);
+        if times.get(end).is_none_or(|(time, _)| *time > self.ramp) {
+            times.insert(end, (self.ramp, false));
+        }
+        let depth = |time: f64| self.depth * (time / self.ramp).min(1.0);
+        let history = History {
+            depths: times.iter().map(|(time, _)| depth(*time)).collect(),
+            times: times.iter().map(|(time, _)| *time).collect(),
+        };
+        let wanted = (0..times.len()).filter(|&k| times[k].1).collect();
+        (history, wanted)
+    }
+}
+
+/// What the indenter records.
+fn recording(
+    case: &Indentation,
+    ramp: &Ramp,
+    (times, depths, forces): (&[f64], &[f64], &[f64]),
+) -> Result<Recording, Error> {
+    let shape = match case.indenter.shape {
+        IndenterShape::Flat { .. } => recording::IndenterShape::Flat,
+        IndenterShape::Sphere => recording::IndenterShape::Sphere,
+    };
+    let header = RecordingHeader {
+        stimulus: Some(StimulusKind::RampAndHold),
+        ramp_s: Some(ramp.ramp),
+        amplitude_m: Some(ramp.depth),
+        sample_rate_hz: Some((ramp.samples - 1) as f64 / (ramp.ramp + ramp.hold)),
+        indenter_shape: Some(shape),
+        indenter_radius_m: Some(case.indenter.radius),
+        source: Some(format!("palpate solve {VERSION}, finite elements")),
+        ..RecordingHeader::default()
+    };
+    let samples = Samples {
+        time_s: times.to_vec(),
+        depth_m: depths.to_vec(),
+        force_n: forces.to_vec(),
+    };
+    Ok(Recording::new(header, samples)?)
+}
+
+fn mechanical(problem: &Problem, case: &Indentation) -> IndentationProblem {
+    IndentationProblem {
+        block: case.block,
+        indenter: case.indenter,
+        law: problem.material.law.clone(),
+    }
+}
+
+/// What the same indenter meets on a half-space at small strain [N].
+fn half_space_force(problem: &Problem, case: &Indentation, depth: f64) -> f64 {
+    let (law, radius) = (&problem.material.at_rest, case.indenter.radius);
+    let bond = match case.indenter.face {
+        Grip::Stick => Bond::Stick,
+        Grip::Slide => Bond::Slip,
+    };
+    match case.indenter.shape {
+        IndenterShape::Sphere => hertz_force(law, radius, depth),
+        IndenterShape::Flat { .. } => depth * half_space_stiffness(law, radius, bond),
+    }
+}
+
+/// Radius of the area that touches at the largest depth [m].
+fn contact_radius(case: &Indentation, depths: &[f64]) -> f64 {
+    let deepest = depths.iter().copied().fold(0.0, f64::max);
+    match case.indenter.shape {
+        IndenterShape::Flat { .. } => case.indenter.radius,
+        IndenterShape::Sphere => (case.indenter.radius * deepest).sqrt(),
+    }
+}
+
+fn title(case: &Indentation) -> String {
+    let shape = match case.indenter.shape {
+        IndenterShape::Sphere => "Sphere",
+        IndenterShape::Flat { .. } => "Flat punch",
+    };
+    format!(
+        "{shape} of radius {} mm",
+        plots::short(1e3 * case.indenter.radius)
+    )
+}
+
+fn heading(case: &Indentation) -> String {
+    let face = match case.indenter.face {
+        Grip::Stick => "sticks",
+        Grip::Slide => "slips",
+    };
+    let how = match case.indenter.shape {
+        IndenterShape::Sphere => format!("that {face}"),
+        IndenterShape::Flat { side } => {
+            let side = match side {
+                Side::Touches(Grip::Stick) => "sticks",
+                Side::Touches(Grip::Slide) => "slides",
+                Side::Absent => "is not there",
+            };
+            format!("(its face {face}, its side {side})")
+        }
+    };
+    format!(
+        "{} {how} on a block of radius {} mm and height {} mm",
+        title(case),
+        plots::short(1e3 * case.block.radius),
+        plots::short(1e3 * case.block.height)
+    )
+}
+
+fn over_depth(
+    case: &Indentation,
+    depths: &[f64],
+    forces: &[f64],
+    closed: &dyn Fn(f64) -> f64,
+) -> Plot {
+    let deepest = depths.iter().copied().fold(0.0, f64::max);
+    let along = (0..=60).map(|k| deepest * f64::from(k) / 60.0);
+    // Nothing is felt at depth zero, so the curve begins there.
+    let points = millimetres(depths).zip(millinewtons(forces));
+    Plot {
+        title: format!("{}: force against depth", title(case)),
+        x_label: "Depth [mm]".to_owned(),
+        y_label: "Force on the tissue [mN]".to_owned(),
+        series: vec![
+            plots::dotted_line("finite elements", points),
+            plots::closed_form(
+                "half-space at small strain, closed form",
+                along.map(|depth| (1e3 * depth, 1e3 * closed(depth))),
+            ),
+        ],
+        ..Plot::default()
+    }
+}

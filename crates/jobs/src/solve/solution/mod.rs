@@ -1,0 +1,87 @@
+//! What comes of a problem, one file per kind: the figures of the JSON object, a table for people, a
+//! plot, and the deformed body.
+
+mod doubts;
+mod field;
+mod figures;
+mod hemisphere;
+mod indentation;
+mod plots;
+mod solid;
+mod tube;
+mod uniaxial;
+
+pub use figures::{Figures, Profile, TubeFigures};
+
+use palpate_files::Recording;
+
+use super::problem::{Case, Problem};
+use super::table::Table;
+use super::telling::Telling;
+use crate::plot::Plot;
+use crate::{Error, Watch};
+
+/// An answer in all its forms.
+#[derive(Debug)]
+pub struct Solution {
+    /// The figures of the JSON object.
+    pub figures: Figures,
+    /// Of the finest mesh.
+    pub unknowns: usize,
+    /// Relative, the largest over the points [-].
+    pub estimated_error: f64,
+    /// What deserves doubt.
+    pub warnings: Vec<String>,
+    /// Body and load on one line.
+    pub heading: String,
+    pub(crate) tables: Vec<Table>,
+    /// Force against depth, or what the problem asks for instead.
+    pub plot: Plot,
+    /// The bytes of a `.vtu` file.
+    pub vtu: Option<Vec<u8>>,
+    /// What the same indenter would record on such a tissue.
+    pub recording: Option<Recording>,
+}
+
+/// What is wanted beside the figures.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Wanted {
+    /// A plot that deserves work of its own.
+    pub plot: bool,
+    /// The deformed body.
+    pub vtu: bool,
+}
+
+/// Solves `problem`.
+///
+/// # Errors
+/// When the solver refuses it, or finds no equilibrium.
+pub fn solve(problem: &Problem, wanted: Wanted, watch: &dyn Watch) -> Result<Solution, Error> {
+    let telling = &Telling::to(watch);
+    let mut solution = match &problem.case {
+        Case::Indentation(case) => indentation::solution(problem, case, wanted, telling),
+        Case::Hemisphere(case) => hemisphere::solution(problem, case, telling),
+        Case::Tube(case) => tube::solution(problem, case, wanted, telling),
+        Case::Uniaxial(case) => uniaxial::solution(problem, case),
+        Case::Solid(case) => solid::solution(problem, case, wanted, telling),
+    }?;
+    if !solution.figures.are_numbers() {
+        return Err(Error::failed(
+            "the answer is no number, which should not happen; please report the problem",
+        ));
+    }
+    let mut warnings = doubts::shared(problem, solution.estimated_error);
+    warnings.append(&mut solution.warnings);
+    solution.warnings = warnings;
+    Ok(solution)
+}
+
+/// Millimetres, of lengths [m].
+fn millimetres(lengths: &[f64]) -> impl Iterator<Item = f64> {
+    lengths.iter().map(|length| 1e3 * length)
+}
+
+/// Millinewtons, of forces [N].
+fn millinewtons(forces: &[f64]) -> impl Iterator<Item = f64> {
+    forces.iter().map(|force| 1e3 * force)
+}

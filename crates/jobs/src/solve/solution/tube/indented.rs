@@ -1,0 +1,83 @@
+use palpate_mechanics::contact::Bond;
+use palpate_mechanics::finite_elements::indentation::Grip;
+use palpate_mechanics::finite_elements::tube::{TubeProblem, TubePunch, indent};
+
+use super::super::super::problem::{Problem, Tube, TubeIndent};
+use super::super::super::table::Table;
+use super::super::figures::Figures;
+use super::super::{Solution, doubts, millimetres, millinewtons, plots};
+use crate::Error;
+use crate::plot::Plot;
+use crate::solve::telling::Telling;
+
+/// The solution for the inflated tube, with the forces of a punch on its side under the last pressure.
+pub(crate) fn with_forces(
+    inflated: Solution,
+    problem: &Problem,
+    (mechanical, tube, punch): (&TubeProblem, &Tube, &TubeIndent),
+    telling: &Telling<'_>,
+) -> Result<Solution, Error> {
+    let Figures::Tube(mut figures) = inflated.figures else {
+        return Ok(inflated);
+    };
+    let depths = &punch.depths;
+    figures.depth_m = Some(depths.clone());
+    let last = (tube.pressures.last(), figures.inner_displacement_m.last());
+    let (Some(&pressure), Some(Some(_))) = last else {
+        figures.force_n = Some(vec![None; depths.len()]);
+        let figures = Figures::Tube(figures);
+        let warning = "the tube was not indented, for its last pressure is past the limit";
+        let mut warnings = inflated.warnings;
+        warnings.push(warning.to_owned());
+        return Ok(Solution {
+            figures,
+            warnings,
+            ..inflated
+        });
+    };
+    let asked = TubePunch {
+        radius: punch.radius,
+        face: match punch.contact {
+            Bond::Stick => Grip::Stick,
+            Bond::Slip => Grip::Slide,
+        },
+        pressure,
+        depths: depths.clone(),
+    };
+    let found = indent(mechanical, &asked, problem.accuracy, &mut |progress| {
+        telling.at(progress);
+    })
+    .map_err(|error| problem.refused(error))?;
+    let forces = found.answer.forces;
+    let mut tables = inflated.tables;
+    tables.push(
+        Table::default()
+            .with("depth [mm]", millimetres(depths))
+            .with("force [mN]", millinewtons(&forces)),
+    );
+    let mut warnings = inflated.warnings;
+    warnings.extend(doubts::of_depths(problem, punch.radius, depths));
+    warnings.extend(found.answer.doubts);
+    let pairs = millimetres(depths).zip(millinewtons(&forces));
+    let plot = Plot {
+        title: format!(
+            "Tube under {} Pa, indented by a punch of radius {} mm",
+            plots::short(pressure),
+            plots::short(1e3 * punch.radius)
+        ),
+        x_label: "Depth [mm]".to_owned(),
+        y_label: "Force on the tissue [mN]".to_owned(),
+        series: vec![plots::dotted_line("", pairs)],
+        ..Plot::default()
+    };
+    figures.force_n = Some(forces.into_iter().map(Some).collect());
+    Ok(Solution {
+        figures: Figures::Tube(figures),
+        tables,
+        plot,
+        warnings,
+        unknowns: inflated.unknowns.max(found.answer.unknowns),
+        estimated_error: inflated.estimated_error.max(found.error),
+        ..inflated
+    })
+}

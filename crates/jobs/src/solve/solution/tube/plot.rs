@@ -1,0 +1,121 @@
+use nalgebra::Matrix3;
+use palpate_files::Elasticity;
+use palpate_mechanics::Law;
+use palpate_mechanics::finite_elements::estimate::Estimated;
+use palpate_mechanics::finite_elements::tube::Inflated;
+
+use super::super::super::problem::{Problem, Tube};
+use super::super::plots;
+use crate::Error;
+use crate::plot::{Plot, Series, Style};
+
+/// Points of the curve that is drawn.
+const POINTS: usize = 30;
+
+/// Relative error that is not seen in a picture [-].
+const UNSEEN: f64 = 0.2;
+
+/// Displacement [m] and pressure [Pa] up to the largest pressure that has an answer.
+pub(crate) fn curve(
+    asked: &[f64],
+    inflated: &Inflated,
+    under: impl Fn(&[f64], f64) -> Result<Estimated<Inflated>, Error>,
+) -> Result<Vec<(f64, f64)>, Error> {
+    let most = asked.iter().copied().fold(0.0, f64::max);
+    let most = inflated
+        .limit_pressure
+        .map_or(most, |limit| most.min(limit));
+    // Denser towards the limit, where a little pressure moves the wall far.
+    let part = |k: usize| 1.0 - (1.0 - k as f64 / POINTS as f64).powi(3);
+    let pressures: Vec<f64> = (0..=POINTS)
+        .map(|k| part(k) * (1.0 - 1e-6) * most)
+        .collect();
+    let moved = under(&pressures, UNSEEN)?.answer.inner_displacements;
+    let known = moved.iter().zip(&pressures);
+    Ok(known
+        .filter_map(|(moved, pressure)| Some(((*moved)?, *pressure)))
+        .collect())
+}
+
+/// Pressure against displacement, beside the closed form of a tube without ends.
+pub(crate) fn over_displacement(
+    problem: &Problem,
+    case: &Tube,
+    (inflated, drawn): (&Inflated, Vec<(f64, f64)>),
+) -> Plot {
+    let asked = inflated.inner_displacements.iter().zip(&case.pressures);
+    let asked = asked.filter_map(|(moved, pressure)| Some((1e3 * (*moved)?, *pressure)));
+    let limit = inflated.limit_displacement.zip(inflated.limit_pressure);
+    let ends = drawn.iter().copied().chain(limit);
+    let widest = ends.map(|(moved, _)| moved).fold(0.0, f64::max);
+    let curve = drawn
+        .iter()
+        .map(|(moved, pressure)| (1e3 * moved, *pressure));
+    let mut series = vec![
+        plots::line("finite elements, ends fixed", curve),
+        Series {
+            style: Style::Dots,
+            ..plots::line("asked for", asked)
+        },
+    ];
+    if let Some((moved, pressure)) = limit {
+        series.push(Series {
+            style: Style::Dots,
+            color: 3,
+            ..plots::line("limit", [(1e3 * moved, pressure)].into_iter())
+        });
+    }
+    let along = (0..=80).map(|k| widest * f64::from(k) / 80.0);
+    let endless = along.map(|moved| (1e3 * moved, endless_pressure(problem, case, moved)));
+    series.push(plots::closed_form("endless tube, closed form", endless));
+    Plot {
+        title: "Pressure against displacement of the inner wall".to_owned(),
+        x_label: "Displacement of the inner wall at mid-length [mm]".to_owned(),
+        y_label: "Pressure [Pa]".to_owned(),
+        series,
+        ..Plot::default()
+    }
+}
+
+/// The pressure [Pa] at which the inner wall of a tube without ends has moved by `moved` [m].
+fn endless_pressure(problem: &Problem, case: &Tube, moved: f64) -> f64 {
+    let (inner, outer) = (case.inner_radius, case.outer_radius);
+    match problem.tissue.elasticity {
+        // Lamé, plane strain.
+        Elasticity::Linear {
+            youngs_modulus_pa,
+            poissons_ratio,
+        } => {
+            let (young, nu) = (youngs_modulus_pa.value, poissons_ratio.value);
+            let squares = (inner * inner, outer * outer);
+            let compliance = (1.0 + nu) / young * inner / (squares.1 - squares.0)
+                * ((1.0 - 2.0 * nu) * squares.0 + squares.1);
+            moved / compliance
+        }
+        _ => incompressible_pressure(problem.material.law.as_ref(), (inner, outer), moved),
+    }
+}
+
+/// p = ∫ (σ_θ − σ_r)/r dr over a wall of constant volume, by Simpson's rule over the radius at rest.
+fn incompressible_pressure(law: &dyn Law, (inner, outer): (f64, f64), moved: f64) -> f64 {
+    let more = (inner + moved).powi(2) - inner * inner;
+    let integrand = |rest: f64| {
+        let now = (rest * rest + more).sqrt();
+        let hoop = now / rest;
+        let f = Matrix3::from_diagonal(&[hoop, 1.0 / hoop, 1.0].into());
+        let stress = law.distortion_stress(&f);
+        (stress[(0, 0)] * hoop - stress[(1, 1)] / hoop) * rest / (now * now)
+    };
+    let parts = 64;
+    let step = (outer - inner) / f64::from(parts);
+    let weighted = (0..=parts).map(|k| {
+        let weight = match k {
+            0 => 1.0,
+            k if k == parts => 1.0,
+            k if k % 2 == 1 => 4.0,
+            _ => 2.0,
+        };
+        weight * integrand(inner + step * f64::from(k))
+    });
+    weighted.sum::<f64>() * step / 3.0
+}

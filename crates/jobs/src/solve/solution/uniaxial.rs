@@ -1,0 +1,85 @@
+use palpate_files::tissue::LawName;
+use palpate_mechanics::finite_elements::uniaxial::nominal_stress;
+
+use super::super::problem::{Problem, Uniaxial};
+use super::super::table::Table;
+use super::{Figures, Solution, plots};
+use crate::Error;
+use crate::plot::{Plot, Series, Style};
+
+/// Stretches beyond which the linear law is no good word [-].
+const SMALL: std::ops::RangeInclusive<f64> = 0.9..=1.1;
+
+/// Nominal stress at each stretch. The bar is everywhere the same, so nothing is left to the mesh.
+pub(crate) fn solution(problem: &Problem, case: &Uniaxial) -> Result<Solution, Error> {
+    let law = problem.material.law.as_ref();
+    let stresses = case
+        .stretches
+        .iter()
+        .map(|&stretch| nominal_stress(law, stretch))
+        .collect::<Result<Vec<f64>, _>>()
+        .map_err(|error| problem.refused(error))?;
+    let table = Table::default()
+        .with("stretch [-]", case.stretches.iter().copied())
+        .with("nominal stress [Pa]", stresses.iter().copied());
+    let mut warnings = Vec::new();
+    if problem.is_small_strain()
+        && case
+            .stretches
+            .iter()
+            .any(|stretch| !SMALL.contains(stretch))
+    {
+        warnings.push(
+            "the linear law is for small strain, but a stretch is beyond 0.9 to 1.1; \
+             a hyperelastic law follows large strain"
+                .to_owned(),
+        );
+    }
+    Ok(Solution {
+        heading: "Bar, pulled or pressed along its axis, free to widen".to_owned(),
+        tables: vec![table],
+        plot: over_stretch(problem, &case.stretches, &stresses),
+        figures: Figures::Uniaxial {
+            stretch: case.stretches.clone(),
+            nominal_stress_pa: stresses,
+        },
+        unknowns: 0,
+        estimated_error: 0.0,
+        warnings,
+        vtu: None,
+        recording: None,
+    })
+}
+
+fn over_stretch(problem: &Problem, stretches: &[f64], stresses: &[f64]) -> Plot {
+    let law = problem.material.law.as_ref();
+    let lowest = stretches.iter().copied().fold(1.0, f64::min);
+    let highest = stretches.iter().copied().fold(1.0, f64::max);
+    let between = (0..=120).filter_map(|k| {
+        let stretch = lowest + (highest - lowest) * f64::from(k) / 120.0;
+        Some((stretch, nominal_stress(law, stretch).ok()?))
+    });
+    let asked = stretches.iter().copied().zip(stresses.iter().copied());
+    Plot {
+        title: format!("Stretched bar, {} law", in_words(problem)),
+        x_label: "Stretch [-]".to_owned(),
+        y_label: "Nominal stress [Pa]".to_owned(),
+        series: vec![
+            Series {
+                style: Style::Dots,
+                ..plots::line("asked for", asked)
+            },
+            plots::line("in between", between),
+        ],
+        ..Plot::default()
+    }
+}
+
+fn in_words(problem: &Problem) -> &'static str {
+    match problem.tissue.elasticity.law() {
+        LawName::Linear => "linear",
+        LawName::NeoHookean => "neo-Hookean",
+        LawName::MooneyRivlin => "Mooney-Rivlin",
+        LawName::Blatz => "Blatz",
+    }
+}

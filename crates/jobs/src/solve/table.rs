@@ -1,0 +1,133 @@
+//! The answer for a person.
+
+use super::answer::Answer;
+use super::problem::Problem;
+use super::solution::Solution;
+
+/// Columns of numbers under their names.
+#[derive(Debug, Default)]
+pub(crate) struct Table {
+    columns: Vec<(String, Vec<String>)>,
+    /// A row that is shown whatever is left out.
+    kept: Option<usize>,
+}
+
+/// More rows are thinned out; the JSON object has them all.
+const MOST_ROWS: usize = 24;
+
+impl Table {
+    /// With one more column, whose values are printed to four digits.
+    pub(crate) fn with(self, name: &str, values: impl IntoIterator<Item = f64>) -> Self {
+        self.with_texts(name, values.into_iter().map(digits))
+    }
+
+    pub(crate) fn with_texts(
+        mut self,
+        name: &str,
+        texts: impl IntoIterator<Item = String>,
+    ) -> Self {
+        self.columns
+            .push((name.to_owned(), texts.into_iter().collect()));
+        self
+    }
+
+    /// With the row of the largest of `values` shown whatever is left out.
+    pub(crate) fn keeping_the_peak(mut self, values: &[f64]) -> Self {
+        self.kept = (0..values.len()).max_by(|&a, &b| values[a].total_cmp(&values[b]));
+        self
+    }
+
+    fn text(&self) -> String {
+        let rows = self.columns.first().map_or(0, |(_, texts)| texts.len());
+        let mut text = self.line(|(name, _)| name);
+        for row in shown(rows, self.kept) {
+            text += &self.line(|(_, texts)| texts.get(row).map_or("", String::as_str));
+        }
+        if rows > MOST_ROWS {
+            text += &format!("  (every row of {rows} is in --json)\n");
+        }
+        text
+    }
+
+    /// Every column as wide as its widest text.
+    fn line<'t>(&'t self, of: impl Fn(&'t (String, Vec<String>)) -> &'t str) -> String {
+        let cells = self.columns.iter().map(|column| {
+            let texts = column.1.iter().map(|text| text.chars().count());
+            let width = texts.fold(column.0.chars().count(), usize::max);
+            format!("  {:>width$}", of(column))
+        });
+        cells.collect::<String>() + "\n"
+    }
+}
+
+/// The rows that are shown: all, or some, evenly, ends included, and the one that is `kept`.
+fn shown(rows: usize, kept: Option<usize>) -> Vec<usize> {
+    if rows <= MOST_ROWS {
+        return (0..rows).collect();
+    }
+    let even = (0..MOST_ROWS).map(|k| k * (rows - 1) / (MOST_ROWS - 1));
+    let mut shown: Vec<usize> = even.chain(kept).collect();
+    shown.sort_unstable();
+    shown.dedup();
+    shown
+}
+
+/// To four digits, and not more than six places.
+pub(crate) fn digits(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return format!("{value:.3}");
+    }
+    let before = value.abs().log10().floor() as i32;
+    match before {
+        -4..=5 => format!("{value:.*}", (3 - before).clamp(0, 7) as usize),
+        _ => format!("{value:.3e}"),
+    }
+}
+
+/// The whole answer as text.
+pub fn in_words(problem: &Problem, solution: &Solution, answer: &Answer) -> String {
+    let error = format!("{:.2}", 100.0 * answer.estimated_error);
+    format!(
+        "{}\n{}\n\n{}\nestimated error {error} % (asked for {} %), {} unknowns, {:.1} s\n",
+        solution.heading,
+        problem.tissue_in_words(),
+        solution
+            .tables
+            .iter()
+            .map(Table::text)
+            .collect::<Vec<_>>()
+            .join("\n"),
+        100.0 * problem.accuracy,
+        answer.unknowns,
+        answer.seconds,
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_four_digits() {
+        for (value, text) in [
+            (1234.5678, "1235"),
+            (12.345678, "12.35"),
+            (0.012345678, "0.01235"),
+            (-3.0, "-3.000"),
+            (0.0, "0.000"),
+            (1.5e9, "1.500e9"),
+        ] {
+            assert_eq!(digits(value), text);
+        }
+    }
+
+    #[test]
+    fn long_tables_are_thinned_out_and_keep_their_ends() {
+        let table = Table::default().with("a", (0..100).map(f64::from));
+        let text = table.text();
+        assert_eq!(text.lines().count(), 2 + MOST_ROWS);
+        assert!(text.contains("99.00") && text.contains("100 is in"));
+        assert_eq!(shown(3, Some(1)), [0, 1, 2]);
+        assert!(shown(1000, Some(1)).starts_with(&[0, 1, 43]));
+    }
+}
