@@ -1,0 +1,27 @@
+//! The Python package `palpate`: meshes, tissues, scenes, recordings and the simulator, in the words of Rust.
+//!
+//! ```text
+//! palpate/*.py ──▶ _palpate (this crate) ──▶ files, geometry, simulate
+//!                     │ waiting: long work on a thread of its own, the interpreter free, Ctrl-C heard
+//! ```
+//!
+//! A class here holds a type of the libraries and converts; it decides nothing. What a library refuses becomes
+//! `palpate.InputError` or `palpate.PalpateError` with the same sentence as the command's ([`failure`]).
+//! The annotations of all this stand in `python/palpate/_palpate.pyi`.
+//!
+//! *How we know*: `crates/python/tests`.
+//!
+//! *Limits*: for CPython from 3.10 on, with its global lock.
+
+mod failure;
+mod waiting;
+
+use pyo3::prelude::*;
+
+/// What `palpate` is made of; import `palpate` instead.
+#[pymodule]
+fn _palpate(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add_function(wrap_pyfunction!(waiting::_wait, module)?)?;
+    Ok(())
+}
