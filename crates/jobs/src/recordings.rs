@@ -7,16 +7,19 @@ use palpate_characterize::CleanRecording;
 use palpate_characterize::clean::{CleanSettings, clean};
 use palpate_files::Recording;
 use palpate_files::recording::{ForeignColumns, RecordingHeader};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
 use crate::{Error, nearest};
 
 /// Which recordings, and what they do not say themselves.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct Recordings {
     /// Recordings, or folders of them; tables of other programs are read too.
     pub paths: Vec<PathBuf>,
+    /// Recordings that are not files here: what they are called, and their text.
+    pub texts: Vec<(PathBuf, String)>,
     /// The column of the time, in a table of another program; found by its name if not given.
     pub time: Option<String>,
     /// The column of the depth.
@@ -56,12 +59,7 @@ impl Recordings {
     pub fn of(path: &Path) -> Self {
         Self {
             paths: vec![path.to_owned()],
-            time: None,
-            depth: None,
-            force: None,
-            depth_unit: None,
-            force_unit: None,
-            said: Vec::new(),
+            ..Self::default()
         }
     }
 
@@ -72,11 +70,14 @@ impl Recordings {
     ) -> Result<(Vec<ReadRecording>, Vec<Unusable>), Error> {
         let said = self.header()?;
         let (mut good, mut bad) = (Vec::new(), Vec::new());
-        for path in self.files()? {
+        let files = self.files()?.into_iter().map(|path| (path, None));
+        let texts = self.texts.iter();
+        let texts = texts.map(|(path, text)| (path.clone(), Some(text.as_str())));
+        for (path, text) in files.chain(texts) {
             at_file(&path);
-            match self.one(&path, &said) {
+            match self.one((&path, text), &said) {
                 Ok(clean) => good.push(ReadRecording {
-                    digest: digest(&path),
+                    digest: digest(&path, text),
                     path,
                     clean,
                 }),
@@ -132,18 +133,18 @@ impl Recordings {
         Ok(files)
     }
 
-    fn one(&self, path: &Path, said: &RecordingHeader) -> Result<CleanRecording, String> {
-        let recording = if self.is_of_this_project(path) {
-            Recording::read(path)
-        } else {
-            let columns = ForeignColumns {
-                time: self.time.clone(),
-                depth: self.depth.clone(),
-                force: self.force.clone(),
-                depth_unit: self.depth_unit.clone(),
-                force_unit: self.force_unit.clone(),
-            };
-            Recording::read_foreign(path, &columns)
+    /// A recording that is a file, or a text that is called by a path.
+    fn one(
+        &self,
+        (path, text): (&Path, Option<&str>),
+        said: &RecordingHeader,
+    ) -> Result<CleanRecording, String> {
+        let columns = self.columns();
+        let recording = match (self.is_of_this_project(path, text), text) {
+            (true, None) => Recording::read(path),
+            (true, Some(text)) => Recording::parse(text, path),
+            (false, None) => Recording::read_foreign(path, &columns),
+            (false, Some(text)) => Recording::parse_foreign(text, path, &columns),
         };
         let mut recording = recording.map_err(|error| error.to_string())?;
         recording.header = recording.header.completed_by(said);
@@ -151,12 +152,22 @@ impl Recordings {
             .map_err(|error| format!("{}: {error}", path.display()))
     }
 
+    fn columns(&self) -> ForeignColumns {
+        ForeignColumns {
+            time: self.time.clone(),
+            depth: self.depth.clone(),
+            force: self.force.clone(),
+            depth_unit: self.depth_unit.clone(),
+            force_unit: self.force_unit.clone(),
+        }
+    }
+
     /// A recording of this project says its format; columns are named for tables of others.
-    fn is_of_this_project(&self, path: &Path) -> bool {
+    fn is_of_this_project(&self, path: &Path, text: Option<&str>) -> bool {
         let named = [&self.time, &self.depth, &self.force]
             .iter()
             .any(|name| name.is_some());
-        let says_format = |text: String| {
+        let says_format = |text: &str| {
             let comments = text
                 .lines()
                 .take_while(|line| line.trim_start().starts_with('#'));
@@ -164,7 +175,8 @@ impl Recordings {
             keys.any(|key| key.starts_with("format"))
         };
         // What cannot be read has its error from the reader.
-        !named && fs::read_to_string(path).map_or(true, says_format)
+        let of_file = || fs::read_to_string(path).map_or(true, |text| says_format(&text));
+        !named && text.map_or_else(of_file, says_format)
     }
 
     /// What `--set` says, by the rules of a recording's own header.
@@ -198,9 +210,12 @@ impl Recordings {
     }
 }
 
-/// SHA-256 of a file; of one that is gone meanwhile, of nothing.
-fn digest(path: &Path) -> String {
-    let content = fs::read(path).unwrap_or_default();
+/// SHA-256 of a file, or of its text; of a file that is gone meanwhile, of nothing.
+fn digest(path: &Path, text: Option<&str>) -> String {
+    let content = match text {
+        Some(text) => text.as_bytes().to_vec(),
+        None => fs::read(path).unwrap_or_default(),
+    };
     hexadecimal(&Sha256::digest(content))
 }
 

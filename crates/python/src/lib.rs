@@ -14,6 +14,7 @@
 //! *Limits*: for CPython from 3.10 on, with its global lock.
 
 mod failure;
+mod jobs;
 mod waiting;
 
 use pyo3::prelude::*;
@@ -23,5 +24,6 @@ use pyo3::prelude::*;
 fn _palpate(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_function(wrap_pyfunction!(waiting::_wait, module)?)?;
+    jobs::register(module)?;
     Ok(())
 }

@@ -8,6 +8,8 @@ mod portrait;
 mod study;
 mod summary;
 
+use std::path::PathBuf;
+
 use palpate_characterize::CharacterizeSettings;
 use palpate_characterize::fit::Draws;
 use palpate_characterize::inverse::SoughtLaw;
@@ -22,7 +24,7 @@ pub use portrait::{
     DrawnCurve, DrawnFit, DrawnLaw, DrawnRecording, DrawnRelaxation, DrawnSeries, LEVEL, Portrait,
 };
 
-use crate::{Error, Recordings, Watch};
+use crate::{Error, Recordings, Unusable, Watch, nearest};
 
 /// What may be chosen, in the words of the command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -49,6 +51,22 @@ impl Default for Choice {
 }
 
 impl Choice {
+    /// The law of a name among [`Self::LAWS`].
+    ///
+    /// # Errors
+    /// When there is no such law.
+    pub fn law_named(name: &str) -> Result<SoughtLaw, Error> {
+        let found = Self::LAWS.iter().find(|(own, _)| *own == name);
+        found.map(|(_, law)| *law).ok_or_else(|| {
+            let names = Self::LAWS.map(|(own, _)| own);
+            let meant = nearest(name, &names);
+            Error::input(format!(
+                "there is no law `{name}` to seek; name one of {}, such as {meant}",
+                names.join(", ")
+            ))
+        })
+    }
+
     /// The laws by the names of their options, which are those of a tissue file.
     pub const LAWS: [(&'static str, SoughtLaw); 3] = [
         ("neo_hookean", SoughtLaw::NeoHookean),
@@ -79,6 +97,29 @@ pub struct Characterized {
     /// The text of the tissue file of each specimen, or why there is none.
     pub tissues: Vec<Result<String, String>>,
 }
+
+/// The specimens among `recordings` that can be used: what each is called, and its recordings; and what cannot be
+/// used.
+///
+/// # Errors
+/// When no recording can be used.
+pub fn specimens(recordings: &Recordings) -> Result<(Vec<NamedSpecimen>, Vec<Unusable>), Error> {
+    let (read, unusable) = recordings.read(|_| ())?;
+    let headers: Vec<_> = read.iter().map(|read| &read.clean.header).collect();
+    let groups = palpate_characterize::specimens(&headers);
+    let named = groups.into_iter().map(|group| {
+        let first = &read[group[0]];
+        let files = group.iter().map(|place| read[*place].path.clone());
+        (
+            Specimen::title(&first.clean.header, &first.path),
+            files.collect(),
+        )
+    });
+    Ok((named.collect(), unusable))
+}
+
+/// What a specimen is called, and its recordings.
+pub type NamedSpecimen = (String, Vec<PathBuf>);
 
 /// Characterizes every specimen of `recordings`, as many at once as there are cores, in their order. What
 /// `folder` keeps already is taken from there, and what is finished goes there at once, tables of all at last.

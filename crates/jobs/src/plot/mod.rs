@@ -2,10 +2,12 @@
 
 mod thinned;
 
+use serde::Serialize;
+
 pub use thinned::kept;
 
 /// What is drawn.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Serialize, Clone, Default)]
 pub struct Plot {
     /// Above it.
     pub title: String,
@@ -26,7 +28,7 @@ pub struct Plot {
 }
 
 /// What lies between two curves.
-#[derive(Debug, Clone)]
+#[derive(Debug, Serialize, Clone)]
 pub struct Band {
     /// x, and the lower and the upper y; what is not finite is left out.
     pub points: Vec<(f64, [f64; 2])>,
@@ -35,7 +37,7 @@ pub struct Band {
 }
 
 /// A part of the x axis.
-#[derive(Debug, Clone)]
+#[derive(Debug, Serialize, Clone)]
 pub struct Shade {
     /// From where to where.
     pub span: [f64; 2],
@@ -44,7 +46,8 @@ pub struct Shade {
 }
 
 /// How an axis divides.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Serialize, Clone, Copy, Default, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
 pub enum Axis {
     /// Evenly.
     #[default]
@@ -56,7 +59,7 @@ pub enum Axis {
 }
 
 /// Points that belong together.
-#[derive(Debug, Clone)]
+#[derive(Debug, Serialize, Clone)]
 pub struct Series {
     /// In the legend; one without a name is not in it.
     pub name: String,
@@ -70,7 +73,8 @@ pub struct Series {
 }
 
 /// How the points of a series are drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Serialize, Clone, Copy, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
 pub enum Style {
     /// A line through them.
     Line,

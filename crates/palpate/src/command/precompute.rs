@@ -1,15 +1,13 @@
 //! `palpate precompute`: the whole organ's response, made once and kept.
 
 use std::path::PathBuf;
-use std::time::Instant;
 
 use clap::Args;
 use palpate_files::Scene;
-use palpate_files::scene::ModelKind;
-use serde::Serialize;
+use palpate_jobs::preparation::{Precomputed, precompute};
 
 use crate::failure::Failure;
-use crate::progress::Reader;
+use crate::progress::{Progress, Reader};
 use crate::{output, preparation};
 
 /// Examples at the end of the help.
@@ -43,73 +41,37 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
-#[derive(Debug, Serialize)]
-struct Answer {
-    palpate: &'static str,
-    triangles: usize,
-    mechanical_triangles: usize,
-    /// How they are solved.
-    method: &'static str,
-    touchable_triangles: usize,
-    memory_bytes: usize,
-    /// Whether it had been made before.
-    was_kept: bool,
-    file: Option<PathBuf>,
-    seconds: f64,
-    warnings: Vec<String>,
-}
-
 /// Prepares and tells.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let mut scene = Scene::read(&arguments.scene)?;
-    scene.model.kind = ModelKind::Hybrid;
+    let scene = Scene::read(&arguments.scene)?;
     let mut resources = preparation::resources();
     if let Some(memory) = arguments.memory_gb {
         resources.memory = (1e9 * memory) as usize;
     }
-    let reader = Reader::of_json(arguments.json);
-    let begin = Instant::now();
-    let simulation = preparation::simulation(&scene, &resources, reader)?;
-    let Some(response) = simulation.response() else {
-        return Err(Failure::failed(
-            "the scene has no response; report it as a defect",
-        ));
-    };
-    let answer = Answer {
-        palpate: output::VERSION,
-        triangles: simulation.surface().mesh().triangles().len(),
-        mechanical_triangles: response.triangles,
-        method: response.method,
-        touchable_triangles: response.touchable,
-        memory_bytes: response.bytes,
-        was_kept: response.was_kept,
-        file: response.file.clone(),
-        seconds: begin.elapsed().as_secs_f64(),
-        warnings: simulation.doubts().to_vec(),
-    };
+    let bar = Progress::of_parts(Reader::of_json(arguments.json));
+    let answer = precompute(scene, &resources, &bar)?;
+    drop(bar);
     if arguments.json {
         return output::json(&answer);
     }
-    output::text(answer.text())?;
+    output::text(text(&answer))?;
     output::warnings(&answer.warnings);
     Ok(())
 }
 
-impl Answer {
-    fn text(&self) -> String {
-        let what = format!(
-            "{} of {} mechanical triangles can be touched, by {}; {:.1} MB; {:.1} s",
-            self.touchable_triangles,
-            self.mechanical_triangles,
-            self.method,
-            1e-6 * self.memory_bytes as f64,
-            self.seconds,
-        );
-        match &self.file {
-            Some(file) if self.was_kept => format!("{what}\nkept before in {}", file.display()),
-            Some(file) => format!("{what}\nkept in {}", file.display()),
-            None => format!("{what}\nnot kept"),
-        }
+fn text(answer: &Precomputed) -> String {
+    let what = format!(
+        "{} of {} mechanical triangles can be touched, by {}; {:.1} MB; {:.1} s",
+        answer.touchable_triangles,
+        answer.mechanical_triangles,
+        answer.method,
+        1e-6 * answer.memory_bytes as f64,
+        answer.seconds,
+    );
+    match &answer.file {
+        Some(file) if answer.was_kept => format!("{what}\nkept before in {}", file.display()),
+        Some(file) => format!("{what}\nkept in {}", file.display()),
+        None => format!("{what}\nnot kept"),
     }
 }
 

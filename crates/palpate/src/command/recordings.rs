@@ -35,6 +35,7 @@ impl Recordings {
     pub(crate) fn asked(&self) -> palpate_jobs::Recordings {
         palpate_jobs::Recordings {
             paths: self.paths.clone(),
+            texts: Vec::new(),
             time: self.time.clone(),
             depth: self.depth.clone(),
             force: self.force.clone(),

@@ -1,11 +1,15 @@
 //! Simulations are made from what was prepared before where there is such.
 
+mod precompute;
+
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use palpate_devices::Places;
 use palpate_files::Scene;
 use palpate_simulate::{Resources, Simulation};
+
+pub use precompute::{Precomputed, precompute};
 
 use crate::{Error, Watch};
 

@@ -1,0 +1,63 @@
+use std::path::PathBuf;
+use std::time::Instant;
+
+use palpate_files::Scene;
+use palpate_files::scene::ModelKind;
+use palpate_simulate::Resources;
+use serde::Serialize;
+
+use crate::{Error, VERSION, Watch};
+
+/// What `precompute --json` prints.
+#[derive(Debug, Serialize)]
+pub struct Precomputed {
+    palpate: &'static str,
+    triangles: usize,
+    /// That the organ is solved on.
+    pub mechanical_triangles: usize,
+    /// How they are solved.
+    pub method: &'static str,
+    /// That have an answer.
+    pub touchable_triangles: usize,
+    /// Of the answers.
+    pub memory_bytes: usize,
+    /// Whether it had been made before.
+    pub was_kept: bool,
+    /// Where it is kept.
+    pub file: Option<PathBuf>,
+    /// That it took [s].
+    pub seconds: f64,
+    /// What deserves doubt.
+    pub warnings: Vec<String>,
+}
+
+/// Makes the whole organ's response of `scene`, and keeps it where `resources` say.
+///
+/// # Errors
+/// As [`super::simulation`].
+pub fn precompute(
+    mut scene: Scene,
+    resources: &Resources,
+    watch: &dyn Watch,
+) -> Result<Precomputed, Error> {
+    scene.model.kind = ModelKind::Hybrid;
+    let begin = Instant::now();
+    let simulation = super::simulation(&scene, resources, watch)?;
+    let Some(response) = simulation.response() else {
+        return Err(Error::failed(
+            "the scene has no response; report it as a defect",
+        ));
+    };
+    Ok(Precomputed {
+        palpate: VERSION,
+        triangles: simulation.surface().mesh().triangles().len(),
+        mechanical_triangles: response.triangles,
+        method: response.method,
+        touchable_triangles: response.touchable,
+        memory_bytes: response.bytes,
+        was_kept: response.was_kept,
+        file: response.file.clone(),
+        seconds: begin.elapsed().as_secs_f64(),
+        warnings: simulation.doubts().to_vec(),
+    })
+}

@@ -1,0 +1,302 @@
+"""What the command does, as functions: their answers are those of ``--json``, digit for digit."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from palpate import _palpate
+
+if TYPE_CHECKING:
+    import matplotlib.axes
+    import pandas
+
+PathLike: TypeAlias = "str | os.PathLike[str]"
+Document: TypeAlias = "PathLike | Mapping[str, Any]"
+Recordings: TypeAlias = "PathLike | Iterable[PathLike]"
+Progress: TypeAlias = "Callable[[float, str], object] | bool | None"
+
+
+class Solution(dict[str, Any]):
+    """What ``palpate solve --json`` prints, and what comes with it.
+
+    Attributes
+    ----------
+    text : str
+        The same as a table.
+    vtu : bytes or None
+        The deformed body for ParaView, if it was asked for.
+    recording : str or None
+        The forces over a ramp as the text of a recording.
+    """
+
+    text: str
+    vtu: bytes | None
+    recording: str | None
+    _plot: dict[str, Any]
+
+    def draw(self, axes: matplotlib.axes.Axes | None = None) -> matplotlib.axes.Axes:
+        """Draw force against depth, or what the problem asks for instead, with Matplotlib."""
+        from palpate import drawing
+
+        return drawing.draw(self._plot, axes)
+
+
+class Characterization(dict[str, Any]):
+    """What ``palpate characterize --json`` prints, and the tissues that were found.
+
+    Attributes
+    ----------
+    tissues : list of str or None
+        The text of the tissue file of each specimen.
+    reasons : list of str or None
+        Why a specimen has none.
+    """
+
+    tissues: list[str | None]
+    reasons: list[str | None]
+
+    def tissue(self, specimen: int = 0) -> str:
+        """Return the text of a specimen's tissue file, for ``Tissue.parse`` and scenes.
+
+        Raises
+        ------
+        PalpateError
+            When no law was found; the message says why.
+        """
+        text = self.tissues[specimen]
+        if text is None:
+            from palpate.errors import PalpateError
+
+            raise PalpateError(self.reasons[specimen] or "no law was found")
+        return text
+
+    def to_frame(self) -> pandas.DataFrame:
+        """Return a row for each specimen: its names and every number that was found."""
+        import pandas
+
+        rows = [flat(specimen) for specimen in self["specimens"]]
+        return pandas.DataFrame(rows)
+
+
+class Analysis(dict[str, Any]):
+    """What ``palpate analyze --json`` prints."""
+
+    def to_frame(self, part: str = "static") -> pandas.DataFrame:
+        """Return a row for each hold (``"static"``), relaxation or sine (``"sinusoid"``) of each recording."""
+        import pandas
+
+        rows = []
+        for file in self["files"]:
+            found = file[part]
+            for row in found if isinstance(found, list) else [found]:
+                if row is not None:
+                    rows.append({"file": file["file"], "organ": file["organ"], **row})
+        return pandas.DataFrame(rows)
+
+
+class Measurement(dict[str, Any]):
+    """What ``palpate measure --json`` prints."""
+
+    @property
+    def files(self) -> list[Path]:
+        """The recordings that were made."""
+        return [Path(recording["file"]) for recording in self["recordings"]]
+
+
+def solve(
+    problem: Document,
+    *,
+    vtu: bool = False,
+    progress: Progress = None,
+) -> Solution:
+    """Solve a problem by finite elements, refined until the estimated error is what was asked for.
+
+    Parameters
+    ----------
+    problem : path or mapping
+        A problem's file, or the same keys as a mapping; see ``palpate solve --help``.
+    vtu : bool
+        Whether the deformed body is wanted, for ParaView.
+    progress : callable, bool or None
+        Hears ``(part, words)``; ``False`` for silence.
+
+    Returns
+    -------
+    Solution
+        ``force_n``, ``depth_m`` and so on, by the problem's kind; ``estimated_error`` is relative.
+    """
+    answer, text, plot, body, recording = _palpate._solve(given(problem, "problem"), True, vtu, progress)
+    solution = Solution(json.loads(answer))
+    solution.text = text
+    solution.vtu = body
+    solution.recording = recording
+    solution._plot = json.loads(plot)
+    return solution
+
+
+def analyze(recordings: Recordings, *, progress: Progress = None, **columns: Any) -> Analysis:
+    """Show what recordings hold without any model: steady forces, relaxation, sines and chirps.
+
+    Parameters
+    ----------
+    recordings : path or iterable of paths
+        Files, or folders of them.
+    progress : callable, bool or None
+        Hears ``(part, words)``.
+    **columns
+        As of `characterize`: ``time``, ``depth``, ``force``, ``depth_unit``, ``force_unit``, ``known``.
+    """
+    return Analysis(json.loads(_palpate._analyze(asked(recordings, **columns), progress)))
+
+
+def characterize(
+    recordings: Recordings,
+    *,
+    law: str | None = None,
+    terms: int | None = None,
+    draws: int = 100,
+    seed: int = 1,
+    study: PathLike | None = None,
+    progress: Progress = None,
+    **columns: Any,
+) -> Characterization:
+    """Find the tissue behind recordings, with how well it is known.
+
+    Parameters
+    ----------
+    recordings : path or iterable of paths
+        Files, or folders of them; those of the same organ, subject and site are one specimen.
+    law : {"neo_hookean", "mooney_rivlin", "blatz"}, optional
+        The only law that is sought; by default all are.
+    terms : int, optional
+        Terms of the relaxation, 1 to 4; by default as many as the recordings can tell.
+    draws : int
+        How often fits are made again to see how well parameters are known.
+    seed : int
+        Of these draws.
+    study : path, optional
+        A folder that keeps every finished specimen; a study that was stopped goes on.
+    progress : callable, bool or None
+        Hears ``(part, words)``.
+    **columns
+        ``time``, ``depth``, ``force``: columns of tables of other programs; ``depth_unit``, ``force_unit``;
+        ``known``: what the files do not say, such as ``{"indenter_radius_m": 0.001}``.
+    """
+    answer, tissues = _palpate._characterize(
+        asked(recordings, **columns), (law, terms, draws, seed), study, progress
+    )
+    found = Characterization(json.loads(answer))
+    found.tissues = [text for text, _ in tissues]
+    found.reasons = [why for _, why in tissues]
+    return found
+
+
+def measure(
+    protocol: Document | None = None,
+    *,
+    out: PathLike = "recordings",
+    seed: int = 1,
+    overwrite: bool = False,
+    progress: Progress = None,
+) -> Measurement:
+    """Carry a protocol out with the rig, and make a recording of each stimulus.
+
+    Parameters
+    ----------
+    protocol : path or mapping, optional
+        What is pressed, and on what; by default three depths on a virtual liver, which is `default_protocol`.
+    out : path
+        A folder, or the file of an only recording.
+    seed : int
+        Of noise, heart and breath; the same seed gives the same bytes.
+    overwrite : bool
+        Whether recordings that are there may be lost.
+    """
+    asked_for = None if protocol is None else given(protocol, "protocol")
+    return Measurement(json.loads(_palpate._measure(asked_for, Path(out), overwrite, seed, progress)))
+
+
+def default_protocol() -> str:
+    """Return the protocol that is measured without one, with every key explained."""
+    return _palpate._default_protocol()
+
+
+def precompute(scene: Document, *, memory: float | None = None, progress: Progress = None) -> dict[str, Any]:
+    """Make the whole organ's response once and keep it, as `Simulation` would.
+
+    Parameters
+    ----------
+    scene : path or mapping
+        A scene.
+    memory : float, optional
+        That may be used [bytes]; by default four fifths of what is free.
+    """
+    answer: dict[str, Any] = json.loads(_palpate._precompute(given(scene, "scene"), memory, progress))
+    return answer
+
+
+def given(document: Document, name: str) -> tuple[Path, str | None]:
+    """Return a document as the extension takes it: a file, or a text and what it is called."""
+    if isinstance(document, Mapping):
+        return Path(name), _palpate._toml(json.dumps(document, default=plain))
+    return Path(document), None
+
+
+def plain(value: Any) -> Any:
+    """Return what JSON has words for: lists of arrays, numbers of NumPy's scalars, texts of paths."""
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    raise TypeError(f"{value!r} cannot stand in a document; use numbers, texts, lists and mappings")
+
+
+def asked(
+    recordings: Recordings,
+    *,
+    time: str | None = None,
+    depth: str | None = None,
+    force: str | None = None,
+    depth_unit: str | None = None,
+    force_unit: str | None = None,
+    known: Mapping[str, object] | None = None,
+    texts: Sequence[tuple[str, str]] = (),
+) -> str:
+    """Return which recordings are meant as the extension takes it."""
+    one = isinstance(recordings, (str, os.PathLike))
+    paths = [recordings] if one else list(recordings)  # type: ignore[list-item, arg-type]
+    return json.dumps(
+        {
+            "paths": [os.fspath(path) for path in paths],
+            "texts": list(texts),
+            "time": time,
+            "depth": depth,
+            "force": force,
+            "depth_unit": depth_unit,
+            "force_unit": force_unit,
+            "said": [f"{key}={_said(value)}" for key, value in (known or {}).items()],
+        }
+    )
+
+
+def _said(value: object) -> str:
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def flat(found: Mapping[str, Any], before: str = "") -> dict[str, Any]:
+    """Return numbers and texts of nested mappings under names with dots; of a parameter, value and error."""
+    row: dict[str, Any] = {}
+    for key, value in found.items():
+        name = f"{before}{key}"
+        if isinstance(value, Mapping):
+            row.update(flat(value, f"{name}."))
+        elif isinstance(value, list) and all(isinstance(one, Mapping) for one in value):
+            for place, one in enumerate(value, start=1):
+                row.update(flat(one, f"{name}_{place}."))
+        elif not isinstance(value, list):
+            row[name] = value
+    return row

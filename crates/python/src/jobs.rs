@@ -1,0 +1,239 @@
+//! Jobs, as `palpate.jobs` asks for them: documents and choices come in as text, answers go out as JSON, which is
+//! what the command prints.
+//!
+//! A job that cannot end in good order is broken off by Ctrl-C where it tells how far it is: its thread unwinds,
+//! as no file is half written there.
+
+use std::path::PathBuf;
+
+use palpate_files::{Protocol, Scene};
+use palpate_jobs::characterize::{Choice, NamedSpecimen, StudyFolder};
+use palpate_jobs::measure::{Measuring, Out, Plan};
+use palpate_jobs::preparation::resources;
+use palpate_jobs::solve::{Problem, Wanted, in_words};
+use palpate_jobs::{Recordings, Unusable, Watch, json_text};
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+
+use crate::failure::Failure;
+use crate::waiting::{Told, waiting};
+
+/// Why a thread unwinds.
+struct BrokenOff;
+
+impl Watch for Told {
+    fn say(&self, doing: &str) {
+        break_off_if_asked(self);
+        Self::say(self, doing);
+    }
+
+    fn at(&self, part: f64) {
+        break_off_if_asked(self);
+        Self::at(self, part);
+    }
+
+    fn is_asked_to_stop(&self) -> bool {
+        Self::is_asked_to_stop(self)
+    }
+}
+
+fn break_off_if_asked(told: &Told) {
+    if told.is_asked_to_stop() {
+        std::panic::resume_unwind(Box::new(BrokenOff));
+    }
+}
+
+impl From<palpate_jobs::Error> for Failure {
+    fn from(error: palpate_jobs::Error) -> Self {
+        match error {
+            palpate_jobs::Error::Input(message) => Self::Input(message),
+            palpate_jobs::Error::Failed(message) => Self::Failed(message),
+        }
+    }
+}
+
+/// A document: a file, or a text whose files are looked for beside the path it is called by.
+type Given = (PathBuf, Option<String>);
+
+/// What a solution comes with: the answer, the same in words, what is drawn of it, the body for ParaView, and the
+/// recording of a ramp.
+type Solved<'py> = (
+    String,
+    String,
+    String,
+    Option<Bound<'py, PyBytes>>,
+    Option<String>,
+);
+
+/// `palpate solve`.
+#[pyfunction]
+#[pyo3(signature = (problem, plot, vtu, progress=None))]
+pub(crate) fn _solve(
+    py: Python<'_>,
+    problem: Given,
+    plot: bool,
+    vtu: bool,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Solved<'_>> {
+    let (answer, words, plot, vtu, recording) = waiting(py, progress, move |told| {
+        let problem = match problem {
+            (path, None) => Problem::read(&path)?,
+            (path, Some(text)) => Problem::parse(&text, &path)?,
+        };
+        let begin = std::time::Instant::now();
+        let solution = palpate_jobs::solve::solve(&problem, Wanted { plot, vtu }, told)?;
+        let answer = palpate_jobs::solve::Answer::new(&problem, &solution, begin.elapsed());
+        let recording = solution.recording.as_ref().map(|own| own.to_csv());
+        Ok((
+            json_text(&answer)?,
+            in_words(&problem, &solution, &answer),
+            json_text(&solution.plot)?,
+            solution.vtu,
+            recording,
+        ))
+    })?;
+    let vtu = vtu.map(|bytes| PyBytes::new(py, &bytes));
+    Ok((answer, words, plot, vtu, recording))
+}
+
+/// `palpate analyze`; `recordings` are [`Recordings`] as JSON.
+#[pyfunction]
+#[pyo3(signature = (recordings, progress=None))]
+pub(crate) fn _analyze(
+    py: Python<'_>,
+    recordings: &str,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<String> {
+    let recordings = asked(recordings)?;
+    waiting(py, progress, move |told| {
+        let analyzed = palpate_jobs::analyze::analyze(&recordings, told)?;
+        Ok(json_text(&palpate_jobs::analyze::Answer::new(&analyzed))?)
+    })
+}
+
+/// `palpate characterize`: the answer, and the tissue of each specimen or why there is none.
+#[pyfunction]
+#[pyo3(signature = (recordings, choice, study=None, progress=None))]
+pub(crate) fn _characterize(
+    py: Python<'_>,
+    recordings: &str,
+    choice: (Option<String>, Option<usize>, usize, u64),
+    study: Option<PathBuf>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<(String, Vec<(Option<String>, Option<String>)>)> {
+    let recordings = asked(recordings)?;
+    let (law, terms, draws, seed) = choice;
+    waiting(py, progress, move |told| {
+        let choice = Choice {
+            law: law.as_deref().map(Choice::law_named).transpose()?,
+            terms,
+            draws,
+            seed,
+        };
+        let folder = study.as_deref().map(StudyFolder::open).transpose()?;
+        let found =
+            palpate_jobs::characterize::characterize(&recordings, choice, folder.as_ref(), told)?;
+        let tissues = found.tissues.into_iter().map(|tissue| match tissue {
+            Ok(text) => (Some(text), None),
+            Err(why) => (None, Some(why)),
+        });
+        Ok((json_text(&found.answer)?, tissues.collect()))
+    })
+}
+
+/// The specimens among `recordings`, what each is called and its files; and the sentences about what cannot be used.
+#[pyfunction]
+pub(crate) fn _specimens(recordings: &str) -> PyResult<(Vec<NamedSpecimen>, Vec<String>)> {
+    let recordings = asked(recordings)?;
+    let (found, unusable) =
+        palpate_jobs::characterize::specimens(&recordings).map_err(Failure::from)?;
+    Ok((found, unusable.iter().map(Unusable::sentence).collect()))
+}
+
+/// `palpate measure --headless`.
+#[pyfunction]
+#[pyo3(signature = (protocol, out, overwrite, seed, progress=None))]
+pub(crate) fn _measure(
+    py: Python<'_>,
+    protocol: Option<Given>,
+    out: PathBuf,
+    overwrite: bool,
+    seed: u64,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<String> {
+    waiting(py, progress, move |told| {
+        let protocol = match protocol {
+            None => Protocol::parse(palpate_jobs::measure::DEFAULT, "the default protocol")?,
+            Some((path, None)) => Protocol::read(&path)?,
+            Some((path, Some(text))) => Protocol::parse(&text, &path)?,
+        };
+        let measuring = Measuring::of(Plan::of(protocol, seed)?, told)?;
+        let out = Out {
+            path: &out,
+            overwrite,
+        };
+        let files = palpate_jobs::measure::files(&measuring, out)?;
+        let recorded = measuring.run(&files, told)?;
+        let answer = palpate_jobs::measure::Answer::new(recorded, &measuring);
+        Ok(json_text(&answer)?)
+    })
+}
+
+/// `palpate precompute`.
+#[pyfunction]
+#[pyo3(signature = (scene, memory=None, progress=None))]
+pub(crate) fn _precompute(
+    py: Python<'_>,
+    scene: Given,
+    memory: Option<f64>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<String> {
+    waiting(py, progress, move |told| {
+        let scene = match scene {
+            (path, None) => Scene::read(&path)?,
+            (path, Some(text)) => Scene::parse(&text, &path)?,
+        };
+        let mut resources = resources();
+        if let Some(bytes) = memory {
+            resources.memory = bytes as usize;
+        }
+        let answer = palpate_jobs::preparation::precompute(scene, &resources, told)?;
+        Ok(json_text(&answer)?)
+    })
+}
+
+/// What is measured without a protocol.
+#[pyfunction]
+pub(crate) fn _default_protocol() -> &'static str {
+    palpate_jobs::measure::DEFAULT
+}
+
+/// A document in TOML from the same in JSON.
+#[pyfunction]
+pub(crate) fn _toml(json: &str) -> PyResult<String> {
+    let document = || -> Result<String, Failure> {
+        let value: serde_json::Value = serde_json::from_str(json).map_err(Failure::input)?;
+        toml::to_string(&value).map_err(|error| {
+            Failure::input(format!(
+                "this is no document ({error}); use tables, lists, texts and numbers, and leave out what is None"
+            ))
+        })
+    };
+    Ok(document()?)
+}
+
+fn asked(recordings: &str) -> Result<Recordings, Failure> {
+    serde_json::from_str(recordings).map_err(Failure::input)
+}
+
+/// Puts the jobs into the module.
+pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_function(wrap_pyfunction!(_solve, module)?)?;
+    module.add_function(wrap_pyfunction!(_analyze, module)?)?;
+    module.add_function(wrap_pyfunction!(_characterize, module)?)?;
+    module.add_function(wrap_pyfunction!(_specimens, module)?)?;
+    module.add_function(wrap_pyfunction!(_measure, module)?)?;
+    module.add_function(wrap_pyfunction!(_precompute, module)?)?;
+    module.add_function(wrap_pyfunction!(_default_protocol, module)?)?;
+    module.add_function(wrap_pyfunction!(_toml, module)?)
+}
