@@ -13,8 +13,10 @@ use palpate_jobs::preparation::resources;
 use palpate_jobs::solve::{Problem, Wanted, in_words};
 use palpate_jobs::{Recordings, Unusable, Watch, json_text};
 use pyo3::prelude::*;
-use pyo3::types::PyBytes;
+use pyo3::types::{PyBytes, PyDict};
+use toml::Value;
 
+use crate::documents;
 use crate::failure::Failure;
 use crate::waiting::{Told, waiting};
 
@@ -208,18 +210,14 @@ pub(crate) fn _default_protocol() -> &'static str {
     palpate_jobs::measure::DEFAULT
 }
 
-/// A document in TOML from the same in JSON.
+/// The text of a document.
 #[pyfunction]
-pub(crate) fn _toml(json: &str) -> PyResult<String> {
-    let document = || -> Result<String, Failure> {
-        let value: serde_json::Value = serde_json::from_str(json).map_err(Failure::input)?;
-        toml::to_string(&value).map_err(|error| {
-            Failure::input(format!(
-                "this is no document ({error}); use tables, lists, texts and numbers, and leave out what is None"
-            ))
-        })
-    };
-    Ok(document()?)
+pub(crate) fn _toml(document: &Bound<'_, PyDict>) -> PyResult<String> {
+    let table = documents::table(document, "").and_then(|mut table| {
+        table.entry("format").or_insert(Value::Integer(1));
+        documents::text(&table)
+    });
+    Ok(table?)
 }
 
 fn asked(recordings: &str) -> Result<Recordings, Failure> {

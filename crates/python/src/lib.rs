@@ -13,8 +13,19 @@
 //!
 //! *Limits*: for CPython from 3.10 on, with its global lock.
 
+mod documents;
 mod failure;
+mod frames;
+mod isosurface;
 mod jobs;
+mod mesh;
+mod motion;
+mod numbers;
+mod recording;
+mod scene;
+mod session;
+mod simulator;
+mod tissue;
 mod waiting;
 
 use pyo3::prelude::*;
@@ -23,6 +34,17 @@ use pyo3::prelude::*;
 #[pymodule]
 fn _palpate(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add_class::<mesh::Mesh>()?;
+    module.add_class::<motion::Motion>()?;
+    module.add_class::<recording::Recording>()?;
+    module.add_class::<scene::Scene>()?;
+    module.add_class::<session::Session>()?;
+    module.add_class::<simulator::Simulation>()?;
+    module.add_class::<simulator::SimulationBatch>()?;
+    module.add_class::<simulator::Snapshot>()?;
+    module.add_class::<simulator::State>()?;
+    module.add_class::<tissue::Tissue>()?;
+    module.add_function(wrap_pyfunction!(isosurface::isosurface, module)?)?;
     module.add_function(wrap_pyfunction!(waiting::_wait, module)?)?;
     jobs::register(module)?;
     Ok(())

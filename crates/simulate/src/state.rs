@@ -1,4 +1,5 @@
 use palpate_files::Pose;
+use palpate_files::scene::Nodule;
 use palpate_files::session::{Events, SessionRow};
 use palpate_geometry::{AabbTree, NodeId, TriangleId, TriangleMesh, Vec3};
 use palpate_mechanics::ForceHistory;
@@ -8,7 +9,7 @@ use palpate_mechanics::finite_spheres::{FiniteSphereWorkspace, Response};
 use crate::cutting::{Blade, Cuts};
 use crate::global::{GlobalWorkspace, OrganField};
 use crate::grip::Grip;
-use crate::{Contact, Simulation};
+use crate::{Contact, Error, Simulation, nodule};
 
 /// All that a step changes.
 #[derive(Debug, Clone)]
@@ -21,6 +22,8 @@ pub struct SimulationState {
     pub whole: Option<OrganField>,
     /// Its cuts, if anything can cut it.
     pub cuts: Option<Cuts>,
+    /// Stiff balls in it.
+    pub(crate) nodules: Vec<Nodule>,
     /// The boxes around it.
     pub(crate) tree: AabbTree,
     /// The vertices that are not at rest.
@@ -104,6 +107,7 @@ impl SimulationState {
                 .map(|model| Cuts::new(simulation, model)),
             deformed: simulation.surface.mesh().clone(),
             whole: OrganField::at_rest(simulation),
+            nodules: simulation.nodules.clone(),
             tree: simulation.tree.clone(),
             moved: Vec::with_capacity(simulation.surface.mesh().vertices().len()),
             show_every: 0.0,
@@ -116,10 +120,26 @@ impl SimulationState {
     /// The organ at rest and whole, as if nothing had been touched yet.
     pub fn begin_anew(&mut self, simulation: &Simulation) {
         let version = self.cuts.as_ref().map_or(0, Cuts::version);
+        let nodules = std::mem::take(&mut self.nodules);
         *self = Self::new(simulation).show_every(self.show_every);
+        self.nodules = nodules;
         if let Some(cuts) = &mut self.cuts {
             cuts.version = version + 1;
         }
+    }
+
+    /// Other stiff balls than those of the scene: one model serves organs that differ in nothing else.
+    ///
+    /// # Errors
+    /// When the middle of one is not in the organ.
+    pub fn with_nodules(
+        mut self,
+        simulation: &Simulation,
+        nodules: &[Nodule],
+    ) -> Result<Self, Error> {
+        nodule::check(nodules, (&simulation.surface, &simulation.tree))?;
+        self.nodules = nodules.to_vec();
+        Ok(self)
     }
 
     /// Closes the last cut again. Whether there was one; while a blade is in the tissue there is none.

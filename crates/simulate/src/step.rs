@@ -146,13 +146,14 @@ pub(crate) fn respond(
 
 /// Where a stiff ball lies under a tip, it is pushed harder.
 fn find_nodules(simulation: &Simulation, state: &mut SimulationState) {
-    if simulation.nodules.is_empty() {
+    let SimulationState { tools, nodules, .. } = state;
+    if nodules.is_empty() {
         return;
     }
-    for (tool, own) in simulation.tools.iter().zip(&mut state.tools) {
+    for (tool, own) in simulation.tools.iter().zip(tools) {
         if let (Some(contact), false) = (own.contact, own.holds()) {
             let place = (&contact.point(), &contact.normal());
-            let harder = nodule::stiffening(&simulation.nodules, tool.typical_radius, place);
+            let harder = nodule::stiffening(nodules, tool.typical_radius, place);
             own.elastic *= harder;
             own.stiffness *= harder;
         }

@@ -16,6 +16,23 @@ pub struct Pose {
 pub const IDENTITY: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
 
 impl Pose {
+    /// The same with a quaternion of length 1, if it is one that a motion can hold.
+    ///
+    /// # Errors
+    /// What is expected, when a number is not finite, a quaternion is zero or a grip is outside 0 to 1.
+    pub fn checked(mut self) -> Result<Self, &'static str> {
+        if !self.position_m.iter().all(|c| c.is_finite()) {
+            return Err("a position of finite numbers");
+        }
+        if !(0.0..=1.0).contains(&self.grip) {
+            return Err("a grip from 0 to 1");
+        }
+        if let Some(q) = self.orientation {
+            self.orientation = Some(normalised(q).ok_or("a quaternion that is not zero")?);
+        }
+        Ok(self)
+    }
+
     /// A pose between this one and a `later` one, at `part` [-] of the way: 0 is here, 1 is there.
     pub(super) fn towards(&self, later: &Self, part: f64) -> Self {
         let between = |from: f64, to: f64| from + part * (to - from);

@@ -1,5 +1,4 @@
 use super::Pose;
-use super::pose::normalised;
 use crate::Error;
 
 /// A tool's pose at a time.
@@ -121,16 +120,7 @@ fn check(row: &mut MotionRow, previous: f64) -> Result<(), &'static str> {
     if !row.time_s.is_finite() || row.time_s <= previous {
         return Err("a time after that of the row before");
     }
-    let pose = &mut row.pose;
-    if !pose.position_m.iter().all(|c| c.is_finite()) {
-        return Err("a position of finite numbers");
-    }
-    if !(0.0..=1.0).contains(&pose.grip) {
-        return Err("a grip from 0 to 1");
-    }
-    if let Some(q) = pose.orientation {
-        pose.orientation = Some(normalised(q).ok_or("a quaternion that is not zero")?);
-    }
+    row.pose = row.pose.checked()?;
     Ok(())
 }
 

@@ -86,8 +86,8 @@ impl RecordingHeader {
         }
     }
 
-    /// The keys that are there, with their values in TOML.
-    pub(super) fn entries(&self) -> Vec<(&'static str, String)> {
+    /// What it says, by key, each value as TOML writes it.
+    pub fn entries(&self) -> Vec<(&'static str, String)> {
         let text = |text: &Option<String>| text.as_deref().map(quoted);
         let number = |number: Option<f64>| number.map(toml_number);
         let values = [

@@ -1,6 +1,60 @@
-"""Soft-tissue touch: measure it, fit it, simulate it."""
+"""Soft-tissue touch: measure it, fit it, simulate it.
 
-from palpate._palpate import __version__
+Lengths are in metres, forces in newtons, times in seconds. What cannot be done raises `InputError`, which says what to
+mend, or another `PalpateError`.
+"""
+
+from palpate._palpate import (
+    Mesh,
+    Motion,
+    Recording,
+    Scene,
+    Session,
+    Simulation,
+    SimulationBatch,
+    Snapshot,
+    State,
+    Tissue,
+    __version__,
+    isosurface,
+)
 from palpate.errors import InputError, PalpateError
+from palpate.jobs import (
+    Analysis,
+    Characterization,
+    Measurement,
+    Solution,
+    analyze,
+    characterize,
+    default_protocol,
+    measure,
+    precompute,
+    solve,
+)
 
-__all__ = ["InputError", "PalpateError", "__version__"]
+__all__ = [
+    "Analysis",
+    "Characterization",
+    "InputError",
+    "Measurement",
+    "Mesh",
+    "Motion",
+    "PalpateError",
+    "Recording",
+    "Scene",
+    "Session",
+    "Simulation",
+    "SimulationBatch",
+    "Snapshot",
+    "Solution",
+    "State",
+    "Tissue",
+    "__version__",
+    "analyze",
+    "characterize",
+    "default_protocol",
+    "isosurface",
+    "measure",
+    "precompute",
+    "solve",
+]

@@ -242,7 +242,7 @@ def precompute(scene: Document, *, memory: float | None = None, progress: Progre
 def given(document: Document, name: str) -> tuple[Path, str | None]:
     """Return a document as the extension takes it: a file, or a text and what it is called."""
     if isinstance(document, Mapping):
-        return Path(name), _palpate._toml(json.dumps(document, default=plain))
+        return Path(name), _palpate._toml(dict(document))
     return Path(document), None
 
 

@@ -1,0 +1,466 @@
+//! Many organs that are touched at the same time, by one model.
+
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread;
+
+use numpy::{PyArray1, PyArray2, PyArray3, PyArray4, PyArrayMethods, PyUntypedArrayMethods};
+use palpate_simulate::ToolState;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use super::single::check_all;
+use super::stepper::Stepper;
+use super::{Model, Simulation, Snapshot, State, poses, score};
+use crate::failure::Failure;
+use crate::numbers;
+use crate::scene::Scene;
+
+/// Many states of one simulation that go on together, on several threads with the interpreter released. Each of them
+/// is to the last bit what `Simulation` would be.
+///
+/// Parameters
+/// ----------
+/// simulation : Simulation
+///     What was prepared; its own state stays apart.
+/// count : int
+///     How many states there shall be.
+/// threads : int, optional
+///     At most so many; without, as many as there are cores.
+#[pyclass(module = "palpate")]
+pub(crate) struct SimulationBatch {
+    model: Arc<Model>,
+    show_every: f64,
+    steppers: Vec<Stepper>,
+    threads: usize,
+}
+
+/// Steps of all states, as rows of numbers.
+struct Course<'p> {
+    flat: &'p [f64],
+    width: usize,
+    steps: usize,
+    marks: Vec<bool>,
+}
+
+#[pymethods]
+impl SimulationBatch {
+    #[new]
+    #[pyo3(signature = (simulation, count, threads=None))]
+    fn new(simulation: &Simulation, count: usize, threads: Option<usize>) -> Result<Self, Failure> {
+        let cores = || thread::available_parallelism().map_or(1, usize::from);
+        let threads = threads.unwrap_or_else(cores);
+        if count == 0 || threads == 0 {
+            return Err(Failure::input(
+                "a batch of no states, or on no threads, does nothing; give numbers from 1 on",
+            ));
+        }
+        let model = simulation.model.clone();
+        let made = (0..count).map(|_| {
+            let mut stepper = Stepper::new(&model);
+            stepper.show_every(simulation.show_every);
+            stepper
+        });
+        Ok(Self {
+            steppers: made.collect(),
+            model,
+            show_every: simulation.show_every,
+            threads,
+        })
+    }
+
+    fn __len__(&self) -> usize {
+        self.steppers.len()
+    }
+
+    /// On how many threads it runs at most.
+    #[getter]
+    fn threads(&self) -> usize {
+        self.threads
+    }
+
+    /// One step of every state.
+    ///
+    /// Parameters
+    /// ----------
+    /// poses : array_like, shape (count, tools, n)
+    ///     Where the tools are, with n = 3, 5, 7 or 9 as for `Simulation.step`.
+    /// marks : array_like of bool, shape (count, tools), optional
+    ///     Which hands say: here.
+    ///
+    /// Returns
+    /// -------
+    /// ndarray, shape (count, tools, 3)
+    ///     The forces on the tools [N].
+    #[pyo3(signature = (poses, marks=None))]
+    fn step<'py>(
+        &mut self,
+        py: Python<'py>,
+        poses: &Bound<'py, PyAny>,
+        marks: Option<&Bound<'py, PyAny>>,
+    ) -> Result<Bound<'py, PyArray3<f64>>, Failure> {
+        let given = numbers::floats(poses, "poses")?;
+        let width = self.width(given.shape(), 1)?;
+        let forces = self.run(py, (&given, 1, width), marks)?;
+        Ok(numbers::array(
+            py,
+            [self.steppers.len(), self.tools(), 3],
+            forces,
+        ))
+    }
+
+    /// Many steps of every state in one call.
+    ///
+    /// Parameters
+    /// ----------
+    /// poses : array_like, shape (steps, count, tools, n)
+    ///     Where the tools are, with n = 3, 5, 7 or 9 as for `Simulation.step`.
+    /// marks : array_like of bool, shape (count, tools), optional
+    ///     Which hands say at the last of the steps: here.
+    ///
+    /// Returns
+    /// -------
+    /// ndarray, shape (steps, count, tools, 3)
+    ///     The forces on the tools [N].
+    #[pyo3(signature = (poses, marks=None))]
+    fn replay<'py>(
+        &mut self,
+        py: Python<'py>,
+        poses: &Bound<'py, PyAny>,
+        marks: Option<&Bound<'py, PyAny>>,
+    ) -> Result<Bound<'py, PyArray4<f64>>, Failure> {
+        let given = numbers::floats(poses, "poses")?;
+        let width = self.width(given.shape(), 2)?;
+        let steps = given.shape()[0];
+        let forces = self.run(py, (&given, steps, width), marks)?;
+        // State by state as they were made, step by step as they are wanted.
+        let (count, row) = (self.steppers.len(), 3 * self.tools());
+        let mut turned = vec![0.0; forces.len()];
+        for (state, own) in forces.chunks_exact((steps * row).max(1)).enumerate() {
+            for (step, force) in own.chunks_exact(row).enumerate() {
+                let at = (step * count + state) * row;
+                turned[at..at + row].copy_from_slice(force);
+            }
+        }
+        Ok(numbers::array(py, [steps, count, self.tools(), 3], turned))
+    }
+
+    /// States at rest and whole again.
+    ///
+    /// Parameters
+    /// ----------
+    /// which : int, list of int, or list of bool for every state, optional
+    ///     Which; without, all.
+    /// scene : Scene, optional
+    ///     Whose stiff balls and task are taken; all else stays as it was prepared.
+    #[pyo3(signature = (which=None, scene=None))]
+    fn reset(
+        &mut self,
+        py: Python<'_>,
+        which: Option<&Bound<'_, PyAny>>,
+        scene: Option<&Scene>,
+    ) -> Result<(), Failure> {
+        let chosen = self.chosen(which)?;
+        let (model, scene) = (&*self.model, scene.map(|scene| &scene.scene));
+        let (steppers, period) = (&mut self.steppers, self.show_every);
+        py.detach(|| {
+            for number in chosen {
+                steppers[number].reset(model, (scene, period))?;
+            }
+            Ok(())
+        })
+    }
+
+    /// Keeps a state; it may be taken back to any of the batch, or to the simulation.
+    fn snapshot(&self, index: isize) -> Result<Snapshot, Failure> {
+        Ok(Snapshot::of(
+            &self.model,
+            &self.steppers[self.index(index)?],
+        ))
+    }
+
+    /// Takes a state back to one that was kept, to the same bit.
+    fn restore(&mut self, index: isize, snapshot: &Snapshot) -> Result<(), Failure> {
+        let index = self.index(index)?;
+        snapshot.restore(&self.model, &mut self.steppers[index])
+    }
+
+    /// What there is to know of a state after its last step.
+    fn state(&self, index: isize) -> Result<State, Failure> {
+        Ok(State::of(&self.steppers[self.index(index)?].course))
+    }
+
+    /// How well a state's task was done so far, as `Simulation.score` tells it.
+    fn score<'py>(
+        &self,
+        py: Python<'py>,
+        index: isize,
+    ) -> Result<Option<Bound<'py, PyDict>>, Failure> {
+        let judge = self.steppers[self.index(index)?].course.judge.as_ref();
+        let score = judge.map(|judge| score::dict(py, &judge.performance.score(), &judge.task));
+        Ok(score.transpose()?)
+    }
+
+    /// Times of the last steps [s]: shape (count,).
+    #[getter]
+    fn times<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.of_states(py, |stepper| stepper.course.clock.time)
+    }
+
+    /// How far the tips are below the rest surface [m]; 0 without contact: shape (count, tools).
+    #[getter]
+    fn depths<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        self.of_tools(py, |tool| tool.pose.map_or(0.0, |_| tool.row.depth_m))
+    }
+
+    /// Which tools touch the organ: bool, shape (count, tools).
+    #[getter]
+    fn contacts<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<bool>> {
+        self.of_tools(py, |tool| tool.pose.is_some() && tool.row.contact)
+    }
+
+    /// Which tools' jaws hold tissue: bool, shape (count, tools).
+    #[getter]
+    fn holds<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<bool>> {
+        self.of_tools(py, ToolState::holds)
+    }
+
+    /// Forces on the tools [N]: shape (count, tools, 3).
+    #[getter]
+    fn forces<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray3<f64>> {
+        let row = 3 * self.tools();
+        let mut flat = vec![0.0; self.steppers.len() * row];
+        for (stepper, forces) in self.steppers.iter().zip(flat.chunks_exact_mut(row)) {
+            stepper.write_forces(forces);
+        }
+        numbers::array(py, [self.steppers.len(), self.tools(), 3], flat)
+    }
+
+    /// Parts of the tasks that are done [-]; NaN where that cannot be told: shape (count,).
+    #[getter]
+    fn progress<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.of_states(py, |stepper| score::status(stepper.course.judge.as_ref()).0)
+    }
+
+    /// Which tasks are over: bool, shape (count,).
+    #[getter]
+    fn over<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<bool>> {
+        self.of_states(py, |stepper| score::status(stepper.course.judge.as_ref()).1)
+    }
+
+    /// Which tasks are over because their time is: bool, shape (count,).
+    #[getter]
+    fn late<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<bool>> {
+        self.of_states(py, |stepper| score::status(stepper.course.judge.as_ref()).2)
+    }
+
+    /// What should not have happened so far, counted: forces that rose above their limit, perforations, tissue that
+    /// was lost from jaws, shafts that touched the organ: int, shape (count, 4).
+    #[getter]
+    fn errors<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<u64>> {
+        let errors = |stepper: &Stepper| {
+            let judge = stepper.course.judge.as_ref();
+            let errors = judge.map(|judge| judge.performance.errors());
+            let errors = errors.unwrap_or_default();
+            [
+                errors.force_limit,
+                errors.perforations,
+                errors.drops,
+                errors.shaft_contacts,
+            ]
+        };
+        let flat = self.steppers.iter().flat_map(errors).collect();
+        numbers::array(py, [self.steppers.len(), 4], flat)
+    }
+
+    fn __repr__(&self) -> String {
+        let (count, threads) = (self.steppers.len(), self.threads);
+        format!("<palpate.SimulationBatch of {count} states on {threads} threads>")
+    }
+}
+
+impl SimulationBatch {
+    fn tools(&self) -> usize {
+        self.model.prepared.tools().len()
+    }
+
+    /// How many numbers a pose has, in an array with `before` lengths before those of a pose.
+    fn width(&self, shape: &[usize], before: usize) -> Result<usize, Failure> {
+        let (count, tools) = (self.steppers.len(), self.tools());
+        match shape.get(before - 1..) {
+            Some(&[states, several, width])
+                if shape.len() == before + 2 && states == count && several == tools =>
+            {
+                Ok(width)
+            }
+            _ => Err(Failure::Input(format!(
+                "`poses` has the shape {}; give {}({count}, {tools}, n), with n = 3, 5, 7 or 9",
+                numbers::shape_words(shape),
+                if before == 2 {
+                    "(steps, count, tools, n): for this batch steps of "
+                } else {
+                    ""
+                }
+            ))),
+        }
+    }
+
+    /// Which of the states `which` means.
+    fn chosen(&self, which: Option<&Bound<'_, PyAny>>) -> Result<Vec<usize>, Failure> {
+        let Some(which) = which else {
+            return Ok((0..self.steppers.len()).collect());
+        };
+        // An array of truths is no list of numbers.
+        let which = match which.hasattr("tolist")? {
+            true => which.call_method0("tolist")?,
+            false => which.clone(),
+        };
+        if let Ok(mask) = which.extract::<Vec<bool>>() {
+            if mask.len() != self.steppers.len() {
+                return Err(Failure::Input(format!(
+                    "`which` is a list of {} truths; give one for each of the {} states",
+                    mask.len(),
+                    self.steppers.len()
+                )));
+            }
+            let chosen = mask.iter().enumerate().filter(|(_, is)| **is);
+            return Ok(chosen.map(|(number, _)| number).collect());
+        }
+        if let Ok(index) = which.extract::<isize>() {
+            return Ok(vec![self.index(index)?]);
+        }
+        let numbers: Vec<isize> = which.extract().map_err(|_| {
+            Failure::input("`which` is no number of a state; give a number, a list of numbers, or a truth for each state")
+        })?;
+        numbers
+            .into_iter()
+            .map(|number| self.index(number))
+            .collect()
+    }
+
+    /// The number of a state, counted from the end where it is below zero.
+    fn index(&self, index: isize) -> Result<usize, Failure> {
+        let count = self.steppers.len();
+        let from_begin = match index < 0 {
+            true => count.checked_add_signed(index),
+            false => Some(index.unsigned_abs()),
+        };
+        from_begin.filter(|index| *index < count).ok_or_else(|| {
+            Failure::Input(format!(
+                "there is no state {index}; give a number from 0 to {}",
+                count - 1
+            ))
+        })
+    }
+
+    /// All states through all steps: their forces [N], state by state.
+    fn run(
+        &mut self,
+        py: Python<'_>,
+        (given, steps, width): (&Bound<'_, numpy::PyArrayDyn<f64>>, usize, usize),
+        marks: Option<&Bound<'_, PyAny>>,
+    ) -> Result<Vec<f64>, Failure> {
+        let (count, tools) = (self.steppers.len(), self.tools());
+        let borrowed = given.try_readonly().map_err(Failure::input)?;
+        let flat = borrowed.as_slice().map_err(Failure::input)?;
+        check_all(flat, (count * tools, width))?;
+        let course = Course {
+            flat,
+            width,
+            steps,
+            marks: self.marks(marks)?,
+        };
+        let mut forces = vec![0.0; count * steps * 3 * tools];
+        py.detach(|| self.run_all(&course, &mut forces))?;
+        Ok(forces)
+    }
+
+    fn marks(&self, given: Option<&Bound<'_, PyAny>>) -> Result<Vec<bool>, Failure> {
+        let (count, tools) = (self.steppers.len(), self.tools());
+        let Some(given) = given else {
+            return Ok(vec![false; count * tools]);
+        };
+        let array = numbers::floats(given, "marks")?;
+        if array.shape() != [count, tools] {
+            return Err(Failure::Input(format!(
+                "`marks` has the shape {}; give a truth for each tool of each state, ({count}, {tools})",
+                numbers::shape_words(array.shape())
+            )));
+        }
+        let numbers = numbers::copied(&array)?;
+        Ok(numbers.into_iter().map(|number| number != 0.0).collect())
+    }
+
+    /// Whoever is idle takes the next state.
+    fn run_all(&mut self, course: &Course<'_>, forces: &mut [f64]) -> Result<(), Failure> {
+        let tools = self.tools();
+        let (model, count) = (&*self.model, self.steppers.len());
+        let each = (course.steps * 3 * tools).max(1);
+        let states = self.steppers.iter_mut().zip(forces.chunks_mut(each));
+        let queue = Mutex::new(states.enumerate());
+        let failed = Mutex::new(None);
+        let work = || {
+            loop {
+                let next = queue.lock().unwrap_or_else(PoisonError::into_inner).next();
+                let Some((number, (stepper, forces))) = next else {
+                    return;
+                };
+                if let Err(failure) = course.run(model, (number, count), stepper, forces) {
+                    *failed.lock().unwrap_or_else(PoisonError::into_inner) = Some(failure);
+                }
+            }
+        };
+        thread::scope(|scope| {
+            for _ in 1..self.threads.min(count) {
+                scope.spawn(work);
+            }
+            work();
+        });
+        let failed = failed.into_inner().unwrap_or_else(PoisonError::into_inner);
+        failed.map_or(Ok(()), Err)
+    }
+
+    fn of_states<'py, T: numpy::Element>(
+        &self,
+        py: Python<'py>,
+        of: impl Fn(&Stepper) -> T,
+    ) -> Bound<'py, PyArray1<T>> {
+        PyArray1::from_vec(py, self.steppers.iter().map(of).collect())
+    }
+
+    fn of_tools<'py, T: numpy::Element>(
+        &self,
+        py: Python<'py>,
+        of: impl Fn(&ToolState) -> T,
+    ) -> Bound<'py, PyArray2<T>> {
+        let tools = self.steppers.iter();
+        let tools = tools.flat_map(|stepper| &stepper.course.state.tools);
+        let flat = tools.map(of).collect();
+        numbers::array(py, [self.steppers.len(), self.tools()], flat)
+    }
+}
+
+impl Course<'_> {
+    /// All steps of one state.
+    fn run(
+        &self,
+        model: &Model,
+        (number, count): (usize, usize),
+        stepper: &mut Stepper,
+        forces: &mut [f64],
+    ) -> Result<(), Failure> {
+        let tools = stepper.poses.len();
+        let row = tools * self.width;
+        for step in 0..self.steps {
+            let at = (step * count + number) * row;
+            let poses = &self.flat[at..at + row];
+            poses::of_flat(poses, self.width, &mut stepper.poses, "tool")?;
+            let marks = match step + 1 == self.steps {
+                true => &self.marks[number * tools..(number + 1) * tools],
+                false => &[],
+            };
+            stepper.step(model, None, marks);
+            stepper.write_forces(&mut forces[step * 3 * tools..(step + 1) * 3 * tools]);
+        }
+        Ok(())
+    }
+}

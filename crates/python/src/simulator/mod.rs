@@ -1,0 +1,63 @@
+//! The simulator: one immutable model, and any number of states that are stepped by it.
+//!
+//! ```text
+//! Simulation ─┐                ┌─ Stepper (state, workspace, clock, score)
+//!             ├─ Arc<Model> ───┤
+//! SimulationBatch ─────────────┴─ Stepper, Stepper, … on several threads
+//! ```
+//!
+//! *How we know*: `tests/test_simulation.py`, `tests/test_batch.py`; what a step costs beyond Rust's own:
+//! `benches/overhead.py`.
+
+mod batch;
+pub(crate) mod poses;
+mod resources;
+pub(crate) mod score;
+mod single;
+mod snapshot;
+mod state;
+mod stepper;
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use palpate_files::Scene;
+use palpate_simulate::Simulation as Prepared;
+use pyo3::prelude::*;
+
+use crate::failure::Failure;
+use crate::waiting::waiting;
+
+pub(crate) use batch::SimulationBatch;
+pub(crate) use single::Simulation;
+pub(crate) use snapshot::Snapshot;
+pub(crate) use state::State;
+
+/// What was prepared of a scene.
+pub(crate) struct Model {
+    pub(crate) scene: Scene,
+    pub(crate) prepared: Prepared,
+}
+
+impl Model {
+    /// Prepares `scene`; Ctrl-C breaks it off.
+    fn prepare(
+        py: Python<'_>,
+        scene: &Scene,
+        (resources, progress): (palpate_simulate::Resources, Option<Py<PyAny>>),
+    ) -> PyResult<Arc<Self>> {
+        let scene = scene.clone();
+        waiting(py, progress, move |told| {
+            told.say("preparing the organ and its model");
+            let prepared = Prepared::prepare(&scene, &resources, &mut |progress| {
+                told.say(progress.work.words());
+                told.at(progress.part);
+                match told.is_asked_to_stop() {
+                    true => ControlFlow::Break(()),
+                    false => ControlFlow::Continue(()),
+                }
+            })?;
+            Ok::<_, Failure>(Arc::new(Self { scene, prepared }))
+        })
+    }
+}
