@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from palpate import jobs
 from palpate.errors import PalpateError
 from palpate.study.folder import Folder
-from palpate.study.task import Task, execute
+from palpate.study.task import Task, execute, unpacked
 
 if TYPE_CHECKING:
     import distributed
@@ -145,7 +145,7 @@ def _distributed(asked: Sequence[tuple[int, Task]], client: distributed.Client, 
     lost = dict.fromkeys(by_key, 0)
 
     def submit(task: Task) -> distributed.Future:
-        return client.submit(_on_worker, task.document, key=f"palpate-{task.key}", pure=True)
+        return client.submit(_on_worker, task.packed, key=f"palpate-{task.key}", pure=True)
 
     keys = {}
     waited = as_completed()
@@ -160,7 +160,6 @@ def _distributed(asked: Sequence[tuple[int, Task]], client: distributed.Client, 
             if isinstance(error, KilledWorker) and lost[task.key] < retries:
                 # The scheduler gave up: several workers were lost with this task, perhaps none by it.
                 lost[task.key] += 1
-                future.release()
                 client.retry([future])
                 waited.add(future)
                 continue
@@ -178,11 +177,11 @@ def _distributed(asked: Sequence[tuple[int, Task]], client: distributed.Client, 
         client.cancel([future for future in waited.futures])
 
 
-def _on_worker(document: str) -> tuple[str, dict[str, Any]]:
+def _on_worker(packed: bytes) -> tuple[str, dict[str, Any]]:
     from distributed import get_worker
 
     begin = time.perf_counter()
-    answer = execute(document)
+    answer = execute(unpacked(packed))
     return answer, {"worker": str(get_worker().address), "seconds": time.perf_counter() - begin}
 
 
