@@ -61,8 +61,8 @@ def test_recordings_are_measured_analyzed_and_characterized_as_by_the_command(
     monkeypatch.chdir(tmp_path)
     made = palpate.measure(PROTOCOL, out="here", progress=False)
     (tmp_path / "protocol.toml").write_text(
-        '"'"'format = 1\n[[specimen]]\norgan = "soft"\ntissue = { law = "linear", youngs_modulus_pa = 3000.0, '"'"'
-        '"'"'poissons_ratio = 0.45 }\n[[stimulus]]\nkind = "ramp_and_hold"\ndepth_m = 0.002\nramp_s = 0.5\nhold_s = 2.0\n'"'"'
+        'format = 1\n[[specimen]]\norgan = "soft"\ntissue = { law = "linear", youngs_modulus_pa = 3000.0, '
+        'poissons_ratio = 0.45 }\n[[stimulus]]\nkind = "ramp_and_hold"\ndepth_m = 0.002\nramp_s = 0.5\nhold_s = 2.0\n'
     )
     told = command(tmp_path, "measure", "protocol.toml", "--headless", "--out", "there", "--json")
     there = [tmp_path / one["file"] for one in json.loads(told.stdout)["recordings"]]
@@ -111,7 +111,7 @@ def test_what_is_refused_is_refused_in_the_commands_words(
     arguments: list[str], ask: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "wrong.toml").write_text('"'"'format = 1\nkindd = "uniaxial"\n'"'"')
+    (tmp_path / "wrong.toml").write_text('format = 1\nkindd = "uniaxial"\n')
     (tmp_path / "wrong.csv").write_text("# format = 1\ntime_s,depth_m,force_n\n0,0,zero\n")
     told = command(tmp_path, *arguments)
     assert told.returncode == 2
@@ -146,7 +146,7 @@ def test_ctrl_c_ends_a_solution_soon() -> None:
     threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
     with pytest.raises(KeyboardInterrupt):
         palpate.solve({**palpate_problem("ramp.toml"), "accuracy": 1e-4}, progress=False)
-    # Half a minute'"'"'s work; it is broken off at its next step.
+    # Half a minute's work; it is broken off at its next step.
     assert time.monotonic() - begin < 10.0
 
 

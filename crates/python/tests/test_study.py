@@ -143,8 +143,8 @@ def test_specimens_travel_with_their_recordings(tmp_path: Path, monkeypatch: pyt
 
 
 def test_a_sweep_over_files_finds_them_from_anywhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    (tmp_path / "tissue.toml").write_text('"'"'format = 1\n[tissue]\nlaw = "neo_hookean"\nc10_pa = 100.0\n'"'"')
-    (tmp_path / "bar.toml").write_text('"'"'format = 1\nkind = "uniaxial"\ntissue = "tissue.toml"\nstretches = [1.1]\n'"'"')
+    (tmp_path / "tissue.toml").write_text('format = 1\n[tissue]\nlaw = "neo_hookean"\nc10_pa = 100.0\n')
+    (tmp_path / "bar.toml").write_text('format = 1\nkind = "uniaxial"\ntissue = "tissue.toml"\nstretches = [1.1]\n')
     tasks = study.solves(tmp_path / "bar.toml", {"stretches": [[1.1], [1.2]]})
     monkeypatch.chdir("/")
     assert not study.run(tasks, progress=False).failures
