@@ -6,7 +6,7 @@ import json
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from palpate import _palpate
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 PathLike: TypeAlias = "str | os.PathLike[str]"
 Document: TypeAlias = "PathLike | Mapping[str, Any]"
 Recordings: TypeAlias = "PathLike | Iterable[PathLike]"
-Progress: TypeAlias = "Callable[[float, str], object] | bool | None"
+Progress: TypeAlias = "Callable[[float, str], object] | Literal[False] | None"
 
 
 class Solution(dict[str, Any]):
@@ -121,7 +121,7 @@ def solve(
         A problem's file, or the same keys as a mapping; see ``palpate solve --help``.
     vtu : bool
         Whether the deformed body is wanted, for ParaView.
-    progress : callable, bool or None
+    progress : callable, False or None
         Hears ``(part, words)``; ``False`` for silence.
 
     Returns
@@ -145,7 +145,7 @@ def analyze(recordings: Recordings, *, progress: Progress = None, **columns: Any
     ----------
     recordings : path or iterable of paths
         Files, or folders of them.
-    progress : callable, bool or None
+    progress : callable, False or None
         Hears ``(part, words)``.
     **columns
         As of `characterize`: ``time``, ``depth``, ``force``, ``depth_unit``, ``force_unit``, ``known``.
@@ -180,7 +180,7 @@ def characterize(
         Of these draws.
     study : path, optional
         A folder that keeps every finished specimen; a study that was stopped goes on.
-    progress : callable, bool or None
+    progress : callable, False or None
         Hears ``(part, words)``.
     **columns
         ``time``, ``depth``, ``force``: columns of tables of other programs; ``depth_unit``, ``force_unit``;
@@ -267,11 +267,10 @@ def asked(
     texts: Sequence[tuple[str, str]] = (),
 ) -> str:
     """Return which recordings are meant as the extension takes it."""
-    one = isinstance(recordings, (str, os.PathLike))
-    paths = [recordings] if one else list(recordings)  # type: ignore[list-item, arg-type]
+    paths = [recordings] if isinstance(recordings, (str, os.PathLike)) else list(recordings)
     return json.dumps(
         {
-            "paths": [os.fspath(path) for path in paths],
+            "paths": [str(os.fspath(path)) for path in paths],
             "texts": list(texts),
             "time": time,
             "depth": depth,

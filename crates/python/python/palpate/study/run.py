@@ -7,7 +7,7 @@ import json
 import os
 import threading
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from typing import TYPE_CHECKING, Any
 
@@ -72,7 +72,7 @@ def run(
         Whose workers do the tasks; by default threads of this process do, as many as there are cores.
     retries : int
         How often a task is given to other workers after the one that had it was lost.
-    progress : callable, bool or None
+    progress : callable, False or None
         Hears ``(part, words)``; ``False`` for silence.
     """
     kept = None if folder is None else Folder(folder)
@@ -101,7 +101,7 @@ def run(
     return study
 
 
-def _here(asked: Sequence[tuple[int, Task]]) -> Iterator[Finished]:
+def _here(asked: Sequence[tuple[int, Task]]) -> Generator[Finished, None, None]:
     """Do tasks on threads; the extension computes without the interpreter's lock."""
     stopped = threading.Event()
 
@@ -133,7 +133,7 @@ def _here(asked: Sequence[tuple[int, Task]]) -> Iterator[Finished]:
             pool.shutdown(cancel_futures=True)
 
 
-def _distributed(asked: Sequence[tuple[int, Task]], client: distributed.Client, retries: int) -> Iterator[Finished]:
+def _distributed(asked: Sequence[tuple[int, Task]], client: distributed.Client, retries: int) -> Generator[Finished, None, None]:
     """Do tasks on the workers of ``client``; a task whose worker is lost is done by another."""
     from distributed import KilledWorker, as_completed
 
@@ -144,7 +144,7 @@ def _distributed(asked: Sequence[tuple[int, Task]], client: distributed.Client, 
         by_key[task.key] = task
     lost = dict.fromkeys(by_key, 0)
 
-    def submit(task: Task) -> distributed.Future:
+    def submit(task: Task) -> distributed.Future[Any]:
         return client.submit(_on_worker, task.packed, key=f"palpate-{task.key}", pure=True)
 
     keys = {}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import zlib
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -61,7 +61,7 @@ def unpacked(packed: bytes) -> str:
     return zlib.decompress(packed).decode()
 
 
-def execute(document: str, progress: Callable[[float, str], object] | bool = False) -> str:
+def execute(document: str, progress: jobs.Progress = False) -> str:
     """Do the task of a `Task.document`; return its answer as JSON, without what is of the run alone."""
     task = json.loads(document)
     given = task["given"]

@@ -1,0 +1,66 @@
+use std::fs;
+
+use palpate_jobs::characterize::{Choice, characterize, specimens};
+use palpate_jobs::{Nobody, Recordings, json_text};
+
+use crate::measured;
+
+/// Few draws, one law: the question is who is asked, not what is found.
+pub(crate) fn quick() -> Choice {
+    Choice {
+        law: Some(Choice::law_named("neo_hookean").unwrap()),
+        draws: 5,
+        ..Choice::default()
+    }
+}
+
+/// Judge: the same recordings as files.
+#[test]
+fn texts_answer_as_files_do() {
+    let folder = tempfile::tempdir().unwrap();
+    let paths = measured(folder.path());
+    let texts = paths
+        .iter()
+        .map(|path| (path.clone(), fs::read_to_string(path).unwrap()))
+        .collect();
+    let as_files = Recordings {
+        paths,
+        ..Recordings::default()
+    };
+    let as_texts = Recordings {
+        texts,
+        ..Recordings::default()
+    };
+    let answers = [&as_files, &as_texts].map(|recordings| {
+        let found = characterize(recordings, quick(), None, &Nobody).unwrap();
+        json_text(&found.answer).unwrap()
+    });
+    assert_eq!(answers[0], answers[1]);
+    assert_eq!(
+        specimens(&as_files).unwrap().0,
+        specimens(&as_texts).unwrap().0
+    );
+}
+
+#[test]
+fn specimens_are_told_without_being_characterized() {
+    let folder = tempfile::tempdir().unwrap();
+    let paths = measured(folder.path());
+    fs::write(folder.path().join("wrong.csv"), "nothing").unwrap();
+    let recordings = Recordings {
+        paths: vec![folder.path().to_owned()],
+        ..Recordings::default()
+    };
+    let (found, unusable) = specimens(&recordings).unwrap();
+    let named: Vec<_> = found.iter().map(|(name, _)| name.as_str()).collect();
+    assert_eq!(named, ["soft, 1", "soft, 2"]);
+    assert_eq!(found[0].1, [paths[0].clone()]);
+    assert!(unusable[0].sentence().contains("wrong.csv"));
+}
+
+#[test]
+fn a_law_that_is_not_there_is_refused_with_the_nearest() {
+    let refused = Choice::law_named("neohookean").unwrap_err();
+    assert!(refused.is_input());
+    assert!(refused.to_string().contains("such as neo_hookean"));
+}
