@@ -51,7 +51,7 @@ pub fn follow(
     (before, tip): (&Vec3, &Vec3),
 ) -> Option<Footing> {
     let (moved, normal) = ((tip - before).norm(), from.normal);
-    let aim = settle(surface, field, from, tip).map_or_else(
+    let aim = settle(surface, field.vertex_normals(), from, tip).map_or_else(
         || {
             // Nothing to solve for: straight along the surface towards the tip.
             let towards = tip - from.point;
@@ -96,13 +96,9 @@ fn approach(
     Some(reached)
 }
 
-/// The point whose averaged normal passes through `tip` [m], if there is one near `from`.
-pub fn settle(
-    surface: &Surface,
-    field: &PatchField,
-    from: &Footing,
-    tip: &Vec3,
-) -> Option<Footing> {
+/// The point whose normal, between unit `normals` at the vertices, passes through `tip` [m], if there is one
+/// near `from`.
+pub fn settle(surface: &Surface, normals: &[Vec3], from: &Footing, tip: &Vec3) -> Option<Footing> {
     let mut at = Trial {
         triangle: from.triangle,
         barycentric: from.barycentric,
@@ -110,10 +106,10 @@ pub fn settle(
     };
     let mut before = None;
     for _ in 0..LONGEST_WALK {
-        let solved = solve_in_triangle(surface, field, &at, tip)?;
+        let solved = solve_in_triangle(surface, normals, &at, tip)?;
         let (lowest, weight) = lowest(&solved.barycentric);
         if weight >= -1e-10 {
-            return Some(footing(surface, field, &solved));
+            return Some(footing(surface, normals, &solved));
         }
         let opposite_edge = (lowest + 1) % 3;
         let neighbor = surface.adjacency().across(solved.triangle)[opposite_edge]?;
@@ -141,13 +137,13 @@ struct Trial {
 
 fn solve_in_triangle(
     surface: &Surface,
-    field: &PatchField,
+    normals: &[Vec3],
     start: &Trial,
     tip: &Vec3,
 ) -> Option<Trial> {
     let x = surface.mesh().positions(start.triangle);
     let corners = surface.mesh().corners(start.triangle);
-    let n = corners.map(|node| field.vertex_normals()[node.index()]);
+    let n = corners.map(|node| normals[node.index()]);
     let size = (x[1] - x[0]).norm() + (x[2] - x[0]).norm();
     let facing = (x[1] - x[0]).cross(&(x[2] - x[0]));
     let (mut b1, mut b2, mut t) = (start.barycentric[1], start.barycentric[2], start.along);
@@ -191,14 +187,14 @@ fn lowest(weights: &[f64; 3]) -> (usize, f64) {
     (lowest, weights[lowest])
 }
 
-fn footing(surface: &Surface, field: &PatchField, trial: &Trial) -> Footing {
+fn footing(surface: &Surface, normals: &[Vec3], trial: &Trial) -> Footing {
     let x = surface.mesh().positions(trial.triangle);
     let corners = surface.mesh().corners(trial.triangle);
     let mut point = Vec3::zeros();
     let mut normal = Vec3::zeros();
     for k in 0..3 {
         point += trial.barycentric[k] * x[k];
-        normal += trial.barycentric[k] * field.vertex_normals()[corners[k].index()];
+        normal += trial.barycentric[k] * normals[corners[k].index()];
     }
     Footing {
         triangle: trial.triangle,

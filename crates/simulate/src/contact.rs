@@ -72,7 +72,8 @@ pub(crate) fn detect(
         return begin(simulation, tool, tip);
     };
     let (below, signed) = depth_of_tip(simulation, &footing, tip);
-    let depth = creep(last, (tool.overhang() + below, signed), tip);
+    let run = (footing.point - last.footing.point).norm();
+    let depth = creep(last, (tool.overhang() + below, signed), (tip, run));
     if depth > PASSED_THROUGH && signed > tool.overhang() {
         return None;
     }
@@ -106,7 +107,7 @@ fn go_on_elsewhere(
 ) -> Option<Contact> {
     let mut contact = begin(simulation, tool, tip)?;
     if tool.bond == Bond::Slip {
-        contact.depth = creep(last, (contact.depth, contact.signed), tip);
+        contact.depth = creep(last, (contact.depth, contact.signed), (tip, 0.0));
     }
     (contact.depth > 0.0).then_some(contact)
 }
@@ -117,10 +118,12 @@ const FASTEST_CREEP: f64 = 250.0;
 
 /// The depth that follows `last` when `measured` [m] is measured at `tip` [m]. Where the surface that is
 /// touched becomes another one the measure leaps; the depth goes there as fast as the tip comes nearer
-/// to the surface or goes away from it, and by a small part of itself along it.
-fn creep(last: &Contact, (measured, signed): (f64, f64), tip: &Vec3) -> f64 {
+/// to the surface or goes away from it, and by a small part of itself along it: by half of that part while
+/// the touched point runs twice as fast as the tip, by `run` [m], for then the organ under it changes as well.
+fn creep(last: &Contact, (measured, signed): (f64, f64), (tip, run): (&Vec3, f64)) -> f64 {
     let travel = (tip - last.tip).norm();
-    let most = (signed - last.signed).abs() + (FASTEST_CREEP * last.depth + 0.05) * travel;
+    let slid = travel - 0.5 * (run - travel).clamp(0.0, travel);
+    let most = (signed - last.signed).abs() + FASTEST_CREEP * last.depth * slid + 0.05 * travel;
     measured.clamp(last.depth - most, last.depth + most)
 }
 
@@ -168,7 +171,8 @@ fn begin(simulation: &Simulation, tool: &Tool, tip: &Vec3) -> Option<Contact> {
         depth: -signed,
     };
     // The nearest point of a mesh leaps at its edges; the point under the averaged normal does not.
-    let footing = settle(&simulation.surface, &tool.patches, &found, tip).unwrap_or(found);
+    let normals = tool.patches.vertex_normals();
+    let footing = settle(&simulation.surface, normals, &found, tip).unwrap_or(found);
     Some(Contact {
         footing,
         place: place(simulation, tool, (&footing, depth), None),

@@ -1,7 +1,10 @@
 //! What must hold on every mesh, whatever its shape.
 
 use nalgebra::Matrix3;
-use palpate_geometry::{AabbTree, Footing, Organ, PatchField, Surface, TriangleId, Vec3, follow};
+use palpate_geometry::{
+    AabbTree, Footing, Organ, PatchField, SimplifySettings, Surface, TriangleId, Vec3, follow,
+    settle, simplify,
+};
 
 use crate::agreement::real_surfaces;
 use crate::shapes::{Random, organ, size, tries};
@@ -212,6 +215,63 @@ fn slide_has_no_leaps() {
             );
         }
     }
+}
+
+/// A coarser mesh under a fine one: where a point of the fine one lies on it goes on without leaps, as far as a
+/// normal passes through it. Judge: the nearest point, which leaps. Tolerance: a facet is a few times as long
+/// as what is above it, where the mesh is bent most.
+#[test]
+fn a_place_on_a_coarser_mesh_does_not_leap() {
+    let (fine, tree) = organ(Organ::Esophagus, 1_200);
+    let coarse = simplify(fine.mesh(), &SimplifySettings::to(600)).unwrap();
+    let coarse = Surface::new(coarse.mesh).unwrap();
+    let below = AabbTree::new(coarse.mesh());
+    let place = |point: &Vec3| {
+        let near = below.nearest(coarse.mesh(), point);
+        let from = Footing {
+            triangle: near.triangle,
+            barycentric: near.on.barycentric,
+            point: near.on.position,
+            normal: coarse.mesh().area_vector(near.triangle).normalize(),
+            depth: 0.0,
+        };
+        let under = settle(&coarse, coarse.vertex_normals(), &from, point);
+        (near.on.position, under.map(|under| under.point))
+    };
+    let step = 2e-5;
+    let mut random = Random(9);
+    let (mut nearest, mut settled, mut lost, mut steps) = (0.0_f64, 0.0_f64, 0, 0);
+    for _ in 0..tries(1_000) {
+        let mut point = random.around(fine.mesh());
+        let mut along = random.direction();
+        let mut before: Option<(Vec3, Option<Vec3>)> = None;
+        for _ in 0..200 {
+            let on = tree.nearest(fine.mesh(), &point);
+            let normal = fine.mesh().area_vector(on.triangle).normalize();
+            along = (along - normal * normal.dot(&along)).normalize();
+            let now = place(&on.on.position);
+            if let Some(before) = before {
+                nearest = nearest.max((now.0 - before.0).norm() / step);
+                match (before.1, now.1) {
+                    (Some(before), Some(now)) => {
+                        settled = settled.max((now - before).norm() / step)
+                    }
+                    _ => lost += 1,
+                }
+                steps += 1;
+            }
+            before = Some(now);
+            point = on.on.position + along * step;
+        }
+    }
+    println!(
+        "{steps} steps: the nearest point runs {nearest:.1} times as fast, the settled one {settled:.1}, {lost} lost"
+    );
+    assert!(
+        settled < 4.0 && nearest > 2.0 * settled,
+        "{nearest} {settled}"
+    );
+    assert!(lost < steps / 100, "{lost} of {steps}");
 }
 
 /// Neighbourhoods are mutual, that of vertices holds that of edges, and a closed mesh has a triangle

@@ -5,7 +5,7 @@
 //! converges, and two tips apart by some radii need a few sweeps.
 
 use nalgebra::Matrix3;
-use palpate_geometry::{Vec3, closest_on_triangle};
+use palpate_geometry::{Footing, Vec3, closest_on_triangle, settle};
 use palpate_mechanics::contact::Bond;
 use palpate_mechanics::enhance::SurfacePoint;
 use palpate_mechanics::surface_response::TipLoad;
@@ -38,7 +38,21 @@ impl GlobalModel {
             });
         }
         let interpolation = self.enhancement.interpolation();
-        Some(interpolation.nearest_facing(&self.tree, (&place.point, &contact.normal())))
+        let near = interpolation.nearest_facing(&self.tree, (&place.point, &contact.normal()));
+        // The nearest point of a mesh leaps at its edges; the point under the averaged normal does not.
+        let from = Footing {
+            triangle: near.triangle,
+            barycentric: near.barycentric,
+            point: interpolation.place(&near),
+            normal: interpolation.normal(&near),
+            depth: 0.0,
+        };
+        let surface = interpolation.surface();
+        let under = settle(surface, surface.vertex_normals(), &from, &place.point);
+        Some(under.map_or(near, |under| SurfacePoint {
+            triangle: under.triangle,
+            barycentric: under.barycentric,
+        }))
     }
 
     /// How a tool at a site loads the organ; none without a site.
