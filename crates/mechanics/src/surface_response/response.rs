@@ -5,6 +5,10 @@ use super::parts::{ResponseParts, TouchableTriangle};
 use crate::boundary_elements::Precision;
 use crate::{Error, LinearElastic, Vec3};
 
+/// Forces whose displacements are added in one pass: the field is read and written once for all of them, and
+/// each has three streams that processors read ahead.
+const AT_A_TIME: usize = 4;
+
 /// How the surface of a linear solid answers forces on it. All of it is sound: see [`Self::new`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct SurfaceResponse<T = f32> {
@@ -81,13 +85,38 @@ impl<T: Precision> SurfaceResponse<T> {
     /// Adds to `field`, three numbers for each triangle, the displacements times E [N/m] from `force` [N] on
     /// `loaded`.
     pub fn add_field(&self, loaded: TouchId, force: &Vec3, field: &mut [T]) {
+        self.add_sum(&[(loaded, *force)], field);
+    }
+
+    /// The same of many forces.
+    pub fn add_fields(&self, forces: impl IntoIterator<Item = (TouchId, Vec3)>, field: &mut [T]) {
+        let mut waiting = [(TouchId(0), Vec3::zeros()); AT_A_TIME];
+        let mut count = 0;
+        for force in forces {
+            waiting[count] = force;
+            count += 1;
+            if count == AT_A_TIME {
+                self.add_sum(&waiting, field);
+                count = 0;
+            }
+        }
+        for &one in &waiting[..count] {
+            self.add_sum(&[one], field);
+        }
+    }
+
+    /// In one pass over `field`.
+    fn add_sum<const N: usize>(&self, forces: &[(TouchId, Vec3); N], field: &mut [T]) {
         let rows = 3 * self.parts.triangles;
-        let columns = &self.parts.displacements[3 * rows * loaded.index()..][..3 * rows];
-        let (x, rest) = columns.split_at(rows);
-        let (y, z) = rest.split_at(rows);
-        let [fx, fy, fz] = [force.x, force.y, force.z].map(T::of);
-        for (((place, &x), &y), &z) in field.iter_mut().zip(x).zip(y).zip(z) {
-            *place += fx * x + fy * y + fz * z;
+        let columns = forces.map(|(loaded, _)| {
+            let columns = &self.parts.displacements[3 * rows * loaded.index()..][..3 * rows];
+            [0, 1, 2].map(|axis| &columns[axis * rows..][..rows])
+        });
+        let forces = forces.map(|(_, force)| [force.x, force.y, force.z].map(T::of));
+        for (row, place) in field[..rows].iter_mut().enumerate() {
+            for ([x, y, z], [fx, fy, fz]) in columns.iter().zip(forces) {
+                *place += fx * x[row] + fy * y[row] + fz * z[row];
+            }
         }
     }
 }

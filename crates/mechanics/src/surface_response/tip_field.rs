@@ -190,9 +190,11 @@ impl<T: Precision> SurfaceResponse<T> {
     /// Adds to `field`, three numbers for each triangle, the displacements times E [N/m] from `force` [N] on
     /// a tip.
     pub fn add_field_of_tip(&self, load: &TipLoad<'_>, force: &Vec3, field: &mut [T]) {
-        for share in load.shares() {
-            self.add_field(share.triangle, &(force * share.weight), field);
-        }
+        let shares = load.shares();
+        self.add_fields(
+            shares.map(|share| (share.triangle, force * share.weight)),
+            field,
+        );
     }
 }
 

@@ -247,15 +247,42 @@ fn the_field_goes_through_the_patch() {
     let moved: Vec<_> = patch.iter().map(|&id| (id, depth)).collect();
     let forces = pressed(&response, &moved, (Bond::Stick, Reciprocity::AsSolved));
     let mut field = vec![0.0; 3 * response.parts().triangles];
-    for ((triangle, _), force) in moved.iter().zip(&forces) {
-        response.add_field(response.find(*triangle).unwrap(), force, &mut field);
-    }
+    let touched = moved
+        .iter()
+        .map(|(triangle, _)| response.find(*triangle).unwrap());
+    response.add_fields(touched.zip(forces.iter().copied()), &mut field);
     for triangle in &patch {
         let moved = Vec3::from_fn(|axis, _| f64::from(field[3 * triangle.index() + axis]));
         assert!((moved - depth).norm() < 1e-4 * depth.norm(), "{moved}");
     }
     for triangle in &solid.held {
         assert_eq!(field[3 * triangle.index()..][..3], [0.0; 3]);
+    }
+}
+
+/// Judge: one force after the other. Tolerance: rounding of single precision.
+#[test]
+fn fields_of_many_forces_are_those_of_each() {
+    let solid = Held::organ(Organ::Kidney, 200, 0.45);
+    let response = solid.response::<f32>(&solid.free);
+    for count in 0..=9 {
+        let forces = (0..count).map(|k| {
+            let part = f64::from(k);
+            (TouchId(7 * k), Vec3::new(1.0, 0.3 * part, -0.2 * part))
+        });
+        let mut together = vec![0.0; 3 * response.parts().triangles];
+        let mut alone = together.clone();
+        response.add_fields(forces.clone(), &mut together);
+        for (touched, force) in forces {
+            response.add_field(touched, &force, &mut alone);
+        }
+        let largest = alone
+            .iter()
+            .fold(0.0_f32, |all, value| all.max(value.abs()));
+        let pairs = together.iter().zip(&alone);
+        let off = pairs.fold(0.0_f32, |all, (one, other)| all.max((one - other).abs()));
+        assert!(off <= 1e-6 * largest, "{count}: {off}");
+        assert_eq!(largest > 0.0, count > 0);
     }
 }
 

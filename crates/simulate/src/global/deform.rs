@@ -78,9 +78,9 @@ impl GlobalModel {
                 self.response.sharpen(surface, &load, &tip, sums);
             }
         }
-        for (_, touch, force) in held.forces() {
-            self.response.add_field(touch, &(force / modulus), sums);
-        }
+        let forces = held.forces();
+        let forces = forces.map(|(_, touch, force)| (touch, force / modulus));
+        self.response.add_fields(forces, sums);
         if let Some(slit) = slit {
             let tips = tools.iter().enumerate();
             let tips = tips.filter(|(_, own)| own.contact.is_some());

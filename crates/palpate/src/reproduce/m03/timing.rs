@@ -101,9 +101,8 @@ pub(super) fn touch(body: &Body, response: &SurfaceResponse, triangles: usize) -
         let found = response.press(std::hint::black_box(&moved), &contact, &mut workspace)?;
         let pressed = start.elapsed().as_secs_f64();
         field.fill(0.0);
-        for (one, force) in moved.iter().zip(found) {
-            response.add_field(one.triangle, force, &mut field);
-        }
+        let moved = moved.iter().map(|one| one.triangle);
+        response.add_fields(moved.zip(found.iter().copied()), &mut field);
         std::hint::black_box(&field);
         if step >= WARM_UP {
             forces.push(pressed);
