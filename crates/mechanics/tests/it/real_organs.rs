@@ -23,6 +23,9 @@ const NU: f64 = 0.45;
 const RADIUS: f64 = 3e-3;
 const DEPTH: f64 = 1e-4;
 
+/// A tip that covers a fold: its law is that of a face which turns by less than this [degrees].
+const FOLD: f64 = 45.0;
+
 fn real(name: &str) -> Option<Surface> {
     let path = crate::data::folder()?.join(format!("meshes/{name}.ply"));
     let mesh = read_mesh(&path, None).unwrap().mesh;
@@ -146,6 +149,15 @@ impl Kidney {
         let border = free.filter(|x| ((x - tip.place).norm() / reach - 2.0).abs() < 0.1);
         border.map(jump).fold(0.0, f64::max)
     }
+
+    /// How far the surface turns away under a tip [degrees].
+    fn turn(&self, tip: &PressedTip) -> f64 {
+        let under = self.solid.free.iter();
+        let under = under.filter(|&&id| (self.solid.centroid(id) - tip.place).norm() < RADIUS);
+        let mesh = self.solid.surface.mesh();
+        let turns = under.map(|&id| mesh.area_vector(id).angle(&tip.normal).to_degrees());
+        turns.fold(0.0, f64::max)
+    }
 }
 
 /// A surface that a tip has moved.
@@ -200,8 +212,9 @@ fn pressed_tip(load: &TipLoad<'_>, (place, normal): (Vec3, Vec3), bond: Bond) ->
 }
 
 /// Judge: quadratic tetrahedra at ten places as far from one another as can be, to 3 %. Tolerances: what is
-/// asked for of the force, and of the jump where the refined patch ends. The field is told beside them
-/// (`docs/theory/boundary_elements.md`).
+/// asked for: 8 % of the force, 3 % at five of them; a hundredth of the depth where the refined patch ends; a
+/// tenth in the field, at each point beyond the tip and in the mean under it, where the organ does not turn
+/// away under the tip (`docs/theory/boundary_elements.md` has what it is there).
 #[test]
 #[ignore = "slow: half an hour"]
 fn real_kidney_at_ten_places() {
@@ -211,7 +224,7 @@ fn real_kidney_at_ten_places() {
     let kidney = Kidney::new(surface);
     let surface = &kidney.solid.surface;
     let field = TipField::new(&kidney.response, surface, RADIUS);
-    let mut worst = [0.0_f64; 2];
+    let (mut worst, mut close, mut folds) = ([0.0_f64; 3], 0, 0);
     for (number, &place) in kidney.places.iter().enumerate() {
         let bonds = [(Grip::Slide, Bond::Slip), (Grip::Stick, Bond::Stick)];
         let (grip, bond) = bonds[number % 2];
@@ -227,14 +240,26 @@ fn real_kidney_at_ten_places() {
         let [near, _] = shown.error(&judge.answer, &tip.place, 0.0..2.0 * RADIUS);
         let [mean, largest] = shown.error(&judge.answer, &tip.place, 2.0 * RADIUS..f64::MAX);
         let jump = kidney.jump(&load, &tip);
+        let turn = kidney.turn(&tip);
         println!(
             "{number} {bond:?}: {:.4} of the half-space, {:+.1} % (judge: {:.1} %), field off by {mean:.3} of the \
-             depth, {largest:.3} at most, {near:.3} at the tip, jump {jump:.4}",
+             depth, {largest:.3} at most, {near:.3} at the tip, jump {jump:.4}, turns by {turn:.0} degrees",
             judge.answer.force_along / half_space,
             100.0 * force,
             100.0 * judge.error,
         );
-        worst = [worst[0].max(force.abs()), worst[1].max(jump)];
+        close += usize::from(force.abs() < 0.03);
+        let field = if turn < FOLD { largest.max(near) } else { 0.0 };
+        folds += usize::from(turn >= FOLD);
+        worst = [
+            worst[0].max(force.abs()),
+            worst[1].max(jump),
+            worst[2].max(field),
+        ];
     }
-    assert!(worst[0] < 0.08 && worst[1] < 0.01, "{worst:?}");
+    assert!(
+        worst[0] < 0.08 && worst[1] < 0.01 && worst[2] < 0.1,
+        "{worst:?}"
+    );
+    assert!(close >= 5 && folds <= 1, "{close} {folds}");
 }
