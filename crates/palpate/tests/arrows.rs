@@ -162,6 +162,7 @@ fn paths_in_the_documents_exist() {
         "ARCHITECTURE.md",
         "CONTRIBUTING.md",
         "docs/devices.md",
+        "docs/embedding.md",
         "docs/errata.md",
         "docs/notation.md",
         "docs/slicer.md",

@@ -25,7 +25,7 @@ pub(crate) fn deform(
 
 fn lay_to_rest(simulation: &Simulation, state: &mut SimulationState) {
     let rest = simulation.surface.mesh().vertices();
-    for node in state.moved.drain(..) {
+    for node in state.moved.0.drain(..) {
         state.deformed.move_vertex(node, rest[node.index()]);
     }
 }
@@ -86,7 +86,7 @@ fn move_near(
         if by.iter().all(|component| component.is_finite()) {
             state.deformed.move_vertex(node, from + by);
             if from == rest {
-                state.moved.push(node);
+                state.moved.0.push(node);
             }
         }
     }
@@ -132,7 +132,7 @@ fn mark_for_refit(
     workspace: &mut SimulationWorkspace,
     turn: u32,
 ) {
-    for &node in &state.moved {
+    for &node in &state.moved.0 {
         for &triangle in simulation.surface.adjacency().around(node) {
             let mark = &mut workspace.seen_triangles[triangle.index()];
             if *mark != turn {

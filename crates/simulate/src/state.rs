@@ -27,7 +27,7 @@ pub struct SimulationState {
     /// The boxes around it.
     pub(crate) tree: AabbTree,
     /// The vertices that are not at rest.
-    pub(crate) moved: Vec<NodeId>,
+    pub(crate) moved: MovedVertices,
     /// The least time between two shapes of a whole organ [s]; zero follows every step.
     pub(crate) show_every: f64,
     /// Whether the whole organ was shaped otherwise than at rest.
@@ -36,6 +36,24 @@ pub struct SimulationState {
     pub(crate) shown_at: f64,
     /// When the cuts were last taken to where the organ is [s].
     pub(crate) cuts_shown_at: f64,
+}
+
+/// Vertices, with room for all of the organ's, which a clone has as well: its steps allocate nothing either.
+#[derive(Debug)]
+pub(crate) struct MovedVertices(pub(crate) Vec<NodeId>);
+
+impl MovedVertices {
+    fn with_room(vertices: usize) -> Self {
+        Self(Vec::with_capacity(vertices))
+    }
+}
+
+impl Clone for MovedVertices {
+    fn clone(&self) -> Self {
+        let mut own = Self::with_room(self.0.capacity());
+        own.0.extend_from_slice(&self.0);
+        own
+    }
 }
 
 /// What one tool does and feels.
@@ -109,7 +127,7 @@ impl SimulationState {
             whole: OrganField::at_rest(simulation),
             nodules: simulation.nodules.clone(),
             tree: simulation.tree.clone(),
-            moved: Vec::with_capacity(simulation.surface.mesh().vertices().len()),
+            moved: MovedVertices::with_room(simulation.surface.mesh().vertices().len()),
             show_every: 0.0,
             shown_deformed: false,
             shown_at: f64::NEG_INFINITY,

@@ -22,13 +22,22 @@ pub struct Hit {
     pub distance: f64,
 }
 
+/// Farther out [m] squares of distances do not tell an organ's points apart, and the nearest one could be behind it.
+const FAR: f64 = 1e6;
+
+/// What lies farther out is as good as there.
+fn within_reach(point: &Vec3) -> Vec3 {
+    point.map(|number| number.clamp(-FAR, FAR))
+}
+
 impl AabbTree {
-    /// The point of `mesh` nearest to `point` [m].
+    /// The point of `mesh` nearest to `point` [m], of which no coordinate counts for more than a thousand kilometres.
     pub fn nearest(&self, mesh: &TriangleMesh, point: &Vec3) -> Nearest {
+        let point = within_reach(point);
         self.search(
-            |aabb| aabb.squared_distance(point),
+            |aabb| aabb.squared_distance(&point),
             |triangle| {
-                let on = closest_on_triangle(&mesh.positions(triangle), point);
+                let on = closest_on_triangle(&mesh.positions(triangle), &point);
                 ((on.position - point).norm_squared(), on)
             },
         )
@@ -36,7 +45,8 @@ impl AabbTree {
 
     /// The point of `mesh` nearest to the segment from `start` to `end` [m]: the shaft of a tool.
     pub fn nearest_to_segment(&self, mesh: &TriangleMesh, start: &Vec3, end: &Vec3) -> Nearest {
-        let (low, high) = (start.inf(end), start.sup(end));
+        let (start, end) = (within_reach(start), within_reach(end));
+        let (low, high) = (start.inf(&end), start.sup(&end));
         self.search(
             |aabb| {
                 (aabb.low - high)
@@ -44,7 +54,7 @@ impl AabbTree {
                     .sup(&Vec3::zeros())
                     .norm_squared()
             },
-            |triangle| closest_on_segment_and_triangle(start, end, &mesh.positions(triangle)),
+            |triangle| closest_on_segment_and_triangle(&start, &end, &mesh.positions(triangle)),
         )
     }
 

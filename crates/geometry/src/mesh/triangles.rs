@@ -1,6 +1,8 @@
 use crate::{MeshError, Vec3};
 
-/// Number of a vertex in its mesh, from zero.
+/// Number of a vertex in its mesh, from zero. In memory it is the number alone, so that triangles can be drawn
+/// as they are.
+#[repr(transparent)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct NodeId(pub u32);
 

@@ -368,3 +368,19 @@ fn patch_field_is_continuous_over_edges() {
         }
     }
 }
+
+/// Squares of what lies far out are no numbers any more. Judge: the same direction from a thousand kilometres.
+#[test]
+fn what_is_beyond_all_bounds_is_outside() {
+    let (surface, tree) = organ(Organ::Hemisphere, 2000);
+    for direction in [Vec3::x(), -Vec3::z(), Vec3::new(1.0, -1.0, 1.0)] {
+        let near = surface.signed_distance(&tree, &(direction * 1e6));
+        assert!(near.1 > 0.9e6, "{near:?}");
+        for far in [1e9, 1e20, 1e100, 1e155, 1e300, f64::MAX] {
+            let (start, end) = (direction * far, direction * (0.5 * far));
+            assert_eq!(surface.signed_distance(&tree, &start), near);
+            let segment = tree.nearest_to_segment(surface.mesh(), &start, &end);
+            assert!(segment.distance > 0.9e6, "{segment:?}");
+        }
+    }
+}

@@ -1,0 +1,54 @@
+//! What can happen to a tool in a step, as bits; the words of a session.
+
+use palpate_files::session::Events;
+
+/// It touches the organ, which it did not in the step before.
+pub const PALPATE_EVENT_CONTACT: u32 = 1 << 0;
+/// It no longer touches the organ.
+pub const PALPATE_EVENT_RELEASE: u32 = 1 << 1;
+/// It takes hold.
+pub const PALPATE_EVENT_GRIP: u32 = 1 << 2;
+/// It lets go.
+pub const PALPATE_EVENT_GRIP_RELEASE: u32 = 1 << 3;
+/// It cuts.
+pub const PALPATE_EVENT_CUT: u32 = 1 << 4;
+/// It breaks through a layer.
+pub const PALPATE_EVENT_PERFORATION: u32 = 1 << 5;
+/// Its shaft, not its tip, touches the organ.
+pub const PALPATE_EVENT_SHAFT_CONTACT: u32 = 1 << 6;
+/// It is deeper than the models can be trusted: beyond 10 mm.
+pub const PALPATE_EVENT_DEPTH_BEYOND_TRUST: u32 = 1 << 7;
+/// The model gave a force that is no number; it was replaced by zero.
+pub const PALPATE_EVENT_NON_FINITE_FORCE: u32 = 1 << 8;
+/// Before the step the last cut was closed again.
+pub const PALPATE_EVENT_UNDO_CUT: u32 = 1 << 11;
+
+pub(crate) fn bits(events: Events) -> u32 {
+    events
+        .iter()
+        .fold(0, |bits, event| bits | 1 << event as u32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use palpate_files::session::Event;
+
+    #[test]
+    fn every_event_has_its_bit() {
+        for (event, bit) in [
+            (Event::Contact, PALPATE_EVENT_CONTACT),
+            (Event::Release, PALPATE_EVENT_RELEASE),
+            (Event::Grip, PALPATE_EVENT_GRIP),
+            (Event::GripRelease, PALPATE_EVENT_GRIP_RELEASE),
+            (Event::Cut, PALPATE_EVENT_CUT),
+            (Event::Perforation, PALPATE_EVENT_PERFORATION),
+            (Event::ShaftContact, PALPATE_EVENT_SHAFT_CONTACT),
+            (Event::DepthBeyondTrust, PALPATE_EVENT_DEPTH_BEYOND_TRUST),
+            (Event::NonFiniteForce, PALPATE_EVENT_NON_FINITE_FORCE),
+            (Event::UndoCut, PALPATE_EVENT_UNDO_CUT),
+        ] {
+            assert_eq!(bits([event].into_iter().collect()), bit, "{event}");
+        }
+    }
+}
