@@ -13,8 +13,12 @@ pub(crate) fn table(given: &Bound<'_, PyDict>, name: &str) -> Result<Table, Fail
     for (key, item) in given {
         let Ok(key) = key.cast::<PyString>() else {
             let found = key.repr()?.to_string();
+            let place = match name {
+                "" => String::new(),
+                _ => format!(" of `{name}`"),
+            };
             return Err(Failure::Input(format!(
-                "a key of `{name}` is {found}; give the keys as texts"
+                "a key{place} is {found}; give the keys as texts"
             )));
         };
         let key = key.to_string();

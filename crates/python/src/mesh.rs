@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use numpy::{PyArray1, PyArray2};
 use palpate_files::{check_writable, write_whole};
 use palpate_geometry::{
-    LengthUnit, MeshReport, NodeId, Organ, ProblemKind, ReadError, ReadFault, SimplifySettings,
-    Surface, TriangleMesh, WriteFormat, inspect, read_mesh, repair, simplify,
+    AabbTree, LengthUnit, MeshReport, NodeId, Organ, ProblemKind, ReadError, ReadFault,
+    SimplifySettings, Surface, TriangleMesh, WriteFormat, inspect, read_mesh, repair, simplify,
 };
 use palpate_jobs::nearest;
 use pyo3::prelude::*;
@@ -165,6 +165,33 @@ impl Mesh {
     #[getter]
     fn is_closed(&self, py: Python<'_>) -> bool {
         self.report(py).closed
+    }
+
+    /// Distances of points from the surface [m], negative inside: shape (n,).
+    ///
+    /// Parameters
+    /// ----------
+    /// points : array_like, shape (n, 3)
+    ///     Places [m].
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     When the mesh bounds no solid.
+    fn signed_distances<'py>(
+        &self,
+        py: Python<'py>,
+        points: &Bound<'py, PyAny>,
+    ) -> Result<Bound<'py, PyArray1<f64>>, Failure> {
+        let points = numbers::points(points, "points")?;
+        let distances = py.detach(|| {
+            let surface = Surface::new(self.mesh.clone())?;
+            let tree = AabbTree::new(surface.mesh());
+            let distances = points.iter();
+            let distances = distances.map(|point| surface.signed_distance(&tree, point).1);
+            Ok::<Vec<f64>, Failure>(distances.collect())
+        })?;
+        Ok(PyArray1::from_vec(py, distances))
     }
 
     /// Plain sentences on what deserves doubt.

@@ -6,6 +6,7 @@ A bar is shown for work that takes longer than a second, where nobody gave a cal
 
 from __future__ import annotations
 
+import importlib
 import sys
 from typing import Any, TextIO
 
@@ -40,7 +41,7 @@ class Bar:
     def _tqdm(self) -> Any:
         """A bar of tqdm, if there is tqdm."""
         try:
-            from tqdm.auto import tqdm
+            tqdm = importlib.import_module("tqdm.auto").tqdm
         except ImportError:
             return None
         form = "{desc} {percentage:3.0f} %|{bar}| {elapsed}<{remaining}"

@@ -40,6 +40,8 @@ struct Course<'p> {
     width: usize,
     steps: usize,
     marks: Vec<bool>,
+    /// Of each state.
+    goes_on: Vec<bool>,
 }
 
 #[pymethods]
@@ -86,21 +88,24 @@ impl SimulationBatch {
     ///     Where the tools are, with n = 3, 5, 7 or 9 as for `Simulation.step`.
     /// marks : array_like of bool, shape (count, tools), optional
     ///     Which hands say: here.
+    /// which : int, list of int, or list of bool for every state, optional
+    ///     Which states go on, as for `reset`; the others stay as they are. Without, all.
     ///
     /// Returns
     /// -------
     /// ndarray, shape (count, tools, 3)
     ///     The forces on the tools [N].
-    #[pyo3(signature = (poses, marks=None))]
+    #[pyo3(signature = (poses, marks=None, which=None))]
     fn step<'py>(
         &mut self,
         py: Python<'py>,
         poses: &Bound<'py, PyAny>,
         marks: Option<&Bound<'py, PyAny>>,
+        which: Option<&Bound<'py, PyAny>>,
     ) -> Result<Bound<'py, PyArray3<f64>>, Failure> {
         let given = numbers::floats(poses, "poses")?;
         let width = self.width(given.shape(), 1)?;
-        let forces = self.run(py, (&given, 1, width), marks)?;
+        let forces = self.run(py, (&given, 1, width), (marks, which))?;
         Ok(numbers::array(
             py,
             [self.steppers.len(), self.tools(), 3],
@@ -116,22 +121,25 @@ impl SimulationBatch {
     ///     Where the tools are, with n = 3, 5, 7 or 9 as for `Simulation.step`.
     /// marks : array_like of bool, shape (count, tools), optional
     ///     Which hands say at the last of the steps: here.
+    /// which : int, list of int, or list of bool for every state, optional
+    ///     Which states go on, as for `reset`; the others stay as they are. Without, all.
     ///
     /// Returns
     /// -------
     /// ndarray, shape (steps, count, tools, 3)
     ///     The forces on the tools [N].
-    #[pyo3(signature = (poses, marks=None))]
+    #[pyo3(signature = (poses, marks=None, which=None))]
     fn replay<'py>(
         &mut self,
         py: Python<'py>,
         poses: &Bound<'py, PyAny>,
         marks: Option<&Bound<'py, PyAny>>,
+        which: Option<&Bound<'py, PyAny>>,
     ) -> Result<Bound<'py, PyArray4<f64>>, Failure> {
         let given = numbers::floats(poses, "poses")?;
         let width = self.width(given.shape(), 2)?;
         let steps = given.shape()[0];
-        let forces = self.run(py, (&given, steps, width), marks)?;
+        let forces = self.run(py, (&given, steps, width), (marks, which))?;
         // State by state as they were made, step by step as they are wanted.
         let (count, row) = (self.steppers.len(), 3 * self.tools());
         let mut turned = vec![0.0; forces.len()];
@@ -357,7 +365,7 @@ impl SimulationBatch {
         &mut self,
         py: Python<'_>,
         (given, steps, width): (&Bound<'_, numpy::PyArrayDyn<f64>>, usize, usize),
-        marks: Option<&Bound<'_, PyAny>>,
+        (marks, which): (Option<&Bound<'_, PyAny>>, Option<&Bound<'_, PyAny>>),
     ) -> Result<Vec<f64>, Failure> {
         let (count, tools) = (self.steppers.len(), self.tools());
         let borrowed = given.try_readonly().map_err(Failure::input)?;
@@ -368,6 +376,7 @@ impl SimulationBatch {
             width,
             steps,
             marks: self.marks(marks)?,
+            goes_on: self.goes_on(which)?,
         };
         let mut forces = vec![0.0; count * steps * 3 * tools];
         py.detach(|| self.run_all(&course, &mut forces))?;
@@ -388,6 +397,15 @@ impl SimulationBatch {
         }
         let numbers = numbers::copied(&array)?;
         Ok(numbers.into_iter().map(|number| number != 0.0).collect())
+    }
+
+    /// Of each state, whether `which` means it.
+    fn goes_on(&self, which: Option<&Bound<'_, PyAny>>) -> Result<Vec<bool>, Failure> {
+        let mut goes_on = vec![false; self.steppers.len()];
+        for number in self.chosen(which)? {
+            goes_on[number] = true;
+        }
+        Ok(goes_on)
     }
 
     /// Whoever is idle takes the next state.
@@ -451,6 +469,11 @@ impl Course<'_> {
         let tools = stepper.poses.len();
         let row = tools * self.width;
         for step in 0..self.steps {
+            let forces = &mut forces[step * 3 * tools..(step + 1) * 3 * tools];
+            if !self.goes_on[number] {
+                stepper.write_forces(forces);
+                continue;
+            }
             let at = (step * count + number) * row;
             let poses = &self.flat[at..at + row];
             poses::of_flat(poses, self.width, &mut stepper.poses, "tool")?;
@@ -459,7 +482,7 @@ impl Course<'_> {
                 false => &[],
             };
             stepper.step(model, None, marks);
-            stepper.write_forces(&mut forces[step * 3 * tools..(step + 1) * 3 * tools]);
+            stepper.write_forces(forces);
         }
         Ok(())
     }

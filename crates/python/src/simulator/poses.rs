@@ -14,8 +14,7 @@ use pyo3::types::{PyList, PyTuple};
 use crate::failure::Failure;
 use crate::numbers;
 
-const WIDTHS: &str =
-    "rows of 3 (x, y, z), 5 (and grip, cut), 7 (and a quaternion) or 9 numbers (and both)";
+const WIDTHS: &str = "3 numbers (x, y, z), 5 (and grip, cut), 7 (and a quaternion) or 9 (and both)";
 
 /// Reads as many poses as there are slots, each for a `thing`: a tool, a time.
 pub(crate) fn read(
@@ -75,8 +74,9 @@ fn read_array(
 
 fn misshapen(shape: &[usize], count: usize, thing: &str) -> Failure {
     Failure::Input(format!(
-        "`poses` has the shape {}; give one row for each {thing}, which are {count}, {WIDTHS}",
-        numbers::shape_words(shape)
+        "`poses` has the shape {}; give {}, a row for each {thing}, of {WIDTHS}",
+        numbers::shape_words(shape),
+        numbers::shape_words(&[count, 3])
     ))
 }
 

@@ -1,0 +1,145 @@
+"""Many episodes at a time."""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar
+
+import numpy as np
+from gymnasium.utils import seeding
+from gymnasium.vector import AutoresetMode, VectorEnv
+from gymnasium.vector.utils import batch_space
+from numpy.typing import NDArray
+
+import palpate
+from palpate.gym.tasks import Cutting, Floats, Palpation, Task, Traction, Truths
+from palpate.gym.touch import Seen, Touch
+
+
+class TouchVectorEnv(VectorEnv[Seen, NDArray[np.float32], Any]):
+    """Many organs of one prepared model, stepped on several threads; each episode is to the bit that of the single form
+    with the same seed. Spaces and rewards are those of `TouchEnv`.
+
+    Parameters
+    ----------
+    num_envs : int
+        How many.
+    scene, simulation, model, substeps, speed
+        As for `TouchEnv`.
+    threads : int, optional
+        At most so many; without, as many as there are cores.
+    autoreset_mode : gymnasium.vector.AutoresetMode
+        When an episode that has ended begins anew; by its next action without.
+    """
+
+    metadata: dict[str, Any] = {"render_modes": []}
+    kind: ClassVar[type[Task]]
+
+    def __init__(
+        self,
+        num_envs: int = 1,
+        scene: palpate.Scene | None = None,
+        *,
+        simulation: palpate.Simulation | None = None,
+        model: str | None = None,
+        substeps: int = 10,
+        speed: float = 0.05,
+        threads: int | None = None,
+        autoreset_mode: str | AutoresetMode = AutoresetMode.NEXT_STEP,
+        render_mode: None = None,
+    ) -> None:
+        self.num_envs, self.render_mode = num_envs, render_mode
+        self.autoreset_mode = AutoresetMode(autoreset_mode)
+        self.metadata = {**type(self).metadata, "autoreset_mode": self.autoreset_mode}
+        self.touch = Touch(
+            self.kind,
+            num_envs,
+            scene=scene,
+            simulation=simulation,
+            model=model,
+            substeps=substeps,
+            speed=speed,
+            threads=threads,
+        )
+        self.single_action_space = self.touch.action_space()
+        self.single_observation_space = self.touch.observation_space()
+        self.action_space = batch_space(self.single_action_space, num_envs)
+        self.observation_space = batch_space(self.single_observation_space, num_envs)
+        self._draws = [seeding.np_random()[0] for _ in range(num_envs)]
+        self._ended = np.zeros(num_envs, dtype=bool)
+
+    def reset(
+        self, *, seed: int | list[int | None] | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Seen, dict[str, Any]]:
+        """New episodes: all, or those of `options["reset_mask"]`. A seed is that of the first, the next ones follow."""
+        if seed is None:
+            seeds: list[int | None] = [None] * self.num_envs
+        elif isinstance(seed, int):
+            seeds = [seed + number for number in range(self.num_envs)]
+        else:
+            seeds = list(seed)
+        if len(seeds) != self.num_envs:
+            raise palpate.InputError(
+                f"there are {len(seeds)} seeds for {self.num_envs} environments; give one for each"
+            )
+        chosen = np.ones(self.num_envs, dtype=bool)
+        if options is not None and "reset_mask" in options:
+            chosen = np.asarray(options["reset_mask"])
+            if chosen.shape != (self.num_envs,) or chosen.dtype != np.bool_ or not chosen.any():
+                raise palpate.InputError(
+                    "`reset_mask` chooses none; give a truth for each environment, one of them true"
+                )
+        told: dict[str, Any] = {}
+        for number in np.flatnonzero(chosen):
+            if seeds[number] is not None:
+                self._draws[number] = seeding.np_random(seeds[number])[0]
+            told = self._begin(int(number), told)
+        self._ended[chosen] = False
+        return self.touch.seen(), told
+
+    def _begin(self, number: int, told: dict[str, Any]) -> dict[str, Any]:
+        self.touch.begin(number, self._draws[number])
+        return self._add_info(told, self.touch.told(number), number)
+
+    def step(self, actions: NDArray[np.float32]) -> tuple[Seen, Floats, Truths, Truths, dict[str, Any]]:
+        """An action of each."""
+        if self.autoreset_mode == AutoresetMode.DISABLED and self._ended.any():
+            raise palpate.InputError("an episode has ended; reset it before its next action")
+        begins = self._ended.copy()
+        worth, terminated, truncated = self.touch.step(actions, ~begins)
+        told: dict[str, Any] = {}
+        for number in range(self.num_envs):
+            if begins[number]:
+                told = self._begin(number, told)
+            else:
+                told = self._add_info(told, self.touch.told(number), number)
+        self._ended = terminated | truncated
+        if self.autoreset_mode == AutoresetMode.SAME_STEP:
+            told = self._begin_at_once(told)
+        return self.touch.seen(), worth, terminated, truncated, told
+
+    def _begin_at_once(self, told: dict[str, Any]) -> dict[str, Any]:
+        last = self.touch.seen()
+        for number in np.flatnonzero(self._ended):
+            final = {"final_obs": last[number], "final_info": self.touch.told(int(number))}
+            told = self._add_info(told, final, int(number))
+            told = self._begin(int(number), told)
+        self._ended[:] = False
+        return told
+
+
+class PalpationVectorEnv(TouchVectorEnv):
+    """Many of `PalpationEnv`."""
+
+    kind = Palpation
+
+
+class TractionVectorEnv(TouchVectorEnv):
+    """Many of `TractionEnv`."""
+
+    kind = Traction
+
+
+class CuttingVectorEnv(TouchVectorEnv):
+    """Many of `CuttingEnv`."""
+
+    kind = Cutting

@@ -1,0 +1,72 @@
+"""Tissues in and out."""
+
+from __future__ import annotations
+
+import pickle
+from pathlib import Path
+
+import palpate
+import pytest
+from conftest import Command
+
+
+def test_a_tissue_of_words_is_that_of_a_file() -> None:
+    made = palpate.Tissue(
+        law="mooney_rivlin",
+        name="mine",
+        c10_pa=700.0,
+        c01_pa={"value": 300, "standard_error": 20},
+        prony=[(0.3, 1.5), {"g": 0.1, "tau_s": 9.0}],
+    )
+    assert (made.law, made.name, made.density) == ("mooney_rivlin", "mine", 1060.0)
+    assert made.parameters == {"c10_pa": 700.0, "c01_pa": 300.0}
+    assert made.standard_errors == {"c01_pa": 20.0}
+    assert made.prony == [(0.3, 1.5), (0.1, 9.0)]
+    assert palpate.Tissue.parse(made.to_toml()) == made == pickle.loads(pickle.dumps(made))
+
+
+def test_builtin_tissues_bring_their_doubts(tmp_path: Path) -> None:
+    liver = palpate.Tissue.builtin("pig-liver")
+    assert liver.law == "neo_hookean" and liver.warnings
+    liver.write(tmp_path / "liver.toml")
+    assert palpate.Tissue.read(tmp_path / "liver.toml") == liver
+    assert "*HYPERELASTIC" in liver.to_abaqus().upper() and "<material" in liver.to_febio()
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ({"law": "neo_hookean"}, "`tissue.c10_pa` is missing"),
+        ({"law": "neo_hookean", "c10_pa": -1.0}, "`tissue.c10_pa` is -1"),
+        ({"law": "neo_hokean", "c10_pa": 1.0}, "`tissue.law` is"),
+        ({"law": "neo_hookean", "c1_pa": 1.0}, "the nearest known key is `tissue.c10_pa`"),
+        ({"law": "neo_hookean", "c10_pa": None}, "`c10_pa` is None"),
+        ({"law": "neo_hookean", "c10_pa": 1.0, "prony": [(0.7, 1.0), (0.4, 1.0)]}, "add up to 1.1"),
+        ({"law": "neo_hookean", "c10_pa": float("nan")}, "`tissue.c10_pa` is"),
+    ],
+)
+def test_what_is_no_tissue_is_told(words: dict[str, object], said: str) -> None:
+    with pytest.raises(palpate.InputError, match=said):
+        palpate.Tissue(**words)  # type: ignore[arg-type]
+
+
+def test_a_package_without_the_law_is_told() -> None:
+    blatz = palpate.Tissue(law="blatz", gamma_pa=100.0, alpha=3.0)
+    with pytest.raises(palpate.InputError, match="has no law like `blatz`"):
+        blatz.to_abaqus()
+
+
+def test_errors_are_those_of_the_command(command: Command, tmp_path: Path) -> None:
+    tissue = tmp_path / "tissue.toml"
+    tissue.write_text('format = 1\n[tissue]\nlaw = "neo_hookean"\nc10_pa = "soft"\n')
+    scene = tmp_path / "scene.toml"
+    scene.write_text('format = 1\norgan = { builtin = "liver", tissue = "tissue.toml" }\n')
+    motion = tmp_path / "motion.csv"
+    motion.write_text("# format = 1\ntime_s,tool,x_m,y_m,z_m\n0,right,0,0,0.2\n")
+    said = command("simulate", scene, "--headless", "--motion", motion, "--out", tmp_path / "out")
+    with pytest.raises(palpate.InputError) as raised:
+        palpate.Tissue.read(tissue)
+    assert said.returncode == 2 and str(raised.value) in said.stderr
+    with pytest.raises(palpate.InputError) as raised:
+        palpate.Simulation(palpate.Scene.read(scene))
+    assert str(raised.value) in said.stderr
