@@ -15,7 +15,6 @@ import time
 from typing import Any
 
 from distributed import Client, LocalCluster
-
 from palpate import study
 from palpate.study.task import Task, unpacked
 
@@ -36,14 +35,16 @@ def punches(count: int) -> list[Task]:
 
 def timed(workers: int, tasks: list[Task]) -> float:
     """How long `tasks` take on so many workers that are ready [s]."""
-    with LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None) as cluster:
-        with Client(cluster) as client:
-            # Every worker has imported the package.
-            client.run(study.run, [], progress=False)
-            begin = time.perf_counter()
-            found = study.run(tasks, client=client, progress=False)
-            assert not found.failures, found.failures
-            return time.perf_counter() - begin
+    with (
+        LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None) as cluster,
+        Client(cluster) as client,
+    ):
+        # Every worker has imported the package.
+        client.run(study.run, [], progress=False)
+        begin = time.perf_counter()
+        found = study.run(tasks, client=client, progress=False)
+        assert not found.failures, found.failures
+        return time.perf_counter() - begin
 
 
 def shipping(client: Client) -> list[tuple[int, int, float]]:

@@ -12,9 +12,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pytest
-
 import palpate
+import pytest
 
 PROBLEMS = Path(__file__).parents[3] / "assets" / "problems"
 
@@ -73,7 +72,9 @@ def test_recordings_are_measured_analyzed_and_characterized_as_by_the_command(
     assert analysis == json.loads(told.stdout)
     assert analysis.to_frame()["depth_m"].iloc[0] == pytest.approx(0.002, rel=0.02)
 
-    told = command(tmp_path, "characterize", "here", "--json", "--draws", "10", "--out", "tissue.toml", "--law", "blatz")
+    told = command(
+        tmp_path, "characterize", "here", "--json", "--draws", "10", "--out", "tissue.toml", "--law", "blatz"
+    )
     found = palpate.characterize("here", draws=10, law="blatz", progress=False)
     assert found == json.loads(told.stdout)
     assert found.tissue() == (tmp_path / "tissue.toml").read_text()

@@ -10,9 +10,8 @@ import time
 from pathlib import Path
 from typing import Any
 
-import pytest
-
 import palpate
+import pytest
 from palpate import study
 from palpate.study.task import execute, unpacked
 
@@ -51,9 +50,11 @@ def test_a_sweep_is_every_combination(local: study.Study) -> None:
 
 
 def test_workers_answer_to_the_last_bit(local: study.Study, tmp_path: Path) -> None:
-    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
-        with distributed.Client(cluster) as client:
-            found = study.run(local.tasks, tmp_path, client, progress=False)
+    with (
+        distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        found = study.run(local.tasks, tmp_path, client, progress=False)
     assert bits(found) == bits(local)
     by = {json.loads(file.read_text())["run"]["worker"] for file in tmp_path.glob("*.json")}
     assert len(by) == 2 and all(worker.startswith("tcp://127.0.0.1") for worker in by)
@@ -125,7 +126,10 @@ def test_specimens_travel_with_their_recordings(tmp_path: Path, monkeypatch: pyt
     linear = {"law": "linear", "youngs_modulus_pa": 3000.0, "poissons_ratio": 0.45}
     palpate.measure(
         {
-            "specimen": [{"organ": "soft", "subject": "1", "tissue": linear}, {"organ": "soft", "subject": "2", "tissue": linear}],
+            "specimen": [
+                {"organ": "soft", "subject": "1", "tissue": linear},
+                {"organ": "soft", "subject": "2", "tissue": linear},
+            ],
             "stimulus": [{"kind": "ramp_and_hold", "depth_m": 0.002, "ramp_s": 0.5, "hold_s": 2.0}],
         },
         out="recordings",

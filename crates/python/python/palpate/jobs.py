@@ -186,9 +186,7 @@ def characterize(
         ``time``, ``depth``, ``force``: columns of tables of other programs; ``depth_unit``, ``force_unit``;
         ``known``: what the files do not say, such as ``{"indenter_radius_m": 0.001}``.
     """
-    answer, tissues = _palpate._characterize(
-        asked(recordings, **columns), (law, terms, draws, seed), study, progress
-    )
+    answer, tissues = _palpate._characterize(asked(recordings, **columns), (law, terms, draws, seed), study, progress)
     found = Characterization(json.loads(answer))
     found.tissues = [text for text, _ in tissues]
     found.reasons = [why for _, why in tissues]

@@ -133,7 +133,9 @@ def _here(asked: Sequence[tuple[int, Task]]) -> Generator[Finished, None, None]:
             pool.shutdown(cancel_futures=True)
 
 
-def _distributed(asked: Sequence[tuple[int, Task]], client: distributed.Client, retries: int) -> Generator[Finished, None, None]:
+def _distributed(
+    asked: Sequence[tuple[int, Task]], client: distributed.Client, retries: int
+) -> Generator[Finished, None, None]:
     """Do tasks on the workers of ``client``; a task whose worker is lost is done by another."""
     from distributed import KilledWorker, as_completed
 
@@ -170,7 +172,11 @@ def _distributed(asked: Sequence[tuple[int, Task]], client: distributed.Client, 
                 elif isinstance(error, Exception):
                     yield place, error, {}
                 else:
-                    yield place, PalpateError("the workers were closed before the task was done; run the study again"), {}
+                    yield (
+                        place,
+                        PalpateError("the workers were closed before the task was done; run the study again"),
+                        {},
+                    )
             # The scheduler may forget it; the answer is here.
             future.release()
     finally:
