@@ -73,12 +73,12 @@ def test_recordings_are_measured_analyzed_and_characterized_as_by_the_command(
     assert analysis.to_frame()["depth_m"].iloc[0] == pytest.approx(0.002, rel=0.02)
 
     told = command(
-        tmp_path, "characterize", "here", "--json", "--draws", "10", "--out", "tissue.toml", "--law", "blatz"
+        tmp_path, "characterize", "here", "--json", "--draws", "10", "--out", "tissue.toml", "--law", "neo_hookean"
     )
-    found = palpate.characterize("here", draws=10, law="blatz", progress=False)
+    found = palpate.characterize("here", draws=10, law="neo_hookean", progress=False)
     assert found == json.loads(told.stdout)
     assert found.tissue() == (tmp_path / "tissue.toml").read_text()
-    assert palpate.Tissue.parse(found.tissue()).law == "blatz"
+    assert palpate.Tissue.parse(found.tissue()).law == "neo_hookean"
     assert len(found.to_frame()) == 1
 
 
@@ -132,7 +132,8 @@ def test_progress_is_heard_and_what_it_raises_ends_the_job() -> None:
     heard: list[tuple[float, str]] = []
     palpate.solve(PROBLEMS / "punch.toml", progress=lambda part, words: heard.append((part, words)))
     parts = [part for part, _ in heard]
-    assert parts == sorted(parts) and parts[-1] > 0.5
+    # Each finer mesh begins anew.
+    assert parts[0] == 0.0 and max(parts) > 0.5 and max(parts) <= 1.0
     assert any("mesh" in words or "elements" in words for _, words in heard)
 
     def refuse(_part: float, _words: str) -> None:
