@@ -1,9 +1,11 @@
 //! The name that was probably meant.
 
-/// The one of `known` that takes the fewest changed letters to become `name`; the first of equals.
+/// The one of `known` that takes the fewest changed letters to become `name`, those that hold all of it first;
+/// the first of equals.
 pub fn nearest<'k>(name: &str, known: &[&'k str]) -> &'k str {
     let name = name.to_lowercase();
-    let by_distance = known.iter().min_by_key(|known| distance(&name, known));
+    let far = |known: &&&str| (!known.contains(&name), distance(&name, known));
+    let by_distance = known.iter().min_by_key(far);
     by_distance.copied().unwrap_or_default()
 }
 
@@ -32,6 +34,8 @@ mod tests {
         let known = ["liver", "kidney", "spleen"];
         assert_eq!(nearest("Kidny", &known), "kidney");
         assert_eq!(nearest("splen", &known), "spleen");
+        let sides = ["liver", "kidney_right", "kidney_left"];
+        assert_eq!(nearest("kidney", &sides), "kidney_left");
         assert_eq!(distance("kitten", "sitting"), 3);
     }
 }

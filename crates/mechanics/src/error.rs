@@ -344,7 +344,7 @@ pub enum Error {
     GuidedEnds,
     /// More memory than may be used.
     #[error(
-        "the response takes {:.1} GB of memory and {:.1} GB may be used; give fewer triangles, or fewer that can be touched", *needed as f64 * 1e-9, *memory as f64 * 1e-9
+        "the response takes {} of memory and {} may be used; give fewer triangles, or fewer that can be touched", gigabytes(*needed), gigabytes(*memory)
     )]
     NotEnoughMemory {
         /// What it takes [bytes].
@@ -389,4 +389,13 @@ pub enum Error {
         /// Why.
         fault: &'static str,
     },
+}
+
+/// In words, with digits enough for little ones.
+fn gigabytes(bytes: usize) -> String {
+    let gigabytes = bytes as f64 * 1e-9;
+    match gigabytes < 0.1 {
+        true => format!("{gigabytes:.4} GB"),
+        false => format!("{gigabytes:.1} GB"),
+    }
 }

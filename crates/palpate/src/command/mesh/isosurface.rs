@@ -141,7 +141,8 @@ fn absent(labels: &[Label], wanted: &str) -> Failure {
         .iter()
         .filter_map(|label| label.name.as_deref())
         .collect();
-    let nearest = match names.is_empty() {
+    let is_number = wanted.parse::<u32>().is_ok();
+    let nearest = match names.is_empty() || is_number {
         true => String::new(),
         false => format!("the nearest is {}, and ", nearest(wanted, &names)),
     };
