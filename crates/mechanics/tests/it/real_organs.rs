@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use palpate_files::scene::Smoothing;
-use palpate_geometry::{AabbTree, Surface, TriangleId, read_mesh};
+use palpate_geometry::{AabbTree, Surface, TriangleId, closest_on_triangle, read_mesh};
 use palpate_mechanics::Vec3;
 use palpate_mechanics::contact::{Bond, Tip, half_space_stiffness};
 use palpate_mechanics::enhance::{Interpolation, Press, SurfaceField, SurfacePoint, profile};
@@ -150,11 +150,14 @@ impl Kidney {
         border.map(jump).fold(0.0, f64::max)
     }
 
-    /// How far the surface turns away under a tip [degrees].
+    /// How far the triangles that a tip reaches turn away under it [degrees].
     fn turn(&self, tip: &PressedTip) -> f64 {
-        let under = self.solid.free.iter();
-        let under = under.filter(|&&id| (self.solid.centroid(id) - tip.place).norm() < RADIUS);
         let mesh = self.solid.surface.mesh();
+        let reached = |&&id: &&TriangleId| {
+            let nearest = closest_on_triangle(&mesh.positions(id), &tip.place);
+            (nearest.position - tip.place).norm() < RADIUS
+        };
+        let under = self.solid.free.iter().filter(reached);
         let turns = under.map(|&id| mesh.area_vector(id).angle(&tip.normal).to_degrees());
         turns.fold(0.0, f64::max)
     }
