@@ -6,7 +6,7 @@ A bar is shown for work that takes longer than a second, where nobody gave a cal
 
 from __future__ import annotations
 
-import importlib
+import importlib.util
 import sys
 from typing import Any, TextIO
 
@@ -39,13 +39,14 @@ class Bar:
             self._drawn = self._tqdm()
 
     def _tqdm(self) -> Any:
-        """A bar of tqdm, if there is tqdm."""
+        """A bar of tqdm, if there is tqdm: a widget where a notebook has widgets, a line of text elsewhere."""
+        has_widgets = self._notebook and importlib.util.find_spec("ipywidgets") is not None
         try:
-            tqdm = importlib.import_module("tqdm.auto").tqdm
+            tqdm = importlib.import_module("tqdm.notebook" if has_widgets else "tqdm").tqdm
         except ImportError:
             return None
         form = "{desc} {percentage:3.0f} %|{bar}| {elapsed}<{remaining}"
-        where = {} if self._notebook else {"file": self._stream}
+        where = {} if has_widgets else {"file": self._stream}
         return tqdm(total=1.0, bar_format=form, leave=False, disable=False, **where)
 
     def __call__(self, part: float, doing: str) -> None:
