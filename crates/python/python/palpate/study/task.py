@@ -36,7 +36,7 @@ class Task:
 
     name: str
     job: str
-    given: Mapping[str, Any]
+    given: Mapping[str, Any] = field(repr=False)
     labels: Mapping[str, Any] = field(default_factory=dict)
 
     @cached_property
