@@ -37,8 +37,10 @@ def main() -> None:
         study = palpate.study.run(tasks, asked.study, client)
 
     table = study.to_frame()
-    shown = [name for name in table if name in ("specimen", "law") or name.endswith((".misfit", "_pa.value", ".alpha.value"))]
-    print(table[[name for name in shown if not name.startswith("blatz.")]].to_string(index=False))
+    # `blatz.` is the law on a column of tissue; what was sought is under `exponential.`.
+    numbers = [name for name in table if name.endswith((".misfit", "_pa.value", ".alpha.value"))]
+    shown = ["specimen", "law", *(name for name in numbers if not name.startswith("blatz."))]
+    print(table[shown].to_string(index=False))
     for name, why in study.failures.items():
         print(f"{name}: {why}")
     if study.failures:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import json
 import os
 import subprocess
 import sys
@@ -90,3 +91,12 @@ def test_an_example_runs_to_its_end(name: str, tmp_path: Path, surroundings: dic
 def test_every_script_is_tried() -> None:
     assert {path.name for path in (EXAMPLES / "python").glob("*.py")} == set(SCRIPTS)
     assert len(NOTEBOOKS) == 5
+
+
+def test_the_printed_table_is_the_published_one() -> None:
+    """A notebook that is carried away alone holds the table; it is that of `published`."""
+    published = EXAMPLES.parent / "published" / "table_5_1_static_force.csv"
+    lines = [line for line in published.read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
+    own = json.loads((EXAMPLES / "notebooks" / "virtual_chapter_5.ipynb").read_text(encoding="utf-8"))
+    sources = ["".join(cell["source"]) for cell in own["cells"]]
+    assert any("\n".join(lines) in source for source in sources)
