@@ -78,18 +78,14 @@ def test_a_snapshot_is_exact(simulation: palpate.Simulation) -> None:
 
 def test_a_snapshot_is_exact_where_tissue_is_cut() -> None:
     """Two ways from the same state, each twice: what one has cut the other does not meet."""
-    scene = local(
-        {"layer": [{"name": "muscle", "thickness_m": 0.002, "builtin_tissue": "pig-liver"}]},
-        tool=[{"kind": "scissors", "tip": {"shape": "flat", "radius_m": 0.001}}],
-    )
-    simulation = palpate.Simulation(scene)
+    simulation = palpate.Simulation(local(tool=[{"kind": "scissors", "tip": {"shape": "flat", "radius_m": 0.001}}]))
     top = above(simulation)
     part = np.linspace(0.0, 1.0, 40)[:, None]
-    begin = np.vstack([top + [0, 0, 0.001], top - [0, 0, 0.001]])
+    begin = np.vstack([top + [0, 0, 0.001], top - [0, 0, 0.003]])
     simulation.replay(np.hstack([begin, [[0, 0], [0, 1]]])[:, None])
     kept = simulation.snapshot()
     ways = [
-        np.hstack([top + part * aside - [0, 0, 0.001], np.zeros_like(part), np.ones_like(part)])[:, None]
+        np.hstack([top + part * aside - [0, 0, 0.003], np.zeros_like(part), np.ones_like(part)])[:, None]
         for aside in ([0.01, 0.0, 0.0], [0.0, 0.01, 0.0])
     ]
     found: list[tuple[NDArray[np.float64], NDArray[np.float64], float]] = []

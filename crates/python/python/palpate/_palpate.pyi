@@ -10,6 +10,22 @@ from numpy.typing import ArrayLike, NDArray
 from pandas import DataFrame
 from typing_extensions import Self
 
+__all__ = [
+    "Mesh",
+    "Motion",
+    "Recording",
+    "Scene",
+    "Session",
+    "Simulation",
+    "SimulationBatch",
+    "Snapshot",
+    "State",
+    "Tissue",
+    "__version__",
+    "_wait",
+    "isosurface",
+]
+
 __version__: str
 
 _Path: TypeAlias = str | PathLike[str]
