@@ -1,7 +1,7 @@
 """Draws a touched liver, with how far its surface moved as colour, into a PNG; needs OpenGL, but no display.
 
-    pip install palpate[pictures]
-    python examples/python/look_at_an_organ.py liver.png
+pip install palpate[pictures]
+python examples/python/look_at_an_organ.py liver.png
 """
 
 import subprocess
@@ -14,10 +14,12 @@ PROBE = "import pyvista; pyvista.Plotter(off_screen=True, window_size=(8, 8)).sc
 
 
 def main(path: str) -> None:
-    scene = palpate.Scene({
-        "organ": {"builtin": "liver", "builtin_tissue": "pig-liver"},
-        "tool": [{"name": "right", "tip": {"shape": "sphere", "radius_m": 0.006}}],
-    })
+    scene = palpate.Scene(
+        {
+            "organ": {"builtin": "liver", "builtin_tissue": "pig-liver"},
+            "tool": [{"name": "right", "tip": {"shape": "sphere", "radius_m": 0.006}}],
+        }
+    )
     simulation = palpate.Simulation(scene)
     rest, triangles = simulation.vertices, simulation.triangles
     normals = palpate.Mesh(rest, triangles).normals

@@ -1,6 +1,6 @@
 """Presses 4 mm into a liver and holds for 40 s; the same as `examples/palpate_a_liver.rs` and its sibling in C.
 
-    python examples/python/palpate_a_liver.py
+python examples/python/palpate_a_liver.py
 """
 
 import numpy as np

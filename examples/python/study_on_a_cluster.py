@@ -41,8 +41,8 @@ def main() -> None:
     numbers = [name for name in table if name.endswith((".misfit", "_pa.value", ".alpha.value"))]
     shown = ["specimen", "law", *(name for name in numbers if not name.startswith("blatz."))]
     print(table[shown].to_string(index=False))
-    for name, why in study.failures.items():
-        print(f"{name}: {why}")
+    for place, why in study.failures.items():
+        print(f"{tasks[place].name}: {why}")
     if study.failures:
         raise SystemExit(1)
 

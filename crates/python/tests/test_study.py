@@ -117,7 +117,7 @@ def test_one_task_that_fails_does_not_stop_the_others(tmp_path: Path) -> None:
     tasks = study.solves(PUNCH, {"tissue.poissons_ratio": [0.3, 0.7]})
     found = study.run(tasks, tmp_path, progress=False)
     assert found.answers[0] is not None and found.answers[1] is None
-    assert "poissons_ratio" in found.failures[tasks[1].name]
+    assert "poissons_ratio" in found.failures[1]
     assert "poissons_ratio" in (tmp_path / "study.csv").read_text()
 
 
@@ -142,6 +142,7 @@ def test_specimens_travel_with_their_recordings(tmp_path: Path, monkeypatch: pyt
         file.unlink()
     answers = [json.loads(execute(task.document)) for task in tasks if task.labels["law"] and task.labels["seed"] == 1]
     assert [answer["specimens"][0] for answer in answers] == whole["specimens"]
+    assert [answer["tissues"][0] for answer in answers] == whole.tissues
     assert len(tasks[0].packed) < 0.5 * len(tasks[0].document)
     assert unpacked(tasks[0].packed) == tasks[0].document
 

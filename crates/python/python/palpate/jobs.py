@@ -171,7 +171,8 @@ def characterize(
     recordings : path or iterable of paths
         Files, or folders of them; those of the same organ, subject and site are one specimen.
     law : {"neo_hookean", "mooney_rivlin", "blatz"}, optional
-        The only law that is sought; by default all are.
+        The only law that is sought; by default all are. Blatz's law by inverse finite elements stands under
+        ``exponential`` in the answer, where ``blatz`` is the same law on a column.
     terms : int, optional
         Terms of the relaxation, 1 to 4; by default as many as the recordings can tell.
     draws : int

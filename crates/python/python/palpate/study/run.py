@@ -32,11 +32,11 @@ class Study:
     tasks : list of Task
     answers : list of dict or None
         In the order of the tasks; none where a task failed.
-    failures : dict of str to str
-        By the name of a task, the sentence that says why.
+    failures : dict of int to str
+        By the place of a task, the sentence that says why it has no answer.
     """
 
-    def __init__(self, tasks: Sequence[Task], answers: Sequence[str | None], failures: dict[str, str]) -> None:
+    def __init__(self, tasks: Sequence[Task], answers: Sequence[str | None], failures: dict[int, str]) -> None:
         self.tasks = list(tasks)
         self.answers: list[dict[str, Any] | None] = [
             None if answer is None else json.loads(answer) for answer in answers
@@ -78,7 +78,7 @@ def run(
     kept = None if folder is None else Folder(folder)
     answers: list[str | None] = [None if kept is None else kept.read(task) for task in tasks]
     missing = [place for place, answer in enumerate(answers) if answer is None]
-    failures: dict[str, str] = {}
+    failures: dict[int, str] = {}
     done = len(tasks) - len(missing)
     with _told(progress) as tell:
         tell(done / max(1, len(tasks)), f"{done} of {len(tasks)} tasks are kept")
@@ -88,7 +88,7 @@ def run(
             for place, answer, of_the_run in finished:
                 task = tasks[place]
                 if isinstance(answer, BaseException):
-                    failures[task.name] = str(answer) or type(answer).__name__
+                    failures[place] = str(answer) or type(answer).__name__
                 else:
                     answers[place] = answer
                     if kept is not None:
@@ -233,8 +233,8 @@ def _table(study: Study) -> str:
     import io
 
     rows = [_row(task, answer) for task, answer in zip(study.tasks, study.answers, strict=True)]
-    for row, task in zip(rows, study.tasks, strict=True):
-        row["failure"] = study.failures.get(task.name)
+    for place, row in enumerate(rows):
+        row["failure"] = study.failures.get(place)
     names = list(dict.fromkeys(name for row in rows for name in row))
     text = io.StringIO()
     text.write("# format = 1\n")

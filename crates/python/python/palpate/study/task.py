@@ -69,7 +69,8 @@ def execute(document: str, progress: jobs.Progress = False) -> str:
     if task["job"] == "solve":
         answer = jobs.solve(given["problem"], progress=progress)
     elif task["job"] == "characterize":
-        answer = jobs.characterize([], progress=progress, **given)
+        found = jobs.characterize([], progress=progress, **given)
+        answer = {**found, "tissues": found.tissues}
     else:
         answer = jobs.precompute(given["scene"], memory=given["memory"], progress=progress)
         if answer["file"] is not None:
