@@ -14,10 +14,10 @@ if TYPE_CHECKING:
     import matplotlib.axes
     import pandas
 
-PathLike: TypeAlias = "str | os.PathLike[str]"
-Document: TypeAlias = "PathLike | Mapping[str, Any]"
-Recordings: TypeAlias = "PathLike | Iterable[PathLike]"
-Progress: TypeAlias = "Callable[[float, str], object] | Literal[False] | None"
+PathLike: TypeAlias = str | os.PathLike[str]
+Document: TypeAlias = PathLike | Mapping[str, Any]
+Recordings: TypeAlias = PathLike | Iterable[PathLike]
+Progress: TypeAlias = Callable[[float, str], object] | Literal[False] | None
 
 
 class Solution(dict[str, Any]):
