@@ -67,6 +67,9 @@ type Solved<'py> = (
     Option<String>,
 );
 
+/// The text of a tissue's file, or why there is none.
+type FoundTissue = (Option<String>, Option<String>);
+
 /// `palpate solve`.
 #[pyfunction]
 #[pyo3(signature = (problem, plot, vtu, progress=None))]
@@ -122,7 +125,7 @@ pub(crate) fn _characterize(
     choice: (Option<String>, Option<usize>, usize, u64),
     study: Option<PathBuf>,
     progress: Option<Py<PyAny>>,
-) -> PyResult<(String, Vec<(Option<String>, Option<String>)>)> {
+) -> PyResult<(String, Vec<FoundTissue>)> {
     let recordings = asked(recordings)?;
     let (law, terms, draws, seed) = choice;
     waiting(py, progress, move |told| {
@@ -152,14 +155,13 @@ pub(crate) fn _specimens(recordings: &str) -> PyResult<(Vec<NamedSpecimen>, Vec<
     Ok((found, unusable.iter().map(Unusable::sentence).collect()))
 }
 
-/// `palpate measure --headless`.
+/// `palpate measure --headless` into a folder or file, whose recordings may be lost or not.
 #[pyfunction]
-#[pyo3(signature = (protocol, out, overwrite, seed, progress=None))]
+#[pyo3(signature = (protocol, out, seed, progress=None))]
 pub(crate) fn _measure(
     py: Python<'_>,
     protocol: Option<Given>,
-    out: PathBuf,
-    overwrite: bool,
+    out: (PathBuf, bool),
     seed: u64,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<String> {
@@ -171,8 +173,8 @@ pub(crate) fn _measure(
         };
         let measuring = Measuring::of(Plan::of(protocol, seed)?, told)?;
         let out = Out {
-            path: &out,
-            overwrite,
+            path: &out.0,
+            overwrite: out.1,
         };
         let files = palpate_jobs::measure::files(&measuring, out)?;
         let recorded = measuring.run(&files, told)?;

@@ -216,7 +216,7 @@ def measure(
         Whether recordings that are there may be lost.
     """
     asked_for = None if protocol is None else given(protocol, "protocol")
-    return Measurement(json.loads(_palpate._measure(asked_for, Path(out), overwrite, seed, progress)))
+    return Measurement(json.loads(_palpate._measure(asked_for, (Path(out), overwrite), seed, progress)))
 
 
 def default_protocol() -> str:
