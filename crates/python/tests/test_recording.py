@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -31,6 +32,12 @@ def test_a_recording_is_a_frame() -> None:
     frame = recording().to_frame()
     assert list(frame.columns) == ["time_s", "depth_m", "force_n"]
     assert frame.attrs == HEADER and np.array_equal(frame["force_n"].to_numpy(), 0.05 * TIME)
+
+
+def test_a_frame_without_pandas_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    with pytest.raises(ImportError, match=r"pip install palpate\[pandas\]"):
+        recording().to_frame()
 
 
 def test_tables_of_others_are_read(tmp_path: Path) -> None:

@@ -1,6 +1,6 @@
 //! Many organs that are touched at the same time, by one model.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 use std::thread;
 
 use numpy::{PyArray1, PyArray2, PyArray3, PyArray4, PyArrayMethods, PyUntypedArrayMethods};
@@ -10,7 +10,8 @@ use pyo3::types::PyDict;
 
 use super::single::check_all;
 use super::stepper::Stepper;
-use super::{Model, Simulation, Snapshot, State, poses, score};
+use super::steps::Steps;
+use super::{Model, Simulation, Snapshot, State, score};
 use crate::failure::Failure;
 use crate::numbers;
 use crate::scene::Scene;
@@ -32,16 +33,6 @@ pub(crate) struct SimulationBatch {
     show_every: f64,
     steppers: Vec<Stepper>,
     threads: usize,
-}
-
-/// Steps of all states, as rows of numbers.
-struct Course<'p> {
-    flat: &'p [f64],
-    width: usize,
-    steps: usize,
-    marks: Vec<bool>,
-    /// Of each state.
-    goes_on: Vec<bool>,
 }
 
 #[pymethods]
@@ -371,7 +362,7 @@ impl SimulationBatch {
         let borrowed = given.try_readonly().map_err(Failure::input)?;
         let flat = borrowed.as_slice().map_err(Failure::input)?;
         check_all(flat, (count * tools, width))?;
-        let course = Course {
+        let all = Steps {
             flat,
             width,
             steps,
@@ -379,7 +370,8 @@ impl SimulationBatch {
             goes_on: self.goes_on(which)?,
         };
         let mut forces = vec![0.0; count * steps * 3 * tools];
-        py.detach(|| self.run_all(&course, &mut forces))?;
+        let (model, steppers, threads) = (&*self.model, &mut self.steppers, self.threads);
+        py.detach(|| all.run((model, threads), steppers, &mut forces))?;
         Ok(forces)
     }
 
@@ -408,35 +400,6 @@ impl SimulationBatch {
         Ok(goes_on)
     }
 
-    /// Whoever is idle takes the next state.
-    fn run_all(&mut self, course: &Course<'_>, forces: &mut [f64]) -> Result<(), Failure> {
-        let tools = self.tools();
-        let (model, count) = (&*self.model, self.steppers.len());
-        let each = (course.steps * 3 * tools).max(1);
-        let states = self.steppers.iter_mut().zip(forces.chunks_mut(each));
-        let queue = Mutex::new(states.enumerate());
-        let failed = Mutex::new(None);
-        let work = || {
-            loop {
-                let next = queue.lock().unwrap_or_else(PoisonError::into_inner).next();
-                let Some((number, (stepper, forces))) = next else {
-                    return;
-                };
-                if let Err(failure) = course.run(model, (number, count), stepper, forces) {
-                    *failed.lock().unwrap_or_else(PoisonError::into_inner) = Some(failure);
-                }
-            }
-        };
-        thread::scope(|scope| {
-            for _ in 1..self.threads.min(count) {
-                scope.spawn(work);
-            }
-            work();
-        });
-        let failed = failed.into_inner().unwrap_or_else(PoisonError::into_inner);
-        failed.map_or(Ok(()), Err)
-    }
-
     fn of_states<'py, T: numpy::Element>(
         &self,
         py: Python<'py>,
@@ -454,36 +417,5 @@ impl SimulationBatch {
         let tools = tools.flat_map(|stepper| &stepper.course.state.tools);
         let flat = tools.map(of).collect();
         numbers::array(py, [self.steppers.len(), self.tools()], flat)
-    }
-}
-
-impl Course<'_> {
-    /// All steps of one state.
-    fn run(
-        &self,
-        model: &Model,
-        (number, count): (usize, usize),
-        stepper: &mut Stepper,
-        forces: &mut [f64],
-    ) -> Result<(), Failure> {
-        let tools = stepper.poses.len();
-        let row = tools * self.width;
-        for step in 0..self.steps {
-            let forces = &mut forces[step * 3 * tools..(step + 1) * 3 * tools];
-            if !self.goes_on[number] {
-                stepper.write_forces(forces);
-                continue;
-            }
-            let at = (step * count + number) * row;
-            let poses = &self.flat[at..at + row];
-            poses::of_flat(poses, self.width, &mut stepper.poses, "tool")?;
-            let marks = match step + 1 == self.steps {
-                true => &self.marks[number * tools..(number + 1) * tools],
-                false => &[],
-            };
-            stepper.step(model, None, marks);
-            stepper.write_forces(forces);
-        }
-        Ok(())
     }
 }

@@ -8,6 +8,9 @@
 //!
 //! *How we know*: `tests/test_simulation.py`, `tests/test_batch.py`; what a step costs beyond Rust's own:
 //! `benches/overhead.py`.
+//!
+//! *Limits*: a simulation, or a batch, is stepped by one thread at a time; another one that tries meanwhile gets
+//! Python's `RuntimeError`.
 
 mod batch;
 pub(crate) mod poses;
@@ -17,6 +20,7 @@ mod single;
 mod snapshot;
 mod state;
 mod stepper;
+mod steps;
 
 use std::ops::ControlFlow;
 use std::sync::Arc;

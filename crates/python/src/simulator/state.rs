@@ -11,7 +11,7 @@ use crate::numbers;
 /// What a simulation was after a step. Arrays have a row for each tool, in the order of the scene.
 #[pyclass(frozen, module = "palpate")]
 pub(crate) struct State {
-    course: Vec<Tool>,
+    tools: Vec<Tool>,
     time: f64,
     cuts: Option<(usize, f64)>,
 }
@@ -36,7 +36,7 @@ impl State {
     pub(super) fn of(course: &Course) -> Self {
         let state = &course.state;
         Self {
-            course: state.tools.iter().map(Tool::of).collect(),
+            tools: state.tools.iter().map(Tool::of).collect(),
             time: course.clock.time,
             cuts: state
                 .cuts
@@ -81,25 +81,25 @@ impl State {
     #[getter]
     fn positions<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
         let flat = |tool: &Tool| tool.position.unwrap_or([f64::NAN; 3]);
-        let flat = self.course.iter().flat_map(flat).collect();
-        numbers::array(py, [self.course.len(), 3], flat)
+        let flat = self.tools.iter().flat_map(flat).collect();
+        numbers::array(py, [self.tools.len(), 3], flat)
     }
 
     /// Quaternions (qx, qy, qz, qw) that map tool to scene [-]; NaN for a tool that is not there: shape (tools, 4).
     #[getter]
     fn orientations<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
         let flat = self
-            .course
+            .tools
             .iter()
             .flat_map(|tool| tool.orientation)
             .collect();
-        numbers::array(py, [self.course.len(), 4], flat)
+        numbers::array(py, [self.tools.len(), 4], flat)
     }
 
     /// Forces on the tools [N]: shape (tools, 3).
     #[getter]
     fn forces<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
-        numbers::rows(py, self.course.iter().map(|tool| &tool.force))
+        numbers::rows(py, self.tools.iter().map(|tool| &tool.force))
     }
 
     /// Stiffnesses of the contacts in their frames (tangents, normal), of held tissue in the scene's [N/m]; zero
@@ -107,21 +107,21 @@ impl State {
     #[getter]
     fn stiffnesses<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray3<f64>> {
         let flat = |tool: &Tool| tool.stiffness.transpose().as_slice().to_vec();
-        let flat = self.course.iter().flat_map(flat).collect();
-        numbers::array(py, [self.course.len(), 3, 3], flat)
+        let flat = self.tools.iter().flat_map(flat).collect();
+        numbers::array(py, [self.tools.len(), 3, 3], flat)
     }
 
     /// How far the tips are below the rest surface [m]; 0 without contact: shape (tools,).
     #[getter]
     fn depths<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        let depths = self.course.iter().map(|tool| tool.depth).collect();
+        let depths = self.tools.iter().map(|tool| tool.depth).collect();
         PyArray1::from_vec(py, depths)
     }
 
     /// Which tools touch the organ: bool, shape (tools,).
     #[getter]
     fn contacts<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<bool>> {
-        let contacts = self.course.iter().map(|tool| tool.contact).collect();
+        let contacts = self.tools.iter().map(|tool| tool.contact).collect();
         PyArray1::from_vec(py, contacts)
     }
 
@@ -140,21 +140,21 @@ impl State {
     /// Which tools' jaws hold tissue: bool, shape (tools,).
     #[getter]
     fn holds<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<bool>> {
-        let holds = self.course.iter().map(|tool| tool.holds).collect();
+        let holds = self.tools.iter().map(|tool| tool.holds).collect();
         PyArray1::from_vec(py, holds)
     }
 
     /// With how much each jaw presses on the tissue that it holds [N]; 0 without: shape (tools,).
     #[getter]
     fn grip_forces<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        let forces = self.course.iter().map(|tool| tool.grip_force).collect();
+        let forces = self.tools.iter().map(|tool| tool.grip_force).collect();
         PyArray1::from_vec(py, forces)
     }
 
     /// What happened to each tool in the step, by the words of a session: a list for each tool.
     #[getter]
     fn events(&self) -> Vec<Vec<&'static str>> {
-        self.course.iter().map(|tool| tool.events.clone()).collect()
+        self.tools.iter().map(|tool| tool.events.clone()).collect()
     }
 
     /// How many cuts there are; 0 where nothing cuts.
@@ -171,7 +171,7 @@ impl State {
 
     fn __repr__(&self) -> String {
         let forces = self
-            .course
+            .tools
             .iter()
             .map(|tool| format!("{:.4} N", tool.force.norm()));
         let forces: Vec<String> = forces.collect();
@@ -191,7 +191,7 @@ impl State {
     ) -> Bound<'py, PyArray2<f64>> {
         let none = Vec3::repeat(f64::NAN);
         let all: Vec<Vec3> = self
-            .course
+            .tools
             .iter()
             .map(|tool| tool.touched.map_or(none, &of))
             .collect();

@@ -25,6 +25,7 @@ mod kill;
 mod loss;
 mod neighbours;
 mod no_allocation;
+mod nodules;
 mod performance;
 mod replay;
 mod scenes;

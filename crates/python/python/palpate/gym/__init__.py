@@ -15,6 +15,11 @@ The same seed is the same episode to the bit, alone and vectorised. An action la
 of 5 ms.
 """
 
+import importlib.util
+
+if importlib.util.find_spec("gymnasium") is None:
+    raise ImportError("palpate.gym needs gymnasium, which is not installed; `pip install palpate[gym]`")
+
 from palpate.gym.environment import CuttingEnv, PalpationEnv, TouchEnv, TractionEnv
 from palpate.gym.registration import register
 from palpate.gym.vector import CuttingVectorEnv, PalpationVectorEnv, TouchVectorEnv, TractionVectorEnv
