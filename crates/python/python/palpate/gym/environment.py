@@ -27,7 +27,7 @@ class TouchEnv(gymnasium.Env[Seen, NDArray[np.float32]]):
     or for tissue that is lost from the jaws; less 1 at a depth of 20 mm, where no hand goes.
 
     **End**: terminated when the task is done, when the innermost layer is perforated or at a depth of 20 mm; truncated
-    when the task's time is over.
+    when the task's time is over. The info of the last step tells `passed`, the `time` [s] and the `score`.
 
     Parameters
     ----------
@@ -68,12 +68,13 @@ class TouchEnv(gymnasium.Env[Seen, NDArray[np.float32]]):
         """A new episode; what is drawn is drawn by the seed."""
         super().reset(seed=seed, options=options)
         self.touch.begin(0, self.np_random)
-        return self.touch.seen()[0], self.touch.told(0)
+        return self.touch.seen()[0], {}
 
     def step(self, action: NDArray[np.float32]) -> tuple[Seen, float, bool, bool, dict[str, Any]]:
         """An action, which lasts `substeps` steps of the model."""
         worth, terminated, truncated = self.touch.step(np.asarray(action)[None], self._all)
-        return self.touch.seen()[0], float(worth[0]), bool(terminated[0]), bool(truncated[0]), self.touch.told(0)
+        over, late = bool(terminated[0]), bool(truncated[0])
+        return self.touch.seen()[0], float(worth[0]), over, late, self.touch.told(0) if over or late else {}
 
 
 class PalpationEnv(TouchEnv):

@@ -88,17 +88,15 @@ class TouchVectorEnv(VectorEnv[Seen, NDArray[np.float32], Any]):
                 raise palpate.InputError(
                     "`reset_mask` chooses none; give a truth for each environment, one of them true"
                 )
-        told: dict[str, Any] = {}
         for number in np.flatnonzero(chosen):
             if seeds[number] is not None:
                 self._draws[number] = seeding.np_random(seeds[number])[0]
-            told = self._begin(int(number), told)
+            self._begin(number)
         self._ended[chosen] = False
-        return self.touch.seen(), told
+        return self.touch.seen(), {}
 
-    def _begin(self, number: int, told: dict[str, Any]) -> dict[str, Any]:
-        self.touch.begin(number, self._draws[number])
-        return self._add_info(told, self.touch.told(number), number)
+    def _begin(self, number: np.intp) -> None:
+        self.touch.begin(int(number), self._draws[number])
 
     def step(self, actions: NDArray[np.float32]) -> tuple[Seen, Floats, Truths, Truths, dict[str, Any]]:
         """An action of each."""
@@ -106,25 +104,21 @@ class TouchVectorEnv(VectorEnv[Seen, NDArray[np.float32], Any]):
             raise palpate.InputError("an episode has ended; reset it before its next action")
         begins = self._ended.copy()
         worth, terminated, truncated = self.touch.step(actions, ~begins)
-        told: dict[str, Any] = {}
-        for number in range(self.num_envs):
-            if begins[number]:
-                told = self._begin(number, told)
-            else:
-                told = self._add_info(told, self.touch.told(number), number)
+        for number in np.flatnonzero(begins):
+            self._begin(number)
         self._ended = terminated | truncated
-        if self.autoreset_mode == AutoresetMode.SAME_STEP:
-            told = self._begin_at_once(told)
-        return self.touch.seen(), worth, terminated, truncated, told
-
-    def _begin_at_once(self, told: dict[str, Any]) -> dict[str, Any]:
+        told: dict[str, Any] = {}
         last = self.touch.seen()
+        at_once = self.autoreset_mode == AutoresetMode.SAME_STEP
         for number in np.flatnonzero(self._ended):
-            final = {"final_obs": last[number], "final_info": self.touch.told(int(number))}
-            told = self._add_info(told, final, int(number))
-            told = self._begin(int(number), told)
-        self._ended[:] = False
-        return told
+            own = self.touch.told(int(number))
+            told = self._add_info(told, {"final_obs": last[number], "final_info": own} if at_once else own, int(number))
+            if at_once:
+                self._begin(number)
+        if at_once and self._ended.any():
+            self._ended[:] = False
+            last = self.touch.seen()
+        return last, worth, terminated, truncated, told
 
 
 class PalpationVectorEnv(TouchVectorEnv):
