@@ -6,7 +6,7 @@
 //! ```
 //!
 //! A class here holds a type of the libraries and converts; it decides nothing. What a library refuses becomes
-//! `palpate.InputError` or `palpate.PalpateError` with the same sentence as the command's ([`failure`]).
+//! `palpate.InputError` or `palpate.PalpateError` with the same sentence as the command's (`failure.rs`).
 //! The annotations of all this stand in `python/palpate/_palpate.pyi`.
 //!
 //! *How we know*: `crates/python/tests`.
