@@ -9,9 +9,11 @@
 //! | [`measure`] | a protocol | recordings by the rig |
 //! | [`preparation`] | a scene | a simulation, from what was prepared before where there is such |
 //!
-//! *How we know*: the tests of the command, which runs every job, and those here: a study that is broken off at any of its words
-//! leaves no half file and goes on, and what is answered does not depend on who waits. *Limits*: jobs read and write the
-//! files that they are asked to, start threads that end with them, and never print or exit.
+//! *How we know*: the tests of the command, which runs every job, and those here: a study that is broken off at any of
+//! its words leaves no half file and goes on, and what is answered does not depend on who waits.
+//!
+//! *Limits*: jobs read and write the files that they are asked to, start threads that end with them, and never print
+//! or exit.
 
 pub mod analyze;
 pub mod characterize;

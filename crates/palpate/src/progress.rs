@@ -62,9 +62,14 @@ impl Progress {
         bar
     }
 
-    /// A bar over one solution, whose end is not known.
-    pub(crate) fn of_solution(reader: Reader) -> Self {
-        Self::new(reader, Some(PARTS))
+    /// A bar over the parts of one job, the time of whose end is not known.
+    pub(crate) fn of_job(reader: Reader) -> Self {
+        let bar = Self::new(reader, Some(PARTS));
+        let template = "{spinner} {bar:30} {percent:>3} % {wide_msg}";
+        if let Ok(style) = ProgressStyle::with_template(template) {
+            bar.0.set_style(style);
+        }
+        bar
     }
 
     /// Says what is being done now.

@@ -64,6 +64,7 @@ impl Measuring {
         watch: &dyn Watch,
     ) -> Result<Vec<(String, Recorded)>, Error> {
         let mut recorded = Vec::new();
+        let count = files.len();
         let mut files = files.iter();
         for (place, specimen) in self.specimens.iter().enumerate() {
             let clock = self.plan.clock();
@@ -75,7 +76,7 @@ impl Measuring {
                 }
                 let done = record(&mut rig, (course, *repeat), file, watch);
                 let done = done.map_err(|failure| failure.about(file))?;
-                watch.at((recorded.len() + 1) as f64 / self.names().len() as f64);
+                watch.at((recorded.len() + 1) as f64 / count as f64);
                 let Some(done) = done else {
                     return Ok(recorded);
                 };

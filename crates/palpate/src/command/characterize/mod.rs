@@ -103,7 +103,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         say_when_stopped(path);
     }
     let recordings = arguments.recordings.asked();
-    let progress = Progress::of_solution(Reader::of_json(arguments.json));
+    let progress = Progress::of_job(Reader::of_json(arguments.json));
     let found = characterize(&recordings, arguments.choice(), folder.as_ref(), &progress)?;
     drop(progress);
     arguments.write(&found.tissues)?;

@@ -79,7 +79,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     interrupt::ends_between_files(|| {
         output::error(&Failure::failed("interrupted; no answer was found"));
     });
-    let progress = Progress::of_solution(Reader::of_json(arguments.json));
+    let progress = Progress::of_job(Reader::of_json(arguments.json));
     let wanted = Wanted {
         plot: arguments.plot.is_some(),
         vtu: arguments.vtu.is_some(),
