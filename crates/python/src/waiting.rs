@@ -9,7 +9,8 @@
 //! ```
 //!
 //! Whoever gives no callable gets `palpate.progress.Bar` once the work has taken a second; whoever gives `False`
-//! gets nothing.
+//! gets nothing. A callable hears the beginning (part 0) and, of work that succeeds, the end (part 1), however short
+//! it is.
 //!
 //! *How we know*: `tests/test_waiting.py`.
 //!
@@ -152,7 +153,9 @@ pub(crate) fn waiting<T: Send>(
     job: impl FnOnce(&Told) -> Result<T, Failure> + Send,
 ) -> PyResult<T> {
     let told = Told::default();
+    told.say("beginning");
     let mut listener = Listener::new(py, progress);
+    listener.look(py, &told)?;
     let (outcome, raised) = py.detach(|| {
         thread::scope(|scope| {
             let worker = scope.spawn(|| {
@@ -171,12 +174,19 @@ pub(crate) fn waiting<T: Send>(
             (worker.join(), raised)
         })
     });
+    let told_the_end = match &outcome {
+        Ok(Ok(_)) if raised.is_none() => {
+            told.at(1.0);
+            listener.look(py, &told)
+        }
+        _ => Ok(()),
+    };
     let closed = listener.close(py);
     if let Some(error) = raised {
         return Err(error);
     }
     match outcome {
-        Ok(outcome) => closed.and(Ok(outcome?)),
+        Ok(outcome) => told_the_end.and(closed).and(Ok(outcome?)),
         // A defect, which Python shows as one.
         Err(panic) => std::panic::resume_unwind(panic),
     }

@@ -18,36 +18,42 @@ def test_progress_is_told_as_it_goes() -> None:
     told: list[tuple[float, str]] = []
     _wait(0.3, lambda part, words: told.append((part, words)))
     parts = [part for part, _ in told]
-    assert len(told) >= 2 and parts == sorted(parts) and 0.0 <= parts[0] < parts[-1] <= 1.0
-    assert {words for _, words in told} <= {"", "waiting"}
+    assert parts == sorted(parts) and told[0] == (0.0, "beginning") and told[-1] == (1.0, "waiting")
+
+
+def test_the_shortest_work_tells_its_beginning_and_its_end() -> None:
+    told: list[tuple[float, str]] = []
+    _wait(0.0, lambda part, words: told.append((part, words)))
+    assert [part for part, _ in (told[0], told[-1])] == [0.0, 1.0]
 
 
 def test_ctrl_c_is_heard() -> None:
-    """Judge: the clock; the interpreter is asked every 50 ms, and a slow machine may take ten times that."""
+    """Judge: the clock; the interpreter is asked every 50 ms, a slow machine may take long, the work takes 20 s."""
     threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
     begin = time.monotonic()
     with pytest.raises(KeyboardInterrupt):
         _wait(20.0, False)
-    assert time.monotonic() - begin < 1.0
+    assert time.monotonic() - begin < 10.0
 
 
 def test_what_a_callable_raises_comes_back() -> None:
     def refuses(part: float, words: str) -> None:
-        raise LookupError(words)
+        if words == "waiting":
+            raise LookupError(words)
 
     with pytest.raises(LookupError, match="waiting"):
         _wait(20.0, refuses)
 
 
 def test_other_threads_go_on_meanwhile() -> None:
-    """The interpreter is released: a second wait takes no longer than the first."""
+    """The interpreter is released: four waits of a second take less than one after another would."""
     begin = time.monotonic()
-    threads = [threading.Thread(target=_wait, args=(0.3, False)) for _ in range(4)]
+    threads = [threading.Thread(target=_wait, args=(1.0, False)) for _ in range(4)]
     for thread in threads:
         thread.start()
     for thread in threads:
         thread.join()
-    assert time.monotonic() - begin < 0.9
+    assert time.monotonic() - begin < 3.0
 
 
 def test_nothing_is_printed_where_nobody_looks(capfd: pytest.CaptureFixture[str]) -> None:
