@@ -40,6 +40,7 @@ mod solid;
 mod solid_fields;
 mod stiffening;
 mod stretches;
+mod thin_patch;
 mod tip_field;
 mod tube;
 mod uniaxial;

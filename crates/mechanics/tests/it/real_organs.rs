@@ -216,8 +216,8 @@ fn pressed_tip(load: &TipLoad<'_>, (place, normal): (Vec3, Vec3), bond: Bond) ->
 
 /// Judge: quadratic tetrahedra at ten places as far from one another as can be, to 3 %. Tolerances: what is
 /// asked for: 8 % of the force, 3 % at five of them; a hundredth of the depth where the refined patch ends; a
-/// tenth in the field, at each point beyond the tip and in the mean under it, where the organ does not turn
-/// away under the tip (`docs/theory/boundary_elements.md` has what it is there).
+/// tenth in the field, in the mean under the tip and beyond it, and beyond it at each point, but for where the
+/// organ turns away under the tip (`docs/theory/boundary_elements.md` has what it is there).
 #[test]
 #[ignore = "slow: half an hour"]
 fn real_kidney_at_ten_places() {
@@ -240,19 +240,20 @@ fn real_kidney_at_ten_places() {
         let half_space = DEPTH * half_space_stiffness(&law(NU), RADIUS, bond);
         let force = tip.force.dot(&-normal) / judge.answer.force_along - 1.0;
         let shown = kidney.pressed(&load, &tip, at);
-        let [near, _] = shown.error(&judge.answer, &tip.place, 0.0..2.0 * RADIUS);
+        let [near, rim] = shown.error(&judge.answer, &tip.place, 0.0..2.0 * RADIUS);
         let [mean, largest] = shown.error(&judge.answer, &tip.place, 2.0 * RADIUS..f64::MAX);
         let jump = kidney.jump(&load, &tip);
         let turn = kidney.turn(&tip);
         println!(
             "{number} {bond:?}: {:.4} of the half-space, {:+.1} % (judge: {:.1} %), field off by {mean:.3} of the \
-             depth, {largest:.3} at most, {near:.3} at the tip, jump {jump:.4}, turns by {turn:.0} degrees",
+             depth, {largest:.3} at most, {near:.3} at the tip, {rim:.3} at most, jump {jump:.4}, turns by {turn:.0} degrees",
             judge.answer.force_along / half_space,
             100.0 * force,
             100.0 * judge.error,
         );
         close += usize::from(force.abs() < 0.03);
-        let field = if turn < FOLD { largest.max(near) } else { 0.0 };
+        let each = if turn < FOLD { largest } else { 0.0 };
+        let field = near.max(mean).max(each);
         folds += usize::from(turn >= FOLD);
         worst = [
             worst[0].max(force.abs()),

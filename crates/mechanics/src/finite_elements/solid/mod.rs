@@ -19,6 +19,7 @@ mod answer;
 mod frame;
 mod grading;
 mod mesh;
+mod patch;
 mod problem;
 mod run;
 mod solve;

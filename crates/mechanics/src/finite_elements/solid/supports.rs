@@ -2,14 +2,12 @@
 
 use std::collections::BTreeSet;
 
-use palpate_geometry::{TetrahedronMesh, closest_on_triangle};
+use palpate_geometry::TetrahedronMesh;
 
 use super::mesh::{Face, faces};
+use super::patch::{area_of, faces_within};
 use super::problem::SolidProblem;
 use crate::{Error, Vec3};
-
-/// A vertex within this part of the radius outside of the sphere is on it [-].
-const ON: f64 = 1e-8;
 
 /// Nodes with a support, ascending.
 #[derive(Debug)]
@@ -37,7 +35,7 @@ impl Held {
             return Err(Error::NothingHeld);
         }
         every_piece_is_held(mesh, &anchored)?;
-        let patch = patch(mesh, &faces, center, problem.patch.radius);
+        let patch = faces_within(problem.patch.radius, center, (mesh, &faces));
         let nodes = |faces: &[&Face]| -> Vec<usize> {
             let nodes: BTreeSet<_> = faces.iter().flat_map(|face| face.nodes).collect();
             nodes.into_iter().collect()
@@ -53,15 +51,10 @@ impl Held {
             let part = both as f64 / moved.len() as f64;
             return Err(Error::PatchIsHeld { part });
         }
-        let area = patch.iter().map(|face| {
-            let [a, b, c] = face.positions(mesh);
-            0.5 * (b - a).cross(&(c - a)).norm()
-        });
-        let area = area.sum();
         Ok(Self {
             anchored,
             moved,
-            area,
+            area: area_of(&patch, mesh),
         })
     }
 }
@@ -82,40 +75,4 @@ fn every_piece_is_held(mesh: &TetrahedronMesh, anchored: &[&Face]) -> Result<(),
         place: [x, y, z],
         pieces: count,
     })
-}
-
-/// The faces within `radius` of `center` that hang together with the nearest of them.
-fn patch<'a>(
-    mesh: &TetrahedronMesh,
-    faces: &'a [Face],
-    center: &Vec3,
-    radius: f64,
-) -> Vec<&'a Face> {
-    let reach = radius * (1.0 + ON);
-    let within = |face: &&Face| {
-        let corners = face.positions(mesh);
-        corners.iter().all(|p| (p - center).norm() <= reach)
-    };
-    let mut inside: Vec<&Face> = faces.iter().filter(within).collect();
-    let distance =
-        |face: &Face| (closest_on_triangle(&face.positions(mesh), center).position - center).norm();
-    inside.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
-    // Middles of edges are shared by neighbours only.
-    let mut reached: BTreeSet<usize> = inside
-        .first()
-        .into_iter()
-        .flat_map(|face| face.nodes[3..].iter().copied())
-        .collect();
-    let mut patch = Vec::new();
-    loop {
-        let (new, rest): (Vec<&Face>, Vec<&Face>) = inside
-            .into_iter()
-            .partition(|face| face.nodes[3..].iter().any(|n| reached.contains(n)));
-        if new.is_empty() {
-            return patch;
-        }
-        reached.extend(new.iter().flat_map(|face| face.nodes[3..].iter().copied()));
-        patch.extend(new);
-        inside = rest;
-    }
 }
