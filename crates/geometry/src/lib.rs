@@ -50,7 +50,7 @@ pub use organ::{AnchorPlane, Organ, OrganDescription, OrganError};
 pub use patch_field::{Patch, PatchField};
 pub use proximity::{PointOnTriangle, closest_on_triangle};
 pub use refine::{Focus, Resolved, refine_near, refine_to, refine_uniformly, resolve_sphere};
-pub use simplify::{Simplified, SimplifyError, SimplifySettings, simplify};
+pub use simplify::{Simplified, SimplifyError, SimplifySettings, simplify, simplify_graded};
 pub use surface::{SHARP_EDGE, Surface};
 pub use weld::{Repairs, repair, weld_exactly};
 

@@ -75,6 +75,20 @@ pub enum SimplifyError {
         /// How many were asked for.
         asked: usize,
     },
+    /// Another number of sizes than of vertices.
+    #[error("{found} sizes for {vertices} vertices; give one for each")]
+    NotASizeEach {
+        /// How many there are.
+        found: usize,
+        /// Vertices of the mesh.
+        vertices: usize,
+    },
+    /// A size that is none.
+    #[error("a size is {found}; give a positive number")]
+    NotASize {
+        /// What was given.
+        found: f64,
+    },
 }
 
 /// The surface of `mesh` with fewer triangles, at most as many as asked for. A mesh that has so few
@@ -86,22 +100,55 @@ pub fn simplify(
     mesh: &TriangleMesh,
     settings: &SimplifySettings,
 ) -> Result<Simplified, SimplifyError> {
-    if settings.triangles < FEWEST {
-        return Err(SimplifyError::TooFew {
-            asked: settings.triangles,
-        });
+    check(settings)?;
+    Ok(reduced(mesh, settings, None))
+}
+
+/// The same with triangles that are smaller in some places than in others: as `sizes` are at the vertices of `mesh`,
+/// which are lengths of edges beside one another [-].
+///
+/// # Errors
+/// When fewer than four triangles are asked for, there are not as many sizes as vertices, or one of them is not
+/// positive.
+pub fn simplify_graded(
+    mesh: &TriangleMesh,
+    settings: &SimplifySettings,
+    sizes: &[f64],
+) -> Result<Simplified, SimplifyError> {
+    check(settings)?;
+    let vertices = mesh.vertices().len();
+    if sizes.len() != vertices {
+        let found = sizes.len();
+        return Err(SimplifyError::NotASizeEach { found, vertices });
     }
+    if let Some(&found) = sizes
+        .iter()
+        .find(|size| !(**size > 0.0 && size.is_finite()))
+    {
+        return Err(SimplifyError::NotASize { found });
+    }
+    Ok(reduced(mesh, settings, Some(sizes)))
+}
+
+fn check(settings: &SimplifySettings) -> Result<(), SimplifyError> {
+    match settings.triangles {
+        asked if asked < FEWEST => Err(SimplifyError::TooFew { asked }),
+        _ => Ok(()),
+    }
+}
+
+fn reduced(mesh: &TriangleMesh, settings: &SimplifySettings, sizes: Option<&[f64]>) -> Simplified {
     let tree = AabbTree::new(mesh);
     let mut net = Net::new(mesh);
     if net.live() > settings.triangles {
-        let on_crease = collapse::collapse(&mut net, settings);
+        let on_crease = collapse::collapse(&mut net, settings, sizes);
         relax::relax(&mut net, &Reference { mesh, tree: &tree }, &on_crease);
     }
     let simplified = net.mesh();
-    Ok(Simplified {
+    Simplified {
         of_original: deviation_with_tree(mesh, &simplified, &AabbTree::new(&simplified)),
         of_result: deviation_with_tree(&simplified, mesh, &tree),
         self_intersections: count_self_intersections(&simplified),
         mesh: simplified,
-    })
+    }
 }

@@ -25,19 +25,10 @@ pub(crate) struct Walls {
 impl Walls {
     pub(crate) fn new(surface: &Surface, touchable: &[TriangleId]) -> Self {
         let mesh = surface.mesh();
-        let tree = AabbTree::new(mesh);
-        let (low, high) = mesh.bounds();
-        let reach = (high - low).norm();
-        let wall = |&triangle: &TriangleId| {
-            let [a, b, c] = mesh.positions(triangle);
-            let area = mesh.area_vector(triangle);
-            let edge = (2.0 * area.norm()).sqrt();
-            let inward: Vec3 = -area.normalize();
-            let start = (a + b + c) / 3.0 + inward * (1e-3 * edge);
-            let hit = tree.cast(mesh, &start, &inward, reach)?;
-            Some((edge, hit.distance))
-        };
-        let under: Vec<_> = touchable.iter().filter_map(wall).collect();
+        let edge = |triangle| (2.0 * mesh.area_vector(triangle).norm()).sqrt();
+        let under: Vec<_> = thicknesses(surface, touchable.iter().copied())
+            .map(|(triangle, thickness)| (edge(triangle), thickness))
+            .collect();
         let thin = under.iter().copied();
         let thin = thin.filter(|(edge, thickness)| *edge > COARSEST * thickness);
         Self {
@@ -77,6 +68,25 @@ impl Walls {
             )
         })
     }
+}
+
+/// How thick the organ is under each of `triangles` [m].
+pub(crate) fn thicknesses(
+    surface: &Surface,
+    triangles: impl Iterator<Item = TriangleId>,
+) -> impl Iterator<Item = (TriangleId, f64)> {
+    let mesh = surface.mesh();
+    let tree = AabbTree::new(mesh);
+    let (low, high) = mesh.bounds();
+    let reach = (high - low).norm();
+    triangles.filter_map(move |triangle| {
+        let [a, b, c] = mesh.positions(triangle);
+        let area = mesh.area_vector(triangle);
+        let inward: Vec3 = -area.normalize();
+        let start = (a + b + c) / 3.0 + inward * (1e-3 * (2.0 * area.norm()).sqrt());
+        let hit = tree.cast(mesh, &start, &inward, reach)?;
+        Some((triangle, hit.distance))
+    })
 }
 
 /// Triangles that are asked for a thickness.

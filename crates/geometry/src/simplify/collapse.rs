@@ -24,10 +24,18 @@ const fn demands(shape: f64, turn: f64, apart: bool) -> Demands {
 }
 
 /// Collapses edges, cheapest first, until no more triangles are left than asked for or nothing can
-/// go. Returns which vertices stand on borders and sharp edges.
-pub(super) fn collapse(net: &mut Net, settings: &SimplifySettings) -> Vec<bool> {
+/// go; the sooner the larger the `sizes` at their ends, if there are some. Returns which vertices stand on borders and
+/// sharp edges.
+pub(super) fn collapse(
+    net: &mut Net,
+    settings: &SimplifySettings,
+    sizes: Option<&[f64]>,
+) -> Vec<bool> {
     let target = settings.triangles;
     let mut run = Run::new(net, settings);
+    if let Some(sizes) = sizes {
+        run.weights = sizes.iter().map(|size| size.powi(-4)).collect();
+    }
     loop {
         // A collapse makes others possible that were refused before.
         let before = run.net.live();
@@ -47,6 +55,8 @@ struct Run<'a> {
     quadrics: Vec<Quadric>,
     /// Area of the original that a vertex stands for [m²].
     areas: Vec<f64>,
+    /// What a cost weighs at a vertex [-]: costs are the fourth powers of lengths.
+    weights: Vec<f64>,
     /// On a border or a sharp edge.
     on_crease: Vec<bool>,
     /// Raised whenever a vertex or its surroundings change.
@@ -75,6 +85,7 @@ impl<'a> Run<'a> {
             origin: net.positions[net.corners(0)[0] as usize],
             quadrics: vec![Quadric::zero(); vertices],
             areas: vec![0.0; vertices],
+            weights: vec![1.0; vertices],
             on_crease: net.on_border.clone(),
             ages: vec![0; vertices],
             queue: BinaryHeap::new(),
@@ -157,7 +168,7 @@ impl<'a> Run<'a> {
         };
         let uneven = (self.areas[a] + self.areas[b]) * (end - start).norm_squared();
         Candidate {
-            cost: quadric.at(&at) + self.evenness * uneven,
+            cost: (quadric.at(&at) + self.evenness * uneven) * self.weights[a].max(self.weights[b]),
             rank: 0,
             edge,
             position: at + self.origin,
@@ -243,6 +254,7 @@ impl<'a> Run<'a> {
         self.net.collapse(kept, gone, candidate.position);
         self.quadrics[a] = self.quadrics[a].plus(&self.quadrics[b]);
         self.areas[a] += self.areas[b];
+        self.weights[a] = self.weights[a].max(self.weights[b]);
         self.on_crease[a] |= self.on_crease[b];
         // One that is gone must never look current again.
         self.ages[b] = u32::MAX / 2;

@@ -2,7 +2,7 @@
 
 use palpate_geometry::{
     AabbTree, MeshReport, NodeId, Organ, Simplified, SimplifyError, SimplifySettings, Surface,
-    TriangleMesh, Vec3, inspect, read_mesh, simplify,
+    TriangleMesh, Vec3, inspect, read_mesh, simplify, simplify_graded,
 };
 use parry3d_f64::query::PointQuery;
 use proptest::prelude::*;
@@ -239,6 +239,54 @@ fn too_few_triangles_are_refused() {
     let error = simplify(&mesh, &SimplifySettings::to(3)).unwrap_err();
     assert_eq!(error, SimplifyError::TooFew { asked: 3 });
     assert!(error.to_string().contains("ask for 4 or more"));
+}
+
+/// Half of a hemisphere asks for edges half as long. Judge: four triangles on an area where the other half has one.
+/// Tolerance: a third, for edges are met in the mean only and go over from one half to the other.
+#[test]
+fn sizes_are_met_beside_one_another() {
+    let mesh = Organ::Hemisphere.surface_mesh(20_000).unwrap();
+    let is_small = |x: f64| x > 0.0;
+    let vertices = mesh.vertices().iter();
+    let sizes: Vec<f64> = vertices
+        .map(|v| if is_small(v.x) { 0.5 } else { 1.0 })
+        .collect();
+    let simple = simplify_graded(&mesh, &SimplifySettings::to(2_000), &sizes).unwrap();
+    let report = inspect(&simple.mesh);
+    assert_eq!((report.triangles, simple.self_intersections), (2_000, 0));
+    let volume = simple.mesh.volume() / mesh.volume();
+    assert!((volume - 1.0).abs() < 5e-3, "{volume}");
+    let centroid = |t| simple.mesh.positions(t).iter().sum::<Vec3>() / 3.0;
+    let small = simple
+        .mesh
+        .triangle_ids()
+        .filter(|&t| is_small(centroid(t).x));
+    let ratio = small.count() as f64;
+    let ratio = ratio / (2_000.0 - ratio);
+    println!("{ratio} times as many");
+    assert!((ratio / 4.0).ln().abs() < 1.33_f64.ln(), "{ratio}");
+}
+
+#[test]
+fn sizes_that_are_none_are_refused() {
+    let mesh = Organ::Kidney.surface_mesh(1_000).unwrap();
+    let refused =
+        |sizes: &[f64]| simplify_graded(&mesh, &SimplifySettings::to(100), sizes).unwrap_err();
+    let vertices = mesh.vertices().len();
+    let mut sizes = vec![1.0; vertices];
+    for wrong in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        sizes[7] = wrong;
+        let message = refused(&sizes).to_string();
+        assert!(
+            message.contains(&format!("{wrong}")) && message.contains("positive"),
+            "{message}"
+        );
+    }
+    let message = refused(&[1.0]).to_string();
+    assert!(
+        message.contains(&format!("1 sizes for {vertices} vertices")),
+        "{message}"
+    );
 }
 
 /// The source's esophagus has as many triangles and was simplified to as many (section 7.4).

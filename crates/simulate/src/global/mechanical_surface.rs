@@ -1,12 +1,23 @@
-use palpate_geometry::{SimplifySettings, Surface, simplify};
+use palpate_geometry::{SimplifySettings, Surface, simplify_graded};
 
 use crate::Error;
+use crate::walls::thicknesses;
 
 /// A mesh of at most so many triangles carries its own mechanics.
 const MOST_OF_ITS_OWN: usize = 6_000;
 
 /// So many are made of a finer one.
-const OF_A_FINER_ONE: usize = 4_000;
+const OF_A_FINER_ONE: usize = 5_000;
+
+/// Longest edges in parts of the wall under them [-]. A tip's force is spread over 2.2 of them, which must be less than
+/// what bends: on the rim of a liver, 10 to 20 mm thick, even ones are 15 % too stiff (`docs/theory/boundary_elements.md`).
+const OF_A_WALL: f64 = 0.12;
+
+/// Shortest edges, in parts of even ones [-].
+const FINEST: f64 = 0.25;
+
+/// By how much edges may grow along the way [-].
+const GROWTH: f64 = 0.25;
 
 /// The surface that carries the mechanics of `shown`: itself, or one of at most `wanted` triangles; with
 /// what deserves doubt.
@@ -19,7 +30,11 @@ pub(super) fn mechanical_surface(
         return Ok((shown.clone(), Vec::new()));
     }
     let wanted = wanted.unwrap_or(OF_A_FINER_ONE);
-    let coarse = simplify(shown.mesh(), &SimplifySettings::to(wanted))?;
+    let coarse = simplify_graded(
+        shown.mesh(),
+        &SimplifySettings::to(wanted),
+        &sizes(shown, wanted),
+    )?;
     let mut doubts = Vec::new();
     if coarse.self_intersections > 0 {
         doubts.push(format!(
@@ -29,4 +44,47 @@ pub(super) fn mechanical_surface(
     }
     let surface = Surface::new(coarse.mesh).map_err(Error::MechanicalMesh)?;
     Ok((surface, doubts))
+}
+
+/// The edges that are wanted at each vertex of `shown` for about `triangles` [m]: where the organ is thin they are as
+/// short as its wall asks for, elsewhere even.
+fn sizes(shown: &Surface, triangles: usize) -> Vec<f64> {
+    let mesh = shown.mesh();
+    let area: f64 = mesh
+        .triangle_ids()
+        .map(|id| mesh.area_vector(id).norm())
+        .sum();
+    let even = (2.0 * area / triangles as f64).sqrt();
+    let mut sizes = vec![even; mesh.vertices().len()];
+    for (triangle, thickness) in thicknesses(shown, mesh.triangle_ids()) {
+        for node in mesh.corners(triangle) {
+            let size = &mut sizes[node.index()];
+            *size = size.min((OF_A_WALL * thickness).max(FINEST * even));
+        }
+    }
+    // A rim looks along the leaf that it ends.
+    let edges = mesh
+        .triangles()
+        .iter()
+        .flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+    let edges: Vec<_> = edges
+        .map(|[a, b]| {
+            let [from, to] = [a, b].map(|node| mesh.vertices()[node.index()]);
+            (a.index(), b.index(), GROWTH * (to - from).norm())
+        })
+        .collect();
+    loop {
+        let mut changed = false;
+        for &(a, b, more) in &edges {
+            for (a, b) in [(a, b), (b, a)] {
+                if sizes[a] > sizes[b] + more {
+                    sizes[a] = sizes[b] + more;
+                    changed = true;
+                }
+            }
+        }
+        if !changed {
+            return sizes;
+        }
+    }
 }

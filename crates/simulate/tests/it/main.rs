@@ -22,6 +22,7 @@ mod indentation;
 mod interactive;
 mod invariants;
 mod kill;
+mod large_organs;
 mod loss;
 mod neighbours;
 mod no_allocation;
