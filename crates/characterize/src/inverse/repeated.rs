@@ -20,8 +20,10 @@ pub struct Repeated {
     /// allows, with the relaxation held; a side is `None` where it never rises so far.
     pub profiles: Vec<Option<[Option<f64>; 2]>>,
     /// The spread of each parameter [its unit] when the residuals are drawn anew in blocks, relaxation and
-    /// all.
-    pub bootstrap: Vec<f64>,
+    /// all; none where no recording is longer than a block, for then there is nothing to draw.
+    pub bootstrap: Option<Vec<f64>>,
+    /// Samples of a block.
+    pub block: usize,
     /// Noise, and how far it spreads the parameters (6.4.6).
     pub noise: Vec<NoiseEffect>,
 }
@@ -68,12 +70,16 @@ pub fn repeated(
     };
     let profiles = profiles(&own, count, &lengths, &mut model)?;
     let block = (BLOCK * samples as f64 / law.effective_samples).ceil() as usize;
-    let evaluate = |p: &[f64], r: &mut [f64], j: &mut DMatrix<f64>| model.evaluate(p, r, j);
-    let drawn = block_bootstrap(&own, (&lengths, block), draws, &SETTINGS, evaluate);
-    if drawn.values.is_empty() {
-        return Err(Error::NoStart {
-            parameters: own.parameters,
-        });
+    let mut bootstrap = None;
+    if lengths.iter().any(|&length| length > block) {
+        let evaluate = |p: &[f64], r: &mut [f64], j: &mut DMatrix<f64>| model.evaluate(p, r, j);
+        let drawn = block_bootstrap(&own, (&lengths, block), draws, &SETTINGS, evaluate);
+        if drawn.values.is_empty() {
+            return Err(Error::NoStart {
+                parameters: own.parameters,
+            });
+        }
+        bootstrap = Some(spreads(&drawn, count));
     }
     let largest = indentations
         .iter()
@@ -95,7 +101,8 @@ pub fn repeated(
     };
     Ok(Repeated {
         profiles,
-        bootstrap: spreads(&drawn, count),
+        bootstrap,
+        block,
         noise: NOISE.into_iter().filter_map(&mut noise_effect).collect(),
     })
 }

@@ -1,5 +1,7 @@
 //! Fits of a law that are made again. Judge: what theory says of a force that is linear in its parameter.
 
+use std::f64::consts::PI;
+
 use palpate_characterize::fit::{Draws, Random};
 use palpate_characterize::inverse::{LawDescription, PUNCH, SoughtLaw};
 use palpate_characterize::{CharacterizeSettings, characterize};
@@ -15,20 +17,24 @@ const SAMPLES: f64 = 1501.0;
 
 /// Laws of a press of 5 mm with independent noise, each made again 100 times; and the largest force [N].
 fn laws() -> (Vec<LawDescription>, f64) {
+    let mut random = Random::new(5);
+    laws_felt_with(100, |_| NOISE * random.normal())
+}
+
+/// The same with what `noise` [N] adds at each part of the time [-], each made again so many times.
+fn laws_felt_with(count: usize, mut noise: impl FnMut(f64) -> f64) -> (Vec<LawDescription>, f64) {
     let history = history(5e-3);
     let depths: Vec<f64> = PUNCH.iter().map(|row| 1e-3 * row.0).collect();
     let elastic: Vec<f64> = PUNCH.iter().map(|row| C10 * 1e-6 * row.1).collect();
     let curve = IndentationCurve::through(&depths, &elastic);
     let series = PronySeries::new(&LIVER).unwrap();
     let forces = curve.relaxed(&series, &history.times, &history.depths);
-    let mut random = Random::new(5);
-    let felt: Vec<f64> = forces.iter().map(|f| f + NOISE * random.normal()).collect();
+    let last = *history.times.last().unwrap();
+    let felt = forces.iter().zip(&history.times);
+    let felt: Vec<f64> = felt.map(|(f, t)| f + noise(t / last)).collect();
     let settings = CharacterizeSettings {
         laws: vec![SoughtLaw::NeoHookean, SoughtLaw::MooneyRivlin],
-        draws: Some(Draws {
-            count: 100,
-            seed: 2,
-        }),
+        draws: Some(Draws { count, seed: 2 }),
         ..CharacterizeSettings::default()
     };
     let found = characterize(&[recording(&history, &felt, 5)], &settings, &mut |_| ());
@@ -45,7 +51,7 @@ fn one_modulus_spreads_as_its_standard_error() {
     let law = &laws[0];
     let error = law.parameters[0].1.standard_error.unwrap();
     let repeated = law.repeated.clone().unwrap().unwrap();
-    let ratio = repeated.bootstrap[0] / error;
+    let ratio = repeated.bootstrap.unwrap()[0] / error;
     assert!((ratio - 1.0).abs() < 0.3, "{ratio}");
     // Standard errors count the samples that are independent as far as the residuals show.
     let independent = (law.effective_samples / SAMPLES).sqrt() * error;
@@ -68,9 +74,20 @@ fn profiles_see_what_cannot_be_told_apart() {
     let repeated = law.repeated.clone().unwrap().unwrap();
     let [sum, each] = [
         laws[0].parameters[0].1.standard_error.unwrap(),
-        repeated.bootstrap[0],
+        repeated.bootstrap.unwrap()[0],
     ];
     // C01 is on its bound of zero, or near it.
     assert!(each.is_finite() && each >= 0.5 * sum, "{each} {sum}");
     assert_eq!(repeated.profiles.len(), 2);
+}
+
+/// Residuals that stay alike through the whole recording are one block, which has no other order: nothing is told
+/// of their spread, and not zero.
+#[test]
+fn one_block_is_not_drawn_anew() {
+    let (laws, _) = laws_felt_with(4, |part| 5.0 * NOISE * (2.0 * PI * part).sin());
+    let repeated = laws[0].repeated.clone().unwrap().unwrap();
+    assert!(repeated.block as f64 > SAMPLES, "{}", repeated.block);
+    assert_eq!(repeated.bootstrap, None);
+    assert!(!repeated.noise.is_empty());
 }

@@ -162,7 +162,9 @@ impl LawAnswer {
         let known = |(place, (name, estimate)): (usize, &(&'static str, Estimate))| {
             let known = Known {
                 discretisation_error: Some(law.discretisation[place]),
-                bootstrap_error: repeated.map(|again| again.bootstrap[place]),
+                bootstrap_error: repeated
+                    .and_then(|again| again.bootstrap.as_ref())
+                    .map(|spreads| spreads[place]),
                 profile_95: repeated.and_then(|again| again.profiles[place]),
                 ..Known::of(estimate)
             };
@@ -174,11 +176,19 @@ impl LawAnswer {
             noise: effect.noise,
             spread: names().zip(effect.spread.iter().copied()).collect(),
         });
-        let refused = law.repeated.as_ref().and_then(|found| found.as_ref().err());
+        let refused = law.repeated.as_ref().and_then(|found| match found {
+            Ok(again) if again.bootstrap.is_none() => Some(format!(
+                "no residuals are drawn in other blocks: they stay alike for so long that a block has {} samples, \
+                 more than any recording; record for longer",
+                again.block
+            )),
+            Ok(_) => None,
+            Err(error) => Some(error.to_string()),
+        });
         Self {
             parameters: law.parameters.iter().enumerate().map(known).collect(),
             noise_study: noise.collect(),
-            not_repeated: refused.map(ToString::to_string),
+            not_repeated: refused,
             correlation: law.correlation,
             iterations: law.found.fit.iterations.len() - 1,
             solves: law.found.solves,
