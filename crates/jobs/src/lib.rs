@@ -19,6 +19,7 @@ pub mod analyze;
 pub mod characterize;
 mod cores;
 mod error;
+pub mod label;
 pub mod measure;
 mod nearest;
 pub mod plot;

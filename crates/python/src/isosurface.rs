@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use palpate_geometry::{
-    Isosurface, IsosurfaceSettings, Label, LabelMap, isosurface as surface_of, read_label_map,
+    IsosurfaceSettings, Label, LabelMap, isosurface as surface_of, read_label_map,
 };
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -11,7 +11,7 @@ use pyo3::types::PyDict;
 use crate::failure::Failure;
 use crate::mesh::Mesh;
 use crate::waiting::{Told, waiting};
-use palpate_jobs::nearest;
+use palpate_jobs::label;
 
 /// The surfaces of organs from a segmented volume: NIfTI or NRRD.
 ///
@@ -83,32 +83,7 @@ impl Wanted {
             Self::Number(number) => number.to_string(),
             Self::Name(name) => name.clone(),
         };
-        let is_wanted = |label: &&Label| {
-            label.name.as_deref() == Some(&*words) || words.parse() == Ok(label.number)
-        };
-        labels
-            .iter()
-            .find(is_wanted)
-            .ok_or_else(|| absent(labels, &words))
-    }
-}
-
-fn absent(labels: &[Label], wanted: &str) -> Failure {
-    let there: Vec<_> = labels.iter().map(named).collect();
-    let names: Vec<&str> = labels
-        .iter()
-        .filter_map(|label| label.name.as_deref())
-        .collect();
-    let nearest = match names.is_empty() {
-        true => String::new(),
-        false => format!("the nearest is {}, and ", nearest(wanted, &names)),
-    };
-    match there.is_empty() {
-        true => Failure::input("the volume has no label but zero; give one that is segmented"),
-        false => Failure::input(format!(
-            "the volume has no label {wanted:?}; {nearest}there are {}",
-            there.join(", ")
-        )),
+        Ok(label::find(labels, &words)?)
     }
 }
 
@@ -122,56 +97,14 @@ fn surfaces(
         if told.is_asked_to_stop() {
             return Err(Failure::BrokenOff);
         }
-        told.say(format!("the surface of {}", named(label)));
+        told.say(format!("the surface of {}", label::in_words(label)));
         told.at(number as f64 / labels.len() as f64);
         let found = surface_of(map, label.number, settings)?;
         let mut warnings = map.warnings().to_vec();
-        warnings.extend(doubts(label, &found));
+        warnings.extend(label::doubts(label, &found));
         let key = label.name.clone();
         let key = key.unwrap_or_else(|| label.number.to_string());
         made.push((key, Mesh::with_warnings(found.simplified.mesh, warnings)));
     }
     Ok(made)
-}
-
-fn doubts(label: &Label, found: &Isosurface) -> Vec<String> {
-    let name = named(label);
-    let all = [
-        (
-            found.other_pieces > 0,
-            format!(
-                "{name}: {} smaller pieces were left out, {} of {} voxels",
-                found.other_pieces, found.other_voxels, label.voxels
-            ),
-        ),
-        (
-            found.filled_voxels > 0,
-            format!(
-                "{name}: {} voxels that were shut in were filled",
-                found.filled_voxels
-            ),
-        ),
-        (
-            found.is_cut,
-            format!("{name}: the border of the volume cuts it; it is closed by a flat side there"),
-        ),
-        (
-            found.simplified.self_intersections > 0,
-            format!(
-                "{name}: {} triangles meet others; ask for more triangles",
-                found.simplified.self_intersections
-            ),
-        ),
-    ];
-    all.into_iter()
-        .filter(|(holds, _)| *holds)
-        .map(|(_, text)| text)
-        .collect()
-}
-
-fn named(label: &Label) -> String {
-    match &label.name {
-        Some(name) => format!("{} ({name})", label.number),
-        None => label.number.to_string(),
-    }
 }

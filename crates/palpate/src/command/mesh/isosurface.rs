@@ -4,14 +4,14 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use palpate_geometry::{
-    Isosurface, IsosurfaceSettings, Label, LabelMap, LengthUnit, isosurface, read_label_map,
+    IsosurfaceSettings, Label, LabelMap, LengthUnit, isosurface, read_label_map,
 };
 use serde::Serialize;
 
 use super::written::{Output, Written};
 use crate::failure::Failure;
 use crate::progress::{Progress, Reader};
-use palpate_jobs::nearest;
+use palpate_jobs::label;
 
 use crate::output;
 
@@ -90,7 +90,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut surfaces = Vec::new();
     if let (Some(wanted), Some(out)) = (&arguments.label, &arguments.out) {
         for (label, out) in chosen(&labels, wanted, out)? {
-            progress.say(format!("the surface of {}", named(label)));
+            progress.say(format!("the surface of {}", label::in_words(label)));
             surfaces.push(surface(&map, (label, &out), arguments, &mut warnings)?);
         }
     }
@@ -126,33 +126,7 @@ fn chosen<'l>(
         let file = |label: &Label| out.join(format!("{}.ply", file_name(label)));
         return Ok(labels.iter().map(|label| (label, file(label))).collect());
     }
-    let is_wanted = |label: &&Label| {
-        label.name.as_deref() == Some(wanted) || wanted.parse() == Ok(label.number)
-    };
-    match labels.iter().find(is_wanted) {
-        Some(label) => Ok(vec![(label, out.to_owned())]),
-        None => Err(absent(labels, wanted)),
-    }
-}
-
-fn absent(labels: &[Label], wanted: &str) -> Failure {
-    let there: Vec<_> = labels.iter().map(named).collect();
-    let names: Vec<&str> = labels
-        .iter()
-        .filter_map(|label| label.name.as_deref())
-        .collect();
-    let is_number = wanted.parse::<u32>().is_ok();
-    let nearest = match names.is_empty() || is_number {
-        true => String::new(),
-        false => format!("the nearest is {}, and ", nearest(wanted, &names)),
-    };
-    match there.is_empty() {
-        true => Failure::input("the volume has no label but zero; give one that is segmented"),
-        false => Failure::input(format!(
-            "the volume has no label {wanted:?}; {nearest}there are {}",
-            there.join(", ")
-        )),
-    }
+    Ok(vec![(label::find(labels, wanted)?, out.to_owned())])
 }
 
 fn surface(
@@ -167,7 +141,7 @@ fn surface(
         triangles: arguments.triangles,
     };
     let found = isosurface(map, label.number, &settings).map_err(Failure::input)?;
-    warnings.extend(doubts(label, &found));
+    warnings.extend(label::doubts(label, &found));
     Ok(Surfaced {
         label: label.number,
         name: label.name.clone(),
@@ -175,48 +149,6 @@ fn surface(
         voxel_volume_m3: found.voxel_volume,
         cut_by_the_border: found.is_cut,
     })
-}
-
-fn doubts(label: &Label, found: &Isosurface) -> Vec<String> {
-    let name = named(label);
-    let all = [
-        (
-            found.other_pieces > 0,
-            format!(
-                "{name}: {} smaller pieces were left out, {} of {} voxels",
-                found.other_pieces, found.other_voxels, label.voxels
-            ),
-        ),
-        (
-            found.filled_voxels > 0,
-            format!(
-                "{name}: {} voxels that were shut in were filled",
-                found.filled_voxels
-            ),
-        ),
-        (
-            found.is_cut,
-            format!("{name}: the border of the volume cuts it; it is closed by a flat side there"),
-        ),
-        (
-            found.simplified.self_intersections > 0,
-            format!(
-                "{name}: {} triangles meet others; ask for more triangles",
-                found.simplified.self_intersections
-            ),
-        ),
-    ];
-    all.into_iter()
-        .filter(|(holds, _)| *holds)
-        .map(|(_, text)| text)
-        .collect()
-}
-
-fn named(label: &Label) -> String {
-    match &label.name {
-        Some(name) => format!("{} ({name})", label.number),
-        None => label.number.to_string(),
-    }
 }
 
 /// The label's name without what a file's name cannot hold.
