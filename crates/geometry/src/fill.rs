@@ -14,13 +14,17 @@
 //! edges may be lost; then the coarseness is refused. Where a thin gap would leave tetrahedra that
 //! touch in an edge or a vertex only, a few are taken away and the boundary lies off the surface.
 
+mod background;
+mod graded;
 mod lattice;
 mod mend;
 mod stencil;
 
+use self::background::Background;
+use self::graded::GradedLattice;
 use self::lattice::Lattice;
 use self::stencil::Filling;
-use crate::{AabbTree, Surface, TetrahedronError, TetrahedronMesh};
+use crate::{AabbTree, Surface, TetrahedronError, TetrahedronMesh, Vec3};
 
 /// Part of the volume that may be lost in pieces that fall off [-].
 const MOST_LOST: f64 = 0.01;
@@ -60,47 +64,88 @@ pub fn fill(
     surface: &Surface,
     settings: &FillSettings,
 ) -> Result<TetrahedronMesh, TetrahedronError> {
-    let edge_m = settings.edge;
-    if !edge_m.is_finite() || edge_m <= 0.0 {
-        let (what, found) = ("the edge of the lattice", edge_m);
-        return Err(TetrahedronError::NotALength { what, found });
-    }
-    let volume = surface.mesh().volume();
-    let most = settings
-        .most_tetrahedra
-        .min(TetrahedronMesh::MOST_TETRAHEDRA);
-    let too_many = |expected: f64| TetrahedronError::TooMany {
-        expected,
-        edge_m,
-        most,
-    };
-    // A twelfth of a cell each.
-    let expected = 12.0 * volume / edge_m.powi(3);
-    if expected > most as f64 || Lattice::points(surface, edge_m) > lattice::MOST_POINTS {
-        return Err(too_many(expected));
-    }
-    let (low, high) = surface.mesh().bounds();
-    if edge_m > (high - low).max() {
-        let lost_percent = 100.0;
-        return Err(TetrahedronError::TooCoarse {
-            edge_m,
-            lost_percent,
-        });
-    }
+    settings.check(surface)?;
     let tree = AabbTree::new(surface.mesh());
-    let lattice = Lattice::new(surface, &tree, edge_m);
+    stuffed(
+        &Lattice::new(surface, &tree, settings.edge),
+        surface,
+        settings,
+    )
+}
+
+/// The same with cells that were bisected until no edge was longer than `longest_edge` [m] says at its place [m]: what
+/// is thin there is filled, while the rest stays as coarse as `settings` say. The angles of a lattice are not kept:
+/// some tetrahedra are flat until they are relaxed, as by [`refine_to`](crate::refine_to).
+///
+/// # Errors
+/// As [`fill`].
+pub fn fill_graded(
+    surface: &Surface,
+    settings: &FillSettings,
+    longest_edge: impl Fn(&Vec3) -> f64,
+) -> Result<TetrahedronMesh, TetrahedronError> {
+    settings.check(surface)?;
+    let tree = AabbTree::new(surface.mesh());
+    let lattice = GradedLattice::new((surface, &tree), settings.edge, longest_edge)?;
+    stuffed(&lattice, surface, settings)
+}
+
+impl FillSettings {
+    fn check(&self, surface: &Surface) -> Result<(), TetrahedronError> {
+        let edge_m = self.edge;
+        if !edge_m.is_finite() || edge_m <= 0.0 {
+            let (what, found) = ("the edge of the lattice", edge_m);
+            return Err(TetrahedronError::NotALength { what, found });
+        }
+        // A twelfth of a cell each.
+        let expected = 12.0 * surface.mesh().volume() / edge_m.powi(3);
+        if expected > self.most() as f64 || Lattice::points(surface, edge_m) > lattice::MOST_POINTS
+        {
+            return Err(self.too_many(expected));
+        }
+        let (low, high) = surface.mesh().bounds();
+        if edge_m > (high - low).max() {
+            let lost_percent = 100.0;
+            return Err(TetrahedronError::TooCoarse {
+                edge_m,
+                lost_percent,
+            });
+        }
+        Ok(())
+    }
+
+    fn most(&self) -> usize {
+        self.most_tetrahedra.min(TetrahedronMesh::MOST_TETRAHEDRA)
+    }
+
+    fn too_many(&self, expected: f64) -> TetrahedronError {
+        TetrahedronError::TooMany {
+            expected,
+            edge_m: self.edge,
+            most: self.most(),
+        }
+    }
+}
+
+/// What `background` keeps inside, in one piece.
+fn stuffed(
+    background: &dyn Background,
+    surface: &Surface,
+    settings: &FillSettings,
+) -> Result<TetrahedronMesh, TetrahedronError> {
+    let volume = surface.mesh().volume();
     let Filling {
         vertices,
         tetrahedra,
-    } = stencil::fill(&lattice);
-    if tetrahedra.len() > most {
-        return Err(too_many(tetrahedra.len() as f64));
+    } = stencil::fill(background);
+    if tetrahedra.len() > settings.most() {
+        return Err(settings.too_many(tetrahedra.len() as f64));
     }
     let (tetrahedra, lost) = mend::one_sound_piece(&vertices, tetrahedra);
     if tetrahedra.is_empty() || lost > MOST_LOST * volume {
         let filled: f64 = mend::volume(&vertices, &tetrahedra);
         return Err(TetrahedronError::TooCoarse {
-            edge_m,
+            edge_m: settings.edge,
             lost_percent: 100.0 * (1.0 - filled / volume),
         });
     }

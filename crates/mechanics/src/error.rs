@@ -275,7 +275,7 @@ pub enum Error {
     },
     /// No triangle of the boundary lies in the patch.
     #[error(
-        "the patch of radius {radius} m holds no triangle of the tetrahedra's boundary; give a larger radius, or, where the body is thin there, a surface cut down to what is near, whose tetrahedra are smaller"
+        "the patch of radius {radius} m holds no triangle of the tetrahedra's boundary; give a larger radius, or mend the mesh there"
     )]
     EmptyPatch {
         /// Its radius [m].

@@ -1,4 +1,6 @@
-use crate::{AabbTree, Surface, Vec3};
+use super::background::{Background, Cut, Place, crossing, find_cut};
+use crate::mesh::tetrahedra::six_fold_volume;
+use crate::{AabbTree, NodeId, Surface, TetrahedronError, TetrahedronMesh, Vec3};
 
 /// Parts of the length of an edge: a cut nearer to a point than that moves the point. These give
 /// the best angles [Labelle and Shewchuk 2007].
@@ -8,12 +10,9 @@ const ALPHA_SHORT: f64 = 0.41189;
 /// Points that a lattice may have: the memory of a small computer [-].
 pub(super) const MOST_POINTS: f64 = 2e8;
 
-/// A point nearer to the surface than this part of the edge lies on it [-].
-const ON: f64 = 1e-9;
-
 /// Steps from a point to its neighbours, in halves of a cell: six along the axes to its own kind
 /// (long edges), eight to the other kind (short edges).
-pub(super) const STEPS: [[i32; 3]; 14] = [
+const STEPS: [[i32; 3]; 14] = [
     [-2, 0, 0],
     [2, 0, 0],
     [0, -2, 0],
@@ -30,28 +29,13 @@ pub(super) const STEPS: [[i32; 3]; 14] = [
     [1, 1, 1],
 ];
 
-/// Where a point of the lattice lies.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Place {
-    Inside,
-    Outside,
-    On,
-}
-
 /// A point of the lattice in halves of a cell: all even at the corners of cells, all odd at their
 /// centres.
-pub(super) type Coordinates = [i32; 3];
-
-/// A cut of an edge, from the point inside to the one outside.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Cut {
-    ends: [u32; 2],
-    position: Vec3,
-}
+type Coordinates = [i32; 3];
 
 /// The lattice with the place of each point, points moved onto the surface, and cuts.
 pub(super) struct Lattice {
-    pub(super) cells: [i32; 3],
+    cells: [i32; 3],
     low: Vec3,
     half: f64,
     places: Vec<Place>,
@@ -69,25 +53,52 @@ impl Lattice {
     }
 
     pub(super) fn new(surface: &Surface, tree: &AabbTree, edge: f64) -> Self {
-        let (low, high) = surface.mesh().bounds();
-        // A cell to spare on each side: the outermost points are outside.
-        let cells = [0, 1, 2].map(|k| ((high[k] - low[k]) / edge).ceil() as i32 + 2);
-        let size = Vec3::from(cells.map(|n| f64::from(n) * edge));
-        let mut lattice = Self {
-            cells,
-            low: 0.5 * (low + high - size),
-            half: 0.5 * edge,
-            places: Vec::new(),
-            moved: Vec::new(),
-            cuts: Vec::new(),
-        };
+        let mut lattice = Self::around(surface, edge);
         lattice.find_places(surface, tree);
         lattice.find_cuts(surface, tree);
         lattice.warp();
         lattice
     }
 
-    pub(super) fn number(&self, at: Coordinates) -> u32 {
+    /// All of its tetrahedra as they are before there is a surface.
+    ///
+    /// # Errors
+    /// When there are too many.
+    pub(super) fn tetrahedra(
+        surface: &Surface,
+        edge: f64,
+    ) -> Result<TetrahedronMesh, TetrahedronError> {
+        let lattice = Self::around(surface, edge);
+        let vertices: Vec<_> = lattice.coordinates().map(|at| lattice.rest(at)).collect();
+        let mut tetrahedra = Vec::new();
+        lattice.visit(&mut |points| {
+            let mut corners = points.map(NodeId);
+            let positions = points.map(|point| vertices[point as usize]);
+            if six_fold_volume(&positions) < 0.0 {
+                corners.swap(2, 3);
+            }
+            tetrahedra.push(corners);
+        });
+        TetrahedronMesh::new(vertices, tetrahedra)
+    }
+
+    /// That covers a surface, of which it knows nothing yet.
+    fn around(surface: &Surface, edge: f64) -> Self {
+        let (low, high) = surface.mesh().bounds();
+        // A cell to spare on each side: the outermost points are outside.
+        let cells = [0, 1, 2].map(|k| ((high[k] - low[k]) / edge).ceil() as i32 + 2);
+        let size = Vec3::from(cells.map(|n| f64::from(n) * edge));
+        Self {
+            cells,
+            low: 0.5 * (low + high - size),
+            half: 0.5 * edge,
+            places: Vec::new(),
+            moved: Vec::new(),
+            cuts: Vec::new(),
+        }
+    }
+
+    fn number(&self, at: Coordinates) -> u32 {
         let [x, y, z] = at.map(|c| c / 2);
         let odd = at[0] % 2;
         let [along_x, along_y, along_z] = self.cells.map(|n| n + 1 - odd);
@@ -96,39 +107,40 @@ impl Lattice {
         (before + (z * along_y + y) * along_x + x) as u32
     }
 
+    fn at(&self, number: u32) -> Coordinates {
+        let corners = self.corners() as u32;
+        let odd = i32::from(number >= corners);
+        let [along_x, along_y, _] = self.cells.map(|n| (n + 1 - odd) as u32);
+        let number = number - if odd == 1 { corners } else { 0 };
+        let row = number / along_x;
+        [number % along_x, row % along_y, row / along_y].map(|c| 2 * c as i32 + odd)
+    }
+
     fn corners(&self) -> usize {
         self.cells.iter().map(|&n| n as usize + 1).product()
     }
 
-    pub(super) fn len(&self) -> usize {
-        self.places.len()
-    }
-
-    pub(super) fn place(&self, number: u32) -> Place {
-        self.places[number as usize]
-    }
-
-    /// Where a point is now [m].
-    pub(super) fn position(&self, number: u32, at: Coordinates) -> Vec3 {
-        match self.moved.binary_search_by_key(&number, |m| m.0) {
-            Ok(found) => self.moved[found].1,
-            Err(_) => self.rest(at),
-        }
-    }
-
-    /// Where the edge between these points is cut [m].
-    pub(super) fn cut(&self, inside: u32, outside: u32) -> Option<(u32, Vec3)> {
-        let ends = [inside, outside];
-        let found = self.cuts.binary_search_by_key(&ends, |cut| cut.ends).ok()?;
-        Some((found as u32, self.cuts[found].position))
-    }
-
-    pub(super) fn cuts(&self) -> usize {
-        self.cuts.len()
-    }
-
     fn rest(&self, at: Coordinates) -> Vec3 {
         self.low + self.half * Vec3::from(at.map(f64::from))
+    }
+
+    /// The four tetrahedra between the centres of a cell and of the next one along `axis`: each has
+    /// one edge of the face between them.
+    fn around_face(&self, cell: [i32; 3], axis: usize) -> [[u32; 4]; 4] {
+        let center = cell.map(|c| 2 * c + 1);
+        let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+        let mut next = center;
+        next[axis] += 2;
+        let corner = |along_u: i32, along_v: i32| {
+            let mut at = center;
+            at[axis] += 1;
+            at[u] += along_u;
+            at[v] += along_v;
+            self.number(at)
+        };
+        let ring = [corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)];
+        let [center, next] = [center, next].map(|at| self.number(at));
+        [0, 1, 2, 3].map(|k| [center, next, ring[k], ring[(k + 1) % 4]])
     }
 
     /// All points in the order of their numbers.
@@ -165,13 +177,7 @@ impl Lattice {
                 known -= 1;
             } else {
                 let (_, distance) = surface.signed_distance(tree, &self.rest(at));
-                place = if distance.abs() <= ON * edge {
-                    Place::On
-                } else if distance < 0.0 {
-                    Place::Inside
-                } else {
-                    Place::Outside
-                };
+                place = Place::at(distance, edge);
                 known = ((distance.abs() / edge - 1e-6).max(0.0)) as usize;
             }
             places.push(place);
@@ -233,23 +239,57 @@ impl Lattice {
     }
 }
 
-/// Where the way from inside to outside leaves the body first. A ray may slip through a gap of
-/// rounding; then halving finds a change of sign.
-fn crossing(surface: &Surface, tree: &AabbTree, from: Vec3, to: Vec3) -> Vec3 {
-    let way = to - from;
-    let length = way.norm();
-    let hit = tree.cast(surface.mesh(), &from, &(way / length), length);
-    if let Some(hit) = hit {
-        return from + way * (hit.distance / length);
+impl Background for Lattice {
+    fn points(&self) -> usize {
+        self.places.len()
     }
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..50 {
-        let middle = 0.5 * (low + high);
-        if surface.signed_distance(tree, &(from + way * middle)).1 < 0.0 {
-            low = middle;
-        } else {
-            high = middle;
+
+    fn cuts(&self) -> usize {
+        self.cuts.len()
+    }
+
+    fn place(&self, number: u32) -> Place {
+        self.places[number as usize]
+    }
+
+    fn position(&self, number: u32) -> Vec3 {
+        match self.moved.binary_search_by_key(&number, |m| m.0) {
+            Ok(found) => self.moved[found].1,
+            Err(_) => self.rest(self.at(number)),
         }
     }
-    from + way * (0.5 * (low + high))
+
+    fn cut(&self, inside: u32, outside: u32) -> Option<(u32, Vec3)> {
+        find_cut(&self.cuts, inside, outside)
+    }
+
+    fn diagonal_from_first(&self, p: u32, q: u32, n: u32) -> bool {
+        let [at_p, q, n] = [p, q, n].map(|point| self.at(point));
+        let odd = |at: Coordinates| at[0] % 2;
+        if odd(at_p) == odd(q) {
+            // Two short edges are cut. The ends of the long one are neighbours of a kind, and one of
+            // them is even among its kind.
+            at_p.iter().map(|c| c / 2).sum::<i32>() % 2 == 0
+        } else {
+            // The diagonal ends in the cut of the long edge.
+            odd(q) == odd(n)
+        }
+    }
+
+    fn visit(&self, see: &mut dyn FnMut([u32; 4])) {
+        let cells = self.cells;
+        for z in 0..cells[2] {
+            for y in 0..cells[1] {
+                for x in 0..cells[0] {
+                    for axis in 0..3 {
+                        if [x, y, z][axis] + 1 < cells[axis] {
+                            self.around_face([x, y, z], axis)
+                                .into_iter()
+                                .for_each(&mut *see);
+                        }
+                    }
+                }
+            }
+        }
+    }
 }

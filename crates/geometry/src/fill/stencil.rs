@@ -1,10 +1,10 @@
-//! What a tetrahedron of the lattice keeps inside, cut into tetrahedra
+//! What a tetrahedron of the background keeps inside, cut into tetrahedra
 //! [Labelle and Shewchuk 2007].
 //!
 //! Two neighbours share a face, and where the face keeps a quadrilateral both must cut it along the
 //! same diagonal. It is chosen by what the face alone knows (`diagonal_from_first`).
 
-use super::lattice::{Coordinates, Lattice, Place};
+use super::background::{Background, Place};
 use crate::mesh::tetrahedra::six_fold_volume;
 use crate::{NodeId, Vec3};
 
@@ -14,17 +14,16 @@ pub(super) struct Filling {
     pub(super) tetrahedra: Vec<[NodeId; 4]>,
 }
 
-/// A point of the lattice.
+/// A point of the background.
 #[derive(Debug, Clone, Copy)]
 struct Point {
     number: u32,
-    at: Coordinates,
     place: Place,
 }
 
 struct Stuffer<'a> {
-    lattice: &'a Lattice,
-    /// Number of the vertex that a lattice point became, and that a cut became.
+    background: &'a dyn Background,
+    /// Number of the vertex that a point became, and that a cut became.
     of_point: Vec<u32>,
     of_cut: Vec<u32>,
     filling: Filling,
@@ -33,58 +32,32 @@ struct Stuffer<'a> {
 /// No vertex yet.
 const NONE: u32 = u32::MAX;
 
-pub(super) fn fill(lattice: &Lattice) -> Filling {
+pub(super) fn fill(background: &dyn Background) -> Filling {
     let mut stuffer = Stuffer {
-        lattice,
-        of_point: vec![NONE; lattice.len()],
-        of_cut: vec![NONE; lattice.cuts()],
+        background,
+        of_point: vec![NONE; background.points()],
+        of_cut: vec![NONE; background.cuts()],
         filling: Filling {
             vertices: Vec::new(),
             tetrahedra: Vec::new(),
         },
     };
-    let cells = lattice.cells;
-    for z in 0..cells[2] {
-        for y in 0..cells[1] {
-            for x in 0..cells[0] {
-                for axis in 0..3 {
-                    if [x, y, z][axis] + 1 < cells[axis] {
-                        stuffer.around_face([x, y, z], axis);
-                    }
-                }
-            }
-        }
-    }
+    background.visit(&mut |points| {
+        let points = points.map(|point| stuffer.point(point));
+        stuffer.stuff(points);
+    });
     stuffer.filling
 }
 
 impl Stuffer<'_> {
-    /// The four tetrahedra between the centres of a cell and of the next one along `axis`: each has
-    /// one edge of the face between them.
-    fn around_face(&mut self, cell: [i32; 3], axis: usize) {
-        let center = cell.map(|c| 2 * c + 1);
-        let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
-        let mut next = center;
-        next[axis] += 2;
-        let corner = |along_u: i32, along_v: i32| {
-            let mut at = center;
-            at[axis] += 1;
-            at[u] += along_u;
-            at[v] += along_v;
-            at
-        };
-        let ring = [corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)];
-        let [center, next] = [center, next].map(|at| self.point(at));
-        let ring = ring.map(|at| self.point(at));
-        for k in 0..4 {
-            self.stuff([center, next, ring[k], ring[(k + 1) % 4]]);
-        }
+    fn point(&self, number: u32) -> Point {
+        let place = self.background.place(number);
+        Point { number, place }
     }
 
-    fn point(&self, at: Coordinates) -> Point {
-        let number = self.lattice.number(at);
-        let place = self.lattice.place(number);
-        Point { number, at, place }
+    fn diagonal_from_first(&self, p: &Point, q: &Point, n: &Point) -> bool {
+        let [p, q, n] = [p, q, n].map(|point| point.number);
+        self.background.diagonal_from_first(p, q, n)
     }
 
     fn stuff(&mut self, points: [Point; 4]) {
@@ -109,24 +82,26 @@ impl Stuffer<'_> {
                 let Some(apex) = apex.map(|apex| self.vertex(apex)) else {
                     return;
                 };
-                let from_p = diagonal_from_first(p, q, n);
+                let from_p = self.diagonal_from_first(p, q, n);
                 let ends = [self.vertex(*p), self.vertex(*q)];
                 let cuts = [self.cut(*p, *n), self.cut(*q, *n)];
                 self.pyramid(apex, ends, cuts, from_p);
             }
             ([p, q, r], [n]) => {
                 let from = [
-                    diagonal_from_first(p, q, n),
-                    diagonal_from_first(q, r, n),
-                    diagonal_from_first(r, p, n),
+                    self.diagonal_from_first(p, q, n),
+                    self.diagonal_from_first(q, r, n),
+                    self.diagonal_from_first(r, p, n),
                 ];
                 let top = [p, q, r].map(|p| self.vertex(*p));
                 let bottom = [p, q, r].map(|p| self.cut(*p, *n));
                 self.prism(top, bottom, from);
             }
             ([p, q], [n, m]) => {
-                let (p_to_n, q_to_m) =
-                    (diagonal_from_first(p, q, n), !diagonal_from_first(p, q, m));
+                let (p_to_n, q_to_m) = (
+                    self.diagonal_from_first(p, q, n),
+                    !self.diagonal_from_first(p, q, m),
+                );
                 let one = [self.vertex(*p), self.cut(*p, *n), self.cut(*p, *m)];
                 let other = [self.vertex(*q), self.cut(*q, *n), self.cut(*q, *m)];
                 // The third diagonal lies on the boundary and is free, but three that follow each
@@ -169,7 +144,7 @@ impl Stuffer<'_> {
         let known = &mut self.of_point[point.number as usize];
         if *known == NONE {
             *known = self.filling.vertices.len() as u32;
-            let position = self.lattice.position(point.number, point.at);
+            let position = self.background.position(point.number);
             self.filling.vertices.push(position);
         }
         NodeId(*known)
@@ -177,7 +152,7 @@ impl Stuffer<'_> {
 
     fn cut(&mut self, inside: Point, outside: Point) -> NodeId {
         let (number, position) = self
-            .lattice
+            .background
             .cut(inside.number, outside.number)
             .expect("every edge from inside to outside was cut");
         let known = &mut self.of_cut[number as usize];
@@ -199,19 +174,5 @@ impl Stuffer<'_> {
             corners.swap(2, 3);
         }
         self.filling.tetrahedra.push(corners);
-    }
-}
-
-/// Whether the quadrilateral that the face p, q, n keeps (n being outside) is cut from p to the cut
-/// of q, rather than from q to the cut of p.
-fn diagonal_from_first(p: &Point, q: &Point, n: &Point) -> bool {
-    let odd = |point: &Point| point.at[0] % 2;
-    if odd(p) == odd(q) {
-        // Two short edges are cut. The ends of the long one are neighbours of a kind, and one of
-        // them is even among its kind.
-        p.at.iter().map(|c| c / 2).sum::<i32>() % 2 == 0
-    } else {
-        // The diagonal ends in the cut of the long edge.
-        odd(q) == odd(n)
     }
 }

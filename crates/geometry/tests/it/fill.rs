@@ -2,7 +2,10 @@
 
 use std::path::Path;
 
-use palpate_geometry::{FillSettings, Organ, Surface, TetrahedronError, fill, read_mesh};
+use palpate_geometry::{
+    FillSettings, Organ, Surface, TetrahedronError, TriangleMesh, Vec3, fill, fill_graded,
+    read_mesh, refine_to,
+};
 
 use crate::data;
 use crate::shapes::{Random, organ, tries};
@@ -55,6 +58,45 @@ fn angles_hold_wherever_the_lattice_lies() {
         println!("{kind}: {least:.2}° to {largest:.2}°");
         assert!(least > 10.7 && largest < 164.8, "{least}° to {largest}°");
     }
+}
+
+/// A kidney pressed flat, filled finely about its foremost point. Judges: what a mesh must be; the surface, which is
+/// reached to half an edge there and not by even tetrahedra; the bisection, that no edge is longer than asked for by
+/// more than the cell that is bisected. After relaxing no angle is flat.
+#[test]
+fn a_thin_rim_is_filled_where_it_is_asked_for() {
+    let round = Organ::Kidney.surface_mesh(5_000).unwrap();
+    let flat = |v: &Vec3| v.component_mul(&Vec3::new(1.0, 1.0, 0.12));
+    let flat = round.vertices().iter().map(flat).collect();
+    let flat = TriangleMesh::new(flat, round.triangles().to_vec()).unwrap();
+    let surface = Surface::new(flat).unwrap();
+    let vertices = surface.mesh().vertices().iter();
+    let foremost = *vertices.max_by(|a, b| a.x.total_cmp(&b.x)).unwrap();
+    let settings = FillSettings::with_about(&surface, 2_000);
+    let edge = |point: &Vec3| 5e-4 + 0.5 * ((point - foremost).norm() - 3e-3).max(0.0);
+    let gap = |mesh: &palpate_geometry::TetrahedronMesh| {
+        let distances = mesh.vertices().iter().map(|v| (v - foremost).norm());
+        distances.fold(f64::INFINITY, f64::min)
+    };
+    let even = fill(&surface, &settings).unwrap();
+    let graded = fill_graded(&surface, &settings, edge).unwrap();
+    println!(
+        "{}; {}; {} and {} m off",
+        report(&even),
+        report(&graded),
+        gap(&even),
+        gap(&graded)
+    );
+    assert_sound(&graded);
+    assert!(gap(&graded) < 2.5e-4 && gap(&even) > 1e-3);
+    assert!(graded.volume() > even.volume() && graded.volume() < 1.01 * surface.mesh().volume());
+    let relaxed = refine_to(&graded, Some(&surface), edge).unwrap();
+    assert_sound(&relaxed);
+    assert!(
+        relaxed.quality().least_dihedral.to_degrees() > 3.0,
+        "{}",
+        report(&relaxed)
+    );
 }
 
 /// Judge: the volume of the surface that is filled. Chords of a curved side and cut-off edges both

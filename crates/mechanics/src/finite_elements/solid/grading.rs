@@ -7,16 +7,19 @@
 //! The force errs with h at the edges and with h⁴ where the answer is smooth, so that the first and the last
 //! part fall alike; that of the anchor, of which there is much to refine, falls by less and is seen in the
 //! change all the same. A level has about twice as many unknowns as the one before.
+//!
+//! A coarse filling cuts off what is thin. Where the first mesh does not have the area of the patch, the body is filled
+//! again, with ever smaller tetrahedra at the patch.
 
 use std::f64::consts::TAU;
 
 use palpate_files::scene::Region;
 use palpate_geometry::{
-    FillSettings, Surface, TetrahedronError, TetrahedronMesh, closest_on_triangle, fill, refine_to,
-    resolve_sphere,
+    FillSettings, Surface, TetrahedronError, TetrahedronMesh, closest_on_triangle, fill,
+    fill_graded, refine_to, resolve_sphere,
 };
 
-use super::mesh::{MOST_UNKNOWNS, faces, unknowns};
+use super::mesh::faces;
 use super::patch::{area_of, area_within, faces_within};
 use super::problem::{Body, SolidProblem};
 use crate::{Error, Vec3};
@@ -33,15 +36,22 @@ const GROWTH: f64 = 1.5;
 /// Tetrahedra of the first filling.
 const FILLING: usize = 2_000;
 
-/// Tetrahedra of the last filling that is tried when a body is thin, as a whole or under the patch.
+/// Tetrahedra of the last filling that is tried when a body is thin.
 const FINEST_FILLING: usize = 256_000;
 
 /// Part of its area by which the patch of the first mesh may miss that of the surface [-]: a finer filling is taken
 /// then. Where nothing is thin, chords of the circle miss it by 0.012.
 const MISSED: f64 = 0.05;
 
-/// More unknowns than these on the first mesh leave no room for the second; no finer filling is taken then.
-const MOST_AT_FIRST: usize = MOST_UNKNOWNS / 3;
+/// Fillings that are tried: a coarse one, then ones with edges of a radius of the patch at it, and halves of that.
+const FILLINGS: i32 = 5;
+
+/// Edges of these far from the patch, in those of the coarse one [-]. On the rim of a real liver the force differs from
+/// that of even fillings of 64,000 tetrahedra by 2 % with this, and by 4 % without.
+const FINER: f64 = 0.63;
+
+/// By how much edges grow away from the patch [-].
+const SPREAD: f64 = 0.5;
 
 /// Points around a circle from which the edge of the patch is known.
 const AROUND: usize = 96;
@@ -111,28 +121,42 @@ impl<'a> Ground<'a> {
             Body::Volume(mesh) => return Ok(ground(mesh.clone())),
         };
         let wanted = area_within(radius, &center, surface);
-        let (mut about, mut coarser) = (FILLING, None);
-        loop {
-            let mut ground = ground(filling(surface, &mut about)?);
-            let (mesh, _) = ground.mesh(0)?;
-            if let Some(coarser) = coarser.filter(|_| unknowns(&mesh) > MOST_AT_FIRST) {
-                return Ok(coarser);
-            }
-            let faces = faces(&mesh);
-            let found = area_of(&faces_within(radius, &center, (&mesh, &faces)), &mesh);
-            if (found - wanted).abs() <= MISSED * wanted {
+        let (coarse, edge) = filling(surface)?;
+        let finer = |near: f64| {
+            fill_graded(surface, &FillSettings::new(FINER * edge), |point| {
+                near + SPREAD * ((point - center).norm() - 1.5 * radius).max(0.0)
+            })
+        };
+        let (mut tetrahedra, mut closest) = (Ok::<_, TetrahedronError>(coarse), None);
+        for halvings in 0..FILLINGS {
+            let mut ground = match (tetrahedra, closest.is_some()) {
+                (Ok(tetrahedra), _) => ground(tetrahedra),
+                (Err(_), true) => break,
+                (Err(error), false) => return Err(error.into()),
+            };
+            let found = ground.area_of_patch()?;
+            let missed = (found / wanted - 1.0).abs();
+            if missed <= MISSED {
                 return Ok(ground);
             }
             ground.doubts.push(format!(
                 "the body is thin at the patch, whose area on the first mesh is {found:.3e} m² and on the surface \
-                 {wanted:.3e} m²; the tetrahedra of a surface that is cut down to what is near are smaller"
+                 {wanted:.3e} m²"
             ));
-            if 2 * about > FINEST_FILLING {
-                return Ok(ground);
+            if closest.as_ref().is_none_or(|(least, _)| missed < *least) {
+                closest = Some((missed, ground));
             }
-            coarser = Some(ground);
-            about *= 2;
+            tetrahedra = finer(radius * 2.0_f64.powi(-halvings));
         }
+        closest.map(|(_, ground)| ground).ok_or(Error::NoElements)
+    }
+
+    /// On the first mesh [m²].
+    fn area_of_patch(&self) -> Result<f64, Error> {
+        let (mesh, _) = self.mesh(0)?;
+        let faces = faces(&mesh);
+        let patch = faces_within(self.radius, &self.center, (&mesh, &faces));
+        Ok(area_of(&patch, &mesh))
     }
 
     /// The tetrahedra after `halvings`, and how many edges still cross the edge of the patch.
@@ -179,12 +203,14 @@ fn triangles(body: &Body) -> Vec<[Vec3; 3]> {
     }
 }
 
-/// Of about so many tetrahedra, or of more where the body is thin.
-fn filling(surface: &Surface, about: &mut usize) -> Result<TetrahedronMesh, Error> {
+/// A coarse filling, finer where the body is thin as a whole, and the edge of its cells [m].
+fn filling(surface: &Surface) -> Result<(TetrahedronMesh, f64), Error> {
+    let mut about = FILLING;
     loop {
-        match fill(surface, &FillSettings::with_about(surface, *about)) {
-            Err(TetrahedronError::TooCoarse { .. }) if *about < FINEST_FILLING => *about *= 2,
-            done => return Ok(done?),
+        let settings = FillSettings::with_about(surface, about);
+        match fill(surface, &settings) {
+            Err(TetrahedronError::TooCoarse { .. }) if about < FINEST_FILLING => about *= 2,
+            done => return Ok((done?, settings.edge)),
         }
     }
 }
