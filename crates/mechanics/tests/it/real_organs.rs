@@ -23,9 +23,6 @@ const NU: f64 = 0.45;
 const RADIUS: f64 = 3e-3;
 const DEPTH: f64 = 1e-4;
 
-/// A tip that covers a fold: its law is that of a face which turns by less than this [degrees].
-const FOLD: f64 = 45.0;
-
 fn real(name: &str) -> Option<Surface> {
     let path = crate::data::folder()?.join(format!("meshes/{name}.ply"));
     let mesh = read_mesh(&path, None).unwrap().mesh;
@@ -216,8 +213,8 @@ fn pressed_tip(load: &TipLoad<'_>, (place, normal): (Vec3, Vec3), bond: Bond) ->
 
 /// Judge: quadratic tetrahedra at ten places as far from one another as can be, to 3 %. Tolerances: what is
 /// asked for: 8 % of the force, 3 % at five of them; a hundredth of the depth where the refined patch ends; a
-/// tenth in the field, in the mean under the tip and beyond it, and beyond it at each point, but for where the
-/// organ turns away under the tip (`docs/theory/boundary_elements.md` has what it is there).
+/// tenth in the field, in the mean under the tip and at each point beyond it (`docs/theory/boundary_elements.md` has
+/// what it is at the tip's rim, where it slides on a fold).
 #[test]
 #[ignore = "slow: half an hour"]
 fn real_kidney_at_ten_places() {
@@ -227,7 +224,7 @@ fn real_kidney_at_ten_places() {
     let kidney = Kidney::new(surface);
     let surface = &kidney.solid.surface;
     let field = TipField::new(&kidney.response, surface, RADIUS);
-    let (mut worst, mut close, mut folds) = ([0.0_f64; 3], 0, 0);
+    let (mut worst, mut close) = ([0.0_f64; 3], 0);
     for (number, &place) in kidney.places.iter().enumerate() {
         let bonds = [(Grip::Slide, Bond::Slip), (Grip::Stick, Bond::Stick)];
         let (grip, bond) = bonds[number % 2];
@@ -252,18 +249,15 @@ fn real_kidney_at_ten_places() {
             100.0 * judge.error,
         );
         close += usize::from(force.abs() < 0.03);
-        let each = if turn < FOLD { largest } else { 0.0 };
-        let field = near.max(mean).max(each);
-        folds += usize::from(turn >= FOLD);
         worst = [
             worst[0].max(force.abs()),
             worst[1].max(jump),
-            worst[2].max(field),
+            worst[2].max(near).max(largest),
         ];
     }
     assert!(
         worst[0] < 0.08 && worst[1] < 0.01 && worst[2] < 0.1,
         "{worst:?}"
     );
-    assert!(close >= 5 && folds <= 1, "{close} {folds}");
+    assert!(close >= 5, "{close}");
 }
