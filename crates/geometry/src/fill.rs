@@ -8,10 +8,10 @@
 //! at most, whatever the surface.
 //!
 //! *How we know*: `fill::angles_hold_wherever_the_lattice_lies`, `fill::volume_converges_with_order_two`,
-//! `fill::real_organs_are_filled`.
+//! `fill::real_organs_are_filled`, `fill::a_thin_rim_is_filled_where_it_is_asked_for`.
 //!
 //! *Limits*: sharp edges are cut off by up to a third of an edge. What is thinner than about two
-//! edges may be lost; then the coarseness is refused. Where a thin gap would leave tetrahedra that
+//! edges may be lost; then the coarseness is refused, or [`fill_graded`] is finer there. Where a thin gap would leave tetrahedra that
 //! touch in an edge or a vertex only, a few are taken away and the boundary lies off the surface.
 
 mod background;

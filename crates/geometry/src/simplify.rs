@@ -11,7 +11,7 @@
 //!
 //! *How we know*: `simplify::organs_stay_closed_and_keep_their_volume`,
 //! `simplify::deviation_is_that_of_parry`, `simplify::a_cube_keeps_its_edges`,
-//! `simplify::real_organs_are_simplified_as_published`.
+//! `simplify::real_organs_are_simplified_as_published`, `simplify::sizes_are_met_beside_one_another`.
 //!
 //! *Limits*: a closed mesh has an even number of triangles, so that an odd number is missed by one.
 //! Where the original passes through itself the result may too. Handles and hollows stay, however

@@ -132,8 +132,9 @@ def test_progress_is_heard_and_what_it_raises_ends_the_job() -> None:
     heard: list[tuple[float, str]] = []
     palpate.solve(PROBLEMS / "punch.toml", progress=lambda part, words: heard.append((part, words)))
     parts = [part for part, _ in heard]
-    # Between the two, each finer mesh begins anew, and how much of it is seen depends on the machine.
-    assert parts[0] == 0.0 and parts[-1] == 1.0 and all(0.0 <= part <= 1.0 for part in parts)
+    assert parts[0] == 0.0 and parts[-1] == 1.0 and max(parts) <= 1.0
+    # What the solver told: each finer mesh begins anew.
+    assert max(parts[1:-1]) > 0.5
     assert any("mesh" in words or "elements" in words for _, words in heard)
 
     def refuse(_part: float, _words: str) -> None:

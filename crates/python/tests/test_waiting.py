@@ -19,6 +19,7 @@ def test_progress_is_told_as_it_goes() -> None:
     _wait(0.3, lambda part, words: told.append((part, words)))
     parts = [part for part, _ in told]
     assert parts == sorted(parts) and told[0] == (0.0, "beginning") and told[-1] == (1.0, "waiting")
+    assert {words for _, words in told} == {"beginning", "waiting"}
 
 
 def test_the_shortest_work_tells_its_beginning_and_its_end() -> None:
@@ -28,12 +29,12 @@ def test_the_shortest_work_tells_its_beginning_and_its_end() -> None:
 
 
 def test_ctrl_c_is_heard() -> None:
-    """Judge: the clock; the interpreter is asked every 50 ms, a slow machine may take long, the work takes 20 s."""
+    """Judge: the clock; the interpreter is asked every 50 ms, and a slow machine may take ten times that."""
     threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
     begin = time.monotonic()
     with pytest.raises(KeyboardInterrupt):
         _wait(20.0, False)
-    assert time.monotonic() - begin < 10.0
+    assert time.monotonic() - begin < 1.0
 
 
 def test_what_a_callable_raises_comes_back() -> None:

@@ -15,7 +15,7 @@
 //! Finer triangles around a contact are made by who looks at it ([`EnhancedSurface`]), of what a step tells
 //! ([`OrganField`]).
 //!
-//! *How we know*: `hybrid::…`, `enhanced::…`, `thin_walls::…`.
+//! *How we know*: `hybrid::…`, `enhanced::…`, `thin_walls::…`, `large_organs::…`.
 //!
 //! *Limits*: the organ around a tip answers as at small strain; nothing of it moves through its anchor. Where the organ
 //! is thinner than the tip is wide it is too soft, by a fifth at 5 mm under a tip of 6 mm.

@@ -94,7 +94,7 @@ pub struct LawAnswer {
     /// What noise does to the parameters (6.4.6).
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub noise_study: Vec<Noise>,
-    /// Why the fit was not made again.
+    /// Why the fit was not made again, or not with its residuals in other blocks.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     not_repeated: Option<String>,
     /// Steps of the fit.

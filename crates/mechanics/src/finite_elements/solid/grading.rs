@@ -43,8 +43,8 @@ const FINEST_FILLING: usize = 256_000;
 /// then. Where nothing is thin, chords of the circle miss it by 0.012.
 const MISSED: f64 = 0.05;
 
-/// Fillings that are tried: a coarse one, then ones with edges of a radius of the patch at it, and halves of that.
-const FILLINGS: i32 = 5;
+/// Fillings that are tried after the coarse one: edges of a radius of the patch at it, and halves of that.
+const FINER_FILLINGS: i32 = 4;
 
 /// Edges of these far from the patch, in those of the coarse one [-]. On the rim of a real liver the force differs from
 /// that of even fillings of 64,000 tetrahedra by 2 % with this, and by 4 % without.
@@ -127,28 +127,29 @@ impl<'a> Ground<'a> {
                 near + SPREAD * ((point - center).norm() - 1.5 * radius).max(0.0)
             })
         };
-        let (mut tetrahedra, mut closest) = (Ok::<_, TetrahedronError>(coarse), None);
-        for halvings in 0..FILLINGS {
-            let mut ground = match (tetrahedra, closest.is_some()) {
-                (Ok(tetrahedra), _) => ground(tetrahedra),
-                (Err(_), true) => break,
-                (Err(error), false) => return Err(error.into()),
-            };
-            let found = ground.area_of_patch()?;
-            let missed = (found / wanted - 1.0).abs();
-            if missed <= MISSED {
-                return Ok(ground);
+        let mut closest = ground(coarse);
+        let mut found = closest.area_of_patch()?;
+        let missed = |found: f64| (found / wanted - 1.0).abs();
+        for halvings in 0..FINER_FILLINGS {
+            if missed(found) <= MISSED {
+                return Ok(closest);
             }
-            ground.doubts.push(format!(
+            let Ok(tetrahedra) = finer(radius * 2.0_f64.powi(-halvings)) else {
+                break;
+            };
+            let next = ground(tetrahedra);
+            let area = next.area_of_patch()?;
+            if missed(area) < missed(found) {
+                (closest, found) = (next, area);
+            }
+        }
+        if missed(found) > MISSED {
+            closest.doubts.push(format!(
                 "the body is thin at the patch, whose area on the first mesh is {found:.3e} m² and on the surface \
                  {wanted:.3e} m²"
             ));
-            if closest.as_ref().is_none_or(|(least, _)| missed < *least) {
-                closest = Some((missed, ground));
-            }
-            tetrahedra = finer(radius * 2.0_f64.powi(-halvings));
         }
-        closest.map(|(_, ground)| ground).ok_or(Error::NoElements)
+        Ok(closest)
     }
 
     /// On the first mesh [m²].

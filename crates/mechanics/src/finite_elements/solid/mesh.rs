@@ -9,14 +9,6 @@ use crate::Vec3;
 /// Corners at the two ends of each middle node of a tetrahedron.
 const EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], [0, 2], [0, 3], [1, 3], [2, 3]];
 
-/// More unknowns than these are refused: their factors would have about ten gigabytes.
-pub(super) const MOST_UNKNOWNS: usize = 600_000;
-
-/// Three displacements at each node, and a pressure at each corner.
-pub(super) fn unknowns(mesh: &TetrahedronMesh) -> usize {
-    4 * mesh.vertices().len() + 3 * mesh.edges().len()
-}
-
 impl ElementMesh {
     /// Quadratic tetrahedra with straight edges: the vertices keep their numbers, and the middles
     /// follow in the order of [`TetrahedronMesh::edges`].

@@ -4,11 +4,13 @@ use super::super::model::{FiniteElementModel, FiniteElementWorkspace, Formulatio
 use super::answer::SolidAnswer;
 use super::frame::Frame;
 use super::grading::Ground;
-use super::mesh::{MOST_UNKNOWNS, unknowns};
 use super::problem::{Body, SolidProblem};
 use super::solve::equilibrium;
 use super::supports::Held;
 use crate::{Error, Vec3};
+
+/// More unknowns than these are refused: their factors would have about ten gigabytes.
+const MOST_UNKNOWNS: usize = 600_000;
 
 /// A third mesh is solved when the second had at most so many unknowns, since it has about two and a
 /// half times as many.
@@ -71,7 +73,8 @@ impl SolidProblem {
             halvings,
         });
         let (tetrahedra, crossing) = ground.mesh(halvings)?;
-        let unknowns = unknowns(&tetrahedra);
+        let corners = tetrahedra.vertices().len();
+        let unknowns = 4 * corners + 3 * tetrahedra.edges().len();
         if unknowns > MOST_UNKNOWNS {
             return Err(Error::TooManyUnknowns {
                 unknowns,
