@@ -74,11 +74,7 @@ fn of_laws(criterion: &mut Criterion) {
         group.bench_function(name, |b| {
             b.iter(|| {
                 let mut curves = Curves::new(Body::under_punch(1e-3), law, 5e-3);
-                let indentation = Indentation {
-                    time: &time_s,
-                    depth: &depth_m,
-                    force: &force_n,
-                };
+                let indentation = Indentation::new(&time_s, &depth_m, &force_n);
                 law_fit(&mut curves, black_box(&[indentation]), &series).unwrap()
             });
         });

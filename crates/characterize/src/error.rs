@@ -117,11 +117,26 @@ pub enum Error {
     /// An indenter that is not solved on a tube.
     #[error("only a flat indenter is solved on a hollow organ; use a flat one")]
     TubeIndenter,
-    /// An indenter that finite elements are not made for.
+    /// A specimen that is thinner than it was pressed.
     #[error(
-        "a cone is not solved by finite elements here; use its mean elastic modulus, or a flat or spherical indenter"
+        "the specimen is pressed by {depth} m and is {thickness} m thick; check the units, or correct `thickness_m`"
     )]
-    Cone,
+    DeeperThanThick {
+        /// How far it was pressed [m].
+        depth: f64,
+        /// Its thickness [m].
+        thickness: f64,
+    },
+    /// A specimen that is narrower than what touches it.
+    #[error(
+        "the specimen has a radius of {radius} m (a square one as much cross-section), and the indenter touches {least} m; correct `specimen_radius_m` or `specimen_width_m`"
+    )]
+    Narrow {
+        /// Radius of the specimen [m].
+        radius: f64,
+        /// Radius of the contact [m].
+        least: f64,
+    },
     /// The mechanics have no answer.
     #[error(transparent)]
     Mechanics(#[from] palpate_mechanics::Error),

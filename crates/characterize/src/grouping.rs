@@ -24,6 +24,12 @@ fn is_same(a: &RecordingHeader, b: &RecordingHeader) -> bool {
             h.site.clone(),
             h.specimen,
         );
+        let piece = [
+            h.thickness_m,
+            h.specimen_radius_m,
+            h.specimen_width_m,
+            h.density_kg_per_m3,
+        ];
         let shape = [
             h.inner_radius_m,
             h.outer_radius_m,
@@ -37,7 +43,7 @@ fn is_same(a: &RecordingHeader, b: &RecordingHeader) -> bool {
         );
         (
             specimen,
-            shape,
+            (shape, piece, h.support),
             indenter,
             h.condition,
             h.post_mortem_s,

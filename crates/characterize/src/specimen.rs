@@ -9,15 +9,15 @@ mod fitted;
 
 use std::ops::Range;
 
-use palpate_files::recording::{IndenterShape, RecordingHeader, Specimen, StimulusKind};
+use palpate_files::recording::StimulusKind;
 use palpate_files::{Estimate, PronyTerm, Tissue};
-use palpate_mechanics::finite_elements::indentation::Grip;
-use palpate_mechanics::finite_elements::tube::Tube;
 
 use crate::clean::SegmentKind;
 use crate::fit::{Draws, simplest};
-use crate::inverse::{Body, Curves, Indentation, LawDescription, SoughtLaw, law_fit, repeated};
-use crate::lumped::{UniaxialFit, fit_uniaxial_recordings};
+use crate::inverse::{
+    Body, Curves, Indentation, LawDescription, SoughtLaw, ZeroErrors, assumption, law_fit, repeated,
+};
+use crate::lumped::{Contact, UniaxialFit, fit_uniaxial_recordings, mean_modulus};
 use crate::viscoelastic::{
     Course, Relaxation, RelaxationSettings, relaxation, relaxation_of_steps,
 };
@@ -77,9 +77,13 @@ pub fn characterize(
     at_step: &mut dyn FnMut(&'static str),
 ) -> Characterization {
     let pressed: Vec<Pressed> = recordings.iter().filter_map(Pressed::of).collect();
-    let body = body(recordings);
+    let deepest = pressed.iter().map(Pressed::deepest).fold(0.0, f64::max);
+    let body = body(recordings, deepest);
+    let mut curves = body
+        .clone()
+        .map(|body| Curves::new(body, SoughtLaw::NeoHookean, deepest));
     at_step("relaxation");
-    let courses = courses(&pressed, body.as_ref().ok().copied());
+    let courses = courses(&pressed, curves.as_mut().ok());
     let relaxing = relaxation(&courses, settings.relaxation);
     let of_steps = relaxation_of_steps(&courses, settings.relaxation);
     at_step("springs and dampers");
@@ -95,6 +99,10 @@ pub fn characterize(
         doubts: Vec::new(),
     };
     found.doubts = found.without_geometry.doubts();
+    found.doubts.extend(about_size(recordings, &body, deepest));
+    let half_space = curves.as_mut().ok();
+    let half_space = half_space.and_then(|own| half_space_factor(own, recordings, deepest));
+    found.doubts.extend(half_space);
     let pieces: Vec<CleanRecording> = recordings
         .iter()
         .filter(|own| is_piece(own))
@@ -108,9 +116,10 @@ pub fn characterize(
                 .push((law, fit_uniaxial_recordings(law, &pieces)));
             continue;
         }
-        let answer = body
-            .clone()
-            .and_then(|body| sought(law, body, &pressed, &found.relaxation, settings.draws));
+        let answer = curves.clone().and_then(|curves| {
+            let curves = curves.of_law(law);
+            sought(curves, &pressed, &found.relaxation, settings.draws)
+        });
         found.laws.push((law, answer));
     }
     found.speak(&pressed);
@@ -118,18 +127,16 @@ pub fn characterize(
 }
 
 fn sought(
-    law: SoughtLaw,
-    body: Body,
+    mut curves: Curves,
     pressed: &[Pressed],
     relaxation: &Result<Relaxation, Error>,
     draws: Option<Draws>,
 ) -> Result<LawDescription, Error> {
-    if matches!(body, Body::Tube { .. }) && law != SoughtLaw::NeoHookean {
+    let law = curves.law();
+    if matches!(curves.body(), Body::Tube { .. }) && law != SoughtLaw::NeoHookean {
         return Err(Error::TubeLaw { law: law.name() });
     }
     let relaxation = relaxation.as_ref().map_err(Clone::clone)?;
-    let deepest = pressed.iter().map(Pressed::deepest).fold(0.0, f64::max);
-    let mut curves = Curves::new(body, law, deepest);
     let indentations: Vec<Indentation<'_>> = pressed.iter().map(Pressed::indentation).collect();
     let fit = law_fit(&mut curves, &indentations, &relaxation.series)?;
     let mut description = LawDescription::of(fit, &indentations);
@@ -148,6 +155,7 @@ struct Pressed {
     depth: Vec<f64>,
     force: Vec<f64>,
     largest: f64,
+    zeros: ZeroErrors,
 }
 
 impl Pressed {
@@ -160,6 +168,10 @@ impl Pressed {
             depth: of(&recording.depth)?.iter().map(|d| d.max(0.0)).collect(),
             force: of(&recording.force)?,
             largest: largest.iter().copied().fold(0.0, f64::max),
+            zeros: ZeroErrors {
+                depth: recording.handling.contact.depth_error_m.unwrap_or(0.0),
+                force: recording.handling.contact.offset_error_n.unwrap_or(0.0),
+            },
         })
     }
 
@@ -190,61 +202,64 @@ impl Pressed {
             time: &self.time,
             depth: &self.depth,
             force: &self.force,
+            zeros: self.zeros,
         }
     }
 }
 
 /// The courses of relaxation; the elastic force is taken for that of neo-Hookean tissue, where the body is
 /// known, and for a linear one else.
-fn courses(pressed: &[Pressed], body: Option<Body>) -> Vec<Course> {
-    let deepest = pressed.iter().map(Pressed::deepest).fold(0.0, f64::max);
-    let tabulated = body.filter(|body| matches!(body, Body::Block { .. }));
-    let curve = tabulated.and_then(|body| {
-        Curves::new(body, SoughtLaw::NeoHookean, deepest)
-            .of(f64::INFINITY, 0.0)
-            .ok()
-    });
+fn courses(pressed: &[Pressed], curves: Option<&mut Curves>) -> Vec<Course> {
+    let of_block = curves.filter(|curves| matches!(curves.body(), Body::Block { .. }));
+    let curve = of_block.and_then(|curves| curves.of(f64::INFINITY, 0.0).ok());
+    let shape = |depth: f64| match &curve {
+        Some(curve) => curve.force.force(depth),
+        None => depth,
+    };
     // One for all: a sensor's noise is as many newtons in each.
     let largest = pressed.iter().map(|each| each.largest).fold(0.0, f64::max);
     let felt = pressed.iter().filter(|each| each.is_felt());
     let each = felt.filter_map(|each| {
-        let course = (&each.time[..], &each.depth[..], &each.force[..]);
-        match &curve {
-            Some(curve) => Course::new(course, largest, |d| curve.force.force(d)),
-            None => Course::new(course, largest, |d| d),
-        }
+        let course = Course::new((&each.time, &each.depth, &each.force), largest, shape)?;
+        Some(course.with_zeros((&each.depth, each.zeros), largest, shape))
     });
     each.collect()
 }
 
 /// What was indented: the same in all recordings.
-fn body(recordings: &[CleanRecording]) -> Result<Body, Error> {
-    let header = &recordings.first().ok_or(Error::NothingFelt)?.header;
-    let radius = header.indenter_radius_m;
-    let radius = radius.ok_or(Error::Unknown {
-        key: "indenter_radius_m",
-    })?;
-    let shape = header.indenter_shape.unwrap_or(IndenterShape::Flat);
-    match (header.specimen, shape) {
-        (Some(Specimen::Tube), IndenterShape::Flat) => tube(header, radius),
-        (Some(Specimen::Tube), _) => Err(Error::TubeIndenter),
-        (None, IndenterShape::Flat) => Ok(Body::under_punch(radius)),
-        (None, IndenterShape::Sphere) => Ok(Body::under_sphere(radius)),
-        (None, IndenterShape::Cone) => Err(Error::Cone),
-    }
+fn body(recordings: &[CleanRecording], deepest: f64) -> Result<Body, Error> {
+    let first = recordings.first().ok_or(Error::NothingFelt)?;
+    Body::of(&first.header, deepest)
 }
 
-fn tube(header: &RecordingHeader, radius: f64) -> Result<Body, Error> {
-    let known = |value: Option<f64>, key| value.ok_or(Error::Unknown { key });
-    Ok(Body::Tube {
-        tube: Tube {
-            length: known(header.length_m, "length_m")?,
-            inner_radius: known(header.inner_radius_m, "inner_radius_m")?,
-            outer_radius: known(header.outer_radius_m, "outer_radius_m")?,
-        },
-        radius,
-        face: Grip::Stick,
-        pressure: header.pressure_pa.unwrap_or(0.0),
+/// What was assumed of the specimen's size.
+fn about_size(
+    recordings: &[CleanRecording],
+    body: &Result<Body, Error>,
+    deepest: f64,
+) -> Option<String> {
+    let first = recordings.first().filter(|_| deepest > 0.0)?;
+    assumption(&first.header, body.as_ref().ok()?, deepest)
+}
+
+/// By how much (6.1), which is of a half-space, errs on a specimen whose size is stated.
+fn half_space_factor(
+    curves: &mut Curves,
+    recordings: &[CleanRecording],
+    deepest: f64,
+) -> Option<String> {
+    let header = &recordings.first()?.header;
+    header.thickness_m?;
+    let curve = curves.of(f64::INFINITY, 0.0).ok()?;
+    let contact = Contact::of(header).ok()?;
+    // E = 6 C₁₀, and the curve is that of C₁₀ = 1 Pa.
+    let modulus = mean_modulus(contact, false, deepest, curve.force.force(deepest)).ok()?;
+    let factor = modulus / 6.0;
+    ((factor - 1.0).abs() > TELLING).then(|| {
+        format!(
+            "mean_elastic_modulus is that of a half-space (6.1): on this specimen, at this depth, {factor:.2} times \
+             that of neo-Hookean tissue; the laws take the specimen's size into account"
+        )
     })
 }
 
@@ -363,6 +378,9 @@ impl Characterization {
         }
     }
 }
+
+/// A part of a modulus that is worth a word [-].
+const TELLING: f64 = 0.02;
 
 /// How a tissue is found, for its file.
 const METHOD: &str = "relaxation from the normalised force with the recorded course of depth, then the law by inverse finite elements";

@@ -122,7 +122,7 @@ fn springs(indentations: &[Indentation<'_>]) -> Result<SpringsFit, Error> {
         .collect();
     let all = thinned
         .iter()
-        .map(|[time, depth, force]| Indentation { time, depth, force });
+        .map(|[time, depth, force]| Indentation::new(time, depth, force));
     let all: Vec<Indentation<'_>> = all.collect();
     fit_springs(&all)
 }

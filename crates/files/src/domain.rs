@@ -29,6 +29,12 @@ impl Domain {
         holds: |x| (0.0..=1.0).contains(&x),
     };
 
+    /// An angle between an axis and a side [degrees].
+    pub const HALF_ANGLE: Self = Self {
+        expected: "an angle above 0 and below 90 degrees",
+        holds: |angle| 0.0 < angle && angle < 90.0,
+    };
+
     /// Whether `value` may be used: finite and inside.
     pub fn contains(&self, value: f64) -> bool {
         value.is_finite() && (self.holds)(value)

@@ -17,7 +17,7 @@ use palpate_files::recording::{IndenterShape, RecordingHeader};
 use palpate_files::{Elasticity, Tissue};
 use palpate_mechanics::contact::{Bond, Tip};
 use palpate_mechanics::finite_elements::indentation::{
-    self, Block, Grip, IndentationProblem, Indenter, Side,
+    self, Base, Block, Grip, IndentationProblem, Indenter, Side,
 };
 use palpate_mechanics::{
     ForceHistory, IndentationCurve, Material, PronySeries, TipLaw, Vec3, contact,
@@ -223,6 +223,7 @@ fn solved(
         block: Block {
             radius: PIECE[0] * radius,
             height: PIECE[1] * radius,
+            base: Base::Bonded,
         },
         indenter: Indenter {
             shape: indentation::IndenterShape::Flat {

@@ -18,7 +18,7 @@ use std::time::Instant;
 use criterion::{Criterion, criterion_group, criterion_main};
 use palpate_mechanics::NeoHookean;
 use palpate_mechanics::finite_elements::indentation::{
-    Block, Grip, IndentationRun, IndentationSettings, Indenter, IndenterShape, Side,
+    Base, Block, Grip, IndentationRun, IndentationSettings, Indenter, IndenterShape, Side,
 };
 use palpate_mechanics::finite_elements::{FiniteElementWorkspace, LinearSystem, Supports};
 
@@ -34,6 +34,7 @@ fn punch(halvings: u32) -> IndentationRun {
         block: Block {
             radius: 0.05642,
             height: 0.1,
+            base: Base::Bonded,
         },
         indenter: Indenter {
             shape: IndenterShape::Flat {
@@ -44,6 +45,7 @@ fn punch(halvings: u32) -> IndentationRun {
         },
         law: Arc::new(NeoHookean::incompressible(C10).unwrap()),
         prony: Default::default(),
+        deepest: 6.0 * RADIUS,
         halvings,
     })
     .unwrap()

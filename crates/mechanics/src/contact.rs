@@ -9,6 +9,8 @@
 //! *Limits*: the side of a flat tip does not touch; a sphere that sticks has the normal force of one
 //! that slips (they differ by under 2 % at ν ≥ 0.3 [Spence 1975]).
 
+use std::f64::consts::FRAC_2_PI;
+
 use crate::LinearElastic;
 
 /// The end of a tool that touches.
@@ -53,6 +55,14 @@ pub fn half_space_tangential_stiffness(law: &LinearElastic, radius: f64) -> f64 
 pub fn hertz_force(law: &LinearElastic, radius: f64, depth: f64) -> f64 {
     let nu = law.poissons_ratio();
     4.0 / 3.0 * law.youngs_modulus() / (1.0 - nu * nu) * radius.sqrt() * depth.max(0.0).powf(1.5)
+}
+
+/// The force [N] of a cone without friction, `half_angle` [rad] between its axis and its side, at `depth` [m] in a
+/// half-space: (2/π) E/(1 − ν²) tan α d² [Sneddon 1965].
+pub fn sneddon_force(law: &LinearElastic, half_angle: f64, depth: f64) -> f64 {
+    let nu = law.poissons_ratio();
+    let modulus = law.youngs_modulus() / (1.0 - nu * nu);
+    FRAC_2_PI * modulus * half_angle.tan() * depth.max(0.0).powi(2)
 }
 
 /// ln(3 − 4ν)/(1 − 2ν), which is 0/0 at ν = ½ and 2 in the limit.

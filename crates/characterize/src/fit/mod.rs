@@ -47,7 +47,7 @@ pub use profile::{Profile, profile};
 pub use random::Random;
 pub use resample::{Draws, PooledMean, Spread, block_bootstrap, bootstrap_subjects, noise_study};
 pub use unbounded::{UnboundedWay, unbounded_iteration};
-pub use uncertainty::{Uncertainty, correlated_uncertainty, uncertainty};
+pub use uncertainty::{Uncertainty, correlated_uncertainty, uncertainty, with_systematic};
 
 /// What a fit came to.
 #[derive(Debug, Clone, PartialEq)]
@@ -106,6 +106,27 @@ impl Fit {
     pub fn value(&self, name: &str) -> Option<f64> {
         let found = self.parameters.iter().find(|p| p.name == name);
         found.map(|parameter| parameter.value)
+    }
+
+    /// The same without bounds: one that ended on a bound has an uncertainty like any other.
+    pub fn unbounded(&self) -> Self {
+        let free = |parameter: &Parameter| {
+            let free = parameter.clone().within(f64::NEG_INFINITY, f64::INFINITY);
+            if parameter.fixed {
+                parameter.clone()
+            } else {
+                free
+            }
+        };
+        Self {
+            parameters: self.parameters.iter().map(free).collect(),
+            ..self.clone()
+        }
+    }
+
+    /// How many parameters the fit could choose, those that ended on a bound among them.
+    pub fn free(&self) -> usize {
+        self.parameters.iter().filter(|p| !p.fixed).count()
     }
 
     /// The parameters that the fit chose: neither fixed nor on a bound.

@@ -1,3 +1,5 @@
+use nalgebra::DVector;
+
 use super::{Fit, Parameter, Random};
 use crate::Error;
 
@@ -10,7 +12,7 @@ pub struct Minimum {
     pub starts: usize,
 }
 
-/// Sums of squares and parameters closer than this, relatively, are of one minimum.
+/// Fits whose models are closer than this, relative to the models, are of one minimum.
 const SAME: f64 = 1e-3;
 
 /// Fits from where `parameters` start and from `starts` other places, and the minima to which they lead, the
@@ -56,15 +58,23 @@ pub fn multi_start(
     }
 }
 
+/// Whether two fits ended in one minimum: the way from one to the other hardly changes the model, to first order.
+/// Sums of squares say nothing of it: those of two minima may agree by chance, or both be zero.
 fn same(a: &Fit, b: &Fit) -> bool {
-    let near = |x: f64, y: f64, size: f64| (x - y).abs() <= SAME * size;
-    let [p, q] = [a, b].map(Fit::sum_of_squares);
-    // Sums below what rounding leaves of the residuals are all zero.
-    let pairs = a.parameters.iter().zip(&b.parameters);
-    near(p, q, p.max(q))
-        || pairs
-            .clone()
-            .all(|(x, y)| near(x.value, y.value, x.value.abs()))
+    // Columns of fixed parameters mean nothing.
+    let free = |fit: &Fit, by: &dyn Fn(usize) -> f64| {
+        let places = (0..fit.parameters.len()).filter(|&place| !fit.parameters[place].fixed);
+        let each = places.map(|place| fit.jacobian.column(place) * by(place));
+        each.fold(DVector::zeros(fit.residuals.len()), |sum, x| sum + x)
+            .norm()
+    };
+    let value = |fit: &Fit, place: usize| fit.parameters[place].value;
+    let way = |place: usize| value(b, place) - value(a, place);
+    let [changed, whole] = [
+        free(a, &way).max(free(b, &way)),
+        free(a, &|place| value(a, place)).max(free(b, &|place| value(b, place))),
+    ];
+    changed <= SAME * whole
 }
 
 fn hypercube(parameters: &[Parameter], starts: usize, random: &mut Random) -> Vec<Vec<Parameter>> {

@@ -1,6 +1,6 @@
 //! How well a fit knows its parameters: covariance, intervals, correlation.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVectorView};
 
 use super::Fit;
 use super::correlated::score_covariance;
@@ -58,6 +58,20 @@ pub fn correlated_uncertainty(fit: &Fit, recordings: &[usize]) -> Uncertainty {
         effective_samples: (samples * share.min(1.0)).max(1.0),
         ..independent
     }
+}
+
+/// The same with what changes the residuals and is no noise: each column of `systematic` is what one standard
+/// deviation of one influence does to them [unit of the residuals]. An influence moves the parameters by −J⁺
+/// times its column, to first order, and those ways add up as their squares [JCGM 100:2008].
+pub fn with_systematic(known: Uncertainty, fit: &Fit, systematic: &[Vec<f64>]) -> Uncertainty {
+    let whitened = Whitened::new(fit);
+    let mut all = known;
+    for column in systematic {
+        let change = DVectorView::from_slice(column, column.len());
+        let way = &whitened.back * whitened.directions.tr_mul(&change);
+        all.covariance += &way * way.transpose();
+    }
+    all
 }
 
 /// The derivatives of a fit in coordinates in which they are orthonormal.

@@ -1,10 +1,17 @@
-use palpate_mechanics::finite_elements::indentation::{Block, Grip, Indenter, IndenterShape, Side};
+use palpate_files::recording::{
+    IndenterShape as RecordedShape, RecordingHeader, Specimen, Support,
+};
+use palpate_mechanics::finite_elements::indentation::{
+    Base, Block, Grip, Indenter, IndenterShape, Side,
+};
 use palpate_mechanics::finite_elements::tube::Tube;
+
+use crate::Error;
 
 /// What was indented, and with what.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Body {
-    /// A piece of a solid organ: small against the organ, large against the indenter.
+    /// A piece of a solid organ, indented in its middle.
     Block {
         /// The piece.
         block: Block,
@@ -24,43 +31,147 @@ pub enum Body {
     },
 }
 
-/// Radius and height of a piece of tissue in radii of the indenter [-]: as the source's cube of 100 mm
-/// under its punch of 1 mm, with the same cross-section (figure 6-8).
+/// Radius and thickness of a specimen that states neither, in radii of the contact [-]: as the source's cube of
+/// 100 mm under its punch of 1 mm, with the same cross-section (figure 6-8).
 pub const BLOCK: [f64; 2] = [56.42, 100.0];
+/// Radius of a specimen that states its thickness alone, over that [-]: at its rim nothing is felt of the indenter.
+const WIDE: f64 = 5.0;
+/// Lengths that differ by less than this part are one [-]: rounding of a file's numbers.
+const ALIKE: f64 = 1e-9;
 
 impl Body {
-    /// A piece of a solid organ under a flat punch that tissue sticks to, on its face and its side.
+    /// A large piece of a solid organ under a flat punch that tissue sticks to, on its face and its side.
     pub fn under_punch(radius: f64) -> Self {
         let shape = IndenterShape::Flat {
             side: Side::Touches(Grip::Stick),
         };
-        Self::under(shape, radius, Grip::Stick)
+        let face = Grip::Stick;
+        Self::large(Indenter {
+            shape,
+            radius,
+            face,
+        })
     }
 
-    /// A piece of a solid organ under a sphere without friction.
+    /// A large piece of a solid organ under a sphere without friction.
     pub fn under_sphere(radius: f64) -> Self {
-        Self::under(IndenterShape::Sphere, radius, Grip::Slide)
+        Self::large(Indenter {
+            shape: IndenterShape::Sphere,
+            radius,
+            face: Grip::Slide,
+        })
     }
 
-    fn under(shape: IndenterShape, radius: f64, face: Grip) -> Self {
-        Self::Block {
-            block: Block {
-                radius: BLOCK[0] * radius,
-                height: BLOCK[1] * radius,
-            },
-            indenter: Indenter {
-                shape,
-                radius,
-                face,
-            },
+    /// A large piece of a solid organ under a cone without friction that goes in to `deepest` [m], with `half_angle`
+    /// [rad] between its axis and its side.
+    pub fn under_cone(half_angle: f64, deepest: f64) -> Self {
+        Self::large(Indenter {
+            shape: IndenterShape::Cone { half_angle },
+            radius: deepest * half_angle.tan(),
+            face: Grip::Slide,
+        })
+    }
+
+    fn large(indenter: Indenter) -> Self {
+        let block = Block {
+            radius: BLOCK[0] * indenter.radius,
+            height: BLOCK[1] * indenter.radius,
+            base: Base::Bonded,
+        };
+        Self::Block { block, indenter }
+    }
+
+    /// What the header of a recording says, indented to `deepest` [m]. What it does not say of a solid specimen is
+    /// as in a large one.
+    ///
+    /// # Errors
+    /// When the indenter or a tube is not known, or the specimen is thinner than it was pressed or narrower than the
+    /// indenter.
+    pub fn of(header: &RecordingHeader, deepest: f64) -> Result<Self, Error> {
+        let known = |value: Option<f64>, key| value.ok_or(Error::Unknown { key });
+        let radius = || known(header.indenter_radius_m, "indenter_radius_m");
+        let shape = header.indenter_shape.unwrap_or(RecordedShape::Flat);
+        let large = match (header.specimen, shape) {
+            (Some(Specimen::Tube), RecordedShape::Flat) => return tube(header, radius()?),
+            (Some(Specimen::Tube), _) => return Err(Error::TubeIndenter),
+            (None, RecordedShape::Flat) => Self::under_punch(radius()?),
+            (None, RecordedShape::Sphere) => Self::under_sphere(radius()?),
+            (None, RecordedShape::Cone) => {
+                let angle = known(header.indenter_half_angle_deg, "indenter_half_angle_deg")?;
+                Self::under_cone(angle.to_radians(), deepest)
+            }
+        };
+        large.cut_to(header, deepest)
+    }
+
+    /// The same with the specimen's sizes that the header states.
+    fn cut_to(self, header: &RecordingHeader, deepest: f64) -> Result<Self, Error> {
+        let Self::Block {
+            mut block,
+            indenter,
+        } = self
+        else {
+            return Ok(self);
+        };
+        if let Some(thickness) = header.thickness_m {
+            block.radius = block.radius.max(WIDE * thickness);
+            block.height = thickness;
+            if deepest >= thickness {
+                return Err(Error::DeeperThanThick {
+                    depth: deepest,
+                    thickness,
+                });
+            }
         }
+        // A square has the cross-section of a round specimen.
+        let of_width = |width: f64| width / std::f64::consts::PI.sqrt();
+        let width = header.specimen_width_m.map(of_width);
+        if let Some(radius) = header.specimen_radius_m.or(width) {
+            block.radius = radius;
+            let least = indenter.contact_radius(deepest);
+            if radius <= least {
+                return Err(Error::Narrow { radius, least });
+            }
+        }
+        if header.support == Some(Support::Lubricated) {
+            block.base = Base::Lubricated;
+        }
+        Ok(Self::Block { block, indenter })
     }
 
-    /// Radius of the indenter [m].
+    /// Radius of the indenter, or of what a cone touches at the depth that it was made for [m].
     pub fn radius(&self) -> f64 {
         match *self {
             Self::Block { indenter, .. } => indenter.radius,
             Self::Tube { radius, .. } => radius,
         }
     }
+
+    /// Whether it is the large piece under a punch whose forces are tabulated.
+    pub(super) fn is_tabulated(&self) -> bool {
+        let (Self::Block { block, indenter }, Self::Block { block: large, .. }) =
+            (self, Self::under_punch(self.radius()))
+        else {
+            return false;
+        };
+        let alike = |a: f64, b: f64| (a - b).abs() <= ALIKE * b;
+        matches!(indenter.shape, IndenterShape::Flat { .. })
+            && alike(block.radius, large.radius)
+            && alike(block.height, large.height)
+            && block.base == large.base
+    }
+}
+
+fn tube(header: &RecordingHeader, radius: f64) -> Result<Body, Error> {
+    let known = |value: Option<f64>, key| value.ok_or(Error::Unknown { key });
+    Ok(Body::Tube {
+        tube: Tube {
+            length: known(header.length_m, "length_m")?,
+            inner_radius: known(header.inner_radius_m, "inner_radius_m")?,
+            outer_radius: known(header.outer_radius_m, "outer_radius_m")?,
+        },
+        radius,
+        face: Grip::Stick,
+        pressure: header.pressure_pa.unwrap_or(0.0),
+    })
 }

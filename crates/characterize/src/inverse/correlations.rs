@@ -1,7 +1,7 @@
 use nalgebra::DMatrix;
 
 use super::description::{LawDescription, in_its_parameters};
-use crate::fit::correlated_uncertainty;
+use crate::fit::{correlated_uncertainty, with_systematic};
 
 /// How the errors of parameters go together.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,7 +34,10 @@ impl LawDescription {
     pub fn correlations(&self) -> Correlations {
         let lengths: Vec<usize> = self.found.forces.iter().map(Vec::len).collect();
         let own = in_its_parameters(&self.found);
-        let covariance = correlated_uncertainty(&own, &lengths).of_all(own.parameters.len());
+        let free = own.unbounded();
+        let noise = correlated_uncertainty(&free, &lengths);
+        let known = with_systematic(noise, &free, &self.found.systematic);
+        let covariance = known.of_all(own.parameters.len());
         let ratios: Vec<f64> = own.parameters[2..]
             .iter()
             .step_by(2)

@@ -1,8 +1,10 @@
+use std::sync::Arc;
+
 use palpate_mechanics::finite_elements::indentation::{
-    Block, IndentationRun, IndentationSettings, Indenter,
+    Block, IndentationRun, IndentationSettings, Indenter, IndenterShape,
 };
 use palpate_mechanics::finite_elements::tube::{Ends, Tube, TubeProblem, TubePunch, indent};
-use palpate_mechanics::{IndentationCurve, PronySeries};
+use palpate_mechanics::{IndentationCurve, Law, PronySeries};
 
 use super::body::Body;
 use super::family::Family;
@@ -30,6 +32,8 @@ pub struct Curves {
     law: SoughtLaw,
     /// Down to which they are known [m].
     deepest: f64,
+    /// How much too stiff the coarsest mesh is, once it was found.
+    mesh_error: Option<MeshError>,
     /// What was solved, for each modulus that matters [Pa].
     solved: Vec<(f64, Family)>,
     solves: usize,
@@ -38,6 +42,8 @@ pub struct Curves {
 /// Depths of a curve, in radii of the indenter [-], until they grow by the last step.
 const DEPTHS: [f64; 5] = [0.1, 0.25, 0.5, 0.75, 1.0];
 const STEP: f64 = 0.5;
+/// Depths of a curve under a sphere or a cone.
+const ROUND_DEPTHS: usize = 16;
 /// Depths of a curve of a tube.
 const TUBE_DEPTHS: usize = 6;
 /// What is asked of a tube's force [-]: as much as meshes give that take seconds.
@@ -50,8 +56,27 @@ impl Curves {
             body,
             law,
             deepest,
+            mesh_error: None,
             solved: Vec::new(),
             solves: 0,
+        }
+    }
+
+    /// What is indented.
+    pub fn body(&self) -> &Body {
+        &self.body
+    }
+
+    /// The same body with another law.
+    pub fn of_law(&self, law: SoughtLaw) -> Self {
+        if law == self.law {
+            return self.clone();
+        }
+        Self {
+            law,
+            solved: Vec::new(),
+            solves: 0,
+            ..self.clone()
         }
     }
 
@@ -129,6 +154,13 @@ impl Curves {
     }
 
     fn depths(&self) -> Vec<f64> {
+        if let Body::Block { indenter, .. } = self.body
+            && !matches!(indenter.shape, IndenterShape::Flat { .. })
+        {
+            // Even steps of what a sphere touches.
+            let part = |i: usize| (i as f64 / ROUND_DEPTHS as f64).powi(2);
+            return (1..=ROUND_DEPTHS).map(|i| self.deepest * part(i)).collect();
+        }
         let last = self.deepest / self.body.radius();
         let further = (3..).map(|i| STEP * f64::from(i)).take_while(|x| *x < last);
         let inner = DEPTHS.into_iter().take_while(|x| *x < last);
@@ -136,36 +168,74 @@ impl Curves {
         all.map(|x| x * self.body.radius()).collect()
     }
 
-    fn solve_block(
-        &mut self,
-        (block, indenter): (Block, Indenter),
-        shape: f64,
-    ) -> Result<UnitCurve, Error> {
-        self.solves += 1;
-        let mut run = IndentationRun::new(&IndentationSettings {
-            block,
-            indenter,
-            law: self.law.unit(shape)?,
-            prony: PronySeries::default(),
-            halvings: 0,
-        })?
-        .with_sensitivities();
-        let (mut depths, mut forces, mut slopes) = (Vec::new(), Vec::new(), Vec::new());
-        for depth in self.depths() {
-            let point = run.press(depth, depth, |_| ())?;
-            // The elements are too stiff at the punch's edge, about alike for every law.
-            let right = tables::correction(&self.body, depth);
-            depths.push(depth);
-            forces.push(right * point.force);
-            slopes.push(right * self.law.by_shape(&point.by_parameter));
-        }
+    fn solve_block(&mut self, piece: (Block, Indenter), shape: f64) -> Result<UnitCurve, Error> {
+        let mesh_error = self.mesh_error(piece)?;
+        let depths = self.depths();
+        let points = self.run(piece, self.law.unit(shape)?, 0)?;
+        let right = |place: usize| mesh_error.correction[place];
+        let forces: Vec<f64> = points
+            .iter()
+            .enumerate()
+            .map(|(i, point)| right(i) * point.0)
+            .collect();
+        let slopes = points.iter().enumerate();
+        let slopes: Vec<f64> = slopes
+            .map(|(i, point)| right(i) * self.law.by_shape(&point.1))
+            .collect();
         Ok(UnitCurve {
             shape,
             force: IndentationCurve::through(&depths, &forces),
             by_shape: IndentationCurve::through(&depths, &slopes),
-            discretisation: tables::discretisation(&self.body),
+            discretisation: mesh_error.left,
         })
     }
+
+    /// Forces at all depths on one mesh, each with its changes with the parameters of the law.
+    fn run(
+        &mut self,
+        (block, indenter): (Block, Indenter),
+        law: Arc<dyn Law>,
+        halvings: u32,
+    ) -> Result<Vec<(f64, Vec<f64>)>, Error> {
+        self.solves += 1;
+        let mut run = IndentationRun::new(&IndentationSettings {
+            block,
+            indenter,
+            law,
+            prony: PronySeries::default(),
+            deepest: self.deepest,
+            halvings,
+        })?
+        .with_sensitivities();
+        let press = |depth: f64| {
+            let point = run.press(depth, depth, |_| ())?;
+            Ok((point.force, point.by_parameter))
+        };
+        self.depths().into_iter().map(press).collect()
+    }
+
+    /// How much too stiff the coarsest mesh is: tabulated, or from neo-Hookean tissue on a mesh with every element
+    /// halved, for it is about alike for every law.
+    fn mesh_error(&mut self, piece: (Block, Indenter)) -> Result<MeshError, Error> {
+        if self.mesh_error.is_none() {
+            let depths = self.depths();
+            self.mesh_error = Some(if self.body.is_tabulated() {
+                MeshError {
+                    correction: depths
+                        .iter()
+                        .map(|d| tables::correction(&self.body, *d))
+                        .collect(),
+                    left: tables::discretisation(),
+                }
+            } else {
+                let law = SoughtLaw::NeoHookean.unit(0.0)?;
+                let coarse = self.run(piece, law.clone(), 0)?;
+                MeshError::of_two(&coarse, &self.run(piece, law, 1)?)
+            });
+        }
+        self.mesh_error.clone().ok_or(Error::NothingFelt)
+    }
+
     fn solve_tube(
         &mut self,
         tube: Tube,
@@ -185,6 +255,36 @@ impl Curves {
             by_shape: IndentationCurve::untouched(),
             discretisation: found.error,
         })
+    }
+}
+
+/// By what forces of the coarsest mesh are to be multiplied at each depth [-], and what is left wrong then.
+#[derive(Debug, Clone, PartialEq)]
+struct MeshError {
+    correction: Vec<f64>,
+    left: f64,
+}
+
+/// Power of the size of the elements with which errors fall, as in the reference.
+const ORDER: f64 = 1.2;
+/// The least that is left [-]: as of tabulated forces.
+const LEAST_LEFT: f64 = tables::discretisation();
+
+impl MeshError {
+    /// From forces on two meshes, the second with every element halved.
+    fn of_two(coarse: &[(f64, Vec<f64>)], fine: &[(f64, Vec<f64>)]) -> Self {
+        let each = coarse.iter().zip(fine).map(|((coarse, _), (fine, _))| {
+            let limit = fine + (fine - coarse) / (2_f64.powf(ORDER) - 1.0);
+            limit / coarse
+        });
+        let correction: Vec<f64> = each.collect();
+        let largest = correction
+            .iter()
+            .map(|right| (right - 1.0).abs())
+            .fold(0.0, f64::max);
+        // The order is not seen from two meshes, so half of what is corrected stays in doubt.
+        let left = (0.5 * largest).max(LEAST_LEFT);
+        Self { correction, left }
     }
 }
 

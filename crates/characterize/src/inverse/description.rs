@@ -6,17 +6,20 @@ use super::law::LawParameter;
 use super::law_fit::LawFit;
 use super::repeated::Repeated;
 use crate::Error;
-use crate::fit::{Fit, Parameter, Uncertainty, correlated_uncertainty, doubts, misfit, missed};
+use crate::fit::{
+    Fit, Parameter, Uncertainty, correlated_uncertainty, doubts, misfit, missed, with_systematic,
+};
 
 /// A law that was found, in its own parameters, and how well they are known.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LawDescription {
     /// How it was found.
     pub found: LawFit,
-    /// Its parameters in the order of its keys, each with its name and its error by noise.
+    /// Its parameters in the order of its keys, each with its name and its standard error: by noise, by the zeros
+    /// of the recordings, by the elements and by the product of force and G(t).
     pub parameters: Vec<(&'static str, Estimate)>,
-    /// What the parameters may be off by the elements and by the product of force and G(t) [unit of each]: not
-    /// in their errors.
+    /// What the parameters may be off by the elements and by the product of force and G(t) [unit of each]: a part
+    /// of their errors.
     pub discretisation: Vec<f64>,
     /// Correlation of the first two parameters [-]; none of one alone.
     pub correlation: Option<f64>,
@@ -37,7 +40,9 @@ impl LawDescription {
     pub fn of(found: LawFit, indentations: &[Indentation<'_>]) -> Self {
         let lengths: Vec<usize> = indentations.iter().map(|each| each.time.len()).collect();
         let own = in_its_parameters(&found);
-        let uncertainty = correlated_uncertainty(&own, &lengths);
+        let free = own.unbounded();
+        let noise = correlated_uncertainty(&free, &lengths);
+        let uncertainty = with_systematic(noise, &free, &found.systematic);
         let each = found.law.parameters(found.modulus(), found.shape());
         let known = |(place, parameter): (usize, &LawParameter)| {
             let estimate = Estimate {
@@ -55,6 +60,7 @@ impl LawDescription {
         let misfit = misfit(&own, largest);
         let mut said = doubts(&own, &among(&uncertainty, each.len()), None);
         said.extend(missed(found.law.name().word(), "force", misfit));
+        said.extend(found.not_alone());
         let off = found.model_error();
         Self {
             parameters: each.iter().enumerate().map(known).collect(),
@@ -74,7 +80,7 @@ impl LawDescription {
 pub(super) fn in_its_parameters(found: &LawFit) -> Fit {
     let own = found.law.parameters(found.modulus(), found.shape());
     let mut fit = found.fit.clone();
-    let shape_is_free = !found.fit.parameters[1].at_bound();
+    let at_bound = found.fit.parameters[1].at_bound();
     let named = |parameter: &LawParameter| {
         let lower = if parameter.name.ends_with("_pa") {
             0.0
@@ -87,16 +93,15 @@ pub(super) fn in_its_parameters(found: &LawFit) -> Fit {
     let (modulus, shape) = (found.fit.jacobian.column(0), found.fit.jacobian.column(1));
     let [first, second] = match own.get(1) {
         None => [modulus.into_owned(), shape.into_owned()],
-        Some(second) if shape_is_free => {
-            fit.parameters[1] = named(second);
+        Some(second) => {
+            // On its bound it is no estimate.
+            fit.parameters[1] = match at_bound {
+                true => named(second).within(second.value, second.value),
+                false => named(second),
+            };
             let back = Matrix2::from_rows(&[own[0].by.into(), second.by.into()]).try_inverse();
             let back = back.unwrap_or_else(Matrix2::zeros);
             [0, 1].map(|new| modulus * back[(0, new)] + shape * back[(1, new)])
-        }
-        // On its bound it is no estimate.
-        Some(second) => {
-            fit.parameters[1] = named(second).within(second.value, second.value);
-            [modulus / own[0].by[0], shape.into_owned()]
         }
     };
     fit.jacobian.set_column(0, &first);

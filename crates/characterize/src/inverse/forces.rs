@@ -1,5 +1,5 @@
 use nalgebra::DMatrix;
-use palpate_mechanics::{PronySeries, branch};
+use palpate_mechanics::{IndentationCurve, PronySeries, branch};
 
 use super::curves::UnitCurve;
 
@@ -12,6 +12,29 @@ pub struct Indentation<'a> {
     pub depth: &'a [f64],
     /// Forces on the tissue [N].
     pub force: &'a [f64],
+    /// How well its zeros are known.
+    pub zeros: ZeroErrors,
+}
+
+/// How well the zeros of a recording are known: its first contact, and what the sensor shows without load.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ZeroErrors {
+    /// Standard error of the depth of the first contact [m].
+    pub depth: f64,
+    /// Standard error of the force without load [N].
+    pub force: f64,
+}
+
+impl<'a> Indentation<'a> {
+    /// With zeros that are known exactly.
+    pub fn new(time: &'a [f64], depth: &'a [f64], force: &'a [f64]) -> Self {
+        Self {
+            time,
+            depth,
+            force,
+            zeros: ZeroErrors::default(),
+        }
+    }
 }
 
 /// Forces [N] of a unit curve times `modulus` [Pa] in an indentation, and their change with the modulus, the
@@ -57,4 +80,72 @@ pub(super) fn write(columns: &[Vec<f64>], start: usize, jacobian: &mut DMatrix<f
             jacobian[(start + row, place)] = *value;
         }
     }
+}
+
+/// Forces [N] of an elastic `curve` times `modulus` [Pa] over some depths.
+fn relaxed(
+    (time, depth): (&[f64], impl Iterator<Item = f64>),
+    curve: &IndentationCurve,
+    modulus: f64,
+    series: &PronySeries,
+) -> Vec<f64> {
+    let elastic: Vec<f64> = depth.map(|d| modulus * curve.force(d)).collect();
+    let mut force = elastic.clone();
+    for &(g, tau) in series.terms() {
+        let lost = branch(tau, time, &elastic).0;
+        force
+            .iter_mut()
+            .zip(lost)
+            .for_each(|(f, lost)| *f -= g * lost);
+    }
+    force
+}
+
+/// What changes the residuals of all `indentations` and is no noise [N]: each column by one standard deviation.
+/// The zeros of each recording, and, of all alike, the part `model` [-] of the force and the part `mesh` [-] of
+/// a force that grows faster with depth than it should. Both are bounds, taken for even distributions.
+pub(super) fn systematic(
+    indentations: &[Indentation<'_>],
+    curve: &UnitCurve,
+    (modulus, series): (f64, &PronySeries),
+    [model, mesh]: [f64; 2],
+) -> Vec<Vec<f64>> {
+    let samples: usize = indentations.iter().map(|each| each.time.len()).sum();
+    let deepest = indentations.iter().flat_map(|each| each.depth);
+    let deepest = deepest.copied().fold(f64::MIN_POSITIVE, f64::max);
+    let even = 1.0 / 3.0_f64.sqrt();
+    let (mut scale, mut tilt) = (Vec::with_capacity(samples), Vec::with_capacity(samples));
+    let mut columns = Vec::new();
+    for each in indentations {
+        let start = scale.len();
+        let of = |by: f64| {
+            let depth = each.depth.iter().map(|d| (d + by).max(0.0));
+            relaxed((each.time, depth), &curve.force, modulus, series)
+        };
+        let force = of(0.0);
+        let mut own = |change: Vec<f64>| {
+            let mut column = vec![0.0; samples];
+            column[start..start + change.len()].copy_from_slice(&change);
+            columns.push(column);
+        };
+        if each.zeros.depth > 0.0 {
+            let ends = of(each.zeros.depth).into_iter().zip(of(-each.zeros.depth));
+            own(ends
+                .map(|(deeper, higher)| 0.5 * (deeper - higher))
+                .collect());
+        }
+        if each.zeros.force > 0.0 {
+            own(vec![-each.zeros.force; force.len()]);
+        }
+        let share = each.depth.iter().map(|d| 2.0 * d / deepest - 1.0);
+        tilt.extend(
+            force
+                .iter()
+                .zip(share)
+                .map(|(f, share)| even * mesh * f * share),
+        );
+        scale.extend(force.iter().map(|f| even * model * f));
+    }
+    columns.extend([scale, tilt]);
+    columns
 }

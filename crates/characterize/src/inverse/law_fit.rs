@@ -5,7 +5,7 @@ use super::curves::{Curves, UnitCurve};
 use super::forces::{self, Indentation};
 use super::law::SoughtLaw;
 use crate::Error;
-use crate::fit::{Differences, Fit, Parameter, Settings, least_squares_with_jacobian};
+use crate::fit::{Differences, Fit, Parameter, Settings, least_squares_with_jacobian, multi_start};
 use crate::viscoelastic::QUASI_LINEAR;
 
 /// A law that was found.
@@ -22,6 +22,11 @@ pub struct LawFit {
     pub solves: usize,
     /// Part of the force that the elements may be off [-].
     pub discretisation: f64,
+    /// What changes the residuals and is no noise [N], each column by one standard deviation: the zeros of the
+    /// recordings, the elements, and that force is taken for an elastic one times G(t).
+    pub systematic: Vec<Vec<f64>>,
+    /// Sums of squares of the other minima that were found [N²], the least first, each with its shape [-].
+    pub others: Vec<[f64; 2]>,
 }
 
 impl LawFit {
@@ -40,8 +45,37 @@ impl LawFit {
     pub fn model_error(&self) -> f64 {
         let ratios = self.fit.parameters.iter().skip(2).step_by(2);
         let left = 1.0 / (1.0 + ratios.map(|p| p.value).sum::<f64>());
-        self.discretisation + QUASI_LINEAR * (1.0 - left)
+        model_error(self.discretisation, left)
     }
+}
+
+impl LawFit {
+    /// The sentence on other minima that are about as good; none where there is one alone.
+    pub(super) fn not_alone(&self) -> Option<String> {
+        let sum = self.fit.sum_of_squares();
+        let [other, shape] = *self.others.first()?;
+        let name = self.law.name().word();
+        (other < AS_GOOD * sum).then(|| {
+            format!(
+                "{name}: another minimum is about as good, with a sum of squares {:.2} times as large, at {}; \
+                 which of them is the tissue's cannot be told from these recordings",
+                other / sum,
+                self.law.parameters(self.modulus(), shape).last().map_or_else(
+                    String::new,
+                    |parameter| format!("{} = {:.4}", parameter.name, parameter.value)
+                )
+            )
+        })
+    }
+}
+
+/// Sums of squares of two minima of which the second is about as good as the first [-].
+const AS_GOOD: f64 = 1.5;
+
+/// Part of the force that the model may be off [-], when the elements may be off by the part `discretisation` and
+/// the part `left` of the force is left after relaxation.
+fn model_error(discretisation: f64, left: f64) -> f64 {
+    discretisation + QUASI_LINEAR * (1.0 - left)
 }
 
 /// Relative change of the parameters below which a fit has arrived [-]: less than the elements are off.
@@ -119,8 +153,7 @@ fn from(
     let mut iterations = Vec::new();
     curves.of(modulus, start[1].value)?;
     for _ in 0..SHAPES_SOLVED {
-        let of = |shape| curves.foreseen(modulus, shape);
-        let mut fit = fitted(&start, (indentations, series), of)?;
+        let (mut fit, others) = least_minimum(curves, modulus, &start, (indentations, series))?;
         // A later round begins where the one before it ended.
         let again = usize::from(!iterations.is_empty());
         iterations.extend(fit.iterations.drain(again..));
@@ -130,13 +163,39 @@ fn from(
         let is_like = |own: UnitCurve| own.force.is_like(&solved.force, FORESEEN);
         if solved.shape == shape && foreseen.is_some_and(is_like) {
             fit.iterations = iterations;
-            return Ok(found(fit, (curves, &solved), (indentations, series)));
+            return Ok(LawFit {
+                others,
+                ..found(fit, (curves, &solved), (indentations, series))
+            });
         }
         start = fit.parameters;
     }
     Err(Error::NoShape {
         tried: SHAPES_SOLVED,
     })
+}
+
+/// Other places from which a shape is sought, and the seed that draws them.
+const STARTS: usize = 6;
+const SEED: u64 = 1;
+
+/// The least minimum by curves that are known, from `start` and from shapes all over their range, and the sums of
+/// squares [N²] and shapes [-] of the others.
+fn least_minimum(
+    curves: &Curves,
+    modulus: f64,
+    start: &[Parameter],
+    felt: (&[Indentation<'_>], &PronySeries),
+) -> Result<(Fit, Vec<[f64; 2]>), Error> {
+    let of = |shape| curves.foreseen(modulus, shape);
+    let one = |start: &[Parameter]| fitted(start, felt, of);
+    if start[1].fixed {
+        return Ok((one(start)?, Vec::new()));
+    }
+    let mut minima = multi_start(start, STARTS, SEED, one)?.into_iter();
+    let least = minima.next().ok_or(Error::NothingFelt)?;
+    let others = minima.map(|other| [other.fit.sum_of_squares(), other.fit.parameters[1].value]);
+    Ok((least.fit, others.collect()))
 }
 
 /// A fit with the forces of the curve that was solved at its shape.
@@ -152,12 +211,20 @@ fn found(
     for parameter in fit.parameters.iter_mut().skip(2) {
         parameter.fixed = false;
     }
+    let (indentations, series) = felt;
+    let left = 1.0 - series.terms().iter().map(|(g, _)| g).sum::<f64>();
+    let off = [
+        model_error(curve.discretisation, left),
+        curve.discretisation,
+    ];
     LawFit {
         law: curves.law(),
+        systematic: forces::systematic(indentations, curve, (values[0], series), off),
         fit,
         forces,
         solves: curves.solves(),
         discretisation: curve.discretisation,
+        others: Vec::new(),
     }
 }
 

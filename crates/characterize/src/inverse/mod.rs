@@ -9,8 +9,9 @@
 //!
 //! *How we know*: `inverse::…`: forces of full viscoelastic runs, at other meshes and Poisson's ratios.
 //!
-//! *Limits*: one law and one relaxation for the whole body, homogeneous, isotropic and incompressible; the
-//! block's size is assumed; a tube has no other law than the neo-Hookean.
+//! *Limits*: one law and one relaxation for the whole body, homogeneous, isotropic and incompressible; a solid
+//! specimen is indented in its middle, and large where its recording does not state its size ([`assumption`]); a
+//! tube has no other law than the neo-Hookean.
 
 mod body;
 mod correlations;
@@ -22,13 +23,15 @@ mod law;
 mod law_fit;
 mod repeated;
 mod tables;
+mod thickness;
 
 pub use body::{BLOCK, Body};
 pub use correlations::Correlations;
 pub use curves::{Curves, UnitCurve};
 pub use description::LawDescription;
-pub use forces::Indentation;
+pub use forces::{Indentation, ZeroErrors};
 pub use law::{LawParameter, SoughtLaw};
 pub use law_fit::{LawFit, law_fit};
 pub use repeated::{NoiseEffect, Repeated, repeated};
 pub use tables::{PUNCH, SHAPES};
+pub use thickness::{CONE_ON_LAYER, PUNCH_ON_LAYER, THICKNESSES, assumption, sphere_on_layer};

@@ -38,14 +38,12 @@ pub const PUNCH: [(f64, f64, [f64; 5]); 19] = [
 const TOO_STIFF: f64 = 0.0024;
 /// What is left of that [-]: the scatter about the trend, and that of other laws.
 const LEFT: f64 = 0.004;
-/// What the coarsest mesh is off under other indenters [-], which have not been tabulated.
-const COARSE: f64 = 0.015;
 
 /// The tabulated curve of `law` in `body` down to `deepest` [m]; none where there is none.
 pub(super) fn curve(body: &Body, law: SoughtLaw, shape: f64, deepest: f64) -> Option<UnitCurve> {
     let radius = body.radius();
     let last = PUNCH[PUNCH.len() - 1].0;
-    if *body != Body::under_punch(radius) || deepest > last * radius {
+    if !body.is_tabulated() || deepest > last * radius {
         return None;
     }
     let depths: Vec<f64> = PUNCH.iter().map(|row| row.0 * radius).collect();
@@ -77,23 +75,14 @@ pub(super) fn curve(body: &Body, law: SoughtLaw, shape: f64, deepest: f64) -> Op
     })
 }
 
-/// By what a force on the coarsest mesh at `depth` [m] has to be multiplied [-].
+/// By what a force on the coarsest mesh at `depth` [m] under a punch on a large piece has to be multiplied [-].
 pub(super) fn correction(body: &Body, depth: f64) -> f64 {
-    let radius = body.radius();
-    if *body == Body::under_punch(radius) {
-        1.0 - TOO_STIFF * depth / radius
-    } else {
-        1.0
-    }
+    1.0 - TOO_STIFF * depth / body.radius()
 }
 
 /// What is left wrong on the coarsest mesh after that [-].
-pub(super) fn discretisation(body: &Body) -> f64 {
-    if *body == Body::under_punch(body.radius()) {
-        LEFT
-    } else {
-        COARSE
-    }
+pub(super) const fn discretisation() -> f64 {
+    LEFT
 }
 
 /// The polynomial in ln(1 + 2w) through `values` at the shapes w of [`SHAPES`], and its slope in w: force rises

@@ -2,8 +2,8 @@ use std::ops::Range;
 
 use super::{Characterization, Pressed, is_piece};
 use crate::CleanRecording;
-use crate::fit::{Fit, correlated_uncertainty};
-use crate::inverse::SoughtLaw;
+use crate::fit::{Fit, correlated_uncertainty, with_systematic};
+use crate::inverse::{LawFit, SoughtLaw};
 use crate::lumped::Pulled;
 
 /// A recording beside what was found from it, sample by sample.
@@ -63,12 +63,13 @@ impl Characterization {
             })
             .collect();
         for found in self.laws.iter().filter_map(|(_, law)| law.as_ref().ok()) {
-            let off = found.found.model_error();
+            let LawFit { law, fit, .. } = &found.found;
+            let forces = found.found.forces.concat();
             add(
                 &mut all,
-                (found.found.law, off),
-                &found.found.forces.concat(),
-                &found.found.fit,
+                (*law, &found.found.systematic),
+                &forces,
+                fit,
                 level,
             );
         }
@@ -83,7 +84,7 @@ impl Characterization {
             let measured = measured.flat_map(|own| own.stresses);
             let residuals = &found.fit.residuals;
             let values: Vec<f64> = measured.zip(residuals).map(|(own, r)| own + r).collect();
-            add(&mut all, (found.law, 0.0), &values, &found.fit, level);
+            add(&mut all, (found.law, &[]), &values, &found.fit, level);
         }
         self.relax(recordings, &mut all);
         all
@@ -114,17 +115,18 @@ impl Characterization {
     }
 }
 
-/// Hands each recording its part of the `values` of a law, whose model is `off` by so much [-].
+/// Hands each recording its part of the `values` of a law, with what is `systematic` in its errors.
 fn add(
     all: &mut [FittedRecording],
-    (law, off): (SoughtLaw, f64),
+    (law, systematic): (SoughtLaw, &[Vec<f64>]),
     values: &[f64],
     fit: &Fit,
     level: f64,
 ) {
     let lengths: Vec<usize> = all.iter().map(|own| own.samples.len()).collect();
-    let known = correlated_uncertainty(fit, &lengths);
-    let errors = known.errors_of_values(fit);
+    let free = fit.unbounded();
+    let known = with_systematic(correlated_uncertainty(&free, &lengths), &free, systematic);
+    let errors = known.errors_of_values(&free);
     let quantile = known.quantile(level);
     let mut first = 0;
     for (own, length) in all.iter_mut().zip(lengths) {
@@ -132,13 +134,10 @@ fn add(
             &values[first..first + length],
             &errors[first..first + length],
         );
-        let reach = values.iter().zip(errors);
         own.laws.push(FittedLaw {
             law,
             values: values.to_vec(),
-            reach: reach
-                .map(|(value, error)| quantile * error + off * value.abs())
-                .collect(),
+            reach: errors.iter().map(|error| quantile * error).collect(),
         });
         first += length;
     }

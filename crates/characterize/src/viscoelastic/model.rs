@@ -1,6 +1,8 @@
 use nalgebra::DMatrix;
 use palpate_mechanics::branch;
 
+use crate::inverse::ZeroErrors;
+
 /// One recording as its relaxation is seen.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Course {
@@ -12,6 +14,10 @@ pub struct Course {
     pub logarithm: Vec<f64>,
     /// Force relative to the largest of all courses [-].
     pub force: Vec<f64>,
+    /// Change of the shape by one standard error of the first contact [-].
+    pub by_contact: Vec<f64>,
+    /// Standard error of the force without load, relative to the largest force [-].
+    pub zero_error: f64,
 }
 
 /// Samples of a moving depth that a thinned course keeps, at most about.
@@ -42,7 +48,26 @@ impl Course {
                 .map(|&d| relative(d).max(f64::MIN_POSITIVE).ln())
                 .collect(),
             force: force.iter().map(|f| f / largest_force).collect(),
+            by_contact: vec![0.0; time.len()],
+            zero_error: 0.0,
         })
+    }
+
+    /// The same, of a recording whose zeros are known with these errors; the rest as for [`Self::new`].
+    pub fn with_zeros(
+        mut self,
+        (depth, zeros): (&[f64], ZeroErrors),
+        largest_force: f64,
+        shape: impl Fn(f64) -> f64,
+    ) -> Self {
+        let most = shape(depth.iter().copied().fold(0.0, f64::max));
+        let change = |d: &f64| {
+            let ends = [d + zeros.depth, d - zeros.depth].map(|d| shape(d.max(0.0)));
+            0.5 * (ends[0] - ends[1]) / most
+        };
+        self.by_contact = depth.iter().map(change).collect();
+        self.zero_error = zeros.force / largest_force;
+        self
     }
 
     /// What is seen of it when its hold is taken for that of a step: from the largest force on.
@@ -61,6 +86,9 @@ impl Course {
             shape: vec![1.0; self.time.len() - peak],
             logarithm: vec![0.0; self.time.len() - peak],
             force: self.force[peak..].to_vec(),
+            // A step has no ramp to be shifted on.
+            by_contact: vec![0.0; self.time.len() - peak],
+            zero_error: self.zero_error,
         }
     }
 
@@ -85,6 +113,8 @@ impl Course {
             shape: of(&self.shape),
             logarithm: of(&self.logarithm),
             force: of(&self.force),
+            by_contact: of(&self.by_contact),
+            zero_error: self.zero_error,
         }
     }
 
@@ -176,6 +206,36 @@ impl Model<'_> {
             start += rows;
         }
         residuals.iter().all(|r| r.is_finite()).then_some(())
+    }
+}
+
+impl Model<'_> {
+    /// What the zeros of the courses do to the residuals [-], each column by one standard error of one of them.
+    pub(super) fn systematic(&self, parameters: &[f64]) -> Vec<Vec<f64>> {
+        let series = terms(parameters, self.terms);
+        let (samples, mut start, mut columns) = (self.samples(), 0, Vec::new());
+        for (number, course) in self.courses.iter().enumerate() {
+            let size = parameters[1 + 2 * self.terms + number];
+            let rows = start..start + course.force.len();
+            let mut own = |change: Vec<f64>| {
+                let mut column = vec![0.0; samples];
+                column[rows.clone()].copy_from_slice(&change);
+                columns.push(column);
+            };
+            if course.by_contact.iter().any(|change| *change != 0.0) {
+                let (force, _) = relaxed(
+                    &course.time,
+                    (&course.by_contact, &course.by_contact),
+                    &series,
+                );
+                own(force.iter().map(|change| size * change).collect());
+            }
+            if course.zero_error > 0.0 {
+                own(vec![-course.zero_error; course.force.len()]);
+            }
+            start = rows.end;
+        }
+        columns
     }
 }
 

@@ -7,7 +7,7 @@ use super::product_form::ProductForm;
 use crate::Error;
 use crate::fit::{
     Fit, Parameter, Settings, Uncertainty, correlated_uncertainty, least_squares_with_jacobian,
-    simplest,
+    simplest, with_systematic,
 };
 
 /// What may be chosen about a relaxation.
@@ -69,10 +69,10 @@ const UNSURE: f64 = 0.5;
 const TOLERANCE: f64 = 1e-7;
 
 impl Relaxation {
-    /// What each gᵢ may be off because force is taken for an elastic one times G(t) [-]: not in its error.
+    /// What each gᵢ may be off because force is taken for an elastic one times G(t) [-]: a part of its error.
     pub fn quasi_linear_errors(&self) -> Vec<f64> {
         let total: f64 = self.terms.iter().map(|[g, _]| g.value).sum();
-        let share = |[g, _]: &[Estimate; 2]| QUASI_LINEAR * (1.0 - total) * g.value;
+        let share = |[g, _]: &[Estimate; 2]| quasi_linear(g.value, total);
         self.terms.iter().map(share).collect()
     }
 
@@ -102,6 +102,11 @@ impl Relaxation {
         }
         said
     }
+}
+
+/// See [`Relaxation::quasi_linear_errors`]; of one `g` of which there is `total` [-].
+fn quasi_linear(g: f64, total: f64) -> f64 {
+    QUASI_LINEAR * (1.0 - total) * g
 }
 
 /// The relaxation that is nearest to all `courses` at once.
@@ -262,8 +267,13 @@ fn described(
     tried: Vec<(usize, f64, f64)>,
 ) -> Result<Relaxation, Error> {
     let count = terms_of(&fit, courses);
-    let covariance = uncertainty.of_all(fit.parameters.len());
     let values: Vec<f64> = fit.parameters.iter().map(|p| p.value).collect();
+    let model = Model {
+        courses,
+        terms: count,
+    };
+    let uncertainty = with_systematic(uncertainty, &fit, &model.systematic(&values));
+    let covariance = uncertainty.of_all(fit.parameters.len());
     let pairs = terms(&values, count);
     let left = 1.0 - pairs.iter().map(|(g, _)| g).sum::<f64>();
     let error = |by: &[(usize, f64)]| {
@@ -287,6 +297,12 @@ fn described(
             known(g, error(&of_ratios)),
             known(tau, error(&[(2 + 2 * place, tau)])),
         ]);
+    }
+    // A bound, taken for an even distribution.
+    let total: f64 = pairs.iter().map(|(g, _)| g).sum();
+    for [g, _] in &mut described {
+        let off = quasi_linear(g.value, total) / 3.0_f64.sqrt();
+        g.standard_error = g.standard_error.map(|error| error.hypot(off));
     }
     described.sort_by(|a, b| a[1].value.total_cmp(&b[1].value));
     let of_terms: Vec<_> = described

@@ -85,6 +85,15 @@ fn what_cannot_be_characterized_is_said() {
         said(Error::CostlyToRepeat { law }).starts_with("fits of `mooney_rivlin` are not repeated")
     );
     assert!(said(Error::TubeIndenter).ends_with("use a flat one"));
-    assert!(said(Error::Cone).ends_with("or a flat or spherical indenter"));
+    let thin = Error::DeeperThanThick {
+        depth: 5e-3,
+        thickness: 4e-3,
+    };
+    assert!(said(thin).ends_with("check the units, or correct `thickness_m`"));
+    let narrow = Error::Narrow {
+        radius: 1e-3,
+        least: 2e-3,
+    };
+    assert!(said(narrow).ends_with("correct `specimen_radius_m` or `specimen_width_m`"));
     assert!(said(Error::ColumnUnknown).ends_with("or record the ramp faster"));
 }

@@ -19,11 +19,7 @@ fn an_exponential_law_needs_few_runs() {
     let curve = of_truth.of(gamma, alpha).unwrap().force;
     let force: Vec<f64> = curve.relaxed(&series, &time, &depth);
     let force: Vec<f64> = force.iter().map(|unit| gamma * unit).collect();
-    let indentation = Indentation {
-        time: &time,
-        depth: &depth,
-        force: &force,
-    };
+    let indentation = Indentation::new(&time, &depth, &force);
     let mut curves = Curves::new(body, SoughtLaw::Exponential, 1e-3);
     let found = law_fit(&mut curves, &[indentation], &series).unwrap();
     let off = [found.modulus() / gamma - 1.0, found.shape() / alpha - 1.0];
@@ -63,11 +59,7 @@ fn a_tube_under_pressure_gives_its_modulus() {
     };
     let (force, without) = (felt(of(300.0)), felt(of(0.0)));
     let added = force[39] / without[39] - 1.0;
-    let indentation = Indentation {
-        time: &time,
-        depth: &depth,
-        force: &force,
-    };
+    let indentation = Indentation::new(&time, &depth, &force);
     let found = law_fit(&mut of(300.0), &[indentation], &series).unwrap();
     let off = found.modulus() / modulus - 1.0;
     println!(

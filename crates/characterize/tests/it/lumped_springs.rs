@@ -133,7 +133,7 @@ fn recordings(law: &[f64; 8], noise: f64, conditions: &[(f64, f64)]) -> Vec<[Vec
 fn fitted(recordings: &[[Vec<f64>; 3]]) -> SpringsFit {
     let indentations: Vec<Indentation<'_>> = recordings
         .iter()
-        .map(|[time, depth, force]| Indentation { time, depth, force })
+        .map(|[time, depth, force]| Indentation::new(time, depth, force))
         .collect();
     fit_springs(&indentations).unwrap()
 }
@@ -181,10 +181,6 @@ fn one_hold_does_not_know_all() {
 fn without_force_there_are_no_springs() {
     assert_eq!(fit_springs(&[]).unwrap_err(), Error::NothingFelt);
     let (time, depth, force) = ([0.0, 1.0, 2.0], [0.0, 1e-3, 1e-3], [0.0; 3]);
-    let still = Indentation {
-        time: &time,
-        depth: &depth,
-        force: &force,
-    };
+    let still = Indentation::new(&time, &depth, &force);
     assert_eq!(fit_springs(&[still]).unwrap_err(), Error::NothingFelt);
 }

@@ -16,6 +16,7 @@ fn run(shape: f64, halvings: u32) -> IndentationRun {
         indenter,
         law,
         prony: PronySeries::default(),
+        deepest: 8.0,
         halvings,
     })
     .unwrap()

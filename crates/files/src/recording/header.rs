@@ -44,6 +44,16 @@ words! {
 }
 
 words! {
+    /// What a specimen rests on.
+    pub enum Support {
+        /// Glued to a rigid plate, or held to it by friction.
+        Bonded = "bonded",
+        /// On a rigid plate, along which it slides without friction.
+        Lubricated = "lubricated",
+    }
+}
+
+words! {
     /// The shape of the specimen, where it matters.
     pub enum Specimen {
         /// A hollow organ between fixed ends.
@@ -91,6 +101,16 @@ pub struct RecordingHeader {
     pub indenter_radius_m: Option<f64>,
     /// The angle between a cone's axis and its side [degrees].
     pub indenter_half_angle_deg: Option<f64>,
+    /// Thickness of the specimen under the indenter [m].
+    pub thickness_m: Option<f64>,
+    /// Radius of a round specimen, indented in its middle [m].
+    pub specimen_radius_m: Option<f64>,
+    /// Width of a square specimen, indented in its middle [m].
+    pub specimen_width_m: Option<f64>,
+    /// What the specimen rests on.
+    pub support: Option<Support>,
+    /// Density of the specimen [kg/m³].
+    pub density_kg_per_m3: Option<f64>,
     /// Cross-section of a piece that is pressed or pulled along one axis [m²].
     pub area_m2: Option<f64>,
     /// Height of a piece that is pressed or pulled along one axis [m].
@@ -135,7 +155,9 @@ impl RecordingHeader {
             organ subject weight_kg site repeat
             condition post_mortem_s breath_held stimulus ramp_s
             amplitude_m pre_indentation_m frequency_hz end_frequency_hz sample_rate_hz
-            indenter_shape indenter_radius_m indenter_half_angle_deg area_m2 height_m
+            indenter_shape indenter_radius_m indenter_half_angle_deg
+            thickness_m specimen_radius_m specimen_width_m support density_kg_per_m3
+            area_m2 height_m
             specimen inner_radius_m outer_radius_m length_m pressure_pa
             source ended
         );

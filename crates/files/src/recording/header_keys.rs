@@ -1,11 +1,6 @@
-use super::{Condition, IndenterShape, RecordingHeader, Specimen, StimulusKind};
+use super::{Condition, IndenterShape, RecordingHeader, Specimen, StimulusKind, Support};
 use crate::toml_document::{quoted, toml_number};
 use crate::{Domain, Error, Keys};
-
-const HALF_ANGLE: Domain = Domain {
-    expected: "an angle above 0 and below 90 degrees",
-    holds: |angle| 0.0 < angle && angle < 90.0,
-};
 
 impl RecordingHeader {
     /// The keys that mean something in a recording.
@@ -28,6 +23,11 @@ impl RecordingHeader {
         "indenter_shape",
         "indenter_radius_m",
         "indenter_half_angle_deg",
+        "thickness_m",
+        "specimen_radius_m",
+        "specimen_width_m",
+        "support",
+        "density_kg_per_m3",
         "area_m2",
         "height_m",
         "specimen",
@@ -60,7 +60,12 @@ impl RecordingHeader {
             sample_rate_hz: positive("sample_rate_hz")?,
             indenter_shape: keys.word("indenter_shape", IndenterShape::WORDS)?,
             indenter_radius_m: positive("indenter_radius_m")?,
-            indenter_half_angle_deg: keys.number("indenter_half_angle_deg", HALF_ANGLE)?,
+            indenter_half_angle_deg: keys.number("indenter_half_angle_deg", Domain::HALF_ANGLE)?,
+            thickness_m: positive("thickness_m")?,
+            specimen_radius_m: positive("specimen_radius_m")?,
+            specimen_width_m: positive("specimen_width_m")?,
+            support: keys.word("support", Support::WORDS)?,
+            density_kg_per_m3: positive("density_kg_per_m3")?,
             area_m2: positive("area_m2")?,
             height_m: positive("height_m")?,
             specimen: keys.word("specimen", Specimen::WORDS)?,
@@ -73,6 +78,7 @@ impl RecordingHeader {
             extra: Vec::new(),
         };
         header.check_wall(keys)?;
+        header.check_specimen(keys)?;
         Ok(header)
     }
 
@@ -84,6 +90,13 @@ impl RecordingHeader {
             )),
             _ => Ok(()),
         }
+    }
+
+    fn check_specimen(&self, keys: &Keys<'_>) -> Result<(), Error> {
+        if self.specimen_radius_m.is_some() && self.specimen_width_m.is_some() {
+            return Err(keys.given_twice("specimen_radius_m", "specimen_width_m"));
+        }
+        Ok(())
     }
 
     /// What it says, by key, each value as TOML writes it.
@@ -109,6 +122,11 @@ impl RecordingHeader {
             self.indenter_shape.map(|word| quoted(word.word())),
             number(self.indenter_radius_m),
             number(self.indenter_half_angle_deg),
+            number(self.thickness_m),
+            number(self.specimen_radius_m),
+            number(self.specimen_width_m),
+            self.support.map(|word| quoted(word.word())),
+            number(self.density_kg_per_m3),
             number(self.area_m2),
             number(self.height_m),
             self.specimen.map(|word| quoted(word.word())),

@@ -15,7 +15,7 @@ mod writer;
 use std::path::Path;
 
 pub use foreign::ForeignColumns;
-pub use header::{Condition, IndenterShape, RecordingHeader, Specimen, StimulusKind};
+pub use header::{Condition, IndenterShape, RecordingHeader, Specimen, StimulusKind, Support};
 use samples::Repeated;
 pub use samples::{ExtraColumn, Samples};
 pub use writer::RecordingWriter;

@@ -37,4 +37,4 @@ pub use newton::{Equilibrium, Failure, equilibrate};
 pub use path::{Path, PathPoint};
 pub use punched::{PunchedLines, PunchedMesh};
 pub use relaxation::{Memory, RelaxationStep};
-pub use supports::{OnSphere, Supports};
+pub use supports::{RigidSurface, Sliding, Supports};

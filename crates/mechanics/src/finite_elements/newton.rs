@@ -6,7 +6,7 @@
 
 use super::assembly::{self, PROXIMAL};
 use super::model::{FiniteElementModel, FiniteElementState, FiniteElementWorkspace};
-use super::supports::Supports;
+use super::supports::{Beside, Sliding, Supports};
 
 /// Why an equilibrium was not found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -161,22 +161,29 @@ pub(super) fn size_of_residual(
         terms: 0.0,
     };
     let diagonal = |i: usize| workspace.tangent[model.pattern.range(i).start];
+    let mut slides = vec![false; supports.held.len()];
+    for contact in &supports.sliding {
+        slides[2 * contact.node..2 * contact.node + 2].fill(true);
+    }
     for (i, held) in supports.held.iter().enumerate() {
         let part = workspace.residual[i].powi(2) / diagonal(i).abs();
         size.terms += diagonal(i).abs() * workspace.trial[i].powi(2);
         if held.is_some() {
             size.held += part;
-        } else {
+        } else if !slides[i] {
             size.free += part;
         }
     }
     for contact in &supports.sliding {
-        let along = sphere_normal(model, contact, &workspace.trial);
-        let node = 2 * contact.node;
-        let force = [workspace.residual[node], workspace.residual[node + 1]];
-        let normal = (force[0] * along[0] + force[1] * along[1]).powi(2) / diagonal(node).abs();
-        size.free -= normal;
-        size.held += normal;
+        let n = beside(model, contact, &workspace.trial).normal;
+        let rows = [2 * contact.node, 2 * contact.node + 1];
+        let [r, z] = rows.map(|row| workspace.residual[row]);
+        let [stiff_r, stiff_z] = rows.map(|row| diagonal(row).abs());
+        let (normal, across) = (n[0] * r + n[1] * z, n[0] * z - n[1] * r);
+        let along_normal = n[0] * n[0] * stiff_r + n[1] * n[1] * stiff_z;
+        let along_surface = n[1] * n[1] * stiff_r + n[0] * n[0] * stiff_z;
+        size.free += across * across / along_surface;
+        size.held += normal * normal / along_normal;
     }
     if let Some((cavity, pressure)) = supports.pressure {
         let mut load = vec![0.0; model.size()];
@@ -214,11 +221,10 @@ fn prescribe(
         }
     }
     for contact in &supports.sliding {
-        let (distance, _) = sphere_distance(model, contact, unknowns);
-        let correction = contact.radius - distance;
+        let correction = -beside(model, contact, unknowns).distance;
         workspace.step[2 * contact.node] = correction;
         gap = gap.max(correction.abs());
-        extent = extent.max(contact.radius);
+        extent = extent.max(contact.surface.size());
     }
     // Rounding is no gap.
     if gap <= 1e-13 * extent { 0.0 } else { gap }
@@ -232,9 +238,7 @@ fn solve(
 ) -> Result<(), Failure> {
     workspace.supported.copy_from_slice(&workspace.tangent);
     let mut right: Vec<f64> = workspace.residual.iter().map(|r| -r).collect();
-    for contact in &supports.sliding {
-        turn_node(model, contact, workspace, &mut right);
-    }
+    turn(model, supports, workspace, &mut right);
     let is_held = held_rows(model, supports);
     eliminate(model, &is_held, workspace, &mut right);
     factor(model, workspace)?;
@@ -242,15 +246,38 @@ fn solve(
     if right.iter().any(|x| !x.is_finite()) {
         return Err(Failure::Singular);
     }
-    for contact in &supports.sliding {
-        let n = sphere_normal(model, contact, &workspace.trial);
-        let node = 2 * contact.node;
-        let (normal, along) = (right[node], right[node + 1]);
-        right[node] = n[0] * normal - n[1] * along;
-        right[node + 1] = n[1] * normal + n[0] * along;
-    }
+    turn_back(model, supports, workspace, &mut right);
     workspace.step.copy_from_slice(&right);
     Ok(())
+}
+
+/// Turns the unknowns of all sliding nodes into one along the surface's normal and one across, in the
+/// supported matrix and in `right`.
+pub(super) fn turn(
+    model: &FiniteElementModel,
+    supports: &Supports<'_>,
+    workspace: &mut FiniteElementWorkspace,
+    right: &mut [f64],
+) {
+    for contact in &supports.sliding {
+        turn_node(model, contact, workspace, right);
+    }
+}
+
+/// Turns a solution of the turned system back.
+pub(super) fn turn_back(
+    model: &FiniteElementModel,
+    supports: &Supports<'_>,
+    workspace: &FiniteElementWorkspace,
+    solution: &mut [f64],
+) {
+    for contact in &supports.sliding {
+        let n = beside(model, contact, &workspace.trial).normal;
+        let node = 2 * contact.node;
+        let (normal, along) = (solution[node], solution[node + 1]);
+        solution[node] = n[0] * normal - n[1] * along;
+        solution[node + 1] = n[1] * normal + n[0] * along;
+    }
 }
 
 pub(super) fn factor(
@@ -346,36 +373,28 @@ fn advance(
     }
 }
 
-/// Distance of a node from the centre of its sphere [m] and the direction away from it.
-fn sphere_distance(
-    model: &FiniteElementModel,
-    contact: &super::supports::OnSphere,
-    unknowns: &[f64],
-) -> (f64, [f64; 2]) {
+/// Where a sliding node lies beside its surface.
+fn beside(model: &FiniteElementModel, contact: &Sliding, unknowns: &[f64]) -> Beside {
     let place = &model.mesh.nodes[contact.node];
-    let r = place.x + unknowns[2 * contact.node];
-    let z = place.y + unknowns[2 * contact.node + 1] - contact.center;
-    let distance = r.hypot(z);
-    (distance, [r / distance, z / distance])
+    contact.surface.beside(
+        place.x + unknowns[2 * contact.node],
+        place.y + unknowns[2 * contact.node + 1],
+    )
 }
 
-pub(super) fn sphere_normal(
-    model: &FiniteElementModel,
-    contact: &super::supports::OnSphere,
-    unknowns: &[f64],
-) -> [f64; 2] {
-    sphere_distance(model, contact, unknowns).1
-}
-
-/// Turns the two unknowns of a sliding node into one along the sphere's normal and one across, and adds
+/// Turns the two unknowns of a sliding node into one along the surface's normal and one across, and adds
 /// what the turning of the normal does to the contact's force.
 fn turn_node(
     model: &FiniteElementModel,
-    contact: &super::supports::OnSphere,
+    contact: &Sliding,
     workspace: &mut FiniteElementWorkspace,
     right: &mut [f64],
 ) {
-    let n = sphere_normal(model, contact, &workspace.trial);
+    let Beside {
+        normal: n,
+        curvature,
+        ..
+    } = beside(model, contact, &workspace.trial);
     let first = 2 * contact.node;
     let rotate = |a: f64, b: f64| (n[0] * a + n[1] * b, -n[1] * a + n[0] * b);
     (right[first], right[first + 1]) = rotate(right[first], right[first + 1]);
@@ -400,6 +419,7 @@ fn turn_node(
             (values[left], values[left + 1]) = rotate(values[left], values[left + 1]);
         }
     }
-    let (distance, _) = sphere_distance(model, contact, &workspace.trial);
-    values[end] -= -right[first] / distance;
+    let force = &workspace.residual[first..first + 2];
+    let normal_force = n[0] * force[0] + n[1] * force[1];
+    values[end] -= normal_force * curvature;
 }

@@ -3,6 +3,7 @@
 use super::assembly;
 use super::model::{FiniteElementModel, FiniteElementState, FiniteElementWorkspace};
 use super::newton::{self, Failure};
+use super::supports::Supports;
 
 /// ∂r/∂q: change of the residual [N per unit; m³ per unit] with a parameter at fixed unknowns.
 pub(super) fn residual_by_parameter(
@@ -15,23 +16,34 @@ pub(super) fn residual_by_parameter(
     residual
 }
 
-/// Solves K s = −`force` for the free rows of `slope`; its held rows are given. The tangent is that of
-/// the last assembly, and is factored anew.
+/// Solves K s = −`force` for the free rows of `slope`; its held rows are given, and a sliding node moves
+/// along its surface alone. The tangent is that of the last assembly, at `state`, and is factored anew.
 pub(super) fn solve(
     model: &FiniteElementModel,
-    is_held: &[bool],
-    force: &[f64],
+    supports: &Supports<'_>,
+    (state, force): (&FiniteElementState, &[f64]),
     slope: &mut [f64],
     workspace: &mut FiniteElementWorkspace,
 ) -> Result<(), Failure> {
     workspace.supported.copy_from_slice(&workspace.tangent);
-    for ((step, held), slope) in workspace.step.iter_mut().zip(is_held).zip(slope.iter()) {
-        *step = if *held { *slope } else { 0.0 };
+    workspace.trial.copy_from_slice(&state.unknowns);
+    workspace.step.fill(0.0);
+    for ((step, held), slope) in workspace.step.iter_mut().zip(&supports.held).zip(&*slope) {
+        if held.is_some() {
+            *step = *slope;
+        }
     }
     let mut right: Vec<f64> = force.iter().map(|f| -f).collect();
-    newton::eliminate(model, is_held, workspace, &mut right);
+    newton::turn(model, supports, workspace, &mut right);
+    newton::eliminate(
+        model,
+        &newton::held_rows(model, supports),
+        workspace,
+        &mut right,
+    );
     newton::factor(model, workspace)?;
     workspace.factors.solve(&mut right);
+    newton::turn_back(model, supports, workspace, &mut right);
     slope.copy_from_slice(&right);
     Ok(())
 }

@@ -11,8 +11,8 @@ use crate::Vec3;
 pub struct Supports<'a> {
     /// Displacement that each displacement unknown is to have [m]; `None` where it is free.
     pub held: Vec<Option<f64>>,
-    /// Nodes that slide on a rigid sphere, in an axisymmetric body; their unknowns must not be held.
-    pub sliding: Vec<OnSphere>,
+    /// Nodes that slide on a rigid surface, in an axisymmetric body; their unknowns must not be held.
+    pub sliding: Vec<Sliding>,
     /// A pressure on walls that follows them.
     pub pressure: Option<(&'a Cavity, f64)>,
     /// Forces at the unknowns that do not turn with the body [N], of
@@ -24,15 +24,75 @@ pub struct Supports<'a> {
     pub(super) syrup: Option<Syrup>,
 }
 
-/// A node of an axisymmetric body on a sphere around a point of the axis.
+/// A node of an axisymmetric body that slides on a rigid surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct OnSphere {
+pub struct Sliding {
     /// The node.
     pub node: usize,
-    /// Height of the sphere's centre [m].
-    pub center: f64,
-    /// Its radius [m].
-    pub radius: f64,
+    /// The surface.
+    pub surface: RigidSurface,
+}
+
+/// A rigid surface of revolution about the axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum RigidSurface {
+    /// A sphere around a point of the axis.
+    Sphere {
+        /// Height of its centre [m].
+        center: f64,
+        /// Its radius [m].
+        radius: f64,
+    },
+    /// A cone that opens upward from a point of the axis.
+    Cone {
+        /// Height of its apex [m].
+        apex: f64,
+        /// Angle between its axis and its side [rad].
+        half_angle: f64,
+    },
+}
+
+/// Where a point lies beside a rigid surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Beside {
+    /// Signed distance [m], positive outside.
+    pub distance: f64,
+    /// Its gradient [-]: radial and axial component.
+    pub normal: [f64; 2],
+    /// Curvature of the level line of the distance through the point, in the half plane [1/m].
+    pub curvature: f64,
+}
+
+impl RigidSurface {
+    /// A length that rounding of the distance is relative to [m].
+    pub(super) fn size(&self) -> f64 {
+        match *self {
+            Self::Sphere { radius, .. } => radius,
+            Self::Cone { apex, .. } => apex.abs(),
+        }
+    }
+
+    /// The point at radius `r` and height `z` [m].
+    pub(super) fn beside(&self, r: f64, z: f64) -> Beside {
+        match *self {
+            Self::Sphere { center, radius } => {
+                let (z, from_center) = (z - center, r.hypot(z - center));
+                Beside {
+                    distance: from_center - radius,
+                    normal: [r / from_center, z / from_center],
+                    curvature: 1.0 / from_center,
+                }
+            }
+            Self::Cone { apex, half_angle } => {
+                let (sine, cosine) = half_angle.sin_cos();
+                Beside {
+                    distance: r * cosine - (z - apex) * sine,
+                    normal: [cosine, -sine],
+                    curvature: 0.0,
+                }
+            }
+        }
+    }
 }
 
 impl<'a> Supports<'a> {

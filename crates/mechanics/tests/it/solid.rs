@@ -9,7 +9,7 @@ use palpate_files::scene::{Region, RegionPlane};
 use palpate_geometry::{Organ, Surface, TetrahedronMesh, read_mesh, read_tetrahedra};
 use palpate_mechanics::finite_elements::hemisphere::{HemisphereProblem, Patch};
 use palpate_mechanics::finite_elements::indentation::{
-    self, Block, Grip, IndentationProblem, Indenter, IndenterShape, Side,
+    self, Base, Block, Grip, IndentationProblem, Indenter, IndenterShape, Side,
 };
 use palpate_mechanics::finite_elements::solid::{
     Body, MovedPatch, SolidAnswer, SolidProblem, solve, solve_at,
@@ -79,6 +79,7 @@ fn cylinder(problem: &SolidProblem) -> f64 {
         block: Block {
             radius: 2.0 * HALF / PI.sqrt(),
             height: 2.0 * HALF,
+            base: Base::Bonded,
         },
         indenter: Indenter {
             shape: IndenterShape::Flat { side: Side::Absent },

@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use palpate_mechanics::contact::{Bond, Tip, half_space_stiffness};
 use palpate_mechanics::finite_elements::indentation::{
-    Block, Grip, IndentationRun, IndentationSettings, Indenter, IndenterShape, Side, Stiffening,
+    Base, Block, Grip, IndentationRun, IndentationSettings, Indenter, IndenterShape, Side,
+    Stiffening,
 };
 use palpate_mechanics::{Blatz, Law, LinearElastic, Material, NeoHookean, PronySeries, TipLaw};
 
@@ -48,6 +49,7 @@ fn run(tissue: &Material, tip: Tip, block: Block) -> IndentationRun {
         },
         law: tissue.law.clone(),
         prony: PronySeries::default(),
+        deepest: RADIUS,
         halvings: 0,
     })
     .unwrap()
@@ -84,11 +86,13 @@ fn farthest(tissue: &Material, tip: Tip, block: Block, depths: &[f64]) -> f64 {
 const LARGE: Block = Block {
     radius: 0.020,
     height: 0.040,
+    base: Base::Bonded,
 };
 /// A punch at three radii is half way through it.
 const SLAB: Block = Block {
     radius: 0.020,
     height: 0.006,
+    base: Base::Bonded,
 };
 
 /// Judge: full runs of the tissue that stiffens as measured organs do. Tolerance: in a large block the

@@ -1,6 +1,6 @@
 use palpate_files::{Domain, Error, Keys};
 use palpate_mechanics::finite_elements::indentation::{
-    Block, Grip, Indenter, IndenterShape, Relaxing, Side,
+    Base, Block, Grip, Indenter, IndenterShape, Relaxing, Side,
 };
 
 use super::{length_below, required_table, some_numbers};
@@ -37,12 +37,15 @@ pub(crate) struct Ramp {
     pub(crate) method: Relaxing,
 }
 
-/// Whether the indenter's end is flat.
+/// The indenter's end.
 #[derive(Debug, Clone, Copy)]
 enum End {
     Flat,
     Sphere,
+    Cone,
 }
+
+const BASES: &[(&str, Base)] = &[("bonded", Base::Bonded), ("lubricated", Base::Lubricated)];
 
 const FACES: &[(&str, Grip)] = &[("stick", Grip::Stick), ("slip", Grip::Slide)];
 
@@ -52,7 +55,11 @@ const SIDES: &[(&str, Side)] = &[
     ("none", Side::Absent),
 ];
 
-const SHAPES: &[(&str, End)] = &[("flat", End::Flat), ("sphere", End::Sphere)];
+const SHAPES: &[(&str, End)] = &[
+    ("flat", End::Flat),
+    ("sphere", End::Sphere),
+    ("cone", End::Cone),
+];
 
 const METHODS: &[(&str, Relaxing)] = &[
     ("convolution", Relaxing::Convolution),
@@ -66,12 +73,13 @@ impl Indentation {
         let block = required_table(
             keys,
             "block",
-            &["radius_m", "height_m"],
+            &["radius_m", "height_m", "base"],
             "block = { radius_m = 0.05, height_m = 0.1 }",
         )?;
         let block = Block {
             radius: block.required_number("radius_m", Domain::POSITIVE)?,
             height: block.required_number("height_m", Domain::POSITIVE)?,
+            base: block.word("base", BASES)?.unwrap_or_default(),
         };
         Ok(Self {
             indenter: indenter(keys, &block)?,
@@ -85,17 +93,27 @@ fn indenter(keys: &Keys<'_>, block: &Block) -> Result<Indenter, Error> {
     let keys = required_table(
         keys,
         "indenter",
-        &["shape", "radius_m", "face", "side"],
+        &["shape", "radius_m", "half_angle_deg", "face", "side"],
         "indenter = { radius_m = 0.001 }",
     )?;
     let side = keys.word("side", SIDES)?;
-    let shape = match keys.word("shape", SHAPES)? {
-        None | Some(End::Flat) => IndenterShape::Flat {
+    let end = keys.word("shape", SHAPES)?.unwrap_or(End::Flat);
+    if !matches!(end, End::Flat) {
+        keys.refuse("side", "no side, for only a flat punch has one")?;
+    }
+    if !matches!(end, End::Cone) {
+        keys.refuse("half_angle_deg", "no angle, for only a cone has one")?;
+    }
+    let shape = match end {
+        End::Flat => IndenterShape::Flat {
             side: side.unwrap_or(Side::Touches(Grip::Stick)),
         },
-        Some(End::Sphere) => {
-            keys.refuse("side", "no side, for a sphere has none")?;
-            IndenterShape::Sphere
+        End::Sphere => IndenterShape::Sphere,
+        End::Cone => {
+            let angle = keys.required_number("half_angle_deg", Domain::HALF_ANGLE)?;
+            IndenterShape::Cone {
+                half_angle: angle.to_radians(),
+            }
         }
     };
     Ok(Indenter {

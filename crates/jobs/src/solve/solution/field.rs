@@ -23,6 +23,7 @@ pub(crate) fn of_indentation(problem: &Problem, case: &Indentation) -> Result<Ve
         indenter: case.indenter,
         law: problem.material.law.clone(),
         prony: PronySeries::default(),
+        deepest: depth,
         halvings: 0,
     };
     let refused = |error| problem.refused(error);

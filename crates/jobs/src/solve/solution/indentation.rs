@@ -1,8 +1,8 @@
 use palpate_files::Recording;
-use palpate_files::recording::{self, RecordingHeader, Samples, StimulusKind};
-use palpate_mechanics::contact::{Bond, half_space_stiffness, hertz_force};
+use palpate_files::recording::{self, RecordingHeader, Samples, StimulusKind, Support};
+use palpate_mechanics::contact::{Bond, half_space_stiffness, hertz_force, sneddon_force};
 use palpate_mechanics::finite_elements::indentation::{
-    Grip, History, IndentationProblem, IndenterShape, Side, solve, solve_history,
+    Base, Grip, History, IndentationProblem, IndenterShape, Side, solve, solve_history,
 };
 
 use super::super::problem::{Indentation, Loading, Problem, Ramp};
@@ -153,6 +153,15 @@ fn recording(
     let shape = match case.indenter.shape {
         IndenterShape::Flat { .. } => recording::IndenterShape::Flat,
         IndenterShape::Sphere => recording::IndenterShape::Sphere,
+        IndenterShape::Cone { .. } => recording::IndenterShape::Cone,
+    };
+    let half_angle = match case.indenter.shape {
+        IndenterShape::Cone { half_angle } => Some(half_angle.to_degrees()),
+        IndenterShape::Flat { .. } | IndenterShape::Sphere => None,
+    };
+    let support = match case.block.base {
+        Base::Bonded => Support::Bonded,
+        Base::Lubricated => Support::Lubricated,
     };
     let header = RecordingHeader {
         stimulus: Some(StimulusKind::RampAndHold),
@@ -161,6 +170,10 @@ fn recording(
         sample_rate_hz: Some((ramp.samples - 1) as f64 / (ramp.ramp + ramp.hold)),
         indenter_shape: Some(shape),
         indenter_radius_m: Some(case.indenter.radius),
+        indenter_half_angle_deg: half_angle,
+        thickness_m: Some(case.block.height),
+        specimen_radius_m: Some(case.block.radius),
+        support: Some(support),
         source: Some(format!("palpate solve {VERSION}, finite elements")),
         ..RecordingHeader::default()
     };
@@ -190,21 +203,20 @@ fn half_space_force(problem: &Problem, case: &Indentation, depth: f64) -> f64 {
     match case.indenter.shape {
         IndenterShape::Sphere => hertz_force(law, radius, depth),
         IndenterShape::Flat { .. } => depth * half_space_stiffness(law, radius, bond),
+        IndenterShape::Cone { half_angle } => sneddon_force(law, half_angle, depth),
     }
 }
 
 /// Radius of the area that touches at the largest depth [m].
 fn contact_radius(case: &Indentation, depths: &[f64]) -> f64 {
     let deepest = depths.iter().copied().fold(0.0, f64::max);
-    match case.indenter.shape {
-        IndenterShape::Flat { .. } => case.indenter.radius,
-        IndenterShape::Sphere => (case.indenter.radius * deepest).sqrt(),
-    }
+    case.indenter.contact_radius(deepest)
 }
 
 fn title(case: &Indentation) -> String {
     let shape = match case.indenter.shape {
         IndenterShape::Sphere => "Sphere",
+        IndenterShape::Cone { .. } => "Cone",
         IndenterShape::Flat { .. } => "Flat punch",
     };
     format!(
@@ -220,6 +232,9 @@ fn heading(case: &Indentation) -> String {
     };
     let how = match case.indenter.shape {
         IndenterShape::Sphere => format!("that {face}"),
+        IndenterShape::Cone { half_angle } => {
+            format!("of {:.1}° that {face}", half_angle.to_degrees())
+        }
         IndenterShape::Flat { side } => {
             let side = match side {
                 Side::Touches(Grip::Stick) => "sticks",
@@ -229,8 +244,12 @@ fn heading(case: &Indentation) -> String {
             format!("(its face {face}, its side {side})")
         }
     };
+    let base = match case.block.base {
+        Base::Bonded => "",
+        Base::Lubricated => ", lubricated below",
+    };
     format!(
-        "{} {how} on a block of radius {} mm and height {} mm",
+        "{} {how} on a block of radius {} mm and height {} mm{base}",
         title(case),
         plots::short(1e3 * case.block.radius),
         plots::short(1e3 * case.block.height)

@@ -4,6 +4,7 @@
 //! or on the surface that it came through (slide). One that is pulled is let go, unless it belongs to a
 //! face that sticks.
 
+use super::super::supports::RigidSurface;
 use super::indenter::{Grip, Indenter, IndenterShape, Side};
 
 /// Contact of a node.
@@ -19,8 +20,8 @@ pub(super) enum Touch {
     OnFace,
     /// Slides on the side.
     OnSide,
-    /// Slides on the sphere.
-    OnSphere,
+    /// Slides on the sphere or the cone.
+    OnSurface,
 }
 
 /// A place as the indenter sees it: radius and height above its lowest point [m].
@@ -31,6 +32,21 @@ pub(super) struct Place {
 }
 
 impl Indenter {
+    /// The surface of a sphere or a cone whose lowest point is at `height` [m]; a flat face has none.
+    pub(super) fn surface(&self, height: f64) -> Option<RigidSurface> {
+        match self.shape {
+            IndenterShape::Flat { .. } => None,
+            IndenterShape::Sphere => Some(RigidSurface::Sphere {
+                center: height + self.radius,
+                radius: self.radius,
+            }),
+            IndenterShape::Cone { half_angle } => Some(RigidSurface::Cone {
+                apex: height,
+                half_angle,
+            }),
+        }
+    }
+
     /// Contact of a node of the untouched surface at `radius` [m].
     pub(super) fn first_touch(&self, radius: f64) -> Touch {
         // Rounding of the mesh's own lines.
@@ -44,10 +60,10 @@ impl Indenter {
 
     /// How deep a place is inside the indenter [m]; negative outside it.
     pub(super) fn inside(&self, place: Place) -> f64 {
-        match self.shape {
-            IndenterShape::Flat { .. } if place.above > 0.0 => self.radius - place.radius,
-            IndenterShape::Flat { .. } => f64::NEG_INFINITY,
-            IndenterShape::Sphere => self.radius - place.radius.hypot(place.above - self.radius),
+        match self.surface(0.0) {
+            Some(surface) => -surface.beside(place.radius, place.above).distance,
+            None if place.above > 0.0 => self.radius - place.radius,
+            None => f64::NEG_INFINITY,
         }
     }
 
@@ -59,7 +75,7 @@ impl Indenter {
                 side: Side::Touches(grip),
             } => grip,
             IndenterShape::Flat { side: Side::Absent } => return (Touch::Free, 0.0),
-            IndenterShape::Sphere => self.face,
+            IndenterShape::Sphere | IndenterShape::Cone { .. } => self.face,
         };
         match (grip, self.shape) {
             (Grip::Stick, _) => {
@@ -77,17 +93,24 @@ impl Indenter {
                 (touch, part)
             }
             (Grip::Slide, IndenterShape::Flat { .. }) => (Touch::OnSide, 1.0),
-            (Grip::Slide, IndenterShape::Sphere) => (Touch::OnSphere, 1.0),
+            (Grip::Slide, IndenterShape::Sphere | IndenterShape::Cone { .. }) => {
+                (Touch::OnSurface, 1.0)
+            }
         }
     }
 
     /// Whether a caught node is to be let go: it is at `place` and the tissue presses on the indenter
     /// with `force` [N], (r, z).
     pub(super) fn lets_go(&self, touch: Touch, place: Place, force: [f64; 2]) -> bool {
-        let push = match (touch, self.shape) {
-            (Touch::Stuck { .. } | Touch::OnSide, IndenterShape::Flat { .. }) => force[0],
-            (Touch::Stuck { .. } | Touch::OnSphere, IndenterShape::Sphere) => {
-                force[0] * place.radius + force[1] * (place.above - self.radius)
+        let push = match (touch, self.surface(0.0)) {
+            (Touch::Stuck { .. } | Touch::OnSide, None) => force[0],
+            // A sharp apex stays where it has gone in.
+            (_, Some(RigidSurface::Cone { .. })) if place.radius == 0.0 => return false,
+            // On the axis the radial force is that of symmetry.
+            (Touch::Stuck { .. } | Touch::OnSurface, Some(_)) if place.radius == 0.0 => -force[1],
+            (Touch::Stuck { .. } | Touch::OnSurface, Some(surface)) => {
+                let normal = surface.beside(place.radius, place.above).normal;
+                force[0] * normal[0] + force[1] * normal[1]
             }
             _ => return false,
         };

@@ -1,3 +1,5 @@
+use std::f64::consts::FRAC_2_PI;
+
 /// What a surface does that touches tissue.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Grip {
@@ -17,7 +19,7 @@ pub enum Side {
 }
 
 /// The part of an indenter that meets the tissue.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum IndenterShape {
     /// The flat end of a cylinder, with a sharp edge.
     Flat {
@@ -26,6 +28,11 @@ pub enum IndenterShape {
     },
     /// A sphere.
     Sphere,
+    /// A cone with a sharp apex.
+    Cone {
+        /// Angle between its axis and its side [rad], above 0 and below π/2.
+        half_angle: f64,
+    },
 }
 
 /// A rigid indenter.
@@ -33,8 +40,28 @@ pub enum IndenterShape {
 pub struct Indenter {
     /// Its shape.
     pub shape: IndenterShape,
-    /// Radius of the cylinder or the sphere [m].
+    /// Radius of the cylinder, of the sphere, or of the base of the cone, which tissue must not reach [m].
     pub radius: f64,
-    /// What its face, or the sphere, does.
+    /// What its face, the sphere or the cone does.
     pub face: Grip,
+}
+
+impl Indenter {
+    /// Radius of the touched circle at `depth` on a half-space, at small strain [m]: of a sphere [Hertz 1881], of a
+    /// cone [Sneddon 1965].
+    pub fn contact_radius(&self, depth: f64) -> f64 {
+        match self.shape {
+            IndenterShape::Flat { .. } => self.radius,
+            IndenterShape::Sphere => (self.radius * depth).sqrt().min(self.radius),
+            IndenterShape::Cone { half_angle } => FRAC_2_PI * depth * half_angle.tan(),
+        }
+    }
+
+    /// The length that meshes and steps of a run to the depth `deepest` [m] are made for [m].
+    pub(super) fn scale(&self, deepest: f64) -> f64 {
+        match deepest > 0.0 {
+            true => self.contact_radius(deepest),
+            false => self.radius,
+        }
+    }
 }

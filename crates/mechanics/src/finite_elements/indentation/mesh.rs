@@ -1,15 +1,27 @@
 use super::super::graded::Grading;
 use super::super::mesh::ElementMesh;
-use super::indenter::Indenter;
+use super::indenter::{Indenter, IndenterShape};
 use crate::Error;
 
-/// A cylinder of tissue: bottom held, outer side free.
+/// What a block rests on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Base {
+    /// Glued to a rigid plate.
+    #[default]
+    Bonded,
+    /// On a rigid plate, along which it slides without friction.
+    Lubricated,
+}
+
+/// A cylinder of tissue on a rigid plate, its outer side free.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Block {
     /// Radius [m].
     pub radius: f64,
     /// Height [m].
     pub height: f64,
+    /// What it rests on.
+    pub base: Base,
 }
 
 impl Block {
@@ -28,16 +40,34 @@ impl Block {
     }
 }
 
-/// A grid with its smallest elements, `edge` [m] long before halving, around the radius `contact` [m]
-/// of the top (z = 0).
-pub(super) fn graded_block(block: &Block, contact: f64, edge: f64, halvings: u32) -> ElementMesh {
+/// Smallest elements of the coarsest mesh, in radii of the contact [-].
+const EDGE: f64 = 0.1;
+
+/// A grid with its smallest elements around the contact of `indenter` at the depth `deepest` [m] on the top
+/// (z = 0).
+pub(super) fn graded_block(
+    block: &Block,
+    indenter: &Indenter,
+    deepest: f64,
+    halvings: u32,
+) -> ElementMesh {
+    let contact = indenter.scale(deepest);
+    let edge = EDGE * contact;
     let grading = Grading {
         first: edge,
         growth: 1.25,
         near: 3.0 * contact,
         far_growth: 1.7,
     };
-    let inward = grading.line(contact, halvings);
+    // The edge of a contact that grows passes over all elements within.
+    let within = match indenter.shape {
+        IndenterShape::Flat { .. } => grading,
+        IndenterShape::Sphere | IndenterShape::Cone { .. } => Grading {
+            growth: 1.0,
+            ..grading
+        },
+    };
+    let inward = within.line(contact, halvings);
     // Tissue outside the edge is drawn out along the side, so it needs the finest elements.
     let outward = Grading {
         first: 0.5 * edge,

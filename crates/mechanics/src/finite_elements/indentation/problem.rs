@@ -118,12 +118,18 @@ impl IndentationProblem {
         }
     }
 
-    fn run(&self, prony: &PronySeries, halvings: u32) -> Result<IndentationRun, Error> {
+    fn run(
+        &self,
+        prony: &PronySeries,
+        deepest: f64,
+        halvings: u32,
+    ) -> Result<IndentationRun, Error> {
         IndentationRun::new(&IndentationSettings {
             block: self.block,
             indenter: self.indenter,
             law: self.law.clone(),
             prony: prony.clone(),
+            deepest,
             halvings,
         })
     }
@@ -138,7 +144,7 @@ impl IndentationProblem {
         let mut order: Vec<usize> = (0..depths.len()).collect();
         order.sort_by(|&a, &b| depths[a].total_cmp(&depths[b]));
         let deepest = order.last().map_or(0.0, |&last| depths[last]);
-        let mut run = self.run(&PronySeries::default(), halvings)?;
+        let mut run = self.run(&PronySeries::default(), deepest, halvings)?;
         let mut curve = IndentationCurve::untouched();
         let mut points = vec![run.point(); depths.len()];
         for &place in &order {
@@ -195,7 +201,8 @@ impl IndentationProblem {
         progress: &mut dyn FnMut(Progress),
     ) -> Result<IndentationAnswer, Error> {
         let last = history.times.last().copied().unwrap_or(0.0);
-        let mut run = self.run(prony, halvings)?;
+        let deepest = history.depths.iter().copied().fold(0.0, f64::max);
+        let mut run = self.run(prony, deepest, halvings)?;
         let mut points = Vec::with_capacity(history.times.len());
         for (&time, &depth) in history.times.iter().zip(&history.depths) {
             points.push(run.press(time, depth, |point| {
@@ -203,7 +210,6 @@ impl IndentationProblem {
                 progress(Progress { part, halvings });
             })?);
         }
-        let deepest = history.depths.iter().copied().fold(0.0, f64::max);
         let elastic = self.elastic(&curve_depths(deepest), halvings, &mut |_| {})?;
         Ok(IndentationAnswer { points, ..elastic })
     }

@@ -6,10 +6,10 @@ use super::super::model::{
 use super::super::newton::{self, Effort, Failure, equilibrate_within};
 use super::super::relaxation::{Memory, RelaxationStep};
 use super::super::snap::equilibrate_downhill;
-use super::super::supports::{OnSphere, Supports};
+use super::super::supports::{Sliding, Supports};
 use super::contact::{Place, Touch};
 use super::indenter::{Indenter, IndenterShape, Side};
-use super::mesh::{Block, graded_block};
+use super::mesh::{Base, Block, graded_block};
 use super::slopes::{Entry, Slopes};
 use crate::material::law::Law;
 use crate::{Error, PronySeries, Strain};
@@ -25,6 +25,8 @@ pub struct IndentationSettings {
     pub law: Arc<dyn Law>,
     /// Its relaxation; no terms for an elastic tissue.
     pub prony: PronySeries,
+    /// Depth [m] that the mesh is made for: the contact of a sphere or a cone grows up to it.
+    pub deepest: f64,
     /// How often every element of the coarsest mesh is halved.
     pub halvings: u32,
 }
@@ -50,6 +52,8 @@ pub struct IndentationRun {
     pub(super) model: FiniteElementModel,
     pub(super) workspace: FiniteElementWorkspace,
     indenter: Indenter,
+    /// Radius of the contact at the depth that the mesh is made for [m]: the scale of steps.
+    scale: f64,
     prony: PronySeries,
     /// Nodes of the top, from the axis outward.
     pub(super) top: Vec<usize>,
@@ -74,9 +78,7 @@ pub(super) struct Standing {
     pub(super) slopes: Option<Slopes>,
 }
 
-/// Smallest elements of the coarsest mesh, in radii of the indenter [-].
-const EDGE: f64 = 0.1;
-/// Steps in radii of the indenter [-]: the first, the longest, the shortest before giving up.
+/// Steps in radii of the contact [-]: the first, the longest, the shortest before giving up.
 const FIRST_STEP: f64 = 0.1;
 const LONGEST_STEP: f64 = 0.5;
 const SHORTEST_STEP: f64 = 1e-4;
@@ -84,6 +86,9 @@ const SHORTEST_STEP: f64 = 1e-4;
 const DOWNHILL_STEP: f64 = 0.1;
 /// A node that is deeper than this inside after a step has come in too fast [-].
 const DEEPEST_CATCH: f64 = 0.1;
+/// How far a node that pulled on a sphere or a cone may be inside without being caught again at the same depth, in
+/// radii of the contact [-]: a hundredth of the smallest elements.
+const HAIR: f64 = 1e-3;
 /// Changes of contact at one depth.
 const MOST_CHANGES: usize = 12;
 /// Solutions of the linear system after which steps grow, and above which they shrink.
@@ -107,21 +112,21 @@ impl IndentationRun {
     pub fn new(settings: &IndentationSettings) -> Result<Self, Error> {
         let (block, indenter) = (&settings.block, settings.indenter);
         block.check(&indenter)?;
-        let mesh = graded_block(
-            block,
-            indenter.radius,
-            EDGE * indenter.radius,
-            settings.halvings,
-        );
+        let mesh = graded_block(block, &indenter, settings.deepest, settings.halvings);
         let top = mesh.nodes_where(|x| x.y == 0.0);
         let bottom = mesh.nodes_where(|x| x.y == -block.height);
         let axis = mesh.nodes_where(|x| x.x == 0.0);
         let model = FiniteElementModel::new(mesh, settings.law.clone(), Formulation::Mixed)?;
+        let glued = match block.base {
+            Base::Bonded => bottom.clone(),
+            Base::Lubricated => Vec::new(),
+        };
         let rest = Supports::none(&model)
-            .hold(&model, bottom.iter().copied(), 0, 0.0)
+            .hold(&model, glued, 0, 0.0)
             .hold(&model, bottom, 1, 0.0)
             .hold(&model, axis, 0, 0.0)
             .held;
+        let scale = indenter.scale(settings.deepest);
         let touch = top
             .iter()
             .map(|&node| indenter.first_touch(model.mesh().nodes[node].x))
@@ -130,6 +135,7 @@ impl IndentationRun {
         Ok(Self {
             workspace: FiniteElementWorkspace::new(&model)?,
             indenter,
+            scale,
             prony: settings.prony.clone(),
             top,
             rest,
@@ -142,7 +148,7 @@ impl IndentationRun {
                 slopes: None,
             },
             before: None,
-            step: FIRST_STEP * indenter.radius,
+            step: FIRST_STEP * scale,
             model,
         })
     }
@@ -175,7 +181,7 @@ impl IndentationRun {
         depth: f64,
         mut at_step: impl FnMut(&IndentationPoint),
     ) -> Result<IndentationPoint, Error> {
-        let radius = self.indenter.radius;
+        let scale = self.scale;
         let (start, from) = (self.now.time, self.now.depth);
         let length = (depth - from).abs();
         let mut gone = 0.0;
@@ -185,7 +191,7 @@ impl IndentationRun {
             let next = if step >= left { length } else { gone + step };
             let part = if length > 0.0 { next / length } else { 1.0 };
             let goal = |a: f64, b: f64| if part == 1.0 { b } else { a + part * (b - a) };
-            let way = if step > DOWNHILL_STEP * radius {
+            let way = if step > DOWNHILL_STEP * scale {
                 Way::Straight
             } else {
                 Way::Downhill
@@ -202,7 +208,7 @@ impl IndentationRun {
                         return Ok(point);
                     }
                 }
-                Err(_) if step > SHORTEST_STEP * radius => self.step = 0.5 * step,
+                Err(_) if step > SHORTEST_STEP * scale => self.step = 0.5 * step,
                 Err(failure) => {
                     return Err(Error::NoEquilibrium {
                         depth: self.now.depth,
@@ -225,7 +231,7 @@ impl IndentationRun {
     /// Sets the next step after one that took this `effort`.
     fn pace(&mut self, step: f64, effort: usize) {
         if effort <= LITTLE_EFFORT {
-            let longest = LONGEST_STEP * self.indenter.radius;
+            let longest = LONGEST_STEP * self.scale;
             self.step = (1.5 * step).max(self.step).min(longest);
         } else if effort > MUCH_EFFORT {
             self.step = 0.7 * step;
@@ -235,7 +241,7 @@ impl IndentationRun {
     /// Whether nothing depends on the way: small strain and a contact that does not grow.
     fn is_linear(&self) -> bool {
         self.model.law.volume().strain == Strain::Small
-            && self.indenter.shape != IndenterShape::Sphere
+            && matches!(self.indenter.shape, IndenterShape::Flat { .. })
     }
 
     /// What the indenter feels now.
@@ -288,6 +294,7 @@ impl IndentationRun {
         let mut slopes = self.now.slopes.clone();
         let mut state = self.foresee(depth, relaxing.as_ref());
         let mut effort = 0;
+        let mut released = vec![false; touch.len()];
         for _ in 0..MOST_CHANGES {
             let supports = self.supports(&touch, depth, relaxing.as_ref());
             let before = (way == Way::Downhill).then(|| state.clone());
@@ -309,7 +316,11 @@ impl IndentationRun {
             if let Some(slopes) = &mut slopes {
                 slopes.solve(&self.model, &supports, &state, &mut self.workspace)?;
             }
-            if !self.settle(depth, &state, &mut touch, slopes.as_mut())? {
+            if !self.settle(
+                (depth, &state),
+                (&mut touch, &mut released),
+                slopes.as_mut(),
+            )? {
                 let mut memory = self.now.memory.clone();
                 if let Some(memory) = &mut memory {
                     memory.advance(&self.model, &self.prony, duration, &state);
@@ -376,13 +387,13 @@ impl IndentationRun {
                 }
                 Touch::OnFace => held[1] = Some(-depth),
                 Touch::OnSide => held[0] = Some(self.indenter.radius - at),
-                // On the axis the sphere's normal is the axis.
-                Touch::OnSphere if at == 0.0 => held[1] = Some(-depth),
-                Touch::OnSphere => supports.sliding.push(OnSphere {
-                    node,
-                    center: self.indenter.radius - depth,
-                    radius: self.indenter.radius,
-                }),
+                // On the axis the lowest point is met.
+                Touch::OnSurface if at == 0.0 => held[1] = Some(-depth),
+                Touch::OnSurface => {
+                    let surface = self.indenter.surface(-depth);
+                    let sliding = |surface| Sliding { node, surface };
+                    supports.sliding.extend(surface.map(sliding));
+                }
             }
         }
         supports
@@ -392,21 +403,22 @@ impl IndentationRun {
     /// was one. Fails when tissue went in too deep to know where it entered.
     fn settle(
         &self,
-        depth: f64,
-        state: &FiniteElementState,
-        touch: &mut [Touch],
+        (depth, state): (f64, &FiniteElementState),
+        (touch, released): (&mut [Touch], &mut [bool]),
         mut slopes: Option<&mut Slopes>,
     ) -> Result<bool, Failure> {
         if self.is_linear() {
             return Ok(false);
         }
         let mut changed = false;
-        for (&node, touch) in self.top.iter().zip(touch.iter_mut()) {
+        let statuses = touch.iter_mut().zip(released);
+        for (&node, (touch, released)) in self.top.iter().zip(statuses) {
             let now = self.place(state, node, depth);
-            let inside = self.indenter.inside(now) / self.indenter.radius;
+            let inside = self.indenter.inside(now) / self.scale;
             if *touch == Touch::Free {
-                // Rounding is no contact.
-                if inside > 1e-9 && self.has_side() {
+                // Rounding is no contact, and a node that pulled does not come back for a hair.
+                let least = if *released { HAIR } else { 1e-9 };
+                if inside > least && self.has_side() {
                     if inside > DEEPEST_CATCH {
                         return Err(Failure::NotConverged);
                     }
@@ -428,6 +440,7 @@ impl IndentationRun {
                 let force = [0, 1].map(|i| self.workspace.residual[2 * node + i]);
                 if self.indenter.lets_go(*touch, now, force) {
                     *touch = Touch::Free;
+                    *released = self.indenter.surface(0.0).is_some();
                     changed = true;
                 }
             }

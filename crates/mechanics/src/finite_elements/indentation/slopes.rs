@@ -6,10 +6,10 @@
 //!
 //! *How we know*: `sensitivities::…` against runs with moved parameters.
 //!
-//! *Limits*: elastic tissue; flat punches.
+//! *Limits*: elastic tissue; the moment at which a sliding node is caught does not change with q.
 
 use super::super::model::{FiniteElementModel, FiniteElementState, FiniteElementWorkspace};
-use super::super::newton::{self, Failure};
+use super::super::newton::Failure;
 use super::super::sensitivity;
 use super::super::supports::Supports;
 
@@ -47,10 +47,9 @@ impl Slopes {
         state: &FiniteElementState,
         workspace: &mut FiniteElementWorkspace,
     ) -> Result<(), Failure> {
-        let is_held = newton::held_rows(model, supports);
         for (parameter, column) in self.columns.iter_mut().enumerate() {
             let force = sensitivity::residual_by_parameter(model, state, parameter);
-            sensitivity::solve(model, &is_held, &force, column, workspace)?;
+            sensitivity::solve(model, supports, (state, &force), column, workspace)?;
         }
         Ok(())
     }

@@ -3,7 +3,7 @@ mod neo_hookean;
 use std::sync::Arc;
 
 use super::indenter::{Grip, Indenter, IndenterShape, Side};
-use super::mesh::Block;
+use super::mesh::{Base, Block};
 use super::run::{IndentationRun, IndentationSettings};
 use crate::contact::{Bond, Tip, half_space_stiffness, hertz_force};
 use crate::{Error, IndentationCurve, Law, LinearElastic, Material, PronySeries, Strain};
@@ -118,6 +118,7 @@ fn press(law: &Arc<dyn Law>, (tip, bond): (Tip, Bond)) -> Result<IndentationRun,
         block: Block {
             radius: BLOCK,
             height: BLOCK,
+            base: Base::Bonded,
         },
         indenter: Indenter {
             shape,
@@ -126,6 +127,7 @@ fn press(law: &Arc<dyn Law>, (tip, bond): (Tip, Bond)) -> Result<IndentationRun,
         },
         law: law.clone(),
         prony: PronySeries::default(),
+        deepest: 1.0,
         halvings: 0,
     })
 }

@@ -55,7 +55,7 @@ fn refitted(organ: &str, felt: &[(History, Vec<f64>)], noisy: bool) -> Result<Sp
     }
     let all = columns
         .iter()
-        .map(|[time, depth, force]| Indentation { time, depth, force });
+        .map(|[time, depth, force]| Indentation::new(time, depth, force));
     Ok(fit_springs(&all.collect::<Vec<_>>())?)
 }
 

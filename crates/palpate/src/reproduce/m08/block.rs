@@ -4,7 +4,7 @@ use std::sync::{Arc, OnceLock};
 
 use palpate_mechanics::finite_elements::estimate::Progress;
 use palpate_mechanics::finite_elements::indentation::{
-    Block, Grip, IndentationProblem, Indenter, IndenterShape, Side, solve,
+    Base, Block, Grip, IndentationProblem, Indenter, IndenterShape, Side, solve,
 };
 use palpate_mechanics::{IndentationCurve, Law, MooneyRivlin, NeoHookean};
 
@@ -16,6 +16,7 @@ use crate::reproduce::published::{TABLE_6_4, TABLE_6_5, prony};
 const BLOCK: Block = Block {
     radius: 0.056_418_958_354_775_63,
     height: 0.1,
+    base: Base::Bonded,
 };
 
 /// The source's probe is 2 mm in diameter.

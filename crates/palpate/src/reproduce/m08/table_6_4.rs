@@ -46,11 +46,7 @@ fn run(rows: &mut Rows<'_>, law: SoughtLaw, table: Table) -> Result<(), Failure>
         let seen = Course::new(columns, largest, |depth| assumed.force(depth));
         let seen: Vec<Course> = seen.into_iter().collect();
         let relaxing = relaxation(&seen, RelaxationSettings { terms: Some(2) })?;
-        let indentation = Indentation {
-            time: &course.times,
-            depth: &course.depths,
-            force: &forces,
-        };
+        let indentation = Indentation::new(&course.times, &course.depths, &forces);
         let mut curves = Curves::new(Body::under_punch(RADIUS), law, depth);
         let found = law_fit(&mut curves, &[indentation], &relaxing.series)?;
         let found = LawDescription::of(found, &[indentation]);
