@@ -38,13 +38,24 @@ impl SoughtLaw {
         }
     }
 
+    /// The law of a `modulus` [Pa] and a `shape` [-].
+    ///
+    /// # Errors
+    /// When they are none of a law.
+    pub fn of(self, modulus: f64, shape: f64) -> Result<Arc<dyn Law>, palpate_mechanics::Error> {
+        Ok(match self {
+            Self::NeoHookean => Arc::new(NeoHookean::incompressible(modulus)?),
+            Self::MooneyRivlin => {
+                let [first, second] = [1.0 - shape, shape].map(|part| modulus * part);
+                Arc::new(MooneyRivlin::incompressible(first, second)?)
+            }
+            Self::Exponential => Arc::new(Blatz::incompressible(modulus, shape)?),
+        })
+    }
+
     /// The law of unit modulus with a `shape` [-].
     pub(super) fn unit(self, shape: f64) -> Result<Arc<dyn Law>, palpate_mechanics::Error> {
-        Ok(match self {
-            Self::NeoHookean => Arc::new(NeoHookean::incompressible(1.0)?),
-            Self::MooneyRivlin => Arc::new(MooneyRivlin::incompressible(1.0 - shape, shape)?),
-            Self::Exponential => Arc::new(Blatz::incompressible(1.0, shape)?),
-        })
+        self.of(1.0, shape)
     }
 
     /// Change of a force with the shape [N], from its changes with the parameters of the law.

@@ -14,6 +14,7 @@ mod family;
 mod filter;
 mod fit;
 mod fitted;
+mod independent;
 mod law_repeated;
 mod lumped;
 mod lumped_column;
