@@ -19,14 +19,19 @@
 
 use std::ops::Range;
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
-/// Blocks of one recording, at most.
-const BLOCKS: usize = 800;
+use super::Random;
+
+/// Blocks of one recording, at most: many see the quick part of the noise, few the slow one, and what one number of
+/// them makes too small by chance another does not.
+const BLOCKS: [usize; 3] = [800, 200, 50];
 /// The order of the process, at most; less for few blocks.
 const LARGEST_ORDER: usize = 60;
 /// Autocovariances below this part of the first are none [-]: less than rounding leaves of their sums.
 const FORGOTTEN: f64 = 1e-12;
+/// Orders of a process after which it has forgotten how it began.
+const MEMORIES: usize = 10;
 /// Rounds in which the autocovariances are raised, at most.
 const ROUNDS: usize = 6;
 
@@ -36,9 +41,18 @@ pub(super) fn score_covariance(
     residuals: &[f64],
     recordings: &[usize],
 ) -> DMatrix<f64> {
-    let blocks = Blocks::new(directions, residuals, recordings);
-    blocks.between() + &blocks.within
+    let each = BLOCKS.map(|most| Blocks::new(directions, residuals, recordings, most));
+    let too_small = each[1].too_small();
+    let covariances = each
+        .iter()
+        .map(|blocks| blocks.between().1 * too_small + &blocks.within);
+    let largest = covariances.max_by(|a, b| a.trace().total_cmp(&b.trace()));
+    largest.expect("there is a number of blocks")
 }
+
+/// Draws of the noise from which it is seen how much too small an estimate comes out, and their seed.
+const DRAWS: u64 = 40;
+const SEED: u64 = 1;
 
 /// Residuals and directions by blocks.
 struct Blocks {
@@ -55,12 +69,17 @@ struct Blocks {
 }
 
 impl Blocks {
-    fn new(directions: &DMatrix<f64>, residuals: &[f64], recordings: &[usize]) -> Self {
+    fn new(
+        directions: &DMatrix<f64>,
+        residuals: &[f64],
+        recordings: &[usize],
+        most: usize,
+    ) -> Self {
         let mut samples: Vec<Range<usize>> = Vec::new();
         let mut blocks: Vec<Range<usize>> = Vec::new();
         let mut start = 0;
         for &length in recordings {
-            let count = length.min(BLOCKS);
+            let count = length.min(most);
             blocks.push(samples.len()..samples.len() + count);
             let cut = |k: usize| start + k * length / count;
             samples.extend((0..count).map(|k| cut(k)..cut(k + 1)));
@@ -92,8 +111,45 @@ impl Blocks {
         found
     }
 
-    /// Sᵀ Γ S.
-    fn between(&self) -> DMatrix<f64> {
+    /// By how much too small the covariance comes out for noise of the kind that was found [-], from draws of it.
+    fn too_small(&self) -> f64 {
+        let (process, _) = self.between();
+        let mut random = Random::new(SEED);
+        let ratio = |_| {
+            let (scores, again) = self.drawn(&process, &mut random);
+            let (_, estimated) = again.between();
+            let each = (0..scores.len()).map(|k| scores[k].powi(2) / estimated[(k, k)]);
+            each.sum::<f64>() / scores.len() as f64
+        };
+        let mut ratios: Vec<f64> = (0..DRAWS).map(ratio).collect();
+        ratios.sort_by(f64::total_cmp);
+        // The mean without the few draws whose estimate is nearly none.
+        let kept = &ratios[..ratios.len() - ratios.len() / 10];
+        let mean = kept.iter().sum::<f64>() / kept.len() as f64;
+        if mean.is_finite() { mean.max(1.0) } else { 1.0 }
+    }
+
+    /// Noise of a process, seen as what a fit leaves of it, and its scores.
+    fn drawn(&self, process: &Process, random: &mut Random) -> (DVector<f64>, Self) {
+        let mut noise = Vec::with_capacity(self.means.len());
+        for range in &self.recordings {
+            noise.extend(process.drawn(range.len(), random));
+        }
+        let noise = DVector::from_vec(noise);
+        let scores = self.sums.tr_mul(&noise);
+        let left = noise - &self.averages * &scores;
+        let again = Self {
+            means: left.as_slice().to_vec(),
+            sums: self.sums.clone(),
+            averages: self.averages.clone(),
+            within: self.within.clone(),
+            recordings: self.recordings.clone(),
+        };
+        (scores, again)
+    }
+
+    /// The process of the noise, and Sᵀ Γ S.
+    fn between(&self) -> (Process, DMatrix<f64>) {
         let longest = self.recordings.iter().map(Range::len).max().unwrap_or(0);
         let order = (longest / 8).min(LARGEST_ORDER);
         let observed = self.autocovariances(order);
@@ -116,7 +172,8 @@ impl Blocks {
         }
         let shared = self.shared(&nearest.autocovariances(longest));
         let [count, order] = [self.means.len(), order].map(|n| n as f64);
-        self.sums.transpose() * shared * ((count + order) / (count - order))
+        let between = self.sums.transpose() * shared * ((count + order) / (count - order));
+        (nearest, between)
     }
 
     /// Mean products of residuals so many blocks apart.
@@ -196,6 +253,8 @@ fn add(factor: &f64, from: &[f64], into: &mut [f64]) {
 struct Process {
     first: Vec<f64>,
     coefficients: Vec<f64>,
+    /// Variance of what is new in each block.
+    innovation: f64,
 }
 
 impl Process {
@@ -226,7 +285,23 @@ impl Process {
         Self {
             first,
             coefficients,
+            innovation: left.max(0.0),
         }
+    }
+
+    /// So many blocks of its noise.
+    fn drawn(&self, count: usize, random: &mut Random) -> Vec<f64> {
+        let (new, start) = (
+            self.innovation.sqrt(),
+            MEMORIES * (self.coefficients.len() + 1),
+        );
+        let mut all: Vec<f64> = Vec::with_capacity(start + count);
+        for _ in 0..start + count {
+            let past = self.coefficients.iter().zip(all.iter().rev());
+            let follows: f64 = past.map(|(c, v)| c * v).sum();
+            all.push(follows + new * random.normal());
+        }
+        all.split_off(start)
     }
 
     /// So many autocovariances.

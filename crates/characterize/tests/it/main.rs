@@ -30,4 +30,5 @@ mod sinusoid;
 mod specimen;
 mod static_response;
 mod tables;
+mod thickness;
 mod viscoelastic;

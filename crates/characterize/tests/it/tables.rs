@@ -101,3 +101,20 @@ fn the_extrapolated_column_is_that_of_two_meshes() {
         assert!((limit - row.1).abs() < 1e-3 * limit, "{}: {limit}", row.0);
     }
 }
+
+#[test]
+#[ignore = "x"]
+fn print_columns() {
+    for shape in [0.9, 1.0] {
+        let mut run = run(shape, 0);
+        for row in PUNCH {
+            match run.press(row.0, row.0, |_| ()) {
+                Ok(point) => println!("{shape} {} {:.3}", row.0, point.force),
+                Err(error) => {
+                    println!("{shape} {} {error}", row.0);
+                    break;
+                }
+            }
+        }
+    }
+}
