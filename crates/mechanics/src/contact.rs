@@ -83,6 +83,14 @@ impl Tip {
             Self::Sphere { radius } => (radius * depth.max(0.0)).sqrt().min(radius),
         }
     }
+
+    /// Relative change of that radius with depth, (da/dd)/a [1/m].
+    pub fn contact_radius_growth(&self, depth: f64) -> f64 {
+        match *self {
+            Self::Sphere { radius } if depth > 0.0 && depth < radius => 0.5 / depth,
+            _ => 0.0,
+        }
+    }
 }
 
 #[cfg(test)]

@@ -12,6 +12,7 @@ mod error;
 pub mod finite_elements;
 pub mod finite_spheres;
 mod indentation_curve;
+mod limits;
 mod linear;
 mod material;
 pub mod surface_response;
@@ -19,6 +20,7 @@ mod tip_law;
 
 pub use error::Error;
 pub use indentation_curve::IndentationCurve;
+pub use limits::{Limit, Limits, Reached};
 pub use material::blatz::Blatz;
 pub use material::law::{Distortion, Law, Tangent};
 pub use material::linear_elastic::LinearElastic;

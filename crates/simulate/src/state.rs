@@ -2,13 +2,14 @@ use palpate_files::Pose;
 use palpate_files::scene::Nodule;
 use palpate_files::session::{Events, SessionRow};
 use palpate_geometry::{AabbTree, NodeId, TriangleId, TriangleMesh, Vec3};
-use palpate_mechanics::ForceHistory;
 use palpate_mechanics::enhance::SurfacePoint;
 use palpate_mechanics::finite_spheres::{FiniteSphereWorkspace, Response};
+use palpate_mechanics::{ForceHistory, Limits};
 
 use crate::cutting::{Blade, Cuts};
 use crate::global::{GlobalWorkspace, OrganField};
 use crate::grip::Grip;
+use crate::limits::LimitCounts;
 use crate::{Contact, Error, Simulation, nodule};
 
 /// All that a step changes.
@@ -71,6 +72,10 @@ pub struct ToolState {
     pub grip_force: f64,
     /// What the session records of the step.
     pub row: SessionRow,
+    /// Bounds of the models that acted in its steps so far.
+    pub limits: LimitCounts,
+    /// Those of the last answer.
+    pub(crate) limited: Limits,
     pub(crate) grip: Grip,
     pub(crate) response: Option<Response>,
     /// Force on the tool as it is displaced now, before relaxation [N].
@@ -160,6 +165,14 @@ impl SimulationState {
         Ok(self)
     }
 
+    /// Plain sentences on the bounds of the models that acted in the steps so far.
+    pub fn warnings(&self, simulation: &Simulation) -> Vec<String> {
+        let tools = simulation.tools().iter().zip(&self.tools);
+        tools
+            .flat_map(|(tool, state)| state.limits.warnings(&tool.name))
+            .collect()
+    }
+
     /// Closes the last cut again. Whether there was one; while a blade is in the tissue there is none.
     pub fn undo_cut(&mut self) -> bool {
         self.cuts_shown_at = f64::NEG_INFINITY;
@@ -196,6 +209,8 @@ impl ToolState {
                 events: Events::NONE,
                 grip_force_n: 0.0,
             },
+            limits: LimitCounts::default(),
+            limited: Limits::NONE,
             grip: Grip::default(),
             response: None,
             elastic: Vec3::zeros(),

@@ -5,7 +5,7 @@ use palpate_files::Pose;
 use palpate_files::session::{Event, Events};
 use palpate_geometry::Vec3;
 use palpate_mechanics::contact::Bond;
-use palpate_mechanics::{ForceHistory, NormalForce};
+use palpate_mechanics::{ForceHistory, Limits};
 
 use crate::contact;
 use crate::simulation::Simulation;
@@ -50,6 +50,9 @@ pub fn step(
     for (tool, state) in simulation.tools.iter().zip(&mut state.tools) {
         let failed = feel(simulation, tool, (time, elapsed), state);
         record(simulation, tool, (time, failed), state);
+        if state.touches() {
+            state.limits.count(&state.limited);
+        }
     }
     if let Some(model) = &simulation.cutting {
         for number in 0..simulation.tools.len() {
@@ -130,6 +133,7 @@ pub(crate) fn respond(
     }
     let tools = simulation.tools.iter().zip(&mut state.tools);
     for ((tool, state), workspace) in tools.zip(&mut workspace.models) {
+        state.limited = Limits::NONE;
         if grip::answer(simulation, tool, state, workspace) {
             continue;
         }
@@ -137,10 +141,7 @@ pub(crate) fn respond(
             .contact
             .filter(|contact| contact.place.radius > 0.0)
             .map(|contact| tool.model.respond(&contact.place, workspace));
-        state.stiffness = state
-            .response
-            .map_or(nalgebra::Matrix3::zeros(), |response| response.stiffness);
-        state.elastic = elastic_force(tool, state);
+        answer(tool, state);
     }
 }
 
@@ -207,23 +208,25 @@ fn feel(
     Events::NONE
 }
 
-/// The force of the local model's contact. The normal stiffness becomes that at this depth.
-fn elastic_force(tool: &Tool, state: &mut ToolState) -> Vec3 {
-    let (Some(contact), Some(pose)) = (&state.contact, &state.pose) else {
-        return Vec3::zeros();
+/// The elastic force of the local model's contact, and its stiffness at this depth.
+fn answer(tool: &Tool, state: &mut ToolState) {
+    state.elastic = Vec3::zeros();
+    state.stiffness = nalgebra::Matrix3::zeros();
+    let (Some(contact), Some(pose), Some(response)) =
+        (&state.contact, &state.pose, &state.response)
+    else {
+        return;
     };
-    let moved = contact.displacement(tool, &Vec3::from(pose.position_m));
-    let normal = match state.response {
-        Some(response) => tool.law.normal_force(-moved.z, response.stiffness[(2, 2)]),
-        None => NormalForce::NONE,
-    };
-    let tangential = match tool.bond {
-        Bond::Slip => Vec3::zeros(),
-        Bond::Stick => -(state.stiffness * Vec3::new(moved.x, moved.y, 0.0)),
-    };
-    let force = contact.place.frame * Vec3::new(tangential.x, tangential.y, normal.force);
-    state.stiffness[(2, 2)] = normal.stiffness;
-    force
+    let displacement = contact.displacement(tool, &Vec3::from(pose.position_m));
+    let answer = tool.law.force(&displacement, &response.stiffness);
+    state.elastic = contact.place.frame * answer.force;
+    state.stiffness = answer.stiffness;
+    state.limited = response.limits;
+    state.limited.merge(&answer.limits);
+    if !answer.force.iter().all(|component| component.is_finite()) {
+        // `feel` tells; the surface stays where it is.
+        state.response = None;
+    }
 }
 
 fn record(

@@ -144,6 +144,9 @@ impl Tally {
                 self.off_model
             ),
         );
+        for text in state.warnings(simulation) {
+            warn(true, text);
+        }
         warn(
             self.contacts == 0,
             "no tool touched the organ; compare the motion's coordinates with the organ's extent \

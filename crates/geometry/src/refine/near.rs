@@ -8,7 +8,7 @@ use crate::{Surface, TetrahedronError, TetrahedronMesh, Vec3};
 /// Angles below this are not made by moving a vertex [rad].
 const FLOOR: f64 = 0.26;
 
-/// Rounds of bisection: three halve all edges, and beyond 2⁻³⁰ there is no edge left.
+/// Rounds of bisection: three halve all edges, and no mesh of a body is finer than 2⁻³⁰ of it.
 const MOST_ROUNDS: usize = 100;
 
 /// Times that vertices inside are moved.
@@ -31,8 +31,8 @@ pub struct Focus {
 /// nearest to it.
 ///
 /// # Errors
-/// When radius or edge is not a positive length, or there come more tetrahedra than
-/// [`TetrahedronMesh::MOST_TETRAHEDRA`].
+/// When radius or edge is not a positive length, there come more tetrahedra than
+/// [`TetrahedronMesh::MOST_TETRAHEDRA`], or the edge is not reached.
 pub fn refine_near(
     mesh: &TetrahedronMesh,
     surface: Option<&Surface>,
@@ -64,8 +64,8 @@ pub fn refine_near(
 /// corners [m] or at their centroid; otherwise as [`refine_near`].
 ///
 /// # Errors
-/// When there come more tetrahedra than [`TetrahedronMesh::MOST_TETRAHEDRA`], as when the edge that
-/// is asked for somewhere is no positive length.
+/// When there come more tetrahedra than [`TetrahedronMesh::MOST_TETRAHEDRA`], or the edge is not
+/// reached, as when the edge that is asked for somewhere is no positive length.
 pub fn refine_to(
     mesh: &TetrahedronMesh,
     surface: Option<&Surface>,
@@ -87,8 +87,8 @@ fn refine(
     let shell = surface.map(Shell::new);
     let mut bisection = Bisection::new(mesh);
     let mut off_surface = Vec::new();
-    let mut relaxed = 0;
-    for _ in 0..MOST_ROUNDS {
+    let (mut rounds, mut relaxed) = (0, 0);
+    loop {
         let chosen: Vec<u32> = (0..bisection.len() as u32)
             .filter(|&t| too_long(bisection.longest_edge(t), &bisection.positions(t)))
             .collect();
@@ -101,6 +101,12 @@ fn refine(
             relaxed += 1;
             continue;
         }
+        if rounds == MOST_ROUNDS {
+            let edges = chosen.iter().map(|&t| bisection.longest_edge(t));
+            let edge_m = edges.fold(0.0, f64::max);
+            return Err(TetrahedronError::NotRefined { rounds, edge_m });
+        }
+        rounds += 1;
         bisection.bisect(&chosen);
         if bisection.len() > TetrahedronMesh::MOST_TETRAHEDRA {
             return Err(TetrahedronError::TooMany {

@@ -237,3 +237,24 @@ fn lengths_that_are_none_are_refused() {
     .unwrap_err();
     assert!(error.to_string().contains("at most 4000000"), "{error}");
 }
+
+/// A speck in a corner that no hundred rounds resolve: three halve an edge.
+#[test]
+fn an_edge_that_is_not_reached_is_refused() {
+    let block = TetrahedronMesh::block(Vec3::zeros(), Vec3::repeat(1.0), [1, 1, 1]).unwrap();
+    let focus = Focus {
+        center: Vec3::zeros(),
+        radius: 1e-14,
+        edge: 1e-13,
+    };
+    let error = refine_near(&block, None, &focus).unwrap_err();
+    assert!(
+        matches!(error, TetrahedronError::NotRefined { rounds: 100, edge_m } if edge_m > 1e-13),
+        "{error}"
+    );
+    let reached = Focus {
+        edge: 1e-6,
+        ..focus
+    };
+    assert!(refine_near(&block, None, &reached).is_ok());
+}

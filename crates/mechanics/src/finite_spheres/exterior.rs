@@ -11,12 +11,12 @@
 //! its own. Both are solved for when a model is made, for its particles, form and ν; a further constant
 //! makes the tangential stiffness of the half-space exact.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix2, Matrix3, Vector3};
 
 use super::layout::CapShape;
 use super::settings::Form;
-use crate::LinearElastic;
 use crate::contact::{Bond, half_space_stiffness, half_space_tangential_stiffness};
+use crate::{Limit, Limits, LinearElastic, Reached};
 
 /// A row of the table of constants.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -87,6 +87,8 @@ pub(super) struct Corrected {
     pub(super) stiffness: Matrix3<f64>,
     /// [-], tangential and normal.
     pub(super) share: [f64; 2],
+    /// Bounds that changed the stiffness.
+    pub(super) limits: Limits,
 }
 
 /// Constants at ν, linear between the rows; k_c as k_c (1 − ν), which varies least. Outside the rows
@@ -160,8 +162,15 @@ impl Calibration {
         let outside =
             (self.beyond_shells / held_at - self.organ_size / organ_radius) / self.half_space;
         let radius = self.radius_in_spacings * spacing;
+        let mut limits = Limits::NONE;
+        let mut normal = inside + outside;
         let least = 1.0 / (STIFFEST * self.half_space * radius);
-        let normal = (inside + outside).max(least);
+        if normal < least {
+            let asked = half_spaces(STIFFEST * least / normal);
+            let used = STIFFEST;
+            limits.add(Limit::LocalStiffness, Reached { asked, used });
+            normal = least;
+        }
         let mut stiffness = Matrix3::zeros();
         stiffness[(2, 2)] = 1.0 / normal;
         let mut share = [0.0, 1.0 - inside / normal];
@@ -173,19 +182,41 @@ impl Calibration {
             }
             (Bond::Stick, Form::Weak) => {
                 let along = shells.fixed_view::<2, 2>(0, 0) * unit;
-                let further = (self.beyond_shells_tangential / held_at
+                let mut beyond = (self.beyond_shells_tangential / held_at
                     - self.organ_size_tangential / organ_radius)
                     / self.half_space_tangential;
                 // As above: not stiffer than the expansion means.
-                let further = further.max(-0.5 / along.norm());
-                // (along⁻¹ + c 1)⁻¹ = (1 + c along)⁻¹ along, which needs no inverse of `along`.
-                let sum = nalgebra::Matrix2::identity() + further * along;
-                let both = sum.try_inverse().unwrap_or_else(nalgebra::Matrix2::zeros) * along;
+                let least = -0.5 / along.norm();
+                if beyond < least {
+                    let asked = half_spaces(1.0 / (1.0 - 0.5 * beyond / least));
+                    let used = 2.0;
+                    limits.add(Limit::LocalShearStiffness, Reached { asked, used });
+                    beyond = least;
+                }
+                // (along⁻¹ + c 1)⁻¹ = (1 + c along)⁻¹ along, which needs no inverse of `along`. The sum is
+                // not singular: `along` is positive definite, and c above −0.5/|along|.
+                let sum = Matrix2::identity() + beyond * along;
+                let inverse = sum.try_inverse();
+                let both = inverse.unwrap_or_else(|| Matrix2::repeat(f64::NAN)) * along;
                 stiffness.fixed_view_mut::<2, 2>(0, 0).copy_from(&both);
                 share[0] = 1.0 - both.trace() / along.trace();
             }
         }
-        Corrected { stiffness, share }
+        Corrected {
+            stiffness,
+            share,
+            limits,
+        }
+    }
+}
+
+/// A stiffness in half-spaces; one that is negative is that of a compliance below zero, which nothing
+/// bounds.
+fn half_spaces(stiffness: f64) -> f64 {
+    if stiffness > 0.0 {
+        stiffness
+    } else {
+        f64::INFINITY
     }
 }
 

@@ -60,24 +60,33 @@ impl CapShape {
         curvature: Vector3::new(0.0, 0.0, 0.0),
     };
 
-    /// From curvatures [1/h], made gentler where they would fold the outermost of `shells`.
+    /// From curvatures [1/h], made gentler where they would fold the outermost of `shells`; see
+    /// [`Self::gentler`].
     pub(super) fn new(curvature: Vector3<f64>, shells: usize) -> Self {
-        let (mean, half) = (
-            0.5 * (curvature[0] + curvature[2]),
-            0.5 * (curvature[0] - curvature[2]),
-        );
-        let spread = half.hypot(curvature[1]);
-        let steepest = (mean.abs() + spread) * 0.5 * shells as f64;
-        let factor = if steepest > STEEPEST {
-            STEEPEST / steepest
+        Self::steep(curvature * Self::gentler(&curvature, shells))
+    }
+
+    /// Largest principal curvature by magnitude, in the unit of `curvature`.
+    pub(super) fn largest_principal(curvature: &Vector3<f64>) -> f64 {
+        let mean = 0.5 * (curvature[0] + curvature[2]);
+        let half = 0.5 * (curvature[0] - curvature[2]);
+        mean.abs() + half.hypot(curvature[1])
+    }
+
+    /// The factor on curvatures [1/h] that keeps the outermost of `shells` from folding [-]; one where
+    /// it would not fold.
+    pub(super) fn gentler(curvature: &Vector3<f64>, shells: usize) -> f64 {
+        let steepest = Self::largest_principal(curvature);
+        let most = Self::steepest_curvature(shells);
+        if steepest > most {
+            most / steepest
         } else {
             1.0
-        };
-        Self::steep(curvature * factor)
+        }
     }
 
     /// From curvatures [1/h] as they are. Where the surface would turn by more than a quarter it stays
-    /// at a little less.
+    /// at a little less, which only the outer corners of the table of solutions reach.
     pub(super) fn steep(curvature: Vector3<f64>) -> Self {
         Self { curvature }
     }

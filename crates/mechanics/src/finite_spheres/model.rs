@@ -11,7 +11,7 @@ use super::solution::Solution;
 use super::source_placement::SourcePlacement;
 use super::workspace::FiniteSphereWorkspace;
 use crate::contact::{Bond, half_space_stiffness, half_space_tangential_stiffness};
-use crate::{Error, LinearElastic, Vec3};
+use crate::{Error, Limit, Limits, LinearElastic, Reached, Vec3};
 
 /// The local model of one tissue under one kind of tip. Built once, never changed.
 #[derive(Debug, Clone)]
@@ -52,6 +52,8 @@ pub struct Response {
     /// Stiffness [N/m] in the contact's frame; the tangents do not couple to the normal, and a tip that
     /// slips has none of them.
     pub stiffness: Matrix3<f64>,
+    /// Bounds that changed it.
+    pub limits: Limits,
     share: [f64; 2],
     spacing: f64,
 }
@@ -162,13 +164,13 @@ impl FiniteSphereModel {
             Some(table) => {
                 let cap = CapShape::new(contact.curvature * spacing, self.layout.shells);
                 table.interpolate(cap, &mut workspace.solution);
+                self.correct(contact, &workspace.solution)
             }
             None => {
                 self.assemble(contact, workspace);
-                workspace.solve();
+                self.solve(contact, workspace)
             }
         }
-        self.correct(contact, &workspace.solution)
     }
 
     /// The first half of [`Self::respond`], for measuring its parts: places the particles and makes the
@@ -188,7 +190,11 @@ impl FiniteSphereModel {
     /// The second half of [`Self::respond`]: solves what [`Self::assemble`] made.
     pub fn solve(&self, contact: &LocalContact, workspace: &mut FiniteSphereWorkspace) -> Response {
         workspace.solve();
-        self.correct(contact, &workspace.solution)
+        let mut response = self.correct(contact, &workspace.solution);
+        if let Some(reached) = workspace.not_converged() {
+            response.limits.add(Limit::Residual, reached);
+        }
+        response
     }
 
     /// Displacement [m] of the organ's point `x` [m] when the tip of a contact has moved by `tip` [m];
@@ -227,11 +233,25 @@ impl FiniteSphereModel {
         let [tangential, normal] = self.ratio_of_half_spaces;
         let mut stiffness = corrected.stiffness * tangential;
         stiffness[(2, 2)] = corrected.stiffness[(2, 2)] * normal;
+        let mut limits = corrected.limits;
+        if let Some(reached) = self.flattened(contact) {
+            limits.add(Limit::Curvature, reached);
+        }
         Response {
             stiffness,
+            limits,
             share: corrected.share,
             spacing,
         }
+    }
+
+    /// How far the surface of a contact was made gentler, if it was.
+    fn flattened(&self, contact: &LocalContact) -> Option<Reached> {
+        let in_spacings = contact.curvature * self.spacing(contact.radius);
+        let factor = CapShape::gentler(&in_spacings, self.layout.shells);
+        let asked = CapShape::largest_principal(&contact.curvature);
+        let used = asked * factor;
+        (factor < 1.0).then_some(Reached { asked, used })
     }
 
     fn fill_reuse_table(&mut self, workspace: &mut FiniteSphereWorkspace) {

@@ -115,6 +115,8 @@ fn gauss_points(count: usize) -> Vec<(f64, f64)> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::layout::Layout;
+    use super::super::solution::Solution;
     use super::*;
     use nalgebra::Vector3;
 
@@ -154,5 +156,34 @@ mod tests {
         assert_eq!(count(Integration::Coarse), 128);
         assert_eq!(count(Integration::Standard), 414);
         assert_eq!(count(Integration::Fine), 960);
+    }
+
+    /// Where no sphere reached a point its functions would be none, and the body would have a hole there.
+    #[test]
+    fn every_template_reaches_its_points() {
+        let numbers = (12..40).chain((40..=600).step_by(112));
+        for particles in numbers {
+            let layout = Layout::new(particles).unwrap();
+            let steepest = CapShape::steepest_curvature(layout.shells);
+            let points = Quadrature::new(Integration::Fine, layout.shells);
+            for (first, second) in [
+                (0.0, 0.0),
+                (1.0, 1.0),
+                (-1.0, -1.0),
+                (1.0, -1.0),
+                (1.0, 0.0),
+            ] {
+                let cap = CapShape::steep(Vector3::new(first, 0.0, second) * steepest);
+                // The smallest support of either form; larger spheres reach what smaller ones do.
+                let mut solution = Solution::new(particles);
+                solution.place(&layout, cap, 1.6);
+                let spheres = &solution.particles;
+                let reached = |x: &Vec3| {
+                    let mut spheres = spheres.positions.iter().zip(&spheres.inverse_squares);
+                    spheres.any(|(at, inverse)| (at - x).norm_squared() * inverse < 1.0)
+                };
+                assert!(points.points(cap).all(|point| reached(&point.position)));
+            }
+        }
     }
 }

@@ -3,6 +3,10 @@
 //! The basis is {1, x, y, z} taken about the point of evaluation, which keeps A well conditioned:
 //! φ_J = w_J p_J·γ with A γ = e₀, A = Σ w_J p_J p_Jᵀ, p_J = (1, x_J − x). Differentiating A γ = p gives
 //! A γ,k = p,k − A,k γ and A γ,kl = −A,k γ,l − A,l γ,k − A,kl γ.
+//!
+//! A point that no sphere reaches has no functions. Where one is integrated or collocated the functions
+//! are NaN, and so is the force, which a simulation reports; `quadrature::every_template_reaches_its_points`
+//! shows that no layout of particles has such a point.
 
 use nalgebra::{Matrix3, Matrix4, Vector4};
 
@@ -74,16 +78,22 @@ impl ShapeFunctions {
         }
     }
 
-    /// Values at `x` [h]; gradients are left empty.
+    /// Values at `x` [h]; gradients are left empty. None at all where no sphere reaches `x`.
     pub(super) fn evaluate_values(&mut self, particles: &Particles, x: &Vec3) {
         let inverse = self.gather(particles, x);
         let gamma = inverse.column(0).into_owned();
         self.fill_values(&gamma);
     }
 
-    /// Values and gradients at `x` [h].
+    /// Values and gradients at `x` [h]; not numbers where no sphere reaches `x`.
     pub(super) fn evaluate(&mut self, particles: &Particles, x: &Vec3) {
         let inverse = self.gather(particles, x);
+        if self.particles.is_empty() {
+            self.particles.push(0);
+            self.offsets.push(Vec3::repeat(f64::NAN));
+            self.weights.push(f64::NAN);
+            self.slopes.push(Vec3::repeat(f64::NAN));
+        }
         let gamma = inverse.column(0).into_owned();
         self.fill_values(&gamma);
         let first = self.first_derivatives(&inverse, &gamma);
@@ -99,7 +109,7 @@ impl ShapeFunctions {
     /// Values, gradients and Hessians at `x` [h].
     pub(super) fn evaluate_second(&mut self, particles: &Particles, x: &Vec3) {
         self.evaluate(particles, x);
-        let inverse = self.moment().try_inverse().unwrap_or_else(Matrix4::zeros);
+        let inverse = self.inverse_moment();
         let gamma = inverse.column(0).into_owned();
         let first = self.first_derivatives(&inverse, &gamma);
         let weight_hessians =
@@ -166,7 +176,13 @@ impl ShapeFunctions {
             // ∂w/∂x; the offset points from x to the particle.
             *slope = offset * (-slope_by_distance(s) * inverse_square);
         }
-        self.moment().try_inverse().unwrap_or_else(Matrix4::zeros)
+        self.inverse_moment()
+    }
+
+    /// A⁻¹; not a number where A is singular, as where no sphere reaches.
+    fn inverse_moment(&self) -> Matrix4<f64> {
+        let inverse = self.moment().try_inverse();
+        inverse.unwrap_or_else(|| Matrix4::repeat(f64::NAN))
     }
 
     fn moment(&self) -> Matrix4<f64> {

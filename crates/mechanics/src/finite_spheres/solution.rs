@@ -2,6 +2,8 @@ use nalgebra::Matrix3;
 
 use super::layout::{CapShape, Layout, Role};
 use super::shape_function::Particles;
+use crate::linear::dense::DenseSystem;
+use crate::linear::gmres::Gmres;
 
 /// What either form finds for a contact, in units of h and of Young's modulus: the coefficients for
 /// the three unit displacements of the tool, and the force that each takes.
@@ -30,6 +32,33 @@ impl Solution {
             .positions
             .extend(layout.places.iter().map(|place| cap.position(place)));
         self.particles.size_spheres(support);
+    }
+}
+
+/// How the equations of a contact were solved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Solved {
+    /// By factors.
+    Directly,
+    /// By so many iterations.
+    Iteratively(usize),
+    /// By factors, since the iterations ended with this relative residual [-].
+    InPlaceOfIterations(f64),
+}
+
+impl Solved {
+    /// Replaces the right sides of `system` by the solutions: to a tolerance [-] if iterations reach it,
+    /// else by factors.
+    pub(super) fn of(system: &mut DenseSystem, gmres: Option<(&mut Gmres, f64)>) -> Self {
+        let solved = match gmres {
+            None => Self::Directly,
+            Some((gmres, tolerance)) => match gmres.solve(system, tolerance) {
+                Ok(iterations) => return Self::Iteratively(iterations),
+                Err(failed) => Self::InPlaceOfIterations(failed.residual),
+            },
+        };
+        system.solve();
+        solved
     }
 }
 

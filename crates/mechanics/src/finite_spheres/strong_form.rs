@@ -15,7 +15,7 @@ use nalgebra::Matrix3;
 use super::layout::{CapShape, Layout, Role};
 use super::quadrature::Quadrature;
 use super::shape_function::ShapeFunctions;
-use super::solution::Solution;
+use super::solution::{Solution, Solved};
 use crate::linear::dense::DenseSystem;
 use crate::linear::gmres::Gmres;
 use crate::{LinearElastic, Vec3};
@@ -126,26 +126,20 @@ impl StrongForm {
         }
     }
 
-    /// Fills coefficients and stiffness; answers the iterations (zero for the direct solution).
+    /// Fills coefficients and stiffness; answers how.
     pub(super) fn solve(
         &mut self,
         solution: &mut Solution,
         gmres: Option<(&mut Gmres, f64)>,
-    ) -> usize {
-        let iterations = match gmres {
-            Some((gmres, tolerance)) => gmres.solve(&mut self.system, tolerance),
-            None => {
-                self.system.solve();
-                0
-            }
-        };
+    ) -> Solved {
+        let solved = Solved::of(&mut self.system, gmres);
         solution.stiffness = Matrix3::zeros();
         for (node, row) in self.force_rows.iter().enumerate() {
             let found = Matrix3::from_fn(|i, k| self.system.right[(3 * node + i, k)]);
             solution.coefficients[node] = found;
             solution.stiffness += row * found;
         }
-        iterations
+        solved
     }
 }
 

@@ -15,7 +15,7 @@ use nalgebra::Matrix3;
 use super::layout::CapShape;
 use super::quadrature::Quadrature;
 use super::shape_function::ShapeFunctions;
-use super::solution::{Partition, Solution};
+use super::solution::{Partition, Solution, Solved};
 use crate::LinearElastic;
 use crate::linear::dense::DenseSystem;
 use crate::linear::gmres::Gmres;
@@ -159,12 +159,12 @@ impl WeakForm {
         }
     }
 
-    /// Fills coefficients and stiffness; answers the iterations (zero for the direct solution).
+    /// Fills coefficients and stiffness; answers how.
     pub(super) fn solve(
         &mut self,
         solution: &mut Solution,
         gmres: Option<(&mut Gmres, f64)>,
-    ) -> usize {
+    ) -> Solved {
         let free = self.partition.free.len();
         let columns = free + 1;
         for a in 0..free {
@@ -179,15 +179,9 @@ impl WeakForm {
                 }
             }
         }
-        let iterations = match gmres {
-            Some((gmres, tolerance)) => gmres.solve(&mut self.reduced, tolerance),
-            None => {
-                self.reduced.solve();
-                0
-            }
-        };
+        let solved = Solved::of(&mut self.reduced, gmres);
         self.recover(solution);
-        iterations
+        solved
     }
 
     fn recover(&self, solution: &mut Solution) {

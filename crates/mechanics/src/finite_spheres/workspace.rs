@@ -2,11 +2,11 @@ use super::layout::{CapShape, Layout};
 use super::quadrature::Quadrature;
 use super::settings::{FiniteSphereSettings, Form, Solver};
 use super::shape_function::ShapeFunctions;
-use super::solution::{Partition, Solution};
+use super::solution::{Partition, Solution, Solved};
 use super::strong_form::StrongForm;
 use super::weak_form::{self, WeakForm};
-use crate::LinearElastic;
 use crate::linear::gmres::Gmres;
+use crate::{LinearElastic, Reached};
 
 /// Scratch of a [`super::FiniteSphereModel`]. Its loss changes no result; a step allocates nothing.
 pub struct FiniteSphereWorkspace {
@@ -15,7 +15,7 @@ pub struct FiniteSphereWorkspace {
     equations: Equations,
     gmres: Option<(Gmres, f64)>,
     cap: CapShape,
-    iterations: usize,
+    solved: Solved,
 }
 
 enum Equations {
@@ -43,7 +43,7 @@ impl FiniteSphereWorkspace {
         };
         let gmres = match settings.solver {
             Solver::Direct => None,
-            Solver::Gmres { tolerance } => Some((Gmres::new(unknowns), tolerance)),
+            Solver::Gmres { tolerance } => Some((Gmres::new(unknowns, 3), tolerance)),
         };
         Self {
             solution: Solution::new(count),
@@ -51,13 +51,26 @@ impl FiniteSphereWorkspace {
             equations,
             gmres,
             cap: CapShape::FLAT,
-            iterations: 0,
+            solved: Solved::Directly,
         }
     }
 
     /// Iterations of the last solution; zero when it was direct.
     pub fn iterations(&self) -> usize {
-        self.iterations
+        match self.solved {
+            Solved::Iteratively(iterations) => iterations,
+            Solved::Directly | Solved::InPlaceOfIterations(_) => 0,
+        }
+    }
+
+    /// Where iterations did not reach their tolerance in the last solution: both [-].
+    pub(super) fn not_converged(&self) -> Option<Reached> {
+        match (self.solved, &self.gmres) {
+            (Solved::InPlaceOfIterations(asked), Some((_, used))) => {
+                Some(Reached { asked, used: *used })
+            }
+            _ => None,
+        }
     }
 
     /// Places the particles on the template under a surface of shape `cap`.
@@ -83,7 +96,7 @@ impl FiniteSphereWorkspace {
 
     pub(super) fn solve(&mut self) {
         let gmres = self.gmres.as_mut().map(|(gmres, goal)| (gmres, *goal));
-        self.iterations = match &mut self.equations {
+        self.solved = match &mut self.equations {
             Equations::Weak(form) => form.solve(&mut self.solution, gmres),
             Equations::Strong(form) => form.solve(&mut self.solution, gmres),
         };

@@ -20,11 +20,21 @@ pub(crate) struct Gmres {
     rotations: Vec<(f64, f64)>,
     residuals: Vec<f64>,
     solution: Vec<f64>,
+    /// Of all right sides, until the last is known.
+    solutions: Vec<f64>,
     diagonal: Vec<f64>,
 }
 
+/// Some right side was not solved to the tolerance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct NotConverged {
+    /// Largest relative residual of a right side [-].
+    pub(crate) residual: f64,
+}
+
 impl Gmres {
-    pub(crate) fn new(size: usize) -> Self {
+    /// For systems of this `size` with so many `right_sides`.
+    pub(crate) fn new(size: usize, right_sides: usize) -> Self {
         let space = SPACE.min(size);
         Self {
             size,
@@ -34,32 +44,57 @@ impl Gmres {
             rotations: vec![(0.0, 0.0); space],
             residuals: vec![0.0; space + 1],
             solution: vec![0.0; size],
+            solutions: vec![0.0; size * right_sides],
             diagonal: vec![0.0; size],
         }
     }
 
     /// Replaces every right side of `system` by the solution to the relative `tolerance`; answers the
     /// number of iterations over all of them.
-    pub(crate) fn solve(&mut self, system: &mut DenseSystem, tolerance: f64) -> usize {
+    ///
+    /// # Errors
+    /// When the residual of one stays larger. `system` is as it was then.
+    pub(crate) fn solve(
+        &mut self,
+        system: &mut DenseSystem,
+        tolerance: f64,
+    ) -> Result<usize, NotConverged> {
         for row in 0..self.size {
             let pivot = system.matrix[(row, row)];
             self.diagonal[row] = if pivot == 0.0 { 1.0 } else { 1.0 / pivot };
         }
-        let mut iterations = 0;
+        let (mut iterations, mut worst) = (0, 0.0_f64);
         for column in 0..system.right.ncols() {
             self.solution.fill(0.0);
             let size = self.residual(system, column, 0);
+            let mut residual = size;
             for _ in 0..RESTARTS {
                 iterations += self.cycle(system, column, tolerance * size);
-                if self.residual(system, column, 0) <= tolerance * size {
+                residual = self.residual(system, column, 0);
+                if residual <= tolerance * size {
                     break;
                 }
             }
+            // A right side of zeros is its own solution; NaN is no convergence.
+            if size > 0.0 || size.is_nan() {
+                let relative = residual / size;
+                worst = if relative > worst || relative.is_nan() {
+                    relative
+                } else {
+                    worst
+                };
+            }
+            self.solutions[column * self.size..][..self.size].copy_from_slice(&self.solution);
+        }
+        if worst > tolerance || worst.is_nan() {
+            return Err(NotConverged { residual: worst });
+        }
+        for column in 0..system.right.ncols() {
             for row in 0..self.size {
-                system.right[(row, column)] = self.solution[row];
+                system.right[(row, column)] = self.solutions[column * self.size + row];
             }
         }
-        iterations
+        Ok(iterations)
     }
 
     /// Puts the scaled residual into basis vector `slot`; answers its norm.
@@ -194,7 +229,7 @@ mod tests {
             system.right[(i, 1)] = random();
         }
         let (matrix, right) = (system.matrix.clone(), system.right.clone());
-        let iterations = Gmres::new(size).solve(&mut system, 1e-12);
+        let iterations = Gmres::new(size, 2).solve(&mut system, 1e-12).unwrap();
         let iterated = system.right.clone();
         (system.matrix, system.right) = (matrix, right);
         system.solve();
@@ -206,5 +241,24 @@ mod tests {
                 assert!(difference.abs() < 1e-10, "{difference}");
             }
         }
+    }
+
+    /// A cyclic shift of more rows than the Krylov space holds: GMRES makes no progress before the last
+    /// row [Nachtigal, Reddy and Trefethen 1992]. It says so, and leaves the system to the factors.
+    #[test]
+    fn stagnation_is_an_error_and_changes_nothing() {
+        let size = 2 * SPACE;
+        let mut system = DenseSystem::new(size, 1);
+        for row in 0..size {
+            system.matrix[(row, (row + 1) % size)] = 1.0;
+        }
+        system.right[(0, 0)] = 1.0;
+        let (matrix, right) = (system.matrix.clone(), system.right.clone());
+        let failed = Gmres::new(size, 1).solve(&mut system, 1e-10).unwrap_err();
+        // Rounding: no step of the iteration reduces the residual.
+        assert!((failed.residual - 1.0).abs() < 1e-12, "{failed:?}");
+        assert!(system.matrix == matrix && system.right == right);
+        system.solve();
+        assert!((system.right[(1, 0)] - 1.0).abs() < 1e-15);
     }
 }

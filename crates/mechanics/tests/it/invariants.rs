@@ -2,12 +2,11 @@
 
 use nalgebra::{Rotation3, Vector3};
 use palpate_geometry::{Organ, Surface};
-use palpate_mechanics::LinearElastic;
-use palpate_mechanics::Vec3;
 use palpate_mechanics::contact::Bond;
 use palpate_mechanics::finite_spheres::{
     Assembly, FiniteSphereModel, FiniteSphereSettings, Form, Solver,
 };
+use palpate_mechanics::{Limit, LinearElastic, Vec3};
 
 use crate::contacts::{
     MODULUS, RADIUS, Random, bare_contact, contact_near, model, organ, shaken_hemisphere, tries,
@@ -233,4 +232,56 @@ fn force_has_no_leaps_on_a_slide() {
     assert!(steps > 400);
     // A curvature changes by itself over the patch's radius, 9 mm; its share of the force is a tenth.
     assert!(largest < 0.01, "{largest}");
+}
+
+/// Bounds of the local model say that they acted, and by how much; without reason they do not.
+#[test]
+fn bounds_of_the_local_model_are_told() {
+    let model = model(FiniteSphereSettings::default(), 0.45, Bond::Stick);
+    let mut workspace = model.workspace();
+    let mut limits = |curvature: f64, radius: f64, organ: f64| {
+        let curvature = Vector3::new(curvature, 0.0, 0.0);
+        let contact = bare_contact(curvature, radius, organ);
+        model.respond(&contact, &mut workspace).limits
+    };
+    assert!(limits(20.0, 1e-3, 0.05).is_empty());
+    // Half a tip's spacing to the centre of the curvature.
+    let flattened = limits(125.0, 3e-3, 0.05).reached(Limit::Curvature).unwrap();
+    assert_eq!(flattened.asked, 125.0);
+    let used = 0.6 / model.spacing(3e-3);
+    // Rounding.
+    assert!((flattened.used / used - 1.0).abs() < 1e-12, "{flattened:?}");
+    // A tip as large as the organ.
+    let large = limits(0.0, 0.04, 0.02);
+    let [normal, along] =
+        [Limit::LocalStiffness, Limit::LocalShearStiffness].map(|limit| large.reached(limit));
+    println!("{normal:?} {along:?}");
+    let normal = normal.unwrap();
+    assert!(normal.used == 3.0 && normal.asked > 3.0);
+}
+
+/// Iterations that do not reach their tolerance leave the answer to the factors, to the bit, and say so.
+#[test]
+fn iterations_without_convergence_are_told_and_replaced() {
+    for form in [Form::Weak, Form::Strong] {
+        let direct = FiniteSphereSettings {
+            form,
+            ..FiniteSphereSettings::default()
+        };
+        // No residual is that small.
+        let tolerance = 1e-30;
+        let iterated = FiniteSphereSettings {
+            solver: Solver::Gmres { tolerance },
+            ..direct
+        };
+        let [direct, iterated] = [direct, iterated].map(|settings| {
+            let model = model(settings, 0.3, Bond::Slip);
+            let contact = bare_contact(Vector3::new(10.0, 0.0, 10.0), 1e-3, 0.05);
+            model.respond(&contact, &mut model.workspace())
+        });
+        let reached = iterated.limits.reached(Limit::Residual).unwrap();
+        assert!(reached.used == tolerance && reached.asked > tolerance);
+        assert!(direct.limits.is_empty());
+        assert_eq!(direct.stiffness, iterated.stiffness);
+    }
 }

@@ -42,6 +42,7 @@ mod stiffening;
 mod stretches;
 mod thin_patch;
 mod tip_field;
+mod tip_tangent;
 mod tube;
 mod uniaxial;
 mod unsound;

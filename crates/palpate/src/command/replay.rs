@@ -164,6 +164,7 @@ fn play(
         }
     }
     let mut warnings = simulation.doubts().to_vec();
+    warnings.extend(replay.state().warnings(simulation));
     if largest > 0.0 {
         warnings.push(
             "the forces are not those that were recorded to the last bit; another version or machine \

@@ -108,6 +108,76 @@ fn assert_is_summary(summary: &serde_json::Value) {
     assert_eq!(summary["warnings"], serde_json::json!([]));
 }
 
+/// A tube of 5 and 8 mm in radius and 80 mm long, closed at its ends [OBJ, m].
+fn tube() -> String {
+    const AROUND: usize = 48;
+    const ALONG: usize = 40;
+    // Around the profile: up the outside, down the inside.
+    let rings: Vec<(f64, f64)> = (0..=ALONG)
+        .map(|k| (0.008, k as f64 / ALONG as f64))
+        .chain((0..=ALONG).rev().map(|k| (0.005, k as f64 / ALONG as f64)))
+        .collect();
+    let mut text = String::new();
+    for (radius, part) in &rings {
+        for k in 0..AROUND {
+            let (sine, cosine) = (std::f64::consts::TAU * k as f64 / AROUND as f64).sin_cos();
+            let z = 0.08 * part - 0.04;
+            text += &format!("v {:?} {:?} {z:?}\n", radius * cosine, radius * sine);
+        }
+    }
+    let vertex = |ring: usize, k: usize| 1 + (ring % rings.len()) * AROUND + k % AROUND;
+    for ring in 0..rings.len() {
+        for k in 0..AROUND {
+            let [a, b] = [vertex(ring, k), vertex(ring, k + 1)];
+            let [c, d] = [vertex(ring + 1, k + 1), vertex(ring + 1, k)];
+            text += &format!("f {a} {b} {c}\nf {a} {c} {d}\n");
+        }
+    }
+    text
+}
+
+/// A tip of 3 mm on a tube of 8 mm is wider than the local model can bend its particles: the warning, with
+/// the curvature of the tube, is in the summary, in the answer and in what a person reads.
+#[test]
+fn a_tip_too_wide_for_a_tube_is_told() {
+    let folder = folder();
+    let folder = folder.path();
+    fs::write(folder.join("tube.obj"), tube()).unwrap();
+    let organ = "mesh = \"tube.obj\"\nmesh_unit = \"m\"";
+    let scene = SCENE
+        .replace("builtin = \"hemisphere\"", organ)
+        .replace("radius_m = 0.001", "radius_m = 0.003");
+    fs::write(folder.join("scene.toml"), scene).unwrap();
+    let motion = "# format = 1\ntime_s,tool,x_m,y_m,z_m\n0.0,right,0.00811,0.0,0.0\n0.2,right,0.00711,0.0,0.0\n";
+    fs::write(folder.join("motion.csv"), motion).unwrap();
+    let output = run(folder, "scene.toml", "motion.csv", "out", &[]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let summary = fs::read_to_string(folder.join("out/summary.json")).unwrap();
+    let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
+    let told: Vec<&str> = summary["warnings"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter_map(|warning| warning.as_str())
+        .filter(|warning| warning.contains("curvature"))
+        .collect();
+    assert_eq!(told.len(), 1, "{}", summary["warnings"]);
+    let words = "the curvature of the surface under the tip \"right\" was limited from ";
+    let numbers = told[0].strip_prefix(words).unwrap();
+    let number = |text: &str| text.split(' ').next().unwrap().parse::<f64>().unwrap();
+    let (asked, rest) = numbers.split_once(" to ").unwrap();
+    // 1/8 mm, averaged over a patch that is wider than the tube: a third more.
+    assert!((1.0..1.4).contains(&(number(asked) / 125.0)), "{}", told[0]);
+    assert!(number(rest) < 0.8 * number(asked), "{}", told[0]);
+    // The face is below the surface from the sixth of 41 steps on.
+    assert!(
+        rest.contains(" in 36 of 36 steps in contact"),
+        "{}",
+        told[0]
+    );
+    assert!(stderr(&output).contains(told[0]), "{}", stderr(&output));
+}
+
 fn assert_refused(output: &Output, status: i32, words: &[&str]) {
     let message = stderr(output);
     assert_eq!(output.status.code(), Some(status), "{words:?}: {message}");

@@ -100,10 +100,13 @@ impl Simulation {
         self.model.prepared.step()
     }
 
-    /// Plain sentences on what deserves doubt.
+    /// Plain sentences on what deserves doubt: of the scene, then bounds of the models that acted in the steps so far.
     #[getter]
     fn warnings(&self) -> Vec<String> {
-        self.model.prepared.doubts().to_vec()
+        let prepared = &self.model.prepared;
+        let mut warnings = prepared.doubts().to_vec();
+        warnings.extend(self.stepper.course.state.warnings(prepared));
+        warnings
     }
 
     /// One step: tools go to their poses, and feel forces.

@@ -6,6 +6,7 @@
 
 use nalgebra::Matrix3;
 use palpate_geometry::{Footing, Vec3, closest_on_triangle, settle};
+use palpate_mechanics::Limits;
 use palpate_mechanics::contact::Bond;
 use palpate_mechanics::enhance::SurfacePoint;
 use palpate_mechanics::surface_response::TipLoad;
@@ -76,6 +77,7 @@ impl GlobalModel {
             state.own = Vec3::zeros();
             state.displaced = Vec3::zeros();
             state.stiffness = Matrix3::zeros();
+            state.limited = Limits::NONE;
         }
         if let Some(slit) = &mut workspace.slit {
             slit.put_tips(self, simulation, tools);
@@ -154,7 +156,7 @@ impl GlobalModel {
         let own = contact.displacement(tool, &Vec3::from(pose.position_m));
         let moved = own - frame.tr_mul(&carried);
         let load = self.load(tool, &tools[number]);
-        let further = load.map_or(Matrix3::zeros(), |load| {
+        let compliance = load.map_or(Matrix3::zeros(), |load| {
             let slit = workspace.slit.as_ref();
             let more = slit.map_or(Matrix3::zeros(), |slit| slit.further(number));
             frame.tr_mul(&(load.further_compliance() + more)) * frame * softness
@@ -164,15 +166,16 @@ impl GlobalModel {
             .site
             .and_then(|site| self.response.find(site.triangle));
         state.off_model = touched.is_none();
-        let answer = tool.law.force_before(&moved, &further);
-        let mut own = moved + further * answer.force;
+        let answer = tool.law.force_in_series(&moved, &compliance);
+        let mut own = moved + compliance * answer.force;
         if tool.bond == Bond::Slip {
             own = Vec3::new(0.0, 0.0, own.z);
         }
         state.own = frame * own;
         // A tip that slips is carried along by the organ.
-        state.displaced = frame * (own - further * answer.force) + carried;
+        state.displaced = frame * (own - compliance * answer.force) + carried;
         state.elastic = frame * answer.force;
         state.stiffness = answer.stiffness;
+        state.limited = answer.limits;
     }
 }

@@ -79,6 +79,7 @@ pub(crate) fn answer(
     };
     let response = tool.model.respond(&held.place, workspace);
     state.response = Some(response);
+    state.limited = response.limits;
     state.stiffness = stiffness(simulation, tool, (&held.place, &response));
     state.elastic = held.force - state.stiffness * (hold.carried(&held.tip) - held.tip);
     true

@@ -5,7 +5,7 @@ use palpate_servo::Fault;
 use super::{Happenings, ModelReport};
 use crate::cutting::Cuts;
 use crate::state::{SimulationState, ToolState};
-use crate::{OrganField, Simulation};
+use crate::{LimitCounts, OrganField, Simulation, Tool};
 
 /// What there is to see after a step of the model.
 #[derive(Debug, Clone)]
@@ -49,6 +49,8 @@ pub struct ToolSnapshot {
     pub grip_force: f64,
     /// Whether its jaws hold tissue.
     pub holds: bool,
+    /// Bounds of the models that acted in its steps so far.
+    pub limits: LimitCounts,
 }
 
 /// What a hand feels of its tool.
@@ -107,6 +109,7 @@ impl Snapshot {
             cuts: false,
             grip_force: 0.0,
             holds: false,
+            limits: LimitCounts::default(),
         };
         Self {
             time: 0.0,
@@ -144,6 +147,16 @@ impl Snapshot {
         for ((seen, tool), felt) in self.tools.iter_mut().zip(&state.tools).zip(felt) {
             *seen = ToolSnapshot::new(tool, *felt);
         }
+    }
+}
+
+impl Snapshot {
+    /// Plain sentences on the bounds that acted so far, for the `tools` of the simulation.
+    pub fn warnings(&self, tools: &[Tool]) -> Vec<String> {
+        let tools = tools.iter().zip(&self.tools);
+        tools
+            .flat_map(|(tool, seen)| seen.limits.warnings(&tool.name))
+            .collect()
     }
 }
 
@@ -200,6 +213,7 @@ impl ToolSnapshot {
             cuts: tool.blade.is_some(),
             grip_force: tool.grip_force,
             holds: tool.holds(),
+            limits: tool.limits,
         }
     }
 }

@@ -23,6 +23,7 @@ mod interactive;
 mod invariants;
 mod kill;
 mod large_organs;
+mod limits;
 mod loss;
 mod neighbours;
 mod no_allocation;

@@ -395,6 +395,7 @@ impl eframe::App for SimulatorWindow {
             self.show_card(ui);
         });
         let moves = self.play.as_mut().is_some_and(|play| {
+            play.refresh_limits();
             let snapshot = play.source.snapshot();
             let touches = snapshot.tools.iter().any(|tool| tool.contact.is_some());
             touches

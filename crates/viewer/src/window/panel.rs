@@ -351,8 +351,12 @@ fn waiting(preparation: &Preparation, ui: &mut Ui) {
 }
 
 fn doubts(window: &SimulatorWindow, ui: &mut Ui) {
-    let doubts = window.play.as_ref().map_or(&[][..], |play| &play.doubts);
-    match doubts {
+    // What changes the force that is felt now comes first.
+    let play = window.play.iter();
+    let doubts: Vec<_> = play
+        .flat_map(|play| play.limits.iter().chain(&play.doubts).cloned())
+        .collect();
+    match &doubts[..] {
         [] => {
             ui.colored_label(QUIET, "nothing deserves doubt");
         }

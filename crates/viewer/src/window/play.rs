@@ -48,6 +48,8 @@ pub(super) struct Play {
     pub(super) neighbours: Vec<Body>,
     /// What deserves doubt.
     pub(super) doubts: Vec<String>,
+    /// Bounds of the models that acted since the start.
+    pub(super) limits: Vec<String>,
     pointers: Vec<Option<PointerHand>>,
 }
 
@@ -142,8 +144,15 @@ impl Play {
             organ: prepared.organ,
             neighbours: prepared.neighbours,
             doubts: prepared.doubts,
+            limits: Vec::new(),
             pointers,
         }
+    }
+
+    /// Takes over which bounds of the models have acted.
+    pub(super) fn refresh_limits(&mut self) {
+        let snapshot = self.source.snapshot();
+        self.limits = snapshot.warnings(self.simulation.tools());
     }
 
     /// The organ at rest.

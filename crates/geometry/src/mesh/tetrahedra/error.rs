@@ -68,6 +68,16 @@ pub enum TetrahedronError {
         /// How many are allowed.
         most: usize,
     },
+    /// Bisection ended before its edges were short enough.
+    #[error(
+        "after {rounds} rounds of bisection an edge is still {edge_m:e} m long, longer than was asked for there; ask for a longer edge"
+    )]
+    NotRefined {
+        /// How often tetrahedra were bisected.
+        rounds: usize,
+        /// The longest edge of those that were still to be bisected [m].
+        edge_m: f64,
+    },
     /// The lattice is too coarse for the body.
     #[error(
         "an edge of {edge_m:e} m is too coarse: {lost_percent:.1} % of the volume is lost; give one of at most a third of the thinnest part"

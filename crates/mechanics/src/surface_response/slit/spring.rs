@@ -26,12 +26,21 @@ pub(super) fn ligament(nu: f64, part: f64) -> Matrix5<f64> {
     let plane = 2.0 * (1.0 - nu * nu);
     let torn = 8.0 * (1.0 + nu) / PI * -(FRAC_PI_2 * part).cos().ln();
     let mut stiffness = Matrix5::zeros();
-    // Of two compliances that are nearly in proportion, as those of a shallow cut are.
+    // Of two compliances that are nearly in proportion, as those of a shallow cut are. The sum of squares
+    // is not below zero and the slack above it, so that the matrix has an inverse for 0 < part < 1.
+    debug_assert!(
+        part > 0.0 && part < 1.0,
+        "a ligament is what is left of a wall: {part}"
+    );
     let both = both * plane;
     let slack = 1e-4 * both.trace();
-    let inverse = (both + Matrix2::identity() * slack)
-        .try_inverse()
-        .unwrap_or(Matrix2::identity());
+    let raised = both + Matrix2::identity() * slack;
+    let inverse = Matrix2::new(
+        raised[(1, 1)],
+        -raised[(0, 1)],
+        -raised[(1, 0)],
+        raised[(0, 0)],
+    ) / raised.determinant();
     // Evenly and at the hinge.
     for (i, row) in [0, 2].into_iter().enumerate() {
         for (j, column) in [0, 2].into_iter().enumerate() {

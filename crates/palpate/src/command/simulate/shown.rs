@@ -28,6 +28,7 @@ pub(super) fn run(scene: Scene, resources: Resources) -> Result<(), Failure> {
     SceneDevices::check(&scene, &resources.devices)?;
     let simulation = Arc::new(preparation::simulation(&scene, &resources, Reader::Person)?);
     output::warnings(simulation.doubts());
+    let names = simulation.clone();
     let devices = SceneDevices::open(&scene, &simulation, &resources.devices)?;
     let room = resources.operating_room.as_ref();
     let settings = ServoSettings::default();
@@ -52,6 +53,7 @@ pub(super) fn run(scene: Scene, resources: Resources) -> Result<(), Failure> {
     }
     let ended = touch.is_running();
     let quality = touch.stop()?;
+    output::warnings(&touch.snapshot().warnings(names.tools()));
     match quality.loops.iter().flatten().find_map(|own| own.fault) {
         Some(fault) if !ended => Err(Failure::failed(fault)),
         _ => Ok(()),

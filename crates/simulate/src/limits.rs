@@ -1,0 +1,97 @@
+//! Bounds of the models that acted while tools touched, counted during the steps and told afterwards.
+//!
+//! *How we know*: `limits::…`.
+
+use palpate_mechanics::{Limit, Limits, Reached};
+
+/// How often each bound acted under one tool, and its worst case. A step only counts.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct LimitCounts {
+    steps: u64,
+    acted: [u64; Limit::ALL.len()],
+    worst: Limits,
+}
+
+impl LimitCounts {
+    /// Counts one step in contact.
+    pub(crate) fn count(&mut self, limits: &Limits) {
+        self.steps += 1;
+        for limit in Limit::ALL {
+            self.acted[limit as usize] += u64::from(limits.reached(limit).is_some());
+        }
+        self.worst.merge(limits);
+    }
+
+    /// Steps in contact in which `limit` acted.
+    pub fn steps_limited(&self, limit: Limit) -> u64 {
+        self.acted[limit as usize]
+    }
+
+    /// The worst case of each bound that acted.
+    pub fn worst(&self) -> &Limits {
+        &self.worst
+    }
+
+    /// One plain sentence for each bound that acted under the tip of the tool with this name.
+    pub fn warnings(&self, tool: &str) -> impl Iterator<Item = String> {
+        Limit::ALL.into_iter().filter_map(move |limit| {
+            let reached = self.worst.reached(limit)?;
+            let when = format!(
+                "in {} of {} steps in contact",
+                self.steps_limited(limit),
+                self.steps
+            );
+            Some(sentence(limit, &reached, (tool, &when)))
+        })
+    }
+}
+
+fn sentence(limit: Limit, reached: &Reached, (tool, when): (&str, &str)) -> String {
+    let Reached { asked, used } = *reached;
+    let lacks = too_low(used / asked);
+    let times = match asked.is_finite() {
+        true => format!("where its model asks for {asked:.1} times"),
+        false => "where its model gives no finite stiffness".to_owned(),
+    };
+    match limit {
+        Limit::Curvature => format!(
+            "the curvature of the surface under the tip {tool:?} was limited from {asked:.0} to {used:.0} 1/m \
+             {when}: the tip is large beside the organ there, and the force is that of the gentler surface; \
+             `model.kind = \"hybrid\"` has no such limit"
+        ),
+        Limit::LocalStiffness => format!(
+            "the organ under the tip {tool:?} was taken as {used:.0} times as stiff as a half-space, {times}, \
+             {when}{lacks}: the tip is as large as the organ; use a smaller tip or `model.kind = \"hybrid\"`"
+        ),
+        Limit::LocalShearStiffness => format!(
+            "the organ along the surface under the tip {tool:?} was taken as {used:.0} times as stiff as the \
+             particles around the tip, {times}, {when}{lacks}: the tip is as large as the organ; use a smaller \
+             tip or `model.kind = \"hybrid\"`"
+        ),
+        Limit::Residual => format!(
+            "the iterations of `solver = \"gmres\"` under the tip {tool:?} ended at a relative residual of \
+             {asked:.1e}, above {used:.1e}, {when}; these steps were solved by factors, as with `solver = \
+             \"direct\"`, and their forces are right"
+        ),
+        Limit::TipStiffness => format!(
+            "the organ under the tip {tool:?} was taken as {used:.0} times as stiff as a half-space, {times}, \
+             {when}{lacks}: what holds the organ lies right under the tip; touch farther from `organ.anchor`"
+        ),
+        Limit::TipShearStiffness => format!(
+            "the organ along the surface under the tip {tool:?} was taken as {used:.0} times as stiff as a \
+             half-space, {times}, {when}{lacks}: what holds the organ lies right under the tip; touch farther \
+             from `organ.anchor`"
+        ),
+    }
+}
+
+/// What a stiffness of this part of the unbounded one lacks.
+fn too_low(part: f64) -> String {
+    match part > 0.0 {
+        true => format!(
+            "; the stiffness there is {:.0} % below that",
+            100.0 * (1.0 - part)
+        ),
+        false => String::new(),
+    }
+}
