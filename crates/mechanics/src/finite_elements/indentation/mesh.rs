@@ -28,9 +28,9 @@ impl Block {
     }
 }
 
-/// A grid with its smallest elements, `edge` [m] long before halving, around the radius `contact` [m]
+/// A grid with its smallest elements, `edge` [m] long where `halvings` is 0, around the radius `contact` [m]
 /// of the top (z = 0).
-pub(super) fn graded_block(block: &Block, contact: f64, edge: f64, halvings: u32) -> ElementMesh {
+pub(super) fn graded_block(block: &Block, contact: f64, edge: f64, halvings: i32) -> ElementMesh {
     let grading = Grading {
         first: edge,
         growth: 1.25,

@@ -25,8 +25,8 @@ pub struct IndentationSettings {
     pub law: Arc<dyn Law>,
     /// Its relaxation; no terms for an elastic tissue.
     pub prony: PronySeries,
-    /// How often every element of the coarsest mesh is halved.
-    pub halvings: u32,
+    /// How often every element of the usual mesh is halved; −1 doubles it.
+    pub halvings: i32,
 }
 
 /// What the indenter feels at a depth.
@@ -74,7 +74,7 @@ pub(super) struct Standing {
     pub(super) slopes: Option<Slopes>,
 }
 
-/// Smallest elements of the coarsest mesh, in radii of the indenter [-].
+/// Smallest elements of the usual mesh, in radii of the indenter [-].
 const EDGE: f64 = 0.1;
 /// Steps in radii of the indenter [-]: the first, the longest, the shortest before giving up.
 const FIRST_STEP: f64 = 0.1;
