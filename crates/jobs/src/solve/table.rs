@@ -88,7 +88,9 @@ pub(crate) fn digits(value: f64) -> String {
 pub fn in_words(problem: &Problem, solution: &Solution, answer: &Answer) -> String {
     let error = format!("{:.2}", 100.0 * answer.estimated_error);
     let order = answer.observed_order;
-    let order = order.map_or(String::new(), |order| format!("; observed order {order:.1}"));
+    let order = order.map_or(String::new(), |order| {
+        format!("; observed order {order:.1}")
+    });
     format!(
         "{}\n{}\n\n{}\nestimated error {error} % (asked for {} %{order}), {} unknowns, {:.1} s\n",
         solution.heading,
