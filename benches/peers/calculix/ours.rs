@@ -91,7 +91,7 @@ fn cube(law: Arc<dyn Law>, how: &str, amount: f64) {
     println!("{{\"fx\": {}, \"fz\": {}}}", top.x, top.z);
 }
 
-fn punch(law: Arc<dyn Law>, halvings: u32, depth: f64) {
+fn punch(law: Arc<dyn Law>, halvings: i32, depth: f64) {
     let radius = 1e-3;
     let block = Block {
         radius: 0.05642,

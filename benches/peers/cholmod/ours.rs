@@ -84,7 +84,7 @@ impl Body {
     }
 }
 
-fn punch(halvings: u32) -> ElementMesh {
+fn punch(halvings: i32) -> ElementMesh {
     let run = IndentationRun::new(&IndentationSettings {
         block: Block {
             radius: 0.05642,

@@ -29,7 +29,7 @@ const RADIUS: f64 = 1e-3;
 /// Depths of the curve, in radii: every half to six.
 const DEPTHS: i32 = 12;
 
-fn punch(halvings: u32) -> IndentationRun {
+fn punch(halvings: i32) -> IndentationRun {
     IndentationRun::new(&IndentationSettings {
         block: Block {
             radius: 0.05642,
@@ -52,7 +52,7 @@ fn punch(halvings: u32) -> IndentationRun {
 }
 
 /// F/(C10 a²) [-].
-fn curve(halvings: u32) -> Vec<f64> {
+fn curve(halvings: i32) -> Vec<f64> {
     let mut run = punch(halvings);
     (1..=DEPTHS)
         .map(|i| {

@@ -195,7 +195,7 @@ impl Curves {
         &mut self,
         (block, indenter): (Block, Indenter),
         law: Arc<dyn Law>,
-        halvings: u32,
+        halvings: i32,
     ) -> Result<Vec<(f64, Vec<f64>)>, Error> {
         self.solves += 1;
         let mut run = IndentationRun::new(&IndentationSettings {

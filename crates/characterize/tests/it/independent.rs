@@ -31,12 +31,12 @@ pub(crate) const TRUTHS: [Truth; 3] = [
 ];
 
 /// Elastic force over depth, extrapolated from meshes whose elements are halved `halvings` times and once less.
-fn elastic((law, modulus, shape): Truth, halvings: u32) -> IndentationCurve {
+fn elastic((law, modulus, shape): Truth, halvings: i32) -> IndentationCurve {
     let Body::Block { block, indenter } = Body::under_punch(RADIUS) else {
         panic!("a punch is pressed into a block");
     };
     let depths: Vec<f64> = (1..=15).map(|i| f64::from(i) * DEPTH / 15.0).collect();
-    let forces = |halvings: u32| -> Vec<f64> {
+    let forces = |halvings: i32| -> Vec<f64> {
         let mut run = IndentationRun::new(&IndentationSettings {
             block,
             indenter,
@@ -111,7 +111,7 @@ fn quantile(freedom: f64) -> f64 {
 }
 
 /// How many of `seeds` hold each parameter in its 95 % interval; the relaxation's come after the law's.
-fn held(truth: Truth, halvings: u32, seeds: u64) -> Vec<(String, usize)> {
+fn held(truth: Truth, halvings: i32, seeds: u64) -> Vec<(String, usize)> {
     let (law, modulus, shape) = truth;
     let curve = elastic(truth, halvings);
     let mut held: Vec<(String, usize)> = Vec::new();

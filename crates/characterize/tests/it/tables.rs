@@ -6,7 +6,7 @@ use palpate_characterize::inverse::{Body, Curves, PUNCH, SHAPES, SoughtLaw};
 use palpate_mechanics::finite_elements::indentation::{IndentationRun, IndentationSettings};
 use palpate_mechanics::{Law, MooneyRivlin, PronySeries};
 
-fn run(shape: f64, halvings: u32) -> IndentationRun {
+fn run(shape: f64, halvings: i32) -> IndentationRun {
     let Body::Block { block, indenter } = Body::under_punch(1.0) else {
         panic!("a punch is pressed into a block");
     };
@@ -22,7 +22,7 @@ fn run(shape: f64, halvings: u32) -> IndentationRun {
     .unwrap()
 }
 
-fn forces(shape: f64, halvings: u32, deepest: f64) -> Vec<f64> {
+fn forces(shape: f64, halvings: i32, deepest: f64) -> Vec<f64> {
     let mut run = run(shape, halvings);
     let depths = PUNCH.iter().map(|row| row.0).take_while(|x| *x <= deepest);
     depths

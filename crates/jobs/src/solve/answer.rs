@@ -19,6 +19,8 @@ pub struct Answer {
     pub unknowns: usize,
     /// Relative, the largest over the points [-].
     pub estimated_error: f64,
+    /// Order of convergence of the value with that error, where three meshes show it [-].
+    pub observed_order: Option<f64>,
     /// That the solution took [s].
     pub seconds: f64,
 }
@@ -33,6 +35,7 @@ impl Answer {
             figures: solution.figures.clone(),
             unknowns: solution.unknowns,
             estimated_error: solution.estimated_error,
+            observed_order: solution.observed_order,
             seconds: took.as_secs_f64(),
         }
     }

@@ -87,8 +87,12 @@ pub(crate) fn digits(value: f64) -> String {
 /// The whole answer as text.
 pub fn in_words(problem: &Problem, solution: &Solution, answer: &Answer) -> String {
     let error = format!("{:.2}", 100.0 * answer.estimated_error);
+    let order = answer.observed_order;
+    let order = order.map_or(String::new(), |order| {
+        format!("; observed order {order:.1}")
+    });
     format!(
-        "{}\n{}\n\n{}\nestimated error {error} % (asked for {} %), {} unknowns, {:.1} s\n",
+        "{}\n{}\n\n{}\nestimated error {error} % (asked for {} %{order}), {} unknowns, {:.1} s\n",
         solution.heading,
         problem.tissue_in_words(),
         solution

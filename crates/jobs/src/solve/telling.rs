@@ -7,8 +7,8 @@ use crate::Watch;
 /// Tells who waits how far a solver is.
 pub(crate) struct Telling<'a> {
     watch: &'a dyn Watch,
-    /// Halvings of the mesh that is being solved.
-    halvings: Cell<Option<u32>>,
+    /// The mesh that is being solved.
+    mesh: Cell<Option<usize>>,
 }
 
 impl<'a> Telling<'a> {
@@ -16,17 +16,16 @@ impl<'a> Telling<'a> {
         watch.say("preparing the mesh");
         Self {
             watch,
-            halvings: Cell::new(None),
+            mesh: Cell::new(None),
         }
     }
 
     /// What a solver tells.
     pub(crate) fn at(&self, progress: estimate::Progress) {
-        if self.halvings.replace(Some(progress.halvings)) != Some(progress.halvings) {
-            self.watch.say(&match progress.halvings {
+        if self.mesh.replace(Some(progress.mesh)) != Some(progress.mesh) {
+            self.watch.say(&match progress.mesh {
                 0 => "coarsest mesh".to_owned(),
-                1 => "elements halved once".to_owned(),
-                times => format!("elements halved {times} times"),
+                finer => format!("mesh {}", finer + 1),
             });
         }
         self.watch.at(progress.part.clamp(0.0, 1.0));

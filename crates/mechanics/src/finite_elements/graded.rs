@@ -14,8 +14,18 @@ pub(super) struct Grading {
 }
 
 impl Grading {
-    /// Places from 0 to `length` [m]; then every interval is halved `halvings` times.
-    pub(super) fn line(&self, length: f64, halvings: u32) -> Vec<f64> {
+    /// Places from 0 to `length` [m]; then every interval is halved `halvings` times. Below 0 the first is
+    /// doubled as often, and there is one where there would be two.
+    pub(super) fn line(&self, length: f64, halvings: i32) -> Vec<f64> {
+        if halvings < 0 {
+            let coarse = Self {
+                first: 2.0 * self.first,
+                growth: self.growth.powi(2),
+                far_growth: self.far_growth.powi(2),
+                ..*self
+            };
+            return coarse.line(length, halvings + 1);
+        }
         let (mut line, mut interval) = (vec![0.0], self.first);
         let mut at = 0.0;
         while at + interval < length {
@@ -37,6 +47,21 @@ impl Grading {
         }
         line
     }
+}
+
+/// `line` with `parts` intervals [-] in the place of each, as near as whole numbers come: places in between
+/// are where the line's own numbering, continued linearly, has them.
+pub(super) fn resampled(line: &[f64], parts: f64) -> Vec<f64> {
+    let last = line.len() - 1;
+    let intervals = (parts * last as f64).round().max(1.0) as usize;
+    (0..=intervals)
+        .map(|k| {
+            let at = (k * last) as f64 / intervals as f64;
+            let from = (at as usize).min(last - 1);
+            let part = at - from as f64;
+            (1.0 - part) * line[from] + part * line[from + 1]
+        })
+        .collect()
 }
 
 /// `line` with the middle of every interval.
@@ -69,6 +94,12 @@ mod tests {
             assert!(line.len() < 3 || line[1] == 0.1, "{line:?}");
             let fine = grading.line(length, 1);
             assert!(line.iter().enumerate().all(|(i, x)| fine[2 * i] == *x));
+            let coarse = grading.line(length, -1);
+            assert_eq!([coarse[0], *coarse.last().unwrap()], [0.0, length]);
+            assert!(coarse.len() < 3 || coarse[1] == 0.2, "{coarse:?}");
+            assert!(2 * coarse.len() <= line.len() + 4, "{coarse:?}");
+            assert_eq!(resampled(&line, 2.0), fine);
+            assert_eq!(resampled(&line, 1.0), line);
         }
     }
 }

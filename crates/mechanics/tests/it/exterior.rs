@@ -46,7 +46,11 @@ fn ratio(a: f64, nu: f64, (patch, bond): (Patch, Bond), (edge, halvings): (f64, 
         law,
         depth: 1.0,
     };
-    problem.solve_on(edge, halvings).unwrap().force / half_space_stiffness(&law, a, bond)
+    problem
+        .solve_on(edge, halvings.cast_signed())
+        .unwrap()
+        .force
+        / half_space_stiffness(&law, a, bond)
 }
 
 /// C_true = (1/a − k_o/R)/K̂ at a = R/20. What is left of extrapolation, 0.003 of k_o, is 0.02 % of the

@@ -37,7 +37,7 @@ fn neo_hookean() -> Arc<dyn Law> {
     Arc::new(NeoHookean::incompressible(C10).unwrap())
 }
 
-fn run(indenter: Indenter, law: Arc<dyn Law>, halvings: u32) -> IndentationRun {
+fn run(indenter: Indenter, law: Arc<dyn Law>, halvings: i32) -> IndentationRun {
     IndentationRun::new(&IndentationSettings {
         block: BLOCK,
         indenter,

@@ -75,7 +75,8 @@ fn the_force_converges_with_order_one() {
     }
 }
 
-/// What is asked for is met, and the error is said to within half and five times itself.
+/// What is asked for is met, and the error is said to within half and five times itself, or a warning says
+/// that it is an upper figure.
 #[test]
 fn the_estimate_is_honest() {
     for (patch, bond) in PATCHES {
@@ -89,10 +90,10 @@ fn the_estimate_is_honest() {
                 solved.answer.unknowns, solved.error
             );
             assert!(solved.error <= accuracy && error <= accuracy);
-            // Where errors cancel, as between nu = 0.45 and 0.49, both are in the fourth digit.
-            let honest = 0.5 * error..=5.0 * error;
-            let tiny = solved.error.max(error) < 5e-4;
-            assert!(tiny || honest.contains(&solved.error), "{bond:?} {nu}");
+            // Where errors cancel, as between nu = 0.45 and 0.49, no order is seen, and a warning says so.
+            assert!(solved.error >= 0.5 * error, "{bond:?} {nu}");
+            let promised = solved.warnings.is_empty();
+            assert!(!promised || solved.error <= 5.0 * error, "{bond:?} {nu}");
         }
     }
 }

@@ -56,7 +56,7 @@ pub(crate) fn cube(radius: f64, nu: f64, grip: Grip) -> SolidProblem {
     }
 }
 
-pub(crate) fn at(problem: &SolidProblem, halvings: u32) -> SolidAnswer {
+pub(crate) fn at(problem: &SolidProblem, halvings: i32) -> SolidAnswer {
     solve_at(problem, halvings, &mut |_| ()).unwrap()
 }
 
@@ -297,7 +297,7 @@ fn a_patch_on_a_hemisphere_is_3_percent_stiffer_than_on_a_half_space() {
     }
     for (pair, allowed) in ratios.windows(2).zip([0.01, 0.005]) {
         let error = pair[1] / exact - 1.0;
-        let estimated = (pair[0] / pair[1] - 1.0) / (2.0_f64.powf(0.8) - 1.0);
+        let estimated = 1.25 * (pair[0] / pair[1] - 1.0);
         println!("estimated {estimated:.4}, is {error:.4}");
         assert!(error.abs() < allowed, "{error}");
         assert!((0.5..5.0).contains(&(estimated / error)));

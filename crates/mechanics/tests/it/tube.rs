@@ -50,7 +50,8 @@ fn lame() {
             assert_eq!(answer.limit_pressure, None);
             (answer.inner_displacements[0].unwrap() / exact - 1.0).abs()
         };
-        let (once, twice) = (error(1.0), error(0.0));
+        // The third mesh and the fourth.
+        let (once, twice) = (error(0.04), error(0.0));
         println!("nu = {nu}: {once:.1e}, {twice:.1e}");
         // Quadratic elements: the displacement of an energy, of order four.
         assert!(once < 1e-4 && (10.0..22.0).contains(&(once / twice)));
@@ -153,7 +154,13 @@ fn a_punch_on_a_short_tube() {
     let forces = &result.answer.forces;
     assert!(forces[1] == 0.0 && 0.0 < forces[2] && forces[2] < forces[0]);
     assert!(result.answer.doubts.len() == 1 && result.answer.doubts[0].contains("its side"));
-    assert!(result.error < 0.05);
+    // Two meshes, whose change is below 5 %, with the safety factor of an assumed order.
+    assert!(result.error < 3.0 * 0.05 && result.observed_order.is_none());
+    assert!(
+        result.warnings[0].contains("two meshes"),
+        "{:?}",
+        result.warnings
+    );
 }
 
 /// The source's tube: a pressure makes it stiffer, and the third mesh changes no more than foretold.

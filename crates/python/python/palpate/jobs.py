@@ -127,7 +127,8 @@ def solve(
     Returns
     -------
     Solution
-        ``force_n``, ``depth_m`` and so on, by the problem's kind; ``estimated_error`` is relative.
+        ``force_n``, ``depth_m`` and so on, by the problem's kind; ``estimated_error`` is relative, and
+        ``observed_order`` the order of convergence behind it.
     """
     answer, text, plot, body, recording = _palpate._solve(given(problem, "problem"), True, vtu, progress)
     solution = Solution(json.loads(answer))

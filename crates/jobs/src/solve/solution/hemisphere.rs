@@ -32,6 +32,8 @@ pub(crate) fn solution(
     })
     .map_err(|error| problem.refused(error))?;
     let answer = found.answer;
+    let mut warnings = found.warnings;
+    warnings.extend(doubts::of_depths(problem, case.patch_radius, &[case.depth]));
     let law = &problem.material.at_rest;
     let closed = case.depth * half_space_stiffness(law, case.patch_radius, case.patch);
     let (arcs, moved): (Vec<f64>, Vec<f64>) = answer.profile.into_iter().unzip();
@@ -53,7 +55,8 @@ pub(crate) fn solution(
         },
         unknowns: answer.unknowns,
         estimated_error: found.error,
-        warnings: doubts::of_depths(problem, case.patch_radius, &[case.depth]),
+        observed_order: found.observed_order,
+        warnings,
         vtu: None,
         recording: None,
     })

@@ -45,6 +45,12 @@ fn at_depths(
     )
     .map_err(|error| problem.refused(error))?;
     let forces: Vec<f64> = found.answer.points.iter().map(|p| p.force).collect();
+    let mut warnings = found.warnings;
+    warnings.extend(doubts::of_depths(
+        problem,
+        contact_radius(case, depths),
+        depths,
+    ));
     let closed = |depth: f64| half_space_force(problem, case, depth);
     let table = Table::default()
         .with("depth [mm]", millimetres(depths))
@@ -61,7 +67,8 @@ fn at_depths(
         },
         unknowns: found.answer.unknowns,
         estimated_error: found.error,
-        warnings: doubts::of_depths(problem, contact_radius(case, depths), depths),
+        observed_order: found.observed_order,
+        warnings,
         vtu: None,
         recording: None,
     })
@@ -93,7 +100,12 @@ fn in_time(
         .with("depth [mm]", millimetres(&depths))
         .with("force [mN]", millinewtons(&forces))
         .keeping_the_peak(&forces);
-    let mut warnings = doubts::of_depths(problem, contact_radius(case, &depths), &depths);
+    let mut warnings = found.warnings;
+    warnings.extend(doubts::of_depths(
+        problem,
+        contact_radius(case, &depths),
+        &depths,
+    ));
     warnings.extend(doubts::of_ramp(problem, ramp.ramp));
     Ok(Solution {
         heading: heading(case),
@@ -117,6 +129,7 @@ fn in_time(
         },
         unknowns: found.answer.unknowns,
         estimated_error: found.error,
+        observed_order: found.observed_order,
         warnings,
         vtu: None,
     })

@@ -30,6 +30,8 @@ pub struct Solution {
     pub unknowns: usize,
     /// Relative, the largest over the points [-].
     pub estimated_error: f64,
+    /// Order of convergence of the value with the largest error, where the meshes show it [-].
+    pub observed_order: Option<f64>,
     /// What deserves doubt.
     pub warnings: Vec<String>,
     /// Body and load on one line.

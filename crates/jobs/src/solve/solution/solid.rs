@@ -51,6 +51,7 @@ pub(crate) fn solution(
     })
     .map_err(|error| problem.refused(error))?;
     let answer = found.answer;
+    warnings.extend(found.warnings);
     warnings.extend(answer.doubts);
     let length = case.displacement.norm();
     warnings.extend(doubts::of_depths(problem, case.radius, &[length]));
@@ -72,6 +73,7 @@ pub(crate) fn solution(
         },
         unknowns: answer.unknowns,
         estimated_error: found.error,
+        observed_order: found.observed_order,
         warnings,
         vtu: wanted.vtu.then(|| grid(&answer.fields)),
         recording: None,

@@ -45,6 +45,7 @@ pub(crate) fn solution(problem: &Problem, case: &Uniaxial) -> Result<Solution, E
         },
         unknowns: 0,
         estimated_error: 0.0,
+        observed_order: None,
         warnings,
         vtu: None,
         recording: None,

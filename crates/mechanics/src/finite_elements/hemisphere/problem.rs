@@ -1,7 +1,7 @@
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use std::sync::Arc;
 
-use super::super::estimate::{Estimated, Progress, refine};
+use super::super::estimate::{Estimated, Meshes, Progress, Quantity, refine};
 use super::super::graded::Grading;
 use super::super::model::{
     FiniteElementModel, FiniteElementState, FiniteElementWorkspace, Formulation,
@@ -45,22 +45,27 @@ pub struct HemisphereAnswer {
     /// Arc from the pole [m] and displacement along the normal at rest, outward positive [m], from the
     /// pole to the equator.
     pub profile: Vec<(f64, f64)>,
+    /// Root mean square of the profile over the arc [m].
+    pub mean_displacement: f64,
     /// Nodes of the finest mesh.
     pub nodes: usize,
     /// Unknowns of the finest mesh.
     pub unknowns: usize,
 }
 
-/// Smallest elements of the coarsest mesh, at the edge of the patch [-], in radii of it.
+/// Smallest elements of the second mesh, at the edge of the patch [-], in radii of it.
 const EDGE: f64 = 0.1;
-/// Stress is infinite at the edge, as the root of the distance, and the force is off by the size of the
-/// elements there.
-const ORDER: f64 = 1.0;
-const MOST_HALVINGS: u32 = 5;
+/// Stress is infinite at the edge, as the root of the distance, and force and profile are off by the size
+/// of the elements there.
+const MESHES: Meshes<'static> = Meshes {
+    sizes: &[64.0, 32.0, 16.0, 8.0, 4.0, 2.0, 1.0],
+    order: 1.0,
+};
 /// Fewest points of a profile.
 const POINTS: usize = 200;
 
-/// Solves on ever finer meshes until the force is good to `accuracy` [-].
+/// Solves on ever finer meshes until the force, and the profile in the root mean square over the arc, are
+/// good to `accuracy` [-].
 ///
 /// # Errors
 /// When radius or patch are no lengths, the patch reaches the base, or memory does not suffice.
@@ -70,30 +75,31 @@ pub fn solve(
     mut progress: impl FnMut(Progress),
 ) -> Result<Estimated<HemisphereAnswer>, Error> {
     problem.check()?;
-    refine(accuracy, ORDER, MOST_HALVINGS, |halvings| {
-        progress(Progress {
-            part: 0.0,
-            halvings,
-        });
-        let answer = problem.solve_on(EDGE, halvings)?;
-        progress(Progress {
-            part: 1.0,
-            halvings,
-        });
-        let force = answer.force;
-        Ok((answer, vec![force]))
+    refine(&MESHES, accuracy, |mesh| {
+        progress(Progress { part: 0.0, mesh });
+        let answer = problem.solve_on(EDGE, mesh as i32 - 1)?;
+        progress(Progress { part: 1.0, mesh });
+        let quantities = vec![
+            Quantity::new("force", vec![answer.force]),
+            Quantity::new("profile", vec![answer.mean_displacement]),
+        ];
+        Ok(Some((answer, quantities)))
     })
 }
 
 impl HemisphereProblem {
     /// Solves on one mesh whose elements at the edge of the patch are `edge` [-] of its radius, every
-    /// element then halved `halvings` times.
+    /// element then halved `halvings` times, or doubled where that is −1.
     ///
     /// # Errors
     /// As for [`solve`].
-    pub fn solve_on(&self, edge: f64, halvings: u32) -> Result<HemisphereAnswer, Error> {
+    pub fn solve_on(&self, edge: f64, halvings: i32) -> Result<HemisphereAnswer, Error> {
         self.check()?;
-        let disc = QuarterDisc::new(self.radius, &self.lines(edge), halvings);
+        let disc = QuarterDisc::new(
+            self.radius,
+            &self.lines(edge, halvings.min(0)),
+            halvings.max(0).unsigned_abs(),
+        );
         let model =
             FiniteElementModel::new(disc.mesh.clone(), Arc::new(self.law), Formulation::Mixed)?;
         let rim = self.patch_radius / self.radius * (1.0 + 1e-9);
@@ -122,6 +128,7 @@ impl HemisphereProblem {
             force: -along(&patch),
             base_force: along(&disc.base),
             profile: self.profile(&disc, &model, &state),
+            mean_displacement: mean_displacement(&disc, &model, &state),
             nodes: model.mesh().nodes.len(),
             unknowns: model.size(),
         })
@@ -150,8 +157,9 @@ impl HemisphereProblem {
         Ok(())
     }
 
-    /// Lines that are fine along the arc around the edge of the patch, and below the arc.
-    fn lines(&self, edge: f64) -> Lines {
+    /// Lines that are fine along the arc around the edge of the patch, and below the arc; their intervals
+    /// `joined` in pairs where that is −1.
+    fn lines(&self, edge: f64, joined: i32) -> Lines {
         let rim = self.patch_radius / self.radius;
         let grading = Grading {
             first: edge * rim.min(FRAC_PI_2 - rim),
@@ -159,10 +167,15 @@ impl HemisphereProblem {
             near: 3.0 * rim,
             far_growth: 1.7,
         };
-        let mut arc: Vec<f64> = grading.line(rim, 0).iter().rev().map(|x| rim - x).collect();
+        let mut arc: Vec<f64> = grading
+            .line(rim, joined)
+            .iter()
+            .rev()
+            .map(|x| rim - x)
+            .collect();
         arc[0] = 0.0;
         arc.extend(
-            grading.line(FRAC_PI_2 - rim, 0)[1..]
+            grading.line(FRAC_PI_2 - rim, joined)[1..]
                 .iter()
                 .map(|x| rim + x),
         );
@@ -172,7 +185,7 @@ impl HemisphereProblem {
             .min_by(|a, b| off(a).total_cmp(&off(b)))
             .expect("there is an interval on either side of the edge");
         let middle = arc[seam];
-        let down = grading.line(1.0 - SQUARE, 0);
+        let down = grading.line(1.0 - SQUARE, joined);
         Lines {
             across: arc[..=seam].iter().map(|x| x / middle).collect(),
             up: arc[seam..]
@@ -223,4 +236,25 @@ impl HemisphereProblem {
         }
         profile
     }
+}
+
+/// Root mean square of the displacement along the normal over the arc [m], by Simpson's rule on each side.
+fn mean_displacement(
+    disc: &QuarterDisc,
+    model: &FiniteElementModel,
+    state: &FiniteElementState,
+) -> f64 {
+    let squared = |&(node, angle): &(usize, f64)| {
+        let (sine, cosine) = angle.sin_cos();
+        let displacement = state.displacement(model, node);
+        (displacement.x * sine + displacement.y * cosine).powi(2)
+    };
+    let sides = disc.arc.windows(3).step_by(2);
+    let sum: f64 = sides
+        .map(|ends| {
+            let [first, middle, last] = [0, 1, 2].map(|i| squared(&ends[i]));
+            (ends[2].1 - ends[0].1) / 6.0 * (first + 4.0 * middle + last)
+        })
+        .sum();
+    (sum / FRAC_PI_2).sqrt()
 }

@@ -40,16 +40,16 @@ impl Block {
     }
 }
 
-/// Smallest elements of the coarsest mesh, in radii of the contact [-].
+/// Smallest elements of the usual mesh, in radii of the contact [-].
 const EDGE: f64 = 0.1;
 
 /// A grid with its smallest elements around the contact of `indenter` at the depth `deepest` [m] on the top
-/// (z = 0).
+/// (z = 0); of the usual mesh where `halvings` is 0.
 pub(super) fn graded_block(
     block: &Block,
     indenter: &Indenter,
     deepest: f64,
-    halvings: u32,
+    halvings: i32,
 ) -> ElementMesh {
     let contact = indenter.scale(deepest);
     let edge = EDGE * contact;

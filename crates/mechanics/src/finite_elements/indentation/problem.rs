@@ -1,6 +1,6 @@
 use std::sync::Arc;
 
-use super::super::estimate::{Estimated, Progress, refine};
+use super::super::estimate::{Estimated, Meshes, Progress, Quantity, refine};
 use super::indenter::Indenter;
 use super::mesh::Block;
 use super::run::{IndentationPoint, IndentationRun, IndentationSettings};
@@ -47,10 +47,18 @@ pub struct IndentationAnswer {
     pub unknowns: usize,
 }
 
-/// Power of the element size with which errors fall: the stress at the edge of the contact is infinite,
-/// which leaves the first power of the smallest elements and higher ones of the others.
-const ORDER: f64 = 1.2;
-const MOST_HALVINGS: u32 = 2;
+/// The meshes: elements of a fifth of the indenter's radius at the edge of the contact, then halved. The stress
+/// there is infinite as the root of the distance, which leaves the first power of the size of these
+/// elements.
+const MESHES: Meshes<'static> = Meshes {
+    sizes: &[2.0, 1.0, 0.5, 0.25],
+    order: 1.0,
+};
+
+/// Halvings of the usual mesh in that of this number.
+fn halvings(mesh: usize) -> i32 {
+    mesh as i32 - 1
+}
 
 /// Elastic forces at `depths` [m], to the relative `accuracy` [-].
 ///
@@ -63,10 +71,10 @@ pub fn solve(
     progress: &mut dyn FnMut(Progress),
 ) -> Result<Estimated<IndentationAnswer>, Error> {
     problem.check_depths(depths)?;
-    refine(accuracy, ORDER, MOST_HALVINGS, |halvings| {
-        let answer = problem.elastic(depths, halvings, progress)?;
-        let forces = answer.points.iter().map(|point| point.force).collect();
-        Ok((answer, forces))
+    refine(&MESHES, accuracy, |mesh| {
+        let answer = problem.elastic(depths, mesh, progress)?;
+        let forces = answer.forces();
+        Ok(Some((answer, forces)))
     })
 }
 
@@ -84,14 +92,21 @@ pub fn solve_history(
 ) -> Result<Estimated<IndentationAnswer>, Error> {
     history.check()?;
     problem.check_depths(&history.depths)?;
-    refine(accuracy, ORDER, MOST_HALVINGS, |halvings| {
+    refine(&MESHES, accuracy, |mesh| {
         let answer = match relaxing {
-            Relaxing::Convolution => problem.convolved(prony, history, halvings, progress)?,
-            Relaxing::Full => problem.relaxed(prony, history, halvings, progress)?,
+            Relaxing::Convolution => problem.convolved(prony, history, mesh, progress)?,
+            Relaxing::Full => problem.relaxed(prony, history, mesh, progress)?,
         };
-        let forces = answer.points.iter().map(|point| point.force).collect();
-        Ok((answer, forces))
+        let forces = answer.forces();
+        Ok(Some((answer, forces)))
     })
+}
+
+impl IndentationAnswer {
+    fn forces(&self) -> Vec<Quantity> {
+        let forces = self.points.iter().map(|point| point.force);
+        vec![Quantity::new("force", forces.collect())]
+    }
 }
 
 impl History {
@@ -122,7 +137,7 @@ impl IndentationProblem {
         &self,
         prony: &PronySeries,
         deepest: f64,
-        halvings: u32,
+        mesh: usize,
     ) -> Result<IndentationRun, Error> {
         IndentationRun::new(&IndentationSettings {
             block: self.block,
@@ -130,7 +145,7 @@ impl IndentationProblem {
             law: self.law.clone(),
             prony: prony.clone(),
             deepest,
-            halvings,
+            halvings: halvings(mesh),
         })
     }
 
@@ -138,13 +153,13 @@ impl IndentationProblem {
     fn elastic(
         &self,
         depths: &[f64],
-        halvings: u32,
+        mesh: usize,
         progress: &mut dyn FnMut(Progress),
     ) -> Result<IndentationAnswer, Error> {
         let mut order: Vec<usize> = (0..depths.len()).collect();
         order.sort_by(|&a, &b| depths[a].total_cmp(&depths[b]));
         let deepest = order.last().map_or(0.0, |&last| depths[last]);
-        let mut run = self.run(&PronySeries::default(), deepest, halvings)?;
+        let mut run = self.run(&PronySeries::default(), deepest, mesh)?;
         let mut curve = IndentationCurve::untouched();
         let mut points = vec![run.point(); depths.len()];
         for &place in &order {
@@ -153,7 +168,7 @@ impl IndentationProblem {
                 run.press(depth, depth, |point| {
                     curve.extend(point.depth, point.force);
                     let part = point.depth / deepest;
-                    progress(Progress { part, halvings });
+                    progress(Progress { part, mesh });
                 })?;
             }
             points[place] = run.point();
@@ -170,11 +185,11 @@ impl IndentationProblem {
         &self,
         prony: &PronySeries,
         history: &History,
-        halvings: u32,
+        mesh: usize,
         progress: &mut dyn FnMut(Progress),
     ) -> Result<IndentationAnswer, Error> {
         let deepest = history.depths.iter().copied().fold(0.0, f64::max);
-        let elastic = self.elastic(&curve_depths(deepest), halvings, progress)?;
+        let elastic = self.elastic(&curve_depths(deepest), mesh, progress)?;
         let forces = elastic
             .curve
             .relaxed(prony, &history.times, &history.depths);
@@ -197,20 +212,20 @@ impl IndentationProblem {
         &self,
         prony: &PronySeries,
         history: &History,
-        halvings: u32,
+        mesh: usize,
         progress: &mut dyn FnMut(Progress),
     ) -> Result<IndentationAnswer, Error> {
         let last = history.times.last().copied().unwrap_or(0.0);
         let deepest = history.depths.iter().copied().fold(0.0, f64::max);
-        let mut run = self.run(prony, deepest, halvings)?;
+        let mut run = self.run(prony, deepest, mesh)?;
         let mut points = Vec::with_capacity(history.times.len());
         for (&time, &depth) in history.times.iter().zip(&history.depths) {
             points.push(run.press(time, depth, |point| {
                 let part = if last > 0.0 { point.time / last } else { 1.0 };
-                progress(Progress { part, halvings });
+                progress(Progress { part, mesh });
             })?);
         }
-        let elastic = self.elastic(&curve_depths(deepest), halvings, &mut |_| {})?;
+        let elastic = self.elastic(&curve_depths(deepest), mesh, &mut |_| {})?;
         Ok(IndentationAnswer { points, ..elastic })
     }
 }

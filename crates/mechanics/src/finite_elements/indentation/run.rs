@@ -27,8 +27,8 @@ pub struct IndentationSettings {
     pub prony: PronySeries,
     /// Depth [m] that the mesh is made for: the contact of a sphere or a cone grows up to it.
     pub deepest: f64,
-    /// How often every element of the coarsest mesh is halved.
-    pub halvings: u32,
+    /// How often every element of the usual mesh is halved; −1 doubles it.
+    pub halvings: i32,
 }
 
 /// What the indenter feels at a depth.

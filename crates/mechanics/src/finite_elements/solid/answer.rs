@@ -16,6 +16,8 @@ pub struct SolidAnswer {
     pub reaction: Vec3,
     /// Strain energy [J].
     pub energy: f64,
+    /// Root mean square of the displacement over the body [m].
+    pub mean_displacement: f64,
     /// Area of the patch at rest [m²].
     pub patch_area: f64,
     /// Number of unknowns.
@@ -60,6 +62,7 @@ impl SolidAnswer {
             force_along: force.dot(&along.normalize()),
             reaction: sum(&held.anchored),
             energy: workspace.energy(),
+            mean_displacement: mean_displacement(model, state),
             patch_area: held.area,
             unknowns: model.size(),
             factor_entries: workspace.factor_entries(),
@@ -83,6 +86,30 @@ impl SolidFields {
                 .collect(),
         }
     }
+}
+
+/// Root mean square over the volume [m].
+fn mean_displacement(model: &FiniteElementModel, state: &FiniteElementState) -> f64 {
+    let (mapping, kind) = (&model.mapping, model.mesh.kind);
+    let shapes = mapping.at.iter().map(|at| {
+        let mut shape = vec![0.0; kind.nodes()];
+        kind.shape(*at, &mut shape);
+        shape
+    });
+    let shapes: Vec<Vec<f64>> = shapes.collect();
+    let (mut squares, mut volume) = (0.0, 0.0);
+    for (element, weights) in mapping.weights.chunks_exact(mapping.points).enumerate() {
+        let nodes = model.mesh.element(element).iter();
+        let moved: Vec<Vec3> = nodes
+            .map(|&node| state.displacement(model, node as usize))
+            .collect();
+        for (shape, weight) in shapes.iter().zip(weights) {
+            let here: Vec3 = shape.iter().zip(&moved).map(|(n, u)| *n * u).sum();
+            squares += weight * here.norm_squared();
+            volume += weight;
+        }
+    }
+    (squares / volume).sqrt()
 }
 
 /// At the corners the unknowns, between them their mean.

@@ -2,11 +2,12 @@
 //! of the anchor.
 //!
 //! Stress is infinite along both: where the surface and a sphere around the centre meet, and where the
-//! anchor ends. With d and e the distances to them and k the number of halvings, no edge is longer than
-//!   h = min(max(h₀ 2⁻ᵏ, g d 2^(−k/4)), max(½ H 2^(−k/2), g e 2^(−k/4)), H 2^(−k/4)).
-//! The force errs with h at the edges and with h⁴ where the answer is smooth, so that the first and the last
-//! part fall alike; that of the anchor, of which there is much to refine, falls by less and is seen in the
-//! change all the same. A level has about twice as many unknowns as the one before.
+//! anchor ends. With d and e the distances to them and k the number of halvings (−1 on the coarsest mesh),
+//! no edge is longer than
+//!   h = min(max(h₀ 2⁻ᵏ, g d 2^(−k/4)), max(½ H 2⁻ᵏ, g e 2^(−k/4)), H 2^(−k/4)).
+//! The force errs with h at the edges and with h⁴ where the answer is smooth, so that all parts of its error
+//! fall alike, and three meshes show one order. A level has about two and a half times as many unknowns as
+//! the one before.
 //!
 //! A coarse filling cuts off what is thin. Where the first mesh does not have the area of the patch, the body is filled
 //! again, with ever smaller tetrahedra at the patch.
@@ -161,7 +162,7 @@ impl<'a> Ground<'a> {
     }
 
     /// The tetrahedra after `halvings`, and how many edges still cross the edge of the patch.
-    pub(super) fn mesh(&self, halvings: u32) -> Result<(TetrahedronMesh, usize), Error> {
+    pub(super) fn mesh(&self, halvings: i32) -> Result<(TetrahedronMesh, usize), Error> {
         let surface = match self.body {
             Body::Surface(surface) => Some(surface),
             Body::Volume(_) => None,
@@ -170,7 +171,7 @@ impl<'a> Ground<'a> {
         let follow = 2.0_f64.powf(-halves / 4.0);
         let shortest = EDGE * self.radius * 2.0_f64.powf(-halves);
         let filling = self.filling.quality().longest_edge;
-        let at_anchor = AT_ANCHOR * filling * 2.0_f64.powf(-halves / 2.0);
+        let at_anchor = AT_ANCHOR * filling * 2.0_f64.powf(-halves);
         let mesh = refine_to(&self.filling, surface, |point| {
             let away = |from| GROWTH * follow * distance(from, point);
             let longest = filling * follow * (1.0 + 1e-9);

@@ -1,4 +1,4 @@
-use super::super::estimate::{Estimated, Progress};
+use super::super::estimate::{Estimated, Meshes, Progress, Quantity, refine};
 use super::super::mesh::ElementMesh;
 use super::super::model::{FiniteElementModel, FiniteElementWorkspace, Formulation};
 use super::answer::SolidAnswer;
@@ -12,16 +12,19 @@ use crate::{Error, Vec3};
 /// More unknowns than these are refused: their factors would have about ten gigabytes.
 const MOST_UNKNOWNS: usize = 600_000;
 
-/// A third mesh is solved when the second had at most so many unknowns, since it has about two and a
+/// The last mesh is solved when the one before had at most so many unknowns, since it has about two and a
 /// half times as many.
-const MOST_BEFORE_THE_THIRD: usize = 150_000;
+const MOST_BEFORE_THE_LAST: usize = 150_000;
 
-/// Power of the size of the elements with which the force errs [-]. Stress at the edge of the patch is
-/// infinite, which leaves 1; the circle, which is cut into ever more chords, takes some of it away.
-const ORDER: f64 = 0.8;
+/// Stress is infinite along the edges of patch and anchor, as the root of the distance, and elsewhere
+/// elements follow so that errors fall alike.
+const MESHES: Meshes<'static> = Meshes {
+    sizes: &[8.0, 4.0, 2.0, 1.0],
+    order: 1.0,
+};
 
-/// The force of a patch, to the relative `accuracy` [-] if the second mesh, or the third, gives it; on a
-/// body too large for a third the error that is left is told all the same.
+/// The force of a patch, to the relative `accuracy` [-] if four meshes give it; on a body too large for
+/// the last the error that is left is told all the same.
 ///
 /// # Errors
 /// When the problem is none (no anchor, no patch, no displacement), too large for the memory, or
@@ -33,46 +36,45 @@ pub fn solve(
 ) -> Result<Estimated<SolidAnswer>, Error> {
     problem.check()?;
     let ground = Ground::new(problem)?;
-    let mut coarse = problem.solve_on(&ground, 0, progress)?.force_along;
-    let mut halvings = 1;
-    loop {
-        let answer = problem.solve_on(&ground, halvings, progress)?;
-        let error = change(coarse, answer.force_along) / (2.0_f64.powf(ORDER) - 1.0);
-        let last = halvings >= 2 || answer.unknowns > MOST_BEFORE_THE_THIRD;
-        if error <= accuracy || last {
-            return Ok(Estimated { answer, error });
+    let mut unknowns = 0;
+    refine(&MESHES, accuracy, |mesh| {
+        if unknowns > MOST_BEFORE_THE_LAST {
+            return Ok(None);
         }
-        coarse = answer.force_along;
-        halvings += 1;
-    }
+        let answer = problem.solve_on(&ground, mesh, progress)?;
+        unknowns = answer.unknowns;
+        let quantities = vec![
+            Quantity::new("force", vec![answer.force_along]),
+            Quantity::new("displacement of the body", vec![answer.mean_displacement]),
+        ];
+        Ok(Some((answer, quantities)))
+    })
 }
 
-/// The same on one mesh, whose elements at the edge of the patch were halved `halvings` times.
+/// The same on one mesh, whose elements at the edges of patch and anchor were halved `halvings` times, or
+/// doubled where that is −1.
 ///
 /// # Errors
 /// See [`solve`].
 pub fn solve_at(
     problem: &SolidProblem,
-    halvings: u32,
+    halvings: i32,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<SolidAnswer, Error> {
     problem.check()?;
     let ground = Ground::new(problem)?;
-    problem.solve_on(&ground, halvings, progress)
+    problem.solve_on(&ground, (halvings + 1).max(0) as usize, progress)
 }
 
 impl SolidProblem {
     fn solve_on(
         &self,
         ground: &Ground<'_>,
-        halvings: u32,
+        mesh: usize,
         progress: &mut dyn FnMut(Progress),
     ) -> Result<SolidAnswer, Error> {
-        progress(Progress {
-            part: 0.0,
-            halvings,
-        });
-        let (tetrahedra, crossing) = ground.mesh(halvings)?;
+        progress(Progress { part: 0.0, mesh });
+        let (tetrahedra, crossing) = ground.mesh(mesh as i32 - 1)?;
         let corners = tetrahedra.vertices().len();
         let unknowns = 4 * corners + 3 * tetrahedra.edges().len();
         if unknowns > MOST_UNKNOWNS {
@@ -83,11 +85,11 @@ impl SolidProblem {
         }
         let held = Held::new(self, &tetrahedra, &ground.center)?;
         let frame = Frame::new(&self.patch);
-        let mesh = frame.put(ElementMesh::from_tetrahedra(&tetrahedra));
-        let model = FiniteElementModel::new(mesh, self.law.clone(), Formulation::Mixed)?;
+        let elements = frame.put(ElementMesh::from_tetrahedra(&tetrahedra));
+        let model = FiniteElementModel::new(elements, self.law.clone(), Formulation::Mixed)?;
         let mut workspace = FiniteElementWorkspace::new(&model)?;
         let state = equilibrium(&model, (&frame, &held), &mut workspace, &mut |part| {
-            progress(Progress { part, halvings });
+            progress(Progress { part, mesh });
         })?;
         let supports = (&frame, &held, &self.patch.displacement);
         let mut answer = SolidAnswer::new(&model, &state, &workspace, supports);
@@ -125,15 +127,6 @@ impl SolidProblem {
             return Err(Error::NothingHeld);
         }
         Ok(())
-    }
-}
-
-/// Relative change of a force [-].
-fn change(coarse: f64, fine: f64) -> f64 {
-    if coarse == fine {
-        0.0
-    } else {
-        ((fine - coarse) / fine).abs()
     }
 }
 

@@ -3,7 +3,7 @@
 //! *Limits*: of the punch only the face is there. Deeper than its radius, tissue beside it may be where
 //! its side is; the answer then carries a doubt. The tube is held at its ends only.
 
-use super::super::estimate::{Estimated, Progress, refine_through};
+use super::super::estimate::{Estimated, Meshes, Progress, Quantity, refine};
 use super::super::indentation::Grip;
 use super::punching::Punching;
 use super::{Ends, TubeProblem, check_pressure, inflate, solid};
@@ -38,8 +38,11 @@ pub struct Indented {
 /// Parts of the coarse elements' edges on the meshes that are tried, in turn.
 const PARTS: [usize; 3] = [1, 2, 3];
 
-/// Power of the element size with which forces converge: the pressure at the punch's edge is singular.
-const ORDER: f64 = 1.0;
+/// The pressure at the punch's edge is infinite as the root of the distance.
+const MESHES: Meshes<'static> = Meshes {
+    sizes: &[1.0, 1.0 / 2.0, 1.0 / 3.0],
+    order: 1.0,
+};
 
 /// Depth [-], in radii, at which an axisymmetric block folds under a face without friction.
 const FOLDS: f64 = 1.3;
@@ -59,14 +62,9 @@ pub fn indent(
     let mut order: Vec<usize> = (0..punch.depths.len()).collect();
     order.sort_by(|&a, &b| punch.depths[a].total_cmp(&punch.depths[b]));
     let deepest = order.last().map_or(0.0, |&last| punch.depths[last]);
-    refine_through(&PARTS, accuracy, ORDER, |parts| {
-        let mut tell = |part: f64| {
-            progress(Progress {
-                part,
-                halvings: parts as u32 - 1,
-            });
-        };
-        let mut run = Punching::new(problem, punch, parts)?;
+    refine(&MESHES, accuracy, |mesh| {
+        let mut tell = |part: f64| progress(Progress { part, mesh });
+        let mut run = Punching::new(problem, punch, PARTS[mesh])?;
         run.pressurise()?;
         let mut forces = vec![0.0; punch.depths.len()];
         for &place in &order {
@@ -79,7 +77,7 @@ pub fn indent(
             doubts: doubts(punch, deepest, &run),
             forces: forces.clone(),
         };
-        Ok((answer, forces))
+        Ok(Some((answer, vec![Quantity::new("force", forces)])))
     })
 }
 
@@ -127,7 +125,7 @@ fn check(problem: &TubeProblem, punch: &TubePunch) -> Result<(), Error> {
         });
     }
     if punch.pressure > 0.0 && problem.law.volume().strain == Strain::Finite {
-        let inflated = inflate::on_mesh(problem, &[], 1, &mut |_| {})?;
+        let inflated = inflate::on_mesh(problem, &[], 2, &mut |_| {})?;
         if let Some(limit) = inflated.limit_pressure.filter(|&p| p < punch.pressure) {
             return Err(Error::Balloons {
                 pressure: punch.pressure,

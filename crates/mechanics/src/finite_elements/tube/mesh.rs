@@ -1,23 +1,21 @@
 //! The half of a tube between its middle (z = 0) and one end, in the half-plane (r, z).
 
 use super::super::cavity::Cavity;
-use super::super::graded::halved;
+use super::super::graded::resampled;
 use super::super::mesh::ElementMesh;
 use super::Tube;
 
 /// Places in the wall [-]: finer at both surfaces, whose corners with a held end concentrate stress.
 const WALL: [f64; 5] = [0.0, 0.15, 0.5, 0.85, 1.0];
 
-/// The mesh and its inner wall.
-pub(super) fn half(tube: &Tube, halvings: u32) -> (ElementMesh, Cavity) {
+/// The mesh and its inner wall, with `parts` elements [-] in the place of each along both directions.
+pub(super) fn half(tube: &Tube, parts: f64) -> (ElementMesh, Cavity) {
     let (inner, wall) = (tube.inner_radius, tube.wall());
-    let mut columns: Vec<f64> = WALL.iter().map(|part| inner + part * wall).collect();
+    let wall_places = resampled(&WALL, parts);
+    let columns: Vec<f64> = wall_places.iter().map(|part| inner + part * wall).collect();
     let half = 0.5 * tube.length;
-    let mut rows = from_the_end(half, 0.15 * wall, 1.7, 0.7 * tube.outer_radius);
-    for _ in 0..halvings {
-        columns = halved(&columns);
-        rows = halved(&rows);
-    }
+    let rows = from_the_end(half, 0.15 * wall, 1.7, 0.7 * tube.outer_radius);
+    let rows = resampled(&rows, parts);
     let mesh = ElementMesh::grid(&columns, &rows, |r, z| [r, z]);
     let width = 2 * columns.len() - 1;
     let side = |j: usize| (0..3).map(|k| ((2 * j + k) * width) as u32).collect();

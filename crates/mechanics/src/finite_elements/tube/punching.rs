@@ -356,7 +356,7 @@ mod tests {
         let far = |x: &Vec3| (x.xy() - nalgebra::Vector2::new(-0.005, 0.0)).norm() < 1e-9;
         let node = run.model.mesh().nodes_where(|x| far(x) && x.z == 0.0)[0];
         let solid = -run.now.state.displacement(&run.model, node).x;
-        let answer = inflate::on_mesh(&problem, &[400.0], 1, &mut |_| {}).unwrap();
+        let answer = inflate::on_mesh(&problem, &[400.0], 2, &mut |_| {}).unwrap();
         let flat = answer.inner_displacements[0].unwrap();
         println!("{} unknowns: {solid}, {flat}", run.unknowns());
         // The coarse solid, with elements as long as the wall is thick.

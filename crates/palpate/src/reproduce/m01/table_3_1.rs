@@ -66,7 +66,7 @@ fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
 
 /// Smallest elements [-], in radii of the tip, and halvings of a mesh with about as many nodes as the
 /// source's, and of one halved once more.
-const MESHES: [(&str, f64, u32); 2] = [("", 0.1, 1), ("/converged", 0.1, 2)];
+const MESHES: [(&str, f64, i32); 2] = [("", 0.1, 1), ("/converged", 0.1, 2)];
 
 /// Ours is axisymmetric: as many nodes resolve far more than in the source's solid.
 fn finite_elements(rows: &mut Rows<'_>, machine: &str) -> Result<(), Failure> {

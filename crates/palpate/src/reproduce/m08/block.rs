@@ -110,7 +110,7 @@ fn curve(
     };
     let depths = DEPTHS_MM.map(|depth| 1e-3 * f64::from(depth));
     let mut say = |progress: Progress| {
-        let (mesh, part) = (progress.halvings + 1, 100.0 * progress.part);
+        let (mesh, part) = (progress.mesh + 1, 100.0 * progress.part);
         rows.say(format!("{name} on mesh {mesh}, {part:.0} %"));
     };
     let found = solve(&problem, &depths, ACCURACY, &mut say)?;

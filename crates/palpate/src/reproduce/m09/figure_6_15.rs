@@ -72,7 +72,7 @@ fn indented(
         depths: depths.collect(),
     };
     let found = indent(&problem, &punch, ACCURACY, &mut |progress: Progress| {
-        let (mesh, part) = (progress.halvings + 1, 100.0 * progress.part);
+        let (mesh, part) = (progress.mesh + 1, 100.0 * progress.part);
         rows.say(format!("mesh {mesh}, {part:.0} %"));
     })?;
     let curve = IndentationCurve::through(&punch.depths, &found.answer.forces);

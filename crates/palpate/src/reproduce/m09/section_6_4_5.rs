@@ -129,7 +129,7 @@ fn solve(
     pressures: &[f64],
 ) -> Result<Estimated<Inflated>, Failure> {
     let mut say = |progress: Progress| {
-        let (mesh, part) = (progress.halvings + 1, 100.0 * progress.part);
+        let (mesh, part) = (progress.mesh + 1, 100.0 * progress.part);
         rows.say(format!("mesh {mesh}, {part:.0} %"));
     };
     Ok(inflate(problem, pressures, ACCURACY, &mut say)?)

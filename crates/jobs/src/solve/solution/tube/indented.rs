@@ -57,7 +57,14 @@ pub(crate) fn with_forces(
     );
     let mut warnings = inflated.warnings;
     warnings.extend(doubts::of_depths(problem, punch.radius, depths));
+    warnings.extend(found.warnings);
     warnings.extend(found.answer.doubts);
+    // Of the one that errs more.
+    let (estimated_error, observed_order) = if found.error > inflated.estimated_error {
+        (found.error, found.observed_order)
+    } else {
+        (inflated.estimated_error, inflated.observed_order)
+    };
     let pairs = millimetres(depths).zip(millinewtons(&forces));
     let plot = Plot {
         title: format!(
@@ -77,7 +84,8 @@ pub(crate) fn with_forces(
         plot,
         warnings,
         unknowns: inflated.unknowns.max(found.answer.unknowns),
-        estimated_error: inflated.estimated_error.max(found.error),
+        estimated_error,
+        observed_order,
         ..inflated
     })
 }

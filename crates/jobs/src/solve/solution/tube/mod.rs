@@ -36,6 +36,9 @@ pub(crate) fn solution(
     };
     let found = under(&case.pressures, problem.accuracy)?;
     let inflated = found.answer;
+    let mut warnings = found.warnings;
+    warnings.extend(inflated.warnings.iter().cloned());
+    warnings.extend(doubts(problem, case, &inflated));
     let moved = &inflated.inner_displacements;
     let in_words = |moved: &Option<f64>| match moved {
         Some(moved) => digits(1e3 * moved),
@@ -53,7 +56,7 @@ pub(crate) fn solution(
         heading: heading(case, &inflated),
         tables: vec![table],
         plot: plot::over_displacement(problem, case, (&inflated, drawn)),
-        warnings: doubts(problem, case, &inflated),
+        warnings,
         figures: Figures::Tube(TubeFigures {
             pressure_pa: case.pressures.clone(),
             inner_displacement_m: inflated.inner_displacements,
@@ -63,6 +66,7 @@ pub(crate) fn solution(
         }),
         unknowns: inflated.unknowns,
         estimated_error: found.error,
+        observed_order: found.observed_order,
         vtu: None,
         recording: None,
     };

@@ -1,0 +1,171 @@
+//! The estimated error of every kind of problem against the true one; `patch_on_hemisphere` has that of the
+//! hemisphere.
+
+use std::sync::Arc;
+
+use palpate_mechanics::finite_elements::estimate::Estimated;
+use palpate_mechanics::finite_elements::indentation::{
+    self, Block, Grip, IndentationProblem, Indenter, IndenterShape, Side,
+};
+use palpate_mechanics::finite_elements::indentation::{IndentationRun, IndentationSettings};
+use palpate_mechanics::finite_elements::solid::SolidAnswer;
+use palpate_mechanics::finite_elements::tube::{Ends, Tube, TubeProblem, inflate};
+use palpate_mechanics::{Law, LinearElastic, NeoHookean, PronySeries};
+
+use crate::path::closed_form;
+use crate::solid::{HALF, at, cube};
+use crate::tube::{INNER, OUTER};
+
+/// Half of the true error to five times it, or above with a warning.
+fn assert_honest<T>(found: &Estimated<T>, error: f64, what: &str) {
+    let ratio = found.error / error;
+    println!(
+        "{what}: estimated {:.3e}, true {error:.3e}, ratio {ratio:.2}, order {:?}, {:?}",
+        found.error, found.observed_order, found.warnings
+    );
+    assert!(ratio >= 0.5, "{what}: {ratio}");
+    assert!(
+        ratio <= 5.0 || !found.warnings.is_empty(),
+        "{what}: {ratio}"
+    );
+}
+
+fn tube(length: f64, ends: Ends, law: impl Law + 'static) -> TubeProblem {
+    TubeProblem {
+        tube: Tube {
+            length,
+            inner_radius: INNER,
+            outer_radius: OUTER,
+        },
+        law: Arc::new(law),
+        ends,
+    }
+}
+
+/// Judges: Lamé's cylinder, and the closed form of an incompressible tube in plane strain.
+#[test]
+fn the_error_of_an_endless_tube_is_honest() {
+    let (young, nu, pressure) = (5200.0, 0.3, 100.0);
+    let law = LinearElastic::new(young, nu).unwrap();
+    let problem = tube(0.01, Ends::Guided, law);
+    let exact = (1.0 + nu) / young * pressure * INNER.powi(2) / (OUTER.powi(2) - INNER.powi(2))
+        * ((1.0 - 2.0 * nu) * INNER + OUTER.powi(2) / INNER);
+    let found = inflate(&problem, &[pressure], 0.02, &mut |_| {}).unwrap();
+    let moved = found.answer.inner_displacements[0].unwrap();
+    assert_honest(&found, (moved / exact - 1.0).abs(), "linear");
+
+    let law = NeoHookean::incompressible(young / 6.0).unwrap();
+    let problem = tube(0.001, Ends::Guided, law.clone());
+    let pressure = 650.0;
+    let found = inflate(&problem, &[pressure], 0.02, &mut |_| {}).unwrap();
+    let moved = found.answer.inner_displacements[0].unwrap();
+    // The displacement at which the closed form has this pressure.
+    let (mut low, mut high) = (0.5 * moved, 2.0 * moved);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if closed_form(&law, INNER, OUTER, INNER + middle) < pressure {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    assert_honest(&found, (moved / low - 1.0).abs(), "neo-Hookean");
+}
+
+/// Judge: the mesh with elements half as long, and what is left beyond it at order 1.
+#[test]
+fn the_error_of_a_punch_is_honest() {
+    let (radius, depth) = (1e-3, 1e-4);
+    let block = Block {
+        radius: 0.05642,
+        height: 0.1,
+    };
+    for (face, nu) in [(Grip::Stick, 0.3), (Grip::Slide, 0.4999)] {
+        let indenter = Indenter {
+            shape: IndenterShape::Flat { side: Side::Absent },
+            radius,
+            face,
+        };
+        let law: Arc<dyn Law> = Arc::new(LinearElastic::new(6000.0, nu).unwrap());
+        let problem = IndentationProblem {
+            block,
+            indenter,
+            law: law.clone(),
+        };
+        let found = indentation::solve(&problem, &[depth], 0.01, &mut |_| {}).unwrap();
+        let force = found.answer.points[0].force;
+        let mut finer = IndentationRun::new(&IndentationSettings {
+            block,
+            indenter,
+            law,
+            prony: PronySeries::default(),
+            halvings: 2,
+        })
+        .unwrap();
+        let finer = finer.press(depth, depth, |_| {}).unwrap().force;
+        let exact = 2.0 * finer - force;
+        assert_honest(
+            &found,
+            (force / exact - 1.0).abs(),
+            &format!("{face:?} {nu}"),
+        );
+    }
+}
+
+/// The end of an anchor makes stress infinite like the edge of a patch: its elements are halved from mesh to
+/// mesh too, or its error is not in the change. Judge: where the tetrahedra are.
+#[test]
+fn the_end_of_the_anchor_is_refined_like_the_patch() {
+    let problem = cube(
+        0.02,
+        0.3,
+        palpate_mechanics::finite_elements::indentation::Grip::Stick,
+    );
+    let [coarse, fine] = [0, 1].map(|halvings| longest_at_anchor(&at(&problem, halvings)));
+    println!("{coarse} m, halved {fine} m");
+    // The filling's longest edges are diagonals of cells of 25 mm.
+    let filling = 0.025 * 3.0_f64.sqrt() * (1.0 + 1e-6);
+    assert!(coarse <= 0.5 * filling && fine <= 0.25 * filling);
+}
+
+/// Longest edge of a tetrahedron with a corner where the held bottom of the cube ends [m].
+fn longest_at_anchor(answer: &SolidAnswer) -> f64 {
+    let at = |node: u32| answer.fields.positions[node as usize];
+    let ends = |node: u32| {
+        let x = at(node);
+        let side = x.x.abs().max(x.y.abs());
+        (x.z + HALF).abs() < 1e-9 && (side - HALF).abs() < 1e-9
+    };
+    let cells = answer.fields.cells.chunks_exact(10);
+    cells
+        .filter(|cell| cell[..4].iter().any(|&node| ends(node)))
+        .flat_map(|cell| {
+            let pairs = [[0, 1], [1, 2], [0, 2], [0, 3], [1, 3], [2, 3]];
+            pairs.map(|[a, b]| (at(cell[a]) - at(cell[b])).norm())
+        })
+        .fold(0.0, f64::max)
+}
+
+/// The limit of a tube with fixed ends carries what no mesh shows, and three meshes at least stand behind
+/// its error. Judge: the mesh with elements half as long.
+#[test]
+fn the_limit_of_a_tube_says_what_it_leaves_out() {
+    let law = NeoHookean::incompressible(5200.0 / 6.0).unwrap();
+    let problem = tube(0.02, Ends::Held, law);
+    let found = inflate(&problem, &[300.0], 0.02, &mut |_| {}).unwrap();
+    let fine = inflate(&problem, &[300.0], 0.0, &mut |_| {}).unwrap();
+    let warnings = &found.answer.warnings;
+    assert!(
+        warnings.len() == 1 && warnings[0].contains("creases"),
+        "{warnings:?}"
+    );
+    let off = |a: Option<f64>, b: Option<f64>| (a.unwrap() / b.unwrap() - 1.0).abs();
+    let (found_u, fine_u) = (
+        found.answer.inner_displacements[0],
+        fine.answer.inner_displacements[0],
+    );
+    let error =
+        off(found_u, fine_u).max(off(found.answer.limit_pressure, fine.answer.limit_pressure));
+    println!("changes by {error:.2e}: {found:?}");
+    assert!(error < found.error && found.error < 0.05);
+}
