@@ -32,6 +32,8 @@ pub struct Equilibrium {
 /// How much is done for an equilibrium.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Effort {
+    /// Fewest solutions of the linear system.
+    pub(super) least: usize,
     /// Most solutions of the linear system.
     pub(super) iterations: usize,
     /// η of the residual over η of the reactions [-]; the force is then good to about its square.
@@ -45,6 +47,7 @@ pub(super) struct Effort {
 impl Effort {
     /// The most.
     pub(super) const FULL: Self = Self {
+        least: 1,
         iterations: 25,
         tolerance: 1e-7,
         shortest: 1.0 / 16.0,
@@ -59,6 +62,8 @@ impl Effort {
     };
 }
 
+/// Shortest part of a step that is tried when an element turns inside out on its way [-].
+const SHORTEST_BEFORE_INVERSION: f64 = 1.0 / 16.0;
 /// What rounding leaves of a sum [-], in its terms.
 const ROUNDING: f64 = 1e-13;
 
@@ -72,11 +77,12 @@ pub fn equilibrate(
     state: &mut FiniteElementState,
     workspace: &mut FiniteElementWorkspace,
 ) -> Result<Equilibrium, Failure> {
-    equilibrate_within(Effort::FULL, model, supports, (state, workspace))
+    assemble(model, supports, &state.unknowns, workspace)?;
+    correct(Effort::FULL, model, supports, (state, workspace))
 }
 
-/// [`equilibrate`] with this `effort`.
-pub(super) fn equilibrate_within(
+/// [`equilibrate`] with this `effort`, from a `state` whose residual and tangent are assembled.
+pub(super) fn correct(
     effort: Effort,
     model: &FiniteElementModel,
     supports: &Supports<'_>,
@@ -85,12 +91,11 @@ pub(super) fn equilibrate_within(
     if supports.leave_free(model) {
         return Err(Failure::Singular);
     }
-    assemble(model, supports, &state.unknowns, workspace)?;
     let mut iterations = 0;
     loop {
         let gap = prescribe(model, supports, &state.unknowns, workspace);
         let size = size_of_residual(model, supports, workspace);
-        if gap == 0.0 && iterations > 0 && size.is_small(effort.tolerance) {
+        if gap == 0.0 && iterations >= effort.least && size.is_small(effort.tolerance) {
             return Ok(Equilibrium { iterations });
         }
         if iterations == effort.iterations {
@@ -124,12 +129,6 @@ pub(super) fn assemble(
     if let Some((load, times)) = supports.dead_load {
         for (residual, load) in workspace.residual.iter_mut().zip(load) {
             *residual -= times * load;
-        }
-    }
-    if let Some(syrup) = &supports.syrup {
-        for (i, (resistance, place)) in syrup.resistance.iter().zip(&syrup.place).enumerate() {
-            workspace.residual[i] += resistance * (unknowns[i] - place);
-            workspace.tangent[model.pattern.range(i).start] += resistance;
         }
     }
     Ok(())
@@ -203,7 +202,7 @@ pub(super) fn size_of_residual(
 
 /// Puts the corrections that the supports ask for into the step, zero elsewhere; keeps `unknowns` as
 /// the trial. Answers the largest of them [m].
-fn prescribe(
+pub(super) fn prescribe(
     model: &FiniteElementModel,
     supports: &Supports<'_>,
     unknowns: &[f64],
@@ -231,7 +230,7 @@ fn prescribe(
 }
 
 /// Solves for the step, with the supports' corrections already in it.
-fn solve(
+pub(super) fn solve(
     model: &FiniteElementModel,
     supports: &Supports<'_>,
     workspace: &mut FiniteElementWorkspace,
@@ -360,7 +359,13 @@ fn advance(
             let size = size_of_residual(model, supports, workspace).free;
             size.is_finite() && before.is_none_or(|before| size <= before.max(1e-40))
         };
-        let last = length <= effort.shortest;
+        // A step that turns an element inside out is too long, which does not make it a bad one.
+        let shortest = if assembled.is_ok() {
+            effort.shortest
+        } else {
+            effort.shortest.min(SHORTEST_BEFORE_INVERSION)
+        };
+        let last = length <= shortest;
         if good || (last && effort.stubborn && assembled.is_ok()) {
             state.unknowns = trial;
             return Ok(());

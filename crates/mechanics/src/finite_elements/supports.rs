@@ -3,7 +3,6 @@ use nalgebra::{Matrix6, Vector6};
 use super::cavity::Cavity;
 use super::model::FiniteElementModel;
 use super::relaxation::RelaxationStep;
-use super::snap::Syrup;
 use crate::Vec3;
 
 /// What holds a body and what loads it.
@@ -20,8 +19,6 @@ pub struct Supports<'a> {
     pub dead_load: Option<(&'a [f64], f64)>,
     /// History of a body that relaxes; without it the body is elastic.
     pub relaxing: Option<&'a RelaxationStep>,
-    /// What resists the body on its way downhill.
-    pub(super) syrup: Option<Syrup>,
 }
 
 /// A node of an axisymmetric body that slides on a rigid surface.
@@ -104,7 +101,6 @@ impl<'a> Supports<'a> {
             pressure: None,
             dead_load: None,
             relaxing: None,
-            syrup: None,
         }
     }
 

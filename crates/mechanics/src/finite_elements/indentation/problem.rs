@@ -133,12 +133,7 @@ impl IndentationProblem {
         }
     }
 
-    fn run(
-        &self,
-        prony: &PronySeries,
-        deepest: f64,
-        mesh: usize,
-    ) -> Result<IndentationRun, Error> {
+    fn run(&self, prony: &PronySeries, deepest: f64, mesh: usize) -> Result<IndentationRun, Error> {
         IndentationRun::new(&IndentationSettings {
             block: self.block,
             indenter: self.indenter,

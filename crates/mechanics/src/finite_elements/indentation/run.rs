@@ -3,12 +3,12 @@ use std::sync::Arc;
 use super::super::model::{
     FiniteElementModel, FiniteElementState, FiniteElementWorkspace, Formulation,
 };
-use super::super::newton::{self, Effort, Failure, equilibrate_within};
+use super::super::newton::{self, Effort, Failure};
 use super::super::relaxation::{Memory, RelaxationStep};
 use super::super::snap::equilibrate_downhill;
 use super::super::supports::{Sliding, Supports};
 use super::contact::{Place, Touch};
-use super::indenter::{Indenter, IndenterShape, Side};
+use super::indenter::{Grip, Indenter, IndenterShape, Side};
 use super::mesh::{Base, Block, graded_block};
 use super::slopes::{Entry, Slopes};
 use crate::material::law::Law;
@@ -60,7 +60,7 @@ pub struct IndentationRun {
     /// Held whatever the indenter does: bottom and axis.
     rest: Vec<Option<f64>>,
     pub(super) now: Standing,
-    /// The standing before, from which the next is foreseen.
+    /// The standing before, from which the next is predicted.
     before: Option<Standing>,
     /// The next step [m].
     step: f64,
@@ -89,8 +89,18 @@ const DEEPEST_CATCH: f64 = 0.1;
 /// How far a node that pulled on a sphere or a cone may be inside without being caught again at the same depth, in
 /// radii of the contact [-]: a hundredth of the smallest elements.
 const HAIR: f64 = 1e-3;
-/// Changes of contact at one depth.
-const MOST_CHANGES: usize = 12;
+/// Rounds of Newton's method and changes of contact at one depth.
+const MOST_CHANGES: usize = 24;
+/// Enough to see which nodes touch without friction.
+const ROUGH: Effort = Effort {
+    tolerance: 1e-3,
+    ..Effort::TRY
+};
+/// From there to equilibrium, without a further solution where that is reached.
+const FINISH: Effort = Effort {
+    least: 0,
+    ..Effort::TRY
+};
 /// Solutions of the linear system after which steps grow, and above which they shrink.
 const LITTLE_EFFORT: usize = 6;
 const MUCH_EFFORT: usize = 12;
@@ -292,70 +302,78 @@ impl IndentationRun {
             .map(|m| m.step(&self.prony, duration));
         let mut touch = self.now.touch.clone();
         let mut slopes = self.now.slopes.clone();
-        let mut state = self.foresee(depth, relaxing.as_ref());
-        let mut effort = 0;
+        let mut state = self.predict(depth, relaxing.as_ref())?;
+        let mut taken = 0;
+        // A node that sticks stays where it was caught, so that place must be exact.
+        let first = if self.slides() { ROUGH } else { Effort::TRY };
+        let mut effort = first;
         let mut released = vec![false; touch.len()];
         for _ in 0..MOST_CHANGES {
             let supports = self.supports(&touch, depth, relaxing.as_ref());
             let before = (way == Way::Downhill).then(|| state.clone());
-            let done = equilibrate_within(
-                Effort::TRY,
-                &self.model,
-                &supports,
-                (&mut state, &mut self.workspace),
-            );
+            let workspace = &mut self.workspace;
+            let done = newton::correct(effort, &self.model, &supports, (&mut state, workspace));
             let done = match (done, before) {
                 (Err(_), Some(before)) => {
                     state = before;
-                    let workspace = &mut self.workspace;
                     equilibrate_downhill(&self.model, &supports, &mut state, workspace)?
                 }
                 (done, _) => done?,
             };
-            effort += done.iterations;
+            taken += done.iterations;
             if let Some(slopes) = &mut slopes {
                 slopes.solve(&self.model, &supports, &state, &mut self.workspace)?;
             }
-            if !self.settle(
-                (depth, &state),
-                (&mut touch, &mut released),
-                slopes.as_mut(),
-            )? {
-                let mut memory = self.now.memory.clone();
-                if let Some(memory) = &mut memory {
-                    memory.advance(&self.model, &self.prony, duration, &state);
-                }
-                let standing = Standing {
-                    time,
-                    depth,
-                    state,
-                    touch,
-                    memory,
-                    slopes,
-                };
-                return Ok((standing, effort));
+            let statuses = (&mut touch[..], &mut released[..]);
+            if self.settle((depth, &state), statuses, slopes.as_mut())? {
+                effort = first;
+                continue;
             }
+            if effort.tolerance == ROUGH.tolerance {
+                effort = FINISH;
+                continue;
+            }
+            let mut memory = self.now.memory.clone();
+            if let Some(memory) = &mut memory {
+                memory.advance(&self.model, &self.prony, duration, &state);
+            }
+            let standing = Standing {
+                time,
+                depth,
+                state,
+                touch,
+                memory,
+                slopes,
+            };
+            return Ok((standing, taken));
         }
         Err(Failure::NotConverged)
     }
 
-    /// Where the body would be at `depth` if it went on as before.
-    fn foresee(&mut self, depth: f64, relaxing: Option<&RelaxationStep>) -> FiniteElementState {
-        let mut state = self.now.state.clone();
-        let Some(before) = &self.before else {
-            return state;
-        };
-        let travelled = self.now.depth - before.depth;
-        let ahead = (depth - self.now.depth) / travelled;
-        if travelled == 0.0 || ahead <= 0.0 {
-            return state;
-        }
-        for (x, old) in state.unknowns.iter_mut().zip(&before.state.unknowns) {
-            *x += ahead * (*x - old);
-        }
+    /// The body at `depth` if it went on as before; its residual and tangent are assembled.
+    fn predict(
+        &mut self,
+        depth: f64,
+        relaxing: Option<&RelaxationStep>,
+    ) -> Result<FiniteElementState, Failure> {
         let supports = self.supports(&self.now.touch, depth, relaxing);
-        newton::assemble(&self.model, &supports, &state.unknowns, &mut self.workspace)
-            .map_or_else(|_| self.now.state.clone(), |()| state)
+        let workspace = &mut self.workspace;
+        let mut state = self.now.state.clone();
+        if let Some(before) = &self.before {
+            let travelled = self.now.depth - before.depth;
+            let ahead = (depth - self.now.depth) / travelled;
+            if travelled != 0.0 && ahead > 0.0 {
+                for (x, old) in state.unknowns.iter_mut().zip(&before.state.unknowns) {
+                    *x += ahead * (*x - old);
+                }
+                if newton::assemble(&self.model, &supports, &state.unknowns, workspace).is_ok() {
+                    return Ok(state);
+                }
+                state = self.now.state.clone();
+            }
+        }
+        newton::assemble(&self.model, &supports, &state.unknowns, workspace)?;
+        Ok(state)
     }
 
     fn supports<'a>(
@@ -370,7 +388,6 @@ impl IndentationRun {
             pressure: None,
             dead_load: None,
             relaxing,
-            syrup: None,
         };
         for (&node, touch) in self.top.iter().zip(touch) {
             let at = self.model.mesh().nodes[node].x;
@@ -446,6 +463,14 @@ impl IndentationRun {
             }
         }
         Ok(changed)
+    }
+
+    /// Whether nodes come and go that touch without friction.
+    fn slides(&self) -> bool {
+        match self.indenter.shape {
+            IndenterShape::Flat { side } => side == Side::Touches(Grip::Slide),
+            IndenterShape::Sphere => self.indenter.face == Grip::Slide,
+        }
     }
 
     fn has_side(&self) -> bool {
