@@ -469,7 +469,7 @@ impl IndentationRun {
     fn slides(&self) -> bool {
         match self.indenter.shape {
             IndenterShape::Flat { side } => side == Side::Touches(Grip::Slide),
-            IndenterShape::Sphere => self.indenter.face == Grip::Slide,
+            IndenterShape::Sphere | IndenterShape::Cone { .. } => self.indenter.face == Grip::Slide,
         }
     }
 
