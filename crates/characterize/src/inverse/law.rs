@@ -33,7 +33,7 @@ impl SoughtLaw {
     pub fn shapes(self) -> Option<[f64; 3]> {
         match self {
             Self::NeoHookean => None,
-            Self::MooneyRivlin => Some([0.0, 0.3, 0.75]),
+            Self::MooneyRivlin => Some([0.0, 0.3, 0.9]),
             Self::Exponential => Some([0.0, 0.5, 20.0]),
         }
     }

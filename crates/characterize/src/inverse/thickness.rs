@@ -1,7 +1,7 @@
 //! What a specimen's thickness does to its force, for recordings that do not state it.
 //!
 //! A bonded layer pushes back more than a half-space, at small strain by a factor of the thickness over the radius
-//! of the contact alone, for ν = ½. A modulus that was found as if the specimen were large is too high by it.
+//! of the contact alone, for ν = ½ (two radii thick: 1.94 without friction [Hayes et al. 1972]). A modulus that was found as if the specimen were large is too high by it.
 //!
 //! *How we know*: `thickness::…`, runs of finite elements; for spheres [Dimitriadis et al. 2002].
 //!
@@ -16,9 +16,9 @@ use super::body::Body;
 pub const THICKNESSES: [f64; 3] = [2.0, 5.0, 10.0];
 /// Force on a bonded layer of each of [`THICKNESSES`] over that on a layer of [`BLOCK`](super::BLOCK) [-], under a
 /// punch that sticks, and under a cone (radii of its contact), at small strain.
-pub const PUNCH_ON_LAYER: [f64; 3] = [1.0, 1.0, 1.0];
+pub const PUNCH_ON_LAYER: [f64; 3] = [1.956, 1.282, 1.126];
 /// See [`PUNCH_ON_LAYER`].
-pub const CONE_ON_LAYER: [f64; 3] = [1.0, 1.0, 1.0];
+pub const CONE_ON_LAYER: [f64; 3] = [2.326, 1.308, 1.129];
 
 /// The force of a sphere on a bonded layer over that on a half-space [-], χ = √(R d)/h, ν = ½
 /// [Dimitriadis et al. 2002, eq. 13].
