@@ -85,17 +85,29 @@ fn the_first_rows_are_those_of_finite_elements() {
     assert_column(3, 1.0);
 }
 
+/// Judge: finite elements. Quick form: `the_first_rows_are_those_of_finite_elements`.
 #[test]
 #[ignore = "slow: five runs to eight radii"]
 fn the_table_is_that_of_finite_elements() {
     (0..SHAPES.len()).for_each(|place| assert_column(place, 8.0));
 }
 
-/// Of two meshes, errors fall with the power 1.2 of the size of the elements, as in the reference.
+/// Judge: a run on a mesh twice as fine. Of two meshes, errors fall with the power 1.2 of the size of the elements, as in
+/// the reference.
 #[test]
 #[ignore = "slow: a run on the finer mesh takes minutes"]
 fn the_extrapolated_column_is_that_of_two_meshes() {
-    let [coarse, fine] = [0, 1].map(|halvings| forces(0.0, halvings, 8.0));
+    assert_extrapolated(8.0);
+}
+
+/// Quick form of the test above, to half a radius. Judge and tolerance: the same.
+#[test]
+fn the_extrapolated_column_begins_as_two_meshes() {
+    assert_extrapolated(0.5);
+}
+
+fn assert_extrapolated(deepest: f64) {
+    let [coarse, fine] = [0, 1].map(|halvings| forces(0.0, halvings, deepest));
     for ((row, coarse), fine) in PUNCH.iter().zip(coarse).zip(fine) {
         let limit = fine + (fine - coarse) / (2_f64.powf(1.2) - 1.0);
         assert!((limit - row.1).abs() < 1e-3 * limit, "{}: {limit}", row.0);

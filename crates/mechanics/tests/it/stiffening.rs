@@ -55,13 +55,28 @@ fn run(tissue: &Material, tip: Tip, block: Block) -> IndentationRun {
     .unwrap()
 }
 
-/// The largest relative distance of the law of `tip` from full runs in `block`, at `depths` [in radii].
-fn farthest(tissue: &Material, tip: Tip, block: Block, depths: &[f64]) -> f64 {
-    let bond = match tip {
+/// How the face of `tip` holds in these tests.
+fn bond_of(tip: Tip) -> Bond {
+    match tip {
         Tip::Flat { .. } => Bond::Stick,
         Tip::Sphere { .. } => Bond::Slip,
-    };
-    let found = Stiffening::of(tissue, (tip, bond), &mut |_| ()).unwrap();
+    }
+}
+
+/// The largest relative distance of the law of `tip` from full runs in `block`, at `depths` [in radii].
+fn farthest(tissue: &Material, tip: Tip, block: Block, depths: &[f64]) -> f64 {
+    let found = Stiffening::of(tissue, (tip, bond_of(tip)), &mut |_| ()).unwrap();
+    farthest_of(tissue, (tip, found), block, depths)
+}
+
+/// The same with a curve that is known.
+fn farthest_of(
+    tissue: &Material,
+    (tip, found): (Tip, Stiffening),
+    block: Block,
+    depths: &[f64],
+) -> f64 {
+    let bond = bond_of(tip);
     let law = TipLaw::stiffening(tip, bond, tissue, found);
     // What a model at small strain would find for this body: its further compliance is that of its ends.
     let small = 0.01 * RADIUS;
@@ -129,6 +144,17 @@ fn the_stored_curve_meets_the_known_punch() {
         let force = law.normal_force(depth * RADIUS, half_space).force;
         let off = force / (1000.0 * RADIUS * RADIUS) / known - 1.0;
         assert!(off.abs() < 0.02, "{depth}: {off}");
+    }
+}
+
+/// Quick form of `the_stored_curves_are_those_of_finite_elements`: two of them, to one radius. Judge and tolerance: as of
+/// `a_large_block_answers_as_a_half_space_in_series`.
+#[test]
+fn the_stored_curves_begin_as_full_runs() {
+    for tip in [Tip::Flat { radius: RADIUS }, Tip::Sphere { radius: RADIUS }] {
+        let stored = Stiffening::neo_hookean(tip, bond_of(tip));
+        let off = farthest_of(&neo_hookean(), (tip, stored), LARGE, &[0.2, 0.5, 1.0]);
+        assert!(off < 0.005, "{tip:?}: {off}");
     }
 }
 

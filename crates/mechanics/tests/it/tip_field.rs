@@ -130,7 +130,7 @@ fn a_tip_on_a_hemisphere_feels_finite_elements() {
     }
 }
 
-/// Judge: as above.
+/// Judge: fine axisymmetric elements. Quick form: `a_tip_on_a_hemisphere_feels_finite_elements`.
 #[test]
 #[ignore = "slow: half a minute"]
 fn a_tip_on_a_finer_hemisphere_feels_finite_elements() {

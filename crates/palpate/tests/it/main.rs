@@ -5,6 +5,7 @@
     reason = "a test that cannot run its command has failed"
 )]
 
+mod arrows;
 mod closed_loop;
 mod devices;
 mod errors;

@@ -15,7 +15,7 @@ const FIRST: &str = "PALPATE_KILLED_FIRST";
 
 /// Adds attempts until it is killed, and tells each that is kept.
 #[test]
-#[ignore = "it is the program that the other tests kill, and never ends by itself"]
+#[ignore = "helper: the program that the other tests kill; it never ends by itself"]
 fn child() {
     let Some(path) = std::env::var_os(FILE) else {
         return;
@@ -99,8 +99,9 @@ fn a_killed_writer_loses_nothing_that_it_told() {
     println!("{}", trials(6, 1));
 }
 
+/// Judge: what the writer reported before it was killed. Quick form: `a_killed_writer_loses_nothing_that_it_told`.
 #[test]
-#[ignore = "100 trials, a quarter of a minute"]
+#[ignore = "slow: 100 trials, a quarter of a minute"]
 fn a_killed_writer_loses_nothing_that_it_told_in_100_trials() {
     println!("{}", trials(100, 2));
 }

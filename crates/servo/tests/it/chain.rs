@@ -209,7 +209,7 @@ fn a_law_lost_in_contact_is_a_fault_within_25_ms() {
 /// The same on this machine's clock: printed, for that is the machine's. A tick that came much too late is a fault
 /// before the model dies.
 #[test]
-#[ignore = "slow: 15 s on the machine's clock; run it alone"]
+#[ignore = "by hand: 15 s on the machine's clock, with nothing else running"]
 fn a_law_lost_on_this_machine() {
     for part in 0..10 {
         let dies_at = 1.2 + f64::from(part) * 0.5e-3;

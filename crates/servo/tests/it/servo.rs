@@ -163,7 +163,7 @@ fn a_loop_that_is_dropped_or_stopped_stops_its_device() {
 
 /// How late ticks are on this machine: printed, for that is the machine's.
 #[test]
-#[ignore = "slow: 15 s of measurement; run it alone"]
+#[ignore = "by hand: 15 s on the machine's clock, with nothing else running"]
 fn lateness_on_this_machine() {
     for rate in [1000.0, 2000.0, 4000.0] {
         let report = measure_lateness(rate, 5.0).unwrap();

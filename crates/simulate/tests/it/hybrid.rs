@@ -286,24 +286,28 @@ fn touched(organ: &str) {
     sliding.assert_sound(organ);
 }
 
+/// Judge: what a hand does not feel as a click. Quick form: `organs_under_random_pokes_and_slides`.
 #[test]
 #[ignore = "slow: 2,500 touches, minutes"]
 fn a_kidney_is_touched() {
     touched("kidney");
 }
 
+/// Judge: what a hand does not feel as a click. Quick form: `organs_under_random_pokes_and_slides`.
 #[test]
 #[ignore = "slow: 2,500 touches, minutes"]
 fn a_liver_is_touched() {
     touched("liver");
 }
 
+/// Judge: what a hand does not feel as a click. Quick form: `organs_under_random_pokes_and_slides`.
 #[test]
 #[ignore = "slow: 2,500 touches, minutes"]
 fn a_stomach_is_touched() {
     touched("stomach");
 }
 
+/// Judge: what a hand does not feel as a click. Quick form: `organs_under_random_pokes_and_slides`.
 #[test]
 #[ignore = "slow: 2,500 touches, minutes"]
 fn an_esophagus_is_touched() {

@@ -97,8 +97,9 @@ fn at_most_a_second_of_a_killed_session_is_lost() {
     at_most_a_second_is_lost(4);
 }
 
+/// Judge: the clock of the process that kills. Quick form: `at_most_a_second_of_a_killed_session_is_lost`.
 #[test]
-#[ignore = "100 processes that are killed: 2 minutes"]
+#[ignore = "slow: 100 processes that are killed, 2 minutes"]
 fn at_most_a_second_of_100_killed_sessions_is_lost() {
     at_most_a_second_is_lost(100);
 }

