@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use palpate_files::Estimate;
 use palpate_files::tissue::{Elasticity, LawName};
-use palpate_mechanics::{Blatz, Law, MooneyRivlin, NeoHookean};
+use palpate_mechanics::{Exponential, Law, MooneyRivlin, NeoHookean};
 
 /// A law that can be sought: a modulus, which all force grows with, and perhaps a number for the shape of
 /// the force. Seen so, the two hardly disturb one another.
@@ -43,7 +43,7 @@ impl SoughtLaw {
         Ok(match self {
             Self::NeoHookean => Arc::new(NeoHookean::incompressible(1.0)?),
             Self::MooneyRivlin => Arc::new(MooneyRivlin::incompressible(1.0 - shape, shape)?),
-            Self::Exponential => Arc::new(Blatz::incompressible(1.0, shape)?),
+            Self::Exponential => Arc::new(Exponential::incompressible(1.0, shape)?),
         })
     }
 

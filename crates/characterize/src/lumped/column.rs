@@ -1,6 +1,6 @@
 use palpate_files::Estimate;
 use palpate_files::tissue::EffectiveColumn;
-use palpate_mechanics::Blatz;
+use palpate_mechanics::Exponential;
 use palpate_mechanics::finite_elements::uniaxial::nominal_stress;
 
 use super::Contact;
@@ -43,7 +43,7 @@ pub fn column_size(contact: Contact, deepest: f64) -> [f64; 2] {
 /// # Errors
 /// Where the law has no stress, as at depths beyond the length.
 pub fn column_force(column: &EffectiveColumn, depth: f64) -> Result<f64, Error> {
-    let law = Blatz::incompressible(column.gamma_pa.value, column.alpha.value)?;
+    let law = Exponential::incompressible(column.gamma_pa.value, column.alpha.value)?;
     let stretch = 1.0 - depth / column.effective_length_m.value;
     Ok(-nominal_stress(&law, stretch)? * column.effective_area_m2.value)
 }
