@@ -152,7 +152,8 @@ impl Curves {
         .with_sensitivities();
         let (mut depths, mut forces, mut slopes) = (Vec::new(), Vec::new(), Vec::new());
         for depth in self.depths() {
-            let point = run.press(depth, depth, |_| ())?;
+            let point = run.press(depth, depth, |_| ());
+            let point = point.map_err(|why| Error::of_law(self.law.name(), self.deepest, why))?;
             // The elements are too stiff at the punch's edge, about alike for every law.
             let right = tables::correction(&self.body, depth);
             depths.push(depth);
@@ -166,6 +167,7 @@ impl Curves {
             discretisation: tables::discretisation(&self.body),
         })
     }
+
     fn solve_tube(
         &mut self,
         tube: Tube,
@@ -178,7 +180,8 @@ impl Curves {
             law: self.law.unit(shape)?,
             ends: Ends::Held,
         };
-        let found = indent(&problem, punch, TUBE_ACCURACY, &mut |_| ())?;
+        let found = indent(&problem, punch, TUBE_ACCURACY, &mut |_| ());
+        let found = found.map_err(|why| Error::of_law(self.law.name(), self.deepest, why))?;
         Ok(UnitCurve {
             shape,
             force: IndentationCurve::through(&punch.depths, &found.answer.forces),

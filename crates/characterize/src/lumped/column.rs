@@ -8,7 +8,7 @@ use crate::Error;
 use crate::fit::{Fit, Parameter, Settings, doubts, least_squares, uncertainty};
 use crate::fit::{misfit, missed};
 
-/// Blatz's law on a column (6.2), and the fit that found it.
+/// The exponential law on a column (6.2), and the fit that found it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ColumnFit {
     /// The parameters with their standard errors; area and length were chosen, not found.
@@ -83,7 +83,7 @@ pub fn fit_column(contact: Contact, depths: &[f64], forces: &[f64]) -> Result<Co
     let known = uncertainty(&fit);
     let misfit = misfit(&fit, largest);
     let mut said = doubts(&fit, &known, None);
-    said.extend(missed("blatz on a column", "force", misfit));
+    said.extend(missed("exponential on a column", "force", misfit));
     let [gamma_pa, alpha] = [0, 1].map(|place| Estimate {
         value: fit.parameters[place].value,
         standard_error: known.standard_error(place),

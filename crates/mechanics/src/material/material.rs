@@ -43,7 +43,7 @@ impl Material {
             Elasticity::MooneyRivlin { c10_pa, c01_pa } => {
                 linearized(MooneyRivlin::incompressible(c10_pa.value, c01_pa.value)?)?
             }
-            Elasticity::Blatz { gamma_pa, alpha } => {
+            Elasticity::Exponential { gamma_pa, alpha } => {
                 linearized(Exponential::incompressible(gamma_pa.value, alpha.value)?)?
             }
         };

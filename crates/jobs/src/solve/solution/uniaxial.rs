@@ -80,6 +80,6 @@ fn in_words(problem: &Problem) -> &'static str {
         LawName::Linear => "linear",
         LawName::NeoHookean => "neo-Hookean",
         LawName::MooneyRivlin => "Mooney-Rivlin",
-        LawName::Blatz => "Blatz",
+        LawName::Exponential => "exponential",
     }
 }
