@@ -97,9 +97,9 @@ pub enum Error {
         /// The key.
         key: &'static str,
     },
-    /// Too little is seen of the elastic force for Blatz's law.
+    /// Too little is seen of the elastic force for the exponential law on a column.
     #[error(
-        "the recordings tell too little of how force grows with depth for Blatz's law; hold at three depths or more, or record the ramp faster"
+        "the recordings tell too little of how force grows with depth for the exponential law on a column; hold at three depths or more, or record the ramp faster"
     )]
     ColumnUnknown,
     /// A law that is not sought in tubes.
@@ -137,9 +137,66 @@ pub enum Error {
         /// Radius of the contact [m].
         least: f64,
     },
+    /// Finite elements find no equilibrium as deep as the recordings go.
+    #[error(
+        "the force of the `{}` law could not be solved down to {:.3} mm, the deepest that was recorded, but {} ({failure}); \
+         leave out what was recorded deeper, or choose another law with --law", .law.word(), 1e3 * .asked, reach(*.reached)
+    )]
+    NotSolved {
+        /// The law.
+        law: LawName,
+        /// The deepest depth recorded [m].
+        asked: f64,
+        /// The depth that was reached [m].
+        reached: f64,
+        /// Why it went no further.
+        failure: palpate_mechanics::finite_elements::Failure,
+    },
+    /// Finite elements find no equilibrium of a tube under its pressure.
+    #[error(
+        "the tube of the `{}` law could not be inflated beyond {:.0} % of its pressure ({failure}); check `pressure_pa` \
+         and the radii of the tube, or choose another law with --law", .law.word(), 100.0 * .part
+    )]
+    NotInflated {
+        /// The law.
+        law: LawName,
+        /// The part of the pressure that was reached [-].
+        part: f64,
+        /// Why it went no further.
+        failure: palpate_mechanics::finite_elements::Failure,
+    },
     /// The mechanics have no answer.
     #[error(transparent)]
     Mechanics(#[from] palpate_mechanics::Error),
+}
+
+impl Error {
+    /// What the mechanics say of a `law` that is pressed as deep as `asked` [m], for who asked for the law and not
+    /// for a mesh.
+    pub(crate) fn of_law(law: LawName, asked: f64, error: palpate_mechanics::Error) -> Self {
+        match error {
+            palpate_mechanics::Error::NoEquilibrium { depth, failure } => Self::NotSolved {
+                law,
+                asked,
+                reached: depth,
+                failure,
+            },
+            palpate_mechanics::Error::NoPath { factor, failure } => Self::NotInflated {
+                law,
+                part: factor,
+                failure,
+            },
+            other => Self::Mechanics(other),
+        }
+    }
+}
+
+/// Down to where something could be solved.
+fn reach(depth: f64) -> String {
+    match depth > 0.0 {
+        true => format!("down to {:.3} mm only", 1e3 * depth),
+        false => "at no depth at all".to_owned(),
+    }
 }
 
 fn listed(parameters: &[Parameter]) -> String {
@@ -147,4 +204,33 @@ fn listed(parameters: &[Parameter]) -> String {
         .iter()
         .map(|p| format!("{} = {}", p.name, p.value));
     each.collect::<Vec<_>>().join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use palpate_mechanics::finite_elements::Failure;
+
+    /// Who seeks a law has no mesh to refine.
+    #[test]
+    fn failures_of_finite_elements_say_what_to_do_with_recordings() {
+        let law = LawName::Exponential;
+        let failure = Failure::Inverted;
+        let pressed = palpate_mechanics::Error::NoEquilibrium {
+            depth: 0.0,
+            failure,
+        };
+        let inflated = palpate_mechanics::Error::NoPath {
+            factor: 0.4,
+            failure,
+        };
+        for (error, words) in [(pressed, "at no depth at all"), (inflated, "beyond 40 %")] {
+            let said = Error::of_law(law, 6e-3, error).to_string();
+            assert!(
+                said.contains(words) && said.contains("`exponential`"),
+                "{said}"
+            );
+            assert!(said.contains("--law") && !said.contains("mesh"), "{said}");
+        }
+    }
 }

@@ -16,7 +16,7 @@ pub struct WithoutGeometry {
     pub mean_modulus: Result<MeanModulus, Error>,
     /// Two springs and a damper (6.3), from the recording of the largest depth.
     pub kelvin: Result<KelvinFit, Error>,
-    /// Blatz's law on a column (6.2): from steady forces where there are three depths, else from the ramps.
+    /// The exponential law on a column (6.2): from steady forces where there are three depths, else from the ramps.
     pub column: Result<ColumnFit, Error>,
     /// Nonlinear springs (6.4), from all recordings.
     pub springs: Result<SpringsFit, Error>,
@@ -50,7 +50,7 @@ impl WithoutGeometry {
     pub fn doubts(&self) -> Vec<String> {
         let column = self.column.iter().flat_map(|found| &found.doubts);
         let springs = self.springs.iter().flat_map(|found| &found.doubts);
-        let column = column.map(|doubt| format!("blatz on a column: {doubt}"));
+        let column = column.map(|doubt| format!("column: {doubt}"));
         let springs = springs.map(|doubt| format!("nonlinear_springs: {doubt}"));
         column.chain(springs).collect()
     }
@@ -59,7 +59,7 @@ impl WithoutGeometry {
     pub fn lumped(&self) -> Lumped {
         Lumped {
             kelvin: self.kelvin.as_ref().ok().map(|found| found.kelvin),
-            blatz: self.column.as_ref().ok().map(|found| found.column),
+            column: self.column.as_ref().ok().map(|found| found.column),
             nonlinear_springs: self.springs.as_ref().ok().map(|found| found.springs),
         }
     }

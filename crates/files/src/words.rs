@@ -2,7 +2,9 @@
 
 /// An enumeration whose variants are written as words: `FromStr` without an error type of its own.
 macro_rules! words {
-    ($(#[$meta:meta])* pub enum $name:ident { $($(#[$variant_meta:meta])* $variant:ident = $word:literal,)+ }) => {
+    ($(#[$meta:meta])* pub enum $name:ident {
+        $($(#[$variant_meta:meta])* $variant:ident = $word:literal $(| $former:literal)*,)+
+    }) => {
         $(#[$meta])*
         #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum $name { $($(#[$variant_meta])* $variant,)+ }
@@ -11,14 +13,18 @@ macro_rules! words {
             /// Every variant with its word, in the order of the documentation.
             pub const WORDS: &'static [(&'static str, Self)] = &[$(($word, Self::$variant),)+];
 
+            /// Words of earlier versions, which are still read.
+            pub const FORMER: &'static [(&'static str, Self)] = &[$($(($former, Self::$variant),)*)+];
+
             /// The word that stands for this in a file.
             pub fn word(self) -> &'static str {
                 match self { $(Self::$variant => $word,)+ }
             }
 
-            /// What `word` stands for; none when it is no word of the list.
+            /// What `word` stands for, also one of an earlier version; none when it is no word of the lists.
             pub fn from_word(word: &str) -> Option<Self> {
-                Self::WORDS.iter().find(|(own, _)| *own == word).map(|(_, value)| *value)
+                let known = Self::WORDS.iter().chain(Self::FORMER);
+                known.into_iter().find(|(own, _)| *own == word).map(|(_, value)| *value)
             }
         }
 

@@ -35,7 +35,7 @@ pub enum Error {
     #[error(
         "gamma is {gamma} Pa and alpha is {alpha}; give a positive gamma, the shear modulus at rest, and an alpha above -1"
     )]
-    BlatzOutOfRange {
+    ExponentialOutOfRange {
         /// The value given [Pa].
         gamma: f64,
         /// The value given [-].

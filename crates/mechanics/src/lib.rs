@@ -21,7 +21,7 @@ mod tip_law;
 pub use error::Error;
 pub use indentation_curve::IndentationCurve;
 pub use limits::{Limit, Limits, Reached};
-pub use material::blatz::Blatz;
+pub use material::exponential::Exponential;
 pub use material::law::{Distortion, Law, Tangent};
 pub use material::linear_elastic::LinearElastic;
 pub use material::material::Material;

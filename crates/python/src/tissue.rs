@@ -18,7 +18,7 @@ const NAME: &str = "tissue";
 ///
 /// Parameters
 /// ----------
-/// law : {"linear", "neo_hookean", "mooney_rivlin", "blatz"}
+/// law : {"linear", "neo_hookean", "mooney_rivlin", "exponential"}
 ///     The elastic law.
 /// name : str, optional
 ///     What it is, for people.

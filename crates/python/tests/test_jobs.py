@@ -80,6 +80,14 @@ def test_recordings_are_measured_analyzed_and_characterized_as_by_the_command(
     assert found.tissue() == (tmp_path / "tissue.toml").read_text()
     assert palpate.Tissue.parse(found.tissue()).law == "neo_hookean"
     assert len(found.to_frame()) == 1
+    specimen = found.specimens[0]
+    law = specimen.laws[specimen.preferred]
+    assert specimen[specimen.preferred] == law
+    low, high = law["c10_pa"]["interval_95"]
+    assert low < law["c10_pa"]["value"] < high
+    assert specimen["mean_elastic_modulus"] == specimen.lumped["mean_elastic_modulus"]
+    written = palpate.Tissue.parse(found.tissue())
+    assert written.law == specimen.preferred
 
 
 def test_the_same_seed_is_the_same_bytes(tmp_path: Path) -> None:

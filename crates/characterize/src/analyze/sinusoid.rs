@@ -7,16 +7,24 @@
 //! and the area of the loop is ∮ F dd = π Σ n (aₙᶠ bₙᵈ − bₙᶠ aₙᵈ), the energy lost in a period;
 //! π |F| |D| sin(phase) where the answer is linear.
 //!
-//! *How we know*: `sinusoid::kelvin_solid`, `sinusoid::prony_series`, `sinusoid::area_is_the_integral`.
+//! Standard errors are those of correlated residuals (`fit/correlated.rs`): a sensor drifts and is filtered, a heart
+//! beats. Of the first harmonic the error along its amplitude is that of the stiffness, the one across it that of
+//! the phase; force and depth both have theirs.
 //!
-//! *Limits*: standard errors take what is left as independent from sample to sample.
+//! *How we know*: `sinusoid::kelvin_solid`, `sinusoid::prony_series`, `sinusoid::area_is_the_integral`,
+//! `sinusoid::intervals_hold_the_truth_in_correlated_noise`.
+//!
+//! *Limits*: the noise of force and depth are taken as independent of one another.
 
 use std::f64::consts::{PI, TAU};
+
+use nalgebra::{DMatrix, Matrix2, Vector2};
 
 use crate::CleanRecording;
 use crate::clean::Segment;
 use crate::clean::regression::{Regression, regress, relaxation};
 use crate::clean::swing::Sine;
+use crate::fit::{Fit, Parameter, Stop, correlated_uncertainty};
 
 /// Harmonics fitted.
 const HARMONICS: usize = 3;
@@ -105,14 +113,17 @@ impl Sinusoid {
             &recording.force[samples.clone()],
             frequency,
         )?;
+        let stiffness = force.amplitude() / depth.amplitude();
+        let [of_force, of_depth] = [force.relative_errors(), depth.relative_errors()];
+        let [stretched, turned] = [0, 1].map(|part| of_force[part].hypot(of_depth[part]));
         let answer = Self {
             frequency_hz: frequency,
             depth_m: depth.mean,
             amplitude_m: depth.amplitude(),
-            stiffness_n_per_m: force.amplitude() / depth.amplitude(),
-            stiffness_error_n_per_m: force.error / depth.amplitude(),
+            stiffness_n_per_m: stiffness,
+            stiffness_error_n_per_m: stiffness * stretched,
             phase_rad: wrapped(force.phase() - depth.phase()),
-            phase_error_rad: force.error / force.amplitude(),
+            phase_error_rad: turned,
             hysteresis_j: force.area_over(&depth),
             distortion: force.distortion(),
             depth_distortion: depth.distortion(),
@@ -135,14 +146,14 @@ struct Swing {
     mean: f64,
     /// Coefficients of cosine and sine.
     harmonics: [[f64; 2]; HARMONICS],
-    /// Standard error of the first amplitude.
-    error: f64,
+    /// Covariance of the first pair.
+    covariance: Matrix2<f64>,
 }
 
 impl Swing {
     fn of(time: &[f64], values: &[f64], frequency: f64) -> Option<Self> {
         let (start, end) = (time.first()?, time.last()?);
-        let fit: Regression = regress(values, |sample| {
+        let row = |sample: usize| {
             let mut row = [0.0; COLUMNS];
             row[..RELAXATION].copy_from_slice(&relaxation((time[sample] - start) / (end - start)));
             for order in 0..HARMONICS {
@@ -151,10 +162,8 @@ impl Swing {
                 (row[place + 1], row[place]) = turn.sin_cos();
             }
             row
-        })?;
-        let [cosine, sine, ..] = &fit.standard_errors[RELAXATION..] else {
-            return None;
         };
+        let fit: Regression = regress(values, row)?;
         let mut harmonics = [[0.0; 2]; HARMONICS];
         for (own, pair) in harmonics
             .iter_mut()
@@ -165,7 +174,7 @@ impl Swing {
         Some(Self {
             mean: values.iter().sum::<f64>() / values.len() as f64,
             harmonics,
-            error: cosine.hypot(*sine) / 2f64.sqrt(),
+            covariance: covariance(&fit.coefficients, values, row),
         })
     }
 
@@ -176,6 +185,20 @@ impl Swing {
     /// Angle of a cosine: a cos ωt + b sin ωt = A cos(ωt + phase).
     fn phase(&self) -> f64 {
         (-self.harmonics[0][1]).atan2(self.harmonics[0][0])
+    }
+
+    /// Standard errors of the first amplitude, over it [-], and of its angle [rad].
+    fn relative_errors(&self) -> [f64; 2] {
+        let [cosine, sine] = self.harmonics[0];
+        let size = self.amplitude();
+        [Vector2::new(cosine, sine), Vector2::new(-sine, cosine)].map(|direction| {
+            let direction = direction / size;
+            direction
+                .dot(&(self.covariance * direction))
+                .max(0.0)
+                .sqrt()
+                / size
+        })
     }
 
     fn distortion(&self) -> f64 {
@@ -191,6 +214,38 @@ impl Swing {
         });
         PI * terms.sum::<f64>()
     }
+}
+
+/// Covariance of cosine and sine of the first harmonic, for residuals that may be correlated.
+fn covariance(
+    coefficients: &[f64],
+    values: &[f64],
+    row: impl Fn(usize) -> [f64; COLUMNS],
+) -> Matrix2<f64> {
+    let samples = values.len();
+    let mut jacobian = DMatrix::zeros(samples, COLUMNS);
+    let mut residuals = Vec::with_capacity(samples);
+    for (sample, value) in values.iter().enumerate() {
+        let row = row(sample);
+        let model: f64 = row.iter().zip(coefficients).map(|(x, c)| x * c).sum();
+        residuals.push(model - value);
+        for (column, entry) in row.into_iter().enumerate() {
+            jacobian[(sample, column)] = entry;
+        }
+    }
+    let parameter = |value: &f64| Parameter::new("coefficient", *value);
+    let fit = Fit {
+        parameters: coefficients.iter().map(parameter).collect(),
+        residuals,
+        jacobian,
+        iterations: Vec::new(),
+        stop: Stop::Converged,
+        evaluations: 1,
+    };
+    let known = correlated_uncertainty(&fit, &[samples]).covariance;
+    known
+        .fixed_view::<2, 2>(RELAXATION, RELAXATION)
+        .into_owned()
 }
 
 /// An angle [rad] between −π and π.

@@ -3,14 +3,12 @@
 //! Errors relative to the parameters' sizes have a covariance whose eigenvectors are the combinations that the
 //! recording tells of, each with its own error. Where that error is large, the parameters that take part
 //! cannot be told apart (or, if it is one alone, it is not known); of their simple combinations the best
-//! known is named with its value.
+//! known is named with its value. What counts as hardly known is decided in `verdict.rs`.
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
-use super::{Fit, Stop, Uncertainty};
+use super::{Fit, HARDLY_KNOWN, Stop, Uncertainty, Verdict, verdicts};
 
-/// A relative error above which something counts as hardly known [-].
-const POOR: f64 = 0.25;
 /// The part of an eigenvector from which on a parameter takes part in it [-].
 const TAKES_PART: f64 = 0.3;
 /// Rounding of a model's values [-].
@@ -73,6 +71,8 @@ fn hardly_known(fit: &Fit, uncertainty: &Uncertainty) -> Vec<String> {
     let relative = DMatrix::from_fn(count, count, |i, j| {
         uncertainty.covariance[(i, j)] / (size(i) * size(j))
     });
+    let errors: Vec<_> = (0..count).map(|i| Some(relative[(i, i)].sqrt())).collect();
+    let verdicts = verdicts(&errors, &uncertainty.correlation());
     let mut told = vec![false; count];
     let mut sentences = Vec::new();
     let eigen = SymmetricEigen::new(relative.clone());
@@ -82,12 +82,13 @@ fn hardly_known(fit: &Fit, uncertainty: &Uncertainty) -> Vec<String> {
         let vector = eigen.eigenvectors.column(k);
         let part: Vec<usize> = (0..count)
             .filter(|&i| vector[i].abs() > TAKES_PART && !told[i])
+            .filter(|&i| verdicts[i] != Verdict::Known)
             .collect();
         let worst = part
             .iter()
             .map(|&i| relative[(i, i)].sqrt())
             .fold(0.0, f64::max);
-        if eigen.eigenvalues[k].max(0.0).sqrt() <= POOR || worst <= POOR {
+        if eigen.eigenvalues[k].max(0.0).sqrt() <= HARDLY_KNOWN || worst <= HARDLY_KNOWN {
             continue;
         }
         let members: Vec<Member> = part
@@ -106,6 +107,11 @@ fn hardly_known(fit: &Fit, uncertainty: &Uncertainty) -> Vec<String> {
             None => alone(&members, &covariance),
         });
         part.iter().for_each(|&i| told[i] = true);
+    }
+    // What takes part in no such combination enough to be named there.
+    for i in (0..count).filter(|&i| !told[i] && verdicts[i] == Verdict::HardlyKnown) {
+        let variance = uncertainty.covariance.view((i, i), (1, 1)).into_owned();
+        sentences.push(alone(&[Member::new(fit, uncertainty, i)], &variance));
     }
     sentences
 }
@@ -158,7 +164,7 @@ fn best_combination(members: &[Member], covariance: &DMatrix<f64>, worst: f64) -
         (weight(*i) * relative(a)).total_cmp(&(weight(*j) * relative(b)))
     });
     let (what, value, error, unit) = best.map(|(_, best)| *best)?;
-    let known = error / value.abs() <= POOR.min(0.25 * worst);
+    let known = error / value.abs() <= HARDLY_KNOWN.min(0.25 * worst);
     known.then(|| format!("{what} is {}", stated(value, error, unit)))
 }
 

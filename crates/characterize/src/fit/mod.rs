@@ -26,6 +26,7 @@ mod least_squares;
 mod misfit;
 mod multi_start;
 mod parameter;
+mod pooled;
 mod profile;
 mod random;
 mod resample;
@@ -33,6 +34,7 @@ mod student;
 mod triangle;
 mod unbounded;
 mod uncertainty;
+mod verdict;
 
 use nalgebra::DMatrix;
 
@@ -43,11 +45,14 @@ pub use least_squares::{Settings, least_squares, least_squares_with_jacobian};
 pub(crate) use misfit::{misfit, missed};
 pub use multi_start::{Minimum, multi_start};
 pub use parameter::Parameter;
+pub use pooled::{PooledMean, pooled_mean};
 pub use profile::{Profile, profile};
 pub use random::Random;
-pub use resample::{Draws, PooledMean, Spread, block_bootstrap, bootstrap_subjects, noise_study};
+pub use resample::{Draws, Spread, block_bootstrap, noise_study};
+pub(crate) use student::student_quantile;
 pub use unbounded::{UnboundedWay, unbounded_iteration};
 pub use uncertainty::{Uncertainty, correlated_uncertainty, uncertainty, with_systematic};
+pub use verdict::{CORRELATED, HARDLY_KNOWN, Verdict, correlated_pairs, verdicts};
 
 /// What a fit came to.
 #[derive(Debug, Clone, PartialEq)]

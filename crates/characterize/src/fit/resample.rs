@@ -1,4 +1,4 @@
-//! Uncertainty by repetition: other noise, other subjects.
+//! Uncertainty by repetition: other noise.
 //!
 //! Fits are repeated on residuals r(p) − r̂ + e, which are those of data whose noise is e. For
 //! [`block_bootstrap`] e is put together from runs of the residuals themselves [Künsch 1989], for
@@ -123,39 +123,6 @@ fn repeat(
         }
     }
     spread
-}
-
-/// A mean over subjects and how well it is known.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PooledMean {
-    /// The mean [unit of the values].
-    pub mean: f64,
-    /// The standard deviation between subjects, zero for one [unit of the values].
-    pub deviation: f64,
-    /// What holds the mean with the probability asked for [unit of the values].
-    pub interval: [f64; 2],
-}
-
-/// The mean of one value for each subject, its interval from means of subjects drawn anew. `None` without
-/// subjects.
-pub fn bootstrap_subjects(values: &[f64], level: f64, draws: Draws) -> Option<PooledMean> {
-    let count = values.len();
-    if count == 0 {
-        return None;
-    }
-    let mean = values.iter().sum::<f64>() / count as f64;
-    let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
-    let mut random = Random::new(draws.seed);
-    let mut one = || {
-        let sum: f64 = (0..count).map(|_| values[random.below(count)]).sum();
-        sum / count as f64
-    };
-    let means = (0..draws.count).map(|_| one()).collect();
-    Some(PooledMean {
-        mean,
-        deviation: (squares / (count as f64 - 1.0).max(1.0)).sqrt(),
-        interval: middle(means, level),
-    })
 }
 
 /// The middle part `level` of some values.

@@ -6,7 +6,7 @@ use std::f64::consts::FRAC_PI_2;
 /// `level`.
 ///
 /// With t = √ν tan θ the density is that of cos^(ν − 1) θ, which is summed until `level` of it is reached.
-pub(super) fn student_quantile(degrees_of_freedom: f64, level: f64) -> f64 {
+pub(crate) fn student_quantile(degrees_of_freedom: f64, level: f64) -> f64 {
     const PARTS: usize = 4000;
     let freedom = degrees_of_freedom.clamp(1.0, 1e9);
     // Beyond twelve standard deviations nothing is left, but for few degrees of freedom, which reach π/2.

@@ -207,8 +207,10 @@ impl Curves {
             halvings,
         })?
         .with_sensitivities();
+        let (name, deepest) = (self.law.name(), self.deepest);
         let press = |depth: f64| {
-            let point = run.press(depth, depth, |_| ())?;
+            let point = run.press(depth, depth, |_| ());
+            let point = point.map_err(|why| Error::of_law(name, deepest, why))?;
             Ok((point.force, point.by_parameter))
         };
         self.depths().into_iter().map(press).collect()
@@ -248,7 +250,8 @@ impl Curves {
             law: self.law.unit(shape)?,
             ends: Ends::Held,
         };
-        let found = indent(&problem, punch, TUBE_ACCURACY, &mut |_| ())?;
+        let found = indent(&problem, punch, TUBE_ACCURACY, &mut |_| ());
+        let found = found.map_err(|why| Error::of_law(self.law.name(), self.deepest, why))?;
         Ok(UnitCurve {
             shape,
             force: IndentationCurve::through(&punch.depths, &found.answer.forces),

@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use palpate_files::Estimate;
 use palpate_files::tissue::{Elasticity, LawName};
-use palpate_mechanics::{Blatz, Law, MooneyRivlin, NeoHookean};
+use palpate_mechanics::{Exponential, Law, MooneyRivlin, NeoHookean};
 
 /// A law that can be sought: a modulus, which all force grows with, and perhaps a number for the shape of
 /// the force. Seen so, the two hardly disturb one another.
@@ -12,7 +12,7 @@ pub enum SoughtLaw {
     NeoHookean,
     /// The modulus is C₁₀ + C₀₁, the shape C₀₁ over it.
     MooneyRivlin,
-    /// Blatz's exponential law: the modulus is γ, the shape α.
+    /// The exponential law of Blatz, Chu and Wayland: the modulus is γ, the shape α.
     Exponential,
 }
 
@@ -25,8 +25,14 @@ impl SoughtLaw {
         match self {
             Self::NeoHookean => LawName::NeoHookean,
             Self::MooneyRivlin => LawName::MooneyRivlin,
-            Self::Exponential => LawName::Blatz,
+            Self::Exponential => LawName::Exponential,
         }
+    }
+
+    /// The law of a name in files, also one of an earlier version.
+    pub fn named(name: &str) -> Option<Self> {
+        let meant = LawName::from_word(name)?;
+        Self::ALL.into_iter().find(|law| law.name() == meant)
     }
 
     /// Lower bound, start and upper bound of the shape [-]; none where there is none.
@@ -49,7 +55,7 @@ impl SoughtLaw {
                 let [first, second] = [1.0 - shape, shape].map(|part| modulus * part);
                 Arc::new(MooneyRivlin::incompressible(first, second)?)
             }
-            Self::Exponential => Arc::new(Blatz::incompressible(modulus, shape)?),
+            Self::Exponential => Arc::new(Exponential::incompressible(modulus, shape)?),
         })
     }
 
@@ -123,7 +129,7 @@ impl SoughtLaw {
                 c10_pa: parameters[0],
                 c01_pa: parameters[1],
             },
-            Self::Exponential => Elasticity::Blatz {
+            Self::Exponential => Elasticity::Exponential {
                 gamma_pa: parameters[0],
                 alpha: parameters[1],
             },

@@ -1,6 +1,6 @@
 use palpate_files::Estimate;
 use palpate_files::tissue::EffectiveColumn;
-use palpate_mechanics::Blatz;
+use palpate_mechanics::Exponential;
 use palpate_mechanics::finite_elements::uniaxial::nominal_stress;
 
 use super::Contact;
@@ -8,7 +8,7 @@ use crate::Error;
 use crate::fit::{Fit, Parameter, Settings, doubts, least_squares, uncertainty};
 use crate::fit::{misfit, missed};
 
-/// Blatz's law on a column (6.2), and the fit that found it.
+/// The exponential law on a column (6.2), and the fit that found it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ColumnFit {
     /// The parameters with their standard errors; area and length were chosen, not found.
@@ -43,7 +43,7 @@ pub fn column_size(contact: Contact, deepest: f64) -> [f64; 2] {
 /// # Errors
 /// Where the law has no stress, as at depths beyond the length.
 pub fn column_force(column: &EffectiveColumn, depth: f64) -> Result<f64, Error> {
-    let law = Blatz::incompressible(column.gamma_pa.value, column.alpha.value)?;
+    let law = Exponential::incompressible(column.gamma_pa.value, column.alpha.value)?;
     let stretch = 1.0 - depth / column.effective_length_m.value;
     Ok(-nominal_stress(&law, stretch)? * column.effective_area_m2.value)
 }
@@ -83,7 +83,7 @@ pub fn fit_column(contact: Contact, depths: &[f64], forces: &[f64]) -> Result<Co
     let known = uncertainty(&fit);
     let misfit = misfit(&fit, largest);
     let mut said = doubts(&fit, &known, None);
-    said.extend(missed("blatz on a column", "force", misfit));
+    said.extend(missed("exponential on a column", "force", misfit));
     let [gamma_pa, alpha] = [0, 1].map(|place| Estimate {
         value: fit.parameters[place].value,
         standard_error: known.standard_error(place),

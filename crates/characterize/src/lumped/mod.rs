@@ -4,7 +4,7 @@
 //! [Sneddon 1965]. *Kelvin*: two springs and a damper, (6.3) as it must read: a step of depth d gives
 //! d (k₂ + (k₁ − k₂) exp(−t k₁/b)); the printed form rises with time (`docs/errata.md`).
 //!
-//! *Blatz*: the exponential law (6.2) on a column with the indenter's face, pressed to λ = 1 − d/L of its
+//! *Column*: the exponential law (6.2) on a column with the indenter's face, pressed to λ = 1 − d/L of its
 //! length L ([`column_size`]); the source gives neither face nor length, and inverts λ.
 //!
 //! *Nonlinear springs*: a spring, and beside it one or two that relax since each holds a unit mass and a unit

@@ -3,7 +3,7 @@ use std::ops::Range;
 use palpate_files::Estimate;
 use palpate_files::tissue::Elasticity;
 use palpate_mechanics::finite_elements::uniaxial::nominal_stress;
-use palpate_mechanics::{Blatz, Law, MooneyRivlin, NeoHookean};
+use palpate_mechanics::{Exponential, Law, MooneyRivlin, NeoHookean};
 
 use super::column::ALPHAS;
 use crate::fit::{
@@ -224,6 +224,6 @@ fn stress(law: SoughtLaw, p: &[f64], stretch: f64) -> Result<f64, palpate_mechan
             let second = of(&MooneyRivlin::incompressible(0.0, 1.0)?)?;
             Ok(p[0] * first + p[1] * second)
         }
-        SoughtLaw::Exponential => Ok(p[0] * of(&Blatz::incompressible(1.0, p[1])?)?),
+        SoughtLaw::Exponential => Ok(p[0] * of(&Exponential::incompressible(1.0, p[1])?)?),
     }
 }

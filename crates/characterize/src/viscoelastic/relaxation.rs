@@ -6,9 +6,10 @@ use super::model::{Course, Model, terms};
 use super::product_form::ProductForm;
 use crate::Error;
 use crate::fit::{
-    Fit, Parameter, Settings, Uncertainty, correlated_uncertainty, least_squares_with_jacobian,
-    simplest, with_systematic,
+    Fit, HARDLY_KNOWN, Parameter, Settings, Uncertainty, correlated_uncertainty,
+    least_squares_with_jacobian, simplest, student_quantile, with_systematic,
 };
+use crate::inverse::Correlations;
 
 /// What may be chosen about a relaxation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -63,8 +64,6 @@ const EXPONENTS: [f64; 2] = [-0.9, 3.0];
 const LARGEST_RATIO: f64 = 1e3;
 /// Times are sought up to this many lengths of the recording.
 const LONGEST: f64 = 10.0;
-/// A relative error above which a term counts as hardly known [-].
-const UNSURE: f64 = 0.5;
 /// Relative change of the parameters below which a fit has arrived [-].
 const TOLERANCE: f64 = 1e-7;
 
@@ -76,6 +75,33 @@ impl Relaxation {
         self.terms.iter().map(share).collect()
     }
 
+    /// The t [-] of intervals of its parameters that hold the truth with the probability `level` [-].
+    pub fn quantile(&self, level: f64) -> f64 {
+        // As `Uncertainty::degrees_of_freedom` of the same fit.
+        let freedom = self.effective_samples - self.fit.chosen().len() as f64;
+        student_quantile(freedom.max(1.0), level)
+    }
+
+    /// Correlations of its gᵢ and τᵢ.
+    pub fn correlations(&self) -> Correlations {
+        let count = self.terms.len();
+        let values: Vec<f64> = self.fit.parameters.iter().map(|p| p.value).collect();
+        let mut pairs: Vec<_> = terms(&values, count).into_iter().enumerate().collect();
+        pairs.sort_by(|(_, a), (_, b)| a.1.total_cmp(&b.1));
+        let left = 1.0 - pairs.iter().map(|(_, (g, _))| g).sum::<f64>();
+        // gᵢ = ρᵢ/(1 + Σ ρ); the fit has ln τ.
+        let mut by = DMatrix::zeros(2 * count, values.len());
+        for (row, &(place, (g, tau))) in pairs.iter().enumerate() {
+            for other in 0..count {
+                let own = if other == place { 1.0 } else { 0.0 };
+                by[(2 * row, 1 + 2 * other)] = left * (own - g);
+            }
+            by[(2 * row + 1, 2 + 2 * place)] = tau;
+        }
+        let names = (1..=count).flat_map(|i| [format!("g_{i}"), format!("tau_{i}_s")]);
+        Correlations::of(names.collect(), &(&by * &self.covariance * by.transpose()))
+    }
+
     /// What deserves doubt in it, after recordings of `duration` [s].
     pub fn doubts(&self, duration: f64) -> Vec<String> {
         let mut said = Vec::new();
@@ -83,7 +109,7 @@ impl Relaxation {
             let unsure = |estimate: &Estimate| {
                 estimate
                     .standard_error
-                    .is_some_and(|error| error > UNSURE * estimate.value)
+                    .is_some_and(|error| error > HARDLY_KNOWN * estimate.value)
             };
             if tau.value > duration {
                 said.push(format!(

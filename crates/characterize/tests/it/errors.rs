@@ -84,6 +84,18 @@ fn what_cannot_be_characterized_is_said() {
     assert!(
         said(Error::CostlyToRepeat { law }).starts_with("fits of `mooney_rivlin` are not repeated")
     );
+    let unsolved = said(Error::NotSolved {
+        law,
+        asked: 8e-3,
+        reached: 5.4e-3,
+        failure: palpate_mechanics::finite_elements::Failure::NotConverged,
+    });
+    assert_eq!(
+        unsolved,
+        "the force of the `mooney_rivlin` law could not be solved down to 8.000 mm, the deepest that was recorded, \
+         but down to 5.400 mm only (the iteration did not end); leave out what was recorded deeper, or choose another \
+         law with --law"
+    );
     assert!(said(Error::TubeIndenter).ends_with("use a flat one"));
     let thin = Error::DeeperThanThick {
         depth: 5e-3,

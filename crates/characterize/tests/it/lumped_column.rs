@@ -1,4 +1,4 @@
-//! Blatz's law on an effective column (6.2).
+//! The exponential law on an effective column (6.2).
 
 use palpate_characterize::Error;
 use palpate_characterize::fit::Random;

@@ -23,7 +23,9 @@ pub(super) fn card(tissue: &Tissue) -> Result<String, NoCard> {
                 false,
             )
         }
-        Elasticity::Blatz { .. } => return Err(NoCard::of("Abaqus", tissue.elasticity.law())),
+        Elasticity::Exponential { .. } => {
+            return Err(NoCard::of("Abaqus", tissue.elasticity.law()));
+        }
     };
     let mut text = format!(
         "** {}, written by palpate. Units: N, m, kg, s, Pa.\n*MATERIAL, NAME={}\n*DENSITY\n{:?}\n{law}",

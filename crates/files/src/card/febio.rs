@@ -25,7 +25,7 @@ pub(super) fn card(tissue: &Tissue) -> Result<String, NoCard> {
             let numbers = distortion(left * c10_pa.value, left * c01_pa.value);
             ("Mooney-Rivlin", "uncoupled viscoelastic", numbers)
         }
-        Elasticity::Blatz { .. } => return Err(NoCard::of("FEBio", tissue.elasticity.law())),
+        Elasticity::Exponential { .. } => return Err(NoCard::of("FEBio", tissue.elasticity.law())),
     };
     let density = ("density", tissue.density_kg_m3.value);
     let material = if tissue.prony.is_empty() {

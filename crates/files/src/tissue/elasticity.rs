@@ -10,8 +10,8 @@ words! {
         NeoHookean = "neo_hookean",
         /// Mooney-Rivlin, incompressible.
         MooneyRivlin = "mooney_rivlin",
-        /// Blatz's exponential law, incompressible.
-        Blatz = "blatz",
+        /// The exponential law of Blatz, Chu and Wayland, incompressible.
+        Exponential = "exponential" | "blatz",
     }
 }
 
@@ -37,8 +37,9 @@ pub enum Elasticity {
         /// C₀₁ [Pa].
         c01_pa: Estimate,
     },
-    /// Ψ = γ / (2 α (α + 1)) Σ (exp(α (λᵢ² − 1)) − 1).
-    Blatz {
+    /// The law of Blatz, Chu and Wayland: Ψ = γ / (2 α (α + 1)) Σ (exp(α (λᵢ² − 1)) − 1); with α = 0 it is
+    /// neo-Hookean with C₁₀ = γ/2.
+    Exponential {
         /// γ [Pa], a third of Young's modulus at small strain.
         gamma_pa: Estimate,
         /// α [-].
@@ -48,7 +49,7 @@ pub enum Elasticity {
 
 const POISSONS_RATIO: Domain = Domain {
     expected: "a number above -1 and below 0.5 (0.5 itself belongs to the incompressible laws \
-               neo_hookean, mooney_rivlin and blatz; 0.49 is near enough for most tissues)",
+               neo_hookean, mooney_rivlin and exponential; 0.49 is near enough for most tissues)",
     holds: |nu| -1.0 < nu && nu < 0.5,
 };
 
@@ -61,7 +62,7 @@ impl Elasticity {
             Self::Linear { .. } => LawName::Linear,
             Self::NeoHookean { .. } => LawName::NeoHookean,
             Self::MooneyRivlin { .. } => LawName::MooneyRivlin,
-            Self::Blatz { .. } => LawName::Blatz,
+            Self::Exponential { .. } => LawName::Exponential,
         }
     }
 
@@ -77,15 +78,16 @@ impl Elasticity {
             ],
             Self::NeoHookean { c10_pa } => vec![("c10_pa", c10_pa)],
             Self::MooneyRivlin { c10_pa, c01_pa } => vec![("c10_pa", c10_pa), ("c01_pa", c01_pa)],
-            Self::Blatz { gamma_pa, alpha } => vec![("gamma_pa", gamma_pa), ("alpha", alpha)],
+            Self::Exponential { gamma_pa, alpha } => vec![("gamma_pa", gamma_pa), ("alpha", alpha)],
         }
     }
 
     pub(super) fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
-        let law = keys.word("law", LawName::WORDS)?.ok_or_else(|| {
+        let law = keys.word_or_former("law", LawName::WORDS, LawName::FORMER)?;
+        let law = law.ok_or_else(|| {
             keys.missing(
                 "law",
-                "\"linear\", \"neo_hookean\", \"mooney_rivlin\" or \"blatz\"",
+                "\"linear\", \"neo_hookean\", \"mooney_rivlin\" or \"exponential\"",
             )
         })?;
         check_parameters(keys, law)?;
@@ -98,9 +100,9 @@ impl Elasticity {
                 c10_pa: keys.required_estimate("c10_pa", Domain::POSITIVE)?,
             }),
             LawName::MooneyRivlin => mooney_rivlin(keys),
-            LawName::Blatz => Ok(Self::Blatz {
+            LawName::Exponential => Ok(Self::Exponential {
                 gamma_pa: keys.required_estimate("gamma_pa", Domain::POSITIVE)?,
-                alpha: keys.required_estimate("alpha", Domain::POSITIVE)?,
+                alpha: keys.required_estimate("alpha", Domain::NOT_NEGATIVE)?,
             }),
         }
     }
@@ -112,7 +114,7 @@ fn check_parameters(keys: &Keys<'_>, law: LawName) -> Result<(), Error> {
         LawName::Linear => &["youngs_modulus_pa", "poissons_ratio"],
         LawName::NeoHookean => &["c10_pa"],
         LawName::MooneyRivlin => &["c10_pa", "c01_pa"],
-        LawName::Blatz => &["gamma_pa", "alpha"],
+        LawName::Exponential => &["gamma_pa", "alpha"],
     };
     let shared = &["name", "density_kg_m3", "law", "prony", "lumped", "source"];
     keys.only(&[of_law, shared].concat())

@@ -5,8 +5,8 @@ use crate::{Domain, Error, Estimate, Keys};
 pub struct Lumped {
     /// Two springs and a damper (6.3).
     pub kelvin: Option<Kelvin>,
-    /// Blatz's law on a column of effective size (6.2).
-    pub blatz: Option<EffectiveColumn>,
+    /// The exponential law on a column of effective size (6.2).
+    pub column: Option<EffectiveColumn>,
     /// Three nonlinear springs (6.4).
     pub nonlinear_springs: Option<NonlinearSprings>,
 }
@@ -24,7 +24,7 @@ pub struct Kelvin {
     pub tau_s: Option<Estimate>,
 }
 
-/// Blatz's law in compression of a column that stands for the tissue under the indenter.
+/// The exponential law of Blatz, Chu and Wayland in compression of a column that stands for the tissue under the indenter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EffectiveColumn {
     /// γ [Pa].
@@ -60,16 +60,22 @@ pub struct NonlinearSprings {
 
 impl Lumped {
     pub(super) fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
-        let known = &["kelvin", "blatz", "nonlinear_springs"];
+        // The first version called the column `blatz`, as if it were the tissue's law.
+        let known = &["kelvin", "column", "blatz", "nonlinear_springs"];
         let Some(lumped) = keys.table("lumped", known)? else {
             return Ok(Self::default());
         };
         let kelvin = lumped.table("kelvin", Kelvin::KEYS)?;
-        let blatz = lumped.table("blatz", EffectiveColumn::KEYS)?;
+        let column = lumped.table("column", EffectiveColumn::KEYS)?;
+        let former = lumped.table("blatz", EffectiveColumn::KEYS)?;
+        if column.is_some() && former.is_some() {
+            return Err(lumped.given_twice("column", "blatz"));
+        }
         let springs = lumped.table("nonlinear_springs", &NonlinearSprings::KEYS)?;
         Ok(Self {
             kelvin: kelvin.map(|keys| Kelvin::from_keys(&keys)).transpose()?,
-            blatz: blatz
+            column: column
+                .or(former)
                 .map(|keys| EffectiveColumn::from_keys(&keys))
                 .transpose()?,
             nonlinear_springs: springs
@@ -82,7 +88,7 @@ impl Lumped {
     pub fn tables(&self) -> Vec<(&'static str, Vec<(&'static str, Estimate)>)> {
         [
             self.kelvin.map(|kelvin| ("kelvin", kelvin.parameters())),
-            self.blatz.map(|blatz| ("blatz", blatz.parameters())),
+            self.column.map(|column| ("column", column.parameters())),
             self.nonlinear_springs
                 .map(|springs| ("nonlinear_springs", springs.parameters())),
         ]

@@ -80,6 +80,24 @@ impl<'d> Keys<'d> {
         })
     }
 
+    /// One of a list of `words`, or one of the `former` words that earlier versions wrote, which no error names.
+    ///
+    /// # Errors
+    /// When the value is anything else.
+    pub fn word_or_former<T: Copy>(
+        &self,
+        key: &'static str,
+        words: &[(&'static str, T)],
+        former: &[(&'static str, T)],
+    ) -> Result<Option<T>, Error> {
+        if let Some(Value::Text(text)) = self.find(key)?.map(|found| found.value)
+            && let Some((_, value)) = former.iter().find(|(word, _)| word == text)
+        {
+            return Ok(Some(*value));
+        }
+        self.word(key, words)
+    }
+
     /// Whether the value of a key is a text.
     pub fn is_text(&self, key: &'static str) -> bool {
         matches!(

@@ -117,14 +117,14 @@ fn linear_tissue_relaxes_in_bulk() {
 
 #[test]
 fn a_law_that_a_package_has_not_is_refused() {
-    let tissue = tissue(Elasticity::Blatz {
+    let tissue = tissue(Elasticity::Exponential {
         gamma_pa: 500.0.into(),
         alpha: 1.0.into(),
     });
     let said = tissue.to_abaqus().unwrap_err().to_string();
     assert_eq!(
         said,
-        "Abaqus has no law like `blatz` of its own; write the card of another law, such as neo_hookean"
+        "Abaqus has no law like `exponential` of its own; write the card of another law, such as neo_hookean"
     );
     assert!(
         tissue

@@ -118,7 +118,7 @@ k1_n_per_mm = 0.008
 k2_n_per_m = 7.0
 b_n_s_per_m = { value = 130.0, standard_error = 1.0 }
 tau_s = 16.25
-[tissue.lumped.blatz]
+[tissue.lumped.column]
 gamma_pa = 1000.0
 alpha = 2.0
 effective_area_mm2 = 3.0

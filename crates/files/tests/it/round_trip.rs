@@ -63,7 +63,7 @@ fn elasticity() -> impl Strategy<Value = Elasticity> {
         }),
         pa().prop_map(|c10_pa| Elasticity::NeoHookean { c10_pa }),
         (pa(), pa()).prop_map(|(c10_pa, c01_pa)| Elasticity::MooneyRivlin { c10_pa, c01_pa }),
-        (pa(), pa()).prop_map(|(gamma_pa, alpha)| Elasticity::Blatz { gamma_pa, alpha }),
+        (pa(), pa()).prop_map(|(gamma_pa, alpha)| Elasticity::Exponential { gamma_pa, alpha }),
     ]
 }
 
@@ -77,7 +77,7 @@ fn lumped() -> impl Strategy<Value = Lumped> {
             tau_s,
         },
     );
-    let blatz = (any(), any(), any(), any()).prop_map(
+    let column = (any(), any(), any(), any()).prop_map(
         |(gamma_pa, alpha, effective_area_m2, effective_length_m)| EffectiveColumn {
             gamma_pa,
             alpha,
@@ -85,9 +85,9 @@ fn lumped() -> impl Strategy<Value = Lumped> {
             effective_length_m,
         },
     );
-    (prop::option::of(kelvin), prop::option::of(blatz)).prop_map(|(kelvin, blatz)| Lumped {
+    (prop::option::of(kelvin), prop::option::of(column)).prop_map(|(kelvin, column)| Lumped {
         kelvin,
-        blatz,
+        column,
         nonlinear_springs: None,
     })
 }

@@ -46,7 +46,34 @@ fn keys_of_a_tissue_are_converted_with_their_errors() {
     let c01 = tissue.elasticity.parameters()[1].1;
     assert_eq!((c01.value, c01.standard_error), (500.0, Some(62.5)));
     assert_eq!(tissue.lumped.kelvin.unwrap().k1_n_per_m, 8.0.into());
-    assert_eq!(tissue.lumped.blatz.unwrap().effective_area_m2, 3e-6.into());
+    assert_eq!(tissue.lumped.column.unwrap().effective_area_m2, 3e-6.into());
+}
+
+/// What the first version called `blatz` is read, and written under the law's one name; a column is no law.
+#[test]
+fn former_names_are_read_and_written_as_the_present_ones() {
+    let column =
+        "gamma_pa = 7403.0\nalpha = 2.0\neffective_area_m2 = 3e-6\neffective_length_m = 0.01\n";
+    let text = |law: &str, table: &str| {
+        format!(
+            "format = 1\n[tissue]\nlaw = \"{law}\"\ngamma_pa = 1005.0\nalpha = 0.0\n[tissue.lumped.{table}]\n{column}"
+        )
+    };
+    let of = |law: &str, table: &str| Tissue::parse(&text(law, table), "tissue.toml").unwrap();
+    let former = of("blatz", "blatz");
+    assert_eq!(former, of("exponential", "column"));
+    let written = former.to_toml();
+    assert!(
+        written.contains("law = \"exponential\"") && !written.contains("blatz"),
+        "{written}"
+    );
+    assert_eq!(Tissue::parse(&written, "written.toml").unwrap(), former);
+    let both = format!("{}[tissue.lumped.blatz]\n{column}", text("blatz", "column"));
+    let refused = Tissue::parse(&both, "tissue.toml").unwrap_err().to_string();
+    assert!(
+        refused.contains("column") && refused.contains("blatz"),
+        "{refused}"
+    );
 }
 
 #[test]

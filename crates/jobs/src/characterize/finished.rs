@@ -4,7 +4,7 @@ use palpate_characterize::{Characterization, CleanRecording};
 use palpate_files::Tissue;
 use serde::{Deserialize, Serialize};
 
-use super::answer::Specimen;
+use super::answer::{Specimen, former};
 use super::portrait::Portrait;
 use crate::VERSION;
 
@@ -20,6 +20,7 @@ pub(crate) struct Studied {
 /// What stays of a specimen.
 #[derive(Debug, Serialize, Deserialize)]
 pub(crate) struct Finished {
+    #[serde(serialize_with = "former::of_one")]
     pub(crate) specimen: Specimen,
     /// The text of its tissue file, or why there is none.
     pub(crate) tissue: Result<String, String>,

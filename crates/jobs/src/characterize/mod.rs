@@ -16,7 +16,8 @@ use palpate_characterize::inverse::SoughtLaw;
 use palpate_characterize::viscoelastic::RelaxationSettings;
 
 pub use answer::{
-    Answer, Known, LawAnswer, Modulus, Named, Noise, RelaxationAnswer, Specimen, Steps, Tried,
+    Answer, Identified, Known, LawAnswer, LumpedAnswer, Modulus, Named, Noise, Partner,
+    RelaxationAnswer, Specimen, Steps, Tried,
 };
 pub use folder::StudyFolder;
 pub use pooled::Pooled;
@@ -51,14 +52,13 @@ impl Default for Choice {
 }
 
 impl Choice {
-    /// The law of a name among [`Self::LAWS`].
+    /// The law of a name in files: `neo_hookean`, `mooney_rivlin` or `exponential`.
     ///
     /// # Errors
     /// When there is no such law.
     pub fn law_named(name: &str) -> Result<SoughtLaw, Error> {
-        let found = Self::LAWS.iter().find(|(own, _)| *own == name);
-        found.map(|(_, law)| *law).ok_or_else(|| {
-            let names = Self::LAWS.map(|(own, _)| own);
+        SoughtLaw::named(name).ok_or_else(|| {
+            let names = SoughtLaw::ALL.map(|law| law.name().word());
             let meant = nearest(name, &names);
             Error::input(format!(
                 "there is no law `{name}` to seek; name one of {}, such as {meant}",
@@ -66,13 +66,6 @@ impl Choice {
             ))
         })
     }
-
-    /// The laws by the names of their options, which are those of a tissue file.
-    pub const LAWS: [(&'static str, SoughtLaw); 3] = [
-        ("neo_hookean", SoughtLaw::NeoHookean),
-        ("mooney_rivlin", SoughtLaw::MooneyRivlin),
-        ("blatz", SoughtLaw::Exponential),
-    ];
 
     fn settings(self) -> CharacterizeSettings {
         let all = CharacterizeSettings::default();

@@ -23,6 +23,9 @@ pub(crate) fn write(answer: &Answer, folder: &StudyFolder) -> Result<(), Error> 
         "standard_deviation",
         "low_95",
         "high_95",
+        "specimens",
+        "organ",
+        "condition",
     ];
     let pooled = answer.pooled.iter().map(|(name, pooled)| {
         let [low, high] = pooled
@@ -35,6 +38,9 @@ pub(crate) fn write(answer: &Answer, folder: &StudyFolder) -> Result<(), Error> 
             shown(pooled.standard_deviation),
             shown(low),
             shown(high),
+            pooled.specimens.to_string(),
+            pooled.organ.clone().unwrap_or_default(),
+            pooled.condition.clone().unwrap_or_default(),
         ]
     });
     folder.write("pooled.csv", &table(&names.map(str::to_owned), pooled)?)
@@ -81,7 +87,7 @@ fn columns() -> Vec<String> {
         }
         names.push(format!("{law}_misfit"));
     }
-    names.extend(["preferred", "warnings", "problem"].map(str::to_owned));
+    names.extend(["preferred", "condition", "warnings", "problem"].map(str::to_owned));
     names
 }
 
@@ -97,7 +103,7 @@ fn row(specimen: &Specimen) -> Vec<String> {
         named(&specimen.site),
         files.join(";"),
     ];
-    let modulus = specimen.mean_elastic_modulus.as_ref();
+    let modulus = specimen.lumped.mean_elastic_modulus.as_ref();
     row.push(shown(modulus.map(|modulus| modulus.value)));
     row.push(shown(
         modulus.and_then(|modulus| modulus.standard_deviation),
@@ -112,10 +118,7 @@ fn row(specimen: &Specimen) -> Vec<String> {
         row.extend(of(relaxation.and_then(|found| found.tau_s.get(term))));
     }
     for (name, parameters) in LAWS {
-        let law = specimen
-            .laws()
-            .find(|(key, _)| *key == name)
-            .map(|(_, law)| law);
+        let law = specimen.laws.get(name);
         for parameter in parameters {
             let known = law.and_then(|law| law.parameters.get(*parameter));
             row.push(shown(known.map(|known| known.value)));
@@ -125,6 +128,7 @@ fn row(specimen: &Specimen) -> Vec<String> {
         row.push(shown(law.map(|law| law.misfit)));
     }
     row.push(named(&specimen.preferred));
+    row.push(named(&specimen.condition));
     row.push(specimen.warnings.len().to_string());
     row.push(String::new());
     row

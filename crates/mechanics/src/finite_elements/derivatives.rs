@@ -9,7 +9,7 @@ use super::mesh::ElementMesh;
 use super::model::{FiniteElementModel, FiniteElementWorkspace, Formulation};
 use super::newton;
 use super::supports::Supports;
-use crate::{Blatz, Law, LinearElastic, MooneyRivlin, NeoHookean, Vec3};
+use crate::{Exponential, Law, LinearElastic, MooneyRivlin, NeoHookean, Vec3};
 
 /// Two elements of a kind, with their nodes shaken.
 fn body(kind: ElementKind) -> ElementMesh {
@@ -74,10 +74,13 @@ fn cases() -> Vec<(Arc<dyn Law>, Formulation)> {
             Mixed,
         ),
         (
-            Arc::new(Blatz::compressible(2.0, 1.5, 9.0).unwrap()),
+            Arc::new(Exponential::compressible(2.0, 1.5, 9.0).unwrap()),
             Displacement,
         ),
-        (Arc::new(Blatz::incompressible(2.0, 1.5).unwrap()), Mixed),
+        (
+            Arc::new(Exponential::incompressible(2.0, 1.5).unwrap()),
+            Mixed,
+        ),
     ]
 }
 

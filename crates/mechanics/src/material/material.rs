@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use palpate_files::{Elasticity, Tissue};
 
-use super::blatz::Blatz;
+use super::exponential::Exponential;
 use super::law::Law;
 use super::linear_elastic::LinearElastic;
 use super::mooney_rivlin::MooneyRivlin;
@@ -43,8 +43,8 @@ impl Material {
             Elasticity::MooneyRivlin { c10_pa, c01_pa } => {
                 linearized(MooneyRivlin::incompressible(c10_pa.value, c01_pa.value)?)?
             }
-            Elasticity::Blatz { gamma_pa, alpha } => {
-                linearized(Blatz::incompressible(gamma_pa.value, alpha.value)?)?
+            Elasticity::Exponential { gamma_pa, alpha } => {
+                linearized(Exponential::incompressible(gamma_pa.value, alpha.value)?)?
             }
         };
         let terms: Vec<_> = tissue

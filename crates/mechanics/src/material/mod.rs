@@ -1,6 +1,6 @@
 //! What a tissue is made of: a law between deformation and stress, and its relaxation in time.
 
-pub(crate) mod blatz;
+pub(crate) mod exponential;
 mod isochoric;
 pub(crate) mod law;
 pub(crate) mod linear_elastic;

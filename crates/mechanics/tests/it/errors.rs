@@ -14,7 +14,7 @@ use palpate_mechanics::finite_elements::tube::{
 };
 use palpate_mechanics::finite_elements::uniaxial::nominal_stress;
 use palpate_mechanics::finite_spheres::{FiniteSphereModel, FiniteSphereSettings, Form};
-use palpate_mechanics::{Blatz, Error, LinearElastic, MooneyRivlin, NeoHookean, PronySeries};
+use palpate_mechanics::{Error, Exponential, LinearElastic, MooneyRivlin, NeoHookean, PronySeries};
 
 use crate::contacts::{organ, tissue};
 
@@ -95,11 +95,11 @@ fn every_refusal_names_the_value_and_the_mend() {
             &["bulk modulus is 0 Pa", "positive"],
         ),
         (
-            Blatz::incompressible(0.0, 2.0).map(drop),
+            Exponential::incompressible(0.0, 2.0).map(drop),
             &["gamma is 0 Pa", "alpha is 2", "positive gamma"],
         ),
         (
-            Blatz::compressible(1e3, -1.0, 1e5).map(drop),
+            Exponential::compressible(1e3, -1.0, 1e5).map(drop),
             &["alpha is -1", "above -1"],
         ),
         (
@@ -134,7 +134,7 @@ fn every_refusal_names_the_value_and_the_mend() {
             &["-0.5", "positive"],
         ),
         (
-            nominal_stress(&Blatz::incompressible(1e3, 20.0).unwrap(), 50.0).map(drop),
+            nominal_stress(&Exponential::incompressible(1e3, 20.0).unwrap(), 50.0).map(drop),
             &["50", "nearer to 1"],
         ),
     ];

@@ -1,7 +1,9 @@
 //! Every implementor of [`Law`], to run a battery over: a new one joins by a line here.
 
 use nalgebra::{Matrix3, Rotation3};
-use palpate_mechanics::{Blatz, Law, LinearElastic, MooneyRivlin, NeoHookean, Strain, Tangent};
+use palpate_mechanics::{
+    Exponential, Law, LinearElastic, MooneyRivlin, NeoHookean, Strain, Tangent,
+};
 
 use crate::contacts::{MODULUS, Random};
 
@@ -111,12 +113,12 @@ pub(crate) fn every_law() -> Vec<Candidate> {
     for alpha in ALPHAS {
         let (parameters, bulk) = ([gamma, alpha], 10.0 * gamma);
         laws.push(Candidate::new(&parameters, 3.0 * gamma, |p| {
-            Blatz::incompressible(p[0], p[1]).unwrap()
+            Exponential::incompressible(p[0], p[1]).unwrap()
         }));
         laws.push(Candidate::new(
             &parameters,
             modulus(gamma, 10.0),
-            move |p| Blatz::compressible(p[0], p[1], bulk).unwrap(),
+            move |p| Exponential::compressible(p[0], p[1], bulk).unwrap(),
         ));
     }
     laws

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use nalgebra::{Matrix3, Rotation3};
 use palpate_mechanics::finite_elements::uniaxial::nominal_stress;
 use palpate_mechanics::finite_elements::{ElementKind, Formulation, Supports};
-use palpate_mechanics::{Blatz, Law, LinearElastic, MooneyRivlin, NeoHookean, Vec3};
+use palpate_mechanics::{Exponential, Law, LinearElastic, MooneyRivlin, NeoHookean, Vec3};
 
 use crate::bodies::{Body, KINDS, at_map, block, boundary, face};
 
@@ -36,7 +36,10 @@ fn patch_test() {
         (Arc::new(LinearElastic::new(3.0, 0.3).unwrap()), 1.0),
         (Arc::new(LinearElastic::new(3.0, 0.489).unwrap()), 1.0),
         (Arc::new(neo), 0.5),
-        (Arc::new(Blatz::compressible(1.0, 1.0, 5.0).unwrap()), 0.5),
+        (
+            Arc::new(Exponential::compressible(1.0, 1.0, 5.0).unwrap()),
+            0.5,
+        ),
     ];
     for kind in KINDS {
         for (law, size) in &laws {
@@ -72,7 +75,7 @@ fn a_bar_is_stretched() {
         Arc::new(NeoHookean::incompressible(1.0).unwrap()),
         Arc::new(NeoHookean::compressible(1.0, 5.0).unwrap()),
         Arc::new(MooneyRivlin::incompressible(0.6, 0.4).unwrap()),
-        Arc::new(Blatz::incompressible(2.0, 0.3).unwrap()),
+        Arc::new(Exponential::incompressible(2.0, 0.3).unwrap()),
         Arc::new(LinearElastic::new(6.0, 0.45).unwrap()),
     ];
     for kind in KINDS {

@@ -7,8 +7,8 @@ use palpate_mechanics::finite_elements::indentation::{
     IndentationSettings, Indenter, IndenterShape, Relaxing, Side, solve, solve_history,
 };
 use palpate_mechanics::{
-    Blatz, Error, IndentationCurve, Law, LinearElastic, MooneyRivlin, NeoHookean, PronySeries,
-    contact,
+    Error, Exponential, IndentationCurve, Law, LinearElastic, MooneyRivlin, NeoHookean,
+    PronySeries, contact,
 };
 
 const RADIUS: f64 = 1e-3;
@@ -316,7 +316,7 @@ fn sensitivities_are_those_of_moved_parameters() {
             [400.0, 600.0],
         ),
         (
-            |a, b| Arc::new(Blatz::incompressible(a, b).unwrap()),
+            |a, b| Arc::new(Exponential::incompressible(a, b).unwrap()),
             [2000.0, 1.0],
         ),
     ];

@@ -3,7 +3,7 @@
 //! Judges: central differences, by the order at which their error falls; rotations; moduli at rest.
 
 use nalgebra::Matrix3;
-use palpate_mechanics::{Blatz, Law, LinearElastic, NeoHookean, Tangent};
+use palpate_mechanics::{Exponential, Law, LinearElastic, NeoHookean, Tangent};
 
 use crate::contacts::{MODULUS, Random, tries};
 use crate::every_law::{Candidate, deformation, every_law, rotation};
@@ -323,7 +323,7 @@ fn what_is_inside_out_has_no_stress() {
 
 #[test]
 fn an_exponential_that_overflows_does_not_pass_for_a_number() {
-    let law = Blatz::incompressible(MODULUS, 20.0).unwrap();
+    let law = Exponential::incompressible(MODULUS, 20.0).unwrap();
     let f = Matrix3::new(7.0, 0.1, 0.0, 0.0, 0.4, 0.0, 0.2, 0.0, 0.4);
     assert!(!law.distortion_energy(&f).is_finite());
     assert!(!law.distortion_stress(&f).norm().is_finite());
@@ -336,7 +336,7 @@ fn without_stiffening_the_exponential_law_is_neo_hookean() {
     let mut random = Random(10);
     let plain = NeoHookean::incompressible(0.5 * MODULUS).unwrap();
     for alpha in [0.0, 1e-300, 1e-17, -1e-17] {
-        let law = Blatz::incompressible(MODULUS, alpha).unwrap();
+        let law = Exponential::incompressible(MODULUS, alpha).unwrap();
         let f = deformation(&mut random);
         let allowed = 1e-14 * plain.distortion_tangent(&f).norm();
         let energy = law.distortion_energy(&f) - plain.distortion_energy(&f);

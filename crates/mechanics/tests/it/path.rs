@@ -6,7 +6,7 @@ use nalgebra::Matrix3;
 use palpate_mechanics::finite_elements::{
     Cavity, ElementMesh, FiniteElementModel, Formulation, Path, Supports,
 };
-use palpate_mechanics::{Blatz, Law};
+use palpate_mechanics::{Exponential, Law};
 
 /// Pressure [Pa] of an incompressible tube in plane strain whose inner radius is `now` [m]:
 /// p = ∫ (σ_θ − σ_r) dr/r with r² − R² the same for all R, by Simpson's rule.
@@ -40,7 +40,7 @@ pub(crate) fn closed_form(law: &dyn Law, inner: f64, outer: f64, now: f64) -> f6
 #[test]
 fn a_softening_tube_is_followed_beyond_its_limit() {
     let (inner, outer, height) = (0.005, 0.0075, 0.0005);
-    let law = Blatz::incompressible(1000.0, -0.25).unwrap();
+    let law = Exponential::incompressible(1000.0, -0.25).unwrap();
     let columns: Vec<f64> = (0..=8)
         .map(|i| inner + (outer - inner) * f64::from(i) / 8.0)
         .collect();

@@ -8,7 +8,9 @@ use palpate_mechanics::finite_elements::indentation::{
     Base, Block, Grip, IndentationRun, IndentationSettings, Indenter, IndenterShape, Side,
     Stiffening,
 };
-use palpate_mechanics::{Blatz, Law, LinearElastic, Material, NeoHookean, PronySeries, TipLaw};
+use palpate_mechanics::{
+    Exponential, Law, LinearElastic, Material, NeoHookean, PronySeries, TipLaw,
+};
 
 const RADIUS: f64 = 1e-3;
 
@@ -26,8 +28,8 @@ fn neo_hookean() -> Material {
 }
 
 /// Tissue that stiffens as the measured curves of organs do.
-fn blatz() -> Material {
-    material(Blatz::incompressible(2000.0, 0.5).unwrap())
+fn exponential() -> Material {
+    material(Exponential::incompressible(2000.0, 0.5).unwrap())
 }
 
 fn run(tissue: &Material, tip: Tip, block: Block) -> IndentationRun {
@@ -115,10 +117,10 @@ const SLAB: Block = Block {
 #[test]
 fn a_large_block_answers_as_a_half_space_in_series() {
     let tip = Tip::Flat { radius: RADIUS };
-    let off = farthest(&blatz(), tip, LARGE, &[0.2, 0.5, 1.0, 2.0, 3.0]);
+    let off = farthest(&exponential(), tip, LARGE, &[0.2, 0.5, 1.0, 2.0, 3.0]);
     assert!(off < 0.005, "{off}");
     let tip = Tip::Sphere { radius: RADIUS };
-    let off = farthest(&blatz(), tip, LARGE, &[0.2, 0.5, 1.0]);
+    let off = farthest(&exponential(), tip, LARGE, &[0.2, 0.5, 1.0]);
     assert!(off < 0.005, "{off}");
 }
 
@@ -127,7 +129,7 @@ fn a_large_block_answers_as_a_half_space_in_series() {
 #[test]
 fn a_slab_is_met_within_a_tenth() {
     let tip = Tip::Flat { radius: RADIUS };
-    let off = farthest(&blatz(), tip, SLAB, &[0.2, 0.5, 1.0]);
+    let off = farthest(&exponential(), tip, SLAB, &[0.2, 0.5, 1.0]);
     assert!(off < 0.10, "{off}");
 }
 

@@ -4,7 +4,7 @@
 //! over undeformed.
 
 use nalgebra::{Matrix3, Vector3};
-use palpate_mechanics::{Blatz, Law, MooneyRivlin, NeoHookean};
+use palpate_mechanics::{Exponential, Law, MooneyRivlin, NeoHookean};
 
 use crate::contacts::{MODULUS, Random};
 use crate::every_law::rotation;
@@ -94,11 +94,11 @@ fn mooney_rivlin() {
 }
 
 #[test]
-fn blatz() {
+fn exponential() {
     let mut random = Random(3);
     let gamma = MODULUS / 3.0;
     for alpha in [-0.5, 1e-9, 0.5, 5.0, 20.0] {
-        let law = Blatz::incompressible(gamma, alpha).unwrap();
+        let law = Exponential::incompressible(gamma, alpha).unwrap();
         // γ/(α + 1) λ exp(α (λ² − 1)).
         let term = |l: f64| gamma / (alpha + 1.0) * l * (alpha * (l * l - 1.0)).exp();
         for l in stretches() {

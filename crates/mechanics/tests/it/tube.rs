@@ -7,7 +7,7 @@ use palpate_mechanics::finite_elements::indentation::Grip;
 use palpate_mechanics::finite_elements::tube::{
     Ends, Inflated, Tube, TubeProblem, TubePunch, indent, inflate,
 };
-use palpate_mechanics::{Blatz, Law, LinearElastic, MooneyRivlin, NeoHookean};
+use palpate_mechanics::{Exponential, Law, LinearElastic, MooneyRivlin, NeoHookean};
 
 use crate::path::closed_form;
 
@@ -71,7 +71,7 @@ fn follows_the_closed_form() {
             &[100.0, 400.0, 500.0],
         ),
         (
-            Arc::new(Blatz::incompressible(1700.0, 1.5).unwrap()),
+            Arc::new(Exponential::incompressible(1700.0, 1.5).unwrap()),
             &[100.0, 1000.0, 10_000.0],
         ),
     ];
@@ -126,7 +126,7 @@ fn a_short_tube_withstands_more() {
 /// A law that stiffens has no limit, and pressures beyond a neo-Hookean one's are answered.
 #[test]
 fn a_stiffening_tube_does_not_balloon() {
-    let law = Blatz::incompressible(5200.0 / 3.0, 2.0).unwrap();
+    let law = Exponential::incompressible(5200.0 / 3.0, 2.0).unwrap();
     let result = run(&tube(0.04, Ends::Held, law), &[600.0, 4000.0], 0.01);
     println!("{result:?}");
     assert_eq!(result.answer.limit_pressure, None);

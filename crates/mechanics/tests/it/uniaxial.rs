@@ -1,7 +1,7 @@
 //! A stretched bar: one point, closed forms, and finite elements.
 
 use palpate_mechanics::finite_elements::uniaxial::nominal_stress;
-use palpate_mechanics::{Blatz, Error, LinearElastic, MooneyRivlin, NeoHookean};
+use palpate_mechanics::{Error, Exponential, LinearElastic, MooneyRivlin, NeoHookean};
 
 use crate::contacts::MODULUS;
 use crate::every_law::every_law;
@@ -12,7 +12,7 @@ fn incompressible_laws_have_their_closed_forms() {
     let (c10, c01, gamma, alpha) = (1200.0, 500.0, 3000.0, 0.7);
     let neo = NeoHookean::incompressible(c10).unwrap();
     let mooney = MooneyRivlin::incompressible(c10, c01).unwrap();
-    let blatz = Blatz::incompressible(gamma, alpha).unwrap();
+    let exponential = Exponential::incompressible(gamma, alpha).unwrap();
     for step in 0..=50 {
         let l = 0.5 + 0.05 * f64::from(step);
         let close = |found: Result<f64, Error>, exact: f64| {
@@ -30,7 +30,7 @@ fn incompressible_laws_have_their_closed_forms() {
         // (6.2)
         let exact = gamma / (alpha + 1.0)
             * (l * (alpha * (l * l - 1.0)).exp() - l.powi(-2) * (alpha * (1.0 / l - 1.0)).exp());
-        close(nominal_stress(&blatz, l), exact);
+        close(nominal_stress(&exponential, l), exact);
     }
 }
 

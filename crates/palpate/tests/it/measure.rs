@@ -54,7 +54,7 @@ fn a_specimen_comes_back_as_its_tissue() {
     let found = json(&palpate_in(folder.path(), &asked));
     let specimen = &found["specimens"][0];
     let number = |value: &serde_json::Value| value.as_f64().unwrap();
-    let c10 = &specimen["neo_hookean"]["c10_pa"];
+    let c10 = &specimen["laws"]["neo_hookean"]["c10_pa"];
     let stated = 1.96 * number(&c10["standard_error"]) + number(&c10["discretisation_error"]);
     let off = (number(&c10["value"]) - 3000.0).abs();
     assert!(off < stated + (0.02 / 1.5 + 0.02) * 3000.0, "{c10:#}");

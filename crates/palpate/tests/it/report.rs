@@ -75,6 +75,13 @@ fn a_page_has_all_its_parts() {
         "Convergence: Mooney-Rivlin",
         "Mean elastic modulus",
     ];
+    assert!(!page.contains("known by itself from these recordings"));
+    // Two parameters of Mooney and Rivlin at one radius: what one gains the other loses, and all parts say so.
+    let verdict = "on two parameters are known together and not each by itself";
+    assert!(
+        page.contains(verdict) && page.contains("tied to "),
+        "{page}"
+    );
     for part in expected {
         assert!(figures.iter().any(|own| own == part), "{part}: {figures:?}");
     }

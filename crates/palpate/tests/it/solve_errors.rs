@@ -157,7 +157,7 @@ fn shapes_that_are_none() {
     );
     refused(
         "format = 1\nkind = \"uniaxial\"\nstretches = [50.0]\n\
-         tissue = { law = \"blatz\", gamma_pa = 1000.0, alpha = 10.0 }",
+         tissue = { law = \"exponential\", gamma_pa = 1000.0, alpha = 10.0 }",
         &["50"],
     );
 }

@@ -45,6 +45,40 @@ class Solution(dict[str, Any]):
         return drawing.draw(self._plot, axes)
 
 
+class Specimen(dict[str, Any]):
+    """One specimen of a `Characterization`: the entry of ``specimens`` that ``--json`` prints.
+
+    ``specimen.laws[specimen.preferred]`` is the preferred law; ``specimen[specimen.preferred]`` is the same.
+
+    The keys of the first version (``specimen["neo_hookean"]``, ``["mooney_rivlin"]``, ``["exponential"]``,
+    ``["kelvin"]``, ``["nonlinear_springs"]``, ``["mean_elastic_modulus"]`` and ``["blatz"]``, which is
+    ``specimen.lumped["column"]``) stay for one release.
+    """
+
+    @property
+    def laws(self) -> dict[str, dict[str, Any]]:
+        """The laws that were found, by their names in a tissue's file.
+
+        Of each parameter there are ``value``, ``standard_error``, ``interval_95`` (by noise, from Student's
+        distribution) and ``verdict`` (``"known"``, ``"correlated"``, ``"hardly_known"`` or ``"on_bound"``);
+        ``profile_95`` holds the relaxation at what was found, so that the doubt about the relaxation is not in it.
+        """
+        found: dict[str, dict[str, Any]] = self["laws"]
+        return found
+
+    @property
+    def lumped(self) -> dict[str, Any]:
+        """What was found without geometry: ``kelvin``, ``column``, ``nonlinear_springs``, ``mean_elastic_modulus``."""
+        found: dict[str, Any] = self["lumped"]
+        return found
+
+    @property
+    def preferred(self) -> str | None:
+        """The name of the law to be preferred, a key of `laws`; none where no law was found."""
+        name: str | None = self["preferred"]
+        return name
+
+
 class Characterization(dict[str, Any]):
     """What ``palpate characterize --json`` prints, and the tissues that were found.
 
@@ -58,6 +92,12 @@ class Characterization(dict[str, Any]):
 
     tissues: list[str | None]
     reasons: list[str | None]
+
+    @property
+    def specimens(self) -> list[Specimen]:
+        """The specimens, in the order of their first files."""
+        found: list[Specimen] = self["specimens"]
+        return found
 
     def tissue(self, specimen: int = 0) -> str:
         """Return the text of a specimen's tissue file, for ``Tissue.parse`` and scenes.
@@ -75,7 +115,11 @@ class Characterization(dict[str, Any]):
         return text
 
     def to_frame(self) -> pandas.DataFrame:
-        """Return a row for each specimen: its names and every number that was found."""
+        """Return a row for each specimen: its names and every number that was found.
+
+        Columns are named by their keys, such as ``laws.neo_hookean.c10_pa.value``; those of the first version, such
+        as ``neo_hookean.c10_pa.value``, stay for one release.
+        """
         import pandas
 
         rows = [flat(specimen) for specimen in self["specimens"]]
@@ -171,9 +215,8 @@ def characterize(
     ----------
     recordings : path or iterable of paths
         Files, or folders of them; those of the same organ, subject and site are one specimen.
-    law : {"neo_hookean", "mooney_rivlin", "blatz"}, optional
-        The only law that is sought; by default all are. Blatz's law by inverse finite elements stands under
-        ``exponential`` in the answer, where ``blatz`` is the same law on a column.
+    law : {"neo_hookean", "mooney_rivlin", "exponential"}, optional
+        The only law that is sought; by default all are. Its answer stands under this name in ``Specimen.laws``.
     terms : int, optional
         Terms of the relaxation, 1 to 4; by default as many as the recordings can tell.
     draws : int
@@ -190,6 +233,7 @@ def characterize(
     """
     answer, tissues = _palpate._characterize(asked(recordings, **columns), (law, terms, draws, seed), study, progress)
     found = Characterization(json.loads(answer))
+    found["specimens"] = [Specimen(specimen) for specimen in found["specimens"]]
     found.tissues = [text for text, _ in tissues]
     found.reasons = [why for _, why in tissues]
     return found

@@ -66,7 +66,7 @@ fn nonlinear_tissue_follows_the_known_punch() {
 #[test]
 fn the_stiffness_is_the_slope_of_a_stiffening_force() {
     let scene = "format = 1\n[organ]\nbuiltin = \"hemisphere\"\n\
-         tissue = { law = \"blatz\", gamma_pa = 2000.0, alpha = 0.5 }\n\
+         tissue = { law = \"exponential\", gamma_pa = 2000.0, alpha = 0.5 }\n\
          [[tool]]\nname = \"right\"\ntip = { shape = \"flat\", radius_m = 0.001, contact = \"slip\" }\n";
     let scene = palpate_files::Scene::parse(scene, "scene.toml").unwrap();
     let mut last = 0.0;

@@ -6,6 +6,7 @@ mod bounds;
 mod certified;
 mod coverage;
 mod nist;
+mod pooled;
 mod repeated;
 mod words;
 

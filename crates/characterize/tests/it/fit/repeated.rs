@@ -3,9 +3,8 @@
 
 use palpate_characterize::Error;
 use palpate_characterize::fit::{
-    Draws, Fit, Parameter, Random, Settings, block_bootstrap, bootstrap_subjects,
-    information_criterion, least_squares, multi_start, noise_study, profile, unbounded_iteration,
-    uncertainty,
+    Draws, Fit, Parameter, Random, Settings, block_bootstrap, information_criterion, least_squares,
+    multi_start, noise_study, profile, unbounded_iteration, uncertainty,
 };
 
 use super::parameters;
@@ -99,30 +98,6 @@ fn repetition_spreads_as_the_covariance_says() {
     }
     let again = block_bootstrap(&fit, (&[120, 80], 5), draws, &SETTINGS, with_powers);
     assert_eq!(again, blocks, "the same seed gives the same");
-}
-
-/// Subjects 1 to 9: mean 5, standard deviation √7.5; the mean of resampled subjects spreads by √(60/9/9), of
-/// which 1.96 is the interval of 95 % but for the skewness of few and the 2 % of 4000 draws.
-#[test]
-fn subjects_are_pooled() {
-    let values: Vec<f64> = (1..10).map(f64::from).collect();
-    let draws = Draws {
-        count: 4000,
-        seed: 3,
-    };
-    let pooled = bootstrap_subjects(&values, 0.95, draws).unwrap();
-    assert_eq!(pooled.mean, 5.0);
-    assert!((pooled.deviation - 7.5_f64.sqrt()).abs() < 1e-12);
-    let reach = 1.96 * (60.0_f64 / 81.0).sqrt();
-    assert!(
-        (pooled.interval[0] - 5.0 + reach).abs() < 0.06 * reach,
-        "{pooled:?}"
-    );
-    assert!(
-        (pooled.interval[1] - 5.0 - reach).abs() < 0.06 * reach,
-        "{pooled:?}"
-    );
-    assert_eq!(bootstrap_subjects(&[], 0.95, draws), None);
 }
 
 /// Data on a line: a constant is refused, and a cubic is not worth its parameters.

@@ -1,6 +1,10 @@
 //! What a fit says about itself in words. Judge: problems made so that the sentence is known.
 
-use palpate_characterize::fit::{Parameter, Random, Settings, doubts, least_squares, uncertainty};
+use nalgebra::DMatrix;
+use palpate_characterize::fit::{
+    CORRELATED, Parameter, Random, Settings, Verdict, correlated_pairs, doubts, least_squares,
+    uncertainty, verdicts,
+};
 
 const MODULI: [&str; 2] = ["c10_pa", "c01_pa"];
 
@@ -66,4 +70,42 @@ fn what_a_recording_does_not_show_is_said() {
         found[1],
         "offset_m ended on its bound 1, which is no estimate"
     );
+}
+
+/// Judge: the numbers themselves. A bound goes before an error, an error before a correlation; where |ρ| = √0.9 the
+/// error is √10 times what it would be if the other were known.
+#[test]
+fn verdicts_follow_from_the_numbers() {
+    let of = |errors: [Option<f64>; 2], correlation: f64| {
+        let matrix = DMatrix::from_row_slice(2, 2, &[1.0, correlation, correlation, 1.0]);
+        verdicts(&errors, &matrix)
+    };
+    assert_eq!(of([Some(0.01), Some(0.2)], -0.9), [Verdict::Known; 2]);
+    let [first, second] = [1, 0].map(|with| Verdict::Correlated {
+        with,
+        correlation: -0.99,
+    });
+    assert_eq!(of([Some(0.01), Some(0.2)], -0.99), [first, second]);
+    assert_eq!(
+        of([Some(0.01), Some(0.3)], -0.99),
+        [first, Verdict::HardlyKnown]
+    );
+    assert_eq!(
+        of([Some(0.01), None], -0.99),
+        [Verdict::Known, Verdict::NoEstimate]
+    );
+    assert_eq!(of([Some(f64::NAN), None], 0.0)[0], Verdict::HardlyKnown);
+    assert!((1.0 - CORRELATED * CORRELATED - 0.1).abs() < 1e-15);
+    let names = ["c10_pa", "c01_pa"].map(str::to_owned);
+    let pair = |correlation: f64| {
+        correlated_pairs(
+            &names,
+            &DMatrix::from_row_slice(2, 2, &[1.0, correlation, correlation, 1.0]),
+        )
+    };
+    assert!(pair(0.94).is_empty());
+    // 1/√(1 − 0.99²) = 7.09.
+    let said = "c10_pa and c01_pa are known together, not each by itself: their errors correlate by \
+                -0.990, and if one were known, the other would be known 7 times better";
+    assert_eq!(pair(-0.99), [([0, 1], said.to_owned())]);
 }

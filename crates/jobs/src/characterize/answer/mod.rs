@@ -1,7 +1,9 @@
 //! The machine-readable answer: what stays of a characterization.
 
+pub(crate) mod former;
 mod specimen;
 mod values;
+mod verdicts;
 
 use std::collections::BTreeMap;
 
@@ -11,15 +13,20 @@ use super::pooled::{self, Pooled};
 use crate::{Unusable, VERSION};
 
 pub use self::specimen::Specimen;
-pub use self::values::{Known, LawAnswer, Modulus, Named, Noise, RelaxationAnswer, Steps, Tried};
+pub(crate) use self::values::correlations_of_piece;
+pub use self::values::{
+    Known, LawAnswer, LumpedAnswer, Modulus, Named, Noise, RelaxationAnswer, Steps, Tried,
+};
+pub use self::verdicts::{Identified, Partner};
 
 /// The machine-readable answer.
 #[derive(Debug, Serialize)]
 pub struct Answer {
     palpate: &'static str,
     /// In the order of their first files.
+    #[serde(serialize_with = "former::of_all")]
     pub specimens: Vec<Specimen>,
-    /// Parameters over specimens, by organ and key.
+    /// Parameters over subjects, by organ, condition and key.
     pub pooled: BTreeMap<String, Pooled>,
     /// What could not be read, and why.
     #[serde(skip_serializing_if = "Vec::is_empty")]

@@ -1,12 +1,16 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use palpate_characterize::CleanRecording;
-use palpate_characterize::inverse::SoughtLaw;
+use palpate_characterize::fit::correlated_pairs;
+use palpate_characterize::inverse::{Correlations, SoughtLaw};
+use palpate_characterize::{Characterization, CleanRecording, WithoutGeometry};
 use palpate_files::recording::RecordingHeader;
 use serde::{Deserialize, Serialize};
 
-use super::values::{Known, LawAnswer, Modulus, Named, RelaxationAnswer};
+use super::values::{
+    Known, LawAnswer, LumpedAnswer, Modulus, Named, RelaxationAnswer, correlations_of_piece,
+};
+use super::verdicts::judge_relaxation;
 use crate::characterize::finished::Studied;
 
 /// What was found about one specimen.
@@ -22,32 +26,21 @@ pub struct Specimen {
     pub subject: Option<String>,
     /// As the files say.
     pub site: Option<String>,
-    /// (6.1).
-    pub mean_elastic_modulus: Option<Modulus>,
-    /// Why it is null.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    reason: Option<String>,
+    /// As the files say.
+    pub condition: Option<String>,
     /// Prony series.
     pub relaxation: Option<RelaxationAnswer>,
-    /// The law.
-    pub neo_hookean: Option<LawAnswer>,
-    /// The law.
-    pub mooney_rivlin: Option<LawAnswer>,
-    /// Blatz's law, by inverse finite elements.
-    pub exponential: Option<LawAnswer>,
-    /// Lumped, (6.3).
-    pub kelvin: Option<Named>,
-    /// Blatz's law on a column, section 6.3.
-    pub blatz: Option<Named>,
-    /// Lumped, table 6-2.
-    pub nonlinear_springs: Option<Named>,
-    /// The law to be preferred, by its name in a tissue file.
+    /// The laws that were found, by their names in a tissue file.
+    pub laws: BTreeMap<String, LawAnswer>,
+    /// What was found without geometry.
+    pub lumped: LumpedAnswer,
+    /// The law to be preferred: a key of `laws`.
     pub preferred: Option<String>,
     /// What can be told apart and what cannot, in plain sentences.
     pub identifiability: Vec<String>,
     /// What deserves doubt, in recordings and in what was found.
     pub warnings: Vec<String>,
-    /// Why something is null.
+    /// Why something was not found, by its key in `laws` or `lumped`, or `relaxation`.
     pub reasons: BTreeMap<String, String>,
 }
 
@@ -56,50 +49,16 @@ impl Specimen {
         let found = &studied.found;
         let header = &studied.recordings[0].header;
         let mut reasons = BTreeMap::new();
-        let mut law = |sought: SoughtLaw, key: &str| {
-            let pulled = found.uniaxial.iter().find(|(law, _)| *law == sought);
-            let pressed = found.laws.iter().find(|(law, _)| *law == sought);
-            let answer = match (pulled, pressed) {
-                (Some((_, pulled)), _) => pulled.as_ref().map(LawAnswer::of_uniaxial),
-                (None, Some((_, pressed))) => pressed.as_ref().map(LawAnswer::new),
-                (None, None) => return None,
-            };
-            answer
-                .map_err(|error| reasons.insert(key.to_owned(), error.to_string()))
-                .ok()
-        };
-        let [neo_hookean, mooney_rivlin, exponential] = [
-            law(SoughtLaw::NeoHookean, "neo_hookean"),
-            law(SoughtLaw::MooneyRivlin, "mooney_rivlin"),
-            law(SoughtLaw::Exponential, "exponential"),
-        ];
-        let bare = &found.without_geometry;
-        let lumped = bare.lumped();
-        let named = |name: &str| -> Option<Named> {
-            let tables = lumped.tables();
-            let (_, parameters) = tables.into_iter().find(|(table, _)| *table == name)?;
-            Some(
-                parameters
-                    .iter()
-                    .map(|(key, known)| ((*key).to_owned(), Known::of(known)))
-                    .collect(),
-            )
-        };
-        let said = [
-            ("mean_elastic_modulus", bare.mean_modulus.as_ref().err()),
-            ("kelvin", bare.kelvin.as_ref().err()),
-            ("blatz", bare.column.as_ref().err()),
-            ("nonlinear_springs", bare.springs.as_ref().err()),
-        ];
-        let said = said
-            .into_iter()
-            .filter_map(|(key, why)| Some((key.to_owned(), why?.to_string())));
-        reasons.extend(said);
+        let laws = laws(found, &mut reasons);
         let steps = found.relaxation_of_steps.as_ref().ok();
-        let relaxation = found
-            .relaxation
-            .as_ref()
-            .map(|r| RelaxationAnswer::new(r, steps));
+        let relaxation = found.relaxation.as_ref().map(|of| {
+            let mut answer = RelaxationAnswer::new(of, steps);
+            judge_relaxation(
+                &mut answer,
+                &correlations(found).unwrap_or_else(|| of.correlations()),
+            );
+            answer
+        });
         let relaxation = relaxation
             .map_err(|error| reasons.insert("relaxation".to_owned(), error.to_string()))
             .ok();
@@ -109,38 +68,29 @@ impl Specimen {
             organ: header.organ.clone(),
             subject: header.subject.clone(),
             site: header.site.clone(),
-            mean_elastic_modulus: bare.mean_modulus.as_ref().ok().map(|found| Modulus {
-                value: found.value,
-                standard_deviation: found.standard_deviation,
-                depth_m: found.depth_m,
-                holds: found.holds,
-            }),
-            reason: reasons.get("mean_elastic_modulus").cloned(),
-            kelvin: named("kelvin"),
-            blatz: named("blatz"),
-            nonlinear_springs: named("nonlinear_springs"),
+            condition: header.condition.map(|own| own.word().to_owned()),
+            lumped: lumped(&found.without_geometry, &mut reasons),
             relaxation,
-            neo_hookean,
-            mooney_rivlin,
-            exponential,
+            laws,
             preferred: found
                 .preferred_law()
                 .map(|law| law.name().word().to_owned()),
-            identifiability: found.identifiability.clone(),
+            identifiability: identifiability(found),
             warnings: warnings(studied, reasons.get("neo_hookean")),
             reasons,
         }
     }
 
-    /// The elastic laws that were found, by their keys.
+    /// The elastic laws that were found, by their keys, the simplest first.
     pub fn laws(&self) -> impl Iterator<Item = (&'static str, &LawAnswer)> {
-        let laws = [
-            ("neo_hookean", &self.neo_hookean),
-            ("mooney_rivlin", &self.mooney_rivlin),
-            ("exponential", &self.exponential),
-        ];
-        laws.into_iter()
-            .filter_map(|(key, law)| Some((key, law.as_ref()?)))
+        let laws = SoughtLaw::ALL.into_iter().map(|law| law.name().word());
+        laws.filter_map(|name| Some((name, self.laws.get(name)?)))
+    }
+
+    /// The law to be preferred, by its key.
+    pub fn preferred(&self) -> Option<(&str, &LawAnswer)> {
+        let name = self.preferred.as_deref()?;
+        Some((name, self.laws.get(name)?))
     }
 
     /// What a specimen is called: by its organ and subject, or by its first file.
@@ -154,6 +104,93 @@ impl Specimen {
             named => named.join(", "),
         }
     }
+}
+
+/// The laws that were found; why others were not goes to `reasons`.
+fn laws(
+    found: &Characterization,
+    reasons: &mut BTreeMap<String, String>,
+) -> BTreeMap<String, LawAnswer> {
+    let pulled = found.uniaxial.iter().map(|(law, pulled)| {
+        let answer = pulled.as_ref().map(LawAnswer::of_uniaxial);
+        (law, answer)
+    });
+    let pressed = found.laws.iter().map(|(law, pressed)| {
+        let answer = pressed.as_ref().map(LawAnswer::new);
+        (law, answer)
+    });
+    let mut laws = BTreeMap::new();
+    for (law, answer) in pulled.chain(pressed) {
+        let name = law.name().word().to_owned();
+        match answer {
+            Ok(answer) => drop(laws.insert(name, answer)),
+            Err(why) => drop(reasons.insert(name, why.to_string())),
+        }
+    }
+    laws
+}
+
+/// What was found without geometry; why something was not goes to `reasons`.
+fn lumped(bare: &WithoutGeometry, reasons: &mut BTreeMap<String, String>) -> LumpedAnswer {
+    let tables = bare.lumped();
+    let tables = tables.tables();
+    let named = |name: &str| -> Option<Named> {
+        let (_, parameters) = tables.iter().find(|(table, _)| *table == name)?;
+        let each = parameters.iter();
+        Some(
+            each.map(|(key, known)| ((*key).to_owned(), Known::of(known)))
+                .collect(),
+        )
+    };
+    let why = [
+        ("mean_elastic_modulus", bare.mean_modulus.as_ref().err()),
+        ("kelvin", bare.kelvin.as_ref().err()),
+        ("column", bare.column.as_ref().err()),
+        ("nonlinear_springs", bare.springs.as_ref().err()),
+    ];
+    let why = why
+        .into_iter()
+        .filter_map(|(key, why)| Some((key.to_owned(), why?.to_string())));
+    reasons.extend(why);
+    let modulus = bare.mean_modulus.as_ref().ok();
+    LumpedAnswer {
+        mean_elastic_modulus: modulus.map(|found| Modulus {
+            value: found.value,
+            standard_deviation: found.standard_deviation,
+            depth_m: found.depth_m,
+            holds: found.holds,
+        }),
+        kelvin: named("kelvin"),
+        column: named("column"),
+        nonlinear_springs: named("nonlinear_springs"),
+    }
+}
+
+/// How the errors of the preferred law go together, with those of the relaxation; none without a law.
+fn correlations(found: &Characterization) -> Option<Correlations> {
+    let preferred = found.preferred_law()?;
+    let pressed = found.laws.iter().find(|(law, _)| *law == preferred);
+    let pulled = found.uniaxial.iter().find(|(law, _)| *law == preferred);
+    let pressed = pressed.and_then(|(_, law)| Some(law.as_ref().ok()?.correlations()));
+    pressed.or_else(|| Some(correlations_of_piece(pulled?.1.as_ref().ok()?)))
+}
+
+/// What the fits say, and which parameters of the preferred law and the relaxation are known together alone.
+fn identifiability(found: &Characterization) -> Vec<String> {
+    let relaxation = || Some(found.relaxation.as_ref().ok()?.correlations());
+    let own = correlations(found).or_else(relaxation);
+    let pairs = own.map(|own| correlated_pairs(&own.names, &own.matrix));
+    let law = found.preferred_law();
+    // The parameters of the law come first.
+    let count = law.map_or(0, |law| law.parameters(1.0, 0.0).len());
+    let named = |(places, pair): ([usize; 2], String)| match law {
+        Some(law) if places.iter().any(|place| *place < count) => {
+            format!("{}: {pair}", law.name().word())
+        }
+        _ => pair,
+    };
+    let pairs = pairs.into_iter().flatten().map(named);
+    found.identifiability.iter().cloned().chain(pairs).collect()
 }
 
 /// What deserves doubt in recordings and in what was found; `no_law` is why there is no law.

@@ -1,10 +1,12 @@
 use std::collections::BTreeMap;
 
-use palpate_characterize::inverse::LawDescription;
+use palpate_characterize::inverse::{Correlations, LawDescription};
 use palpate_characterize::lumped::UniaxialFit;
 use palpate_characterize::viscoelastic::Relaxation;
 use palpate_files::Estimate;
 use serde::{Deserialize, Serialize};
+
+use super::verdicts::{Identified, Partner, judge_law};
 
 /// Parameters by their names.
 pub type Named = BTreeMap<String, Known>;
@@ -23,22 +25,45 @@ pub struct Modulus {
 }
 
 /// A number with its error by noise and what the model may be off.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Known {
     /// In the unit of its key.
     pub value: f64,
     /// By noise.
     pub standard_error: Option<f64>,
+    /// What holds the truth with a probability of 95 % as far as noise goes: the standard error times the quantile
+    /// of Student's distribution.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub interval_95: Option<[f64; 2]>,
+    /// How well it is known; null where nobody judged it.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub verdict: Option<Identified>,
+    /// The parameter with which its error goes together.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub correlated_with: Option<Partner>,
     /// By the elements.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub discretisation_error: Option<f64>,
     /// The spread when the fit is made again with its residuals in other blocks.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub bootstrap_error: Option<f64>,
-    /// Between which the objective stays below its 95 % bound, with the relaxation held; a side without a
-    /// bound is null.
+    /// Between which the objective stays below its 95 % bound while the relaxation is held at what was found, so that
+    /// the doubt about the relaxation is not in it; a side without a bound is null.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub profile_95: Option<[Option<f64>; 2]>,
+}
+
+/// What is found without the geometry of the specimen: it belongs to this indenter on this specimen.
+#[derive(Debug, Default, Serialize, Deserialize)]
+pub struct LumpedAnswer {
+    /// (6.1).
+    pub mean_elastic_modulus: Option<Modulus>,
+    /// Two springs and a damper, (6.3).
+    pub kelvin: Option<Named>,
+    /// The exponential law on a column of effective size, section 6.3.
+    pub column: Option<Named>,
+    /// Table 6-2.
+    pub nonlinear_springs: Option<Named>,
 }
 
 /// How far noise spreads the parameters of a law.
@@ -112,16 +137,35 @@ impl Known {
         Self {
             value: estimate.value,
             standard_error: estimate.standard_error,
+            interval_95: None,
+            verdict: None,
+            correlated_with: None,
             discretisation_error: None,
             bootstrap_error: None,
             profile_95: None,
         }
     }
+
+    /// The same with its interval, from the `quantile` [-] of its distribution.
+    fn within(self, quantile: f64) -> Self {
+        let reach = self.standard_error.map(|error| quantile * error);
+        Self {
+            interval_95: reach.map(|reach| [self.value - reach, self.value + reach]),
+            ..self
+        }
+    }
 }
+
+/// Of intervals [-].
+const LEVEL: f64 = 0.95;
 
 impl RelaxationAnswer {
     pub(crate) fn new(found: &Relaxation, steps: Option<&Relaxation>) -> Self {
-        let column = |place: usize| found.terms.iter().map(move |term| Known::of(&term[place]));
+        let quantile = found.quantile(LEVEL);
+        let column = |place: usize| {
+            let terms = found.terms.iter();
+            terms.map(move |term| Known::of(&term[place]).within(quantile))
+        };
         let off = found.quasi_linear_errors();
         let of_g = |(known, off)| Known {
             discretisation_error: Some(off),
@@ -137,7 +181,7 @@ impl RelaxationAnswer {
                 .map(|(alpha, _)| *alpha)
                 .collect(),
             sum_squared_error: found.sum_of_squares,
-            shape_exponent: Known::of(&found.exponent),
+            shape_exponent: Known::of(&found.exponent).within(quantile),
             as_step: steps.map(|steps| Steps {
                 g: steps.series.terms().iter().map(|(g, _)| *g).collect(),
                 tau_s: steps.series.terms().iter().map(|(_, tau)| *tau).collect(),
@@ -159,6 +203,7 @@ impl RelaxationAnswer {
 impl LawAnswer {
     pub(crate) fn new(law: &LawDescription) -> Self {
         let repeated = law.repeated.as_ref().and_then(|found| found.as_ref().ok());
+        let quantile = law.quantile(LEVEL);
         let known = |(place, (name, estimate)): (usize, &(&'static str, Estimate))| {
             let known = Known {
                 discretisation_error: Some(law.discretisation[place]),
@@ -166,7 +211,7 @@ impl LawAnswer {
                     .and_then(|again| again.bootstrap.as_ref())
                     .map(|spreads| spreads[place]),
                 profile_95: repeated.and_then(|again| again.profiles[place]),
-                ..Known::of(estimate)
+                ..Known::of(estimate).within(quantile)
             };
             ((*name).to_owned(), known)
         };
@@ -185,7 +230,7 @@ impl LawAnswer {
             Ok(_) => None,
             Err(error) => Some(error.to_string()),
         });
-        Self {
+        let mut own = Self {
             parameters: law.parameters.iter().enumerate().map(known).collect(),
             noise_study: noise.collect(),
             not_repeated: refused,
@@ -194,16 +239,19 @@ impl LawAnswer {
             solves: law.found.solves,
             sum_squared_error: law.sum_of_squares,
             misfit: law.misfit,
-        }
+        };
+        judge_law(&mut own, &law.correlations());
+        own
     }
 
     pub(crate) fn of_uniaxial(law: &UniaxialFit) -> Self {
         let correlation = law.uncertainty.correlation();
-        Self {
+        let quantile = law.uncertainty.quantile(LEVEL);
+        let mut own = Self {
             parameters: law
                 .parameters
                 .iter()
-                .map(|(name, known)| ((*name).to_owned(), Known::of(known)))
+                .map(|(name, known)| ((*name).to_owned(), Known::of(known).within(quantile)))
                 .collect(),
             noise_study: Vec::new(),
             not_repeated: None,
@@ -212,6 +260,15 @@ impl LawAnswer {
             solves: 0,
             sum_squared_error: law.fit.sum_of_squares(),
             misfit: law.misfit,
-        }
+        };
+        judge_law(&mut own, &correlations_of_piece(law));
+        own
     }
+}
+
+/// Correlations of the parameters of a piece.
+pub(crate) fn correlations_of_piece(law: &UniaxialFit) -> Correlations {
+    let names = law.parameters.iter().map(|(name, _)| (*name).to_owned());
+    let covariance = law.uncertainty.of_all(law.parameters.len());
+    Correlations::of(names.collect(), &covariance)
 }

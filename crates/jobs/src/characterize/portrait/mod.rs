@@ -156,12 +156,7 @@ fn spread(from: f64, to: f64) -> impl Iterator<Item = f64> {
 
 /// The key of a law in the answer.
 fn key(law: SoughtLaw) -> String {
-    let key = match law {
-        SoughtLaw::NeoHookean => "neo_hookean",
-        SoughtLaw::MooneyRivlin => "mooney_rivlin",
-        SoughtLaw::Exponential => "exponential",
-    };
-    key.to_owned()
+    law.name().word().to_owned()
 }
 
 /// What a header says of specimen and indenter.

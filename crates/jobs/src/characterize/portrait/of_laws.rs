@@ -3,6 +3,7 @@ use palpate_characterize::fit::Fit;
 use palpate_characterize::inverse::{Correlations, LawDescription, SoughtLaw};
 use palpate_characterize::lumped::UniaxialFit;
 
+use super::super::answer::correlations_of_piece;
 use super::{DrawnLaw, key};
 
 /// The laws that were found, with the way of each fit.
@@ -42,10 +43,10 @@ fn of_indentation(law: &LawDescription) -> DrawnLaw {
 
 fn of_piece(law: &UniaxialFit) -> DrawnLaw {
     let way = law.fit.iterations.iter().map(|step| step.values.clone());
-    let names = law.parameters.iter().map(|(name, _)| (*name).to_owned());
-    let covariance = law.uncertainty.of_all(law.parameters.len());
-    let correlations = Correlations::of(names.collect(), &covariance);
-    let known = (law.uncertainty.effective_samples, correlations);
+    let known = (
+        law.uncertainty.effective_samples,
+        correlations_of_piece(law),
+    );
     described(law.law, &law.fit, way.collect(), known)
 }
 

@@ -81,6 +81,6 @@ fn in_words(problem: &Problem) -> &'static str {
         LawName::Linear => "linear",
         LawName::NeoHookean => "neo-Hookean",
         LawName::MooneyRivlin => "Mooney-Rivlin",
-        LawName::Blatz => "Blatz",
+        LawName::Exponential => "exponential",
     }
 }

@@ -79,7 +79,8 @@ pub(crate) struct Arguments {
 enum Law {
     NeoHookean,
     MooneyRivlin,
-    Blatz,
+    #[value(alias = "blatz")]
+    Exponential,
 }
 
 impl From<Law> for SoughtLaw {
@@ -87,7 +88,7 @@ impl From<Law> for SoughtLaw {
         match law {
             Law::NeoHookean => Self::NeoHookean,
             Law::MooneyRivlin => Self::MooneyRivlin,
-            Law::Blatz => Self::Exponential,
+            Law::Exponential => Self::Exponential,
         }
     }
 }

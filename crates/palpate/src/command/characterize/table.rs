@@ -1,6 +1,7 @@
 use std::fmt::Write;
 
-use palpate_jobs::characterize::{Answer, Known, LawAnswer, Specimen};
+use palpate_jobs::characterize::{Answer, Identified, Known, LawAnswer, Specimen};
+use palpate_jobs::{quantity, without_unit};
 
 /// What was found, for people.
 pub(super) fn of(answer: &Answer) -> String {
@@ -12,6 +13,9 @@ pub(super) fn of(answer: &Answer) -> String {
     text
 }
 
+/// Laws and what else can be missing, in the order of their lines.
+const LAWS: [&str; 3] = ["neo_hookean", "mooney_rivlin", "exponential"];
+
 fn write(text: &mut String, specimen: &Specimen) -> std::fmt::Result {
     let files = specimen.files.len();
     let recordings = if files == 1 {
@@ -20,36 +24,35 @@ fn write(text: &mut String, specimen: &Specimen) -> std::fmt::Result {
         "recordings"
     };
     writeln!(text, "{} ({files} {recordings})", specimen.title)?;
-    if let Some(modulus) = &specimen.mean_elastic_modulus {
-        let (value, depth) = (1e-3 * modulus.value, 1e3 * modulus.depth_m);
-        write!(text, "  mean modulus     {value:.2}")?;
-        if let Some(spread) = modulus.standard_deviation {
-            write!(text, " ± {:.2}", 1e-3 * spread)?;
-        }
-        writeln!(text, " kPa at {depth:.2} mm, relaxed")?;
+    if let Some(modulus) = &specimen.lumped.mean_elastic_modulus {
+        let value = plain("_pa", modulus.value, modulus.standard_deviation);
+        let depth = plain("_m", modulus.depth_m, None);
+        writeln!(text, "  mean modulus     {value} at {depth}, relaxed")?;
     }
     if let Some(relaxation) = &specimen.relaxation {
         for (place, (g, tau)) in (1..).zip(relaxation.g.iter().zip(&relaxation.tau_s)) {
-            let (g, tau) = (shown(g), shown(tau));
-            writeln!(text, "  relaxation {place}     g {g:<22} tau {tau} s")?;
+            let (g, tau) = (shown("", g), shown("_s", tau));
+            writeln!(text, "  relaxation {place}     g {g}, tau {tau}")?;
         }
     }
-    for (name, law) in specimen.laws() {
-        writeln!(text, "  {name:<16} {}", of_law(law))?;
+    for name in LAWS {
+        if let Some(law) = specimen.laws.get(name) {
+            writeln!(text, "  {name:<16} {}", of_law(law))?;
+        } else if let Some(why) = specimen.reasons.get(name) {
+            writeln!(text, "  {name:<16} not found: {why}")?;
+        }
     }
-    if let Some(law) = specimen.preferred.as_deref() {
-        let law = if law == "blatz" { "exponential" } else { law };
+    if let Some(law) = &specimen.preferred {
         writeln!(text, "  preferred        {law}")?;
     }
     writeln!(text)
 }
 
 fn of_law(law: &LawAnswer) -> String {
-    let each = law.parameters.iter().map(|(name, known)| {
-        let unit = if name.ends_with("_pa") { " Pa" } else { "" };
-        format!("{} {}{unit}", name.trim_end_matches("_pa"), shown(known))
-    });
-    let parameters: Vec<_> = each.collect();
+    let each = law.parameters.iter();
+    let parameters: Vec<_> = each
+        .map(|(name, known)| format!("{} {}", without_unit(name), shown(name, known)))
+        .collect();
     let misfit = 100.0 * law.misfit;
     format!(
         "{}; misfit {misfit:.1} % of the largest force",
@@ -57,9 +60,23 @@ fn of_law(law: &LawAnswer) -> String {
     )
 }
 
-fn shown(known: &Known) -> String {
-    match known.standard_error {
-        Some(error) => format!("{:.4} ± {:.1e}", known.value, error),
-        None => format!("{:.4}", known.value),
-    }
+/// A parameter with its error, and why it is not known by itself.
+fn shown(key: &str, known: &Known) -> String {
+    let value = plain(key, known.value, known.standard_error);
+    let remark = match (known.verdict, &known.correlated_with) {
+        (Some(Identified::OnBound), _) => "on its bound".to_owned(),
+        (Some(Identified::HardlyKnown), _) => "hardly known".to_owned(),
+        (Some(Identified::Correlated), Some(with)) => format!(
+            "tied to {}: correlation {:.2}",
+            without_unit(&with.parameter),
+            with.correlation
+        ),
+        _ => return value,
+    };
+    format!("{value} ({remark})")
+}
+
+/// As in a report, with spaces that every terminal has.
+fn plain(key: &str, value: f64, error: Option<f64>) -> String {
+    quantity(key, value, error).replace('\u{202f}', " ")
 }

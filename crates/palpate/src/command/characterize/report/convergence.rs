@@ -1,3 +1,5 @@
+use palpate_characterize::fit::CORRELATED;
+
 use super::curves::line;
 use super::words;
 use crate::plot::{Plot, Style};
@@ -13,7 +15,7 @@ pub(super) fn figures(portrait: &Portrait) -> Markup {
 
 /// How the errors of the preferred law go together.
 pub(super) fn correlations(own: &Specimen, portrait: &Portrait) -> Markup {
-    let preferred = own.preferred.as_deref().map(words::key);
+    let preferred = own.preferred.as_deref();
     let chosen = portrait
         .laws
         .iter()
@@ -75,6 +77,19 @@ fn plain(name: &str) -> String {
     name.trim_end_matches("_pa").to_owned()
 }
 
+/// The largest correlation of two parameters, up or down [-].
+pub(super) fn largest(law: &DrawnLaw) -> f64 {
+    let rows = law.correlations.iter().enumerate();
+    let others = rows.flat_map(|(row, values)| {
+        let others = values
+            .iter()
+            .enumerate()
+            .filter(move |(column, _)| *column != row);
+        others.map(|(_, value)| value.abs())
+    });
+    others.fold(0.0, f64::max)
+}
+
 /// Correlations as a table of colors with numbers.
 fn heat(law: &DrawnLaw) -> Markup {
     if law.correlated.len() < 2 {
@@ -100,8 +115,16 @@ fn heat(law: &DrawnLaw) -> Markup {
         table.row([symbol(name)].into_iter().chain(cells).collect());
     }
     let title = format!("Correlation of errors: {}", words::law(&law.law));
-    let note =
-        "Near 1 or −1 two parameters can hardly be told apart: what one gains the other loses.";
+    let most = largest(law);
+    let note = match most >= CORRELATED {
+        true => format!(
+            "The largest is {most:.2}, up or down: from {CORRELATED:.2} on two parameters are known together and not each by itself, for what one gains \
+             the other loses, or gains too."
+        ),
+        false => format!(
+            "The largest is {most:.2}, up or down: below {CORRELATED:.2} every parameter is known by itself."
+        ),
+    };
     Markup::plain("h3", title)
         .and(table)
         .and(Markup::of_class("p", "muted", note))

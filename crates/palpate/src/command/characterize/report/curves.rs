@@ -16,7 +16,7 @@ pub(super) fn figures(own: &Specimen, portrait: &Portrait) -> Markup {
         .map(recorded::figure_of)
         .collect();
     let fitted: Vec<&DrawnFit> = recordings.filter_map(|own| own.fitted.as_ref()).collect();
-    let preferred = own.preferred.as_deref().map(words::key).unwrap_or_default();
+    let preferred = own.preferred.as_deref().unwrap_or_default();
     let shown = Shown::new(&fitted, preferred);
     let models = match fitted.iter().any(|fit| !fit.laws.is_empty()) {
         true => shown.figures(),

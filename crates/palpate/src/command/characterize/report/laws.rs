@@ -3,14 +3,14 @@ use palpate_characterize::fit::WORTH;
 use super::words;
 use crate::report::{Markup, Table, quantity, rounded, symbol, unit};
 use palpate_jobs::characterize::Portrait;
-use palpate_jobs::characterize::{Known, Specimen};
+use palpate_jobs::characterize::{Identified, Known, Specimen};
 
 /// The laws side by side, and which is to be preferred.
 pub(super) fn comparison(own: &Specimen, portrait: &Portrait) -> Markup {
     if portrait.laws.is_empty() {
         return Markup::default();
     }
-    let preferred = own.preferred.as_deref().map(words::key);
+    let preferred = own.preferred.as_deref();
     let least = portrait
         .laws
         .iter()
@@ -85,7 +85,9 @@ pub(super) fn parameters(own: &Specimen) -> Markup {
         "relative",
         "error of the model",
         "spread of fits made again",
-        "95 % profile",
+        "95 % interval",
+        "95 % profile, relaxation held",
+        "verdict",
     ]);
     let mut add = |of: &str, name: &str, key: &str, known: &Known, marked: bool| {
         let relative = known.standard_error.filter(|_| known.value != 0.0);
@@ -100,14 +102,16 @@ pub(super) fn parameters(own: &Specimen) -> Markup {
                 .into(),
             alone(key, known.discretisation_error).into(),
             alone(key, known.bootstrap_error).into(),
+            interval(key, known.interval_95).into(),
             profile(key, known.profile_95).into(),
+            verdict_on(known),
         ];
         match marked {
             true => table.marked_row(cells),
             false => table.row(cells),
         }
     };
-    let preferred = own.preferred.as_deref().map(words::key);
+    let preferred = own.preferred.as_deref();
     for (law, found) in own.laws() {
         for (name, known) in &found.parameters {
             add(words::law(law), name, name, known, Some(law) == preferred);
@@ -121,8 +125,37 @@ pub(super) fn parameters(own: &Specimen) -> Markup {
     }
     match table.is_empty() {
         true => Markup::default(),
-        false => Markup::plain("h3", "Parameters").and(table),
+        false => Markup::plain("h3", "Parameters")
+            .and(table)
+            .and(Markup::of_class("p", "muted", INTERVALS)),
     }
+}
+
+/// What the columns of intervals and verdicts mean.
+const INTERVALS: &str = "The interval is the standard error times the quantile of Student's distribution, with the doubt about the \
+relaxation. The profile holds the relaxation at what was found and so leaves that doubt out: it shows how far the objective is from a parabola, and \
+may be narrower than the interval. The verdict follows from the standard error (hardly known: more than a quarter of the value), the \
+largest correlation (tied: 0.95 or more, up or down) and the bounds.";
+
+/// How well a parameter is known, in words.
+fn verdict_on(known: &Known) -> Markup {
+    match (known.verdict, &known.correlated_with) {
+        (Some(Identified::Known), _) => "known".into(),
+        (Some(Identified::HardlyKnown), _) => "hardly known".into(),
+        (Some(Identified::OnBound), _) => "on its bound, no estimate".into(),
+        (Some(Identified::Correlated), Some(with)) => Markup::from("tied to ")
+            .and(symbol(&with.parameter))
+            .and(format!(
+                " ({})",
+                format!("{:.2}", with.correlation).replace('-', "−")
+            )),
+        _ => "–".into(),
+    }
+}
+
+/// From where to where a parameter lies with a probability of 95 %.
+fn interval(key: &str, bounds: Option<[f64; 2]>) -> String {
+    profile(key, bounds.map(|bounds| bounds.map(Some)))
 }
 
 /// What noise would do to the parameters (section 6.4.6).

@@ -5,12 +5,12 @@ use palpate_jobs::characterize::{Named, Specimen};
 /// What was found without geometry.
 pub(super) fn tables(own: &Specimen) -> Markup {
     let found = [
-        ("kelvin", &own.kelvin),
-        ("blatz", &own.blatz),
-        ("nonlinear_springs", &own.nonlinear_springs),
+        ("kelvin", &own.lumped.kelvin),
+        ("column", &own.lumped.column),
+        ("nonlinear_springs", &own.lumped.nonlinear_springs),
     ];
     let mut table = Table::new(["law", "parameters"]).of_class("text");
-    if let Some(modulus) = &own.mean_elastic_modulus {
+    if let Some(modulus) = &own.lumped.mean_elastic_modulus {
         let depth = quantity("_m", modulus.depth_m, None);
         let value = quantity("_pa", modulus.value, modulus.standard_deviation);
         let holds = count(modulus.holds, "hold");

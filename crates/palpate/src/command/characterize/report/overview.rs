@@ -28,8 +28,7 @@ fn each(specimens: &[Specimen]) -> Markup {
     ]);
     for (place, own) in specimens.iter().enumerate() {
         let link = format!("#specimen-{}", place + 1);
-        let preferred = own.preferred.as_deref().map(words::key);
-        let law = own.laws().find(|(key, _)| Some(*key) == preferred);
+        let law = own.preferred();
         let parameters = law.iter().flat_map(|(_, law)| &law.parameters);
         let parameters = parameters.map(|(name, known)| {
             let value = quantity(name, known.value, known.standard_error);
@@ -40,7 +39,7 @@ fn each(specimens: &[Specimen]) -> Markup {
             let sum: f64 = found.g.iter().map(|g| g.value).sum();
             format!("{:.1} %", 100.0 * sum)
         });
-        let modulus = own.mean_elastic_modulus.as_ref();
+        let modulus = own.lumped.mean_elastic_modulus.as_ref();
         let modulus = modulus.map(|own| quantity("_pa", own.value, own.standard_deviation));
         table.row(vec![
             Markup::element("a", &[("href", link.as_str())], &*own.title),
@@ -58,18 +57,22 @@ fn each(specimens: &[Specimen]) -> Markup {
 
 fn pooled(answer: &Answer) -> Markup {
     let mut table = Table::new([
-        "over specimens",
-        "n",
+        "over subjects",
+        "subjects",
+        "specimens",
         "mean",
         "standard deviation",
         "95 % interval of the mean",
     ]);
-    for (name, pooled) in &answer.pooled {
+    for pooled in answer.pooled.values() {
         let Pooled {
             n,
+            specimens,
             mean,
             standard_deviation,
             interval_95,
+            quantity: name,
+            ..
         } = pooled;
         let parts: Vec<&str> = name.split('.').collect();
         let key = strips::key(name);
@@ -79,19 +82,21 @@ fn pooled(answer: &Answer) -> Markup {
             [.., law, key] if law != key => words::parameter(law, key),
             _ => words::quantity(parts.last().copied().unwrap_or_default()).into(),
         };
-        let organ = strips::organ(name, answer);
-        let of = organ.map_or(of.clone(), |organ| {
-            Markup::from(format!("{organ}: ")).and(of)
-        });
+        let of = match strips::group(pooled.organ.as_deref(), pooled.condition.as_deref()) {
+            Some(group) => Markup::from(format!("{group}: ")).and(of),
+            None => of,
+        };
         table.row(vec![
             of,
             n.to_string().into(),
+            specimens.to_string().into(),
             unit(*mean).into(),
             standard_deviation.map_or("–".to_owned(), unit).into(),
             interval.unwrap_or_else(|| "–".to_owned()).into(),
         ]);
     }
-    let note = "Intervals of means by drawing specimens anew, 2,000 times.";
+    let note = "Each subject counts once, by the mean of its specimens; a specimen without a subject is one. Organs and conditions are kept \
+                apart. Intervals hold the mean of all such subjects by Student's distribution.";
     Markup::plain("h3", "Over all specimens")
         .and(table)
         .and(Markup::of_class("p", "muted", note))

@@ -1,7 +1,7 @@
 use super::{convergence, curves, laws, lumped, relaxation, words};
-use crate::report::{Markup, count, doubts, quantity, symbol};
+use crate::report::{Markup, count, doubts, quantity, rounded, symbol};
 use palpate_jobs::characterize::Portrait;
-use palpate_jobs::characterize::{Known, Specimen};
+use palpate_jobs::characterize::{Identified, Known, Specimen};
 
 /// The section on one specimen, with its title if it is one of `several`.
 pub(super) fn section(
@@ -28,7 +28,7 @@ pub(super) fn section(
     let inside = title
         .and(files)
         .and(headline(own, portrait))
-        .and(told(own))
+        .and(told(own, portrait))
         .and(Markup::of_class("div", "figures", figures))
         .and(laws::comparison(own, portrait))
         .and(laws::parameters(own))
@@ -47,9 +47,7 @@ pub(super) fn section(
 /// The preferred law with its numbers, relaxation, and what the recordings say of the specimen.
 fn headline(own: &Specimen, portrait: &Portrait) -> Markup {
     let mut cards = Vec::new();
-    let preferred = own.preferred.as_deref().map(words::key);
-    let law = own.laws().find(|(key, _)| Some(*key) == preferred);
-    match law {
+    match own.preferred() {
         Some((key, law)) => {
             let misfit = format!("misfit {:.2} %", 100.0 * law.misfit);
             cards.push(card("preferred law", words::law(key), misfit));
@@ -68,7 +66,7 @@ fn headline(own: &Specimen, portrait: &Portrait) -> Markup {
             terms,
         ));
     }
-    if let Some(modulus) = &own.mean_elastic_modulus {
+    if let Some(modulus) = &own.lumped.mean_elastic_modulus {
         let depth = quantity("depth_m", modulus.depth_m, None);
         let value = quantity("_pa", modulus.value, modulus.standard_deviation);
         cards.push(card(
@@ -116,21 +114,40 @@ fn known_card(name: Markup, key: &str, known: &Known) -> Markup {
     card(name, quantity(key, known.value, known.standard_error), note)
 }
 
-/// What can be told apart, and what else deserves doubt.
-fn told(own: &Specimen) -> Markup {
+/// What can be told apart, by the verdicts on each parameter, and what else deserves doubt.
+fn told(own: &Specimen, portrait: &Portrait) -> Markup {
     let others = own
         .warnings
         .iter()
         .filter(|said| !own.identifiability.contains(said));
     let others: Vec<String> = others.cloned().collect();
-    let apart = match own.identifiability.is_empty() && own.preferred.is_some() {
-        true => Markup::plain(
-            "p",
-            "Every parameter is known by itself from these recordings.",
-        ),
+    let apart = match own.identifiability.is_empty() {
+        true => Markup::plain("p", known_by_itself(own, portrait).unwrap_or_default()),
         false => doubts("What these recordings cannot tell", &own.identifiability),
     };
-    apart.and(doubts("What else deserves doubt", &others))
+    apart.and(doubts("Warnings", &others))
+}
+
+/// The sentence on a preferred law and a relaxation whose parameters are all known by themselves, with the numbers
+/// that say so; none where one is not.
+fn known_by_itself(own: &Specimen, portrait: &Portrait) -> Option<String> {
+    let (name, law) = own.preferred()?;
+    let terms = own.relaxation.iter();
+    let terms = terms.flat_map(|found| found.g.iter().chain(&found.tau_s));
+    let all: Vec<&Known> = law.parameters.values().chain(terms).collect();
+    if all.iter().any(|own| own.verdict != Some(Identified::Known)) {
+        return None;
+    }
+    let errors = all
+        .iter()
+        .filter_map(|own| Some((own.standard_error? / own.value).abs()));
+    let largest = errors.fold(0.0, f64::max);
+    let drawn = portrait.laws.iter().find(|drawn| drawn.law == name)?;
+    Some(format!(
+        "Every parameter is known by itself from these recordings: standard errors are {} % at most, correlations {:.2} at most, up or down.",
+        rounded(100.0 * largest, 2),
+        convergence::largest(drawn)
+    ))
 }
 
 /// Why something was not found.

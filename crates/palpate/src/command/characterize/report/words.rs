@@ -2,20 +2,12 @@
 
 use crate::report::{Markup, symbol};
 
-/// A law by its key in the answer, or by its name in a tissue file.
+/// A law by its name.
 pub(super) fn law(key: &str) -> &str {
     match key {
         "neo_hookean" => "neo-Hookean",
         "mooney_rivlin" => "Mooney-Rivlin",
-        "exponential" | "blatz" => "exponential (Blatz)",
-        other => other,
-    }
-}
-
-/// The key in the answer of a law by its name in a tissue file.
-pub(super) fn key(name: &str) -> &str {
-    match name {
-        "blatz" => "exponential",
+        "exponential" => "exponential",
         other => other,
     }
 }
@@ -26,7 +18,7 @@ pub(super) fn quantity(key: &str) -> String {
         "mean_elastic_modulus" => "mean elastic modulus".to_owned(),
         "sum_of_g" => "sum of g".to_owned(),
         "kelvin" => "Kelvin's law".to_owned(),
-        "blatz" => "Blatz's law on a column".to_owned(),
+        "column" => "exponential law on a column".to_owned(),
         "nonlinear_springs" => "nonlinear springs".to_owned(),
         other => law(other).replace('_', " "),
     }

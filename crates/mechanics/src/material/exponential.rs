@@ -19,15 +19,15 @@ use super::principal::Principal;
 use super::volume::Volume;
 use crate::Error;
 
-/// Blatz's exponential law.
+/// The exponential law of Blatz, Chu and Wayland.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Blatz {
+pub struct Exponential {
     gamma: f64,
     alpha: f64,
     volume: Volume,
 }
 
-impl Blatz {
+impl Exponential {
     /// From γ [Pa], the shear modulus at rest, and α [-]; the volume cannot change.
     ///
     /// # Errors
@@ -47,7 +47,7 @@ impl Blatz {
     fn new(gamma: f64, alpha: f64, volume: Volume) -> Result<Self, Error> {
         let positive = |value: f64| value > 0.0 && value.is_finite();
         if !(positive(gamma) && positive(alpha + 1.0)) {
-            return Err(Error::BlatzOutOfRange { gamma, alpha });
+            return Err(Error::ExponentialOutOfRange { gamma, alpha });
         }
         Ok(Self {
             gamma,
@@ -78,7 +78,7 @@ fn divided_difference(x: f64, y: f64) -> f64 {
     (0.5 * (x + y)).exp() * ratio
 }
 
-impl Law for Blatz {
+impl Law for Exponential {
     fn distortion_energy(&self, f: &Matrix3<f64>) -> f64 {
         let term = |square: f64| {
             let exponent = self.alpha * (square - 1.0);
