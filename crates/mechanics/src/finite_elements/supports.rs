@@ -1,12 +1,13 @@
 use nalgebra::{Matrix6, Vector6};
 
 use super::cavity::Cavity;
+use super::mismatch::Mismatch;
 use super::model::FiniteElementModel;
 use super::relaxation::RelaxationStep;
 use super::snap::Syrup;
 use crate::Vec3;
 
-/// What holds a body and what loads it.
+/// What holds a body and what loads it. Whoever solves with it checks it against the model first.
 #[derive(Debug, Clone)]
 pub struct Supports<'a> {
     /// Displacement that each displacement unknown is to have [m]; `None` where it is free.
@@ -22,6 +23,8 @@ pub struct Supports<'a> {
     pub relaxing: Option<&'a RelaxationStep>,
     /// What resists the body on its way downhill.
     pub(super) syrup: Option<Syrup>,
+    /// Node and component of the first one that was to be fixed and does not exist.
+    pub(super) stray: Option<(usize, usize)>,
 }
 
 /// A node of an axisymmetric body on a sphere around a point of the axis.
@@ -45,10 +48,12 @@ impl<'a> Supports<'a> {
             dead_load: None,
             relaxing: None,
             syrup: None,
+            stray: None,
         }
     }
 
-    /// Holds the component `axis` of `nodes` at the displacement `at` [m].
+    /// Fixes the component `axis` of `nodes` at the displacement `at` [m]. A node or a component that the model does
+    /// not have is an error of whoever solves with these supports.
     pub fn hold(
         mut self,
         model: &FiniteElementModel,
@@ -56,8 +61,13 @@ impl<'a> Supports<'a> {
         axis: usize,
         at: f64,
     ) -> Self {
+        let dimension = model.dimension();
         for node in nodes {
-            self.held[node * model.dimension() + axis] = Some(at);
+            let place = node.checked_mul(dimension).map(|first| first + axis);
+            match place.and_then(|place| self.held.get_mut(place)) {
+                Some(held) if axis < dimension => *held = Some(at),
+                _ => self.stray = self.stray.or(Some((node, axis))),
+            }
         }
         self
     }
@@ -72,6 +82,75 @@ impl<'a> Supports<'a> {
     pub fn load(mut self, load: &'a [f64]) -> Self {
         self.dead_load = Some((load, 1.0));
         self
+    }
+
+    /// Every support is one of the model.
+    pub(super) fn check(&self, model: &FiniteElementModel) -> Result<(), Mismatch> {
+        let (nodes, dimension) = (model.mesh.nodes.len(), model.dimension());
+        let beyond = |what, node| Mismatch::NodeBeyondMesh { what, node, nodes };
+        match self.stray {
+            Some((node, _)) if node >= nodes => return Err(beyond("a fixed displacement", node)),
+            Some((node, axis)) => {
+                return Err(Mismatch::ComponentOutOfRange {
+                    axis,
+                    node,
+                    dimension,
+                });
+            }
+            None => {}
+        }
+        let lengths = |what, found: usize, expected: usize| match found == expected {
+            true => Ok(()),
+            false => Err(Mismatch::WrongLength {
+                what,
+                found,
+                expected,
+            }),
+        };
+        let displacements = model.displacements();
+        lengths(
+            "the list of fixed displacements",
+            self.held.len(),
+            displacements,
+        )?;
+        if let Some((load, _)) = self.dead_load {
+            lengths("the dead load", load.len(), model.size())?;
+        }
+        if let Some(step) = self.relaxing {
+            let [points, pressures] = step.lengths();
+            let expected = model.mapping.weights.len();
+            lengths("the history of stresses", points, expected)?;
+            lengths("the history of pressures", pressures, model.pressures())?;
+        }
+        if let Some((cavity, _)) = self.pressure {
+            cavity.check(model)?;
+        }
+        let mut slides = vec![false; nodes];
+        for &OnSphere {
+            node,
+            center,
+            radius,
+        } in &self.sliding
+        {
+            if dimension != 2 {
+                return Err(Mismatch::CannotSlide { node });
+            }
+            if node >= nodes {
+                return Err(beyond("a sphere", node));
+            }
+            if !(radius > 0.0 && radius.is_finite() && center.is_finite()) {
+                return Err(Mismatch::SphereOutOfRange {
+                    node,
+                    radius,
+                    center,
+                });
+            }
+            let fixed = [0, 1].map(|axis| self.held[2 * node + axis].is_some());
+            if fixed[0] || fixed[1] || std::mem::replace(&mut slides[node], true) {
+                return Err(Mismatch::SlidesAndIsFixed { node });
+            }
+        }
+        Ok(())
     }
 
     /// Whether the body as a whole can move a little and no support notices. A piece of its own that

@@ -33,6 +33,7 @@ mod no_allocation;
 mod patch_on_hemisphere;
 mod path;
 mod real_organs;
+mod refused_input;
 mod slit;
 mod slit_bodies;
 mod slit_judge;

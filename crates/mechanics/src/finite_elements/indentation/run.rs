@@ -360,6 +360,7 @@ impl IndentationRun {
             dead_load: None,
             relaxing,
             syrup: None,
+            stray: None,
         };
         for (&node, touch) in self.top.iter().zip(touch) {
             let at = self.model.mesh().nodes[node].x;
