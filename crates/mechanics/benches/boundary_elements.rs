@@ -160,7 +160,7 @@ fn tips(
     touchable: &[TriangleId],
 ) {
     let start = Instant::now();
-    let field = TipField::new(response, surface, 2e-3);
+    let field = TipField::new(response, surface, 2e-3).unwrap();
     eprintln!("a tip made ready: {:.2} s", start.elapsed().as_secs_f64());
     let places = [touchable[3], touchable[touchable.len() / 2]];
     let loads = || places.map(|id| field.at(surface, id, &[0.2, 0.3, 0.5]));

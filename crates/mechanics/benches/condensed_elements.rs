@@ -71,7 +71,7 @@ fn on_line(
     triangle: TriangleId,
 ) {
     let radius = 1.5e-3;
-    let tips = TipField::new(response, surface, radius);
+    let tips = TipField::new(response, surface, radius).unwrap();
     let load = tips.at(surface, triangle, &[0.2, 0.3, 0.5]);
     let corners = surface.mesh().positions(triangle);
     let tip = PressedTip {

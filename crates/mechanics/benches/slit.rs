@@ -134,7 +134,7 @@ fn slit(criterion: &mut Criterion) {
     for number in 44..84 {
         slit.open(&body, &facet(number, f64::INFINITY)).unwrap();
     }
-    let tips = TipField::new(&response, &surface, 1.5e-3);
+    let tips = TipField::new(&response, &surface, 1.5e-3).unwrap();
     let spot = Spot {
         place: Vec3::new(OUTER, 2e-3, 0.0),
         normal: Vec3::x(),

@@ -383,6 +383,52 @@ pub enum Error {
         /// The most there can be.
         most: usize,
     },
+    /// What does not fit a finite element model.
+    #[error(transparent)]
+    Mismatch(#[from] crate::finite_elements::Mismatch),
+    /// A body was not brought into equilibrium.
+    #[error(
+        "no equilibrium was found ({failure}); fix the body, move its supports in smaller steps or use a finer mesh"
+    )]
+    NotInEquilibrium {
+        /// Why.
+        failure: crate::finite_elements::Failure,
+    },
+    /// A triangle that the surface does not have.
+    #[error(
+        "{what} triangle {triangle} is none of the {triangles} triangles of the surface; give numbers below {triangles}"
+    )]
+    TriangleOutOfRange {
+        /// Fixed or touchable.
+        what: &'static str,
+        /// The number given, from 0.
+        triangle: usize,
+        /// How many triangles there are.
+        triangles: usize,
+    },
+    /// The triangles that can be touched are not sorted.
+    #[error(
+        "touchable triangle {triangle} follows {before}; sort the touchable triangles in ascending order and name each once"
+    )]
+    TouchableNotAscending {
+        /// The number that is out of order.
+        triangle: usize,
+        /// The number before it.
+        before: usize,
+    },
+    /// No triangle can be touched.
+    #[error("no triangle can be touched; give at least one touchable triangle")]
+    NothingTouchable,
+    /// A surface that is not the one of the response.
+    #[error(
+        "the surface has {surface} triangles and the response {response}; give the surface that the response was solved for"
+    )]
+    OtherSurface {
+        /// Triangles of the surface.
+        surface: usize,
+        /// Triangles of the response.
+        response: usize,
+    },
     /// What is no facet of a slit.
     #[error("the slit cannot be opened, for {fault}; give a facet on the surface, along it")]
     UnsoundSlit {

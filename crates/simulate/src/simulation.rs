@@ -74,7 +74,9 @@ impl Simulation {
                 let problem = GlobalProblem::new(scene, &surface, &material.at_rest)?;
                 let (global, more) = problem.solve((scene, &surface), resources, watch)?;
                 doubts.extend(more);
-                tools.iter_mut().for_each(|tool| global.lie_under(tool));
+                tools
+                    .iter_mut()
+                    .try_for_each(|tool| global.lie_under(tool))?;
                 Some(global)
             }
         };

@@ -72,8 +72,8 @@ impl BoundaryProblem<'_> {
     /// be used. On all cores.
     ///
     /// # Errors
-    /// When the memory does not suffice, nothing is held or touchable, a touchable triangle is held, or
-    /// `progress` breaks off.
+    /// Before the first large matrix: when the memory does not suffice, nothing is fixed or touchable, a triangle is
+    /// none of the surface, or the touchable ones do not ascend or are fixed. Later when `progress` breaks off.
     pub fn solve<T: Precision>(
         &self,
         memory: usize,
@@ -186,7 +186,8 @@ impl BoundaryProblem<'_> {
     }
 }
 
-/// Whether each of so many triangles is held.
+/// Whether each of so many triangles is fixed. Refuses numbers that the surface does not have and an order that
+/// [`SurfaceResponse`] would refuse after the factorization.
 pub(crate) fn held_triangles(
     triangles: usize,
     held: &[TriangleId],
@@ -194,6 +195,24 @@ pub(crate) fn held_triangles(
 ) -> Result<Vec<bool>, Error> {
     if held.is_empty() {
         return Err(Error::NothingHeld);
+    }
+    for (what, numbers) in [("fixed", held), ("touchable", touchable)] {
+        if let Some(stray) = numbers.iter().find(|t| t.index() >= triangles) {
+            return Err(Error::TriangleOutOfRange {
+                what,
+                triangle: stray.index(),
+                triangles,
+            });
+        }
+    }
+    if touchable.is_empty() {
+        return Err(Error::NothingTouchable);
+    }
+    if let Some(pair) = touchable.windows(2).find(|pair| pair[0] >= pair[1]) {
+        return Err(Error::TouchableNotAscending {
+            triangle: pair[1].index(),
+            before: pair[0].index(),
+        });
     }
     let mut is_held = vec![false; triangles];
     for triangle in held {

@@ -7,10 +7,13 @@
 //!
 //! *How we know*: `tube::lame`, `tube::follows_the_closed_form`, `hexahedra::pressed_ring_is_lames`.
 //!
-//! *Limits*: an edge of the wall that is free to move off those planes would feel a wrong force.
+//! *Limits*: an edge of the wall that is free to move off those planes would feel a wrong force; sides of tetrahedra
+//! are refused.
 
+use super::element::ElementKind;
+use super::mismatch::Mismatch;
 use super::model::FiniteElementModel;
-use crate::{Strain, Vec3};
+use crate::{Error, Strain, Vec3};
 
 /// A wall under pressure: sides of elements, three nodes each in an axisymmetric body and nine in a
 /// solid of hexahedra.
@@ -31,9 +34,41 @@ struct SideVolume {
 
 impl Cavity {
     /// The volume that the displaced wall encloses [m³].
-    pub fn volume(&self, model: &FiniteElementModel, unknowns: &[f64]) -> f64 {
+    ///
+    /// # Errors
+    /// When the sides are none of the model, or the unknowns are not all of it.
+    pub fn volume(&self, model: &FiniteElementModel, unknowns: &[f64]) -> Result<f64, Error> {
+        self.check(model)?;
+        model.check_length("the list of unknowns", unknowns.len())?;
         let each = |side: &Vec<u32>| side_volume(model, unknowns, side).volume;
-        self.sides.iter().map(each).sum()
+        Ok(self.sides.iter().map(each).sum())
+    }
+
+    /// Every side has the nodes of a side of the model's elements, and they exist.
+    pub(super) fn check(&self, model: &FiniteElementModel) -> Result<(), Mismatch> {
+        let (kind, nodes) = (model.mesh.kind, model.mesh.nodes.len());
+        let expected = match kind {
+            ElementKind::Quad9 => 3,
+            ElementKind::Hex27 => 9,
+            ElementKind::Tet10 => return Err(Mismatch::CavityOfElements { kind }),
+        };
+        for (number, side) in self.sides.iter().enumerate() {
+            if side.len() != expected {
+                return Err(Mismatch::CavitySide {
+                    side: number,
+                    found: side.len(),
+                    expected,
+                });
+            }
+            if let Some(&node) = side.iter().find(|&&node| node as usize >= nodes) {
+                return Err(Mismatch::NodeBeyondMesh {
+                    what: "a side of the cavity",
+                    node: node as usize,
+                    nodes,
+                });
+            }
+        }
+        Ok(())
     }
 
     /// Adds ∂V/∂u, `factor` times, to `out`.

@@ -1,6 +1,7 @@
 use super::model::{FiniteElementModel, FiniteElementState, FiniteElementWorkspace};
 use super::newton::{self, Failure};
 use super::supports::Supports;
+use crate::Error;
 
 /// The linear system of one step of Newton's method, for those who time its parts or take it to another
 /// code. [`super::equilibrate`] does the same by itself.
@@ -16,14 +17,18 @@ impl<'a> LinearSystem<'a> {
     /// The system at `state`; no support moves.
     ///
     /// # Errors
-    /// When an element is turned inside out.
+    /// When supports, state or workspace are not those of `model`, or an element is turned inside out.
     pub fn assemble(
         model: &'a FiniteElementModel,
         supports: &Supports<'_>,
         state: &FiniteElementState,
         workspace: &'a mut FiniteElementWorkspace,
-    ) -> Result<Self, Failure> {
-        newton::assemble(model, supports, &state.unknowns, workspace)?;
+    ) -> Result<Self, Error> {
+        supports.check(model)?;
+        model.check_length("the state", state.unknowns.len())?;
+        workspace.check(model)?;
+        newton::assemble(model, supports, &state.unknowns, workspace)
+            .map_err(|failure| Error::NotInEquilibrium { failure })?;
         workspace.supported.copy_from_slice(&workspace.tangent);
         workspace.step.fill(0.0);
         let is_held = newton::held_rows(model, supports);
@@ -52,7 +57,12 @@ impl<'a> LinearSystem<'a> {
     }
 
     /// Replaces `right` by the solution, with the factors of the last [`Self::factor`].
-    pub fn solve(&mut self, right: &mut [f64]) {
+    ///
+    /// # Errors
+    /// When `right` has not one number for each unknown.
+    pub fn solve(&mut self, right: &mut [f64]) -> Result<(), Error> {
+        self.model.check_length("the right side", right.len())?;
         self.workspace.factors.solve(right);
+        Ok(())
     }
 }

@@ -1,5 +1,6 @@
 use super::element::ElementKind;
 use super::graded::halved;
+use super::mismatch::Mismatch;
 use crate::{Error, Vec3};
 
 /// Elements of one kind in their places.
@@ -38,7 +39,7 @@ impl ElementMesh {
     }
 
     /// A grid of [`ElementKind::Quad9`] between the `columns` [m] in r and the `rows` [m] in z, both
-    /// ascending; `place` puts a point of the grid where it belongs.
+    /// ascending; `place` puts a point of the grid where it belongs. Fewer than two columns or rows make no element.
     pub fn grid(columns: &[f64], rows: &[f64], place: impl Fn(f64, f64) -> [f64; 2]) -> Self {
         let (across, up) = (halved(columns), halved(rows));
         let width = across.len();
@@ -50,8 +51,8 @@ impl ElementMesh {
             }
         }
         let mut elements = Vec::new();
-        for j in (0..up.len() - 1).step_by(2) {
-            for i in (0..width - 1).step_by(2) {
+        for j in (0..up.len().saturating_sub(1)).step_by(2) {
+            for i in (0..width.saturating_sub(1)).step_by(2) {
                 let corner = i + j * width;
                 elements.extend((0..9).map(|n| (corner + n % 3 + n / 3 * width) as u32));
             }
@@ -63,8 +64,17 @@ impl ElementMesh {
         }
     }
 
-    /// Numbers that an element names must exist.
+    /// Every element has all of its nodes, and they exist.
     pub(crate) fn check(&self) -> Result<(), Error> {
+        let whole = self.len() * self.kind.nodes();
+        if self.elements.len() != whole {
+            return Err(Mismatch::WrongLength {
+                what: "the list of the elements' nodes",
+                found: self.elements.len(),
+                expected: whole + self.kind.nodes(),
+            }
+            .into());
+        }
         let nodes = self.nodes.len();
         let stray = self.elements.iter().position(|&n| n as usize >= nodes);
         if let Some(place) = stray {

@@ -2,6 +2,7 @@ use std::sync::Arc;
 
 use super::mapping::Mapping;
 use super::mesh::ElementMesh;
+use super::mismatch::Mismatch;
 use crate::linear::sparse::{Factors, Pattern};
 use crate::material::law::Law;
 use crate::{Error, Vec3};
@@ -130,6 +131,19 @@ impl FiniteElementModel {
         load
     }
 
+    /// A list of so many numbers must have one for each unknown.
+    pub(super) fn check_length(&self, what: &'static str, found: usize) -> Result<(), Mismatch> {
+        let expected = self.size();
+        match found == expected {
+            true => Ok(()),
+            false => Err(Mismatch::WrongLength {
+                what,
+                found,
+                expected,
+            }),
+        }
+    }
+
     pub(crate) fn local_unknowns(&self) -> usize {
         self.unknowns.len() / self.mesh.len()
     }
@@ -218,6 +232,20 @@ impl FiniteElementWorkspace {
             },
             energy: 0.0,
         })
+    }
+
+    /// It must be that of `model`, or of one with the same couplings.
+    pub(super) fn check(&self, model: &FiniteElementModel) -> Result<(), Mismatch> {
+        model.check_length("the workspace", self.residual.len())?;
+        let (found, expected) = (self.tangent.len(), model.pattern.entries());
+        match found == expected {
+            true => Ok(()),
+            false => Err(Mismatch::WrongLength {
+                what: "the matrix of the workspace",
+                found,
+                expected,
+            }),
+        }
     }
 
     /// Force that the supports put on the body at `node` in the last equilibrium [N]; in an axisymmetric

@@ -71,7 +71,7 @@ const ROUNDING: f64 = 1e-13;
 ///
 /// # Errors
 /// See [`Failure`]; a smaller change of the supports may then succeed.
-pub fn equilibrate(
+pub(super) fn equilibrate(
     model: &FiniteElementModel,
     supports: &Supports<'_>,
     state: &mut FiniteElementState,

@@ -12,6 +12,7 @@
 //!
 //! *Limits*: nothing may slide on a sphere. Bifurcations are counted ([`PathPoint::unstable`]) and passed, no branch is taken.
 
+use super::mismatch::Mismatch;
 use super::model::{FiniteElementModel, FiniteElementState, FiniteElementWorkspace};
 use super::newton::{self, Failure};
 use super::supports::Supports;
@@ -58,12 +59,20 @@ impl<'a> Path<'a> {
     /// A path from rest. `loads` are those of λ = 1, the first step reaches about λ = `first` [-].
     ///
     /// # Errors
-    /// When there is no memory, or the body can move at rest without force.
+    /// When the loads are none of `model` or a node slides, the first step is none, there is no memory, or the body can
+    /// move at rest without force.
     pub fn new(
         model: &'a FiniteElementModel,
         loads: Supports<'a>,
         first: f64,
     ) -> Result<Self, Error> {
+        loads.check(model)?;
+        if let Some(sliding) = loads.sliding.first() {
+            return Err(Mismatch::CannotSlide { node: sliding.node }.into());
+        }
+        if !(first > 0.0 && first.is_finite()) {
+            return Err(Mismatch::FirstStepOutOfRange { first }.into());
+        }
         let mut path = Self {
             workspace: FiniteElementWorkspace::new(model)?,
             now: PathPoint {

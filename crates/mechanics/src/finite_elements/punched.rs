@@ -14,7 +14,8 @@ use std::collections::BTreeMap;
 use super::element::ElementKind;
 use super::graded::halved;
 use super::mesh::ElementMesh;
-use crate::Vec3;
+use super::mismatch::Mismatch;
+use crate::{Error, Vec3};
 
 /// Where the lines of the surface run. All places ascend.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,8 +44,9 @@ pub struct PunchedMesh {
 }
 
 impl PunchedLines {
-    /// The same with every interval cut into `parts` equal ones.
+    /// The same with every interval cut into `parts` equal ones, at least one.
     pub fn split(&self, parts: usize) -> Self {
+        let parts = parts.max(1);
         let split = |line: &Vec<f64>| split(line, parts);
         Self {
             around: self.around * parts,
@@ -57,7 +59,11 @@ impl PunchedLines {
 
     /// The body whose point (x, y) of the surface at a height stands at `place`, a map that keeps the
     /// handedness.
-    pub fn body(&self, place: impl Fn(f64, f64, f64) -> Vec3) -> PunchedMesh {
+    ///
+    /// # Errors
+    /// When a line does not ascend or does not begin where the one before it ends.
+    pub fn body(&self, place: impl Fn(f64, f64, f64) -> Vec3) -> Result<PunchedMesh, Error> {
+        self.check()?;
         let surface = self.surface();
         let heights = halved(&self.heights);
         let layer = surface.points.len();
@@ -79,7 +85,7 @@ impl PunchedLines {
             .filter(|&n| surface.points[n][0].hypot(surface.points[n][1]) <= radius)
             .map(|n| top + n)
             .collect();
-        PunchedMesh {
+        Ok(PunchedMesh {
             mesh: ElementMesh {
                 kind: ElementKind::Hex27,
                 nodes,
@@ -87,6 +93,34 @@ impl PunchedLines {
             },
             face,
             lower_sides: surface.faces.iter().map(|face| face.to_vec()).collect(),
+        })
+    }
+
+    fn check(&self) -> Result<(), Mismatch> {
+        let [along_x, along_y] = &self.beyond;
+        let last = |line: &[f64]| line.last().copied().unwrap_or(0.0);
+        let (radius, side) = (last(&self.inside), last(&self.outside));
+        let lines = [
+            ("inside", &self.inside, None),
+            ("outside", &self.outside, Some(radius)),
+            ("first `beyond`", along_x, Some(side)),
+            ("second `beyond`", along_y, Some(side)),
+            ("heights", &self.heights, None),
+        ];
+        let fault = |line| Err(Mismatch::PunchedLinesOutOfOrder { line });
+        for (name, line, start) in lines {
+            let ascends = line.len() > 1 && line.windows(2).all(|pair| pair[0] < pair[1]);
+            let finite = line.iter().all(|place| place.is_finite());
+            // Neighbours may have come to their common place in different ways.
+            let apart = |start: f64| line.first().map(|first| (first - start).abs() / start);
+            let meets = start.and_then(apart).is_none_or(|apart| apart <= 1e-9);
+            if !ascends || !finite || !meets {
+                return fault(name);
+            }
+        }
+        match self.around > 0 && self.inside[0] > 0.0 {
+            true => Ok(()),
+            false => fault("innermost"),
         }
     }
 

@@ -55,6 +55,11 @@ pub(super) struct Past<'a> {
 }
 
 impl RelaxationStep {
+    /// Points and pressures whose history it has.
+    pub(super) fn lengths(&self) -> [usize; 2] {
+        [self.stress.len(), self.pressure.len()]
+    }
+
     /// At the point `place`, whose element has these `pressures` among its unknowns.
     pub(super) fn at<'a>(
         &'a self,

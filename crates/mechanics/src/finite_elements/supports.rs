@@ -1,11 +1,14 @@
+use std::f64::consts::FRAC_PI_2;
+
 use nalgebra::{Matrix6, Vector6};
 
 use super::cavity::Cavity;
+use super::mismatch::Mismatch;
 use super::model::FiniteElementModel;
 use super::relaxation::RelaxationStep;
 use crate::Vec3;
 
-/// What holds a body and what loads it.
+/// What holds a body and what loads it. Whoever solves with it checks it against the model first.
 #[derive(Debug, Clone)]
 pub struct Supports<'a> {
     /// Displacement that each displacement unknown is to have [m]; `None` where it is free.
@@ -19,6 +22,8 @@ pub struct Supports<'a> {
     pub dead_load: Option<(&'a [f64], f64)>,
     /// History of a body that relaxes; without it the body is elastic.
     pub relaxing: Option<&'a RelaxationStep>,
+    /// Node and component of the first one that was to be fixed and does not exist.
+    pub(super) stray: Option<(usize, usize)>,
 }
 
 /// A node of an axisymmetric body that slides on a rigid surface.
@@ -61,6 +66,18 @@ pub(super) struct Beside {
 }
 
 impl RigidSurface {
+    /// Whether its numbers are those of a surface.
+    fn exists(&self) -> bool {
+        match *self {
+            Self::Sphere { center, radius } => {
+                radius > 0.0 && radius.is_finite() && center.is_finite()
+            }
+            Self::Cone { apex, half_angle } => {
+                apex.is_finite() && half_angle > 0.0 && half_angle < FRAC_PI_2
+            }
+        }
+    }
+
     /// A length that rounding of the distance is relative to [m].
     pub(super) fn size(&self) -> f64 {
         match *self {
@@ -101,10 +118,12 @@ impl<'a> Supports<'a> {
             pressure: None,
             dead_load: None,
             relaxing: None,
+            stray: None,
         }
     }
 
-    /// Holds the component `axis` of `nodes` at the displacement `at` [m].
+    /// Fixes the component `axis` of `nodes` at the displacement `at` [m]. A node or a component that the model does
+    /// not have is an error of whoever solves with these supports.
     pub fn hold(
         mut self,
         model: &FiniteElementModel,
@@ -112,8 +131,13 @@ impl<'a> Supports<'a> {
         axis: usize,
         at: f64,
     ) -> Self {
+        let dimension = model.dimension();
         for node in nodes {
-            self.held[node * model.dimension() + axis] = Some(at);
+            let place = node.checked_mul(dimension).map(|first| first + axis);
+            match place.and_then(|place| self.held.get_mut(place)) {
+                Some(held) if axis < dimension => *held = Some(at),
+                _ => self.stray = self.stray.or(Some((node, axis))),
+            }
         }
         self
     }
@@ -128,6 +152,66 @@ impl<'a> Supports<'a> {
     pub fn load(mut self, load: &'a [f64]) -> Self {
         self.dead_load = Some((load, 1.0));
         self
+    }
+
+    /// Every support is one of the model.
+    pub(super) fn check(&self, model: &FiniteElementModel) -> Result<(), Mismatch> {
+        let (nodes, dimension) = (model.mesh.nodes.len(), model.dimension());
+        let beyond = |what, node| Mismatch::NodeBeyondMesh { what, node, nodes };
+        match self.stray {
+            Some((node, _)) if node >= nodes => return Err(beyond("a fixed displacement", node)),
+            Some((node, axis)) => {
+                return Err(Mismatch::ComponentOutOfRange {
+                    axis,
+                    node,
+                    dimension,
+                });
+            }
+            None => {}
+        }
+        let lengths = |what, found: usize, expected: usize| match found == expected {
+            true => Ok(()),
+            false => Err(Mismatch::WrongLength {
+                what,
+                found,
+                expected,
+            }),
+        };
+        let displacements = model.displacements();
+        lengths(
+            "the list of fixed displacements",
+            self.held.len(),
+            displacements,
+        )?;
+        if let Some((load, _)) = self.dead_load {
+            lengths("the dead load", load.len(), model.size())?;
+        }
+        if let Some(step) = self.relaxing {
+            let [points, pressures] = step.lengths();
+            let expected = model.mapping.weights.len();
+            lengths("the history of stresses", points, expected)?;
+            lengths("the history of pressures", pressures, model.pressures())?;
+        }
+        if let Some((cavity, _)) = self.pressure {
+            cavity.check(model)?;
+        }
+        let mut slides = vec![false; nodes];
+        for &Sliding { node, surface } in &self.sliding {
+            if dimension != 2 {
+                return Err(Mismatch::CannotSlide { node });
+            }
+            if node >= nodes {
+                return Err(beyond("a rigid surface", node));
+            }
+            if !surface.exists() {
+                return Err(Mismatch::SurfaceOutOfRange { node, surface });
+            }
+            let fixed = [0, 1].map(|axis| self.held[2 * node + axis].is_some());
+            if fixed[0] || fixed[1] || std::mem::replace(&mut slides[node], true) {
+                return Err(Mismatch::SlidesAndIsFixed { node });
+            }
+        }
+        Ok(())
     }
 
     /// Whether the body as a whole can move a little and no support notices. A piece of its own that

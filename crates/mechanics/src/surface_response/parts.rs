@@ -17,8 +17,11 @@ pub struct TouchableTriangle {
 }
 
 impl TouchableTriangle {
-    /// A triangle of `surface`; none where it spans no area.
+    /// A triangle of `surface`; none where there is no such triangle or it spans no area.
     pub fn of(surface: &Surface, triangle: TriangleId) -> Option<Self> {
+        if triangle.index() >= surface.mesh().triangles().len() {
+            return None;
+        }
         let panel = Panel::new(surface.mesh().positions(triangle))?;
         Some(Self {
             triangle,
@@ -80,9 +83,9 @@ impl<T: Precision> ResponseParts<T> {
     /// What is wrong with them, if anything.
     pub(super) fn fault(&self) -> Option<&'static str> {
         let columns = 3 * self.touchable.len();
-        let (rows, known) = (3 * self.triangles, |t: &TouchableTriangle| {
-            t.triangle.index() < self.triangles
-        });
+        let known = |t: &TouchableTriangle| t.triangle.index() < self.triangles;
+        // Numbers of a file may be too large for their product.
+        let rows = self.triangles.saturating_mul(3);
         let ascends = |pair: &[TouchableTriangle]| pair[0].triangle < pair[1].triangle;
         let sound = |t: &TouchableTriangle| {
             t.area > 0.0
@@ -104,7 +107,7 @@ impl<T: Precision> ResponseParts<T> {
             Some("a triangle has no area, normal or place")
         } else if !self.touchable.iter().all(known) {
             Some("it has fewer triangles than its numbers say")
-        } else if self.displacements.len() != columns * rows {
+        } else if Some(self.displacements.len()) != columns.checked_mul(rows) {
             Some("numbers are missing or too many")
         } else if !self
             .displacements

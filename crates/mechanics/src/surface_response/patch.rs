@@ -57,15 +57,16 @@ impl PatchWorkspace {
 
 impl<T: Precision> SurfaceResponse<T> {
     /// The forces [N] on triangles that are moved, one for each, all others being free: the capacitance
-    /// solve p = Ξ⁻¹ d (4.7). None when there are more than the workspace is for, one is named twice, or
-    /// the influences are too far from reciprocal.
+    /// solve p = Ξ⁻¹ d (4.7). None when there are more than the workspace is for, one is named twice or cannot be
+    /// touched, or the influences are too far from reciprocal.
     pub fn press<'w>(
         &self,
         moved: &[MovedTriangle],
         contact: &PatchContact,
         workspace: &'w mut PatchWorkspace,
     ) -> Option<&'w [Vec3]> {
-        if moved.len() > workspace.most {
+        let known = |one: &MovedTriangle| one.triangle.index() < self.touchable().len();
+        if moved.len() > workspace.most || !moved.iter().all(known) {
             return None;
         }
         let axes = match contact.bond {

@@ -65,6 +65,9 @@ impl<T: Precision> SurfaceResponse<T> {
     }
 
     /// Displacement of `moved` from a unit force on `loaded`, times E [1/m], as it was solved.
+    ///
+    /// # Panics
+    /// When either is no triangle of this response; see [`Self::find`].
     pub fn influence(&self, moved: TouchId, loaded: TouchId) -> Matrix3<f64> {
         let rows = 3 * self.parts.triangles;
         let moved = self.parts.touchable[moved.index()].triangle;
@@ -84,6 +87,9 @@ impl<T: Precision> SurfaceResponse<T> {
 
     /// Adds to `field`, three numbers for each triangle, the displacements times E [N/m] from `force` [N] on
     /// `loaded`.
+    ///
+    /// # Panics
+    /// When `loaded` is no triangle of this response, or `field` has fewer numbers.
     pub fn add_field(&self, loaded: TouchId, force: &Vec3, field: &mut [T]) {
         self.add_sum(&[(loaded, *force)], field);
     }

@@ -34,9 +34,9 @@ use palpate_geometry::{NodeId, Surface, TriangleId};
 
 use super::parts::Sampling;
 use super::response::{SurfaceResponse, TouchId};
-use crate::Vec3;
 use crate::boundary_elements::{Panel, Place, Precision, Source};
 use crate::cores::on_all_cores;
+use crate::{Error, Vec3};
 
 /// Radius of the spread load in radii of the tip, and in lengths √(2 A) of the triangles there, whichever
 /// is more.
@@ -96,11 +96,27 @@ pub struct TipLoad<'a> {
 impl TipField {
     /// Of a tip whose touching area has the `radius` [m], on the `surface` that `response` is of. On all
     /// cores.
+    ///
+    /// # Errors
+    /// When the response is that of another surface, or the radius is no length.
     pub fn new<T: Precision>(
         response: &SurfaceResponse<T>,
         surface: &Surface,
         radius: f64,
-    ) -> Self {
+    ) -> Result<Self, Error> {
+        let triangles = [surface.mesh().triangles().len(), response.parts().triangles];
+        if triangles[0] != triangles[1] {
+            return Err(Error::OtherSurface {
+                surface: triangles[0],
+                response: triangles[1],
+            });
+        }
+        if !(radius > 0.0 && radius.is_finite()) {
+            return Err(Error::NotALength {
+                name: "the radius of the tip",
+                found: radius,
+            });
+        }
         let mut vertices = vec![VertexLoad::default(); surface.mesh().vertices().len()];
         on_all_cores(vertices.iter_mut().enumerate(), |(vertex, load)| {
             let spread = Spread::about(surface, NodeId(vertex as u32), radius);
@@ -109,7 +125,7 @@ impl TipField {
             load.around = seen_from(response, surface, (&spread, &load.shares));
             load.reach = spread.reach;
         });
-        Self { radius, vertices }
+        Ok(Self { radius, vertices })
     }
 
     /// Radius of the tip's touching area [m].

@@ -5,10 +5,10 @@ use std::sync::Arc;
 use nalgebra::Matrix3;
 use palpate_geometry::TetrahedronMesh;
 use palpate_mechanics::finite_elements::{
-    ElementKind, ElementMesh, Failure, FiniteElementModel, FiniteElementState,
-    FiniteElementWorkspace, Formulation, Supports, equilibrate,
+    ElementKind, ElementMesh, FiniteElementModel, FiniteElementState, FiniteElementWorkspace,
+    Formulation, Supports, equilibrate,
 };
-use palpate_mechanics::{Law, Vec3};
+use palpate_mechanics::{Error, Law, Vec3};
 
 use crate::contacts::Random;
 
@@ -136,7 +136,7 @@ impl Body {
     pub(crate) fn solve(
         &mut self,
         supports: impl FnOnce(&FiniteElementModel) -> Supports<'static>,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), Error> {
         let supports = supports(&self.model);
         equilibrate(&self.model, &supports, &mut self.state, &mut self.workspace).map(drop)
     }

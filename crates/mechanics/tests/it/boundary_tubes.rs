@@ -79,7 +79,7 @@ fn by_boundary_elements(inner: f64, outer: f64, parts: [usize; 3]) -> f64 {
     let solid = Held::new(surface, NU, |x| x.z.abs() > 0.5 * LENGTH * (1.0 - 1e-9));
     let place = outer * Vec3::x();
     let response = solid.response::<f32>(&solid.near_point(&place, 200));
-    let field = TipField::new(&response, &solid.surface, PUNCH);
+    let field = TipField::new(&response, &solid.surface, PUNCH).unwrap();
     let (triangle, at) = under(&solid.surface, &place);
     let load = field.at(&solid.surface, triangle, &at);
     let found = stiffness(&load, &Vec3::x(), (PUNCH, NU, Bond::Slip));

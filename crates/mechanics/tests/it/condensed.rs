@@ -43,7 +43,7 @@ fn felt<T: Precision>(
     (place, normal): (&Vec3, &Vec3),
     (a, bond): (f64, Bond),
 ) -> f64 {
-    let field = TipField::new(response, &solid.surface, a);
+    let field = TipField::new(response, &solid.surface, a).unwrap();
     let (triangle, at) = under(&solid.surface, place);
     let load = field.at(&solid.surface, triangle, &at);
     stiffness(&load, normal, (a, solid.nu, bond))

@@ -39,7 +39,7 @@ fn patch_test() {
         Arc::new(NeoHookean::incompressible(1e3).unwrap()),
     ];
     for (law, stretch) in laws.into_iter().zip([1.001, 1.3]) {
-        let body = lines.body(Vec3::new);
+        let body = lines.body(Vec3::new).unwrap();
         let model = FiniteElementModel::new(body.mesh, law.clone(), Formulation::Mixed).unwrap();
         let at = |keep: &dyn Fn(&Vec3) -> bool| model.mesh().nodes_where(keep);
         let pull = 4.0 * (stretch - 1.0);
@@ -77,7 +77,7 @@ fn patch_test() {
 
 /// Force [N] of a flat punch of radius one at a depth of one, on a block of ten radii and more.
 fn punched(nu: f64, bonded: bool, size: f64) -> f64 {
-    let body = lines(size).body(Vec3::new);
+    let body = lines(size).body(Vec3::new).unwrap();
     let law = Arc::new(LinearElastic::new(1.0, nu).unwrap());
     let model = FiniteElementModel::new(body.mesh, law, Formulation::Mixed).unwrap();
     let at = |keep: &dyn Fn(&Vec3) -> bool| model.mesh().nodes_where(keep);
@@ -142,10 +142,11 @@ fn pressed_ring_is_lames() {
         beyond: [vec![0.2, 0.6, 1.0], vec![0.2, height]],
         heights: vec![1.0, 1.2, outer],
     };
-    let body = lines.body(|x, z, r| {
+    let bent = |x: f64, z: f64, r: f64| {
         let angle = x * std::f64::consts::FRAC_PI_2;
         Vec3::new(r * angle.cos(), r * angle.sin(), z)
-    });
+    };
+    let body = lines.body(bent).unwrap();
     let law = Arc::new(LinearElastic::new(1.0, nu).unwrap());
     let cavity = Cavity {
         sides: body.lower_sides,

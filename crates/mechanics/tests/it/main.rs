@@ -34,6 +34,7 @@ mod orders;
 mod patch_on_hemisphere;
 mod path;
 mod real_organs;
+mod refused_input;
 mod slit;
 mod slit_bodies;
 mod slit_judge;

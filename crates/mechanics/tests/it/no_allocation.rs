@@ -105,7 +105,7 @@ fn a_law_allocates_nothing() {
 fn contact_on_a_response_allocates_nothing() {
     let solid = Held::organ(Organ::Kidney, 200, 0.45);
     let response = solid.response::<f32>(&solid.free);
-    let field = TipField::new(&response, &solid.surface, 2e-3);
+    let field = TipField::new(&response, &solid.surface, 2e-3).unwrap();
     let contact = PatchContact {
         bond: Bond::Stick,
         reciprocity: Reciprocity::Imposed,

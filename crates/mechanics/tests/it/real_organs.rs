@@ -223,7 +223,7 @@ fn real_kidney_at_ten_places() {
     };
     let kidney = Kidney::new(surface);
     let surface = &kidney.solid.surface;
-    let field = TipField::new(&kidney.response, surface, RADIUS);
+    let field = TipField::new(&kidney.response, surface, RADIUS).unwrap();
     let (mut worst, mut close) = ([0.0_f64; 3], 0);
     for (number, &place) in kidney.places.iter().enumerate() {
         let bonds = [(Grip::Slide, Bond::Slip), (Grip::Stick, Bond::Stick)];

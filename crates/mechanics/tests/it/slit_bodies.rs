@@ -92,6 +92,16 @@ pub(crate) const RADIUS: f64 = 1.41e-3;
 
 impl Table {
     pub(crate) fn new(grid: Grid, holds: impl Fn(&Vec3) -> bool, edge: Option<f64>) -> Self {
+        Self::touchable_within(grid, holds, (edge, 14.0 * MM))
+    }
+
+    /// As [`Self::new`]; triangles nearer than `within` [m] to the middle of the slit can be touched, in a tube
+    /// nearer along it.
+    pub(crate) fn touchable_within(
+        grid: Grid,
+        holds: impl Fn(&Vec3) -> bool,
+        (edge, within): (Option<f64>, f64),
+    ) -> Self {
         let solid = Held::new(grid.surface(), grid.poissons_ratio, holds);
         let near = |id: &TriangleId| {
             let c = solid.centroid(*id);
@@ -99,7 +109,7 @@ impl Table {
                 None => (c.x.powi(2) + c.y.powi(2)).sqrt(),
                 Some(_) => c.y.abs(),
             };
-            off < 14.0 * MM && (edge.is_some() || c.z > -MM)
+            off < within && (edge.is_some() || c.z > -MM)
         };
         let touchable: Vec<_> = solid.free.iter().copied().filter(near).collect();
         let response = match edge {
@@ -121,7 +131,7 @@ impl Table {
         );
         Self {
             tree: AabbTree::new(solid.surface.mesh()),
-            tips: TipField::new(&response, &solid.surface, RADIUS),
+            tips: TipField::new(&response, &solid.surface, RADIUS).unwrap(),
             solid,
             response,
             grid,
@@ -232,30 +242,82 @@ impl Judged {
             .collect()
     }
 
-    /// How far the stiffness of each square, cut over uncut, is off that of finite elements [-]; the largest.
-    pub(crate) fn off(&self, table: &Table, squares: &[Square], judge: &[Vec<[f64; 3]>]) -> f64 {
-        let mut worst: f64 = 0.0;
-        for (&[length, depth], cut) in self.cuts.iter().zip(&judge[1..]) {
-            let slit = table.cut(&slit_of([length, depth]), 8);
+    /// The stiffness of each square, cut over uncut, by the table and by finite elements.
+    pub(crate) fn ratios(
+        &self,
+        table: &Table,
+        squares: &[Square],
+        judge: &[Vec<[f64; 3]>],
+    ) -> Vec<Ratio> {
+        let mut ratios = Vec::new();
+        for (&cut, of_cut) in self.cuts.iter().zip(&judge[1..]) {
+            let slit = table.cut(&slit_of(cut), 8);
             for (k, square) in squares.iter().enumerate() {
-                let [own, found] = table.felt(&slit, square);
-                for axis in 0..3 {
-                    let ratio = own[axis] / (own[axis] + found[axis]);
-                    let expected = judge[0][k][axis] / cut[k][axis];
-                    let off = ratio / expected - 1.0;
-                    println!(
-                        "{} {length} x {depth} mm, square {k} {}: uncut {:.0} ({:.0}), ratio {ratio:.3} ({expected:.3}) {:+.1} %",
-                        self.name,
-                        ["normal", "across", "along"][axis],
-                        own[axis],
-                        judge[0][k][axis],
-                        100.0 * off
-                    );
-                    worst = worst.max(off.abs());
-                }
+                let [own, more] = table.felt(&slit, square);
+                ratios.extend([0, 1, 2].map(|axis| Ratio {
+                    cut,
+                    square: k,
+                    axis,
+                    uncut: [own[axis], judge[0][k][axis]],
+                    found: own[axis] / (own[axis] + more[axis]),
+                    expected: judge[0][k][axis] / of_cut[k][axis],
+                }));
             }
         }
-        worst
+        for ratio in &ratios {
+            println!("{}: {ratio}", self.name);
+        }
+        ratios
+    }
+
+    /// How far the stiffness of each square, cut over uncut, is off that of finite elements [-]; the largest.
+    pub(crate) fn off(&self, table: &Table, squares: &[Square], judge: &[Vec<[f64; 3]>]) -> f64 {
+        let ratios = self.ratios(table, squares, judge);
+        ratios
+            .iter()
+            .map(|ratio| ratio.off().abs())
+            .fold(0.0, f64::max)
+    }
+}
+
+/// Stiffness of a square in one direction, cut over uncut.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Ratio {
+    /// Length and depth of the slit [mm].
+    pub(crate) cut: [f64; 2],
+    /// Number of the square.
+    pub(crate) square: usize,
+    /// 0 along the normal, 1 across the slit, 2 along it.
+    pub(crate) axis: usize,
+    /// Compliance uncut, times E [1/m], by the table and by finite elements.
+    uncut: [f64; 2],
+    /// By the table [-].
+    pub(crate) found: f64,
+    /// By finite elements [-].
+    pub(crate) expected: f64,
+}
+
+impl Ratio {
+    /// Relative error of the stiffness of the cut body [-].
+    pub(crate) fn off(&self) -> f64 {
+        self.found / self.expected - 1.0
+    }
+}
+
+impl std::fmt::Display for Ratio {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let [length, depth] = self.cut;
+        write!(
+            f,
+            "{length} x {depth} mm, square {} {}: uncut {:.0} ({:.0}), ratio {:.3} ({:.3}) {:+.1} %",
+            self.square,
+            ["normal", "across", "along"][self.axis],
+            self.uncut[0],
+            self.uncut[1],
+            self.found,
+            self.expected,
+            100.0 * self.off()
+        )
     }
 }
 

@@ -238,7 +238,7 @@ impl Grid {
                     }
                 }
                 let forces = right.clone();
-                system.solve(&mut right);
+                system.solve(&mut right).unwrap();
                 right.iter().zip(&forces).map(|(u, f)| u * f).sum()
             }));
         }

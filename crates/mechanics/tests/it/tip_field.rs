@@ -103,7 +103,7 @@ fn force_error(nu: f64, triangles: usize) -> f64 {
             };
             let force = judge.solve_on(0.02, 0).unwrap().force;
             for (name, solid, response) in &solids {
-                let field = TipField::new(response, &solid.surface, a);
+                let field = TipField::new(response, &solid.surface, a).unwrap();
                 let (triangle, place) = under(&solid.surface, &(RADIUS * Vec3::z()));
                 let load = field.at(&solid.surface, triangle, &place);
                 let error = stiffness(&load, &Vec3::z(), (a, nu, bond)) / force - 1.0;
@@ -163,7 +163,7 @@ fn the_field_of_a_tip_is_that_of_finite_elements() {
     for triangles in [200, 400, 800] {
         let [(_, solid), ..] = hemispheres(nu, triangles);
         let response = solid.response::<f32>(&top(&solid, triangles / 3));
-        let field = TipField::new(&response, &solid.surface, a);
+        let field = TipField::new(&response, &solid.surface, a).unwrap();
         let (triangle, place) = under(&solid.surface, &(RADIUS * Vec3::z()));
         let load = field.at(&solid.surface, triangle, &place);
         let force = stiffness(&load, &Vec3::z(), (a, nu, Bond::Slip));
@@ -188,7 +188,7 @@ fn the_field_of_a_tip_is_that_of_finite_elements() {
 /// A flat tip of radius a at the pole of a hemisphere, moved by one: what it leaves of the surface.
 fn pressed_pole(solid: &Held, (a, nu, bond): (f64, f64, Bond)) -> (Interpolation, SurfaceField) {
     let response = solid.response::<f32>(&top(solid, solid.free.len() / 3));
-    let tips = TipField::new(&response, &solid.surface, a);
+    let tips = TipField::new(&response, &solid.surface, a).unwrap();
     let (triangle, barycentric) = under(&solid.surface, &(RADIUS * Vec3::z()));
     let load = tips.at(&solid.surface, triangle, &barycentric);
     let force = -stiffness(&load, &Vec3::z(), (a, nu, bond)) * Vec3::z();
@@ -283,7 +283,7 @@ fn a_slide_has_no_steps() {
 
 fn no_steps(solid: &Held, response: &SurfaceResponse) {
     let tip = (2e-3, solid.nu, Bond::Slip);
-    let field = TipField::new(response, &solid.surface, tip.0);
+    let field = TipField::new(response, &solid.surface, tip.0).unwrap();
     let (mesh, normals) = (solid.surface.mesh(), solid.surface.vertex_normals());
     let mut worst: f64 = 0.0;
     for id in mesh.triangle_ids() {
@@ -316,7 +316,7 @@ fn several_tips_take_work() {
     let nu = solid.nu;
     let mut random = Random(9);
     for a in [1e-3, 3e-3, 8e-3] {
-        let field = TipField::new(&response, &solid.surface, a);
+        let field = TipField::new(&response, &solid.surface, a).unwrap();
         for _ in 0..10 {
             let loads: Vec<_> = (0..4)
                 .map(|_| {
@@ -350,7 +350,7 @@ fn several_tips_take_work() {
 #[test]
 fn a_force_is_shared() {
     let (solid, response) = kidney();
-    let field = TipField::new(&response, &solid.surface, 2e-3);
+    let field = TipField::new(&response, &solid.surface, 2e-3).unwrap();
     let mut whole = 0;
     for &id in &solid.free {
         let load = field.at(&solid.surface, id, &[0.5, 0.25, 0.25]);
@@ -372,7 +372,7 @@ fn an_anchor_yields_nothing() {
     let solid = Held::organ(Organ::Hemisphere, 1_000, nu);
     let response = solid.response::<f32>(&solid.near(solid.free[0], 1));
     let a = 1e-2;
-    let field = TipField::new(&response, &solid.surface, a);
+    let field = TipField::new(&response, &solid.surface, a).unwrap();
     let (middle, place) = under(&solid.surface, &Vec3::zeros());
     assert!(response.holds(middle));
     let load = field.at(&solid.surface, middle, &place);
@@ -411,7 +411,7 @@ fn real_kidney_error(triangles: usize) -> Option<f64> {
     touchable.sort();
     touchable.dedup();
     let response = solid.response::<f32>(&touchable);
-    let field = TipField::new(&response, &solid.surface, a);
+    let field = TipField::new(&response, &solid.surface, a).unwrap();
     let mut worst: f64 = 0.0;
     for (id, (grip, bond)) in places.into_iter().zip([
         (Grip::Slide, Bond::Slip),

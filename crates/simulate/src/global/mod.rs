@@ -105,9 +105,11 @@ pub(crate) struct GlobalWorkspace {
 
 impl GlobalModel {
     /// Finds what the organ adds to a tool's tip, wherever it touches.
-    pub(crate) fn lie_under(&self, tool: &mut Tool) {
+    pub(crate) fn lie_under(&self, tool: &mut Tool) -> Result<(), Error> {
         let surface = self.enhancement.interpolation().surface();
-        tool.field = Some(TipField::new(&self.response, surface, tool.typical_radius));
+        let field = TipField::new(&self.response, surface, tool.typical_radius)?;
+        tool.field = Some(field);
+        Ok(())
     }
 
     /// Scratch for so many tools on an organ that is cut or not.

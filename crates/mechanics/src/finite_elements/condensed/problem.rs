@@ -62,7 +62,7 @@ impl CondensedProblem<'_> {
         let response = rows * 3 * self.touchable.len() * size_of::<T>();
         ResponseMemory {
             response,
-            most: response + (OF_A_TETRAHEDRON * self.tetrahedra()) as usize,
+            most: response.saturating_add((OF_A_TETRAHEDRON * self.tetrahedra()) as usize),
         }
     }
 
@@ -70,9 +70,9 @@ impl CondensedProblem<'_> {
     /// be used. The factors are made on one core, their use on all of them.
     ///
     /// # Errors
-    /// When the memory does not suffice, the surface cannot be filled with tetrahedra of this size, nothing
-    /// is held or touchable, a touchable triangle is held, or `progress` breaks off, which it cannot while
-    /// the factors are made.
+    /// When the memory does not suffice or the surface cannot be filled with tetrahedra of this size; as
+    /// [`BoundaryProblem::solve`](crate::boundary_elements::BoundaryProblem::solve) before that; and when `progress`
+    /// breaks off, which it cannot while the factors are made.
     pub fn solve<T: Precision>(
         &self,
         memory: usize,
@@ -80,6 +80,14 @@ impl CondensedProblem<'_> {
     ) -> Result<SurfaceResponse<T>, Error> {
         let triangles = self.surface.mesh().triangles().len();
         let is_held = held_triangles(triangles, self.held, self.touchable)?;
+        LinearElastic::new(1.0, self.poissons_ratio)?;
+        if !(self.edge > 0.0 && self.edge.is_finite()) {
+            let name = "the longest edge of the tetrahedra";
+            return Err(Error::NotALength {
+                name,
+                found: self.edge,
+            });
+        }
         let touchable: Vec<_> = self
             .touchable
             .iter()

@@ -1,12 +1,13 @@
 use std::sync::Arc;
 
 use super::super::graded::Grading;
+use super::super::mismatch::Mismatch;
 use super::super::model::{
     FiniteElementModel, FiniteElementState, FiniteElementWorkspace, Formulation,
 };
 use super::super::newton::equilibrate;
 use super::super::supports::Supports;
-use super::problem::Patch;
+use super::problem::{Patch, check_edge};
 use super::quarter_disc::{Lines, QuarterDisc, SQUARE};
 use crate::{Error, LinearElastic};
 
@@ -27,8 +28,15 @@ impl HalfBall {
     /// of its radius, every element then halved `halvings` times.
     ///
     /// # Errors
-    /// When memory does not suffice.
+    /// When the ball is too small, `edge` is no size of elements, or memory does not suffice.
     pub fn stiffness(&self, edge: f64, halvings: u32) -> Result<f64, Error> {
+        check_edge(edge)?;
+        if !(self.radius >= 3.0 && self.radius.is_finite()) {
+            return Err(Mismatch::HalfBallTooSmall {
+                radius: self.radius,
+            }
+            .into());
+        }
         let disc = QuarterDisc::new(self.radius, &self.lines(edge), halvings);
         let model =
             FiniteElementModel::new(disc.mesh.clone(), Arc::new(self.law), Formulation::Mixed)?;

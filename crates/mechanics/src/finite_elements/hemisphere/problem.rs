@@ -3,6 +3,7 @@ use std::sync::Arc;
 
 use super::super::estimate::{Estimated, Meshes, Progress, Quantity, refine};
 use super::super::graded::Grading;
+use super::super::mismatch::Mismatch;
 use super::super::model::{
     FiniteElementModel, FiniteElementState, FiniteElementWorkspace, Formulation,
 };
@@ -87,14 +88,24 @@ pub fn solve(
     })
 }
 
+/// Elements at the edge of a patch are no longer than it is wide.
+pub(super) fn check_edge(edge: f64) -> Result<(), Mismatch> {
+    if edge > 0.0 && edge <= 1.0 {
+        Ok(())
+    } else {
+        Err(Mismatch::ElementSizeOutOfRange { edge })
+    }
+}
+
 impl HemisphereProblem {
     /// Solves on one mesh whose elements at the edge of the patch are `edge` [-] of its radius, every
     /// element then halved `halvings` times, or doubled where that is −1.
     ///
     /// # Errors
-    /// As for [`solve`].
+    /// As for [`solve`], and when `edge` is no size of elements.
     pub fn solve_on(&self, edge: f64, halvings: i32) -> Result<HemisphereAnswer, Error> {
         self.check()?;
+        check_edge(edge)?;
         let disc = QuarterDisc::new(
             self.radius,
             &self.lines(edge, halvings.min(0)),

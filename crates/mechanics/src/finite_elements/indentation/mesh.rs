@@ -28,7 +28,8 @@ impl Block {
     /// A block must be larger than what is pressed into it.
     pub(super) fn check(&self, indenter: &Indenter) -> Result<(), Error> {
         let positive = |x: f64| x > 0.0 && x.is_finite();
-        if positive(self.height) && positive(indenter.radius) && self.radius > indenter.radius {
+        let wide = self.radius > indenter.radius && self.radius.is_finite();
+        if positive(self.height) && positive(indenter.radius) && wide {
             Ok(())
         } else {
             Err(Error::BlockTooSmall {

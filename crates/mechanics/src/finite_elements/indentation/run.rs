@@ -388,6 +388,7 @@ impl IndentationRun {
             pressure: None,
             dead_load: None,
             relaxing,
+            stray: None,
         };
         for (&node, touch) in self.top.iter().zip(touch) {
             let at = self.model.mesh().nodes[node].x;

@@ -56,7 +56,7 @@ impl<'a> Punching<'a> {
         punch: &'a TubePunch,
         parts: usize,
     ) -> Result<Self, Error> {
-        let Quarter { body, cavity } = quarter(&problem.tube, punch.radius, parts);
+        let Quarter { body, cavity } = quarter(&problem.tube, punch.radius, parts)?;
         let face = body.face;
         let model = FiniteElementModel::new(body.mesh, problem.law.clone(), Formulation::Mixed)?;
         let half = 0.5 * problem.tube.length;
@@ -373,7 +373,10 @@ mod tests {
         run.pressurise().unwrap();
         let mut at = |depth: f64| {
             let force = run.press_to(depth, |_| {}).unwrap();
-            let volume = run.cavity.volume(&run.model, &run.now.state.unknowns);
+            let volume = run
+                .cavity
+                .volume(&run.model, &run.now.state.unknowns)
+                .unwrap();
             let work = run.workspace.energy() - punch.pressure * volume;
             (force, 4.0 * work)
         };

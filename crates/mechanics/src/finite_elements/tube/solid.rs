@@ -8,7 +8,7 @@ use super::super::cavity::Cavity;
 use super::super::punched::{PunchedLines, PunchedMesh};
 use super::Tube;
 use super::mesh::from_the_end;
-use crate::Vec3;
+use crate::{Error, Vec3};
 
 /// A quarter of a tube.
 pub(super) struct Quarter {
@@ -23,7 +23,7 @@ pub(super) fn largest_punch(tube: &Tube) -> f64 {
 }
 
 /// The quarter around a punch of this radius [m], coarse elements cut into `parts` along each edge.
-pub(super) fn quarter(tube: &Tube, punch: f64, parts: usize) -> Quarter {
+pub(super) fn quarter(tube: &Tube, punch: f64, parts: usize) -> Result<Quarter, Error> {
     let (outer, half, wall) = (tube.outer_radius, 0.5 * tube.length, tube.wall());
     let wide = (2.4 * punch).min(0.5 * (punch + 0.95 * outer.min(half)));
     let edge = (wide / outer).asin();
@@ -41,18 +41,19 @@ pub(super) fn quarter(tube: &Tube, punch: f64, parts: usize) -> Quarter {
             .map(|h| tube.inner_radius + h)
             .collect(),
     };
-    let body = lines.split(parts).body(|across, along, radius| {
+    let placed = |across: f64, along: f64, radius: f64| {
         let angle = if across <= wide {
             (across / outer).asin()
         } else {
             edge + (across - wide) / outer
         };
         Vec3::new(radius * angle.cos(), radius * angle.sin(), along)
-    });
+    };
+    let body = lines.split(parts).body(placed)?;
     let cavity = Cavity {
         sides: body.lower_sides.clone(),
     };
-    Quarter { body, cavity }
+    Ok(Quarter { body, cavity })
 }
 
 /// Places from `start`, `length` on, whose intervals grow from about `first` to at most `longest` [m].
