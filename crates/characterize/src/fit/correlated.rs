@@ -11,9 +11,10 @@
 //! A fit takes from the noise what its parameters can follow, which makes the residuals' autocovariances too
 //! small. Those of the process are therefore raised until its own residuals, r̄ = (1 − Ū Sᵀ) n̄, would be
 //! expected to show what was found, and multiplied with (N + k)/(N − k) for the k that were estimated
-//! [Akaike 1969].
+//! [Akaike 1969]. What is too small all the same is found from draws of that process, seen as a fit leaves them, and
+//! taken times the whole; of several numbers of blocks the one that says most is believed.
 //!
-//! *How we know*: `fit::coverage`.
+//! *How we know*: `fit::coverage`; `independent::…`, on noise that is no such process.
 //!
 //! *Limits*: noise of one kind throughout; a recording of many correlation times.
 

@@ -5,8 +5,9 @@ use palpate_characterize::clean::{CleanSettings, clean};
 use palpate_characterize::fit::Random;
 use palpate_characterize::inverse::{Body, SoughtLaw};
 use palpate_characterize::{Characterization, CharacterizeSettings, characterize};
-use palpate_files::recording::{ForeignColumns, IndenterShape, Recording};
-use palpate_mechanics::finite_elements::indentation::{IndentationRun, IndentationSettings};
+use palpate_files::recording::{ForeignColumns, IndenterShape, RecordingHeader, Samples};
+use palpate_files::{Estimate, Recording};
+use palpate_mechanics::finite_elements::indentation::{Block, IndentationRun, IndentationSettings};
 use palpate_mechanics::{IndentationCurve, PronySeries};
 
 use crate::specimen::LIVER;
@@ -103,13 +104,6 @@ fn found(recording: Recording, law: SoughtLaw) -> Characterization {
     characterize(&[clean], &settings, &mut |_| ())
 }
 
-/// Of Student's distribution at 95 %, by Cornish and Fisher.
-fn quantile(freedom: f64) -> f64 {
-    let z: f64 = 1.959_964;
-    z + (z.powi(3) + z) / (4.0 * freedom)
-        + (5.0 * z.powi(5) + 16.0 * z.powi(3) + 3.0 * z) / (96.0 * freedom * freedom)
-}
-
 /// How many of `seeds` hold each parameter in its 95 % interval; the relaxation's come after the law's.
 fn held(truth: Truth, halvings: i32, seeds: u64) -> Vec<(String, usize)> {
     let (law, modulus, shape) = truth;
@@ -118,70 +112,133 @@ fn held(truth: Truth, halvings: i32, seeds: u64) -> Vec<(String, usize)> {
     for seed in 0..seeds {
         let found = found(recorded(&curve, seed), law);
         let answer = found.laws[0].1.as_ref().unwrap();
-        let mut each: Vec<(String, _, f64)> = Vec::new();
+        let relaxation = found.relaxation.as_ref().unwrap();
+        let quantiles = [answer.quantile(0.95), relaxation.quantile(0.95)];
+        let mut each: Vec<(String, f64, Estimate, f64)> = Vec::new();
         for ((name, estimate), own) in answer.parameters.iter().zip(law.parameters(modulus, shape))
         {
-            each.push(((*name).to_owned(), *estimate, own.value));
+            each.push(((*name).to_owned(), quantiles[0], *estimate, own.value));
         }
-        let relaxation = found.relaxation.as_ref().unwrap();
         for (place, (term, own)) in relaxation.terms.iter().zip(LIVER).enumerate() {
-            each.push((format!("g_{}", place + 1), term[0], own.0));
-            each.push((format!("tau_{}_s", place + 1), term[1], own.1));
+            each.push((format!("g_{}", place + 1), quantiles[1], term[0], own.0));
+            each.push((format!("tau_{}_s", place + 1), quantiles[1], term[1], own.1));
         }
-        if std::env::var("PALPATE_SHOW").is_ok() {
+        for (place, (name, quantile, estimate, own)) in each.into_iter().enumerate() {
+            let error = estimate.standard_error.unwrap();
             println!(
-                "effective {:.1} {:.1}",
-                answer.effective_samples, relaxation.effective_samples
+                "{seed} {name} {} ± {error} of {own}, times {quantile:.2}",
+                estimate.value
             );
-        }
-        for (place, (name, estimate, own)) in each.into_iter().enumerate() {
-            let samples = if place < answer.parameters.len() {
-                answer.effective_samples
-            } else {
-                relaxation.effective_samples
-            };
-            let freedom = samples - (4 + answer.parameters.len()) as f64;
-            let reach = quantile(freedom.max(1.0)) * estimate.standard_error.unwrap();
             if held.len() <= place {
                 held.push((name, 0));
             }
-            let off = (estimate.value - own) / estimate.standard_error.unwrap();
-            if std::env::var("PALPATE_SHOW").is_ok() {
-                println!(
-                    "{} {} {:.4} ± {:.4} of {own:.4}: {off:.2}",
-                    seed,
-                    held[place].0,
-                    estimate.value,
-                    reach / 1.96
-                );
-            }
-            held[place].1 += usize::from((estimate.value - own).abs() <= reach);
+            held[place].1 += usize::from((estimate.value - own).abs() <= quantile * error);
         }
     }
     held
 }
 
-/// Ten recordings each of the quickest law, on the mesh of half elements: fewer than seven of ten within would be one
-/// chance in a thousand at 95 %.
+/// Six recordings of the quickest law: fewer than three within would be one chance in ten thousand at 95 %.
 #[test]
 fn few_intervals_hold_an_independent_truth() {
-    let place = std::env::var("PALPATE_LAW").map_or(0, |x| x.parse().unwrap());
-    let seeds = std::env::var("PALPATE_SEEDS").map_or(10, |x| x.parse().unwrap());
-    let held = held(TRUTHS[place], 1, seeds);
+    let held = held(TRUTHS[0], 1, 6);
     println!("{held:?}");
-    assert!(held.iter().all(|(_, held)| *held >= 7), "{held:?}");
+    assert!(held.iter().all(|(_, held)| *held >= 3), "{held:?}");
 }
 
-/// A hundred recordings of each law: each number lies in its 95 % interval in 90 to 99 of them, or more.
+fn assert_held(place: usize) {
+    let held = held(TRUTHS[place], 1, 100);
+    println!("{:?}: {held:?}", TRUTHS[place].0);
+    assert!(held.iter().all(|(_, held)| *held >= 90), "{held:?}");
+}
+
+/// A hundred recordings: each number lies in its 95 % interval in 90 of them or more.
 #[test]
-#[ignore = "slow: three curves on fine meshes and 300 fits"]
-fn intervals_hold_an_independent_truth() {
-    let all = TRUTHS.map(|truth| (truth.0, held(truth, 1, 100)));
-    println!("{all:?}");
-    let least = all
+#[ignore = "slow: a hundred fits"]
+fn intervals_hold_an_independent_neo_hookean_truth() {
+    assert_held(0);
+}
+
+#[test]
+#[ignore = "slow: a hundred fits"]
+fn intervals_hold_an_independent_mooney_rivlin_truth() {
+    assert_held(1);
+}
+
+#[test]
+#[ignore = "slow: a hundred fits, each with runs of finite elements"]
+fn intervals_hold_an_independent_exponential_truth() {
+    assert_held(2);
+}
+
+/// A slab of 6 mm under a punch of 2 mm, whose force finite elements give on another mesh: its modulus within the
+/// interval where the thickness is stated, and 1.6 times as much where it is not, which is said.
+#[test]
+fn a_stated_thickness_gives_the_tissue() {
+    let Body::Block { block, indenter } = Body::under_punch(2e-3) else {
+        panic!("a punch is pressed into a block");
+    };
+    let depths: Vec<f64> = (1..=8).map(|i| 0.25e-3 * f64::from(i)).collect();
+    let mut run = IndentationRun::new(&IndentationSettings {
+        block: Block {
+            height: 6e-3,
+            radius: 0.05,
+            ..block
+        },
+        indenter,
+        law: SoughtLaw::NeoHookean.of(1000.0, 0.0).unwrap(),
+        prony: PronySeries::default(),
+        deepest: 2e-3,
+        halvings: 1,
+    })
+    .unwrap();
+    let force = depths
         .iter()
-        .flat_map(|(_, held)| held)
-        .map(|(_, held)| *held)
-        .min();
-    assert!(least >= Some(90), "{all:?}");
+        .map(|d| run.press(*d, *d, |_| ()).unwrap().force);
+    let curve = IndentationCurve::through(&depths, &force.collect::<Vec<_>>());
+    let pressed = |header: RecordingHeader| {
+        let mut random = Random::new(5);
+        let times: Vec<f64> = (0..600).map(|i| 0.02 * f64::from(i)).collect();
+        let depths: Vec<f64> = times.iter().map(|t| 2e-3 * t.min(1.0)).collect();
+        let series = PronySeries::new(&LIVER).unwrap();
+        let forces = curve.relaxed(&series, &times, &depths);
+        let samples = Samples {
+            force_n: forces.iter().map(|f| f + 2e-5 * random.normal()).collect(),
+            time_s: times,
+            depth_m: depths,
+        };
+        let recording = Recording::new(header, samples).unwrap();
+        let settings = CharacterizeSettings {
+            laws: vec![SoughtLaw::NeoHookean],
+            draws: None,
+            ..CharacterizeSettings::default()
+        };
+        let clean = clean(&recording, &CleanSettings::default()).unwrap();
+        characterize(&[clean], &settings, &mut |_| ())
+    };
+    let header = RecordingHeader {
+        indenter_radius_m: Some(2e-3),
+        ..RecordingHeader::default()
+    };
+    let modulus = |found: &Characterization| {
+        let law = found.laws[0].1.as_ref().unwrap();
+        (law.parameters[0].1, law.quantile(0.95))
+    };
+    let stated = pressed(RecordingHeader {
+        thickness_m: Some(6e-3),
+        ..header.clone()
+    });
+    let (c10, quantile) = modulus(&stated);
+    println!("{c10:?}");
+    let reach = quantile * c10.standard_error.unwrap();
+    assert!(
+        (c10.value - 1000.0).abs() < reach && reach < 50.0,
+        "{c10:?}"
+    );
+    let assumed = pressed(header);
+    let (c10, _) = modulus(&assumed);
+    assert!(c10.value > 1500.0, "{c10:?}");
+    let said = |doubt: &String| doubt.contains("`thickness_m`") && doubt.contains("49, 22 or 11 %");
+    assert!(assumed.doubts.iter().any(said), "{:?}", assumed.doubts);
+    assert!(!stated.doubts.iter().any(|doubt| doubt.contains("lower")));
 }

@@ -59,7 +59,7 @@ class Specimen(dict[str, Any]):
     def laws(self) -> dict[str, dict[str, Any]]:
         """The laws that were found, by their names in a tissue's file.
 
-        Of each parameter there are ``value``, ``standard_error``, ``interval_95`` (by noise, from Student's
+        Of each parameter there are ``value``, ``standard_error``, ``interval_95`` (from Student's
         distribution) and ``verdict`` (``"known"``, ``"correlated"``, ``"hardly_known"`` or ``"on_bound"``);
         ``profile_95`` holds the relaxation at what was found, so that the doubt about the relaxation is not in it.
         """

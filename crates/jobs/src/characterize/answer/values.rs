@@ -24,15 +24,15 @@ pub struct Modulus {
     pub holds: usize,
 }
 
-/// A number with its error by noise and what the model may be off.
+/// A number with its error.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Known {
     /// In the unit of its key.
     pub value: f64,
-    /// By noise.
+    /// By noise, by the zeros of the recordings, and of laws and relaxations by what the model may be off.
     pub standard_error: Option<f64>,
-    /// What holds the truth with a probability of 95 % as far as noise goes: the standard error times the quantile
-    /// of Student's distribution.
+    /// What holds the truth with a probability of 95 %: the standard error times the quantile of Student's
+    /// distribution, to both sides.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub interval_95: Option<[f64; 2]>,
     /// How well it is known; null where nobody judged it.
@@ -41,7 +41,7 @@ pub struct Known {
     /// The parameter with which its error goes together.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub correlated_with: Option<Partner>,
-    /// By the elements.
+    /// The part by the elements and by the product of force and G(t), a bound.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub discretisation_error: Option<f64>,
     /// The spread when the fit is made again with its residuals in other blocks.

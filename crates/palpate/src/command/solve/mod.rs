@@ -33,9 +33,10 @@ A problem names a body, its tissue and what is done to it. This is punch.toml:
     include_str!("../../../../../assets/problems/punch.toml"),
     "
 The keys of each kind:
-  indentation  block = { radius_m, height_m }, bottom bonded, outer side free;
+  indentation  block = { radius_m, height_m, base = \"bonded\" | \"lubricated\" }, outer side free;
                indenter = { radius_m, face = \"stick\" | \"slip\", side = \"stick\" | \"slide\" | \"none\" },
-               or { shape = \"sphere\", radius_m, face }; depths_m, or
+               or { shape = \"sphere\", radius_m, face }, or { shape = \"cone\", half_angle_deg,
+               radius_m (of its base), face }; depths_m, or
                ramp = { depth_m, ramp_s, hold_s, samples, method = \"convolution\" | \"full\" }
   hemisphere   radius_m, patch_radius_m, patch = \"slip\" | \"bonded\", depth_m; a linear tissue
   tube         length_m, inner_radius_m, outer_radius_m, ends fixed; pressure_pa or pressures_pa,

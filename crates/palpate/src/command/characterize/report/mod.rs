@@ -71,5 +71,5 @@ fn foot(portraits: &[Portrait], settings: &[(String, String)]) -> Markup {
 
 /// What holds of all numbers.
 const CONVENTIONS: &str = "Moduli are instantaneous, and g is relative to them: G(t) = G(0) (1 − Σ g (1 − exp(−t/τ))). \
-Errors after ± are standard errors by noise, whose correlation is taken from the residuals; what the model may be off, by its \
+Errors after ± are standard errors: by noise, whose correlation is taken from the residuals, by the zeros of the recordings, and by what the model may be off, by its \
 elements and by the product of force and G(t), stands apart. Bands hold the model's curve with a probability of 95 %; measured noise lies outside of them.";
