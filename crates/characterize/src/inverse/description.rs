@@ -2,7 +2,7 @@ use nalgebra::{DMatrix, Matrix2};
 use palpate_files::Estimate;
 
 use super::forces::Indentation;
-use super::law::LawParameter;
+use super::law::{LawParameter, SoughtLaw};
 use super::law_fit::LawFit;
 use super::repeated::Repeated;
 use crate::Error;
@@ -45,9 +45,10 @@ impl LawDescription {
         let uncertainty = with_systematic(noise, &free, &found.systematic);
         let each = found.law.parameters(found.modulus(), found.shape());
         let known = |(place, parameter): (usize, &LawParameter)| {
+            let is_estimate = place == 0 || !found.shape_at_bound();
             let estimate = Estimate {
                 value: parameter.value,
-                standard_error: uncertainty.standard_error(place),
+                standard_error: uncertainty.standard_error(place).filter(|_| is_estimate),
             };
             (parameter.name, estimate)
         };
@@ -58,7 +59,11 @@ impl LawDescription {
             .fold(0.0, f64::max);
         let sum_of_squares = own.sum_of_squares();
         let misfit = misfit(&own, largest);
-        let mut said = doubts(&own, &among(&uncertainty, each.len()), None);
+        let of_law = among(&uncertainty, each.len());
+        let mut said = match found.at_edge(&of_law) {
+            Some(edge) => vec![edge],
+            None => doubts(&own, &of_law, None),
+        };
         said.extend(missed(found.law.name().word(), "force", misfit));
         said.extend(found.not_alone());
         let off = found.model_error();
@@ -76,11 +81,34 @@ impl LawDescription {
     }
 }
 
+impl LawFit {
+    fn shape_at_bound(&self) -> bool {
+        let shape = &self.fit.parameters[1];
+        !shape.fixed && shape.at_bound()
+    }
+
+    /// The sentence on two moduli that are not told apart because the fit ended where one of them is none, or at the
+    /// end of the shapes that are sought; none elsewhere. `known` is of the law's own parameters.
+    fn at_edge(&self, known: &Uncertainty) -> Option<String> {
+        if self.law != SoughtLaw::MooneyRivlin || !self.shape_at_bound() {
+            return None;
+        }
+        let error = known.covariance.sum().max(0.0).sqrt();
+        Some(format!(
+            "c10_pa and c01_pa are not identified: the fit ended at the edge of what is sought, where c01_pa is {} of \
+             their sum, which is {:.4} ± {:.2} Pa",
+            self.shape(),
+            self.modulus(),
+            error
+        ))
+    }
+}
+
 /// The same fit in the law's own parameters; what follows them is left as it is.
 pub(super) fn in_its_parameters(found: &LawFit) -> Fit {
     let own = found.law.parameters(found.modulus(), found.shape());
     let mut fit = found.fit.clone();
-    let at_bound = found.fit.parameters[1].at_bound();
+    let at_bound = found.shape_at_bound();
     let named = |parameter: &LawParameter| {
         let lower = if parameter.name.ends_with("_pa") {
             0.0
