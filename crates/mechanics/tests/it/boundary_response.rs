@@ -350,7 +350,11 @@ fn what_cannot_be_solved_is_refused() {
     problem = solid.problem(&solid.held);
     refused(&problem, most, ["held by the anchor", "touch others"]);
     problem = solid.problem(&[]);
-    refused(&problem, most, ["no triangle can be touched", "at least one"]);
+    refused(
+        &problem,
+        most,
+        ["no triangle can be touched", "at least one"],
+    );
     problem.held = &[];
     refused(&problem, most, ["without force", "anchor"]);
 }
