@@ -175,7 +175,7 @@ fn time(body: &Body, repeats: usize) {
     let mut solution = vec![1.0; model.size()];
     let solve = mean(repeats, || {
         solution.fill(1.0);
-        system.solve(&mut solution);
+        system.solve(&mut solution).unwrap();
     });
     let residual = relative_residual(&system, &solution);
     println!(

@@ -93,10 +93,11 @@ pub fn play<E: From<Error>>(
             state: &state,
         };
         if observe(&frame)? == Flow::Stop {
-            return Ok(tally.finish((simulation, &state), number + 1 < steps));
+            let interrupted = number + 1 < steps;
+            return Ok(tally.finish((simulation, &state, &workspace), interrupted));
         }
     }
-    Ok(tally.finish((simulation, &state), false))
+    Ok(tally.finish((simulation, &state, &workspace), false))
 }
 
 fn match_tools<'m>(

@@ -233,6 +233,12 @@ impl ToolState {
 }
 
 impl SimulationWorkspace {
+    /// What to be careful about in the forces of the cuts that the last step followed, as sentences.
+    pub fn warnings(&self) -> Vec<String> {
+        let global = self.global.as_ref();
+        global.map_or_else(Vec::new, GlobalWorkspace::warnings)
+    }
+
     /// Scratch for `simulation`.
     pub fn new(simulation: &Simulation) -> Self {
         let mesh = simulation.surface.mesh();

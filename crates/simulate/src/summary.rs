@@ -2,7 +2,7 @@ use std::time::Duration;
 
 use palpate_files::session::Event;
 
-use crate::{Simulation, SimulationState, TRUSTED_DEPTH};
+use crate::{Simulation, SimulationState, SimulationWorkspace, TRUSTED_DEPTH};
 
 /// What a played motion came to.
 #[derive(Debug, Clone, PartialEq)]
@@ -98,10 +98,11 @@ impl Tally {
 
     pub(crate) fn finish(
         mut self,
-        (simulation, state): (&Simulation, &SimulationState),
+        (simulation, state, workspace): (&Simulation, &SimulationState, &SimulationWorkspace),
         interrupted: bool,
     ) -> Summary {
         let mut warnings = simulation.doubts().to_vec();
+        warnings.extend(workspace.warnings());
         let mut warn = |condition: bool, text: String| {
             if condition {
                 warnings.push(text);

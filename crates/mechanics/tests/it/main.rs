@@ -37,6 +37,7 @@ mod real_organs;
 mod refused_input;
 mod slit;
 mod slit_bodies;
+mod slit_held_out;
 mod slit_judge;
 mod solid;
 mod solid_fields;

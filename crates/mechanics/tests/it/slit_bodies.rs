@@ -286,15 +286,15 @@ pub(crate) struct Ratio {
     /// Length and depth of the slit [mm].
     pub(crate) cut: [f64; 2],
     /// Number of the square.
-    pub(crate) square: usize,
+    square: usize,
     /// 0 along the normal, 1 across the slit, 2 along it.
-    pub(crate) axis: usize,
+    axis: usize,
     /// Compliance uncut, times E [1/m], by the table and by finite elements.
     uncut: [f64; 2],
     /// By the table [-].
-    pub(crate) found: f64,
+    found: f64,
     /// By finite elements [-].
-    pub(crate) expected: f64,
+    expected: f64,
 }
 
 impl Ratio {
@@ -302,7 +302,24 @@ impl Ratio {
     pub(crate) fn off(&self) -> f64 {
         self.found / self.expected - 1.0
     }
+
+    /// As columns of `docs/theory/cutting.md`: ours over the judge's, of the stiffness cut over uncut, of that of the
+    /// uncut body, and of that of the cut one.
+    pub(crate) fn in_columns(&self) -> String {
+        let ([length, depth], [own, judge]) = (self.cut, self.uncut);
+        let (ratio, uncut) = (1.0 + self.off(), judge / own);
+        format!(
+            "{length} × {depth} mm | {} | {} | {:.3} / {:.3} = {ratio:.2} | {uncut:.2} | {:.2}",
+            self.square,
+            DIRECTIONS[self.axis],
+            self.found,
+            self.expected,
+            ratio * uncut
+        )
+    }
 }
+
+const DIRECTIONS: [&str; 3] = ["normal", "across", "along"];
 
 impl std::fmt::Display for Ratio {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -311,7 +328,7 @@ impl std::fmt::Display for Ratio {
             f,
             "{length} x {depth} mm, square {} {}: uncut {:.0} ({:.0}), ratio {:.3} ({:.3}) {:+.1} %",
             self.square,
-            ["normal", "across", "along"][self.axis],
+            DIRECTIONS[self.axis],
             self.uncut[0],
             self.uncut[1],
             self.found,

@@ -220,6 +220,14 @@ impl GlobalModel {
     }
 }
 
+impl GlobalWorkspace {
+    /// What to be careful about in the forces of cuts, as sentences.
+    pub(crate) fn warnings(&self) -> Vec<String> {
+        let slit = self.slit.as_ref().map(|slit| &slit.slit);
+        slit.map_or_else(Vec::new, |slit| slit.warnings())
+    }
+}
+
 fn shares(part: &[HeldTriangle]) -> impl Iterator<Item = Share> {
     part.iter().map(|one| Share {
         triangle: one.touch,

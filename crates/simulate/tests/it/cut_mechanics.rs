@@ -139,3 +139,29 @@ fn a_lost_workspace_changes_no_force() {
     }
     assert!(kept.state.cuts.as_ref().unwrap().length() > 0.01);
 }
+
+/// Along an esophagus as wide as that of the finite elements, which judged cuts of up to 24 mm.
+#[test]
+fn a_cut_longer_than_any_that_was_judged_is_warned_of() {
+    let esophagus = "builtin = \"esophagus\"\ntriangles = 3726";
+    let simulation = simulation(esophagus, "depth_m = 0.002");
+    let mut hands = Hands::new(&simulation);
+    // Its axis runs through these places at y = 0, and its wall is at y = 7.5 mm.
+    let places = [[-2.1, 16.8], [0.0, 0.0], [3.8, -16.6]];
+    let place = |x: f64, z: f64| Vec3::new(1e-3 * x, 6.8e-3, 1e-3 * z);
+    let way = |from: usize, part: f64| {
+        let between = |k: usize| places[from][k] + part * (places[from + 1][k] - places[from][k]);
+        place(between(0), between(1))
+    };
+    for half in [0, 1] {
+        for k in 0..=150 {
+            hands.at(Some(way(half, f64::from(k) / 150.0)), None);
+        }
+        let warnings = hands.workspace.warnings();
+        match half {
+            0 => assert!(warnings.is_empty(), "{warnings:?}"),
+            _ => assert!(warnings[0].contains("mm long"), "{warnings:?}"),
+        }
+    }
+    assert!(hands.state.cuts.as_ref().unwrap().length() > 0.03);
+}

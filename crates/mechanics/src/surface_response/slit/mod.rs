@@ -20,12 +20,15 @@
 //! `docs/theory/cutting.md`.
 //!
 //! *Limits*: small strain; sides that meet go through one another; facets of a wall and of a solid in one slit do
-//! not know one another; H knows no border, and curvature across a facet as that of a whole tube.
+//! not know one another; H knows no border, and curvature across a facet as that of a whole tube. Beside finite
+//! elements that no constant was fitted to, a rim cut over uncut is 36 % too stiff through a wall with a radius of 5.5
+//! times its thickness and 33 % along a slit of 6 √(R w) through a tube ([`Slit::warnings`]).
 
 mod cholesky;
 mod curvature;
 mod facet;
 mod gradient;
+mod judged;
 mod kernel;
 mod load;
 mod near;
