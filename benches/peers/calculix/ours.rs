@@ -14,7 +14,7 @@
 use std::sync::Arc;
 
 use palpate_mechanics::finite_elements::indentation::{
-    Block, Grip, IndentationRun, IndentationSettings, Indenter, IndenterShape, Side,
+    Base, Block, Grip, IndentationRun, IndentationSettings, Indenter, IndenterShape, Side,
 };
 use palpate_mechanics::finite_elements::tube::{Ends, Tube, TubeProblem, inflate};
 use palpate_mechanics::finite_elements::{
@@ -96,6 +96,7 @@ fn punch(law: Arc<dyn Law>, halvings: i32, depth: f64) {
     let block = Block {
         radius: 0.05642,
         height: 0.1,
+        base: Base::Bonded,
     };
     let small_strain = law.volume().strain == Strain::Small;
     let run = IndentationRun::new(&IndentationSettings {
@@ -107,6 +108,7 @@ fn punch(law: Arc<dyn Law>, halvings: i32, depth: f64) {
         },
         law,
         prony: Default::default(),
+        deepest: depth,
         halvings,
     })
     .unwrap();

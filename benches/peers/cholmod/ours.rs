@@ -17,7 +17,7 @@ use std::io::Write;
 use std::sync::Arc;
 
 use palpate_mechanics::finite_elements::indentation::{
-    Block, Grip, IndentationRun, IndentationSettings, Indenter, IndenterShape, Side,
+    Base, Block, Grip, IndentationRun, IndentationSettings, Indenter, IndenterShape, Side,
 };
 use palpate_mechanics::finite_elements::{
     ElementKind, ElementMesh, FiniteElementModel, FiniteElementState, FiniteElementWorkspace,
@@ -44,7 +44,6 @@ struct Body {
 impl Body {
     fn of(name: &str) -> Self {
         let (kind, size) = name.rsplit_once('_').unwrap();
-        let size = size.parse().unwrap();
         let (law, formulation): (Arc<dyn Law>, _) = if kind.starts_with("displacement_") {
             let law = LinearElastic::new(6000.0, 0.3).unwrap();
             (Arc::new(law), Formulation::Displacement)
@@ -53,9 +52,9 @@ impl Body {
             (Arc::new(law), Formulation::Mixed)
         };
         let mesh = if kind.ends_with("punch") {
-            punch(size)
+            punch(size.parse().unwrap())
         } else {
-            cube(size)
+            cube(size.parse().unwrap())
         };
         let (axes, bottom) = match mesh.kind {
             ElementKind::Quad9 => (2, -0.1),
@@ -89,6 +88,7 @@ fn punch(halvings: i32) -> ElementMesh {
         block: Block {
             radius: 0.05642,
             height: 0.1,
+            base: Base::Bonded,
         },
         indenter: Indenter {
             shape: IndenterShape::Flat { side: Side::Absent },
@@ -97,6 +97,8 @@ fn punch(halvings: i32) -> ElementMesh {
         },
         law: Arc::new(NeoHookean::incompressible(1000.0).unwrap()),
         prony: Default::default(),
+        // A punch's mesh is the same for every depth.
+        deepest: 1e-3,
         halvings,
     })
     .unwrap();

@@ -121,7 +121,7 @@ pub(super) fn curve(body: &Body, law: SoughtLaw, shape: f64, deepest: f64) -> Op
             (through(force.collect()), IndentationCurve::untouched())
         }
         SoughtLaw::MooneyRivlin => {
-            let of = |row: &(f64, f64, [f64; 5])| {
+            let of = |row: &(f64, f64, [f64; SHAPES.len()])| {
                 let right = 1.0 - TOO_STIFF * row.0;
                 let (value, slope) = polynomial(&row.2, shape);
                 (right * value, right * slope)

@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use palpate_mechanics::finite_elements::estimate::Estimated;
 use palpate_mechanics::finite_elements::indentation::{
-    self, Block, Grip, IndentationProblem, Indenter, IndenterShape, Side,
+    self, Base, Block, Grip, IndentationProblem, IndentationRun, IndentationSettings, Indenter,
+    IndenterShape, Side,
 };
-use palpate_mechanics::finite_elements::indentation::{IndentationRun, IndentationSettings};
 use palpate_mechanics::finite_elements::solid::SolidAnswer;
 use palpate_mechanics::finite_elements::tube::{Ends, Tube, TubeProblem, inflate};
 use palpate_mechanics::{Law, LinearElastic, NeoHookean, PronySeries};
@@ -55,7 +55,7 @@ fn the_error_of_an_endless_tube_is_honest() {
     assert_honest(&found, (moved / exact - 1.0).abs(), "linear");
 
     let law = NeoHookean::incompressible(young / 6.0).unwrap();
-    let problem = tube(0.001, Ends::Guided, law.clone());
+    let problem = tube(0.001, Ends::Guided, law);
     let pressure = 650.0;
     let found = inflate(&problem, &[pressure], 0.02, &mut |_| {}).unwrap();
     let moved = found.answer.inner_displacements[0].unwrap();
@@ -79,6 +79,7 @@ fn the_error_of_a_punch_is_honest() {
     let block = Block {
         radius: 0.05642,
         height: 0.1,
+        base: Base::Bonded,
     };
     for (face, nu) in [(Grip::Stick, 0.3), (Grip::Slide, 0.4999)] {
         let indenter = Indenter {
@@ -99,6 +100,7 @@ fn the_error_of_a_punch_is_honest() {
             indenter,
             law,
             prony: PronySeries::default(),
+            deepest: depth,
             halvings: 2,
         })
         .unwrap();

@@ -9,7 +9,7 @@ use palpate_mechanics::contact::Bond;
 use palpate_mechanics::finite_elements::condensed::CondensedProblem;
 use palpate_mechanics::finite_elements::hemisphere::{HalfBall, HemisphereProblem, Patch};
 use palpate_mechanics::finite_elements::indentation::{
-    Block, Grip, IndentationRun, IndentationSettings, Indenter, IndenterShape,
+    Base, Block, Grip, IndentationRun, IndentationSettings, Indenter, IndenterShape,
 };
 use palpate_mechanics::finite_elements::{
     Cavity, ElementKind, ElementMesh, FiniteElementModel, FiniteElementState,
@@ -324,6 +324,7 @@ fn sizes_that_no_mesh_has_are_refused() {
         block: Block {
             radius: f64::INFINITY,
             height: 0.1,
+            base: Base::Bonded,
         },
         indenter: Indenter {
             shape: IndenterShape::Sphere,
@@ -332,6 +333,7 @@ fn sizes_that_no_mesh_has_are_refused() {
         },
         law: Arc::new(law),
         prony: PronySeries::default(),
+        deepest: 1e-3,
         halvings: 0,
     };
     let found = IndentationRun::new(&endless).map(drop);

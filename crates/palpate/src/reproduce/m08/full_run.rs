@@ -42,6 +42,7 @@ pub(super) fn felt(
         indenter,
         law,
         prony: series.clone(),
+        deepest: depth,
         halvings: 0,
     })?;
     let times = times();
