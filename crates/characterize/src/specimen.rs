@@ -273,7 +273,7 @@ impl Characterization {
             .collect();
         let fits: Vec<_> = found.iter().map(|law| &law.found.fit).collect();
         let nearest = found.iter().min_by(|a, b| a.misfit.total_cmp(&b.misfit))?;
-        Some(found[simplest(&fits, nearest.effective_samples).0])
+        Some(found[simplest(&fits, nearest.uncertainty.effective_samples).0])
     }
 
     /// The same for pieces along one axis.

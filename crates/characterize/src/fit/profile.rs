@@ -34,14 +34,15 @@ pub fn profile(
 ) -> Result<Profile, Error> {
     let errors = uncertainty
         .standard_error(parameter)
-        .zip(uncertainty.unit_error(parameter));
-    let Some((error, unit)) = errors else {
+        .zip(uncertainty.unit_error(parameter))
+        .zip(uncertainty.quantile(parameter, level));
+    let Some(((error, unit), quantile)) = errors else {
         return Err(Error::BadParameter {
             parameter: Box::new(found.parameters[parameter].clone()),
         });
     };
     let least = found.sum_of_squares();
-    let limit = least + (uncertainty.quantile(level) * error / unit).powi(2);
+    let limit = least + (quantile * error / unit).powi(2);
     let center = found.parameters[parameter].value;
     let mut points = vec![[center, least]];
     let mut interval = [None; 2];

@@ -14,6 +14,8 @@ pub struct Uncertainty {
     pub chosen: Vec<usize>,
     /// Their covariance [products of their units].
     pub covariance: DMatrix<f64>,
+    /// The part of it that is estimated from residuals, of noise; the rest is known of the influences behind it.
+    pub of_noise: DMatrix<f64>,
     /// What their covariance would be if each residual had the variance one and knew nothing of the others.
     pub unit_covariance: DMatrix<f64>,
     /// How many independent samples would tell as much [-].
@@ -25,9 +27,10 @@ pub fn uncertainty(fit: &Fit) -> Uncertainty {
     let whitened = Whitened::new(fit);
     let count = whitened.count() as f64;
     let freedom = (fit.residuals.len() as f64 - count).max(1.0);
-    let variance = fit.sum_of_squares() / freedom;
+    let covariance = &whitened.unit_covariance() * (fit.sum_of_squares() / freedom);
     Uncertainty {
-        covariance: &whitened.unit_covariance() * variance,
+        of_noise: covariance.clone(),
+        covariance,
         unit_covariance: whitened.unit_covariance(),
         effective_samples: fit.residuals.len() as f64,
         chosen: whitened.chosen,
@@ -54,6 +57,7 @@ pub fn correlated_uncertainty(fit: &Fit, recordings: &[usize]) -> Uncertainty {
     // How many times smaller the variance would be without correlation, in the direction that suffers most.
     let share = variance / middle.symmetric_eigenvalues().max();
     Uncertainty {
+        of_noise: covariance.clone(),
         covariance,
         effective_samples: (samples * share.min(1.0)).max(1.0),
         ..independent
@@ -134,25 +138,36 @@ impl Whitened {
 }
 
 impl Uncertainty {
-    /// The covariance of all of so many parameters: nothing is uncertain of those that were not chosen.
-    pub fn of_all(&self, parameters: usize) -> DMatrix<f64> {
-        let mut all = DMatrix::zeros(parameters, parameters);
-        for (row, &i) in self.chosen.iter().enumerate() {
-            for (column, &j) in self.chosen.iter().enumerate() {
-                all[(i, j)] = self.covariance[(row, column)];
+    /// The covariance of all of so many parameters, and its part of noise: nothing is uncertain of those that were
+    /// not chosen.
+    pub fn of_all(&self, parameters: usize) -> [DMatrix<f64>; 2] {
+        [&self.covariance, &self.of_noise].map(|chosen| {
+            let mut all = DMatrix::zeros(parameters, parameters);
+            for (row, &i) in self.chosen.iter().enumerate() {
+                for (column, &j) in self.chosen.iter().enumerate() {
+                    all[(i, j)] = chosen[(row, column)];
+                }
             }
+            all
+        })
+    }
+
+    /// Degrees of freedom of Student's distribution [-] for what has this `variance`, `of_noise` of it by noise: the
+    /// samples that are left, and more the less of it noise makes [Welch 1947].
+    pub fn degrees_of_freedom(&self, variance: f64, of_noise: f64) -> f64 {
+        let left = (self.effective_samples - self.chosen.len() as f64).max(1.0);
+        if of_noise > 0.0 {
+            left * (variance / of_noise).powi(2).max(1.0)
+        } else {
+            f64::INFINITY
         }
-        all
     }
 
-    /// Degrees of freedom of Student's distribution: the samples that are left [-].
-    pub fn degrees_of_freedom(&self) -> f64 {
-        (self.effective_samples - self.chosen.len() as f64).max(1.0)
-    }
-
-    /// The t [-] of intervals that hold the truth with the probability `level`.
-    pub fn quantile(&self, level: f64) -> f64 {
-        student_quantile(self.degrees_of_freedom(), level)
+    /// The t [-] of intervals that hold a parameter with the probability `level`, when the fit chose it.
+    pub fn quantile(&self, parameter: usize, level: f64) -> Option<f64> {
+        let place = self.place(parameter)?;
+        let [all, noise] = [&self.covariance, &self.of_noise].map(|each| each[(place, place)]);
+        Some(student_quantile(self.degrees_of_freedom(all, noise), level))
     }
 
     /// Where a parameter stands among those that the fit chose.
@@ -172,17 +187,25 @@ impl Uncertainty {
         Some(self.unit_covariance[(place, place)].sqrt())
     }
 
-    /// The standard error of what the model gives for each sample [unit of the residuals].
-    pub fn errors_of_values(&self, fit: &Fit) -> Vec<f64> {
+    /// Half the width of the intervals that hold what the model gives for each sample with the probability `level`
+    /// [unit of the residuals].
+    pub fn reach_of_values(&self, fit: &Fit, level: f64) -> Vec<f64> {
         let derivatives = fit.jacobian.select_columns(&self.chosen);
-        let spread = &derivatives * &self.covariance;
-        let products = spread.row_iter().zip(derivatives.row_iter());
-        products.map(|(a, b)| a.dot(&b).max(0.0).sqrt()).collect()
+        let [all, noise] = [&self.covariance, &self.of_noise].map(|covariance| {
+            let spread = &derivatives * covariance;
+            let products = spread.row_iter().zip(derivatives.row_iter());
+            products
+                .map(|(a, b)| a.dot(&b).max(0.0))
+                .collect::<Vec<_>>()
+        });
+        let freedom = self.degrees_of_freedom(all.iter().sum(), noise.iter().sum());
+        let quantile = student_quantile(freedom, level);
+        all.into_iter().map(|v| quantile * v.sqrt()).collect()
     }
 
     /// The interval that holds a parameter [its unit] with the probability `level`.
     pub fn interval(&self, fit: &Fit, parameter: usize, level: f64) -> Option<[f64; 2]> {
-        let reach = self.quantile(level) * self.standard_error(parameter)?;
+        let reach = self.quantile(parameter, level)? * self.standard_error(parameter)?;
         let value = fit.parameters[parameter].value;
         Some([value - reach, value + reach])
     }

@@ -1,7 +1,6 @@
 use nalgebra::DMatrix;
 
 use super::description::{LawDescription, in_its_parameters};
-use crate::fit::{correlated_uncertainty, student_quantile, with_systematic};
 
 /// How the errors of parameters go together.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,24 +29,10 @@ impl Correlations {
 }
 
 impl LawDescription {
-    /// The t [-] of intervals of its parameters that hold the truth with the probability `level` [-].
-    pub fn quantile(&self, level: f64) -> f64 {
-        let chosen = in_its_parameters(&self.found).chosen();
-        // As `Uncertainty::degrees_of_freedom` of the same fit.
-        student_quantile(
-            (self.effective_samples - chosen.len() as f64).max(1.0),
-            level,
-        )
-    }
-
     /// Correlations of its parameters and of gᵢ and τᵢ of the relaxation it was found with.
     pub fn correlations(&self) -> Correlations {
-        let lengths: Vec<usize> = self.found.forces.iter().map(Vec::len).collect();
         let own = in_its_parameters(&self.found);
-        let free = own.unbounded();
-        let noise = correlated_uncertainty(&free, &lengths);
-        let known = with_systematic(noise, &free, &self.found.systematic);
-        let covariance = known.of_all(own.parameters.len());
+        let [covariance, _] = self.uncertainty.of_all(own.parameters.len());
         let ratios: Vec<f64> = own.parameters[2..]
             .iter()
             .step_by(2)

@@ -27,8 +27,8 @@ pub struct LawDescription {
     pub sum_of_squares: f64,
     /// The part of the force that the law does not follow: its root mean square over the largest [-].
     pub misfit: f64,
-    /// How many independent samples would tell as much [-].
-    pub effective_samples: f64,
+    /// How well its own parameters are known, and those of the relaxation that it was found with.
+    pub uncertainty: Uncertainty,
     /// What deserves doubt.
     pub doubts: Vec<String>,
     /// What fits say that are made again, where they were asked for.
@@ -70,10 +70,10 @@ impl LawDescription {
         Self {
             parameters: each.iter().enumerate().map(known).collect(),
             discretisation: each.iter().map(|p| off * p.value.abs()).collect(),
-            correlation: correlation(&uncertainty.of_all(own.parameters.len()), each.len()),
+            correlation: correlation(&uncertainty.of_all(own.parameters.len())[0], each.len()),
             sum_of_squares,
             misfit,
-            effective_samples: uncertainty.effective_samples,
+            uncertainty,
             doubts: said,
             repeated: None,
             found,
@@ -147,6 +147,7 @@ fn among(all: &Uncertainty, count: usize) -> Uncertainty {
     };
     Uncertainty {
         covariance: of(&all.covariance),
+        of_noise: of(&all.of_noise),
         unit_covariance: of(&all.unit_covariance),
         effective_samples: all.effective_samples,
         chosen,

@@ -69,7 +69,7 @@ pub fn repeated(
         indentations,
     };
     let profiles = profiles(&own, count, &lengths, &mut model)?;
-    let block = (BLOCK * samples as f64 / law.effective_samples).ceil() as usize;
+    let block = (BLOCK * samples as f64 / law.uncertainty.effective_samples).ceil() as usize;
     let mut bootstrap = None;
     if lengths.iter().any(|&length| length > block) {
         let evaluate = |p: &[f64], r: &mut [f64], j: &mut DMatrix<f64>| model.evaluate(p, r, j);

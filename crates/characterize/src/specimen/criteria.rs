@@ -12,7 +12,7 @@ impl Characterization {
                 *law,
                 &found.found.fit,
                 found.misfit,
-                found.effective_samples,
+                found.uncertainty.effective_samples,
             ))
         });
         let pulled = self.uniaxial.iter().filter_map(|(law, found)| {

@@ -126,18 +126,14 @@ fn add(
     let lengths: Vec<usize> = all.iter().map(|own| own.samples.len()).collect();
     let free = fit.unbounded();
     let known = with_systematic(correlated_uncertainty(&free, &lengths), &free, systematic);
-    let errors = known.errors_of_values(&free);
-    let quantile = known.quantile(level);
+    let reach = known.reach_of_values(&free, level);
     let mut first = 0;
     for (own, length) in all.iter_mut().zip(lengths) {
-        let (values, errors) = (
-            &values[first..first + length],
-            &errors[first..first + length],
-        );
+        let range = first..first + length;
         own.laws.push(FittedLaw {
             law,
-            values: values.to_vec(),
-            reach: errors.iter().map(|error| quantile * error).collect(),
+            values: values[range.clone()].to_vec(),
+            reach: reach[range].to_vec(),
         });
         first += length;
     }

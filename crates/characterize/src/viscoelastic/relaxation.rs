@@ -40,8 +40,10 @@ pub struct Relaxation {
     pub fit: Fit,
     /// Covariance of the parameters of the fit, in their order.
     pub covariance: DMatrix<f64>,
-    /// How many independent samples would tell as much [-].
-    pub effective_samples: f64,
+    /// The t [-] of intervals of each gᵢ and τᵢ that hold the truth with a probability of 95 %.
+    pub quantiles: Vec<[f64; 2]>,
+    /// That of μ [-].
+    pub exponent_quantile: f64,
     /// Forces of the fit relative to the largest [-], course by course.
     pub forces: Vec<Vec<f64>>,
 }
@@ -73,13 +75,6 @@ impl Relaxation {
         let total: f64 = self.terms.iter().map(|[g, _]| g.value).sum();
         let share = |[g, _]: &[Estimate; 2]| quasi_linear(g.value, total);
         self.terms.iter().map(share).collect()
-    }
-
-    /// The t [-] of intervals of its parameters that hold the truth with the probability `level` [-].
-    pub fn quantile(&self, level: f64) -> f64 {
-        // As `Uncertainty::degrees_of_freedom` of the same fit.
-        let freedom = self.effective_samples - self.fit.chosen().len() as f64;
-        student_quantile(freedom.max(1.0), level)
     }
 
     /// Correlations of its gᵢ and τᵢ.
@@ -299,42 +294,41 @@ fn described(
         terms: count,
     };
     let uncertainty = with_systematic(uncertainty, &fit, &model.systematic(&values));
-    let covariance = uncertainty.of_all(fit.parameters.len());
+    let [covariance, of_noise] = uncertainty.of_all(fit.parameters.len());
     let pairs = terms(&values, count);
     let left = 1.0 - pairs.iter().map(|(g, _)| g).sum::<f64>();
-    let error = |by: &[(usize, f64)]| {
-        let each = by
-            .iter()
-            .flat_map(|&(i, x)| by.iter().map(move |&(j, y)| (i, j, x * y)));
-        each.map(|(i, j, xy)| xy * covariance[(i, j)])
-            .sum::<f64>()
-            .max(0.0)
-            .sqrt()
+    // With its derivatives by the parameters of the fit, and what it may be off [its unit] besides.
+    let known = |value: f64, by: &[(usize, f64)], off: f64| {
+        let [variance, noise] = [&covariance, &of_noise].map(|covariance| {
+            let each = by
+                .iter()
+                .flat_map(|&(i, x)| by.iter().map(move |&(j, y)| x * y * covariance[(i, j)]));
+            each.sum::<f64>().max(0.0)
+        });
+        // A bound, taken for an even distribution.
+        let variance = variance + off * off / 3.0;
+        let estimate = Estimate {
+            value,
+            standard_error: Some(variance.sqrt()),
+        };
+        let freedom = uncertainty.degrees_of_freedom(variance, noise);
+        (estimate, student_quantile(freedom, 0.95))
     };
-    let known = |value: f64, error: f64| Estimate {
-        value,
-        standard_error: Some(error),
-    };
-    let mut described: Vec<[Estimate; 2]> = Vec::with_capacity(count);
-    for (place, &(g, tau)) in pairs.iter().enumerate() {
-        let by = |j: usize| left * (if j == place { 1.0 } else { 0.0 } - g);
-        let of_ratios: Vec<_> = (0..count).map(|j| (1 + 2 * j, by(j))).collect();
-        described.push([
-            known(g, error(&of_ratios)),
-            known(tau, error(&[(2 + 2 * place, tau)])),
-        ]);
-    }
-    // A bound, taken for an even distribution.
     let total: f64 = pairs.iter().map(|(g, _)| g).sum();
-    for [g, _] in &mut described {
-        let off = quasi_linear(g.value, total) / 3.0_f64.sqrt();
-        g.standard_error = g.standard_error.map(|error| error.hypot(off));
-    }
-    described.sort_by(|a, b| a[1].value.total_cmp(&b[1].value));
-    let of_terms: Vec<_> = described
-        .iter()
-        .map(|[g, tau]| (g.value, tau.value))
+    let mut described: Vec<_> = (0..count)
+        .map(|place| {
+            let (g, tau) = pairs[place];
+            let by = |j: usize| left * (if j == place { 1.0 } else { 0.0 } - g);
+            let of_ratios: Vec<_> = (0..count).map(|j| (1 + 2 * j, by(j))).collect();
+            [
+                known(g, &of_ratios, quasi_linear(g, total)),
+                known(tau, &[(2 + 2 * place, tau)], 0.0),
+            ]
+        })
         .collect();
+    described.sort_by(|a, b| a[1].0.value.total_cmp(&b[1].0.value));
+    let each = |term: &[(Estimate, f64); 2]| (term[0].0.value, term[1].0.value);
+    let of_terms: Vec<_> = described.iter().map(each).collect();
     let series = PronySeries::new(&of_terms)?;
     let mut start = 0;
     let forces = courses.iter().map(|course| {
@@ -343,17 +337,19 @@ fn described(
         let each = fit.residuals[rows].iter().zip(&course.force);
         each.map(|(residual, force)| residual + force).collect()
     });
+    let (exponent, exponent_quantile) = known(values[0], &[(0, 1.0)], 0.0);
     Ok(Relaxation {
         product: ProductForm::of(&series),
         series,
-        terms: described,
-        exponent: known(values[0], error(&[(0, 1.0)])),
+        terms: described.iter().map(|term| term.map(|own| own.0)).collect(),
+        quantiles: described.iter().map(|term| term.map(|own| own.1)).collect(),
+        exponent,
+        exponent_quantile,
         sizes: values[1 + 2 * count..].to_vec(),
         sum_of_squares: fit.sum_of_squares(),
         tried,
         forces: forces.collect(),
-        covariance: covariance.clone(),
-        effective_samples: uncertainty.effective_samples,
+        covariance,
         fit,
     })
 }

@@ -113,14 +113,15 @@ fn held(truth: Truth, halvings: i32, seeds: u64) -> Vec<(String, usize)> {
         let found = found(recorded(&curve, seed), law);
         let answer = found.laws[0].1.as_ref().unwrap();
         let relaxation = found.relaxation.as_ref().unwrap();
-        let quantiles = [answer.quantile(0.95), relaxation.quantile(0.95)];
         let mut each: Vec<(String, f64, Estimate, f64)> = Vec::new();
-        for ((name, estimate), own) in answer.parameters.iter().zip(law.parameters(modulus, shape))
-        {
-            each.push(((*name).to_owned(), quantiles[0], *estimate, own.value));
+        let truths = law.parameters(modulus, shape);
+        for (place, ((name, estimate), own)) in answer.parameters.iter().zip(truths).enumerate() {
+            let quantile = answer.uncertainty.quantile(place, 0.95).unwrap();
+            each.push(((*name).to_owned(), quantile, *estimate, own.value));
         }
         for (place, (term, own)) in relaxation.terms.iter().zip(LIVER).enumerate() {
-            each.push((format!("g_{}", place + 1), quantiles[1], term[0], own.0));
+            let quantiles = relaxation.quantiles[place];
+            each.push((format!("g_{}", place + 1), quantiles[0], term[0], own.0));
             each.push((format!("tau_{}_s", place + 1), quantiles[1], term[1], own.1));
         }
         for (place, (name, quantile, estimate, own)) in each.into_iter().enumerate() {
@@ -222,7 +223,10 @@ fn a_stated_thickness_gives_the_tissue() {
     };
     let modulus = |found: &Characterization| {
         let law = found.laws[0].1.as_ref().unwrap();
-        (law.parameters[0].1, law.quantile(0.95))
+        (
+            law.parameters[0].1,
+            law.uncertainty.quantile(0, 0.95).unwrap(),
+        )
     };
     let stated = pressed(RecordingHeader {
         thickness_m: Some(6e-3),

@@ -49,12 +49,13 @@ fn laws_felt_with(count: usize, mut noise: impl FnMut(f64) -> f64) -> (Vec<LawDe
 fn one_modulus_spreads_as_its_standard_error() {
     let (laws, largest) = laws();
     let law = &laws[0];
-    let error = law.parameters[0].1.standard_error.unwrap();
+    // Fits to other noise know nothing of what else is in the errors.
+    let error = law.uncertainty.of_noise[(0, 0)].sqrt();
     let repeated = law.repeated.clone().unwrap().unwrap();
     let ratio = repeated.bootstrap.unwrap()[0] / error;
     assert!((ratio - 1.0).abs() < 0.3, "{ratio}");
     // Standard errors count the samples that are independent as far as the residuals show.
-    let independent = (law.effective_samples / SAMPLES).sqrt() * error;
+    let independent = (law.uncertainty.effective_samples / SAMPLES).sqrt() * error;
     for effect in &repeated.noise {
         let expected = independent / NOISE * effect.noise * largest;
         let ratio = effect.spread[0] / expected;

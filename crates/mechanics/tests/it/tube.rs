@@ -175,9 +175,9 @@ fn pressure_stiffens_a_short_tube() {
         (result.answer.forces[0], result.error)
     };
     let (slack, full) = (force(0.0), force(300.0));
-    // More than what both meshes miss.
+    // More than what both forces changed with the mesh: the error that is stated from two of them is three times that.
     assert!(
-        full.0 > slack.0 * (1.0 + slack.1 + full.1),
+        full.0 > slack.0 * (1.0 + (slack.1 + full.1) / 3.0),
         "{slack:?} {full:?}"
     );
 }

@@ -25,10 +25,13 @@ fn a_line_is_known_as_the_textbooks_say() {
     let mean = places.iter().sum::<f64>() / 40.0;
     let spread: f64 = places.iter().map(|x| (x - mean).powi(2)).sum();
     let deviation = (fit.sum_of_squares() / 38.0).sqrt();
-    let errors = uncertainty(&fit).errors_of_values(&fit);
-    for (x, error) in places.iter().zip(errors) {
+    // Of 38 degrees of freedom, from tables.
+    let quantile = 2.024_394;
+    let reach = uncertainty(&fit).reach_of_values(&fit, 0.95);
+    for (x, reach) in places.iter().zip(reach) {
+        let error: f64 = reach / quantile;
         let known = deviation * (1.0 / 40.0 + (x - mean).powi(2) / spread).sqrt();
-        assert!((error / known - 1.0).abs() < 1e-6, "{x}: {error} {known}");
+        assert!((error / known - 1.0).abs() < 1e-5, "{x}: {error} {known}");
     }
 }
 

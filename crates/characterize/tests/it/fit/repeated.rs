@@ -147,6 +147,31 @@ fn several_starts_find_the_better_minimum() {
     );
 }
 
+/// Two minima of equal sums: the square of a parameter is known and its sign is not. Judge: p = ±1 by hand.
+#[test]
+fn minima_of_equal_sums_are_told_apart() {
+    let square = |p: &[f64], residuals: &mut [f64]| {
+        for (place, residual) in residuals.iter_mut().enumerate() {
+            let wrong = if place % 2 == 0 { 0.1 } else { -0.1 };
+            *residual = p[0] * p[0] - 1.0 + wrong;
+        }
+        Some(())
+    };
+    let start = [Parameter::new("p", 0.5).within(-3.0, 3.0)];
+    let fit = |start: &[Parameter]| least_squares(start, 10, &SETTINGS, square);
+    let minima = multi_start(&start, 8, 1, fit).unwrap();
+    let mut values: Vec<f64> = minima
+        .iter()
+        .map(|minimum| minimum.fit.parameters[0].value)
+        .collect();
+    values.sort_by(f64::total_cmp);
+    assert_eq!(values.len(), 2, "{values:?}");
+    assert!(
+        (values[0] + 1.0).abs() < 1e-6 && (values[1] - 1.0).abs() < 1e-6,
+        "{values:?}"
+    );
+}
+
 /// The source's iteration finds the exact answer from near by, and ends when a run fails.
 #[test]
 fn the_unbounded_iteration_converges_from_near() {

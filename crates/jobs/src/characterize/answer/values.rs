@@ -147,8 +147,11 @@ impl Known {
     }
 
     /// The same with its interval, from the `quantile` [-] of its distribution.
-    fn within(self, quantile: f64) -> Self {
-        let reach = self.standard_error.map(|error| quantile * error);
+    fn within(self, quantile: Option<f64>) -> Self {
+        let reach = self
+            .standard_error
+            .zip(quantile)
+            .map(|(error, t)| t * error);
         Self {
             interval_95: reach.map(|reach| [self.value - reach, self.value + reach]),
             ..self
@@ -161,10 +164,9 @@ const LEVEL: f64 = 0.95;
 
 impl RelaxationAnswer {
     pub(crate) fn new(found: &Relaxation, steps: Option<&Relaxation>) -> Self {
-        let quantile = found.quantile(LEVEL);
         let column = |place: usize| {
-            let terms = found.terms.iter();
-            terms.map(move |term| Known::of(&term[place]).within(quantile))
+            let terms = found.terms.iter().zip(&found.quantiles);
+            terms.map(move |(term, t)| Known::of(&term[place]).within(Some(t[place])))
         };
         let off = found.quasi_linear_errors();
         let of_g = |(known, off)| Known {
@@ -181,7 +183,7 @@ impl RelaxationAnswer {
                 .map(|(alpha, _)| *alpha)
                 .collect(),
             sum_squared_error: found.sum_of_squares,
-            shape_exponent: Known::of(&found.exponent).within(quantile),
+            shape_exponent: Known::of(&found.exponent).within(Some(found.exponent_quantile)),
             as_step: steps.map(|steps| Steps {
                 g: steps.series.terms().iter().map(|(g, _)| *g).collect(),
                 tau_s: steps.series.terms().iter().map(|(_, tau)| *tau).collect(),
@@ -203,7 +205,6 @@ impl RelaxationAnswer {
 impl LawAnswer {
     pub(crate) fn new(law: &LawDescription) -> Self {
         let repeated = law.repeated.as_ref().and_then(|found| found.as_ref().ok());
-        let quantile = law.quantile(LEVEL);
         let known = |(place, (name, estimate)): (usize, &(&'static str, Estimate))| {
             let known = Known {
                 discretisation_error: Some(law.discretisation[place]),
@@ -211,7 +212,7 @@ impl LawAnswer {
                     .and_then(|again| again.bootstrap.as_ref())
                     .map(|spreads| spreads[place]),
                 profile_95: repeated.and_then(|again| again.profiles[place]),
-                ..Known::of(estimate).within(quantile)
+                ..Known::of(estimate).within(law.uncertainty.quantile(place, LEVEL))
             };
             ((*name).to_owned(), known)
         };
@@ -246,12 +247,15 @@ impl LawAnswer {
 
     pub(crate) fn of_uniaxial(law: &UniaxialFit) -> Self {
         let correlation = law.uncertainty.correlation();
-        let quantile = law.uncertainty.quantile(LEVEL);
         let mut own = Self {
             parameters: law
                 .parameters
                 .iter()
-                .map(|(name, known)| ((*name).to_owned(), Known::of(known).within(quantile)))
+                .enumerate()
+                .map(|(place, (name, known))| {
+                    let quantile = law.uncertainty.quantile(place, LEVEL);
+                    ((*name).to_owned(), Known::of(known).within(quantile))
+                })
                 .collect(),
             noise_study: Vec::new(),
             not_repeated: None,
@@ -269,6 +273,6 @@ impl LawAnswer {
 /// Correlations of the parameters of a piece.
 pub(crate) fn correlations_of_piece(law: &UniaxialFit) -> Correlations {
     let names = law.parameters.iter().map(|(name, _)| (*name).to_owned());
-    let covariance = law.uncertainty.of_all(law.parameters.len());
+    let [covariance, _] = law.uncertainty.of_all(law.parameters.len());
     Correlations::of(names.collect(), &covariance)
 }

@@ -37,7 +37,7 @@ fn of_indentation(law: &LawDescription) -> DrawnLaw {
         law.found.law,
         fit,
         way.collect(),
-        (law.effective_samples, law.correlations()),
+        (law.uncertainty.effective_samples, law.correlations()),
     )
 }
 
