@@ -11,8 +11,9 @@
 //! A fit takes from the noise what its parameters can follow, which makes the residuals' autocovariances too
 //! small. Those of the process are therefore raised until its own residuals, r̄ = (1 − Ū Sᵀ) n̄, would be
 //! expected to show what was found, and multiplied with (N + k)/(N − k) for the k that were estimated
-//! [Akaike 1969]. What is too small all the same is found from draws of that process, seen as a fit leaves them, and
-//! taken times the whole; of several numbers of blocks the one that says most is believed.
+//! [Akaike 1969]. Draws of that process, seen as a fit leaves them, say by how much the covariance is too small all the
+//! same, and how much it spreads: as one of so many degrees of freedom [Satterthwaite 1946]. Of several numbers of
+//! blocks the one that says most is believed.
 //!
 //! *How we know*: `fit::coverage`; `independent::…`, on noise that is no such process.
 //!
@@ -36,19 +37,19 @@ const MEMORIES: usize = 10;
 /// Rounds in which the autocovariances are raised, at most.
 const ROUNDS: usize = 6;
 
-/// The covariance of Σ u r for the columns u of `directions`.
+/// The covariance of Σ u r for the columns u of `directions`, and the degrees of freedom that it is known with [-].
 pub(super) fn score_covariance(
     directions: &DMatrix<f64>,
     residuals: &[f64],
     recordings: &[usize],
-) -> DMatrix<f64> {
+) -> (DMatrix<f64>, f64) {
     let each = BLOCKS.map(|most| Blocks::new(directions, residuals, recordings, most));
-    let too_small = each[1].too_small();
+    let (too_small, freedom) = each[1].draws();
     let covariances = each
         .iter()
         .map(|blocks| blocks.between().1 * too_small + &blocks.within);
     let largest = covariances.max_by(|a, b| a.trace().total_cmp(&b.trace()));
-    largest.expect("there is a number of blocks")
+    (largest.expect("there is a number of blocks"), freedom)
 }
 
 /// Draws of the noise from which it is seen how much too small an estimate comes out, and their seed.
@@ -112,22 +113,45 @@ impl Blocks {
         found
     }
 
-    /// By how much too small the covariance comes out for noise of the kind that was found [-], from draws of it.
-    fn too_small(&self) -> f64 {
-        let (process, _) = self.between();
+    /// From draws of noise of the kind that was found: by how much too small its covariance comes out [-], at least
+    /// one, and the degrees of freedom of a variance that spreads as much [-].
+    fn draws(&self) -> (f64, f64) {
+        let (process, expected) = self.between();
         let mut random = Random::new(SEED);
-        let ratio = |_| {
-            let (scores, again) = self.drawn(&process, &mut random);
+        // Traces in units of each direction's own variance, so that all count alike.
+        let count = self.sums.ncols();
+        let scale = |k: usize| expected[(k, k)].max(f64::MIN_POSITIVE);
+        let (mut scores, mut estimates) = (0.0, vec![0.0; count]);
+        let mut squares = vec![0.0; count];
+        for _ in 0..DRAWS {
+            let (score, again) = self.drawn(&process, &mut random);
             let (_, estimated) = again.between();
-            let each = (0..scores.len()).map(|k| scores[k].powi(2) / estimated[(k, k)]);
-            each.sum::<f64>() / scores.len() as f64
+            for k in 0..count {
+                let estimate = estimated[(k, k)] / scale(k);
+                scores += score[k].powi(2) / scale(k);
+                estimates[k] += estimate;
+                squares[k] += estimate.powi(2);
+            }
+        }
+        let draws = DRAWS as f64;
+        // Half the squared coefficient of variation, in the mean of the directions.
+        let spreads = (0..count).map(|k| {
+            let mean = estimates[k] / draws;
+            0.5 * (squares[k] / draws / mean.powi(2) - 1.0).max(0.0)
+        });
+        let spread = spreads.sum::<f64>() / count as f64;
+        let freedom = if spread > 0.0 {
+            spread.recip().max(1.0)
+        } else {
+            f64::INFINITY
         };
-        let mut ratios: Vec<f64> = (0..DRAWS).map(ratio).collect();
-        ratios.sort_by(f64::total_cmp);
-        // The mean without the few draws whose estimate is nearly none.
-        let kept = &ratios[..ratios.len() - ratios.len() / 10];
-        let mean = kept.iter().sum::<f64>() / kept.len() as f64;
-        if mean.is_finite() { mean.max(1.0) } else { 1.0 }
+        let too_small = scores / estimates.iter().sum::<f64>();
+        let too_small = if too_small.is_finite() {
+            too_small.max(1.0)
+        } else {
+            1.0
+        };
+        (too_small, freedom)
     }
 
     /// Noise of a process, seen as what a fit leaves of it, and its scores.

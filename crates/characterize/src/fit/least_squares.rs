@@ -234,10 +234,11 @@ impl<'a, P: Problem> Search<'a, P> {
             let gained = found.map(|sum| self.sum - sum);
             if let Some(gained) = gained.filter(|&gained| gained > 0.0) {
                 let still = gained.max(predicted) <= ROUNDING * self.sum;
+                // Damping too makes steps short.
+                let short = length <= self.settings.tolerance * size;
+                let arrived = still || (short && self.damping <= FIRST_DAMPING);
                 self.accept(gained, predicted, length);
-                return Attempt::Better {
-                    arrived: still || length <= self.settings.tolerance * size,
-                };
+                return Attempt::Better { arrived };
             }
             longest = SHORTER[usize::from(found.is_none())] * length;
         }

@@ -20,6 +20,8 @@ pub struct Uncertainty {
     pub unit_covariance: DMatrix<f64>,
     /// How many independent samples would tell as much [-].
     pub effective_samples: f64,
+    /// The degrees of freedom that the part of noise is known with [-].
+    pub freedom: f64,
 }
 
 /// The uncertainty when residuals are independent and of one size: s² (JᵀJ)⁻¹.
@@ -33,6 +35,7 @@ pub fn uncertainty(fit: &Fit) -> Uncertainty {
         covariance,
         unit_covariance: whitened.unit_covariance(),
         effective_samples: fit.residuals.len() as f64,
+        freedom,
         chosen: whitened.chosen,
     }
 }
@@ -49,7 +52,7 @@ pub fn correlated_uncertainty(fit: &Fit, recordings: &[usize]) -> Uncertainty {
     if whitened.chosen.is_empty() {
         return independent;
     }
-    let middle = score_covariance(&whitened.directions, &fit.residuals, recordings);
+    let (middle, freedom) = score_covariance(&whitened.directions, &fit.residuals, recordings);
     let covariance = &whitened.back * &middle * whitened.back.transpose();
     let samples = fit.residuals.len() as f64;
     let count = whitened.count() as f64;
@@ -60,6 +63,7 @@ pub fn correlated_uncertainty(fit: &Fit, recordings: &[usize]) -> Uncertainty {
         of_noise: covariance.clone(),
         covariance,
         effective_samples: (samples * share.min(1.0)).max(1.0),
+        freedom: freedom.min(independent.freedom),
         ..independent
     }
 }
@@ -152,12 +156,11 @@ impl Uncertainty {
         })
     }
 
-    /// Degrees of freedom of Student's distribution [-] for what has this `variance`, `of_noise` of it by noise: the
-    /// samples that are left, and more the less of it noise makes [Welch 1947].
+    /// Degrees of freedom of Student's distribution [-] for what has this `variance`, `of_noise` of it by noise: more,
+    /// the less of it noise makes [Welch 1947].
     pub fn degrees_of_freedom(&self, variance: f64, of_noise: f64) -> f64 {
-        let left = (self.effective_samples - self.chosen.len() as f64).max(1.0);
         if of_noise > 0.0 {
-            left * (variance / of_noise).powi(2).max(1.0)
+            self.freedom * (variance / of_noise).powi(2).max(1.0)
         } else {
             f64::INFINITY
         }

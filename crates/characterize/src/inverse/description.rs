@@ -150,6 +150,7 @@ fn among(all: &Uncertainty, count: usize) -> Uncertainty {
         of_noise: of(&all.of_noise),
         unit_covariance: of(&all.unit_covariance),
         effective_samples: all.effective_samples,
+        freedom: all.freedom,
         chosen,
     }
 }

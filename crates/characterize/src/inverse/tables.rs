@@ -123,7 +123,7 @@ pub(super) fn curve(body: &Body, law: SoughtLaw, shape: f64, deepest: f64) -> Op
         SoughtLaw::MooneyRivlin => {
             let of = |row: &(f64, f64, [f64; SHAPES.len()])| {
                 let right = 1.0 - TOO_STIFF * row.0;
-                let (value, slope) = polynomial(&row.2, shape);
+                let (value, slope) = between(&row.2, shape);
                 (right * value, right * slope)
             };
             let (forces, slopes) = PUNCH.iter().map(of).unzip();
@@ -149,23 +149,18 @@ pub(super) const fn discretisation() -> f64 {
     LEFT
 }
 
-/// The polynomial in ln(1 + 2w) through `values` at the shapes w of [`SHAPES`], and its slope in w: force rises
-/// steeply from no C₀₁ and then evenly, and a polynomial in w itself would waver.
-fn polynomial(values: &[f64; 6], shape: f64) -> (f64, f64) {
+/// The curve through `values` at the shapes w of [`SHAPES`], even in ln(1 + 2w), and its slope in w: force rises steeply
+/// from no C₀₁ and then evenly. A polynomial would waver at the ends, where a fit could end.
+fn between(values: &[f64; SHAPES.len()], shape: f64) -> (f64, f64) {
     let even = |shape: f64| (1.0 + 2.0 * shape).ln();
-    let (shapes, at) = (SHAPES.map(even), even(shape));
-    let (mut sum, mut slope) = (0.0, 0.0);
-    for (i, value) in values.iter().enumerate() {
-        let (mut weight, mut weight_slope) = (1.0, 0.0);
-        for (j, other) in shapes.iter().enumerate() {
-            if j != i {
-                let width = shapes[i] - other;
-                weight_slope = weight_slope * (at - other) / width + weight / width;
-                weight *= (at - other) / width;
-            }
-        }
-        sum += weight * value;
-        slope += weight_slope * value;
-    }
-    (sum, slope * 2.0 / (1.0 + 2.0 * shape))
+    let rises: Vec<f64> = values[1..].iter().map(|value| value - values[0]).collect();
+    let curve = IndentationCurve::through(
+        &SHAPES[1..].iter().copied().map(even).collect::<Vec<_>>(),
+        &rises,
+    );
+    let at = even(shape);
+    (
+        values[0] + curve.force(at),
+        curve.stiffness(at) * 2.0 / (1.0 + 2.0 * shape),
+    )
 }

@@ -122,7 +122,7 @@ fn heat(law: &DrawnLaw) -> Markup {
              the other loses, or gains too."
         ),
         false => format!(
-            "The largest is {most:.2}, up or down: below {CORRELATED:.2} every parameter is known by itself."
+            "The largest is {most:.2}, up or down: below {CORRELATED:.2} no parameter can be taken for another."
         ),
     };
     Markup::plain("h3", title)
