@@ -70,11 +70,11 @@ const LONGEST: f64 = 10.0;
 const TOLERANCE: f64 = 1e-7;
 
 impl Relaxation {
-    /// What each gᵢ may be off because force is taken for an elastic one times G(t) [-]: a part of its error.
-    pub fn quasi_linear_errors(&self) -> Vec<f64> {
-        let total: f64 = self.terms.iter().map(|[g, _]| g.value).sum();
-        let share = |[g, _]: &[Estimate; 2]| quasi_linear(g.value, total);
-        self.terms.iter().map(share).collect()
+    /// What each gᵢ [-] and τᵢ [s] may be off because force is taken for an elastic one times G(t): a part of its error.
+    pub fn quasi_linear_errors(&self) -> Vec<[f64; 2]> {
+        let off = quasi_linear(self.terms.iter().map(|[g, _]| g.value).sum());
+        let of_term = |term: &[Estimate; 2]| term.map(|known| off * known.value);
+        self.terms.iter().map(of_term).collect()
     }
 
     /// Correlations of its gᵢ and τᵢ.
@@ -125,9 +125,9 @@ impl Relaxation {
     }
 }
 
-/// See [`Relaxation::quasi_linear_errors`]; of one `g` of which there is `total` [-].
-fn quasi_linear(g: f64, total: f64) -> f64 {
-    QUASI_LINEAR * (1.0 - total) * g
+/// See [`Relaxation::quasi_linear_errors`]; relative, where all gᵢ are `total` [-].
+fn quasi_linear(total: f64) -> f64 {
+    QUASI_LINEAR * (1.0 - total)
 }
 
 /// The relaxation that is nearest to all `courses` at once.
@@ -314,15 +314,15 @@ fn described(
         let freedom = uncertainty.degrees_of_freedom(variance, noise);
         (estimate, student_quantile(freedom, 0.95))
     };
-    let total: f64 = pairs.iter().map(|(g, _)| g).sum();
+    let off = quasi_linear(pairs.iter().map(|(g, _)| g).sum());
     let mut described: Vec<_> = (0..count)
         .map(|place| {
             let (g, tau) = pairs[place];
             let by = |j: usize| left * (if j == place { 1.0 } else { 0.0 } - g);
             let of_ratios: Vec<_> = (0..count).map(|j| (1 + 2 * j, by(j))).collect();
             [
-                known(g, &of_ratios, quasi_linear(g, total)),
-                known(tau, &[(2 + 2 * place, tau)], 0.0),
+                known(g, &of_ratios, off * g),
+                known(tau, &[(2 + 2 * place, tau)], off * tau),
             ]
         })
         .collect();

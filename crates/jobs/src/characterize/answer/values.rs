@@ -164,18 +164,19 @@ const LEVEL: f64 = 0.95;
 
 impl RelaxationAnswer {
     pub(crate) fn new(found: &Relaxation, steps: Option<&Relaxation>) -> Self {
-        let column = |place: usize| {
-            let terms = found.terms.iter().zip(&found.quantiles);
-            terms.map(move |(term, t)| Known::of(&term[place]).within(Some(t[place])))
-        };
         let off = found.quasi_linear_errors();
-        let of_g = |(known, off)| Known {
-            discretisation_error: Some(off),
-            ..known
+        let column = |place: usize| -> Vec<Known> {
+            let terms = found.terms.iter().zip(&found.quantiles);
+            let known = terms.map(move |(term, t)| Known::of(&term[place]).within(Some(t[place])));
+            let with_error = |(known, off): (Known, &[f64; 2])| Known {
+                discretisation_error: Some(off[place]),
+                ..known
+            };
+            known.zip(&off).map(with_error).collect()
         };
         Self {
-            g: column(0).zip(off).map(of_g).collect(),
-            tau_s: column(1).collect(),
+            g: column(0),
+            tau_s: column(1),
             alpha: found
                 .product
                 .terms

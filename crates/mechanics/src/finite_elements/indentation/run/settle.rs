@@ -1,0 +1,112 @@
+//! Which nodes touch the indenter at an equilibrium, and where that is known.
+
+use super::super::contact::{Place, Touch};
+use super::super::indenter::{Grip, IndenterShape, Side};
+use super::super::slopes::{Entry, Slopes};
+use super::{Failure, FiniteElementState, IndentationRun};
+use crate::Error;
+
+/// A node that is deeper than this inside after a step has come in too fast [-].
+const DEEPEST_CATCH: f64 = 0.1;
+/// How far a node that pulled on a sphere or a cone may be inside without being caught again at the same depth, in
+/// radii of the contact [-]: a hundredth of the smallest elements.
+const HAIR: f64 = 1e-3;
+
+impl IndentationRun {
+    /// Catches nodes that have entered the indenter and lets go those that pull; answers whether there
+    /// was one. Fails when tissue went in too deep to know where it entered.
+    pub(super) fn settle(
+        &self,
+        (depth, state): (f64, &FiniteElementState),
+        (touch, released): (&mut [Touch], &mut [bool]),
+        mut slopes: Option<&mut Slopes>,
+    ) -> Result<bool, Failure> {
+        if self.is_linear() {
+            return Ok(false);
+        }
+        let mut changed = false;
+        let statuses = touch.iter_mut().zip(released);
+        for (&node, (touch, released)) in self.top.iter().zip(statuses) {
+            let now = self.place(state, node, depth);
+            let inside = self.indenter.inside(now) / self.scale;
+            if *touch == Touch::Free {
+                // Rounding is no contact, and a node that pulled does not come back for a hair.
+                let least = if *released { HAIR } else { 1e-9 };
+                if inside > least && self.has_side() {
+                    if inside > DEEPEST_CATCH {
+                        return Err(Failure::NotConverged);
+                    }
+                    let then = self.place(&self.now.state, node, self.now.depth);
+                    let (caught, part) = self.indenter.catch(then, now);
+                    if let (Some(slopes), Some(old)) = (&mut slopes, &self.now.slopes) {
+                        let entry = Entry {
+                            node,
+                            ways: [self.indenter.inside(then), self.indenter.inside(now)],
+                            part,
+                            rise: now.above - then.above,
+                        };
+                        slopes.catch(&entry, old);
+                    }
+                    *touch = caught;
+                    changed = true;
+                }
+            } else {
+                let force = [0, 1].map(|i| self.workspace.residual[2 * node + i]);
+                if self.indenter.lets_go(*touch, now, force) {
+                    *touch = Touch::Free;
+                    *released = self.indenter.surface(0.0).is_some();
+                    changed = true;
+                }
+            }
+        }
+        Ok(changed)
+    }
+
+    /// Whether nodes come and go that touch without friction.
+    pub(super) fn slides(&self) -> bool {
+        match self.indenter.shape {
+            IndenterShape::Flat { side } => side == Side::Touches(Grip::Slide),
+            IndenterShape::Sphere | IndenterShape::Cone { .. } => self.indenter.face == Grip::Slide,
+        }
+    }
+
+    pub(super) fn has_side(&self) -> bool {
+        self.indenter.shape != IndenterShape::Flat { side: Side::Absent }
+    }
+
+    /// An indenter without a side is right until tissue would be where the side is, and a face without
+    /// friction until the tissue under it goes over itself or out beyond it.
+    pub(super) fn check_domain(&self) -> Result<(), Error> {
+        if self.is_linear() {
+            return Ok(());
+        }
+        let (depth, radius) = (self.now.depth, self.indenter.radius);
+        let place = |node: usize| self.place(&self.now.state, node, depth);
+        let mut each = self.top.iter().zip(&self.now.touch);
+        let entered = |(&node, touch): (&usize, &Touch)| {
+            *touch == Touch::Free && self.indenter.inside(place(node)) > 1e-9 * radius
+        };
+        if !self.has_side() && each.any(entered) {
+            return Err(Error::TissueEntersPunch { depth });
+        }
+        // Corners of elements: every second node.
+        let corners = self.top.iter().zip(&self.now.touch).step_by(2);
+        let under: Vec<f64> = corners
+            .filter(|(_, touch)| **touch == Touch::OnFace)
+            .map(|(&node, _)| place(node).radius)
+            .collect();
+        let outside = under.last().is_some_and(|&r| r > 1.05 * radius);
+        if outside || under.windows(2).any(|w| w[1] <= w[0]) {
+            return Err(Error::SurfaceFolds { depth });
+        }
+        Ok(())
+    }
+
+    pub(super) fn place(&self, state: &FiniteElementState, node: usize, depth: f64) -> Place {
+        let at = self.model.mesh().nodes[node] + state.displacement(&self.model, node);
+        Place {
+            radius: at.x,
+            above: at.y + depth,
+        }
+    }
+}
