@@ -8,6 +8,8 @@ const CHI_SQUARED: f64 = 3.84;
 const MODEL: f64 = 0.02;
 /// Least noise, in parts of the range of force [-].
 const LEAST_NOISE: f64 = 1e-6;
+/// Blocks of samples from whose means the correlation of noise is told, at least.
+const LEAST_BLOCKS: usize = 8;
 /// Way that is none, in parts of the range of depth [-].
 const STILL: f64 = 1e-4;
 
@@ -62,9 +64,8 @@ impl<'s> Search<'s> {
         let around = near.saturating_sub(stride)..(near + stride).min(count);
         found.extend(misfits(&mut around.into_iter()));
         let (place, best) = least(&found);
-        let known = found
-            .iter()
-            .filter(|(_, misfit)| *misfit <= best + CHI_SQUARED);
+        let enough = best + CHI_SQUARED * self.correlated(place);
+        let known = found.iter().filter(|(_, misfit)| *misfit <= enough);
         let depths: Vec<f64> = known.map(|(place, _)| self.depth[*place]).collect();
         let place = self.until_it_moves(place);
         let step = self.depth[(place + 1).min(count - 1)] - self.depth[place];
@@ -81,6 +82,28 @@ impl<'s> Search<'s> {
         let later = self.depth[place..].iter();
         let rest = later.take_while(|d| (**d - self.depth[place]).abs() <= still);
         (place + rest.count()).max(place + 1).min(self.depth.len()) - 1
+    }
+
+    /// How many samples before a contact at `place` tell as much as one that knows nothing of the others [-]: the variance
+    /// of means of blocks over that of independent samples, for the length of a block at which it is largest.
+    fn correlated(&self, place: usize) -> f64 {
+        let before = &self.force[..=place];
+        let variance = |values: &[f64]| {
+            let mean = values.iter().sum::<f64>() / values.len() as f64;
+            let squares = values.iter().map(|v| (v - mean).powi(2));
+            squares.sum::<f64>() / (values.len() as f64 - 1.0)
+        };
+        let single = variance(before);
+        let lengths = std::iter::successors(Some(2), |length| Some(2 * length));
+        let lengths = lengths.take_while(|length| before.len() / length >= LEAST_BLOCKS);
+        let ratio = lengths.map(|length| {
+            let means = before
+                .chunks_exact(length)
+                .map(|block| block.iter().sum::<f64>() / length as f64);
+            length as f64 * variance(&means.collect::<Vec<_>>()) / single
+        });
+        let largest = ratio.fold(1.0, f64::max);
+        if largest.is_finite() { largest } else { 1.0 }
     }
 
     /// −2 log likelihood of the contact at `place`, but for a constant.

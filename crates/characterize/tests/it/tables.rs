@@ -113,3 +113,22 @@ fn assert_extrapolated(deepest: f64) {
         assert!((limit - row.1).abs() < 1e-3 * limit, "{}: {limit}", row.0);
     }
 }
+
+#[test]
+#[ignore = "tmp"]
+fn tmp_columns() {
+    for shape in SHAPES {
+        for halvings in [0, 1] {
+            let mut run = run(shape, halvings);
+            for row in PUNCH {
+                match run.press(row.0, row.0, |_| ()) {
+                    Ok(point) => println!("TMP {shape} {halvings} {} {:.4}", row.0, point.force),
+                    Err(error) => {
+                        println!("TMP {shape} {halvings} {} {error}", row.0);
+                        break;
+                    }
+                }
+            }
+        }
+    }
+}
