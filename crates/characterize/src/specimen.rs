@@ -312,6 +312,7 @@ impl Characterization {
     }
 
     fn indented_tissue(&self, law: SoughtLaw) -> Result<Tissue, Error> {
+        let relaxation = self.relaxation.as_ref().map_err(Clone::clone)?;
         let found = self.laws.iter().find(|(of, _)| *of == law);
         let (_, found) = found.ok_or(Error::NothingFelt)?;
         let found = found.as_ref().map_err(Clone::clone)?;
@@ -326,8 +327,7 @@ impl Characterization {
             tau_s: *tau_s,
         };
         tissue.lumped = self.without_geometry.lumped();
-        // Found with the law: one fits the other.
-        tissue.prony = found.relaxation().iter().map(term).collect();
+        tissue.prony = relaxation.terms.iter().map(term).collect();
         tissue.source.method = Some(METHOD.to_owned());
         tissue.source.warnings = [&self.relaxation_doubts[..], &found.doubts].concat();
         Ok(tissue)
@@ -383,6 +383,6 @@ impl Characterization {
 const TELLING: f64 = 0.02;
 
 /// How a tissue is found, for its file.
-const METHOD: &str = "relaxation from the normalised force with the recorded course of depth, then the law and the relaxation together by inverse finite elements";
+const METHOD: &str = "relaxation from the normalised force with the recorded course of depth, then the law by inverse finite elements";
 /// The same for a piece along one axis.
 const UNIAXIAL: &str = "nominal stress over stretch in closed form";

@@ -1,9 +1,6 @@
 use nalgebra::DMatrix;
-use palpate_files::Estimate;
 
 use super::description::{LawDescription, in_its_parameters};
-use super::law_fit::pairs;
-use crate::fit::Fit;
 
 /// How the errors of parameters go together.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,37 +31,6 @@ impl Correlations {
 impl LawDescription {
     /// Correlations of its parameters and of gᵢ and τᵢ of the relaxation it was found with.
     pub fn correlations(&self) -> Correlations {
-        let (own, covariance) = self.of_terms();
-        let count = (own.parameters.len() - 2) / 2;
-        let of_terms = (1..=count).flat_map(|i| [format!("g_{i}"), format!("tau_{i}_s")]);
-        let of_law = own.parameters[..2].iter().map(|p| p.name.clone());
-        Correlations::of(of_law.chain(of_terms).collect(), &covariance)
-    }
-
-    /// gᵢ [-] and τᵢ [s] of the relaxation that was found with the law.
-    pub fn relaxation(&self) -> Vec<[Estimate; 2]> {
-        let (own, covariance) = self.of_terms();
-        let values: Vec<f64> = own.parameters.iter().map(|p| p.value).collect();
-        let estimate = |value: f64, variance: f64| Estimate {
-            value,
-            standard_error: Some(variance.max(0.0).sqrt()),
-        };
-        let of_term = |(place, (g, tau)): (usize, (f64, f64))| {
-            let [of_g, of_log] =
-                [2, 3].map(|first| covariance[(first + 2 * place, first + 2 * place)]);
-            [estimate(g, of_g), estimate(tau, of_log * tau * tau)]
-        };
-        let mut terms: Vec<_> = pairs(&values)
-            .into_iter()
-            .enumerate()
-            .map(of_term)
-            .collect();
-        terms.sort_by(|a, b| a[1].value.total_cmp(&b[1].value));
-        terms
-    }
-
-    /// The fit in the law's own parameters, and the covariance of these and of gᵢ and ln τᵢ.
-    fn of_terms(&self) -> (Fit, DMatrix<f64>) {
         let own = in_its_parameters(&self.found);
         let [covariance, _] = self.uncertainty.of_all(own.parameters.len());
         let ratios: Vec<f64> = own.parameters[2..]
@@ -81,6 +47,11 @@ impl LawDescription {
                 to_terms[(2 + 2 * i, 2 + 2 * j)] = (own - ratio / whole) / whole;
             }
         }
-        (own, &to_terms * covariance * to_terms.transpose())
+        let of_terms = (1..=ratios.len()).flat_map(|i| [format!("g_{i}"), format!("tau_{i}_s")]);
+        let of_law = own.parameters[..2].iter().map(|p| p.name.clone());
+        Correlations::of(
+            of_law.chain(of_terms).collect(),
+            &(&to_terms * covariance * to_terms.transpose()),
+        )
     }
 }

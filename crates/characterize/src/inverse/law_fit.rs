@@ -5,17 +5,16 @@ use super::curves::{Curves, UnitCurve};
 use super::forces::{self, Indentation};
 use super::law::SoughtLaw;
 use crate::Error;
-use crate::fit::{
-    Differences, Fit, Minimum, Parameter, Settings, least_squares_with_jacobian, multi_start,
-};
-use crate::viscoelastic::{LARGEST_RATIO, QUASI_LINEAR, terms};
+use crate::fit::{Differences, Fit, Parameter, Settings, least_squares_with_jacobian, multi_start};
+use crate::viscoelastic::QUASI_LINEAR;
 
 /// A law that was found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LawFit {
     /// Which.
     pub law: SoughtLaw,
-    /// The modulus [Pa] and the shape [-], and after them the relaxation, as ratios and logarithms of times.
+    /// The modulus [Pa] and the shape [-], and after them the relaxation that was given, as ratios and
+    /// logarithms of times: free, so that its doubt is part of theirs.
     pub fit: Fit,
     /// Forces of the law in each recording [N].
     pub forces: Vec<Vec<f64>>,
@@ -44,8 +43,8 @@ impl LawFit {
     /// Part of the force, and so of the modulus, that the model may be off [-]: by its elements, and because
     /// force is taken for an elastic one times G(t).
     pub fn model_error(&self) -> f64 {
-        let values: Vec<f64> = self.fit.parameters.iter().map(|p| p.value).collect();
-        let left = 1.0 - pairs(&values).iter().map(|(g, _)| g).sum::<f64>();
+        let ratios = self.fit.parameters.iter().skip(2).step_by(2);
+        let left = 1.0 / (1.0 + ratios.map(|p| p.value).sum::<f64>());
         model_error(self.discretisation, left)
     }
 }
@@ -88,14 +87,11 @@ pub(super) const SETTINGS: Settings = Settings {
 };
 /// How well a solved curve has to be foreseen for a fit to end [-]: far less than the elements are off.
 const FORESEEN: f64 = 3e-4;
-/// By how many times a time of the relaxation may change with the law [-].
-const FARTHEST_TIME: f64 = 10.0;
 /// Rounds in which the modulus under pressure is found, and the change at which they end [-].
 const ROUNDS: usize = 6;
 const SETTLED: f64 = 1e-3;
 
-/// The law of `curves` and the relaxation that together come nearest to `indentations`, from a relaxation by `series`
-/// on, whose number of terms stays.
+/// The law of `curves` that comes nearest to `indentations` of a tissue that relaxes by `series`.
 ///
 /// # Errors
 /// When the body cannot be indented like that, or nothing is felt.
@@ -157,7 +153,7 @@ fn from(
     let mut iterations = Vec::new();
     curves.of(modulus, start[1].value)?;
     for _ in 0..SHAPES_SOLVED {
-        let (mut fit, others) = least_minimum(curves, modulus, &start, indentations)?;
+        let (mut fit, others) = least_minimum(curves, modulus, &start, (indentations, series))?;
         // A later round begins where the one before it ended.
         let again = usize::from(!iterations.is_empty());
         iterations.extend(fit.iterations.drain(again..));
@@ -169,7 +165,7 @@ fn from(
             fit.iterations = iterations;
             return Ok(LawFit {
                 others,
-                ..found(fit, (curves, &solved), indentations)?
+                ..found(fit, (curves, &solved), (indentations, series))
             });
         }
         start = fit.parameters;
@@ -183,63 +179,53 @@ fn from(
 const STARTS: usize = 6;
 const SEED: u64 = 1;
 
-/// The least minimum by curves that are known, and the sums of squares [N²] and shapes [-] of the others. A shape is
-/// sought from `start` and from all over its range with the relaxation held, and from the best all are free.
+/// The least minimum by curves that are known, from `start` and from shapes all over their range, and the sums of
+/// squares [N²] and shapes [-] of the others.
 fn least_minimum(
     curves: &Curves,
     modulus: f64,
     start: &[Parameter],
-    felt: &[Indentation<'_>],
+    felt: (&[Indentation<'_>], &PronySeries),
 ) -> Result<(Fit, Vec<[f64; 2]>), Error> {
     let of = |shape| curves.foreseen(modulus, shape);
     let one = |start: &[Parameter]| fitted(start, felt, of);
-    let mut held = start.to_vec();
-    held.iter_mut().skip(2).for_each(|p| p.fixed = true);
-    let mut minima = if start[1].fixed {
-        let (fit, starts) = (one(&held)?, 1);
-        vec![Minimum { fit, starts }]
-    } else {
-        multi_start(&held, STARTS, SEED, one)?
+    if start[1].fixed {
+        return Ok((one(start)?, Vec::new()));
     }
-    .into_iter();
-    let least = minima.next().ok_or(Error::NothingFelt)?.fit;
+    let mut minima = multi_start(start, STARTS, SEED, one)?.into_iter();
+    let least = minima.next().ok_or(Error::NothingFelt)?;
     let others = minima.map(|other| [other.fit.sum_of_squares(), other.fit.parameters[1].value]);
-    let mut free = least.parameters;
-    free.iter_mut().skip(2).for_each(|p| p.fixed = false);
-    let mut joint = one(&free)?;
-    joint.iterations.splice(..1, least.iterations);
-    Ok((joint, others.collect()))
+    Ok((least.fit, others.collect()))
 }
 
 /// A fit with the forces of the curve that was solved at its shape.
 fn found(
     mut fit: Fit,
     (curves, curve): (&Curves, &UnitCurve),
-    felt: &[Indentation<'_>],
-) -> Result<LawFit, Error> {
+    felt: (&[Indentation<'_>], &PronySeries),
+) -> LawFit {
     let values: Vec<f64> = fit.parameters.iter().map(|p| p.value).collect();
     let derivatives = (&mut fit.residuals[..], &mut fit.jacobian);
-    let series = PronySeries::new(&pairs(&values))?;
-    let forces = write(curve, (felt, &series), &values, derivatives);
+    let forces = write(curve, felt, &values, derivatives);
+    // The columns of what was fixed were not asked for.
+    for parameter in fit.parameters.iter_mut().skip(2) {
+        parameter.fixed = false;
+    }
+    let (indentations, series) = felt;
     let left = 1.0 - series.terms().iter().map(|(g, _)| g).sum::<f64>();
     let off = [
         model_error(curve.discretisation, left),
         curve.discretisation,
     ];
-    Ok(LawFit {
+    LawFit {
         law: curves.law(),
-        systematic: forces::systematic(felt, curve, (values[0], &series), off),
+        systematic: forces::systematic(indentations, curve, (values[0], series), off),
         fit,
         forces,
         solves: curves.solves(),
         discretisation: curve.discretisation,
         others: Vec::new(),
-    })
-}
-
-/// gᵢ [-] and τᵢ [s] of a fit's values.
-pub(super) fn pairs(values: &[f64]) -> Vec<(f64, f64)> {
-    terms(&values[1..], (values.len() - 2) / 2)
+    }
 }
 
 /// The curve of a shape [-], or of one on the way to it from where there is equilibrium.
@@ -256,17 +242,15 @@ fn solved_toward(curves: &mut Curves, modulus: f64, mut shape: f64) -> Result<Un
     found
 }
 
-/// The fit of a modulus and a shape, whose curves `of` gives, and of a relaxation.
+/// The fit of a modulus and a shape, whose curves `of` gives.
 fn fitted(
     start: &[Parameter],
-    felt: &[Indentation<'_>],
+    felt: (&[Indentation<'_>], &PronySeries),
     of: impl Fn(f64) -> Option<UnitCurve>,
 ) -> Result<Fit, Error> {
-    let samples = felt.iter().map(|each| each.time.len()).sum();
+    let samples = felt.0.iter().map(|each| each.time.len()).sum();
     let evaluate = |values: &[f64], residuals: &mut [f64], jacobian: &mut DMatrix<f64>| {
-        let series = PronySeries::new(&pairs(values)).ok()?;
-        let curve = of(values[1])?;
-        write(&curve, (felt, &series), values, (residuals, jacobian));
+        write(&of(values[1])?, felt, values, (residuals, jacobian));
         residuals.iter().all(|r| r.is_finite()).then_some(())
     };
     least_squares_with_jacobian(start, samples, &SETTINGS, evaluate)
@@ -306,15 +290,9 @@ fn parameters(law: SoughtLaw, series: &PronySeries, modulus: f64) -> Vec<Paramet
         .iter()
         .enumerate()
         .flat_map(|(place, (g, tau))| {
-            let (ratio, log_tau) = (g / left, tau.ln());
-            let most = LARGEST_RATIO.max(ratio);
-            let near = [log_tau - FARTHEST_TIME.ln(), log_tau + FARTHEST_TIME.ln()];
-            [
-                Parameter::new(format!("ratio_{}", place + 1), ratio).within(0.0, most),
-                Parameter::new(format!("log_tau_{}", place + 1), log_tau)
-                    .within(near[0], near[1])
-                    .scaled(1.0),
-            ]
+            let ratio = Parameter::new(format!("ratio_{}", place + 1), g / left);
+            let time = Parameter::new(format!("log_tau_{}", place + 1), tau.ln()).scaled(1.0);
+            [ratio.fixed(), time.fixed()]
         });
     [first, second].into_iter().chain(relaxation).collect()
 }

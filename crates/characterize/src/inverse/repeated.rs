@@ -5,12 +5,13 @@ use super::curves::Curves;
 use super::description::{LawDescription, in_its_parameters};
 use super::forces::{self, Indentation};
 use super::law::SoughtLaw;
-use super::law_fit::{SETTINGS, pairs};
+use super::law_fit::SETTINGS;
 use crate::Error;
 use crate::fit::{
     Draws, Fit, Spread, block_bootstrap, correlated_uncertainty, least_squares_with_jacobian,
     noise_study, profile,
 };
+use crate::viscoelastic::terms;
 
 /// What fits say that are made again, beside what the covariance says.
 #[derive(Debug, Clone, PartialEq)]
@@ -158,7 +159,8 @@ impl OwnModel<'_> {
     ) -> Option<()> {
         let own = self.law.seen_as_shape([values[0], values[1]])?;
         let curve = self.curves.foreseen(f64::INFINITY, own.shape)?;
-        let series = PronySeries::new(&pairs(values)).ok()?;
+        let pairs = terms(&values[1..], (values.len() - 2) / 2);
+        let series = PronySeries::new(&pairs).ok()?;
         let mut start = 0;
         for each in self.indentations {
             let course = (each.time, each.depth);

@@ -63,7 +63,7 @@ const RAMP: usize = 8;
 /// The exponents that are sought.
 const EXPONENTS: [f64; 2] = [-0.9, 3.0];
 /// A term of more than this ratio would leave nothing after relaxation.
-pub(crate) const LARGEST_RATIO: f64 = 1e3;
+const LARGEST_RATIO: f64 = 1e3;
 /// Times are sought up to this many lengths of the recording.
 const LONGEST: f64 = 10.0;
 /// Relative change of the parameters below which a fit has arrived [-].
