@@ -18,6 +18,8 @@ pub enum Limit {
     TipStiffness,
     /// Tip law: stiffness along the surface [half-spaces].
     TipShearStiffness,
+    /// Several tips: change of a force in the last sweep over them [of the largest force].
+    Coupling,
 }
 
 /// How far a bound changed an answer.
@@ -37,13 +39,14 @@ pub struct Limits {
 
 impl Limit {
     /// All of them, in the order in which they are told.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Curvature,
         Self::LocalStiffness,
         Self::LocalShearStiffness,
         Self::Residual,
         Self::TipStiffness,
         Self::TipShearStiffness,
+        Self::Coupling,
     ];
 }
 

@@ -82,6 +82,10 @@ fn sentence(limit: Limit, reached: &Reached, (tool, when): (&str, &str)) -> Stri
              half-space, {times}, {when}{lacks}: what holds the organ lies right under the tip; touch farther \
              from `organ.anchor`"
         ),
+        Limit::Coupling => format!(
+            "the forces of tools that touch together, {tool:?} among them, still changed by {asked:.1e} of the largest \
+             in the last sweep over them, above {used:.1e}, {when}: the tips are on the same spot; keep them apart"
+        ),
     }
 }
 

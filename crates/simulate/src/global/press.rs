@@ -6,10 +6,10 @@
 
 use nalgebra::Matrix3;
 use palpate_geometry::{Footing, Vec3, closest_on_triangle, settle};
-use palpate_mechanics::Limits;
 use palpate_mechanics::contact::Bond;
 use palpate_mechanics::enhance::SurfacePoint;
 use palpate_mechanics::surface_response::TipLoad;
+use palpate_mechanics::{Limit, Limits, Reached};
 
 use super::{GlobalModel, GlobalWorkspace};
 use crate::simulation::Simulation;
@@ -84,7 +84,7 @@ impl GlobalModel {
         }
         self.couple(simulation, tools, softness, workspace);
         let holds = self.hold(simulation, tools, workspace);
-        for _ in 0..MOST_SWEEPS {
+        for sweep in 1..=MOST_SWEEPS {
             let (mut change, mut largest) = (0.0_f64, 0.0_f64);
             for number in 0..tools.len() {
                 let before = tools[number].elastic;
@@ -101,6 +101,15 @@ impl GlobalModel {
             // One tool alone is done after the first.
             if tools.len() < 2 || change <= SETTLED * largest {
                 break;
+            }
+            if sweep == MOST_SWEEPS {
+                let reached = Reached {
+                    asked: change / largest,
+                    used: SETTLED,
+                };
+                for tool in tools.iter_mut() {
+                    tool.limited.add(Limit::Coupling, reached);
+                }
             }
         }
     }
