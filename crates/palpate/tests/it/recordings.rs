@@ -370,9 +370,10 @@ fn the_preferred_law_has_one_name_and_the_recorded_force() {
         let [low, high] = [0, 1].map(|side| known(name)["interval_95"][side].as_f64().unwrap());
         let truth = if *name == "alpha" { alpha } else { gamma };
         assert!(low < truth && truth < high, "{name}: {low} to {high}");
-        // Student's quantile is no less than that of the normal distribution.
+        // Student's quantile is no less than that of the normal distribution, and no more than that of two degrees of
+        // freedom: the noise is a sine, of which few periods are seen.
         let reach = 0.5 * (high - low) / value.standard_error.unwrap();
-        assert!((1.959..2.3).contains(&reach), "{name}: {reach}");
+        assert!((1.959..4.303).contains(&reach), "{name}: {reach}");
     }
     let problem =
         "format = 1\nkind = \"uniaxial\"\ntissue = \"found.toml\"\nstretches = [0.75, 0.9]\n";
