@@ -94,7 +94,11 @@ impl Relaxation {
             by[(2 * row + 1, 2 + 2 * place)] = tau;
         }
         let names = (1..=count).flat_map(|i| [format!("g_{i}"), format!("tau_{i}_s")]);
-        Correlations::of(names.collect(), &(&by * &self.covariance * by.transpose()))
+        let mut covariance = &by * &self.covariance * by.transpose();
+        for (place, off) in self.quasi_linear_errors().into_iter().flatten().enumerate() {
+            covariance[(place, place)] += even(off);
+        }
+        Correlations::of(names.collect(), &covariance)
     }
 
     /// What deserves doubt in it, after recordings of `duration` [s].
@@ -123,6 +127,11 @@ impl Relaxation {
         }
         said
     }
+}
+
+/// The variance of what lies evenly between −`bound` and `bound`.
+fn even(bound: f64) -> f64 {
+    bound * bound / 3.0
 }
 
 /// See [`Relaxation::quasi_linear_errors`]; relative, where all gᵢ are `total` [-].
@@ -305,8 +314,7 @@ fn described(
                 .flat_map(|&(i, x)| by.iter().map(move |&(j, y)| x * y * covariance[(i, j)]));
             each.sum::<f64>().max(0.0)
         });
-        // A bound, taken for an even distribution.
-        let variance = variance + off * off / 3.0;
+        let variance = variance + even(off);
         let estimate = Estimate {
             value,
             standard_error: Some(variance.sqrt()),

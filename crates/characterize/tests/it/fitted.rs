@@ -76,7 +76,7 @@ fn bands_hold_the_true_curve() {
             .zip(&law.values)
             .zip(&law.reach)
         {
-            // A tenth of the noise is left by 600 samples, and 0.4 % of a force of 15 mN by the elements.
+            // A tenth of the noise is left by 600 samples, and 0.5 % of a force of 15 mN by the elements.
             assert!(*reach <= 5.0 * NOISE, "{reach}");
             held += usize::from((truth - value).abs() <= *reach);
             all += 1;
