@@ -1,6 +1,7 @@
 use nalgebra::DMatrix;
 
 use super::description::{LawDescription, in_its_parameters};
+use crate::viscoelastic::{even, quasi_linear};
 
 /// How the errors of parameters go together.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,9 +50,13 @@ impl LawDescription {
         }
         let of_terms = (1..=ratios.len()).flat_map(|i| [format!("g_{i}"), format!("tau_{i}_s")]);
         let of_law = own.parameters[..2].iter().map(|p| p.name.clone());
-        Correlations::of(
-            of_law.chain(of_terms).collect(),
-            &(&to_terms * covariance * to_terms.transpose()),
-        )
+        let mut covariance = &to_terms * covariance * to_terms.transpose();
+        // As in the errors of the terms.
+        let off = quasi_linear(1.0 - 1.0 / whole);
+        for (i, ratio) in ratios.iter().enumerate() {
+            covariance[(2 + 2 * i, 2 + 2 * i)] += even(off * ratio / whole);
+            covariance[(3 + 2 * i, 3 + 2 * i)] += even(off);
+        }
+        Correlations::of(of_law.chain(of_terms).collect(), &covariance)
     }
 }

@@ -130,12 +130,12 @@ impl Relaxation {
 }
 
 /// The variance of what lies evenly between −`bound` and `bound`.
-fn even(bound: f64) -> f64 {
+pub(crate) fn even(bound: f64) -> f64 {
     bound * bound / 3.0
 }
 
 /// See [`Relaxation::quasi_linear_errors`]; relative, where all gᵢ are `total` [-].
-fn quasi_linear(total: f64) -> f64 {
+pub(crate) fn quasi_linear(total: f64) -> f64 {
     QUASI_LINEAR * (1.0 - total)
 }
 
