@@ -81,6 +81,7 @@ def test_recordings_are_measured_analyzed_and_characterized_as_by_the_command(
     assert palpate.Tissue.parse(found.tissue()).law == "neo_hookean"
     assert len(found.to_frame()) == 1
     specimen = found.specimens[0]
+    assert specimen.preferred is not None
     law = specimen.laws[specimen.preferred]
     assert specimen[specimen.preferred] == law
     low, high = law["c10_pa"]["interval_95"]

@@ -97,8 +97,9 @@ fn other_slits_are_those_of_finite_elements() {
 }
 
 /// Judge: finite elements of a block that is cut through most of its depth. What a square beside the slit yields
-/// more goes with the reciprocal of its distance, of which the mechanics make use. Tolerance: a fifth, for the block
-/// has an end.
+/// more goes with the reciprocal of its distance, of which the mechanics make use. What the block's end and bottom add
+/// is nearly the same at both places, and not in their difference. Tolerance: a fifth, for the next term is of the
+/// order of distance over depth, 0.13, and the lines of the grid are 0.3 mm apart.
 #[test]
 #[ignore = "slow: three minutes"]
 fn a_rim_yields_with_the_reciprocal_of_the_distance() {
@@ -120,18 +121,21 @@ fn a_rim_yields_with_the_reciprocal_of_the_distance() {
             holds: on_bottom,
             cuts: &[[40.1, 15.0]],
         };
-        let squares = [0.0, 0.625, 1.25].map(|x| square([x, x + 1.25], [-0.625, 0.625]));
+        let squares = [0.625, 1.25].map(|x| square([x, x + 1.25], [-0.625, 0.625]));
         let found = body.compliances(&squares);
-        for (k, square) in squares.iter().enumerate() {
-            let more = [1, 2, 0].map(|axis| found[1][k][axis] - found[0][k][axis]);
-            let times = more.map(|more| more * square.middle()[0]);
-            println!(
-                "nu {nu}, {:.4} mm: across, along, outward {times:.3?}",
-                square.middle()[0] / MM
+        let more = [0, 1].map(|k| [1, 2, 0].map(|axis| found[1][k][axis] - found[0][k][axis]));
+        let [near, far] = squares.each_ref().map(|square| 1.0 / square.middle()[0]);
+        for ((axis, expected), name) in OF_RIM
+            .iter()
+            .enumerate()
+            .zip(["across", "along", "outward"])
+        {
+            let slope = (more[0][axis] - more[1][axis]) / (near - far);
+            println!("nu {nu}, {name}: {slope:.3}, taken {expected}");
+            assert!(
+                (expected / slope - 1.0).abs() < 0.2,
+                "{name}: {slope} {expected}"
             );
-            for (times, expected) in times.iter().zip(OF_RIM) {
-                assert!((times / expected - 1.0).abs() < 0.2, "{times} {expected}");
-            }
         }
     }
 }
