@@ -3,17 +3,19 @@
 //! A recording of this project counts depth from first contact, so the contact is where the depth
 //! leaves zero. In others it is found: while the force first rises by 5 % of its range, or by twenty
 //! deviations of its noise if that is more, it is a constant f₀ until the depth d_c of a sample, and
-//! f₀ + a (d − d_c)^p from there on, with a ≥ 0 and p = 1, 3/2 or 2 (a flat face, a ball, a cone). Before
-//! contact only noise parts the force from this, after it the tissue too, by 2 % of the range. The most
+//! f₀ + a (d − d_c)^p from there on, with a ≥ 0 and p = 1, 3/2 or 2 for a flat face, a ball and a cone; where the
+//! shape is not stated, the least of the three that is as good as the best but for chance. Before contact only noise parts the force from this, after it the tissue too, by 2 % of the range. The most
 //! likely sample is the contact; those whose −2 log likelihood is larger by less than 3.84 (the 95 %
-//! point of χ² with one degree of freedom) say how well it is known. A drift is taken off before, if
+//! point of χ² with one degree of freedom), times the variance ratio of correlated noise, say how well it is known. A drift is taken off before, if
 //! the sensor shows one over a hundred samples.
 //!
 //! *How we know*: `contact::…`, on synthetic recordings with known truth at 10 Hz to 1 kHz, linear and
 //! Hertzian.
 //!
-//! *Limits*: the noise is taken as independent from sample to sample. A tissue that is very soft at
-//! first is met late by as much as the noise hides.
+//! *Limits*: correlated noise widens the interval, it does not change which sample is the likeliest. A tissue that is very
+//! soft at first is met late by as much as the noise hides.
+
+use palpate_files::recording::IndenterShape;
 
 use super::contact_search::Search;
 use super::noise;
@@ -100,8 +102,19 @@ pub(super) fn by_depth(samples: &Oriented, is_uniaxial: bool) -> Result<Contact,
     })
 }
 
+/// How the force of an indenter of this shape rises with the depth first; of an unknown one any of the three.
+fn rises(shape: Option<IndenterShape>) -> &'static [fn(f64) -> f64] {
+    const RISES: [fn(f64) -> f64; 3] = [|u| u, |u| u * u.sqrt(), |u| u * u];
+    match shape {
+        Some(IndenterShape::Flat) => &RISES[..1],
+        Some(IndenterShape::Sphere) => &RISES[1..2],
+        Some(IndenterShape::Cone) => &RISES[2..],
+        None => &RISES,
+    }
+}
+
 /// The contact where the force begins to rise.
-pub(super) fn by_force(samples: &Oriented) -> Result<Contact, Error> {
+pub(super) fn by_force(samples: &Oriented, shape: Option<IndenterShape>) -> Result<Contact, Error> {
     let early = early_part(samples)?;
     let every = early.div_ceil(MOST_SAMPLES);
     let thin =
@@ -114,7 +127,7 @@ pub(super) fn by_force(samples: &Oriented) -> Result<Contact, Error> {
             .zip(drifts)
             .for_each(|(f, drift)| *f -= drift);
     }
-    let best = Search::new(&depth, &force).best();
+    let best = Search::new(&depth, &force, rises(shape)).best();
     let sample = best.place * every;
     Ok(at_sample(samples, sample, Some(best.error)))
 }

@@ -21,6 +21,8 @@ pub(super) struct Search<'s> {
     sums: Vec<[f64; 2]>,
     /// Variance of the force before contact, and after it, where the model errs besides.
     variances: [f64; 2],
+    /// How the force may rise with the depth.
+    rises: &'s [fn(f64) -> f64],
 }
 
 /// What the search finds.
@@ -31,7 +33,7 @@ pub(super) struct Best {
 }
 
 impl<'s> Search<'s> {
-    pub(super) fn new(depth: &'s [f64], force: &'s [f64]) -> Self {
+    pub(super) fn new(depth: &'s [f64], force: &'s [f64], rises: &'s [fn(f64) -> f64]) -> Self {
         let mut sum = [0.0; 2];
         let mut sums = vec![sum];
         for f in force {
@@ -46,34 +48,42 @@ impl<'s> Search<'s> {
             force,
             sums,
             variances: [noise.powi(2), noise.powi(2) + (MODEL * range).powi(2)],
+            rises,
         }
     }
 
+    /// Of several rises that the force may have, the first that is as good as the best but for chance: correlated noise
+    /// looks like a slow rise sooner than like a quick one.
     pub(super) fn best(&self) -> Best {
-        let count = self.depth.len();
-        let stride = count.div_ceil(CANDIDATES);
-        let misfits = |places: &mut dyn Iterator<Item = usize>| -> Vec<(usize, f64)> {
-            places.map(|place| (place, self.misfit(place))).collect()
-        };
-        let least = |found: &[(usize, f64)]| {
-            let least = found.iter().min_by(|a, b| a.1.total_cmp(&b.1));
-            least.copied().unwrap_or((0, 0.0))
-        };
-        let mut found = misfits(&mut (0..count).step_by(stride));
-        let near = least(&found).0;
-        let around = near.saturating_sub(stride)..(near + stride).min(count);
-        found.extend(misfits(&mut around.into_iter()));
-        let (place, best) = least(&found);
-        let enough = best + CHI_SQUARED * self.correlated(place);
-        let known = found.iter().filter(|(_, misfit)| *misfit <= enough);
+        let found: Vec<Vec<(usize, f64)>> =
+            self.rises.iter().map(|rise| self.misfits(*rise)).collect();
+        let best = least(&found.concat());
+        let enough = best.1 + CHI_SQUARED * self.correlated(best.0);
+        let bests = found.iter().map(|of_rise| least(of_rise));
+        let first = bests.clone().find(|(_, misfit)| *misfit <= enough);
+        let (place, _) = first.unwrap_or(best);
+        let known = found.iter().flatten();
+        let known = known.filter(|(_, misfit)| *misfit <= enough);
         let depths: Vec<f64> = known.map(|(place, _)| self.depth[*place]).collect();
         let place = self.until_it_moves(place);
-        let step = self.depth[(place + 1).min(count - 1)] - self.depth[place];
+        let step = self.depth[(place + 1).min(self.depth.len() - 1)] - self.depth[place];
         let error = 0.5 * range(&depths) / CHI_SQUARED.sqrt();
         Best {
             place,
-            error: error.max(step.abs() / 12f64.sqrt()),
+            // The tissue is met anywhere between this sample and the next.
+            error: error.hypot(step / 3f64.sqrt()),
         }
+    }
+
+    /// Contacts at every so many samples and at every one near the likeliest of these, with their misfits.
+    fn misfits(&self, rise: fn(f64) -> f64) -> Vec<(usize, f64)> {
+        let count = self.depth.len();
+        let stride = count.div_ceil(CANDIDATES);
+        let of = |place| (place, self.misfit(place, rise));
+        let mut found: Vec<_> = (0..count).step_by(stride).map(of).collect();
+        let near = least(&found).0;
+        found.extend((near.saturating_sub(stride)..(near + stride).min(count)).map(of));
+        found
     }
 
     /// Nothing is pressed while the indenter rests.
@@ -107,36 +117,35 @@ impl<'s> Search<'s> {
     }
 
     /// −2 log likelihood of the contact at `place`, but for a constant.
-    fn misfit(&self, place: usize) -> f64 {
+    fn misfit(&self, place: usize, rise: fn(f64) -> f64) -> f64 {
         let count = (place + 1) as f64;
         let [sum, squares] = self.sums[place + 1];
         let zero = self.force[0] + sum / count;
         let from = self.depth[place];
-        let mut total = 0.0;
-        // Sums of the squares of (d − d_c)^p and of its products with the force, for each p.
-        let mut fits = [[0.0; 2]; 3];
+        let [mut total, mut square, mut product] = [0.0; 3];
         for (d, f) in self.depth.iter().zip(self.force).skip(place + 1) {
-            let (u, f) = ((d - from).max(0.0), f - zero);
+            let (rise, f) = (rise((d - from).max(0.0)), f - zero);
             total += f * f;
-            for (fit, power) in fits.iter_mut().zip([u, u * u.sqrt(), u * u]) {
-                fit[0] += power * power;
-                fit[1] += power * f;
-            }
+            square += rise * rise;
+            product += rise * f;
         }
-        let gains = fits.iter().map(|[square, product]| {
-            if *square > 0.0 && *product > 0.0 {
-                product * (product / square)
-            } else {
-                0.0
-            }
-        });
-        let gain = gains.fold(0.0, f64::max);
+        let gain = if square > 0.0 && product > 0.0 {
+            product * (product / square)
+        } else {
+            0.0
+        };
         let pressed = (self.depth.len() - place - 1) as f64;
         let [before, after] = self.variances;
         (squares - sum * sum / count).max(0.0) / before
             + (total - gain).max(0.0) / after
             + pressed * (after / before).ln()
     }
+}
+
+/// The one with the least misfit.
+fn least(found: &[(usize, f64)]) -> (usize, f64) {
+    let least = found.iter().min_by(|a, b| a.1.total_cmp(&b.1));
+    least.copied().unwrap_or((0, 0.0))
 }
 
 fn range(values: &[f64]) -> f64 {

@@ -176,7 +176,9 @@ fn find_contact(
 ) -> Result<Contact, Error> {
     match settings.contact_time_s {
         Some(time) => contact::at(samples, time),
-        None if recording.is_foreign() => contact::by_force(samples),
+        None if recording.is_foreign() => {
+            contact::by_force(samples, recording.header.indenter_shape)
+        }
         None => {
             let is_uniaxial = recording.header.stimulus == Some(StimulusKind::Uniaxial);
             contact::by_depth(samples, is_uniaxial)
