@@ -47,6 +47,9 @@ pub(crate) struct Arguments {
     /// With --trainee: others are judged by this session.
     #[arg(long, requires = "trainee")]
     as_expert: bool,
+    /// With --trainee: keep a session that is incomplete, too.
+    #[arg(long, requires = "trainee")]
+    incomplete: bool,
     /// With --trainee: the training record; without it, the one in the folder of your data.
     #[arg(long, value_name = "FILE.sqlite", requires = "trainee")]
     record: Option<PathBuf>,
@@ -69,7 +72,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         None => Vec::new(),
     };
     let compared = compare(&score, &standards);
-    if let Some(trainee) = &arguments.trainee {
+    let is_refused = folder.session.incomplete.is_some() && !arguments.incomplete;
+    if let Some(trainee) = arguments.trainee.as_ref().filter(|_| !is_refused) {
         let file = training::record_file(arguments.record.as_deref())?;
         let who = Who {
             trainee,
@@ -81,11 +85,18 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let answer = Answer::new((&arguments.session, &task), (&score, &compared), warnings);
     if arguments.json {
-        return output::json(&answer);
+        output::json(&answer)?;
+    } else {
+        output::text(table::text(&task, (&score, &compared)))?;
+        output::warnings(&answer.warnings);
     }
-    output::text(table::text(&task, (&score, &compared)))?;
-    output::warnings(&answer.warnings);
-    Ok(())
+    match arguments.trainee.is_some() && is_refused {
+        true => Err(Failure::input(format!(
+            "{}: the session is incomplete, so its score is not kept in the record; --incomplete keeps it",
+            arguments.session.display()
+        ))),
+        false => Ok(()),
+    }
 }
 
 /// What experts reach in this task.
@@ -116,12 +127,7 @@ fn standards(
 }
 
 fn doubts(folder: &SessionFolder) -> Vec<String> {
-    let mut doubts = Vec::new();
-    if let Some(place) = &folder.session.truncated {
-        doubts.push(format!(
-            "{place}: the last line was cut off when the program was stopped, and is left out"
-        ));
-    }
+    let mut doubts = folder.warnings();
     if folder.session.rows.is_empty() {
         doubts.push("the session has no row: nothing was done".to_owned());
     }
