@@ -409,3 +409,39 @@ fn a_cut_motion_is_not_played() {
         "{less}"
     );
 }
+
+/// The README's workflow: score one trainee, simulate again into the same folder, score another.
+#[test]
+fn an_attempt_never_replaces_another() {
+    let folder = folder();
+    let folder = folder.path();
+    let keep = |trainee: &str| {
+        let all = [
+            "score",
+            "session",
+            "--trainee",
+            trainee,
+            "--record",
+            "r.sqlite",
+            "--json",
+        ];
+        json(&palpate_in(folder, &all))["warnings"].to_string()
+    };
+    let record = folder.join("r.sqlite");
+    let trainees = || -> Vec<String> {
+        let attempts = attempts(&record);
+        attempts.into_iter().map(|own| own.trainee).collect()
+    };
+    done(&simulate(folder, "motion.csv", "session", &[]));
+    assert!(!keep("Anna").contains("training record"));
+    // The same attempt again, by another name of its folder, is told and counts once.
+    assert!(keep("Anna").contains("in the training record already"));
+    assert_eq!(trainees(), ["Anna"]);
+    fs::write(folder.join("motion.csv"), motion(2.5)).unwrap();
+    done(&simulate(folder, "motion.csv", "session", &["--overwrite"]));
+    assert!(!keep("Bela").contains("training record"));
+    assert_eq!(trainees(), ["Anna", "Bela"]);
+    // Somebody else's session, to the last bit: kept, and told.
+    assert!(keep("Cleo").contains("an attempt of Bela"));
+    assert_eq!(trainees(), ["Anna", "Bela", "Cleo"]);
+}

@@ -78,10 +78,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         let who = Who {
             trainee,
             is_expert: arguments.as_expert,
-            scene_digest: &folder.session.header.scene_digest,
-            session: &arguments.session,
         };
-        warnings.extend(training::keep(&file, who, (&task, &score))?);
+        warnings.extend(training::keep(&file, who, &folder, (&task, &score))?);
     }
     let answer = Answer::new((&arguments.session, &task), (&score, &compared), warnings);
     if arguments.json {
