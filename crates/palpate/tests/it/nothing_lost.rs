@@ -540,3 +540,19 @@ fn nohup_keeps_its_meaning() {
     let session = Session::read(folder.path().join("out/session.csv")).unwrap();
     assert_eq!(session.rows.len(), 12_001);
 }
+
+/// Nobody is judged against himself.
+#[test]
+fn a_session_is_not_its_own_expert() {
+    let folder = folder();
+    let folder = folder.path();
+    done(&simulate(folder, "motion.csv", "session", &[]));
+    for expert in ["session", ".", "session/../session"] {
+        let output = palpate_in(folder, &["score", "session", "--expert", expert]);
+        refused(&output, 2, &["against itself"]);
+    }
+    let scene = SCENE.to_owned() + "expert = \".\"\n";
+    fs::write(folder.join("scene.toml"), scene).unwrap();
+    let output = simulate(folder, "motion.csv", "other", &[]);
+    refused(&output, 2, &["task.expert", "\".\""]);
+}

@@ -68,7 +68,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let score = folder.score(&task);
     let mut warnings = doubts(&folder);
     let standards = match arguments.expert.as_deref().or(task.expert.as_deref()) {
-        Some(path) => standards(path, &task, &folder, &mut warnings)?,
+        Some(path) => {
+            let experts = experts(path, &folder, arguments.expert.is_some(), &mut warnings)?;
+            standards(&experts, &task, &folder, &mut warnings)
+        }
         None => Vec::new(),
     };
     let compared = compare(&score, &standards);
@@ -97,14 +100,42 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
 }
 
+/// The sessions of experts but the one that is judged: it is an error where they were named for it, and left out
+/// where the task names them.
+fn experts(
+    path: &Path,
+    own: &SessionFolder,
+    is_named: bool,
+    warnings: &mut Vec<String>,
+) -> Result<Vec<SessionFolder>, Failure> {
+    let mut experts = read_experts(path)?;
+    let count = experts.len();
+    experts.retain(|expert| !expert.is_same(own));
+    let path = path.display();
+    let judged = own.path.display();
+    if experts.len() < count && is_named {
+        return Err(Failure::input(format!(
+            "{judged} is among the experts of {path} and would be judged against itself; name other sessions with \
+             --expert"
+        )));
+    }
+    if experts.len() < count {
+        warnings.push(format!(
+            "{judged} is among the experts of {path}, and is not judged against itself"
+        ));
+    }
+    let incomplete = experts.iter().flat_map(SessionFolder::warnings);
+    warnings.extend(incomplete.map(|said| format!("an expert's session, {said}")));
+    Ok(experts)
+}
+
 /// What experts reach in this task.
 fn standards(
-    path: &Path,
+    experts: &[SessionFolder],
     task: &Task,
     own: &SessionFolder,
     warnings: &mut Vec<String>,
-) -> Result<Vec<Standard>, Failure> {
-    let experts = read_experts(path)?;
+) -> Vec<Standard> {
     let other = |expert: &&SessionFolder| {
         expert.session.header.scene_digest != own.session.header.scene_digest
     };
@@ -121,7 +152,7 @@ fn standards(
                 .to_owned(),
         );
     }
-    Ok(Standard::of(&scores))
+    Standard::of(&scores)
 }
 
 fn doubts(folder: &SessionFolder) -> Vec<String> {
