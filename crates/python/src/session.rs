@@ -91,6 +91,12 @@ impl Session {
         Ok(dict)
     }
 
+    /// Why rows may be missing, in words; None for a session with its end mark.
+    #[getter]
+    fn incomplete(&self) -> Option<String> {
+        self.session.incomplete.as_ref().map(ToString::to_string)
+    }
+
     /// The scene that it happened in; None for a session that was recorded without it.
     #[getter]
     fn scene(&self) -> Option<Scene> {
@@ -192,6 +198,11 @@ impl Session {
 }
 
 fn write(folder: &Path, own: &Session, overwrite: Overwrite) -> Result<(), Failure> {
+    if let Some(why) = &own.session.incomplete {
+        return Err(Failure::input(format!(
+            "the session is {why}, and written again it would pass for a whole one; copy its folder instead"
+        )));
+    }
     let Document {
         header,
         tools,

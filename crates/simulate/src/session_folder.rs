@@ -7,6 +7,7 @@ use palpate_files::{
     Claim, Scene, Session, SessionHeader, SessionRow, SessionWriter, unfinished, write_whole,
 };
 
+use crate::digest::differ;
 use crate::performance::{self, Score};
 use crate::{Error, Simulation};
 
@@ -178,6 +179,13 @@ impl SessionFolder {
     pub fn is_same(&self, other: &Self) -> bool {
         let whole = |path: &Path| std::fs::canonicalize(path).ok();
         whole(&self.file).is_some_and(|own| whole(&other.file) == Some(own))
+    }
+
+    /// Whether both are of different scenes; none where versions of this program wrote them whose digests nothing
+    /// compares.
+    pub fn is_of_other_scene(&self, other: &Self) -> Option<bool> {
+        let digest = |folder: &Self| folder.session.header.scene_digest.clone();
+        differ(&digest(self), &digest(other))
     }
 
     /// When its last row was written, since the beginning of 1970 [s]; none where the system does not say.

@@ -42,8 +42,8 @@ impl fmt::Display for Incomplete {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Unmarked => f.write_str(
-                "incomplete, as far as anybody can tell: no end mark (`# end = ...`) follows the last row, so the \
-                 file was cut, or written by hand or by an earlier version",
+                "incomplete, or written by hand or by an earlier version: no end mark (`# end = ...`) follows its \
+                 last row",
             ),
             Self::CutLine { line } => write!(
                 f,

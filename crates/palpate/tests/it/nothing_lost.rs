@@ -131,7 +131,11 @@ fn a_refused_simulation_leaves_the_session_as_it_was() {
         &["steps"],
     );
     unchanged();
-    let hybrid = SCENE.replace("[[tool]]", "[model]\nkind = \"hybrid\"\n[[tool]]");
+    let hybrid = SCENE.replace(
+        "[organ.tissue]",
+        "[model]\nkind = \"hybrid\"\n[organ.anchor]\nspheres = [{ center_m = [9, 9, 9], radius_m = 0.1 }]\n\
+         [organ.tissue]",
+    );
     fs::write(folder.join("scene.toml"), hybrid).unwrap();
     refused(
         &simulate(folder, "motion.csv", "out", &["--overwrite"]),

@@ -136,9 +136,7 @@ fn standards(
     own: &SessionFolder,
     warnings: &mut Vec<String>,
 ) -> Vec<Standard> {
-    let other = |expert: &&SessionFolder| {
-        expert.session.header.scene_digest != own.session.header.scene_digest
-    };
+    let other = |expert: &&SessionFolder| expert.is_of_other_scene(own) == Some(true);
     if let Some(expert) = experts.iter().find(other) {
         warnings.push(format!(
             "{} is a session of another scene; its measures are of another task",
