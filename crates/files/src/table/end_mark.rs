@@ -42,8 +42,8 @@ impl fmt::Display for Incomplete {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Unmarked => f.write_str(
-                "incomplete, or written by hand or by an earlier version: no end mark (`# end = ...`) follows its \
-                 last row",
+                "incomplete: no end mark (`# end = ...`) follows its last row, so it was cut off, or written by \
+                 hand or by an earlier version",
             ),
             Self::CutLine { line } => write!(
                 f,

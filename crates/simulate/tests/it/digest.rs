@@ -40,4 +40,4 @@ fn digests_of_recorded_sessions_are_known() {
 }
 
 const FORMER: &str = "03af0b310a409016";
-const CANONICAL: &str = "GOLDEN";
+const CANONICAL: &str = "2-e1c8cf9a5cc97eb8";
