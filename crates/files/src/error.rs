@@ -60,6 +60,20 @@ pub enum Error {
         /// What the operating system says.
         source: io::Error,
     },
+    /// A file would be replaced.
+    #[error("{path} is there already; move it, name another place, or let it be replaced with --overwrite", path = path.display())]
+    Exists {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Another program writes at the same place.
+    #[error("{path} is being written by another program{by}; wait until it ends, or name another place", path = path.display(), by = process.map_or(String::new(), |process| format!(" (process {process})")))]
+    InUse {
+        /// The file or folder.
+        path: PathBuf,
+        /// The number of the other program's process, where it is known.
+        process: Option<u32>,
+    },
     /// The bytes are no UTF-8 text.
     #[error("{place}: found bytes that are not UTF-8 text; save the file as plain UTF-8 text")]
     NotText {
@@ -243,7 +257,7 @@ impl Error {
     pub fn is_input(&self) -> bool {
         match self {
             Self::Read { source, .. } | Self::Write { source, .. } => names_wrong_path(source),
-            Self::BadContent { .. } => false,
+            Self::BadContent { .. } | Self::InUse { .. } => false,
             _ => true,
         }
     }

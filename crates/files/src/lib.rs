@@ -13,6 +13,7 @@
 //! each verb (measure, characterize, simulate) can be used without the others.
 
 pub mod card;
+mod claim;
 mod domain;
 mod error;
 mod estimate;
@@ -29,6 +30,7 @@ pub mod units;
 mod whole_file;
 mod words;
 
+pub use claim::{Claim, Overwrite};
 pub use domain::Domain;
 pub use error::{Error, Place};
 pub use estimate::Estimate;
@@ -38,6 +40,7 @@ pub use recording::Recording;
 pub use response::StoredResponse;
 pub use scene::Scene;
 pub use session::{Event, Events, Session, SessionHeader, SessionRow, SessionWriter};
+pub use table::{Incomplete, unfinished};
 pub use tissue::{BuiltinTissue, Elasticity, PronyTerm, Tissue};
 pub use toml_document::{Document, Keys};
 pub use whole_file::{check_writable, write_whole};

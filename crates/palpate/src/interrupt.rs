@@ -1,31 +1,76 @@
-//! Ctrl-C. What can stop in good order is asked to; a command that writes its files at its end is ended
-//! between files, never within one.
+//! Ctrl-C, SIGTERM and the end of the terminal (SIGHUP) are one. What can stop in good order is asked to; a command
+//! that writes its files at its end is ended between files, never within one.
 
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, MutexGuard, Once, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
+use std::time::Duration;
 
-static ASKED: AtomicBool = AtomicBool::new(false);
+use signal_hook::consts::{SIGINT, SIGTERM};
 
-/// Whether Ctrl-C was pressed. From the first question on it ends nothing by itself.
+/// Whether the command ends by itself, and nobody else shall stop.
+static ENDS_ITSELF: AtomicBool = AtomicBool::new(false);
+
+/// How often a command that ends between files looks whether it shall.
+const LOOK: Duration = Duration::from_millis(20);
+
+/// Whether somebody asked the command to stop. From the first question on no signal ends it by itself.
 pub(crate) fn is_asked() -> bool {
-    static LISTENING: Once = Once::new();
-    LISTENING.call_once(|| {
-        // Without a handler Ctrl-C ends the program at once, which sessions survive as well.
-        let _ = ctrlc::set_handler(|| ASKED.store(true, Ordering::Relaxed));
+    was_sent() && !ENDS_ITSELF.load(Ordering::Relaxed)
+}
+
+/// Whether a signal came since the first question.
+fn was_sent() -> bool {
+    static SENT: OnceLock<Arc<AtomicBool>> = OnceLock::new();
+    let sent = SENT.get_or_init(|| {
+        let sent = Arc::new(AtomicBool::new(false));
+        for signal in signals() {
+            // Without a handler the signal ends the program at once, which leaves files that say so.
+            let _ = signal_hook::flag::register(signal, sent.clone());
+        }
+        sent
     });
-    ASKED.load(Ordering::Relaxed)
+    sent.load(Ordering::Relaxed)
+}
+
+#[cfg(unix)]
+fn signals() -> Vec<i32> {
+    use signal_hook::consts::SIGHUP;
+    let mut signals = vec![SIGINT, SIGTERM];
+    // Started by `nohup` it goes on without its terminal.
+    if !is_ignored(SIGHUP) {
+        signals.push(SIGHUP);
+    }
+    signals
+}
+
+#[cfg(not(unix))]
+fn signals() -> Vec<i32> {
+    vec![SIGINT, SIGTERM]
+}
+
+/// Whether the program was started with a signal that is ignored, where the system says so (Linux).
+#[cfg(unix)]
+fn is_ignored(signal: i32) -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    mask.is_some_and(|mask| mask >> (signal - 1) & 1 == 1)
 }
 
 /// Held while a file is written.
 static WRITING: Mutex<()> = Mutex::new(());
 
-/// Exit status after Ctrl-C: a failure.
+/// Exit status after a signal: a failure.
 const INTERRUPTED: i32 = 1;
 
-/// From now on Ctrl-C waits for files that are being written, then ends the program after `farewell`.
+/// From now on a signal waits for files that are being written, then ends the program after `farewell`.
 pub(crate) fn ends_between_files(farewell: impl Fn() + Send + 'static) {
-    // Without a handler Ctrl-C ends the program at once, which leaves a file beside at worst.
-    let _ = ctrlc::set_handler(move || {
+    ENDS_ITSELF.store(true, Ordering::Relaxed);
+    was_sent();
+    std::thread::spawn(move || {
+        while !was_sent() {
+            std::thread::sleep(LOOK);
+        }
         let _between = WRITING.lock().unwrap_or_else(PoisonError::into_inner);
         farewell();
         std::process::exit(INTERRUPTED);

@@ -7,8 +7,8 @@ mod trace;
 
 use std::path::{Path, PathBuf};
 
-use palpate_files::{Motion, Scene, write_whole};
-use palpate_simulate::{Flow, SessionFolder, Simulation, Summary, play};
+use palpate_files::{Claim, Error, Incomplete, Motion, Overwrite, Scene, write_whole};
+use palpate_simulate::{Flow, SessionFolder, Simulation, Summary, check_motion, play};
 use palpate_viewer::FrameWriter;
 use serde::Serialize;
 
@@ -26,8 +26,8 @@ use trace::Traces;
 pub(crate) struct Recording<'a> {
     /// What the simulation was made of.
     pub(crate) scene: &'a Scene,
-    /// The folder; made when it is not there.
-    pub(crate) folder: &'a Path,
+    /// The folder, as [`claimed`].
+    pub(crate) folder: Claim,
     /// Surfaces to write for ParaView, evenly over the motion.
     pub(crate) surfaces: u64,
     /// What takes pictures, evenly over the motion.
@@ -51,6 +51,9 @@ pub(crate) struct Report {
     #[serde(skip_serializing_if = "Option::is_none")]
     beside: Option<BesideAnswer>,
     interrupted: bool,
+    /// Why the motion may lack rows.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    incomplete: Option<String>,
     warnings: Vec<String>,
     files: Vec<PathBuf>,
 }
@@ -64,21 +67,45 @@ struct Times {
     max: f64,
 }
 
-/// Plays `motion` and records it.
+/// The file of a summary, beside that of a session.
+const SUMMARY: &str = "summary.json";
+
+/// The folder of a recording, for this program alone, with nothing in it that the recording would replace unless
+/// that is allowed.
+pub(crate) fn claimed(folder: &Path, overwrite: Overwrite) -> Result<Claim, Failure> {
+    let claim = Claim::of_folder(folder, overwrite).map_err(|error| match error {
+        Error::Write { .. } => Failure::failed(format!(
+            "{error}; name a folder that can be written with --out"
+        )),
+        other => other.into(),
+    })?;
+    claim.check([
+        "session.csv",
+        "scene.toml",
+        SUMMARY,
+        "force.png",
+        "force-depth.png",
+        "beside.png",
+        "surfaces.pvd",
+        "surface-0001.vtp",
+        "frame-0001.png",
+    ])?;
+    Ok(claim)
+}
+
+/// Plays `motion` and records it. What is refused leaves the folder as it was.
 pub(crate) fn record(
     simulation: &Simulation,
     motion: &Motion,
     mut recording: Recording<'_>,
 ) -> Result<Report, Failure> {
-    let folder = recording.folder;
+    check_motion(simulation, motion)?;
+    let folder = recording.folder.path().to_owned();
+    let folder = folder.as_path();
     // From now on Ctrl-C ends the motion, and what was played is written whole.
     interrupt::is_asked();
     let names: Vec<_> = simulation.tools().iter().map(|t| t.name.clone()).collect();
-    let mut writer =
-        SessionFolder::create(folder, (recording.scene, simulation)).map_err(|error| {
-            let mend = format!("{error}; name a folder that can be written with --out");
-            Failure::failed(mend)
-        })?;
+    let mut writer = SessionFolder::create(recording.folder, (recording.scene, simulation))?;
     let mut surfaces = Surfaces::new(folder, recording.surfaces);
     let mut traces = Traces::new(&names);
     let mut progress: Option<Progress> = None;
@@ -108,7 +135,16 @@ pub(crate) fn record(
         }
     })?;
     drop(progress);
-    writer.finish()?;
+    let path = folder.join(SUMMARY);
+    // An older summary is not one of the session that comes now.
+    if path.exists() {
+        std::fs::remove_file(&path).map_err(|source| Error::Write {
+            path: path.clone(),
+            source,
+        })?;
+    }
+    // Until all is written nobody else may write here.
+    let _claim = writer.finish()?;
     let mut files = vec![SessionFolder::session_file(folder)];
     files.extend(surfaces.finish()?);
     files.extend(
@@ -118,9 +154,8 @@ pub(crate) fn record(
             .unwrap_or_default(),
     );
     files.extend(traces.draw(folder, recording.beside.as_ref())?);
-    let path = folder.join("summary.json");
     files.push(path.clone());
-    let report = Report::new(summary, files, recording.beside);
+    let report = Report::new((summary, motion.incomplete()), files, recording.beside);
     let json = serde_json::to_string_pretty(&report)
         .map_err(|cause| Failure::failed(format!("the summary is no JSON ({cause})")))?
         + "\n";
@@ -129,9 +164,19 @@ pub(crate) fn record(
 }
 
 impl Report {
-    fn new(summary: Summary, files: Vec<PathBuf>, beside: Option<Beside>) -> Self {
+    fn new(
+        (summary, incomplete): (Summary, Option<&Incomplete>),
+        files: Vec<PathBuf>,
+        beside: Option<Beside>,
+    ) -> Self {
         let (beside, doubts) = beside.map(Beside::finish).unzip();
-        let warnings = summary.warnings.into_iter();
+        let incomplete = incomplete.map(|why| (why, format!("the motion is {why}")));
+        // A motion that is written by hand rarely has an end mark, which alone is no doubt.
+        let doubted = incomplete
+            .iter()
+            .filter(|(why, _)| **why != Incomplete::Unmarked);
+        let doubted: Vec<String> = doubted.map(|(_, said)| said.clone()).collect();
+        let warnings = summary.warnings.into_iter().chain(doubted);
         Self {
             palpate: VERSION,
             steps: summary.steps,
@@ -147,6 +192,7 @@ impl Report {
             cuts: summary.cuts.map(CutsAnswer::of),
             interrupted: summary.interrupted,
             beside,
+            incomplete: incomplete.map(|(_, said)| said),
             warnings: warnings.chain(doubts.into_iter().flatten()).collect(),
             files,
         }
@@ -161,7 +207,7 @@ impl Report {
         let times = &self.step_times_s;
         format!(
             "{} steps, {} contact{}, peak force {:.4} N, largest depth {:.2} mm\n\
-             a step took {:.0} µs (median), {:.0} µs (99 %), {:.0} µs (99.9 %), {:.0} µs at most{}{}",
+             a step took {:.0} µs (median), {:.0} µs (99 %), {:.0} µs (99.9 %), {:.0} µs at most{}{}{}",
             self.steps,
             self.contacts,
             if self.contacts == 1 { "" } else { "s" },
@@ -175,6 +221,9 @@ impl Report {
             self.beside
                 .as_ref()
                 .map_or(String::new(), BesideAnswer::line),
+            self.incomplete
+                .as_ref()
+                .map_or(String::new(), |said| format!("\n{said}")),
         )
     }
 

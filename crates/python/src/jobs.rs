@@ -174,7 +174,7 @@ pub(crate) fn _measure(
         let measuring = Measuring::of(Plan::of(protocol, seed)?, told)?;
         let out = Out {
             path: &out.0,
-            overwrite: out.1,
+            overwrite: palpate_files::Overwrite::of_option(out.1),
         };
         let files = palpate_jobs::measure::files(&measuring, out)?;
         let recorded = measuring.run(&files, told)?;

@@ -53,6 +53,12 @@ impl Motion {
         tools.map(|tool| tool.name().to_owned()).collect()
     }
 
+    /// Why rows may be missing, in words; None for a motion with its end mark, or from no file.
+    #[getter]
+    fn incomplete(&self) -> Option<String> {
+        self.motion.incomplete().map(ToString::to_string)
+    }
+
     /// When it begins [s].
     #[getter]
     fn begin(&self) -> f64 {

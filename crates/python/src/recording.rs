@@ -132,6 +132,12 @@ impl Recording {
         Ok(dict)
     }
 
+    /// Why samples may be missing, in words; None for a recording with its end mark, and for other programs' tables.
+    #[getter]
+    fn incomplete(&self) -> Option<String> {
+        self.recording.incomplete().map(ToString::to_string)
+    }
+
     /// Whether it is from a table of another program, which has zeros and signs of its own.
     #[getter]
     fn is_foreign(&self) -> bool {

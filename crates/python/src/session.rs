@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use numpy::PyArray1;
-use palpate_files::{Session as Document, SessionRow};
+use palpate_files::{Claim, Overwrite, Session as Document, SessionRow};
 use palpate_simulate::performance;
-use palpate_simulate::{SessionFolder, Summary};
+use palpate_simulate::{SessionFolder, SessionFolderWriter, Summary};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
 
@@ -42,7 +42,7 @@ impl Session {
                 header: model.prepared.session_header(),
                 tools: tools.map(|tool| tool.name.clone()).collect(),
                 rows,
-                truncated: None,
+                incomplete: None,
             },
             scene: Some(model.scene.clone()),
             summary: Told::Played(summary.clone()),
@@ -89,6 +89,12 @@ impl Session {
         dict.set_item("seed", header.seed)?;
         dict.set_item("force_scale", header.force_scale)?;
         Ok(dict)
+    }
+
+    /// Why rows may be missing, in words; None for a session with its end mark.
+    #[getter]
+    fn incomplete(&self) -> Option<String> {
+        self.session.incomplete.as_ref().map(ToString::to_string)
     }
 
     /// The scene that it happened in; None for a session that was recorded without it.
@@ -174,9 +180,11 @@ impl Session {
         crate::simulator::score::dict(py, &score, &task)
     }
 
-    /// Writes session.csv, and scene.toml where the scene is known, into a folder, which is made.
-    fn write(&self, py: Python<'_>, folder: PathBuf) -> Result<(), Failure> {
-        py.detach(|| write(&folder, self))
+    /// Writes session.csv, and scene.toml where the scene is known, into a folder, which is made. A session that is
+    /// there is replaced with `overwrite=True`, else it is an error.
+    #[pyo3(signature = (folder, overwrite=false))]
+    fn write(&self, py: Python<'_>, folder: PathBuf, overwrite: bool) -> Result<(), Failure> {
+        py.detach(|| write(&folder, self, Overwrite::of_option(overwrite)))
     }
 
     fn __len__(&self) -> usize {
@@ -189,15 +197,11 @@ impl Session {
     }
 }
 
-fn write(folder: &Path, own: &Session) -> Result<(), Failure> {
-    let refused = |source| palpate_files::Error::Write {
-        path: folder.to_owned(),
-        source,
-    };
-    std::fs::create_dir_all(folder).map_err(refused)?;
-    let written = own.scene.as_ref().and_then(|scene| scene.written.as_ref());
-    if let Some(text) = written {
-        palpate_files::write_whole(folder.join("scene.toml"), text.as_bytes())?;
+fn write(folder: &Path, own: &Session, overwrite: Overwrite) -> Result<(), Failure> {
+    if let Some(why) = &own.session.incomplete {
+        return Err(Failure::input(format!(
+            "the session is {why}, and written again it would pass for a whole one; copy its folder instead"
+        )));
     }
     let Document {
         header,
@@ -205,10 +209,13 @@ fn write(folder: &Path, own: &Session) -> Result<(), Failure> {
         rows,
         ..
     } = &own.session;
-    let file = SessionFolder::session_file(folder);
-    let mut writer = palpate_files::SessionWriter::create(file, header, tools)?;
+    let folder = Claim::of_folder(folder, overwrite)?;
+    let scene = own.scene.as_ref();
+    let scene = scene.and_then(|scene| scene.written.as_deref());
+    let mut writer = SessionFolderWriter::begin(folder, scene, header, tools)?;
     for row in rows {
         writer.write(row)?;
     }
-    Ok(writer.finish()?)
+    writer.finish()?;
+    Ok(())
 }

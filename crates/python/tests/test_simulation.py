@@ -204,6 +204,15 @@ def test_results_are_those_of_the_command(command: Command, tmp_path: Path) -> N
     played = simulation.play(moved)
     played.write(tmp_path / "own")
     assert (tmp_path / "own" / "session.csv").read_bytes() == (out / "session.csv").read_bytes()
+    assert played.incomplete is None and theirs.incomplete is None
+    with pytest.raises(palpate.InputError, match="is there already"):
+        played.write(tmp_path / "own")
+    played.write(tmp_path / "own", overwrite=True)
+    cut = tmp_path / "cut.csv"
+    cut.write_text("".join((out / "session.csv").read_text().splitlines(keepends=True)[:100]))
+    assert "no end mark" in palpate.Session.read(cut).incomplete
+    with pytest.raises(palpate.InputError, match="incomplete"):
+        palpate.Session.read(cut).write(tmp_path / "again")
     assert played.header == theirs.header and played.score() == theirs.score()
     assert theirs.summary["steps"] == played.summary["steps"]
 

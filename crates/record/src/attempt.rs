@@ -13,14 +13,33 @@ pub struct Attempt {
     pub scene_digest: String,
     /// Since the beginning of 1970, without leap seconds [s].
     pub when: i64,
-    /// The folder of its session; an attempt with the folder of another one takes its place.
+    /// The folder that its session was in; another session may have taken its place since.
     pub session: PathBuf,
+    /// Names what happened: a digest of the session's rows. With the scene's digest, the trainee and the time it
+    /// tells the attempt from all others.
+    pub session_digest: String,
     /// Whether the task was done; none where there was nothing to be done.
     pub passed: Option<bool>,
     /// Whether others are judged by it.
     pub is_expert: bool,
     /// What was measured, each key once.
     pub measures: Vec<Measure>,
+}
+
+/// What became of an attempt that was added.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Added {
+    /// It is in the record now.
+    New,
+    /// It was in the record already, which is as it was.
+    AlreadyThere,
+    /// It is in the record now, beside another attempt with the same session to the last bit.
+    SameSession {
+        /// Whose the other attempt is.
+        trainee: String,
+        /// When it was, since the beginning of 1970 [s].
+        when: i64,
+    },
 }
 
 /// A number of an attempt.

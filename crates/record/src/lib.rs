@@ -24,7 +24,7 @@ mod rows;
 mod schema;
 mod spread;
 
-pub use attempt::{Attempt, Better, Measure};
+pub use attempt::{Added, Attempt, Better, Measure};
 pub use error::Error;
 pub use learning::{CurvePoint, learning_curve};
 pub use proficiency::{IN_A_ROW, Judged, Judgement, Standard, Standards, proficient_since};

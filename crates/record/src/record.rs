@@ -5,7 +5,7 @@ use std::time::Duration;
 use rusqlite::{Connection, OpenFlags};
 
 use crate::schema::{self, Found, VERSION};
-use crate::{Attempt, Error, aside, rows};
+use crate::{Added, Attempt, Error, aside, rows};
 
 /// How long another program is waited for.
 const PATIENCE: Duration = Duration::from_secs(2);
@@ -104,13 +104,14 @@ impl Record {
         &self.doubts
     }
 
-    /// Keeps an attempt: on the disk when this returns, or not at all. It takes the place of one with the same
-    /// session. Names are kept without white space around them.
+    /// Keeps an attempt: on the disk when this returns, or not at all. No other attempt is changed; one that is in
+    /// the record already, by the digests of session and scene, the trainee and the time, is not added again. Names
+    /// are kept without white space around them.
     ///
     /// # Errors
     /// The attempt lacks a name or has a measure that is no number, or another program holds the record for longer
     /// than two seconds, or it cannot be written.
-    pub fn add(&mut self, attempt: &Attempt) -> Result<(), Error> {
+    pub fn add(&mut self, attempt: &Attempt) -> Result<Added, Error> {
         attempt.check()?;
         let session = session(&attempt.session)?;
         rows::put(&mut self.connection, attempt, &session)
@@ -198,6 +199,9 @@ fn looked_at(path: &Path, begins: bool) -> rusqlite::Result<(Connection, Found)>
     if found == Found::Nothing && begins {
         schema::begin(&mut connection)?;
         found = schema::look(&connection)?;
+    }
+    if found == Found::Record && begins {
+        schema::upgrade(&mut connection)?;
     }
     Ok((connection, found))
 }

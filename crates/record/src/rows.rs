@@ -2,35 +2,51 @@
 
 use std::path::PathBuf;
 
-use rusqlite::{Connection, Row, Transaction, TransactionBehavior, params};
+use rusqlite::{Connection, OptionalExtension, Row, Transaction, TransactionBehavior, params};
 
-use crate::{Attempt, Better, Filter, Measure};
+use crate::{Added, Attempt, Better, Filter, Measure, schema};
 
-/// Puts an attempt in, or in the place of the one with the same session: whole or not at all.
+/// Puts an attempt in, whole or not at all, unless it is there already.
 pub(crate) fn put(
     connection: &mut Connection,
     attempt: &Attempt,
     session: &str,
-) -> rusqlite::Result<()> {
+) -> rusqlite::Result<Added> {
     let transaction = Transaction::new(connection, TransactionBehavior::Immediate)?;
-    let id: i64 = transaction.query_row(
-        "INSERT INTO attempt (session, trainee, task, scene_digest, when_s, passed, is_expert)
-         VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7)
-         ON CONFLICT (session) DO UPDATE SET trainee = ?2, task = ?3, scene_digest = ?4, when_s = ?5,
-             passed = ?6, is_expert = ?7
-         RETURNING id",
-        params![
-            session,
-            attempt.trainee.trim(),
-            attempt.task.trim(),
-            attempt.scene_digest,
-            attempt.when,
-            attempt.passed,
-            attempt.is_expert
-        ],
-        |row| row.get(0),
-    )?;
-    transaction.execute("DELETE FROM measure WHERE attempt = ?1", [id])?;
+    let other = transaction
+        .query_row(
+            "SELECT trainee, when_s FROM attempt WHERE session_digest = ?1 AND scene_digest = ?2
+             ORDER BY when_s LIMIT 1",
+            [&attempt.session_digest, &attempt.scene_digest],
+            |row| {
+                Ok(Added::SameSession {
+                    trainee: row.get(0)?,
+                    when: row.get(1)?,
+                })
+            },
+        )
+        .optional()?;
+    let id: Option<i64> = transaction
+        .query_row(
+            "INSERT INTO attempt (session_digest, session, trainee, task, scene_digest, when_s, passed, is_expert)
+             VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8)
+             ON CONFLICT DO NOTHING RETURNING id",
+            params![
+                attempt.session_digest,
+                session,
+                attempt.trainee.trim(),
+                attempt.task.trim(),
+                attempt.scene_digest,
+                attempt.when,
+                attempt.passed,
+                attempt.is_expert
+            ],
+            |row| row.get(0),
+        )
+        .optional()?;
+    let Some(id) = id else {
+        return Ok(Added::AlreadyThere);
+    };
     let mut insert = transaction.prepare(
         "INSERT INTO measure (attempt, place, key, value, better) VALUES (?1, ?2, ?3, ?4, ?5)",
     )?;
@@ -38,18 +54,24 @@ pub(crate) fn put(
         insert.execute(params![id, place, key, value, better.word()])?;
     }
     drop(insert);
-    transaction.commit()
+    transaction.commit()?;
+    Ok(other.unwrap_or(Added::New))
 }
 
 /// Attempts in order; by one statement, so that all is of one moment.
 pub(crate) fn taken(connection: &Connection, filter: &Filter) -> rusqlite::Result<Vec<Attempt>> {
-    let mut query = connection.prepare(
+    // A record that is only read stays of its version.
+    let digest = match schema::version(connection)? {
+        1 => "'unknown, ' || session",
+        _ => "session_digest",
+    };
+    let mut query = connection.prepare(&format!(
         "SELECT attempt.id, session, trainee, task, scene_digest, when_s, passed, is_expert,
-             measure.key, measure.value, measure.better
+             measure.key, measure.value, measure.better, {digest}
          FROM attempt LEFT JOIN measure ON measure.attempt = attempt.id
          WHERE (?1 IS NULL OR trainee = ?1) AND (?2 IS NULL OR task = ?2)
-         ORDER BY when_s, attempt.id, measure.place",
-    )?;
+         ORDER BY when_s, attempt.id, measure.place"
+    ))?;
     let mut rows = query.query(params![filter.trainee, filter.task])?;
     let mut attempts: Vec<Attempt> = Vec::new();
     let mut last = None;
@@ -68,6 +90,7 @@ pub(crate) fn taken(connection: &Connection, filter: &Filter) -> rusqlite::Resul
 fn attempt(row: &Row<'_>) -> rusqlite::Result<Attempt> {
     Ok(Attempt {
         session: PathBuf::from(row.get::<_, String>(1)?),
+        session_digest: row.get(11)?,
         trainee: row.get(2)?,
         task: row.get(3)?,
         scene_digest: row.get(4)?,

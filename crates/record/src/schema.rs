@@ -6,19 +6,21 @@ use rusqlite::{Connection, Transaction, TransactionBehavior};
 pub(crate) const APPLICATION: i64 = 0x7061_6c70;
 
 /// Of the tables.
-pub(crate) const VERSION: i64 = 1;
+pub(crate) const VERSION: i64 = 2;
 
-/// The tables; a session's folder stands once.
+/// The tables; an attempt is what was done (digest of the session, digest of the scene), by whom and when.
 const TABLES: &str = "
 CREATE TABLE attempt (
     id INTEGER PRIMARY KEY,
-    session TEXT NOT NULL UNIQUE,
+    session_digest TEXT NOT NULL,
+    session TEXT NOT NULL,
     trainee TEXT NOT NULL,
     task TEXT NOT NULL,
     scene_digest TEXT NOT NULL,
     when_s INTEGER NOT NULL,
     passed INTEGER CHECK (passed IN (0, 1)),
-    is_expert INTEGER NOT NULL CHECK (is_expert IN (0, 1))
+    is_expert INTEGER NOT NULL CHECK (is_expert IN (0, 1)),
+    UNIQUE (session_digest, scene_digest, trainee, when_s)
 ) STRICT;
 CREATE TABLE measure (
     attempt INTEGER NOT NULL REFERENCES attempt (id),
@@ -30,12 +32,28 @@ CREATE TABLE measure (
 ) STRICT, WITHOUT ROWID;
 ";
 
+/// From version 1, where an attempt was known by its session's folder, which is what its digest becomes.
+const FROM_VERSION_1: &str = "
+ALTER TABLE attempt RENAME TO attempt_1;
+ALTER TABLE measure RENAME TO measure_1;
+";
+
+/// What version 1 kept, in the tables of version 2.
+const KEPT_OF_VERSION_1: &str = "
+INSERT INTO attempt
+    SELECT id, 'unknown, ' || session, session, trainee, task, scene_digest, when_s, passed, is_expert
+    FROM attempt_1;
+INSERT INTO measure SELECT * FROM measure_1;
+DROP TABLE measure_1;
+DROP TABLE attempt_1;
+";
+
 /// What a database is.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Found {
     /// Nothing stands in it.
     Nothing,
-    /// A record of this version, whole.
+    /// A record of this version or an earlier one, whole.
     Record,
     /// A record of a later version.
     Newer(i64),
@@ -49,7 +67,7 @@ pub(crate) enum Found {
 pub(crate) fn look(connection: &Connection) -> rusqlite::Result<Found> {
     let number = |sql: &str| connection.query_row(sql, [], |row| row.get::<_, i64>(0));
     let application = number("PRAGMA application_id")?;
-    let version = number("PRAGMA user_version")?;
+    let version = version(connection)?;
     let objects = number("SELECT count(*) FROM sqlite_schema")?;
     if (application, version, objects) == (0, 0, 0) {
         return Ok(Found::Nothing);
@@ -67,7 +85,7 @@ pub(crate) fn look(connection: &Connection) -> rusqlite::Result<Found> {
         return Ok(Found::Damaged(said.replace('\n', " ")));
     }
     let tables = "SELECT count(*) FROM sqlite_schema WHERE type = 'table' AND name IN ('attempt', 'measure')";
-    if version != VERSION || number(tables)? != 2 {
+    if version < 1 || number(tables)? != 2 {
         return Ok(Found::Damaged("its tables are missing".to_owned()));
     }
     Ok(Found::Record)
@@ -82,4 +100,25 @@ pub(crate) fn begin(connection: &mut Connection) -> rusqlite::Result<()> {
         transaction.pragma_update(None, "user_version", VERSION)?;
     }
     transaction.commit()
+}
+
+/// Brings a record of an earlier version to this one, whole or not at all.
+pub(crate) fn upgrade(connection: &mut Connection) -> rusqlite::Result<()> {
+    if version(connection)? == VERSION {
+        return Ok(());
+    }
+    let transaction = Transaction::new(connection, TransactionBehavior::Immediate)?;
+    // Somebody else may have been faster.
+    if version(&transaction)? == 1 {
+        transaction.execute_batch(FROM_VERSION_1)?;
+        transaction.execute_batch(TABLES)?;
+        transaction.execute_batch(KEPT_OF_VERSION_1)?;
+        transaction.pragma_update(None, "user_version", VERSION)?;
+    }
+    transaction.commit()
+}
+
+/// The version of the tables.
+pub(crate) fn version(connection: &Connection) -> rusqlite::Result<i64> {
+    connection.query_row("PRAGMA user_version", [], |row| row.get(0))
 }

@@ -1,11 +1,62 @@
-use palpate_files::scene::DeviceKind;
+//! A name for what was simulated, from surface, tissue, model and tools. Folders, names of files, devices, and what
+//! is only shown do not count.
+//!
+//! The digest of version 2 is `2-` and the first 16 hexadecimal digits of the SHA-256 of the canonical form: the
+//! coordinates and nodes of the surface as bytes, then a line `key = values` for each number and word, under keys
+//! that stand here and nowhere else. Numbers are the bits of their IEEE 754 form, so that no way of printing changes
+//! them, and words are those of the documents. A field that is renamed in the program keeps its key here; one
+//! that is added is written only where it is not the value that every earlier scene had.
+//!
+//! The digest of version 1 was 16 digits, from the names of the fields in the program. It is still computed, so that
+//! sessions of that time are known again.
+//!
+//! *How we know*: `digest::…`.
+
+use std::fmt::{Debug, Write};
+
+use palpate_files::scene::{
+    Cutting, DeviceKind, Enhancement, IntegrationPoints, Jaws, Layer, LocalSettings, Model, Nodule,
+    Region, RegionBox, RegionPlane, RegionSphere, Tip, Tool,
+};
 use palpate_files::{Scene, Tissue};
 use palpate_geometry::Surface;
 use sha2::{Digest, Sha256};
 
-/// A name for what was simulated: the first 16 hexadecimal digits of the SHA-256 of surface, tissue,
-/// model and tools. Folders, file names and devices do not count.
-pub(crate) fn digest(scene: &Scene, surface: &Surface, tissue: &Tissue) -> String {
+/// Before the digits of a digest of the canonical form.
+const VERSION: &str = "2-";
+
+/// The digests of a scene.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct SceneDigest {
+    /// Of the canonical form.
+    pub(crate) canonical: String,
+    /// As it was before there was one.
+    former: String,
+}
+
+impl SceneDigest {
+    pub(crate) fn of(scene: &Scene, surface: &Surface, tissue: &Tissue) -> Self {
+        let of_surface = of_surface(surface);
+        let with = |text: &str| digits(of_surface.clone().chain_update(text));
+        Self {
+            canonical: format!("{VERSION}{}", with(&canonical(scene, tissue))),
+            former: with(&former(scene, tissue)),
+        }
+    }
+
+    /// Whether the digest in a session is one of this scene.
+    pub(crate) fn is(&self, digest: &str) -> bool {
+        digest == self.canonical || digest == self.former
+    }
+}
+
+/// Whether two digests are of different scenes; none where they are of different versions, which nothing compares.
+pub(crate) fn differ(one: &str, other: &str) -> Option<bool> {
+    let is_canonical = |digest: &str| digest.starts_with(VERSION);
+    (is_canonical(one) == is_canonical(other)).then(|| one != other)
+}
+
+fn of_surface(surface: &Surface) -> Sha256 {
     let mut hash = Sha256::new();
     for vertex in surface.mesh().vertices() {
         for coordinate in vertex.iter() {
@@ -15,25 +66,316 @@ pub(crate) fn digest(scene: &Scene, surface: &Surface, tissue: &Tissue) -> Strin
     for node in surface.mesh().triangles().iter().flatten() {
         hash.update(node.0.to_le_bytes());
     }
-    // Who moves a tool does not change what it meets.
-    let mut tools = scene.tools.clone();
-    tools
-        .iter_mut()
-        .for_each(|tool| tool.device = DeviceKind::None);
-    hash.update(format!(
-        "{:?}{:?}{:?}{:?}{:?}{:?}{:?}{:?}",
-        tissue.elasticity,
-        tissue.prony,
-        scene.organ.anchor,
-        scene.model,
-        tools,
-        scene.cutting,
-        scene.organ.layers,
-        scene.organ.nodules
-    ));
+    hash
+}
+
+fn digits(hash: Sha256) -> String {
     let bytes = hash.finalize();
     bytes[..8]
         .iter()
         .map(|byte| format!("{byte:02x}"))
         .collect()
+}
+
+/// The text of version 1.
+fn former(scene: &Scene, tissue: &Tissue) -> String {
+    // Who moves a tool does not change what it meets.
+    let mut tools = scene.tools.clone();
+    tools
+        .iter_mut()
+        .for_each(|tool| tool.device = DeviceKind::None);
+    let parts: [&dyn Debug; 8] = [
+        &tissue.elasticity,
+        &tissue.prony,
+        &scene.organ.anchor,
+        &scene.model,
+        &tools,
+        &scene.cutting,
+        &scene.organ.layers,
+        &scene.organ.nodules,
+    ];
+    parts.map(|part| format!("{part:?}")).concat()
+}
+
+/// The canonical text.
+fn canonical(scene: &Scene, tissue: &Tissue) -> String {
+    let mut form = Form::default();
+    form.tissue(tissue);
+    form.region("anchor", scene.organ.anchor.as_ref());
+    form.model(&scene.model);
+    scene.tools.iter().for_each(|tool| form.tool(tool));
+    form.cutting(&scene.cutting);
+    scene
+        .organ
+        .layers
+        .iter()
+        .for_each(|layer| form.layer(layer));
+    scene
+        .organ
+        .nodules
+        .iter()
+        .for_each(|ball| form.nodule(ball));
+    form.0
+}
+
+/// Lines `key = values`. Structs are taken apart whole, so that a field that is new asks for its place here.
+#[derive(Default)]
+struct Form(String);
+
+impl Form {
+    fn word(&mut self, key: &str, word: &str) {
+        writeln!(self.0, "{key} = {word}").expect("a string takes every text");
+    }
+
+    fn numbers(&mut self, key: &str, numbers: &[f64]) {
+        // 0 and -0 are the same number.
+        let bits = numbers.iter().map(|number| (number + 0.0).to_bits());
+        let bits: Vec<String> = bits.map(|bits| format!("{bits:016x}")).collect();
+        self.word(key, &bits.join(" "));
+    }
+
+    fn optional(&mut self, key: &str, number: Option<f64>) {
+        match number {
+            Some(number) => self.numbers(key, &[number]),
+            None => self.word(key, "none"),
+        }
+    }
+
+    fn tissue(&mut self, tissue: &Tissue) {
+        // How well a number is known, and what it is called, changes no force.
+        self.word("law", tissue.elasticity.law().word());
+        for (key, parameter) in tissue.elasticity.parameters() {
+            self.numbers(key, &[parameter.value]);
+        }
+        for term in &tissue.prony {
+            self.numbers("prony", &[term.g.value, term.tau_s.value]);
+        }
+    }
+
+    fn region(&mut self, name: &str, region: Option<&Region>) {
+        let Some(Region {
+            planes,
+            boxes,
+            spheres,
+        }) = region
+        else {
+            return self.word(name, "none");
+        };
+        self.word(name, "region");
+        for RegionPlane { point_m, normal } in planes {
+            self.numbers("plane", &[*point_m, *normal].concat());
+        }
+        for RegionBox { min_m, max_m } in boxes {
+            self.numbers("box", &[*min_m, *max_m].concat());
+        }
+        for RegionSphere { center_m, radius_m } in spheres {
+            self.numbers("sphere", &[&center_m[..], &[*radius_m]].concat());
+        }
+    }
+
+    fn model(&mut self, model: &Model) {
+        let Model {
+            kind,
+            step_s,
+            local,
+            enhancement,
+            mechanical_triangles,
+            response,
+            hand_over,
+            force_scale,
+        } = model;
+        self.word("model", kind.word());
+        self.numbers("step_s", &[*step_s]);
+        let LocalSettings {
+            particles,
+            form,
+            placement,
+            solver,
+            assembly,
+            integration_points,
+        } = local;
+        self.word("particles", &particles.to_string());
+        self.word("form", form.word());
+        self.word("placement", placement.word());
+        self.word("solver", solver.word());
+        self.word("assembly", assembly.word());
+        let points = match integration_points {
+            IntegrationPoints::Few => "few",
+            IntegrationPoints::Standard => "standard",
+            IntegrationPoints::Many => "many",
+        };
+        self.word("integration_points", points);
+        let Enhancement {
+            area,
+            levels,
+            smoothing,
+        } = enhancement;
+        self.word("area", area.word());
+        self.word("levels", &levels.to_string());
+        self.word("smoothing", smoothing.word());
+        let triangles = mechanical_triangles.map(|count| count.to_string());
+        self.word(
+            "mechanical_triangles",
+            triangles.as_deref().unwrap_or("none"),
+        );
+        self.word("response", response.word());
+        self.word("hand_over", hand_over.word());
+        self.numbers("force_scale", &[*force_scale]);
+    }
+
+    fn tool(&mut self, tool: &Tool) {
+        let Tool {
+            name,
+            kind,
+            tip:
+                Tip {
+                    shape,
+                    radius_m,
+                    contact,
+                },
+            trocar_m,
+            trocar_friction_n,
+            trocar_stiffness_n_per_m,
+            jaws,
+            // Only shown.
+            mesh: _,
+            // Who moves a tool does not change what it meets.
+            device: _,
+        } = tool;
+        self.word("tool", name);
+        self.word("kind", kind.word());
+        self.word("shape", shape.word());
+        self.numbers("radius_m", &[*radius_m]);
+        self.word("contact", contact.word());
+        match trocar_m {
+            Some(place) => self.numbers("trocar_m", place),
+            None => self.word("trocar_m", "none"),
+        }
+        self.numbers("trocar_friction_n", &[*trocar_friction_n]);
+        self.numbers("trocar_stiffness_n_per_m", &[*trocar_stiffness_n_per_m]);
+        match jaws {
+            Some(Jaws {
+                length_m,
+                width_m,
+                opening_m,
+                force_n,
+                friction,
+            }) => self.numbers(
+                "jaws",
+                &[*length_m, *width_m, *opening_m, *force_n, *friction],
+            ),
+            None => self.word("jaws", "none"),
+        }
+    }
+
+    fn cutting(&mut self, cutting: &Cutting) {
+        let Cutting {
+            mode,
+            depth_m,
+            width_m,
+            toughness_j_per_m2,
+            force_limit_n,
+        } = cutting;
+        self.word("cutting", mode.word());
+        self.optional("depth_m", *depth_m);
+        self.numbers("width_m", &[*width_m]);
+        self.numbers("toughness_j_per_m2", &[*toughness_j_per_m2]);
+        self.optional("force_limit_n", *force_limit_n);
+    }
+
+    /// A layer's own tissue is cut and not felt.
+    fn layer(&mut self, layer: &Layer) {
+        let Layer {
+            name: _,
+            thickness_m,
+            tissue: _,
+            perforation_force_n,
+        } = layer;
+        self.numbers("layer", &[*thickness_m]);
+        self.optional("perforation_force_n", *perforation_force_n);
+    }
+
+    fn nodule(&mut self, nodule: &Nodule) {
+        let Nodule {
+            center_m,
+            radius_m,
+            stiffness_ratio,
+        } = nodule;
+        self.numbers(
+            "nodule",
+            &[&center_m[..], &[*radius_m, *stiffness_ratio]].concat(),
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Simulation;
+
+    const ESOPHAGUS: &str = include_str!("../../../assets/esophagus/scene.toml");
+
+    const SCENE: &str = "format = 1\n[organ]\nbuiltin = \"hemisphere\"\ntriangles = 800\n[organ.tissue]\n\
+        law = \"linear\"\nyoungs_modulus_pa = 10000.0\npoissons_ratio = 0.45\n\
+        prony = [{ g = 0.3, tau_s = 0.5 }]\n[[organ.layer]]\nname = \"outer\"\nthickness_m = 0.001\n\
+        builtin_tissue = \"pig-liver\"\n[[organ.nodule]]\ncenter_m = [0.0, 0.0, 0.03]\nradius_m = 0.005\n\
+        stiffness_ratio = 6.0\n[model]\nkind = \"local\"\n[[tool]]\nname = \"right\"\ndevice = \"mouse\"\n\
+        tip = { shape = \"flat\", radius_m = 0.002, contact = \"slip\" }\n";
+
+    fn digest(text: &str) -> SceneDigest {
+        let scene = Scene::parse(text, "scene.toml").unwrap();
+        Simulation::new(&scene).unwrap().scene_digest
+    }
+
+    /// The digest that a session of version 0.1.0 has of this scene. That of now is in `tests/it/digest.rs`.
+    #[test]
+    fn digests_of_recorded_sessions_are_known() {
+        let esophagus = digest(ESOPHAGUS);
+        assert!(esophagus.is("03af0b310a409016"));
+        assert!(esophagus.canonical.starts_with(VERSION));
+        assert!(esophagus.is(&esophagus.canonical));
+        assert!(!esophagus.is("2-03af0b310a409016"));
+    }
+
+    /// What changes a force changes the digest; names, devices and the way numbers are written do not.
+    #[test]
+    fn whatever_changes_a_force_changes_the_digest() {
+        let own = digest(SCENE);
+        for (from, to) in [
+            ("10000.0", "10000.000001"),
+            ("linear", "neo_hookean"),
+            ("g = 0.3", "g = 0.31"),
+            ("tau_s = 0.5", "tau_s = 0.6"),
+            ("thickness_m = 0.001", "thickness_m = 0.002"),
+            ("0.03]", "0.031]"),
+            ("stiffness_ratio = 6.0", "stiffness_ratio = 7.0"),
+            ("kind = \"local\"", "kind = \"local\"\nparticles = 50"),
+            ("kind = \"local\"", "kind = \"local\"\nstep_s = 0.004"),
+            ("slip", "stick"),
+            ("0.002, c", "0.0021, c"),
+            ("triangles = 800", "triangles = 900"),
+            ("\"flat\"", "\"sphere\""),
+        ] {
+            let mut changed = SCENE.replace(from, to);
+            if to == "neo_hookean" {
+                changed = changed.replace(
+                    "youngs_modulus_pa = 10000.0\npoissons_ratio = 0.45",
+                    "c10_pa = 1000.0",
+                );
+            }
+            assert_ne!(changed, SCENE, "{from}");
+            assert_ne!(digest(&changed).canonical, own.canonical, "{from}: {to}");
+        }
+        for (from, to) in [("outer", "muscle"), ("mouse", "none"), ("10000.0", "1e4")] {
+            let changed = SCENE.replace(from, to);
+            assert_eq!(digest(&changed).canonical, own.canonical, "{from}: {to}");
+        }
+    }
+
+    #[test]
+    fn digests_of_two_versions_are_not_compared() {
+        assert_eq!(differ("2-01", "2-02"), Some(true));
+        assert_eq!(differ("01", "01"), Some(false));
+        assert_eq!(differ("2-01", "01"), None);
+    }
 }

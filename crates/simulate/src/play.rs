@@ -49,6 +49,16 @@ impl Frame<'_> {
     }
 }
 
+/// Refuses a motion that cannot be played: before a result is written anywhere.
+///
+/// # Errors
+/// When the motion moves a tool that the scene has not or takes too many steps.
+pub fn check_motion(simulation: &Simulation, motion: &Motion) -> Result<(), Error> {
+    match_tools(simulation, motion)?;
+    whole_steps(simulation, motion.final_time_s() - motion.first_time_s())?;
+    Ok(())
+}
+
 /// Plays a whole motion, from its first time to its last, as fast as it goes; `observe` sees every step.
 ///
 /// # Errors

@@ -52,7 +52,7 @@ impl Replay {
         if was.step_s != is.step_s {
             return Err(other("step [s]", &was.step_s, &is.step_s));
         }
-        if was.scene_digest != is.scene_digest {
+        if !simulation.scene_digest.is(&was.scene_digest) {
             return Err(other("scene", &was.scene_digest, &is.scene_digest));
         }
         let number = |name: &String| {

@@ -3,8 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use palpate_files::scene::Task;
-use palpate_files::{Scene, Session, SessionWriter, write_whole};
+use palpate_files::{
+    Claim, Scene, Session, SessionHeader, SessionRow, SessionWriter, unfinished, write_whole,
+};
 
+use crate::digest::differ;
 use crate::performance::{self, Score};
 use crate::{Error, Simulation};
 
@@ -21,27 +24,112 @@ pub struct SessionFolder {
     pub session: Session,
     /// The scene; none for a session that was recorded without it.
     pub scene: Option<Scene>,
+    /// The file of the session.
+    file: PathBuf,
+    /// Whether a later session lies beside it that was not finished.
+    has_unfinished: bool,
+}
+
+/// Writes the folder of a session while it is played. Until it is finished, an older session in the folder stays as
+/// it was, and the new one is beside it, in files with the ending `.part`.
+#[derive(Debug)]
+pub struct SessionFolderWriter {
+    session: SessionWriter,
+    folder: Claim,
+    /// Whether the scene was written.
+    has_scene: bool,
+}
+
+impl SessionFolderWriter {
+    /// Begins a session of `tools` with `header` in the claimed `folder`; `scene` is the text of its scene, where
+    /// that is known.
+    ///
+    /// # Errors
+    /// When there is a session in the folder that may not be replaced, or a file cannot be written.
+    pub fn begin(
+        folder: Claim,
+        scene: Option<&str>,
+        header: &SessionHeader,
+        tools: &[String],
+    ) -> Result<Self, Error> {
+        folder.check([SESSION, SCENE])?;
+        if let Some(text) = scene {
+            write_whole(unfinished(folder.path().join(SCENE)), text.as_bytes())?;
+        }
+        Ok(Self {
+            session: SessionWriter::create(folder.path().join(SESSION), header, tools)?,
+            folder,
+            has_scene: scene.is_some(),
+        })
+    }
+
+    /// Adds a row.
+    ///
+    /// # Errors
+    /// As of [`SessionWriter::write`].
+    pub fn write(&mut self, row: &SessionRow) -> Result<(), palpate_files::Error> {
+        self.session.write(row)
+    }
+
+    /// Brings all rows to the file.
+    ///
+    /// # Errors
+    /// When the operating system refuses.
+    pub fn flush(&mut self) -> Result<(), palpate_files::Error> {
+        self.session.flush()
+    }
+
+    /// Ends the session: it takes the place of an older one, with its scene. The folder stays claimed until what is
+    /// given back is dropped.
+    ///
+    /// # Errors
+    /// When the operating system refuses.
+    pub fn finish(self) -> Result<Claim, palpate_files::Error> {
+        let at = |name: &str| self.folder.path().join(name);
+        let (session, scene) = (at(SESSION), at(SCENE));
+        // In this order a reader never meets one session's rows beside another's scene: without a `session.csv` it
+        // takes the `.part` files.
+        self.session.finish_after(|| {
+            remove(&session)?;
+            match self.has_scene {
+                true => std::fs::rename(unfinished(&scene), &scene).map_err(|source| {
+                    palpate_files::Error::Write {
+                        path: scene.clone(),
+                        source,
+                    }
+                }),
+                false => remove(&scene),
+            }
+        })?;
+        Ok(self.folder)
+    }
+}
+
+/// Removes a file if it exists.
+fn remove(path: &Path) -> Result<(), palpate_files::Error> {
+    match std::fs::remove_file(path) {
+        Err(source) if source.kind() != std::io::ErrorKind::NotFound => {
+            Err(palpate_files::Error::Write {
+                path: path.to_owned(),
+                source,
+            })
+        }
+        _ => Ok(()),
+    }
 }
 
 impl SessionFolder {
-    /// Begins a session of `simulation`, which was made of `scene`, in the folder `path`; the folder is made.
+    /// Begins a session of `simulation`, which was made of `scene`, in the claimed `folder`.
     ///
     /// # Errors
-    /// When a file cannot be written.
+    /// When there is a session in the folder that may not be replaced, or a file cannot be written.
     pub fn create(
-        path: &Path,
+        folder: Claim,
         (scene, simulation): (&Scene, &Simulation),
-    ) -> Result<SessionWriter, Error> {
-        std::fs::create_dir_all(path).map_err(|cause| palpate_files::Error::Write {
-            path: path.to_owned(),
-            source: cause,
-        })?;
-        if let Some(text) = &scene.written {
-            write_whole(path.join(SCENE), text.as_bytes())?;
-        }
+    ) -> Result<SessionFolderWriter, Error> {
         let names: Vec<_> = simulation.tools().iter().map(|t| t.name.clone()).collect();
         let header = simulation.session_header();
-        Ok(SessionWriter::create(path.join(SESSION), &header, &names)?)
+        SessionFolderWriter::begin(folder, scene.written.as_deref(), &header, &names)
     }
 
     /// The session file of the folder `path`.
@@ -49,7 +137,14 @@ impl SessionFolder {
         path.join(SESSION)
     }
 
-    /// Reads a folder, or the session of a file alone.
+    /// Whether there is a session in the folder `path`, finished or not.
+    fn is_in(path: &Path) -> bool {
+        let file = Self::session_file(path);
+        file.exists() || unfinished(file).exists()
+    }
+
+    /// Reads a folder, or the session of a file alone. Of a folder whose only session was not finished that one is
+    /// read.
     ///
     /// # Errors
     /// When the session cannot be read, or a scene is there that cannot be.
@@ -58,16 +153,59 @@ impl SessionFolder {
             true => (path, path.join(SESSION)),
             false => (path.parent().unwrap_or(Path::new("")), path.to_owned()),
         };
-        let session = Session::read(&file)?;
+        let part = unfinished(&file);
+        let has_part = path.is_dir() && part.exists();
+        let is_part = has_part && !file.exists();
         let scene = folder.join(SCENE);
+        let scene_part = unfinished(&scene);
+        let scene = match is_part && scene_part.exists() {
+            true => scene_part,
+            false => scene,
+        };
+        let file = if is_part { part } else { file };
         Ok(Self {
             path: path.to_owned(),
-            session,
+            session: Session::read(&file)?,
+            file,
             scene: match scene.exists() {
                 true => Some(Scene::read(scene)?),
                 false => None,
             },
+            has_unfinished: has_part && !is_part,
         })
+    }
+
+    /// Whether both are of the same file.
+    pub fn is_same(&self, other: &Self) -> bool {
+        let whole = |path: &Path| std::fs::canonicalize(path).ok();
+        whole(&self.file).is_some_and(|own| whole(&other.file) == Some(own))
+    }
+
+    /// Whether both are of different scenes; none where versions of this program wrote them whose digests nothing
+    /// compares.
+    pub fn is_of_other_scene(&self, other: &Self) -> Option<bool> {
+        let digest = |folder: &Self| folder.session.header.scene_digest.clone();
+        differ(&digest(self), &digest(other))
+    }
+
+    /// When its last row was written, since the beginning of 1970 [s]; none where the system does not say.
+    pub fn when(&self) -> Option<i64> {
+        let written = std::fs::metadata(&self.file).ok()?.modified().ok()?;
+        let since = written.duration_since(std::time::UNIX_EPOCH).ok()?;
+        Some(since.as_secs() as i64)
+    }
+
+    /// What is not right with the session as it was recorded, in sentences.
+    pub fn warnings(&self) -> Vec<String> {
+        let path = self.path.display();
+        let incomplete = self.session.incomplete.iter();
+        let mut warnings: Vec<String> = incomplete.map(|why| format!("{path}: {why}")).collect();
+        if self.has_unfinished {
+            warnings.push(format!(
+                "{path}: a later session was begun here and not finished ({SESSION}.part); this is the one before"
+            ));
+        }
+        warnings
     }
 
     /// What was to be done; nothing in particular without a scene.
@@ -89,7 +227,7 @@ impl SessionFolder {
 /// # Errors
 /// When there is none, or one cannot be read.
 pub fn read_experts(path: &Path) -> Result<Vec<SessionFolder>, Error> {
-    if path.is_file() || path.join(SESSION).exists() {
+    if path.is_file() || SessionFolder::is_in(path) {
         return Ok(vec![SessionFolder::read(path)?]);
     }
     let entries = std::fs::read_dir(path).map_err(|source| palpate_files::Error::Read {
@@ -98,7 +236,7 @@ pub fn read_experts(path: &Path) -> Result<Vec<SessionFolder>, Error> {
     })?;
     let mut folders: Vec<PathBuf> = entries
         .filter_map(|entry| Some(entry.ok()?.path()))
-        .filter(|folder| folder.join(SESSION).exists())
+        .filter(|folder| SessionFolder::is_in(folder))
         .collect();
     folders.sort_unstable();
     if folders.is_empty() {

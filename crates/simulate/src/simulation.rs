@@ -6,9 +6,10 @@ use palpate_geometry::{AabbTree, Surface};
 use palpate_mechanics::Material;
 
 use crate::cutting::CuttingModel;
+use crate::digest::SceneDigest;
 use crate::global::{GlobalModel, GlobalProblem, ResponseOrigin};
 use crate::tool::{Tool, settings};
-use crate::{Error, Progress, Resources, Work, digest, nodule, organ, tip_laws, trocar};
+use crate::{Error, Progress, Resources, Work, nodule, organ, tip_laws, trocar};
 
 /// An organ and the tools that may touch it. Built once, never changed.
 #[derive(Debug, Clone)]
@@ -29,7 +30,7 @@ pub struct Simulation {
     pub(crate) step: f64,
     hand_over: HandOver,
     force_scale: f64,
-    scene_digest: String,
+    pub(crate) scene_digest: SceneDigest,
     doubts: Vec<String>,
 }
 
@@ -109,7 +110,7 @@ impl Simulation {
         Ok(Self {
             // A hemisphere of the organ's volume V has R³ = 3 V / (2 π).
             organ_radius: (1.5 * surface.mesh().volume() / std::f64::consts::PI).cbrt(),
-            scene_digest: digest::digest(scene, &surface, &tissue),
+            scene_digest: SceneDigest::of(scene, &surface, &tissue),
             step: scene.model.step_s,
             hand_over: scene.model.hand_over,
             force_scale: scene.model.force_scale,
@@ -186,7 +187,7 @@ impl Simulation {
     pub fn session_header(&self) -> SessionHeader {
         SessionHeader {
             version: env!("CARGO_PKG_VERSION").to_owned(),
-            scene_digest: self.scene_digest.clone(),
+            scene_digest: self.scene_digest.canonical.clone(),
             model: match self.global {
                 Some(_) => ModelKind::Hybrid,
                 None => ModelKind::Local,

@@ -125,6 +125,9 @@ pub fn clean(recording: &Recording, settings: &CleanSettings) -> Result<CleanRec
             "it was cut short ({why}), so a part of its stimulus is missing"
         ));
     }
+    if let Some(why) = recording.incomplete() {
+        doubts.push(format!("it is {why}"));
+    }
     let samples = Oriented::new(recording, &mut doubts);
     check(&samples)?;
     let sampling = Sampling::of(&samples.time);

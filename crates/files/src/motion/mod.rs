@@ -10,14 +10,16 @@ use std::path::Path;
 pub use pose::{IDENTITY, Pose};
 pub use tool_motion::{Cursor, MotionRow, ToolMotion};
 
-use crate::Error;
-use crate::table::TableText;
+use crate::error::Place;
+use crate::table::{Ended, TableText};
 use crate::whole_file::read_text;
+use crate::{Error, Incomplete};
 
 /// The motions of one or two tools.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motion {
     tools: Vec<ToolMotion>,
+    pub(crate) incomplete: Option<Incomplete>,
 }
 
 impl Motion {
@@ -42,7 +44,10 @@ impl Motion {
                 format!("of two tools that are both called {:?}", a.name()),
                 "each tool a name of its own",
             ),
-            [_] | [_, _] => Ok(Self { tools }),
+            [_] | [_, _] => Ok(Self {
+                tools,
+                incomplete: None,
+            }),
             more => wrong(
                 format!("of {} tools", more.len()),
                 "the motion of one or two tools",
@@ -60,12 +65,22 @@ impl Motion {
     }
 
     /// Reads the text of a motion file; `path` is its name in errors. A session is a motion too:
-    /// columns that a motion does not have are passed over.
+    /// columns that a motion does not have are passed over. A last line without its end is refused: what was cut
+    /// off of its last number may have been any digits, and a tool would go where nobody sent it.
     ///
     /// # Errors
     /// When the text does not hold a motion.
     pub fn parse(text: &str, path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
+        let ended = Ended::of(text);
+        if let Some(line) = ended.cut_line {
+            return Err(Error::BadRow {
+                place: Place::line(path, line),
+                found: "a last line without a line end, which may have been cut in its middle"
+                    .to_owned(),
+                expected: "the whole line and a line end after it, or remove it".to_owned(),
+            });
+        }
         let table = TableText::parse(text, path, &["format"])?;
         let columns = columns::Columns::find(&table)?;
         let mut tools: Vec<ToolMotion> = Vec::new();
@@ -88,7 +103,16 @@ impl Motion {
             let path = path.to_owned();
             return Err(Error::NoRows { path });
         }
-        Ok(Self { tools })
+        let rows = tools.iter().map(|tool| tool.rows().len()).sum();
+        Ok(Self {
+            tools,
+            incomplete: ended.incomplete(rows),
+        })
+    }
+
+    /// Why rows may be missing; none for a motion with its end mark, and for one that is from no file.
+    pub fn incomplete(&self) -> Option<&Incomplete> {
+        self.incomplete.as_ref()
     }
 
     /// The motion of each tool, in the order in which they first occur.

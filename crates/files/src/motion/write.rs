@@ -2,7 +2,7 @@ use std::fmt::{self, Write};
 use std::path::Path;
 
 use super::{IDENTITY, Motion, MotionRow, Pose};
-use crate::table::field;
+use crate::table::{end_mark, field};
 use crate::{Error, write_whole};
 
 const COLUMNS: &str = "time_s,tool,x_m,y_m,z_m,grip,cut";
@@ -10,7 +10,8 @@ const COLUMNS_WITH_ORIENTATION: &str = "time_s,tool,x_m,y_m,z_m,qx,qy,qz,qw,grip
 
 impl Motion {
     /// The text of a motion file: what [`Motion::parse`] reads back to the same motion, but that
-    /// rows without an orientation beside others with one come back with [`IDENTITY`].
+    /// rows without an orientation beside others with one come back with [`IDENTITY`]. One that was read
+    /// [incomplete](Motion::incomplete) gets no end mark.
     pub fn to_csv(&self) -> String {
         // The columns are there for all rows or for none.
         let turned = |row: &MotionRow| row.pose.orientation.is_some();
@@ -30,6 +31,10 @@ impl Motion {
                     with_orientation.then(|| row.pose.orientation.unwrap_or(IDENTITY));
                 print(row, tool.name(), orientation, &mut text).expect("a string takes every text");
             }
+        }
+        if self.incomplete().is_none() {
+            let rows = self.tools().iter().map(|tool| tool.rows().len()).sum();
+            text += &end_mark(&text, rows);
         }
         text
     }

@@ -87,6 +87,7 @@ impl Recording {
             extra_columns: read.extra_columns,
             remarks,
             is_foreign: true,
+            incomplete: None,
         })
     }
 }

@@ -22,9 +22,9 @@ pub use writer::RecordingWriter;
 
 pub use crate::table::ExtraKey;
 
-use crate::Error;
-use crate::table::TableText;
+use crate::table::{Ended, TableText};
 use crate::whole_file::read_text;
+use crate::{Error, Incomplete};
 
 /// A recording. Depth is positive into the tissue from first contact; force is positive on the
 /// tissue. One that was read from a table of another program ([`Recording::is_foreign`]) keeps that
@@ -38,6 +38,7 @@ pub struct Recording {
     /// What was done to read the table of another program.
     remarks: Vec<String>,
     is_foreign: bool,
+    incomplete: Option<Incomplete>,
 }
 
 impl Recording {
@@ -54,6 +55,7 @@ impl Recording {
             extra_columns: Vec::new(),
             remarks: Vec::new(),
             is_foreign: false,
+            incomplete: None,
         })
     }
 
@@ -68,7 +70,7 @@ impl Recording {
         Ok(self)
     }
 
-    /// Reads a recording file.
+    /// Reads a recording file. A last line without its end is left out.
     ///
     /// # Errors
     /// When the file cannot be read or does not hold a recording.
@@ -83,7 +85,8 @@ impl Recording {
     /// When the text does not hold a recording.
     pub fn parse(text: &str, path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
-        let table = TableText::parse(text, path, RecordingHeader::KEYS)?;
+        let ended = Ended::of(text);
+        let table = TableText::parse(ended.whole, path, RecordingHeader::KEYS)?;
         let keys = table.header.keys(path, RecordingHeader::KEYS);
         let mut header = RecordingHeader::from_keys(&keys)?;
         header.extra.clone_from(&table.header.extra);
@@ -93,12 +96,14 @@ impl Recording {
             table.column("force_n")?,
         ];
         let read = samples::read(&table, &columns, |_| false, Repeated::Refused)?;
+        let incomplete = ended.incomplete(read.samples.time_s.len());
         Ok(Self {
             header,
             samples: read.samples,
             extra_columns: read.extra_columns,
             remarks: Vec::new(),
             is_foreign: false,
+            incomplete,
         })
     }
 
@@ -126,6 +131,12 @@ impl Recording {
     /// What was done to read the table of another program, in plain sentences.
     pub fn remarks(&self) -> &[String] {
         &self.remarks
+    }
+
+    /// Why samples may be missing; none for a recording with its end mark, and for the table of another program,
+    /// which has no such mark.
+    pub fn incomplete(&self) -> Option<&Incomplete> {
+        self.incomplete.as_ref()
     }
 
     /// The columns that are kept although they mean nothing here.

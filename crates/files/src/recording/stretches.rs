@@ -42,6 +42,7 @@ pub(super) fn parse(
         extra_columns: Vec::new(),
         remarks: vec![remark],
         is_foreign: false,
+        incomplete: None,
     }))
 }
 

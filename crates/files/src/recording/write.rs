@@ -2,14 +2,18 @@ use std::fmt::{self, Write};
 use std::path::Path;
 
 use super::{Recording, RecordingHeader};
-use crate::table::{TableText, field, header_line};
+use crate::table::{TableText, end_mark, field, header_line};
 use crate::{Error, write_whole};
 
 impl Recording {
-    /// The text of a recording file: what [`Recording::parse`] reads back to the same recording.
+    /// The text of a recording file: what [`Recording::parse`] reads back to the same recording. One that was read
+    /// [incomplete](Recording::incomplete) gets no end mark.
     pub fn to_csv(&self) -> String {
         let mut text = self.header.print();
         self.print(&mut text).expect("a string takes every text");
+        if self.incomplete().is_none() {
+            text += &end_mark(&text, self.time_s().len());
+        }
         text
     }
 

@@ -45,7 +45,7 @@ fn complete(table: &mut Table, folder: &Path) {
 }
 
 /// Without `.` and without the `a/..` in it.
-fn plain(path: &Path) -> PathBuf {
+pub(super) fn plain(path: &Path) -> PathBuf {
     use std::path::Component::{CurDir, Normal, ParentDir};
     let mut plain = PathBuf::new();
     for part in path.components() {

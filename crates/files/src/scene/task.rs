@@ -1,5 +1,6 @@
 use std::path::{Path, PathBuf};
 
+use super::standing_alone::plain;
 use crate::{Domain, Error, Keys};
 
 /// What there is to do, and how a performance is judged.
@@ -79,6 +80,17 @@ pub enum Goal {
     },
 }
 
+/// Where the expert's session is. What the folder of the scene itself holds is, at most, the session that is judged.
+fn expert(keys: &Keys<'_>, folder: &Path) -> Result<Option<PathBuf>, Error> {
+    match keys.text("expert")? {
+        Some(path) if plain(Path::new(&path)).as_os_str().is_empty() => Err(keys.bad(
+            "expert",
+            "the folder of an expert's session; beside its own scene a session would be judged against itself",
+        )),
+        path => Ok(path.map(|path| folder.join(path))),
+    }
+}
+
 impl Goal {
     /// Its word: `free`, or the name of its table.
     pub fn word(&self) -> &'static str {
@@ -112,7 +124,7 @@ impl Task {
             instructions: keys.text("instructions")?,
             time_limit_s: keys.number("time_limit_s", Domain::POSITIVE)?,
             force_limit_n: keys.number("force_limit_n", Domain::POSITIVE)?,
-            expert: keys.text("expert")?.map(|path| folder.join(path)),
+            expert: expert(keys, folder)?,
             goal: Goal::from_keys(keys)?,
         })
     }

@@ -14,9 +14,9 @@ pub use row::SessionRow;
 pub use writer::SessionWriter;
 
 use crate::motion::{Motion, MotionRow, Pose, ToolMotion};
-use crate::table::TableText;
-use crate::whole_file::{newlines, read_text};
-use crate::{Error, error::Place};
+use crate::table::{Ended, RowDigest, TableText};
+use crate::whole_file::read_text;
+use crate::{Error, Incomplete};
 
 /// A session that was played.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,12 +27,12 @@ pub struct Session {
     pub tools: Vec<String>,
     /// The rows, in the order of the file.
     pub rows: Vec<SessionRow>,
-    /// The line that was cut off and left out, when the program was stopped while it wrote.
-    pub truncated: Option<Place>,
+    /// Why rows may be missing; none for a session with its end mark.
+    pub incomplete: Option<Incomplete>,
 }
 
 impl Session {
-    /// Reads a session file. A last line without its end is left out and reported.
+    /// Reads a session file. A last line without its end is left out.
     ///
     /// # Errors
     /// When the file cannot be read or does not hold a session.
@@ -47,19 +47,15 @@ impl Session {
     /// When the text does not hold a session.
     pub fn parse(text: &str, path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
-        // Whole lines are all that a writer promises: what follows the last of them is a fragment,
-        // even when it happens to look like a row.
-        let whole = text.rfind('\n').map_or("", |end| &text[..=end]);
-        let truncated =
-            (whole.len() < text.len()).then(|| Place::line(path, 1 + newlines(whole.as_bytes())));
-        let table = TableText::parse(whole, path, SessionHeader::KEYS)?;
+        let ended = Ended::of(text);
+        let table = TableText::parse(ended.whole, path, SessionHeader::KEYS)?;
         let header = SessionHeader::from_keys(&table.header.keys(path, SessionHeader::KEYS))?;
         let columns = columns::Columns::find(&table)?;
         let mut session = Self {
             header,
             tools: Vec::new(),
             rows: Vec::new(),
-            truncated,
+            incomplete: None,
         };
         let mut previous = Vec::new();
         let mut rows = table.rows();
@@ -72,6 +68,7 @@ impl Session {
             previous[tool] = Some(read.time_s);
             session.rows.push(read);
         }
+        session.incomplete = ended.incomplete(session.rows.len());
         Ok(session)
     }
 
@@ -81,6 +78,21 @@ impl Session {
             self.tools.push(name.to_owned());
             self.tools.len() - 1
         })
+    }
+
+    /// A name for what happened: the SHA-256 of the columns and rows as they are written, in hexadecimal digits. It
+    /// is the digest in the end mark of a session that this program wrote.
+    pub fn digest(&self) -> String {
+        let mut digest = RowDigest::default();
+        digest.add(row::COLUMNS);
+        let mut line = String::new();
+        for row in &self.rows {
+            line.clear();
+            row.print(&self.tools[row.tool], &mut line)
+                .expect("a string takes every text");
+            digest.add(&line);
+        }
+        digest.hexadecimal()
     }
 
     /// The motion that was played, to be played again.
@@ -101,6 +113,8 @@ impl Session {
             });
             ToolMotion::new(name, rows.collect())
         });
-        Motion::new(tools.collect::<Result<_, _>>()?)
+        let mut motion = Motion::new(tools.collect::<Result<_, _>>()?)?;
+        motion.incomplete.clone_from(&self.incomplete);
+        Ok(motion)
     }
 }

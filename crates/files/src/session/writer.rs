@@ -1,28 +1,20 @@
-use std::fs::File;
-use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::row::COLUMNS;
 use super::{SessionHeader, SessionRow};
 use crate::Error;
+use crate::table::TableWriter;
 
-/// Rows that may be lost when the program is killed.
-const ROWS_BETWEEN_FLUSHES: usize = 200;
-
-/// Writes a session while it is played. Only whole lines go to the disk, at least every 200 rows;
-/// the same rows give the same bytes.
+/// Writes a session while it is played, into the [`unfinished`](crate::unfinished) file beside its own. Only whole
+/// lines go to the disk, at least every 200 rows; the same rows give the same bytes.
 #[derive(Debug)]
 pub struct SessionWriter {
-    path: PathBuf,
-    file: File,
+    table: TableWriter,
     tools: Vec<String>,
-    /// Whole lines that are not in the file yet.
-    waiting: String,
-    waiting_rows: usize,
 }
 
 impl SessionWriter {
-    /// Creates a session file for the `tools` of the scene, in its order. The folder must exist.
+    /// Begins a session for the `tools` of the scene, in its order. The folder must exist.
     ///
     /// # Errors
     /// When the operating system refuses.
@@ -31,17 +23,10 @@ impl SessionWriter {
         header: &SessionHeader,
         tools: &[String],
     ) -> Result<Self, Error> {
-        let path = path.as_ref().to_owned();
-        let file = File::create(&path).map_err(|source| Error::write(&path, source))?;
-        let mut writer = Self {
-            path,
-            file,
+        Ok(Self {
+            table: TableWriter::create(path.as_ref(), &header.print(), COLUMNS)?,
             tools: tools.to_vec(),
-            waiting: header.print() + COLUMNS + "\n",
-            waiting_rows: 0,
-        };
-        writer.flush()?;
-        Ok(writer)
+        })
     }
 
     /// Adds a row.
@@ -65,13 +50,7 @@ impl SessionWriter {
                 "the number of a tool of the session",
             )
         })?;
-        row.print(tool, &mut self.waiting)
-            .expect("a string takes every text");
-        self.waiting_rows += 1;
-        if self.waiting_rows < ROWS_BETWEEN_FLUSHES {
-            return Ok(());
-        }
-        self.flush()
+        self.table.row(|text| row.print(tool, text))
     }
 
     /// Brings all rows to the file.
@@ -79,33 +58,22 @@ impl SessionWriter {
     /// # Errors
     /// When the operating system refuses.
     pub fn flush(&mut self) -> Result<(), Error> {
-        let written = self.write_waiting();
-        written.map_err(|source| Error::write(&self.path, source))
+        self.table.flush()
     }
 
-    /// Brings all rows to the disk and closes the file.
+    /// Ends the session with its mark, brings it to the disk and gives it its name.
     ///
     /// # Errors
     /// When the operating system refuses.
-    pub fn finish(mut self) -> Result<(), Error> {
-        self.flush()?;
-        let synced = self.file.sync_all();
-        synced.map_err(|source| Error::write(&self.path, source))
+    pub fn finish(self) -> Result<(), Error> {
+        self.finish_after(|| Ok(()))
     }
 
-    fn write_waiting(&mut self) -> io::Result<()> {
-        let written = self.file.write_all(self.waiting.as_bytes());
-        // Cleared in any case: half of it may be in the file, and must not come twice.
-        self.waiting.clear();
-        self.waiting_rows = 0;
-        written
-    }
-}
-
-impl Drop for SessionWriter {
-    /// A session that ends in an error keeps what was played.
-    fn drop(&mut self) {
-        // There is nobody left to tell; `finish` is for who wants to know.
-        let _ = self.write_waiting();
+    /// The same, with `before` done when the session is on the disk and does not have its name yet.
+    ///
+    /// # Errors
+    /// When the operating system refuses, or `before` does.
+    pub fn finish_after(self, before: impl FnOnce() -> Result<(), Error>) -> Result<(), Error> {
+        self.table.finish(before)
     }
 }

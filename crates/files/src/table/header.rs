@@ -108,7 +108,7 @@ impl Header {
 }
 
 /// `key = value`; none for a comment in plain words.
-fn key_and_value(text: &str) -> Option<(&str, &str)> {
+pub(super) fn key_and_value(text: &str) -> Option<(&str, &str)> {
     let (key, value) = text.split_once('=')?;
     let key = key.trim();
     let is_bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';

@@ -2,17 +2,23 @@
 //! columns, which may carry units.
 
 mod columns;
+mod end_mark;
 mod header;
 mod rows;
 mod write;
+mod writer;
 
 use std::path::{Path, PathBuf};
 
 pub(crate) use columns::Column;
+pub use end_mark::Incomplete;
+pub(crate) use end_mark::{Ended, RowDigest, end_mark};
 pub use header::ExtraKey;
 pub(crate) use header::Header;
 pub(crate) use rows::{Row, Rows};
 pub(crate) use write::{field, header_line};
+pub(crate) use writer::TableWriter;
+pub use writer::unfinished;
 
 use crate::Error;
 use crate::error::Place;

@@ -1,7 +1,9 @@
 use std::fs;
 
 use palpate_files::scene::ModelKind;
-use palpate_files::{Event, Events, Session, SessionHeader, SessionRow, SessionWriter};
+use palpate_files::{
+    Event, Events, Incomplete, Session, SessionHeader, SessionRow, SessionWriter, unfinished,
+};
 
 use crate::SESSION;
 
@@ -38,7 +40,7 @@ fn a_session_is_understood() {
     let session = Session::parse(SESSION, "session.csv").unwrap();
     assert_eq!(session.tools, ["right", "left"]);
     assert_eq!((session.header.seed, session.header.step_s), (7, 0.005));
-    assert_eq!(session.truncated, None);
+    assert_eq!(session.incomplete, Some(Incomplete::Unmarked));
     let row = session.rows[2];
     assert_eq!(
         (row.tool, row.depth_m, row.contact, row.cut),
@@ -82,6 +84,7 @@ fn the_same_rows_give_the_same_bytes_and_read_back() {
     let (one, two) = (write("one.csv"), write("two.csv"));
     assert_eq!(fs::read(&one).unwrap(), fs::read(two).unwrap());
     let session = Session::read(one).unwrap();
+    assert_eq!(session.incomplete, None);
     assert_eq!(session.header, header());
     assert_eq!(session.tools, tools);
     assert_eq!(session.rows, (0..500).map(row).collect::<Vec<_>>());
@@ -92,7 +95,7 @@ fn whole_lines_are_on_the_disk_every_200_rows() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("session.csv");
     let mut writer = SessionWriter::create(&path, &header(), &["right".to_owned()]).unwrap();
-    let rows = || Session::read(&path).unwrap().rows.len();
+    let rows = || Session::read(unfinished(&path)).unwrap().rows.len();
     assert_eq!(rows(), 0, "the header is there from the first moment");
     for step in 0..650 {
         writer.write(&row(step)).unwrap();
@@ -113,10 +116,11 @@ fn a_killed_program_loses_only_its_last_line() {
         let session = Session::parse(cut, "session.csv").unwrap();
         let whole = cut[first..].matches('\n').count();
         assert_eq!(session.rows[..], full.rows[..whole]);
-        assert_eq!(session.truncated.is_some(), !cut.ends_with('\n'));
-        if let Some(place) = session.truncated {
-            assert_eq!(place.line, Some(9 + whole));
-        }
+        let expected = match cut.ends_with('\n') {
+            true => Incomplete::Unmarked,
+            false => Incomplete::CutLine { line: 9 + whole },
+        };
+        assert_eq!(session.incomplete, Some(expected));
     }
 }
 

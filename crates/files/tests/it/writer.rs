@@ -1,7 +1,7 @@
 //! Recordings that are written while they are made. Judge: the reader.
 
-use palpate_files::Recording;
 use palpate_files::recording::{RecordingHeader, RecordingWriter};
+use palpate_files::{Incomplete, Recording, unfinished};
 
 /// What is in the file after some samples, before the end and after it.
 #[test]
@@ -15,22 +15,24 @@ fn a_recording_says_at_its_top_how_it_ended() {
         ..RecordingHeader::default()
     };
     let mut writer = RecordingWriter::create(&file, &header).unwrap();
-    for sample in 0..600 {
+    for sample in 0..650 {
         let time = 1e-3 * f64::from(sample);
         writer.write([time, 1e-6, 2e-3]).unwrap();
     }
     // As if the program was killed: what is in the file is a recording, and says that it is not finished.
-    let killed = Recording::read(RecordingWriter::part(&file)).unwrap();
+    let killed = Recording::read(unfinished(&file)).unwrap();
     assert_eq!(killed.header.cut_short(), Some("unfinished"));
-    assert_eq!(killed.time_s().len(), 500);
+    assert_eq!(killed.time_s().len(), 600);
+    assert_eq!(killed.incomplete(), Some(&Incomplete::Unmarked));
     let why = format!("the \"force\" reached {}", "1 N, ".repeat(100));
     writer.finish(&why).unwrap();
     let ended = Recording::read(&file).unwrap();
-    assert_eq!(ended.time_s().len(), 600);
+    assert_eq!(ended.time_s().len(), 650);
+    assert_eq!(ended.incomplete(), None);
     assert_eq!(ended.header.organ.as_deref(), Some("liver"));
     let said = ended.header.cut_short().unwrap();
     assert!(said.starts_with("the 'force' reached 1 N, 1 N") && said.len() < why.len());
-    assert!(!RecordingWriter::part(&file).exists());
+    assert!(!unfinished(&file).exists());
 }
 
 #[test]

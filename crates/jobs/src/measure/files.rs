@@ -1,8 +1,8 @@
-use std::fs;
 use std::path::{Path, PathBuf};
 
+use palpate_files::{Claim, Overwrite};
+
 use super::Measuring;
-use super::measuring::what_is_there;
 use crate::Error;
 
 /// Where recordings go.
@@ -10,21 +10,25 @@ use crate::Error;
 pub struct Out<'a> {
     /// A folder, or the file of an only recording.
     pub path: &'a Path,
-    /// Whether recordings that are there may be lost.
-    pub overwrite: bool,
+    /// Whether recordings that exist may be replaced.
+    pub overwrite: Overwrite,
 }
 
-/// A file for each recording of `measuring`, in a folder that is there.
+/// A file for each recording, which this program alone writes until it is dropped.
+#[derive(Debug)]
+pub struct Files {
+    /// In the order of the recordings.
+    pub paths: Vec<PathBuf>,
+    _claim: Claim,
+}
+
+/// A file for each recording of `measuring`, in a folder, which is made.
 ///
 /// # Errors
-/// When the folder cannot be made, or a recording would be lost.
-pub fn files(measuring: &Measuring, out: Out<'_>) -> Result<Vec<PathBuf>, Error> {
+/// When the folder cannot be made, another program writes there, or a recording would be replaced.
+pub fn files(measuring: &Measuring, out: Out<'_>) -> Result<Files, Error> {
     let names = measuring.names();
     let is_file = out.path.extension().is_some_and(|ending| ending == "csv");
-    let folder = match is_file {
-        true => out.path.parent(),
-        false => Some(out.path),
-    };
     if is_file && names.len() != 1 {
         return Err(Error::input(format!(
             "the protocol makes {} recordings, and --out {} is one file; name a folder",
@@ -32,25 +36,42 @@ pub fn files(measuring: &Measuring, out: Out<'_>) -> Result<Vec<PathBuf>, Error>
             out.path.display()
         )));
     }
-    if let Some(folder) = folder.filter(|folder| !folder.as_os_str().is_empty()) {
-        fs::create_dir_all(folder).map_err(|error| {
-            let folder = folder.display();
-            Error::input(format!(
-                "the folder {folder} cannot be made ({error}); give another with --out"
-            ))
-        })?;
-    }
     let in_folder = |name: &String| out.path.join(format!("{name}.csv"));
-    let files: Vec<PathBuf> = match is_file {
-        true => vec![out.path.to_owned()],
-        false => names.iter().map(in_folder).collect(),
+    let (claim, paths) = match is_file {
+        true => {
+            let folder = out.path.parent().unwrap_or(Path::new(""));
+            if !folder.as_os_str().is_empty() {
+                std::fs::create_dir_all(folder).map_err(|source| no_folder(folder, &source))?;
+            }
+            let claim = Claim::of_file(out.path, out.overwrite)?;
+            (claim, vec![out.path.to_owned()])
+        }
+        false => {
+            let claim = folder(out.path, out.overwrite)?;
+            (claim, names.iter().map(in_folder).collect())
+        }
     };
-    let there = files.iter().find_map(|file| what_is_there(file));
-    match there.filter(|_| !out.overwrite) {
-        Some(there) => Err(Error::input(format!(
-            "{} is there already; move it, name another place with --out, or add --overwrite",
-            there.display()
-        ))),
-        None => Ok(files),
-    }
+    claim.check(paths.iter().filter_map(|path| path.file_name()))?;
+    Ok(Files {
+        paths,
+        _claim: claim,
+    })
+}
+
+/// The folder of recordings, which is made, for this program alone.
+///
+/// # Errors
+/// When it cannot be made, or another program writes there.
+pub fn folder(path: &Path, overwrite: Overwrite) -> Result<Claim, Error> {
+    Claim::of_folder(path, overwrite).map_err(|error| match error {
+        palpate_files::Error::Write { source, .. } => no_folder(path, &source),
+        other => other.into(),
+    })
+}
+
+fn no_folder(folder: &Path, why: &std::io::Error) -> Error {
+    Error::input(format!(
+        "the folder {} cannot be made or written ({why}); give another with --out",
+        folder.display()
+    ))
 }

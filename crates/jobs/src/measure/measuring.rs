@@ -1,11 +1,11 @@
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use palpate_files::recording::RecordingWriter;
 use palpate_measure::{
     Course, Ended, Recorded, Recorder, Rig, RigSample, VirtualSpecimen, recording_name,
     stimulus_name,
 };
 
+use super::Files;
 use super::plan::Plan;
 use crate::{Error, Watch};
 
@@ -56,16 +56,12 @@ impl Measuring {
         names
     }
 
-    /// Carries the protocol out, into `files`, until it is done or somebody presses Ctrl-C. Each recording comes
+    /// Carries the protocol out, into the `files` of its recordings, until it is done or somebody presses Ctrl-C. Each recording comes
     /// with what its stimulus is called.
-    pub fn run(
-        &self,
-        files: &[PathBuf],
-        watch: &dyn Watch,
-    ) -> Result<Vec<(String, Recorded)>, Error> {
+    pub fn run(&self, files: &Files, watch: &dyn Watch) -> Result<Vec<(String, Recorded)>, Error> {
         let mut recorded = Vec::new();
-        let count = files.len();
-        let mut files = files.iter();
+        let count = files.paths.len();
+        let mut files = files.paths.iter();
         for (place, specimen) in self.specimens.iter().enumerate() {
             let clock = self.plan.clock();
             let mut rig = self.plan.rig((specimen.clone(), place), clock)?;
@@ -93,13 +89,6 @@ fn unique(name: String, taken: &[String]) -> String {
     let mut all = std::iter::once(name.clone()).chain(numbered);
     all.find(|own| !taken.contains(own))
         .expect("numbers do not end")
-}
-
-/// What would be lost if `file` was written: a recording, or what is left of one that was not finished.
-pub(super) fn what_is_there(file: &Path) -> Option<PathBuf> {
-    [file.to_owned(), RecordingWriter::part(file)]
-        .into_iter()
-        .find(|there| there.exists())
 }
 
 /// One stimulus; none when Ctrl-C came before it.

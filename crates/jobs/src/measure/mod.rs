@@ -8,7 +8,7 @@ mod plan;
 mod specimen;
 
 pub use answer::Answer;
-pub use files::{Out, files};
+pub use files::{Files, Out, files, folder};
 pub use measuring::Measuring;
 pub use plan::Plan;
 

@@ -42,9 +42,9 @@ fn measured(folder: &Path) -> Vec<PathBuf> {
     let measuring = Measuring::of(Plan::of(protocol, 1).unwrap(), &Nobody).unwrap();
     let out = Out {
         path: folder,
-        overwrite: false,
+        overwrite: palpate_files::Overwrite::Refused,
     };
     let made = files(&measuring, out).unwrap();
     measuring.run(&made, &Nobody).unwrap();
-    made
+    made.paths
 }

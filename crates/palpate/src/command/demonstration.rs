@@ -1,8 +1,8 @@
 //! `palpate` without arguments: two tools on the built-in esophagus.
 
-use std::path::Path;
+use std::path::PathBuf;
 
-use palpate_files::{Motion, Scene, write_whole};
+use palpate_files::{Motion, Overwrite, Scene, write_whole};
 use palpate_simulate::Simulation;
 use palpate_viewer::{Start, check_display};
 
@@ -12,7 +12,7 @@ use crate::failure::Failure;
 use crate::output;
 use crate::preparation;
 use crate::progress::Reader;
-use crate::recorded::{Recording, record};
+use crate::recorded::{Recording, claimed, record};
 
 /// Where it is written, in the folder that the program is started in.
 const FOLDER: &str = "palpate-demo";
@@ -40,9 +40,29 @@ pub(crate) fn run() -> Result<(), Failure> {
     }
 }
 
+/// The scene and the motion of the demonstration, which a user may change and play again.
+const INPUTS: [(&str, &str); 2] = [("scene.toml", ESOPHAGUS), ("motion.csv", MOTION)];
+
+/// The folder of the demonstration, whose results it replaces; another where a user changed what is to be played.
+fn folder() -> PathBuf {
+    let is_changed = |folder: &PathBuf| {
+        let differs = |(name, text): &(&str, &str)| {
+            std::fs::read_to_string(folder.join(name)).is_ok_and(|found| found != *text)
+        };
+        INPUTS.iter().any(differs)
+    };
+    let mut folder = PathBuf::from(FOLDER);
+    let mut number = 2;
+    while is_changed(&folder) {
+        folder = PathBuf::from(format!("{FOLDER}-{number}"));
+        number += 1;
+    }
+    folder
+}
+
 /// Plays the demonstration, `why` there is no window.
 fn play(why: &palpate_viewer::Error) -> Result<(), Failure> {
-    let folder = Path::new(FOLDER);
+    let folder = folder();
     let scene = Scene::parse(ESOPHAGUS, "built-in scene")?;
     let simulation = Simulation::new(&scene)?;
     let motion = Motion::parse(MOTION, "built-in motion")?;
@@ -54,7 +74,7 @@ fn play(why: &palpate_viewer::Error) -> Result<(), Failure> {
     ))?;
     let recording = Recording {
         scene: &scene,
-        folder,
+        folder: claimed(&folder, Overwrite::Allowed)?,
         surfaces: SURFACES,
         frames: None,
         beside: None,
@@ -62,19 +82,20 @@ fn play(why: &palpate_viewer::Error) -> Result<(), Failure> {
     };
     let report = record(&simulation, &motion, recording)?;
     // What was played, to change and to play again.
-    for (name, text) in [("scene.toml", ESOPHAGUS), ("motion.csv", MOTION)] {
+    for (name, text) in INPUTS {
         write_whole(folder.join(name), text.as_bytes())?;
     }
     output::text(report.text())?;
     output::text(format!(
-        "written to {FOLDER}/:\n\
+        "written to {name}/:\n\
          \x20 session.csv       force, depth and events at every step\n\
          \x20 force.png         force against time\n\
          \x20 force-depth.png   force against depth\n\
          \x20 surfaces.pvd      {SURFACES} deformed surfaces, for ParaView\n\
          \x20 summary.json      times, peak force and what deserves doubt\n\
          \x20 scene.toml and motion.csv, to change and play again:\n\
-         \x20   palpate simulate {FOLDER}/scene.toml --headless --motion {FOLDER}/motion.csv --out mine",
+         \x20   palpate simulate {name}/scene.toml --headless --motion {name}/motion.csv --out mine",
+        name = folder.display()
     ))?;
     output::warnings(report.warnings());
     report.outcome()

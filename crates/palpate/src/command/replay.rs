@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::Args;
-use palpate_files::Scene;
+use palpate_files::{Claim, Overwrite, Scene};
 use palpate_simulate::{Replay, SessionFolder, Simulation};
 use palpate_viewer::{Start, Studio, png};
 use serde::Serialize;
@@ -40,6 +40,9 @@ pub(crate) struct Arguments {
     /// The folder for pictures; it is made when it is not there.
     #[arg(long, value_name = "DIR", requires = "frames")]
     out: Option<PathBuf>,
+    /// Replace pictures that are in the folder already.
+    #[arg(long, requires = "out")]
+    overwrite: bool,
     /// Print what came of it as one JSON object; opens no window.
     #[arg(long)]
     json: bool,
@@ -84,11 +87,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         };
     }
     let mut answer = play(arguments, (&scene, &simulation), replay)?;
-    if let Some(place) = &folder.session.truncated {
-        answer.warnings.push(format!(
-            "{place}: the last line was cut off when the program was stopped, and is left out"
-        ));
-    }
+    answer.warnings.extend(folder.warnings());
     if arguments.json {
         return output::json(&answer);
     }
@@ -112,16 +111,15 @@ fn play(
 ) -> Result<Answer, Failure> {
     let wanted = arguments.frames.unwrap_or(0);
     let folder = arguments.out.clone().unwrap_or_default();
-    let mut studio = match wanted {
-        0 => None,
+    let name = |number: u64| format!("frame-{number:04}.png");
+    // Until all pictures are written nobody else may write there.
+    let (_claim, mut studio) = match wanted {
+        0 => (None, None),
         _ => {
-            std::fs::create_dir_all(&folder).map_err(|cause| {
-                let folder = folder.display();
-                Failure::failed(format!(
-                    "{folder} cannot be made ({cause}); name another with --out"
-                ))
-            })?;
-            Some(Studio::new(scene, simulation, palpate_viewer::FRAME_SIZE)?)
+            let claim = Claim::of_folder(&folder, Overwrite::of_option(arguments.overwrite))?;
+            claim.check((1..=wanted).map(name))?;
+            let studio = Studio::new(scene, simulation, palpate_viewer::FRAME_SIZE)?;
+            (Some(claim), Some(studio))
         }
     };
     let steps = replay.steps();
@@ -152,7 +150,7 @@ fn play(
             && done < wanted
             && number >= due
         {
-            let path = folder.join(format!("frame-{:04}.png", done + 1));
+            let path = folder.join(name(done + 1));
             let picture = studio.picture(replay.state())?;
             palpate_files::write_whole(&path, &png(&picture)?)?;
             files.push(path);

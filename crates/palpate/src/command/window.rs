@@ -6,6 +6,7 @@ use palpate_viewer::training::Training;
 use palpate_viewer::{Error, Start, open_window};
 
 use super::simulate::ESOPHAGUS;
+use crate::interrupt;
 
 /// Opens a window with `resources` and waits until it is closed.
 pub(super) fn open(
@@ -13,7 +14,9 @@ pub(super) fn open(
     resources: Resources,
 ) -> Result<(), Error> {
     let way_out = Scene::parse(ESOPHAGUS, "built-in scene")?;
-    open_window(start, way_out, resources, training)
+    // Asked once, so that signals are heard from now on.
+    let _ = interrupt::is_asked();
+    open_window(start, way_out, resources, training, interrupt::is_asked)
 }
 
 /// Whether there can be no window here, whatever the scene.

@@ -1,7 +1,8 @@
 use std::path::{Path, PathBuf};
 
 use palpate_files::scene::Task;
-use palpate_record::{Attempt, Filter, Record};
+use palpate_record::{Added, Attempt, Filter, Record};
+use palpate_simulate::SessionFolder;
 use palpate_simulate::performance::Score;
 use palpate_viewer::training::{PastResult, TrainingResult};
 
@@ -19,33 +20,49 @@ pub(super) struct Kept {
     sessions: PathBuf,
 }
 
-/// Who was it, in which scene, and where it was recorded.
+/// Who was it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Who<'a> {
     pub(crate) trainee: &'a str,
     pub(crate) is_expert: bool,
-    pub(crate) scene_digest: &'a str,
-    pub(crate) session: &'a Path,
 }
 
-/// Keeps a score in the record; what deserves doubt.
+/// Keeps the score of a session in the record; the warnings.
 pub(crate) fn keep(
     file: &Path,
     who: Who<'_>,
+    folder: &SessionFolder,
     (task, score): (&Task, &Score),
 ) -> Result<Vec<String>, palpate_record::Error> {
     let mut record = Record::open(file)?;
-    record.add(&Attempt {
+    let session = &folder.path;
+    let added = record.add(&Attempt {
         trainee: who.trainee.to_owned(),
         task: task.title.clone().unwrap_or_else(|| UNTITLED.to_owned()),
-        scene_digest: who.scene_digest.to_owned(),
-        when: super::now(),
-        session: std::path::absolute(who.session).unwrap_or_else(|_| who.session.to_owned()),
+        scene_digest: folder.session.header.scene_digest.clone(),
+        when: folder.when().unwrap_or_else(super::now),
+        session: std::path::absolute(session).unwrap_or_else(|_| session.clone()),
+        session_digest: folder.session.digest(),
         passed: score.outcome.passed(),
         is_expert: who.is_expert,
         measures: measures(score),
     })?;
-    Ok(record.doubts().to_vec())
+    let mut warnings = record.doubts().to_vec();
+    let session = session.display();
+    match added {
+        Added::New => {}
+        Added::AlreadyThere => warnings.push(format!(
+            "{session}: this attempt of {} is in the training record already; it counts once, and the record is as \
+             it was",
+            who.trainee
+        )),
+        Added::SameSession { trainee, when } => warnings.push(format!(
+            "{session}: the same session, to the last bit, is in the training record as an attempt of {trainee} at \
+             {}; both are kept",
+            date::exact(when)
+        )),
+    }
+    Ok(warnings)
 }
 
 impl Kept {
@@ -98,10 +115,9 @@ impl TrainingRecord for Kept {
         let who = Who {
             trainee: result.trainee,
             is_expert: result.is_expert,
-            scene_digest: result.scene_digest,
-            session: result.session,
         };
-        let kept = keep(&self.file, who, (&result.scene.task, result.score));
+        let folder = SessionFolder::read(result.session).map_err(|error| error.to_string())?;
+        let kept = keep(&self.file, who, &folder, (&result.scene.task, result.score));
         match kept.map_err(|error| error.to_string())?.as_slice() {
             [] => Ok(()),
             doubts => Err(doubts.join(" ")),

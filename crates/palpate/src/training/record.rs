@@ -75,6 +75,7 @@ mod tests {
             scene_digest: String::new(),
             when: 0,
             session: PathBuf::from("session"),
+            session_digest: String::new(),
             passed: score.outcome.passed(),
             is_expert: false,
             measures: measures(score),

@@ -12,6 +12,7 @@ mod errors;
 mod measure;
 mod mesh;
 mod mesh_info;
+mod nothing_lost;
 mod palpation;
 mod progress;
 mod quality;

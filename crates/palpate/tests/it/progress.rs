@@ -26,6 +26,7 @@ fn attempt(trainee: &str, when: i64, time: f64, errors: f64) -> Attempt {
         scene_digest: "ab12".to_owned(),
         when: 1_000_000_000 + 60 * when,
         session: PathBuf::from(format!("/sessions/{trainee}-{when}")),
+        session_digest: format!("{trainee}-{when}"),
         passed: Some(time < 25.0),
         is_expert: trainee == "Expert",
         measures: vec![

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use palpate_record::{Filter, Record};
+use palpate_record::{Added, Attempt, Filter, Record};
 
 use crate::attempt;
 
@@ -64,24 +64,101 @@ fn a_filter_leaves_what_it_names() {
     assert_eq!(seeds(Some("Béla"), Some("Find")), [0; 0]);
 }
 
-/// A session that is scored again is the same attempt, by whatever way its folder is named.
+/// An attempt counts once, and never takes the place of another: not of another trainee's, another time's or another
+/// session's in the same folder.
 #[test]
-fn a_session_counts_once() {
+fn attempts_are_told_apart_by_content_and_never_replaced() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("training.sqlite");
-    let session = folder.path().join("session");
-    fs::create_dir(&session).unwrap();
     let mut record = Record::open(&path).unwrap();
-    for (seed, place) in [(1, session.clone()), (2, session.join("../session/."))] {
-        let mut own = attempt("Anna", "Cut", seed);
-        own.session = place;
-        own.measures.truncate(40 - seed as usize);
-        record.add(&own).unwrap();
-    }
-    let mut again = attempt("Anna", "Cut", 2);
-    again.session = fs::canonicalize(&session).unwrap();
-    again.measures.truncate(38);
-    assert_eq!(record.attempts(&Filter::default()).unwrap(), [again]);
+    let anna = attempt("Anna", "Cut", 1);
+    assert_eq!(record.add(&anna).unwrap(), Added::New);
+    // Scored again, from a copy, with what another version makes of it.
+    let mut again = anna.clone();
+    again.session = "/elsewhere".into();
+    again.measures.truncate(3);
+    assert_eq!(record.add(&again).unwrap(), Added::AlreadyThere);
+    let same = Added::SameSession {
+        trainee: "Anna".to_owned(),
+        when: anna.when,
+    };
+    let bela = Attempt {
+        trainee: "Béla".to_owned(),
+        ..anna.clone()
+    };
+    assert_eq!(record.add(&bela).unwrap(), same);
+    let later = Attempt {
+        when: anna.when + 60,
+        ..anna.clone()
+    };
+    assert_eq!(record.add(&later).unwrap(), same);
+    let other = Attempt {
+        session_digest: "other".to_owned(),
+        ..anna.clone()
+    };
+    assert_eq!(record.add(&other).unwrap(), Added::New);
+    let kept = record.attempts(&Filter::default()).unwrap();
+    assert_eq!(kept, [anna, bela, other, later]);
+}
+
+/// The tables of version 1, with two attempts.
+const VERSION_1: &str = "
+CREATE TABLE attempt (
+    id INTEGER PRIMARY KEY,
+    session TEXT NOT NULL UNIQUE,
+    trainee TEXT NOT NULL,
+    task TEXT NOT NULL,
+    scene_digest TEXT NOT NULL,
+    when_s INTEGER NOT NULL,
+    passed INTEGER CHECK (passed IN (0, 1)),
+    is_expert INTEGER NOT NULL CHECK (is_expert IN (0, 1))
+) STRICT;
+CREATE TABLE measure (
+    attempt INTEGER NOT NULL REFERENCES attempt (id),
+    place INTEGER NOT NULL,
+    key TEXT NOT NULL,
+    value REAL NOT NULL,
+    better TEXT NOT NULL CHECK (better IN ('less', 'more', 'neither')),
+    PRIMARY KEY (attempt, place)
+) STRICT, WITHOUT ROWID;
+INSERT INTO attempt VALUES (3, '/sessions/a', 'Anna', 'Cut', '1f3a', 7, 1, 0);
+INSERT INTO attempt VALUES (5, '/sessions/b', 'Anna', 'Cut', '1f3a', 7, NULL, 1);
+INSERT INTO measure VALUES (3, 0, 'time_s', 2.5, 'less');
+INSERT INTO measure VALUES (5, 0, 'time_s', 3.5, 'less');
+INSERT INTO measure VALUES (5, 1, 'drops', 0, 'less');
+PRAGMA application_id = 0x7061_6c70;
+PRAGMA user_version = 1;
+";
+
+/// A record of version 1 is read as it is, and keeps all its attempts when one is added.
+#[test]
+fn a_record_of_version_1_goes_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("training.sqlite");
+    let version_1 = VERSION_1.replace("0x7061_6c70", "0x70616c70");
+    rusqlite::Connection::open(&path)
+        .unwrap()
+        .execute_batch(&version_1)
+        .unwrap();
+    let bytes = fs::read(&path).unwrap();
+    let read = Record::read(&path).unwrap();
+    let before = read.attempts(&Filter::default()).unwrap();
+    drop(read);
+    assert_eq!(fs::read(&path).unwrap(), bytes);
+    let measures: Vec<_> = before.iter().map(|own| own.measures.len()).collect();
+    assert_eq!(measures, [1, 2]);
+    let mut record = Record::open(&path).unwrap();
+    assert!(record.doubts().is_empty());
+    assert_eq!(record.attempts(&Filter::default()).unwrap(), before);
+    let new = attempt("Anna", "Cut", 9);
+    assert_eq!(record.add(&new).unwrap(), Added::New);
+    drop(record);
+    let all = Record::open(&path)
+        .unwrap()
+        .attempts(&Filter::default())
+        .unwrap();
+    assert_eq!(all[..2], before);
+    assert_eq!(all[2..], [new]);
 }
 
 /// Two programs at once, one attempt after the other: all are kept.

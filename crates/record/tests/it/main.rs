@@ -31,6 +31,7 @@ fn attempt(trainee: &str, task: &str, seed: i64) -> Attempt {
         scene_digest: "1f3a".to_owned(),
         when: 1_700_000_000 + 60 * seed,
         session: PathBuf::from(format!("/sessions/{trainee}/{seed}")),
+        session_digest: format!("{seed:x}"),
         passed: [None, Some(false), Some(true)][seed.rem_euclid(3) as usize],
         is_expert: seed % 2 == 0,
         measures: measures.collect(),

@@ -15,6 +15,7 @@ fn measured(measures: &[(&str, f64, Better)], passed: Option<bool>) -> Attempt {
         task: "Cut".to_owned(),
         scene_digest: String::new(),
         when: 0,
+        session_digest: String::new(),
         session: PathBuf::from("session"),
         passed,
         is_expert: false,

@@ -2,10 +2,11 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, channel};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use palpate_files::{Event, SessionRow, SessionWriter};
+use palpate_files::{Event, SessionRow};
 use palpate_servo::log;
 
 use super::ROWS;
+use crate::SessionFolderWriter;
 
 /// How often rows are brought to their file [ms]: no more is lost when the program is killed.
 const PERIOD: Duration = Duration::from_millis(50);
@@ -20,7 +21,7 @@ pub(super) struct Clerk {
 /// What a clerk is asked.
 enum Ask {
     /// Records from the next new beginning on.
-    Record(SessionWriter),
+    Record(Box<SessionFolderWriter>),
     /// Ends the recording, and tells how that went.
     End(SyncSender<Result<(), palpate_files::Error>>),
 }
@@ -29,7 +30,7 @@ enum Ask {
 struct Desk {
     from: log::Reader<SessionRow>,
     to: log::Writer<SessionRow>,
-    writer: Option<SessionWriter>,
+    writer: Option<SessionFolderWriter>,
     /// Whether the session that is recorded has begun.
     has_begun: bool,
     failed: Option<palpate_files::Error>,
@@ -57,9 +58,9 @@ impl Clerk {
     }
 
     /// Records from the next new beginning on.
-    pub(super) fn record(&self, writer: SessionWriter) {
+    pub(super) fn record(&self, writer: SessionFolderWriter) {
         // A clerk that is gone panicked, which the end of the recording tells.
-        let _ = self.asks.send(Ask::Record(writer));
+        let _ = self.asks.send(Ask::Record(Box::new(writer)));
     }
 
     /// Ends the recording; what was recorded is on the disk.
@@ -91,7 +92,7 @@ impl Desk {
             match asked.recv_timeout(PERIOD) {
                 // Before the rows that have come since: the new beginning may be among them.
                 Ok(Ask::Record(writer)) => {
-                    self.writer = Some(writer);
+                    self.writer = Some(*writer);
                     self.has_begun = false;
                     self.failed = None;
                 }
@@ -99,7 +100,7 @@ impl Desk {
                     self.copy();
                     let ended = match (self.failed.take(), self.writer.take()) {
                         (Some(error), _) => Err(error),
-                        (None, Some(writer)) => writer.finish(),
+                        (None, Some(writer)) => writer.finish().map(drop),
                         (None, None) => Ok(()),
                     };
                     // Who asked may have gone.

@@ -3,7 +3,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
 
 use palpate_devices::openigtlink::OperatingRoom;
-use palpate_files::{SessionRow, SessionWriter};
+use palpate_files::SessionRow;
 use palpate_servo::{Clock, Fault, LoopReport, Sample, ServoSettings, ServoThread, latest, log};
 
 use super::clerk::Clerk;
@@ -12,7 +12,7 @@ use super::operating_room::shown_in;
 use super::order::orders;
 use super::stations::{Parts, Station, Watch, take_apart};
 use super::{ModelReport, Order, Quality, ROWS, Snapshot};
-use crate::{Error, Simulation};
+use crate::{Error, SessionFolderWriter, Simulation};
 
 /// The model on a thread and a servo loop per device on others, on the machine's clock. Dropping it ends
 /// them and stops the devices.
@@ -108,7 +108,7 @@ impl Interaction {
     }
 
     /// Records a session: everything begins anew, and every row from then on is written.
-    pub fn record(&mut self, writer: SessionWriter) {
+    pub fn record(&mut self, writer: SessionFolderWriter) {
         self.clerk.record(writer);
         self.order(Order::Reset);
     }

@@ -5,7 +5,7 @@ use std::process::{Child, Command, Stdio};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use palpate_files::{Scene, Session};
+use palpate_files::{Claim, Overwrite, Scene, Session, unfinished};
 use palpate_servo::ServoSettings;
 use palpate_simulate::interactive::{Interaction, Station};
 use palpate_simulate::{SessionFolder, Simulation};
@@ -31,7 +31,11 @@ fn records_until_it_is_killed() {
     let stations = vec![Some(Station::new(palpating(1.0)))];
     let mut interaction =
         Interaction::start(simulation.clone(), stations, ServoSettings::default()).unwrap();
-    let writer = SessionFolder::create(Path::new(&folder), (&scene, &simulation)).unwrap();
+    let writer = SessionFolder::create(
+        Claim::of_folder(Path::new(&folder), Overwrite::Refused).unwrap(),
+        (&scene, &simulation),
+    )
+    .unwrap();
     interaction.record(writer);
     std::thread::sleep(Duration::from_secs(60));
 }
@@ -49,7 +53,7 @@ fn begin(folder: &Path) -> Child {
 /// Kills a program at some time after its first row; what is left of its session.
 fn killed_after(wait: Duration, folder: &PathBuf) -> (f64, Session) {
     let mut child = begin(folder);
-    let file = SessionFolder::session_file(folder);
+    let file = unfinished(SessionFolder::session_file(folder));
     let patience = Instant::now();
     let has_row =
         || std::fs::read_to_string(&file).is_ok_and(|text| text.matches('\n').count() > 9);
@@ -66,6 +70,8 @@ fn killed_after(wait: Duration, folder: &PathBuf) -> (f64, Session) {
     child.kill().unwrap();
     child.wait().unwrap();
     let read = SessionFolder::read(folder).unwrap();
+    // Killed between two rows or in one, it says that it is incomplete.
+    assert!(read.session.incomplete.is_some() && !read.warnings().is_empty());
     // The scene is whole, and so is its score.
     let score = read.score(&read.task());
     assert!(score.forces[0].peak > 0.0 && read.task().force_limit_n == Some(0.05));

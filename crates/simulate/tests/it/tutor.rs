@@ -34,7 +34,7 @@ fn expert() -> Session {
         },
         tools: vec!["right".to_owned()],
         rows: rows.collect(),
-        truncated: None,
+        incomplete: None,
     }
 }
 

@@ -1,6 +1,7 @@
 use std::path::{Path, PathBuf};
 
-use palpate_files::recording::{RecordingHeader, RecordingWriter};
+use palpate_files::recording::RecordingHeader;
+use palpate_files::unfinished;
 use palpate_measure::live::Commission;
 use palpate_measure::{Course, Recorded, RigSettings, recording_name, stimulus_name};
 
@@ -69,7 +70,7 @@ impl Journal {
             let name = recording_name(specimen, place + 1, (&stimulus, repeat));
             let file = self.folder.join(format!("{name}.csv"));
             let asked = self.asked.iter().any(|other| other.file == file);
-            if !asked && !file.exists() && !RecordingWriter::part(&file).exists() {
+            if !asked && !file.exists() && !unfinished(&file).exists() {
                 break file;
             }
         };

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use palpate_files::scene::{Goal, Task};
 use palpate_files::session::{Event, SessionRow};
+use palpate_files::{Claim, Overwrite};
 use palpate_simulate::performance::{
     Comparison, Errors, Performance, Score, Standard, Status, compare,
 };
@@ -99,7 +100,10 @@ impl Attempt {
                 play.begin_anew();
                 None
             }
-            Some(folder) => match SessionFolder::create(&folder, (&play.scene, &play.simulation)) {
+            Some(folder) => match Claim::of_folder(&folder, Overwrite::Refused)
+                .map_err(palpate_simulate::Error::from)
+                .and_then(|claim| SessionFolder::create(claim, (&play.scene, &play.simulation)))
+            {
                 Ok(writer) => {
                     play.go_on();
                     play.source.record(writer);

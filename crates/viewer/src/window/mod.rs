@@ -89,6 +89,8 @@ struct SimulatorWindow {
     attempt: Option<Attempt>,
     /// The session that shall be looked at again when its organ is prepared.
     awaited: Option<PathBuf>,
+    /// Whether the window shall close, as if somebody had closed it.
+    is_ended: fn() -> bool,
 }
 
 /// What a window begins with.
@@ -103,7 +105,7 @@ pub enum Start {
 
 /// Opens a window and waits until it is closed. `way_out` is a scene that works, which is offered when another
 /// does not. Whole organs are prepared with `resources`, beside the touch; with `training` tasks are chosen, and
-/// sessions and results kept.
+/// sessions and results kept. It closes as if somebody had closed it when `is_ended`, which is asked at every picture.
 ///
 /// # Errors
 /// When there is no display, no adapter, or the window breaks down. What is wrong with the scene is shown in
@@ -113,9 +115,10 @@ pub fn open_window(
     way_out: Scene,
     resources: Resources,
     training: Option<Training>,
+    is_ended: fn() -> bool,
 ) -> Result<(), Error> {
     native::open([[1280.0, 800.0], [560.0, 380.0]], move |context| {
-        SimulatorWindow::new(context, start, (way_out, resources), training)
+        SimulatorWindow::new(context, start, (way_out, resources), training, is_ended)
     })
 }
 
@@ -125,6 +128,7 @@ impl SimulatorWindow {
         start: Start,
         (way_out, resources): (Scene, Resources),
         training: Option<Training>,
+        is_ended: fn() -> bool,
     ) -> Result<Self, Error> {
         let Some(state) = &context.wgpu_render_state else {
             return Err(Error::Window {
@@ -156,6 +160,7 @@ impl SimulatorWindow {
             home: None,
             attempt: None,
             awaited: None,
+            is_ended,
             gpu,
         };
         match start {
@@ -364,6 +369,10 @@ impl SimulatorWindow {
 impl eframe::App for SimulatorWindow {
     fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
         let context = ui.ctx().clone();
+        if (self.is_ended)() {
+            context.send_viewport_cmd(egui::ViewportCommand::Close);
+        }
+        context.request_repaint_after(REST);
         self.receive();
         if self.home.is_some() {
             self.show_home(ui);

@@ -2,9 +2,9 @@
 
 use std::time::{Duration, Instant};
 
-use palpate_files::{SessionRow, SessionWriter};
+use palpate_files::SessionRow;
 use palpate_simulate::interactive::{Interaction, ModelReport, Order, Quality, Snapshot};
-use palpate_simulate::{Replay, Simulation};
+use palpate_simulate::{Replay, SessionFolderWriter, Simulation};
 
 /// What a picture has time for [ms]: steps that are played again take their turn with the pictures.
 const BUDGET: Duration = Duration::from_millis(12);
@@ -86,7 +86,7 @@ impl Source {
     }
 
     /// Records what is touched from a new beginning on.
-    pub(super) fn record(&mut self, writer: SessionWriter) {
+    pub(super) fn record(&mut self, writer: SessionFolderWriter) {
         if let Self::Touched(interaction) = self {
             interaction.record(writer);
         }

@@ -116,7 +116,6 @@ impl SimulatorWindow {
             trainee: training.trainee.trim(),
             is_expert: training.is_expert,
             scene: &play.scene,
-            scene_digest: &play.simulation.session_header().scene_digest,
             session: folder,
             score: &done.score,
         });

@@ -48,8 +48,6 @@ pub struct TrainingResult<'a> {
     pub is_expert: bool,
     /// The scene of the task.
     pub scene: &'a Scene,
-    /// A digest of what was simulated.
-    pub scene_digest: &'a str,
     /// The folder of the session.
     pub session: &'a std::path::Path,
     /// How it was done.

@@ -6,7 +6,7 @@ mod window;
 use std::path::PathBuf;
 
 use clap::Args;
-use palpate_files::Protocol;
+use palpate_files::{Overwrite, Protocol};
 use palpate_jobs::measure::{Answer, DEFAULT, Measuring, Out, Plan, files};
 
 use crate::failure::Failure;
@@ -53,7 +53,7 @@ pub(crate) struct Arguments {
     /// The seed of noise, heart and breath.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Write over recordings that are there already.
+    /// Replace recordings that are there already.
     #[arg(long, requires = "headless")]
     overwrite: bool,
     /// Print one JSON object.
@@ -87,10 +87,10 @@ fn headless(arguments: &Arguments, plan: Plan) -> Result<(), Failure> {
     drop(progress);
     let out = Out {
         path: &arguments.out,
-        overwrite: arguments.overwrite,
+        overwrite: Overwrite::of_option(arguments.overwrite),
     };
     let files = files(&measuring, out)?;
-    let progress = Progress::new(reader, Some(files.len() as u64));
+    let progress = Progress::new(reader, Some(files.paths.len() as u64));
     // Asked once, so that Ctrl-C is heard from now on.
     let _ = interrupt::is_asked();
     let recorded = measuring.run(&files, &progress)?;

@@ -1,11 +1,11 @@
 //! The rig's window, as the command opens it.
 
-use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
+use palpate_files::Overwrite;
 use palpate_files::protocol::MeasuredTissue;
-use palpate_jobs::measure::Plan;
+use palpate_jobs::measure::{Plan, folder as claimed};
 use palpate_servo::Clock;
 use palpate_viewer::rig::{Bench, MadeRig, Place, open_rig_window};
 use palpate_viewer::{Error, check_display};
@@ -26,12 +26,7 @@ pub(super) fn open(plan: Plan, folder: &Path) -> Result<(), Failure> {
     // Before a window; each rig opens it anew.
     plan.open_device()?;
     // Before anything is measured that could not be kept.
-    fs::create_dir_all(folder).map_err(|error| {
-        let folder = folder.display();
-        Failure::input(format!(
-            "the folder {folder} cannot be made ({error}); give another with --out"
-        ))
-    })?;
+    let _claim = claimed(folder, Overwrite::Refused)?;
     let bench = Bench {
         settings: plan.settings,
         stimuli: plan.stimuli.clone(),

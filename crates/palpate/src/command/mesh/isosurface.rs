@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use palpate_files::{Claim, Overwrite};
 use palpate_geometry::{
     IsosurfaceSettings, Label, LabelMap, LengthUnit, isosurface, read_label_map,
 };
@@ -41,6 +42,9 @@ pub(crate) struct Arguments {
     /// The file to write (.stl, .obj, .ply, .vtp); with --label all a folder, for .ply files.
     #[arg(long, requires = "label")]
     out: Option<PathBuf>,
+    /// With --label all: replace surfaces that are in the folder already.
+    #[arg(long, requires = "out")]
+    overwrite: bool,
     /// How many triangles each surface has at most.
     #[arg(long, value_name = "N", default_value_t = IsosurfaceSettings::default().triangles)]
     triangles: usize,
@@ -89,7 +93,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut warnings = map.warnings().to_vec();
     let mut surfaces = Vec::new();
     if let (Some(wanted), Some(out)) = (&arguments.label, &arguments.out) {
-        for (label, out) in chosen(&labels, wanted, out)? {
+        let overwrite = Overwrite::of_option(arguments.overwrite);
+        let chosen = chosen(&labels, wanted, (out, overwrite))?;
+        for (label, out) in chosen.surfaces {
             progress.say(format!("the surface of {}", label::in_words(label)));
             surfaces.push(surface(&map, (label, &out), arguments, &mut warnings)?);
         }
@@ -110,23 +116,34 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     output::text(answer.text())
 }
 
-/// The labels that are asked for, each with its file.
+/// What is going to be written.
+struct Chosen<'l> {
+    surfaces: Vec<(&'l Label, PathBuf)>,
+    /// Until all are written nobody else may write there.
+    _claim: Option<Claim>,
+}
+
+/// The labels that are asked for, each with its file; a folder of them is for this program alone.
 fn chosen<'l>(
     labels: &'l [Label],
     wanted: &str,
-    out: &Path,
-) -> Result<Vec<(&'l Label, PathBuf)>, Failure> {
+    (out, overwrite): (&Path, Overwrite),
+) -> Result<Chosen<'l>, Failure> {
     if wanted == "all" {
-        std::fs::create_dir_all(out).map_err(|cause| {
-            Failure::input(format!(
-                "{}: the folder cannot be made ({cause}); name one that can with --out",
-                out.display()
-            ))
-        })?;
-        let file = |label: &Label| out.join(format!("{}.ply", file_name(label)));
-        return Ok(labels.iter().map(|label| (label, file(label))).collect());
+        let claim = Claim::of_folder(out, overwrite)?;
+        let name = |label: &Label| format!("{}.ply", file_name(label));
+        claim.check(labels.iter().map(name))?;
+        let chosen = labels.iter().map(|label| (label, out.join(name(label))));
+        return Ok(Chosen {
+            surfaces: chosen.collect(),
+            _claim: Some(claim),
+        });
     }
-    Ok(vec![(label::find(labels, wanted)?, out.to_owned())])
+    let label = label::find(labels, wanted)?;
+    Ok(Chosen {
+        surfaces: vec![(label, out.to_owned())],
+        _claim: None,
+    })
 }
 
 fn surface(

@@ -47,6 +47,9 @@ pub(crate) struct Arguments {
     /// With --trainee: others are judged by this session.
     #[arg(long, requires = "trainee")]
     as_expert: bool,
+    /// With --trainee: keep a session that is incomplete, too.
+    #[arg(long, requires = "trainee")]
+    incomplete: bool,
     /// With --trainee: the training record; without it, the one in the folder of your data.
     #[arg(long, value_name = "FILE.sqlite", requires = "trainee")]
     record: Option<PathBuf>,
@@ -65,40 +68,75 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let score = folder.score(&task);
     let mut warnings = doubts(&folder);
     let standards = match arguments.expert.as_deref().or(task.expert.as_deref()) {
-        Some(path) => standards(path, &task, &folder, &mut warnings)?,
+        Some(path) => {
+            let experts = experts(path, &folder, arguments.expert.is_some(), &mut warnings)?;
+            standards(&experts, &task, &folder, &mut warnings)
+        }
         None => Vec::new(),
     };
     let compared = compare(&score, &standards);
-    if let Some(trainee) = &arguments.trainee {
+    let is_refused = folder.session.incomplete.is_some() && !arguments.incomplete;
+    if let Some(trainee) = arguments.trainee.as_ref().filter(|_| !is_refused) {
         let file = training::record_file(arguments.record.as_deref())?;
         let who = Who {
             trainee,
             is_expert: arguments.as_expert,
-            scene_digest: &folder.session.header.scene_digest,
-            session: &arguments.session,
         };
-        warnings.extend(training::keep(&file, who, (&task, &score))?);
+        warnings.extend(training::keep(&file, who, &folder, (&task, &score))?);
     }
     let answer = Answer::new((&arguments.session, &task), (&score, &compared), warnings);
     if arguments.json {
-        return output::json(&answer);
+        output::json(&answer)?;
+    } else {
+        output::text(table::text(&task, (&score, &compared)))?;
+        output::warnings(&answer.warnings);
     }
-    output::text(table::text(&task, (&score, &compared)))?;
-    output::warnings(&answer.warnings);
-    Ok(())
+    match arguments.trainee.is_some() && is_refused {
+        true => Err(Failure::input(format!(
+            "{}: the session is incomplete, so its score is not kept in the record; --incomplete keeps it",
+            arguments.session.display()
+        ))),
+        false => Ok(()),
+    }
+}
+
+/// The sessions of experts but the one that is judged: it is an error where they were named for it, and left out
+/// where the task names them.
+fn experts(
+    path: &Path,
+    own: &SessionFolder,
+    is_named: bool,
+    warnings: &mut Vec<String>,
+) -> Result<Vec<SessionFolder>, Failure> {
+    let mut experts = read_experts(path)?;
+    let count = experts.len();
+    experts.retain(|expert| !expert.is_same(own));
+    let path = path.display();
+    let judged = own.path.display();
+    if experts.len() < count && is_named {
+        return Err(Failure::input(format!(
+            "{judged} is among the experts of {path} and would be judged against itself; name other sessions with \
+             --expert"
+        )));
+    }
+    if experts.len() < count {
+        warnings.push(format!(
+            "{judged} is among the experts of {path}, and is not judged against itself"
+        ));
+    }
+    let incomplete = experts.iter().flat_map(SessionFolder::warnings);
+    warnings.extend(incomplete.map(|said| format!("an expert's session, {said}")));
+    Ok(experts)
 }
 
 /// What experts reach in this task.
 fn standards(
-    path: &Path,
+    experts: &[SessionFolder],
     task: &Task,
     own: &SessionFolder,
     warnings: &mut Vec<String>,
-) -> Result<Vec<Standard>, Failure> {
-    let experts = read_experts(path)?;
-    let other = |expert: &&SessionFolder| {
-        expert.session.header.scene_digest != own.session.header.scene_digest
-    };
+) -> Vec<Standard> {
+    let other = |expert: &&SessionFolder| expert.is_of_other_scene(own) == Some(true);
     if let Some(expert) = experts.iter().find(other) {
         warnings.push(format!(
             "{} is a session of another scene; its measures are of another task",
@@ -112,16 +150,11 @@ fn standards(
                 .to_owned(),
         );
     }
-    Ok(Standard::of(&scores))
+    Standard::of(&scores)
 }
 
 fn doubts(folder: &SessionFolder) -> Vec<String> {
-    let mut doubts = Vec::new();
-    if let Some(place) = &folder.session.truncated {
-        doubts.push(format!(
-            "{place}: the last line was cut off when the program was stopped, and is left out"
-        ));
-    }
+    let mut doubts = folder.warnings();
     if folder.session.rows.is_empty() {
         doubts.push("the session has no row: nothing was done".to_owned());
     }

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use palpate_devices::openigtlink::OperatingRoom;
 use palpate_files::scene::Shape;
-use palpate_files::{Motion, Scene};
+use palpate_files::{Motion, Overwrite, Scene};
 use palpate_geometry::{AabbTree, Vec3};
 use palpate_simulate::interactive::SceneDevices;
 use palpate_simulate::{Resources, Simulation};
@@ -21,7 +21,7 @@ use crate::failure::Failure;
 use crate::output;
 use crate::preparation;
 use crate::progress::Reader;
-use crate::recorded::{Recording, Report, record};
+use crate::recorded::{Recording, Report, claimed, record};
 use crate::training;
 
 /// The scene that is played when none is named.
@@ -46,7 +46,8 @@ Examples:
   palpate simulate liver.ply
       the same with an organ of yours, as if it were pig liver
   palpate simulate scene.toml --headless --motion motion.csv --out session
-      writes session/session.csv (forces on the tool at every step), plots and summary.json
+      writes session/session.csv (forces on the tool at every step), plots and summary.json; --overwrite
+      replaces a session that is there
   palpate simulate scene.toml --headless --indentation recording.csv --out session
       presses as deep as was recorded, in the middle of the organ's top or --at another place, and
       tells how far the force is from the recorded one (session/beside.png)
@@ -85,6 +86,9 @@ pub(crate) struct Arguments {
     /// The folder to write the session into; it is made when it is not there.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Replace a session that is in the folder already.
+    #[arg(long, requires = "out")]
+    overwrite: bool,
     /// Write this many deformed surfaces, evenly over the motion, for ParaView.
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=100_000))]
     fields: u64,
@@ -248,14 +252,16 @@ fn simulate(arguments: &Arguments, played: &Played<'_>, out: &Path) -> Result<Re
     };
     let reader = Reader::of_json(arguments.json);
     let prepared = || preparation::simulation(&scene, &preparation::resources(), reader);
-    // Everything that can be wrong is read before anything is prepared or written.
-    let (motion, simulation, beside) = match played {
-        Played::Motion(path) => (Motion::read(path)?, prepared()?, None),
+    let claimed = || claimed(out, Overwrite::of_option(arguments.overwrite));
+    // Everything that can be wrong is read, and the folder looked at, before anything is prepared or written.
+    let (motion, folder, simulation, beside) = match played {
+        Played::Motion(path) => (Motion::read(path)?, claimed()?, prepared()?, None),
         Played::Indentation(path) => {
             let repeated = Repeated::read(path)?;
+            let folder = claimed()?;
             let simulation = prepared()?;
             let (motion, beside) = repeated.on((&scene, &simulation), arguments.at)?;
-            (motion, simulation, Some(beside))
+            (motion, folder, simulation, Some(beside))
         }
     };
     let frames = match arguments.frames {
@@ -270,7 +276,7 @@ fn simulate(arguments: &Arguments, played: &Played<'_>, out: &Path) -> Result<Re
     };
     let recording = Recording {
         scene: &scene,
-        folder: out,
+        folder,
         surfaces: arguments.fields,
         frames,
         beside,

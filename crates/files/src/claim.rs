@@ -1,0 +1,230 @@
+use std::ffi::OsString;
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::{self, Read, Write};
+use std::path::{Path, PathBuf};
+
+use crate::{Error, unfinished};
+
+/// The file that is locked in a claimed folder; its text is the number of the process.
+const LOCK: &str = ".palpate-lock";
+
+/// Whether files that exist may be replaced.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Overwrite {
+    /// They are an error.
+    Refused,
+    /// They are replaced, each by a whole new one.
+    Allowed,
+}
+
+impl Overwrite {
+    /// From the option `--overwrite`.
+    pub fn of_option(is_given: bool) -> Self {
+        if is_given {
+            Self::Allowed
+        } else {
+            Self::Refused
+        }
+    }
+}
+
+/// A folder, or a file, that this program alone writes until this is dropped. The operating system ends the claim
+/// of a program that is killed.
+#[derive(Debug)]
+pub struct Claim {
+    path: PathBuf,
+    /// The folder that is claimed, or that of the file.
+    folder: PathBuf,
+    overwrite: Overwrite,
+    lock: PathBuf,
+    _locked: File,
+    has_made_folder: bool,
+}
+
+impl Claim {
+    /// Claims a folder, which is made where it does not exist; an empty one that was made is removed in the end.
+    ///
+    /// # Errors
+    /// When another program has claimed it, or the operating system refuses.
+    pub fn of_folder(path: impl AsRef<Path>, overwrite: Overwrite) -> Result<Self, Error> {
+        let path = path.as_ref().to_owned();
+        let has_made_folder = !path.exists();
+        fs::create_dir_all(&path).map_err(|source| Error::write(&path, source))?;
+        let lock = path.join(LOCK);
+        Ok(Self {
+            _locked: locked(&lock, &path)?,
+            folder: path.clone(),
+            path,
+            overwrite,
+            lock,
+            has_made_folder,
+        })
+    }
+
+    /// Claims a file, which may not exist yet. Its folder must exist.
+    ///
+    /// # Errors
+    /// When another program has claimed it, or the operating system refuses.
+    pub fn of_file(path: impl AsRef<Path>, overwrite: Overwrite) -> Result<Self, Error> {
+        let path = path.as_ref().to_owned();
+        let mut name = OsString::from(".");
+        name.push(path.file_name().unwrap_or_default());
+        name.push(LOCK);
+        let lock = path.with_file_name(name);
+        Ok(Self {
+            _locked: locked(&lock, &path)?,
+            folder: path.parent().unwrap_or(Path::new("")).to_owned(),
+            path,
+            overwrite,
+            lock,
+            has_made_folder: false,
+        })
+    }
+
+    /// What is claimed.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Refuses what would replace one of `files`, in the folder, or what is left of one that was not finished,
+    /// unless that is allowed.
+    ///
+    /// # Errors
+    /// When one exists that may not be replaced.
+    pub fn check(&self, files: impl IntoIterator<Item = impl AsRef<Path>>) -> Result<(), Error> {
+        if self.overwrite == Overwrite::Allowed {
+            return Ok(());
+        }
+        let files = files.into_iter().map(|file| self.folder.join(file));
+        let mut all = files.flat_map(|file| [unfinished(&file), file]);
+        match all.find(|file| file.exists()) {
+            Some(path) => Err(Error::Exists { path }),
+            None => Ok(()),
+        }
+    }
+}
+
+impl Drop for Claim {
+    fn drop(&mut self) {
+        // A leftover is only untidy: nobody holds it.
+        let _ = fs::remove_file(&self.lock);
+        if self.has_made_folder {
+            // Refused unless it is empty.
+            let _ = fs::remove_dir(&self.path);
+        }
+    }
+}
+
+/// A lock of this program on the file `lock`, for what is called `path`.
+fn locked(lock: &Path, path: &Path) -> Result<File, Error> {
+    let refused = |source| Error::write(path, source);
+    loop {
+        let file = OpenOptions::new()
+            .read(true)
+            .write(true)
+            .create(true)
+            .truncate(false)
+            .open(lock);
+        let mut file = file.map_err(refused)?;
+        match file.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => {
+                let mut process = String::new();
+                // Without it the sentence does not name the process.
+                let _ = file.read_to_string(&mut process);
+                return Err(Error::InUse {
+                    path: path.to_owned(),
+                    process: process.trim().parse().ok(),
+                });
+            }
+            Err(TryLockError::Error(source)) => return Err(refused(source)),
+        }
+        // The program before may have removed the file between its opening and its locking.
+        if is_at(lock, &file).map_err(refused)? {
+            let process = std::process::id().to_string();
+            file.set_len(0)
+                .and_then(|()| file.write_all(process.as_bytes()))
+                .map_err(refused)?;
+            return Ok(file);
+        }
+    }
+}
+
+/// Whether `path` is the name of the file that is open.
+#[cfg(unix)]
+fn is_at(path: &Path, file: &File) -> io::Result<bool> {
+    use std::os::unix::fs::MetadataExt;
+    let open = file.metadata()?;
+    match fs::metadata(path) {
+        Ok(named) => Ok((named.dev(), named.ino()) == (open.dev(), open.ino())),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
+        Err(error) => Err(error),
+    }
+}
+
+/// Elsewhere an open file keeps its name until it is closed.
+#[cfg(not(unix))]
+fn is_at(_path: &Path, _file: &File) -> io::Result<bool> {
+    Ok(true)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_second_claim_is_refused_until_the_first_is_dropped() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("session");
+        let claim = || Claim::of_folder(&path, Overwrite::Refused);
+        let first = claim().unwrap();
+        let said = claim().unwrap_err();
+        assert!(!said.is_input());
+        let process = std::process::id().to_string();
+        assert!(said.to_string().contains(&process), "{said}");
+        drop(first);
+        // Nothing is left, not even the folder that was made.
+        assert!(!path.exists());
+        let file = path.with_extension("csv");
+        let first = Claim::of_file(&file, Overwrite::Refused).unwrap();
+        assert!(Claim::of_file(&file, Overwrite::Allowed).is_err());
+        assert!(claim().is_ok());
+        drop(first);
+        assert!(Claim::of_file(&file, Overwrite::Refused).is_ok());
+    }
+
+    /// Many at once: never two of them hold it.
+    #[test]
+    fn one_of_many_threads_holds_a_claim() {
+        use std::sync::atomic::{AtomicU32, Ordering};
+        let folder = tempfile::tempdir().unwrap();
+        let (inside, held) = (AtomicU32::new(0), AtomicU32::new(0));
+        std::thread::scope(|scope| {
+            for _ in 0..8 {
+                scope.spawn(|| {
+                    for _ in 0..200 {
+                        if let Ok(_claim) = Claim::of_folder(folder.path(), Overwrite::Refused) {
+                            assert_eq!(inside.fetch_add(1, Ordering::SeqCst), 0);
+                            held.fetch_add(1, Ordering::SeqCst);
+                            inside.fetch_sub(1, Ordering::SeqCst);
+                        }
+                    }
+                });
+            }
+        });
+        assert!(held.into_inner() > 0);
+    }
+
+    #[test]
+    fn what_exists_is_replaced_when_that_is_allowed() {
+        let folder = tempfile::tempdir().unwrap();
+        let refused = Claim::of_folder(folder.path(), Overwrite::Refused).unwrap();
+        refused.check(["session.csv"]).unwrap();
+        fs::write(folder.path().join("session.csv.part"), "").unwrap();
+        let said = refused.check(["session.csv"]).unwrap_err();
+        assert!(said.is_input() && said.to_string().contains("--overwrite"));
+        drop(refused);
+        let allowed = Claim::of_folder(folder.path(), Overwrite::Allowed).unwrap();
+        allowed.check(["session.csv"]).unwrap();
+    }
+}
