@@ -65,26 +65,20 @@ impl Motion {
     }
 
     /// Reads the text of a motion file; `path` is its name in errors. A session is a motion too:
-    /// columns that a motion does not have are passed over. A last line without its end is refused: what was cut
-    /// off of its last number may have been any digits, and a tool would go where nobody sent it.
+    /// columns that a motion does not have are passed over. A last line without its end may have been cut in its last
+    /// number. Within the box of the tool's rows before it is played, and [`Motion::incomplete`] says so; elsewhere it
+    /// is refused, for the tool would go where nobody sent it.
     ///
     /// # Errors
     /// When the text does not hold a motion.
     pub fn parse(text: &str, path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
         let ended = Ended::of(text);
-        if let Some(line) = ended.cut_line {
-            return Err(Error::BadRow {
-                place: Place::line(path, line),
-                found: "a last line without a line end, which may have been cut in its middle"
-                    .to_owned(),
-                expected: "the whole line and a line end after it, or remove it".to_owned(),
-            });
-        }
         let table = TableText::parse(text, path, &["format"])?;
         let columns = columns::Columns::find(&table)?;
         let mut tools: Vec<ToolMotion> = Vec::new();
         let mut rows = table.rows();
+        let mut last_is_inside = false;
         while let Some(row) = rows.next()? {
             let name = columns.tool_name(&row)?;
             let read = columns.row(&row)?;
@@ -97,7 +91,18 @@ impl Motion {
                 None => return Err(row.bad(&columns.tool, "one of the two tools named above")),
             };
             row.check_after(&columns.time, read.time_s, tool.last_time_s())?;
+            last_is_inside = tool.is_in_box(&read.pose);
             tool.push(read);
+        }
+        if let Some(line) = ended.cut_line
+            && !last_is_inside
+        {
+            return Err(Error::BadRow {
+                place: Place::line(path, line),
+                found: "a last line without a line end, which may have been cut in its middle"
+                    .to_owned(),
+                expected: "the whole line and a line end after it, or remove it".to_owned(),
+            });
         }
         if tools.is_empty() {
             let path = path.to_owned();
@@ -106,7 +111,10 @@ impl Motion {
         let rows = tools.iter().map(|tool| tool.rows().len()).sum();
         Ok(Self {
             tools,
-            incomplete: ended.incomplete(rows),
+            incomplete: match ended.cut_line {
+                Some(line) => Some(Incomplete::OpenLine { line }),
+                None => ended.incomplete(rows),
+            },
         })
     }
 

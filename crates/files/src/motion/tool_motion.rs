@@ -87,6 +87,16 @@ impl ToolMotion {
         self.rows.first().map_or(f64::INFINITY, |row| row.time_s)
     }
 
+    /// Whether a pose is in the box around those of all rows.
+    pub(super) fn is_in_box(&self, pose: &Pose) -> bool {
+        let axis = |row: &MotionRow, axis: usize| row.pose.position_m[axis];
+        (0..3).all(|k| {
+            let at = pose.position_m[k];
+            self.rows.iter().any(|row| axis(row, k) <= at)
+                && self.rows.iter().any(|row| axis(row, k) >= at)
+        })
+    }
+
     pub(super) fn last_time_s(&self) -> Option<f64> {
         self.rows.last().map(|row| row.time_s)
     }

@@ -27,6 +27,11 @@ pub enum Incomplete {
         /// Its number, from one.
         line: usize,
     },
+    /// The last line has no end, and its last number may have been cut. It counts all the same.
+    OpenLine {
+        /// Its number, from one.
+        line: usize,
+    },
     /// The end mark is of another number of rows.
     OtherRows {
         /// The number in the mark.
@@ -48,6 +53,10 @@ impl fmt::Display for Incomplete {
             Self::CutLine { line } => write!(
                 f,
                 "incomplete: line {line} was cut off in its middle, and is left out"
+            ),
+            Self::OpenLine { line } => write!(
+                f,
+                "incomplete: line {line} is the last and has no line end, so that its last number may have been cut off"
             ),
             Self::OtherRows { marked, found } => write!(
                 f,
