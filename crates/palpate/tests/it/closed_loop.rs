@@ -153,6 +153,7 @@ fn close(name: &str, protocol: &str, asked: &[&str]) -> Vec<Closed> {
                 "--json",
                 "--out",
                 "session",
+                "--overwrite",
             ];
             let summary = json(&palpate_in(folder, &asked));
             let closed = compare(folder, file, &stated);

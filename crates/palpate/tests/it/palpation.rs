@@ -43,6 +43,7 @@ fn simulated(folder: &Path, model: &str, course: &[(f64, f64)]) -> Vec<f64> {
         "motion.csv",
         "--out",
         "out",
+        "--overwrite",
     ];
     let output = palpate_in(folder, &arguments);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
