@@ -52,6 +52,22 @@ pub enum Error {
         /// What the operating system says.
         source: io::Error,
     },
+    /// A device or a pipe, which may never end.
+    #[error("{path} is no regular file; name one, or copy what it holds into one", path = path.display())]
+    NotAFile {
+        /// What is there.
+        path: PathBuf,
+    },
+    /// A file that is larger than any of its kind.
+    #[error("{path} has {bytes} bytes, and at most {most} are read of a file of its kind; check that it is the one you mean, or split it", path = path.display())]
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+        /// Its size [bytes].
+        bytes: u64,
+        /// The largest that is read [bytes].
+        most: u64,
+    },
     /// The operating system does not let the file be written.
     #[error("{path} cannot be written: {source}; check that its folder exists, that you may write there and that the disk has room", path = path.display())]
     Write {

@@ -43,4 +43,6 @@ pub use session::{Event, Events, Session, SessionHeader, SessionRow, SessionWrit
 pub use table::{Incomplete, unfinished};
 pub use tissue::{BuiltinTissue, Elasticity, PronyTerm, Tissue};
 pub use toml_document::{Document, Keys};
-pub use whole_file::{check_writable, write_whole};
+pub use whole_file::{
+    MOST_OF_DOCUMENT, MOST_OF_TABLE, check_writable, read_bytes, read_text, write_whole,
+};

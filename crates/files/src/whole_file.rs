@@ -1,6 +1,6 @@
 use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, Write};
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
 use crate::Error;
@@ -79,9 +79,59 @@ fn refuse_folder(path: &Path) -> io::Result<()> {
     }
 }
 
-/// The text of a file.
-pub(crate) fn read_text(path: &Path) -> Result<String, Error> {
-    let bytes = fs::read(path).map_err(|source| Error::read(path, source))?;
+/// The largest document of keys that is read [bytes]: a scene, a tissue, a protocol, a problem.
+pub const MOST_OF_DOCUMENT: u64 = 4 << 20;
+
+/// The largest table of numbers that is read [bytes]: a recording, a motion, a session. An hour of two tools at 1 kHz
+/// has 1.4 GB.
+pub const MOST_OF_TABLE: u64 = 2 << 30;
+
+/// The bytes of a regular file of at most `most` bytes. What is none, a device or a pipe, may never end.
+///
+/// # Errors
+/// When it is no regular file, larger, or the operating system refuses.
+pub fn read_bytes(path: impl AsRef<Path>, most: u64) -> Result<Vec<u8>, Error> {
+    let path = path.as_ref();
+    let refused = |source| Error::read(path, source);
+    // Before it is opened: opening a pipe waits for its writer.
+    let metadata = fs::metadata(path).map_err(refused)?;
+    if metadata.is_dir() {
+        return Err(refused(io::ErrorKind::IsADirectory.into()));
+    }
+    if !metadata.is_file() {
+        let path = path.to_owned();
+        return Err(Error::NotAFile { path });
+    }
+    let mut bytes = Vec::new();
+    let too_large = |bytes: u64| Error::TooLarge {
+        path: path.to_owned(),
+        bytes,
+        most,
+    };
+    if metadata.len() > most {
+        return Err(too_large(metadata.len()));
+    }
+    let file = File::open(path).map_err(refused)?;
+    // It may grow meanwhile.
+    file.take(most + 1)
+        .read_to_end(&mut bytes)
+        .map_err(refused)?;
+    match bytes.len() as u64 <= most {
+        true => Ok(bytes),
+        false => Err(too_large(bytes.len() as u64)),
+    }
+}
+
+/// The text of a regular file of at most `most` bytes, without a byte-order mark.
+///
+/// # Errors
+/// As for [`read_bytes`], and when it is no UTF-8.
+pub fn read_text(path: impl AsRef<Path>, most: u64) -> Result<String, Error> {
+    let path = path.as_ref();
+    let mut bytes = read_bytes(path, most)?;
+    if bytes.starts_with(BYTE_ORDER_MARK) {
+        bytes.drain(..BYTE_ORDER_MARK.len());
+    }
     String::from_utf8(bytes).map_err(|error| {
         let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         Error::NotText {
@@ -89,6 +139,9 @@ pub(crate) fn read_text(path: &Path) -> Result<String, Error> {
         }
     })
 }
+
+/// What some programs put before UTF-8.
+const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
 
 /// How many lines end in `bytes`.
 pub(crate) fn newlines(bytes: &[u8]) -> usize {
@@ -115,6 +168,22 @@ mod tests {
         let error = write_whole(folder.path().join("no/such.json"), b"").unwrap_err();
         assert!(error.is_input(), "{error}");
         assert!(write_whole(folder.path(), b"").is_err());
+    }
+
+    #[test]
+    fn only_regular_files_of_some_size_are_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("scene.toml");
+        fs::write(&path, "\u{feff}format = 1\n").unwrap();
+        assert_eq!(read_text(&path, 100).unwrap(), "format = 1\n");
+        let error = read_text(&path, 10).unwrap_err().to_string();
+        assert!(error.contains("14 bytes"), "{error}");
+        assert!(read_text(folder.path(), 100).is_err());
+        #[cfg(unix)]
+        {
+            let error = read_text("/dev/zero", 100).unwrap_err();
+            assert!(error.to_string().contains("regular file"), "{error}");
+        }
     }
 
     #[test]

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use palpate_characterize::CleanRecording;
 use palpate_characterize::clean::{CleanSettings, clean};
-use palpate_files::Recording;
 use palpate_files::recording::{ForeignColumns, RecordingHeader};
+use palpate_files::{MOST_OF_TABLE, Recording, read_bytes, read_text};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
@@ -167,16 +167,10 @@ impl Recordings {
         let named = [&self.time, &self.depth, &self.force]
             .iter()
             .any(|name| name.is_some());
-        let says_format = |text: &str| {
-            let comments = text
-                .lines()
-                .take_while(|line| line.trim_start().starts_with('#'));
-            let mut keys = comments.map(|line| line.trim_start_matches(['#', ' ']));
-            keys.any(|key| key.starts_with("format"))
-        };
         // What cannot be read has its error from the reader.
-        let of_file = || fs::read_to_string(path).map_or(true, |text| says_format(&text));
-        !named && text.map_or_else(of_file, says_format)
+        let of_file =
+            || read_text(path, MOST_OF_TABLE).map_or(true, |text| Recording::says_format(&text));
+        !named && text.map_or_else(of_file, Recording::says_format)
     }
 
     /// What `--set` says, by the rules of a recording's own header.
@@ -214,7 +208,7 @@ impl Recordings {
 fn digest(path: &Path, text: Option<&str>) -> String {
     let content = match text {
         Some(text) => text.as_bytes().to_vec(),
-        None => fs::read(path).unwrap_or_default(),
+        None => read_bytes(path, MOST_OF_TABLE).unwrap_or_default(),
     };
     hexadecimal(&Sha256::digest(content))
 }

@@ -39,6 +39,16 @@ pub enum Error {
         /// How long a breath is held [s].
         breath: f64,
     },
+    /// The course takes too long.
+    #[error(
+        "the stimulus takes {duration:.3e} s, and at most {longest} s are recorded; hold for less time"
+    )]
+    TooLong {
+        /// How long it takes with the way to the tissue [s].
+        duration: f64,
+        /// The longest that is recorded [s].
+        longest: f64,
+    },
     /// A breath was held for as long as it may be.
     #[error(
         "the breath was held for {breath:.1} s, its whole budget, and the indenter was withdrawn; bring it nearer to the tissue, or raise the budget"

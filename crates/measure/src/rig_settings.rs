@@ -62,6 +62,8 @@ pub(crate) const CALM: f64 = 2.0;
 /// Time before a stimulus that is recorded too [s], and how far above the tissue the indenter then is [m].
 pub(crate) const LEAD: f64 = 0.5;
 pub(crate) const STANDOFF: f64 = 0.5e-3;
+/// The longest stimulus [s]; at 1 kHz it makes a recording of 1 GB.
+const LONGEST: f64 = 4.0 * 3600.0;
 
 impl RigSettings {
     /// How long `course` takes from where the indenter waits [s], for which a breath is held.
@@ -95,6 +97,12 @@ impl RigSettings {
             });
         }
         let duration = self.time_of(course);
+        if duration.is_nan() || duration > LONGEST {
+            return Err(Error::TooLong {
+                duration,
+                longest: LONGEST,
+            });
+        }
         match self.breath {
             Some(breath) if duration > breath => Err(Error::OutOfBreath { duration, breath }),
             _ => Ok(()),

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use numpy::PyArray1;
-use palpate_files::Recording as Document;
 use palpate_files::recording::{ForeignColumns, RecordingHeader, Samples};
+use palpate_files::{MOST_OF_TABLE, Recording as Document, read_text};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple, PyType};
 
@@ -200,15 +200,8 @@ impl Recording {
 
 /// A recording of this project says its format.
 fn says_format(path: &Path) -> bool {
-    let says_format = |text: String| {
-        let comments = text
-            .lines()
-            .take_while(|line| line.trim_start().starts_with('#'));
-        let mut keys = comments.map(|line| line.trim_start_matches(['#', ' ']));
-        keys.any(|key| key.starts_with("format"))
-    };
     // What cannot be read has its error from the reader.
-    std::fs::read_to_string(path).map_or(true, says_format)
+    read_text(path, MOST_OF_TABLE).map_or(true, |text| Document::says_format(&text))
 }
 
 /// The reader speaks of options, here they are arguments.

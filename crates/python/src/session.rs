@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use numpy::PyArray1;
-use palpate_files::{Claim, Overwrite, Session as Document, SessionRow};
+use palpate_files::{
+    Claim, MOST_OF_DOCUMENT, Overwrite, Session as Document, SessionRow, read_text,
+};
 use palpate_simulate::performance;
 use palpate_simulate::{SessionFolder, SessionFolderWriter, Summary};
 use pyo3::prelude::*;
@@ -67,7 +69,7 @@ impl Session {
         Ok(Self {
             session: folder.session,
             scene: folder.scene,
-            summary: std::fs::read_to_string(beside).map_or(Told::Nothing, Told::Json),
+            summary: read_text(beside, MOST_OF_DOCUMENT).map_or(Told::Nothing, Told::Json),
         })
     }
 

@@ -12,7 +12,7 @@ pub use tool_motion::{Cursor, MotionRow, ToolMotion};
 
 use crate::error::Place;
 use crate::table::{Ended, TableText};
-use crate::whole_file::read_text;
+use crate::whole_file::{MOST_OF_TABLE, read_text};
 use crate::{Error, Incomplete};
 
 /// The motions of one or two tools.
@@ -61,7 +61,7 @@ impl Motion {
     /// When the file cannot be read or does not hold a motion.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
-        Self::parse(&read_text(path)?, path)
+        Self::parse(&read_text(path, MOST_OF_TABLE)?, path)
     }
 
     /// Reads the text of a motion file; `path` is its name in errors. A session is a motion too:

@@ -10,7 +10,7 @@ pub use rig::{Gains, RigDevice, RigLimits};
 pub use specimen::{Measured, MeasuredTissue, PublishedOrgan};
 pub use stimulus::{Stimulus, StimulusPlan, Sweep};
 
-use crate::whole_file::read_text;
+use crate::whole_file::{MOST_OF_DOCUMENT, read_text};
 use crate::{Document, Error};
 
 /// A protocol: every stimulus on every specimen. What is not stated in the file has its default here.
@@ -33,7 +33,7 @@ impl Protocol {
     /// When the file cannot be read or does not describe a protocol.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
-        Self::parse(&read_text(path)?, path)
+        Self::parse(&read_text(path, MOST_OF_DOCUMENT)?, path)
     }
 
     /// Reads the text of a protocol file; `path` is its name in errors, and relative paths in it begin in its

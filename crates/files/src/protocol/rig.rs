@@ -46,6 +46,12 @@ pub struct RigLimits {
     pub device: Option<RigDevice>,
 }
 
+/// Slower, the way to the tissue takes hours; every tick of it is kept.
+const APPROACH_SPEED: Domain = Domain {
+    expected: "a speed from 0.00001 to 1 m/s",
+    holds: |speed| (1e-5..=1.0).contains(&speed),
+};
+
 impl RigLimits {
     pub(super) const KEYS: &[&str] = &[
         "approach_speed_m_per_s",
@@ -64,7 +70,7 @@ impl RigLimits {
         };
         let positive = |key| keys.number(key, Domain::POSITIVE);
         Ok(Self {
-            approach_speed_m_per_s: positive("approach_speed_m_per_s")?,
+            approach_speed_m_per_s: keys.number("approach_speed_m_per_s", APPROACH_SPEED)?,
             force_limit_n: positive("force_limit_n")?,
             depth_limit_m: positive("depth_limit_m")?,
             speed_limit_m_per_s: positive("speed_limit_m_per_s")?,

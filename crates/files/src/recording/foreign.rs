@@ -1,4 +1,3 @@
-use std::fs;
 use std::path::Path;
 
 use super::foreign_names::Wanted;
@@ -6,6 +5,7 @@ use super::samples::{self, Repeated};
 use super::{Recording, RecordingHeader, foreign_table, foreign_units, stretches};
 use crate::Error;
 use crate::table::{Column, Row};
+use crate::whole_file::{MOST_OF_TABLE, read_bytes};
 
 /// Where a table that is not in the format of this project holds time, depth and force. A column
 /// that is not named is recognised by its name, when only one can be meant.
@@ -33,7 +33,7 @@ impl Recording {
     /// When the file cannot be read, or as for [`Recording::parse_foreign`].
     pub fn read_foreign(path: impl AsRef<Path>, columns: &ForeignColumns) -> Result<Self, Error> {
         let path = path.as_ref();
-        let bytes = fs::read(path).map_err(|source| Error::read(path, source))?;
+        let bytes = read_bytes(path, MOST_OF_TABLE)?;
         // Machines that do not write UTF-8 mostly write Latin-1, where each byte is a character.
         let text = String::from_utf8(bytes)
             .unwrap_or_else(|error| error.as_bytes().iter().map(|&byte| byte as char).collect());

@@ -23,7 +23,7 @@ pub use writer::RecordingWriter;
 pub use crate::table::ExtraKey;
 
 use crate::table::{Ended, TableText};
-use crate::whole_file::read_text;
+use crate::whole_file::{MOST_OF_TABLE, read_text};
 use crate::{Error, Incomplete};
 
 /// A recording. Depth is positive into the tissue from first contact; force is positive on the
@@ -70,13 +70,23 @@ impl Recording {
         Ok(self)
     }
 
+    /// Whether a table says its format, as the recordings of this project do; others are
+    /// [foreign](Recording::read_foreign).
+    pub fn says_format(text: &str) -> bool {
+        let comments = text
+            .lines()
+            .take_while(|line| line.trim_start().starts_with('#'));
+        let mut keys = comments.map(|line| line.trim_start_matches(['#', ' ']));
+        keys.any(|key| key.starts_with("format"))
+    }
+
     /// Reads a recording file. A last line without its end is left out.
     ///
     /// # Errors
     /// When the file cannot be read or does not hold a recording.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
-        Self::parse(&read_text(path)?, path)
+        Self::parse(&read_text(path, MOST_OF_TABLE)?, path)
     }
 
     /// Reads the text of a recording file; `path` is its name in errors.

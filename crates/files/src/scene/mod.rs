@@ -32,7 +32,7 @@ pub use tissue_choice::TissueChoice;
 pub use tool::{DeviceKind, Tip, TipContact, TipShape, Tool, ToolKind, ToolMesh};
 pub use view::{Shading, View};
 
-use crate::whole_file::read_text;
+use crate::whole_file::{MOST_OF_DOCUMENT, read_text};
 use crate::{Document, Error};
 
 /// A scene. What is not stated in the file has its default here.
@@ -75,7 +75,7 @@ impl Scene {
     /// When the file cannot be read or does not describe a scene.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
-        Self::parse(&read_text(path)?, path)
+        Self::parse(&read_text(path, MOST_OF_DOCUMENT)?, path)
     }
 
     /// Reads the text of a scene file; `path` is its name in errors, and relative paths in the

@@ -15,7 +15,7 @@ pub use writer::SessionWriter;
 
 use crate::motion::{Motion, MotionRow, Pose, ToolMotion};
 use crate::table::{Ended, RowDigest, TableText};
-use crate::whole_file::read_text;
+use crate::whole_file::{MOST_OF_TABLE, read_text};
 use crate::{Error, Incomplete};
 
 /// A session that was played.
@@ -38,7 +38,7 @@ impl Session {
     /// When the file cannot be read or does not hold a session.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
-        Self::parse(&read_text(path)?, path)
+        Self::parse(&read_text(path, MOST_OF_TABLE)?, path)
     }
 
     /// Reads the text of a session file; `path` is its name in errors.

@@ -1,7 +1,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::error::Place;
-use crate::whole_file::read_text;
+use crate::whole_file::{MOST_OF_DOCUMENT, read_text};
 use crate::{Error, Keys};
 
 use super::value::{Entry, Table, Value, parse};
@@ -20,7 +20,7 @@ impl Document {
     /// When it cannot be read, is not TOML or is not in format 1.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
-        Self::parse(&read_text(path)?, path)
+        Self::parse(&read_text(path, MOST_OF_DOCUMENT)?, path)
     }
 
     /// Reads a text; `path` is its name in errors.

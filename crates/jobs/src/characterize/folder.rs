@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use palpate_characterize::CharacterizeSettings;
-use palpate_files::write_whole;
+use palpate_files::{MOST_OF_TABLE, read_text, write_whole};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
@@ -84,7 +84,7 @@ impl StudyFolder {
 impl Kept {
     /// What was finished before of the same recordings, in the same way.
     pub(crate) fn read(&self) -> Option<Finished> {
-        let text = fs::read_to_string(&self.json).ok()?;
+        let text = read_text(&self.json, MOST_OF_TABLE).ok()?;
         let document: Document<Finished> = serde_json::from_str(&text).ok()?;
         let fits = document.digest == self.digest && document.palpate == VERSION;
         fits.then_some(document.finished)

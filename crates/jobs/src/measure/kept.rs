@@ -14,7 +14,7 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
-use palpate_files::{Elasticity, Tissue, write_whole};
+use palpate_files::{Elasticity, MOST_OF_DOCUMENT, Tissue, read_text, write_whole};
 use palpate_measure::{Error, VirtualSpecimen};
 use palpate_mechanics::IndentationCurve;
 use sha2::{Digest, Sha256};
@@ -71,7 +71,7 @@ fn print(key: &str, curve: &IndentationCurve) -> String {
 }
 
 fn read(file: &Path, key: &str) -> Option<IndentationCurve> {
-    parse(&fs::read_to_string(file).ok()?, key)
+    parse(&read_text(file, MOST_OF_DOCUMENT).ok()?, key)
 }
 
 /// The curve in `text`; none when it is another's or not whole.

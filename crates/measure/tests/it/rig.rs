@@ -111,6 +111,13 @@ fn limits_hold() {
         settings.check(&usual()),
         Err(Error::OutOfBreath { .. })
     ));
+    // Hours of it would be kept in memory and never end.
+    let endless = ramp(4e-3, 2.0, 1e300);
+    let settings = RigSettings::default();
+    assert!(matches!(
+        settings.check(&endless),
+        Err(Error::TooLong { .. })
+    ));
     let settings = RigSettings {
         force_limit: 0.05,
         ..RigSettings::default()

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use palpate_files::{Motion, Overwrite, Scene, write_whole};
+use palpate_files::{MOST_OF_DOCUMENT, Motion, Overwrite, Scene, read_text, write_whole};
 use palpate_simulate::Simulation;
 use palpate_viewer::{Start, check_display};
 
@@ -47,7 +47,7 @@ const INPUTS: [(&str, &str); 2] = [("scene.toml", ESOPHAGUS), ("motion.csv", MOT
 fn folder() -> PathBuf {
     let is_changed = |folder: &PathBuf| {
         let differs = |(name, text): &(&str, &str)| {
-            std::fs::read_to_string(folder.join(name)).is_ok_and(|found| found != *text)
+            read_text(folder.join(name), MOST_OF_DOCUMENT).is_ok_and(|found| found != *text)
         };
         INPUTS.iter().any(differs)
     };
