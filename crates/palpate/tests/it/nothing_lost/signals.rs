@@ -38,7 +38,7 @@ fn sigterm_withdraws_the_indenter() {
         fs::write(
             at("protocol.toml"),
             "format = 1\n[rig]\nrecovery_s = 1\n[[specimen]]\npublished = \"liver\"\n[[stimulus]]\n\
-             kind = \"ramp_and_hold\"\ndepth_m = 0.001\nramp_s = 0.5\nhold_s = 100000\n",
+             kind = \"ramp_and_hold\"\ndepth_m = 0.001\nramp_s = 0.5\nhold_s = 14000\n",
         )
         .unwrap();
         let child = Command::new(env!("CARGO_BIN_EXE_palpate"))
