@@ -253,30 +253,34 @@ fn intervals_hold_the_truth_in_correlated_noise() {
     }
 }
 
-/// The same at other rates, frequencies and lengths.
+/// The same at other rates, frequencies and lengths: of all cases together 90 to 99 %, of each, 60 recordings, not less
+/// than 90 % but for chance, a standard deviation.
 #[test]
-#[ignore = "slow: minutes, for thousands of recordings"]
+#[ignore = "slow: minutes, for a thousand recordings"]
 fn intervals_hold_the_truth_in_all_correlated_noise() {
-    let noises = [
+    const COUNT: u64 = 60;
+    let least = 0.9 - (0.9 * 0.1 / COUNT as f64).sqrt();
+    let mut all = Vec::new();
+    for noise in [
         Correlated::FirstOrder(0.01),
         Correlated::FirstOrder(0.1),
         Correlated::FirstOrder(1.0),
         Correlated::OneOverF,
-    ];
-    for noise in noises {
+    ] {
         for swing in [
             (100.0, 0.5, 14.0),
             (200.0, 2.0, 10.0),
             (500.0, 5.0, 10.0),
             (200.0, 5.0, 40.0),
         ] {
-            let [stiffness, phase] = held(noise, swing, 300);
+            let [stiffness, phase] = held(noise, swing, COUNT);
             println!("{noise:?} {swing:?}: stiffness {stiffness:.3}, phase {phase:.3}");
-            for part in [stiffness, phase] {
-                assert!((0.90..=0.99).contains(&part), "{noise:?} {swing:?}: {part}");
-            }
+            assert!(stiffness >= least && phase >= least, "{noise:?} {swing:?}");
+            all.extend([stiffness, phase]);
         }
     }
+    let mean = all.iter().sum::<f64>() / all.len() as f64;
+    assert!((0.90..=0.99).contains(&mean), "{mean}");
 }
 
 /// A chirp from 0.5 to 6 Hz in 30 s.
