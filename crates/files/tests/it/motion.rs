@@ -56,12 +56,12 @@ fn a_cursor_finds_what_a_search_finds() {
 /// A motion that was cut in its last number would press 50 mm deep; one whose last line only lacks its end is played.
 #[test]
 fn a_last_line_without_an_end_counts_where_the_tool_has_been() {
-    let rows = "time_s,tool,x_m,y_m,z_m\n0,tip,0,0,0.054\n1,tip,0,0,0.0495\n2,tip,0,0,0.0521";
+    let rows = "# format = 1\ntime_s,tool,x_m,y_m,z_m\n0,tip,0,0,0.054\n1,tip,0,0,0.0495\n2,tip,0,0,0.0521";
     let motion = Motion::parse(rows, "motion.csv").unwrap();
     assert_eq!(motion.tools()[0].rows().len(), 3);
     let said = motion.incomplete().unwrap().to_string();
     assert!(
-        said.contains("line 4") && said.contains("no line end"),
+        said.contains("line 5") && said.contains("no line end"),
         "{said}"
     );
     let refused = Motion::parse(&rows[..rows.len() - 4], "motion.csv").unwrap_err();
