@@ -210,8 +210,8 @@ def test_results_are_those_of_the_command(command: Command, tmp_path: Path) -> N
     played.write(tmp_path / "own", overwrite=True)
     cut = tmp_path / "cut.csv"
     cut.write_text("".join((out / "session.csv").read_text().splitlines(keepends=True)[:100]))
-    said = palpate.Session.read(cut).incomplete
-    assert said is not None and "no end mark" in said
+    missing = palpate.Session.read(cut).incomplete
+    assert missing is not None and "no end mark" in missing
     with pytest.raises(palpate.InputError, match="incomplete"):
         palpate.Session.read(cut).write(tmp_path / "again")
     assert played.header == theirs.header and played.score() == theirs.score()
