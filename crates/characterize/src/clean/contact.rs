@@ -1,19 +1,20 @@
 //! The first contact, and what the sensor showed before it.
 //!
-//! A recording of this project counts depth from first contact, so the contact is where the depth
-//! leaves zero. In others it is found: while the force first rises by 5 % of its range, or by twenty
-//! deviations of its noise if that is more, it is a constant f₀ until the depth d_c of a sample, and
-//! f₀ + a (d − d_c)^p from there on, with a ≥ 0 and p = 1, 3/2 or 2 for a flat face, a ball and a cone; where the
-//! shape is not stated, the least of the three that is as good as the best but for chance. Before contact only noise parts the force from this, after it the tissue too, by 2 % of the range. The most
-//! likely sample is the contact; those whose −2 log likelihood is larger by less than 3.84 (the 95 %
-//! point of χ² with one degree of freedom), times the variance ratio of correlated noise, say how well it is known. A drift is taken off before, if
-//! the sensor shows one over a hundred samples.
+//! A recording of this project counts depth from first contact, so the contact is where the depth leaves zero. In others
+//! it is found: while the force first rises by 5 % of its range, or by twenty deviations of its noise if that is more, it
+//! is a constant f₀ until the depth d_c of a sample, and f₀ + a (d − d_c)^p from there on, with a ≥ 0 and p = 1, 3/2 or 2
+//! for a flat face, a sphere and a cone. Where the shape is not stated, p is the smallest of the three whose likelihood
+//! does not differ significantly from the largest. Before contact only noise makes the force differ from this, after it
+//! the tissue too, by 2 % of the range. The most likely sample is the contact. Samples whose −2 log likelihood is larger
+//! by less than 3.84 (the 95 % point of χ² with one degree of freedom), times the factor by which correlation of the noise
+//! widens it, give its standard error, together with the way to the next sample. A drift is taken off before, if the
+//! sensor shows one over a hundred samples.
 //!
 //! *How we know*: `contact::…`, on synthetic recordings with known truth at 10 Hz to 1 kHz, linear and
 //! Hertzian.
 //!
-//! *Limits*: correlated noise widens the interval, it does not change which sample is the likeliest. A tissue that is very
-//! soft at first is met late by as much as the noise hides.
+//! *Limits*: correlated noise widens the interval; which sample is the most likely is found as if it were white. A tissue
+//! that is very soft at first is met late by as much as the noise hides.
 
 use palpate_files::recording::IndenterShape;
 

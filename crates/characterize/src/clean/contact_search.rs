@@ -52,15 +52,15 @@ impl<'s> Search<'s> {
         }
     }
 
-    /// Of several rises that the force may have, the first that is as good as the best but for chance: correlated noise
-    /// looks like a slow rise sooner than like a quick one.
+    /// The most likely contact of the first rise whose likelihood does not differ significantly from the largest:
+    /// correlated noise looks like a slow rise sooner than like a quick one.
     pub(super) fn best(&self) -> Best {
         let found: Vec<Vec<(usize, f64)>> =
             self.rises.iter().map(|rise| self.misfits(*rise)).collect();
         let best = least(&found.concat());
         let enough = best.1 + CHI_SQUARED * self.correlated(best.0);
-        let bests = found.iter().map(|of_rise| least(of_rise));
-        let first = bests.clone().find(|(_, misfit)| *misfit <= enough);
+        let mut bests = found.iter().map(|of_rise| least(of_rise));
+        let first = bests.find(|(_, misfit)| *misfit <= enough);
         let (place, _) = first.unwrap_or(best);
         let known = found.iter().flatten();
         let known = known.filter(|(_, misfit)| *misfit <= enough);

@@ -56,8 +56,8 @@ impl Measuring {
         names
     }
 
-    /// Carries the protocol out, into the `files` of its recordings, until it is done or somebody presses Ctrl-C. Each recording comes
-    /// with what its stimulus is called.
+    /// Carries the protocol out, into the `files` of its recordings, until it is done or somebody presses Ctrl-C.
+    /// Each recording comes with what its stimulus is called.
     pub fn run(&self, files: &Files, watch: &dyn Watch) -> Result<Vec<(String, Recorded)>, Error> {
         let mut recorded = Vec::new();
         let count = files.paths.len();
