@@ -58,7 +58,7 @@ impl Keys<'_> {
             })
         };
         let value =
-            part("value", domain)?.ok_or_else(|| parts.missing("value", domain.expected))?;
+            part("value", domain)?.ok_or_else(|| parts.missing("value", domain.expected()))?;
         Ok(Some(Estimate {
             value,
             standard_error: part("standard_error", Domain::NOT_NEGATIVE)?,
@@ -71,6 +71,6 @@ impl Keys<'_> {
     /// When it is missing, the value is neither or outside its `domain`.
     pub fn required_estimate(&self, key: &'static str, domain: Domain) -> Result<Estimate, Error> {
         self.estimate(key, domain)?
-            .ok_or_else(|| self.missing(key, domain.expected))
+            .ok_or_else(|| self.missing(key, domain.expected()))
     }
 }

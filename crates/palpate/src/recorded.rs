@@ -155,7 +155,7 @@ pub(crate) fn record(
     );
     files.extend(traces.draw(folder, recording.beside.as_ref())?);
     files.push(path.clone());
-    let report = Report::new((summary, motion.incomplete()), files, recording.beside);
+    let report = Report::new(summary, motion, files, recording.beside);
     let json = serde_json::to_string_pretty(&report)
         .map_err(|cause| Failure::failed(format!("the summary is no JSON ({cause})")))?
         + "\n";
@@ -164,19 +164,18 @@ pub(crate) fn record(
 }
 
 impl Report {
-    fn new(
-        (summary, incomplete): (Summary, Option<&Incomplete>),
-        files: Vec<PathBuf>,
-        beside: Option<Beside>,
-    ) -> Self {
+    fn new(summary: Summary, motion: &Motion, files: Vec<PathBuf>, beside: Option<Beside>) -> Self {
         let (beside, doubts) = beside.map(Beside::finish).unzip();
-        let incomplete = incomplete.map(|why| (why, format!("the motion is {why}")));
+        let incomplete = motion
+            .incomplete()
+            .map(|why| (why, format!("the motion is {why}")));
         // A motion that is written by hand rarely has an end mark, which alone is no doubt.
         let doubted = incomplete
             .iter()
             .filter(|(why, _)| **why != Incomplete::Unmarked);
         let doubted: Vec<String> = doubted.map(|(_, said)| said.clone()).collect();
-        let warnings = summary.warnings.into_iter().chain(doubted);
+        let unusual = motion.warnings().iter().cloned();
+        let warnings = summary.warnings.into_iter().chain(unusual).chain(doubted);
         Self {
             palpate: VERSION,
             steps: summary.steps,

@@ -57,6 +57,7 @@ impl Simulation {
         let (surface, mut doubts) = organ::read_organ(&scene.organ.shape)?;
         let tissue = scene.organ.tissue.read()?;
         let material = Material::from_tissue(&tissue)?;
+        doubts.extend_from_slice(&scene.warnings);
         doubts.extend(material.doubts.iter().cloned());
         let tree = AabbTree::new(surface.mesh());
         for tool in &scene.tools {

@@ -1,5 +1,5 @@
 use super::pose::normalised;
-use super::{MotionRow, Pose};
+use super::{MotionRow, Pose, ToolMotion};
 use crate::table::{Column, Row, TableText};
 use crate::{Domain, Error};
 
@@ -56,11 +56,23 @@ impl Columns {
         }
     }
 
+    /// What to say of positions that no tool over an organ has; none for usual ones.
+    pub(super) fn warning(&self, tools: &[ToolMotion]) -> Option<String> {
+        let farthest = |axis: usize| {
+            let all = tools.iter().flat_map(ToolMotion::rows);
+            let along = all.map(|row| row.pose.position_m[axis]);
+            along.max_by(|a, b| a.abs().total_cmp(&b.abs()))
+        };
+        let mut columns = self.position.iter().enumerate();
+        columns.find_map(|(axis, column)| column.warning(farthest(axis)?, Domain::POSITION))
+    }
+
     pub(super) fn row(&self, row: &Row<'_>) -> Result<MotionRow, Error> {
-        let time_s = row.number(&self.time, Domain::FINITE)?;
+        let time_s = row.number(&self.time, Domain::TIME)?;
         let [x, y, z] = &self.position;
         let finite = |column| row.number(column, Domain::FINITE);
-        let position_m = [finite(x)?, finite(y)?, finite(z)?];
+        let place = |column| row.number(column, Domain::POSITION);
+        let position_m = [place(x)?, place(y)?, place(z)?];
         let orientation = match &self.orientation {
             Some([x, y, z, w]) => {
                 let q = [finite(x)?, finite(y)?, finite(z)?, finite(w)?];

@@ -20,6 +20,7 @@ use crate::{Error, Incomplete};
 pub struct Motion {
     tools: Vec<ToolMotion>,
     pub(crate) incomplete: Option<Incomplete>,
+    warnings: Vec<String>,
 }
 
 impl Motion {
@@ -47,6 +48,7 @@ impl Motion {
             [_] | [_, _] => Ok(Self {
                 tools,
                 incomplete: None,
+                warnings: Vec::new(),
             }),
             more => wrong(
                 format!("of {} tools", more.len()),
@@ -109,8 +111,13 @@ impl Motion {
             return Err(Error::NoRows { path });
         }
         let rows = tools.iter().map(|tool| tool.rows().len()).sum();
+        let unusual = columns.warning(&tools);
         Ok(Self {
             tools,
+            warnings: unusual
+                .map(|warning| format!("{}: {warning}", path.display()))
+                .into_iter()
+                .collect(),
             incomplete: match ended.cut_line {
                 Some(line) => Some(Incomplete::OpenLine { line }),
                 None => ended.incomplete(rows),
@@ -121,6 +128,11 @@ impl Motion {
     /// Why rows may be missing; none for a motion with its end mark, and for one that is from no file.
     pub fn incomplete(&self) -> Option<&Incomplete> {
         self.incomplete.as_ref()
+    }
+
+    /// What deserves a warning among its numbers, as sentences.
+    pub fn warnings(&self) -> &[String] {
+        &self.warnings
     }
 
     /// The motion of each tool, in the order in which they first occur.

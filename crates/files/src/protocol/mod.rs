@@ -22,6 +22,8 @@ pub struct Protocol {
     pub specimens: Vec<Measured>,
     /// What is done to each: one or more.
     pub stimuli: Vec<StimulusPlan>,
+    /// What deserves a warning among its numbers, as sentences.
+    pub warnings: Vec<String>,
 }
 
 const KEYS: &[&str] = &["rig", "specimen", "stimulus"];
@@ -65,6 +67,7 @@ impl Protocol {
                 .map(|keys| Measured::from_keys(keys, folder))
                 .collect::<Result<_, _>>()?,
             stimuli: plans,
+            warnings: keys.warnings(),
         })
     }
 }

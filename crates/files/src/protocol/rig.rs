@@ -46,12 +46,6 @@ pub struct RigLimits {
     pub device: Option<RigDevice>,
 }
 
-/// Slower, the way to the tissue takes hours; every tick of it is kept.
-const APPROACH_SPEED: Domain = Domain {
-    expected: "a speed from 0.00001 to 1 m/s",
-    holds: |speed| (1e-5..=1.0).contains(&speed),
-};
-
 impl RigLimits {
     pub(super) const KEYS: &[&str] = &[
         "approach_speed_m_per_s",
@@ -68,14 +62,13 @@ impl RigLimits {
         let Some(keys) = keys else {
             return Ok(Self::default());
         };
-        let positive = |key| keys.number(key, Domain::POSITIVE);
         Ok(Self {
-            approach_speed_m_per_s: keys.number("approach_speed_m_per_s", APPROACH_SPEED)?,
-            force_limit_n: positive("force_limit_n")?,
-            depth_limit_m: positive("depth_limit_m")?,
-            speed_limit_m_per_s: positive("speed_limit_m_per_s")?,
-            breath_s: positive("breath_s")?,
-            recovery_s: keys.number("recovery_s", Domain::NOT_NEGATIVE)?,
+            approach_speed_m_per_s: keys.number("approach_speed_m_per_s", Domain::SPEED)?,
+            force_limit_n: keys.number("force_limit_n", Domain::FORCE)?,
+            depth_limit_m: keys.number("depth_limit_m", Domain::DEPTH)?,
+            speed_limit_m_per_s: keys.number("speed_limit_m_per_s", Domain::SPEED)?,
+            breath_s: keys.number("breath_s", Domain::DURATION)?,
+            recovery_s: keys.number("recovery_s", Domain::DURATION_OR_NONE)?,
             gains: keys.word("gains", Gains::WORDS)?,
             device: keys.word("device", RigDevice::WORDS)?,
         })

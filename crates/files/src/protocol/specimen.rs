@@ -82,13 +82,13 @@ impl Measured {
             tissue,
             organ: keys.text("organ")?,
             subject: keys.text_or_integer("subject")?,
-            weight_kg: keys.number("weight_kg", Domain::POSITIVE)?,
+            weight_kg: keys.number("weight_kg", Domain::WEIGHT)?,
             site: keys.text_or_integer("site")?,
             condition: keys.word("condition", Condition::WORDS)?,
             alive: keys.truth("alive")?.unwrap_or(false),
-            factor: keys.number("factor", Domain::POSITIVE)?.unwrap_or(1.0),
+            factor: keys.number("factor", Domain::FACTOR)?.unwrap_or(1.0),
             indenter_radius_m: keys
-                .number("indenter_radius_m", Domain::POSITIVE)?
+                .number("indenter_radius_m", Domain::TIP_RADIUS)?
                 .unwrap_or(0.001),
         })
     }

@@ -1,4 +1,6 @@
 use crate::recording::StimulusKind;
+use std::ops::Bound::{Excluded, Included};
+
 use crate::{Domain, Error, Keys};
 
 /// What an indenter does, from first contact (figure 5-8).
@@ -106,17 +108,20 @@ impl StimulusPlan {
     }
 }
 
+const CYCLES: Domain =
+    Domain::number("a number of cycles", [Excluded(0.0), Included(1e6)]).usually(0.5, 1000.0);
+
 fn holds(keys: &Keys<'_>) -> Result<Vec<Stimulus>, Error> {
     let own = ["depth_m", "depths_m", "ramp_s", "hold_s"];
     only(keys, &own, "nothing: a ramp and hold has none")?;
-    let ramp_s = keys.number("ramp_s", Domain::POSITIVE)?.unwrap_or(0.5);
-    let hold_s = keys.number("hold_s", Domain::POSITIVE)?.unwrap_or(20.0);
+    let ramp_s = keys.number("ramp_s", Domain::DURATION)?.unwrap_or(0.5);
+    let hold_s = keys.number("hold_s", Domain::DURATION)?.unwrap_or(20.0);
     let hold = |depth_m| Stimulus::RampAndHold {
         depth_m,
         ramp_s,
         hold_s,
     };
-    let depths = several(keys, ["depth_m", "depths_m"])?;
+    let depths = several(keys, ["depth_m", "depths_m"], Domain::DEPTH)?;
     Ok(depths.into_iter().map(hold).collect())
 }
 
@@ -130,14 +135,14 @@ fn sines(keys: &Keys<'_>) -> Result<Vec<Stimulus>, Error> {
     ];
     only(keys, &own, "nothing: a sine has none")?;
     let [amplitude_m, pre_indentation_m] = swing(keys)?;
-    let cycles = keys.number("cycles", Domain::POSITIVE)?.unwrap_or(10.0);
+    let cycles = keys.number("cycles", CYCLES)?.unwrap_or(10.0);
     let sine = |frequency| Stimulus::Swing {
         amplitude_m,
         pre_indentation_m,
         sweep: Sweep::Constant(frequency),
         duration_s: cycles / frequency,
     };
-    let frequencies = several(keys, ["frequency_hz", "frequencies_hz"])?;
+    let frequencies = several(keys, ["frequency_hz", "frequencies_hz"], Domain::FREQUENCY)?;
     Ok(frequencies.into_iter().map(sine).collect())
 }
 
@@ -155,18 +160,18 @@ fn chirp(keys: &Keys<'_>, sweep: fn([f64; 2]) -> Sweep) -> Result<Vec<Stimulus>,
         amplitude_m,
         pre_indentation_m,
         sweep: sweep([
-            keys.required_number("frequency_hz", Domain::POSITIVE)?,
-            keys.required_number("end_frequency_hz", Domain::POSITIVE)?,
+            keys.required_number("frequency_hz", Domain::FREQUENCY)?,
+            keys.required_number("end_frequency_hz", Domain::FREQUENCY)?,
         ]),
-        duration_s: keys.number("duration_s", Domain::POSITIVE)?.unwrap_or(15.0),
+        duration_s: keys.number("duration_s", Domain::DURATION)?.unwrap_or(15.0),
     }])
 }
 
 /// Amplitude and middle of a swing [m].
 fn swing(keys: &Keys<'_>) -> Result<[f64; 2], Error> {
     Ok([
-        keys.required_number("amplitude_m", Domain::POSITIVE)?,
-        keys.required_number("pre_indentation_m", Domain::POSITIVE)?,
+        keys.required_number("amplitude_m", Domain::DEPTH)?,
+        keys.required_number("pre_indentation_m", Domain::DEPTH)?,
     ])
 }
 
@@ -179,11 +184,12 @@ fn only(keys: &Keys<'_>, own: &[&str], why: &'static str) -> Result<(), Error> {
 }
 
 /// One number, or a list of them.
-fn several(keys: &Keys<'_>, [one, many]: [&'static str; 2]) -> Result<Vec<f64>, Error> {
-    match (
-        keys.number(one, Domain::POSITIVE)?,
-        keys.numbers(many, Domain::POSITIVE)?,
-    ) {
+fn several(
+    keys: &Keys<'_>,
+    [one, many]: [&'static str; 2],
+    domain: Domain,
+) -> Result<Vec<f64>, Error> {
+    match (keys.number(one, domain)?, keys.numbers(many, domain)?) {
         (Some(_), Some(_)) => Err(keys.given_twice(one, many)),
         (Some(one), None) => Ok(vec![one]),
         (None, Some(many)) if !many.is_empty() => Ok(many),

@@ -35,7 +35,7 @@ pub struct Recording {
     pub header: RecordingHeader,
     samples: Samples,
     extra_columns: Vec<ExtraColumn>,
-    /// What was done to read the table of another program.
+    /// What was done to read the table of another program, and what deserves a warning above it.
     remarks: Vec<String>,
     is_foreign: bool,
     incomplete: Option<Incomplete>,
@@ -111,7 +111,7 @@ impl Recording {
             header,
             samples: read.samples,
             extra_columns: read.extra_columns,
-            remarks: Vec::new(),
+            remarks: keys.warnings(),
             is_foreign: false,
             incomplete,
         })
@@ -138,7 +138,8 @@ impl Recording {
         self.is_foreign
     }
 
-    /// What was done to read the table of another program, in plain sentences.
+    /// What was done to read the table of another program, and what deserves a warning among the numbers above it,
+    /// in plain sentences.
     pub fn remarks(&self) -> &[String] {
         &self.remarks
     }

@@ -23,7 +23,7 @@ pub struct ExtraColumn {
 
 impl Samples {
     pub(super) fn check(&self) -> Result<(), Error> {
-        let wrong = |what: String, found: String, expected: &'static str| {
+        let wrong = |what: String, found: String, expected: String| {
             Err(Error::BadContent {
                 what,
                 found,
@@ -32,32 +32,36 @@ impl Samples {
         };
         let samples = self.time_s.len();
         if samples == 0 {
-            return wrong("a recording".into(), "empty".into(), "at least one sample");
+            return wrong(
+                "a recording".into(),
+                "empty".into(),
+                "at least one sample".into(),
+            );
         }
-        for (name, values) in self.columns() {
+        for (name, values, domain) in self.columns() {
             if values.len() != samples {
                 let found = format!("{} numbers for {samples} times", values.len());
-                return wrong(name.into(), found, "one for each time");
+                return wrong(name.into(), found, "one for each time".into());
             }
-            if let Some(sample) = values.iter().position(|value| !value.is_finite()) {
+            if let Some(sample) = values.iter().position(|value| !domain.contains(*value)) {
                 let what = format!("{name} of sample {sample}");
-                return wrong(what, values[sample].to_string(), "a finite number");
+                return wrong(what, values[sample].to_string(), domain.expected());
             }
         }
         let stands_still = self.time_s.windows(2).position(|pair| pair[1] <= pair[0]);
         if let Some(sample) = stands_still {
             let what = format!("time_s of sample {}", sample + 1);
             let found = self.time_s[sample + 1].to_string();
-            return wrong(what, found, "a time after that of the sample before");
+            return wrong(what, found, "a time after that of the sample before".into());
         }
         Ok(())
     }
 
-    fn columns(&self) -> [(&'static str, &[f64]); 3] {
+    fn columns(&self) -> [(&'static str, &[f64], Domain); 3] {
         [
-            ("time_s", &self.time_s),
-            ("depth_m", &self.depth_m),
-            ("force_n", &self.force_n),
+            ("time_s", &self.time_s, Domain::TIME),
+            ("depth_m", &self.depth_m, Domain::POSITION),
+            ("force_n", &self.force_n, Domain::ANY_FORCE),
         ]
     }
 }
@@ -146,11 +150,11 @@ pub(super) fn read(
             above.extend(row.fields().map(str::to_owned));
         }
         let samples = &mut read.samples;
-        let time_s = row.number(time, Domain::FINITE)?;
+        let time_s = row.number(time, Domain::TIME)?;
         row.check_after(time, time_s, samples.time_s.last().copied())?;
         samples.time_s.push(time_s);
-        samples.depth_m.push(row.number(depth, Domain::FINITE)?);
-        samples.force_n.push(row.number(force, Domain::FINITE)?);
+        samples.depth_m.push(row.number(depth, Domain::POSITION)?);
+        samples.force_n.push(row.number(force, Domain::ANY_FORCE)?);
         for (index, column) in &mut extra {
             column.values.push(row.field(*index).to_owned());
         }

@@ -67,14 +67,14 @@ impl Cutting {
         let or = |key, domain, or: f64| Ok(keys.number(key, domain)?.unwrap_or(or));
         Ok(Self {
             mode: keys.word("mode", CutMode::WORDS)?.unwrap_or(default.mode),
-            depth_m: keys.number("depth_m", Domain::POSITIVE)?,
-            width_m: or("width_m", Domain::POSITIVE, default.width_m)?,
+            depth_m: keys.number("depth_m", Domain::LENGTH)?,
+            width_m: or("width_m", Domain::LENGTH, default.width_m)?,
             toughness_j_per_m2: or(
                 "toughness_j_per_m2",
-                Domain::NOT_NEGATIVE,
+                Domain::TOUGHNESS,
                 default.toughness_j_per_m2,
             )?,
-            force_limit_n: keys.number("force_limit_n", Domain::POSITIVE)?,
+            force_limit_n: keys.number("force_limit_n", Domain::FORCE)?,
         })
     }
 }

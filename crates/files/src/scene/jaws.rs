@@ -53,18 +53,18 @@ impl Jaws {
         let Some(keys) = keys.table("jaws", known)? else {
             return Ok(Some(default));
         };
-        let positive = |key, default| -> Result<f64, Error> {
-            Ok(keys.number(key, Domain::POSITIVE)?.unwrap_or(default))
+        let or = |key, domain, default| -> Result<f64, Error> {
+            Ok(keys.number(key, domain)?.unwrap_or(default))
         };
         let mut jaws = Self {
-            length_m: positive("length_m", default.length_m)?,
-            opening_m: positive("opening_m", default.opening_m)?,
+            length_m: or("length_m", Domain::LENGTH, default.length_m)?,
+            opening_m: or("opening_m", Domain::LENGTH, default.opening_m)?,
             ..default
         };
         if kind == ToolKind::Grasper {
-            jaws.width_m = positive("width_m", default.width_m)?;
-            jaws.force_n = positive("force_n", default.force_n)?;
-            let friction = keys.number("friction", Domain::NOT_NEGATIVE)?;
+            jaws.width_m = or("width_m", Domain::LENGTH, default.width_m)?;
+            jaws.force_n = or("force_n", Domain::FORCE, default.force_n)?;
+            let friction = keys.number("friction", Domain::FRICTION)?;
             jaws.friction = friction.unwrap_or(default.friction);
         }
         Ok(Some(jaws))

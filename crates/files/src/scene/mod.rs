@@ -56,6 +56,8 @@ pub struct Scene {
     pub task: Task,
     /// Its text, which means the same in any folder ([`standing_alone`]); none once something was changed.
     pub written: Option<String>,
+    /// What deserves a warning among its numbers, as sentences; none once something was changed.
+    pub warnings: Vec<String>,
 }
 
 const KEYS: &[&str] = &[
@@ -105,6 +107,7 @@ impl Scene {
             task: Task::from_keys(keys.table("task", Task::KEYS)?.as_ref(), &folder)?,
             folder,
             written: Some(standing_alone(text, path)?),
+            warnings: keys.warnings(),
         };
         if scene.lacks_anchor() {
             return Err(organ.missing(

@@ -119,10 +119,10 @@ impl Model {
         };
         // A few dozen triangles are no organ; with ten thousand the matrices take gigabytes.
         let triangles = keys.integer("mechanical_triangles", 48..=20_000)?;
-        let positive = |key, or: f64| Ok(keys.number(key, Domain::POSITIVE)?.unwrap_or(or));
+        let or = |key, domain, or: f64| Ok(keys.number(key, domain)?.unwrap_or(or));
         Ok(Self {
             kind: keys.word("kind", ModelKind::WORDS)?.unwrap_or(default.kind),
-            step_s: positive("step_s", default.step_s)?,
+            step_s: or("step_s", Domain::STEP, default.step_s)?,
             local: LocalSettings::from_keys(keys)?,
             enhancement: Enhancement::from_keys(keys)?,
             mechanical_triangles: triangles.map(|number| number as usize),
@@ -132,7 +132,7 @@ impl Model {
             hand_over: keys
                 .word("hand_over", HandOver::WORDS)?
                 .unwrap_or(default.hand_over),
-            force_scale: positive("force_scale", default.force_scale)?,
+            force_scale: or("force_scale", Domain::FACTOR, default.force_scale)?,
         })
     }
 }

@@ -1,3 +1,4 @@
+use std::ops::Bound::{Excluded, Included};
 use std::path::Path;
 
 use super::{Region, Shape, TissueChoice};
@@ -133,18 +134,16 @@ impl Organ {
     }
 }
 
-const STIFFER: Domain = Domain {
-    expected: "a number above 1",
-    holds: |ratio| ratio > 1.0,
-};
+const STIFFER: Domain =
+    Domain::number("a number", [Excluded(1.0), Included(1e9)]).usually(1.0, 1000.0);
 
 impl Nodule {
     const KEYS: &[&str] = &["center_m", "radius_m", "stiffness_ratio"];
 
     fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
         Ok(Self {
-            center_m: keys.required_vector("center_m")?,
-            radius_m: keys.required_number("radius_m", Domain::POSITIVE)?,
+            center_m: keys.required_vector("center_m", Domain::POSITION)?,
+            radius_m: keys.required_number("radius_m", Domain::LENGTH)?,
             stiffness_ratio: keys.required_number("stiffness_ratio", STIFFER)?,
         })
     }
@@ -163,9 +162,9 @@ impl Layer {
         let name = keys.text("name")?;
         Ok(Self {
             name: name.unwrap_or_else(|| format!("layer {}", number + 1)),
-            thickness_m: keys.required_number("thickness_m", Domain::POSITIVE)?,
+            thickness_m: keys.required_number("thickness_m", Domain::LENGTH)?,
             tissue: TissueChoice::from_keys(keys, folder)?,
-            perforation_force_n: keys.number("perforation_force_n", Domain::POSITIVE)?,
+            perforation_force_n: keys.number("perforation_force_n", Domain::FORCE)?,
         })
     }
 }
@@ -186,9 +185,9 @@ impl Neighbour {
         Ok(Self {
             shape: Shape::from_keys(keys, folder)?,
             location: Location {
-                at_m: keys.vector("at_m")?.unwrap_or_default(),
-                turn_rad: keys.vector("turn_rad")?.unwrap_or_default(),
-                scale: keys.number("scale", Domain::POSITIVE)?.unwrap_or(1.0),
+                at_m: keys.vector("at_m", Domain::POSITION)?.unwrap_or_default(),
+                turn_rad: keys.vector("turn_rad", Domain::TURN)?.unwrap_or_default(),
+                scale: keys.number("scale", Domain::FACTOR)?.unwrap_or(1.0),
             },
             collides: keys.truth("collides")?.unwrap_or(false),
         })

@@ -1,3 +1,5 @@
+use std::ops::Bound::Included;
+
 use crate::{Domain, Error, Keys};
 
 /// A part of space: planes, boxes and spheres together. A triangle of an organ belongs to it when its
@@ -38,6 +40,12 @@ pub struct RegionSphere {
     /// Its radius [m].
     pub radius_m: f64,
 }
+
+/// A radius of a region [m].
+const RADIUS: Domain = Domain::quantity("a radius", "m", [Included(1e-9), Included(1e6)]);
+
+/// A coordinate of a region [m], which may reach far beyond any organ.
+const FAR: Domain = Domain::quantity("a coordinate", "m", [Included(-1e6), Included(1e6)]);
 
 impl Region {
     /// The keys of a region's table.
@@ -91,7 +99,7 @@ impl RegionPlane {
     fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
         let expected = "a direction, three numbers such as [0.0, 0.0, 1.0]";
         Ok(Self {
-            point_m: keys.required_vector("point_m")?,
+            point_m: keys.required_vector("point_m", FAR)?,
             normal: keys
                 .direction("normal")?
                 .ok_or_else(|| keys.missing("normal", expected))?,
@@ -106,8 +114,8 @@ impl RegionBox {
 
     fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
         let region = Self {
-            min_m: keys.required_vector("min_m")?,
-            max_m: keys.required_vector("max_m")?,
+            min_m: keys.required_vector("min_m", FAR)?,
+            max_m: keys.required_vector("max_m", FAR)?,
         };
         if (0..3).all(|axis| region.min_m[axis] <= region.max_m[axis]) {
             return Ok(region);
@@ -133,8 +141,8 @@ impl RegionSphere {
 
     fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
         Ok(Self {
-            center_m: keys.required_vector("center_m")?,
-            radius_m: keys.required_number("radius_m", Domain::POSITIVE)?,
+            center_m: keys.required_vector("center_m", FAR)?,
+            radius_m: keys.required_number("radius_m", RADIUS)?,
         })
     }
 }

@@ -122,8 +122,8 @@ impl Task {
         Ok(Self {
             title: keys.text("title")?,
             instructions: keys.text("instructions")?,
-            time_limit_s: keys.number("time_limit_s", Domain::POSITIVE)?,
-            force_limit_n: keys.number("force_limit_n", Domain::POSITIVE)?,
+            time_limit_s: keys.number("time_limit_s", Domain::DURATION)?,
+            force_limit_n: keys.number("force_limit_n", Domain::FORCE)?,
             expert: expert(keys, folder)?,
             goal: Goal::from_keys(keys)?,
         })
@@ -140,10 +140,10 @@ impl Goal {
         if let (Some(first), Some(second)) = (given.next(), given.next()) {
             return Err(keys.given_twice(first, second));
         }
-        let distance = |keys: &Keys<'_>| keys.required_number("tolerance_m", Domain::POSITIVE);
+        let distance = |keys: &Keys<'_>| keys.required_number("tolerance_m", Domain::LENGTH);
         if let Some(find) = keys.table("find", &["target_m", "tolerance_m"])? {
             return Ok(Self::Find {
-                target_m: find.required_vector("target_m")?,
+                target_m: find.required_vector("target_m", Domain::POSITION)?,
                 tolerance_m: distance(&find)?,
             });
         }
@@ -151,15 +151,18 @@ impl Goal {
         if let Some(traction) = keys.table("traction", TRACTION)? {
             return Ok(Self::Traction {
                 tool: traction.text("tool")?,
-                force_n: traction.required_number("force_n", Domain::POSITIVE)?,
-                tolerance_n: traction.required_number("tolerance_n", Domain::POSITIVE)?,
-                hold_s: traction.required_number("hold_s", Domain::POSITIVE)?,
+                force_n: traction.required_number("force_n", Domain::FORCE)?,
+                tolerance_n: traction.required_number("tolerance_n", Domain::FORCE)?,
+                hold_s: traction.required_number("hold_s", Domain::DURATION)?,
             });
         }
         let Some(cut) = keys.table("cut", &["from_m", "to_m", "tolerance_m"])? else {
             return Ok(Self::Free);
         };
-        let (from_m, to_m) = (cut.required_vector("from_m")?, cut.required_vector("to_m")?);
+        let (from_m, to_m) = (
+            cut.required_vector("from_m", Domain::POSITION)?,
+            cut.required_vector("to_m", Domain::POSITION)?,
+        );
         if from_m == to_m {
             return Err(cut.bad("to_m", "another place than `from_m`"));
         }

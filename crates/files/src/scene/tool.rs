@@ -183,12 +183,12 @@ impl Tool {
         let default = Self::default();
         let tip = keys.table("tip", Tip::KEYS)?;
         let kind = keys.word("kind", ToolKind::WORDS)?.unwrap_or(default.kind);
-        let trocar_m = keys.vector("trocar_m")?;
-        let of_trocar = |key| -> Result<f64, Error> {
+        let trocar_m = keys.vector("trocar_m", Domain::POSITION)?;
+        let of_trocar = |key, domain| -> Result<f64, Error> {
             if trocar_m.is_none() {
                 keys.refuse(key, "`trocar_m` too, for a tool without one has none")?;
             }
-            Ok(keys.number(key, Domain::NOT_NEGATIVE)?.unwrap_or(0.0))
+            Ok(keys.number(key, domain)?.unwrap_or(0.0))
         };
         Ok(Self {
             name: keys
@@ -197,8 +197,11 @@ impl Tool {
             kind,
             tip: tip.map_or(Ok(default.tip), |keys| Tip::from_keys(&keys))?,
             trocar_m,
-            trocar_friction_n: of_trocar("trocar_friction_n")?,
-            trocar_stiffness_n_per_m: of_trocar("trocar_stiffness_n_per_m")?,
+            trocar_friction_n: of_trocar("trocar_friction_n", Domain::FORCE_OR_NONE)?,
+            trocar_stiffness_n_per_m: of_trocar(
+                "trocar_stiffness_n_per_m",
+                Domain::STIFFNESS_OR_NONE,
+            )?,
             jaws: Jaws::from_keys(keys, kind)?,
             mesh: ToolMesh::from_keys(keys, folder)?,
             device: keys
@@ -229,7 +232,7 @@ impl Tip {
             shape: keys
                 .word("shape", TipShape::WORDS)?
                 .ok_or_else(|| keys.missing("shape", "\"flat\" or \"sphere\""))?,
-            radius_m: keys.required_number("radius_m", Domain::POSITIVE)?,
+            radius_m: keys.required_number("radius_m", Domain::TIP_RADIUS)?,
             contact: keys
                 .word("contact", TipContact::WORDS)?
                 .unwrap_or(TipContact::Stick),

@@ -1,3 +1,6 @@
+use std::f64::consts::PI;
+use std::ops::Bound::Excluded;
+
 use crate::words::words;
 use crate::{Domain, Error, Keys};
 
@@ -52,10 +55,8 @@ impl Default for View {
     }
 }
 
-const FIELD_OF_VIEW: Domain = Domain {
-    expected: "an angle above 0 and below 180 degrees (pi radians)",
-    holds: |angle| 0.0 < angle && angle < std::f64::consts::PI,
-};
+const FIELD_OF_VIEW: Domain = Domain::number("an angle", [Excluded(0.0), Excluded(PI)])
+    .with_remark("pi radians, 180 degrees");
 
 impl View {
     pub(super) const KEYS: &'static [&'static str] =
@@ -67,8 +68,8 @@ impl View {
             return Ok(default);
         };
         Ok(Self {
-            eye_m: keys.vector("eye_m")?,
-            target_m: keys.vector("target_m")?,
+            eye_m: keys.vector("eye_m", Domain::POSITION)?,
+            target_m: keys.vector("target_m", Domain::POSITION)?,
             up: keys.direction("up")?,
             field_of_view_rad: keys
                 .number("field_of_view_rad", FIELD_OF_VIEW)?

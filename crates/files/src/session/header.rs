@@ -41,9 +41,9 @@ impl SessionHeader {
             version: text("version")?,
             scene_digest: text("scene_digest")?,
             model: model.ok_or_else(|| keys.missing("model", "\"local\" or \"hybrid\""))?,
-            step_s: keys.required_number("step_s", Domain::POSITIVE)?,
+            step_s: keys.required_number("step_s", Domain::STEP)?,
             seed: seed.ok_or_else(|| keys.missing("seed", "a whole number"))?,
-            force_scale: keys.required_number("force_scale", Domain::POSITIVE)?,
+            force_scale: keys.required_number("force_scale", Domain::FACTOR)?,
         })
     }
 

@@ -1,7 +1,7 @@
 use super::TableText;
-use crate::Error;
 use crate::units::{self, Match, Unit};
 use crate::words::near_miss;
+use crate::{Domain, Error};
 
 /// A column that was found.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,6 +15,19 @@ pub(crate) struct Column {
 impl Column {
     pub(super) fn convert(&self, value: f64) -> f64 {
         self.unit.convert(value)
+    }
+
+    /// What to say of a number of the column [the unit expected] that is unusual; none for a usual one.
+    pub(crate) fn warning(&self, value: f64, domain: Domain) -> Option<String> {
+        let given = match self.unit {
+            Match::Exact => value,
+            Match::Converted(from, to) => to.convert(value, from),
+        };
+        let warning = domain.warning(&self.name, given, self.unit)?;
+        Some(format!(
+            "the column `{}` goes to {given}; {warning}",
+            self.name
+        ))
     }
 
     /// The unit of a foreign column, as it is printed.

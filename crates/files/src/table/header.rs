@@ -1,7 +1,7 @@
 use std::path::Path;
 
 use crate::error::Place;
-use crate::toml_document::{Table, check_format, parse_toml};
+use crate::toml_document::{Table, Warnings, check_format, parse_toml};
 use crate::words::near_miss;
 use crate::{Error, Keys, units};
 
@@ -9,6 +9,7 @@ use crate::{Error, Keys, units};
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Header {
     entries: Table,
+    warnings: Warnings,
     /// Keys that are not known, in the order of the file.
     pub(crate) extra: Vec<ExtraKey>,
 }
@@ -103,7 +104,13 @@ impl Header {
 
     /// The keys that are known.
     pub(crate) fn keys(&self, path: &Path, known: &'static [&'static str]) -> Keys<'_> {
-        Keys::of_table(Place::file(path), String::new(), &self.entries, known)
+        Keys::of_table(
+            Place::file(path),
+            String::new(),
+            &self.entries,
+            known,
+            &self.warnings,
+        )
     }
 }
 

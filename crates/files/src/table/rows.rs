@@ -125,10 +125,17 @@ impl<'r> Row<'r> {
 
     /// A number of the row, in the unit that was expected.
     pub(crate) fn number(&self, column: &Column, domain: Domain) -> Result<f64, Error> {
-        self.as_number(column)
-            .map(|value| column.convert(value))
-            .filter(|value| domain.contains(*value))
-            .ok_or_else(|| self.bad(column, domain.expected))
+        let given = self
+            .as_number(column)
+            .ok_or_else(|| self.bad(column, domain.expected()))?;
+        let value = column.convert(given);
+        match domain.contains(value) {
+            true => Ok(value),
+            false => Err(self.bad(
+                column,
+                domain.expected() + &domain.meant(&column.name, given),
+            )),
+        }
     }
 
     fn as_number(&self, column: &Column) -> Option<f64> {

@@ -1,3 +1,5 @@
+use std::ops::Bound::Excluded;
+
 use crate::words::words;
 use crate::{Domain, Error, Estimate, Keys};
 
@@ -47,11 +49,12 @@ pub enum Elasticity {
     },
 }
 
-const POISSONS_RATIO: Domain = Domain {
-    expected: "a number above -1 and below 0.5 (0.5 itself belongs to the incompressible laws \
-               neo_hookean, mooney_rivlin and exponential; 0.49 is near enough for most tissues)",
-    holds: |nu| -1.0 < nu && nu < 0.5,
-};
+const POISSONS_RATIO: Domain = Domain::number("a number", [Excluded(-1.0), Excluded(0.5)])
+    .usually(0.0, 0.5)
+    .with_remark(
+        "0.5 itself belongs to the incompressible laws neo_hookean, mooney_rivlin and exponential; 0.49 is near \
+         enough for most tissues",
+    );
 
 const SUM_POSITIVE: &str = "numbers such that c10_pa + c01_pa, half the shear modulus, is above 0";
 
@@ -93,16 +96,16 @@ impl Elasticity {
         check_parameters(keys, law)?;
         match law {
             LawName::Linear => Ok(Self::Linear {
-                youngs_modulus_pa: keys.required_estimate("youngs_modulus_pa", Domain::POSITIVE)?,
+                youngs_modulus_pa: keys.required_estimate("youngs_modulus_pa", Domain::MODULUS)?,
                 poissons_ratio: keys.required_estimate("poissons_ratio", POISSONS_RATIO)?,
             }),
             LawName::NeoHookean => Ok(Self::NeoHookean {
-                c10_pa: keys.required_estimate("c10_pa", Domain::POSITIVE)?,
+                c10_pa: keys.required_estimate("c10_pa", Domain::MODULUS)?,
             }),
             LawName::MooneyRivlin => mooney_rivlin(keys),
             LawName::Exponential => Ok(Self::Exponential {
-                gamma_pa: keys.required_estimate("gamma_pa", Domain::POSITIVE)?,
-                alpha: keys.required_estimate("alpha", Domain::NOT_NEGATIVE)?,
+                gamma_pa: keys.required_estimate("gamma_pa", Domain::MODULUS)?,
+                alpha: keys.required_estimate("alpha", Domain::EXPONENT)?,
             }),
         }
     }
@@ -122,8 +125,8 @@ fn check_parameters(keys: &Keys<'_>, law: LawName) -> Result<(), Error> {
 
 fn mooney_rivlin(keys: &Keys<'_>) -> Result<Elasticity, Error> {
     // A fit may put one of the two below zero; only the sum must stay above it.
-    let c10_pa = keys.required_estimate("c10_pa", Domain::FINITE)?;
-    let c01_pa = keys.required_estimate("c01_pa", Domain::FINITE)?;
+    let c10_pa = keys.required_estimate("c10_pa", Domain::SIGNED_MODULUS)?;
+    let c01_pa = keys.required_estimate("c01_pa", Domain::SIGNED_MODULUS)?;
     if c10_pa.value + c01_pa.value > 0.0 {
         return Ok(Elasticity::MooneyRivlin { c10_pa, c01_pa });
     }

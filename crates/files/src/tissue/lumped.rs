@@ -103,10 +103,10 @@ impl Kelvin {
 
     fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
         Ok(Self {
-            k1_n_per_m: keys.required_estimate("k1_n_per_m", Domain::POSITIVE)?,
-            k2_n_per_m: keys.required_estimate("k2_n_per_m", Domain::NOT_NEGATIVE)?,
-            b_n_s_per_m: keys.required_estimate("b_n_s_per_m", Domain::POSITIVE)?,
-            tau_s: keys.estimate("tau_s", Domain::POSITIVE)?,
+            k1_n_per_m: keys.required_estimate("k1_n_per_m", Domain::STIFFNESS)?,
+            k2_n_per_m: keys.required_estimate("k2_n_per_m", Domain::STIFFNESS_OR_NONE)?,
+            b_n_s_per_m: keys.required_estimate("b_n_s_per_m", Domain::DAMPING)?,
+            tau_s: keys.estimate("tau_s", Domain::TIME_CONSTANT)?,
         })
     }
 
@@ -131,10 +131,10 @@ impl EffectiveColumn {
 
     fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
         Ok(Self {
-            gamma_pa: keys.required_estimate("gamma_pa", Domain::POSITIVE)?,
-            alpha: keys.required_estimate("alpha", Domain::POSITIVE)?,
-            effective_area_m2: keys.required_estimate("effective_area_m2", Domain::POSITIVE)?,
-            effective_length_m: keys.required_estimate("effective_length_m", Domain::POSITIVE)?,
+            gamma_pa: keys.required_estimate("gamma_pa", Domain::MODULUS)?,
+            alpha: keys.required_estimate("alpha", Domain::EXPONENT)?,
+            effective_area_m2: keys.required_estimate("effective_area_m2", Domain::AREA)?,
+            effective_length_m: keys.required_estimate("effective_length_m", Domain::LENGTH)?,
         })
     }
 

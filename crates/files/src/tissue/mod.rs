@@ -37,6 +37,9 @@ pub struct Tissue {
     pub lumped: Lumped,
     /// Where the numbers come from, with what deserves doubt.
     pub source: TissueSource,
+    /// What deserves a warning among the numbers of its file, as sentences. Those of a table in another document are
+    /// that document's.
+    pub warnings: Vec<String>,
 }
 
 impl Tissue {
@@ -65,6 +68,7 @@ impl Tissue {
             prony: Vec::new(),
             lumped: Lumped::default(),
             source: TissueSource::default(),
+            warnings: Vec::new(),
         }
     }
 
@@ -85,7 +89,11 @@ impl Tissue {
         let document = Document::parse(text, path)?;
         let keys = document.keys(&["tissue"])?;
         match keys.table("tissue", Self::KEYS)? {
-            Some(tissue) => Self::from_keys(&tissue),
+            Some(tissue) => {
+                let mut tissue = Self::from_keys(&tissue)?;
+                tissue.warnings = keys.warnings();
+                Ok(tissue)
+            }
             None => Err(keys.missing("tissue", "a table `[tissue]`")),
         }
     }
@@ -95,7 +103,7 @@ impl Tissue {
     /// # Errors
     /// When the table does not describe a tissue.
     pub fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
-        let density = keys.estimate("density_kg_m3", Domain::POSITIVE)?;
+        let density = keys.estimate("density_kg_m3", Domain::DENSITY)?;
         Ok(Self {
             name: keys.text("name")?,
             density_kg_m3: density.unwrap_or(DEFAULT_DENSITY_KG_M3.into()),
@@ -103,6 +111,7 @@ impl Tissue {
             prony: prony::from_keys(keys)?,
             lumped: Lumped::from_keys(keys)?,
             source: TissueSource::from_keys(keys)?,
+            warnings: Vec::new(),
         })
     }
 }

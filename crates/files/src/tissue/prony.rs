@@ -1,3 +1,5 @@
+use std::ops::Bound::{Excluded, Included};
+
 use crate::toml_document::toml_number;
 use crate::{Domain, Error, Estimate, Keys};
 
@@ -12,10 +14,7 @@ pub struct PronyTerm {
 
 const KEYS: &[&str] = &["g", "g_standard_error", "tau_s", "tau_standard_error_s"];
 
-const PART: Domain = Domain {
-    expected: "a number from 0 to below 1",
-    holds: |g| (0.0..1.0).contains(&g),
-};
+const PART: Domain = Domain::number("a number", [Included(0.0), Excluded(1.0)]);
 
 pub(super) fn from_keys(keys: &Keys<'_>) -> Result<Vec<PronyTerm>, Error> {
     let terms: Vec<_> = keys
@@ -43,7 +42,7 @@ fn term(keys: &Keys<'_>) -> Result<PronyTerm, Error> {
             standard_error: keys.number("g_standard_error", Domain::NOT_NEGATIVE)?,
         },
         tau_s: Estimate {
-            value: keys.required_number("tau_s", Domain::POSITIVE)?,
+            value: keys.required_number("tau_s", Domain::TIME_CONSTANT)?,
             standard_error: keys.number("tau_standard_error_s", Domain::NOT_NEGATIVE)?,
         },
     })

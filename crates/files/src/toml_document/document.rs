@@ -4,6 +4,7 @@ use crate::error::Place;
 use crate::whole_file::{MOST_OF_DOCUMENT, read_text};
 use crate::{Error, Keys};
 
+use super::keys::Warnings;
 use super::value::{Entry, Table, Value, parse};
 
 /// A TOML file in `format = 1`, read but not yet understood.
@@ -11,6 +12,7 @@ use super::value::{Entry, Table, Value, parse};
 pub struct Document {
     path: PathBuf,
     root: Table,
+    warnings: Warnings,
 }
 
 impl Document {
@@ -32,7 +34,11 @@ impl Document {
         // Some editors begin a file with a byte order mark.
         let mut root = parse(text.strip_prefix('\u{feff}').unwrap_or(text), &path, 1)?;
         check_format(root.remove("format"), &path, "format = 1")?;
-        Ok(Self { path, root })
+        Ok(Self {
+            path,
+            root,
+            warnings: Warnings::default(),
+        })
     }
 
     /// The keys of the whole document, of which `known` are those beside `format` that may occur.
@@ -48,7 +54,13 @@ impl Document {
     /// The keys of a document in which one of them decides which others may occur: `known` are those
     /// of all cases, and [`Keys::only`] checks them once the case is known.
     pub fn open_keys(&self, known: &'static [&'static str]) -> Keys<'_> {
-        Keys::of_table(Place::file(&self.path), String::new(), &self.root, known)
+        Keys::of_table(
+            Place::file(&self.path),
+            String::new(),
+            &self.root,
+            known,
+            &self.warnings,
+        )
     }
 }
 

@@ -1,4 +1,5 @@
 use std::borrow::Cow;
+use std::cell::RefCell;
 
 use crate::Error;
 use crate::error::Place;
@@ -16,6 +17,7 @@ pub struct Keys<'d> {
     name: String,
     table: &'d Table,
     known: &'static [&'static str],
+    warnings: &'d Warnings,
 }
 
 /// A key that was found.
@@ -25,6 +27,22 @@ pub(crate) struct Found<'d> {
     pub(crate) key: String,
     pub(crate) value: &'d Value,
     pub(crate) unit: Match,
+    pub(crate) warnings: &'d Warnings,
+}
+
+/// What deserves a warning in a document, gathered while it is being understood.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Warnings(RefCell<Vec<String>>);
+
+impl Warnings {
+    /// Adds a sentence, unless it is there.
+    pub(crate) fn add(&self, sentence: String) {
+        let mut all = self.0.borrow_mut();
+        // A key may be asked for twice.
+        if !all.contains(&sentence) {
+            all.push(sentence);
+        }
+    }
 }
 
 impl Found<'_> {
@@ -44,13 +62,20 @@ impl<'d> Keys<'d> {
         name: String,
         table: &'d Table,
         known: &'static [&'static str],
+        warnings: &'d Warnings,
     ) -> Self {
         Self {
             place,
             name,
             table,
             known,
+            warnings,
         }
+    }
+
+    /// What deserves a warning among the numbers that were read so far, in the whole document.
+    pub fn warnings(&self) -> Vec<String> {
+        self.warnings.0.borrow().clone()
     }
 
     /// Where the table is.
@@ -159,6 +184,7 @@ impl<'d> Keys<'d> {
             key: self.full_name(own),
             value: &entry.value,
             unit,
+            warnings: self.warnings,
         }))
     }
 

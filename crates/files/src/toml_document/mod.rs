@@ -10,4 +10,5 @@ mod values;
 pub use document::Document;
 pub(crate) use document::check_format;
 pub use keys::Keys;
+pub(crate) use keys::Warnings;
 pub(crate) use value::{Table, Value, number as toml_number, parse as parse_toml, quoted};

@@ -23,18 +23,18 @@ impl Keys<'_> {
     /// When it is missing, no number or outside its `domain`.
     pub fn required_number(&self, key: &'static str, domain: Domain) -> Result<f64, Error> {
         self.number(key, domain)?
-            .ok_or_else(|| self.missing(key, domain.expected))
+            .ok_or_else(|| self.missing(key, domain.expected()))
     }
 
     /// Three numbers [unit of `key`].
     ///
     /// # Errors
-    /// When the value is anything else.
-    pub fn vector(&self, key: &'static str) -> Result<Option<[f64; 3]>, Error> {
+    /// When the value is anything else or a number is outside its `domain`.
+    pub fn vector(&self, key: &'static str, domain: Domain) -> Result<Option<[f64; 3]>, Error> {
         let Some(found) = self.find(key)? else {
             return Ok(None);
         };
-        let numbers = found.numbers(Domain::FINITE, "a list of three numbers [x, y, z]")?;
+        let numbers = found.numbers(domain, "a list of three numbers [x, y, z]")?;
         match <[f64; 3]>::try_from(numbers) {
             Ok(vector) => Ok(Some(vector)),
             Err(_) => Err(found.bad("a list of three numbers [x, y, z]")),
@@ -44,9 +44,9 @@ impl Keys<'_> {
     /// Three numbers that must be there [unit of `key`].
     ///
     /// # Errors
-    /// When they are missing or the value is anything else.
-    pub fn required_vector(&self, key: &'static str) -> Result<[f64; 3], Error> {
-        self.vector(key)?
+    /// When they are missing, the value is anything else or a number is outside its `domain`.
+    pub fn required_vector(&self, key: &'static str, domain: Domain) -> Result<[f64; 3], Error> {
+        self.vector(key, domain)?
             .ok_or_else(|| self.missing(key, "a list of three numbers [x, y, z]"))
     }
 
@@ -55,7 +55,7 @@ impl Keys<'_> {
     /// # Errors
     /// When the value is anything else.
     pub fn direction(&self, key: &'static str) -> Result<Option<[f64; 3]>, Error> {
-        let direction = self.vector(key)?;
+        let direction = self.vector(key, Domain::FINITE)?;
         // Below this length the square underflows and no unit vector can be made.
         if direction.is_some_and(|v| !(v.iter().map(|c| c * c).sum::<f64>().is_normal()))
             && let Some(found) = self.find(key)?
@@ -102,10 +102,21 @@ impl Keys<'_> {
 
 impl Found<'_> {
     pub(crate) fn number(&self, domain: Domain) -> Result<f64, Error> {
-        as_number(self.value)
-            .map(|value| self.unit.convert(value))
-            .filter(|value| domain.contains(*value))
-            .ok_or_else(|| self.bad(domain.expected))
+        let given = as_number(self.value).ok_or_else(|| self.bad(domain.expected()))?;
+        let value = self.unit.convert(given);
+        if !domain.contains(value) {
+            let meant = domain.meant(&self.key, given);
+            return Err(self.bad(domain.expected() + &meant));
+        }
+        if let Some(warning) = domain.warning(&self.key, given, self.unit) {
+            self.warnings.add(format!(
+                "{}: `{}` is {}; {warning}",
+                self.place,
+                self.key,
+                self.value.described()
+            ));
+        }
+        Ok(value)
     }
 
     fn numbers(&self, domain: Domain, expected: &'static str) -> Result<Vec<f64>, Error> {
@@ -121,6 +132,7 @@ impl Found<'_> {
                     key: format!("{}[{number}]", self.key),
                     value,
                     unit: self.unit,
+                    warnings: self.warnings,
                 }
                 .number(domain)
             })

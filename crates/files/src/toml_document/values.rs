@@ -124,7 +124,7 @@ impl<'d> Keys<'d> {
         let Value::Table(table) = found.value else {
             return Err(found.bad("a table"));
         };
-        let keys = Keys::of_table(found.place, found.key, table, known);
+        let keys = Keys::of_table(found.place, found.key, table, known, found.warnings);
         keys.only(known)?;
         Ok(Some(keys))
     }
@@ -157,7 +157,7 @@ impl<'d> Keys<'d> {
                     Place::line(&found.place.path, line)
                 });
                 let name = format!("{}[{number}]", found.key);
-                let keys = Keys::of_table(place, name, table, known);
+                let keys = Keys::of_table(place, name, table, known, found.warnings);
                 keys.only(known)?;
                 Ok(keys)
             })

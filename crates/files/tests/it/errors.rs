@@ -198,7 +198,7 @@ fn missing_keys() {
     let text = "format = 1\n[tissue]\nlaw = \"neo_hookean\"\n";
     assert_eq!(
         refused(Tissue::parse(text, "t.toml")),
-        "t.toml line 2: `tissue.c10_pa` is missing; give a number above 0"
+        "t.toml line 2: `tissue.c10_pa` is missing; give a modulus of tissue from 0.001 Pa to 100 GPa"
     );
     assert!(scene("format = 1\n[organ]\nbuiltin = \"cube\"").contains("`organ.tissue` is missing"));
     let no_seed = SESSION.replace("# seed = 7\n", "");
@@ -216,7 +216,7 @@ fn bad_values_of_a_tissue() {
     );
     assert_eq!(
         tissue("youngs_modulus_kpa = -10"),
-        "t.toml line 5: `tissue.youngs_modulus_kpa` is -10; give a number above 0"
+        "t.toml line 5: `tissue.youngs_modulus_kpa` is -10; give a modulus of tissue from 0.001 Pa to 100 GPa"
     );
     assert!(tissue("youngs_modulus_pa = nan").contains("is nan; give a number above 0"));
     assert!(tissue("youngs_modulus_pa = inf").contains("is inf; give"));
@@ -239,7 +239,7 @@ fn bad_values_of_a_tissue() {
 const BAD_SCENES: &[(&str, &str)] = &[
     (
         "[model]\nstep_s = 0",
-        "`model.step_s` is 0; give a number above 0",
+        "`model.step_s` is 0; give a period from 10 us to 1 s",
     ),
     (
         "[model]\nparticles = 7",
@@ -355,7 +355,7 @@ fn bad_values_of_a_scene() {
 fn bad_rows_of_a_motion() {
     assert_eq!(
         motion("0,a,0,0,0,0,0,0,1,0,0\n\n# pause\n0.1,a,0,0,x,0,0,0,1,0,0"),
-        "m.csv line 6: `z_m` is \"x\"; give a finite number"
+        "m.csv line 6: `z_m` is \"x\"; give a coordinate of at most 10000 m in size"
     );
     assert_eq!(
         motion("0,a,0,0,0,0,0,0,1,0"),
@@ -401,7 +401,7 @@ fn bad_rows_of_a_recording() {
     let rows = |rows: &str| recording(&format!("# format = 1\ntime_s,depth_m,force_mn\n{rows}"));
     assert_eq!(
         rows("0,0,NaN\n"),
-        "r.csv line 3: `force_mn` is \"NaN\"; give a finite number"
+        "r.csv line 3: `force_mn` is \"NaN\"; give a force of at most 1000 kN in size"
     );
     assert!(rows("0,0,0\n0,1,1\n").contains("line 4: `time_s` is 0 after 0 s"));
     assert!(rows("0,0\n").contains("line 3: found 2 fields; give 3 fields"));
@@ -467,7 +467,7 @@ fn contents_that_no_file_can_hold() {
     recording.header.indenter_radius_m = Some(0.0);
     assert_eq!(
         failed(recording.write(&path)),
-        "`indenter_radius_m` is 0.0; give a number above 0"
+        "`indenter_radius_m` is 0.0; give the radius of a tip from 1 nm to 100 mm"
     );
     assert!(!path.exists());
 }

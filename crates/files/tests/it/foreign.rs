@@ -88,7 +88,7 @@ fn what_is_wrong_with_a_foreign_table_is_named() {
     assert!(furlong.contains("`d_mm [furlong]`"), "{furlong}");
     assert_eq!(
         refused("t_s,d_mm,f_N\n0,1,2\n\n0.1,x,2\n", &stated("mm")),
-        "a.csv line 4: `d_mm` is \"x\"; give a finite number"
+        "a.csv line 4: `d_mm` is \"x\"; give a coordinate of at most 10000 m in size"
     );
     assert!(refused("", &wanted).contains("no rows"));
 }

@@ -8,6 +8,7 @@ mod errors;
 mod foreign;
 mod fuzz;
 mod motion;
+mod plausible;
 mod response;
 mod round_trip;
 mod scene;

@@ -37,11 +37,14 @@ fn files_survive() {
 }
 
 fn positive() -> impl Strategy<Value = f64> {
-    prop_oneof![1e-300..1e300, 1e-6..1e6]
+    // In the domains of all quantities.
+    prop_oneof![0.01..10.0, Just(0.1)]
 }
 
 fn finite() -> impl Strategy<Value = f64> {
-    prop::num::f64::NORMAL | prop::num::f64::SUBNORMAL | prop::num::f64::ZERO
+    let any = prop::num::f64::NORMAL | prop::num::f64::SUBNORMAL | prop::num::f64::ZERO;
+    // Usual coordinates, of which no reader warns.
+    any.prop_map(|x| x % 5.0)
 }
 
 fn estimate(value: impl Strategy<Value = f64>) -> impl Strategy<Value = Estimate> {
@@ -130,6 +133,7 @@ fn tissue() -> impl Strategy<Value = Tissue> {
                 prony,
                 lumped,
                 source,
+                warnings: Vec::new(),
             },
         )
 }
@@ -194,7 +198,10 @@ proptest! {
     #[test]
     fn tissues_survive(tissue in tissue()) {
         let text = tissue.to_toml();
-        prop_assert_eq!(Tissue::parse(&text, "a.toml").expect(&text), tissue);
+        let mut read = Tissue::parse(&text, "a.toml").expect(&text);
+        // Few of these numbers are usual.
+        read.warnings.clear();
+        prop_assert_eq!(read, tissue);
     }
 
     #[test]

@@ -49,7 +49,7 @@ impl Plan {
             breath_motion: if breathes { BREATH_MOTION } else { 0.0 },
             ..settings(&protocol.rig)
         };
-        let mut doubts = Vec::new();
+        let mut doubts = protocol.warnings.clone();
         let device = match protocol.rig.device.and_then(kind) {
             None => None,
             Some(kind) => Some((kind, Places::from_environment().map_err(Error::input)?)),

@@ -22,7 +22,7 @@ pub(crate) fn of(
             let tissue = choice.read()?;
             let under = (measured.indenter_radius_m, deepest);
             let specimen = kept::of_tissue(&tissue, under, at_step).map_err(Error::input)?;
-            (specimen, tissue.source.warnings)
+            (specimen, [tissue.source.warnings, tissue.warnings].concat())
         }
         MeasuredTissue::Published(organ) => published(*organ, measured.indenter_radius_m)?,
     };

@@ -56,7 +56,7 @@ impl Material {
             law,
             at_rest,
             prony: PronySeries::new(&terms)?,
-            doubts: tissue.source.warnings.clone(),
+            doubts: [&tissue.source.warnings[..], &tissue.warnings].concat(),
         })
     }
 }

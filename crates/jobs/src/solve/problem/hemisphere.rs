@@ -28,10 +28,10 @@ impl Hemisphere {
         &["radius_m", "patch_radius_m", "patch", "depth_m"];
 
     pub(crate) fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
-        let radius = keys.required_number("radius_m", Domain::POSITIVE)?;
+        let radius = keys.required_number("radius_m", Domain::LENGTH)?;
         let quarter = FRAC_PI_2 * radius;
         let what = "the arc from the pole to the base";
-        let depth = keys.required_number("depth_m", Domain::NOT_NEGATIVE)?;
+        let depth = keys.required_number("depth_m", Domain::DEPTH_OR_NONE)?;
         if depth >= radius {
             return Err(keys.bad("depth_m", format!("less than the radius, {radius} m")));
         }

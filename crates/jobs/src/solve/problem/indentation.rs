@@ -77,8 +77,8 @@ impl Indentation {
             "block = { radius_m = 0.05, height_m = 0.1 }",
         )?;
         let block = Block {
-            radius: block.required_number("radius_m", Domain::POSITIVE)?,
-            height: block.required_number("height_m", Domain::POSITIVE)?,
+            radius: block.required_number("radius_m", Domain::LENGTH)?,
+            height: block.required_number("height_m", Domain::LENGTH)?,
             base: block.word("base", BASES)?.unwrap_or_default(),
         };
         Ok(Self {
@@ -133,15 +133,15 @@ fn loading(keys: &Keys<'_>, block: &Block) -> Result<Loading, Error> {
         (Some(_), true) => Err(keys.given_twice("depths_m", "ramp")),
         (Some(ramp), false) => Ok(Loading::Ramp(Ramp {
             depth: length_below(&ramp, "depth_m", height.0, height.1)?,
-            ramp: ramp.required_number("ramp_s", Domain::POSITIVE)?,
-            hold: ramp.required_number("hold_s", Domain::NOT_NEGATIVE)?,
+            ramp: ramp.required_number("ramp_s", Domain::DURATION)?,
+            hold: ramp.required_number("hold_s", Domain::DURATION_OR_NONE)?,
             samples: ramp.integer("samples", 2..=100_000)?.unwrap_or(200) as usize,
             method: ramp
                 .word("method", METHODS)?
                 .unwrap_or(Relaxing::Convolution),
         })),
         (None, true) => {
-            some_numbers(keys, "depths_m", Domain::NOT_NEGATIVE, Some(height)).map(Loading::Depths)
+            some_numbers(keys, "depths_m", Domain::DEPTH_OR_NONE, Some(height)).map(Loading::Depths)
         }
         (None, false) => Err(keys.missing(
             "depths_m",

@@ -8,6 +8,7 @@ mod solid;
 mod tube;
 mod uniaxial;
 
+use std::ops::Bound::Included;
 use std::path::{Path, PathBuf};
 
 use palpate_files::scene::TissueChoice;
@@ -32,6 +33,8 @@ pub struct Problem {
     pub(crate) material: Material,
     /// Relative error asked for [-].
     pub(crate) accuracy: f64,
+    /// What deserves a warning among its numbers.
+    pub(crate) warnings: Vec<String>,
 }
 
 /// The kinds of problems.
@@ -63,10 +66,7 @@ const KINDS: &[(&str, Kind)] = &[
 
 const DEFAULT_ACCURACY: f64 = 0.01;
 
-const ACCURACY: Domain = Domain {
-    expected: "a relative error from 0.0001 to 0.2",
-    holds: |error| (1e-4..=0.2).contains(&error),
-};
+const ACCURACY: Domain = Domain::number("a relative error", [Included(1e-4), Included(0.2)]);
 
 /// The keys of every kind.
 const SHARED: [&str; 4] = ["kind", "tissue", "builtin_tissue", "accuracy"];
@@ -149,6 +149,7 @@ impl Problem {
             material: Material::from_tissue(&tissue)?,
             tissue,
             accuracy: accuracy.unwrap_or(DEFAULT_ACCURACY),
+            warnings: keys.warnings(),
         })
     }
 
@@ -248,7 +249,7 @@ fn some_numbers(
     domain: Domain,
     limit: Option<(f64, &str)>,
 ) -> Result<Vec<f64>, palpate_files::Error> {
-    let expected = || format!("a list of numbers, each {}", domain.expected);
+    let expected = || format!("a list of numbers, each {}", domain.expected());
     let numbers = keys
         .numbers(key, domain)?
         .ok_or_else(|| keys.missing(key, expected()))?;
@@ -271,7 +272,7 @@ fn length_below(
     limit: f64,
     what: &str,
 ) -> Result<f64, palpate_files::Error> {
-    let length = keys.required_number(key, Domain::POSITIVE)?;
+    let length = keys.required_number(key, Domain::LENGTH)?;
     match length < limit {
         true => Ok(length),
         false => Err(keys.bad(key, format!("less than {what}, {limit} m"))),

@@ -1,3 +1,4 @@
+use std::ops::Bound::Included;
 use std::path::Path;
 
 use palpate_files::scene::{Region, Shape};
@@ -28,6 +29,9 @@ const CONTACTS: &[(&str, Bond)] = &[
     ("bonded", Bond::Stick),
 ];
 
+const DISPLACEMENT: Domain =
+    Domain::quantity("a displacement", "m", [Included(-1.0), Included(1.0)]).usually(-0.1, 0.1);
+
 const EXAMPLE: &str =
     "anchor = { planes = [{ point_m = [0.0, 0.0, 0.001], normal = [0.0, 0.0, 1.0] }] }";
 
@@ -53,9 +57,11 @@ impl Solid {
         Ok(Self {
             shape,
             anchor,
-            center: patch.required_vector("center_m")?.into(),
-            radius: patch.required_number("radius_m", Domain::POSITIVE)?,
-            displacement: patch.required_vector("displacement_m")?.into(),
+            center: patch.required_vector("center_m", Domain::POSITION)?.into(),
+            radius: patch.required_number("radius_m", Domain::LENGTH)?,
+            displacement: patch
+                .required_vector("displacement_m", DISPLACEMENT)?
+                .into(),
             contact: patch.word("contact", CONTACTS)?.unwrap_or(Bond::Stick),
         })
     }

@@ -45,9 +45,9 @@ impl Tube {
     ];
 
     pub(crate) fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
-        let outer_radius = keys.required_number("outer_radius_m", Domain::POSITIVE)?;
+        let outer_radius = keys.required_number("outer_radius_m", Domain::LENGTH)?;
         let tube = Self {
-            length: keys.required_number("length_m", Domain::POSITIVE)?,
+            length: keys.required_number("length_m", Domain::LENGTH)?,
             inner_radius: length_below(keys, "inner_radius_m", outer_radius, "the outer radius")?,
             outer_radius,
             pressures: Vec::new(),
@@ -71,7 +71,7 @@ impl Tube {
         }
         Ok(TubeIndent {
             radius,
-            depths: some_numbers(keys, "depths_m", Domain::NOT_NEGATIVE, Some(outer))?,
+            depths: some_numbers(keys, "depths_m", Domain::DEPTH_OR_NONE, Some(outer))?,
             contact: keys.word("contact", CONTACTS)?.unwrap_or(Bond::Stick),
         })
     }
@@ -80,10 +80,8 @@ impl Tube {
 fn pressures(keys: &Keys<'_>, indented: bool) -> Result<Vec<f64>, Error> {
     match (keys.contains("pressure_pa"), keys.contains("pressures_pa")) {
         (true, true) => Err(keys.given_twice("pressure_pa", "pressures_pa")),
-        (true, false) => Ok(vec![
-            keys.required_number("pressure_pa", Domain::NOT_NEGATIVE)?,
-        ]),
-        (false, true) => some_numbers(keys, "pressures_pa", Domain::NOT_NEGATIVE, None),
+        (true, false) => Ok(vec![keys.required_number("pressure_pa", Domain::PRESSURE)?]),
+        (false, true) => some_numbers(keys, "pressures_pa", Domain::PRESSURE, None),
         (false, false) if indented => Ok(vec![0.0]),
         (false, false) => Err(keys.missing(
             "pressures_pa",

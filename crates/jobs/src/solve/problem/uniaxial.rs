@@ -1,3 +1,5 @@
+use std::ops::Bound::{Excluded, Included};
+
 use palpate_files::{Domain, Error, Keys};
 
 use super::some_numbers;
@@ -9,16 +11,16 @@ pub(crate) struct Uniaxial {
     pub(crate) stretches: Vec<f64>,
 }
 
+const STRETCH: Domain = Domain::number("a stretch", [Excluded(0.0), Included(1e3)])
+    .usually(0.05, 10.0)
+    .with_remark("1 is at rest");
+
 impl Uniaxial {
     pub(crate) const KEYS: &'static [&'static str] = &["stretches"];
 
     pub(crate) fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
-        let domain = Domain {
-            expected: "a stretch above 0 (1 is at rest)",
-            holds: |stretch| stretch > 0.0,
-        };
         Ok(Self {
-            stretches: some_numbers(keys, "stretches", domain, None)?,
+            stretches: some_numbers(keys, "stretches", STRETCH, None)?,
         })
     }
 }

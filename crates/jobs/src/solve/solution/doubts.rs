@@ -12,7 +12,7 @@ const FAST: f64 = 8.0;
 
 /// Of every kind of problem.
 pub(crate) fn shared(problem: &Problem, estimated_error: f64) -> Vec<String> {
-    let mut doubts = problem.material.doubts.clone();
+    let mut doubts = [&problem.warnings[..], &problem.material.doubts].concat();
     // An error that is no number is not within what was asked for.
     if estimated_error.is_nan() || estimated_error > problem.accuracy {
         doubts.push(format!(
