@@ -37,7 +37,7 @@ pub enum News {
     /// A recording is there, by its number, with its samples: time [s], depth [m], force [N].
     Recorded(u64, Recorded, Vec<[f64; 3]>),
     /// A recording could not be written; the rig was stopped.
-    Unwritten(Unwritten),
+    Unwritten(Box<Unwritten>),
 }
 
 /// A recording that could not be written. What was pressed until then is in memory, as that of every recording that
@@ -158,11 +158,11 @@ impl Clerk {
     /// Nothing is pressed that is not recorded.
     fn give_up(&mut self, open: Open, error: palpate_files::Error) {
         self.switches.stop();
-        self.pass_on(News::Unwritten(Unwritten {
+        self.pass_on(News::Unwritten(Box::new(Unwritten {
             commission: open.commission,
             rows: open.rows,
             error,
-        }));
+        })));
     }
 }
 

@@ -88,7 +88,7 @@ impl Watch {
             News::Unwritten(unwritten) if unwritten.rows.is_empty() => {
                 self.notice = Some(unwritten.error.to_string());
             }
-            News::Unwritten(unwritten) => journal.keep_unsaved(unwritten),
+            News::Unwritten(unwritten) => journal.keep_unsaved(*unwritten),
         }
     }
 
