@@ -1,3 +1,8 @@
+#![allow(
+    clippy::unwrap_used,
+    reason = "clippy.toml allows it in tests, but does not see helpers as tests"
+)]
+
 use std::fs;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
