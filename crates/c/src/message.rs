@@ -4,6 +4,8 @@ use std::cell::Cell;
 use std::ffi::c_char;
 use std::fmt::{self, Display, Write};
 
+use palpate_files::is_hidden;
+
 /// Room for a sentence and the zero after it [byte]; a longer one is cut off.
 const ROOM: usize = 4096;
 
@@ -17,17 +19,32 @@ struct Sentence<'c> {
     length: usize,
 }
 
-impl Write for Sentence<'_> {
-    fn write_str(&mut self, text: &str) -> fmt::Result {
-        let room = self.cells.len() - 1 - self.length;
-        let fits = text.floor_char_boundary(room);
-        for byte in text[..fits].bytes() {
-            // A zero would end it.
-            self.cells[self.length].set(if byte == 0 { b' ' } else { byte });
+impl Sentence<'_> {
+    /// Adds all of `text`, or nothing.
+    fn put(&mut self, text: &str) -> fmt::Result {
+        if text.len() > self.cells.len() - 1 - self.length {
+            return Err(fmt::Error);
+        }
+        for byte in text.bytes() {
+            self.cells[self.length].set(byte);
             self.length += 1;
         }
-        if fits < text.len() {
-            return Err(fmt::Error);
+        Ok(())
+    }
+}
+
+/// Hidden characters are escapes, for a program may print the sentence to a terminal, and a zero would end it.
+impl Write for Sentence<'_> {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        for letter in text.chars() {
+            match is_hidden(letter) {
+                true => {
+                    for part in letter.escape_unicode() {
+                        self.put(part.encode_utf8(&mut [0; 4]))?;
+                    }
+                }
+                false => self.put(letter.encode_utf8(&mut [0; 4]))?,
+            }
         }
         Ok(())
     }
@@ -66,7 +83,7 @@ mod tests {
     fn a_long_sentence_is_cut_between_letters() {
         keep(&"ä".repeat(ROOM));
         assert_eq!(last(), "ä".repeat((ROOM - 1) / 2));
-        keep(&"short\0er");
-        assert_eq!(last(), "short er");
+        keep(&"short\0er \u{1b}[2J");
+        assert_eq!(last(), r"short\u{0}er \u{1b}[2J");
     }
 }

@@ -152,7 +152,7 @@ fn locked(lock: &Path, path: &Path) -> Result<File, Error> {
 
 /// Whether `path` is the name of the file that is open.
 #[cfg(unix)]
-fn is_at(path: &Path, file: &File) -> io::Result<bool> {
+pub(crate) fn is_at(path: &Path, file: &File) -> io::Result<bool> {
     use std::os::unix::fs::MetadataExt;
     let open = file.metadata()?;
     match fs::metadata(path) {
@@ -164,7 +164,7 @@ fn is_at(path: &Path, file: &File) -> io::Result<bool> {
 
 /// Elsewhere an open file keeps its name until it is closed.
 #[cfg(not(unix))]
-fn is_at(_path: &Path, _file: &File) -> io::Result<bool> {
+pub(crate) fn is_at(_path: &Path, _file: &File) -> io::Result<bool> {
     Ok(true)
 }
 

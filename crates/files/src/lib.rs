@@ -9,6 +9,8 @@
 //! Beside them stands [`StoredResponse`], which is not for people: what a model has prepared of an organ,
 //! kept because it takes minutes.
 //!
+//! Text from elsewhere is shown by [`printable`], and put into cells of tables by [`text_cell`].
+//!
 //! The documents hold plain numbers. They know nothing of meshes, mechanics or devices, so that
 //! each verb (measure, characterize, simulate) can be used without the others.
 
@@ -18,6 +20,8 @@ mod domain;
 mod error;
 mod estimate;
 pub mod motion;
+mod partial;
+mod printable;
 pub mod protocol;
 pub mod recording;
 mod response;
@@ -35,6 +39,7 @@ pub use domain::Domain;
 pub use error::{Error, Place};
 pub use estimate::Estimate;
 pub use motion::{Motion, Pose};
+pub use printable::{cell_text, is_hidden, printable, printable_lines, text_cell};
 pub use protocol::Protocol;
 pub use recording::Recording;
 pub use response::StoredResponse;

@@ -1,16 +1,16 @@
-use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Read, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::Error;
 use crate::error::Place;
+use crate::partial::Partial;
 
-/// Writes a file whole or not at all: `bytes` go to a file beside `path`, which then takes its name.
-/// The folder must exist.
+/// Writes a file whole or not at all: `bytes` go to a file beside `path`, which then takes its name. A device or a
+/// pipe is written to as it is. The folder must exist.
 ///
 /// # Errors
-/// When the operating system refuses; `path` is then as it was.
+/// When the operating system refuses; a file at `path` is then as it was, and nothing is left beside it.
 pub fn write_whole(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), Error> {
     write_whole_by(path, |file| file.write_all(bytes))
 }
@@ -21,12 +21,15 @@ pub(crate) fn write_whole_by(
     put: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), Error> {
     let path = path.as_ref();
-    let beside = beside(path).map_err(|source| Error::write(path, source))?;
-    write_and_rename(&beside, path, put).map_err(|source| {
-        // The first failure is the one to report; a leftover is only untidy.
-        let _ = fs::remove_file(&beside);
-        Error::write(path, source)
-    })
+    let write = || match is_replaced(path)? {
+        true => {
+            let mut partial = Partial::create(path)?;
+            put(&mut partial.file)?;
+            partial.rename(path)
+        }
+        false => put(&mut OpenOptions::new().write(true).open(path)?),
+    };
+    write().map_err(|source| Error::write(path, source))
 }
 
 /// Whether [`write_whole`] could write `path` now: for asking before long work instead of after it.
@@ -36,46 +39,20 @@ pub(crate) fn write_whole_by(
 /// What [`write_whole`] would say.
 pub fn check_writable(path: impl AsRef<Path>) -> Result<(), Error> {
     let path = path.as_ref();
-    let tried = beside(path).and_then(|beside| {
-        refuse_folder(path)?;
-        File::create(&beside)?;
-        fs::remove_file(&beside)
-    });
-    tried.map_err(|source| Error::write(path, source))
-}
-
-/// A name in the same folder, so that the renaming stays on one disk and is one act.
-fn beside(path: &Path) -> io::Result<PathBuf> {
-    let name = path
-        .file_name()
-        .ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "the path names no file"))?;
-    let mut partial = OsString::from(".");
-    partial.push(name);
-    partial.push(format!(".{}.partial", std::process::id()));
-    Ok(path.with_file_name(partial))
-}
-
-fn write_and_rename(
-    beside: &Path,
-    path: &Path,
-    put: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> io::Result<()> {
-    refuse_folder(path)?;
-    let mut file: File = OpenOptions::new()
-        .write(true)
-        .create(true)
-        .truncate(true)
-        .open(beside)?;
-    put(&mut file)?;
-    // Without this the new name could reach the disk before the bytes do.
-    file.sync_all()?;
-    fs::rename(beside, path)
-}
-
-fn refuse_folder(path: &Path) -> io::Result<()> {
-    match path.is_dir() {
-        true => Err(io::ErrorKind::IsADirectory.into()),
+    let tried = || match is_replaced(path)? {
+        true => Partial::create(path).map(drop),
         false => Ok(()),
+    };
+    tried().map_err(|source| Error::write(path, source))
+}
+
+/// Whether a new file takes the place of what is at `path`, rather than going into the device or pipe there.
+fn is_replaced(path: &Path) -> io::Result<bool> {
+    match fs::metadata(path) {
+        Ok(known) if known.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
+        Ok(known) => Ok(known.is_file()),
+        // It is made, or its creation tells what is wrong.
+        Err(_) => Ok(true),
     }
 }
 

@@ -4,16 +4,31 @@ use palpate_geometry::{Isosurface, Label};
 
 use crate::{Error, nearest};
 
-/// The label that is called so, by its name or its number.
+/// The label of this number, or else of this name.
 ///
 /// # Errors
-/// When there is none, with those that there are.
+/// When there is none, with those that there are, or when several have the name.
 pub fn find<'l>(labels: &'l [Label], wanted: &str) -> Result<&'l Label, Error> {
-    let is_wanted = |label: &&Label| {
-        label.name.as_deref() == Some(wanted) || wanted.parse() == Ok(label.number)
-    };
-    let found = labels.iter().find(is_wanted);
-    found.ok_or_else(|| absent(labels, wanted))
+    let by_number = labels
+        .iter()
+        .find(|label| wanted.parse() == Ok(label.number));
+    if let Some(found) = by_number {
+        return Ok(found);
+    }
+    let of_name = |label: &&Label| label.name.as_deref() == Some(wanted);
+    let found: Vec<&Label> = labels.iter().filter(of_name).collect();
+    match found.as_slice() {
+        [] => Err(absent(labels, wanted)),
+        [only] => Ok(only),
+        several => {
+            let numbers: Vec<_> = several.iter().map(|l| l.number.to_string()).collect();
+            Err(Error::input(format!(
+                "the labels {} are all called {wanted:?}; choose one by its number, such as {}",
+                numbers.join(", "),
+                numbers[0]
+            )))
+        }
+    }
 }
 
 fn absent(labels: &[Label], wanted: &str) -> Error {
@@ -77,5 +92,41 @@ pub fn in_words(label: &Label) -> String {
     match &label.name {
         Some(name) => format!("{} ({name})", label.number),
         None => label.number.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn label(number: u16, name: &str) -> Label {
+        Label {
+            number,
+            name: Some(name.to_owned()),
+            voxels: 1,
+            volume: 1e-9,
+        }
+    }
+
+    #[test]
+    fn a_name_that_two_labels_have_is_refused_with_both_numbers() {
+        let labels = [label(2, "spleen"), label(3, "liver"), label(7, "liver")];
+        let said = find(&labels, "liver").unwrap_err();
+        assert!(said.is_input());
+        let said = said.to_string();
+        assert!(
+            said.contains("3, 7") && said.contains("by its number"),
+            "{said}"
+        );
+        assert_eq!(find(&labels, "7"), Ok(&labels[2]));
+        assert_eq!(find(&labels, "spleen"), Ok(&labels[0]));
+        assert!(find(&labels, "kidney").is_err());
+    }
+
+    /// Else the label 5 could not be chosen at all.
+    #[test]
+    fn a_number_is_a_number_before_it_is_a_name() {
+        let labels = [label(4, "5"), label(5, "liver")];
+        assert_eq!(find(&labels, "5"), Ok(&labels[1]));
     }
 }

@@ -43,19 +43,29 @@ impl Recorder {
         })
     }
 
-    /// Takes a sample, and says what of it is written: time from the first [s], depth [m], force [N].
+    /// Takes a sample.
     ///
     /// # Errors
     /// When the operating system refuses.
-    pub fn take(&mut self, sample: &RigSample) -> Result<[f64; 3], Error> {
+    pub fn take(&mut self, sample: &RigSample) -> Result<(), Error> {
+        let row = self.row(sample);
+        self.write(row)
+    }
+
+    /// What of a sample is written: time from the first [s], depth [m], force [N].
+    pub(crate) fn row(&mut self, sample: &RigSample) -> [f64; 3] {
         let begun = *self.first.get_or_insert(sample.time);
         // To the microsecond, which is what a clock can say.
         let time = (1e6 * (sample.time - begun)).round() / 1e6;
-        let row = [time, sample.depth.unwrap_or_default(), sample.force];
+        [time, sample.depth.unwrap_or_default(), sample.force]
+    }
+
+    /// Writes a row.
+    pub(crate) fn write(&mut self, row: [f64; 3]) -> Result<(), Error> {
         self.writer.write(row)?;
         self.samples += 1;
-        self.peak = self.peak.max(sample.force);
-        Ok(row)
+        self.peak = self.peak.max(row[2]);
+        Ok(())
     }
 
     /// Gives it its name, and says at its top how it `ended`.
@@ -72,6 +82,11 @@ impl Recorder {
                 Some(said.split("; ").next().unwrap_or_default().to_owned())
             }
         };
+        self.end(cut_short)
+    }
+
+    /// The same, with why it ends before its stimulus, if it does.
+    pub(crate) fn end(self, cut_short: Option<String>) -> Result<Recorded, Error> {
         let said = cut_short.as_deref().unwrap_or(RecordingHeader::WHOLE);
         self.writer.finish(said)?;
         Ok(Recorded {

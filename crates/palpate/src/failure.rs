@@ -16,6 +16,13 @@ const FAILED: u8 = 1;
 pub(crate) enum Failure {
     /// What was given has to be mended.
     Input(String),
+    /// The command line names no command; the help shows them.
+    CommandLine {
+        /// The message.
+        message: &'static str,
+        /// Several lines.
+        help: String,
+    },
     /// Something else went wrong.
     Failed(String),
     /// Whoever read standard output has gone (`palpate … | head`); nothing to complain about.
@@ -36,7 +43,10 @@ impl Failure {
         use clap::error::ErrorKind;
         let said = mistake.to_string();
         if mistake.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-            return Self::input(format!("say which part of the command you want\n\n{said}"));
+            return Self::CommandLine {
+                message: "choose a subcommand",
+                help: said,
+            };
         }
         let lines = said.lines().take_while(|line| !line.starts_with("Usage:"));
         let parts: Vec<&str> = lines.map(str::trim).filter(|l| !l.is_empty()).collect();
@@ -50,7 +60,7 @@ impl Failure {
 
     pub(crate) fn exit_status(&self) -> u8 {
         match self {
-            Self::Input(_) => BAD_INPUT,
+            Self::Input(_) | Self::CommandLine { .. } => BAD_INPUT,
             Self::Failed(_) | Self::NobodyReads => FAILED,
         }
     }
@@ -60,6 +70,7 @@ impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Input(message) | Self::Failed(message) => f.write_str(message),
+            Self::CommandLine { message, .. } => f.write_str(message),
             Self::NobodyReads => f.write_str("nobody reads the output"),
         }
     }

@@ -5,6 +5,7 @@
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use palpate_files::printable;
 use palpate_jobs::Watch;
 
 use crate::interrupt::{self, Unbroken};
@@ -74,7 +75,7 @@ impl Progress {
 
     /// Says what is being done now.
     pub(crate) fn say(&self, doing: impl Into<String>) {
-        self.0.set_message(doing.into());
+        self.0.set_message(printable(&doing.into()).into_owned());
     }
 
     /// One step of the bar is done.
@@ -91,7 +92,7 @@ impl Progress {
 /// Ctrl-C asks a job to stop; a job whose command ends between files by itself asks nobody.
 impl Watch for Progress {
     fn say(&self, doing: &str) {
-        self.0.set_message(doing.to_owned());
+        self.0.set_message(printable(doing).into_owned());
     }
 
     fn at(&self, part: f64) {

@@ -1,8 +1,10 @@
 //! What the libraries refuse, as Python's exceptions: the sentences of the command, which ends with status 2 where
-//! [`Failure::Input`] is raised and with 1 where [`Failure::Failed`] is.
+//! [`Failure::Input`] is raised and with 1 where [`Failure::Failed`] is. Python prints them to a terminal, so that
+//! characters which a terminal obeys are escapes in them.
 
 use std::fmt;
 
+use palpate_files::printable;
 use palpate_geometry::{
     IsosurfaceError, MeshError, OrganError, ReadError, SimplifyError, UnknownUnit,
 };
@@ -94,7 +96,7 @@ impl From<Failure> for PyErr {
         static FAILED: PyOnceLock<Py<PyType>> = PyOnceLock::new();
         let raised = |class: &PyOnceLock<Py<PyType>>, name: &str, message: String| {
             Python::attach(|py| match class.import(py, "palpate.errors", name) {
-                Ok(class) => Self::from_type(class.clone(), (message,)),
+                Ok(class) => Self::from_type(class.clone(), (printable(&message).into_owned(),)),
                 Err(error) => error,
             })
         };

@@ -34,7 +34,7 @@ use palpate_jobs::label;
 /// Returns
 /// -------
 /// dict of str to Mesh
-///     By the label's name, or its number where it has none.
+///     By the label's name, or its number where it has none or shares it with another.
 #[pyfunction]
 #[pyo3(signature = (path, labels=None, *, triangles=20_000, smoothing=60, progress=None))]
 #[expect(clippy::too_many_arguments, reason = "they are named in Python")]
@@ -102,7 +102,12 @@ fn surfaces(
         let found = surface_of(map, label.number, settings)?;
         let mut warnings = map.warnings().to_vec();
         warnings.extend(label::doubts(label, &found));
-        let key = label.name.clone();
+        let is_alone = labels
+            .iter()
+            .filter(|other| other.name == label.name)
+            .count()
+            == 1;
+        let key = label.name.clone().filter(|_| is_alone);
         let key = key.unwrap_or_else(|| label.number.to_string());
         made.push((key, Mesh::with_warnings(found.simplified.mesh, warnings)));
     }

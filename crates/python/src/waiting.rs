@@ -22,6 +22,7 @@ use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use palpate_files::printable;
 use pyo3::prelude::*;
 use pyo3::types::PyBool;
 
@@ -47,7 +48,8 @@ pub(crate) struct Told {
 impl Told {
     /// Says what is being done now.
     pub(crate) fn say(&self, words: impl Into<String>) {
-        *held(&self.words) = words.into();
+        // Whatever shows it may be a terminal.
+        *held(&self.words) = printable(&words.into()).into_owned();
     }
 
     /// How much is done, from 0 to 1 [-].

@@ -48,8 +48,16 @@ pub enum Error {
         /// The latest version that is known.
         known: i64,
     },
-    /// The operating system does not let it be used.
-    #[error("{path} cannot be used: {reason}; check that it is a file that you may write, in a folder that you may write, on a disk with room", path = path.display())]
+    /// The disk is full or broken.
+    #[error("{path} cannot be written: {reason}; make room on its disk, or name a file on another one", path = path.display())]
+    Disk {
+        /// The record.
+        path: PathBuf,
+        /// What the operating system says.
+        reason: String,
+    },
+    /// Its name or its permissions do not let it be used.
+    #[error("{path} cannot be used: {reason}; check that it is a file that you may write, in a folder that you may write", path = path.display())]
     Unusable {
         /// The record.
         path: PathBuf,
@@ -93,16 +101,26 @@ pub enum Error {
 }
 
 impl Error {
-    /// Whether what was given has to be mended.
+    /// Whether the input is invalid (exit status 2), and not the disk or another program at fault (1).
     pub fn is_input(&self) -> bool {
-        !matches!(self, Self::Failed { .. })
+        !matches!(
+            self,
+            Self::Locked { .. } | Self::Disk { .. } | Self::Failed { .. }
+        )
     }
 
     /// What the operating system says of a file.
     pub(crate) fn of_system(path: &Path, error: &io::Error) -> Self {
-        Self::Unusable {
-            path: path.to_owned(),
-            reason: error.to_string(),
+        use io::ErrorKind::{
+            AlreadyExists, InvalidFilename, InvalidInput, IsADirectory, NotADirectory, NotFound,
+            PermissionDenied,
+        };
+        let path = path.to_owned();
+        let reason = error.to_string();
+        match error.kind() {
+            AlreadyExists | InvalidFilename | InvalidInput | IsADirectory | NotADirectory
+            | NotFound | PermissionDenied => Self::Unusable { path, reason },
+            _ => Self::Disk { path, reason },
         }
     }
 
@@ -125,10 +143,9 @@ impl Error {
                 ErrorCode::ReadOnly
                 | ErrorCode::PermissionDenied
                 | ErrorCode::CannotOpen
-                | ErrorCode::DiskFull
-                | ErrorCode::SystemIoFailure
                 | ErrorCode::TooBig,
             ) => Self::Unusable { path, reason },
+            Some(ErrorCode::DiskFull | ErrorCode::SystemIoFailure) => Self::Disk { path, reason },
             _ => match error {
                 // What stands in a column is not what was put there.
                 InvalidColumnType(..)
@@ -136,6 +153,36 @@ impl Error {
                 | IntegralValueOutOfRange(..) => Self::Damaged { path, reason },
                 _ => Self::Failed { path, reason },
             },
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use rusqlite::ffi::{self, SQLITE_BUSY, SQLITE_FULL, SQLITE_IOERR_WRITE, SQLITE_READONLY};
+
+    use super::*;
+
+    /// Exit status 1 is for what no change of the input would help.
+    #[test]
+    fn a_full_disk_and_a_lock_are_failures_and_no_invalid_input() {
+        let path = Path::new("training.sqlite");
+        let of_code = |code| rusqlite::Error::SqliteFailure(ffi::Error::new(code), None);
+        for (code, is_input) in [
+            (SQLITE_FULL, false),
+            (SQLITE_IOERR_WRITE, false),
+            (SQLITE_BUSY, false),
+            (SQLITE_READONLY, true),
+        ] {
+            let error = Error::of_database(path, &of_code(code));
+            assert_eq!(error.is_input(), is_input, "{error}");
+        }
+        for (kind, is_input) in [
+            (io::ErrorKind::StorageFull, false),
+            (io::ErrorKind::PermissionDenied, true),
+        ] {
+            let error = Error::of_system(path, &kind.into());
+            assert_eq!(error.is_input(), is_input, "{error}");
         }
     }
 }

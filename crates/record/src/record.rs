@@ -1,4 +1,5 @@
 use std::fs;
+use std::io;
 use std::path::{Path, PathBuf, absolute};
 use std::time::Duration;
 
@@ -64,9 +65,14 @@ impl Record {
                 continue;
             }
             if looks > LOOKS {
-                return Err(Error::Damaged { path, reason });
+                // Others damage what this program begins.
+                return Err(Error::Locked { path });
             }
-            let kept = aside::set_aside(&path).map_err(|error| Error::of_system(&path, &error))?;
+            let kept = match aside::set_aside(&path) {
+                // Another program was faster.
+                Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
+                other => other.map_err(|error| Error::of_system(&path, &error))?,
+            };
             doubts.push(format!(
                 "the training record {} was damaged ({reason}); it is kept as {}, and a new one is begun",
                 path.display(),

@@ -123,6 +123,12 @@ pub enum Error {
         /// Where was looked.
         path: std::path::PathBuf,
     },
+    /// The rows of a session that is played cannot be written.
+    #[error("{cause}")]
+    Unrecorded {
+        /// Why, in a sentence.
+        cause: String,
+    },
     /// There is nothing to play again.
     #[error("the session has no row; record one in which a tool moves")]
     EmptySession,
@@ -184,6 +190,7 @@ impl Error {
             Self::Servo(_)
             | Self::NoDevice { .. }
             | Self::ModelPanicked
+            | Self::Unrecorded { .. }
             | Self::Model(palpate_mechanics::Error::BrokenOff) => false,
             _ => true,
         }

@@ -6,7 +6,7 @@ use csv::{ReaderBuilder, StringRecord, Trim};
 use super::{Column, Layout, TableText};
 use crate::error::Place;
 use crate::whole_file::newlines;
-use crate::{Domain, Error};
+use crate::{Domain, Error, cell_text};
 
 /// The rows of a table, one after the other. Blank lines and comments are passed over.
 pub(crate) struct Rows<'t> {
@@ -112,11 +112,11 @@ impl<'t> Rows<'t> {
 
 impl<'r> Row<'r> {
     pub(crate) fn fields(&self) -> impl Iterator<Item = &'r str> + use<'r> {
-        self.record.iter()
+        self.record.iter().map(cell_text)
     }
 
     pub(crate) fn field(&self, index: usize) -> &'r str {
-        self.record.get(index).unwrap_or("")
+        self.record.get(index).map_or("", cell_text)
     }
 
     pub(crate) fn text(&self, column: &Column) -> &'r str {

@@ -1,18 +1,19 @@
 use std::borrow::Cow;
 
+use crate::text_cell;
+
 /// A line above a table: `# key = value`, the value in TOML.
 pub(crate) fn header_line(key: &str, value: impl std::fmt::Display) -> String {
     format!("# {key} = {value}\n")
 }
 
-/// A text as a field of a table.
+/// A text as a field of a table, which is no formula in a spreadsheet. [`super::Row`] gives it back as it is.
 pub(crate) fn field(text: &str) -> Cow<'_, str> {
+    let cell = text_cell(text);
     // A leading `#` would read as a comment, and spaces at the ends would be trimmed.
-    let plain = !text.contains([',', '"', '\n', '\r', '#']);
-    if plain {
-        Cow::Borrowed(text)
-    } else {
-        Cow::Owned(format!("\"{}\"", text.replace('"', "\"\"")))
+    match cell.contains([',', '"', '\n', '\r', '#']) {
+        true => Cow::Owned(format!("\"{}\"", cell.replace('"', "\"\""))),
+        false => cell,
     }
 }
 

@@ -1,5 +1,7 @@
 use std::path::PathBuf;
 
+use palpate_files::text_cell;
+
 use super::answer::{Answer, Known, Specimen};
 use super::folder::StudyFolder;
 use crate::Error;
@@ -138,7 +140,7 @@ fn shown(value: Option<f64>) -> String {
     value.map_or_else(String::new, |value| value.to_string())
 }
 
-/// A table as a document of this project.
+/// A table as a document of this project, in which no text is a formula.
 fn table(columns: &[String], rows: impl Iterator<Item = Vec<String>>) -> Result<String, Error> {
     let cannot = |error: csv::Error| {
         Error::failed(format!(
@@ -148,7 +150,8 @@ fn table(columns: &[String], rows: impl Iterator<Item = Vec<String>>) -> Result<
     let mut writer = csv::Writer::from_writer(b"# format = 1\n".to_vec());
     writer.write_record(columns).map_err(cannot)?;
     for row in rows {
-        writer.write_record(&row).map_err(cannot)?;
+        let cells = row.iter().map(|cell| text_cell(cell).into_owned());
+        writer.write_record(cells).map_err(cannot)?;
     }
     let bytes = writer
         .into_inner()

@@ -1,4 +1,4 @@
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, Sender};
 
 use palpate_files::recording::RecordingHeader;
@@ -37,7 +37,33 @@ pub enum News {
     /// A recording is there, by its number, with its samples: time [s], depth [m], force [N].
     Recorded(u64, Recorded, Vec<[f64; 3]>),
     /// A recording could not be written; the rig was stopped.
-    Unwritten(palpate_files::Error),
+    Unwritten(Box<Unwritten>),
+}
+
+/// A recording that could not be written. What was pressed until then is in memory, as that of every recording that
+/// is made is for its plots.
+#[derive(Debug)]
+pub struct Unwritten {
+    /// What was to be recorded.
+    pub commission: Commission,
+    /// Its samples: time [s], depth [m], force [N].
+    pub rows: Vec<[f64; 3]>,
+    /// Why.
+    pub error: palpate_files::Error,
+}
+
+impl Unwritten {
+    /// Writes it to another file, whose folder must exist.
+    ///
+    /// # Errors
+    /// When the operating system refuses that, too.
+    pub fn write_to(&self, file: &Path) -> Result<Recorded, palpate_files::Error> {
+        let mut recorder = Recorder::begin(file, &self.commission.header)?;
+        for row in &self.rows {
+            recorder.write(*row)?;
+        }
+        recorder.end(Some("its file could not be written any further".to_owned()))
+    }
 }
 
 /// Writes what the rig says, and passes it on.
@@ -105,30 +131,38 @@ impl Clerk {
         if sample.phase != Phase::Pressing {
             return;
         }
-        let Some(open) = &mut self.open else { return };
-        if let Err(error) = open.take(sample) {
-            self.give_up(error);
+        let Some(mut open) = self.open.take() else {
+            return;
+        };
+        match open.take(sample) {
+            Ok(()) => self.open = Some(open),
+            Err(error) => self.give_up(open, error),
         }
     }
 
     fn finish(&mut self, ended: &Result<Ended, Error>) {
-        let Some(open) = self.open.take() else { return };
-        let Some(recorder) = open.recorder else {
+        let Some(mut open) = self.open.take() else {
+            return;
+        };
+        let Some(recorder) = open.recorder.take() else {
             return;
         };
         match recorder.finish(ended) {
             Ok(recorded) => {
                 self.pass_on(News::Recorded(open.commission.number, recorded, open.rows));
             }
-            Err(error) => self.give_up(error),
+            Err(error) => self.give_up(open, error),
         }
     }
 
     /// Nothing is pressed that is not recorded.
-    fn give_up(&mut self, error: palpate_files::Error) {
-        self.open = None;
+    fn give_up(&mut self, open: Open, error: palpate_files::Error) {
         self.switches.stop();
-        self.pass_on(News::Unwritten(error));
+        self.pass_on(News::Unwritten(Box::new(Unwritten {
+            commission: open.commission,
+            rows: open.rows,
+            error,
+        })));
     }
 }
 
@@ -141,8 +175,10 @@ impl Open {
                 self.recorder.insert(Recorder::begin(file, header)?)
             }
         };
-        self.rows.push(recorder.take(sample)?);
-        Ok(())
+        let row = recorder.row(sample);
+        // Before it is written: it is not lost when that fails.
+        self.rows.push(row);
+        recorder.write(row)
     }
 }
 
@@ -256,6 +292,50 @@ mod tests {
         assert_eq!(recorded.cut_short.as_deref(), Some(why));
     }
 
+    /// A disk that breaks while it is recorded stops the rig; what was pressed until then can be written elsewhere, and
+    /// says that it is not whole.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_recording_on_a_broken_disk_is_kept_in_memory() {
+        use std::io::{BufRead, BufReader};
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("one.csv");
+        // A pipe whose reader leaves after the names of the columns.
+        let pipe = palpate_files::unfinished(&file);
+        let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+        assert!(made.unwrap().success());
+        let reader = std::thread::spawn(move || {
+            let lines = BufReader::new(std::fs::File::open(pipe).unwrap()).lines();
+            let is_last = |line: &String| line.starts_with("time_s");
+            assert!(lines.map_while(Result::ok).any(|line| is_last(&line)));
+        });
+        let mut desk = desk();
+        let order = desk.ask(1, file);
+        desk.told.add(Told::Begun(order));
+        desk.told.add(Told::Sample(sample(0, Phase::Pressing)));
+        desk.clerk.read();
+        reader.join().unwrap();
+        // Rows are brought to the disk at least every 200.
+        for tick in 1..300 {
+            desk.told.add(Told::Sample(sample(tick, Phase::Pressing)));
+            desk.clerk.read();
+        }
+        assert_eq!(desk.clerk.switches.stops(), 1);
+        let unwritten = desk.news.try_iter().find_map(|news| match news {
+            News::Unwritten(unwritten) => Some(unwritten),
+            _ => None,
+        });
+        let unwritten = unwritten.unwrap();
+        assert!(unwritten.error.to_string().contains("one.csv"));
+        let other = folder.path().join("other.csv");
+        let recorded = unwritten.write_to(&other).unwrap();
+        let read = Recording::read(&other).unwrap();
+        assert_eq!(read.time_s().len(), 200);
+        assert_eq!(read.time_s().len(), recorded.samples);
+        assert_eq!(read.header.cut_short(), recorded.cut_short.as_deref());
+        assert!(recorded.cut_short.is_some());
+    }
+
     /// What cannot be written stops the rig and says so; what is refused leaves no file.
     #[test]
     fn nothing_is_pressed_that_is_not_recorded() {
@@ -264,8 +344,12 @@ mod tests {
         let order = desk.ask(1, folder.path().join("missing").join("one.csv"));
         desk.press(order, Ok(Ended::Stopped));
         assert_eq!(desk.clerk.switches.stops(), 1);
-        let said = |news: News| matches!(news, News::Unwritten(_));
-        assert!(desk.news.try_iter().any(said));
+        let said = |news: News| match news {
+            News::Unwritten(unwritten) => Some(unwritten),
+            _ => None,
+        };
+        let unwritten = desk.news.try_iter().find_map(said).unwrap();
+        assert!(unwritten.error.to_string().contains("missing"));
         let refused = desk.ask(2, folder.path().join("two.csv"));
         desk.told.add(Told::Begun(refused));
         let told = Told::Ended(refused, Err(Error::NotApproached));

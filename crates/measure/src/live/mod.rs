@@ -20,7 +20,7 @@ mod console;
 mod live_rig;
 mod operated;
 
-pub use clerk::{Commission, News};
+pub use clerk::{Commission, News, Unwritten};
 pub use console::{Console, Order};
 pub use live_rig::LiveRig;
 pub use operated::{Operated, Told};

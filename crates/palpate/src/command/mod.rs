@@ -20,12 +20,16 @@ mod window;
 use clap::{Parser, Subcommand};
 
 use crate::failure::Failure;
+use crate::output;
 
 /// The lower esophagus where it lies, for two hands.
 pub(crate) const TRAINER: &str = include_str!("../../../../assets/esophagus/trainer.toml");
 
 /// A cut on it that goes down to the mucosa.
 pub(crate) const MYOTOMY: &str = include_str!("../../../../assets/esophagus/myotomy.csv");
+
+/// The licences of what this program is built of; `.ci/notices` writes them.
+const NOTICES: &str = include_str!("../../../../THIRD-PARTY.txt");
 
 /// Examples at the end of `palpate --help`.
 const EXAMPLES: &str = "\
@@ -71,7 +75,11 @@ document on standard output. Exit status: 0 done, 2 the input has to be mended, 
 /// Without a command, the window opens; where there is no display, a demonstration runs.
 #[derive(Debug, Parser)]
 #[command(name = "palpate", version, after_help = EXAMPLES, disable_help_subcommand = true)]
+#[command(args_conflicts_with_subcommands = true)]
 pub(crate) struct CommandLine {
+    /// Print the licences of the libraries and fonts that this program contains.
+    #[arg(long)]
+    notices: bool,
     #[command(subcommand)]
     command: Option<Command>,
 }
@@ -111,6 +119,7 @@ impl CommandLine {
     /// Does what the line says.
     pub(crate) fn run(self) -> Result<(), Failure> {
         match self.command {
+            None if self.notices => output::text(NOTICES),
             None => demonstration::run(),
             Some(Command::Simulate(arguments)) => simulate::run(&arguments),
             Some(Command::Precompute(arguments)) => precompute::run(&arguments),

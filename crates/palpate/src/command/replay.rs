@@ -97,7 +97,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         answer.steps, answer.duration_s, answer.rows_compared, answer.largest_difference_n
     ))?;
     for file in &answer.files {
-        output::text(file.display())?;
+        output::line(file.display())?;
     }
     output::warnings(&answer.warnings);
     Ok(())

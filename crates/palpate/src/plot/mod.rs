@@ -7,6 +7,8 @@ mod svg;
 
 use std::path::Path;
 
+use palpate_files::printable;
+
 pub(crate) use palpate_jobs::plot::{Axis, Band, Plot, Series, Shade, Style, kept};
 
 use crate::failure::Failure;
@@ -28,7 +30,7 @@ pub(crate) trait Draw {
 
 impl Draw for Plot {
     fn png(&self) -> Result<Vec<u8>, Failure> {
-        drawing::png(self).map_err(|cause| {
+        drawing::png(&printable_plot(self)).map_err(|cause| {
             let title = &self.title;
             Failure::failed(format!(
                 "the plot `{title}` cannot be drawn ({cause}); please report this"
@@ -37,13 +39,25 @@ impl Draw for Plot {
     }
 
     fn svg(&self) -> String {
-        svg::svg(self)
+        svg::svg(&printable_plot(self))
     }
+}
+
+/// The plot with texts that can be shown.
+fn printable_plot(plot: &Plot) -> Plot {
+    let mut plot = plot.clone();
+    let names = plot.series.iter_mut().map(|series| &mut series.name);
+    let titles = [&mut plot.title, &mut plot.x_label, &mut plot.y_label];
+    for text in names.chain(titles) {
+        *text = printable(text).into_owned();
+    }
+    plot
 }
 
 /// Writes a picture of two plots beside one another to `path`, 1792 by 640 pixels.
 pub(crate) fn write_pair(plots: [&Plot; 2], path: &Path) -> Result<(), Failure> {
-    let png = drawing::png_of_two(plots).map_err(|cause| {
+    let printable = plots.map(printable_plot);
+    let png = drawing::png_of_two(printable.each_ref()).map_err(|cause| {
         let title = &plots[0].title;
         Failure::failed(format!(
             "the plots beside `{title}` cannot be drawn ({cause}); please report this"

@@ -1,5 +1,7 @@
 use std::fmt;
 
+use palpate_files::printable_lines;
+
 /// Markup that is well formed: text is escaped, what is opened is closed.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(crate) struct Markup(String);
@@ -40,21 +42,17 @@ impl Markup {
     }
 }
 
-/// Of text, escaped; what no XML may hold is replaced.
+/// Of text, escaped; hidden characters, which no XML may hold or no reader sees, are shown as [`printable_lines`].
 impl From<&str> for Markup {
     fn from(text: &str) -> Self {
         let mut escaped = String::with_capacity(text.len());
-        for letter in text.chars() {
+        for letter in printable_lines(text).chars() {
             match letter {
                 '&' => escaped += "&amp;",
                 '<' => escaped += "&lt;",
                 '>' => escaped += "&gt;",
                 '"' => escaped += "&quot;",
                 '\u{fffe}' | '\u{ffff}' => escaped.push(char::REPLACEMENT_CHARACTER),
-                letter if letter.is_control() && !letter.is_whitespace() => {
-                    escaped.push(char::REPLACEMENT_CHARACTER);
-                }
-                '\u{b}' | '\u{c}' => escaped.push(' '),
                 letter => escaped.push(letter),
             }
         }
@@ -86,8 +84,8 @@ mod tests {
 
     #[test]
     fn text_is_no_markup() {
-        let hostile = Markup::element("p", &[("title", "\"><script>")], "<b>&\u{1}\u{c}");
-        let expected = "<p title=\"&quot;&gt;&lt;script&gt;\">&lt;b&gt;&amp;\u{fffd} </p>";
+        let hostile = Markup::element("p", &[("title", "\"><script>")], "<b>&\u{1}\u{202e}");
+        let expected = "<p title=\"&quot;&gt;&lt;script&gt;\">&lt;b&gt;&amp;\\u{1}\\u{202e}</p>";
         assert_eq!(hostile.to_string(), expected);
     }
 }

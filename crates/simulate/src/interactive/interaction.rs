@@ -6,10 +6,10 @@ use palpate_devices::openigtlink::OperatingRoom;
 use palpate_files::SessionRow;
 use palpate_servo::{Clock, Fault, LoopReport, Sample, ServoSettings, ServoThread, latest, log};
 
-use super::clerk::Clerk;
 use super::model_loop::ModelLoop;
 use super::operating_room::shown_in;
 use super::order::orders;
+use super::recorder::{SessionRecorder, Unwritten};
 use super::stations::{Parts, Station, Watch, take_apart};
 use super::{ModelReport, Order, Quality, ROWS, Snapshot};
 use crate::{Error, SessionFolderWriter, Simulation};
@@ -21,7 +21,7 @@ pub struct Interaction {
     model: Option<JoinHandle<ModelReport>>,
     servos: Vec<Option<ServoThread>>,
     watches: Vec<Option<Watch>>,
-    clerk: Clerk,
+    recorder: SessionRecorder,
     rows: log::Reader<SessionRow>,
     orders: log::Writer<Order>,
     snapshots: latest::Receiver<Snapshot>,
@@ -53,7 +53,7 @@ impl Interaction {
     ) -> Result<Self, Error> {
         let parts = take_apart(&simulation, stations, settings)?;
         let (rows, read_rows) = log::ring(ROWS);
-        let (clerk, read_rows) = Clerk::start(read_rows).ok_or(Fault::NoThread)?;
+        let (recorder, read_rows) = SessionRecorder::start(read_rows).ok_or(Fault::NoThread)?;
         let (give, orders) = orders();
         let (snapshots, seen) = latest::channel(&Snapshot::new(&simulation));
         let mut snapshots = vec![snapshots];
@@ -84,7 +84,7 @@ impl Interaction {
             model: Some(handle.map_err(|_| Fault::NoThread)?),
             servos,
             watches,
-            clerk,
+            recorder,
             rows: read_rows,
             orders: give,
             snapshots: seen,
@@ -109,7 +109,7 @@ impl Interaction {
 
     /// Records a session: everything begins anew, and every row from then on is written.
     pub fn record(&mut self, writer: SessionFolderWriter) {
-        self.clerk.record(writer);
+        self.recorder.record(writer);
         self.order(Order::Reset);
     }
 
@@ -117,9 +117,22 @@ impl Interaction {
     /// still be missing.
     ///
     /// # Errors
-    /// When a row could not be written.
+    /// When a row could not be written; all are in memory then, for [`record_elsewhere`](Self::record_elsewhere).
     pub fn end_recording(&mut self) -> Result<(), Error> {
-        Ok(self.clerk.end()?)
+        self.recorder.end()
+    }
+
+    /// Why the rows of the recording can no longer be written, if they cannot: known within a twentieth of a second.
+    pub fn unwritten(&self) -> Option<Unwritten> {
+        self.recorder.unwritten()
+    }
+
+    /// Writes the recording elsewhere, from its beginning on, also when it has ended; one that goes on goes on there.
+    ///
+    /// # Errors
+    /// When a row cannot be written there either, or not all are in memory.
+    pub fn record_elsewhere(&mut self, writer: SessionFolderWriter) -> Result<(), Error> {
+        self.recorder.record_elsewhere(writer)
     }
 
     /// The rows of the session that nobody has read yet.
@@ -178,7 +191,7 @@ impl Interaction {
             None => self.snapshots.latest().report,
         };
         // All rows have come through then.
-        self.clerk.end()?;
+        self.recorder.end()?;
         let loops: Result<Vec<Option<LoopReport>>, Fault> =
             loops.into_iter().map(Option::transpose).collect();
         Ok(Quality {

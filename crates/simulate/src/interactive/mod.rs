@@ -2,10 +2,10 @@
 //!
 //! ```text
 //!  display 60 Hz ◀─latest(Snapshot)─ model thread 200 Hz ─latest(AffineForce)─▶ servo thread 1 kHz ─▶ device
-//!  clerk         ◀─every SessionRow─      step           ◀───latest(Sample)────  extrapolate, limit
+//!  recorder      ◀─every SessionRow─      step           ◀───latest(Sample)────  extrapolate, limit
 //! ```
 //!
-//! An [`Order`] (pause, undo, anew) goes to the model by a ring of its own. The clerk writes a session that is
+//! An [`Order`] (pause, undo, anew) goes to the model by a ring of its own. The recorder writes a session that is
 //! recorded, and hands its rows on to who shows them.
 //!
 //! Nobody waits for anybody: what was not read is replaced, and what finds no room is counted.
@@ -16,7 +16,6 @@
 //!
 //! *Limits*: one device moves one tool; forces only, no torques.
 
-mod clerk;
 mod force_renderer;
 mod hand_over;
 mod happenings;
@@ -27,6 +26,7 @@ mod mount;
 mod operating_room;
 mod order;
 mod quality;
+mod recorder;
 mod scene_devices;
 mod scripted;
 mod snapshot;
@@ -47,6 +47,7 @@ pub(crate) use model_loop::DISPLAY;
 pub use mount::Mount;
 pub use order::Order;
 pub use quality::{ExtrapolationError, ModelReport, Quality};
+pub use recorder::{MOST_ROWS_IN_MEMORY, Unwritten};
 pub use scene_devices::SceneDevices;
 pub use snapshot::{ContactSnapshot, OpenedSnapshot, Snapshot, ToolSnapshot};
 pub use stations::Station;

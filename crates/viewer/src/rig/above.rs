@@ -51,6 +51,7 @@ pub(super) fn show(window: &mut RigWindow, ui: &mut Ui) {
     });
     ui.add_space(4.0);
     fault(window, ui);
+    unsaved(window, ui);
     notice(window, ui);
 }
 
@@ -230,6 +231,37 @@ fn fault(window: &mut RigWindow, ui: &mut Ui) {
         });
     });
     ui.add_space(4.0);
+}
+
+/// A recording that is in memory alone.
+fn unsaved(window: &mut RigWindow, ui: &mut Ui) {
+    let Some(unsaved) = &mut window.journal.unsaved else {
+        return;
+    };
+    let samples = unsaved.unwritten.rows.len();
+    let (mut saves, mut discards) = (false, false);
+    ui.horizontal_wrapped(|ui| {
+        ui.label(RichText::new("NOT RECORDED").strong().color(FAULT));
+        ui.label(unsaved.unwritten.error.to_string());
+    });
+    ui.horizontal(|ui| {
+        ui.label(format!(
+            "The rig was stopped; {samples} samples are in memory. Record them, and all that follows, in"
+        ));
+        ui.add(egui::TextEdit::singleline(&mut unsaved.elsewhere).desired_width(320.0));
+        saves = ui.button("Record there").clicked();
+        discards = ui.button("Discard them").clicked();
+    });
+    if let Some(trouble) = &unsaved.trouble {
+        ui.label(RichText::new(trouble).small().color(FAULT));
+    }
+    ui.add_space(4.0);
+    if saves {
+        window.journal.save_elsewhere();
+    }
+    if discards {
+        window.journal.unsaved = None;
+    }
 }
 
 /// What did not work.

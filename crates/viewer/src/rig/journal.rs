@@ -1,8 +1,8 @@
 use std::path::{Path, PathBuf};
 
 use palpate_files::recording::RecordingHeader;
-use palpate_files::unfinished;
-use palpate_measure::live::Commission;
+use palpate_files::{Claim, Error, Overwrite, unfinished};
+use palpate_measure::live::{Commission, Unwritten};
 use palpate_measure::{Course, Recorded, RigSettings, recording_name, stimulus_name};
 
 use super::curves::{force_over_depth, relaxation};
@@ -16,6 +16,19 @@ pub(super) struct Journal {
     pub(super) entries: Vec<Entry>,
     /// The one that is looked at; the newest when there is none.
     chosen: Option<usize>,
+    /// A recording that is in memory alone; nothing else is recorded until it is saved or thrown away.
+    pub(super) unsaved: Option<Unsaved>,
+}
+
+/// A recording that could not be written.
+#[derive(Debug)]
+pub(super) struct Unsaved {
+    pub(super) unwritten: Unwritten,
+    what: What,
+    /// The folder where it shall be written instead, as it is typed.
+    pub(super) elsewhere: String,
+    /// Why it cannot be written there either.
+    pub(super) trouble: Option<String>,
 }
 
 /// A recording that was asked for.
@@ -107,6 +120,46 @@ impl Journal {
         });
     }
 
+    /// A recording could not be written; what was pressed is kept.
+    pub(super) fn keep_unsaved(&mut self, unwritten: Unwritten) {
+        let number = unwritten.commission.number;
+        let Some(place) = self.asked.iter().position(|asked| asked.number == number) else {
+            return;
+        };
+        let here = std::env::current_dir().unwrap_or_default();
+        self.unsaved = Some(Unsaved {
+            unwritten,
+            what: self.asked.swap_remove(place).entry,
+            elsewhere: here.display().to_string(),
+            trouble: None,
+        });
+    }
+
+    /// Writes the recording that is in memory into the folder that was typed, where recordings go from then on.
+    pub(super) fn save_elsewhere(&mut self) {
+        let Some(mut unsaved) = self.unsaved.take() else {
+            return;
+        };
+        let folder = PathBuf::from(unsaved.elsewhere.trim());
+        match written(&unsaved.unwritten, &folder) {
+            Ok(recorded) => {
+                let rows = &unsaved.unwritten.rows;
+                self.folder = folder;
+                self.chosen = None;
+                self.entries.push(Entry {
+                    force_over_depth: force_over_depth(rows),
+                    relaxation: relaxation(rows, &unsaved.what.course.stimulus()),
+                    what: unsaved.what,
+                    recorded,
+                });
+            }
+            Err(error) => {
+                unsaved.trouble = Some(error.to_string());
+                self.unsaved = Some(unsaved);
+            }
+        }
+    }
+
     /// A recording will not be made; its name is free again.
     pub(super) fn forget(&mut self, number: u64) {
         self.asked.retain(|asked| asked.number != number);
@@ -139,6 +192,14 @@ impl Journal {
     }
 }
 
+/// Writes a recording into another folder, over nothing that is there.
+fn written(unwritten: &Unwritten, folder: &Path) -> Result<Recorded, Error> {
+    let claim = Claim::of_folder(folder, Overwrite::Refused)?;
+    let name = unwritten.commission.file.file_name().unwrap_or_default();
+    claim.check([Path::new(name)])?;
+    unwritten.write_to(&folder.join(name))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -151,6 +212,49 @@ mod tests {
             peak: 0.1,
             cut_short: None,
         }
+    }
+
+    /// A recording that the disk did not take is written into another folder, over nothing, and so are those after it.
+    #[test]
+    fn a_recording_in_memory_is_saved_into_another_folder() {
+        let folder = tempfile::tempdir().unwrap();
+        let full = folder.path().join("full");
+        let mut journal = Journal::new(full.clone());
+        let course = Course::of(Stimulus::RampAndHold {
+            depth_m: 4e-3,
+            ramp_s: 0.5,
+            hold_s: 1.0,
+        });
+        let course = course.unwrap();
+        let header = RecordingHeader::default();
+        let settings = RigSettings::default();
+        let commission = journal.ask(&course, &settings, (&header, 0));
+        let number = commission.number;
+        let name = commission.file.file_name().unwrap().to_owned();
+        journal.keep_unsaved(Unwritten {
+            commission,
+            rows: vec![[0.0, 0.0, 0.1], [0.001, 1e-4, 0.2]],
+            error: Error::Exists { path: full },
+        });
+        // What the rig says in the end takes nothing away.
+        journal.forget(number);
+        let other = folder.path().join("other");
+        std::fs::create_dir(&other).unwrap();
+        std::fs::write(other.join(&name), "mine").unwrap();
+        let put = |journal: &mut Journal, folder: &Path| {
+            let unsaved = journal.unsaved.as_mut().unwrap();
+            unsaved.elsewhere = folder.display().to_string();
+            journal.save_elsewhere();
+        };
+        put(&mut journal, &other);
+        let trouble = journal.unsaved.as_ref().unwrap().trouble.clone();
+        assert!(trouble.unwrap().contains("is there already"));
+        std::fs::remove_file(other.join(&name)).unwrap();
+        put(&mut journal, &other);
+        assert!(journal.unsaved.is_none());
+        assert_eq!(journal.folder(), other);
+        assert_eq!(journal.entries[0].recorded.samples, 2);
+        assert!(other.join(&name).exists());
     }
 
     /// A window writes over nothing: names on the disk and names that were promised are passed over.

@@ -191,6 +191,9 @@ impl RigWindow {
 
     /// Has a course pressed and recorded.
     fn press(&mut self, course: &Course) {
+        if !self.can_record() {
+            return;
+        }
         if let Behind::Live(live) = &mut self.behind {
             let specimen = (&self.header, self.place);
             let commission = self.journal.ask(course, &self.settings, specimen);
@@ -199,9 +202,22 @@ impl RigWindow {
         }
     }
 
+    /// Memory keeps one recording that could not be written; the next waits until something becomes of it.
+    fn can_record(&mut self) -> bool {
+        let is_free = self.journal.unsaved.is_none();
+        if !is_free {
+            let notice = "record or discard the samples in memory first";
+            self.watch.notice = Some(notice.to_owned());
+        }
+        is_free
+    }
+
     /// Every stimulus as often as the protocol says, each as without a window: the tissue rests, is looked for,
     /// rests from that and is pressed.
     fn press_all(&mut self) {
+        if !self.can_record() {
+            return;
+        }
         let all: Vec<Course> = self.prepared.iter().flat_map(Prepared::repeated).collect();
         for course in all {
             for order in [Order::Rest, Order::Approach, Order::Rest] {

@@ -84,7 +84,11 @@ impl Watch {
             }
             News::Armed => self.fault = None,
             News::Recorded(number, recorded, rows) => journal.enter(number, recorded, &rows),
-            News::Unwritten(error) => self.notice = Some(error.to_string()),
+            // It could not even be begun.
+            News::Unwritten(unwritten) if unwritten.rows.is_empty() => {
+                self.notice = Some(unwritten.error.to_string());
+            }
+            News::Unwritten(unwritten) => journal.keep_unsaved(*unwritten),
         }
     }
 

@@ -1,6 +1,6 @@
 //! A task that is attempted: from reading what there is to do to how it was done.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use palpate_files::scene::{Goal, Task};
 use palpate_files::session::{Event, SessionRow};
@@ -24,6 +24,31 @@ pub(super) struct Attempt {
     pub(super) guidance: Option<Guidance>,
     /// What went wrong beside the touch.
     pub(super) trouble: Option<String>,
+    /// The recording, where it cannot be written.
+    pub(super) unsaved: Option<Unsaved>,
+}
+
+/// A recording that cannot be written where it was to be; its rows are in memory.
+pub(super) struct Unsaved {
+    /// Why, in a sentence.
+    pub(super) cause: String,
+    /// The folder where it shall be written instead, as it is typed.
+    pub(super) elsewhere: String,
+    /// Why it cannot be written there either.
+    pub(super) trouble: Option<String>,
+}
+
+impl Unsaved {
+    /// Of a session that was to be in `folder`; the same name where the program was started is suggested.
+    fn new(folder: Option<PathBuf>, cause: String) -> Self {
+        let name = folder.as_deref().and_then(Path::file_name);
+        let here = std::env::current_dir().unwrap_or_default();
+        Self {
+            cause,
+            elsewhere: here.join(name.unwrap_or_default()).display().to_string(),
+            trouble: None,
+        }
+    }
 }
 
 /// How far an attempt is.
@@ -72,6 +97,7 @@ impl Attempt {
             has_begun: false,
             task,
             trouble,
+            unsaved: None,
         }
     }
 
@@ -85,6 +111,7 @@ impl Attempt {
         self.performance = Performance::new(&self.task, &names(play));
         self.has_begun = false;
         self.guidance = None;
+        self.unsaved = None;
         if let Some(tutor) = &mut self.tutor {
             tutor.begin_anew();
         }
@@ -134,6 +161,7 @@ impl Attempt {
         if !matches!(self.phase, Phase::GoesOn(_)) || !self.has_begun {
             return false;
         }
+        self.check_recording(play);
         if let Some(tutor) = &mut self.tutor {
             self.guidance = Some(tutor.follow_snapshot(play.source.snapshot()));
         }
@@ -143,6 +171,37 @@ impl Attempt {
                 true
             }
             Status::GoesOn { .. } => false,
+        }
+    }
+
+    /// Takes over whether the recording can still be written.
+    fn check_recording(&mut self, play: &Play) {
+        if let (Phase::GoesOn(folder), None) = (&mut self.phase, &self.unsaved)
+            && let Some(unwritten) = play.source.unwritten()
+        {
+            self.unsaved = Some(Unsaved::new(folder.take(), unwritten.cause));
+        }
+    }
+
+    /// Records where somebody wants it instead, from the beginning on.
+    pub(super) fn record_elsewhere(&mut self, play: &mut Play) {
+        let Some(unsaved) = &mut self.unsaved else {
+            return;
+        };
+        let folder = PathBuf::from(unsaved.elsewhere.trim());
+        let written = Claim::of_folder(&folder, Overwrite::Refused)
+            .map_err(palpate_simulate::Error::from)
+            .and_then(|claim| SessionFolder::create(claim, (&play.scene, &play.simulation)))
+            .and_then(|writer| play.source.record_elsewhere(writer));
+        if let Err(error) = written {
+            unsaved.trouble = Some(error.to_string());
+            return;
+        }
+        self.unsaved = None;
+        match &mut self.phase {
+            Phase::GoesOn(own) => *own = Some(folder),
+            Phase::Over(done) => done.folder = Some(folder),
+            Phase::Reads => {}
         }
     }
 
@@ -179,8 +238,9 @@ impl Attempt {
             Phase::Reads | Phase::Over(_) => None,
         };
         if let Err(error) = play.source.end_recording() {
-            self.trouble = Some(format!("not recorded whole: {error}"));
-            folder = None;
+            let lost = folder.take();
+            let unsaved = || Unsaved::new(lost, error.to_string());
+            self.unsaved.get_or_insert_with(unsaved);
         }
         self.guidance = None;
         self.phase = Phase::Over(Box::new(Done {

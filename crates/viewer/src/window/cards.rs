@@ -5,7 +5,7 @@ use palpate_files::scene::Goal;
 use palpate_simulate::Stray;
 use palpate_simulate::performance::{Comparison, Measure, Status, outcome_words};
 
-use super::attempt::{Attempt, Done, Phase};
+use super::attempt::{Attempt, Done, Phase, Unsaved};
 use crate::style::{DEPTH, DOUBT, FAULT, FORCE, QUIET};
 
 /// What somebody wants of an attempt.
@@ -17,6 +17,8 @@ pub(super) enum Asked {
     End,
     /// To look at it again.
     Again,
+    /// To record it in another folder.
+    RecordElsewhere,
     /// To go back to the start screen.
     Home,
 }
@@ -32,19 +34,28 @@ pub(super) struct Around {
 const WHITE: Color32 = Color32::from_rgb(232, 235, 240);
 
 /// Shows the card of an attempt; what was asked by it.
-pub(super) fn show(ui: &Ui, attempt: &Attempt, around: &Around) -> Option<Asked> {
+pub(super) fn show(ui: &Ui, attempt: &mut Attempt, around: &Around) -> Option<Asked> {
     let mut asked = None;
+    let mut unsaved = attempt.unsaved.take();
     match &attempt.phase {
         Phase::Reads => card(ui, "task", Align2::CENTER_CENTER, 430.0, |ui| {
             reads(ui, attempt, around, &mut asked);
         }),
         Phase::GoesOn(folder) => card(ui, "goes on", Align2::CENTER_TOP, 360.0, |ui| {
-            goes_on(ui, attempt, folder.is_some(), &mut asked);
+            let badge = match (folder, &unsaved) {
+                (_, Some(_)) => Some(RichText::new("NOT RECORDED").strong().color(FAULT)),
+                (Some(_), None) => Some(RichText::new("recorded").small().color(FAULT)),
+                (None, None) => None,
+            };
+            goes_on(ui, attempt, badge, &mut asked);
+            not_recorded(ui, unsaved.as_mut(), &mut asked);
         }),
         Phase::Over(done) => card(ui, "over", Align2::CENTER_CENTER, 430.0, |ui| {
             over(ui, (attempt, done), around, &mut asked);
+            not_recorded(ui, unsaved.as_mut(), &mut asked);
         }),
     }
+    attempt.unsaved = unsaved;
     asked
 }
 
@@ -123,7 +134,7 @@ fn button(ui: &mut Ui, words: &str) -> egui::Response {
 }
 
 /// How far it is.
-fn goes_on(ui: &mut Ui, attempt: &Attempt, is_recorded: bool, asked: &mut Option<Asked>) {
+fn goes_on(ui: &mut Ui, attempt: &Attempt, badge: Option<RichText>, asked: &mut Option<Asked>) {
     ui.horizontal(|ui| {
         ui.label(RichText::new(title(attempt)).strong().color(WHITE));
         let left = attempt
@@ -141,8 +152,8 @@ fn goes_on(ui: &mut Ui, attempt: &Attempt, is_recorded: bool, asked: &mut Option
             if ui.small_button("End").on_hover_text("or Enter").clicked() {
                 *asked = Some(Asked::End);
             }
-            if is_recorded {
-                ui.label(RichText::new("recorded").small().color(FAULT));
+            if let Some(badge) = badge {
+                ui.label(badge);
             }
         });
     });
@@ -189,6 +200,24 @@ fn goes_on(ui: &mut Ui, attempt: &Attempt, is_recorded: bool, asked: &mut Option
         });
     }
     trouble(ui, attempt);
+}
+
+/// Why it is not recorded, and where it can be.
+fn not_recorded(ui: &mut Ui, unsaved: Option<&mut Unsaved>, asked: &mut Option<Asked>) {
+    let Some(unsaved) = unsaved else { return };
+    ui.add_space(4.0);
+    ui.label(RichText::new(&unsaved.cause).color(FAULT));
+    ui.label("The session is in memory, its first 20 minutes at least. Record all of it in another folder:");
+    ui.horizontal(|ui| {
+        if ui.button("Record there").clicked() {
+            *asked = Some(Asked::RecordElsewhere);
+        }
+        let field = egui::TextEdit::singleline(&mut unsaved.elsewhere);
+        ui.add(field.desired_width(f32::INFINITY));
+    });
+    if let Some(trouble) = &unsaved.trouble {
+        ui.label(RichText::new(trouble).small().color(FAULT));
+    }
 }
 
 /// A pull beside the wanted one.

@@ -3,7 +3,9 @@
 use std::time::{Duration, Instant};
 
 use palpate_files::SessionRow;
-use palpate_simulate::interactive::{Interaction, ModelReport, Order, Quality, Snapshot};
+use palpate_simulate::interactive::{
+    Interaction, ModelReport, Order, Quality, Snapshot, Unwritten,
+};
 use palpate_simulate::{Replay, SessionFolderWriter, Simulation};
 
 /// What a picture has time for [ms]: steps that are played again take their turn with the pictures.
@@ -89,6 +91,25 @@ impl Source {
     pub(super) fn record(&mut self, writer: SessionFolderWriter) {
         if let Self::Touched(interaction) = self {
             interaction.record(writer);
+        }
+    }
+
+    /// Why the rows of the recording can no longer be written, if they cannot.
+    pub(super) fn unwritten(&self) -> Option<Unwritten> {
+        match self {
+            Self::Touched(interaction) => interaction.unwritten(),
+            Self::Again(_) => None,
+        }
+    }
+
+    /// Writes the recording elsewhere, from its beginning on.
+    pub(super) fn record_elsewhere(
+        &mut self,
+        writer: SessionFolderWriter,
+    ) -> Result<(), palpate_simulate::Error> {
+        match self {
+            Self::Touched(interaction) => interaction.record_elsewhere(writer),
+            Self::Again(_) => Ok(()),
         }
     }
 

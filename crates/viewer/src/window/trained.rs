@@ -130,13 +130,19 @@ impl SimulatorWindow {
             preparing: self.preparing(),
             has_home: self.training.is_some(),
         };
-        let (Some(attempt), Some(_)) = (&self.attempt, &self.play) else {
+        let (Some(attempt), Some(play)) = (&mut self.attempt, &mut self.play) else {
             return;
         };
         match cards::show(ui, attempt, &around) {
             None => {}
             Some(Asked::Begin) => self.begin_attempt(),
             Some(Asked::End) => self.end_attempt(),
+            Some(Asked::RecordElsewhere) => {
+                attempt.record_elsewhere(play);
+                if attempt.is_over() && attempt.unsaved.is_none() {
+                    self.keep_result();
+                }
+            }
             Some(Asked::Home) => self.go_home(),
             Some(Asked::Again) => {
                 let folder = match &attempt.phase {

@@ -67,7 +67,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     output::text(table::of(&answer))?;
     for written in arguments.out.iter().chain(&arguments.report) {
-        output::text(format!("written: {}", written.display()))?;
+        output::line(format!("written: {}", written.display()))?;
     }
     output::warnings(&answer.warnings);
     Ok(())

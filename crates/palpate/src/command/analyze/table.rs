@@ -1,5 +1,6 @@
 use std::fmt::Write;
 
+use palpate_files::printable;
 use palpate_jobs::analyze::{Answer, FileAnswer, StaticAnswer};
 
 /// What was found, for people: forces in millinewtons, depths in millimetres.
@@ -15,7 +16,7 @@ pub(super) fn of(answer: &Answer) -> String {
             .organ
             .as_deref()
             .unwrap_or("recordings without an organ");
-        let _ = writeln!(text, "{name}, all recordings");
+        let _ = writeln!(text, "{}, all recordings", printable(name));
         for row in &organ.static_response {
             let _ = of_row(&mut text, row);
         }
@@ -24,7 +25,7 @@ pub(super) fn of(answer: &Answer) -> String {
 }
 
 fn of_file(text: &mut String, file: &FileAnswer) -> std::fmt::Result {
-    writeln!(text, "{}", file.file.display())?;
+    writeln!(text, "{}", printable(&file.file.display().to_string()))?;
     for row in &file.static_response {
         of_row(text, row)?;
     }

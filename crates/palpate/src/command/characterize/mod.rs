@@ -119,7 +119,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     output::text(table::of(&answer))?;
     let written = [&arguments.study, &arguments.report].into_iter().flatten();
     for path in arguments.files().chain(written) {
-        output::text(format!("written: {}", path.display()))?;
+        output::line(format!("written: {}", path.display()))?;
     }
     output::warnings(&doubts::for_people(&answer));
     Ok(())

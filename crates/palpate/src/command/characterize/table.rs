@@ -1,5 +1,6 @@
 use std::fmt::Write;
 
+use palpate_files::printable;
 use palpate_jobs::characterize::{Answer, Identified, Known, LawAnswer, Specimen};
 use palpate_jobs::{quantity, without_unit};
 
@@ -23,7 +24,11 @@ fn write(text: &mut String, specimen: &Specimen) -> std::fmt::Result {
     } else {
         "recordings"
     };
-    writeln!(text, "{} ({files} {recordings})", specimen.title)?;
+    writeln!(
+        text,
+        "{} ({files} {recordings})",
+        printable(&specimen.title)
+    )?;
     if let Some(modulus) = &specimen.lumped.mean_elastic_modulus {
         let value = plain("_pa", modulus.value, modulus.standard_deviation);
         let depth = plain("_m", modulus.depth_m, None);

@@ -1,6 +1,7 @@
 use std::fmt::Write as _;
 
 use palpate_devices::{Found, Kind, Origin, SelfTest};
+use palpate_files::printable;
 use serde::Serialize;
 
 use crate::failure::Failure;
@@ -96,7 +97,7 @@ impl Answer {
             let _ = device.write(&mut text);
         }
         for absent in &self.absent {
-            let _ = writeln!(text, "{}: {}", absent.kind, absent.why);
+            let _ = writeln!(text, "{}: {}", absent.kind, printable(&absent.why));
         }
         text
     }
@@ -123,7 +124,7 @@ impl Device {
     }
 
     fn write(&self, text: &mut String) -> std::fmt::Result {
-        writeln!(text, "{}: {}", self.kind, self.name)?;
+        writeln!(text, "{}: {}", self.kind, printable(&self.name))?;
         writeln!(
             text,
             "  forces     up to {} N, {} N for as long as one likes ({})",
@@ -135,7 +136,7 @@ impl Device {
             writeln!(text, "  workspace  {right:.0} × {up:.0} × {toward:.0} mm")?;
         }
         for remark in &self.remarks {
-            writeln!(text, "  {remark}")?;
+            writeln!(text, "  {}", printable(remark))?;
         }
         self.self_test
             .as_ref()

@@ -72,9 +72,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     output::warnings(&answer.warnings);
     for mended in &answer.mended {
-        output::text(mended)?;
+        output::line(mended)?;
     }
-    output::text(format!(
+    output::line(format!(
         "{} triangles written to {}, in {}",
         answer.written.triangles,
         answer.written.file.display(),

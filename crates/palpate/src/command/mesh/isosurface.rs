@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use palpate_files::{Claim, Overwrite};
+use palpate_files::{Claim, Overwrite, printable};
 use palpate_geometry::{
     IsosurfaceSettings, Label, LabelMap, LengthUnit, isosurface, read_label_map,
 };
@@ -205,7 +205,7 @@ impl Answer {
                 format!(
                     "{:>6}  {:<28} {:>10} voxels {:>10.1} ml\n",
                     label.number,
-                    label.name.as_deref().unwrap_or("(no name)"),
+                    printable(label.name.as_deref().unwrap_or("(no name)")),
                     label.voxels,
                     1e6 * label.volume_m3
                 )

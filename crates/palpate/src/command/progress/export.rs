@@ -1,5 +1,7 @@
 //! Every measure of every attempt in a row of its own.
 
+use palpate_files::text_cell;
+
 use super::course::{Course, Made};
 use crate::date;
 use crate::failure::Failure;
@@ -20,7 +22,7 @@ const COLUMNS: [&str; 13] = [
     "proficient",
 ];
 
-/// The table; experts are not counted and not judged.
+/// The table, in which no text is a formula; experts are not counted and not judged.
 pub(super) fn csv(courses: &[Course<'_>]) -> Result<String, Failure> {
     let cannot = |error: csv::Error| {
         Failure::failed(format!(
@@ -43,7 +45,8 @@ pub(super) fn csv(courses: &[Course<'_>]) -> Result<String, Failure> {
             rows(course, 0, &own)
         });
         for row in made.chain(experts).flatten() {
-            writer.write_record(&row).map_err(cannot)?;
+            let cells = row.iter().map(|cell| text_cell(cell).into_owned());
+            writer.write_record(cells).map_err(cannot)?;
         }
     }
     let bytes = writer.into_inner();

@@ -96,7 +96,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let asked = arguments.trainee.is_some() || arguments.task.is_some();
     output::text(table::of(&courses, record.path(), asked))?;
     for written in arguments.csv.iter().chain(&arguments.report) {
-        output::text(format!("written: {}", written.display()))?;
+        output::line(format!("written: {}", written.display()))?;
     }
     output::warnings(&answer.warnings);
     Ok(())

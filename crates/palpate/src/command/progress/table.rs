@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use palpate_files::printable;
+
 use super::course::{Course, Learnt, Made, Trainee};
 use crate::date;
 use crate::report::{count, quantity, rounded, unit};
@@ -22,7 +24,7 @@ pub(super) fn of(courses: &[Course<'_>], record: &Path, asked: bool) -> String {
     for course in courses {
         text += &heading(course);
         for trainee in &course.trainees {
-            text += &format!("\n  {}: {}\n", trainee.name, standing(trainee));
+            text += &format!("\n  {}: {}\n", printable(trainee.name), standing(trainee));
             text += &columns(&attempts(trainee));
         }
         if course.trainees.len() > 1 {
@@ -45,7 +47,7 @@ pub(super) fn of(courses: &[Course<'_>], record: &Path, asked: bool) -> String {
 fn heading(course: &Course<'_>) -> String {
     format!(
         "{}: {} of {}, {}\n",
-        course.task,
+        printable(course.task),
         count(course.attempts(), "attempt"),
         count(course.trainees.len(), "trainee"),
         count(course.experts.len(), "session") + " of experts"
@@ -125,13 +127,13 @@ fn beside(course: &Course<'_>, trainee: &Trainee<'_>) -> String {
     for (standard, judged) in course.standards.each.iter().zip(&last.judgement.measures) {
         let (key, spread) = (&standard.key, standard.spread);
         rows.push(vec![
-            key.clone(),
+            printable(key).into_owned(),
             valued(key, judged.value),
             quantity(key, spread.mean, spread.standard_deviation),
             truth(judged.proficient),
         ]);
     }
-    let (name, number) = (trainee.name, trainee.attempts.len());
+    let (name, number) = (printable(trainee.name), trainee.attempts.len());
     format!("\n  {name}, attempt {number} beside the experts\n") + &columns(&rows)
 }
 

@@ -1,3 +1,4 @@
+use palpate_files::printable;
 use palpate_files::scene::Task;
 use palpate_simulate::performance::{Comparison, Outcome, Score, outcome_words};
 
@@ -5,7 +6,7 @@ use palpate_simulate::performance::{Comparison, Outcome, Score, outcome_words};
 pub(super) fn text(task: &Task, (score, compared): (&Score, &[Comparison])) -> String {
     let mut lines = Vec::new();
     if let Some(title) = &task.title {
-        lines.push(title.clone());
+        lines.push(printable(title).into_owned());
     }
     if score.outcome != Outcome::Free {
         lines.push(outcome_words(&score.outcome));
@@ -19,7 +20,11 @@ pub(super) fn text(task: &Task, (score, compared): (&Score, &[Comparison])) -> S
     };
     lines.push(heading);
     for measure in score.measures() {
-        let mut line = format!("{:32} {:>12}", measure.key, number(measure.value));
+        let mut line = format!(
+            "{:32} {:>12}",
+            printable(&measure.key),
+            number(measure.value)
+        );
         if let Some(own) = compared.iter().find(|own| own.measure.key == measure.key) {
             let or_dash = |value: Option<String>| value.unwrap_or_else(|| "-".to_owned());
             line += &format!(

@@ -223,7 +223,7 @@ fn play(arguments: &Arguments, played: &Played<'_>, out: &Path) -> Result<(), Fa
         output::json(&report)?;
     } else {
         output::text(report.text())?;
-        output::text(format!("recorded in {}", out.display()))?;
+        output::line(format!("recorded in {}", out.display()))?;
         output::warnings(report.warnings());
     }
     report.outcome()

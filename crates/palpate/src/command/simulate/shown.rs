@@ -34,7 +34,7 @@ pub(super) fn run(scene: Scene, resources: Resources) -> Result<(), Failure> {
     let settings = ServoSettings::default();
     let mut touch = Interaction::start_shown(simulation, devices.stations, settings, room)?;
     if let Some(room) = room {
-        output::text(format!("shown at {}, Ctrl-C ends it", room.address()))?;
+        output::line(format!("shown at {}, Ctrl-C ends it", room.address()))?;
     }
     // What nobody moves by hand is armed again by nobody either: a fault is told, and stays.
     let mut told = None;

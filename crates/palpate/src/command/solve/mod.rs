@@ -94,7 +94,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     output::text(in_words(&problem, &solution, &answer))?;
     for path in arguments.files() {
-        output::text(format!("written: {}", path.display()))?;
+        output::line(format!("written: {}", path.display()))?;
     }
     output::warnings(&answer.warnings);
     Ok(())
