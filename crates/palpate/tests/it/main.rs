@@ -9,6 +9,7 @@ mod arrows;
 mod closed_loop;
 mod devices;
 mod errors;
+mod limits;
 mod measure;
 mod mesh;
 mod mesh_info;
