@@ -62,14 +62,6 @@ impl Source<'_> {
             return Err(ReadFault::invalid_gltf(cause));
         }
         let count = accessor.count;
-        let most = 3 * MOST_TRIANGLES;
-        if count as u64 > most {
-            return Err(ReadFault::TooLarge {
-                what: "vertex numbers",
-                found: count as u64,
-                most,
-            });
-        }
         let start = view.byte_offset.saturating_add(accessor.byte_offset);
         let end = stride
             .saturating_mul(count.saturating_sub(1))
@@ -82,6 +74,14 @@ impl Source<'_> {
                 what: "a buffer of the glTF document",
                 expected: end as u64,
                 found: room as u64,
+            });
+        }
+        let most = 3 * MOST_TRIANGLES;
+        if count as u64 > most {
+            return Err(ReadFault::TooLarge {
+                what: "vertex numbers",
+                found: count as u64,
+                most,
             });
         }
         Ok((0..count).map(move |k| &bytes[start + k * stride..][..size]))
