@@ -81,31 +81,57 @@ const NEAR: f64 = 0.8;
 /// The one of `known` that `name` was probably meant to be: one or two letters off.
 pub(crate) fn near_miss<'k>(name: &str, known: &[&'k str]) -> Option<&'k str> {
     // Those of which no sum of letters rules it out; a table may have hundreds of thousands of names.
+    let letters = Letters::of(name);
     let possible: Vec<&str> = known
         .iter()
         .copied()
-        .filter(|known| most_alike(name, known) >= NEAR)
+        .filter(|known| most_alike(&letters, known) >= NEAR)
         .collect();
     nearest(name, &possible)
         .filter(|&(known, alike)| alike >= NEAR && known != name)
         .map(|(known, _)| known)
 }
 
-/// How alike two names can be at most, by how often each letter is in them [-]. Each edit removes one letter and adds
-/// one, at most.
-fn most_alike(name: &str, known: &str) -> f64 {
-    let mut surplus = [0i32; 256];
-    let mut lengths = [0, 0];
-    for (k, (text, sign)) in [(name, 1), (known, -1)].into_iter().enumerate() {
-        for letter in text.chars().flat_map(char::to_lowercase) {
-            surplus[u32::from(letter) as usize % 256] += sign;
-            lengths[k] += 1;
-        }
+/// How alike two names can be at most, by the letters that both have: each edit changes one at most [-].
+fn most_alike(name: &Letters, known: &str) -> f64 {
+    let length = known.chars().flat_map(char::to_lowercase).count();
+    let longest = length.max(name.length).max(1) as f64;
+    let by_length = length.min(name.length) as f64 / longest;
+    if by_length < NEAR {
+        return by_length;
     }
-    let removed: i32 = surplus.iter().filter(|s| **s > 0).sum();
-    let added: i32 = surplus.iter().filter(|s| **s < 0).map(|s| -s).sum();
-    let longest = lengths[0].max(lengths[1]).max(1);
-    1.0 - f64::from(removed.max(added)) / f64::from(longest)
+    let mut left = name.counts;
+    let mut shared = 0;
+    for letter in known.chars().flat_map(char::to_lowercase) {
+        let left = &mut left[place(letter)];
+        shared += u32::from(*left > 0);
+        *left = left.saturating_sub(1);
+    }
+    f64::from(shared) / longest
+}
+
+/// How often each letter is in a name; letters that are 256 apart count as one.
+struct Letters {
+    counts: [u32; 256],
+    length: usize,
+}
+
+impl Letters {
+    fn of(name: &str) -> Self {
+        let mut letters = Self {
+            counts: [0; 256],
+            length: 0,
+        };
+        for letter in name.chars().flat_map(char::to_lowercase) {
+            letters.counts[place(letter)] += 1;
+            letters.length += 1;
+        }
+        letters
+    }
+}
+
+fn place(letter: char) -> usize {
+    u32::from(letter) as usize % 256
 }
 
 #[cfg(test)]
@@ -145,7 +171,10 @@ mod tests {
                 }
                 let letters: String = letters.into_iter().collect();
                 let alike = strsim::normalized_damerau_levenshtein(&letters.to_lowercase(), name);
-                assert!(most_alike(&letters, name) >= alike, "{letters} {name}");
+                assert!(
+                    most_alike(&Letters::of(&letters), name) >= alike,
+                    "{letters} {name}"
+                );
             }
         }
     }
