@@ -3,6 +3,8 @@ use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use crate::words::shortened;
+
 /// Where something is wrong: a file and, when it is known, a line.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Place {
@@ -98,8 +100,7 @@ pub enum Error {
     },
     /// The text breaks the rules of TOML.
     #[error(
-        "{place}: this is not TOML: {message}; write `key = value`, with text in double quotes"
-    )]
+        "{place}: this is not TOML: {message}; write `key = value`, with text in double quotes", message = shortened(message))]
     Syntax {
         /// The line where reading stopped.
         place: Place,
@@ -117,8 +118,7 @@ pub enum Error {
     /// The document is in a format that this version does not read.
     #[error(
         "{place}: format is {found}, but this version reads format 1; \
-         set `format = 1` or use a newer version of palpate"
-    )]
+         set `format = 1` or use a newer version of palpate", found = shortened(found))]
     UnsupportedFormat {
         /// Where the format is stated.
         place: Place,
@@ -128,8 +128,7 @@ pub enum Error {
     /// A key that no document of this kind has.
     #[error(
         "{place}: the key `{key}` is not known here; \
-         the nearest known key is `{nearest}`, use it or remove the line"
-    )]
+         the nearest known key is `{nearest}`, use it or remove the line", key = shortened(key))]
     UnknownKey {
         /// Where the key is.
         place: Place,
@@ -139,7 +138,7 @@ pub enum Error {
         nearest: String,
     },
     /// A key or column whose name ends in a unit that does not fit or is not known.
-    #[error("{place}: the unit of `{key}` is not known here; use {accepted}")]
+    #[error("{place}: the unit of `{key}` is not known here; use {accepted}", key = shortened(key))]
     UnknownUnit {
         /// Where the key is.
         place: Place,
@@ -149,7 +148,7 @@ pub enum Error {
         accepted: String,
     },
     /// The same quantity twice, for instance in two units.
-    #[error("{place}: `{second}` is given although `{first}` is given too; keep one of them")]
+    #[error("{place}: `{second}` is given although `{first}` is given too; keep one of them", first = shortened(first), second = shortened(second))]
     GivenTwice {
         /// Where the second one is.
         place: Place,
@@ -159,7 +158,7 @@ pub enum Error {
         second: String,
     },
     /// A key that must be there is not.
-    #[error("{place}: `{key}` is missing; give {expected}")]
+    #[error("{place}: `{key}` is missing; give {expected}", key = shortened(key))]
     MissingKey {
         /// The table that lacks it.
         place: Place,
@@ -169,7 +168,7 @@ pub enum Error {
         expected: Cow<'static, str>,
     },
     /// A key or a field with a value that cannot be used.
-    #[error("{place}: `{key}` is {found}; give {expected}")]
+    #[error("{place}: `{key}` is {found}; give {expected}", key = shortened(key), found = shortened(found))]
     BadValue {
         /// Where the value is.
         place: Place,
@@ -181,7 +180,7 @@ pub enum Error {
         expected: Cow<'static, str>,
     },
     /// A table of numbers lacks a column.
-    #[error("{place}: the column `{column}` is missing among {found}; add it or correct its name")]
+    #[error("{place}: the column `{column}` is missing among {found}; add it or correct its name", found = shortened(found), column = shortened(column))]
     MissingColumn {
         /// The line with the names of the columns.
         place: Place,
@@ -192,8 +191,7 @@ pub enum Error {
     },
     /// No column of another program's table looks like a quantity.
     #[error(
-        "{place}: no column looks like the {quantity} among {found}; say which it is with --{quantity} NAME"
-    )]
+        "{place}: no column looks like the {quantity} among {found}; say which it is with --{quantity} NAME", found = shortened(found))]
     UnrecognizedColumn {
         /// The line with the names of the columns.
         place: Place,
@@ -204,8 +202,7 @@ pub enum Error {
     },
     /// Several columns of another program's table look like a quantity.
     #[error(
-        "{place}: the {quantity} may be {found}; say which it is, as in --{quantity} \"{first}\""
-    )]
+        "{place}: the {quantity} may be {found}; say which it is, as in --{quantity} \"{first}\"", found = shortened(found), first = shortened(first))]
     AmbiguousColumn {
         /// The line with the names of the columns.
         place: Place,
@@ -217,7 +214,7 @@ pub enum Error {
         first: String,
     },
     /// A row that does not fit the columns.
-    #[error("{place}: found {found}; give {expected}")]
+    #[error("{place}: found {found}; give {expected}", found = shortened(found))]
     BadRow {
         /// The line of the row.
         place: Place,
@@ -235,8 +232,7 @@ pub enum Error {
     /// Times that stand still or go back.
     #[error(
         "{place}: `{column}` is {found} after {previous}; \
-         sort the rows so that the time grows from each to the next"
-    )]
+         sort the rows so that the time grows from each to the next", found = shortened(found), column = shortened(column), previous = shortened(previous))]
     TimeNotIncreasing {
         /// The line of the row.
         place: Place,
@@ -247,6 +243,16 @@ pub enum Error {
         /// The time before it, as written.
         previous: String,
     },
+    /// A stored response that takes more memory than may be taken, or than there is.
+    #[error("{path} takes {} of memory, and {} may be taken; close other programs, or delete the file, and it is made again when it is needed", gigabytes(*bytes), gigabytes(*memory as u64), path = path.display())]
+    NoMemoryForResponse {
+        /// The file.
+        path: PathBuf,
+        /// What it takes [bytes].
+        bytes: u64,
+        /// What may be taken [bytes].
+        memory: usize,
+    },
     /// A stored response that cannot be used.
     #[error("{path} is damaged: {what}; delete it, and it is made again when it is needed", path = path.display())]
     DamagedResponse {
@@ -256,7 +262,7 @@ pub enum Error {
         what: String,
     },
     /// Values made by a program, not read from a file, that no document can hold.
-    #[error("{what} is {found}; give {expected}")]
+    #[error("{what} is {found}; give {expected}", found = shortened(found))]
     BadContent {
         /// What the value is, such as `force_n of sample 3`.
         what: String,
@@ -267,13 +273,19 @@ pub enum Error {
     },
 }
 
+fn gigabytes(bytes: u64) -> String {
+    format!("{:.2} GB", 1e-9 * bytes as f64)
+}
+
 impl Error {
     /// Whether the input is at fault: true for a file that must be mended or a name that must be
     /// corrected (exit status 2), false for a failure such as a full disk (exit status 1).
     pub fn is_input(&self) -> bool {
         match self {
             Self::Read { source, .. } | Self::Write { source, .. } => names_wrong_path(source),
-            Self::BadContent { .. } | Self::InUse { .. } => false,
+            Self::BadContent { .. } | Self::InUse { .. } | Self::NoMemoryForResponse { .. } => {
+                false
+            }
             _ => true,
         }
     }

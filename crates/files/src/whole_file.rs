@@ -63,12 +63,8 @@ pub const MOST_OF_DOCUMENT: u64 = 4 << 20;
 /// has 1.4 GB.
 pub const MOST_OF_TABLE: u64 = 2 << 30;
 
-/// The bytes of a regular file of at most `most` bytes. What is none, a device or a pipe, may never end.
-///
-/// # Errors
-/// When it is no regular file, larger, or the operating system refuses.
-pub fn read_bytes(path: impl AsRef<Path>, most: u64) -> Result<Vec<u8>, Error> {
-    let path = path.as_ref();
+/// Opens a regular file for reading. What is none, a device or a pipe, may never end.
+pub(crate) fn open_regular(path: &Path) -> Result<File, Error> {
     let refused = |source| Error::read(path, source);
     // Before it is opened: opening a pipe waits for its writer.
     let metadata = fs::metadata(path).map_err(refused)?;
@@ -79,16 +75,30 @@ pub fn read_bytes(path: impl AsRef<Path>, most: u64) -> Result<Vec<u8>, Error> {
         let path = path.to_owned();
         return Err(Error::NotAFile { path });
     }
+    File::open(path).map_err(refused)
+}
+
+/// The bytes of a regular file of at most `most` bytes.
+///
+/// # Errors
+/// When it is no regular file, larger, or the operating system refuses.
+pub fn read_bytes(path: impl AsRef<Path>, most: u64) -> Result<Vec<u8>, Error> {
+    let path = path.as_ref();
+    let refused = |source| Error::read(path, source);
+    let file = open_regular(path)?;
+    let length = file.metadata().map_err(refused)?.len();
     let mut bytes = Vec::new();
     let too_large = |bytes: u64| Error::TooLarge {
         path: path.to_owned(),
         bytes,
         most,
     };
-    if metadata.len() > most {
-        return Err(too_large(metadata.len()));
+    if length > most {
+        return Err(too_large(length));
     }
-    let file = File::open(path).map_err(refused)?;
+    bytes
+        .try_reserve_exact(length as usize)
+        .map_err(|_| refused(io::ErrorKind::OutOfMemory.into()))?;
     // It may grow meanwhile.
     file.take(most + 1)
         .read_to_end(&mut bytes)

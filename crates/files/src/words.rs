@@ -1,4 +1,6 @@
-//! Words of the documents: enumerations that are written as text, and lists in sentences.
+//! Words of the documents: enumerations that are written as text, and lists and quotations in sentences.
+
+use std::borrow::Cow;
 
 /// An enumeration whose variants are written as words: `FromStr` without an error type of its own.
 macro_rules! words {
@@ -38,6 +40,17 @@ macro_rules! words {
 
 pub(crate) use words;
 
+/// What an error quotes of a file at most [characters]: a damaged file may have megabytes on one line.
+const LONGEST_QUOTATION: usize = 200;
+
+/// A text as an error quotes it: one that is longer than 200 characters is cut there, and its length told.
+pub(crate) fn shortened(text: &str) -> Cow<'_, str> {
+    match text.char_indices().nth(LONGEST_QUOTATION) {
+        None => Cow::Borrowed(text),
+        Some((end, _)) => Cow::Owned(format!("{}… ({} bytes)", &text[..end], text.len())),
+    }
+}
+
 /// "a", "a or b", "a, b or c".
 pub(crate) fn either(names: &[impl AsRef<str>]) -> String {
     let names: Vec<&str> = names.iter().map(AsRef::as_ref).collect();
@@ -50,7 +63,11 @@ pub(crate) fn either(names: &[impl AsRef<str>]) -> String {
 
 /// The one of `known` that looks most like `name`, and how alike they are (1 is equal) [-].
 pub(crate) fn nearest<'k>(name: &str, known: &[&'k str]) -> Option<(&'k str, f64)> {
-    let name = name.to_lowercase();
+    // What follows is not looked at: the time grows with the length.
+    let name = match name.char_indices().nth(LONGEST_QUOTATION) {
+        None => name.to_lowercase(),
+        Some((end, _)) => name[..end].to_lowercase(),
+    };
     known
         .iter()
         .map(|known| (*known, strsim::normalized_damerau_levenshtein(&name, known)))
@@ -58,11 +75,63 @@ pub(crate) fn nearest<'k>(name: &str, known: &[&'k str]) -> Option<(&'k str, f64
         .reduce(|best, next| if next.1 > best.1 { next } else { best })
 }
 
+/// How alike a misspelled name is to the one that was meant, at least (1 is equal) [-].
+const NEAR: f64 = 0.8;
+
 /// The one of `known` that `name` was probably meant to be: one or two letters off.
 pub(crate) fn near_miss<'k>(name: &str, known: &[&'k str]) -> Option<&'k str> {
-    nearest(name, known)
-        .filter(|&(known, alike)| alike >= 0.8 && known != name)
+    // Those of which no sum of letters rules it out; a table may have hundreds of thousands of names.
+    let letters = Letters::of(name);
+    let possible: Vec<&str> = known
+        .iter()
+        .copied()
+        .filter(|known| most_alike(&letters, known) >= NEAR)
+        .collect();
+    nearest(name, &possible)
+        .filter(|&(known, alike)| alike >= NEAR && known != name)
         .map(|(known, _)| known)
+}
+
+/// How alike two names can be at most, by the letters that both have: each edit changes one at most [-].
+fn most_alike(name: &Letters, known: &str) -> f64 {
+    let length = known.chars().flat_map(char::to_lowercase).count();
+    let longest = length.max(name.length).max(1) as f64;
+    let by_length = length.min(name.length) as f64 / longest;
+    if by_length < NEAR {
+        return by_length;
+    }
+    let mut left = name.counts;
+    let mut shared = 0;
+    for letter in known.chars().flat_map(char::to_lowercase) {
+        let left = &mut left[place(letter)];
+        shared += u32::from(*left > 0);
+        *left = left.saturating_sub(1);
+    }
+    f64::from(shared) / longest
+}
+
+/// How often each letter is in a name; letters that are 256 apart count as one.
+struct Letters {
+    counts: [u32; 256],
+    length: usize,
+}
+
+impl Letters {
+    fn of(name: &str) -> Self {
+        let mut letters = Self {
+            counts: [0; 256],
+            length: 0,
+        };
+        for letter in name.chars().flat_map(char::to_lowercase) {
+            letters.counts[place(letter)] += 1;
+            letters.length += 1;
+        }
+        letters
+    }
+}
+
+fn place(letter: char) -> usize {
+    u32::from(letter) as usize % 256
 }
 
 #[cfg(test)]
@@ -80,6 +149,42 @@ mod tests {
         assert_eq!(near_miss("gripp", &known), Some("grip"));
         assert_eq!(near_miss("grip", &known), None);
         assert_eq!(near_miss("operator", &known), None);
+    }
+
+    /// Judge: the distance itself, on names of all kinds.
+    #[test]
+    fn no_near_miss_is_ruled_out() {
+        let known = ["indenter_radius_m", "grip", "qx", "time_s", "Ångström"];
+        let mut random = 1u64;
+        for name in known {
+            for _ in 0..200 {
+                let mut letters: Vec<char> = name.chars().collect();
+                for _ in 0..1 + random % 3 {
+                    random = random.wrapping_mul(6364136223846793005).wrapping_add(1);
+                    let at = (random >> 33) as usize % letters.len();
+                    match random >> 60 {
+                        0..5 => letters[at] = 'x',
+                        5..10 => letters.insert(at, 'é'),
+                        _ if letters.len() > 1 => drop(letters.remove(at)),
+                        _ => {}
+                    }
+                }
+                let letters: String = letters.into_iter().collect();
+                let alike = strsim::normalized_damerau_levenshtein(&letters.to_lowercase(), name);
+                assert!(
+                    most_alike(&Letters::of(&letters), name) >= alike,
+                    "{letters} {name}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn quotations_are_short() {
+        assert_eq!(shortened("é"), "é");
+        let long = "é".repeat(5_000_000);
+        assert!(shortened(&long).len() < 500);
+        assert!(shortened(&long).ends_with("… (10000000 bytes)"));
     }
 
     #[test]

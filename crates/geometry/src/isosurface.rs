@@ -14,14 +14,22 @@
 //! volume and not its thickness. Slices much thicker than their voxels are wide leave flats that are
 //! too wide to be smoothed. A label of a few voxels may miss its volume.
 
+mod bits;
 mod block;
 mod contour;
 mod smooth;
 
+use std::ops::ControlFlow;
+
 use self::block::Block;
 use crate::{
-    LabelMap, NodeId, Simplified, SimplifyError, SimplifySettings, TriangleMesh, Vec3, simplify,
+    LabelMap, NodeId, Simplified, SimplifyError, SimplifySettings, TriangleMesh, Vec3,
+    simplify_with_progress,
 };
+
+/// Triangles that the surface of the voxels may have before it is simplified. The liver in a whole-body scan has a
+/// million; four take 2.5 GB, and minutes.
+pub const MOST_VOXEL_TRIANGLES: usize = 4_000_000;
 
 /// How [`isosurface`] works.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -69,35 +77,70 @@ pub enum IsosurfaceError {
         /// What there is, as a list.
         present: String,
     },
+    /// More triangles than are simplified: noise, a sponge, or very small voxels.
+    #[error(
+        "the surface of the label {label} has more than {MOST_VOXEL_TRIANGLES} triangles before it is simplified; take larger voxels, or remove noise from the segmentation"
+    )]
+    TooLarge {
+        /// The label.
+        label: u16,
+    },
     /// See there.
     #[error(transparent)]
     Simplify(#[from] SimplifyError),
 }
 
+/// Part of the work that is done when the surface of the voxels is found [-].
+const FOUND: f64 = 0.1;
+
 /// The surface of `label` in `map`: closed, manifold and in one piece.
 ///
 /// # Errors
-/// When no voxel has the label, or fewer than four triangles are asked for.
+/// When no voxel has the label, its surface has more than [`MOST_VOXEL_TRIANGLES`], or fewer than four triangles are
+/// asked for.
 pub fn isosurface(
     map: &LabelMap,
     label: u16,
     settings: &IsosurfaceSettings,
 ) -> Result<Isosurface, IsosurfaceError> {
+    isosurface_with_progress(map, label, settings, &mut |_| ControlFlow::Continue(()))
+}
+
+/// The same. `progress` hears the part of the work that is done, from 0 to 1 [-], and may cancel it.
+///
+/// # Errors
+/// As [`isosurface`], and when the work is cancelled.
+pub fn isosurface_with_progress(
+    map: &LabelMap,
+    label: u16,
+    settings: &IsosurfaceSettings,
+    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Isosurface, IsosurfaceError> {
+    let mut at = |part| match progress(part) {
+        ControlFlow::Continue(()) => Ok(()),
+        ControlFlow::Break(()) => Err(SimplifyError::Cancelled),
+    };
     let block = Block::of(map, label).filter(|_| label != 0);
     let mut block = block.ok_or_else(|| IsosurfaceError::Absent {
         label,
         present: present(map),
     })?;
+    at(0.1 * FOUND)?;
     let all = block.count();
     let other_pieces = block.keep_largest();
     let kept = block.count();
+    at(0.4 * FOUND)?;
     let filled_voxels = block.fill_hollows();
+    at(0.7 * FOUND)?;
     let voxel_volume = (kept + filled_voxels) as f64 * map.voxel_volume();
     let fine = smooth_surface(map, &block, settings.smoothing, voxel_volume);
+    let fine = fine.ok_or(IsosurfaceError::TooLarge { label })?;
+    at(FOUND)?;
     let triangles = settings.triangles.min(fine.triangles().len() / 2).max(4);
-    let simplified = simplify(
+    let simplified = simplify_with_progress(
         &fine,
         &SimplifySettings::to(triangles.min(settings.triangles)),
+        &mut |part| progress(FOUND + (1.0 - FOUND) * part),
     )?;
     Ok(Isosurface {
         simplified,
@@ -122,9 +165,14 @@ fn present(map: &LabelMap) -> String {
     }
 }
 
-/// The surface with all triangles of the voxels [m], of their volume.
-fn smooth_surface(map: &LabelMap, block: &Block, rounds: usize, volume: f64) -> TriangleMesh {
-    let (mut vertices, mut triangles) = contour::contour(block);
+/// The surface with all triangles of the voxels [m], of their volume; none when there are too many.
+fn smooth_surface(
+    map: &LabelMap,
+    block: &Block,
+    rounds: usize,
+    volume: f64,
+) -> Option<TriangleMesh> {
+    let (mut vertices, mut triangles) = contour::contour(block, MOST_VOXEL_TRIANGLES)?;
     smooth::smooth(&mut vertices, &triangles, rounds);
     let first = Vec3::from(block.first.map(|index| index as f64));
     for vertex in &mut vertices {
@@ -136,7 +184,7 @@ fn smooth_surface(map: &LabelMap, block: &Block, rounds: usize, volume: f64) -> 
     let mesh = TriangleMesh::new(vertices, triangles);
     let mesh = mesh.expect("voxels have finite places, and one voxel has triangles");
     let most = map.spacing().into_iter().fold(f64::INFINITY, f64::min);
-    with_volume(mesh, volume, 0.25 * most)
+    Some(with_volume(mesh, volume, 0.25 * most))
 }
 
 /// The mesh moved along its normals until it has this volume [m³], by at most `most` [m] at a time: a

@@ -39,7 +39,10 @@ pub use io::volume::{ImportedTetrahedra, VolumeFormat, read_tetrahedra};
 pub use io::vtk;
 pub use io::write::WriteFormat;
 pub use io::{ImportedMesh, read_mesh};
-pub use isosurface::{Isosurface, IsosurfaceError, IsosurfaceSettings, isosurface};
+pub use isosurface::{
+    Isosurface, IsosurfaceError, IsosurfaceSettings, MOST_VOXEL_TRIANGLES, isosurface,
+    isosurface_with_progress,
+};
 pub use label_map::{Label, LabelMap};
 pub use mesh::adjacency::Adjacency;
 pub use mesh::error::MeshError;
@@ -50,7 +53,9 @@ pub use organ::{AnchorPlane, Organ, OrganDescription, OrganError};
 pub use patch_field::{Patch, PatchField};
 pub use proximity::{PointOnTriangle, closest_on_triangle};
 pub use refine::{Focus, Resolved, refine_near, refine_to, refine_uniformly, resolve_sphere};
-pub use simplify::{Simplified, SimplifyError, SimplifySettings, simplify, simplify_graded};
+pub use simplify::{
+    Simplified, SimplifyError, SimplifySettings, simplify, simplify_graded, simplify_with_progress,
+};
 pub use surface::{SHARP_EDGE, Surface};
 pub use weld::{Repairs, repair, weld_exactly};
 

@@ -24,6 +24,8 @@ mod quadric;
 mod reference;
 mod relax;
 
+use std::ops::ControlFlow;
+
 use self::net::Net;
 use self::reference::Reference;
 use crate::check::self_intersection::count_self_intersections;
@@ -89,6 +91,9 @@ pub enum SimplifyError {
         /// What was given.
         found: f64,
     },
+    /// The caller asked for it.
+    #[error("the simplification was cancelled; start it again")]
+    Cancelled,
 }
 
 /// The surface of `mesh` with fewer triangles, at most as many as asked for. A mesh that has so few
@@ -100,8 +105,23 @@ pub fn simplify(
     mesh: &TriangleMesh,
     settings: &SimplifySettings,
 ) -> Result<Simplified, SimplifyError> {
+    simplify_with_progress(mesh, settings, &mut |_| ControlFlow::Continue(()))
+}
+
+/// The same. `progress` hears the part of the work that is done, from 0 to 1 [-], and may cancel it.
+///
+/// # Errors
+/// When fewer than four triangles are asked for, or the work is cancelled.
+pub fn simplify_with_progress(
+    mesh: &TriangleMesh,
+    settings: &SimplifySettings,
+    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Simplified, SimplifyError> {
     check(settings)?;
-    Ok(reduced(mesh, settings, None))
+    match reduced(mesh, settings, None, progress) {
+        ControlFlow::Continue(simplified) => Ok(simplified),
+        ControlFlow::Break(()) => Err(SimplifyError::Cancelled),
+    }
 }
 
 /// The same with triangles that are smaller in some places than in others: as `sizes` are at the vertices of `mesh`,
@@ -127,7 +147,12 @@ pub fn simplify_graded(
     {
         return Err(SimplifyError::NotASize { found });
     }
-    Ok(reduced(mesh, settings, Some(sizes)))
+    match reduced(mesh, settings, Some(sizes), &mut |_| {
+        ControlFlow::Continue(())
+    }) {
+        ControlFlow::Continue(simplified) => Ok(simplified),
+        ControlFlow::Break(()) => Err(SimplifyError::Cancelled),
+    }
 }
 
 fn check(settings: &SimplifySettings) -> Result<(), SimplifyError> {
@@ -137,18 +162,35 @@ fn check(settings: &SimplifySettings) -> Result<(), SimplifyError> {
     }
 }
 
-fn reduced(mesh: &TriangleMesh, settings: &SimplifySettings, sizes: Option<&[f64]>) -> Simplified {
+/// Parts of the work after which edges are collapsed, and after which vertices are moved [-].
+const COLLAPSED: f64 = 0.75;
+const RELAXED: f64 = 0.9;
+
+fn reduced(
+    mesh: &TriangleMesh,
+    settings: &SimplifySettings,
+    sizes: Option<&[f64]>,
+    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> ControlFlow<(), Simplified> {
     let tree = AabbTree::new(mesh);
     let mut net = Net::new(mesh);
     if net.live() > settings.triangles {
-        let on_crease = collapse::collapse(&mut net, settings, sizes);
-        relax::relax(&mut net, &Reference { mesh, tree: &tree }, &on_crease);
+        let on_crease = collapse::collapse(&mut net, settings, sizes, &mut |part| {
+            progress(COLLAPSED * part)
+        })?;
+        let reference = Reference { mesh, tree: &tree };
+        relax::relax(&mut net, &reference, &on_crease, &mut |part| {
+            progress(COLLAPSED + (RELAXED - COLLAPSED) * part)
+        })?;
     }
+    progress(RELAXED)?;
     let simplified = net.mesh();
-    Simplified {
-        of_original: deviation_with_tree(mesh, &simplified, &AabbTree::new(&simplified)),
+    let of_original = deviation_with_tree(mesh, &simplified, &AabbTree::new(&simplified));
+    progress(0.5 * (1.0 + RELAXED))?;
+    ControlFlow::Continue(Simplified {
+        of_original,
         of_result: deviation_with_tree(&simplified, mesh, &tree),
         self_intersections: count_self_intersections(&simplified),
         mesh: simplified,
-    }
+    })
 }

@@ -20,7 +20,9 @@ pub mod characterize;
 mod cores;
 mod error;
 pub mod label;
+mod lossy;
 pub mod measure;
+pub mod memory;
 mod nearest;
 pub mod plot;
 pub mod preparation;
@@ -31,6 +33,7 @@ mod watch;
 
 pub use cores::on_all_cores;
 pub use error::Error;
+pub use lossy::{LossyPath, lossy};
 pub use nearest::nearest;
 pub use quantity::{Scale, quantity, rounded, unit, without_unit};
 pub use recordings::{ReadRecording, Recordings, Unusable, hexadecimal};

@@ -49,6 +49,7 @@ pub struct ReadRecording {
 #[derive(Debug, Clone, Serialize)]
 pub struct Unusable {
     /// As it was named.
+    #[serde(serialize_with = "crate::lossy")]
     pub file: PathBuf,
     /// Why; it names the file or not.
     pub reason: String,

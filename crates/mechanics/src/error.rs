@@ -342,6 +342,14 @@ pub enum Error {
     /// Nothing keeps the tube from moving aside.
     #[error("the tube's ends are guided, so that a punch pushes it away; hold them")]
     GuidedEnds,
+    /// The system gives less memory than may be used.
+    #[error(
+        "the system has no {} of memory left for the response; close other programs, or give fewer triangles, or fewer that can be touched", gigabytes(*bytes)
+    )]
+    NoMemory {
+        /// What was asked for [bytes].
+        bytes: usize,
+    },
     /// More memory than may be used.
     #[error(
         "the response takes {} of memory and {} may be used; give fewer triangles, or fewer that can be touched", gigabytes(*needed), gigabytes(*memory)

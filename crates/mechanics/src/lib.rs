@@ -18,6 +18,7 @@ mod material;
 pub mod surface_response;
 mod tip_law;
 
+pub use cores::{on_all_cores, threads_were_refused};
 pub use error::Error;
 pub use indentation_curve::IndentationCurve;
 pub use limits::{Limit, Limits, Reached};

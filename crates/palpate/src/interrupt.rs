@@ -2,10 +2,12 @@
 //! that writes its files at its end is ended between files, never within one.
 
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
+use std::sync::{Arc, Barrier, Mutex, MutexGuard, OnceLock, PoisonError};
 use std::time::Duration;
 
 use signal_hook::consts::{SIGINT, SIGTERM};
+
+use crate::output;
 
 /// Whether the command ends by itself, and nobody else shall stop.
 static ENDS_ITSELF: AtomicBool = AtomicBool::new(false);
@@ -63,18 +65,31 @@ static WRITING: Mutex<()> = Mutex::new(());
 /// Exit status after a signal: a failure.
 const INTERRUPTED: i32 = 1;
 
-/// From now on a signal waits for files that are being written, then ends the program after `farewell`.
+/// From now on a signal waits for files that are being written, then ends the program after `farewell`. Where the
+/// system gives no thread to wait for it, a signal ends the program at once, as without this.
 pub(crate) fn ends_between_files(farewell: impl Fn() + Send + 'static) {
-    ENDS_ITSELF.store(true, Ordering::Relaxed);
-    was_sent();
-    std::thread::spawn(move || {
+    let begins = Arc::new(Barrier::new(2));
+    let begun = begins.clone();
+    let wait = move || {
+        begun.wait();
         while !was_sent() {
             std::thread::sleep(LOOK);
         }
         let _between = WRITING.lock().unwrap_or_else(PoisonError::into_inner);
         farewell();
         std::process::exit(INTERRUPTED);
-    });
+    };
+    if std::thread::Builder::new().spawn(wait).is_err() {
+        output::warnings(&[
+            "the system gives no thread; Ctrl-C ends the command at once, also within a file"
+                .to_owned(),
+        ]);
+        return;
+    }
+    // Signals are caught from here on, and not before there is somebody who hears them.
+    ENDS_ITSELF.store(true, Ordering::Relaxed);
+    was_sent();
+    begins.wait();
 }
 
 /// While it lives, files are written.

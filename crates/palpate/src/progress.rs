@@ -2,6 +2,8 @@
 //!
 //! Nothing is drawn when standard error is no terminal, or when a machine reads the answer.
 
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::thread::Builder;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -31,7 +33,11 @@ impl Reader {
 }
 
 /// Drawn from its making until it is dropped.
-pub(crate) struct Progress(ProgressBar);
+pub(crate) struct Progress {
+    bar: ProgressBar,
+    /// Turns the spinner until its other end is dropped.
+    _turning: Option<Sender<()>>,
+}
 
 impl Progress {
     /// A bar over `steps` steps, or a spinner when their number is not known.
@@ -49,8 +55,10 @@ impl Progress {
         if let Ok(style) = ProgressStyle::with_template(template) {
             bar.set_style(style);
         }
-        bar.enable_steady_tick(TURN);
-        Self(bar)
+        Self {
+            _turning: turning(&bar),
+            bar,
+        }
     }
 
     /// A bar over the parts of one long work, with the time that is left.
@@ -58,7 +66,7 @@ impl Progress {
         let bar = Self::new(reader, Some(PARTS));
         let template = "{spinner} {bar:30} {percent:>3} % {msg}, {eta} left";
         if let Ok(style) = ProgressStyle::with_template(template) {
-            bar.0.set_style(style);
+            bar.bar.set_style(style);
         }
         bar
     }
@@ -68,36 +76,52 @@ impl Progress {
         let bar = Self::new(reader, Some(PARTS));
         let template = "{spinner} {bar:30} {percent:>3} % {wide_msg}";
         if let Ok(style) = ProgressStyle::with_template(template) {
-            bar.0.set_style(style);
+            bar.bar.set_style(style);
         }
         bar
     }
 
     /// Says what is being done now.
     pub(crate) fn say(&self, doing: impl Into<String>) {
-        self.0.set_message(printable(&doing.into()).into_owned());
+        self.bar.set_message(printable(&doing.into()).into_owned());
     }
 
     /// One step of the bar is done.
     pub(crate) fn step(&self) {
-        self.0.inc(1);
+        self.bar.inc(1);
     }
 
     /// Sets how many steps of the bar are done.
     pub(crate) fn at(&self, step: u64) {
-        self.0.set_position(step);
+        self.bar.set_position(step);
     }
+}
+
+/// Turns the spinner on a thread; none when nobody sees it, or when the system gives no thread: then it turns when there
+/// is something new.
+fn turning(bar: &ProgressBar) -> Option<Sender<()>> {
+    if bar.is_hidden() {
+        return None;
+    }
+    let (turning, ended) = channel::<()>();
+    let bar = bar.clone();
+    let turn = move || {
+        while ended.recv_timeout(TURN) == Err(RecvTimeoutError::Timeout) {
+            bar.tick();
+        }
+    };
+    Builder::new().spawn(turn).ok().map(|_| turning)
 }
 
 /// Ctrl-C asks a job to stop; a job whose command ends between files by itself asks nobody.
 impl Watch for Progress {
     fn say(&self, doing: &str) {
-        self.0.set_message(printable(doing).into_owned());
+        self.bar.set_message(printable(doing).into_owned());
     }
 
     fn at(&self, part: f64) {
-        if let Some(steps) = self.0.length() {
-            self.0.set_position((part * steps as f64).round() as u64);
+        if let Some(steps) = self.bar.length() {
+            self.bar.set_position((part * steps as f64).round() as u64);
         }
     }
 
@@ -113,6 +137,6 @@ impl Watch for Progress {
 
 impl Drop for Progress {
     fn drop(&mut self) {
-        self.0.finish_and_clear();
+        self.bar.finish_and_clear();
     }
 }

@@ -55,6 +55,7 @@ pub(crate) struct Report {
     #[serde(skip_serializing_if = "Option::is_none")]
     incomplete: Option<String>,
     warnings: Vec<String>,
+    #[serde(serialize_with = "palpate_jobs::lossy")]
     files: Vec<PathBuf>,
 }
 

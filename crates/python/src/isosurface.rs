@@ -1,9 +1,10 @@
 //! Surfaces of the labels of a segmented volume.
 
+use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use palpate_geometry::{
-    IsosurfaceSettings, Label, LabelMap, isosurface as surface_of, read_label_map,
+    IsosurfaceSettings, Label, LabelMap, isosurface_with_progress as surface_of, read_label_map,
 };
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -99,7 +100,17 @@ fn surfaces(
         }
         told.say(format!("the surface of {}", label::in_words(label)));
         told.at(number as f64 / labels.len() as f64);
-        let found = surface_of(map, label.number, settings)?;
+        let found = surface_of(map, label.number, settings, &mut |part| {
+            told.at((number as f64 + part) / labels.len() as f64);
+            match told.is_asked_to_stop() {
+                true => ControlFlow::Break(()),
+                false => ControlFlow::Continue(()),
+            }
+        });
+        let found = match found {
+            Err(_) if told.is_asked_to_stop() => return Err(Failure::BrokenOff),
+            found => found?,
+        };
         let mut warnings = map.warnings().to_vec();
         warnings.extend(label::doubts(label, &found));
         let is_alone = labels

@@ -160,10 +160,21 @@ pub(crate) fn waiting<T: Send>(
     listener.look(py, &told)?;
     let (outcome, raised) = py.detach(|| {
         thread::scope(|scope| {
-            let worker = scope.spawn(|| {
+            let work = || {
                 let _ends = Ends(&told);
                 job(&told)
-            });
+            };
+            let worker = thread::Builder::new()
+                .spawn_scoped(scope, work)
+                .map_err(|error| {
+                    Failure::failed(format!(
+                        "the system gives no thread ({error}); close other programs"
+                    ))
+                });
+            let worker = match worker {
+                Ok(worker) => worker,
+                Err(failure) => return (Ok(Err(failure)), None),
+            };
             let mut raised = None;
             while !told.has_ended() {
                 if raised.is_none()

@@ -67,9 +67,10 @@ pub(crate) struct Tally {
 }
 
 impl Tally {
+    /// Of about so many steps; beyond a million it grows, since a motion may be told to be of any length.
     pub(crate) fn with_capacity(steps: u64) -> Self {
         Self {
-            times: Vec::with_capacity(steps as usize),
+            times: Vec::with_capacity(steps.min(1_000_000) as usize),
             contacts: 0,
             peak_force: 0.0,
             deepest: 0.0,

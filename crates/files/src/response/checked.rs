@@ -33,12 +33,16 @@ impl<R: Read> Checked<R> {
     }
 
     /// `count` numbers of four bytes.
+    ///
+    /// # Errors
+    /// When they cannot be read, or there is no memory for them.
     pub(super) fn numbers<T>(
         &mut self,
         count: usize,
         number: impl Fn([u8; 4]) -> T,
     ) -> io::Result<Vec<T>> {
-        let mut numbers = Vec::with_capacity(count);
+        let mut numbers = Vec::new();
+        numbers.try_reserve_exact(count)?;
         let mut chunk = vec![0; CHUNK];
         while numbers.len() < count {
             let bytes = &mut chunk[..(4 * (count - numbers.len())).min(CHUNK)];

@@ -1,10 +1,10 @@
-use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 
 use super::checked::Checked;
 use super::{DIGEST, FIRST_LINE, LONGEST_HEADER, StoredResponse};
 use crate::Error;
+use crate::whole_file::open_regular;
 
 /// The lines before the numbers.
 struct Header {
@@ -16,25 +16,37 @@ struct Header {
 }
 
 impl StoredResponse<'static> {
-    /// Reads a file and compares its checksum.
+    /// Reads a file and compares its checksum. `memory` [bytes] is what may be taken: a header may name any size, and a
+    /// file with holes has any length.
     ///
     /// # Errors
-    /// When it cannot be read, is not whole, or its checksum is another.
-    pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
+    /// When it cannot be read, takes more memory than that or than there is, is not whole, or its checksum is another.
+    pub fn read(path: impl AsRef<Path>, memory: usize) -> Result<Self, Error> {
         let path = path.as_ref();
         let fault = |source| Error::read(path, source);
         let damaged = |what: &str| Error::DamagedResponse {
             path: path.to_owned(),
             what: what.to_owned(),
         };
-        let file = File::open(path).map_err(fault)?;
+        let file = open_regular(path)?;
         let length = file.metadata().map_err(fault)?.len();
         let mut file = BufReader::with_capacity(1 << 20, file);
         let header = header(&mut file).ok_or_else(|| damaged("its header cannot be read"))?;
         if header.length() != Some(length) {
             return Err(damaged("it is shorter or longer than its header says"));
         }
-        let (found, digest) = header.body(file).map_err(fault)?;
+        let too_large = || Error::NoMemoryForResponse {
+            path: path.to_owned(),
+            bytes: length,
+            memory,
+        };
+        if length > memory as u64 {
+            return Err(too_large());
+        }
+        let (found, digest) = header.body(file).map_err(|source| match source.kind() {
+            io::ErrorKind::OutOfMemory => too_large(),
+            _ => fault(source),
+        })?;
         match digest {
             true => Ok(found),
             false => Err(damaged("its checksum is another")),

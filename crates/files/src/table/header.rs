@@ -125,10 +125,13 @@ pub(super) fn key_and_value(text: &str) -> Option<(&str, &str)> {
 /// Anybody may write more keys above a table, but one that is nearly a known key is a mistake.
 fn check_stranger(key: &str, known: &[&str], place: Place) -> Result<(), Error> {
     // `length_unit` is somebody's own key; `length` and `length_kg` are `length_m` gone wrong.
-    let is_base = |known: &str| units::split(known).is_some_and(|(base, _)| base == key);
+    let is_base = |known: &str| {
+        known.starts_with(key) && units::split(known).is_some_and(|(base, _)| base == key)
+    };
+    let has_unit = units::split(key).is_some();
     let accepted = known
         .iter()
-        .filter(|known| units::split(key).is_some() || is_base(known))
+        .filter(|known| has_unit || is_base(known))
         .find_map(|known| units::accepted_instead(key, known));
     if let Some(accepted) = accepted {
         return Err(Error::UnknownUnit {

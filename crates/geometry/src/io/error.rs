@@ -1,5 +1,6 @@
 use std::path::PathBuf;
 
+use super::text::shortened;
 use super::unit::rounded;
 use crate::{LengthUnit, MeshError, MeshFormat, TetrahedronError};
 
@@ -38,6 +39,12 @@ pub enum ReadFault {
         found: u64,
         /// How many are allowed.
         most: u64,
+    },
+    /// The system gives no more memory.
+    #[error("there is no memory for {bytes} bytes; close other programs, or give a smaller file")]
+    NoMemory {
+        /// What was asked for [bytes].
+        bytes: u64,
     },
     /// The name does not tell the format.
     #[error(
@@ -293,9 +300,9 @@ pub struct UnknownUnit {
 }
 
 impl ReadFault {
-    /// The cause is cut: a damaged document is quoted in it.
+    /// The cause is shortened: a damaged document is quoted in it.
     pub(crate) fn invalid_gltf(cause: impl ToString) -> Self {
-        let cause = cause.to_string().chars().take(200).collect();
+        let cause = shortened(&cause.to_string()).into_owned();
         Self::Gltf { cause }
     }
 

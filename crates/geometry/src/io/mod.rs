@@ -17,7 +17,7 @@ pub mod vtk;
 pub(crate) mod write;
 
 use std::fs;
-use std::io::ErrorKind;
+use std::io::{ErrorKind, Read};
 use std::path::Path;
 
 use self::raw::RawMesh;
@@ -25,7 +25,8 @@ use self::unit::{doubt_about_extent, unit_by_extent};
 use crate::weld::weld_exactly;
 use crate::{LengthUnit, MeshFormat, NodeId, ReadError, ReadFault, TriangleMesh, Vec3};
 
-/// No mesh needs more, and a wrong path (a film, a disk image) should fail at once.
+/// Bytes that are read of a mesh with all its buffers, or of a volume, at most: no mesh needs more, and a wrong path (a
+/// film, a disk image) should fail at once.
 const MOST_BYTES: u64 = 1 << 30;
 
 /// A mesh as its file has it, but in metres.
@@ -56,7 +57,7 @@ pub fn read_mesh(path: &Path, unit: Option<LengthUnit>) -> Result<ImportedMesh, 
 }
 
 fn read_here(path: &Path, unit: Option<LengthUnit>) -> Result<ImportedMesh, ReadFault> {
-    let bytes = read_whole(path)?;
+    let bytes = read_whole(path, MOST_BYTES)?;
     let format = MeshFormat::of(path, &bytes)?;
     let folder = path.parent().unwrap_or(Path::new(""));
     let raw = match format {
@@ -121,8 +122,8 @@ fn largest_extent(raw: &RawMesh) -> f64 {
     (high - low).max()
 }
 
-/// All bytes of a file, or why not.
-fn read_whole(path: &Path) -> Result<Vec<u8>, ReadFault> {
+/// All bytes of a file, of which there may be so many, or why not.
+fn read_whole(path: &Path, most: u64) -> Result<Vec<u8>, ReadFault> {
     let refused = |error: std::io::Error| match error.kind() {
         ErrorKind::NotFound => ReadFault::Missing,
         _ => ReadFault::Unreadable(error),
@@ -131,16 +132,23 @@ fn read_whole(path: &Path) -> Result<Vec<u8>, ReadFault> {
     if !metadata.is_file() {
         return Err(ReadFault::NotAFile);
     }
-    if metadata.len() > MOST_BYTES {
-        return Err(ReadFault::TooLarge {
-            what: "bytes",
-            found: metadata.len(),
-            most: MOST_BYTES,
-        });
+    let too_large = |found| ReadFault::TooLarge {
+        what: "bytes",
+        found,
+        most,
+    };
+    if metadata.len() > most {
+        return Err(too_large(metadata.len()));
     }
-    let bytes = fs::read(path).map_err(refused)?;
-    if bytes.is_empty() {
-        return Err(ReadFault::Empty);
+    let mut bytes = Vec::new();
+    // It may grow meanwhile.
+    let file = fs::File::open(path).map_err(refused)?;
+    file.take(most.saturating_add(1))
+        .read_to_end(&mut bytes)
+        .map_err(refused)?;
+    match bytes.len() as u64 {
+        0 => Err(ReadFault::Empty),
+        found if found > most => Err(too_large(found)),
+        _ => Ok(bytes),
     }
-    Ok(bytes)
 }

@@ -1,7 +1,8 @@
 use crate::{ReadFault, Vec3};
 
-/// No organ needs more, and a damaged file must not fill the memory.
-const MOST_TRIANGLES: u64 = 20_000_000;
+/// Vertices and triangles that are read of a mesh at most: no organ needs more, and a damaged file must not fill the
+/// memory. They take 0.7 GB.
+pub(crate) const MOST_TRIANGLES: u64 = 20_000_000;
 
 /// Coordinates beyond this would overflow when they are multiplied.
 const LARGEST_COORDINATE: f64 = 1e12;

@@ -17,12 +17,35 @@ pub(crate) fn number(word: Option<&str>, line: usize) -> Result<f64, ReadFault> 
 }
 
 pub(crate) fn unexpected(line: usize, found: &str, expected: &'static str) -> ReadFault {
-    /// A damaged file may have megabytes on one line.
-    const MOST_CHARACTERS: usize = 60;
-    let found = found.trim().chars().filter(|c| !c.is_control());
+    let found: String = found.trim().chars().filter(|c| !c.is_control()).collect();
     ReadFault::Unexpected {
         line,
-        found: found.take(MOST_CHARACTERS).collect(),
+        found: shortened(&found).into_owned(),
         expected,
+    }
+}
+
+/// What an error quotes of a file at most [characters]: a damaged file may have megabytes on one line.
+const LONGEST_QUOTATION: usize = 200;
+
+/// A text as an error quotes it: one that is longer than 200 characters is cut there, and its length told.
+pub(crate) fn shortened(text: &str) -> Cow<'_, str> {
+    match text.char_indices().nth(LONGEST_QUOTATION) {
+        None => Cow::Borrowed(text),
+        Some((end, _)) => Cow::Owned(format!("{}… ({} bytes)", &text[..end], text.len())),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quotations_are_short() {
+        let line = format!("v {}", "9".repeat(5_000_000));
+        let error = unexpected(3, &line, "a number").to_string();
+        assert!(error.len() < 500, "{} bytes", error.len());
+        assert!(error.contains("5000002 bytes"), "{error}");
+        assert_eq!(shortened("é"), "é");
     }
 }

@@ -22,7 +22,9 @@ type Edge = (usize, usize);
 /// Marching cubes whose loops are traced rather than looked up: on a face with two inside corners
 /// across, these are kept apart, in both cells alike. So every edge of the surface has two
 /// triangles; and a vertex, which belongs to one edge of the grid, one fan.
-pub(super) fn contour(block: &Block) -> (Vec<Vec3>, Vec<[NodeId; 3]>) {
+///
+/// None when it has more than so many triangles.
+pub(super) fn contour(block: &Block, most: usize) -> Option<(Vec<Vec3>, Vec<[NodeId; 3]>)> {
     let table: Vec<Vec<Vec<Edge>>> = (0..256).map(loops).collect();
     let [nx, ny, nz] = block.size;
     let mut surface = Contour::default();
@@ -33,7 +35,7 @@ pub(super) fn contour(block: &Block) -> (Vec<Vec3>, Vec<[NodeId; 3]>) {
                     let [i, j, k] = [x + (c & 1), y + (c >> 1 & 1), z + (c >> 2)];
                     (k * ny + j) * nx + i
                 };
-                let case = (0..8).filter(|&c| block.inside[corner(c)]);
+                let case = (0..8).filter(|&c| block.is_inside(corner(c)));
                 let case: usize = case.map(|c| 1 << c).sum();
                 for ring in &table[case] {
                     let nodes = ring.iter().map(|&(a, b)| {
@@ -45,9 +47,12 @@ pub(super) fn contour(block: &Block) -> (Vec<Vec3>, Vec<[NodeId; 3]>) {
                     surface.close(&nodes);
                 }
             }
+            if surface.triangles.len() > most {
+                return None;
+            }
         }
     }
-    (surface.vertices, surface.triangles)
+    Some((surface.vertices, surface.triangles))
 }
 
 #[derive(Default)]

@@ -1,5 +1,6 @@
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
+use std::ops::ControlFlow;
 
 use super::SimplifySettings;
 use super::guard::{Demands, Fresh, Guard, double_area};
@@ -23,27 +24,34 @@ const fn demands(shape: f64, turn: f64, apart: bool) -> Demands {
     Demands { shape, turn, apart }
 }
 
+/// Edges that are looked at between two calls of `progress`.
+const BETWEEN_CALLS: usize = 1000;
+
 /// Collapses edges, cheapest first, until no more triangles are left than asked for or nothing can
 /// go; the sooner the larger the `sizes` at their ends, if there are some. Returns which vertices stand on borders and
-/// sharp edges.
+/// sharp edges. `progress` hears the part of the triangles to go that are gone [-], and may break off.
 pub(super) fn collapse(
     net: &mut Net,
     settings: &SimplifySettings,
     sizes: Option<&[f64]>,
-) -> Vec<bool> {
+    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> ControlFlow<(), Vec<bool>> {
     let target = settings.triangles;
     let mut run = Run::new(net, settings);
     if let Some(sizes) = sizes {
         run.weights = sizes.iter().map(|size| size.powi(-4)).collect();
     }
+    let first = run.net.live();
+    let mut told = |live: usize| progress((first - live) as f64 / (first - target) as f64);
+    run.queue_all();
     loop {
-        // A collapse makes others possible that were refused before.
         let before = run.net.live();
-        run.queue_all();
-        run.work(target);
+        run.work(target, &mut told)?;
         if run.net.live() <= target || run.net.live() == before {
-            return run.on_crease;
+            return ControlFlow::Continue(run.on_crease);
         }
+        // A collapse makes others possible that were refused before.
+        run.queue_changed();
     }
 }
 
@@ -61,6 +69,9 @@ struct Run<'a> {
     on_crease: Vec<bool>,
     /// Raised whenever a vertex or its surroundings change.
     ages: Vec<u32>,
+    /// Whether a triangle at a vertex has changed since the edges were queued last.
+    changed: Vec<bool>,
+    has_border: bool,
     queue: BinaryHeap<Reverse<Candidate>>,
     evenness: f64,
 }
@@ -88,6 +99,8 @@ impl<'a> Run<'a> {
             weights: vec![1.0; vertices],
             on_crease: net.on_border.clone(),
             ages: vec![0; vertices],
+            changed: vec![false; vertices],
+            has_border: net.on_border.contains(&true),
             queue: BinaryHeap::new(),
             evenness: settings.evenness,
             net,
@@ -147,6 +160,27 @@ impl<'a> Run<'a> {
         self.queue = all.collect();
     }
 
+    /// Queues the edges of which something changed. What refuses an edge in the end, with all demands but the least
+    /// given up, are the triangles at its ends and how many there are at their common neighbours; as long as these are
+    /// what they were, the edge would be refused again.
+    fn queue_changed(&mut self) {
+        let net = &*self.net;
+        let near = net.triangles().filter(|&triangle| {
+            let corners = net.corners(triangle);
+            corners.iter().any(|&v| self.changed[v as usize])
+        });
+        let sides = near.flat_map(|triangle| {
+            let [a, b, c] = net.corners(triangle);
+            [[a, b], [b, c], [c, a]].map(|[a, b]| [a.min(b), a.max(b)])
+        });
+        let mut edges: Vec<_> = sides.collect();
+        edges.sort_unstable();
+        edges.dedup();
+        self.changed.fill(false);
+        let all = edges.into_iter().map(|edge| Reverse(self.candidate(edge)));
+        self.queue = all.collect();
+    }
+
     fn candidate(&self, edge: [u32; 2]) -> Candidate {
         let [a, b] = edge.map(|v| v as usize);
         let [start, end] = [a, b].map(|v| self.net.positions[v] - self.origin);
@@ -176,10 +210,19 @@ impl<'a> Run<'a> {
         }
     }
 
-    fn work(&mut self, target: usize) {
+    fn work(
+        &mut self,
+        target: usize,
+        told: &mut dyn FnMut(usize) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        let mut looked_at = 0;
         while self.net.live() > target
             && let Some(Reverse(candidate)) = self.queue.pop()
         {
+            if looked_at % BETWEEN_CALLS == 0 {
+                told(self.net.live())?;
+            }
+            looked_at += 1;
             let [a, b] = candidate.edge;
             let current = candidate.age == self.ages[a as usize] + self.ages[b as usize];
             if !current || !self.net.can_collapse(a, b) {
@@ -197,17 +240,16 @@ impl<'a> Run<'a> {
                 }));
             }
         }
+        ControlFlow::Continue(())
     }
 
     /// Where one triangle shall go, two would: while there are borders, one of theirs can go alone.
     fn takes_one_too_many(&self, candidate: &Candidate) -> bool {
         let [a, b] = candidate.edge;
-        candidate.rank + 1 < DEMANDS.len()
-            && self.net.at_edge(a, b).count() == 2
-            && self.net.on_border.contains(&true)
+        candidate.rank + 1 < DEMANDS.len() && self.net.at_edge(a, b).count() == 2 && self.has_border
     }
 
-    fn is_admitted(&self, candidate: &Candidate, demands: Demands) -> bool {
+    fn is_admitted(&mut self, candidate: &Candidate, demands: Demands) -> bool {
         let [a, b] = candidate.edge;
         let ours = self.net.around(a).iter();
         let theirs = self.net.around(b).iter();
@@ -264,7 +306,9 @@ impl<'a> Run<'a> {
         self.guard.keep_up(self.net);
         let ring = self.net.neighbors(kept);
         self.ages[a] += 1;
+        self.changed[a] = true;
         for &v in &ring {
+            self.changed[v as usize] = true;
             let edge = [kept.min(v), kept.max(v)];
             self.queue.push(Reverse(self.candidate(edge)));
         }

@@ -1,4 +1,5 @@
 use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, Hasher};
 
 use super::net::Net;
 use crate::check::self_intersection::{Placed, triangles_meet};
@@ -44,9 +45,43 @@ pub(super) fn double_area([a, b, c]: &[Vec3; 3]) -> Vec3 {
 
 /// Says whether a change may be made, and knows which triangles are near.
 pub(super) struct Guard {
-    cells: HashMap<[i32; 3], Vec<u32>>,
+    /// Triangles by cell; see [`key`]. Never walked over.
+    cells: HashMap<u64, Vec<u32>, BuildHasherDefault<KeyHasher>>,
     cell: f64,
     live: usize,
+    /// Lowest and highest corner of the box around each triangle as it is now [m].
+    boxes: Vec<[Vec3; 2]>,
+    /// The last question in which each triangle was looked at.
+    asked: Vec<u32>,
+    question: u32,
+}
+
+/// The number of a cell. Cells that are two million apart may have the same, which makes a triangle be looked at more
+/// often, and no more.
+fn key([i, j, k]: [i32; 3]) -> u64 {
+    let bits = |index: i32| index as u64 & 0x1F_FFFF;
+    bits(i) << 42 | bits(j) << 21 | bits(k)
+}
+
+/// Spreads the numbers of cells over all bits: multiplication by the golden ratio [Knuth 1998, 6.4].
+#[derive(Default)]
+struct KeyHasher(u64);
+
+impl Hasher for KeyHasher {
+    fn finish(&self) -> u64 {
+        self.0
+    }
+
+    fn write(&mut self, bytes: &[u8]) {
+        for &byte in bytes {
+            self.write_u64(u64::from(byte));
+        }
+    }
+
+    fn write_u64(&mut self, number: u64) {
+        let spread = (self.0 ^ number).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+        self.0 = spread ^ spread >> 29;
+    }
 }
 
 impl Guard {
@@ -57,10 +92,14 @@ impl Guard {
             sum += (b - a).norm() + (c - b).norm() + (a - c).norm();
             sides += 3.0;
         }
+        let triangles = net.triangles().last().map_or(0, |last| last as usize + 1);
         let mut guard = Self {
-            cells: HashMap::new(),
+            cells: HashMap::default(),
             cell: CELL * f64::max(sum / sides, f64::MIN_POSITIVE),
             live: net.live(),
+            boxes: vec![[Vec3::zeros(); 2]; triangles],
+            asked: vec![0; triangles],
+            question: 0,
         };
         for triangle in net.triangles() {
             guard.note(triangle, &net.placed(triangle));
@@ -72,8 +111,10 @@ impl Guard {
     pub(super) fn note(&mut self, triangle: u32, corners: &[Vec3; 3]) {
         let [a, b, c] = corners;
         let cell = self.cell;
-        for_each_cell(cell, &a.inf(b).inf(c), &a.sup(b).sup(c), |key| {
-            let noted = self.cells.entry(key).or_default();
+        let [low, high] = [a.inf(b).inf(c), a.sup(b).sup(c)];
+        self.boxes[triangle as usize] = [low, high];
+        for_each_cell(cell, &low, &high, |cell| {
+            let noted = self.cells.entry(key(cell)).or_default();
             if !noted.contains(&triangle) {
                 noted.push(triangle);
             }
@@ -88,7 +129,13 @@ impl Guard {
     }
 
     /// Whether the triangles `old` may be replaced by `new`.
-    pub(super) fn admits(&self, net: &Net, old: &[u32], new: &[Fresh], demands: Demands) -> bool {
+    pub(super) fn admits(
+        &mut self,
+        net: &Net,
+        old: &[u32],
+        new: &[Fresh],
+        demands: Demands,
+    ) -> bool {
         let before = old.iter().map(|&t| shape(&net.placed(t)));
         let least = before.fold(demands.shape, f64::min);
         let fair = |fresh: &Fresh| {
@@ -103,25 +150,49 @@ impl Guard {
     }
 
     /// Whether a new triangle passes through another one, old ones left out.
-    fn meets(&self, net: &Net, old: &[u32], new: &[Fresh]) -> bool {
+    fn meets(&mut self, net: &Net, old: &[u32], new: &[Fresh]) -> bool {
         let new: Vec<Boxed> = new.iter().map(|f| Boxed::new(f.nodes, f.corners)).collect();
         let low = new.iter().fold(new[0].low, |low, one| low.inf(&one.low));
         let high = new
             .iter()
             .fold(new[0].high, |high, one| high.sup(&one.high));
-        let mut near = Vec::new();
-        for_each_cell(self.cell, &low, &high, |key| {
-            near.extend(self.cells.get(&key).into_iter().flatten());
+        self.question = match self.question.checked_add(1) {
+            Some(question) => question,
+            None => {
+                self.asked.fill(0);
+                1
+            }
+        };
+        for &triangle in old {
+            self.asked[triangle as usize] = self.question;
+        }
+        let Self {
+            cells,
+            boxes,
+            asked,
+            question,
+            ..
+        } = self;
+        let mut meets_near = |triangle: u32| {
+            let last = &mut asked[triangle as usize];
+            if std::mem::replace(last, *question) == *question || !net.is_live(triangle) {
+                return false;
+            }
+            let [lowest, highest] = &boxes[triangle as usize];
+            let near = |one: &&Boxed| one.reaches(lowest, highest);
+            if !new.iter().any(|one| near(&one)) {
+                return false;
+            }
+            let other = Boxed::new(net.corners(triangle), net.placed(triangle));
+            new.iter().filter(near).any(|one| one.meets(&other))
+        };
+        let mut found = false;
+        for_each_cell(self.cell, &low, &high, |cell| {
+            if let Some(noted) = cells.get(&key(cell)).filter(|_| !found) {
+                found = noted.iter().any(|&triangle| meets_near(triangle));
+            }
         });
-        near.sort_unstable();
-        near.dedup();
-        let others = near
-            .into_iter()
-            .filter(|t| net.is_live(*t) && !old.contains(t))
-            .map(|t| Boxed::new(net.corners(t), net.placed(t)));
-        let mut near_enough = others.filter(|other| other.reaches(&low, &high));
-        near_enough.any(|other| new.iter().any(|one| one.meets(&other)))
-            || (1..new.len()).any(|k| new[..k].iter().any(|one| one.meets(&new[k])))
+        found || (1..new.len()).any(|k| new[..k].iter().any(|one| one.meets(&new[k])))
     }
 }
 

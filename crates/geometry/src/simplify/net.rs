@@ -15,6 +15,9 @@ pub(super) struct Net {
     /// Where the surface branches or a triangle is a line; nothing there is changed.
     held: Vec<bool>,
     live: usize,
+    /// The last question for which each vertex was marked.
+    marks: Vec<u32>,
+    question: u32,
 }
 
 impl Net {
@@ -48,6 +51,8 @@ impl Net {
             on_border,
             held,
             live: mesh.triangles().len(),
+            marks: vec![0; vertices],
+            question: 0,
         }
     }
 
@@ -132,24 +137,61 @@ impl Net {
 
     /// Whether the surface stays of the same kind when the edge shrinks to a point: the link
     /// condition [Dey et al. 1999].
-    pub(super) fn can_collapse(&self, a: u32, b: u32) -> bool {
+    pub(super) fn can_collapse(&mut self, a: u32, b: u32) -> bool {
         if self.held[a as usize] || self.held[b as usize] {
             return false;
         }
-        let beside: Vec<u32> = self.at_edge(a, b).collect();
-        let inner = beside.len() == 2;
+        let beside = self.at_edge(a, b).count();
+        let inner = beside == 2;
         // An inner edge between two places of a border would pinch the surface.
-        if beside.is_empty() || (inner && self.on_border[a as usize] && self.on_border[b as usize])
-        {
+        if beside == 0 || (inner && self.on_border[a as usize] && self.on_border[b as usize]) {
             return false;
         }
-        let (ours, theirs) = (self.neighbors(a), self.neighbors(b));
-        let common: Vec<u32> = ours.into_iter().filter(|v| theirs.contains(v)).collect();
         // The last tetrahedron, and the last triangle of a piece.
         let fewest = if inner { 4 } else { 2 };
-        let few = |v: &u32| !self.on_border[*v as usize] && self.around(*v).len() < fewest;
-        let last = |v: &u32| self.around(*v).len() < 2;
-        common.len() == beside.len() && !common.iter().any(|v| few(v) || last(v))
+        let mut common = 0;
+        let [theirs, both] = self.next_marks();
+        let Self {
+            around,
+            triangles,
+            marks,
+            on_border,
+            ..
+        } = self;
+        let corners = |v: u32| {
+            let around = around[v as usize].iter();
+            around.flat_map(|&t| triangles[t as usize])
+        };
+        for v in corners(b) {
+            marks[v as usize] = theirs;
+        }
+        for v in corners(a).filter(|&v| v != a && v != b) {
+            // Each of them once.
+            let mark = &mut marks[v as usize];
+            if *mark != theirs {
+                continue;
+            }
+            *mark = both;
+            let fewest = match on_border[v as usize] {
+                true => 2,
+                false => fewest,
+            };
+            common += 1;
+            if common > beside || around[v as usize].len() < fewest {
+                return false;
+            }
+        }
+        common == beside
+    }
+
+    /// Two marks that no vertex has.
+    fn next_marks(&mut self) -> [u32; 2] {
+        if self.question > u32::MAX - 2 {
+            self.marks.fill(0);
+            self.question = 0;
+        }
+        self.question += 2;
+        [self.question - 1, self.question]
     }
 
     /// Shrinks an edge to `position`; `kept` stays and `gone` goes. The caller has asked

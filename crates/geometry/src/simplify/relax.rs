@@ -1,3 +1,5 @@
+use std::ops::ControlFlow;
+
 use super::guard::{Demands, Fresh, Guard, double_area, shape};
 use super::net::Net;
 use super::reference::Reference;
@@ -17,17 +19,25 @@ const TURN_OF_FLIP: f64 = 0.85;
 /// worse of two triangles better, vertices slide along the surface to the middle of their
 /// surroundings and then stand so that the surface is on the mean neither outside of the original
 /// nor inside. Vertices on borders and sharp edges stay.
-pub(super) fn relax(net: &mut Net, reference: &Reference<'_>, on_crease: &[bool]) {
+pub(super) fn relax(
+    net: &mut Net,
+    reference: &Reference<'_>,
+    on_crease: &[bool],
+    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> ControlFlow<()> {
     let free: Vec<u32> = (0..net.positions.len() as u32)
         .filter(|&v| !on_crease[v as usize] && !net.is_held(v) && !net.around(v).is_empty())
         .collect();
     let mut guard = Guard::new(net);
-    for _ in 0..ROUNDS {
+    for round in 0..ROUNDS {
+        progress(round as f64 / (ROUNDS + 1) as f64)?;
         flip_all(net, &mut guard);
         slide_all(net, &mut guard, &free);
         fit_all(net, &mut guard, (reference, &free));
     }
+    progress(ROUNDS as f64 / (ROUNDS + 1) as f64)?;
     fit_all(net, &mut guard, (reference, &free));
+    ControlFlow::Continue(())
 }
 
 fn flip_all(net: &mut Net, guard: &mut Guard) {

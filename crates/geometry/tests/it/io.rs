@@ -275,6 +275,21 @@ fn a_buffer_beside_the_document_is_read() {
     assert_eq!(read_mesh(&path, None).unwrap().mesh.volume(), mesh.volume());
 }
 
+/// All buffers together hold as much as one file may. The large one has holes: it takes no room on the disk, and is
+/// refused before it is read.
+#[test]
+fn buffers_together_are_bounded() {
+    let document = r#"{"asset":{"version":"2.0"},"buffers":[
+        {"uri":"small.bin","byteLength":12},{"uri":"large.bin","byteLength":12}]}"#;
+    let (folder, path) = written("both.gltf", document.as_bytes());
+    std::fs::write(folder.path().join("small.bin"), [0; 12]).unwrap();
+    let large = std::fs::File::create(folder.path().join("large.bin")).unwrap();
+    large.set_len((1 << 30) - 1).unwrap();
+    let message = read_mesh(&path, None).unwrap_err().to_string();
+    assert!(message.contains("1073741835 bytes"), "{message}");
+    assert!(message.contains("at most 1073741824"), "{message}");
+}
+
 #[test]
 fn polydata_says_how_much_it_holds() {
     let mesh = files::tetrahedron();

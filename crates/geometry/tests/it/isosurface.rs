@@ -1,10 +1,12 @@
 //! Surfaces of label maps: closed whatever the voxels, and as large as they are.
 
+use std::ops::ControlFlow;
 use std::path::Path;
 
 use palpate_geometry::{
-    Isosurface, IsosurfaceError, IsosurfaceSettings, LabelMap, MeshReport, ReadFault, Surface,
-    Vec3, deviation, inspect, isosurface, read_label_map, read_mesh,
+    Isosurface, IsosurfaceError, IsosurfaceSettings, LabelMap, MeshReport, ReadFault,
+    SimplifyError, Surface, Vec3, deviation, inspect, isosurface, isosurface_with_progress,
+    read_label_map, read_mesh,
 };
 
 use crate::data;
@@ -306,4 +308,83 @@ fn real_ct_labels_are_closed() {
             assert_eq!(found.is_cut, name != "gallbladder", "{name}");
         }
     }
+}
+
+/// Rods along all axes, so many voxels along each: the surface is everywhere, and no simplification can take its
+/// handles away.
+fn sponge(size: usize) -> LabelMap {
+    let voxels = (0..size.pow(3)).map(|at| {
+        let index = [at % size, at / size % size, at / size / size];
+        let even = index.iter().filter(|&&k| k % 2 == 0).count();
+        u16::from(even >= 2)
+    });
+    map_of(&Nifti::new([size; 3], voxels.collect()).bytes(), "a.nii")
+}
+
+/// The part that is done grows and ends near one, and who asks to cancel is heard soon.
+#[test]
+fn progress_is_told_and_heard() {
+    let map = sponge(12);
+    let mut parts = Vec::new();
+    let settings = IsosurfaceSettings {
+        smoothing: 10,
+        triangles: 100,
+    };
+    let whole = isosurface_with_progress(&map, 1, &settings, &mut |part| {
+        parts.push(part);
+        ControlFlow::Continue(())
+    });
+    assert!(whole.unwrap().simplified.mesh.triangles().len() > 100);
+    assert!(parts.is_sorted() && parts[0] >= 0.0, "{parts:?}");
+    let last = parts[parts.len() - 1];
+    assert!((0.9..=1.0).contains(&last), "{last}");
+    // Often enough that a bar moves.
+    assert!(parts.windows(2).all(|pair| pair[1] - pair[0] < 0.3));
+    for end in [0.0, 0.05, 0.5, 0.9] {
+        let mut after = 0;
+        let cancelled = isosurface_with_progress(&map, 1, &settings, &mut |part| {
+            after += usize::from(part >= end);
+            match part < end {
+                true => ControlFlow::Continue(()),
+                false => ControlFlow::Break(()),
+            }
+        });
+        let cancelled = cancelled.unwrap_err();
+        assert_eq!(
+            cancelled,
+            IsosurfaceError::Simplify(SimplifyError::Cancelled)
+        );
+        assert_eq!(after, 1);
+    }
+}
+
+/// A small file of a sponge can ask for any time: what is simplified has a bound, which the error states. 93 voxels along
+/// each axis have some 4.9 million triangles.
+#[test]
+fn a_surface_of_too_many_triangles_is_refused() {
+    let error = isosurface(&sponge(93), 1, &RAW).unwrap_err();
+    assert_eq!(error, IsosurfaceError::TooLarge { label: 1 });
+    let said = error.to_string();
+    assert!(said.contains("more than 4000000 triangles") && said.contains("larger voxels"));
+}
+
+/// A header of a NRRD file is at most a mebibyte, so that what is sought in it takes no time.
+#[test]
+fn a_long_header_is_refused() {
+    let whole = nrrd(&Nifti::new([2, 2, 2], vec![1; 8]), false, false);
+    let end = whole.windows(2).position(|pair| pair == b"\n\n").unwrap();
+    let with_keys = |count: usize| {
+        let keys: String = (0..count)
+            .map(|k| format!("Segment{k}_LabelValue:={}\nSegment{k}_Name:=part\n", k + 2))
+            .collect();
+        [&whole[..=end], keys.as_bytes(), &whole[end + 1..]].concat()
+    };
+    let map = map_of(&with_keys(10_000), "a.nrrd");
+    assert_eq!(map.labels()[0].name.as_deref(), Some("ball"));
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.nrrd");
+    std::fs::write(&path, with_keys(100_000)).unwrap();
+    let error = read_label_map(&path).unwrap_err();
+    let is_length = matches!(error.fault, ReadFault::BadHeader { what: "length", .. });
+    assert!(is_length, "{error}");
 }

@@ -29,6 +29,7 @@ pub struct Answer {
 #[derive(Debug, Serialize)]
 pub struct FileAnswer {
     /// As it was named.
+    #[serde(serialize_with = "crate::lossy")]
     pub file: PathBuf,
     organ: Option<String>,
     subject: Option<String>,

@@ -21,6 +21,7 @@ pub struct Answer {
 
 #[derive(Debug, Serialize)]
 struct Recording {
+    #[serde(serialize_with = "crate::lossy")]
     file: PathBuf,
     stimulus: String,
     samples: usize,

@@ -11,13 +11,10 @@ use palpate_simulate::{Resources, Simulation};
 
 pub use precompute::{Precomputed, precompute};
 
-use crate::{Error, Watch};
+use crate::{Error, Watch, memory};
 
 /// The variable that names the folder of prepared responses.
 pub const FOLDER_VARIABLE: &str = "PALPATE_CACHE";
-
-/// Part of the memory that is free now that may be taken [-].
-const PART_OF_MEMORY: f64 = 0.8;
 
 /// The folder for what takes minutes and can be made again.
 pub fn folder() -> Option<PathBuf> {
@@ -27,18 +24,12 @@ pub fn folder() -> Option<PathBuf> {
         .or_else(|| Some(dirs::cache_dir()?.join("palpate")))
 }
 
-/// What this machine offers: its folder for what can be made again, and most of its free memory.
+/// What this machine offers: its folder for what can be made again, and most of the memory that is left, see
+/// [`memory::offered`].
 pub fn resources() -> Resources {
-    let mut system = sysinfo::System::new();
-    system.refresh_memory();
-    let offered = match system.available_memory() {
-        // Not told on this system.
-        0 => Resources::default().memory,
-        free => (PART_OF_MEMORY * free as f64) as usize,
-    };
     Resources {
         responses: folder(),
-        memory: offered,
+        memory: memory::offered().unwrap_or(Resources::default().memory),
         devices: Places::default(),
         operating_room: None,
     }

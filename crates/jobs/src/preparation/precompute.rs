@@ -24,6 +24,7 @@ pub struct Precomputed {
     /// Whether it had been made before.
     pub was_kept: bool,
     /// Where it is kept.
+    #[serde(serialize_with = "crate::lossy")]
     pub file: Option<PathBuf>,
     /// That it took [s].
     pub seconds: f64,

@@ -36,8 +36,8 @@ impl Rig {
         } = self.settings;
         let resting = (ZEROING / period) as usize;
         let ticks = resting + (approach_way / approach_speed / period) as usize;
-        let mut heights = Vec::with_capacity(ticks);
-        let mut forces = Vec::with_capacity(ticks);
+        // Grown while it lasts: the approach may be told to be as slow as one likes.
+        let (mut heights, mut forces) = (Vec::new(), Vec::new());
         let from = self.aim;
         for tick in 0..ticks {
             let gone = tick.saturating_sub(resting) as f64 * period;

@@ -8,7 +8,7 @@ use super::kelvin::Kelvin;
 use super::panel::Panel;
 use super::precision::Precision;
 use crate::cores::{cores, on_all_cores};
-use crate::surface_response::{ResponseParts, Sampling, SurfaceResponse, TouchableTriangle};
+use crate::surface_response::{ResponseParts, Sampling, SurfaceResponse, TouchableTriangle, zeros};
 use crate::{Error, LinearElastic};
 
 /// A linear solid that is held in some triangles of its surface and can be touched in others.
@@ -91,9 +91,26 @@ impl BoundaryProblem<'_> {
             kelvin: Kelvin::new(&law),
             panels: &panels,
         };
-        let parts = self.parts(&influences, &held, progress);
-        match parts {
-            ControlFlow::Continue(parts) => SurfaceResponse::new(parts),
+        let touchable = self.touchable.iter().map(|&triangle| {
+            let panel = &panels[triangle.index()];
+            TouchableTriangle {
+                triangle,
+                centroid: panel.centroid,
+                normal: panel.normal,
+                area: panel.area,
+            }
+        });
+        // Both before the long work, so that it is not for nothing.
+        let mut parts = ResponseParts::zeros(
+            self.poissons_ratio,
+            touchable.collect(),
+            (triangles, self.held),
+            Sampling::Centroids,
+        )?;
+        let system = zeros(self.size() * self.size())?;
+        let solved = self.fill(&influences, &held, (system, &mut parts), progress);
+        match solved {
+            ControlFlow::Continue(()) => SurfaceResponse::new(parts),
             ControlFlow::Break(()) => Err(Error::BrokenOff),
         }
     }
@@ -114,12 +131,14 @@ impl BoundaryProblem<'_> {
             .collect()
     }
 
-    fn parts<T: Precision>(
+    /// Fills the response in, by way of the `system`, which comes as zeros.
+    fn fill<T: Precision>(
         &self,
         influences: &Influences<'_>,
         held: &[bool],
+        (mut system, parts): (Vec<T>, &mut ResponseParts<T>),
         progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
-    ) -> ControlFlow<(), ResponseParts<T>> {
+    ) -> ControlFlow<()> {
         let size = self.size() as f64;
         // In multiplications; a pair of panels takes some four hundred.
         let assembly = 400.0 / 9.0 * size.powi(2);
@@ -129,13 +148,13 @@ impl BoundaryProblem<'_> {
             let part = work / (assembly + factors + columns);
             progress(Progress { stage, part })
         };
-        let system = assemble(influences, held, &mut |part| {
+        assemble(influences, held, &mut system, &mut |part| {
             told(Stage::Assembly, part * assembly)
         })?;
         let factored = Factors::new(self.size(), system, &mut |part| {
             told(Stage::Factors, assembly + part * factors)
         })?;
-        self.columns(influences, &factored, &mut |part| {
+        self.columns(influences, &factored, parts, &mut |part| {
             told(Stage::Columns, assembly + factors + part * columns)
         })
     }
@@ -145,23 +164,9 @@ impl BoundaryProblem<'_> {
         &self,
         influences: &Influences<'_>,
         factors: &Factors<T>,
+        parts: &mut ResponseParts<T>,
         progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
-    ) -> ControlFlow<(), ResponseParts<T>> {
-        let touchable = self.touchable.iter().map(|&triangle| {
-            let panel = &influences.panels[triangle.index()];
-            TouchableTriangle {
-                triangle,
-                centroid: panel.centroid,
-                normal: panel.normal,
-                area: panel.area,
-            }
-        });
-        let mut parts = ResponseParts::zeros(
-            self.poissons_ratio,
-            touchable.collect(),
-            (influences.panels.len(), self.held),
-            Sampling::Centroids,
-        );
+    ) -> ControlFlow<()> {
         let rows = self.size();
         let mut solved = 0;
         while solved < self.touchable.len() {
@@ -182,7 +187,7 @@ impl BoundaryProblem<'_> {
             solved += many;
             progress(solved as f64 / self.touchable.len() as f64)?;
         }
-        ControlFlow::Continue(parts)
+        ControlFlow::Continue(())
     }
 }
 
@@ -230,12 +235,12 @@ pub(crate) fn held_triangles(
 fn assemble<T: Precision>(
     influences: &Influences<'_>,
     held: &[bool],
+    system: &mut [T],
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
-) -> ControlFlow<(), Vec<T>> {
+) -> ControlFlow<()> {
     let count = influences.panels.len();
     let area: f64 = influences.panels.iter().map(|panel| panel.area).sum();
     let scale = (count as f64 / area).sqrt();
-    let mut system = vec![T::of(0.0); 9 * count * count];
     let share = count.div_ceil(50);
     for (k, columns) in system.chunks_mut(9 * count * share).enumerate() {
         let sources = columns.chunks_exact_mut(9 * count).enumerate();
@@ -249,7 +254,7 @@ fn assemble<T: Precision>(
         });
         progress(((k + 1) * share).min(count) as f64 / count as f64)?;
     }
-    ControlFlow::Continue(system)
+    ControlFlow::Continue(())
 }
 
 /// Fills the columns of unit forces on `loaded`: what they would do if nothing else moved.

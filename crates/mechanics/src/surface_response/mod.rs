@@ -23,6 +23,7 @@ pub mod slit;
 mod tip_field;
 
 pub use dimple::PressedTip;
+pub(crate) use parts::zeros;
 pub use parts::{ResponseParts, Sampling, TouchableTriangle};
 pub use patch::{MovedTriangle, PatchContact, PatchWorkspace, Reciprocity};
 pub use response::{SurfaceResponse, TouchId};

@@ -1,7 +1,7 @@
 use palpate_geometry::{Surface, TriangleId};
 
-use crate::Vec3;
 use crate::boundary_elements::{Panel, Precision};
+use crate::{Error, Vec3};
 
 /// A triangle that a contact may load.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -59,25 +59,42 @@ pub struct ResponseParts<T> {
     pub displacements: Vec<T>,
 }
 
+/// So many zeros of a large matrix.
+///
+/// # Errors
+/// When there is no memory.
+pub(crate) fn zeros<T: Precision>(count: usize) -> Result<Vec<T>, Error> {
+    let mut numbers = Vec::new();
+    let bytes = count.saturating_mul(size_of::<T>());
+    numbers
+        .try_reserve_exact(count)
+        .map_err(|_| Error::NoMemory { bytes })?;
+    numbers.resize(count, T::of(0.0));
+    Ok(numbers)
+}
+
 impl<T: Precision> ResponseParts<T> {
     /// Of the right lengths, without a displacement.
+    ///
+    /// # Errors
+    /// When there is no memory.
     pub(crate) fn zeros(
         poissons_ratio: f64,
         touchable: Vec<TouchableTriangle>,
         (triangles, held): (usize, &[TriangleId]),
         sampling: Sampling,
-    ) -> Self {
+    ) -> Result<Self, Error> {
         let columns = 3 * touchable.len();
         let mut held = held.to_vec();
         held.sort();
-        Self {
+        Ok(Self {
             poissons_ratio,
             held,
             triangles,
             sampling,
-            displacements: vec![T::of(0.0); columns * 3 * triangles],
+            displacements: zeros(columns * 3 * triangles)?,
             touchable,
-        }
+        })
     }
 
     /// What is wrong with them, if anything.

@@ -33,7 +33,7 @@ pub(crate) struct Arguments {
     /// The scene.
     #[arg(value_name = "SCENE.toml")]
     scene: PathBuf,
-    /// Memory that may be used [GB]; by default four fifths of what is free.
+    /// Memory that may be used [GB]; by default four fifths of what is free and limits leave (ulimit, control groups).
     #[arg(long, value_name = "GB", value_parser = positive)]
     memory_gb: Option<f64>,
     /// Print one JSON object.

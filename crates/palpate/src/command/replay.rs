@@ -57,6 +57,7 @@ struct Answer {
     rows_compared: u64,
     /// Of a force from the recorded one.
     largest_difference_n: f64,
+    #[serde(serialize_with = "palpate_jobs::lossy")]
     files: Vec<PathBuf>,
     warnings: Vec<String>,
 }

@@ -31,6 +31,7 @@ pub(crate) struct Beside {
 /// What `summary.json` holds of it.
 #[derive(Debug, Serialize)]
 pub(super) struct BesideAnswer {
+    #[serde(serialize_with = "palpate_jobs::lossy")]
     recording: PathBuf,
     place_m: [f64; 3],
     /// The largest force that was recorded, filtered.

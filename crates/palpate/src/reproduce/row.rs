@@ -20,6 +20,7 @@ pub(crate) struct Row {
     pub(crate) unit: &'static str,
     /// Ours over the published one [-].
     pub(crate) ratio: Option<f64>,
+    #[serde(serialize_with = "palpate_jobs::lossy")]
     pub(crate) file: Option<PathBuf>,
     pub(crate) note: String,
     /// How long it took [s].

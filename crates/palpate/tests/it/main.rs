@@ -10,6 +10,7 @@ mod closed_loop;
 mod devices;
 mod errors;
 mod foreign_text;
+mod limits;
 mod measure;
 mod mesh;
 mod mesh_info;

@@ -30,7 +30,7 @@ use crate::waiting::waiting;
 /// progress : callable, False or None
 ///     Hears (part, words) of a long preparation; False for silence, None for a bar once it takes a second.
 /// memory : int, optional
-///     Memory that may be taken [byte]; without, four fifths of what is free.
+///     Memory that may be taken [byte]; without, four fifths of what is free and limits leave.
 /// cache : bool or path-like
 ///     Whether responses of whole organs are kept, and looked for first: where the command keeps them, or in a
 ///     folder.

@@ -39,7 +39,7 @@ pub(super) fn response(
     let mut doubts = Vec::new();
     if let Some(place) = file.as_ref().filter(|place| place.exists()) {
         tell(watch, Work::Reading)?;
-        match read(ingredients, place) {
+        match read(ingredients, place, resources.memory) {
             Ok(response) => {
                 return Ok(Found {
                     response,
@@ -121,8 +121,12 @@ fn of_stage(solving: Solving, method: Method) -> Progress {
     }
 }
 
-fn read(ingredients: &Ingredients<'_>, place: &Path) -> Result<SurfaceResponse, Error> {
-    let stored = StoredResponse::read(place)?;
+fn read(
+    ingredients: &Ingredients<'_>,
+    place: &Path,
+    memory: usize,
+) -> Result<SurfaceResponse, Error> {
+    let stored = StoredResponse::read(place, memory)?;
     let same = stored
         .touchable
         .iter()

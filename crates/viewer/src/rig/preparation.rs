@@ -19,12 +19,17 @@ impl Preparation {
         let (tell, outcome) = channel();
         let part = Arc::new(AtomicU64::new(0));
         let (make, told) = (make.clone(), part.clone());
-        std::thread::spawn(move || {
+        let refused = tell.clone();
+        let work = move || {
             let made = make(&mut |part| told.store(part.to_bits(), Ordering::Relaxed));
             // Nobody waits any more when another was chosen since.
             let _ = tell.send(made);
             context.request_repaint();
-        });
+        };
+        if let Err(error) = std::thread::Builder::new().spawn(work) {
+            let cause = format!("the system gives no thread ({error}); close other programs");
+            let _ = refused.send(Err(cause));
+        }
         Self { outcome, part }
     }
 

@@ -56,7 +56,16 @@ impl Preparation {
             told: Arc::clone(&told),
             given_up: Arc::clone(&given_up),
         };
-        std::thread::spawn(move || work.run(&tell));
+        let refused = tell.clone();
+        let started = std::thread::Builder::new().spawn(move || work.run(&tell));
+        if let Err(error) = started {
+            let cause = format!("the system gives no thread ({error}); close other programs");
+            let _ = refused.send(Outcome {
+                play: Err(Error::Window { cause }),
+                last: true,
+                second: false,
+            });
+        }
         Self {
             outcomes,
             told,

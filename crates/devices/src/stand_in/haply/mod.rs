@@ -110,8 +110,8 @@ impl HaplyStandIn {
             ..HaplyAddress::default()
         };
         let threads = vec![
-            serve(states, shared.clone(), client::answer),
-            serve(events, shared.clone(), client::tell),
+            serve(states, shared.clone(), client::answer)?,
+            serve(events, shared.clone(), client::tell)?,
         ];
         Ok(Self {
             address,
@@ -182,14 +182,16 @@ fn serve(
     listener: TcpListener,
     shared: Arc<Shared>,
     with: fn(TcpStream, &Shared),
-) -> JoinHandle<()> {
-    std::thread::spawn(move || {
+) -> io::Result<JoinHandle<()>> {
+    std::thread::Builder::new().spawn(move || {
         let mut clients = Vec::new();
         while !shared.ended.load(Ordering::Relaxed) {
             match listener.accept() {
                 Ok((stream, _)) => {
                     let shared = shared.clone();
-                    clients.push(std::thread::spawn(move || with(stream, &shared)));
+                    let thread = std::thread::Builder::new();
+                    // Without a thread the client hears nothing, as of a busy service.
+                    clients.extend(thread.spawn(move || with(stream, &shared)).ok());
                 }
                 Err(_) => std::thread::sleep(PATIENCE),
             }

@@ -1,17 +1,20 @@
-use std::borrow::Cow;
-
+use super::super::raw::MOST_TRIANGLES;
+use super::buffers::Bytes;
 use super::document::{Document, part};
 use crate::ReadFault;
 
 /// A document with the bytes that it refers to.
 pub(super) struct Source<'a> {
     pub(super) document: &'a Document,
-    pub(super) buffers: Vec<Cow<'a, [u8]>>,
+    pub(super) buffers: Vec<Bytes<'a>>,
 }
 
 impl Source<'_> {
     /// Positions of a primitive [m].
-    pub(super) fn positions(&self, accessor: usize) -> Result<Vec<[f64; 3]>, ReadFault> {
+    pub(super) fn positions(
+        &self,
+        accessor: usize,
+    ) -> Result<impl Iterator<Item = [f64; 3]>, ReadFault> {
         let found = part(&self.document.accessors, accessor, "accessor")?;
         if (found.shape.as_str(), found.component_type) != ("VEC3", 5126) {
             return Err(ReadFault::Unsupported {
@@ -19,8 +22,8 @@ impl Source<'_> {
             });
         }
         let single = |four: &[u8]| f64::from(f32::from_bits(little_endian(four)));
-        let decode = |twelve: &[u8]| [0, 4, 8].map(|at| single(&twelve[at..at + 4]));
-        Ok(self.elements(accessor, 12)?.map(decode).collect())
+        let decode = move |twelve: &[u8]| [0, 4, 8].map(|at| single(&twelve[at..at + 4]));
+        Ok(self.elements(accessor, 12)?.map(decode))
     }
 
     /// Vertex numbers of a primitive, from zero.
@@ -71,6 +74,14 @@ impl Source<'_> {
                 what: "a buffer of the glTF document",
                 expected: end as u64,
                 found: room as u64,
+            });
+        }
+        let most = 3 * MOST_TRIANGLES;
+        if count as u64 > most {
+            return Err(ReadFault::TooLarge {
+                what: "vertex numbers",
+                found: count as u64,
+                most,
             });
         }
         Ok((0..count).map(move |k| &bytes[start + k * stride..][..size]))

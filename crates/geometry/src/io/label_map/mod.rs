@@ -10,7 +10,7 @@ use std::path::Path;
 
 use flate2::read::MultiGzDecoder;
 
-use super::read_whole;
+use super::{MOST_BYTES, read_whole};
 use crate::{LabelMap, ReadError, ReadFault};
 
 /// How a compressed file begins.
@@ -32,7 +32,7 @@ pub fn read_label_map(path: &Path) -> Result<LabelMap, ReadError> {
 fn read_here(path: &Path) -> Result<LabelMap, ReadFault> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let name = name.to_ascii_lowercase();
-    let bytes = read_whole(path)?;
+    let bytes = read_whole(path, MOST_BYTES)?;
     let mut map = if name.ends_with(".nii") || name.ends_with(".nii.gz") {
         nifti::read(&mut unpacked(&bytes))?
     } else if name.ends_with(".nrrd") {

@@ -1,6 +1,8 @@
 //! NRRD in one file, raw or compressed. The space is that of the patient: `left-posterior-superior`
 //! and its kin, in millimetres unless `space units` says otherwise.
 
+use std::collections::BTreeMap;
+
 use nalgebra::Matrix3;
 
 use super::unpacked;
@@ -8,7 +10,7 @@ use super::voxels::{Encoding, Kind, labels, size};
 use crate::io::text::unexpected;
 use crate::{LabelMap, LengthUnit, ReadFault, Vec3};
 
-/// The longest header that is read [bytes].
+/// The longest header that is read [bytes]; that of a hundred segments has some ten thousand.
 const MOST_HEADER: usize = 1 << 20;
 
 /// A field or key of the header.
@@ -25,7 +27,15 @@ impl Header {
     fn split(bytes: &[u8]) -> Result<(Self, &[u8]), ReadFault> {
         let mut entries = Vec::new();
         let (mut rest, mut line) = (bytes, 0);
-        while let Some(end) = rest.iter().take(MOST_HEADER).position(|&b| b == b'\n') {
+        loop {
+            let read = bytes.len() - rest.len();
+            let line_end = rest
+                .iter()
+                .take(MOST_HEADER - read)
+                .position(|&b| b == b'\n');
+            let Some(end) = line_end else {
+                break;
+            };
             let text = String::from_utf8_lossy(&rest[..end]);
             let text = text.trim_end();
             rest = &rest[end + 1..];
@@ -47,10 +57,17 @@ impl Header {
                 value: value.trim().to_owned(),
             });
         }
-        Err(ReadFault::EndsEarly {
-            line,
-            expected: "an empty line after the header",
-        })
+        match bytes.len() > MOST_HEADER {
+            true => Err(ReadFault::BadHeader {
+                what: "length",
+                found: format!("more than {MOST_HEADER} bytes"),
+                expected: "an empty line before that",
+            }),
+            false => Err(ReadFault::EndsEarly {
+                line,
+                expected: "an empty line after the header",
+            }),
+        }
     }
 
     fn find(&self, name: &str) -> Option<&Entry> {
@@ -162,11 +179,16 @@ impl Header {
 
     /// Names of segments, as 3D Slicer writes them.
     fn names(&self) -> impl Iterator<Item = (u16, String)> {
-        self.0.iter().filter_map(|entry| {
+        let mut values = BTreeMap::new();
+        for entry in &self.0 {
+            let name = entry.name.to_ascii_lowercase();
+            values.entry(name).or_insert(&entry.value);
+        }
+        self.0.iter().filter_map(move |entry| {
             let segment = entry.name.strip_suffix("_LabelValue")?;
             let number = entry.value.parse().ok()?;
-            let name = self.find(&format!("{segment}_Name"))?;
-            Some((number, name.value.clone()))
+            let name = values.get(&format!("{segment}_Name").to_ascii_lowercase())?;
+            Some((number, (*name).clone()))
         })
     }
 }

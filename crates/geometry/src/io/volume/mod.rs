@@ -20,7 +20,7 @@ use std::path::Path;
 
 use super::raw::RawMesh;
 use super::unit::{doubt_about_extent, unit_by_extent};
-use super::{in_unit, read_whole};
+use super::{MOST_BYTES, in_unit, read_whole};
 use crate::mesh::tetrahedra::six_fold_volume;
 use crate::{LengthUnit, NodeId, ReadError, ReadFault, TetrahedronMesh, Vec3};
 
@@ -84,7 +84,7 @@ fn read_here(path: &Path, unit: Option<LengthUnit>) -> Result<ImportedTetrahedra
             return Err(ReadFault::UnknownVolumeExtension { found });
         }
     };
-    let bytes = read_whole(path)?;
+    let bytes = read_whole(path, MOST_BYTES)?;
     let text = String::from_utf8_lossy(&bytes);
     let raw = match format {
         VolumeFormat::Msh => msh::read(&text)?,

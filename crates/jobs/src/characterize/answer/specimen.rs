@@ -19,6 +19,7 @@ pub struct Specimen {
     /// By its organ, subject and site, or by its first file.
     pub title: String,
     /// Its recordings.
+    #[serde(serialize_with = "crate::lossy")]
     pub files: Vec<PathBuf>,
     /// Its name; none where no file says it.
     pub organ: Option<String>,

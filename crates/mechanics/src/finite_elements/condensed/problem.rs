@@ -110,7 +110,7 @@ impl CondensedProblem<'_> {
             touchable,
             (triangles, self.held),
             Sampling::Means,
-        );
+        )?;
         match self.columns(&condensed, &mut parts.displacements, progress) {
             ControlFlow::Continue(()) => SurfaceResponse::new(parts),
             ControlFlow::Break(()) => Err(Error::BrokenOff),

@@ -1,18 +1,20 @@
 //! `palpate mesh isosurface`: the surface of an organ from a segmented volume.
 
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use palpate_files::{Claim, Overwrite, printable};
 use palpate_geometry::{
-    IsosurfaceSettings, Label, LabelMap, LengthUnit, isosurface, read_label_map,
+    Isosurface, IsosurfaceSettings, Label, LabelMap, LengthUnit, isosurface_with_progress,
+    read_label_map,
 };
 use serde::Serialize;
 
 use super::written::{Output, Written};
 use crate::failure::Failure;
 use crate::progress::{Progress, Reader};
-use palpate_jobs::label;
+use palpate_jobs::{Watch, label};
 
 use crate::output;
 
@@ -28,7 +30,8 @@ Examples:
 The surface is closed and in one piece, also where the border of the volume cuts the organ; the steps of the
 voxels are smoothed away without loss of volume. Metres; x to the patient's left, y to the back, z to the head,
 as all organs of one volume share it. Names come from the file (TotalSegmentator, 3D Slicer) or from a file
-beside it, segmentation.json, with {\"labels\": {\"5\": \"liver\"}}.";
+beside it, segmentation.json, with {\"labels\": {\"5\": \"liver\"}}. A volume has at most 400 million voxels, which take
+1 GB, and a label at most 4 million triangles before they are simplified, which take 2.5 GB and minutes.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
@@ -86,7 +89,7 @@ struct Surfaced {
 
 /// Lists labels, or makes surfaces of them.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let progress = Progress::new(Reader::of_json(arguments.json), None);
+    let progress = Progress::of_job(Reader::of_json(arguments.json));
     progress.say("reading the volume");
     let map = read_label_map(&arguments.file)?;
     let labels = map.labels();
@@ -95,9 +98,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if let (Some(wanted), Some(out)) = (&arguments.label, &arguments.out) {
         let overwrite = Overwrite::of_option(arguments.overwrite);
         let chosen = chosen(&labels, wanted, (out, overwrite))?;
-        for (label, out) in chosen.surfaces {
+        let count = chosen.surfaces.len() as f64;
+        for (number, (label, out)) in chosen.surfaces.into_iter().enumerate() {
             progress.say(format!("the surface of {}", label::in_words(label)));
-            surfaces.push(surface(&map, (label, &out), arguments, &mut warnings)?);
+            // Ctrl-C ends the command at once; a file is written whole or not at all.
+            let at = |part| Watch::at(&progress, (number as f64 + part) / count);
+            let made = surface(&map, (label, &out), arguments, &at)?;
+            warnings.extend(label::doubts(label, &made.0));
+            surfaces.push(made.1);
         }
     }
     drop(progress);
@@ -150,22 +158,26 @@ fn surface(
     map: &LabelMap,
     (label, out): (&Label, &Path),
     arguments: &Arguments,
-    warnings: &mut Vec<String>,
-) -> Result<Surfaced, Failure> {
+    at: &dyn Fn(f64),
+) -> Result<(Isosurface, Surfaced), Failure> {
     let out = Output::new(out, LengthUnit::Metre)?;
     let settings = IsosurfaceSettings {
         smoothing: arguments.smooth,
         triangles: arguments.triangles,
     };
-    let found = isosurface(map, label.number, &settings).map_err(Failure::input)?;
-    warnings.extend(label::doubts(label, &found));
-    Ok(Surfaced {
+    let found = isosurface_with_progress(map, label.number, &settings, &mut |part| {
+        at(part);
+        ControlFlow::Continue(())
+    });
+    let found = found.map_err(Failure::input)?;
+    let surfaced = Surfaced {
         label: label.number,
         name: label.name.clone(),
         written: out.write(&found.simplified.mesh)?,
         voxel_volume_m3: found.voxel_volume,
         cut_by_the_border: found.is_cut,
-    })
+    };
+    Ok((found, surfaced))
 }
 
 /// The label's name without what a file's name cannot hold.

@@ -1,10 +1,12 @@
 //! `palpate mesh simplify`: fewer triangles for the same surface.
 
+use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::Args;
-use palpate_geometry::{LengthUnit, SimplifySettings, repair, simplify};
+use palpate_geometry::{LengthUnit, SimplifySettings, repair, simplify_with_progress};
+use palpate_jobs::Watch;
 use serde::Serialize;
 
 use super::written::{Distance, Output, Written, told};
@@ -58,7 +60,7 @@ struct Answer {
 /// Simplifies and tells.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let out = Output::new(&arguments.out, LengthUnit::Metre)?;
-    let progress = Progress::new(Reader::of_json(arguments.json), None);
+    let progress = Progress::of_job(Reader::of_json(arguments.json));
     progress.say("reading the mesh");
     let mut imported = super::read(&arguments.file, arguments.unit.as_deref())?;
     let (mesh, repairs) = repair(&imported.mesh)?;
@@ -71,7 +73,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     ));
     let begin = Instant::now();
     let settings = SimplifySettings::to(arguments.triangles);
-    let simplified = simplify(&mesh, &settings).map_err(Failure::input)?;
+    let simplified = simplify_with_progress(&mesh, &settings, &mut |part| {
+        Watch::at(&progress, part);
+        ControlFlow::Continue(())
+    });
+    let simplified = simplified.map_err(Failure::input)?;
     let seconds = begin.elapsed().as_secs_f64();
     if simplified.self_intersections > 0 {
         warnings.push(format!(

@@ -16,6 +16,7 @@ pub(super) struct Output {
 /// What was written.
 #[derive(Debug, Serialize)]
 pub(super) struct Written {
+    #[serde(serialize_with = "palpate_jobs::lossy")]
     pub(super) file: PathBuf,
     unit: &'static str,
     pub(super) vertices: usize,

@@ -11,6 +11,7 @@ use crate::output::VERSION;
 #[derive(Debug, Serialize)]
 pub(super) struct Answer {
     palpate: &'static str,
+    #[serde(serialize_with = "palpate_jobs::lossy")]
     record: PathBuf,
     rule: String,
     tasks: Vec<TaskAnswer>,
@@ -58,6 +59,7 @@ struct AttemptAnswer {
     attempt: usize,
     when_unix_s: i64,
     date_utc: String,
+    #[serde(serialize_with = "palpate_jobs::lossy")]
     session: PathBuf,
     scene_digest: String,
     time_s: Option<f64>,

@@ -11,6 +11,7 @@ use crate::output::VERSION;
 #[derive(Debug, Serialize)]
 pub(super) struct Answer {
     palpate: &'static str,
+    #[serde(serialize_with = "palpate_jobs::lossy")]
     session: PathBuf,
     task: TaskAnswer,
     /// By key, in SI.

@@ -28,6 +28,7 @@ pub(super) struct Answer {
 #[serde(untagged)]
 pub(super) enum Origin {
     File {
+        #[serde(serialize_with = "palpate_jobs::lossy")]
         file: PathBuf,
         format: String,
         /// That the coordinates were read in.
