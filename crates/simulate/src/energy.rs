@@ -84,10 +84,8 @@ pub(crate) fn check(simulation: &Simulation, state: &mut SimulationState) {
         }
         let before = own.pressed;
         own.pressed = own.pressing();
-        let goes_on = |before: &Pressed, now: &Pressed| {
-            let takes_hold = own.row.events.contains(Event::Grip);
-            !own.row.events.contains(Event::Contact) && (takes_hold || before.point == now.point)
-        };
+        let begins = own.row.events.contains(Event::Contact);
+        let goes_on = |before: &Pressed, now: &Pressed| !begins && before.point == now.point;
         match (before, own.pressed) {
             (Some(before), Some(now)) if goes_on(&before, &now) => {
                 let way = match (before.held, now.held) {

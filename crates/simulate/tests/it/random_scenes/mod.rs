@@ -261,6 +261,9 @@ fn scenes(numbers: impl Iterator<Item = u64>) {
     let mut seen = Seen::default();
     for number in numbers {
         ask.send(number).unwrap();
+        if number.is_multiple_of(500) {
+            println!("scene {number}");
+        }
         match told.recv_timeout(TIME_LIMIT) {
             Ok(Some(played)) => seen.add(number, played),
             Ok(None) => seen.refused += 1,
@@ -275,6 +278,7 @@ fn scenes(numbers: impl Iterator<Item = u64>) {
     drop(ask);
     worker.join().unwrap();
     println!("{seen:#?}");
+    assert!(seen.played > 0);
     let all = (seen.played + seen.refused) as f64;
     assert!(
         seen.refused as f64 <= MOST_REFUSED * all,
@@ -307,7 +311,7 @@ impl Seen {
 /// Judge: see above. Quick form of `ten_thousand_random_scenes_are_sound`.
 #[test]
 fn random_scenes_are_sound() {
-    scenes((0..24).flat_map(|scene| [MOTIONS * scene, MOTIONS * scene + 1]));
+    scenes((0..12).flat_map(|scene| [MOTIONS * scene, MOTIONS * scene + 1]));
 }
 
 /// Judge: the bounds at the top of this file. Quick form: `random_scenes_are_sound`.

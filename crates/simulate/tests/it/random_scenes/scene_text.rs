@@ -46,7 +46,7 @@ pub(super) fn scene_text(random: &mut Random) -> String {
     let mut text = "format = 1\n".to_owned();
     let is_hybrid = random.chance(0.5);
     let organ = random.of(&ORGANS);
-    writeln!(text, "[organ]\nbuiltin = \"{organ}\"\ntriangles = 300").unwrap();
+    writeln!(text, "[organ]\nbuiltin = \"{organ}\"\ntriangles = 400").unwrap();
     text += &tissue(random);
     if random.chance(0.3) {
         text += &layers(random);
