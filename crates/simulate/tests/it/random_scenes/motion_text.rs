@@ -22,16 +22,16 @@ pub(super) fn motion_text(random: &mut Random, scene: &Scene, simulation: &Simul
     };
     // Tools meet, so that they feel each other.
     let meet = random.place(simulation);
+    let end = STEPS as f64 * simulation.step();
     for tool in &scene.tools {
         let mut hand = Hand {
             place: meet,
-            time: random.between(0.0, 0.1),
+            time: random.between(0.0, 0.2 * end),
             cut: false,
             grip: 0.0,
             has_orientation,
             name: &tool.name,
         };
-        let end = STEPS as f64 * simulation.step();
         if random.chance(0.4) {
             hand.place = random.place(simulation);
         }
