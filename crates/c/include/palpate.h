@@ -70,6 +70,16 @@
 #define PALPATE_EVENT_UNDO_CUT (1 << 11)
 
 /**
+ * It moved faster than a hand can: it lost what it touched and held, and touches anew where it is now.
+ */
+#define PALPATE_EVENT_JUMP (1 << 13)
+
+/**
+ * The organ gave back more work than was done on it.
+ */
+#define PALPATE_EVENT_ENERGY_GAIN (1 << 14)
+
+/**
  * How a call ended: the exit statuses of the command `palpate`.
  */
 typedef enum palpate_status {

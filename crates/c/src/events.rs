@@ -22,6 +22,10 @@ pub const PALPATE_EVENT_DEPTH_BEYOND_TRUST: u32 = 1 << 7;
 pub const PALPATE_EVENT_NON_FINITE_FORCE: u32 = 1 << 8;
 /// Before the step the last cut was closed again.
 pub const PALPATE_EVENT_UNDO_CUT: u32 = 1 << 11;
+/// It moved faster than a hand can: it lost what it touched and held, and touches anew where it is now.
+pub const PALPATE_EVENT_JUMP: u32 = 1 << 13;
+/// The organ gave back more work than was done on it.
+pub const PALPATE_EVENT_ENERGY_GAIN: u32 = 1 << 14;
 
 pub(crate) fn bits(events: Events) -> u32 {
     events
@@ -47,6 +51,8 @@ mod tests {
             (Event::DepthBeyondTrust, PALPATE_EVENT_DEPTH_BEYOND_TRUST),
             (Event::NonFiniteForce, PALPATE_EVENT_NON_FINITE_FORCE),
             (Event::UndoCut, PALPATE_EVENT_UNDO_CUT),
+            (Event::Jump, PALPATE_EVENT_JUMP),
+            (Event::EnergyGain, PALPATE_EVENT_ENERGY_GAIN),
         ] {
             assert_eq!(bits([event].into_iter().collect()), bit, "{event}");
         }

@@ -20,6 +20,8 @@ pub enum Limit {
     TipShearStiffness,
     /// Several tips: change of a force in the last sweep over them [of the largest force].
     Coupling,
+    /// Several tips: how far one moves the organ under another [of how far it moves it under itself].
+    Carried,
 }
 
 /// How far a bound changed an answer.
@@ -39,7 +41,7 @@ pub struct Limits {
 
 impl Limit {
     /// All of them, in the order in which they are told.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Curvature,
         Self::LocalStiffness,
         Self::LocalShearStiffness,
@@ -47,6 +49,7 @@ impl Limit {
         Self::TipStiffness,
         Self::TipShearStiffness,
         Self::Coupling,
+        Self::Carried,
     ];
 }
 

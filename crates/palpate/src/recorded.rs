@@ -137,13 +137,6 @@ pub(crate) fn record(
     })?;
     drop(progress);
     let path = folder.join(SUMMARY);
-    // An older summary is not one of the session that comes now.
-    if path.exists() {
-        std::fs::remove_file(&path).map_err(|source| Error::Write {
-            path: path.clone(),
-            source,
-        })?;
-    }
     // Until all is written nobody else may write here.
     let _claim = writer.finish()?;
     let mut files = vec![SessionFolder::session_file(folder)];

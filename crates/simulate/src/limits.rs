@@ -4,15 +4,32 @@
 
 use palpate_mechanics::{Limit, Limits, Reached};
 
+use crate::hand_speed::FASTEST_HAND;
+
 /// How often each bound acted under one tool, and its worst case. A step only counts.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct LimitCounts {
     steps: u64,
     acted: [u64; Limit::ALL.len()],
     worst: Limits,
+    /// Steps that were too far for a hand, and the fastest of them [m/s].
+    jumps: u64,
+    fastest: f64,
+    energy_gains: u64,
 }
 
 impl LimitCounts {
+    /// Counts a step that no hand moves, with its `speed` [m/s].
+    pub(crate) fn count_jump(&mut self, speed: f64) {
+        self.jumps += 1;
+        self.fastest = self.fastest.max(speed);
+    }
+
+    /// Counts a touch that gave back more work than was done.
+    pub(crate) fn count_energy_gain(&mut self) {
+        self.energy_gains += 1;
+    }
+
     /// Counts one step in contact.
     pub(crate) fn count(&mut self, limits: &Limits) {
         self.steps += 1;
@@ -34,7 +51,22 @@ impl LimitCounts {
 
     /// One plain sentence for each bound that acted under the tip of the tool with this name.
     pub fn warnings(&self, tool: &str) -> impl Iterator<Item = String> {
-        Limit::ALL.into_iter().filter_map(move |limit| {
+        let jumps = (self.jumps > 0).then(|| {
+            format!(
+                "the tool {tool:?} moved faster than {FASTEST_HAND} m/s, as no hand does, in {} steps, at most {:.1} m/s \
+                 (event `jump`): it lost what it touched and held, and touched anew where it was then; check the \
+                 motion's units and times, or the device",
+                self.jumps, self.fastest
+            )
+        });
+        let gains = (self.energy_gains > 0).then(|| {
+            format!(
+                "the organ gave back more work than the tool {tool:?} and others had done on it, {} times (event \
+                 `energy_gain`): its forces there are wrong; please report the scene and the motion",
+                self.energy_gains
+            )
+        });
+        let limits = Limit::ALL.into_iter().filter_map(move |limit| {
             let reached = self.worst.reached(limit)?;
             let when = format!(
                 "in {} of {} steps in contact",
@@ -42,7 +74,8 @@ impl LimitCounts {
                 self.steps
             );
             Some(sentence(limit, &reached, (tool, &when)))
-        })
+        });
+        limits.chain(jumps).chain(gains)
     }
 }
 
@@ -75,16 +108,22 @@ fn sentence(limit: Limit, reached: &Reached, (tool, when): (&str, &str)) -> Stri
         ),
         Limit::TipStiffness => format!(
             "the organ under the tip {tool:?} was taken as {used:.0} times as stiff as a half-space, {times}, \
-             {when}{lacks}: what holds the organ lies right under the tip; touch farther from `organ.anchor`"
+             {when}{lacks}: the organ is held right under the tip; touch farther from `organ.anchor` and from \
+             the jaws of another tool"
         ),
         Limit::TipShearStiffness => format!(
             "the organ along the surface under the tip {tool:?} was taken as {used:.0} times as stiff as a \
-             half-space, {times}, {when}{lacks}: what holds the organ lies right under the tip; touch farther \
-             from `organ.anchor`"
+             half-space, {times}, {when}{lacks}: the organ is held right under the tip; touch farther from \
+             `organ.anchor` and from the jaws of another tool"
         ),
         Limit::Coupling => format!(
             "the forces of tools that touch together, {tool:?} among them, still changed by {asked:.1e} of the largest \
              in the last sweep over them, above {used:.1e}, {when}: the tips are on the same spot; keep them apart"
+        ),
+        Limit::Carried => format!(
+            "what the other tool moves the organ by under the tip {tool:?} was taken as {used:.2} of what it moves it by \
+             under itself, where its model asks for {asked:.2}, {when}: the tips are on the same spot, or deep beside \
+             each other; keep them apart"
         ),
     }
 }

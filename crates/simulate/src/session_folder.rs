@@ -15,6 +15,10 @@ use crate::{Error, Simulation};
 const SESSION: &str = "session.csv";
 const SCENE: &str = "scene.toml";
 
+/// What was made of a session. It goes with it, at the same moment: a summary is never beside another session, and a
+/// session that stays keeps its own.
+const MADE_OF_SESSION: [&str; 4] = ["summary.json", "force.png", "force-depth.png", "beside.png"];
+
 /// A session that was read from its folder.
 #[derive(Debug, Clone)]
 pub struct SessionFolder {
@@ -91,6 +95,9 @@ impl SessionFolderWriter {
         // takes the `.part` files.
         self.session.finish_after(|| {
             remove(&session)?;
+            for name in MADE_OF_SESSION {
+                remove(&at(name))?;
+            }
             match self.has_scene {
                 true => std::fs::rename(unfinished(&scene), &scene).map_err(|source| {
                     palpate_files::Error::Write {

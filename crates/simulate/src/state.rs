@@ -7,6 +7,7 @@ use palpate_mechanics::finite_spheres::{FiniteSphereWorkspace, Response};
 use palpate_mechanics::{ForceHistory, Limits};
 
 use crate::cutting::{Blade, Cuts};
+use crate::energy::{EnergyAccount, Pressed};
 use crate::global::{GlobalWorkspace, OrganField};
 use crate::grip::Grip;
 use crate::limits::LimitCounts;
@@ -35,6 +36,8 @@ pub struct SimulationState {
     pub(crate) shown_deformed: bool,
     /// When the whole organ was shaped last [s].
     pub(crate) shown_at: f64,
+    /// The work of the tools on it.
+    pub(crate) energy: EnergyAccount,
     /// When the cuts were last taken to where the organ is [s].
     pub(crate) cuts_shown_at: f64,
 }
@@ -82,6 +85,10 @@ pub struct ToolState {
     pub(crate) elastic: Vec3,
     /// Displacement of the touched point where the whole organ answers [m].
     pub(crate) displaced: Vec3,
+    /// How far its tip moves the organ beside all that others do [m].
+    pub(crate) moves: f64,
+    /// How it pressed in the last step.
+    pub(crate) pressed: Option<Pressed>,
     /// What of it a half-space would yield [m].
     pub(crate) own: Vec3,
     /// Where it touches the whole organ's mechanical surface.
@@ -137,6 +144,7 @@ impl SimulationState {
             shown_deformed: false,
             shown_at: f64::NEG_INFINITY,
             cuts_shown_at: f64::NEG_INFINITY,
+            energy: EnergyAccount::default(),
         }
     }
 
@@ -176,6 +184,8 @@ impl SimulationState {
     /// Closes the last cut again. Whether there was one; while a blade is in the tissue there is none.
     pub fn undo_cut(&mut self) -> bool {
         self.cuts_shown_at = f64::NEG_INFINITY;
+        // An organ that is whole again is stiffer under what presses on it.
+        self.energy.close();
         self.cuts.as_mut().is_some_and(Cuts::undo)
     }
 
@@ -216,6 +226,8 @@ impl ToolState {
             elastic: Vec3::zeros(),
             site: None,
             displaced: Vec3::zeros(),
+            moves: 0.0,
+            pressed: None,
             own: Vec3::zeros(),
             off_model: false,
             with_pull: Vec3::zeros(),

@@ -11,7 +11,7 @@ use crate::contact;
 use crate::simulation::Simulation;
 use crate::state::{SimulationState, SimulationWorkspace, ToolState};
 use crate::tool::Tool;
-use crate::{cutting, deform, grip, nodule, orientation};
+use crate::{cutting, deform, energy, grip, hand_speed, nodule, orientation};
 
 /// Depth beyond which no model here has been compared with tissue [m].
 pub const TRUSTED_DEPTH: f64 = 0.010;
@@ -39,7 +39,8 @@ pub fn step(
     for (number, tool) in simulation.tools.iter().enumerate() {
         let pose = poses.get(number).copied().flatten();
         let own = &mut state.tools[number];
-        own.row.events = detect(simulation, tool, pose, own);
+        let jumps = hand_speed::follow(simulation, pose.as_ref(), elapsed, own);
+        own.row.events = jumps | detect(simulation, tool, pose, own);
         if let Some(model) = &simulation.cutting {
             cutting::lead(simulation, model, tool, own);
         }
@@ -54,6 +55,7 @@ pub fn step(
             state.limits.count(&state.limited);
         }
     }
+    energy::check(simulation, state);
     if let Some(model) = &simulation.cutting {
         for number in 0..simulation.tools.len() {
             cutting::advance(simulation, model, number, state);

@@ -31,6 +31,10 @@ words! {
         UndoCut = "undo_cut",
         /// Before the step the organ was made whole and at rest.
         BeginAnew = "begin_anew",
+        /// It moved faster than a hand can: it lost what it touched and held, and touches anew where it is now.
+        Jump = "jump",
+        /// The organ gave back more work than was done on it.
+        EnergyGain = "energy_gain",
     }
 }
 
@@ -124,6 +128,6 @@ mod tests {
         assert_eq!(Events::from_words("cut;contact"), Some(events));
         assert_eq!(Events::from_words(""), Some(Events::NONE));
         assert_eq!(Events::from_words("contact;sneeze"), None);
-        assert_eq!(Event::WORDS.len(), 13);
+        assert_eq!(Event::WORDS.len(), 15);
     }
 }

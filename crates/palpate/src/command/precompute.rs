@@ -52,11 +52,19 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let answer = precompute(scene, &resources, &bar)?;
     drop(bar);
     if arguments.json {
-        return output::json(&answer);
+        output::json(&answer)?;
+    } else {
+        output::text(text(&answer))?;
+        output::warnings(&answer.warnings);
     }
-    output::text(text(&answer))?;
-    output::warnings(&answer.warnings);
-    Ok(())
+    // To keep it is all that was asked for.
+    match answer.file {
+        Some(_) => Ok(()),
+        None => Err(Failure::failed(
+            "the organ's response was solved and could not be kept, as the warning says; make room, or name another \
+             folder by PALPATE_CACHE",
+        )),
+    }
 }
 
 fn text(answer: &Precomputed) -> String {

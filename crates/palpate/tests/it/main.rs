@@ -7,6 +7,7 @@
 
 mod arrows;
 mod closed_loop;
+mod crash;
 mod devices;
 mod errors;
 mod foreign_text;

@@ -3,8 +3,8 @@
 //! With Ξ_hh the compliance of the held parts (triangles, or several with the mean of their displacements), d
 //! their displacements and c what the tips carry them by, the forces on them are f = E Ξ_hh⁻¹ (d − c) (4.7).
 //! Ξ_hh is symmetric and positive definite; it is factored by Cholesky where other parts are held than in the
-//! step before, and a step only substitutes back. Tips and held parts take turns in the sweeps of `press`. A
-//! tool feels −Σ f of its own, and answers a way of its jaws with S = E Σ Ξ_hh⁻¹ over its own.
+//! step before, and a step only substitutes back. `press` eliminates them from the equations of the tips. A tool
+//! feels −Σ f of its own, and answers a way of its jaws with S = E Σ Ξ_hh⁻¹ over its own.
 //!
 //! *How we know*: `grip::agreement::…`: the same elements anew, finite elements, a tube pulled at both sides;
 //! `grip::energy::a_closed_way_gives_no_energy`.
@@ -41,6 +41,8 @@ pub(super) struct HeldWorkspace {
     forces: Vec<Vec3>,
     /// Compliance [m/N] of part k to a force on tip i, at k tools + i.
     to_tips: Vec<Matrix3<f64>>,
+    /// What tip i is moved less by a force on tip j because the held parts stand still [m/N], at i tools + j.
+    fixes: Vec<Matrix3<f64>>,
     /// Σ Ξ_hh⁻¹ over each tool's parts [m].
     stiffness: Vec<Matrix3<f64>>,
 }
@@ -57,13 +59,19 @@ impl HeldWorkspace {
             right: vec![0.0; 3 * most],
             forces: vec![Vec3::zeros(); most],
             to_tips: vec![Matrix3::zeros(); most * tools],
+            fixes: vec![Matrix3::zeros(); tools * tools],
             stiffness: vec![Matrix3::zeros(); tools],
         }
     }
 
+    /// How many parts bear forces: none where their equations have no answer.
+    fn answered(&self) -> usize {
+        if self.is_sound { self.who.len() } else { 0 }
+    }
+
     /// Held triangles with their tools and forces [N].
     pub(super) fn forces(&self) -> impl Iterator<Item = (usize, TouchId, Vec3)> {
-        (0..self.who.len()).flat_map(move |k| {
+        (0..self.answered()).flat_map(move |k| {
             let triangles = self.part(k).iter();
             triangles.map(move |one| (self.who[k].0, one.touch, self.forces[k] * one.weight))
         })
@@ -71,15 +79,50 @@ impl HeldWorkspace {
 
     /// Displacement [m] of the tip of tool `number`, one of so many, by the forces on what is held.
     pub(super) fn carries(&self, number: usize, tools: usize) -> Vec3 {
-        let forces = self.forces.iter().take(self.who.len()).enumerate();
+        let forces = self.forces.iter().take(self.answered()).enumerate();
         forces
             .map(|(k, force)| self.to_tips[k * tools + number].tr_mul(force))
             .sum()
     }
 
+    /// How much less tip `moved` yields [m/N] to a force on tip `loaded`, of so many tools, than if nothing were held.
+    pub(super) fn fixes(&self, moved: usize, loaded: usize, tools: usize) -> Matrix3<f64> {
+        self.fixes[moved * tools + loaded]
+    }
+
+    /// Finds that for all tips of an organ of Young's modulus `modulus` [Pa].
+    fn fix(&mut self, tools: usize, modulus: f64) {
+        self.fixes.fill(Matrix3::zeros());
+        if !self.is_sound {
+            return;
+        }
+        let parts = self.who.len();
+        let size = 3 * parts;
+        for loaded in 0..tools {
+            for axis in 0..3 {
+                let right = &mut self.right[..size];
+                for (k, three) in right.chunks_exact_mut(3).enumerate() {
+                    let moved = self.to_tips[k * tools + loaded].column(axis) * modulus;
+                    three.copy_from_slice(moved.as_slice());
+                }
+                substitute(&self.matrix[..size * size], right);
+                for tip in 0..tools {
+                    let forces = right.chunks_exact(3).enumerate();
+                    let by: Vec3 = forces
+                        .map(|(k, three)| {
+                            let force = Vec3::from_column_slice(three);
+                            self.to_tips[k * tools + tip].tr_mul(&force)
+                        })
+                        .sum();
+                    self.fixes[tip * tools + loaded].set_column(axis, &by);
+                }
+            }
+        }
+    }
+
     /// Forces on the parts, in their order [N].
     pub(super) fn forces_on_parts(&self) -> impl Iterator<Item = (usize, Vec3)> {
-        let forces = self.forces.iter().take(self.who.len());
+        let forces = self.forces.iter().take(self.answered());
         forces.copied().enumerate()
     }
 
@@ -217,6 +260,7 @@ impl GlobalModel {
                 held.to_tips[k * tools.len() + number] = sum * softness;
             }
         }
+        held.fix(tools.len(), 1.0 / softness);
         held.is_sound
     }
 
@@ -263,14 +307,13 @@ impl GlobalModel {
         }
     }
 
-    /// The forces of all that is held beside those of the tips; the largest change of a tool's force, and the
-    /// largest force [N].
+    /// The forces of all that is held beside those of the tips.
     pub(super) fn answer_held(
         &self,
         simulation: &Simulation,
         tools: &mut [ToolState],
         workspace: &mut GlobalWorkspace,
-    ) -> (f64, f64) {
+    ) {
         let modulus = simulation.material.at_rest.youngs_modulus();
         let held = &mut workspace.held;
         let size = 3 * held.who.len();
@@ -295,20 +338,15 @@ impl GlobalModel {
         for (force, three) in held.forces.iter_mut().zip(right.chunks_exact(3)) {
             *force = Vec3::from_column_slice(three);
         }
-        let (mut change, mut largest) = (0.0_f64, 0.0_f64);
         for (number, state) in tools.iter_mut().enumerate() {
             if !state.holds() {
                 continue;
             }
             let own = held.who.iter().zip(&held.forces);
             let own = own.filter(|((tool, _), _)| *tool == number);
-            let force = -own.map(|(_, force)| force).sum::<Vec3>();
-            change = change.max((force - state.elastic).norm());
-            largest = largest.max(force.norm());
-            state.elastic = force;
+            state.elastic = -own.map(|(_, force)| force).sum::<Vec3>();
             state.stiffness = held.stiffness[number] * modulus;
         }
-        (change, largest)
     }
 }
 

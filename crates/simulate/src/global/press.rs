@@ -1,8 +1,18 @@
 //! The forces of all tips on one organ: each has its own law and its share of what the organ yields.
 //!
 //! With d_i the displacement of tip i and C_ij the further compliance between tips, d_i = own law(F_i) +
-//! Σ_j C_ij F_j. Solved tip by tip, what jaws hold at once (Gauss and Seidel); C is that of an elastic solid, so that this
-//! converges, and two tips apart by some radii need a few sweeps.
+//! Σ_j C_ij F_j. What jaws hold is linear, and eliminated: with T_i the compliance of the held parts to a force on tip i,
+//! the tips meet an organ whose held parts stand still, C_ij − T_iᵀ E Ξ_hh⁻¹ T_j, and that is carried by what the jaws
+//! alone do. One tip beside jaws is then solved at once, however far the jaws have gone. (Tips and jaws by turns
+//! diverge: under a sphere that is deep the own law is stiffer than C allows for.) Several tips are solved by turns
+//! (Gauss and Seidel), and two apart by some radii need a few sweeps.
+//!
+//! An elastic organ moves nowhere as far as under the tip that presses on it. C of constant triangles and a tip law that
+//! stiffens do not know that of tips on one spot, so it is made sure of: a tip is carried by another at most by
+//! [`MOST_CARRIED`] of what that one moves under itself. So every displacement of a tip, and every force, is bounded by
+//! the ways of the tools.
+//!
+//! *How we know*: `hybrid::…`, `grip::jumps::…`, `random_scenes::…`.
 
 use nalgebra::Matrix3;
 use palpate_geometry::{Footing, Vec3, closest_on_triangle, settle};
@@ -21,6 +31,10 @@ const MOST_SWEEPS: usize = 60;
 
 /// Change of a force that ends the sweeps, in parts of the largest [-].
 const SETTLED: f64 = 1e-10;
+
+/// How far a tip is carried by another, at most, of what that one moves the organ by under itself [-]: a displacement of
+/// the ways of two tools grows by 1/(1 − this) at most.
+const MOST_CARRIED: f64 = 0.99;
 
 impl GlobalModel {
     /// Where a contact is on the mechanical surface.
@@ -76,6 +90,7 @@ impl GlobalModel {
             state.elastic = Vec3::zeros();
             state.own = Vec3::zeros();
             state.displaced = Vec3::zeros();
+            state.moves = 0.0;
             state.stiffness = Matrix3::zeros();
             state.limited = Limits::NONE;
         }
@@ -84,6 +99,11 @@ impl GlobalModel {
         }
         self.couple(simulation, tools, softness, workspace);
         let holds = self.hold(simulation, tools, workspace);
+        if holds {
+            // Of the jaws alone: no tip has a force yet.
+            self.answer_held(simulation, tools, workspace);
+        }
+        let tips = tools.iter().filter(|state| state.contact.is_some()).count();
         for sweep in 1..=MOST_SWEEPS {
             let (mut change, mut largest) = (0.0_f64, 0.0_f64);
             for number in 0..tools.len() {
@@ -93,13 +113,8 @@ impl GlobalModel {
                 change = change.max((force - before).norm());
                 largest = largest.max(force.norm());
             }
-            if holds {
-                let (changed, force) = self.answer_held(simulation, tools, workspace);
-                change = change.max(changed);
-                largest = largest.max(force);
-            }
-            // One tool alone is done after the first.
-            if tools.len() < 2 || change <= SETTLED * largest {
+            // One tip alone is done after the first.
+            if tips < 2 || change <= SETTLED * largest {
                 break;
             }
             if sweep == MOST_SWEEPS {
@@ -111,6 +126,9 @@ impl GlobalModel {
                     tool.limited.add(Limit::Coupling, reached);
                 }
             }
+        }
+        if holds {
+            self.answer_held(simulation, tools, workspace);
         }
     }
 
@@ -155,11 +173,26 @@ impl GlobalModel {
         let (Some(contact), Some(pose)) = (tools[number].contact, tools[number].pose) else {
             return;
         };
-        let mut carried = workspace.held.carries(number, tools.len());
-        for (other, state) in tools.iter().enumerate() {
-            if other != number {
-                carried -= workspace.between[number * tools.len() + other] * state.elastic;
+        let GlobalWorkspace { held, between, .. } = workspace;
+        let mut carried = held.carries(number, tools.len());
+        let mut bounded: Option<Reached> = None;
+        for (other, state) in tools
+            .iter()
+            .enumerate()
+            .filter(|(other, _)| *other != number)
+        {
+            let place = number * tools.len() + other;
+            let by = (between[place] - held.fixes(number, other, tools.len())) * state.elastic;
+            let most = MOST_CARRIED * state.moves;
+            if by.norm() <= most {
+                carried -= by;
+                continue;
             }
+            carried -= by * (most / by.norm());
+            bounded = Some(Reached {
+                asked: by.norm() / state.moves,
+                used: MOST_CARRIED,
+            });
         }
         let frame = contact.place.frame;
         let own = contact.displacement(tool, &Vec3::from(pose.position_m));
@@ -168,7 +201,8 @@ impl GlobalModel {
         let compliance = load.map_or(Matrix3::zeros(), |load| {
             let slit = workspace.slit.as_ref();
             let more = slit.map_or(Matrix3::zeros(), |slit| slit.further(number));
-            frame.tr_mul(&(load.further_compliance() + more)) * frame * softness
+            let free = (load.further_compliance() + more) * softness;
+            frame.tr_mul(&(free - held.fixes(number, number, tools.len()))) * frame
         });
         let state = &mut tools[number];
         let touched = state
@@ -180,11 +214,15 @@ impl GlobalModel {
         if tool.bond == Bond::Slip {
             own = Vec3::new(0.0, 0.0, own.z);
         }
+        state.moves = moved.norm();
         state.own = frame * own;
         // A tip that slips is carried along by the organ.
         state.displaced = frame * (own - compliance * answer.force) + carried;
         state.elastic = frame * answer.force;
         state.stiffness = answer.stiffness;
         state.limited = answer.limits;
+        if let Some(reached) = bounded {
+            state.limited.add(Limit::Carried, reached);
+        }
     }
 }

@@ -121,6 +121,18 @@ impl Hold {
         self.now.0 + self.now.1 * (within + self.slid)
     }
 
+    /// Where the tissue would be now that the jaws took hold of at the point that shows it, had it not slipped [m].
+    pub(crate) fn carried_without_slip(&self) -> Vec3 {
+        let within =
+            self.began.1.inverse() * (self.seen.place + self.seen.displaced - self.began.0);
+        self.now.0 + self.now.1 * within
+    }
+
+    /// How far the jaws have turned since they took hold [rad].
+    pub(crate) fn has_turned(&self) -> f64 {
+        self.began.1.angle_to(&self.now.1)
+    }
+
     /// The tool's rotation.
     pub(crate) fn turned(&self) -> &UnitQuaternion<f64> {
         &self.now.1
@@ -136,7 +148,7 @@ impl Hold {
     }
 
     /// Where the tissue is held, at rest [m].
-    pub(super) fn place(&self) -> Vec3 {
+    pub(crate) fn place(&self) -> Vec3 {
         self.seen.place
     }
 

@@ -30,6 +30,7 @@ mod neighbours;
 mod no_allocation;
 mod nodules;
 mod performance;
+mod random_scenes;
 mod replay;
 mod scenes;
 mod slides;

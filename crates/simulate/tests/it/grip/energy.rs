@@ -1,7 +1,7 @@
 //! Friction and work.
 
 use palpate_files::Event;
-use palpate_files::scene::Jaws;
+use palpate_files::scene::{Jaws, Nodule};
 use palpate_geometry::Vec3;
 use palpate_simulate::Simulation;
 
@@ -145,4 +145,55 @@ fn what_slips_takes_energy() {
     println!("{least:.1e} to {most:.1e} J");
     // A thousandth of what the worst way takes, for ways that do not slip.
     assert!(least < 0.0 && most < 1e-3 * -least, "{least} {most}");
+}
+
+/// Judge: energy. An organ that is stiffer when it is left than when it was pressed gives back what nobody did, and says
+/// so, once for each touch; one that stays as it is does not.
+#[test]
+fn a_gain_of_energy_is_reported() {
+    let setting = Setting {
+        kind: "local",
+        model: "",
+        ..HEMISPHERE
+    };
+    let simulation = setting.simulation();
+    let stiffer = Nodule {
+        center_m: [0.0, 0.0, 0.047],
+        radius_m: 4e-3,
+        stiffness_ratio: 50.0,
+    };
+    for becomes_stiffer in [false, true] {
+        let mut hands = Hands::new(&simulation);
+        let (mut gains, mut forces) = (0, [0.0; 2]);
+        for _ in 0..2 {
+            let depth = |step: i32| 2e-3 * (1.0 - f64::from(step).abs() / 20.0);
+            for step in -20..=20 {
+                let before = if becomes_stiffer && step > 0 {
+                    &[stiffer][..]
+                } else {
+                    &[]
+                };
+                hands.state = hands.state.with_nodules(&simulation, before).unwrap();
+                let force = hands.at(&(POLE - Vec3::z() * depth(step)), 0.0);
+                if step.abs() == 1 {
+                    forces[usize::from(step > 0)] = force.z;
+                }
+                gains += u32::from(hands.did(Event::EnergyGain));
+            }
+        }
+        let told = hands.state.warnings(&simulation);
+        let told = told.iter().any(|text| text.contains("more work"));
+        println!(
+            "{} N before, {} N after: {gains} gains",
+            forces[0], forces[1]
+        );
+        assert_eq!(
+            (gains, told),
+            if becomes_stiffer {
+                (2, true)
+            } else {
+                (0, false)
+            }
+        );
+    }
 }

@@ -4,6 +4,7 @@ mod agreement;
 mod energy;
 mod holding;
 mod invariants;
+mod jumps;
 mod shown;
 
 use nalgebra::UnitQuaternion;

@@ -1,0 +1,148 @@
+//! An organ gives back no more work than was done on it.
+//!
+//! From the first touch of an organ at rest to the last release, with F the force on a tool and x its tip (of jaws, the
+//! tissue that they hold), step by step over all tools,
+//!
+//! ```text
+//! W = −½ (F₀ + F₁)·(x₁ − x₀)      a contact that begins: ½ F₁ᵀ K⁻¹ F₁      one that ends: −½ F₀ᵀ K⁻¹ F₀
+//! ```
+//!
+//! The positive parts are the work done, the negative ones the work given back. Where the second exceeds
+//! [`MOST_RETURNED`] times the first, the solution is not that of an elastic organ: [`Event::EnergyGain`], once for
+//! each touch, on every tool that touches.
+//!
+//! *How we know*: `grip::energy::…`, `random_scenes::…`.
+//!
+//! *Limits*: only touches by jaws and by flat tips that stick are checked. A tip that slips passes without work between
+//! places of different stiffness, a sphere that sticks shears at one depth and returns at another, and work done by
+//! turning jaws is not felt: those models have no energy that could be compared.
+
+use palpate_files::session::Event;
+use palpate_geometry::Vec3;
+use palpate_mechanics::contact::{Bond, Tip};
+
+use crate::grip::Hold;
+use crate::simulation::Simulation;
+use crate::state::{SimulationState, ToolState};
+use crate::tool::Tool;
+
+/// Work given back over work done beyond which there is a gain [-]. A contact that begins or ends within a step counts
+/// by its tangent stiffness: for a force that rises with the n-th power of depth that is (n+1)/2n of its energy, never
+/// less than a half. Linear tissue returns at most 1.01.
+const MOST_RETURNED: f64 = 2.0;
+
+/// Work below this is rounding [J]: a micronewton over a tenth of a millimetre.
+const NOISE: f64 = 1e-10;
+
+/// Jaws that have turned farther than this with tissue between them [rad] did work that is not felt.
+const MOST_TURNED: f64 = 0.1;
+
+/// The work of all tools since the organ was at rest.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct EnergyAccount {
+    /// Done on the organ, and given back by it [J].
+    done: f64,
+    returned: f64,
+    /// Whether this touch is not checked any more: it cannot be, or its gain has been reported.
+    is_closed: bool,
+}
+
+impl EnergyAccount {
+    fn add(&mut self, work: f64) {
+        self.done += work.max(0.0);
+        self.returned -= work.min(0.0);
+    }
+
+    /// Checks nothing until the organ is at rest again.
+    pub(crate) fn close(&mut self) {
+        self.is_closed = true;
+    }
+
+    fn gains(&self) -> bool {
+        !self.is_closed && self.returned > MOST_RETURNED * self.done + NOISE
+    }
+}
+
+/// Where the tip of a tool that touches is, and the tissue that it holds [m], and the force on it [N].
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Pressed {
+    tip: Vec3,
+    held: Option<Vec3>,
+    /// The touched point of the organ at rest [m]: another one is another contact.
+    point: Vec3,
+    force: Vec3,
+    /// Energy of its contact alone [J].
+    stored: f64,
+}
+
+/// Adds the work of a step, and reports a gain.
+pub(crate) fn check(simulation: &Simulation, state: &mut SimulationState) {
+    let account = &mut state.energy;
+    for (tool, own) in simulation.tools.iter().zip(&mut state.tools) {
+        if own.touches() && !has_energy(tool, own) {
+            account.close();
+        }
+        let before = own.pressed;
+        own.pressed = own.pressing();
+        let begins = own.row.events.contains(Event::Contact);
+        let goes_on = |before: &Pressed, now: &Pressed| !begins && before.point == now.point;
+        match (before, own.pressed) {
+            (Some(before), Some(now)) if goes_on(&before, &now) => {
+                let way = match (before.held, now.held) {
+                    (Some(before), Some(now)) => now - before,
+                    _ => now.tip - before.tip,
+                };
+                account.add(-0.5 * (before.force + now.force).dot(&way));
+            }
+            (before, now) => {
+                account.add(-before.map_or(0.0, |before| before.stored));
+                account.add(now.map_or(0.0, |now| now.stored));
+            }
+        }
+    }
+    if account.gains() {
+        account.close();
+        for own in &mut state.tools {
+            // A tool that has just released it took part.
+            if own.touches() || own.row.events.contains(Event::Release) {
+                own.row.events.insert(Event::EnergyGain);
+                own.limits.count_energy_gain();
+            }
+        }
+    }
+    if !state.tools.iter().any(ToolState::touches) {
+        state.energy = EnergyAccount::default();
+    }
+}
+
+/// Whether the force on a tool is the derivative of an energy.
+fn has_energy(tool: &Tool, state: &ToolState) -> bool {
+    match &state.grip.hold {
+        Some(hold) => hold.has_turned() <= MOST_TURNED,
+        None => matches!((tool.tip, tool.bond), (Tip::Flat { .. }, Bond::Stick)),
+    }
+}
+
+impl ToolState {
+    fn pressing(&self) -> Option<Pressed> {
+        if !self.touches() {
+            return None;
+        }
+        // Of held tissue the stiffness is in the scene's frame.
+        let force = match &self.contact {
+            Some(contact) => contact.place.frame.tr_mul(&self.force),
+            None => self.force,
+        };
+        let hold = self.grip.hold.as_ref();
+        let yields = self.stiffness.try_inverse().map(|inverse| inverse * force);
+        Some(Pressed {
+            tip: Vec3::from(self.pose?.position_m),
+            held: hold.map(Hold::carried_without_slip),
+            point: hold
+                .map(Hold::place)
+                .or(self.contact.map(|contact| contact.point()))?,
+            force: self.force,
+            stored: yields.map_or(0.0, |by| (0.5 * force.dot(&by)).max(0.0)),
+        })
+    }
+}
