@@ -194,7 +194,7 @@ mod tests {
 
     #[test]
     fn a_unit_that_was_meant_is_named() {
-        let unit = |given| matches(given, "radius_m").unwrap();
+        let unit = |given: &str| matches(given, "radius_m").unwrap();
         let said = |key: &str, given| LENGTH.warning(key, given, unit(key));
         assert_eq!(said("radius_m", 0.01), None);
         assert_eq!(
