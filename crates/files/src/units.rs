@@ -149,29 +149,14 @@ pub(crate) fn matches(given: &str, expected: &str) -> Option<Match> {
     if given == expected {
         return Some(Match::Exact);
     }
-    if !may_share_base(given, expected) {
-        return None;
-    }
     let (base, to) = split(expected)?;
     let (given_base, from) = split(given)?;
     (base == given_base && from.si == to.si).then_some(Match::Converted(from, to))
 }
 
-/// Whether two names begin alike as far as the first `_` of `expected`: without that they have no base in common, which
-/// is found faster than the units. A table may have hundreds of thousands of names.
-fn may_share_base(given: &str, expected: &str) -> bool {
-    let pairs = given.bytes().zip(expected.bytes());
-    let alike = pairs.take_while(|(one, other)| one == other).count();
-    let expected = expected.as_bytes();
-    expected.get(..=alike).unwrap_or(expected).contains(&b'_')
-}
-
 /// The names that would be accepted instead of `given`, when `given` has the base of `expected` but
 /// no unit or one that does not fit: "`depth_m`, `depth_cm` or ...".
 pub(crate) fn accepted_instead(given: &str, expected: &str) -> Option<String> {
-    if !may_share_base(given, expected) {
-        return None;
-    }
     let (base, unit) = split(expected)?;
     let end = given.strip_prefix(base)?;
     // `tau_standard_eror_s` is a misspelled key, not `tau` in a strange unit.

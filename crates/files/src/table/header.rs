@@ -5,6 +5,9 @@ use crate::toml_document::{Table, Warnings, check_format, parse_toml};
 use crate::words::near_miss;
 use crate::{Error, Keys, units};
 
+/// Keys that may stand above a table: each is compared with all that are known, and no instrument writes more.
+const MOST_KEYS: usize = 10_000;
+
 /// What the comments above a table say.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Header {
@@ -46,12 +49,21 @@ impl Header {
         known: &'static [&'static str],
     ) -> Result<Self, Error> {
         let mut header = Self::default();
+        let mut keys = 0;
         for (line, text) in (1..).zip(above) {
             let text = text.trim().trim_start_matches('#').trim();
             let Some((key, value)) = key_and_value(text) else {
                 continue;
             };
             let place = Place::line(path, line);
+            keys += 1;
+            if keys > MOST_KEYS {
+                return Err(Error::BadRow {
+                    place,
+                    found: format!("more than {MOST_KEYS} keys above the table"),
+                    expected: "fewer, or the names of the columns before them".to_owned(),
+                });
+            }
             let is_known = |known: &&str| units::matches(key, known).is_some();
             if key == "format" || known.iter().any(is_known) {
                 header.add(text, place)?;

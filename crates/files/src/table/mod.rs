@@ -39,6 +39,9 @@ impl Layout {
     };
 }
 
+/// Columns of a table at most: each name is compared with all that are known.
+const MOST_COLUMNS: usize = 10_000;
+
 /// A table whose header is read and whose rows are still text.
 #[derive(Debug, Clone)]
 pub(crate) struct TableText<'t> {
@@ -98,6 +101,16 @@ impl<'t> TableText<'t> {
         let names: Option<Vec<String>> = rows
             .next()?
             .map(|row| row.fields().map(str::to_owned).collect());
+        if names
+            .as_ref()
+            .is_some_and(|names| names.len() > MOST_COLUMNS)
+        {
+            return Err(Error::BadRow {
+                place: Place::line(path, line),
+                found: format!("more than {MOST_COLUMNS} columns"),
+                expected: "fewer columns, and a line end after their names".to_owned(),
+            });
+        }
         table.below = below;
         table.below_line = line + 1;
         Ok(names.map(|columns| Self { columns, ..table }))

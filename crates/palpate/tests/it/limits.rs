@@ -263,9 +263,9 @@ fn what_errors_quote_is_short() {
     }
 }
 
-/// 200,000 keys above a table, which took 21 s. The bound is five times what this takes on a loaded machine.
+/// 200,000 keys above a table, which took 21 s.
 #[test]
-fn many_keys_above_a_table_are_read_at_once() {
+fn too_many_keys_above_a_table_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("press.csv");
     let mut file = fs::File::create(&path).unwrap();
@@ -274,9 +274,7 @@ fn many_keys_above_a_table_are_read_at_once() {
         writeln!(file, "# instrument_key_{k} = {k}").unwrap();
     }
     writeln!(file, "time_s,depth_m,force_n\n0.0,0.0,0.0").unwrap();
-    let begin = std::time::Instant::now();
     let output = palpate(&["analyze", path.to_str().unwrap()]);
-    let took = begin.elapsed().as_secs_f64();
-    assert!(output.status.code().is_some(), "{}", stderr(&output));
-    assert!(took < 5.0, "{took} s");
+    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+    assert!(stderr(&output).contains("press.csv line 10002: found more than 10000 keys"));
 }
