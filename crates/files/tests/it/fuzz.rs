@@ -1,37 +1,37 @@
 //! No reader panics, whatever it is given.
 
+use std::collections::BTreeSet;
+use std::path::Path;
+
 use palpate_files::recording::ForeignColumns;
-use palpate_files::{Motion, Protocol, Recording, Scene, Session, Tissue};
+use palpate_files::{Protocol, Recording, Scene, Session};
 use proptest::prelude::*;
 
+use crate::readers::{self, READERS};
 use crate::{MOTION, PROTOCOL, RECORDING, SCENE, SESSION, TISSUE, tries};
 
-/// Gives a text to every reader. An error must say something of itself.
+/// Gives a text to every reader.
 fn read_all(text: &str) {
-    let foreign = ForeignColumns {
-        time: Some("time_ms".to_owned()),
-        depth: Some("depth_mm".to_owned()),
-        force: Some("force_mn".to_owned()),
-        ..ForeignColumns::default()
-    };
-    let errors = [
-        Scene::parse(text, "f").err(),
-        Tissue::parse(text, "f").err(),
-        Motion::parse(text, "f").err(),
-        Protocol::parse(text, "f").err(),
-        Session::parse(text, "f").err(),
-        Recording::parse(text, "f").err(),
-        Recording::parse_foreign(text, "f", &foreign).err(),
-        Recording::parse_foreign(text, "f", &ForeignColumns::default()).err(),
-    ];
-    for error in errors.into_iter().flatten() {
-        assert!(error.is_input());
-        let message = error.to_string();
-        assert!(
-            message.starts_with('f') && !message.contains('\n'),
-            "{message}"
-        );
+    let folder = tempfile::tempdir().unwrap();
+    for reader in READERS {
+        readers::read(*reader, text.as_bytes(), &folder.path().join("scratch"));
     }
+}
+
+/// The corpus of `fuzz/`: what led a reader somewhere new.
+#[test]
+fn the_corpus_is_read_or_refused() {
+    let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz/corpus/documents");
+    let folder = tempfile::tempdir().unwrap();
+    let mut met = BTreeSet::new();
+    for entry in std::fs::read_dir(corpus).unwrap() {
+        let path = entry.unwrap().path();
+        println!("{}", path.display());
+        let bytes = std::fs::read(path).unwrap();
+        met.extend(bytes.first().copied());
+        readers::read_as_told(&bytes, &folder.path().join("scratch"));
+    }
+    assert!(READERS.iter().all(|reader| met.contains(reader)), "{met:?}");
 }
 
 /// One of the valid documents with some of its bytes replaced, removed or repeated.

@@ -9,6 +9,7 @@ mod foreign;
 mod fuzz;
 mod motion;
 mod plausible;
+mod readers;
 mod response;
 mod round_trip;
 mod scene;

@@ -1,11 +1,13 @@
 //! Damaged files: whatever the bytes, a reader gives a mesh or an error, and never panics.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
-use palpate_geometry::{LengthUnit, inspect, read_label_map, read_mesh, read_tetrahedra, repair};
+use palpate_geometry::{inspect, repair};
 use proptest::prelude::*;
 use proptest::test_runner::Config;
 
+use crate::readers::{self, NAMES, survive_map, survive_volume};
 use crate::{files, label_maps, volumes};
 
 /// Few cases by default, many with `PALPATE_FULL=1`.
@@ -17,43 +19,34 @@ fn config() -> Config {
     }
 }
 
-/// Reads the bytes, and on with whatever comes out.
+/// Reads the bytes as a surface, and on with whatever comes out.
 fn survive(folder: &Path, name: &str, bytes: &[u8]) {
-    let path = folder.join(name);
-    std::fs::write(&path, bytes).unwrap();
-    let message = match read_mesh(&path, Some(LengthUnit::Metre)) {
-        Ok(imported) => {
-            inspect(&imported.mesh);
-            repair(&imported.mesh)
-                .map(drop)
-                .map_or_else(|e| e.to_string(), |()| String::new())
-        }
-        Err(error) => error.to_string(),
-    };
-    assert!(message.len() < 1000, "{message}");
-}
-
-/// The same for a file of tetrahedra.
-fn survive_volume(folder: &Path, name: &str, bytes: &[u8]) {
-    let path = folder.join(name);
-    std::fs::write(&path, bytes).unwrap();
-    if let Err(error) = read_tetrahedra(&path, Some(LengthUnit::Metre)) {
-        let message = error.to_string();
-        assert!(message.len() < 1000, "{message}");
-    }
-}
-
-/// The same for a label map.
-fn survive_map(folder: &Path, name: &str, bytes: &[u8]) {
-    let path = folder.join(name);
-    std::fs::write(&path, bytes).unwrap();
-    match read_label_map(&path) {
-        Ok(map) => drop(map.labels()),
-        Err(error) => {
+    if let Some(imported) = readers::survive(folder, name, bytes) {
+        inspect(&imported.mesh);
+        if let Err(error) = repair(&imported.mesh) {
             let message = error.to_string();
             assert!(message.len() < 1000, "{message}");
         }
     }
+}
+
+/// The corpus of `fuzz/`: what led a reader somewhere new.
+#[test]
+fn the_corpus_is_read_or_refused() {
+    let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz/corpus/meshes");
+    let folder = tempfile::tempdir().unwrap();
+    let mut met = BTreeSet::new();
+    for entry in std::fs::read_dir(corpus).unwrap() {
+        let path = entry.unwrap().path();
+        println!("{}", path.display());
+        let bytes = std::fs::read(path).unwrap();
+        met.extend(bytes.first().copied());
+        readers::read_as_told(&bytes, folder.path());
+    }
+    assert!(
+        NAMES.iter().all(|(letter, _)| met.contains(letter)),
+        "{met:?}"
+    );
 }
 
 /// A start that makes a reader believe the rest.

@@ -19,6 +19,7 @@ mod io;
 mod isosurface;
 mod label_maps;
 mod organ;
+mod readers;
 mod refine;
 mod shapes;
 mod simplify;
