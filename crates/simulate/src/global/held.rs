@@ -6,6 +6,13 @@
 //! step before, and a step only substitutes back. `press` eliminates them from the equations of the tips. A tool
 //! feels −Σ f of its own, and answers a way of its jaws with S = E Σ Ξ_hh⁻¹ over its own.
 //!
+//! What a tip's load yields where nothing is held, W, is more than what held parts take of it: W − Tᵀ E Ξ_hh⁻¹ T is
+//! positive definite in every elastic organ. Collocation on a few large triangles misses that where tip and jaws are on
+//! the same ones, and a tip would be moved against its force. There T is taken smaller, so that the largest eigenvalue
+//! of W⁻¹ Tᵀ E Ξ_hh⁻¹ T is [`MOST_CARRIED`]², and it is told as [`Limit::Carried`].
+//!
+//! [`Limit::Carried`]: palpate_mechanics::Limit::Carried
+//!
 //! *How we know*: `grip::agreement::…`: the same elements anew, finite elements, a tube pulled at both sides;
 //! `grip::energy::a_closed_way_gives_no_energy`.
 //!
@@ -15,8 +22,10 @@
 
 use nalgebra::Matrix3;
 use palpate_geometry::Vec3;
+use palpate_mechanics::Reached;
 use palpate_mechanics::surface_response::TouchId;
 
+use super::press::MOST_CARRIED;
 use super::{GlobalModel, GlobalWorkspace};
 use crate::grip::{HeldTriangle, MOST_PARTS, MOST_TRIANGLES};
 use crate::simulation::Simulation;
@@ -43,6 +52,8 @@ pub(super) struct HeldWorkspace {
     to_tips: Vec<Matrix3<f64>>,
     /// What tip i is moved less by a force on tip j because the held parts stand still [m/N], at i tools + j.
     fixes: Vec<Matrix3<f64>>,
+    /// By how much a tip and the held parts carry each other more than is possible, where they do.
+    bounded: Vec<Option<Reached>>,
     /// Σ Ξ_hh⁻¹ over each tool's parts [m].
     stiffness: Vec<Matrix3<f64>>,
 }
@@ -60,6 +71,7 @@ impl HeldWorkspace {
             forces: vec![Vec3::zeros(); most],
             to_tips: vec![Matrix3::zeros(); most * tools],
             fixes: vec![Matrix3::zeros(); tools * tools],
+            bounded: vec![None; tools],
             stiffness: vec![Matrix3::zeros(); tools],
         }
     }
@@ -88,6 +100,32 @@ impl HeldWorkspace {
     /// How much less tip `moved` yields [m/N] to a force on tip `loaded`, of so many tools, than if nothing were held.
     pub(super) fn fixes(&self, moved: usize, loaded: usize, tools: usize) -> Matrix3<f64> {
         self.fixes[moved * tools + loaded]
+    }
+
+    /// How far the coupling of a tip with what is held was bounded, where it was.
+    pub(super) fn bounded(&self, number: usize) -> Option<Reached> {
+        self.bounded[number]
+    }
+
+    /// Bounds the coupling of a tip, one of so many tools, with what is held. `yields` is what its load yields where
+    /// nothing is held [m/N]: what held parts take of that is less than all of it.
+    fn bound(&mut self, number: usize, tools: usize, yields: &Matrix3<f64>) {
+        let coupling = coupling(&self.fixes(number, number, tools), yields);
+        if coupling <= MOST_CARRIED {
+            return;
+        }
+        self.bounded[number] = Some(Reached {
+            asked: coupling,
+            used: MOST_CARRIED,
+        });
+        let part = MOST_CARRIED / coupling;
+        for k in 0..self.who.len() {
+            self.to_tips[k * tools + number] *= part;
+        }
+        for other in 0..tools {
+            self.fixes[number * tools + other] *= part;
+            self.fixes[other * tools + number] *= part;
+        }
     }
 
     /// Finds that for all tips of an organ of Young's modulus `modulus` [Pa].
@@ -261,6 +299,14 @@ impl GlobalModel {
             }
         }
         held.fix(tools.len(), 1.0 / softness);
+        held.bounded.fill(None);
+        for (number, tool) in simulation.tools.iter().enumerate() {
+            if let Some(load) = self.load(tool, &tools[number]).filter(|_| held.is_sound) {
+                let more = slit.as_ref().map(|slit| slit.further(number));
+                let yields = self.response.between(&load, &load) + more.unwrap_or_default();
+                held.bound(number, tools.len(), &(yields * softness));
+            }
+        }
         held.is_sound
     }
 
@@ -350,6 +396,19 @@ impl GlobalModel {
     }
 }
 
+/// How closely a tip follows what is held [-]: the root of the largest part of what it `yields` [m/N] that held parts
+/// take, which `fixes` is. In an elastic organ it is less than one.
+fn coupling(fixes: &Matrix3<f64>, yields: &Matrix3<f64>) -> f64 {
+    if *fixes == Matrix3::zeros() {
+        return 0.0;
+    }
+    let inverse = yields.cholesky().and_then(|root| root.l().try_inverse());
+    inverse.map_or(f64::INFINITY, |inverse| {
+        let part = inverse * fixes * inverse.transpose();
+        part.symmetric_eigenvalues().max().max(0.0).sqrt()
+    })
+}
+
 /// Puts Cholesky's factor in the place of the lower half of a matrix; false where it has none.
 fn cholesky(matrix: &mut [f64], size: usize) -> bool {
     for i in 0..size {
@@ -390,6 +449,30 @@ fn substitute(factor: &[f64], right: &mut [f64]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Judge: the definition, for held parts that take a quarter of what a tip yields along one axis, and all of it along
+    /// none. And no tip follows what is held more closely than it can: what is left of its compliance is positive.
+    #[test]
+    fn held_parts_take_less_than_a_tip_yields() {
+        let yields = Matrix3::new(3.0, 0.5, 0.2, 0.5, 2.0, -0.4, 0.2, -0.4, 1.0);
+        let along = yields * Vec3::new(0.3, -0.2, 0.9);
+        let largest = along.dot(&(yields.cholesky().unwrap().inverse() * along));
+        let quarter = along * along.transpose() * (0.25 / largest);
+        assert!((coupling(&quarter, &yields) - 0.5).abs() < 1e-12);
+        assert_eq!(coupling(&Matrix3::zeros(), &yields), 0.0);
+        assert_eq!(coupling(&quarter, &-yields), f64::INFINITY);
+        let mut held = HeldWorkspace::new(2);
+        held.fixes = vec![quarter * 16.0, quarter, quarter.transpose(), quarter * 2.0];
+        held.bound(0, 2, &yields);
+        held.bound(1, 2, &yields);
+        assert!((held.bounded(0).unwrap().asked - 2.0).abs() < 1e-12);
+        assert!(held.bounded(1).is_none());
+        let left = yields - held.fixes(0, 0, 2);
+        assert!(left.symmetric_eigenvalues().min() > 0.0);
+        assert!((coupling(&held.fixes(0, 0, 2), &yields) - MOST_CARRIED).abs() < 1e-12);
+        let other = held.fixes(0, 1, 2) - quarter * (0.5 * MOST_CARRIED);
+        assert!(other.norm() < 1e-12 && held.fixes(0, 1, 2) == held.fixes(1, 0, 2).transpose());
+    }
 
     /// Judge: the product. And no factor for a matrix that gives energy.
     #[test]

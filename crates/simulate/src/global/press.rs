@@ -10,7 +10,7 @@
 //! An elastic organ moves nowhere as far as under the tip that presses on it. C of constant triangles and a tip law that
 //! stiffens do not know that of tips on one spot, so it is made sure of: a tip is carried by another at most by
 //! [`MOST_CARRIED`] of what that one moves under itself. So every displacement of a tip, and every force, is bounded by
-//! the ways of the tools.
+//! the ways of the tools. A tip and what jaws hold are bound likewise, see `held`.
 //!
 //! *How we know*: `hybrid::…`, `grip::jumps::…`, `random_scenes::…`.
 
@@ -34,7 +34,7 @@ const SETTLED: f64 = 1e-10;
 
 /// How far a tip is carried by another, at most, of what that one moves the organ by under itself [-]: a displacement of
 /// the ways of two tools grows by 1/(1 − this) at most.
-const MOST_CARRIED: f64 = 0.99;
+pub(super) const MOST_CARRIED: f64 = 0.99;
 
 impl GlobalModel {
     /// Where a contact is on the mechanical surface.
@@ -175,7 +175,7 @@ impl GlobalModel {
         };
         let GlobalWorkspace { held, between, .. } = workspace;
         let mut carried = held.carries(number, tools.len());
-        let mut bounded: Option<Reached> = None;
+        let mut bounded = held.bounded(number);
         for (other, state) in tools
             .iter()
             .enumerate()
