@@ -218,7 +218,7 @@ fn bad_values_of_a_tissue() {
         tissue("youngs_modulus_kpa = -10"),
         "t.toml line 5: `tissue.youngs_modulus_kpa` is -10; give a modulus of tissue from 0.001 Pa to 100 GPa"
     );
-    assert!(tissue("youngs_modulus_pa = nan").contains("is nan; give a number above 0"));
+    assert!(tissue("youngs_modulus_pa = nan").contains("is nan; give a modulus of tissue"));
     assert!(tissue("youngs_modulus_pa = inf").contains("is inf; give"));
     assert!(tissue("youngs_modulus_pa = 1e999").contains("is 1e999; give"));
     assert!(tissue("youngs_modulus_pa = \"10\"").contains("is \"10\"; give a number"));
@@ -285,7 +285,7 @@ const BAD_SCENES: &[(&str, &str)] = &[
     ),
     (
         "[[tool]]\nkind = \"grasper\"\njaws = { opening_m = 0 }",
-        "`tool[0].jaws.opening_m` is 0; give a number above 0",
+        "`tool[0].jaws.opening_m` is 0; give a length from 1 nm",
     ),
     (
         "[[tool]]\ntrocar_friction_n = 0.2",

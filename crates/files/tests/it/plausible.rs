@@ -44,7 +44,8 @@ fn unusual_numbers_are_told() {
         [
             "s.toml line 4: `organ.tissue.youngs_modulus_pa` is 10; a modulus of tissue is usually from 20 Pa to \
              20 MPa; did you mean 10 kPa (`youngs_modulus_kpa`)?",
-            "s.toml line 6: `tool[0].tip.radius_m` is 0.05; the radius of a tip is usually from 1 um to 20 mm"
+            "s.toml line 6: `tool[0].tip.radius_m` is 0.05; the radius of a tip is usually from 1 um to 20 mm; did \
+             you mean 0.05 mm (`radius_mm`)?"
         ]
     );
     let own = Tissue::parse(

@@ -152,7 +152,7 @@ fn what_is_killed_or_has_no_room_loses_nothing() {
 /// Judge: the files before and those of an undisturbed run. Quick form:
 /// `what_is_killed_or_has_no_room_loses_nothing`.
 #[test]
-#[ignore = "slow: 200 kills and 60 full disks of a simulation, minutes"]
+#[ignore = "by hand: never run to its end yet; 200 kills and 60 full disks of a simulation, minutes"]
 fn a_session_that_is_killed_200_times_is_old_or_new() {
     println!("{}", a_session().crash(200, 60));
 }
@@ -160,7 +160,7 @@ fn a_session_that_is_killed_200_times_is_old_or_new() {
 /// Judge: the files before and those of an undisturbed run. Quick form:
 /// `what_is_killed_or_has_no_room_loses_nothing`.
 #[test]
-#[ignore = "slow: 200 kills and 60 full disks of a measurement, minutes"]
+#[ignore = "by hand: never run to its end yet; 200 kills and 60 full disks of a measurement, minutes"]
 fn a_recording_that_is_killed_200_times_is_old_or_new() {
     println!("{}", a_recording().crash(200, 60));
 }
@@ -168,7 +168,7 @@ fn a_recording_that_is_killed_200_times_is_old_or_new() {
 /// Judge: the files before and those of an undisturbed run. Quick form:
 /// `what_is_killed_or_has_no_room_loses_nothing`.
 #[test]
-#[ignore = "slow: 200 kills and 60 full disks of a surface from a label map, minutes"]
+#[ignore = "by hand: never run to its end yet; 200 kills and 60 full disks of a surface from a label map, minutes"]
 fn a_surface_that_is_killed_200_times_is_old_or_new() {
     println!("{}", a_surface().crash(200, 60));
 }
@@ -176,7 +176,7 @@ fn a_surface_that_is_killed_200_times_is_old_or_new() {
 /// Judge: the files before and those of an undisturbed run. Quick form:
 /// `what_is_killed_or_has_no_room_loses_nothing`.
 #[test]
-#[ignore = "slow: 200 kills and 60 full disks of a preparation, minutes"]
+#[ignore = "by hand: never run to its end yet; 200 kills and 60 full disks of a preparation, minutes"]
 fn a_response_that_is_killed_200_times_is_old_or_new() {
     println!("{}", a_response().crash(200, 60));
 }
@@ -184,7 +184,7 @@ fn a_response_that_is_killed_200_times_is_old_or_new() {
 /// Judge: what was acknowledged. Quick form:
 /// `what_is_killed_or_has_no_room_loses_nothing`.
 #[test]
-#[ignore = "slow: 200 kills and 60 full disks of a scoring into a record, minutes"]
+#[ignore = "by hand: never run to its end yet; 200 kills and 60 full disks of a scoring into a record, minutes"]
 fn a_record_that_is_killed_200_times_keeps_what_it_acknowledged() {
     println!("{}", record::crash(200, 60));
 }
@@ -192,7 +192,7 @@ fn a_record_that_is_killed_200_times_keeps_what_it_acknowledged() {
 /// Judge: the files before and those of an undisturbed run. Quick form: `what_is_killed_or_has_no_room_loses_nothing`,
 /// of the other commands, whose files are written by the same function.
 #[test]
-#[ignore = "slow: 200 kills and 60 full disks of a characterization, which takes seconds each time"]
+#[ignore = "by hand: never run to its end yet; 200 kills and 60 full disks of a characterization, which takes seconds each time"]
 fn a_tissue_that_is_killed_200_times_is_old_or_new() {
     println!("{}", a_tissue().crash(200, 60));
 }
@@ -200,7 +200,7 @@ fn a_tissue_that_is_killed_200_times_is_old_or_new() {
 /// Judge: the files before and those of an undisturbed run; nothing where no picture can be drawn. Quick form:
 /// `what_is_killed_or_has_no_room_loses_nothing`, of the other commands, whose files are written by the same function.
 #[test]
-#[ignore = "slow: 200 kills and 60 full disks of two pictures"]
+#[ignore = "by hand: never run to its end yet; 200 kills and 60 full disks of two pictures"]
 fn pictures_that_are_killed_200_times_are_old_or_new() {
     match pictures() {
         Some(path) => println!("{}", path.crash(200, 60)),

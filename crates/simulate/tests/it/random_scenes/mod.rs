@@ -7,6 +7,10 @@
 //! Judges: a force is a number, a jaw presses no more than it can, tissue along its faces slips beyond friction, an
 //! elastic force is no larger than the stiffest contact that a model allows times the way of the tools, no touch gives
 //! back more work than was done, the organ stays within reach, and a motion ends in time.
+//!
+//! Known to fail, of the numbers 1000 to 2318, which were played: the organ is shown too far away in 1413, 1616, 1703,
+//! 1816, 1817 and 1818 (0.72 to 11 m where half of it or a quarter is allowed), and more work comes back than was done
+//! in 1287, 1500, 2199 and 2318.
 
 mod motion_text;
 mod scene_text;
@@ -321,28 +325,28 @@ fn random_scenes_are_sound() {
 
 /// Judge: the bounds at the top of this file. Quick form: `random_scenes_are_sound`.
 #[test]
-#[ignore = "slow: 2,500 of 10,000 scenes, minutes"]
+#[ignore = "by hand: 2,500 of 10,000 scenes, of which ten are known to fail (above)"]
 fn ten_thousand_random_scenes_are_sound_first_quarter() {
     quarter(0);
 }
 
 /// Judge: the bounds at the top of this file. Quick form: `random_scenes_are_sound`.
 #[test]
-#[ignore = "slow: 2,500 of 10,000 scenes, minutes"]
+#[ignore = "by hand: 2,500 of 10,000 scenes, of which ten are known to fail (above)"]
 fn ten_thousand_random_scenes_are_sound_second_quarter() {
     quarter(1);
 }
 
 /// Judge: the bounds at the top of this file. Quick form: `random_scenes_are_sound`.
 #[test]
-#[ignore = "slow: 2,500 of 10,000 scenes, minutes"]
+#[ignore = "by hand: 2,500 of 10,000 scenes, of which ten are known to fail (above)"]
 fn ten_thousand_random_scenes_are_sound_third_quarter() {
     quarter(2);
 }
 
 /// Judge: the bounds at the top of this file. Quick form: `random_scenes_are_sound`.
 #[test]
-#[ignore = "slow: 2,500 of 10,000 scenes, minutes"]
+#[ignore = "by hand: 2,500 of 10,000 scenes, of which ten are known to fail (above)"]
 fn ten_thousand_random_scenes_are_sound_fourth_quarter() {
     quarter(3);
 }
