@@ -6,7 +6,7 @@ use crate::words::near_miss;
 use crate::{Error, Keys, units};
 
 /// Keys that may stand above a table: each is compared with all that are known, and no instrument writes more.
-const MOST_KEYS: usize = 10_000;
+const MOST_KEYS: usize = 1000;
 
 /// What the comments above a table say.
 #[derive(Debug, Clone, PartialEq, Default)]

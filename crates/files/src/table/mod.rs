@@ -40,7 +40,7 @@ impl Layout {
 }
 
 /// Columns of a table at most: each name is compared with all that are known.
-const MOST_COLUMNS: usize = 10_000;
+const MOST_COLUMNS: usize = 1000;
 
 /// A table whose header is read and whose rows are still text.
 #[derive(Debug, Clone)]

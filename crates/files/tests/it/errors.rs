@@ -293,7 +293,7 @@ const BAD_SCENES: &[(&str, &str)] = &[
     ),
     (
         "[[tool]]\ntrocar_m = [0, 0, 1]\ntrocar_stiffness_n_per_m = -1",
-        "`tool[0].trocar_stiffness_n_per_m` is -1; give 0 or a number above 0",
+        "`tool[0].trocar_stiffness_n_per_m` is -1; give a stiffness from 0 to",
     ),
     (
         "[[tool]]\n[[tool]]\n[[tool]]\n",

@@ -276,5 +276,5 @@ fn too_many_keys_above_a_table_are_refused() {
     writeln!(file, "time_s,depth_m,force_n\n0.0,0.0,0.0").unwrap();
     let output = palpate(&["analyze", path.to_str().unwrap()]);
     assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
-    assert!(stderr(&output).contains("press.csv line 10002: found more than 10000 keys"));
+    assert!(stderr(&output).contains("press.csv line 1001: found more than 1000 keys"));
 }

@@ -57,7 +57,7 @@ fn keys_of_an_indentation() {
         |more: &str| format!("{PUNCH}{TISSUE}indenter = {{ {more} }}\ndepths_m = [0.001]");
     refused(
         &indenter("radius_m = -0.001"),
-        &["line 5", "`indenter.radius_m` is -0.001", "above 0"],
+        &["line 5", "`indenter.radius_m` is -0.001", "a length from 1 nm"],
     );
     refused(
         &indenter("radius_m = 0.06"),
@@ -94,7 +94,7 @@ fn keys_of_an_indentation() {
     );
     refused(
         &pressed("ramp = { depth_m = 0.001, ramp_s = 0.0 }"),
-        &["`ramp.ramp_s` is 0.0", "above 0"],
+        &["`ramp.ramp_s` is 0.0", "a duration from 1 us"],
     );
     refused(
         &pressed("ramp = { depth_m = 0.001, ramp_s = 1.0 }"),
