@@ -72,8 +72,8 @@ impl Domain {
     pub const FORCE_OR_NONE: Self =
         Self::quantity("a force", "n", [Included(0.0), Included(1e4)]).usually(1e-4, 200.0);
 
-    /// A force in a table [N].
-    pub const ANY_FORCE: Self = Self::quantity("a force", "n", [Included(-1e6), Included(1e6)]);
+    /// A force in a table [N], or that of a stress on a square metre.
+    pub const ANY_FORCE: Self = Self::quantity("a force", "n", [Included(-1e9), Included(1e9)]);
 
     /// A modulus of tissue [Pa].
     pub const MODULUS: Self = Self::quantity(

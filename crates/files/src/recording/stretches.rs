@@ -1,3 +1,4 @@
+use std::ops::Bound::{Excluded, Included};
 use std::path::Path;
 
 use super::foreign_names::Wanted;
@@ -46,6 +47,9 @@ pub(super) fn parse(
     }))
 }
 
+/// A height over that at rest [-].
+const HEIGHT: Domain = Domain::number("a stretch", [Excluded(0.0), Included(1e3)]);
+
 fn samples(
     table: &TableText<'_>,
     stretch: &str,
@@ -58,9 +62,11 @@ fn samples(
     let mut rows = table.rows();
     while let Some(row) = rows.next()? {
         samples.time_s.push(samples.time_s.len() as f64);
-        let height = row.number(&stretch, Domain::POSITIVE)?;
+        let height = row.number(&stretch, HEIGHT)?;
         samples.depth_m.push(1.0 - height);
-        samples.force_n.push(-row.number(&stress, Domain::FINITE)?);
+        samples
+            .force_n
+            .push(-row.number(&stress, Domain::ANY_FORCE)?);
     }
     if samples.time_s.is_empty() {
         let path = table.path.clone();

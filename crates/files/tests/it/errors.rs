@@ -221,7 +221,7 @@ fn bad_values_of_a_tissue() {
     assert!(tissue("youngs_modulus_pa = nan").contains("is nan; give a modulus of tissue"));
     assert!(tissue("youngs_modulus_pa = inf").contains("is inf; give"));
     assert!(tissue("youngs_modulus_pa = 1e999").contains("is 1e999; give"));
-    assert!(tissue("youngs_modulus_pa = \"10\"").contains("is \"10\"; give a number"));
+    assert!(tissue("youngs_modulus_pa = \"10\"").contains("is \"10\"; give a modulus"));
     assert!(tissue("law = \"hookean\"").contains(
         "`tissue.law` is \"hookean\"; give \"linear\", \"neo_hookean\", \"mooney_rivlin\" or \"exponential\""
     ));
@@ -401,7 +401,7 @@ fn bad_rows_of_a_recording() {
     let rows = |rows: &str| recording(&format!("# format = 1\ntime_s,depth_m,force_mn\n{rows}"));
     assert_eq!(
         rows("0,0,NaN\n"),
-        "r.csv line 3: `force_mn` is \"NaN\"; give a force of at most 1000 kN in size"
+        "r.csv line 3: `force_mn` is \"NaN\"; give a force of at most 1000000 kN in size"
     );
     assert!(rows("0,0,0\n0,1,1\n").contains("line 4: `time_s` is 0 after 0 s"));
     assert!(rows("0,0\n").contains("line 3: found 2 fields; give 3 fields"));

@@ -57,7 +57,11 @@ fn keys_of_an_indentation() {
         |more: &str| format!("{PUNCH}{TISSUE}indenter = {{ {more} }}\ndepths_m = [0.001]");
     refused(
         &indenter("radius_m = -0.001"),
-        &["line 5", "`indenter.radius_m` is -0.001", "a length from 1 nm"],
+        &[
+            "line 5",
+            "`indenter.radius_m` is -0.001",
+            "a length from 1 nm",
+        ],
     );
     refused(
         &indenter("radius_m = 0.06"),
