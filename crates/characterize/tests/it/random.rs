@@ -16,7 +16,7 @@ fn tries(full: u32) -> Config {
     }
 }
 
-/// Any samples: even or uneven, smooth or not, of any size.
+/// Any samples: even or uneven, smooth or not, of any size that a recording may have.
 fn recordings() -> impl Strategy<Value = Recording> {
     let value = prop_oneof![
         4 => -1.0..1.0f64,
@@ -24,7 +24,7 @@ fn recordings() -> impl Strategy<Value = Recording> {
         1 => Just(1.0),
     ];
     let interval = prop_oneof![4 => Just(0.01), 1 => 1e-6..10.0f64];
-    let size = prop_oneof![Just(1.0), Just(1e-9), Just(1e9), Just(1e-300), Just(1e150)];
+    let size = prop_oneof![Just(1.0), Just(1e-9), Just(1e3), Just(1e-300)];
     let row = (interval, value.clone(), value);
     let scales = prop::array::uniform3(size);
     let shape = 0usize..4;

@@ -8,6 +8,9 @@ use crate::{Course, Error, RigSettings};
 /// Time over which the zero of the sensor is taken [s].
 const ZEROING: f64 = 0.5;
 
+/// Ticks of an approach that room is made for at once: an hour and more at 1 kHz, 64 MB.
+const MOST_ROOM: usize = 4_000_000;
+
 impl Rig {
     /// Goes down until tissue is met, finds where that was and waits above it.
     ///
@@ -36,8 +39,10 @@ impl Rig {
         } = self.settings;
         let resting = (ZEROING / period) as usize;
         let ticks = resting + (approach_way / approach_speed / period) as usize;
-        // Grown while it lasts: the approach may be told to be as slow as one likes.
-        let (mut heights, mut forces) = (Vec::new(), Vec::new());
+        // A tick allocates nothing, unless a caller asks for an approach of more than an hour.
+        let room = ticks.min(MOST_ROOM);
+        let mut heights = Vec::with_capacity(room);
+        let mut forces = Vec::with_capacity(room);
         let from = self.aim;
         for tick in 0..ticks {
             let gone = tick.saturating_sub(resting) as f64 * period;

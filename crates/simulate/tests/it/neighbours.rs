@@ -38,10 +38,9 @@ fn a_neighbour_stands_where_it_is_placed() {
 
 #[test]
 fn a_neighbour_too_far_away_is_refused() {
-    let scene = placed("at_m = [1e300, 0, 0]\nscale = 1e200");
-    let message = read_neighbour(&scene.neighbours[0])
-        .unwrap_err()
-        .to_string();
+    let text = "format = 1\n[organ]\nbuiltin = \"hemisphere\"\nbuiltin_tissue = \"pig-liver\"\n\
+                [[neighbour]]\nbuiltin = \"cube\"\nat_m = [1e300, 0, 0]\n";
+    let message = Scene::parse(text, "scene.toml").unwrap_err().to_string();
     assert!(message.contains("at_m"), "{message}");
 }
 
