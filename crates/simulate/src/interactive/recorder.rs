@@ -167,14 +167,16 @@ impl Recording {
                 }
                 Ok(Request::Elsewhere(writer, reply)) => {
                     self.copy();
-                    // Who asked may have gone.
-                    let _ = reply.send(self.write_elsewhere(*writer));
+                    let written = self.write_elsewhere(*writer);
+                    // Before the reply: who asked looks next. It may also have gone.
                     self.show_failure();
+                    let _ = reply.send(written);
                 }
                 Ok(Request::End(reply)) => {
                     self.copy();
-                    let _ = reply.send(self.end());
+                    let ended = self.end();
                     self.show_failure();
+                    let _ = reply.send(ended);
                 }
                 Err(RecvTimeoutError::Timeout) => {}
                 Err(RecvTimeoutError::Disconnected) => return self.copy(),
