@@ -18,6 +18,8 @@ pub enum Limit {
     TipStiffness,
     /// Tip law: stiffness along the surface [half-spaces].
     TipShearStiffness,
+    /// Tip law: depth down to which the force is known [m]; beyond, it goes on along its tangent.
+    TipDepth,
     /// Several tips: change of a force in the last sweep over them [of the largest force].
     Coupling,
     /// Several tips: how far one moves the organ under another [of how far it moves it under itself].
@@ -41,13 +43,14 @@ pub struct Limits {
 
 impl Limit {
     /// All of them, in the order in which they are told.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Curvature,
         Self::LocalStiffness,
         Self::LocalShearStiffness,
         Self::Residual,
         Self::TipStiffness,
         Self::TipShearStiffness,
+        Self::TipDepth,
         Self::Coupling,
         Self::Carried,
     ];

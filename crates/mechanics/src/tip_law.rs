@@ -1,7 +1,7 @@
 //! The force of a rigid tip on an organ, of linear tissue or not, and its consistent tangent.
 //!
 //! On a half-space F₀(s) = r(s/a) H(s), where H is the closed form at small strain, a the tip's radius and
-//! r the tissue's [`Stiffening`]. An organ is not a half-space: its model finds a contact stiffness k at
+//! r the [`Stiffening`] of tissue and tip. An organ is not a half-space: its model finds a contact stiffness k at
 //! small strain where the half-space has k₀. The difference c = 1/k − 1/k₀ is the structural compliance,
 //! in series with the tip's own:
 //!
@@ -16,7 +16,7 @@
 //! whole organ c does not depend on the touching area; with the local model it changes slowly with it.
 //!
 //! *How we know*: `analytic::flat_tip_is_linear_in_depth`, `analytic::sphere_is_hertz`; the tangent by
-//! differences of the force, `tip_tangent::…`; of nonlinear tissue against full runs on other bodies,
+//! differences of the force, `tip_tangent::…`; of a sphere and of nonlinear tissue against full runs on other bodies,
 //! `stiffening::…`.
 //!
 //! *Limits*: what surrounds the tip answers as at small strain. With the local model the stiffness under a
@@ -53,6 +53,8 @@ pub struct NormalForce {
     pub by_compliance: f64,
     /// Where the stiffness was bounded, how far [half-spaces].
     pub limited: Option<Reached>,
+    /// Where the tip is deeper than its force is known, how far [m].
+    pub beyond: Option<Reached>,
 }
 
 impl NormalForce {
@@ -62,6 +64,7 @@ impl NormalForce {
         stiffness: 0.0,
         by_compliance: 0.0,
         limited: None,
+        beyond: None,
     };
 
     /// Of a model that has no answer: whoever feels it tells so.
@@ -70,6 +73,7 @@ impl NormalForce {
         stiffness: f64::NAN,
         by_compliance: f64::NAN,
         limited: None,
+        beyond: None,
     };
 }
 
@@ -93,9 +97,9 @@ const MOST_STEPS: usize = 50;
 const STIFFEST: f64 = 20.0;
 
 impl TipLaw {
-    /// A tissue that answers at every depth as at small strain.
+    /// A tissue that is linear at every depth.
     pub fn linear(tip: Tip, bond: Bond, at_rest: LinearElastic) -> Self {
-        let stiffening = Stiffening::none();
+        let stiffening = Stiffening::linear((tip, bond), at_rest.poissons_ratio());
         Self {
             tip,
             bond,
@@ -114,9 +118,17 @@ impl TipLaw {
         }
     }
 
-    /// Depth [m] down to which the stiffening is known; beyond, force goes on along its tangent.
+    /// Depth [m] down to which the force is known; beyond, it goes on along its tangent.
     pub fn deepest(&self) -> f64 {
         self.stiffening.deepest() * self.radius()
+    }
+
+    fn beyond(&self, depth: f64) -> Option<Reached> {
+        let known = self.deepest();
+        (depth > known).then_some(Reached {
+            asked: depth,
+            used: known,
+        })
     }
 
     /// Normal force at `depth` [m] where a flat tip of the touching area at this depth meets the stiffness
@@ -153,6 +165,7 @@ impl TipLaw {
             stiffness: ratio.value * stiffness + ratio.change * force,
             by_compliance: ratio.by_compliance * half_space * force,
             limited: ratio.limited,
+            beyond: self.beyond(depth),
         }
     }
 
@@ -280,6 +293,7 @@ impl TipLaw {
             stiffness: both,
             by_compliance: -force * both,
             limited: None,
+            beyond: self.beyond(s),
         }
     }
 
@@ -319,6 +333,9 @@ impl TipForce {
         let mut limits = Limits::NONE;
         if let Some(reached) = normal.limited {
             limits.add(Limit::TipStiffness, reached);
+        }
+        if let Some(reached) = normal.beyond {
+            limits.add(Limit::TipDepth, reached);
         }
         let mut stiffness = Matrix3::zeros();
         stiffness[(2, 2)] = normal.stiffness;
@@ -409,16 +426,14 @@ mod tests {
         let depth = 1e-3;
         let half_space = half_space_stiffness(&law, tip.contact_radius(depth), Bond::Slip);
         let sphere = TipLaw::linear(tip, Bond::Slip, law);
-        let hertz = hertz_force(&law, 5e-3, depth);
-        let same = sphere.normal_force(depth, half_space);
-        assert!((same.force / hertz - 1.0).abs() < 1e-12);
+        let same = sphere.normal_force(depth, half_space).force;
+        let on_half_space = |depth: f64| sphere.on_half_space(depth).0;
+        assert!((same / on_half_space(depth) - 1.0).abs() < 1e-12);
 
-        let stiffness = 0.9 * half_space;
-        let softer = sphere.normal_force(depth, stiffness).force;
-        let back = (softer / hertz).powf(2.0 / 3.0) * depth;
+        let softer = sphere.normal_force(depth, 0.9 * half_space).force;
         let structural = (1.0 / 0.9 - 1.0) / half_space * softer;
-        assert!((back + structural - depth).abs() < 1e-12 * depth);
-        assert!(softer < hertz);
+        assert!((softer / on_half_space(depth - structural) - 1.0).abs() < 1e-12);
+        assert!(softer < same);
     }
 
     /// Judge: linear tissue is a matrix of compliances, solved at once.

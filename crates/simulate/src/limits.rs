@@ -116,6 +116,12 @@ fn sentence(limit: Limit, reached: &Reached, (tool, when): (&str, &str)) -> Stri
              half-space, {times}, {when}{lacks}: the organ is held right under the tip; touch farther from \
              `organ.anchor` and from the jaws of another tool"
         ),
+        Limit::TipDepth => format!(
+            "the tip {tool:?} was pressed {:.1} mm into the tissue {when}, and its force is known to {:.1} mm: beyond, it \
+             goes on along its tangent; press less, or use a larger tip",
+            1e3 * asked,
+            1e3 * used
+        ),
         Limit::Coupling => format!(
             "the forces of tools that touch together, {tool:?} among them, still changed by {asked:.1e} of the largest \
              in the last sweep over them, above {used:.1e}, {when}: the tips are on the same spot; keep them apart"

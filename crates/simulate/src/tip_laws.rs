@@ -5,8 +5,8 @@ use palpate_mechanics::contact::{Bond, Tip};
 use palpate_mechanics::finite_elements::indentation::Stiffening;
 use palpate_mechanics::{Material, TipLaw};
 
+use crate::Error;
 use crate::tool::Tool;
-use crate::{Error, TRUSTED_DEPTH};
 
 /// Gives each tool the tissue's force over depth; what deserves doubt about it. Tools with the same tip
 /// share the work.
@@ -15,9 +15,8 @@ pub(crate) fn stiffen(
     (tissue, material): (&Tissue, &Material),
     at_step: &mut dyn FnMut(f64),
 ) -> Result<Vec<String>, Error> {
-    let mut doubts = Vec::new();
     if matches!(tissue.elasticity, Elasticity::Linear { .. }) {
-        return Ok(doubts);
+        return Ok(Vec::new());
     }
     let mut found: Vec<(Tip, Bond, Stiffening)> = Vec::new();
     for tool in tools {
@@ -35,23 +34,12 @@ pub(crate) fn stiffen(
             }
         };
         tool.law = TipLaw::stiffening(tip, bond, material, stiffening);
-        let deepest = tool.law.deepest();
-        if deepest < TRUSTED_DEPTH {
-            doubts.push(format!(
-                "the force of {} tissue on tool {:?} is known to a depth of {:.1} mm; deeper it goes on \
-                 along its tangent",
-                tissue.elasticity.law(),
-                tool.name,
-                1e3 * deepest,
-            ));
-        }
     }
-    doubts.push(format!(
+    Ok(vec![format!(
         "the tissue's law {} stiffens with depth under the tip; what surrounds it, and a sideways force, \
          answer as at small strain, incompressible",
         tissue.elasticity.law(),
-    ));
-    Ok(doubts)
+    )])
 }
 
 /// That of neo-Hookean tissue is the same for every modulus, and known.

@@ -1,3 +1,4 @@
+mod linear_sphere;
 mod neo_hookean;
 
 use std::sync::Arc;
@@ -8,8 +9,9 @@ use super::run::{IndentationRun, IndentationSettings};
 use crate::contact::{Bond, Tip, half_space_stiffness, hertz_force};
 use crate::{Error, IndentationCurve, Law, LinearElastic, Material, PronySeries, Strain};
 
-/// How much more, or less, a half-space of some tissue pushes back at depth than its law at small strain
-/// says: r(s/a) = F(s)/F₀(s), the same for every size of the tip and every modulus.
+/// How much more, or less, a half-space of some tissue pushes back at depth than the closed form at small strain
+/// says: r(s/a) = F(s)/F₀(s), the same for every size of the tip and every modulus. Under a sphere that differs from 1 in
+/// linear tissue, too, for Hertz's surface is a paraboloid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stiffening {
     /// x r(x) over x = s/a, both [-]; none where r = 1.
@@ -25,9 +27,15 @@ const DEPTHS: [f64; 16] = [
 const BLOCK: f64 = 50.0;
 
 impl Stiffening {
-    /// Of a tissue that is linear at every depth.
-    pub fn none() -> Self {
-        Self { equivalent: None }
+    /// Of a tissue that is linear at every depth, with this Poisson's ratio [-]. Known to a depth of one radius of a
+    /// sphere.
+    pub fn linear((tip, bond): (Tip, Bond), poissons_ratio: f64) -> Self {
+        Self {
+            equivalent: match tip {
+                Tip::Flat { .. } => None,
+                Tip::Sphere { .. } => Some(linear_sphere::curve(poissons_ratio, bond)),
+            },
+        }
     }
 
     /// Of `tissue` under `tip`, from finite elements on the coarsest mesh (seconds); `at_step` hears the
@@ -41,7 +49,7 @@ impl Stiffening {
         at_step: &mut dyn FnMut(f64),
     ) -> Result<Self, Error> {
         if tissue.law.volume().strain == Strain::Small {
-            return Ok(Self::none());
+            return Ok(Self::linear((tip, bond), tissue.at_rest.poissons_ratio()));
         }
         let at_rest = &tissue.at_rest;
         let flat = Tip::Flat { radius: 1.0 };
