@@ -12,7 +12,7 @@
 //!
 //! *How we know*: `field::…`.
 //!
-//! *Limits*: where the organ is folded the strong form shows up to 2.5 times the depth of the tip.
+//! *Limits*: over the steepest saddles, where it has poles, the strong form shows up to six times the depth of the tip.
 
 use super::layout::CapShape;
 use super::settings::Form;
