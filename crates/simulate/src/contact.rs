@@ -2,7 +2,8 @@
 //!
 //! A tip below the rest surface is in contact, from the first step with positive depth until the depth
 //! is gone. A tip that slips is met by the surface that it is over; one that sticks carries the place
-//! of its first contact with it.
+//! of its first contact with it, as long as it is pressed against the organ. Where the organ would pull on it, nothing
+//! holds it to that place: it goes on as one that slips, and sticks where it is pressed again.
 //!
 //! *How we know*: `invariants::real_organs_under_random_pokes_and_slides`.
 //!
@@ -33,6 +34,8 @@ pub struct Contact {
     pub(crate) signed: f64,
     /// Depth below the rest surface [m].
     pub depth: f64,
+    /// Whether it was pressed against the organ in its last step, without which nothing holds it there.
+    pub(crate) is_pressed: bool,
 }
 
 impl Contact {
@@ -86,11 +89,13 @@ pub(crate) fn detect(
         tip: *tip,
         signed,
         depth,
+        is_pressed: last.is_pressed,
     };
+    if tool.bond == Bond::Slip || !last.is_pressed {
+        contact.place = place(simulation, tool, (&footing, depth), Some(&last.place.frame));
+    }
     match tool.bond {
-        Bond::Slip => {
-            contact.place = place(simulation, tool, (&footing, depth), Some(&last.place.frame));
-        }
+        Bond::Slip => {}
         Bond::Stick if contact.displacement(tool, tip).z >= 0.0 => return None,
         Bond::Stick => contact.place.radius = tool.tip.contact_radius(depth),
     }
@@ -179,6 +184,7 @@ fn begin(simulation: &Simulation, tool: &Tool, tip: &Vec3) -> Option<Contact> {
         tip: *tip,
         signed,
         depth,
+        is_pressed: true,
     })
 }
 

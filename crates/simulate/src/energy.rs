@@ -7,6 +7,10 @@
 //! W = −½ (F₀ + F₁)·(x₁ − x₀)      a contact that begins: ½ F₁ᵀ K⁻¹ F₁      one that ends: −½ F₀ᵀ K⁻¹ F₀
 //! ```
 //!
+//! A tip that is no longer pressed against the organ ends its contact: its force falls to zero somewhere on the way of
+//! that step. Where it is pressed again another contact begins. Of a step in which held tissue slips, the work counts that
+//! changes ½ Fᵀ K⁻¹ F: the slip takes the rest, and the force falls to what friction bears somewhere on the way.
+//!
 //! The positive parts are the work done, the negative ones the work given back. Where the second exceeds
 //! [`MOST_RETURNED`] times the first, the solution is not that of an elastic organ: [`Event::EnergyGain`], once for
 //! each touch, on every tool that touches.
@@ -63,13 +67,15 @@ impl EnergyAccount {
     }
 }
 
-/// Where the tip of a tool that touches is, and the tissue that it holds [m], and the force on it [N].
+/// Where the tip of a tool that is pressed against the organ is, and the tissue that it holds [m], and the force on it [N].
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Pressed {
     tip: Vec3,
     held: Option<Vec3>,
     /// The touched point of the organ at rest [m]: another one is another contact.
     point: Vec3,
+    /// How far what jaws hold has slipped [m].
+    slid: Vec3,
     force: Vec3,
     /// Energy of its contact alone [J].
     stored: f64,
@@ -87,6 +93,9 @@ pub(crate) fn check(simulation: &Simulation, state: &mut SimulationState) {
         let begins = own.row.events.contains(Event::Contact);
         let goes_on = |before: &Pressed, now: &Pressed| !begins && before.point == now.point;
         match (before, own.pressed) {
+            (Some(before), Some(now)) if goes_on(&before, &now) && before.slid != now.slid => {
+                account.add(now.stored - before.stored);
+            }
             (Some(before), Some(now)) if goes_on(&before, &now) => {
                 let way = match (before.held, now.held) {
                     (Some(before), Some(now)) => now - before,
@@ -125,7 +134,7 @@ fn has_energy(tool: &Tool, state: &ToolState) -> bool {
 
 impl ToolState {
     fn pressing(&self) -> Option<Pressed> {
-        if !self.touches() {
+        if !self.touches() || self.contact.is_some_and(|contact| !contact.is_pressed) {
             return None;
         }
         // Of held tissue the stiffness is in the scene's frame.
@@ -138,6 +147,7 @@ impl ToolState {
         Some(Pressed {
             tip: Vec3::from(self.pose?.position_m),
             held: hold.map(Hold::carried_without_slip),
+            slid: hold.map_or_else(Vec3::zeros, |hold| *hold.slid()),
             point: hold
                 .map(Hold::place)
                 .or(self.contact.map(|contact| contact.point()))?,

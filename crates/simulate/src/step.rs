@@ -192,20 +192,25 @@ fn feel(
         state.history = ForceHistory::default();
         return [Event::NonFiniteForce].into_iter().collect();
     }
-    let Some(contact) = &state.contact else {
+    let Some(contact) = &mut state.contact else {
         state.with_pull = relaxed;
         state.force = relaxed;
         return Events::NONE;
     };
     // Tissue that has not come back yet does not hold the tool: there is no adhesion.
-    let outward = relaxed.dot(&contact.normal());
+    let normal = contact.normal();
+    let outward = relaxed.dot(&normal);
+    contact.is_pressed = outward > 0.0;
     state.with_pull = match tool.bond {
         Bond::Stick => relaxed,
         // The history of a slide has other normals in it; there is no friction all the same.
-        Bond::Slip => contact.normal() * outward,
+        Bond::Slip => normal * outward,
     };
-    if outward > 0.0 {
+    if contact.is_pressed {
         state.force = state.with_pull;
+    } else {
+        // It sticks anew where it is pressed again: nothing is sheared there yet.
+        state.history.keep_along(&normal);
     }
     Events::NONE
 }

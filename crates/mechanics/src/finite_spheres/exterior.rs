@@ -85,7 +85,8 @@ pub(super) struct Calibration {
 pub(super) struct Corrected {
     /// [N/m] per direction of the contact's frame; off-diagonal terms between the tangents only.
     pub(super) stiffness: Matrix3<f64>,
-    /// [-], tangential and normal.
+    /// [-], tangential and normal: from a shell that stays to one that moves as far as the tip, also where the stiffness
+    /// is bounded or the organ is stiffer than its shells.
     pub(super) share: [f64; 2],
     /// Bounds that changed the stiffness.
     pub(super) limits: Limits,
@@ -173,7 +174,7 @@ impl Calibration {
         }
         let mut stiffness = Matrix3::zeros();
         stiffness[(2, 2)] = 1.0 / normal;
-        let mut share = [0.0, 1.0 - inside / normal];
+        let mut share = [0.0, (1.0 - inside / normal).clamp(0.0, 1.0)];
         match (self.bond, self.form) {
             (Bond::Slip, _) => {}
             (Bond::Stick, Form::Strong) => {
@@ -199,7 +200,7 @@ impl Calibration {
                 let inverse = sum.try_inverse();
                 let both = inverse.unwrap_or_else(|| Matrix2::repeat(f64::NAN)) * along;
                 stiffness.fixed_view_mut::<2, 2>(0, 0).copy_from(&both);
-                share[0] = 1.0 - both.trace() / along.trace();
+                share[0] = (1.0 - both.trace() / along.trace()).clamp(0.0, 1.0);
             }
         }
         Corrected {

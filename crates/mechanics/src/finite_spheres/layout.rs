@@ -115,6 +115,22 @@ impl CapShape {
         place.radius * Vec3::new(across * cosine, across * sine, -along)
     }
 
+    /// Where a place `x` [h] lies in the template: there, or on the surface at the same distance and azimuth where it is
+    /// above that.
+    pub(super) fn under(&self, x: &Vec3) -> Vec3 {
+        let (radius, outwards) = (x.norm(), x.x.hypot(x.y));
+        let (cosine, sine) = match outwards > 0.0 {
+            true => (x.x / outwards, x.y / outwards),
+            false => (1.0, 0.0),
+        };
+        let surface = self.surface_angle(radius, cosine, sine);
+        if outwards.atan2(-x.z) <= surface {
+            return *x;
+        }
+        let (across, along) = surface.sin_cos();
+        radius * Vec3::new(across * cosine, across * sine, -along)
+    }
+
     /// Outward unit normal of the surface above a `position` [h] on it.
     pub(super) fn surface_normal(&self, position: &Vec3) -> Vec3 {
         let [k11, k12, k22] = self.curvature.into();
@@ -231,6 +247,25 @@ mod tests {
             assert!(held > 0 && held < particles - 1, "{particles}");
         }
         assert!(Layout::new(11).is_err());
+    }
+
+    /// Judge: the surface particles of the template, which are on it, and what is above and below them.
+    #[test]
+    fn what_is_above_the_surface_is_taken_to_it() {
+        let cap = CapShape::new(Vector3::new(0.3, -0.1, -0.2), 2);
+        let layout = Layout::new(34).unwrap();
+        for place in layout.places.iter().filter(|p| p.fraction == 1.0) {
+            let position = cap.position(place);
+            let turned = |fraction: f64| cap.position(&Place { fraction, ..*place });
+            // Rounding.
+            assert!((cap.under(&position) - position).norm() < 1e-14);
+            assert_eq!(cap.under(&turned(0.9)), turned(0.9));
+            assert!((cap.under(&turned(1.3)) - position).norm() < 1e-14);
+        }
+        for x in [Vec3::zeros(), -1.5 * Vec3::z()] {
+            assert_eq!(cap.under(&x), x);
+        }
+        assert!((cap.under(&Vec3::z()).norm() - 1.0).abs() < 1e-14);
     }
 
     #[test]

@@ -215,6 +215,8 @@ impl FiniteSphereModel {
             share: response.share,
             radius_in_spacings: self.calibration.radius_in_spacings,
             shells: self.layout.shells as f64,
+            form: self.settings.form,
+            cap: CapShape::new(contact.curvature * response.spacing, self.layout.shells),
         };
         let local = contact.frame.tr_mul(&(x - contact.point)) / response.spacing;
         let FiniteSphereWorkspace {

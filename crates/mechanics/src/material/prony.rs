@@ -137,6 +137,13 @@ impl ForceHistory {
         self.elastic = elastic;
         force
     }
+
+    /// Forgets all but what was along the unit vector `direction` [-].
+    pub fn keep_along(&mut self, direction: &Vec3) {
+        for force in self.branches.iter_mut().chain([&mut self.elastic]) {
+            *force = direction * direction.dot(force);
+        }
+    }
 }
 
 #[cfg(test)]

@@ -138,7 +138,8 @@ impl Hold {
         &self.now.1
     }
 
-    pub(super) fn slid(&self) -> &Vec3 {
+    /// How far the tissue has slid since [m], in the tool's frame.
+    pub(crate) fn slid(&self) -> &Vec3 {
         &self.slid
     }
 

@@ -2,11 +2,11 @@
 
 use palpate_files::Event;
 use palpate_files::scene::{Jaws, Nodule};
-use palpate_geometry::Vec3;
+use palpate_geometry::{AabbTree, Vec3};
 use palpate_simulate::Simulation;
 
 use super::{HEMISPHERE, Hands, POLE, grasping, with_jaws};
-use crate::scenes::{Random, Setting};
+use crate::scenes::{Random, Setting, nearest};
 
 /// Judge: friction. Tissue that relaxes is pulled out of its jaws.
 #[test]
@@ -104,6 +104,57 @@ fn a_closed_way_gives_no_energy() {
         stored > 0.0 && work.abs() < 0.01 * stored,
         "{work} {stored}"
     );
+}
+
+/// Judge: energy. A tip that sticks is pressed in, dragged aside until the organ would pull on it, pressed in there, and
+/// brought back: it gets out no more work than it puts in. 1 % of that is allowed, for a force that falls to zero within a
+/// step.
+#[test]
+fn a_tip_that_is_dragged_loose_gives_no_energy() {
+    let setting = Setting {
+        organ: "builtin = \"liver\"\ntriangles = 400",
+        model: "response = \"boundary_elements\"\nmechanical_triangles = 240",
+        poissons_ratio: 0.49,
+        radius: 4.8e-3,
+        ..HEMISPHERE
+    };
+    let simulation = setting.simulation();
+    let tree = AabbTree::new(simulation.surface().mesh());
+    let (place, normal) = nearest(&simulation, &tree, &Vec3::new(0.0603, -0.0264, 0.0391));
+    let along = normal.cross(&Vec3::x()).normalize();
+    let mut loose = 0;
+    for turn in 0..8 {
+        let (sine, cosine) = (std::f64::consts::FRAC_PI_4 * f64::from(turn)).sin_cos();
+        let aside = along * cosine + normal.cross(&along) * sine;
+        let way = [
+            (0.0, 1e-5),
+            (0.0, -5e-5),
+            (2e-3, -5e-5),
+            (2e-3, -6e-4),
+            (0.0, -6e-4),
+            (0.0, 3e-3),
+        ];
+        let mut hands = Hands::new(&simulation);
+        let (mut work, mut done, mut was_loose) = (0.0, 0.0_f64, false);
+        let mut last: Option<(Vec3, Vec3)> = None;
+        for leg in way.windows(2) {
+            let [from, to] = [leg[0], leg[1]].map(|(far, up)| place + aside * far + normal * up);
+            for number in 0..=200 {
+                let tip = from + (to - from) * (f64::from(number) / 200.0);
+                let force = hands.at(&tip, 0.0);
+                was_loose |= hands.tool().row.contact && force == Vec3::zeros();
+                if let Some((before, felt)) = last {
+                    work -= 0.5 * (force + felt).dot(&(tip - before));
+                }
+                done = done.max(work);
+                last = Some((tip, force));
+            }
+        }
+        println!("towards {turn}: {work:.2e} J of {done:.2e} J, loose: {was_loose}");
+        assert!(done > 0.0 && work > -0.01 * done, "{turn}: {work} {done}");
+        loose += usize::from(was_loose);
+    }
+    assert!(loose > 0);
 }
 
 /// Judge: energy. Whatever slips on a way that comes back to where the tissue was taken hold of, the tool gets

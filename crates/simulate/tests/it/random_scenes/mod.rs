@@ -1,16 +1,12 @@
 //! Random legal scenes and motions: whatever model, tissue, tools, cuts and grips, and wherever a hand goes.
 //!
 //! A number is a scene and a motion, as texts that the readers take; ten numbers share a scene, for preparing one takes
-//! as long as ten motions. `PALPATE_SCENE=4711 cargo test random_scenes::one -- --ignored` prints both and plays them
-//! alone, `PALPATE_SCENES=2000..2100 cargo test random_scenes::some -- --ignored` plays a part of the 10,000.
+//! as long as ten motions. `PALPATE_SCENE=4711 cargo test random_scenes::one -- --ignored --nocapture` prints both and
+//! plays them alone, `PALPATE_SCENES=2000..2100 cargo test random_scenes::some -- --ignored` plays a part of the 10,000.
 //!
 //! Judges: a force is a number, a jaw presses no more than it can, tissue along its faces slips beyond friction, an
 //! elastic force is no larger than the stiffest contact that a model allows times the way of the tools, no touch gives
 //! back more work than was done, the organ stays within reach, and a motion ends in time.
-//!
-//! Known to fail, of the numbers 1000 to 2318, which were played: the organ is shown too far away in 1413, 1616, 1703,
-//! 1816, 1817 and 1818 (0.75 to 11 m, where 0.65 to 3.9 m are allowed), and more work comes back than was done
-//! in 1287, 1500, 2199 and 2318.
 
 mod motion_text;
 mod scene_text;
@@ -30,8 +26,9 @@ use palpate_simulate::{Error, Flow, Frame, Resources, Simulation, Summary, play}
 
 use crate::scenes::Random;
 
-/// A scene that is not played by then hangs. Preparing one takes seconds, playing it less, both more on a busy machine.
-const TIME_LIMIT: Duration = Duration::from_secs(120);
+/// A scene that is not played by then hangs. Preparing one takes seconds, playing it less, both more on a busy machine; of
+/// one in 500 scenes the force over depth is computed, which takes four minutes.
+const TIME_LIMIT: Duration = Duration::from_secs(600);
 
 /// Of scenes that the reader takes, so many may be refused as input when they are prepared [-]: for a nodule or a trocar
 /// in the wrong place, which nobody knows without the organ.
@@ -194,9 +191,9 @@ impl<'a> Check<'a> {
                     pull.y.abs()
                 };
                 let limit = 2.0 * jaws.friction * own.grip_force;
-                // What is left after the last of the slips of a step.
+                // What is left after the last of the slips of a step, of which each leaves a part of the pull.
                 assert!(
-                    along <= 1.001 * limit + 1e-9,
+                    along <= limit + 1e-3 * limit.max(own.force.norm()) + 1e-9,
                     "{at}: {along} N of {limit} N: {row:?}"
                 );
             }
@@ -325,37 +322,42 @@ fn random_scenes_are_sound() {
 
 /// Judge: the bounds at the top of this file. Quick form: `random_scenes_are_sound`.
 #[test]
-#[ignore = "by hand: 2,500 of 10,000 scenes, of which ten are known to fail (above)"]
+#[ignore = "slow: 2,500 of 10,000 scenes"]
 fn ten_thousand_random_scenes_are_sound_first_quarter() {
     quarter(0);
 }
 
 /// Judge: the bounds at the top of this file. Quick form: `random_scenes_are_sound`.
 #[test]
-#[ignore = "by hand: 2,500 of 10,000 scenes, of which ten are known to fail (above)"]
+#[ignore = "slow: 2,500 of 10,000 scenes"]
 fn ten_thousand_random_scenes_are_sound_second_quarter() {
     quarter(1);
 }
 
 /// Judge: the bounds at the top of this file. Quick form: `random_scenes_are_sound`.
 #[test]
-#[ignore = "by hand: 2,500 of 10,000 scenes, of which ten are known to fail (above)"]
+#[ignore = "slow: 2,500 of 10,000 scenes"]
 fn ten_thousand_random_scenes_are_sound_third_quarter() {
     quarter(2);
 }
 
 /// Judge: the bounds at the top of this file. Quick form: `random_scenes_are_sound`.
 #[test]
-#[ignore = "by hand: 2,500 of 10,000 scenes, of which ten are known to fail (above)"]
+#[ignore = "slow: 2,500 of 10,000 scenes"]
 fn ten_thousand_random_scenes_are_sound_fourth_quarter() {
     quarter(3);
 }
 
-/// Judge: the bounds at the top of this file, in a scene that broke one: a sphere pressed where jaws hold an organ of a
-/// few large triangles moved the organ by metres.
+/// Judge: the bounds at the top of this file, in scenes that broke one, each for another reason.
+///
+/// 346: jaws without friction, whose pull was compared with nothing. 494: tissue that slips in a jump, whose force was
+/// taken to fall evenly over the whole step. 1004: a sphere pressed where jaws hold an organ of a few large triangles.
+/// 1287: a tip that sticks was dragged aside until the organ would pull on it, and kept what it had sheared. 1413: shells
+/// without stiffness, beyond which all of the tip's way was shown six hundred times. 1616: an organ that is folded above
+/// the particles. 1816: a strong form's answer to a tangential displacement.
 #[test]
-fn a_scene_that_was_not_sound_is() {
-    scenes([1004].into_iter());
+fn scenes_that_were_not_sound_are() {
+    scenes([346, 494, 1004, 1287, 1413, 1616, 1816].into_iter());
 }
 
 /// Judge: the bounds at the top of this file, of the scenes that `PALPATE_SCENES` names.

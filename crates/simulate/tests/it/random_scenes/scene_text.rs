@@ -66,18 +66,18 @@ pub(super) fn scene_text(random: &mut Random) -> String {
 }
 
 fn tissue(random: &mut Random) -> String {
-    let law = match random.below(100) {
-        0..60 => {
+    let law = match random.below(1000) {
+        0..600 => {
             let modulus = random.spread(300.0, 1e6);
             let ratio = random.of(&["0.3", "0.45", "0.49"]);
             format!("law = \"linear\"\nyoungs_modulus_pa = {modulus:?}\npoissons_ratio = {ratio}\n")
         }
-        60..98 => format!(
+        600..998 => format!(
             "law = \"neo_hookean\"\nc10_pa = {:?}\n",
             random.spread(100.0, 1e5)
         ),
-        // Their force over depth is computed for each scene, in seconds.
-        98 => "law = \"mooney_rivlin\"\nc10_pa = 500.0\nc01_pa = 300.0\n".to_owned(),
+        // Their force over depth is computed for each scene, in minutes.
+        998 => "law = \"mooney_rivlin\"\nc10_pa = 500.0\nc01_pa = 300.0\n".to_owned(),
         _ => "law = \"exponential\"\ngamma_pa = 900.0\nalpha = 1.5\n".to_owned(),
     };
     let mut left = 0.95;
