@@ -112,7 +112,7 @@ def test_a_file_that_cannot_be_written_is_told(tmp_path: Path) -> None:
 def test_a_file_is_replaced_when_that_is_asked_for(tmp_path: Path) -> None:
     """Judge: the bytes before."""
     file = tmp_path / "own"
-    documents = [
+    documents: list[tuple[palpate.Mesh | palpate.Tissue | palpate.Recording | palpate.Motion, str]] = [
         (palpate.Mesh.builtin("liver", 1000), ".ply"),
         (palpate.Tissue.builtin("pig-liver"), ".toml"),
         (palpate.Recording([0.0, 1.0], [0.0, 1e-3], [0.0, 1e-2]), ".csv"),

@@ -89,6 +89,7 @@ struct Surfaced {
 
 /// Lists labels, or makes surfaces of them.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    interrupt::ends_between_files("interrupted; the surfaces that were written are whole");
     let progress = Progress::of_job(Reader::of_json(arguments.json));
     progress.say("reading the volume");
     let map = read_label_map(&arguments.file)?;
@@ -98,7 +99,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if let (Some(wanted), Some(out)) = (&arguments.label, &arguments.out) {
         let overwrite = Overwrite::of_option(arguments.overwrite);
         let chosen = chosen(&labels, wanted, (out, overwrite))?;
-        interrupt::ends_between_files("interrupted; the surfaces that were written are whole");
         let count = chosen.surfaces.len() as f64;
         for (number, (label, out)) in chosen.surfaces.into_iter().enumerate() {
             progress.say(format!("the surface of {}", label::in_words(label)));

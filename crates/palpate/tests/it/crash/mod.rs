@@ -119,7 +119,7 @@ fn a_tissue() -> WritePath {
     done(&palpate_in(folder.path(), &measure));
     // The lumped law alone, for this is about files.
     let line = "characterize one.csv --law neo_hookean --terms 1 --draws 0 --out tissue.toml --abaqus card.inp --febio card.feb \
-                --report page.html";
+                --report page.html --overwrite";
     done(&palpate_in(folder.path(), &words(line)));
     fs::remove_file(at("one.csv")).unwrap();
     fs::write(at("protocol.toml"), protocol(3)).unwrap();
