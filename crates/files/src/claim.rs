@@ -2,7 +2,9 @@ use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
+use crate::whole_file::is_replaced;
 use crate::{Error, unfinished};
 
 /// The file that is locked in a claimed folder; its text is the number of the process.
@@ -38,7 +40,17 @@ pub struct Claim {
     overwrite: Overwrite,
     lock: PathBuf,
     _locked: File,
-    has_made_folder: bool,
+}
+
+/// What claims of this program have made on the disk.
+static MADE: Mutex<Vec<Made>> = Mutex::new(Vec::new());
+
+/// What a claim has made on the disk.
+#[derive(Debug)]
+struct Made {
+    lock: PathBuf,
+    /// The folder that did not exist before.
+    folder: Option<PathBuf>,
 }
 
 impl Claim {
@@ -51,13 +63,17 @@ impl Claim {
         let has_made_folder = !path.exists();
         fs::create_dir_all(&path).map_err(|source| Error::write(&path, source))?;
         let lock = path.join(LOCK);
+        let locked = locked(&lock, &path)?;
+        made().push(Made {
+            lock: lock.clone(),
+            folder: has_made_folder.then(|| path.clone()),
+        });
         Ok(Self {
-            _locked: locked(&lock, &path)?,
             folder: path.clone(),
             path,
             overwrite,
             lock,
-            has_made_folder,
+            _locked: locked,
         })
     }
 
@@ -71,14 +87,49 @@ impl Claim {
         name.push(path.file_name().unwrap_or_default());
         name.push(LOCK);
         let lock = path.with_file_name(name);
+        let locked = locked(&lock, &path)?;
+        made().push(Made {
+            lock: lock.clone(),
+            folder: None,
+        });
         Ok(Self {
-            _locked: locked(&lock, &path)?,
             folder: path.parent().unwrap_or(Path::new("")).to_owned(),
             path,
             overwrite,
             lock,
-            has_made_folder: false,
+            _locked: locked,
         })
+    }
+
+    /// Claims the files that a command writes, before its work. A device or a pipe is written to as it is: several
+    /// programs may, and it is not replaced.
+    ///
+    /// # Errors
+    /// When two of them are one file, one is a folder or exists and may not be replaced, another program has claimed
+    /// one, or the operating system refuses.
+    pub fn of_files(
+        paths: impl IntoIterator<Item = impl AsRef<Path>>,
+        overwrite: Overwrite,
+    ) -> Result<Vec<Self>, Error> {
+        let (mut files, mut claims) = (Vec::new(), Vec::new());
+        for path in paths {
+            let path = path.as_ref();
+            if !is_replaced(path).map_err(|source| Error::write(path, source))? {
+                continue;
+            }
+            if path.exists() && overwrite == Overwrite::Refused {
+                let path = path.to_owned();
+                return Err(Error::Exists { path });
+            }
+            let file = in_real_folder(path).map_err(|source| Error::write(path, source))?;
+            if files.contains(&file) {
+                let path = path.to_owned();
+                return Err(Error::NamedTwice { path });
+            }
+            files.push(file);
+            claims.push(Self::of_file(path, overwrite)?);
+        }
+        Ok(claims)
     }
 
     /// What is claimed.
@@ -106,13 +157,40 @@ impl Claim {
 
 impl Drop for Claim {
     fn drop(&mut self) {
-        // A leftover is only untidy: nobody holds it.
-        let _ = fs::remove_file(&self.lock);
-        if self.has_made_folder {
-            // Refused unless it is empty.
-            let _ = fs::remove_dir(&self.path);
+        let mut all = made();
+        if let Some(place) = all.iter().position(|made| made.lock == self.lock) {
+            all.swap_remove(place).remove();
         }
     }
+}
+
+impl Made {
+    fn remove(self) {
+        // A leftover is only untidy: nobody holds it.
+        let _ = fs::remove_file(&self.lock);
+        if let Some(folder) = self.folder {
+            // Refused unless it is empty.
+            let _ = fs::remove_dir(folder);
+        }
+    }
+}
+
+/// Removes what all claims of this program have made: for one that ends without dropping them.
+pub fn remove_claims() {
+    made().drain(..).for_each(Made::remove);
+}
+
+fn made() -> MutexGuard<'static, Vec<Made>> {
+    MADE.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// The file with the real path of its folder, so that one file has one path.
+fn in_real_folder(path: &Path) -> io::Result<PathBuf> {
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    Ok(fs::canonicalize(folder)?.join(path.file_name().unwrap_or_default()))
 }
 
 /// A lock of this program on the file `lock`, for what is called `path`.
@@ -213,6 +291,44 @@ mod tests {
             }
         });
         assert!(held.into_inner() > 0);
+    }
+
+    #[test]
+    fn files_of_a_command_are_claimed_unless_one_exists_or_is_named_twice() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        let claim = |names: &[&str], overwrite| {
+            Claim::of_files(names.iter().map(|name| at(name)), overwrite)
+        };
+        let entries = || fs::read_dir(folder.path()).unwrap().count();
+        let first = claim(&["a.png", "b.csv"], Overwrite::Refused).unwrap();
+        let error = claim(&["b.csv"], Overwrite::Allowed).unwrap_err();
+        assert!(matches!(error, Error::InUse { .. }), "{error}");
+        drop(first);
+        assert_eq!(entries(), 0);
+        for overwrite in [Overwrite::Refused, Overwrite::Allowed] {
+            let error = claim(&["a.png", "./a.png"], overwrite).unwrap_err();
+            assert!(matches!(error, Error::NamedTwice { .. }), "{error}");
+            let error = claim(&["no/such.png"], overwrite).unwrap_err();
+            assert!(matches!(error, Error::Write { .. }), "{error}");
+            assert!(claim(&[""], overwrite).is_err());
+        }
+        fs::write(at("a.png"), "old").unwrap();
+        let error = claim(&["b.csv", "a.png"], Overwrite::Refused).unwrap_err();
+        assert!(
+            error.to_string().contains("a.png is there already"),
+            "{error}"
+        );
+        let allowed = claim(&["b.csv", "a.png"], Overwrite::Allowed).unwrap();
+        assert_eq!((entries(), allowed.len()), (3, 2));
+        drop(allowed);
+        assert_eq!(fs::read(at("a.png")).unwrap(), b"old");
+        #[cfg(unix)]
+        assert!(
+            Claim::of_files(["/dev/null", "/dev/null"], Overwrite::Refused)
+                .unwrap()
+                .is_empty()
+        );
     }
 
     #[test]

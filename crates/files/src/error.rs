@@ -84,6 +84,12 @@ pub enum Error {
         /// The file.
         path: PathBuf,
     },
+    /// Two of the files to write are one.
+    #[error("{path} is named twice; give each file its own name", path = path.display())]
+    NamedTwice {
+        /// The file.
+        path: PathBuf,
+    },
     /// Another program writes at the same place.
     #[error("{path} is being written by another program{by}; wait until it ends, or name another place", path = path.display(), by = process.map_or(String::new(), |process| format!(" (process {process})")))]
     InUse {

@@ -34,7 +34,7 @@ pub mod units;
 mod whole_file;
 mod words;
 
-pub use claim::{Claim, Overwrite};
+pub use claim::{Claim, Overwrite, remove_claims};
 pub use domain::Domain;
 pub use error::{Error, Place};
 pub use estimate::Estimate;
@@ -48,6 +48,4 @@ pub use session::{Event, Events, Session, SessionHeader, SessionRow, SessionWrit
 pub use table::{Incomplete, unfinished};
 pub use tissue::{BuiltinTissue, Elasticity, PronyTerm, Tissue};
 pub use toml_document::{Document, Keys};
-pub use whole_file::{
-    MOST_OF_DOCUMENT, MOST_OF_TABLE, check_writable, read_bytes, read_text, write_whole,
-};
+pub use whole_file::{MOST_OF_DOCUMENT, MOST_OF_TABLE, read_bytes, read_text, write_whole};

@@ -32,22 +32,8 @@ pub(crate) fn write_whole_by(
     write().map_err(|source| Error::write(path, source))
 }
 
-/// Whether [`write_whole`] could write `path` now: for asking before long work instead of after it.
-/// Nothing is left behind.
-///
-/// # Errors
-/// What [`write_whole`] would say.
-pub fn check_writable(path: impl AsRef<Path>) -> Result<(), Error> {
-    let path = path.as_ref();
-    let tried = || match is_replaced(path)? {
-        true => Partial::create(path).map(drop),
-        false => Ok(()),
-    };
-    tried().map_err(|source| Error::write(path, source))
-}
-
 /// Whether a new file takes the place of what is at `path`, rather than going into the device or pipe there.
-fn is_replaced(path: &Path) -> io::Result<bool> {
+pub(crate) fn is_replaced(path: &Path) -> io::Result<bool> {
     match fs::metadata(path) {
         Ok(known) if known.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
         Ok(known) => Ok(known.is_file()),
@@ -171,15 +157,5 @@ mod tests {
             let error = read_text("/dev/zero", 100).unwrap_err();
             assert!(error.to_string().contains("regular file"), "{error}");
         }
-    }
-
-    #[test]
-    fn what_cannot_be_written_is_known_before() {
-        let folder = tempfile::tempdir().unwrap();
-        check_writable(folder.path().join("plot.png")).unwrap();
-        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
-        let error = check_writable(folder.path().join("no/plot.png")).unwrap_err();
-        assert!(error.is_input(), "{error}");
-        assert!(check_writable(folder.path()).is_err());
     }
 }

@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use signal_hook::consts::{SIGINT, SIGTERM};
 
+use crate::failure::Failure;
 use crate::output;
 
 /// Whether the command ends by itself, and nobody else shall stop.
@@ -65,9 +66,10 @@ static WRITING: Mutex<()> = Mutex::new(());
 /// Exit status after a signal: a failure.
 const INTERRUPTED: i32 = 1;
 
-/// From now on a signal waits for files that are being written, then ends the program after `farewell`. Where the
+/// From now on a signal waits for files that are being written, then ends the program with `sentence`. Where the
 /// system gives no thread to wait for it, a signal ends the program at once, as without this.
-pub(crate) fn ends_between_files(farewell: impl Fn() + Send + 'static) {
+pub(crate) fn ends_between_files(sentence: impl Into<String>) {
+    let sentence = sentence.into();
     let begins = Arc::new(Barrier::new(2));
     let begun = begins.clone();
     let wait = move || {
@@ -76,7 +78,9 @@ pub(crate) fn ends_between_files(farewell: impl Fn() + Send + 'static) {
             std::thread::sleep(LOOK);
         }
         let _between = WRITING.lock().unwrap_or_else(PoisonError::into_inner);
-        farewell();
+        // Nothing is dropped at this exit.
+        palpate_files::remove_claims();
+        output::error(&Failure::failed(sentence));
         std::process::exit(INTERRUPTED);
     };
     if std::thread::Builder::new().spawn(wait).is_err() {

@@ -6,7 +6,7 @@
 
 use std::path::PathBuf;
 
-use palpate_files::{Protocol, Scene};
+use palpate_files::{Overwrite, Protocol, Scene};
 use palpate_jobs::characterize::{Choice, NamedSpecimen, StudyFolder};
 use palpate_jobs::measure::{Measuring, Out, Plan};
 use palpate_jobs::preparation::resources;
@@ -123,7 +123,7 @@ pub(crate) fn _characterize(
     py: Python<'_>,
     recordings: &str,
     choice: (Option<String>, Option<usize>, usize, u64),
-    study: Option<PathBuf>,
+    study: Option<(PathBuf, bool)>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<(String, Vec<FoundTissue>)> {
     let recordings = asked(recordings)?;
@@ -135,7 +135,10 @@ pub(crate) fn _characterize(
             draws,
             seed,
         };
-        let folder = study.as_deref().map(StudyFolder::open).transpose()?;
+        let open = |(path, overwrite): (PathBuf, bool)| {
+            StudyFolder::open(&path, Overwrite::of_option(overwrite))
+        };
+        let folder = study.map(open).transpose()?;
         let found =
             palpate_jobs::characterize::characterize(&recordings, choice, folder.as_ref(), told)?;
         let tissues = found.tissues.into_iter().map(|tissue| match tissue {
@@ -174,7 +177,7 @@ pub(crate) fn _measure(
         let measuring = Measuring::of(Plan::of(protocol, seed)?, told)?;
         let out = Out {
             path: &out.0,
-            overwrite: palpate_files::Overwrite::of_option(out.1),
+            overwrite: Overwrite::of_option(out.1),
         };
         let files = palpate_jobs::measure::files(&measuring, out)?;
         let recorded = measuring.run(&files, told)?;

@@ -27,6 +27,7 @@ mod session;
 mod simulator;
 mod tissue;
 mod waiting;
+mod written;
 
 use pyo3::prelude::*;
 

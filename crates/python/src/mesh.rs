@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use numpy::{PyArray1, PyArray2};
-use palpate_files::{check_writable, write_whole};
+use palpate_files::write_whole;
 use palpate_geometry::{
     AabbTree, LengthUnit, MeshReport, NodeId, Organ, ProblemKind, ReadError, ReadFault,
     SimplifySettings, Surface, TriangleMesh, WriteFormat, inspect, read_mesh, repair, simplify,
@@ -13,7 +13,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple, PyType};
 
 use crate::failure::Failure;
-use crate::numbers;
+use crate::{numbers, written};
 
 /// Triangles over shared vertices.
 ///
@@ -218,15 +218,19 @@ impl Mesh {
         Ok(Self::with_warnings(simplified.mesh, warnings))
     }
 
-    /// Writes it in metres, whole or not at all: .stl, .obj, .ply or .vtp.
-    fn write(&self, py: Python<'_>, path: PathBuf) -> Result<(), Failure> {
+    /// Writes it in metres, whole or not at all: .stl, .obj, .ply or .vtp. A file that exists is replaced with
+    /// `overwrite=True`, else it is an error.
+    #[pyo3(signature = (path, overwrite=false))]
+    fn write(&self, py: Python<'_>, path: PathBuf, overwrite: bool) -> Result<(), Failure> {
         let format = WriteFormat::of(&path).map_err(|fault| ReadError {
             path: path.clone(),
             fault,
         })?;
-        check_writable(&path)?;
-        py.detach(|| write_whole(&path, &format.bytes(&self.mesh, LengthUnit::Metre)))?;
-        Ok(())
+        py.detach(|| {
+            written::write(&path, overwrite, |path| {
+                write_whole(path, &format.bytes(&self.mesh, LengthUnit::Metre))
+            })
+        })
     }
 
     fn __len__(&self) -> usize {

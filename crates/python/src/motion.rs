@@ -10,7 +10,7 @@ use pyo3::types::{PyDict, PyTuple, PyType};
 
 use crate::failure::Failure;
 use crate::simulator::poses;
-use crate::{frames, numbers};
+use crate::{frames, numbers, written};
 
 /// How one or two tools move: linear between the rows of a table.
 ///
@@ -141,9 +141,11 @@ impl Motion {
         frames::frame(&columns, PyDict::new(py))
     }
 
-    /// Writes a motion's file, whole or not at all.
-    fn write(&self, path: PathBuf) -> Result<(), Failure> {
-        Ok(self.motion.write(path)?)
+    /// Writes a motion's file, whole or not at all. A file that exists is replaced with
+    /// `overwrite=True`, else it is an error.
+    #[pyo3(signature = (path, overwrite=false))]
+    fn write(&self, path: PathBuf, overwrite: bool) -> Result<(), Failure> {
+        written::write(&path, overwrite, |path| self.motion.write(path))
     }
 
     fn __eq__(&self, other: &Self) -> bool {

@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple, PyType};
 
 use crate::failure::Failure;
-use crate::{documents, frames, numbers};
+use crate::{documents, frames, numbers, written};
 
 /// A recording of an indentation.
 ///
@@ -165,9 +165,11 @@ impl Recording {
         frames::frame(&columns, self.header(py)?)
     }
 
-    /// Writes a recording's file, whole or not at all.
-    fn write(&self, path: PathBuf) -> Result<(), Failure> {
-        Ok(self.recording.write(path)?)
+    /// Writes a recording's file, whole or not at all. A file that exists is replaced with
+    /// `overwrite=True`, else it is an error.
+    #[pyo3(signature = (path, overwrite=false))]
+    fn write(&self, path: PathBuf, overwrite: bool) -> Result<(), Failure> {
+        written::write(&path, overwrite, |path| self.recording.write(path))
     }
 
     fn __len__(&self) -> usize {

@@ -10,6 +10,7 @@ use toml::{Table, Value};
 
 use crate::documents;
 use crate::failure::Failure;
+use crate::written;
 
 /// What stands for the file of a tissue that comes from Python in a sentence.
 const NAME: &str = "tissue";
@@ -175,9 +176,11 @@ impl Tissue {
         Ok(self.tissue.to_febio()?)
     }
 
-    /// Writes its file, whole or not at all.
-    fn write(&self, path: PathBuf) -> Result<(), Failure> {
-        Ok(self.tissue.write(path)?)
+    /// Writes its file, whole or not at all. A file that exists is replaced with
+    /// `overwrite=True`, else it is an error.
+    #[pyo3(signature = (path, overwrite=false))]
+    fn write(&self, path: PathBuf, overwrite: bool) -> Result<(), Failure> {
+        written::write(&path, overwrite, |path| self.tissue.write(path))
     }
 
     fn __eq__(&self, other: &Self) -> bool {

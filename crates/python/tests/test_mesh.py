@@ -109,6 +109,26 @@ def test_a_file_that_cannot_be_written_is_told(tmp_path: Path) -> None:
         liver.write(tmp_path / "nowhere" / "liver.ply")
 
 
+def test_a_file_is_replaced_when_that_is_asked_for(tmp_path: Path) -> None:
+    """Judge: the bytes before."""
+    file = tmp_path / "own"
+    documents: list[tuple[palpate.Mesh | palpate.Tissue | palpate.Recording | palpate.Motion, str]] = [
+        (palpate.Mesh.builtin("liver", 1000), ".ply"),
+        (palpate.Tissue.builtin("pig-liver"), ".toml"),
+        (palpate.Recording([0.0, 1.0], [0.0, 1e-3], [0.0, 1e-2]), ".csv"),
+        (palpate.Motion({"right": ([0.0, 1.0], [[0.0, 0.0, 0.1], [0.0, 0.0, 0.2]])}), ".motion.csv"),
+    ]
+    for document, ending in documents:
+        path = file.with_suffix(ending)
+        path.write_text("old")
+        with pytest.raises(palpate.InputError, match="is there already"):
+            document.write(path)
+        assert path.read_text() == "old"
+        document.write(path, overwrite=True)
+        assert path.read_bytes() != b"old"
+    assert len(list(tmp_path.iterdir())) == len(documents)
+
+
 def test_simplifying_keeps_the_volume() -> None:
     """Judge: the original. Tolerance: the command's own test asks for less than one part in a hundred."""
     liver = palpate.Mesh.builtin("liver", 4000)

@@ -27,6 +27,12 @@ pub(crate) struct Row<'r> {
     pub(crate) line: usize,
 }
 
+/// Whether trimmed fields are a row, and neither blank nor a comment, which may be indented.
+pub(super) fn is_row<'f>(mut fields: impl Iterator<Item = &'f str>) -> bool {
+    let first = fields.next().unwrap_or("");
+    !first.starts_with('#') && (!first.is_empty() || fields.any(|field| !field.is_empty()))
+}
+
 impl<'t> Rows<'t> {
     pub(super) fn new(table: &'t TableText<'t>) -> Self {
         let reader = ReaderBuilder::new()
@@ -56,9 +62,7 @@ impl<'t> Rows<'t> {
                 Ok(false) => return Ok(None),
                 Err(error) => return Err(self.bad_row(&error.to_string(), "a row of text fields")),
             }
-            // A comment may be indented, which the reader does not know.
-            let first = self.record.get(0).unwrap_or("");
-            if !first.starts_with('#') && self.record.iter().any(|field| !field.is_empty()) {
+            if is_row(self.record.iter()) {
                 break;
             }
         }

@@ -1,14 +1,14 @@
 //! A folder that keeps what is finished of a study, so that the study can be stopped and gone on with.
 //!
 //! Each specimen has two files, `liver-7.json` with all that was found and `liver-7.toml` with its tissue.
-//! The first names what it was found from, by a digest of recordings and settings: what does not fit, or
-//! cannot be read, is found again.
+//! The first names what it was found from, by a digest of recordings and settings. What does not fit, or cannot be
+//! read, is found again where files may be replaced, and refused otherwise. `.palpate-study` marks the folder of a
+//! study, whose tables are written anew.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use palpate_characterize::CharacterizeSettings;
-use palpate_files::{MOST_OF_TABLE, read_text, write_whole};
+use palpate_files::{Claim, MOST_OF_TABLE, Overwrite, read_text, write_whole};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
@@ -16,10 +16,12 @@ use super::answer::Specimen;
 use super::finished::Finished;
 use crate::{Error, ReadRecording, VERSION, Watch, hexadecimal, json_text};
 
-/// The folder of a study.
+/// The folder of a study, for this program alone.
 #[derive(Debug)]
 pub struct StudyFolder {
     path: PathBuf,
+    overwrite: Overwrite,
+    _claim: Claim,
 }
 
 /// Where one specimen is kept.
@@ -27,6 +29,12 @@ pub(crate) struct Kept {
     json: PathBuf,
     digest: String,
 }
+
+/// What marks the folder of a study.
+const MARK: &str = ".palpate-study";
+
+/// Tables of a whole study.
+pub(crate) const TABLES: [&str; 2] = ["summary.csv", "pooled.csv"];
 
 /// A file of a folder.
 #[derive(Serialize, Deserialize)]
@@ -38,19 +46,47 @@ struct Document<T> {
 }
 
 impl StudyFolder {
-    /// The folder at `path`, made if it is not there.
+    /// The folder at `path`, which is made where it does not exist.
     ///
     /// # Errors
-    /// When it cannot be made.
-    pub fn open(path: &Path) -> Result<Self, Error> {
-        fs::create_dir_all(path).map_err(|error| {
-            let path = path.display();
-            Error::input(format!(
-                "the folder {path} cannot be made ({error}); give another with --study"
-            ))
+    /// When it cannot be made, or another program writes there.
+    pub fn open(path: &Path, overwrite: Overwrite) -> Result<Self, Error> {
+        let claim = Claim::of_folder(path, overwrite).map_err(|error| match error {
+            palpate_files::Error::Write { path, source } => Error::input(format!(
+                "the folder {} cannot be made or written ({source}); give another with --study",
+                path.display()
+            )),
+            other => other.into(),
         })?;
-        let path = path.to_owned();
-        Ok(Self { path })
+        Ok(Self {
+            path: path.to_owned(),
+            overwrite,
+            _claim: claim,
+        })
+    }
+
+    /// What is finished of the specimens `kept`. The folder is marked as that of a study.
+    ///
+    /// # Errors
+    /// When the study would replace a file that is not its own, and may not, or the folder cannot be marked.
+    pub(crate) fn begin(&self, kept: &[Kept]) -> Result<Vec<Option<Finished>>, Error> {
+        let mark = self.path.join(MARK);
+        let finished: Vec<_> = kept.iter().map(Kept::read).collect();
+        if self.overwrite == Overwrite::Refused {
+            let missing = kept.iter().zip(&finished).filter(|(_, own)| own.is_none());
+            let missing: Vec<_> = missing.map(|(kept, _)| kept).collect();
+            let mut replaced: Vec<_> = missing.iter().map(|kept| kept.json.clone()).collect();
+            // A study that was stopped leaves a tissue without what was found, and old tables.
+            if !mark.exists() {
+                replaced.extend(missing.iter().map(|kept| kept.tissue()));
+                replaced.extend(TABLES.map(|table| self.path.join(table)));
+            }
+            if let Some(path) = replaced.into_iter().find(|path| path.exists()) {
+                return Err(palpate_files::Error::Exists { path }.into());
+            }
+        }
+        write_whole(&mark, b"")?;
+        Ok(finished)
     }
 
     /// Where the specimen at `place` of `groups` is kept.
@@ -83,11 +119,15 @@ impl StudyFolder {
 
 impl Kept {
     /// What was finished before of the same recordings, in the same way.
-    pub(crate) fn read(&self) -> Option<Finished> {
+    fn read(&self) -> Option<Finished> {
         let text = read_text(&self.json, MOST_OF_TABLE).ok()?;
         let document: Document<Finished> = serde_json::from_str(&text).ok()?;
         let fits = document.digest == self.digest && document.palpate == VERSION;
         fits.then_some(document.finished)
+    }
+
+    fn tissue(&self) -> PathBuf {
+        self.json.with_extension("toml")
     }
 
     pub(crate) fn write(&self, finished: &Finished, watch: &dyn Watch) -> Result<(), Error> {
@@ -103,7 +143,7 @@ impl Kept {
 
     fn write_both(&self, finished: &Finished, text: &str) -> Result<(), Error> {
         if let Ok(tissue) = &finished.tissue {
-            write_whole(self.json.with_extension("toml"), tissue.as_bytes())?;
+            write_whole(self.tissue(), tissue.as_bytes())?;
         }
         // Last, since it says that all is there.
         Ok(write_whole(&self.json, text.as_bytes())?)

@@ -1,10 +1,11 @@
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use palpate_characterize::{CharacterizeSettings, characterize, specimens};
 
 use super::answer::Specimen;
 use super::finished::{Finished, Studied};
-use super::folder::{Kept, StudyFolder};
+use super::folder::StudyFolder;
 use crate::{Error, ReadRecording, Watch, on_all_cores};
 
 /// Every specimen of `recordings`, as many at once as there are cores, in their order. What `folder` keeps
@@ -16,17 +17,28 @@ pub(crate) fn of(
     watch: &dyn Watch,
 ) -> Result<Vec<Finished>, Error> {
     let groups = grouped(recordings);
+    let kept = |folder: &StudyFolder| -> Vec<_> {
+        let places = 0..groups.len();
+        places
+            .map(|place| folder.kept(&groups, place, settings))
+            .collect()
+    };
+    let kept = folder.map(kept).unwrap_or_default();
+    let finished = folder.map_or(Ok(Vec::new()), |folder| folder.begin(&kept))?;
+    let finished: Vec<_> = finished.into_iter().map(Mutex::new).collect();
     watch.at(0.0);
     let done = AtomicUsize::new(0);
     let work = |place: usize, group: &Vec<ReadRecording>| {
         let name = Specimen::title(&group[0].clean.header, &group[0].path);
-        let kept = folder.map(|folder| folder.kept(&groups, place, settings));
         let say = |doing: &str| watch.say(&format!("{name}: {doing}"));
-        let finished = match kept.as_ref().and_then(Kept::read) {
+        let before = finished.get(place).and_then(|own| own.lock().ok()?.take());
+        let finished = match before {
             Some(finished) => Ok(finished),
             None => {
                 let finished = finish(group, settings, &say);
-                let written = kept.map_or(Ok(()), |kept| kept.write(&finished, watch));
+                let written = kept
+                    .get(place)
+                    .map_or(Ok(()), |kept| kept.write(&finished, watch));
                 written.map(|()| finished)
             }
         };

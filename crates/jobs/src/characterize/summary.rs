@@ -3,7 +3,7 @@ use std::path::PathBuf;
 use palpate_files::text_cell;
 
 use super::answer::{Answer, Known, Specimen};
-use super::folder::StudyFolder;
+use super::folder::{StudyFolder, TABLES};
 use crate::Error;
 
 /// Most terms of a relaxation.
@@ -17,7 +17,8 @@ const LAWS: [(&str, &[&str]); 3] = [
 
 /// Writes `summary.csv`, a row for each specimen and for each file that could not be used, and `pooled.csv`.
 pub(crate) fn write(answer: &Answer, folder: &StudyFolder) -> Result<(), Error> {
-    folder.write("summary.csv", &table(&columns(), specimens(answer))?)?;
+    let [summary, pooled_table] = TABLES;
+    folder.write(summary, &table(&columns(), specimens(answer))?)?;
     let names = [
         "parameter",
         "n",
@@ -45,7 +46,7 @@ pub(crate) fn write(answer: &Answer, folder: &StudyFolder) -> Result<(), Error> 
             pooled.condition.clone().unwrap_or_default(),
         ]
     });
-    folder.write("pooled.csv", &table(&names.map(str::to_owned), pooled)?)
+    folder.write(pooled_table, &table(&names.map(str::to_owned), pooled)?)
 }
 
 fn specimens(answer: &Answer) -> impl Iterator<Item = Vec<String>> {

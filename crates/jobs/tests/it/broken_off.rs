@@ -2,6 +2,7 @@ use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use palpate_files::Overwrite;
 use palpate_jobs::characterize::{StudyFolder, characterize};
 use palpate_jobs::{Nobody, Recordings, Watch, json_text};
 
@@ -49,7 +50,7 @@ fn a_study_that_is_broken_off_goes_on() {
     let whole = json_text(&whole.answer).unwrap();
     for patience in 0.. {
         let kept = tempfile::tempdir().unwrap();
-        let study = StudyFolder::open(kept.path()).unwrap();
+        let study = StudyFolder::open(kept.path(), Overwrite::Refused).unwrap();
         let watch = Impatient {
             left: AtomicUsize::new(patience),
         };
@@ -58,6 +59,10 @@ fn a_study_that_is_broken_off_goes_on() {
         }));
         for file in fs::read_dir(kept.path()).unwrap() {
             let path = file.unwrap().path();
+            let name = path.file_name().unwrap().to_str().unwrap();
+            if [".palpate-lock", ".palpate-study"].contains(&name) {
+                continue;
+            }
             let ending = path.extension().unwrap().to_str().unwrap().to_owned();
             assert!(
                 ["json", "toml", "csv"].contains(&ending.as_str()),

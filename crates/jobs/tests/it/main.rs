@@ -6,6 +6,8 @@
 )]
 
 mod broken_off;
+mod fuzz;
+mod readers;
 mod recordings;
 mod watched;
 

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use palpate_files::{MOST_OF_DOCUMENT, Motion, Overwrite, Scene, read_text, write_whole};
+use palpate_files::{Motion, Overwrite, Scene, write_whole};
 use palpate_simulate::Simulation;
 use palpate_viewer::{Start, check_display};
 
@@ -43,17 +43,11 @@ pub(crate) fn run() -> Result<(), Failure> {
 /// The scene and the motion of the demonstration, which a user may change and play again.
 const INPUTS: [(&str, &str); 2] = [("scene.toml", ESOPHAGUS), ("motion.csv", MOTION)];
 
-/// The folder of the demonstration, whose results it replaces; another where a user changed what is to be played.
+/// The folder of the demonstration: the first of its name that does not exist.
 fn folder() -> PathBuf {
-    let is_changed = |folder: &PathBuf| {
-        let differs = |(name, text): &(&str, &str)| {
-            read_text(folder.join(name), MOST_OF_DOCUMENT).is_ok_and(|found| found != *text)
-        };
-        INPUTS.iter().any(differs)
-    };
     let mut folder = PathBuf::from(FOLDER);
     let mut number = 2;
-    while is_changed(&folder) {
+    while folder.exists() {
         folder = PathBuf::from(format!("{FOLDER}-{number}"));
         number += 1;
     }
@@ -74,7 +68,7 @@ fn play(why: &palpate_viewer::Error) -> Result<(), Failure> {
     ))?;
     let recording = Recording {
         scene: &scene,
-        folder: claimed(&folder, Overwrite::Allowed)?,
+        folder: claimed(&folder, Overwrite::Refused)?,
         surfaces: SURFACES,
         frames: None,
         beside: None,

@@ -6,6 +6,7 @@ mod demonstration;
 mod devices;
 mod measure;
 mod mesh;
+mod overwrite;
 mod precompute;
 pub(crate) mod progress;
 mod quality;
@@ -68,7 +69,8 @@ Examples:
       a published table beside ours
 
 Every command has its own --help. With --json a command prints one machine-readable
-document on standard output. Exit status: 0 done, 2 the input has to be mended, 1 a failure.";
+document on standard output. No command replaces a file that exists without --overwrite.
+Exit status: 0 done, 2 the input has to be mended, 1 a failure.";
 
 /// Soft-tissue touch, from the first indentation to the trained hand.
 ///

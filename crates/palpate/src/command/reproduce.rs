@@ -4,10 +4,12 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::overwrite::OverwriteOption;
 use crate::failure::Failure;
+use crate::interrupt;
 use crate::output;
 use crate::progress::{Progress, Reader};
-use crate::reproduce::{ITEMS, Item, Rows, select, table};
+use crate::reproduce::{Figures, ITEMS, Item, Rows, select, table};
 
 /// Examples at the end of the help.
 const EXAMPLES: &str = "\
@@ -30,6 +32,8 @@ pub(crate) struct Arguments {
     /// Print a JSON list with one object per row.
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    overwrite: OverwriteOption,
 }
 
 /// Computes and prints the rows.
@@ -37,10 +41,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let selection = select(&arguments.rows)?;
     refuse_file(&arguments.out)?;
     let items = selection.items();
+    let figures = Figures::new(&arguments.out, arguments.overwrite.rule());
+    figures.check(&items)?;
+    interrupt::ends_between_files("interrupted; the figures that were written are whole");
     let progress = Progress::new(Reader::of_json(arguments.json), Some(items.len() as u64));
     let mut rows = Vec::new();
     for item in &items {
-        let mut own = Rows::of(item.name, &arguments.out, &progress);
+        let mut own = Rows::of(item.name, &figures, &progress);
         (item.run)(&mut own)?;
         rows.extend(own.done());
         progress.step();

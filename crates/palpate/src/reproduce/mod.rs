@@ -2,6 +2,7 @@
 //!
 //! Published numbers are read from the tables in `published/`, never typed again.
 
+mod figures;
 mod m01;
 mod m02;
 mod m03;
@@ -25,6 +26,7 @@ mod select;
 mod table;
 mod virtual_rig;
 
+pub(crate) use figures::Figures;
 pub(crate) use row::{Row, Rows};
 pub(crate) use select::select;
 pub(crate) use table::table;

@@ -1,11 +1,12 @@
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 use palpate_files::write_whole;
 use serde::Serialize;
 
+use super::figures::{Figures, stem};
 use crate::failure::Failure;
+use crate::interrupt::Unbroken;
 use crate::plot::{Draw, Plot};
 use crate::progress::Progress;
 
@@ -56,18 +57,18 @@ impl Value {
 /// Where the rows of a table or figure are gathered; each is as long as it took since the last.
 pub(crate) struct Rows<'a> {
     item: &'static str,
-    folder: &'a Path,
+    figures: &'a Figures<'a>,
     progress: &'a Progress,
     since: Instant,
     rows: Vec<Row>,
 }
 
 impl<'a> Rows<'a> {
-    pub(crate) fn of(item: &'static str, folder: &'a Path, progress: &'a Progress) -> Self {
+    pub(crate) fn of(item: &'static str, figures: &'a Figures<'a>, progress: &'a Progress) -> Self {
         progress.say(item);
         Self {
             item,
-            folder,
+            figures,
             progress,
             since: Instant::now(),
             rows: Vec::new(),
@@ -101,7 +102,8 @@ impl<'a> Rows<'a> {
         plot: &Plot,
         note: impl Into<String>,
     ) -> Result<(), Failure> {
-        let (row, path) = self.figure(name)?;
+        let (row, path) = self.figure(name, "png")?;
+        let _unbroken = Unbroken::begin();
         plot.write(&path)?;
         self.push_figure(row, path, note.into());
         Ok(())
@@ -114,7 +116,8 @@ impl<'a> Rows<'a> {
         png: &[u8],
         note: impl Into<String>,
     ) -> Result<(), Failure> {
-        let (row, path) = self.figure(name)?;
+        let (row, path) = self.figure(name, "png")?;
+        let _unbroken = Unbroken::begin();
         write_whole(&path, png)?;
         self.push_figure(row, path, note.into());
         Ok(())
@@ -127,26 +130,24 @@ impl<'a> Rows<'a> {
         text: &str,
         note: impl Into<String>,
     ) -> Result<(), Failure> {
-        let (row, path) = self.figure(None)?;
-        let path = path.with_extension(extension);
+        let (row, path) = self.figure(None, extension)?;
+        let _unbroken = Unbroken::begin();
         write_whole(&path, text.as_bytes())?;
         self.push_figure(row, path, note.into());
         Ok(())
     }
 
-    /// The name of a figure's row, and its file in a folder that is there.
-    fn figure(&self, name: Option<&str>) -> Result<(String, PathBuf), Failure> {
-        // A part of a table has no folder of its own.
-        let stem = self.item.replace('/', "-");
+    /// The name of a figure's row, and its file, which may be written.
+    fn figure(&self, name: Option<&str>, ending: &str) -> Result<(String, PathBuf), Failure> {
+        let stem = stem(self.item);
         let (row, file) = match name {
-            None => (self.item.to_owned(), format!("{stem}.png")),
+            None => (self.item.to_owned(), format!("{stem}.{ending}")),
             Some(name) => (
                 format!("{}/{name}", self.item),
-                format!("{stem}-{name}.png"),
+                format!("{stem}-{name}.{ending}"),
             ),
         };
-        make_folder(self.folder)?;
-        Ok((row, self.folder.join(file)))
+        Ok((row, self.figures.path(&file)?))
     }
 
     fn push_figure(&mut self, row: String, path: PathBuf, note: String) {
@@ -186,13 +187,4 @@ impl<'a> Rows<'a> {
         });
         self.since = Instant::now();
     }
-}
-
-fn make_folder(folder: &Path) -> Result<(), Failure> {
-    fs::create_dir_all(folder).map_err(|error| {
-        Failure::input(format!(
-            "the folder {} cannot be made ({error}); give another with --out",
-            folder.display()
-        ))
-    })
 }

@@ -166,7 +166,7 @@ fn recordings_of_hostile_names_make_harmless_pages_and_tables() {
     let folder = folder();
     let run = |arguments: &[&str]| palpate_in(folder.path(), arguments);
     for json_too in [&[][..], &["--json"]] {
-        let analyze = ["analyze", "recordings", "--report", "a.html"];
+        let analyze = ["analyze", "recordings", "--report", "a.html", "--overwrite"];
         printed(&run(&[&analyze[..], json_too].concat()), 0);
     }
     assert_harmless_page(&folder.path().join("a.html"));

@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::{json, palpate_in, stderr, stdout};
 
 /// A label map of 20 x 20 x 20 voxels of 2 mm: a ball of 12 mm radius is label 5, a corner voxel label 7.
-fn write_ball(path: &Path) {
+pub(crate) fn write_ball(path: &Path) {
     let mut bytes =
         b"NRRD0004\ntype: uint8\ndimension: 3\nspace: left-posterior-superior\nsizes: 20 20 20\n\
         space directions: (2,0,0) (0,2,0) (0,0,2)\nspace origin: (0,0,0)\nencoding: raw\n\

@@ -39,7 +39,7 @@ fn attempt(trainee: &str, when: i64, time: f64, errors: f64) -> Attempt {
 }
 
 /// Experts of 10 ± 2 s and 1 ± 1 errors, two trainees, out of order.
-fn folder() -> TempDir {
+pub(crate) fn folder() -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     let mut record = Record::open(folder.path().join(FILE)).unwrap();
     for (when, time, errors) in [(0, 8.0, 0.0), (1, 10.0, 1.0), (2, 12.0, 2.0)] {
@@ -220,7 +220,7 @@ fn a_page_has_learning_curves() {
         .unwrap();
     drop(record);
     let page = || {
-        let output = progress(folder.path(), &["--report", "page.html"]);
+        let output = progress(folder.path(), &["--report", "page.html", "--overwrite"]);
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
         fs::read_to_string(folder.path().join("page.html")).unwrap()
     };

@@ -94,17 +94,18 @@ fn a_folder_is_a_study() {
 fn a_study_goes_on_where_it_stopped() {
     let folder = folder();
     let at = |name: &str| folder.path().join("kept").join(name);
-    let run = || {
-        let asked = [
-            "characterize",
-            ".",
-            "--study",
-            "kept",
-            "--law",
-            "neo_hookean",
-            "--json",
-        ];
-        json(&palpate_in(folder.path(), &asked))
+    let asked = |more: &[&str]| {
+        let line = "characterize . --study kept --law neo_hookean --json";
+        let line: Vec<&str> = line.split(' ').chain(more.iter().copied()).collect();
+        palpate_in(folder.path(), &line)
+    };
+    let run = || json(&asked(&[]));
+    let refused = |file: &str| {
+        let output = asked(&[]);
+        assert_eq!(output.status.code(), Some(2));
+        let said = format!("{file} is there already");
+        assert!(stderr(&output).contains(&said), "{}", stderr(&output));
+        json(&asked(&["--overwrite"]))
     };
     let first = run();
     let summary = fs::read_to_string(at("summary.csv")).unwrap();
@@ -129,8 +130,9 @@ fn a_study_goes_on_where_it_stopped() {
         .unwrap()
         .replace("\"A\"", "\"kept\"");
     fs::write(at("liver-A.json"), marked).unwrap();
+    assert_eq!(run()["specimens"][0]["subject"], "kept");
     fs::write(at("liver-B.json"), "{ half").unwrap();
-    let second = run();
+    let second = refused("kept/liver-B.json");
     assert_eq!(second["specimens"][0]["subject"], "kept");
     assert_eq!(second["specimens"][1], first["specimens"][1]);
     // Another recording is another specimen.
@@ -139,9 +141,14 @@ fn a_study_goes_on_where_it_stopped() {
         recording(0.001, 9.0, &liver("A")),
     )
     .unwrap();
-    let third = run();
+    let third = refused("kept/liver-A.json");
     assert_eq!(third["specimens"][0]["subject"], "A");
     assert_ne!(third["specimens"][0], first["specimens"][0]);
+    // Tables of somebody else are no study's.
+    fs::create_dir(folder.path().join("mine")).unwrap();
+    fs::write(folder.path().join("mine/summary.csv"), "mine").unwrap();
+    let line = ["characterize", ".", "--study", "mine", "--draws", "0"];
+    assert_refused(folder.path(), &line, &["summary.csv is there already"]);
 }
 
 #[test]

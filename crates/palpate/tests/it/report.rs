@@ -11,7 +11,12 @@ use crate::{palpate_in, stderr};
 
 /// Writes a page of all in `folder`.
 fn page(folder: &Path, arguments: &[&str]) -> String {
-    let command = [&["characterize"], arguments, &["--report", "page.html"]].concat();
+    let command = [
+        &["characterize"],
+        arguments,
+        &["--report", "page.html", "--overwrite"],
+    ]
+    .concat();
     let output = palpate_in(folder, &command);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     fs::read_to_string(folder.join("page.html")).unwrap()

@@ -10,7 +10,10 @@ use crate::report::{parse, texts};
 use crate::{palpate_in, stderr};
 
 fn page(folder: &Path) -> String {
-    let output = palpate_in(folder, &["analyze", ".", "--report", "page.html"]);
+    let output = palpate_in(
+        folder,
+        &["analyze", ".", "--report", "page.html", "--overwrite"],
+    );
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     fs::read_to_string(folder.join("page.html")).unwrap()
 }

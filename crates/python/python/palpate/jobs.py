@@ -206,6 +206,7 @@ def characterize(
     draws: int = 100,
     seed: int = 1,
     study: PathLike | None = None,
+    overwrite: bool = False,
     progress: Progress = None,
     **columns: Any,
 ) -> Characterization:
@@ -225,13 +226,16 @@ def characterize(
         Of these draws.
     study : path, optional
         A folder that keeps every finished specimen; a study that was stopped goes on.
+    overwrite : bool
+        Whether specimens in the folder may be lost that other recordings or settings led to.
     progress : callable, False or None
         Hears ``(part, words)``.
     **columns
         ``time``, ``depth``, ``force``: columns of tables of other programs; ``depth_unit``, ``force_unit``;
         ``known``: what the files do not say, such as ``{"indenter_radius_m": 0.001}``.
     """
-    answer, tissues = _palpate._characterize(asked(recordings, **columns), (law, terms, draws, seed), study, progress)
+    folder = None if study is None else (study, overwrite)
+    answer, tissues = _palpate._characterize(asked(recordings, **columns), (law, terms, draws, seed), folder, progress)
     found = Characterization(json.loads(answer))
     found["specimens"] = [Specimen(specimen) for specimen in found["specimens"]]
     found.tissues = [text for text, _ in tissues]

@@ -4,13 +4,15 @@ mod report;
 mod table;
 
 use clap::Args;
-use palpate_files::{check_writable, write_whole};
+use palpate_files::write_whole;
 use palpate_jobs::analyze::{Answer, analyze};
 use palpate_jobs::json_text;
 use std::path::PathBuf;
 
+use super::overwrite::OverwriteOption;
 use super::recordings::Recordings;
 use crate::failure::Failure;
+use crate::interrupt::{self, Unbroken};
 use crate::output;
 use crate::progress::{Progress, Reader};
 
@@ -43,18 +45,21 @@ pub(crate) struct Arguments {
     /// Write a page with plots of all that is seen, for a browser or a printer.
     #[arg(long, value_name = "FILE.html")]
     report: Option<PathBuf>,
+    #[command(flatten)]
+    overwrite: OverwriteOption,
 }
 
 /// Analyzes and prints.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    for file in arguments.out.iter().chain(&arguments.report) {
-        check_writable(file)?;
-    }
+    let files = arguments.out.iter().chain(&arguments.report);
+    let _claims = arguments.overwrite.claim(files)?;
+    interrupt::ends_between_files("interrupted; nothing was analyzed");
     let progress = Progress::new(Reader::of_json(arguments.json), None);
     let recordings = arguments.recordings.asked();
     let analyzed = analyze(&recordings, &progress)?;
     drop(progress);
     let answer = Answer::new(&analyzed);
+    let unbroken = Unbroken::begin();
     if let Some(out) = &arguments.out {
         write_whole(out, json_text(&answer)?.as_bytes())?;
     }
@@ -62,6 +67,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         let html = report::html(&analyzed, &recordings.said());
         write_whole(page, html.as_bytes())?;
     }
+    drop(unbroken);
     if arguments.json {
         return output::json(&answer);
     }

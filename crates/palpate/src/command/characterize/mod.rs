@@ -4,17 +4,19 @@ mod doubts;
 mod report;
 mod table;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use palpate_characterize::inverse::SoughtLaw;
-use palpate_files::{Tissue, check_writable, write_whole};
+use palpate_files::{Tissue, write_whole};
 use palpate_jobs::characterize::{Choice, StudyFolder, characterize};
 
+use super::overwrite::OverwriteOption;
 use super::recordings::Recordings;
 use crate::failure::Failure;
+use crate::interrupt::{self, Unbroken};
+use crate::output;
 use crate::progress::{Progress, Reader};
-use crate::{interrupt, output};
 
 /// Examples at the end of the help.
 const EXAMPLES: &str = "\
@@ -25,7 +27,7 @@ Examples:
       every specimen of a folder; one bad file does not stop the others
   palpate characterize recordings/ --study livers/
       the same, kept: livers/summary.csv, pooled.csv and a tissue for each specimen; the same command
-      goes on where it was stopped
+      goes on where it was stopped, and finds again with --overwrite what has changed
   palpate characterize recordings/ --report livers.html
       a page with plots, to look at and to print
   palpate characterize meat.csv --set indenter_radius_m=0.004 --set indenter_shape=sphere
@@ -71,6 +73,8 @@ pub(crate) struct Arguments {
     /// Terms of the relaxation, 1 to 4; by default as many as the recordings can tell.
     #[arg(long, value_parser = clap::value_parser!(u64).range(1..=4))]
     terms: Option<u64>,
+    #[command(flatten)]
+    overwrite: OverwriteOption,
 }
 
 /// A law, by the words of a tissue file.
@@ -95,24 +99,29 @@ impl From<Law> for SoughtLaw {
 
 /// Characterizes, writes and prints.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    for file in arguments.files().chain(&arguments.report) {
-        check_writable(file)?;
-    }
-    let folder = arguments.study.as_deref().map(StudyFolder::open);
-    let folder = folder.transpose()?;
-    if let Some(path) = &arguments.study {
-        say_when_stopped(path);
-    }
+    let files = arguments.files().chain(&arguments.report);
+    let _claims = arguments.overwrite.claim(files)?;
+    let open = |path| StudyFolder::open(path, arguments.overwrite.rule());
+    let folder = arguments.study.as_deref().map(open).transpose()?;
+    interrupt::ends_between_files(match &arguments.study {
+        None => "interrupted; nothing was found".to_owned(),
+        Some(folder) => format!(
+            "stopped; what was finished is kept in {}, and the same command goes on",
+            folder.display()
+        ),
+    });
     let recordings = arguments.recordings.asked();
     let progress = Progress::of_job(Reader::of_json(arguments.json));
     let found = characterize(&recordings, arguments.choice(), folder.as_ref(), &progress)?;
     drop(progress);
+    let unbroken = Unbroken::begin();
     arguments.write(&found.tissues)?;
     let answer = found.answer;
     if let Some(path) = &arguments.report {
         let page = report::html(&answer, &found.portraits, &arguments.said());
         write_whole(path, page.as_bytes())?;
     }
+    drop(unbroken);
     if arguments.json {
         return output::json(&answer);
     }
@@ -123,16 +132,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     output::warnings(&doubts::for_people(&answer));
     Ok(())
-}
-
-/// From now on Ctrl-C ends the study between two files and says how to go on.
-fn say_when_stopped(folder: &Path) {
-    let folder = folder.display().to_string();
-    interrupt::ends_between_files(move || {
-        output::error(&Failure::failed(format!(
-            "stopped; what was finished is kept in {folder}, and the same command goes on"
-        )));
-    });
 }
 
 impl Arguments {

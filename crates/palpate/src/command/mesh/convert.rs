@@ -7,9 +7,10 @@ use palpate_geometry::{LengthUnit, repair};
 use serde::Serialize;
 
 use super::written::{Output, Written, told};
+use crate::command::overwrite::OverwriteOption;
 use crate::failure::Failure;
-use crate::output;
 use crate::progress::{Progress, Reader};
+use crate::{interrupt, output};
 
 /// Examples at the end of the help.
 const EXAMPLES: &str = "\
@@ -41,6 +42,8 @@ pub(crate) struct Arguments {
     /// Print one JSON object.
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    overwrite: OverwriteOption,
 }
 
 #[derive(Debug, Serialize)]
@@ -56,6 +59,8 @@ struct Answer {
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let unit: LengthUnit = arguments.to_unit.parse()?;
     let out = Output::new(&arguments.out, unit)?;
+    let _claims = arguments.overwrite.claim([&arguments.out])?;
+    interrupt::ends_between_files("interrupted; nothing was converted");
     let progress = Progress::new(Reader::of_json(arguments.json), None);
     progress.say("reading the mesh");
     let imported = super::read(&arguments.file, arguments.unit.as_deref())?;

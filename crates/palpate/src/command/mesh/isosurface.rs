@@ -16,7 +16,7 @@ use crate::failure::Failure;
 use crate::progress::{Progress, Reader};
 use palpate_jobs::{Watch, label};
 
-use crate::output;
+use crate::{interrupt, output};
 
 /// Examples at the end of the help.
 const EXAMPLES: &str = "\
@@ -45,7 +45,7 @@ pub(crate) struct Arguments {
     /// The file to write (.stl, .obj, .ply, .vtp); with --label all a folder, for .ply files.
     #[arg(long, requires = "label")]
     out: Option<PathBuf>,
-    /// With --label all: replace surfaces that are in the folder already.
+    /// Replace surfaces that exist.
     #[arg(long, requires = "out")]
     overwrite: bool,
     /// How many triangles each surface has at most.
@@ -89,6 +89,7 @@ struct Surfaced {
 
 /// Lists labels, or makes surfaces of them.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    interrupt::ends_between_files("interrupted; the surfaces that were written are whole");
     let progress = Progress::of_job(Reader::of_json(arguments.json));
     progress.say("reading the volume");
     let map = read_label_map(&arguments.file)?;
@@ -101,7 +102,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         let count = chosen.surfaces.len() as f64;
         for (number, (label, out)) in chosen.surfaces.into_iter().enumerate() {
             progress.say(format!("the surface of {}", label::in_words(label)));
-            // Ctrl-C ends the command at once; a file is written whole or not at all.
             let at = |part| Watch::at(&progress, (number as f64 + part) / count);
             let made = surface(&map, (label, &out), arguments, &at)?;
             warnings.extend(label::doubts(label, &made.0));
@@ -128,10 +128,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 struct Chosen<'l> {
     surfaces: Vec<(&'l Label, PathBuf)>,
     /// Until all are written nobody else may write there.
-    _claim: Option<Claim>,
+    _claims: Vec<Claim>,
 }
 
-/// The labels that are asked for, each with its file; a folder of them is for this program alone.
+/// The labels that are asked for, each with its file, which are for this program alone.
 fn chosen<'l>(
     labels: &'l [Label],
     wanted: &str,
@@ -144,13 +144,13 @@ fn chosen<'l>(
         let chosen = labels.iter().map(|label| (label, out.join(name(label))));
         return Ok(Chosen {
             surfaces: chosen.collect(),
-            _claim: Some(claim),
+            _claims: vec![claim],
         });
     }
     let label = label::find(labels, wanted)?;
     Ok(Chosen {
         surfaces: vec![(label, out.to_owned())],
-        _claim: None,
+        _claims: Claim::of_files([out], overwrite)?,
     })
 }
 

@@ -10,9 +10,10 @@ use palpate_jobs::Watch;
 use serde::Serialize;
 
 use super::written::{Distance, Output, Written, told};
+use crate::command::overwrite::OverwriteOption;
 use crate::failure::Failure;
-use crate::output;
 use crate::progress::{Progress, Reader};
+use crate::{interrupt, output};
 
 /// Examples at the end of the help.
 const EXAMPLES: &str = "\
@@ -41,6 +42,8 @@ pub(crate) struct Arguments {
     /// Print one JSON object.
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    overwrite: OverwriteOption,
 }
 
 #[derive(Debug, Serialize)]
@@ -60,6 +63,8 @@ struct Answer {
 /// Simplifies and tells.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let out = Output::new(&arguments.out, LengthUnit::Metre)?;
+    let _claims = arguments.overwrite.claim([&arguments.out])?;
+    interrupt::ends_between_files("interrupted; nothing was simplified");
     let progress = Progress::of_job(Reader::of_json(arguments.json));
     progress.say("reading the mesh");
     let mut imported = super::read(&arguments.file, arguments.unit.as_deref())?;

@@ -1,10 +1,11 @@
 use std::path::{Path, PathBuf};
 
-use palpate_files::{check_writable, write_whole};
+use palpate_files::write_whole;
 use palpate_geometry::{Deviation, LengthUnit, ReadError, Repairs, TriangleMesh, WriteFormat};
 use serde::Serialize;
 
 use crate::failure::Failure;
+use crate::interrupt::Unbroken;
 
 /// A file that is going to be written.
 pub(super) struct Output {
@@ -32,13 +33,12 @@ pub(super) struct Distance {
 }
 
 impl Output {
-    /// Asked before long work, so that nothing is computed in vain.
+    /// In the format that its name says.
     pub(super) fn new(path: &Path, unit: LengthUnit) -> Result<Self, Failure> {
         let format = WriteFormat::of(path).map_err(|fault| ReadError {
             path: path.to_owned(),
             fault,
         })?;
-        check_writable(path)?;
         Ok(Self {
             path: path.to_owned(),
             format,
@@ -48,7 +48,9 @@ impl Output {
 
     /// Writes `mesh`, whole or not at all.
     pub(super) fn write(self, mesh: &TriangleMesh) -> Result<Written, Failure> {
-        write_whole(&self.path, &self.format.bytes(mesh, self.unit))?;
+        let bytes = self.format.bytes(mesh, self.unit);
+        let _unbroken = Unbroken::begin();
+        write_whole(&self.path, &bytes)?;
         Ok(Written {
             file: self.path,
             unit: self.unit.symbol(),

@@ -11,12 +11,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use palpate_files::{check_writable, write_whole};
+use palpate_files::write_whole;
 use palpate_record::{Filter, IN_A_ROW, Record};
 
 use self::answer::Answer;
 use self::course::Course;
 pub(crate) use self::course::{ERRORS, TIME};
+use super::overwrite::OverwriteOption;
 use crate::failure::Failure;
 use palpate_jobs::nearest;
 
@@ -59,20 +60,23 @@ pub(crate) struct Arguments {
     /// Write a page with learning curves, for a browser or a printer.
     #[arg(long, value_name = "FILE.html")]
     report: Option<PathBuf>,
+    #[command(flatten)]
+    overwrite: OverwriteOption,
 }
 
 /// Reads the record and prints.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let file = training::record_file(arguments.record.as_deref())?;
-    for written in arguments.csv.iter().chain(&arguments.report) {
+    let files = || arguments.csv.iter().chain(&arguments.report);
+    for written in files() {
         if is_same(written, &file) {
             let file = written.display();
             return Err(Failure::input(format!(
                 "{file} is the training record itself; write to another file"
             )));
         }
-        check_writable(written)?;
     }
+    let _claims = arguments.overwrite.claim(files())?;
     let record = Record::read(&file)?;
     let trainee = known("trainee", &arguments.trainee, &record.trainees()?)?;
     let task = known("task", &arguments.task, &record.tasks()?)?;
@@ -95,7 +99,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let asked = arguments.trainee.is_some() || arguments.task.is_some();
     output::text(table::of(&courses, record.path(), asked))?;
-    for written in arguments.csv.iter().chain(&arguments.report) {
+    for written in files() {
         output::line(format!("written: {}", written.display()))?;
     }
     output::warnings(&answer.warnings);

@@ -4,10 +4,11 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::Args;
-use palpate_files::check_writable;
+use palpate_files::Claim;
 use palpate_jobs::json_text;
 use palpate_jobs::solve::{Answer, Problem, Solution, Wanted, in_words, solve};
 
+use super::overwrite::OverwriteOption;
 use crate::failure::Failure;
 use crate::interrupt::{self, Unbroken};
 use crate::output;
@@ -70,16 +71,16 @@ pub(crate) struct Arguments {
     /// Write the JSON object to a file as well.
     #[arg(long, value_name = "FILE.json")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    overwrite: OverwriteOption,
 }
 
 /// Solves and prints.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let problem = Problem::read(&arguments.problem)?;
-    check_files(arguments, &problem)?;
+    let _claims = claimed(arguments, &problem)?;
     let begun = Instant::now();
-    interrupt::ends_between_files(|| {
-        output::error(&Failure::failed("interrupted; no answer was found"));
-    });
+    interrupt::ends_between_files("interrupted; no answer was found");
     let progress = Progress::of_job(Reader::of_json(arguments.json));
     let wanted = Wanted {
         plot: arguments.plot.is_some(),
@@ -100,9 +101,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Whether each file can be written, no two are the same, and there is something to write: said before
-/// the work, not after it.
-fn check_files(arguments: &Arguments, problem: &Problem) -> Result<(), Failure> {
+/// The files to be written, if there is something to write: said before the work, not after it.
+fn claimed(arguments: &Arguments, problem: &Problem) -> Result<Vec<Claim>, Failure> {
     if arguments.vtu.is_some() && !problem.has_field() {
         return Err(Failure::input(
             "--vtu: only a solid and an indentation are written for ParaView; leave it out, or use \
@@ -115,17 +115,7 @@ fn check_files(arguments: &Arguments, problem: &Problem) -> Result<(), Failure> 
              use --out",
         ));
     }
-    let files: Vec<&Path> = arguments.files().collect();
-    for (number, path) in files.iter().enumerate() {
-        check_writable(path)?;
-        if files[..number].contains(path) {
-            let path = path.display();
-            return Err(Failure::input(format!(
-                "{path} is named twice; give each file its own name"
-            )));
-        }
-    }
-    Ok(())
+    arguments.overwrite.claim(arguments.files())
 }
 
 fn write(arguments: &Arguments, solution: &Solution, answer: &Answer) -> Result<(), Failure> {

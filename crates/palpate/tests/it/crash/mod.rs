@@ -83,7 +83,7 @@ fn pictures() -> Option<WritePath> {
     ]);
     let line = "simulate scene.toml --headless --motion motion.csv --out session";
     done(&palpate_in(folder.path(), &words(line)));
-    let line = "replay session --frames 2 --out pictures --overwrite";
+    let line = "replay session --frames 3 --out pictures --overwrite";
     let output = palpate_in(folder.path(), &words(line));
     if String::from_utf8_lossy(&output.stderr).contains("no graphics adapter") {
         return None;
@@ -118,8 +118,8 @@ fn a_tissue() -> WritePath {
     let measure = words("measure protocol.toml --headless --out one.csv");
     done(&palpate_in(folder.path(), &measure));
     // The lumped law alone, for this is about files.
-    let line = "characterize one.csv --law neo_hookean --draws 0 --out tissue.toml --abaqus card.inp --febio card.feb \
-                --report page.html";
+    let line = "characterize one.csv --law neo_hookean --terms 1 --draws 0 --out tissue.toml --abaqus card.inp --febio card.feb \
+                --report page.html --overwrite";
     done(&palpate_in(folder.path(), &words(line)));
     fs::remove_file(at("one.csv")).unwrap();
     fs::write(at("protocol.toml"), protocol(3)).unwrap();
@@ -144,7 +144,7 @@ fn words(line: &str) -> Vec<&str> {
 #[test]
 fn what_is_killed_or_has_no_room_loses_nothing() {
     for path in [a_session(), a_recording(), a_surface(), a_response()] {
-        println!("{}", path.crash(3, 2));
+        println!("{}", path.crash(3, 2, 7));
     }
     println!("{}", record::crash(3, 2));
 }
@@ -152,39 +152,39 @@ fn what_is_killed_or_has_no_room_loses_nothing() {
 /// Judge: the files before and those of an undisturbed run. Quick form:
 /// `what_is_killed_or_has_no_room_loses_nothing`.
 #[test]
-#[ignore = "by hand: never run to its end yet; 200 kills and 60 full disks of a simulation, minutes"]
+#[ignore = "slow: 200 kills and 60 full disks of a simulation"]
 fn a_session_that_is_killed_200_times_is_old_or_new() {
-    println!("{}", a_session().crash(200, 60));
+    println!("{}", a_session().crash(200, 60, 7));
 }
 
 /// Judge: the files before and those of an undisturbed run. Quick form:
 /// `what_is_killed_or_has_no_room_loses_nothing`.
 #[test]
-#[ignore = "by hand: never run to its end yet; 200 kills and 60 full disks of a measurement, minutes"]
+#[ignore = "slow: 200 kills and 60 full disks of a measurement"]
 fn a_recording_that_is_killed_200_times_is_old_or_new() {
-    println!("{}", a_recording().crash(200, 60));
+    println!("{}", a_recording().crash(200, 60, 7));
 }
 
 /// Judge: the files before and those of an undisturbed run. Quick form:
 /// `what_is_killed_or_has_no_room_loses_nothing`.
 #[test]
-#[ignore = "by hand: never run to its end yet; 200 kills and 60 full disks of a surface from a label map, minutes"]
+#[ignore = "slow: 200 kills and 60 full disks of a surface from a label map"]
 fn a_surface_that_is_killed_200_times_is_old_or_new() {
-    println!("{}", a_surface().crash(200, 60));
+    println!("{}", a_surface().crash(200, 60, 7));
 }
 
 /// Judge: the files before and those of an undisturbed run. Quick form:
 /// `what_is_killed_or_has_no_room_loses_nothing`.
 #[test]
-#[ignore = "by hand: never run to its end yet; 200 kills and 60 full disks of a preparation, minutes"]
+#[ignore = "slow: 200 kills and 60 full disks of a preparation"]
 fn a_response_that_is_killed_200_times_is_old_or_new() {
-    println!("{}", a_response().crash(200, 60));
+    println!("{}", a_response().crash(200, 60, 7));
 }
 
 /// Judge: what was acknowledged. Quick form:
 /// `what_is_killed_or_has_no_room_loses_nothing`.
 #[test]
-#[ignore = "by hand: never run to its end yet; 200 kills and 60 full disks of a scoring into a record, minutes"]
+#[ignore = "slow: 200 kills and 60 full disks of a scoring into a record"]
 fn a_record_that_is_killed_200_times_keeps_what_it_acknowledged() {
     println!("{}", record::crash(200, 60));
 }
@@ -192,18 +192,29 @@ fn a_record_that_is_killed_200_times_keeps_what_it_acknowledged() {
 /// Judge: the files before and those of an undisturbed run. Quick form: `what_is_killed_or_has_no_room_loses_nothing`,
 /// of the other commands, whose files are written by the same function.
 #[test]
-#[ignore = "by hand: never run to its end yet; 200 kills and 60 full disks of a characterization, which takes seconds each time"]
+#[ignore = "slow: 200 kills and 60 full disks of a characterization"]
 fn a_tissue_that_is_killed_200_times_is_old_or_new() {
-    println!("{}", a_tissue().crash(200, 60));
+    println!("{}", a_tissue().crash(200, 60, 7));
 }
 
 /// Judge: the files before and those of an undisturbed run; nothing where no picture can be drawn. Quick form:
 /// `what_is_killed_or_has_no_room_loses_nothing`, of the other commands, whose files are written by the same function.
 #[test]
-#[ignore = "by hand: never run to its end yet; 200 kills and 60 full disks of two pictures"]
-fn pictures_that_are_killed_200_times_are_old_or_new() {
+#[ignore = "slow: the first 100 of 200 kills and 30 of 60 full disks of three pictures"]
+fn pictures_that_are_killed_100_times_are_old_or_new() {
+    crash_pictures(7);
+}
+
+/// Judge: as for `pictures_that_are_killed_100_times_are_old_or_new`.
+#[test]
+#[ignore = "slow: the other 100 of 200 kills and 30 of 60 full disks of three pictures"]
+fn pictures_that_are_killed_another_100_times_are_old_or_new() {
+    crash_pictures(8);
+}
+
+fn crash_pictures(seed: u64) {
     match pictures() {
-        Some(path) => println!("{}", path.crash(200, 60)),
-        None => println!("nothing here can draw a picture"),
+        Some(path) => println!("{}", path.crash(100, 30, seed)),
+        None => println!("passed over: no graphics adapter"),
     }
 }

@@ -1,7 +1,7 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::{Child, Command, Output, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
@@ -25,6 +25,8 @@ pub(super) struct WritePath {
     after: [Files; 2],
     /// Of an undisturbed run.
     takes: Duration,
+    /// When it changes its first file.
+    first_write: Duration,
 }
 
 /// What many trials came to.
@@ -51,11 +53,19 @@ impl WritePath {
             before: files(template.path()),
             after: Default::default(),
             takes: Duration::ZERO,
+            first_write: Duration::ZERO,
         };
         for number in 0..2 {
             let folder = path.copy();
             let began = Instant::now();
-            done(&path.command(folder.path(), None).output().unwrap());
+            let child = path
+                .command(folder.path(), None)
+                .stderr(Stdio::piped())
+                .spawn();
+            let mut child = child.unwrap();
+            path.wait_for_write(folder.path(), &mut child);
+            path.first_write = began.elapsed();
+            done(&child.wait_with_output().unwrap());
             path.takes = began.elapsed();
             path.after[number] = files(folder.path());
         }
@@ -100,9 +110,19 @@ impl WritePath {
         folder
     }
 
-    /// Kills it so many times, and gives it so many disks that are too small.
-    pub(super) fn crash(&self, kills: u32, disks: u32) -> String {
-        let mut random = fastrand::Rng::with_seed(7);
+    /// Waits until a command that was begun just now changes its first file, or ends.
+    fn wait_for_write(&self, folder: &Path, child: &mut Child) {
+        let first = names(folder);
+        // The processor is the command's until shortly before.
+        sleep(self.first_write.mul_f64(0.8));
+        while names(folder) == first && child.try_wait().unwrap().is_none() {
+            std::hint::spin_loop();
+        }
+    }
+
+    /// Kills it so many times, and gives it so many disks that are too small, at moments and of sizes of a seed.
+    pub(super) fn crash(&self, kills: u32, disks: u32, seed: u64) -> String {
+        let mut random = fastrand::Rng::with_seed(seed);
         let mut seen = Seen::default();
         for trial in 0..kills {
             let folder = self.copy();
@@ -110,11 +130,7 @@ impl WritePath {
             let wait = match trial % 2 {
                 0 => self.takes.mul_f64(1.1 * random.f64()),
                 _ => {
-                    let first = names(folder.path());
-                    let began = Instant::now();
-                    while names(folder.path()) == first && began.elapsed() < 4 * self.takes {
-                        std::hint::spin_loop();
-                    }
+                    self.wait_for_write(folder.path(), &mut child);
                     // As often within a microsecond of the first write as within 50 ms.
                     Duration::from_secs_f64(1e-6 * 5e4_f64.powf(random.f64()))
                 }

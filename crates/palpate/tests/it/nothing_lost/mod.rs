@@ -2,6 +2,7 @@
 //! before, and the whole run.
 
 mod cut;
+mod overwrite;
 mod signals;
 
 use std::collections::BTreeMap;
@@ -168,7 +169,7 @@ fn a_session_beside_its_scene_is_refused() {
     );
 }
 
-/// The demonstration replaces its own results, and nothing that a user changed.
+/// The demonstration replaces nothing, not even its own results.
 #[test]
 fn the_demonstration_can_be_repeated() {
     let folder = tempfile::tempdir().unwrap();
@@ -183,12 +184,11 @@ fn the_demonstration_can_be_repeated() {
         done(&output);
         stdout(&output)
     };
-    play();
     assert!(play().contains("written to palpate-demo/:"));
-    let motion = folder.path().join("palpate-demo/motion.csv");
-    fs::write(&motion, "mine").unwrap();
+    let session = folder.path().join("palpate-demo/session.csv");
+    fs::write(&session, "mine").unwrap();
     assert!(play().contains("written to palpate-demo-2/:"));
-    assert_eq!(fs::read_to_string(motion).unwrap(), "mine");
+    assert_eq!(fs::read_to_string(session).unwrap(), "mine");
 }
 
 #[test]
