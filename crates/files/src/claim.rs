@@ -102,7 +102,7 @@ impl Claim {
     }
 
     /// Claims the files that a command writes, before its work. A device or a pipe is written to as it is: several
-    /// programs may, and it is not replaced.
+    /// programs may, and it is not replaced. A file without content, as `mktemp` makes one, may be.
     ///
     /// # Errors
     /// When two of them are one file, one is a folder or exists and may not be replaced, another program has claimed
@@ -117,7 +117,7 @@ impl Claim {
             if !is_replaced(path).map_err(|source| Error::write(path, source))? {
                 continue;
             }
-            if path.exists() && overwrite == Overwrite::Refused {
+            if overwrite == Overwrite::Refused && has_content(path) {
                 let path = path.to_owned();
                 return Err(Error::Exists { path });
             }
@@ -182,6 +182,11 @@ pub fn remove_claims() {
 
 fn made() -> MutexGuard<'static, Vec<Made>> {
     MADE.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Whether there is something to lose; of a file that cannot be asked there may be.
+fn has_content(path: &Path) -> bool {
+    fs::symlink_metadata(path).is_ok_and(|known| !known.is_file() || known.len() > 0)
 }
 
 /// The file with the real path of its folder, so that one file has one path.
@@ -323,6 +328,8 @@ mod tests {
         assert_eq!((entries(), allowed.len()), (3, 2));
         drop(allowed);
         assert_eq!(fs::read(at("a.png")).unwrap(), b"old");
+        fs::write(at("empty.png"), "").unwrap();
+        assert!(claim(&["empty.png"], Overwrite::Refused).is_ok());
         #[cfg(unix)]
         assert!(
             Claim::of_files(["/dev/null", "/dev/null"], Overwrite::Refused)
