@@ -88,9 +88,7 @@ impl Unit {
     /// The unit that `text` names, by its suffix or its spelling; a micro sign reads as `u`.
     pub fn named(text: &str) -> Option<&'static Self> {
         let text = text.replace(['µ', 'μ'], "u");
-        UNITS
-            .iter()
-            .find(|unit| unit.suffix == text || unit.spelling == text)
+        written(&text)
     }
 
     /// The units that measure the same as this one, itself included.
@@ -112,17 +110,16 @@ impl Unit {
 /// The base and the unit of a `name` such as `depth_mm`; none when it carries no unit.
 pub fn split(name: &str) -> Option<(&str, &'static Unit)> {
     // The longest suffix wins, so that `k1_n_per_mm` is not read as millimetres.
-    UNITS
-        .iter()
-        .filter_map(|unit| Some((strip(name, unit)?, unit)))
-        .min_by_key(|(base, _)| base.len())
+    let places = name.match_indices('_').filter(|(place, _)| *place > 0);
+    places
+        .map(|(place, _)| (&name[..place], &name[place + 1..]))
+        .find_map(|(base, end)| Some((base, written(end)?)))
 }
 
-fn strip<'n>(name: &'n str, unit: &Unit) -> Option<&'n str> {
-    [unit.suffix, unit.spelling]
-        .into_iter()
-        .find_map(|end| name.strip_suffix(end)?.strip_suffix('_'))
-        .filter(|base| !base.is_empty())
+fn written(end: &str) -> Option<&'static Unit> {
+    UNITS
+        .iter()
+        .find(|unit| unit.suffix == end || unit.spelling == end)
 }
 
 /// How a given name answers to an expected one.

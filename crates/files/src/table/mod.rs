@@ -97,10 +97,9 @@ impl<'t> TableText<'t> {
             below_line: line,
             layout,
         };
-        let names: Option<Vec<String>> = match plain_fields(names, layout.delimiter) {
-            Some(fields) => rows::is_row(fields.clone())
-                .then(|| fields.map(|field| cell_text(field).to_owned()).collect()),
-            None => {
+        let names = match names.contains(['"', '\u{feff}']) {
+            false => plain_fields(names, layout.delimiter),
+            true => {
                 let mut rows = table.rows();
                 let names = rows.next()?;
                 names.map(|row| row.fields().map(str::to_owned).collect())
@@ -135,12 +134,14 @@ impl<'t> TableText<'t> {
     }
 }
 
-/// The trimmed fields of a line that means the same to every reader of CSV; none of one with quotes, line ends inside
-/// or a byte-order mark. The parser's state table takes longer to build than thousands of lines to split.
-fn plain_fields(line: &str, delimiter: u8) -> Option<impl Iterator<Item = &str> + Clone> {
-    let line = line.strip_suffix('\r').unwrap_or(line);
-    let is_plain = !line.contains(['"', '\r', '\n', '\u{feff}']);
-    is_plain.then(|| line.split(char::from(delimiter)).map(str::trim))
+/// The fields of the first row in a line without quotes, as the parser of CSV finds them, whose table of states takes
+/// longer to build than a line to split.
+fn plain_fields(line: &str, delimiter: u8) -> Option<Vec<String>> {
+    // A carriage return ends a row, and a line feed alone ends a comment.
+    let rows = line.split('\r').take_while(|row| !row.starts_with('#'));
+    let mut rows = rows.map(|row| row.split(char::from(delimiter)).map(str::trim));
+    let row = rows.find(|fields| rows::is_row(fields.clone()))?;
+    Some(row.map(|field| cell_text(field).to_owned()).collect())
 }
 
 #[cfg(test)]
