@@ -14,7 +14,6 @@
 
 mod approach;
 mod course;
-mod emergency_switch;
 mod error;
 mod indenter;
 pub mod live;
@@ -27,7 +26,6 @@ mod sensor;
 mod specimen;
 
 pub use course::Course;
-pub use emergency_switch::EmergencySwitch;
 pub use error::Error;
 pub use indenter::{Indenter, Reference};
 pub use naming::{recording_name, stimulus_name};

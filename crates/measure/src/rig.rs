@@ -9,15 +9,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use palpate_files::recording::RecordingHeader;
 use palpate_servo::dynamics::{Imperfections, Machine};
 use palpate_servo::{
-    ArmingRequest, Clock, Controller, Device, Fault, Limits, MECHANICS_STEP, ServoLoop,
-    ServoSettings, Stage, Vec3, VirtualPhantom, latest,
+    Clock, Controller, Device, Fault, Limits, MECHANICS_STEP, ServoLoop, ServoSettings, Stage,
+    Supervisor, Vec3, VirtualPhantom, latest,
 };
 
 pub use sample::{Ended, Listener, Phase, RigSample};
 
-use crate::{
-    Course, EmergencySwitch, Error, ForceSensor, Indenter, Reference, RigSettings, VirtualSpecimen,
-};
+use crate::{Course, Error, ForceSensor, Indenter, Reference, RigSettings, VirtualSpecimen};
 
 /// An indenter on its device, with a sensor.
 pub struct Rig {
@@ -36,8 +34,7 @@ pub struct Rig {
     retreat: f64,
     breath_since: Option<f64>,
     stage: Stage,
-    arming: ArmingRequest,
-    emergency: EmergencySwitch,
+    supervisor: Supervisor,
     /// By how much the rig's time is behind that of its clock [s].
     waited: f64,
     /// Whether its device is there, and what is late for it is late.
@@ -102,8 +99,7 @@ impl Rig {
             retreat: 0.0,
             breath_since: None,
             stage: Stage::Off,
-            arming: reader.arming,
-            emergency: EmergencySwitch::default(),
+            supervisor: reader.supervisor,
             waited: 0.0,
             is_real: false,
         })
@@ -124,9 +120,9 @@ impl Rig {
         self.servo.raise_priority();
     }
 
-    /// What takes every force off.
-    pub fn emergency_switch(&self) -> EmergencySwitch {
-        self.emergency.clone()
+    /// What takes every force off, from anywhere, and lets forces on again.
+    pub fn supervisor(&self) -> Supervisor {
+        self.supervisor.clone()
     }
 
     /// Why forces are off; none when they are not, or will be on in a moment.
@@ -178,9 +174,6 @@ impl Rig {
         self.reference.send(reference);
         let time = self.time;
         let lateness = self.wait_for_tick();
-        if self.emergency.take() {
-            self.servo.trip(Fault::EmergencyStop);
-        }
         let of_loop = if self.is_real {
             time + self.waited
         } else {

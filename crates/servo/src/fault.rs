@@ -85,6 +85,17 @@ pub enum Fault {
     /// Somebody wants no force at all.
     #[error("the emergency stop was pressed; look after what is touched and arm again")]
     EmergencyStop,
+    /// Another loop of the session took its force off.
+    #[error("another device of the session took its force off; see to that and arm again")]
+    OtherDevice,
+    /// The program that shows what is touched does not answer any more.
+    #[error(
+        "the program was silent for more than {limit} s; look after what is touched and arm again"
+    )]
+    ProgramSilent {
+        /// How long it may be [s].
+        limit: f64,
+    },
     /// The thread of the loop ended in a panic; the device was stopped.
     #[error("the servo thread panicked, and the device was stopped; report it as a defect")]
     Panicked,

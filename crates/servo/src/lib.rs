@@ -2,6 +2,8 @@
 //! hand-over of forces from a slower model.
 //!
 //! ```text
+//!                                  Supervisor (a person, a fault, a silent program)
+//!                                             │
 //!  model thread ──latest(AffineForce)──▶ Controller ─wanted▶ Guard ─sent▶ Device ──▶ hand
 //!       ▲                                     ▲                              │
 //!       └────────── latest(Sample) ───────────┴───────────── DeviceState ────┘
@@ -12,7 +14,6 @@
 //! allocates nothing.
 
 mod affine_force;
-mod arming_request;
 mod clock;
 mod controller;
 mod device;
@@ -31,10 +32,10 @@ mod servo_loop;
 mod servo_settings;
 mod servo_thread;
 mod study;
+pub mod supervisor;
 mod velocity;
 
 pub use affine_force::AffineForce;
-pub use arming_request::ArmingRequest;
 pub use clock::Clock;
 pub use controller::Controller;
 pub use device::{
@@ -53,6 +54,7 @@ pub use servo_loop::{ServoLoop, ServoReader};
 pub use servo_settings::ServoSettings;
 pub use servo_thread::ServoThread;
 pub use study::{HandOverCost, HandOverStudy};
+pub use supervisor::{ForceState, Supervisor};
 
 /// Three numbers: a place [m], a velocity [m/s] or a force [N].
 pub type Vec3 = nalgebra::Vector3<f64>;

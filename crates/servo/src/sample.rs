@@ -13,6 +13,8 @@ pub struct Sample {
     pub held: Vec3,
     /// The force that the controller wants for this state [N].
     pub wanted: Vec3,
+    /// The part of it that the controller adds to what others answer [N].
+    pub added: Vec3,
     /// What the limits leave of it, which is sent with the next tick [N].
     pub sent: Vec3,
     /// What is sent besides against the device's own weight, spring and mass [N].

@@ -12,14 +12,14 @@
 use std::time::Duration;
 
 use crate::dynamics::Compensator;
-use crate::limits::magnitude::shorten;
 use crate::limits::{Guard, Limits, Stage, Wish};
 use crate::priority::{Priority, raise_priority};
 use crate::report::Meter;
+use crate::supervisor::Permission;
 use crate::velocity::Velocity;
 use crate::{
-    ArmingRequest, Clock, Command, Controller, Device, DeviceState, Fault, LoopReport, Sample,
-    ServoSettings, Vec3, latest, log,
+    Clock, Command, Controller, Device, DeviceState, Fault, LoopReport, Sample, ServoSettings,
+    Supervisor, Vec3, latest, log,
 };
 
 /// What others see of a loop.
@@ -30,8 +30,8 @@ pub struct ServoReader {
     pub log: log::Reader<Sample>,
     /// The loop's report, ten times a second.
     pub report: latest::Receiver<LoopReport>,
-    /// Arms forces again after a fault.
-    pub arming: ArmingRequest,
+    /// What arms its forces and takes them off.
+    pub supervisor: Supervisor,
 }
 
 /// A device, what controls it, and what it passes. Dropping it stops the device.
@@ -51,13 +51,16 @@ pub struct ServoLoop {
     latest: latest::Sender<Option<Sample>>,
     log: log::Writer<Sample>,
     report: latest::Sender<LoopReport>,
-    arming: ArmingRequest,
+    supervisor: Supervisor,
+    /// How often a person had armed when the loop last heard of it.
+    armings: u64,
     last: Option<Sample>,
     fault: Option<Fault>,
 }
 
 impl ServoLoop {
-    /// A loop that has not begun, and what is seen of it. It owns the device: nothing else calls it.
+    /// A loop that has not begun, and what is seen of it. It owns the device: nothing else calls it. Its session is its
+    /// own, and armed.
     ///
     /// # Errors
     /// When a setting is out of range.
@@ -66,17 +69,29 @@ impl ServoLoop {
         controller: Box<dyn Controller>,
         settings: ServoSettings,
     ) -> Result<(Self, ServoReader), Fault> {
+        Self::supervised(device, controller, settings, Supervisor::armed())
+    }
+
+    /// The same in a session of several loops.
+    ///
+    /// # Errors
+    /// As for [`new`](Self::new).
+    pub fn supervised(
+        device: Box<dyn Device>,
+        controller: Box<dyn Controller>,
+        settings: ServoSettings,
+        supervisor: Supervisor,
+    ) -> Result<(Self, ServoReader), Fault> {
         let limits = settings.limits.unwrap_or_else(|| Limits::of(device.spec()));
         let guard = Guard::new(limits, device.spec(), settings.period)?;
         let (latest, latest_reader) = latest::channel(&None);
         let (log, log_reader) = log::ring(settings.log);
         let (report, report_reader) = latest::channel(&LoopReport::default());
-        let arming = ArmingRequest::default();
         let reader = ServoReader {
             latest: latest_reader,
             log: log_reader,
             report: report_reader,
-            arming: arming.clone(),
+            supervisor: supervisor.clone(),
         };
         let servo = Self {
             device,
@@ -94,7 +109,8 @@ impl ServoLoop {
             latest,
             log,
             report,
-            arming,
+            armings: supervisor.permission(f64::NEG_INFINITY).armings,
+            supervisor,
             last: None,
             fault: None,
         };
@@ -139,6 +155,10 @@ impl ServoLoop {
     /// # Errors
     /// When the device fails; it is stopped then.
     pub fn tick(&mut self, time: f64, lateness: f64) -> Result<Sample, Fault> {
+        let permission = self.supervisor.permission(time);
+        if !permission.state.allows_force() {
+            (self.force, self.compensation) = (Vec3::zeros(), Vec3::zeros());
+        }
         let command = Command {
             time,
             force: self.force + self.compensation,
@@ -148,7 +168,7 @@ impl ServoLoop {
             Ok(state) => state,
             Err(fault) => return Err(self.fail(fault)),
         };
-        let sample = self.control(time, state);
+        let sample = self.control(time, state, &permission);
         self.meter.tick(&sample, lateness);
         self.tell(sample);
         if self.number.is_multiple_of(self.ticks_per_report()) {
@@ -156,12 +176,6 @@ impl ServoLoop {
         }
         self.number += 1;
         Ok(sample)
-    }
-
-    /// Takes every force off from the next tick on, for a reason from outside, until somebody arms again.
-    pub fn trip(&mut self, fault: Fault) {
-        self.guard.trip(fault);
-        (self.force, self.compensation) = (Vec3::zeros(), Vec3::zeros());
     }
 
     /// What the loop has measured so far.
@@ -180,7 +194,7 @@ impl ServoLoop {
     }
 
     /// From the state of the hand to the force of the next command.
-    fn control(&mut self, time: f64, mut state: DeviceState) -> Sample {
+    fn control(&mut self, time: f64, mut state: DeviceState, permission: &Permission) -> Sample {
         state.time = time;
         let gap = self.last_time.map_or(self.period, |last| time - last);
         self.last_time = Some(time);
@@ -196,17 +210,28 @@ impl ServoLoop {
             velocity,
             overdue: self.controller.overdue(),
             gap,
-            asked: self.arming.take(),
+            allowed: permission.state.allows_force(),
+            asked: permission.armings != self.armings,
         };
+        self.armings = permission.armings;
+        if let Some(fault) = permission.fault {
+            self.guard.trip(fault);
+        }
         let held = self.force;
+        let was = self.guard.stage();
         self.force = self.guard.pass(&wish, &state, gap);
         self.compensate(&state, gap);
+        if matches!(self.guard.stage(), Stage::Faulted(_)) {
+            self.force = Vec3::zeros();
+        }
+        self.tell_session(was);
         Sample {
             tick: self.number,
             state,
             velocity,
             held,
             wanted,
+            added: self.controller.added(),
             sent: self.force,
             compensation: self.compensation,
             age: self.controller.age(),
@@ -214,20 +239,28 @@ impl ServoLoop {
         }
     }
 
-    /// What is added for the device itself: as much of it as forces are on, and no more than it can display.
+    /// Tells the session how far forces are on. A fault that ends by itself, of a device without force, concerns nobody.
+    fn tell_session(&self, was: Stage) {
+        match (was, self.guard.stage()) {
+            (Stage::Faulted(_), _) => {}
+            (_, Stage::Faulted(_)) if self.guard.is_latched() => self.supervisor.trip_others(),
+            (_, Stage::Ramping(_)) => self.supervisor.run(),
+            _ => {}
+        }
+    }
+
+    /// What is added for the device itself, as far as the guard lets it.
     fn compensate(&mut self, state: &DeviceState, dt: f64) {
         let Some(compensator) = &mut self.compensator else {
             return;
         };
-        let part = self.guard.part();
-        if part == 0.0 {
+        let wanted = if self.guard.part() > 0.0 {
+            compensator.force(&state.position, dt)
+        } else {
             compensator.forget();
-            self.compensation = Vec3::zeros();
-            return;
-        }
-        let added = compensator.force(&state.position, dt) * part;
-        let whole = shorten(&(self.force + added), self.device.spec().peak_force);
-        self.compensation = whole - self.force;
+            Vec3::zeros()
+        };
+        self.compensation = self.guard.pass_compensation(&wanted, dt);
     }
 
     fn tell(&mut self, sample: Sample) {
@@ -240,6 +273,9 @@ impl ServoLoop {
     fn fail(&mut self, fault: Fault) -> Fault {
         self.device.stop();
         let told = self.fault.is_some();
+        if self.guard.is_latched() {
+            self.supervisor.trip_others();
+        }
         self.guard.trip(fault);
         self.fault = Some(fault);
         (self.force, self.compensation) = (Vec3::zeros(), Vec3::zeros());
@@ -248,7 +284,7 @@ impl ServoLoop {
             sample.state.present = false;
             let none = Vec3::zeros();
             (sample.held, sample.wanted, sample.sent) = (none, none, none);
-            sample.compensation = none;
+            (sample.added, sample.compensation) = (none, none);
             sample.stage = Stage::Faulted(fault);
             self.tell(sample);
         }

@@ -58,5 +58,5 @@ pub use state::{SimulationState, SimulationWorkspace, ToolState};
 pub use step::{TRUSTED_DEPTH, step};
 pub use summary::{CutSummary, StepTimes, Summary};
 pub use tool::Tool;
-pub use trocar::Trocar;
+pub use trocar::{ShaftFriction, Trocar};
 pub use tutor::{Ghost, Guidance, HeldTool, Stray, Tutor};

@@ -10,8 +10,19 @@
 //! ```
 //!
 //! The tip goes against the hand across the shaft, λ times as far, and with it along the shaft; the work is
-//! the same. The wall may rub along the shaft, −f tanh(v/v₀) n with v = n·ḣ, which never gives energy, and
-//! resist that the shaft leans, −k h across the direction u in which it stands by itself; that is a spring.
+//! the same. The wall may rub along the shaft, and resist that the shaft leans, −k h across the direction u in which it
+//! stands by itself; that is a spring.
+//!
+//! Friction is that of bristles that bend before they slip [Dahl 1968], with the damping of their bending [Canudas de
+//! Wit et al. 1995]. With ẋ = n·ḣ, the bend z and the largest force f,
+//!
+//! ```text
+//! ż = ẋ − |ẋ| z/r,   F = −(f/r) (z + T ż),   |F| ≤ f
+//! ```
+//!
+//! so that a still hand is held as by a spring and does not chatter: a force that followed the sign of a measured
+//! velocity would feed the trembling that it is made of. Along a way of one direction z is an exponential, which is
+//! taken exactly at any rate; what is stored is f z²/(2 r), never more than f r/2.
 //!
 //! *How we know*: `trocar::…`.
 //!
@@ -23,14 +34,19 @@ use palpate_geometry::{AabbTree, Surface, Vec3};
 
 use crate::Error;
 
+/// The way on which a bristle bends before it slips [m]: wide beside the resolution of devices, narrow beside what a
+/// hand means to do.
+const BEND: f64 = 1e-3;
+
+/// T, the damping of a bristle over its stiffness [s]: more than the delay of a loop at 1 kHz takes away, which is a
+/// tick and a half.
+const BEND_DAMPING: f64 = 3e-3;
+
 /// Length of a shaft from its tip to the middle of the hand [m].
 const SHAFT: f64 = 0.36;
 
 /// A hand is never nearer to the trocar [m].
 const LEAST: f64 = 0.01;
-
-/// Friction is three quarters of its all at this speed [m/s]: slower than hands that mean to move.
-const SLOW: f64 = 0.01;
 
 /// Where a shaft passes through the abdominal wall, and what it feels there.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -98,10 +114,10 @@ impl Trocar {
         }
     }
 
-    /// What the abdominal wall does to a hand at `hand` [m] with `velocity` [m/s]: friction and spring [N].
-    pub fn wall_force(&self, hand: &Vec3, velocity: &Vec3) -> Vec3 {
-        let (outward, _) = self.outside(hand);
-        let rubs = -outward * (self.friction * (outward.dot(velocity) / SLOW).tanh());
+    /// What the abdominal wall does to a hand at `hand` [m], `dt` [s] after the last: friction and spring [N].
+    pub fn wall_force(&self, hand: &Vec3, friction: &mut ShaftFriction, dt: f64) -> Vec3 {
+        let (outward, distance) = self.outside(hand);
+        let rubs = outward * (self.friction * friction.part(distance, dt));
         let away = hand - self.place;
         let across = away - self.upright * self.upright.dot(&away);
         rubs - across * self.stiffness
@@ -118,6 +134,37 @@ impl Trocar {
     /// λ, way of the tip over way of the hand across the shaft [-]; below zero for a tip that has been drawn out.
     fn lever(&self, distance: f64) -> f64 {
         (self.shaft - distance) / distance
+    }
+}
+
+/// How the wall holds a shaft.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ShaftFriction {
+    /// z/r [-].
+    bent: f64,
+    /// How far the hand was from the trocar last [m].
+    distance: Option<f64>,
+}
+
+impl ShaftFriction {
+    /// F/f [-], positive away from the trocar, of a hand that has come to `distance` [m] from it in `dt` [s].
+    pub fn part(&mut self, distance: f64, dt: f64) -> f64 {
+        let way = self.distance.map_or(0.0, |last| distance - last) / BEND;
+        self.distance = Some(distance);
+        let slipping = way.signum();
+        let bent = slipping + (self.bent - slipping) * (-way.abs()).exp();
+        let bending = if dt > 0.0 {
+            (bent - self.bent) / dt
+        } else {
+            0.0
+        };
+        self.bent = bent;
+        -(bent + BEND_DAMPING * bending).clamp(-1.0, 1.0)
+    }
+
+    /// What the bristles store, over f [m]: z²/(2 r).
+    pub fn stored(&self) -> f64 {
+        0.5 * BEND * self.bent * self.bent
     }
 }
 

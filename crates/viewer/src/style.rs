@@ -10,6 +10,14 @@ pub(crate) const FORCE: Color32 = Color32::from_rgb(236, 126, 92);
 pub(crate) const DEPTH: Color32 = Color32::from_rgb(84, 196, 178);
 /// What is said in passing.
 pub(crate) const QUIET: Color32 = Color32::from_rgb(150, 158, 168);
+/// The button of the emergency stop.
+pub(crate) const STOP: Color32 = Color32::from_rgb(196, 32, 28);
+/// What is written on it.
+pub(crate) const ON_STOP: Color32 = Color32::WHITE;
+
+/// What the emergency stop does.
+pub(crate) const STOP_HINT: &str =
+    "no force at once (space bar); it stays so until it is armed again";
 
 /// Dark, so that the organ is what is bright.
 pub(crate) fn dress(context: &egui::Context) {

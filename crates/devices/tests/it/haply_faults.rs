@@ -231,7 +231,7 @@ fn what_a_device_lives_through_is_armed_again() {
     };
     service.misbehave(Some(Misbehaviour::NoPower));
     assert_eq!(stage_after(&mut servo, 1), Stage::Faulted(Fault::Unpowered));
-    reader.arming.ask();
+    reader.supervisor.arm();
     // Still without power.
     assert_eq!(stage_after(&mut servo, 100), Stage::Off);
     service.misbehave(None);

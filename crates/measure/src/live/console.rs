@@ -1,9 +1,9 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-use palpate_servo::log;
+use palpate_servo::{Supervisor, log};
 
-use crate::{Course, EmergencySwitch};
+use crate::Course;
 
 /// What a rig is asked to do.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,7 +26,7 @@ pub enum Order {
 pub struct Console {
     orders: log::Writer<Given>,
     switches: Switches,
-    emergency: EmergencySwitch,
+    supervisor: Supervisor,
 }
 
 /// An order, and how often everything was stopped before it.
@@ -48,13 +48,13 @@ pub(super) struct Switches {
 const ORDERS: usize = 8192;
 
 impl Console {
-    pub(super) fn new(emergency: EmergencySwitch) -> (Self, log::Reader<Given>, Switches) {
+    pub(super) fn new(supervisor: Supervisor) -> (Self, log::Reader<Given>, Switches) {
         let (orders, reader) = log::ring(ORDERS);
         let switches = Switches::default();
         let console = Self {
             orders,
             switches: switches.clone(),
-            emergency,
+            supervisor,
         };
         (console, reader, switches)
     }
@@ -72,7 +72,7 @@ impl Console {
 
     /// No force at once, until somebody arms again; the orders that wait are dropped.
     pub fn emergency_stop(&self) {
-        self.emergency.press();
+        self.supervisor.trip();
         self.switches.stop();
     }
 

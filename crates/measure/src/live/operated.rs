@@ -44,7 +44,7 @@ const DRIVEN: f64 = 0.16;
 impl Operated {
     /// `rig`, from where it is operated, and what it says.
     pub fn new(rig: Rig) -> (Self, Console, log::Reader<Told>) {
-        let (console, orders, switches) = Console::new(rig.emergency_switch());
+        let (console, orders, switches) = Console::new(rig.supervisor());
         let (told, reader) = log::ring(TOLD);
         let operated = Self {
             rig,

@@ -62,7 +62,7 @@ impl Rig {
 
     /// Lets forces on again after a fault; until they are, the rig is [`limp`](Self::limp).
     pub fn arm(&self) {
-        self.arming.ask();
+        self.supervisor.arm();
     }
 
     /// One tick without force, and whether forces are on again. The indenter will stay where it is then.

@@ -23,8 +23,10 @@ pub enum Stage {
 /// What arming looks at.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Conditions {
-    /// Whether the device is ready and somebody there.
+    /// Whether the session allows a force, the device is ready and somebody there.
     pub ready: bool,
+    /// Whether the session allows a force.
+    pub allowed: bool,
     /// How fast the hand is [m/s].
     pub speed: f64,
     /// How large the force would be [N].
@@ -38,7 +40,9 @@ impl Stage {
     #[must_use]
     pub fn next(self, conditions: &Conditions, limits: &Limits, dt: f64) -> Self {
         match self {
-            Self::Faulted(_) if conditions.asked || !limits.latched => Self::Off,
+            Self::Faulted(_) if conditions.asked || (conditions.allowed && !limits.latched) => {
+                Self::Off
+            }
             Self::Faulted(_) => self,
             _ if !conditions.ready => Self::Off,
             Self::Off => Self::Ready,
@@ -72,6 +76,7 @@ mod tests {
 
     const STILL: Conditions = Conditions {
         ready: true,
+        allowed: true,
         speed: 0.0,
         force: 0.0,
         asked: false,

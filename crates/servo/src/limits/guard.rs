@@ -20,7 +20,9 @@ pub struct Wish {
     pub overdue: Option<f64>,
     /// How long the device has had its last force [s].
     pub gap: f64,
-    /// Whether somebody asked to arm again.
+    /// Whether the session allows a force.
+    pub allowed: bool,
+    /// Whether a person asked to arm again.
     pub asked: bool,
 }
 
@@ -39,6 +41,8 @@ pub struct Guard {
     /// The force that was sent last [N], and the one before, which the device had until now.
     last: Vec3,
     before: Vec3,
+    /// What was sent besides for the device itself [N].
+    compensation: Vec3,
     faults: u64,
     interventions: Interventions,
 }
@@ -50,7 +54,8 @@ struct Bounds {
     dead_man: Option<super::DeadMan>,
     /// The largest force that may be sent [N].
     most: f64,
-    /// The largest that its motors bear [N].
+    /// The largest that it displays, and that its motors bear [N].
+    peak: f64,
     continuous: f64,
 }
 
@@ -76,6 +81,7 @@ impl Guard {
                 workspace: spec.workspace,
                 dead_man: spec.dead_man,
                 most: part * limits.force.min(spec.peak_force),
+                peak: spec.peak_force,
                 continuous: spec.continuous_force,
             },
             period,
@@ -87,6 +93,7 @@ impl Guard {
             position: None,
             last: Vec3::zeros(),
             before: Vec3::zeros(),
+            compensation: Vec3::zeros(),
             faults: 0,
             interventions: Interventions::default(),
         })
@@ -107,6 +114,11 @@ impl Guard {
         self.heat.most(self.device.most, self.device.continuous)
     }
 
+    /// Whether a fault keeps forces off until somebody arms them.
+    pub(crate) fn is_latched(&self) -> bool {
+        self.limits.latched
+    }
+
     /// How many faults there were.
     pub fn faults(&self) -> u64 {
         self.faults
@@ -123,7 +135,7 @@ impl Guard {
             self.faults += 1;
             self.stage = Stage::Faulted(fault);
         }
-        self.last = Vec3::zeros();
+        (self.last, self.compensation) = (Vec3::zeros(), Vec3::zeros());
     }
 
     /// The force [N] that may be sent for `wish` at `state`, `dt` [s] after the last.
@@ -139,6 +151,23 @@ impl Guard {
         };
         self.last = may_be_sent;
         may_be_sent
+    }
+
+    /// What may be sent besides the last force, `dt` [s] after the last, of the `wanted` compensation [N] of the device
+    /// itself: as much as forces are on, rising no faster than any force, and no more in all than the device displays.
+    pub fn pass_compensation(&mut self, wanted: &Vec3, dt: f64) -> Vec3 {
+        if !is_finite(wanted) {
+            self.trip(Fault::NonFiniteForce);
+        }
+        let part = self.part();
+        if part == 0.0 {
+            self.compensation = Vec3::zeros();
+            return self.compensation;
+        }
+        let rise = self.limits.slew * dt.min(self.period);
+        let risen = limit_rise(&self.compensation, &(wanted * part), rise);
+        self.compensation = shorten(&(self.last + risen), self.device.peak) - self.last;
+        self.compensation
     }
 
     /// What the last forces did.
@@ -192,7 +221,8 @@ impl Guard {
         self.interventions.let_go += u64::from(lets_go && self.part() > 0.0);
         self.hold = hold;
         let conditions = Conditions {
-            ready: state.ready && state.present && hold != Hold::Free,
+            ready: wish.allowed && state.ready && state.present && hold != Hold::Free,
+            allowed: wish.allowed,
             speed: wish.velocity.norm(),
             force: wish.force.norm(),
             asked: wish.asked,

@@ -7,13 +7,16 @@
 //!    is overdue by 10 ms, in which its force has faded; a device that had to keep one too long gets none for a
 //!    tick.
 //! 4. [`dead_man`]: what is let go of has no force 50 ms later, and is armed anew.
-//! 5. [`arming`]: no force before the device is ready and held, the hand slow and the force small; then it is
-//!    raised over half a second.
+//! 5. [`arming`]: no force before the session allows one ([`crate::supervisor`]), the device is ready and held, the
+//!    hand slow and the force small; then it is raised over half a second.
 //! 6. [`passivity`]: a hand gets back at most the energy that it put in.
 //! 7. [`walls`]: a soft wall before the ends of the workspace.
 //! 8. [`magnitude`]: at most 3 N, and at most what the device displays, by shortening the vector; half of it
 //!    where no dead-man's switch is; [`heat`]: at most what its motors bear.
 //! 9. [`slew`]: a force rises by at most 400 N/s and falls at once.
+//!
+//! What is added against the device's own weight, spring and mass passes stages 1, 4, 5, 8 (what the device displays)
+//! and 9 ([`Guard::pass_compensation`]).
 //!
 //! A fault keeps forces off until somebody arms them again. What the stages did is counted
 //! ([`Interventions`]).

@@ -100,10 +100,10 @@ proptest! {
         let settings = ServoSettings { log: ticks, ..ServoSettings::default() };
         let (mut servo, mut reader) =
             ServoLoop::new(Box::new(handle(way)), Box::new(law), settings).unwrap();
-        let arming = reader.arming.clone();
+        let arming = reader.supervisor.clone();
         servo.run(&mut Clock::virtual_time(), |tick| {
             if tick % 150 == 149 {
-                arming.ask();
+                arming.arm();
             }
             tick < ticks as u64
         });

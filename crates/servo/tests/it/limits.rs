@@ -21,6 +21,7 @@ fn wish(force: Vec3) -> Wish {
         velocity: Vec3::zeros(),
         overdue: None,
         gap: PERIOD,
+        allowed: true,
         asked: false,
     }
 }

@@ -19,3 +19,4 @@ mod phantom;
 mod servo;
 mod slow_model;
 mod stability;
+mod supervisor;

@@ -4,6 +4,7 @@ use palpate_servo::latest::Receiver;
 use palpate_servo::{AffineForce, Controller, DeviceState, Extrapolator, HandOver};
 
 use super::Mount;
+use crate::ShaftFriction;
 
 /// What makes a force of the model's answers at every tick of the servo loop.
 pub struct ForceRenderer {
@@ -11,6 +12,9 @@ pub struct ForceRenderer {
     extrapolator: Extrapolator,
     mount: Mount,
     force_scale: f64,
+    friction: ShaftFriction,
+    /// What the abdominal wall did last, in the device's frame [N].
+    of_wall: Vec3,
     time: f64,
 }
 
@@ -27,24 +31,35 @@ impl ForceRenderer {
             extrapolator,
             mount,
             force_scale,
+            friction: ShaftFriction::default(),
+            of_wall: Vec3::zeros(),
             time: f64::NEG_INFINITY,
         }
     }
 }
 
 impl Controller for ForceRenderer {
-    fn update(&mut self, state: &DeviceState, _dt: f64) -> Vec3 {
+    fn update(&mut self, state: &DeviceState, dt: f64) -> Vec3 {
         self.time = state.time;
         self.extrapolator.receive(self.answers.latest());
         if !state.present {
+            self.friction = ShaftFriction::default();
+            self.of_wall = Vec3::zeros();
             return Vec3::zeros();
         }
         let velocity = state.velocity.unwrap_or_else(Vec3::zeros);
-        let handle = (&state.position, &velocity);
         let tip = self.mount.tip(&state.position);
         let of_tip = self.mount.velocity_of_tip(&state.position, &velocity);
         let force = self.extrapolator.force(state.time, &tip, &of_tip);
-        self.mount.force_on_handle(handle, &force) * self.force_scale
+        let wall = self
+            .mount
+            .wall_force(&state.position, &mut self.friction, dt);
+        self.of_wall = wall * self.force_scale;
+        self.mount.force_on_handle(&state.position, &force) * self.force_scale + self.of_wall
+    }
+
+    fn added(&self) -> Vec3 {
+        self.of_wall
     }
 
     fn age(&self) -> Option<f64> {

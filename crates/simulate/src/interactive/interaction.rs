@@ -4,7 +4,9 @@ use std::thread::JoinHandle;
 
 use palpate_devices::openigtlink::OperatingRoom;
 use palpate_files::SessionRow;
-use palpate_servo::{Clock, Fault, LoopReport, Sample, ServoSettings, ServoThread, latest, log};
+use palpate_servo::{
+    Clock, Fault, LoopReport, Sample, ServoSettings, ServoThread, Supervisor, latest, log,
+};
 
 use super::model_loop::ModelLoop;
 use super::operating_room::shown_in;
@@ -25,6 +27,7 @@ pub struct Interaction {
     rows: log::Reader<SessionRow>,
     orders: log::Writer<Order>,
     snapshots: latest::Receiver<Snapshot>,
+    supervisor: Supervisor,
     clock: Clock,
 }
 
@@ -51,7 +54,8 @@ impl Interaction {
         settings: ServoSettings,
         room: Option<&OperatingRoom>,
     ) -> Result<Self, Error> {
-        let parts = take_apart(&simulation, stations, settings)?;
+        let supervisor = Supervisor::armed();
+        let parts = take_apart(&simulation, stations, settings, &supervisor)?;
         let (rows, read_rows) = log::ring(ROWS);
         let (recorder, read_rows) = SessionRecorder::start(read_rows).ok_or(Fault::NoThread)?;
         let (give, orders) = orders();
@@ -88,6 +92,7 @@ impl Interaction {
             rows: read_rows,
             orders: give,
             snapshots: seen,
+            supervisor,
             clock,
         })
     }
@@ -102,9 +107,27 @@ impl Interaction {
         self.snapshots.latest()
     }
 
-    /// Gives an order to the model, which obeys before its next step.
+    /// Gives an order to the model, which obeys before its next step; in a pause no device has a force from its next
+    /// tick on.
     pub fn order(&mut self, order: Order) {
+        order.supervise(&self.supervisor);
         self.orders.add(order);
+    }
+
+    /// Takes the forces of all devices off at their next tick, until [`arm`](Self::arm).
+    pub fn emergency_stop(&self) {
+        self.supervisor.trip();
+    }
+
+    /// What arms the forces of all devices and takes them off.
+    pub fn supervisor(&self) -> &Supervisor {
+        &self.supervisor
+    }
+
+    /// Says that who shows this to a person is alive. Forces are taken off when that is not said again within
+    /// [`SILENCE`](palpate_servo::supervisor::SILENCE); who never says it need not.
+    pub fn report_alive(&self) {
+        self.supervisor.report(self.clock.now());
     }
 
     /// Records a session: everything begins anew, and every row from then on is written.
@@ -161,11 +184,9 @@ impl Interaction {
         }
     }
 
-    /// Arms the forces of all devices again after a fault.
+    /// Arms the forces of all devices again after a fault or an emergency stop.
     pub fn arm(&self) {
-        for watch in self.watches.iter().flatten() {
-            watch.arming.ask();
-        }
+        self.supervisor.arm();
     }
 
     /// Whether all threads still run.
@@ -183,6 +204,7 @@ impl Interaction {
     /// # Errors
     /// When a thread panicked.
     pub fn stop(&mut self) -> Result<Quality, Error> {
+        self.supervisor.switch_off();
         let stopped = |servo: &mut Option<ServoThread>| servo.take().map(ServoThread::stop);
         let loops: Vec<_> = self.servos.iter_mut().map(stopped).collect();
         self.stop.store(true, Ordering::Relaxed);

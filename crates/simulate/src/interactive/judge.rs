@@ -36,7 +36,6 @@ pub fn judge_samples(
 
 /// The force on the tool [N] that a loop made at `sample`, in the scene's frame and not scaled.
 pub(super) fn made(simulation: &Simulation, mount: &Mount, sample: &Sample) -> Vec3 {
-    let velocity = sample.state.velocity.unwrap_or_else(Vec3::zeros);
-    let handle = (&sample.state.position, &velocity);
-    mount.force_on_tip(handle, &(sample.wanted / simulation.force_scale()))
+    let of_model = (sample.wanted - sample.added) / simulation.force_scale();
+    mount.force_on_tip(&sample.state.position, &of_model)
 }

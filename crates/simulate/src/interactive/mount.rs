@@ -1,7 +1,7 @@
 use nalgebra::UnitQuaternion;
 use palpate_geometry::Vec3;
 
-use crate::Trocar;
+use crate::{ShaftFriction, Trocar};
 
 /// Where a device stands in the scene: x_scene = origin + scale · rotation x_device. Through a trocar its handle is
 /// the hand, else the tip.
@@ -54,26 +54,30 @@ impl Mount {
             .map_or(velocity, |trocar| trocar.velocity_of_tip(&hand, &velocity))
     }
 
-    /// What a handle at `position` [m] with `velocity` [m/s] feels, in the device's frame, of a `force` on the tip
-    /// [N], and of the wall.
-    pub fn force_on_handle(&self, (position, velocity): (&Vec3, &Vec3), force: &Vec3) -> Vec3 {
-        let Some(trocar) = &self.trocar else {
-            return self.force_in_device(force);
-        };
+    /// What a handle at `position` of the device [m] feels, in the device's frame, of a `force` on the tip [N].
+    pub fn force_on_handle(&self, position: &Vec3, force: &Vec3) -> Vec3 {
         let hand = self.place_in_scene(position);
-        let wall = trocar.wall_force(&hand, &self.vector_in_scene(velocity));
-        self.force_in_device(&(trocar.force_on_hand(&hand, force) + wall))
+        let felt = self
+            .trocar
+            .map_or(*force, |trocar| trocar.force_on_hand(&hand, force));
+        self.force_in_device(&felt)
     }
 
     /// The force on the tip [N] that such a handle feels as `force` in the device's frame [N].
-    pub fn force_on_tip(&self, (position, velocity): (&Vec3, &Vec3), force: &Vec3) -> Vec3 {
+    pub fn force_on_tip(&self, position: &Vec3, force: &Vec3) -> Vec3 {
         let force = self.force_in_scene(force);
+        let hand = self.place_in_scene(position);
+        self.trocar
+            .map_or(force, |trocar| trocar.force_on_tip(&hand, &force))
+    }
+
+    /// What the abdominal wall does to such a handle, in the device's frame [N], `dt` [s] after the last.
+    pub fn wall_force(&self, position: &Vec3, friction: &mut ShaftFriction, dt: f64) -> Vec3 {
         let Some(trocar) = &self.trocar else {
-            return force;
+            return Vec3::zeros();
         };
         let hand = self.place_in_scene(position);
-        let wall = trocar.wall_force(&hand, &self.vector_in_scene(velocity));
-        trocar.force_on_tip(&hand, &(force - wall))
+        self.force_in_device(&trocar.wall_force(&hand, friction, dt))
     }
 
     /// A force in the scene's frame in the device's [N]. Ways are scaled, forces are not.

@@ -1,4 +1,4 @@
-use palpate_servo::log;
+use palpate_servo::{Supervisor, log};
 
 /// What a window asks of the model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -13,6 +13,17 @@ pub enum Order {
     UndoCut,
     /// Says in the session that a hand means this place, or that it is done.
     Mark,
+}
+
+impl Order {
+    /// What it means for the forces of the devices.
+    pub(super) fn supervise(self, supervisor: &Supervisor) {
+        match self {
+            Self::Pause => supervisor.pause(),
+            Self::Resume => supervisor.resume(),
+            Self::Reset | Self::UndoCut | Self::Mark => {}
+        }
+    }
 }
 
 /// Orders that have room until the model's next step.

@@ -1,6 +1,6 @@
 use palpate_servo::latest::{Receiver, Sender, channel};
 use palpate_servo::{
-    AffineForce, ArmingRequest, Device, Extrapolator, LoopReport, Sample, ServoLoop, ServoSettings,
+    AffineForce, Device, Extrapolator, LoopReport, Sample, ServoLoop, ServoSettings, Supervisor,
     log,
 };
 
@@ -37,7 +37,6 @@ pub(super) struct Line {
 pub(super) struct Watch {
     pub(super) samples: log::Reader<Sample>,
     pub(super) report: Receiver<LoopReport>,
-    pub(super) arming: ArmingRequest,
 }
 
 /// A station with its loop, taken apart for those who run it.
@@ -52,6 +51,7 @@ pub(super) fn take_apart(
     simulation: &Simulation,
     stations: Vec<Option<Station>>,
     settings: ServoSettings,
+    supervisor: &Supervisor,
 ) -> Result<Vec<Option<Parts>>, Error> {
     if stations.len() != simulation.tools().len() {
         return Err(Error::OtherDevices {
@@ -59,7 +59,7 @@ pub(super) fn take_apart(
             stations: stations.len(),
         });
     }
-    let parts = |station| Parts::new(simulation, station, settings);
+    let parts = |station| Parts::new(simulation, station, settings, supervisor.clone());
     let parts = stations
         .into_iter()
         .map(|station| station.map(parts).transpose());
@@ -71,6 +71,7 @@ impl Parts {
         simulation: &Simulation,
         station: Station,
         settings: ServoSettings,
+        supervisor: Supervisor,
     ) -> Result<Self, Error> {
         let Station { device, mount } = station;
         let (answers, heard) = channel(&AffineForce::none(f64::NEG_INFINITY));
@@ -78,7 +79,8 @@ impl Parts {
         let extrapolator = Extrapolator::new(hand_over, simulation.step(), settings.period);
         let scale = simulation.force_scale();
         let renderer = ForceRenderer::new(heard, extrapolator, mount, scale);
-        let (servo, reader) = ServoLoop::new(device, Box::new(renderer), settings)?;
+        let (servo, reader) =
+            ServoLoop::supervised(device, Box::new(renderer), settings, supervisor)?;
         Ok(Self {
             servo,
             line: Line {
@@ -89,7 +91,6 @@ impl Parts {
             watch: Watch {
                 samples: reader.log,
                 report: reader.report,
-                arming: reader.arming,
             },
         })
     }

@@ -1,7 +1,7 @@
 use std::sync::Arc;
 
 use palpate_files::SessionRow;
-use palpate_servo::{Fault, Sample, ServoLoop, ServoSettings, latest, log};
+use palpate_servo::{Fault, Sample, ServoLoop, ServoSettings, Supervisor, latest, log};
 
 use super::model_loop::ModelLoop;
 use super::order::orders;
@@ -19,6 +19,7 @@ pub struct VirtualInteraction {
     rows: log::Reader<SessionRow>,
     orders: log::Writer<Order>,
     snapshots: latest::Receiver<Snapshot>,
+    supervisor: Supervisor,
     period: f64,
     tick: u64,
     steps: u64,
@@ -34,7 +35,8 @@ impl VirtualInteraction {
         stations: Vec<Option<Station>>,
         settings: ServoSettings,
     ) -> Result<Self, Error> {
-        let parts = take_apart(&simulation, stations, settings)?;
+        let supervisor = Supervisor::armed();
+        let parts = take_apart(&simulation, stations, settings, &supervisor)?;
         let (rows, read_rows) = log::ring(settings.log.max(1) * parts.len());
         let (give, orders) = orders();
         let (snapshots, seen) = latest::channel(&Snapshot::new(&simulation));
@@ -55,6 +57,7 @@ impl VirtualInteraction {
             rows: read_rows,
             orders: give,
             snapshots: seen,
+            supervisor,
             period: settings.period,
             tick: 0,
             steps: 0,
@@ -93,9 +96,16 @@ impl VirtualInteraction {
         self.snapshots.latest()
     }
 
-    /// Gives an order to the model, which obeys before its next step.
+    /// Gives an order to the model, which obeys before its next step; in a pause no device has a force from its next
+    /// tick on.
     pub fn order(&mut self, order: Order) {
+        order.supervise(&self.supervisor);
         self.orders.add(order);
+    }
+
+    /// What arms the forces of all devices and takes them off.
+    pub fn supervisor(&self) -> &Supervisor {
+        &self.supervisor
     }
 
     /// The rows of the session that nobody has read yet.

@@ -5,15 +5,12 @@ use eframe::egui::{
 use palpate_measure::live::Order;
 
 use super::{Behind, RigWindow};
-use crate::style::{DEPTH, DOUBT, FAULT, FORCE, QUIET};
+use crate::style::{DEPTH, DOUBT, FAULT, FORCE, ON_STOP, QUIET, STOP, STOP_HINT};
 
-/// The button of the emergency stop.
-const STOP: Color32 = Color32::from_rgb(196, 32, 28);
+/// Size of the button of the emergency stop.
 const STOP_SIZE: [f32; 2] = [176.0, 62.0];
 /// Height of the row with all quantities, whatever they are.
 const HEIGHT: f32 = 68.0;
-/// What is written on the emergency stop.
-const ON_STOP: Color32 = Color32::WHITE;
 /// Width of a quantity with its limit, at most.
 const WIDEST: f32 = 300.0;
 
@@ -35,8 +32,7 @@ pub(super) fn show(window: &mut RigWindow, ui: &mut Ui) {
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let button = Button::new("").fill(STOP).min_size(STOP_SIZE.into());
-            let hint = "no force at once; it stays so until it is armed again";
-            let button = ui.add(button).on_hover_text(hint);
+            let button = ui.add(button).on_hover_text(STOP_HINT);
             for (words, size, above) in [("EMERGENCY STOP", 18.0, -9.0), ("space bar", 12.0, 13.0)]
             {
                 let place = button.rect.center() + vec2(0.0, above);

@@ -366,6 +366,24 @@ impl SimulatorWindow {
     }
 }
 
+impl SimulatorWindow {
+    /// The emergency stop by the space bar, which beside a device with forces comes before whatever else has the
+    /// keyboard; and the window's word that it is alive.
+    fn supervise(&self, context: &egui::Context) {
+        let Some(play) = &self.play else { return };
+        let has_devices = play.has_devices();
+        let space = |input: &mut egui::InputState| {
+            input.consume_key(egui::Modifiers::NONE, egui::Key::Space)
+        };
+        if (has_devices || !context.egui_wants_keyboard_input()) && context.input_mut(space) {
+            play.source.emergency_stop();
+        }
+        if has_devices {
+            play.source.report_alive();
+        }
+    }
+}
+
 impl eframe::App for SimulatorWindow {
     fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
         let context = ui.ctx().clone();
@@ -378,6 +396,7 @@ impl eframe::App for SimulatorWindow {
             self.show_home(ui);
             return;
         }
+        self.supervise(&context);
         self.listen(&context);
         self.watch_attempt();
         self.take_dropped(&context);

@@ -1,4 +1,4 @@
-use eframe::egui::{self, Color32, RichText, Ui};
+use eframe::egui::{self, Button, Color32, RichText, Ui};
 use egui_plot::{Line, Plot, PlotPoints};
 use palpate_files::BuiltinTissue;
 use palpate_files::scene::{BuiltinOrgan, ModelKind, Shading, TipContact, TipShape};
@@ -10,7 +10,7 @@ use super::enhancement;
 use super::preparation::Preparation;
 use super::rates::Rates;
 use crate::history::SPAN;
-use crate::style::{DEPTH, DOUBT, FAULT, FORCE, QUIET};
+use crate::style::{DEPTH, DOUBT, FAULT, FORCE, ON_STOP, QUIET, STOP, STOP_HINT};
 
 /// What can be chosen, and what is felt.
 pub(super) fn side(window: &mut SimulatorWindow, ui: &mut Ui) {
@@ -304,6 +304,7 @@ fn limits(touch: &LoopReport, ui: &mut Ui) {
 /// What went wrong, and what deserves doubt.
 pub(super) fn status(window: &SimulatorWindow, ui: &mut Ui) {
     ui.horizontal_wrapped(|ui| {
+        emergency_stop(window, ui);
         let depth = window.history.last().1;
         let said = window.fault.as_ref().or(window.notice.as_ref()).cloned();
         let felt = window.rates.touch.fault.map(|fault| fault.to_string());
@@ -322,6 +323,18 @@ pub(super) fn status(window: &SimulatorWindow, ui: &mut Ui) {
             doubts(window, ui);
         }
     });
+}
+
+/// The emergency stop, where a device displays forces.
+fn emergency_stop(window: &SimulatorWindow, ui: &mut Ui) {
+    let Some(play) = window.play.as_ref().filter(|play| play.has_devices()) else {
+        return;
+    };
+    let words = RichText::new("EMERGENCY STOP").color(ON_STOP);
+    let button = ui.add(Button::new(words).fill(STOP));
+    if button.on_hover_text(STOP_HINT).clicked() {
+        play.source.emergency_stop();
+    }
 }
 
 /// Lets the forces of a device on again, where a fault keeps them off.

@@ -101,6 +101,11 @@ impl Prepared {
 }
 
 impl Play {
+    /// Whether a tool is moved by a device that displays forces.
+    pub(super) fn has_devices(&self) -> bool {
+        SceneDevices::any(&self.scene)
+    }
+
     /// Opens the devices and starts the threads of the touch. Whatever had these devices before has to be gone: only
     /// one may drive them.
     ///

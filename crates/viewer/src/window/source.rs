@@ -80,10 +80,24 @@ impl Source {
         }
     }
 
-    /// Arms the forces of all devices again after a fault.
+    /// Arms the forces of all devices again after a fault or an emergency stop.
     pub(super) fn arm(&self) {
         if let Self::Touched(interaction) = self {
             interaction.arm();
+        }
+    }
+
+    /// Takes the forces of all devices off until somebody arms them.
+    pub(super) fn emergency_stop(&self) {
+        if let Self::Touched(interaction) = self {
+            interaction.emergency_stop();
+        }
+    }
+
+    /// Says that the window is alive; when it is not, forces are taken off.
+    pub(super) fn report_alive(&self) {
+        if let Self::Touched(interaction) = self {
+            interaction.report_alive();
         }
     }
 

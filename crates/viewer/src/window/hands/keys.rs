@@ -76,7 +76,7 @@ pub const LINES: [[&str; 3]; 5] = [
 ];
 
 /// What else is in the list.
-pub const MORE: [[&str; 2]; 9] = [
+pub const MORE: [[&str; 2]; 10] = [
     ["Shift", "finer"],
     ["Tab", "the mouse takes the other tool"],
     ["G · C", "jaws · cut of the mouse's tool"],
@@ -85,6 +85,7 @@ pub const MORE: [[&str; 2]; 9] = [
     ["P", "pause or go on"],
     ["Backspace", "begin again"],
     ["Enter", "this is the place, or: done"],
+    ["Space", "emergency stop: no device has a force"],
     ["? or F1", "this list"],
 ];
 

@@ -1,0 +1,286 @@
+//! Whether a session may display forces: one state for all of its loops, which read it at every tick.
+//!
+//! | order | off | armed | running | paused | tripped |
+//! |---|---|---|---|---|---|
+//! | [`arm`](Supervisor::arm): a person wants forces | armed | armed | running | armed | armed |
+//! | a loop begins to raise its force | off | running | running | paused | tripped |
+//! | [`pause`](Supervisor::pause) | off | paused | paused | paused | tripped |
+//! | [`resume`](Supervisor::resume) | off | armed | running | armed | tripped |
+//! | [`trip`](Supervisor::trip), or a fault of a loop | tripped | tripped | tripped | tripped | tripped |
+//! | [`switch_off`](Supervisor::switch_off) | off | off | off | off | off |
+//!
+//! In *off*, *paused* and *tripped* the force that is sent is exactly zero from the next tick on; in *armed* it is
+//! zero until the hand is slow and the force small ([`crate::limits::arming`]). Nothing but a person leads out of these
+//! states.
+//!
+//! *How we know*: `tests` (every pair), `supervisor::…`.
+//!
+//! *Limits*: a loop that hangs in its device reads nothing; that is left to the device's own watchdog.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use crate::Fault;
+
+/// How long a program that has to report may be silent before forces are taken off [s]: longer than it takes to lay out
+/// a window, shorter than it takes a person to wonder.
+pub const SILENCE: f64 = 2.0;
+
+/// Whether forces may be displayed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ForceState {
+    /// Nobody has asked for forces.
+    Off,
+    /// Somebody has; they are raised once the hand is slow and the force small.
+    Armed,
+    /// They are displayed.
+    Running,
+    /// They are off until somebody goes on.
+    Paused,
+    /// They are off until somebody has seen why and arms them again.
+    Tripped,
+}
+
+/// What leads from one state to another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Order {
+    Arm,
+    Run,
+    Pause,
+    Resume,
+    Trip,
+    SwitchOff,
+}
+
+/// Why forces were taken off.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Cause {
+    /// A person.
+    EmergencyStop,
+    /// A fault of one of the loops.
+    OtherDevice,
+    /// The program that shows what is touched.
+    Silence,
+}
+
+/// The state of a session and its ends: cheap to clone, and safe to use from any thread. No call waits.
+#[derive(Debug, Clone)]
+pub struct Supervisor {
+    /// How often a person armed, the cause and the state, packed.
+    word: Arc<AtomicU64>,
+    /// When the program reported last [s, as bits]; infinite when it does not have to.
+    reported: Arc<AtomicU64>,
+}
+
+/// What a loop reads at a tick.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Permission {
+    pub(crate) state: ForceState,
+    /// Another number whenever a person armed.
+    pub(crate) armings: u64,
+    /// Why forces are off, where they tripped.
+    pub(crate) fault: Option<Fault>,
+}
+
+impl ForceState {
+    /// Whether a force may be other than zero, as far as the session is concerned.
+    pub fn allows_force(self) -> bool {
+        matches!(self, Self::Armed | Self::Running)
+    }
+
+    fn after(self, order: Order) -> Self {
+        match (order, self) {
+            (Order::Arm, Self::Running) => Self::Running,
+            (Order::Arm, _) => Self::Armed,
+            (Order::Run, Self::Armed) => Self::Running,
+            (Order::Pause, Self::Armed | Self::Running) => Self::Paused,
+            (Order::Resume, Self::Paused) => Self::Armed,
+            (Order::Run | Order::Pause | Order::Resume, _) => self,
+            (Order::Trip, _) => Self::Tripped,
+            (Order::SwitchOff, _) => Self::Off,
+        }
+    }
+}
+
+const STATES: [ForceState; 5] = [
+    ForceState::Off,
+    ForceState::Armed,
+    ForceState::Running,
+    ForceState::Paused,
+    ForceState::Tripped,
+];
+
+const CAUSES: [Cause; 3] = [Cause::EmergencyStop, Cause::OtherDevice, Cause::Silence];
+
+impl Cause {
+    fn fault(self) -> Fault {
+        match self {
+            Self::EmergencyStop => Fault::EmergencyStop,
+            Self::OtherDevice => Fault::OtherDevice,
+            Self::Silence => Fault::ProgramSilent { limit: SILENCE },
+        }
+    }
+}
+
+/// A word: the state in the lowest byte, the cause in the next, then the count.
+fn packed(state: ForceState, cause: Cause, armings: u64) -> u64 {
+    (armings << 16) | ((cause as u64) << 8) | state as u64
+}
+
+fn unpacked(word: u64) -> (ForceState, Cause, u64) {
+    // Nothing else is ever written.
+    let state = STATES[(word & 0xff) as usize % STATES.len()];
+    let cause = CAUSES[(word >> 8 & 0xff) as usize % CAUSES.len()];
+    (state, cause, word >> 16)
+}
+
+impl Default for Supervisor {
+    /// Off.
+    fn default() -> Self {
+        Self {
+            word: Arc::new(AtomicU64::new(packed(
+                ForceState::Off,
+                Cause::EmergencyStop,
+                0,
+            ))),
+            reported: Arc::new(AtomicU64::new(f64::INFINITY.to_bits())),
+        }
+    }
+}
+
+impl Supervisor {
+    /// One whose session is armed already.
+    pub fn armed() -> Self {
+        let supervisor = Self::default();
+        supervisor.arm();
+        supervisor
+    }
+
+    /// What holds now.
+    pub fn state(&self) -> ForceState {
+        unpacked(self.word.load(Ordering::Acquire)).0
+    }
+
+    /// A person wants forces, for the first time or again.
+    pub fn arm(&self) {
+        self.obey(Order::Arm, None);
+    }
+
+    /// No force until [`resume`](Self::resume).
+    pub fn pause(&self) {
+        self.obey(Order::Pause, None);
+    }
+
+    /// Ends a pause.
+    pub fn resume(&self) {
+        self.obey(Order::Resume, None);
+    }
+
+    /// The emergency stop: no force until a person arms again.
+    pub fn trip(&self) {
+        self.obey(Order::Trip, Some(Cause::EmergencyStop));
+    }
+
+    /// The session is over.
+    pub fn switch_off(&self) {
+        self.obey(Order::SwitchOff, None);
+    }
+
+    /// The program that shows what is touched is alive at `time` [s] of the loops' clock. From the first time on forces
+    /// trip when it is silent for [`SILENCE`].
+    pub fn report(&self, time: f64) {
+        self.reported.store(time.to_bits(), Ordering::Relaxed);
+    }
+
+    /// What a loop may do at `time` [s].
+    pub(crate) fn permission(&self, time: f64) -> Permission {
+        let reported = f64::from_bits(self.reported.load(Ordering::Relaxed));
+        if time - reported > SILENCE && self.state().allows_force() {
+            self.obey(Order::Trip, Some(Cause::Silence));
+        }
+        let (state, cause, armings) = unpacked(self.word.load(Ordering::Acquire));
+        Permission {
+            state,
+            armings,
+            fault: (state == ForceState::Tripped).then(|| cause.fault()),
+        }
+    }
+
+    /// A loop raises its force.
+    pub(crate) fn run(&self) {
+        self.obey(Order::Run, None);
+    }
+
+    /// A loop took its force off; all others do.
+    pub(crate) fn trip_others(&self) {
+        self.obey(Order::Trip, Some(Cause::OtherDevice));
+    }
+
+    fn obey(&self, order: Order, why: Option<Cause>) {
+        let next = |word| {
+            let (state, cause, armings) = unpacked(word);
+            let armed = u64::from(order == Order::Arm);
+            // Who stopped first is told.
+            let cause = match state {
+                ForceState::Tripped => cause,
+                _ => why.unwrap_or(cause),
+            };
+            Some(packed(state.after(order), cause, armings + armed))
+        };
+        // It always answers a word.
+        let _ = self
+            .word
+            .fetch_update(Ordering::AcqRel, Ordering::Acquire, next);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Judge: the table above, typed once more.
+    #[test]
+    fn every_order_in_every_state_leads_where_the_table_says() {
+        use ForceState::{Armed, Off, Paused, Running, Tripped};
+        let table = [
+            (Order::Arm, [Armed, Armed, Running, Armed, Armed]),
+            (Order::Run, [Off, Running, Running, Paused, Tripped]),
+            (Order::Pause, [Off, Paused, Paused, Paused, Tripped]),
+            (Order::Resume, [Off, Armed, Running, Armed, Tripped]),
+            (Order::Trip, [Tripped; 5]),
+            (Order::SwitchOff, [Off; 5]),
+        ];
+        for (order, expected) in table {
+            for (state, expected) in STATES.into_iter().zip(expected) {
+                assert_eq!(state.after(order), expected, "{order:?} in {state:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_word_holds_what_was_packed() {
+        for state in STATES {
+            for cause in CAUSES {
+                let word = packed(state, cause, 70_000);
+                assert_eq!(unpacked(word), (state, cause, 70_000));
+            }
+        }
+    }
+
+    #[test]
+    fn the_first_cause_is_told_and_a_silent_program_is_one() {
+        let supervisor = Supervisor::armed();
+        assert_eq!(supervisor.permission(1e9).fault, None);
+        supervisor.report(1.0);
+        assert_eq!(supervisor.permission(1.0 + SILENCE).fault, None);
+        let silent = supervisor.permission(1.1 + SILENCE);
+        assert_eq!(silent.fault, Some(Fault::ProgramSilent { limit: SILENCE }));
+        supervisor.trip();
+        assert_eq!(supervisor.permission(1.2 + SILENCE), silent);
+        supervisor.report(5.0);
+        supervisor.arm();
+        let armed = supervisor.permission(5.0);
+        assert_eq!((armed.state, armed.fault), (ForceState::Armed, None));
+        assert!(armed.armings > silent.armings);
+    }
+}
