@@ -41,6 +41,7 @@ use crate::simulation::Simulation;
 use crate::state::{SimulationState, SimulationWorkspace, ToolState};
 use crate::step::respond;
 use crate::tool::Tool;
+use slip::Slides;
 
 /// Jaws that shut beyond this take hold of what is between them [-], and let go when they open to less than
 /// the other: a hand that trembles does neither.
@@ -58,6 +59,7 @@ pub(crate) struct Grip {
     /// Whether they shut in this step.
     shuts: bool,
     pub(crate) hold: Option<Hold>,
+    slides: Slides,
 }
 
 impl Default for Grip {
@@ -66,6 +68,7 @@ impl Default for Grip {
             shut: true,
             shuts: false,
             hold: None,
+            slides: Slides::NONE,
         }
     }
 }
@@ -117,6 +120,9 @@ fn slide(
     state: &mut SimulationState,
     workspace: &mut SimulationWorkspace,
 ) {
+    for own in &mut state.tools {
+        own.grip.slides = Slides::NONE;
+    }
     for _ in 0..MOST_SLIPS {
         let mut slipped = false;
         for (tool, own) in simulation.tools.iter().zip(&mut state.tools) {

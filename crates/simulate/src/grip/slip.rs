@@ -8,7 +8,8 @@
 //! |q′| = 2 μ N,   q′ = q − a S δ,   δ = γ q′   ⟹   q′ = (1 + γ a S)⁻¹ q
 //! ```
 //!
-//! |q′| falls with γ ≥ 0. The tissue goes where it is pulled, so that a slide only takes energy.
+//! |q′| falls with γ ≥ 0. The tissue goes where it is pulled, so that a slide only takes energy. Where another tool
+//! gives way along with it, less of the pull goes than S says; the next slide is longer by as much.
 
 use nalgebra::{Matrix2, Matrix3, Vector2};
 use palpate_geometry::Vec3;
@@ -19,6 +20,37 @@ use crate::tool::Tool;
 
 /// A pull beyond what friction bears that is none [-].
 const BEYOND: f64 = 1e-9;
+
+/// What the slides of a step have done so far.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Slides {
+    /// The pull beyond what friction bears before the last one [N]; none before the first.
+    beyond: Option<f64>,
+    /// The length of a slide over that in an organ which only this tool touches [-].
+    longer: f64,
+}
+
+/// A slide is longer than that at most [-]: the coupling of two tools is bounded (`global`).
+const LONGEST: f64 = 200.0;
+
+impl Slides {
+    pub(super) const NONE: Self = Self {
+        beyond: None,
+        longer: 1.0,
+    };
+
+    /// How long the next slide is [-], where the pull is `beyond` [N] what friction bears.
+    fn next(&mut self, beyond: f64) -> f64 {
+        if let Some(before) = self.beyond.replace(beyond) {
+            let gone = 1.0 - beyond / before;
+            self.longer = match gone > 0.0 {
+                true => (self.longer / gone).min(LONGEST),
+                false => 1.0,
+            };
+        }
+        self.longer
+    }
+}
 
 /// Slides the tissue of a tool where it is pulled too hard; whether it has.
 pub(super) fn slip(
@@ -44,18 +76,19 @@ pub(super) fn slip(
     let at_once = (felt(state.elastic + Vec3::x()) - force).x;
     let pull = turned.inverse() * force;
     let stiffness = turned.matrix().tr_mul(&state.stiffness) * turned.matrix() * at_once;
-    let Some(by) = slide(&pull, &stiffness, limit) else {
+    let Some((by, beyond)) = slide(&pull, &stiffness, limit) else {
         return false;
     };
+    let longer = state.grip.slides.next(beyond);
     if let Some(hold) = &mut state.grip.hold {
-        hold.slide(&by);
+        hold.slide(&(by * longer));
     }
     true
 }
 
-/// How far tissue slides [m] that is pulled by `pull` [N] and answers with `stiffness` [N/m], all in the
-/// tool's frame; none where friction bears the `limit` [N] of it.
-fn slide(pull: &Vec3, stiffness: &Matrix3<f64>, limit: f64) -> Option<Vec3> {
+/// How far tissue slides [m] that is pulled by `pull` [N] and answers with `stiffness` [N/m], all in the tool's frame, and
+/// how far the pull is beyond what friction bears, `limit` [N]; none where it is not.
+fn slide(pull: &Vec3, stiffness: &Matrix3<f64>, limit: f64) -> Option<(Vec3, f64)> {
     let aside = Vector2::new(pull.y, 0.0);
     let out = Vector2::new(pull.y, pull.z);
     let outward = pull.z < 0.0;
@@ -89,7 +122,8 @@ fn slide(pull: &Vec3, stiffness: &Matrix3<f64>, limit: f64) -> Option<Vec3> {
     }
     let by = left(high)? * high;
     let by = Vec3::new(0.0, by.x, if outward { by.y.min(0.0) } else { 0.0 });
-    (by.norm() > 0.0 && by.iter().all(|component| component.is_finite())).then_some(by)
+    let slides = by.norm() > 0.0 && by.iter().all(|component| component.is_finite());
+    slides.then_some((by, size - limit))
 }
 
 #[cfg(test)]
@@ -100,7 +134,7 @@ mod tests {
     #[test]
     fn a_slide_leaves_what_friction_bears() {
         let spring = Matrix3::identity() * 100.0;
-        let by = slide(&Vec3::new(9.0, 0.3, -0.4), &spring, 0.3).unwrap();
+        let by = slide(&Vec3::new(9.0, 0.3, -0.4), &spring, 0.3).unwrap().0;
         assert!(
             (by - Vec3::new(0.0, 1.2e-3, -1.6e-3)).norm() < 1e-12,
             "{by}"
@@ -108,14 +142,27 @@ mod tests {
         assert!(slide(&Vec3::new(9.0, 0.3, -0.4), &spring, 0.5).is_none());
         // Toward the joint the jaws themselves bear it.
         assert!(slide(&Vec3::new(0.0, 0.0, 0.4), &spring, 0.3).is_none());
-        let aside = slide(&Vec3::new(0.0, 0.5, 0.4), &spring, 0.3).unwrap();
+        let aside = slide(&Vec3::new(0.0, 0.5, 0.4), &spring, 0.3).unwrap().0;
         assert!(
             (aside - Vec3::new(0.0, 2e-3, 0.0)).norm() < 1e-12,
             "{aside}"
         );
         // Without friction all of it goes.
-        let all = slide(&Vec3::new(0.0, 0.0, -0.4), &spring, 0.0).unwrap();
+        let all = slide(&Vec3::new(0.0, 0.0, -0.4), &spring, 0.0).unwrap().0;
         assert!((all.z + 4e-3).abs() < 1e-9, "{all}");
+    }
+
+    /// Judge: an organ of which another tool takes a part: only 1/50 of a slide's force goes, and the second slide has all
+    /// of the rest.
+    #[test]
+    fn a_slide_that_helps_little_is_made_longer() {
+        let mut slides = Slides::NONE;
+        let mut beyond = 0.5;
+        for _ in 0..2 {
+            // A spring of 100 N/m that answers as one of 2.
+            beyond -= 2.0 * slides.next(beyond) * beyond / 100.0;
+        }
+        assert!(beyond.abs() < 1e-12, "{beyond}");
     }
 
     /// Judge: the definition, in a patch that is softer one way than the other.
@@ -123,7 +170,8 @@ mod tests {
     fn what_is_left_is_the_limit() {
         let stiffness = Matrix3::new(90.0, 5.0, 9.0, 5.0, 140.0, -30.0, 9.0, -30.0, 60.0);
         let pull = Vec3::new(0.2, 0.7, -0.9);
-        let by = slide(&pull, &stiffness, 0.25).unwrap();
+        let (by, beyond) = slide(&pull, &stiffness, 0.25).unwrap();
+        assert!((beyond - (pull.yz().norm() - 0.25)).abs() < 1e-12);
         let left = pull - stiffness * by;
         assert!((left.yz().norm() - 0.25).abs() < 1e-9);
         assert!(left.yz().dot(&by.yz()) > 0.999_999 * 0.25 * by.norm());
