@@ -27,6 +27,7 @@ mod report_analyze;
 mod reproduce;
 mod reproduce_recordings;
 mod reproduce_rig;
+mod reproduce_whole;
 mod score;
 mod simulate;
 mod solve;
