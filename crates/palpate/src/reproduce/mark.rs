@@ -8,6 +8,8 @@ use serde::Serialize;
 pub(crate) enum Mark {
     /// The printed number was put in, and came back.
     PipelineOnly,
+    /// A bound: ours is the last value that was tried.
+    AtLeast,
     /// The row has neither a number nor a figure; its note says why.
     NotComputed,
     /// The computation failed; the note has the error.
@@ -15,12 +17,18 @@ pub(crate) enum Mark {
 }
 
 impl Mark {
-    pub(super) const ALL: [Self; 3] = [Self::PipelineOnly, Self::NotComputed, Self::Failed];
+    pub(super) const ALL: [Self; 4] = [
+        Self::PipelineOnly,
+        Self::AtLeast,
+        Self::NotComputed,
+        Self::Failed,
+    ];
 
     /// As a table shows it.
     pub(super) fn word(self) -> &'static str {
         match self {
             Self::PipelineOnly => "pipeline only",
+            Self::AtLeast => "at least",
             Self::NotComputed => "not computed",
             Self::Failed => "failed",
         }
@@ -32,6 +40,9 @@ impl Mark {
             Self::PipelineOnly => {
                 "the source prints no recording, so a virtual one was made from the printed number, and the number was found \
                  again in it: agreement judges our pipeline, not the source's measurement"
+            }
+            Self::AtLeast => {
+                "ours is a bound, the last value that could be tried; the true one may be larger"
             }
             Self::NotComputed => "the note says why",
             Self::Failed => {

@@ -91,9 +91,19 @@ impl<'a> Rows<'a> {
 
     /// Adds the row `item/name` of a printed number that was put into a virtual recording and found again.
     pub(crate) fn add_pipeline_only(&mut self, name: &str, value: Value, note: impl Into<String>) {
+        self.add_marked(name, value, Mark::PipelineOnly, note);
+    }
+
+    /// Adds the row `item/name` of a bound: the last value that could be tried.
+    pub(crate) fn add_at_least(&mut self, name: &str, value: Value, note: impl Into<String>) {
+        self.add_marked(name, value, Mark::AtLeast, note);
+    }
+
+    /// A row without a number keeps its own mark.
+    fn add_marked(&mut self, name: &str, value: Value, mark: Mark, note: impl Into<String>) {
         self.add(name, value, note);
         if let Some(row) = self.rows.last_mut() {
-            row.mark = row.mark.or(Some(Mark::PipelineOnly));
+            row.mark = row.mark.or(Some(mark));
         }
     }
 

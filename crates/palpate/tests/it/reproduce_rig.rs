@@ -75,7 +75,12 @@ fn the_rig_reads_a_spring_as_it_is() {
         let turned = find(&rows, &format!("section-5-2-2/phase/{frequency}_hz"));
         assert!(number(turned, "ours").abs() < 1.0, "{turned}");
     }
-    assert!(number(find(&rows, "section-5-2-2/unaffected_below"), "ratio") >= 1.0);
+    // A bound: the rig stops a faster swing.
+    let below = find(&rows, "section-5-2-2/unaffected_below");
+    assert!(
+        number(below, "ratio") >= 1.0 && below["mark"] == "at_least",
+        "{below}"
+    );
     for frequency in ["0.5", "1", "2", "4", "8"] {
         let row = find(
             &rows,
