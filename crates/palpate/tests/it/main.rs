@@ -21,6 +21,7 @@ mod notices;
 mod palpation;
 mod progress;
 mod quality;
+mod readme_numbers;
 mod recordings;
 mod report;
 mod report_analyze;

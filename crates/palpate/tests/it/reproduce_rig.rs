@@ -1,5 +1,6 @@
 //! The rows of the device and of the rig: chapter 5 again, section 7.3.
 
+use crate::readme_numbers::range;
 use crate::reproduce::{find, reproduce};
 use crate::reproduce_recordings::{assert_complete, number, printed};
 
@@ -119,4 +120,7 @@ fn chapter_5_comes_back_through_the_rig() {
     );
     let missed = number(find(&rows, "chapter-5/spleen/contact/mean"), "ours");
     assert!(missed.abs() < 0.4, "{missed}");
+    let [least, largest] = range("through heart, contact and sensor to ");
+    let error = number(find(&rows, "chapter-5/spleen/given_back"), "ours").round();
+    assert!((least..=largest).contains(&error), "{error}");
 }
