@@ -3,10 +3,11 @@
 //! Nothing is drawn when standard error is no terminal, or when a machine reads the answer.
 
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::sync::{Mutex, PoisonError};
 use std::thread::Builder;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use palpate_files::printable;
 use palpate_jobs::Watch;
 
@@ -37,6 +38,29 @@ pub(crate) struct Progress {
     bar: ProgressBar,
     /// Turns the spinner until its other end is dropped.
     _turning: Option<Sender<()>>,
+    pace: Option<Pace>,
+}
+
+/// How long what is left takes, from how long each part usually takes and how long those took that are done.
+struct Pace {
+    begun: Instant,
+    /// Usual duration of everything [s].
+    usual: f64,
+    /// Usual duration of what is done [s], and how long that took [s].
+    done: Mutex<[f64; 2]>,
+}
+
+impl Pace {
+    /// Weight of the usual durations beside those of this machine [s].
+    const TRUST: f64 = 30.0;
+
+    fn left(&self) -> Duration {
+        let [usual, took] = *self.done.lock().unwrap_or_else(PoisonError::into_inner);
+        let slowness = (took + Self::TRUST) / (usual + Self::TRUST);
+        let within = self.begun.elapsed().as_secs_f64() - took;
+        let left = (self.usual - usual) * slowness - within;
+        Duration::from_secs_f64(left.max(1.0))
+    }
 }
 
 impl Progress {
@@ -58,7 +82,38 @@ impl Progress {
         Self {
             _turning: turning(&bar),
             bar,
+            pace: None,
         }
+    }
+
+    /// A bar over works that usually take `seconds` together, with the time that is left.
+    pub(crate) fn of_works(reader: Reader, seconds: f64) -> Self {
+        let mut progress = Self::new(reader, Some(seconds.ceil() as u64));
+        let template = "{spinner} {bar:30} about {prefix} left: {wide_msg}";
+        if let Ok(style) = ProgressStyle::with_template(template) {
+            progress.bar.set_style(style);
+        }
+        progress.pace = Some(Pace {
+            begun: Instant::now(),
+            usual: seconds,
+            done: Mutex::new([0.0; 2]),
+        });
+        progress
+    }
+
+    /// One of the works is done, which usually takes `seconds`.
+    pub(crate) fn work_done(&self, seconds: f64) {
+        if let Some(pace) = &self.pace {
+            let mut done = pace.done.lock().unwrap_or_else(PoisonError::into_inner);
+            let usual = done[0] + seconds;
+            *done = [usual, pace.begun.elapsed().as_secs_f64()];
+            self.bar.set_position(usual.round() as u64);
+        }
+    }
+
+    /// Takes the bar away while `print` writes to standard output.
+    pub(crate) fn aside<T>(&self, print: impl FnOnce() -> T) -> T {
+        self.bar.suspend(print)
     }
 
     /// A bar over the parts of one long work, with the time that is left.
@@ -83,12 +138,10 @@ impl Progress {
 
     /// Says what is being done now.
     pub(crate) fn say(&self, doing: impl Into<String>) {
+        if let Some(pace) = &self.pace {
+            self.bar.set_prefix(HumanDuration(pace.left()).to_string());
+        }
         self.bar.set_message(printable(&doing.into()).into_owned());
-    }
-
-    /// One step of the bar is done.
-    pub(crate) fn step(&self) {
-        self.bar.inc(1);
     }
 
     /// Sets how many steps of the bar are done.

@@ -74,6 +74,27 @@ fn kelvin_solid() {
     }
 }
 
+/// Judge: the delay that was put in, of a spring's force. A loop that runs the right way has no such warning.
+#[test]
+fn a_delayed_force_is_a_warning() {
+    let (frequency, spring, delay) = (5.0, 12.0, 2e-3);
+    let depth = depth(move |t| (TAU * frequency * t).sin());
+    for (sign, is_late) in [(1.0, true), (-1.0, false)] {
+        let force = move |t: f64| spring * depth(t - sign * delay);
+        let analysis = analyzed(500.0, 10.0, depth, force);
+        let warning = analysis
+            .doubts
+            .iter()
+            .find(|doubt| doubt.contains("passive"));
+        assert_eq!(warning.is_some(), is_late, "{:?}", analysis.doubts);
+        assert!(
+            warning.is_none_or(|text| text.contains("2.0 ms later")),
+            "{warning:?}"
+        );
+        assert_eq!(only(analysis).hysteresis_j < 0.0, is_late);
+    }
+}
+
 /// Force [N] of a linear tissue that relaxes as `series`, sample by sample.
 fn relaxing<'s>(
     series: &'s PronySeries,

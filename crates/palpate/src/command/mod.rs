@@ -36,7 +36,7 @@ const NOTICES: &str = include_str!("../../../../THIRD-PARTY.txt");
 const EXAMPLES: &str = "\
 Examples:
   palpate
-      opens a window: the lower esophagus under a grasper and scissors. Without a display it plays a
+      opens a window with tasks to practise and organs to touch. Without a display it plays a
       first touch instead and writes ./palpate-demo
   palpate simulate scene.toml
       opens a window with your scene

@@ -3,30 +3,37 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use serde::Serialize;
 
 use super::overwrite::OverwriteOption;
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::output;
 use crate::progress::{Progress, Reader};
-use crate::reproduce::{Figures, ITEMS, Item, Rows, select, table};
+use crate::reproduce::{Figures, ITEMS, Item, KEPT, Rows, legend, section, select};
 
 /// Examples at the end of the help.
 const EXAMPLES: &str = "\
 Examples:
-  palpate reproduce
-  palpate reproduce table-3-1 figure-4-5 --out figures
-  palpate reproduce table-3-1/solution --json
+  palpate reproduce --list
+  palpate reproduce figure-5-1 table-3-1/solution_s
+  palpate reproduce chapter-5 table-3 --out figures --json
 
-A dash stands where there is no number; the note says why.";
+A name selects that item or row alone; any other word selects what begins with it. An item that fails
+becomes a row with the reason, and the others go on. Finished rows are printed as they come, and kept in
+rows.jsonl of the folder, one JSON object per line. A dash stands where there is no number; the note says
+why. Exit status: 0 when every row has a number, a figure or a reason.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Arguments {
-    /// Tables, figures or rows, by how they begin; without one, everything.
+    /// Tables, figures or rows, by name or by how they begin; without one, everything.
     #[arg(value_name = "ROW")]
     rows: Vec<String>,
-    /// The folder for figures; it is made when there is one to write.
+    /// List the tables and figures with their titles, and compute nothing.
+    #[arg(long)]
+    list: bool,
+    /// The folder for figures and finished rows.
     #[arg(long, value_name = "DIR", default_value = "palpate-reproduce")]
     out: PathBuf,
     /// Print a JSON list with one object per row.
@@ -36,41 +43,80 @@ pub(crate) struct Arguments {
     overwrite: OverwriteOption,
 }
 
-/// Computes and prints the rows.
+/// Computes and prints the rows, item by item.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let selection = select(&arguments.rows)?;
-    refuse_file(&arguments.out)?;
+    let mut selection = select(&arguments.rows)?;
     let items = selection.items();
-    let figures = Figures::new(&arguments.out, arguments.overwrite.rule());
-    figures.check(&items)?;
-    interrupt::ends_between_files("interrupted; the figures that were written are whole");
-    let progress = Progress::new(Reader::of_json(arguments.json), Some(items.len() as u64));
-    let mut rows = Vec::new();
+    if arguments.list {
+        return list(&items, arguments.json);
+    }
+    refuse_file(&arguments.out)?;
+    let figures = Figures::claimed(&arguments.out, arguments.overwrite.rule(), &items)?;
+    let mut kept = figures.rows();
+    interrupt::ends_between_files(format!(
+        "interrupted; finished rows are in {}, and the figures that were written are whole",
+        arguments.out.join(KEPT).display()
+    ));
+    // The answer for a machine goes to standard output, and may take an hour.
+    let progress = Progress::of_works(Reader::Person, items.iter().map(|item| item.seconds).sum());
+    let mut all = Vec::new();
     for item in &items {
-        let mut own = Rows::of(item.name, &figures, &progress);
-        (item.run)(&mut own)?;
-        rows.extend(own.done());
-        progress.step();
+        let mut rows = Rows::of(item.name, &figures, &progress);
+        let outcome = (item.run)(&mut rows);
+        let rows = selection.rows_of(item, rows.finished(outcome));
+        kept.keep(&rows)?;
+        if !arguments.json && !rows.is_empty() {
+            progress.aside(|| output::text(section(item, &rows)))?;
+        }
+        all.extend(rows);
+        progress.work_done(item.seconds);
     }
     drop(progress);
-    let rows = selection.rows(rows)?;
-    if arguments.json {
-        return output::json(&rows);
+    if !all.is_empty() {
+        match arguments.json {
+            true => output::json(&all)?,
+            false => output::text(legend(&all) + &more(items.len()))?,
+        }
     }
-    output::text(format!("{}\n{}", titles(&items), table(&rows)))
+    selection.check()
 }
 
-fn titles(items: &[Item]) -> String {
-    let width = items.iter().map(|item| item.name.len()).max().unwrap_or(0);
-    let titles = items
-        .iter()
-        .map(|item| format!("{:<width$}  {}\n", item.name, item.title));
-    let left = ITEMS.len() - items.len();
-    let more = match left {
+/// What was not selected.
+fn more(selected: usize) -> String {
+    match ITEMS.len() - selected {
         0 => String::new(),
-        _ => format!("({left} more without a selection)\n"),
-    };
-    titles.collect::<String>() + &more
+        left => format!("{left} more items: palpate reproduce --list\n"),
+    }
+}
+
+/// An item as `--list --json` tells it.
+#[derive(Debug, Serialize)]
+struct Listed {
+    item: &'static str,
+    title: &'static str,
+    /// Usual duration [s]; 0 when nothing is computed.
+    seconds: f64,
+}
+
+fn list(items: &[Item], json: bool) -> Result<(), Failure> {
+    if json {
+        let listed = items.iter().map(|item| Listed {
+            item: item.name,
+            title: item.title,
+            seconds: item.seconds,
+        });
+        return output::json(&listed.collect::<Vec<_>>());
+    }
+    let width = items.iter().map(|item| item.name.len()).max().unwrap_or(0);
+    let lines = items.iter().map(|item| {
+        let time = match item.seconds {
+            0.0 => String::new(),
+            seconds if seconds < 60.0 => format!("{seconds:.0} s"),
+            seconds => format!("{:.0} min", seconds / 60.0),
+        };
+        format!("{:<width$}  {time:>6}  {}\n", item.name, item.title)
+    });
+    output::text(lines.collect::<String>())
 }
 
 /// Before the work, not after it.

@@ -32,7 +32,7 @@ impl CutsAnswer {
         }
         let (s, times) = (plural(self.count), plural(self.perforations as usize));
         format!(
-            "\n{} cut{s}, {:.1} mm in all, at most {} triangles behind the blade; {} triangles became {}; {} perforation{times}",
+            "\n{} cut{s}, {:.1} mm of the surface at rest in all, at most {} triangles behind the blade; {} triangles became {}; {} perforation{times}",
             self.count,
             1e3 * self.length_m,
             self.largest_lag_triangles,

@@ -5,6 +5,7 @@ use palpate_files::write_whole;
 use serde::Serialize;
 
 use super::figures::{Figures, stem};
+use super::mark::Mark;
 use crate::failure::Failure;
 use crate::interrupt::Unbroken;
 use crate::plot::{Draw, Plot};
@@ -16,7 +17,7 @@ pub(crate) struct Row {
     pub(crate) row: String,
     /// As printed in the source [unit]; none for a figure.
     pub(crate) published: Option<f64>,
-    /// [unit]; none for a figure, and for what cannot be reproduced: the note says why.
+    /// [unit]; none for a figure, and for a row with a mark that says so.
     pub(crate) ours: Option<f64>,
     pub(crate) unit: &'static str,
     /// Ours over the published one [-].
@@ -24,6 +25,8 @@ pub(crate) struct Row {
     #[serde(serialize_with = "palpate_jobs::lossy")]
     pub(crate) file: Option<PathBuf>,
     pub(crate) note: String,
+    /// None for our number, or our figure, beside the source's.
+    pub(crate) mark: Option<Mark>,
     /// How long it took [s].
     pub(crate) seconds: f64,
 }
@@ -54,17 +57,23 @@ impl Value {
     }
 }
 
+const NOTHING: Value = Value {
+    published: None,
+    ours: None,
+    unit: "",
+};
+
 /// Where the rows of a table or figure are gathered; each is as long as it took since the last.
 pub(crate) struct Rows<'a> {
     item: &'static str,
-    figures: &'a Figures<'a>,
+    figures: &'a Figures,
     progress: &'a Progress,
     since: Instant,
     rows: Vec<Row>,
 }
 
 impl<'a> Rows<'a> {
-    pub(crate) fn of(item: &'static str, figures: &'a Figures<'a>, progress: &'a Progress) -> Self {
+    pub(crate) fn of(item: &'static str, figures: &'a Figures, progress: &'a Progress) -> Self {
         progress.say(item);
         Self {
             item,
@@ -80,6 +89,29 @@ impl<'a> Rows<'a> {
         self.push(format!("{}/{name}", self.item), value, None, note.into());
     }
 
+    /// Adds the row `item/name` of a printed number that was put into a virtual recording and found again.
+    pub(crate) fn add_pipeline_only(&mut self, name: &str, value: Value, note: impl Into<String>) {
+        self.add_marked(name, value, Mark::PipelineOnly, note);
+    }
+
+    /// Adds the row `item/name` of a bound: the last value that could be tried.
+    pub(crate) fn add_at_least(&mut self, name: &str, value: Value, note: impl Into<String>) {
+        self.add_marked(name, value, Mark::AtLeast, note);
+    }
+
+    /// A row without a number keeps its own mark.
+    fn add_marked(&mut self, name: &str, value: Value, mark: Mark, note: impl Into<String>) {
+        self.add(name, value, note);
+        if let Some(row) = self.rows.last_mut() {
+            row.mark = row.mark.or(Some(mark));
+        }
+    }
+
+    /// Adds the row `item`, which is not computed for this reason.
+    pub(crate) fn not_computed(&mut self, reason: &str) {
+        self.push(self.item.to_owned(), NOTHING, None, reason.to_owned());
+    }
+
     /// Adds the row `item/name` without a number, with the reason.
     pub(crate) fn add_missing(
         &mut self,
@@ -87,12 +119,7 @@ impl<'a> Rows<'a> {
         unit: &'static str,
         reason: impl Into<String>,
     ) {
-        let value = Value {
-            published: None,
-            ours: None,
-            unit,
-        };
-        self.add(name, value, reason);
+        self.add(name, Value { unit, ..NOTHING }, reason);
     }
 
     /// Draws `plot` to the file `item.png`, or `item-name.png`, and adds its row.
@@ -151,12 +178,7 @@ impl<'a> Rows<'a> {
     }
 
     fn push_figure(&mut self, row: String, path: PathBuf, note: String) {
-        let value = Value {
-            published: None,
-            ours: None,
-            unit: "",
-        };
-        self.push(row, value, Some(path), note);
+        self.push(row, NOTHING, Some(path), note);
     }
 
     /// Tells those who wait what goes on within an item.
@@ -164,13 +186,25 @@ impl<'a> Rows<'a> {
         self.progress.say(format!("{}: {what}", self.item));
     }
 
-    /// All that were added.
-    pub(crate) fn done(self) -> Vec<Row> {
+    /// All that were added, and if the item failed a last one that says why.
+    pub(crate) fn finished(mut self, outcome: Result<(), Failure>) -> Vec<Row> {
+        if let Err(failure) = outcome {
+            self.push(self.item.to_owned(), NOTHING, None, failure.to_string());
+            if let Some(row) = self.rows.last_mut() {
+                row.mark = Some(Mark::Failed);
+            }
+        }
         self.rows
     }
 
     fn push(&mut self, row: String, value: Value, file: Option<PathBuf>, note: String) {
         self.progress.say(row.clone());
+        // JSON has no other numbers, and a reader no use for them.
+        let value = Value {
+            ours: value.ours.filter(|ours| ours.is_finite()),
+            ..value
+        };
+        let is_missing = value.ours.is_none() && file.is_none();
         let ratio = value
             .ours
             .zip(value.published)
@@ -183,6 +217,7 @@ impl<'a> Rows<'a> {
             ratio,
             file,
             note,
+            mark: is_missing.then_some(Mark::NotComputed),
             seconds: self.since.elapsed().as_secs_f64(),
         });
         self.since = Instant::now();

@@ -1,54 +1,103 @@
-//! Which items and rows the words of the command line mean.
+//! Which items and rows the words of the command line mean: an exact name is that item or row alone, any other word is
+//! what begins with it.
 
+use std::collections::BTreeSet;
+
+use super::mark::Mark;
 use super::{ITEMS, Item, Row};
 use crate::failure::Failure;
 use palpate_jobs::nearest;
 
 /// What was asked for; nothing means everything.
 #[derive(Debug, Clone)]
-pub(crate) struct Selection(Vec<String>);
+pub(crate) struct Selection {
+    words: Vec<String>,
+    /// Places of words that a row has matched.
+    met: BTreeSet<usize>,
+    /// Names of the rows of the items that have run.
+    known: Vec<String>,
+}
 
-/// Reads the words; each must begin an item or one of its rows.
+/// Reads the words; each must be or begin an item, or begin with one and a slash.
 pub(crate) fn select(words: &[String]) -> Result<Selection, Failure> {
     for word in words {
         if !ITEMS.iter().any(|item| is_meant(item, word)) {
-            return Err(unknown(word, ITEMS.iter().map(|item| item.name).collect()));
+            let names = ITEMS.iter().map(|item| item.name);
+            return Err(unknown(word, &names.collect::<Vec<_>>()));
         }
     }
-    Ok(Selection(words.to_vec()))
+    Ok(Selection {
+        words: words.to_vec(),
+        met: BTreeSet::new(),
+        known: Vec::new(),
+    })
 }
 
 impl Selection {
     /// The items that have to be run.
     pub(crate) fn items(&self) -> Vec<Item> {
+        let words = &self.words;
         let meant =
-            |item: &&Item| self.0.is_empty() || self.0.iter().any(|word| is_meant(item, word));
+            |item: &&Item| words.is_empty() || words.iter().any(|word| is_meant(item, word));
         ITEMS.iter().filter(meant).copied().collect()
     }
 
-    /// The rows that were asked for; a word that no row begins with is a mistake.
-    pub(crate) fn rows(&self, mut rows: Vec<Row>) -> Result<Vec<Row>, Failure> {
-        for word in &self.0 {
-            if !rows.iter().any(|row| row.row.starts_with(word)) {
-                return Err(unknown(word, rows.iter().map(|row| &*row.row).collect()));
+    /// Those of the `rows` of `item` that were asked for, and the one that says that it failed.
+    pub(crate) fn rows_of(&mut self, item: &Item, rows: Vec<Row>) -> Vec<Row> {
+        if self.words.is_empty() {
+            return rows;
+        }
+        self.known.extend(rows.iter().map(|row| row.row.clone()));
+        let mut is_wanted = vec![false; rows.len()];
+        for (place, word) in self.words.iter().enumerate() {
+            if !is_meant(item, word) {
+                continue;
+            }
+            let is_exact = rows.iter().any(|row| row.row == *word);
+            for (row, is_wanted) in rows.iter().zip(&mut is_wanted) {
+                let begins = row.row.starts_with(word) && (row.row == *word || !is_exact);
+                if row_of(item, word).is_none() || row.mark == Some(Mark::Failed) || begins {
+                    *is_wanted = true;
+                    self.met.insert(place);
+                }
             }
         }
-        rows.retain(|row| self.0.is_empty() || self.0.iter().any(|word| row.row.starts_with(word)));
-        Ok(rows)
+        let wanted = rows.into_iter().zip(is_wanted);
+        wanted
+            .filter_map(|(row, is_wanted)| is_wanted.then_some(row))
+            .collect()
+    }
+
+    /// When all items have run: a word that no row begins with is a mistake.
+    pub(crate) fn check(&self) -> Result<(), Failure> {
+        let missed = (0..self.words.len()).find(|place| !self.met.contains(place));
+        match missed {
+            None => Ok(()),
+            Some(place) => {
+                let known: Vec<&str> = self.known.iter().map(|row| &**row).collect();
+                Err(unknown(&self.words[place], &known))
+            }
+        }
     }
 }
 
 fn is_meant(item: &Item, word: &str) -> bool {
-    let row_of_it = word
-        .strip_prefix(item.name)
-        .is_some_and(|rest| rest.starts_with('/'));
-    item.name.starts_with(word) || row_of_it
+    let is_exact = ITEMS.iter().any(|item| item.name == word);
+    match is_exact {
+        true => item.name == word,
+        false => item.name.starts_with(word) || row_of(item, word).is_some(),
+    }
 }
 
-fn unknown(word: &str, known: Vec<&str>) -> Failure {
+/// What follows the item's name, of a word that names its rows.
+fn row_of<'w>(item: &Item, word: &'w str) -> Option<&'w str> {
+    word.strip_prefix(item.name)?.strip_prefix('/')
+}
+
+fn unknown(word: &str, known: &[&str]) -> Failure {
     Failure::input(format!(
         "there is no row `{word}`; the nearest is `{}`, and there are {}",
-        nearest(word, &known),
+        nearest(word, known),
         known.join(", ")
     ))
 }
@@ -66,8 +115,16 @@ mod tests {
     fn a_word_selects_by_its_beginning() {
         assert_eq!(words(&[]).unwrap().len(), ITEMS.len());
         assert_eq!(words(&["table-3-1/nodes"]).unwrap(), ["table-3-1"]);
-        let figures = ["figure-3-3", "figure-3-4", "figure-3-7"];
-        assert_eq!(words(&["figure-3"]).unwrap(), figures);
+        let figures = words(&["figure-3"]).unwrap();
+        assert_eq!(figures.len(), 7);
+        assert!(figures.iter().all(|name| name.starts_with("figure-3-")));
+        assert_eq!(words(&["chapter-5"]).unwrap().len(), 4);
+    }
+
+    #[test]
+    fn an_exact_name_selects_nothing_else() {
+        assert_eq!(words(&["figure-5-1"]).unwrap(), ["figure-5-1"]);
+        assert_eq!(words(&["figure-7-1"]).unwrap(), ["figure-7-1"]);
     }
 
     #[test]

@@ -1,41 +1,54 @@
 //! The rows for a person.
 
-use super::Row;
+use super::mark::Mark;
+use super::{Item, Row};
+
+/// The name and title of `item` over its rows.
+pub(crate) fn section(item: &Item, rows: &[Row]) -> String {
+    format!("{}: {}\n\n{}", item.name, item.title, table(rows))
+}
+
+/// What the marks of `rows` mean; empty without one.
+pub(crate) fn legend(rows: &[Row]) -> String {
+    let is_used = |mark: &Mark| rows.iter().any(|row| row.mark == Some(*mark));
+    let used = Mark::ALL.into_iter().filter(is_used);
+    used.map(|mark| format!("{}: {}.\n", mark.word(), mark.meaning()))
+        .collect()
+}
+
+const NAMES: [&str; 8] = [
+    "row",
+    "published",
+    "ours",
+    "unit",
+    "ratio",
+    "took [s]",
+    "note",
+    "mark",
+];
 
 /// Aligned columns, and the notes below as numbered lines.
-pub(crate) fn table(rows: &[Row]) -> String {
+fn table(rows: &[Row]) -> String {
     let mut notes: Vec<&str> = Vec::new();
-    let mut lines = vec![
-        [
-            "row",
-            "published",
-            "ours",
-            "unit",
-            "ratio",
-            "took [s]",
-            "note",
-        ]
-        .map(str::to_owned),
-    ];
+    let mut lines = vec![NAMES.map(str::to_owned)];
     for row in rows {
         lines.push(cells(row, number_of(&row.note, &mut notes)));
     }
-    let widths: Vec<usize> = (0..7)
-        .map(|column| {
-            lines
-                .iter()
-                .map(|line| line[column].chars().count())
-                .max()
-                .unwrap_or(0)
-        })
+    let is_empty = |column: usize| lines[1..].iter().all(|line| line[column].is_empty());
+    let columns: Vec<usize> = (0..NAMES.len())
+        .filter(|&column| column != 7 || !is_empty(column))
         .collect();
+    let width = |column: usize| {
+        let widths = lines.iter().map(|line| line[column].chars().count());
+        widths.max().unwrap_or(0)
+    };
     let mut text = String::new();
     for line in &lines {
-        for (column, cell) in line.iter().enumerate() {
-            let width = widths[column];
+        for &column in &columns {
+            let (cell, width) = (&line[column], width(column));
             // Words to the left, numbers to the right.
             let padded = match column {
-                0 | 3 => format!("{cell:<width$}  "),
+                0 | 3 | 7 => format!("{cell:<width$}  "),
                 _ => format!("{cell:>width$}  "),
             };
             text.push_str(&padded);
@@ -43,18 +56,22 @@ pub(crate) fn table(rows: &[Row]) -> String {
         text.truncate(text.trim_end().len());
         text.push('\n');
     }
-    for row in rows.iter().filter(|row| row.file.is_some()) {
-        let file = row.file.iter().map(|file| file.display().to_string());
-        text.push_str(&format!("\n{}: {}", row.row, file.collect::<String>()));
-    }
-    text.push('\n');
-    for (number, note) in notes.iter().enumerate() {
-        text.push_str(&format!("\n[{}] {note}", number + 1));
-    }
-    text
+    let files = rows
+        .iter()
+        .filter_map(|row| Some((row, row.file.as_ref()?)));
+    let files: String = files
+        .map(|(row, file)| format!("{}: {}\n", row.row, file.display()))
+        .collect();
+    let notes = notes.iter().enumerate();
+    let notes: String = notes
+        .map(|(place, note)| format!("[{}] {note}\n", place + 1))
+        .collect();
+    let parts = [text, files, notes].into_iter();
+    let parts = parts.filter(|part| !part.is_empty());
+    parts.map(|part| part + "\n").collect()
 }
 
-fn cells(row: &Row, note: String) -> [String; 7] {
+fn cells(row: &Row, note: String) -> [String; 8] {
     [
         row.row.clone(),
         number(row.published),
@@ -66,6 +83,7 @@ fn cells(row: &Row, note: String) -> [String; 7] {
         number(row.ratio),
         format!("{:.1}", row.seconds),
         note,
+        row.mark.map_or("", Mark::word).to_owned(),
     ]
 }
 

@@ -3,7 +3,7 @@ use serde_json::Value;
 use crate::{json, palpate_in, stdout};
 
 /// The keys of the contract, all of them and no others.
-const KEYS: [&str; 8] = [
+const KEYS: [&str; 9] = [
     "row",
     "published",
     "ours",
@@ -11,6 +11,7 @@ const KEYS: [&str; 8] = [
     "ratio",
     "file",
     "note",
+    "mark",
     "seconds",
 ];
 

@@ -62,6 +62,11 @@ fn table_5_1_is_what_the_analysis_returns() {
             cell(&format!("{number_of}_n")),
             "{row}"
         );
+        let mark = match row["ours"].is_null() {
+            true => "not_computed",
+            false => "pipeline_only",
+        };
+        assert_eq!(row["mark"], mark, "{row}");
         match row["ours"].as_f64() {
             Some(ours) => {
                 let published = number(row, "published");
@@ -264,4 +269,6 @@ fn laws_are_found_again_from_full_runs() {
 fn the_tube_is_stiffer_than_the_half_space_says() {
     let (_folder, rows) = reproduce(&["figure-6-15"]);
     assert!(number(find(&rows, "figure-6-15/tube_modulus"), "ratio") > 2.0);
+    let too_deep = find(&rows, "figure-6-15/8_mm");
+    assert!(too_deep["ours"].is_null() && too_deep["mark"] == "not_computed");
 }

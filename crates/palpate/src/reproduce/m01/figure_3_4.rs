@@ -14,6 +14,7 @@ use crate::reproduce::{Item, Rows};
 pub(crate) const FIGURE_3_4: Item = Item {
     name: "figure-3-4",
     title: "force at the pole against the number of particles",
+    seconds: 11.0,
     run,
 };
 

@@ -11,6 +11,7 @@ use crate::reproduce::{Item, Rows};
 pub(crate) const GROWTH: Item = Item {
     name: "table-4-1/growth",
     title: "how time and memory grow with the triangles of a kidney; takes minutes",
+    seconds: 200.0,
     run,
 };
 

@@ -13,16 +13,19 @@ pub(crate) const TABLE_4_1: [Item; 3] = [
     Item {
         name: "table-4-1/cube",
         title: "boundary elements of a cube, beforehand and on line",
+        seconds: 0.78,
         run: |rows| run(rows, MODELS[0]),
     },
     Item {
         name: "table-4-1/kidney_graphic",
         title: "boundary elements of a coarse kidney",
+        seconds: 4.5,
         run: |rows| run(rows, MODELS[1]),
     },
     Item {
         name: "table-4-1/kidney_visible_human",
         title: "boundary elements of a fine kidney; takes minutes",
+        seconds: 290.0,
         run: |rows| run(rows, MODELS[2]),
     },
 ];

@@ -13,6 +13,7 @@ use crate::reproduce::{Item, Rows};
 pub(crate) const FIGURE_4_6: Item = Item {
     name: "figure-4-6",
     title: "a pressed cube: coarse, with finer triangles at the tip, and smoothed",
+    seconds: 4.5,
     run,
 };
 

@@ -22,21 +22,25 @@ pub(crate) const CHAPTER_5: [Item; 4] = [
     Item {
         name: "chapter-5/liver",
         title: "chapter 5 again: the liver of ten virtual animals under the virtual rig",
+        seconds: 33.0,
         run: |rows| run(rows, "liver"),
     },
     Item {
         name: "chapter-5/esophagus",
         title: "the same of the esophagus of eight",
+        seconds: 25.0,
         run: |rows| run(rows, "esophagus"),
     },
     Item {
         name: "chapter-5/kidney",
         title: "the same of the kidney of five",
+        seconds: 17.0,
         run: |rows| run(rows, "kidney"),
     },
     Item {
         name: "chapter-5/spleen",
         title: "the same of the spleen of four",
+        seconds: 11.0,
         run: |rows| run(rows, "spleen"),
     },
 ];
@@ -93,7 +97,7 @@ fn run(rows: &mut Rows<'_>, organ: &'static str) -> Result<(), Failure> {
     }
     let animals_note = "published: animals of this organ in appendix A, each of which is pressed twice at each depth";
     let count = Value::beside(APPENDIX_A.sum(organ), specimens.len() as f64, "1");
-    rows.add("animals", count, animals_note);
+    rows.add_pipeline_only("animals", count, animals_note);
     let mut drawn = Vec::new();
     let mut squares = Vec::new();
     for (printed, spread) in Printed::all(organ).iter().zip(&spreads) {
@@ -210,7 +214,7 @@ fn add_static(rows: &mut Rows<'_>, (printed, spread): (&Printed, &Spread), row: 
             1e3 * put_in
         );
         let value = Value::beside(Some(published), ours, "N");
-        rows.add(&format!("{}_mm/{word}", printed.depth_mm), value, note);
+        rows.add_pipeline_only(&format!("{}_mm/{word}", printed.depth_mm), value, note);
     }
     let spreads = [
         (

@@ -15,6 +15,7 @@ use crate::reproduce::{Item, Rows};
 pub(crate) const FIGURE_5_12: Item = Item {
     name: "figure-5-12",
     title: "recordings of the liver under ramps and holds",
+    seconds: 0.99,
     run: |rows| run(rows, "liver", &[8, 6, 4, 2]),
 };
 
@@ -22,6 +23,7 @@ pub(crate) const FIGURE_5_12: Item = Item {
 pub(crate) const FIGURE_5_13: Item = Item {
     name: "figure-5-13",
     title: "recordings of the kidney under ramps and holds",
+    seconds: 1.5,
     run: |rows| run(rows, "kidney", &[8, 6, 5, 4, 2, 1]),
 };
 
@@ -62,7 +64,7 @@ fn run(rows: &mut Rows<'_>, organ: &str, depths: &[u32]) -> Result<(), Failure> 
         };
         let printed = Printed::of(organ, depth_mm).map(|row| row.mean);
         let steady = Value::beside(printed, relaxation.steady_n, "N");
-        rows.add(&name("steady"), steady, STEADY_NOTE);
+        rows.add_pipeline_only(&name("steady"), steady, STEADY_NOTE);
         let settle = Value::beside(settled, relaxation.settle_s, "s");
         rows.add(&name("settled_after"), settle, SETTLED_NOTE);
         match clean.handling.ripple {

@@ -15,6 +15,7 @@ use crate::reproduce::{Item, Rows};
 pub(crate) const SECTION_5_2_2: Item = Item {
     name: "section-5-2-2",
     title: "whether the device disturbs what it measures",
+    seconds: 4.8,
     run,
 };
 
@@ -28,22 +29,22 @@ const FASTEST: f64 = 0.05;
 const CYCLES: f64 = 10.0;
 const SHORTEST: f64 = 2.0;
 /// [Hz]
-const FREQUENCIES: [f64; 10] = [0.5, 1.0, 2.0, 3.0, 5.0, 7.0, 10.0, 20.0, 30.0, 50.0];
+const FREQUENCIES: [f64; 10] = [0.5, 1.0, 2.0, 3.0, 5.0, 7.0, 10.0, 20.0, 30.0, 35.0];
 
 const NOTE: &str = "the source says that its dynamics \"does not influence the measured data\" below 30 Hz; ours: what `analyze` reads of a \
     spring of 10 N/m under the virtual rig. The claim holds for another reason than a stiff device: force and depth are both measured at \
     the tip, so that what the device does to one it does to the other";
 
-const BELOW_NOTE: &str = "published: \"less than 30 Hz\"; ours: the highest frequency that was tried below which the stiffness is read within \
-    1 dB; `figure-5-6` has what the device alone would allow";
+const BELOW_NOTE: &str = "published: \"less than 30 Hz\"; ours: up to where the stiffness is read within 1 dB; at least, because the \
+    rig's limit of speed stops a faster swing of this size, and the analysis does not see a smaller one. `figure-5-6` has what the device alone would allow";
 
 fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
     let depth = 2.0 * MIDDLE;
     let response = IndentationCurve::through(&[depth], &[SPRING * depth]);
     let relaxed = (PronySeries::new(&[])?, 1.0);
     let spring = VirtualSpecimen::of_response(&response, relaxed, RADIUS);
-    let (mut stiffness, mut phases, mut below) = (Vec::new(), Vec::new(), None);
-    let mut within = true;
+    let (mut stiffness, mut phases) = (Vec::new(), Vec::new());
+    let (mut below, mut is_bound) = (None, true);
     for frequency in FREQUENCIES {
         let amplitude = AMPLITUDE.min(FASTEST / (std::f64::consts::TAU * frequency));
         let stimulus = Stimulus::Swing {
@@ -57,12 +58,12 @@ fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
         let name = |word: &str| format!("{word}/{frequency}_hz");
         let Some(swing) = analyze(&clean).sinusoids.first().copied() else {
             rows.add_missing(&name("stiffness"), "%", "no swing is seen in the recording");
-            within = false;
             continue;
         };
         let ratio = swing.stiffness_n_per_m / SPRING;
-        within &= (20.0 * ratio.log10()).abs() < 1.0;
-        if within {
+        // What was not seen says nothing of the device.
+        is_bound &= (20.0 * ratio.log10()).abs() < 1.0;
+        if is_bound {
             below = Some(frequency);
         }
         let off = 100.0 * (ratio - 1.0);
@@ -77,7 +78,10 @@ fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
         ours: below,
         unit: "Hz",
     };
-    rows.add("unaffected_below", value, BELOW_NOTE);
+    match is_bound {
+        true => rows.add_at_least("unaffected_below", value, BELOW_NOTE),
+        false => rows.add("unaffected_below", value, BELOW_NOTE),
+    }
     rows.add_figure(None, &drawn(stiffness, phases), NOTE)
 }
 

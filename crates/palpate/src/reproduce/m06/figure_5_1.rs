@@ -6,6 +6,7 @@ use crate::reproduce::{Item, Rows};
 pub(crate) const FIGURE_5_1: Item = Item {
     name: "figure-5-1",
     title: "static response of the liver in vivo; after death nothing is printed",
+    seconds: 0.3,
     run,
 };
 

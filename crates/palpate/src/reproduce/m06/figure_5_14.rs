@@ -7,6 +7,7 @@ use crate::reproduce::{Item, Rows};
 pub(crate) const FIGURE_5_14: Item = Item {
     name: "figure-5-14",
     title: "static responses of four organs",
+    seconds: 0.18,
     run,
 };
 

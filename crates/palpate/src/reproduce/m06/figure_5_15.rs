@@ -10,6 +10,7 @@ use crate::reproduce::{Item, Rows};
 pub(crate) const FIGURE_5_15: Item = Item {
     name: "figure-5-15",
     title: "response to a swing of 2 Hz: force over time and over depth",
+    seconds: 2.3,
     run,
 };
 

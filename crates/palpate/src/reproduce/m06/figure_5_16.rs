@@ -7,6 +7,7 @@ use crate::reproduce::{Item, Rows};
 pub(crate) const FIGURE_5_16: Item = Item {
     name: "figure-5-16",
     title: "stiffness of the organs over frequency",
+    seconds: 7.9,
     run,
 };
 

@@ -15,6 +15,7 @@ use crate::reproduce::{Item, Rows};
 pub(crate) const FIGURE_6_4: Item = Item {
     name: "figure-6-4",
     title: "force on the liver and Kelvin's law",
+    seconds: 0.32,
     run,
 };
 

@@ -8,6 +8,7 @@ use crate::reproduce::{Item, Rows};
 pub(crate) const FIGURE_6_12: Item = Item {
     name: "figure-6-12",
     title: "static force of the pig's liver and of the two laws",
+    seconds: 180.0,
     run,
 };
 

@@ -7,6 +7,7 @@ use crate::reproduce::{Item, Rows};
 pub(crate) const FIGURE_6_7: Item = Item {
     name: "figure-6-7",
     title: "the relaxation of the liver as Abaqus takes it",
+    seconds: 0.1,
     run,
 };
 

@@ -8,6 +8,7 @@ use crate::reproduce::{Item, Rows};
 pub(crate) const FIGURE_6_8: Item = Item {
     name: "figure-6-8",
     title: "force on the block with the published laws beside the measured means",
+    seconds: 180.0,
     run,
 };
 

@@ -11,12 +11,14 @@ use crate::reproduce::{Item, Rows};
 pub(crate) const FIGURE_6_9: Item = Item {
     name: "figure-6-9",
     title: "convergence of the neo-Hookean law from the printed start",
+    seconds: 0.21,
     run: |rows| run(rows, SoughtLaw::NeoHookean, TABLE_6_4, &ORGANS, &["c10"]),
 };
 
 pub(crate) const FIGURE_6_10: Item = Item {
     name: "figure-6-10",
     title: "convergence of the Mooney-Rivlin law from the printed start",
+    seconds: 0.22,
     run: |rows| {
         run(
             rows,

@@ -89,7 +89,7 @@ impl Model {
     }
 
     /// Forces [N] with these parameters; none where there is no such tissue.
-    fn forces(&self, parameters: &[f64]) -> Option<Vec<f64>> {
+    pub(super) fn forces(&self, parameters: &[f64]) -> Option<Vec<f64>> {
         match self {
             Self::Indented {
                 curves,
@@ -146,6 +146,12 @@ impl Model {
 }
 
 impl Model {
+    /// The parameters that this project's fit finds in the forces `measured` [N], from `start`.
+    pub(super) fn found(&self, start: &[f64], measured: &[f64]) -> Result<Vec<f64>, Failure> {
+        let last = self.own_way(start, measured)?.pop();
+        last.ok_or_else(|| Failure::failed("a fit without a step; please report this"))
+    }
+
     fn residuals(&self, parameters: &[f64], measured: &[f64], residuals: &mut [f64]) -> Option<()> {
         let forces = self.forces(parameters)?;
         for (place, residual) in residuals.iter_mut().enumerate() {

@@ -1,12 +1,11 @@
 use palpate_characterize::inverse::{
     Body, Curves, Indentation, LawDescription, SoughtLaw, law_fit,
 };
-use palpate_characterize::lumped::{Contact, column_size};
 use palpate_characterize::viscoelastic::{Course, RelaxationSettings, relaxation};
 
+use super::equation_6_17::Column;
 use super::full_run::felt;
 use crate::failure::Failure;
-use crate::reproduce::m06::Printed;
 use crate::reproduce::published::{
     TABLE_5_1, TABLE_6_4 as NEO_HOOKEAN, TABLE_6_5 as MOONEY_RIVLIN, Table, prony,
 };
@@ -17,12 +16,14 @@ use crate::reproduce::{Item, Rows};
 pub(crate) const TABLE_6_4: Item = Item {
     name: "table-6-4",
     title: "neo-Hookean law found again from full viscoelastic runs",
+    seconds: 12.0,
     run: |rows| run(rows, SoughtLaw::NeoHookean, NEO_HOOKEAN),
 };
 
 pub(crate) const TABLE_6_5: Item = Item {
     name: "table-6-5",
     title: "Mooney-Rivlin law found again from full viscoelastic runs",
+    seconds: 14.0,
     run: |rows| run(rows, SoughtLaw::MooneyRivlin, MOONEY_RIVLIN),
 };
 
@@ -65,31 +66,20 @@ fn run(rows: &mut Rows<'_>, law: SoughtLaw, table: Table) -> Result<(), Failure>
     Ok(())
 }
 
-/// (6.17) on the means of table 5-1, with a column as long as figure 6-3 takes it.
+/// (6.17) and (6.18), which have their own items.
 fn add_initial(rows: &mut Rows<'_>, (organ, table): (&str, Table), law: SoughtLaw) {
-    let deepest = Printed::all(organ)
-        .last()
-        .map_or(0.0, |row| f64::from(row.depth_mm));
-    let [area, length] = column_size(Contact::Flat(RADIUS), 1e-3 * deepest);
-    let (mut products, mut squares) = (0.0, 0.0);
-    for row in Printed::all(organ) {
-        let stretch = 1.0 - 1e-3 * f64::from(row.depth_mm) / length;
-        let per_modulus = 2.0 * (1.0 / (stretch * stretch) - stretch);
-        products += per_modulus * row.mean / area;
-        squares += per_modulus * per_modulus;
-    }
-    let own = (law == SoughtLaw::NeoHookean).then_some(products / squares);
-    let note = format!(
-        "initial value; ours: (6.17) on the means of table 5-1 with the probe's face, {:.2} mm², and a column of {:.0} mm; the source \
-         gives neither the area nor the length that it took, and no fixed pair returns its value for both organs; (6.18) has the same \
-         freedom, and is not tried",
-        1e6 * area,
-        1e3 * length
-    );
-    for name in names(law) {
+    let column = Column::of(organ);
+    let own: Option<Vec<f64>> = match law {
+        SoughtLaw::NeoHookean => Some(vec![column.neo_hookean()]),
+        _ => column
+            .mooney_rivlin()
+            .map(|found| found.as_slice().to_vec()),
+    };
+    let note = format!("initial value; ours: {}", column.note());
+    for (place, name) in names(law).iter().enumerate() {
         let value = Value {
             published: table.value(organ, &format!("initial_{name}")),
-            ours: own,
+            ours: own.as_ref().map(|own| own[place]),
             unit: "Pa",
         };
         let word = name.trim_end_matches("_pa");
@@ -109,7 +99,7 @@ fn add(rows: &mut Rows<'_>, (organ, table): (&str, Table), truth: &[f64], found:
     for (place, (name, estimate)) in found.parameters.iter().enumerate() {
         let value = Value::beside(truth.get(place).copied(), estimate.value, "Pa");
         let word = name.trim_end_matches("_pa");
-        rows.add(&format!("{organ}/{word}"), value, NOTE);
+        rows.add_pipeline_only(&format!("{organ}/{word}"), value, NOTE);
     }
     if truth.len() > 1 {
         let sum: f64 = found
@@ -122,7 +112,7 @@ fn add(rows: &mut Rows<'_>, (organ, table): (&str, Table), truth: &[f64], found:
             "C10 + C01, which is all that such a recording knows well: their correlation is {:.4}; {NOTE}",
             found.correlation.unwrap_or(0.0)
         );
-        rows.add(&format!("{organ}/sum"), value, note);
+        rows.add_pipeline_only(&format!("{organ}/sum"), value, note);
     }
     let steps = found.found.fit.iterations.len().saturating_sub(1);
     let note = format!(

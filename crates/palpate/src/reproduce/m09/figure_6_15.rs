@@ -16,6 +16,7 @@ use crate::reproduce::{Item, Rows};
 pub(crate) const FIGURE_6_15: Item = Item {
     name: "figure-6-15",
     title: "the probe on the esophagus as a tube; takes minutes",
+    seconds: 52.0,
     run,
 };
 
@@ -23,7 +24,10 @@ const ACCURACY: f64 = 0.1;
 
 fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
     let organ = printed()?;
-    let measured = Printed::all("esophagus");
+    let outer_mm = 1e3 * organ.tube.outer_radius;
+    let (measured, too_deep): (Vec<Printed>, Vec<Printed>) = Printed::all("esophagus")
+        .into_iter()
+        .partition(|row| f64::from(row.depth_mm) < outer_mm);
     let (curve, error) = indented(rows, organ.tube, &measured)?;
     let series = organ.series()?;
     let note = format!(
@@ -41,9 +45,21 @@ fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
         );
         rows.add(&name, Value::beside(Some(row.mean), own, "N"), remark);
     }
+    for row in too_deep {
+        let value = Value {
+            published: Some(row.mean),
+            ours: None,
+            unit: "N",
+        };
+        let reason = format!(
+            "deeper than the outer radius of {outer_mm} mm, where the walls have met: this model has no contact of a wall with itself, and \
+             `palpate solve` refuses it"
+        );
+        rows.add(&format!("{}_mm", row.depth_mm), value, reason);
+    }
     let modulus = nearest_modulus(&curve, &measured);
     let remark = format!(
-        "published as found with the tube; ours: the tube whose steady forces come nearest to all means of table 5-1, without relaxation, so \
+        "published as found with the tube; ours: the tube whose steady forces come nearest to the means of table 5-1 down to 6 mm, without relaxation, so \
          that it is a relaxed modulus; a tube gives way as a whole, so its tissue has to be several times stiffer than (6.1) says; {note}"
     );
     let value = Value::beside(Some(organ.modulus_kpa), modulus, "kPa");

@@ -8,6 +8,7 @@ use crate::reproduce::{Item, Rows};
 pub(crate) const FIGURE_5_6: Item = Item {
     name: "figure-5-6",
     title: "the indenting device as two masses: force on a tip that is held, over frequency",
+    seconds: 1.2,
     run,
 };
 

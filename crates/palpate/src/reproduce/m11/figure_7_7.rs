@@ -12,6 +12,7 @@ use crate::reproduce::{Item, Rows};
 pub(crate) const FIGURE_7_7: Item = Item {
     name: "figure-7-7",
     title: "what the hand feels of the device alone, over frequency",
+    seconds: 2.6,
     run,
 };
 

@@ -9,6 +9,7 @@ use crate::reproduce::{Item, Rows};
 pub(crate) const FIGURE_7_8: Item = Item {
     name: "figure-7-8",
     title: "how much of the motor's force comes to the hand, over frequency",
+    seconds: 2.4,
     run,
 };
 

@@ -10,6 +10,7 @@ use crate::reproduce::{Item, Rows};
 pub(crate) const SECTION_7_3: Item = Item {
     name: "section-7-3",
     title: "whether a hand feels the tissue through the device",
+    seconds: 0.17,
     run,
 };
 

@@ -10,18 +10,21 @@ use crate::reproduce::{Item, Rows};
 pub(crate) const FIGURE_7_12: Item = Item {
     name: "figure-7-12",
     title: "the esophagus without a texture, with one, and with a sphere map",
+    seconds: 8.5,
     run: figure_7_12,
 };
 
 pub(crate) const FIGURE_3_7: Item = Item {
     name: "figure-3-7",
     title: "palpation of a liver with the local model",
+    seconds: 3.4,
     run: figure_3_7,
 };
 
 pub(crate) const FIGURE_4_7: Item = Item {
     name: "figure-4-7",
     title: "palpation of a kidney with the global model",
+    seconds: 3.7,
     run: figure_4_7,
 };
 

@@ -12,12 +12,14 @@ use crate::reproduce::{Item, Rows};
 pub(crate) const FIGURE_7_18: Item = Item {
     name: "figure-7-18",
     title: "the lower esophagus pulled by a grasper, and palpated; takes minutes",
+    seconds: 35.0,
     run: figure_7_18,
 };
 
 pub(crate) const FIGURE_7_19: Item = Item {
     name: "figure-7-19",
     title: "a cut in the lower esophagus; takes minutes",
+    seconds: 9.0,
     run: figure_7_19,
 };
 

@@ -77,6 +77,9 @@ fn an_answer_that_exists_is_replaced_when_that_is_asked_for() {
     assert_asks(folder, line, &["a.json", "a.html"]);
     let line = "characterize a1.csv --law neo_hookean --draws 0 --out t.toml --abaqus t.inp --febio t.feb --report t.html";
     assert_asks(folder, line, &["t.toml", "t.inp", "t.feb", "t.html"]);
+    // Finished rows are appended to, never replaced.
+    fs::create_dir(folder.join("figures")).unwrap();
+    fs::write(folder.join("figures/rows.jsonl"), "").unwrap();
     let line = "reproduce figure-4-5 --out figures";
     assert_asks(folder, line, &["figures/figure-4-5.png"]);
 }
