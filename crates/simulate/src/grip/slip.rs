@@ -9,7 +9,7 @@
 //! ```
 //!
 //! |q′| falls with γ ≥ 0. The tissue goes where it is pulled, so that a slide only takes energy. Where another tool
-//! gives way along with it, less of the pull goes than S says; the next slide is longer by as much.
+//! touches the organ, more or less of the pull goes than S says; the next slide is as much shorter or longer.
 
 use nalgebra::{Matrix2, Matrix3, Vector2};
 use palpate_geometry::Vec3;
@@ -24,27 +24,30 @@ const BEYOND: f64 = 1e-9;
 /// What the slides of a step have done so far.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Slides {
-    /// The pull beyond what friction bears before the last one [N]; none before the first.
-    beyond: Option<f64>,
+    /// The direction of the pull before the last one [-] and how far it was beyond what friction bears [N]; none before
+    /// the first.
+    before: Option<(Vector2<f64>, f64)>,
     /// The length of a slide over that in an organ which only this tool touches [-].
     longer: f64,
 }
 
-/// A slide is longer than that at most [-]: the coupling of two tools is bounded (`global`).
+/// A slide is longer or shorter by that at most [-]: the coupling of two tools is bounded (`global`).
 const LONGEST: f64 = 200.0;
 
 impl Slides {
     pub(super) const NONE: Self = Self {
-        beyond: None,
+        before: None,
         longer: 1.0,
     };
 
-    /// How long the next slide is [-], where the pull is `beyond` [N] what friction bears.
-    fn next(&mut self, beyond: f64) -> f64 {
-        if let Some(before) = self.beyond.replace(beyond) {
-            let gone = 1.0 - beyond / before;
+    /// How long the next slide is [-], where the `pull` [N] is beyond the `limit` [N] that friction bears: the secant
+    /// through the last two.
+    fn next(&mut self, pull: &Vector2<f64>, limit: f64) -> f64 {
+        let size = pull.norm();
+        if let Some((direction, beyond)) = self.before.replace((pull / size, size - limit)) {
+            let gone = 1.0 - (pull.dot(&direction) - limit) / beyond;
             self.longer = match gone > 0.0 {
-                true => (self.longer / gone).min(LONGEST),
+                true => (self.longer / gone).clamp(1.0 / LONGEST, LONGEST),
                 false => 1.0,
             };
         }
@@ -76,10 +79,10 @@ pub(super) fn slip(
     let at_once = (felt(state.elastic + Vec3::x()) - force).x;
     let pull = turned.inverse() * force;
     let stiffness = turned.matrix().tr_mul(&state.stiffness) * turned.matrix() * at_once;
-    let Some((by, beyond)) = slide(&pull, &stiffness, limit) else {
+    let Some((by, pull)) = slide(&pull, &stiffness, limit) else {
         return false;
     };
-    let longer = state.grip.slides.next(beyond);
+    let longer = state.grip.slides.next(&pull, limit);
     if let Some(hold) = &mut state.grip.hold {
         hold.slide(&(by * longer));
     }
@@ -87,8 +90,8 @@ pub(super) fn slip(
 }
 
 /// How far tissue slides [m] that is pulled by `pull` [N] and answers with `stiffness` [N/m], all in the tool's frame, and
-/// how far the pull is beyond what friction bears, `limit` [N]; none where it is not.
-fn slide(pull: &Vec3, stiffness: &Matrix3<f64>, limit: f64) -> Option<(Vec3, f64)> {
+/// the part of the pull [N] that it slides by; none where friction bears the `limit` [N] of it.
+fn slide(pull: &Vec3, stiffness: &Matrix3<f64>, limit: f64) -> Option<(Vec3, Vector2<f64>)> {
     let aside = Vector2::new(pull.y, 0.0);
     let out = Vector2::new(pull.y, pull.z);
     let outward = pull.z < 0.0;
@@ -123,7 +126,7 @@ fn slide(pull: &Vec3, stiffness: &Matrix3<f64>, limit: f64) -> Option<(Vec3, f64
     let by = left(high)? * high;
     let by = Vec3::new(0.0, by.x, if outward { by.y.min(0.0) } else { 0.0 });
     let slides = by.norm() > 0.0 && by.iter().all(|component| component.is_finite());
-    slides.then_some((by, size - limit))
+    slides.then_some((by, pull))
 }
 
 #[cfg(test)]
@@ -152,17 +155,20 @@ mod tests {
         assert!((all.z + 4e-3).abs() < 1e-9, "{all}");
     }
 
-    /// Judge: an organ of which another tool takes a part: only 1/50 of a slide's force goes, and the second slide has all
-    /// of the rest.
+    /// Judge: springs of 2 and of 220 N/m that are taken for 100: the second slide, of the length that the first has
+    /// shown, leaves what friction bears.
     #[test]
-    fn a_slide_that_helps_little_is_made_longer() {
-        let mut slides = Slides::NONE;
-        let mut beyond = 0.5;
-        for _ in 0..2 {
-            // A spring of 100 N/m that answers as one of 2.
-            beyond -= 2.0 * slides.next(beyond) * beyond / 100.0;
+    fn a_slide_learns_from_the_one_before() {
+        for (stiffness, limit) in [(2.0, 0.1), (220.0, 0.0)] {
+            let mut slides = Slides::NONE;
+            let mut pull = Vector2::new(0.0, -0.5);
+            for _ in 0..2 {
+                let longer = slides.next(&pull, limit);
+                let beyond = pull.normalize() * (pull.norm() - limit);
+                pull -= beyond * (longer * stiffness / 100.0);
+            }
+            assert!((pull.norm() - limit).abs() < 1e-12, "{stiffness}: {pull}");
         }
-        assert!(beyond.abs() < 1e-12, "{beyond}");
     }
 
     /// Judge: the definition, in a patch that is softer one way than the other.
@@ -170,8 +176,8 @@ mod tests {
     fn what_is_left_is_the_limit() {
         let stiffness = Matrix3::new(90.0, 5.0, 9.0, 5.0, 140.0, -30.0, 9.0, -30.0, 60.0);
         let pull = Vec3::new(0.2, 0.7, -0.9);
-        let (by, beyond) = slide(&pull, &stiffness, 0.25).unwrap();
-        assert!((beyond - (pull.yz().norm() - 0.25)).abs() < 1e-12);
+        let (by, slid_by) = slide(&pull, &stiffness, 0.25).unwrap();
+        assert_eq!(slid_by, pull.yz());
         let left = pull - stiffness * by;
         assert!((left.yz().norm() - 0.25).abs() < 1e-9);
         assert!(left.yz().dot(&by.yz()) > 0.999_999 * 0.25 * by.norm());
