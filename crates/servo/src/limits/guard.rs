@@ -141,6 +141,7 @@ impl Guard {
     /// The force [N] that may be sent for `wish` at `state`, `dt` [s] after the last.
     pub fn pass(&mut self, wish: &Wish, state: &DeviceState, dt: f64) -> Vec3 {
         self.observe(state, dt);
+        self.follow_hold(state, dt);
         let fault = self.fault_of(wish, state);
         let may_be_sent = match fault {
             Some(fault) => {
@@ -182,6 +183,18 @@ impl Guard {
         self.before = self.last;
     }
 
+    /// Whether somebody holds the device, also while there is a fault.
+    fn follow_hold(&mut self, state: &DeviceState, dt: f64) {
+        let held = self
+            .device
+            .dead_man
+            .is_none_or(|switch| switch.is_held(state));
+        let hold = self.hold.next(held, dt, self.limits.release);
+        let lets_go = self.hold == Hold::Held && hold != Hold::Held;
+        self.interventions.let_go += u64::from(lets_go && self.part() > 0.0);
+        self.hold = hold;
+    }
+
     fn limited(&mut self, wish: &Wish, state: &DeviceState, dt: f64) -> Vec3 {
         self.arm(wish, state, dt);
         let part = self.part();
@@ -212,16 +225,8 @@ impl Guard {
 
     /// How far forces are on after `dt` [s] more.
     fn arm(&mut self, wish: &Wish, state: &DeviceState, dt: f64) {
-        let held = self
-            .device
-            .dead_man
-            .is_none_or(|switch| switch.is_held(state));
-        let hold = self.hold.next(held, dt, self.limits.release);
-        let lets_go = self.hold == Hold::Held && hold != Hold::Held;
-        self.interventions.let_go += u64::from(lets_go && self.part() > 0.0);
-        self.hold = hold;
         let conditions = Conditions {
-            ready: wish.allowed && state.ready && state.present && hold != Hold::Free,
+            ready: wish.allowed && state.ready && state.present && self.hold != Hold::Free,
             allowed: wish.allowed,
             speed: wish.velocity.norm(),
             force: wish.force.norm(),

@@ -148,6 +148,33 @@ fn a_switch_that_is_let_go_of_takes_the_force_in_fifty_milliseconds() {
     assert_eq!(samples[1999].stage, Stage::Off);
 }
 
+/// Judge: zero. What is let go of while a fault keeps forces off is not held when somebody arms.
+#[test]
+fn what_is_let_go_of_in_a_fault_is_not_armed() {
+    let none = Vec3::zeros();
+    let way = vec![at(0.0, none, 1), at(0.7, none, 1), at(0.75, none, 0)];
+    let law = |state: &DeviceState, _: f64| match state.time {
+        time if (0.7..0.854).contains(&time) => Vec3::repeat(f64::NAN),
+        _ => Vec3::x() * 0.01,
+    };
+    let (mut servo, mut reader) = ServoLoop::new(
+        Box::new(handle(way)),
+        Box::new(law),
+        ServoSettings::default(),
+    )
+    .unwrap();
+    let supervisor = reader.supervisor.clone();
+    servo.run(&mut Clock::virtual_time(), |tick| {
+        if tick == 880 {
+            supervisor.arm();
+        }
+        tick < 1000
+    });
+    let samples: Vec<Sample> = reader.log.drain().collect();
+    assert!(samples[699].sent.norm() > 0.0);
+    assert!(samples[700..].iter().all(|sample| sample.sent == none));
+}
+
 /// Without a switch there is half of the force: 1.5 of 3 N.
 #[test]
 fn a_device_without_a_switch_has_half_the_force() {

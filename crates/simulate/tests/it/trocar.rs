@@ -240,11 +240,12 @@ fn a_hand_that_is_nearly_still_does_not_chatter() {
         let mut friction = ShaftFriction::default();
         held(tremor, start, |distance| friction.part(distance, 1e-3))
     };
-    let mut last = 0.1;
+    // Over 10 ms, as the loop measures it.
+    let mut last = [0.1; 11];
     let by_velocity = held(1e-4, 0.0, |distance| {
-        let speed = (distance - last) / 1e-3;
-        last = distance;
-        -(speed / 0.01_f64).tanh()
+        last.rotate_left(1);
+        last[10] = distance;
+        -((last[10] - last[0]) / 0.01 / 0.01_f64).tanh()
     });
     let (moved, turns) = bristles(1e-4, 0.0);
     println!(
