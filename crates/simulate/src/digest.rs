@@ -94,7 +94,9 @@ fn former(scene: &Scene, tissue: &Tissue) -> String {
         &scene.organ.layers,
         &scene.organ.nodules,
     ];
-    parts.map(|part| format!("{part:?}")).concat()
+    let text = parts.map(|part| format!("{part:?}")).concat();
+    // Layers had no toughness of their own then.
+    text.replace(", toughness_j_per_m2: None", "")
 }
 
 /// The canonical text.
@@ -290,9 +292,14 @@ impl Form {
             thickness_m,
             tissue: _,
             perforation_force_n,
+            toughness_j_per_m2,
         } = layer;
         self.numbers("layer", &[*thickness_m]);
         self.optional("perforation_force_n", *perforation_force_n);
+        // Scenes of before layers had it keep their digest.
+        if let Some(toughness) = toughness_j_per_m2 {
+            self.numbers("layer_toughness_j_per_m2", &[*toughness]);
+        }
     }
 
     fn nodule(&mut self, nodule: &Nodule) {

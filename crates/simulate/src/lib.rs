@@ -42,7 +42,7 @@ mod tutor;
 mod walls;
 
 pub use contact::Contact;
-pub use cutting::{Cuts, gape};
+pub use cutting::{CutPart, Cuts, gape};
 pub use error::Error;
 pub use global::{EnhancedSurface, OrganField, ResponseOrigin};
 pub use hand_speed::FASTEST_HAND;

@@ -101,9 +101,10 @@ impl Simulation {
         }
         doubts.extend(check_neighbours(scene)?);
         let cutting = CuttingModel::new(scene, &surface)?;
+        doubts.extend(cutting.iter().filter_map(CuttingModel::doubt));
         if !scene.organ.layers.is_empty() {
             doubts.push(
-                "layers are cut, seen and broken through one by one; to a touch the organ answers as its own \
+                "layers are cut, seen and perforated each by itself; to a touch the organ answers as its own \
                  tissue"
                     .to_owned(),
             );
@@ -129,7 +130,7 @@ impl Simulation {
 
     /// Whether what is cut yields more.
     pub(crate) fn forces_follow_cuts(&self) -> bool {
-        self.cutting.is_some_and(|model| model.changes_force)
+        self.cutting.as_ref().is_some_and(|model| model.changes_force)
     }
 
     /// The organ at rest.
@@ -137,9 +138,21 @@ impl Simulation {
         &self.surface
     }
 
-    /// How deep a cut goes [m]; none where nothing cuts.
-    pub fn cut_depth(&self) -> Option<f64> {
-        self.cutting.map(|cutting| cutting.depth)
+    /// The depths of the lower faces of what a cut can open, from outside [m]: the layers, or the whole cut in an
+    /// organ without layers. Empty where nothing cuts.
+    pub fn cut_depths(&self) -> Vec<f64> {
+        let layers = self.cutting.iter().flat_map(|model| &model.layers);
+        layers.map(|layer| layer.bottom).collect()
+    }
+
+    /// Whether the organ has layers that can be opened.
+    pub fn is_layered(&self) -> bool {
+        self.cutting.as_ref().is_some_and(|model| model.is_layered)
+    }
+
+    /// How far a cut gapes [m]; none where nothing cuts.
+    pub fn cut_width(&self) -> Option<f64> {
+        self.cutting.as_ref().map(|model| model.width)
     }
 
     /// The tools in the scene's order.

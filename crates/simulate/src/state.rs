@@ -108,9 +108,9 @@ pub struct ToolState {
     pub cut_lag: usize,
     /// Where its edge is, while it cuts.
     pub(crate) blade: Option<Blade>,
-    /// Whether it cuts because it was pressed too hard.
-    pub(crate) breaks_through: bool,
-    /// Whether the innermost layer has given way under it.
+    /// How many layers have given way to its force since it touches; with one it is a blade.
+    pub(crate) broken_layers: usize,
+    /// Whether it has opened the innermost layer since it touches.
     pub(crate) perforates: bool,
 }
 
@@ -238,7 +238,7 @@ impl ToolState {
             beyond_trust: false,
             cut_lag: 0,
             blade: None,
-            breaks_through: false,
+            broken_layers: 0,
             perforates: false,
         }
     }

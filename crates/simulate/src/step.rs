@@ -41,8 +41,8 @@ pub fn step(
         let own = &mut state.tools[number];
         let jumps = hand_speed::follow(simulation, pose.as_ref(), elapsed, own);
         own.row.events = jumps | detect(simulation, tool, pose, own);
-        if let Some(model) = &simulation.cutting {
-            cutting::lead(simulation, model, tool, own);
+        if let (Some(model), Some(cuts)) = (&simulation.cutting, &state.cuts) {
+            cutting::lead(simulation, (model, cuts), number, own);
         }
     }
     respond(simulation, state, workspace);

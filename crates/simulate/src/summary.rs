@@ -26,7 +26,7 @@ pub struct Summary {
 }
 
 /// What became of the surface.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct CutSummary {
     /// Cuts that opened something.
     pub count: usize,
@@ -36,8 +36,10 @@ pub struct CutSummary {
     pub largest_lag: usize,
     /// Triangles before the first cut, and after the last.
     pub triangles: [usize; 2],
-    /// Times that the innermost layer was broken through.
+    /// Times that the innermost layer was opened.
     pub perforations: u64,
+    /// Length of the cuts through each layer, from outside [m]; one for an organ without layers.
+    pub through: Vec<f64>,
 }
 
 /// Times that steps took [s].
@@ -168,6 +170,9 @@ impl Tally {
                 triangles: [simulation.surface().mesh(), cuts.mesh()]
                     .map(|mesh| mesh.triangles().len()),
                 perforations: self.perforations,
+                through: (1..=simulation.cut_depths().len())
+                    .map(|layers| cuts.length_through(layers))
+                    .collect(),
             }),
             interrupted,
             warnings,

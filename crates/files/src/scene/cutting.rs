@@ -17,20 +17,20 @@ words! {
 /// ```toml
 /// [cutting]
 /// mode = "split"               # split | snap
-/// depth_m = 0.0015             # default: down to the innermost of the layers
+/// depth_m = 0.0015             # with layers: no blade goes deeper (default: none); without: the depth of a cut
 /// width_m = 0.0015             # how far an opening gapes
-/// toughness_j_per_m2 = 164.0   # the work of a cut per area of its face
+/// toughness_j_per_m2 = 164.0   # the work of a cut per area of its face; a layer may have its own
 /// force_limit_n = 2.0          # a normal force at which any tool begins to cut; default: none
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cutting {
     /// How the surface gives way.
     pub mode: CutMode,
-    /// How deep a cut goes [m]; none when the layers say it.
+    /// How deep a cut goes at most [m], and always in an organ without layers.
     pub depth_m: Option<f64>,
     /// How far an opening gapes in its middle [m].
     pub width_m: f64,
-    /// The work that a cut takes per area of its face [J/m²].
+    /// The work that a cut takes per area of its face [J/m²], in layers that have no toughness of their own.
     pub toughness_j_per_m2: f64,
     /// The normal force at which any tool begins to cut [N]; none when it never does.
     pub force_limit_n: Option<f64>,

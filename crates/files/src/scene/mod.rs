@@ -94,8 +94,10 @@ impl Scene {
             .table("organ", Organ::KEYS)?
             .ok_or_else(|| keys.missing("organ", "a table `[organ]`"))?;
         let neighbours = keys.tables("neighbour", Neighbour::KEYS)?;
+        let touched = Organ::from_keys(&organ, &folder)?;
+        let layers = touched.layers.len();
         let scene = Self {
-            organ: Organ::from_keys(&organ, &folder)?,
+            organ: touched,
             neighbours: neighbours
                 .iter()
                 .map(|keys| Neighbour::from_keys(keys, &folder))
@@ -104,7 +106,11 @@ impl Scene {
             cutting: Cutting::from_keys(keys.table("cutting", Cutting::KEYS)?.as_ref())?,
             tools: tool::from_keys(&keys, &folder)?,
             view: View::from_keys(keys.table("view", View::KEYS)?.as_ref())?,
-            task: Task::from_keys(keys.table("task", Task::KEYS)?.as_ref(), &folder)?,
+            task: Task::from_keys(
+                keys.table("task", Task::KEYS)?.as_ref(),
+                &folder,
+                layers,
+            )?,
             folder,
             written: Some(standing_alone(text, path)?),
             warnings: keys.warnings(),

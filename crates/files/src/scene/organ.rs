@@ -2,7 +2,7 @@ use std::ops::Bound::{Excluded, Included};
 use std::path::Path;
 
 use super::{Region, Shape, TissueChoice};
-use crate::{Domain, Error, Keys};
+use crate::{Domain, Error, Event, Keys};
 
 /// The organ that is touched.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,7 +40,17 @@ pub struct Nodule {
     pub stiffness_ratio: f64,
 }
 
-/// A layer of an organ.
+/// A layer of an organ. A blade opens it where it goes as deep as the layer's lower face, and any tool where the
+/// layer is bare and the normal force exceeds `perforation_force_n`.
+///
+/// ```toml
+/// [[organ.layer]]              # from outside to inside, at most 6
+/// name = "circular muscle"
+/// thickness_m = 0.0008
+/// builtin_tissue = "pig-esophagus"
+/// perforation_force_n = 0.4    # default: it withstands every force
+/// toughness_j_per_m2 = 164.0   # default: that of [cutting]
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layer {
     /// Its name, for people.
@@ -49,8 +59,10 @@ pub struct Layer {
     pub thickness_m: f64,
     /// What it is made of.
     pub tissue: TissueChoice,
-    /// The force on a tool at which it gives way [N]; none when it never does.
+    /// The normal force on a tool at which it gives way when it is bare [N]; none when it never does.
     pub perforation_force_n: Option<f64>,
+    /// The work that a cut through it takes per area of its face [J/m²]; none when `[cutting]` says it.
+    pub toughness_j_per_m2: Option<f64>,
 }
 
 /// A body that is shown beside the organ and not deformed.
@@ -115,6 +127,9 @@ impl Organ {
             table.map(|keys| Region::from_keys(&keys)).transpose()
         };
         let layers = keys.tables("layer", Layer::KEYS)?;
+        if layers.len() > Event::OPENS_LAYER.len() {
+            return Err(keys.bad("layer", "at most 6 layers: a session has an event for each"));
+        }
         let nodules = keys.tables("nodule", Nodule::KEYS)?;
         Ok(Self {
             nodules: nodules
@@ -156,6 +171,7 @@ impl Layer {
         "tissue",
         "builtin_tissue",
         "perforation_force_n",
+        "toughness_j_per_m2",
     ];
 
     fn from_keys(keys: &Keys<'_>, number: usize, folder: &Path) -> Result<Self, Error> {
@@ -165,6 +181,7 @@ impl Layer {
             thickness_m: keys.required_number("thickness_m", Domain::LENGTH)?,
             tissue: TissueChoice::from_keys(keys, folder)?,
             perforation_force_n: keys.number("perforation_force_n", Domain::FORCE)?,
+            toughness_j_per_m2: keys.number("toughness_j_per_m2", Domain::TOUGHNESS)?,
         })
     }
 }

@@ -28,6 +28,7 @@ use crate::{Domain, Error, Keys};
 /// from_m = [0.0, -0.01, 0.015]
 /// to_m = [0.0, -0.01, -0.015]
 /// tolerance_m = 0.002          # how far beside the line still counts
+/// layers = 2                   # how many layers from outside; default: all but the innermost
 /// ```
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Task {
@@ -77,6 +78,8 @@ pub enum Goal {
         to_m: [f64; 3],
         /// How far beside the line still counts [m].
         tolerance_m: f64,
+        /// How many layers from outside; none in an organ without layers.
+        layers: Option<usize>,
     },
 }
 
@@ -115,7 +118,12 @@ impl Task {
         "cut",
     ];
 
-    pub(super) fn from_keys(keys: Option<&Keys<'_>>, folder: &Path) -> Result<Self, Error> {
+    /// `layers` is the number of layers that the organ has.
+    pub(super) fn from_keys(
+        keys: Option<&Keys<'_>>,
+        folder: &Path,
+        layers: usize,
+    ) -> Result<Self, Error> {
         let Some(keys) = keys else {
             return Ok(Self::default());
         };
@@ -125,7 +133,7 @@ impl Task {
             time_limit_s: keys.number("time_limit_s", Domain::DURATION)?,
             force_limit_n: keys.number("force_limit_n", Domain::FORCE)?,
             expert: expert(keys, folder)?,
-            goal: Goal::from_keys(keys)?,
+            goal: Goal::from_keys(keys, layers)?,
         })
     }
 }
@@ -133,18 +141,17 @@ impl Task {
 impl Goal {
     const TABLES: [&'static str; 3] = ["find", "traction", "cut"];
 
-    fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
+    fn from_keys(keys: &Keys<'_>, layers: usize) -> Result<Self, Error> {
         let mut given = Self::TABLES
             .into_iter()
             .filter(|table| keys.contains(table));
         if let (Some(first), Some(second)) = (given.next(), given.next()) {
             return Err(keys.given_twice(first, second));
         }
-        let distance = |keys: &Keys<'_>| keys.required_number("tolerance_m", Domain::LENGTH);
         if let Some(find) = keys.table("find", &["target_m", "tolerance_m"])? {
             return Ok(Self::Find {
                 target_m: find.required_vector("target_m", Domain::POSITION)?,
-                tolerance_m: distance(&find)?,
+                tolerance_m: find.required_number("tolerance_m", Domain::LENGTH)?,
             });
         }
         const TRACTION: &[&str] = &["tool", "force_n", "tolerance_n", "hold_s"];
@@ -156,9 +163,14 @@ impl Goal {
                 hold_s: traction.required_number("hold_s", Domain::DURATION)?,
             });
         }
-        let Some(cut) = keys.table("cut", &["from_m", "to_m", "tolerance_m"])? else {
-            return Ok(Self::Free);
-        };
+        const CUT: &[&str] = &["from_m", "to_m", "tolerance_m", "layers"];
+        match keys.table("cut", CUT)? {
+            Some(cut) => Self::cut(&cut, layers),
+            None => Ok(Self::Free),
+        }
+    }
+
+    fn cut(cut: &Keys<'_>, layers: usize) -> Result<Self, Error> {
         let (from_m, to_m) = (
             cut.required_vector("from_m", Domain::POSITION)?,
             cut.required_vector("to_m", Domain::POSITION)?,
@@ -166,10 +178,13 @@ impl Goal {
         if from_m == to_m {
             return Err(cut.bad("to_m", "another place than `from_m`"));
         }
+        let wanted = cut.integer("layers", 1..=layers.max(1) as u64)?;
+        let wanted = wanted.map_or(layers.saturating_sub(1).max(1), |wanted| wanted as usize);
         Ok(Self::Cut {
             from_m,
             to_m,
-            tolerance_m: distance(&cut)?,
+            tolerance_m: cut.required_number("tolerance_m", Domain::LENGTH)?,
+            layers: (layers > 0).then_some(wanted),
         })
     }
 }

@@ -13,9 +13,9 @@ words! {
         Grip = "grip",
         /// It lets go.
         GripRelease = "grip_release",
-        /// It cuts.
+        /// Its blade opens at least one layer, or the organ where there are no layers.
         Cut = "cut",
-        /// It breaks through a layer.
+        /// It opens the innermost layer.
         Perforation = "perforation",
         /// Its shaft, not its tip, touches the organ.
         ShaftContact = "shaft_contact",
@@ -35,13 +35,37 @@ words! {
         Jump = "jump",
         /// The organ gave back more work than was done on it.
         EnergyGain = "energy_gain",
+        /// It opens the outermost layer of the organ at its tip.
+        OpensLayer1 = "opens_layer_1",
+        /// It opens the second layer from outside.
+        OpensLayer2 = "opens_layer_2",
+        /// It opens the third layer from outside.
+        OpensLayer3 = "opens_layer_3",
+        /// It opens the fourth layer from outside.
+        OpensLayer4 = "opens_layer_4",
+        /// It opens the fifth layer from outside.
+        OpensLayer5 = "opens_layer_5",
+        /// It opens the sixth layer from outside.
+        OpensLayer6 = "opens_layer_6",
     }
+}
+
+impl Event {
+    /// The events of the layers, from the outermost: as many as an organ may have layers.
+    pub const OPENS_LAYER: [Self; 6] = [
+        Self::OpensLayer1,
+        Self::OpensLayer2,
+        Self::OpensLayer3,
+        Self::OpensLayer4,
+        Self::OpensLayer5,
+        Self::OpensLayer6,
+    ];
 }
 
 /// The events of a tool in a step, in the order of their list.
 #[derive(Clone, Copy, PartialEq, Eq, Default)]
 pub struct Events {
-    bits: u16,
+    bits: u32,
 }
 
 impl Events {
@@ -50,12 +74,23 @@ impl Events {
 
     /// Adds an event; one that is there already stays there once.
     pub fn insert(&mut self, event: Event) {
-        self.bits |= 1 << event as u16;
+        self.bits |= 1 << event as u32;
+    }
+
+    /// Takes an event away.
+    pub fn remove(&mut self, event: Event) {
+        self.bits &= !(1 << event as u32);
     }
 
     /// Whether an event is there.
     pub fn contains(self, event: Event) -> bool {
-        self.bits & (1 << event as u16) != 0
+        self.bits & (1 << event as u32) != 0
+    }
+
+    /// The number, from 1 for the outermost, of the deepest layer that was opened; none if none was.
+    pub fn deepest_opened(self) -> Option<usize> {
+        let mut opened = Event::OPENS_LAYER.iter();
+        opened.rposition(|event| self.contains(*event)).map(|index| index + 1)
     }
 
     /// Whether nothing happened.
@@ -76,6 +111,12 @@ impl Events {
             .map(str::trim)
             .filter(|word| !word.is_empty());
         words.map(Event::from_word).collect()
+    }
+}
+
+impl From<Event> for Events {
+    fn from(event: Event) -> Self {
+        [event].into_iter().collect()
     }
 }
 
@@ -128,6 +169,13 @@ mod tests {
         assert_eq!(Events::from_words("cut;contact"), Some(events));
         assert_eq!(Events::from_words(""), Some(Events::NONE));
         assert_eq!(Events::from_words("contact;sneeze"), None);
-        assert_eq!(Event::WORDS.len(), 15);
+        assert_eq!(Event::WORDS.len(), 21);
+    }
+
+    #[test]
+    fn deepest_opened_layer_is_named() {
+        let events = Events::from_words("cut;opens_layer_1;opens_layer_3");
+        assert_eq!(events.unwrap().deepest_opened(), Some(3));
+        assert_eq!(Events::NONE.deepest_opened(), None);
     }
 }

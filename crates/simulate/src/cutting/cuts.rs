@@ -1,5 +1,6 @@
 use palpate_geometry::{CutSurface, TriangleMesh, Vec3};
 
+use super::parts::{CutPart, nearest, opening_at};
 use super::{CuttingModel, gape};
 use crate::Simulation;
 
@@ -9,10 +10,12 @@ pub struct Cuts {
     pub(super) surface: CutSurface,
     /// The cut that is being made.
     pub(super) stroke: Option<Stroke>,
-    /// The way of all cuts over the resting surface.
-    pub(super) way: Vec<CutSegment>,
-    /// Parts of the way before each cut that can be undone.
-    pub(super) before: Vec<usize>,
+    /// The path of all cuts over the resting surface.
+    pub(super) parts: Vec<CutPart>,
+    /// Parts that were opened to more layers, in the order in which that happened.
+    pub(super) deepened: Vec<Deepened>,
+    /// What there was before each cut that can be undone.
+    pub(super) before: Vec<Mark>,
     /// How far they are moved to gape [m], and of which version that is.
     ways: Vec<Vec3>,
     gapes: u64,
@@ -31,17 +34,27 @@ pub(super) struct Stroke {
     pub(super) at: Vec3,
     /// Where the blade is [m].
     pub(super) blade: Vec3,
-    /// Parts of the way before it.
-    pub(super) before: usize,
+    /// Whether it opens the surface; else it goes along in an opening.
+    pub(super) opens: bool,
+    /// What there was before it.
+    pub(super) before: Mark,
 }
 
-/// A straight part of a cut on the resting surface.
+/// How much there is of all that a cut adds to.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct CutSegment {
-    /// Its ends [m].
-    pub(crate) ends: [Vec3; 2],
-    /// Unit outward normal of the surface there [-].
-    pub(crate) normal: Vec3,
+pub(super) struct Mark {
+    pub(super) parts: usize,
+    pub(super) deepened: usize,
+    /// Cuts of the surface.
+    pub(super) surface: usize,
+}
+
+/// A part that was opened to more layers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Deepened {
+    pub(super) part: usize,
+    /// How many were open before.
+    pub(super) before: usize,
 }
 
 impl Cuts {
@@ -54,7 +67,8 @@ impl Cuts {
             stroke: None,
             ways: Vec::new(),
             gapes: 0,
-            way: Vec::new(),
+            parts: Vec::new(),
+            deepened: Vec::new(),
             before: Vec::new(),
             version: 0,
             largest_lag: 0,
@@ -83,38 +97,34 @@ impl Cuts {
 
     /// Whether there is an opening, or one begins.
     pub fn are_there(&self) -> bool {
-        self.stroke.is_some() || self.surface.cuts() > 0
+        self.stroke.is_some() || !self.before.is_empty()
     }
 
     /// How many cuts there are that can be undone.
     pub fn count(&self) -> usize {
-        self.surface.cuts()
+        self.before.len()
     }
 
-    /// The way of all cuts over the resting surface.
-    pub(crate) fn way(&self) -> &[CutSegment] {
-        &self.way
+    /// The path of all cuts over the resting surface, with the layers that are open in each part.
+    pub fn parts(&self) -> &[CutPart] {
+        &self.parts
     }
 
-    /// Where in the way each cut begins, in no order.
-    pub(crate) fn begins(&self) -> impl Iterator<Item = usize> {
-        let own = self.stroke.map(|stroke| stroke.before);
-        self.before.iter().copied().chain(own)
-    }
-
-    /// Whether a cut is being made.
+    /// Whether the surface is being opened.
     pub(crate) fn goes_on(&self) -> bool {
-        self.stroke.is_some()
+        self.stroke.is_some_and(|stroke| stroke.opens)
     }
 
     /// Length of all cuts over the resting surface [m].
     pub fn length(&self) -> f64 {
-        let lengths = self
-            .way
-            .iter()
-            .map(|part| (part.ends[1] - part.ends[0]).norm());
+        self.length_through(1)
+    }
+
+    /// Length of all cuts that go through so many layers, over the resting surface [m].
+    pub fn length_through(&self, layers: usize) -> f64 {
+        let deep = self.parts.iter().filter(|part| part.layers >= layers);
         // A sum of nothing is -0.
-        lengths.fold(0.0, |sum, length| sum + length)
+        deep.fold(0.0, |sum, part| sum + part.length())
     }
 
     /// Triangles between a blade and the end of its opening, at most so far.
@@ -124,12 +134,21 @@ impl Cuts {
 
     /// Closes the last cut again. Whether there was one; while one is being made there is none.
     pub(crate) fn undo(&mut self) -> bool {
-        let undone = self.stroke.is_none() && self.surface.undo() == Ok(true);
-        if undone {
-            self.way.truncate(self.before.pop().unwrap_or(0));
-            self.version += 1;
+        if self.stroke.is_some() {
+            return false;
         }
-        undone
+        let Some(mark) = self.before.pop() else {
+            return false;
+        };
+        while self.surface.cuts() > mark.surface && self.surface.undo() == Ok(true) {}
+        for last in self.deepened.drain(mark.deepened..).rev() {
+            let part = &mut self.parts[last.part];
+            part.layers = last.before;
+            part.felt = last.before;
+        }
+        self.parts.truncate(mark.parts);
+        self.version += 1;
+        true
     }
 
     /// Follows the organ to where its vertices are moved [m]. It allocates where the triangles are others.
@@ -150,20 +169,24 @@ impl Cuts {
         self.gapes != self.version
     }
 
-    /// Whether what lies under the surface is bare within `reach` [m] of a place of it.
-    pub(super) fn expose(&self, place: &Vec3, reach: f64) -> bool {
-        self.way.iter().any(|part| distance(part, place) < reach)
+    /// The part of a cut that is nearest to a place, within `reach` [m].
+    pub(super) fn part_near(&self, place: &Vec3, reach: f64) -> Option<usize> {
+        let near = nearest(&self.parts, place).filter(|near| near.distance < reach)?;
+        Some(near.part)
     }
-}
 
-fn distance(part: &CutSegment, place: &Vec3) -> f64 {
-    let [start, end] = part.ends;
-    let way = end - start;
-    let length = way.norm_squared();
-    let at = if length > 0.0 {
-        ((place - start).dot(&way) / length).clamp(0.0, 1.0)
-    } else {
-        0.0
-    };
-    (start + at * way - place).norm()
+    /// How many layers were open at a blade before its tool began to cut there.
+    pub(super) fn open_before(&self, model: &CuttingModel, tool: usize, place: &Vec3) -> usize {
+        let own = self.stroke.filter(|stroke| stroke.tool == tool);
+        if !model.is_layered || own.is_some_and(|stroke| stroke.opens) {
+            return 0;
+        }
+        let Some(part) = opening_at(&self.parts, place, model.width) else {
+            return 0;
+        };
+        let since = own.map_or(self.deepened.len(), |stroke| stroke.before.deepened);
+        let mut own = self.deepened[since..].iter();
+        own.find(|deepened| deepened.part == part)
+            .map_or(self.parts[part].layers, |deepened| deepened.before)
+    }
 }

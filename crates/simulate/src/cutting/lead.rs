@@ -2,7 +2,7 @@ use nalgebra::Vector3;
 use palpate_files::scene::ToolKind;
 use palpate_geometry::{Footing, Vec3, follow};
 
-use super::CuttingModel;
+use super::{Cuts, CuttingModel};
 use super::model::cuts;
 use crate::contact::place;
 use crate::simulation::Simulation;
@@ -21,17 +21,18 @@ pub(crate) struct Blade {
 /// Whether a tool that touches cuts.
 pub(super) fn is_down(tool: &Tool, state: &ToolState) -> bool {
     let by_hand = cuts(tool.kind) && state.pose.is_some_and(|pose| pose.cut);
-    state.contact.is_some() && (by_hand || state.breaks_through)
+    state.contact.is_some() && (by_hand || state.broken_layers > 0)
 }
 
 /// Leads the edge of a tool that cuts along the surface, as far as its resistance lets it, and has the tissue
 /// held there.
 pub(crate) fn lead(
     simulation: &Simulation,
-    model: &CuttingModel,
-    tool: &Tool,
+    (model, cuts): (&CuttingModel, &Cuts),
+    number: usize,
     state: &mut ToolState,
 ) {
+    let tool = &simulation.tools[number];
     let (true, Some(contact), Some(pose)) = (is_down(tool, state), state.contact, state.pose)
     else {
         state.blade = None;
@@ -54,7 +55,9 @@ pub(crate) fn lead(
         }
     });
     let behind = flat(&(tip - blade.tip));
-    let held = reach(model, tool, state).min(behind.norm());
+    let open = cuts.open_before(model, number, &blade.footing.point);
+    let resistance = model.resistance(open, contact.depth);
+    let held = reach(resistance, tool, state).min(behind.norm());
     let goal = tip - behind.try_normalize(0.0).unwrap_or_default() * held;
     let way = (&blade.tip, &goal);
     let footing =
@@ -66,14 +69,14 @@ pub(crate) fn lead(
     }
 }
 
-/// How far the tip goes ahead of its edge before that goes on [m].
-fn reach(model: &CuttingModel, tool: &Tool, state: &ToolState) -> f64 {
+/// How far the tip goes ahead of an edge that `resistance` [N] holds back before that goes on [m].
+fn reach(resistance: f64, tool: &Tool, state: &ToolState) -> f64 {
     if tool.kind == ToolKind::Scissors {
         return 0.0;
     }
     let stiffness = 0.5 * (state.stiffness[(0, 0)] + state.stiffness[(1, 1)]);
     if stiffness > 0.0 {
-        model.resistance / stiffness
+        resistance / stiffness
     } else {
         0.0
     }

@@ -6,29 +6,40 @@
 //!    └──── force ──────────┘                                  └──▶ facets of the slit ──▶ mechanics
 //! ```
 //!
-//! A tool cuts while its `cut` is 1 and it is scissors or a hook, or, whatever it is, once its normal force has
-//! passed a limit and as long as it touches then: the two ways of the source (section 7.8). A cut goes down to
-//! the innermost layer. That one gives way at a force of its own, which is an event and opens nothing.
+//! A tool is a blade while its `cut` is 1 and it is scissors or a hook, or, whatever it is, once its normal force
+//! has passed the limit of the layer that is bare under it and as long as it touches then: the two ways of the
+//! source (section 7.8). Each layer is opened by itself:
 //!
-//! *Equations*: a cut of depth d takes R d of work per length, R being the tissue's toughness, so an edge that is
-//! drawn through it is held back by no more than R d [N]: it takes the tissue along until that is reached, then
-//! goes on, a slider with friction that makes no energy. With the contact's tangential stiffness k the opening
-//! lags behind the tip by R d/k. Scissors cut between their blades: R d is on the jaws and nothing lags.
+//! - a blade opens the layers whose lower faces its edge has reached, by its depth below the surface at rest; one
+//!   that is shallower than the outermost layer scratches and opens nothing;
+//! - the layer that is bare gives way to a normal force above its own limit, one layer a step.
 //!
-//! *How we know*: `cutting::…`.
+//! Where the outermost layer is open, a blade goes on in the opening and opens what is below. The innermost layer
+//! opens as the others do; that is a perforation. An organ without layers is one, and a blade cuts it to the depth
+//! of `[cutting]`.
 //!
-//! *Limits*: one blade at a time; a second one waits. A tip that slips is not held back. All cuts have the same
-//! depth. A blade follows the surface at rest, as contacts do.
+//! *Equations*: a cut takes R d of work per length, R being a layer's toughness and d how much of the layer the edge
+//! is in, so an edge that is drawn through layers is held back by no more than Σ R d [N]: it takes the tissue along
+//! until that is reached, then goes on, a slider with friction that makes no energy. With the contact's tangential
+//! stiffness k the opening lags behind the tip by Σ R d/k. Scissors cut between their blades: Σ R d is on the jaws
+//! and nothing lags.
+//!
+//! *How we know*: `cutting::…`, `layers::…`.
+//!
+//! *Limits*: one blade at a time opens the outermost layer; a second one waits. A tip that slips is not held back. A
+//! layer below the outermost opens part by part of the cut above it, which are as long as the surface's edges. What
+//! a deepened cut yields is known when the blade is lifted. A blade follows the surface at rest, as contacts do.
 
 mod cuts;
 mod gape;
 mod lead;
 mod model;
+mod parts;
 mod stroke;
 
-pub(crate) use cuts::CutSegment;
 pub use cuts::Cuts;
 pub use gape::gape;
 pub(crate) use lead::{Blade, lead};
 pub(crate) use model::CuttingModel;
+pub use parts::CutPart;
 pub(crate) use stroke::advance;

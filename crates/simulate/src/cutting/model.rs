@@ -9,26 +9,36 @@ use crate::walls::typical_wall;
 const DEPTH: f64 = 0.002;
 const OF_THE_WALL: f64 = 0.5;
 
+/// Rounding of depths that are sums of decimal numbers [m].
+const ROUNDING: f64 = 1e-9;
+
 /// How an organ is cut.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct CuttingModel {
     pub(crate) method: CutMethod,
     /// Whether forces follow a cut.
     pub(crate) changes_force: bool,
-    /// How deep a cut goes [m].
-    pub(crate) depth: f64,
-    /// Thickness of the organ under its surface [m].
-    pub(crate) wall: f64,
+    /// Whether the scene names layers; else the organ is one, which a blade always cuts to its depth.
+    pub(crate) is_layered: bool,
+    /// From outside to inside; at least one.
+    pub(crate) layers: Vec<CutLayer>,
+    /// No blade goes deeper [m].
+    deepest: f64,
     /// How far an opening gapes [m].
     pub(crate) width: f64,
-    /// What holds back an edge that cuts [N].
-    pub(crate) resistance: f64,
-    /// The normal force at which any tool begins to cut [N].
-    pub(crate) force_limit: Option<f64>,
-    /// The normal force at which the innermost layer gives way [N].
-    pub(crate) perforation: Option<f64>,
-    /// Whether the innermost layer is the outermost, too.
-    pub(crate) is_bare: bool,
+}
+
+/// A layer as a blade meets it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct CutLayer {
+    /// Depth of its upper face below the surface at rest [m].
+    top: f64,
+    /// Depth of its lower face [m].
+    pub(crate) bottom: f64,
+    /// Work of a cut per area of its face [J/m²].
+    toughness: f64,
+    /// The normal force at which it gives way to any tool where it is bare [N].
+    pub(crate) limit: Option<f64>,
 }
 
 impl CuttingModel {
@@ -47,33 +57,84 @@ impl CuttingModel {
         }
         let wall = typical_wall(surface);
         check_layers(layers, wall)?;
-        let depth = settings.depth_m.unwrap_or_else(|| match layers.as_slice() {
-            [] => DEPTH.min(OF_THE_WALL * wall),
-            [only] => only.thickness_m,
-            [above @ .., _] => above.iter().map(|layer| layer.thickness_m).sum(),
-        });
-        if depth > wall {
-            return Err(Error::CutTooDeep { depth, wall });
+        let whole = settings.depth_m.unwrap_or(DEPTH.min(OF_THE_WALL * wall));
+        if whole > wall && settings.depth_m.is_some() {
+            return Err(Error::CutTooDeep { depth: whole, wall });
         }
-        let outer = match layers.as_slice() {
-            [outer, _, ..] => outer.perforation_force_n,
-            _ => None,
+        let mut top = 0.0;
+        let mut of_layer = |thickness: f64, toughness: Option<f64>, limit| {
+            let bottom = top + thickness;
+            CutLayer {
+                top: std::mem::replace(&mut top, bottom),
+                bottom,
+                toughness: toughness.unwrap_or(settings.toughness_j_per_m2),
+                limit,
+            }
         };
+        let mut cut_layers: Vec<CutLayer> = layers
+            .iter()
+            .map(|l| of_layer(l.thickness_m, l.toughness_j_per_m2, l.perforation_force_n))
+            .collect();
+        if cut_layers.is_empty() {
+            cut_layers.push(of_layer(whole, None, None));
+        }
+        cut_layers[0].limit = settings.force_limit_n.or(cut_layers[0].limit);
         let model = Self {
             method: match settings.mode {
                 CutMode::Split => CutMethod::SplitTriangles,
                 CutMode::Snap => CutMethod::SnapVertices,
             },
             changes_force: settings.mode == CutMode::Split,
-            depth,
-            wall,
+            is_layered: !layers.is_empty(),
+            layers: cut_layers,
+            deepest: settings.depth_m.unwrap_or(wall),
             width: settings.width_m,
-            resistance: settings.toughness_j_per_m2 * depth,
-            force_limit: settings.force_limit_n.or(outer),
-            perforation: layers.last().and_then(|layer| layer.perforation_force_n),
-            is_bare: layers.len() == 1,
         };
         Ok(wanted.then_some(model))
+    }
+
+    /// How many layers a blade opens whose edge is `depth` [m] below the surface at rest: those whose lower faces it
+    /// has reached.
+    pub(super) fn reached(&self, depth: f64) -> usize {
+        if !self.is_layered {
+            return 1;
+        }
+        let edge = depth.min(self.deepest) + ROUNDING;
+        let opened = self.layers.iter().take_while(|layer| layer.bottom <= edge);
+        opened.count()
+    }
+
+    /// What holds back an edge at `depth` [m] where `open` layers are cut already [N]: R d of each layer, d being
+    /// how much of it the edge is in.
+    pub(super) fn resistance(&self, open: usize, depth: f64) -> f64 {
+        let edge = if self.is_layered {
+            depth.min(self.deepest)
+        } else {
+            self.layers[0].bottom
+        };
+        let uncut = self.layers.iter().skip(open);
+        let each = uncut.map(|l| l.toughness * (edge.min(l.bottom) - l.top).max(0.0));
+        each.sum()
+    }
+
+    /// How deep a cut through `layers` of them is [m].
+    pub(crate) fn depth_of(&self, layers: usize) -> f64 {
+        match layers.checked_sub(1).and_then(|last| self.layers.get(last)) {
+            Some(layer) => layer.bottom,
+            None => 0.0,
+        }
+    }
+
+    /// Said to whoever prepares the simulation: a blade that can open nothing.
+    pub(crate) fn doubt(&self) -> Option<String> {
+        let outer = self.layers[0].bottom;
+        (self.is_layered && self.reached(f64::INFINITY) == 0).then(|| {
+            format!(
+                "no blade opens the organ: `cutting.depth_m` is {:.2} mm, and the outermost layer is {:.2} mm thick",
+                1e3 * self.deepest,
+                1e3 * outer
+            )
+        })
     }
 }
 

@@ -1,8 +1,10 @@
-use palpate_files::session::Event;
+use palpate_files::session::{Event, Events};
 use palpate_geometry::{Footing, Vec3};
 
 use super::CuttingModel;
-use super::cuts::{CutSegment, Cuts, Stroke};
+use super::cuts::{Cuts, Deepened, Mark, Stroke};
+use super::model::cuts;
+use super::parts::{CutPart, opening_at};
 use crate::Contact;
 use crate::simulation::Simulation;
 use crate::state::SimulationState;
@@ -20,113 +22,206 @@ pub(crate) fn advance(
     number: usize,
     state: &mut SimulationState,
 ) {
-    let Some(cuts) = &mut state.cuts else {
+    let Some(all) = &mut state.cuts else {
         return;
     };
     let (tool, own) = (&simulation.tools[number], &mut state.tools[number]);
     own.cut_lag = 0;
     let Some(contact) = own.contact else {
-        own.breaks_through = false;
+        own.broken_layers = 0;
         own.perforates = false;
-        cuts.lift(simulation, number);
+        all.lift(simulation, number);
         return;
     };
-    let pressed = own.force.dot(&contact.normal());
     let reach = 0.5 * model.width + tool.typical_radius;
-    let is_bare = model.is_bare || cuts.expose(&contact.point(), reach);
-    let passed = |limit: Option<f64>| limit.is_some_and(|limit| pressed > limit);
-    if is_bare && passed(model.perforation) && !own.perforates {
-        own.perforates = true;
-        own.row.events.insert(Event::Perforation);
+    let under = all.part_near(&contact.point(), reach);
+    let bare = under.map_or(0, |part| all.parts[part].layers);
+    let pressed = own.force.dot(&contact.normal());
+    let limit = model.layers.get(bare).and_then(|layer| layer.limit);
+    let gives_way = limit.is_some_and(|limit| pressed > limit);
+    if gives_way {
+        own.broken_layers = own.broken_layers.max(bare + 1);
     }
-    own.breaks_through |= !is_bare && passed(model.force_limit);
     let Some(blade) = own.blade else {
-        cuts.lift(simulation, number);
+        all.lift(simulation, number);
         return;
     };
-    let opened = cuts.go_on(simulation, number, &blade.footing, &contact);
-    own.cut_lag = opened.lag;
-    if opened.edges > 0 {
-        own.row.events.insert(Event::Cut);
+    let by_hand = cuts(tool.kind) && own.pose.is_some_and(|pose| pose.cut);
+    let reached = if by_hand { model.reached(contact.depth) } else { 0 };
+    let edge = Edge {
+        tool: number,
+        footing: blade.footing,
+        contact,
+        layers: reached.max(own.broken_layers),
+    };
+    let mut opened = all.go_on(simulation, model, &edge);
+    // What is pressed gives way under the whole tip, what is cut in its opening alone.
+    let under = under.filter(|_| gives_way);
+    let below = opening_at(&all.parts, &blade.footing.point, model.width);
+    for part in [under, below].into_iter().flatten() {
+        opened.events = opened.events | all.deepen(model, part, edge.layers);
     }
+    own.cut_lag = opened.lag;
+    if opened.events.contains(Event::Perforation) && own.perforates {
+        opened.events.remove(Event::Perforation);
+    }
+    own.perforates |= opened.events.contains(Event::Perforation);
+    own.row.events = own.row.events | opened.events;
+}
+
+/// The edge of a tool that cuts.
+struct Edge {
+    tool: usize,
+    /// Where it is on the resting surface.
+    footing: Footing,
+    contact: Contact,
+    /// How many layers it opens where it is.
+    layers: usize,
 }
 
 /// What a step has opened.
 #[derive(Debug, Clone, Copy, Default)]
 struct Opened {
-    edges: usize,
+    events: Events,
     lag: usize,
 }
 
+/// The events of layers that are opened from `open` on up to `layers`.
+fn events(model: &CuttingModel, open: usize, layers: usize) -> Events {
+    if !model.is_layered {
+        return Event::Cut.into();
+    }
+    let opened = Event::OPENS_LAYER.into_iter().take(layers).skip(open);
+    let mut events: Events = opened.chain([Event::Cut]).collect();
+    if layers == model.layers.len() && open < layers {
+        events.insert(Event::Perforation);
+    }
+    events
+}
+
 impl Cuts {
-    /// Moves the blade of a tool to `footing`, or puts it down there.
-    fn go_on(
-        &mut self,
-        simulation: &Simulation,
-        tool: usize,
-        footing: &Footing,
-        contact: &Contact,
-    ) -> Opened {
-        let Some(stroke) = self.stroke else {
-            self.put_down(simulation, tool, footing);
-            return Opened::default();
-        };
-        if stroke.tool != tool {
+    /// Moves the blade of a tool to where its `edge` is, or puts it down there.
+    fn go_on(&mut self, simulation: &Simulation, model: &CuttingModel, edge: &Edge) -> Opened {
+        if edge.layers == 0 {
+            // It scratches.
+            self.lift(simulation, edge.tool);
             return Opened::default();
         }
-        if (footing.point - stroke.blade).norm() > LEAP {
-            self.lift(simulation, tool);
-            self.put_down(simulation, tool, footing);
+        let at = edge.footing.point;
+        let leaps = |stroke: Stroke| (at - stroke.blade).norm() > LEAP;
+        if self.stroke.is_some_and(|stroke| stroke.tool == edge.tool && leaps(stroke)) {
+            self.lift(simulation, edge.tool);
+        }
+        let Some(stroke) = self.stroke else {
+            return self.put_down(simulation, model, edge);
+        };
+        if stroke.tool != edge.tool {
             return Opened::default();
+        }
+        if !stroke.opens {
+            return self.leave_opening(simulation, model, edge);
         }
         let vertices = self.surface.mesh().vertices().len();
-        let Ok(progress) = self.surface.advance(&simulation.surface, &footing.point) else {
+        let Ok(progress) = self.surface.advance(&simulation.surface, &at) else {
             return Opened::default();
         };
-        if let Some(stroke) = &mut self.stroke {
-            stroke.blade = footing.point;
-        }
+        self.set_blade(at);
         self.largest_lag = self.largest_lag.max(progress.lag);
         // A vertex may wait for its edge to be opened.
         if progress.opened > 0 || self.surface.mesh().vertices().len() != vertices {
             self.version += 1;
         }
+        let mut opened = Opened {
+            events: Events::NONE,
+            lag: progress.lag,
+        };
         if progress.opened > 0 {
-            self.go_to(&footing.point, &contact.normal());
+            self.extend(stroke, edge);
+            opened.events = events(model, 0, edge.layers);
         }
         if progress.away > LEFT * simulation.typical_edge {
-            self.lift(simulation, tool);
+            self.lift(simulation, edge.tool);
         }
-        Opened {
-            edges: progress.opened,
-            lag: progress.lag,
-        }
+        opened
     }
 
-    fn put_down(&mut self, simulation: &Simulation, tool: usize, footing: &Footing) {
-        let begun = self
-            .surface
-            .begin(&simulation.surface, footing.triangle, &footing.point);
-        if begun.is_ok() {
-            // A triangle may have been split.
-            self.version += 1;
-            self.stroke = Some(Stroke {
-                tool,
-                at: footing.point,
-                blade: footing.point,
-                before: self.way.len(),
-            });
-        }
-    }
-
-    fn go_to(&mut self, place: &Vec3, normal: &Vec3) {
+    fn set_blade(&mut self, at: Vec3) {
         if let Some(stroke) = &mut self.stroke {
-            self.way.push(CutSegment {
-                ends: [stroke.at, *place],
-                normal: *normal,
-            });
-            stroke.at = *place;
+            stroke.blade = at;
         }
+    }
+
+    fn put_down(&mut self, simulation: &Simulation, model: &CuttingModel, edge: &Edge) -> Opened {
+        let at = edge.footing.point;
+        self.stroke = Some(Stroke {
+            tool: edge.tool,
+            at,
+            blade: at,
+            opens: false,
+            before: Mark {
+                parts: self.parts.len(),
+                deepened: self.deepened.len(),
+                surface: self.surface.cuts(),
+            },
+        });
+        self.leave_opening(simulation, model, edge)
+    }
+
+    /// Goes along in an opening, and begins to open the surface where that ends.
+    fn leave_opening(&mut self, simulation: &Simulation, model: &CuttingModel, edge: &Edge) -> Opened {
+        let at = edge.footing.point;
+        self.set_blade(at);
+        if model.is_layered && opening_at(&self.parts, &at, model.width).is_some() {
+            return Opened::default();
+        }
+        let begun = self.surface.begin(&simulation.surface, edge.footing.triangle, &at);
+        let Some(stroke) = self.stroke.as_mut().filter(|_| begun.is_ok()) else {
+            self.lift(simulation, edge.tool);
+            return Opened::default();
+        };
+        stroke.opens = true;
+        stroke.at = at;
+        // A triangle may have been split.
+        self.version += 1;
+        let mut opened = Opened::default();
+        if model.is_layered {
+            // It goes into the tissue before it goes along.
+            let stroke = *stroke;
+            self.extend(stroke, edge);
+            opened.events = events(model, 0, edge.layers);
+        }
+        opened
+    }
+
+    /// Adds a part from where `stroke` has come to.
+    fn extend(&mut self, stroke: Stroke, edge: &Edge) {
+        let at = edge.footing.point;
+        let before = self.parts[stroke.before.parts.min(self.parts.len())..].last();
+        let begins = before.is_none_or(|part| part.ends[1] != stroke.at);
+        self.parts.push(CutPart {
+            ends: [stroke.at, at],
+            normal: edge.contact.normal(),
+            begins,
+            layers: edge.layers,
+            felt: edge.layers,
+        });
+        // Each part can be deepened once per layer that is still closed.
+        let room = Event::OPENS_LAYER.len() * self.parts.len();
+        self.deepened.reserve(room.saturating_sub(self.deepened.len()));
+        if let Some(stroke) = &mut self.stroke {
+            stroke.at = at;
+        }
+    }
+
+    /// Opens a part of a cut down to `layers`, as part of the cut that is being made.
+    fn deepen(&mut self, model: &CuttingModel, part: usize, layers: usize) -> Events {
+        let before = self.parts[part].layers;
+        if !model.is_layered || self.stroke.is_none() || before >= layers {
+            return Events::NONE;
+        }
+        self.parts[part].layers = layers;
+        self.deepened.push(Deepened { part, before });
+        events(model, before, layers)
     }
 
     /// Ends the cut of a tool, if it makes one.
@@ -135,12 +230,20 @@ impl Cuts {
             return;
         };
         self.stroke = None;
-        self.version += 1;
-        let opened = self.surface.end(&simulation.surface).unwrap_or(0);
-        if opened == 0 {
-            self.way.truncate(stroke.before);
-        } else {
-            self.before.push(stroke.before);
+        self.version += u64::from(stroke.opens);
+        let before = stroke.before;
+        if stroke.opens {
+            // A blade that has opened nothing leaves the surface as it was, and a puncture of its layers.
+            self.surface.end(&simulation.surface).ok();
+        }
+        for part in &mut self.parts {
+            part.felt = part.layers;
+        }
+        let has_opened = self.parts.len() > before.parts
+            || self.deepened.len() > before.deepened
+            || self.surface.cuts() > before.surface;
+        if has_opened {
+            self.before.push(before);
         }
     }
 }

@@ -17,7 +17,7 @@ use palpate_mechanics::surface_response::slit::{
 use palpate_mechanics::surface_response::{Share, SurfaceResponse};
 
 use super::{GlobalModel, GlobalWorkspace};
-use crate::cutting::{CutSegment, Cuts, CuttingModel};
+use crate::cutting::{CutPart, Cuts, CuttingModel};
 use crate::grip::{HeldTriangle, MOST_PARTS};
 use crate::simulation::Simulation;
 use crate::state::ToolState;
@@ -33,12 +33,29 @@ const SHORTEST: f64 = 1.2e-3;
 /// What is left of a cut has to be this part of a facet's length [-] to be one.
 const A_REST: f64 = 0.3;
 
+/// The parts of a cut that a facet is of, from the first up to the one before `end`, and the layers that were open
+/// in all of them.
+#[derive(Debug, Clone, Copy)]
+struct Source {
+    first: usize,
+    end: usize,
+    layers: usize,
+}
+
+impl Source {
+    /// Whether the parts still are what they were.
+    fn is_in(&self, parts: &[CutPart]) -> bool {
+        let own = parts.get(self.first..self.end);
+        own.is_some_and(|own| own.iter().all(|part| part.felt == self.layers))
+    }
+}
+
 /// The slit with what forces do to it. It is made again of the cuts where it is lost.
 #[derive(Debug)]
 pub(crate) struct OrganSlit {
     slit: Slit,
-    /// Parts of the way up to the end of each facet.
-    ends: Vec<usize>,
+    /// Of which parts each facet is.
+    sources: Vec<Source>,
     /// Parts of the way that were taken, whether they became a facet or not.
     taken: usize,
     /// Another number whenever the facets are others.
@@ -62,7 +79,7 @@ impl OrganSlit {
             scratch: slit.load(),
             jumps: slit.jumps(),
             slit,
-            ends: Vec::with_capacity(MOST),
+            sources: Vec::with_capacity(MOST),
             taken: 0,
             version: 0,
         }
@@ -70,21 +87,24 @@ impl OrganSlit {
 
     /// Follows the cuts as they are now.
     fn follow(&mut self, global: &GlobalModel, model: &CuttingModel, cuts: &Cuts) {
-        let way = cuts.way();
-        let kept = self.ends.iter().take_while(|end| **end <= way.len());
+        let way = cuts.parts();
+        let kept = self.sources.iter().take_while(|source| source.is_in(way));
         let kept = kept.count();
-        if kept < self.ends.len() {
-            self.ends.truncate(kept);
+        if kept < self.sources.len() {
+            self.sources.truncate(kept);
             self.slit.truncate(kept);
+            self.taken = self.sources.last().map_or(0, |source| source.end);
             self.version += 1;
         }
         self.taken = self.taken.min(way.len());
-        let wanted = (OF_THE_DEPTH * model.depth).max(SHORTEST);
-        while let Some(next) = next(way, self.taken, (cuts.begins(), cuts.goes_on()), wanted) {
-            let parts = &way[self.taken..next.end];
-            self.taken = next.end;
+        while let Some(part) = way.get(self.taken) {
+            let wanted = (OF_THE_DEPTH * model.depth_of(part.felt)).max(SHORTEST);
+            let Some(next) = next(way, self.taken, cuts.goes_on(), wanted) else {
+                break;
+            };
+            let first = std::mem::replace(&mut self.taken, next.end);
             if next.is_facet {
-                self.open(global, model, (parts, wanted));
+                self.open(global, model, (&way[first..next.end], wanted));
             }
         }
     }
@@ -94,7 +114,7 @@ impl OrganSlit {
         &mut self,
         global: &GlobalModel,
         model: &CuttingModel,
-        (parts, wanted): (&[CutSegment], f64),
+        (parts, wanted): (&[CutPart], f64),
     ) {
         let (Some(first), Some(last)) = (parts.first(), parts.last()) else {
             return;
@@ -113,11 +133,15 @@ impl OrganSlit {
                 along: whole,
                 normal: parts.iter().map(|part| part.normal).sum(),
                 length: whole.norm() / count,
-                depth: model.depth,
+                depth: model.depth_of(first.felt),
             };
             // One that cannot be (no room, on an edge of the organ) leaves the organ as stiff as it was.
             if self.slit.open(&body, &facet).is_ok() {
-                self.ends.push(self.taken);
+                self.sources.push(Source {
+                    first: self.taken - parts.len(),
+                    end: self.taken,
+                    layers: first.felt,
+                });
                 self.version += 1;
             }
         }
@@ -241,25 +265,22 @@ struct Next {
     is_facet: bool,
 }
 
-/// The parts of `way` after `taken` that are the next facet, if they are enough or their cut has ended.
-fn next(
-    way: &[CutSegment],
-    taken: usize,
-    (begins, goes_on): (impl Iterator<Item = usize>, bool),
-    wanted: f64,
-) -> Option<Next> {
-    let start: Vec3 = way.get(taken)?.ends[0];
-    let later = begins.filter(|begin| *begin > taken).min();
-    let last = later.unwrap_or(way.len());
+/// The parts of `way` after `taken` that are the next facet, if they are enough or their cut has ended or becomes
+/// deeper or less deep.
+fn next(way: &[CutPart], taken: usize, goes_on: bool, wanted: f64) -> Option<Next> {
+    let first = way.get(taken)?;
+    let differs = |part: &CutPart| part.begins || part.felt != first.felt;
+    let later = way[taken + 1..].iter().position(differs);
+    let last = later.map_or(way.len(), |later| taken + 1 + later);
     for end in taken + 1..=last {
-        if (way[end - 1].ends[1] - start).norm() >= wanted {
+        if (way[end - 1].ends[1] - first.ends[0]).norm() >= wanted {
             return Some(Next {
                 end,
                 is_facet: true,
             });
         }
     }
-    let rest = (way[last - 1].ends[1] - start).norm();
+    let rest = (way[last - 1].ends[1] - first.ends[0]).norm();
     let ended = later.is_some() || !goes_on;
     ended.then_some(Next {
         end: last,

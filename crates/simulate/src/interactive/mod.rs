@@ -49,6 +49,6 @@ pub use order::Order;
 pub use quality::{ExtrapolationError, ModelReport, Quality};
 pub use recorder::{MOST_ROWS_IN_MEMORY, Unwritten};
 pub use scene_devices::SceneDevices;
-pub use snapshot::{ContactSnapshot, OpenedSnapshot, Snapshot, ToolSnapshot};
+pub use snapshot::{ContactSnapshot, OpenedPart, OpenedSnapshot, Snapshot, ToolSnapshot};
 pub use stations::Station;
 pub use virtual_interaction::VirtualInteraction;

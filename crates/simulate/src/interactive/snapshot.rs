@@ -82,6 +82,19 @@ pub struct OpenedSnapshot {
     pub triangles: Vec<[u32; 3]>,
     /// The edges at which it is open: two vertices, in the order of their triangle.
     pub rims: Vec<[u32; 2]>,
+    /// The path of the cuts over the surface at rest, where the organ has layers.
+    pub parts: Vec<OpenedPart>,
+}
+
+/// A straight part of a cut through layers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OpenedPart {
+    /// Its ends on the surface at rest [m]; the same for a puncture.
+    pub ends: [[f32; 3]; 2],
+    /// Whether a cut begins with it.
+    pub begins: bool,
+    /// How many layers are open in it, from outside.
+    pub layers: usize,
 }
 
 /// A contact after a step.
@@ -168,6 +181,12 @@ impl OpenedSnapshot {
         }
         self.places.clear();
         self.places.extend(cuts.places().iter().map(single));
+        self.parts.clear();
+        self.parts.extend(cuts.parts().iter().map(|part| OpenedPart {
+            ends: [single(&part.ends[0]), single(&part.ends[1])],
+            begins: part.begins,
+            layers: part.layers,
+        }));
         if self.version == cuts.version() {
             return;
         }
@@ -194,6 +213,7 @@ impl OpenedSnapshot {
         self.places.clear();
         self.triangles.clear();
         self.rims.clear();
+        self.parts.clear();
     }
 }
 

@@ -11,10 +11,23 @@ const LEAP: f64 = 5e-3;
 #[derive(Debug, Clone)]
 pub(super) struct CutWay {
     line: Option<[Vec3; 2]>,
-    /// Places where something was opened [m], with the depth of the tip there [m], cut by cut.
-    strokes: Vec<Vec<(Vec3, f64)>>,
+    /// The layer that the line shall be cut down to; none in an organ without layers.
+    wanted_layers: Option<usize>,
+    /// Where something was opened, cut by cut.
+    strokes: Vec<Vec<Place>>,
     /// Which tool makes the last one.
     by: Option<usize>,
+}
+
+/// Where something was opened.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    /// The tip [m].
+    tip: Vec3,
+    /// How far it was below the surface at rest [m].
+    depth: f64,
+    /// The deepest layer that was opened there; none in an organ without layers.
+    layer: Option<usize>,
 }
 
 /// What was cut.
@@ -43,12 +56,18 @@ pub struct LineScore {
 
 impl CutWay {
     pub(super) fn new(goal: &Goal) -> Self {
-        let line = match goal {
-            Goal::Cut { from_m, to_m, .. } => Some([*from_m, *to_m].map(Vec3::from)),
-            _ => None,
+        let (line, wanted_layers) = match goal {
+            Goal::Cut {
+                from_m,
+                to_m,
+                layers,
+                ..
+            } => (Some([*from_m, *to_m].map(Vec3::from)), *layers),
+            _ => (None, None),
         };
         Self {
             line,
+            wanted_layers,
             strokes: Vec::new(),
             by: None,
         }
@@ -71,30 +90,35 @@ impl CutWay {
         if !happened(Event::Cut) {
             return;
         }
-        let place = Vec3::from(row.position_m);
+        let tip = Vec3::from(row.position_m);
         let goes_on = self.by == Some(row.tool)
             && self
                 .strokes
                 .last()
                 .and_then(|stroke| stroke.last())
-                .is_some_and(|(last, _)| (last - place).norm() < LEAP);
+                .is_some_and(|last| (last.tip - tip).norm() < LEAP);
         if !goes_on {
             self.strokes.push(Vec::new());
             self.by = Some(row.tool);
         }
         if let Some(stroke) = self.strokes.last_mut() {
-            stroke.push((place, row.depth_m));
+            stroke.push(Place {
+                tip,
+                depth: row.depth_m,
+                layer: row.events.deepest_opened(),
+            });
         }
     }
 
-    /// Length of the line that shall be cut, and what of it is cut [m].
+    /// Length of the line that shall be cut, and what of it is cut down to the wanted layer [m].
     pub(super) fn covered(&self) -> Option<(f64, f64)> {
         let [from, to] = self.line?;
         let wanted = (to - from).norm();
         let along = (to - from) / wanted;
         let mut parts: Vec<[f64; 2]> = Vec::new();
         for stroke in &self.strokes {
-            let at = stroke.iter().map(|(place, _)| (place - from).dot(&along));
+            let deep = stroke.iter().filter(|place| place.layer >= self.wanted_layers);
+            let at = deep.map(|place| (place.tip - from).dot(&along));
             let (low, high) = at.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| {
                 (low.min(at), high.max(at))
             });
@@ -116,7 +140,7 @@ impl CutWay {
             return None;
         }
         let pieces = self.strokes.iter().flat_map(|stroke| stroke.windows(2));
-        let length = pieces.clone().map(|piece| (piece[1].0 - piece[0].0).norm());
+        let length = pieces.clone().map(|piece| (piece[1].tip - piece[0].tip).norm());
         Some(CutScore {
             count: self.strokes.len(),
             length: length.sum(),
@@ -128,7 +152,7 @@ impl CutWay {
                     let largest = places.map(|place| off(&line, place)).fold(0.0, f64::max);
                     let (mut weight, mut sum) = (0.0, 0.0);
                     for piece in pieces.clone() {
-                        let way = (piece[1].0 - piece[0].0).norm();
+                        let way = (piece[1].tip - piece[0].tip).norm();
                         weight += way;
                         sum += way * 0.5 * (off(&line, &piece[0]) + off(&line, &piece[1]));
                     }
@@ -144,10 +168,10 @@ impl CutWay {
 }
 
 /// How far a tip of a depth is beside a line over the surface [m]: what is below it does not count.
-fn off([from, to]: &[Vec3; 2], (place, depth): &(Vec3, f64)) -> f64 {
+fn off([from, to]: &[Vec3; 2], place: &Place) -> f64 {
     let line = to - from;
-    let at = ((place - from).dot(&line) / line.norm_squared()).clamp(0.0, 1.0);
-    aside(&(place - (from + line * at)), *depth)
+    let at = ((place.tip - from).dot(&line) / line.norm_squared()).clamp(0.0, 1.0);
+    aside(&(place.tip - (from + line * at)), place.depth)
 }
 
 /// The part of a way [m] along the surface when `depth` [m] of it is below it.

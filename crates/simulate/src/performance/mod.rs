@@ -53,7 +53,7 @@ pub struct Performance {
 pub struct Errors {
     /// Times that the force rose above its limit.
     pub force_limit: u64,
-    /// Times that the innermost layer was broken through.
+    /// Times that the innermost layer was opened.
     pub perforations: u64,
     /// Times that held tissue was lost to a pull, with shut jaws.
     pub drops: u64,

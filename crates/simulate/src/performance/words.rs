@@ -29,7 +29,7 @@ pub fn outcome_words(outcome: &Outcome) -> String {
         Outcome::Cut { part, clean } => match clean {
             true => "The line is cut, straight and without a perforation.".to_owned(),
             false => format!(
-                "{:.0} % of the line is cut; see deviation and perforations.",
+                "{:.0} % of the line is cut to the depth asked for; see deviation and perforations.",
                 100.0 * part
             ),
         },

@@ -242,6 +242,7 @@ fn line() -> Task {
             from_m: [0.0; 3],
             to_m: [0.03, 0.0, 0.0],
             tolerance_m: 0.002,
+            layers: None,
         },
         ..Task::default()
     }
