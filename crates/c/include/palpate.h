@@ -40,12 +40,12 @@
 #define PALPATE_EVENT_GRIP_RELEASE (1 << 3)
 
 /**
- * It cuts.
+ * Its blade opens at least one layer, or the organ where there are no layers.
  */
 #define PALPATE_EVENT_CUT (1 << 4)
 
 /**
- * It breaks through a layer.
+ * It opens the innermost layer.
  */
 #define PALPATE_EVENT_PERFORATION (1 << 5)
 
@@ -78,6 +78,36 @@
  * The organ gave back more work than was done on it.
  */
 #define PALPATE_EVENT_ENERGY_GAIN (1 << 14)
+
+/**
+ * It opens the outermost layer of the organ at its tip.
+ */
+#define PALPATE_EVENT_OPENS_LAYER_1 (1 << 15)
+
+/**
+ * It opens the second layer from outside.
+ */
+#define PALPATE_EVENT_OPENS_LAYER_2 (1 << 16)
+
+/**
+ * It opens the third layer from outside.
+ */
+#define PALPATE_EVENT_OPENS_LAYER_3 (1 << 17)
+
+/**
+ * It opens the fourth layer from outside.
+ */
+#define PALPATE_EVENT_OPENS_LAYER_4 (1 << 18)
+
+/**
+ * It opens the fifth layer from outside.
+ */
+#define PALPATE_EVENT_OPENS_LAYER_5 (1 << 19)
+
+/**
+ * It opens the sixth layer from outside.
+ */
+#define PALPATE_EVENT_OPENS_LAYER_6 (1 << 20)
 
 /**
  * How a call ended: the exit statuses of the command `palpate`.

@@ -10,9 +10,9 @@ pub const PALPATE_EVENT_RELEASE: u32 = 1 << 1;
 pub const PALPATE_EVENT_GRIP: u32 = 1 << 2;
 /// It lets go.
 pub const PALPATE_EVENT_GRIP_RELEASE: u32 = 1 << 3;
-/// It cuts.
+/// Its blade opens at least one layer, or the organ where there are no layers.
 pub const PALPATE_EVENT_CUT: u32 = 1 << 4;
-/// It breaks through a layer.
+/// It opens the innermost layer.
 pub const PALPATE_EVENT_PERFORATION: u32 = 1 << 5;
 /// Its shaft, not its tip, touches the organ.
 pub const PALPATE_EVENT_SHAFT_CONTACT: u32 = 1 << 6;
@@ -26,6 +26,18 @@ pub const PALPATE_EVENT_UNDO_CUT: u32 = 1 << 11;
 pub const PALPATE_EVENT_JUMP: u32 = 1 << 13;
 /// The organ gave back more work than was done on it.
 pub const PALPATE_EVENT_ENERGY_GAIN: u32 = 1 << 14;
+/// It opens the outermost layer of the organ at its tip.
+pub const PALPATE_EVENT_OPENS_LAYER_1: u32 = 1 << 15;
+/// It opens the second layer from outside.
+pub const PALPATE_EVENT_OPENS_LAYER_2: u32 = 1 << 16;
+/// It opens the third layer from outside.
+pub const PALPATE_EVENT_OPENS_LAYER_3: u32 = 1 << 17;
+/// It opens the fourth layer from outside.
+pub const PALPATE_EVENT_OPENS_LAYER_4: u32 = 1 << 18;
+/// It opens the fifth layer from outside.
+pub const PALPATE_EVENT_OPENS_LAYER_5: u32 = 1 << 19;
+/// It opens the sixth layer from outside.
+pub const PALPATE_EVENT_OPENS_LAYER_6: u32 = 1 << 20;
 
 pub(crate) fn bits(events: Events) -> u32 {
     events
@@ -53,6 +65,12 @@ mod tests {
             (Event::UndoCut, PALPATE_EVENT_UNDO_CUT),
             (Event::Jump, PALPATE_EVENT_JUMP),
             (Event::EnergyGain, PALPATE_EVENT_ENERGY_GAIN),
+            (Event::OpensLayer1, PALPATE_EVENT_OPENS_LAYER_1),
+            (Event::OpensLayer2, PALPATE_EVENT_OPENS_LAYER_2),
+            (Event::OpensLayer3, PALPATE_EVENT_OPENS_LAYER_3),
+            (Event::OpensLayer4, PALPATE_EVENT_OPENS_LAYER_4),
+            (Event::OpensLayer5, PALPATE_EVENT_OPENS_LAYER_5),
+            (Event::OpensLayer6, PALPATE_EVENT_OPENS_LAYER_6),
         ] {
             assert_eq!(bits([event].into_iter().collect()), bit, "{event}");
         }

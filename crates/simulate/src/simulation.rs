@@ -145,6 +145,11 @@ impl Simulation {
         layers.map(|layer| layer.bottom).collect()
     }
 
+    /// The names of the layers that can be opened, from outside.
+    pub fn layer_names(&self) -> &[String] {
+        self.cutting.as_ref().map_or(&[], |model| &model.names)
+    }
+
     /// Whether the organ has layers that can be opened.
     pub fn is_layered(&self) -> bool {
         self.cutting.as_ref().is_some_and(|model| model.is_layered)

@@ -38,8 +38,17 @@ pub struct CutSummary {
     pub triangles: [usize; 2],
     /// Times that the innermost layer was opened.
     pub perforations: u64,
-    /// Length of the cuts through each layer, from outside [m]; one for an organ without layers.
-    pub through: Vec<f64>,
+    /// The cuts through each layer, from outside; empty for an organ without layers.
+    pub layers: Vec<LayerCut>,
+}
+
+/// The cuts through a layer.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LayerCut {
+    /// Its name in the scene.
+    pub name: String,
+    /// Their length over the resting surface [m].
+    pub length: f64,
 }
 
 /// Times that steps took [s].
@@ -170,8 +179,12 @@ impl Tally {
                 triangles: [simulation.surface().mesh(), cuts.mesh()]
                     .map(|mesh| mesh.triangles().len()),
                 perforations: self.perforations,
-                through: (1..=simulation.cut_depths().len())
-                    .map(|layers| cuts.length_through(layers))
+                layers: (1..)
+                    .zip(simulation.layer_names())
+                    .map(|(layers, name)| LayerCut {
+                        name: name.clone(),
+                        length: cuts.length_through(layers),
+                    })
                     .collect(),
             }),
             interrupted,

@@ -19,6 +19,8 @@ mod seen_organ;
 mod style;
 mod window;
 
+pub use image::RgbaImage;
+
 pub use camera::{Camera, Lamp};
 pub use error::Error;
 pub use frame::{FRAME_SIZE, FrameWriter, SeenTool, Studio, png, tool_pictures};

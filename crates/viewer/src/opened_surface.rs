@@ -36,6 +36,7 @@ impl OpenedSurface {
                 triangles: triangles
                     .map(|corners| corners.map(|node| node.0))
                     .collect(),
+                parts: Vec::new(),
                 rims: rims.iter().map(|ends| ends.map(|node| node.0)).collect(),
             },
             places,

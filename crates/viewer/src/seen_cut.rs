@@ -1,23 +1,28 @@
-//! A cut as it is seen: the surface with its openings, the walls of the slits, and the layer below.
+//! A cut as it is seen: the surface with its openings, the walls of the slits, and the layers below.
 //!
-//! Openings are holes in the outer surface. Below them lies the inner layer: the uncut surface within
-//! [`AROUND`] of a slit, moved inward along its normals by the thickness of what was cut. From each open
-//! edge a wall goes down to it, in which muscle fibres run along the organ above and around it below
-//! (section 7.1). Triangles are made when the cut has changed, places with every picture.
+//! Openings are holes in the outer surface. Below them lie the inner layers: each is the uncut surface within
+//! [`AROUND`] of a slit, moved inward along its normals by the thickness of what lies above it. From each open
+//! edge a wall goes down to the first of them. Openings of an inner layer are left out by the shader, where the
+//! session's cuts go through that layer and nowhere else; below the innermost one lies the dark of the lumen.
+//! Muscle fibres run along the organ in the outermost layer and around it in the next (section 7.1). Triangles are
+//! made when the cut has changed, places with every picture.
 //!
-//! *How we know*: `golden::a_cut_looks_as_it_did`, `agreement::a_slit_shows_what_is_under_it`.
+//! *How we know*: `golden::a_cut_looks_as_it_did`, `agreement::layers_are_seen_open_where_events_say`.
 //!
-//! *Limits*: the inner layer is not moved by the opening, and on a wall thinner than two layers it is the
-//! outer side's alone; a slit wider than twice [`AROUND`] shows its end.
+//! *Limits*: an inner layer is not moved by the opening, and on a wall thinner than two layers it is the
+//! outer side's alone; a slit wider than twice [`AROUND`] shows its end. An opening of an inner layer has a cut
+//! face of a constant width instead of a wall, and the last 128 straight parts of the cuts through it are drawn.
 
 use std::collections::VecDeque;
 
 use nalgebra::Vector3;
 use palpate_geometry::{AabbTree, NodeId, Origin, Surface, TriangleId, Vec3};
-use palpate_simulate::interactive::OpenedSnapshot;
+use palpate_simulate::Simulation;
+use palpate_simulate::interactive::{OpenedPart, OpenedSnapshot};
 
 use crate::Gpu;
-use crate::render::{Body, Fibres, Tint};
+use crate::render::openings::{openings, punctures};
+use crate::render::{Body, FibreRun, Fibres, Tint};
 
 /// The inner layer is there within this distance of a slit, in thicknesses of the layer above [-].
 const AROUND: f64 = 6.0;
@@ -31,46 +36,95 @@ const BELOW: f32 = 1.15;
 /// How open the rim and the foot of a wall are to light from all sides [-].
 const OPEN: (f32, f32) = (1.0, 0.35);
 
-/// How open the inner layer is [-].
+/// How open the inner layers are [-].
 const UNDER: f32 = 0.8;
+
+/// An opening of a layer is this part of that of the layer above wide, so that both are seen [-].
+const NARROWER: f32 = 0.72;
+
+/// What cuts go through.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct CutLayers {
+    /// Depths of the lower faces, from outside [m].
+    depths: Vec<f64>,
+    /// Whether these are layers of an organ.
+    is_layered: bool,
+    /// How far a cut gapes [m].
+    width: f64,
+}
+
+impl CutLayers {
+    /// Those of `simulation`, or one of this depth and width [m] where nothing cuts.
+    pub(crate) fn of(simulation: &Simulation, (depth, width): (f64, f64)) -> Self {
+        let mut depths = simulation.cut_depths();
+        if depths.is_empty() {
+            depths.push(depth);
+        }
+        Self {
+            depths,
+            is_layered: simulation.is_layered(),
+            width: simulation.cut_width().unwrap_or(width),
+        }
+    }
+}
+
+/// A layer below the outermost, or the lumen.
+struct InnerLayer {
+    /// Thickness of what lies above it [m].
+    depth: f32,
+    body: Body,
+}
 
 /// A cut organ on the adapter.
 pub(crate) struct SeenCut {
     version: u64,
-    /// Thickness of what is cut [m].
+    /// Thickness of the outermost layer [m].
     thickness: f32,
+    /// Thickness of all that can be cut [m].
+    deepest: f64,
+    /// How far a cut gapes [m].
+    width: f32,
+    /// The openings of the layers that are drawn.
+    parts: Vec<OpenedPart>,
     /// Around the uncut surface at rest.
     tree: AabbTree,
     /// Where each vertex was before any cut.
     origins: Vec<Origin>,
     outer: Body,
     wall: Body,
-    inner: Body,
-    /// The vertices of the uncut surface that the inner layer has, the number there of each vertex, and its
+    inner: Vec<InnerLayer>,
+    /// The vertices of the uncut surface that the inner layers have, the number there of each vertex, and its
     /// triangles.
     inner_nodes: Vec<NodeId>,
     number: Vec<Option<NodeId>>,
     inner_triangles: Vec<[NodeId; 3]>,
     /// The vertices of the cut surface that a wall hangs from.
     wall_nodes: Vec<NodeId>,
-    /// Unit normals of the uncut surface as it is now, per vertex of the inner layer [-].
+    /// Unit normals of the uncut surface as it is now, per vertex of the inner layers [-].
     normals: Vec<Vector3<f32>>,
     /// Scratch.
     below: Vec<[f32; 3]>,
 }
 
 impl SeenCut {
-    /// A surface that is not cut yet, of which a layer of `thickness` [m] will be.
-    pub(crate) fn new(gpu: &Gpu, surface: &Surface, thickness: f64, tint: Tint) -> Self {
+    /// A surface that is not cut yet, of which `layers` will be.
+    pub(crate) fn new(gpu: &Gpu, surface: &Surface, layers: &CutLayers, tint: Tint) -> Self {
         let fibres = Fibres::along(surface.mesh());
+        let run = match layers.is_layered {
+            true => FibreRun::Along,
+            false => FibreRun::ByDepth,
+        };
         Self {
             version: 0,
-            thickness: thickness as f32,
+            thickness: layers.depths[0] as f32,
+            deepest: layers.depths.iter().copied().fold(0.0, f64::max),
+            width: layers.width as f32,
+            parts: Vec::new(),
             tree: AabbTree::new(surface.mesh()),
             origins: Vec::new(),
             outer: Body::empty(gpu, tint),
-            wall: Body::empty(gpu, Tint::MUSCLE_CUT).with_fibres(fibres),
-            inner: Body::empty(gpu, Tint::MUCOSA),
+            wall: Body::empty(gpu, Tint::MUSCLE_CUT).with_fibres(fibres.running(run)),
+            inner: inner_layers(gpu, layers, fibres),
             inner_nodes: Vec::new(),
             number: Vec::new(),
             inner_triangles: Vec::new(),
@@ -81,8 +135,9 @@ impl SeenCut {
     }
 
     /// What is drawn.
-    pub(crate) fn bodies(&self) -> [&Body; 3] {
-        [&self.outer, &self.wall, &self.inner]
+    pub(crate) fn bodies(&self) -> impl Iterator<Item = &Body> {
+        let inner = self.inner.iter().map(|layer| &layer.body);
+        [&self.outer, &self.wall].into_iter().chain(inner)
     }
 
     /// Takes over `opening`, with the uncut surface's vertices at `moved` [m]; `open` is how open each of
@@ -94,6 +149,16 @@ impl SeenCut {
         (surface, moved): (&Surface, &[[f32; 3]]),
         open: &[f32],
     ) {
+        let is_other = self.parts != opening.parts;
+        if is_other {
+            self.parts.clone_from(&opening.parts);
+            self.outer.open(punctures(&self.parts, self.width));
+            let mut width = self.width;
+            for (number, layer) in self.inner.iter_mut().enumerate() {
+                width *= NARROWER;
+                layer.body.open(openings(&self.parts, number + 1, width));
+            }
+        }
         if self.version != opening.version {
             self.version = opening.version;
             self.make(gpu, opening, surface, open);
@@ -164,12 +229,13 @@ impl SeenCut {
     /// The triangles of the uncut surface around the slits.
     fn make_inner(&mut self, gpu: &Gpu, surface: &Surface) {
         let mesh = surface.mesh();
-        let reach = AROUND * f64::from(self.thickness);
+        let reach = AROUND * self.deepest;
         self.number.clear();
         self.number.resize(mesh.vertices().len(), None);
         self.inner_nodes.clear();
         self.inner_triangles.clear();
-        for triangle in triangles_near(surface, self.starts(), reach) {
+        let starts: Vec<TriangleId> = self.starts(surface).collect();
+        for triangle in triangles_near(surface, starts.into_iter(), reach) {
             let corners = mesh.corners(triangle).map(|node| {
                 *self.number[node.index()].get_or_insert_with(|| {
                     self.inner_nodes.push(node);
@@ -181,14 +247,21 @@ impl SeenCut {
         let nodes = self.inner_nodes.iter();
         let rest: Vec<Vec3> = nodes.map(|node| mesh.vertices()[node.index()]).collect();
         let open = vec![UNDER; rest.len()];
-        self.inner
-            .replace(gpu, (&rest, &self.inner_triangles), &open);
+        for layer in &mut self.inner {
+            let made = (rest.as_slice(), self.inner_triangles.as_slice());
+            layer.body.replace(gpu, made, &open);
+        }
     }
 
-    /// The triangles of the uncut surface that a rim passes through.
-    fn starts(&self) -> impl Iterator<Item = TriangleId> {
+    /// The triangles of the uncut surface that a rim passes through, or that are punctured.
+    fn starts(&self, surface: &Surface) -> impl Iterator<Item = TriangleId> {
         let on_rim = |node: &NodeId| self.origins[node.index()].triangle;
-        self.wall_nodes.iter().map(on_rim)
+        let begun = self.parts.iter().filter(|part| part.begins);
+        let pierced = begun.map(|part| {
+            let place = double(&part.ends[0]);
+            self.tree.nearest(surface.mesh(), &place).triangle
+        });
+        self.wall_nodes.iter().map(on_rim).chain(pierced)
     }
 
     fn deform_inner(&mut self, gpu: &Gpu, moved: &[[f32; 3]]) {
@@ -203,13 +276,17 @@ impl SeenCut {
                 self.normals[corner.index()] += normal;
             }
         }
-        self.below.clear();
-        for (node, normal) in self.inner_nodes.iter().zip(&mut self.normals) {
+        for normal in &mut self.normals {
             *normal = normal.try_normalize(0.0).unwrap_or_else(Vector3::z);
-            let place = Vector3::from(moved[node.index()]) - self.thickness * *normal;
-            self.below.push(place.into());
         }
-        self.inner.deform(gpu, &self.below);
+        for layer in &mut self.inner {
+            self.below.clear();
+            for (node, normal) in self.inner_nodes.iter().zip(&self.normals) {
+                let place = Vector3::from(moved[node.index()]) - layer.depth * *normal;
+                self.below.push(place.into());
+            }
+            layer.body.deform(gpu, &self.below);
+        }
     }
 
     /// Walls go down along the normals of the uncut surface: slivers beside a cut have normals of their own.
@@ -232,6 +309,32 @@ impl SeenCut {
         }
         self.wall.deform(gpu, &self.below);
     }
+}
+
+/// What lies below the outermost layer: the other layers, the innermost one as mucosa, and the lumen below them.
+fn inner_layers(gpu: &Gpu, layers: &CutLayers, fibres: Fibres) -> Vec<InnerLayer> {
+    let count = layers.depths.len();
+    let depths = layers.depths.iter().enumerate();
+    depths
+        .map(|(above, depth)| {
+            let body = match above + 2 {
+                _ if !layers.is_layered => Body::empty(gpu, Tint::MUCOSA),
+                number if number > count => Body::empty(gpu, Tint::LUMEN),
+                number if number == count => Body::empty(gpu, Tint::MUCOSA),
+                number => {
+                    let run = match number % 2 {
+                        0 => FibreRun::Around,
+                        _ => FibreRun::Along,
+                    };
+                    Body::empty(gpu, Tint::MUSCLE_UNDER).with_fibres(fibres.running(run))
+                }
+            };
+            InnerLayer {
+                depth: *depth as f32,
+                body,
+            }
+        })
+        .collect()
 }
 
 /// The triangles of `surface` that are reached from those of `starts` within `reach` [m] of them.

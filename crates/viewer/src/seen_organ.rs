@@ -5,11 +5,11 @@ use palpate_simulate::{EnhancedSurface, OrganField, Simulation};
 
 use crate::render::openness::openness;
 use crate::render::{Body, Tint, single_precision};
-use crate::seen_cut::SeenCut;
+use crate::seen_cut::{CutLayers, SeenCut};
 use crate::{Error, Gpu};
 
-/// How deep a cut is that somebody shows on an organ which nothing cuts [m].
-const CUT: f64 = 0.0015;
+/// How deep and how wide a cut is that somebody shows on an organ which nothing cuts [m].
+const CUT: (f64, f64) = (0.0015, 0.0015);
 
 /// The organ that is touched, as it is drawn: with the simulation's vertices, with finer triangles around
 /// the tips, or with what was cut.
@@ -17,8 +17,8 @@ pub(crate) struct SeenOrgan {
     body: Body,
     /// Once there was a cut.
     cut: Option<SeenCut>,
-    /// How deep cuts go [m].
-    cut_depth: f64,
+    /// What cuts go through.
+    layers: CutLayers,
     /// Whether the last picture was of a cut organ.
     is_open: bool,
     enhanced: Option<EnhancedSurface>,
@@ -38,7 +38,7 @@ impl SeenOrgan {
         let mut organ = Self {
             body: Body::with_openness(gpu, surface.mesh(), &open, tint),
             cut: None,
-            cut_depth: simulation.cut_depth().unwrap_or(CUT),
+            layers: CutLayers::of(simulation, CUT),
             is_open: false,
             enhanced: None,
             tint,
@@ -84,7 +84,7 @@ impl SeenOrgan {
     ) {
         let cut = self
             .cut
-            .get_or_insert_with(|| SeenCut::new(gpu, surface, self.cut_depth, self.tint));
+            .get_or_insert_with(|| SeenCut::new(gpu, surface, &self.layers, self.tint));
         cut.follow(gpu, opening, (surface, vertices), &self.open);
         self.is_open = true;
     }

@@ -10,6 +10,15 @@ pub(super) struct CutsAnswer {
     triangles_before: usize,
     triangles_after: usize,
     perforations: u64,
+    /// Per layer, from outside.
+    layers: Vec<LayerAnswer>,
+}
+
+/// How far a layer was cut.
+#[derive(Debug, Serialize)]
+struct LayerAnswer {
+    name: String,
+    length_m: f64,
 }
 
 impl CutsAnswer {
@@ -22,6 +31,14 @@ impl CutsAnswer {
             triangles_before,
             triangles_after,
             perforations: summary.perforations,
+            layers: summary
+                .layers
+                .into_iter()
+                .map(|layer| LayerAnswer {
+                    name: layer.name,
+                    length_m: layer.length,
+                })
+                .collect(),
         }
     }
 
@@ -31,8 +48,13 @@ impl CutsAnswer {
             return String::new();
         }
         let (s, times) = (plural(self.count), plural(self.perforations as usize));
+        let layers: String = self
+            .layers
+            .iter()
+            .map(|layer| format!("; {} cut over {:.1} mm", layer.name, 1e3 * layer.length_m))
+            .collect();
         format!(
-            "\n{} cut{s}, {:.1} mm of the surface at rest in all, at most {} triangles behind the blade; {} triangles became {}; {} perforation{times}",
+            "\n{} cut{s}, {:.1} mm of the surface at rest in all, at most {} triangles behind the blade; {} triangles became {}; {} perforation{times}{layers}",
             self.count,
             1e3 * self.length_m,
             self.largest_lag_triangles,

@@ -18,10 +18,12 @@ pub(crate) struct CuttingModel {
     pub(crate) method: CutMethod,
     /// Whether forces follow a cut.
     pub(crate) changes_force: bool,
-    /// Whether the scene names layers; else the organ is one, which a blade always cuts to its depth.
+    /// Whether the scene has layers; else the organ is one, which a blade always cuts to its depth.
     pub(crate) is_layered: bool,
     /// From outside to inside; at least one.
     pub(crate) layers: Vec<CutLayer>,
+    /// The names of the layers that the scene names.
+    pub(crate) names: Vec<String>,
     /// No blade goes deeper [m].
     deepest: f64,
     /// How far an opening gapes [m].
@@ -87,6 +89,7 @@ impl CuttingModel {
             changes_force: settings.mode == CutMode::Split,
             is_layered: !layers.is_empty(),
             layers: cut_layers,
+            names: layers.iter().map(|layer| layer.name.clone()).collect(),
             deepest: settings.depth_m.unwrap_or(wall),
             width: settings.width_m,
         };

@@ -21,6 +21,7 @@ mod haptic_devices;
 mod hybrid;
 mod indentation;
 mod interactive;
+mod layers;
 mod invariants;
 mod kill;
 mod large_organs;

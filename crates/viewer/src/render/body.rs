@@ -3,6 +3,7 @@ use palpate_geometry::{NodeId, Surface, TriangleMesh, Vec3};
 
 use super::Tint;
 use super::crease::crease;
+use super::openings::Opening;
 use super::openness::openness;
 use crate::Gpu;
 
@@ -21,6 +22,7 @@ pub struct Body {
     pub(super) index_buffer: wgpu::Buffer,
     pub(super) tint: Tint,
     pub(super) fibres: Option<Fibres>,
+    pub(super) openings: Vec<Opening>,
 }
 
 /// Which way the fibres of a muscular tube run: along an axis outside, around it inside.
@@ -30,6 +32,19 @@ pub(crate) struct Fibres {
     pub(super) axis: Vec3,
     /// A point of its axis [m].
     pub(super) center: Vec3,
+    /// Where they run.
+    pub(super) run: FibreRun,
+}
+
+/// Which way fibres run, as a number in `shader/tissue.wgsl`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum FibreRun {
+    /// Along the axis in the outer half of a wall, around it in the inner one.
+    ByDepth = 0,
+    /// Along the axis.
+    Along = 1,
+    /// Around the axis.
+    Around = 2,
 }
 
 impl Fibres {
@@ -45,7 +60,13 @@ impl Fibres {
         Self {
             axis: eigen.eigenvectors.column(longest).into_owned(),
             center,
+            run: FibreRun::ByDepth,
         }
+    }
+
+    /// The same tube with fibres that run so.
+    pub(crate) fn running(self, run: FibreRun) -> Self {
+        Self { run, ..self }
     }
 }
 
@@ -79,6 +100,7 @@ impl Body {
             index_buffer: buffer(gpu, "triangles", 0, wgpu::BufferUsages::INDEX),
             tint,
             fibres: None,
+            openings: Vec::new(),
         }
     }
 
@@ -86,6 +108,11 @@ impl Body {
     pub(crate) fn with_fibres(mut self, fibres: Fibres) -> Self {
         self.fibres = Some(fibres);
         self
+    }
+
+    /// Has these openings from now on.
+    pub(crate) fn open(&mut self, openings: Vec<Opening>) {
+        self.openings = openings;
     }
 
     /// Other `vertices` at rest [m] and triangles in place of those that are there, each vertex as open to

@@ -1,13 +1,16 @@
 //! Pictures of an organ and its tools, drawn by a graphics adapter into a texture of their own, which a
 //! window shows or a file receives.
 //!
-//! Tissue is lit by a key light that it lets in a little (red farthest) and by light from all sides, less
-//! in hollows and under tools; over it lies a wet film, which glitters, and mirrors its surroundings where
-//! the shading has a map of them (section 7.5). Everything is bent to the display's gamma in the shader.
+//! Tissue is lit by a key light and by light from all sides, less in hollows and under tools, which cast soft
+//! shadows of the key light. Light that enters tissue comes out beside: each colour has its own normal between that of
+//! the relief and that of the surface, red the smoothest [Ma et al. 2007]. With a map of the surroundings (section
+//! 7.5) tissue is wet: a film of liquid fills its relief, darkens it, mirrors the map by Fresnel's law and shows the
+//! lamp as a microfacet surface of the film's roughness. Without one it is dull. An endoscope's light falls with the
+//! squared distance and towards the edge of its cone. Everything is bent to the display's gamma in the shader.
 //!
 //! *How we know*: `golden::…` compare pictures; `agreement::the_picture_is_where_the_camera_says`.
 //!
-//! *Limits*: no shadows but those of tools in the light from all sides; the film mirrors no organ.
+//! *Limits*: no shadows but those of tools, as capsules; the film mirrors no organ.
 
 mod body;
 mod crease;
@@ -15,6 +18,7 @@ pub(crate) mod environment;
 mod light;
 mod maps;
 mod noise;
+pub(crate) mod openings;
 pub(crate) mod openness;
 mod pipelines;
 mod target;
@@ -28,7 +32,7 @@ mod wire;
 use palpate_files::scene::Shading;
 use wgpu::util::DeviceExt;
 
-pub(crate) use body::Fibres;
+pub(crate) use body::{FibreRun, Fibres};
 pub use body::{Body, single_precision};
 pub use target::Target;
 pub use tint::Tint;
@@ -161,8 +165,9 @@ impl Renderer {
             let mut uniform = body.tint.uniform(self.maps.map_as_color);
             if let Some(fibres) = &body.fibres {
                 uniform.fibres = vector(&fibres.axis, 1.0);
-                uniform.fibre_center = vector(&fibres.center, 0.0);
+                uniform.fibre_center = vector(&fibres.center, fibres.run as u8 as f32);
             }
+            uniform.open(&body.openings);
             bound.write(gpu, bytemuck::bytes_of(&uniform));
         }
         for (number, tool) in tools.iter().take(TOOLS).enumerate() {

@@ -84,12 +84,28 @@ impl Tint {
         relief: 1.1,
     };
 
+    /// A layer of muscle that is bare, not cut through.
+    pub const MUSCLE_UNDER: Self = Self {
+        dark: [0.30, 0.048, 0.038],
+        light: [0.52, 0.150, 0.115],
+        vessel: [0.22, 0.020, 0.020],
+        relief: 0.9,
+    };
+
     /// The light reddish layer inside of a muscular tube.
     pub const MUCOSA: Self = Self {
         dark: [0.76, 0.315, 0.295],
         light: [0.93, 0.490, 0.460],
         vessel: [0.62, 0.110, 0.110],
         relief: 0.35,
+    };
+
+    /// What is seen through the innermost layer.
+    pub const LUMEN: Self = Self {
+        dark: [0.016, 0.004, 0.004],
+        light: [0.040, 0.010, 0.009],
+        vessel: [0.012, 0.003, 0.003],
+        relief: 0.3,
     };
 
     /// The lines of a wire frame.
@@ -114,18 +130,12 @@ impl Tint {
 
     pub(super) fn uniform(self, map_as_color: f32) -> BodyUniform {
         let color = |[red, green, blue]: [f32; 3]| [red, green, blue, 0.0];
-        BodyUniform {
-            dark: color(self.dark),
-            light: color(self.light),
-            vessel: color(self.vessel),
-            detail: [
-                1.0 / super::tissue_map::LENGTH as f32,
-                self.relief,
-                map_as_color,
-                1.0,
-            ],
-            fibres: [0.0; 4],
-            fibre_center: [0.0; 4],
-        }
+        let detail = [
+            1.0 / super::tissue_map::LENGTH as f32,
+            self.relief,
+            map_as_color,
+            1.0,
+        ];
+        BodyUniform::new([self.dark, self.light, self.vessel].map(color), detail)
     }
 }

@@ -5,6 +5,7 @@ use nalgebra::Matrix4;
 use palpate_geometry::Vec3;
 
 use super::light::Light;
+use super::openings::{MOST, Opening};
 use super::tool::ToolPicture;
 use crate::Camera;
 
@@ -39,6 +40,33 @@ pub(super) struct BodyUniform {
     pub(super) detail: [f32; 4],
     pub(super) fibres: [f32; 4],
     pub(super) fibre_center: [f32; 4],
+    /// How many openings there are.
+    opened: [f32; 4],
+    openings: [Opening; MOST],
+}
+
+impl BodyUniform {
+    /// Without openings.
+    pub(super) fn new(colors: [[f32; 4]; 3], detail: [f32; 4]) -> Self {
+        let [dark, light, vessel] = colors;
+        Self {
+            dark,
+            light,
+            vessel,
+            detail,
+            fibres: [0.0; 4],
+            fibre_center: [0.0; 4],
+            opened: [0.0; 4],
+            openings: [Opening::default(); MOST],
+        }
+    }
+
+    /// Has `openings`, of which there are at most as many as fit.
+    pub(super) fn open(&mut self, openings: &[Opening]) {
+        let count = openings.len().min(MOST);
+        self.opened[0] = count as f32;
+        self.openings[..count].copy_from_slice(&openings[..count]);
+    }
 }
 
 #[repr(C)]

@@ -12,79 +12,136 @@ use crate::reproduce::{Item, Rows};
 
 pub(crate) const FIGURE_4_6: Item = Item {
     name: "figure-4-6",
-    title: "a pressed cube: coarse, with finer triangles at the tip, and smoothed",
+    title: "a cube at rest and pressed: coarse, with finer triangles at the tip, and smoothed",
     seconds: 4.5,
     run,
 };
 
-/// What is shown: the name, the area that is refined, how displacements are spread.
-const PICTURES: [(&str, EnhancementArea, Smoothing); 5] = [
-    ("coarse", EnhancementArea::None, Smoothing::None),
-    ("edge", EnhancementArea::Edge, Smoothing::None),
-    ("edge_shepard", EnhancementArea::Edge, Smoothing::Shepard),
-    ("vertex", EnhancementArea::Vertex, Smoothing::None),
-    (
-        "vertex_shepard",
-        EnhancementArea::Vertex,
-        Smoothing::Shepard,
+/// A picture of the figure.
+struct Shown {
+    name: &'static str,
+    /// Whether the cube is pressed.
+    pressed: bool,
+    area: EnhancementArea,
+    smoothing: Smoothing,
+    /// Whether the closed form of the dimple is added, which the source does not have.
+    dimple: bool,
+}
+
+const fn shown(name: &'static str, area: EnhancementArea, smoothing: Smoothing) -> Shown {
+    Shown {
+        name,
+        pressed: true,
+        area,
+        smoothing,
+        dimple: false,
+    }
+}
+
+/// The source's (a), (b) and (c), its (c) with each area and each smoothing, and ours.
+const PICTURES: [Shown; 9] = [
+    Shown {
+        pressed: false,
+        ..shown("unmodified", EnhancementArea::None, Smoothing::None)
+    },
+    shown("coarse", EnhancementArea::None, Smoothing::None),
+    shown("edge", EnhancementArea::Edge, Smoothing::None),
+    shown("edge_shepard", EnhancementArea::Edge, Smoothing::Shepard),
+    shown("vertex", EnhancementArea::Vertex, Smoothing::None),
+    shown("vertex_shepard", EnhancementArea::Vertex, Smoothing::Shepard),
+    shown(
+        "edge_moving_least_squares",
+        EnhancementArea::Edge,
+        Smoothing::MovingLeastSquares,
     ),
+    shown(
+        "vertex_moving_least_squares",
+        EnhancementArea::Vertex,
+        Smoothing::MovingLeastSquares,
+    ),
+    Shown {
+        dimple: true,
+        ..shown("vertex_shepard_dimple", EnhancementArea::Vertex, Smoothing::Shepard)
+    },
 ];
 
 /// Each triangle becomes 64.
 const LEVELS: usize = 3;
 
-/// How deep a triangle is pressed in [m].
-const DEPTH: f64 = 15e-3;
+/// How deep a triangle is pressed in [m]: half of the cube, for the means of linear triangles keep a third of it.
+const DEPTH: f64 = 40e-3;
 
 fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
     let mut painter = match Painter::new() {
         Ok(painter) => painter,
         Err(why) => {
-            for (name, ..) in PICTURES {
-                rows.add_missing(name, "", why.to_string());
+            for shown in PICTURES {
+                rows.add_missing(shown.name, "", why.to_string());
             }
             return Ok(());
         }
     };
     let cube = Body::new(MODELS[0])?;
     let pressed = Pressed::new(&cube, DEPTH)?;
-    for (name, area, smoothing) in PICTURES {
-        let settings = Enhancement {
-            area,
-            levels: LEVELS,
-            smoothing,
-        };
-        let (surface, places) = enhanced(&cube.surface, &pressed, settings)?;
+    for shown in PICTURES {
+        let (surface, places) = enhanced(&cube.surface, &pressed, &shown)?;
         let png = painter.draw(&Sitter {
             surface: &surface,
             places: &places,
             middle: (pressed.place, pressed.normal),
-            near: 0.5,
+            near: 0.62,
         })?;
         let note = format!(
-            "{}, a triangle pressed {:.0} mm deep; {} triangles are drawn; displacements are spread \
-             {} beside the closed form of the dimple: geometry, no mechanics; drawn by {}",
+            "{}, {}; {} triangles are drawn, lit by their own normals; geometry, no mechanics; drawn by {}",
             cube.told,
-            1e3 * DEPTH,
+            shown.told(),
             surface.mesh().triangles().len(),
-            match smoothing {
-                Smoothing::None => "linearly",
-                Smoothing::Shepard => "by Shepard's functions",
-                Smoothing::MovingLeastSquares => "by moving least squares",
-            },
             painter.gpu.adapter(),
         );
-        rows.add_picture(Some(name), &png, note)?;
+        rows.add_picture(Some(shown.name), &png, note)?;
     }
     Ok(())
+}
+
+impl Shown {
+    fn told(&self) -> String {
+        if !self.pressed {
+            return "as it is at rest".to_owned();
+        }
+        let way = match self.smoothing {
+            Smoothing::None => "linearly between means at the vertices",
+            Smoothing::Shepard => "by Shepard's functions",
+            Smoothing::MovingLeastSquares => "by moving least squares",
+        };
+        let dimple = match self.dimple {
+            false => {
+                "as the source does; the dent is shallower than the tip is deep, since each of these spreads the \
+                      touched triangle's displacement over its neighbours"
+            }
+            true => {
+                "after the closed form of the dimple under a flat tip as large as the triangle was taken from them, \
+                     and added again where they were spread: the dent is as deep as the tip and as narrow, whatever \
+                     the triangles are, which is how organs are shown"
+            }
+        };
+        format!(
+            "a triangle pressed {:.0} mm deep, displacements of the centroids spread {way}, {dimple}",
+            1e3 * DEPTH
+        )
+    }
 }
 
 /// The surface with the patch in it at rest, and where its vertices [m] are when it is pressed.
 fn enhanced(
     coarse: &Surface,
     pressed: &Pressed,
-    settings: Enhancement,
+    shown: &Shown,
 ) -> Result<(Surface, Vec<Vec3>), Failure> {
+    let settings = Enhancement {
+        area: shown.area,
+        levels: LEVELS,
+        smoothing: shown.smoothing,
+    };
     let model = EnhancementModel::new(coarse.clone(), settings)?;
     // As large as the triangle.
     let area = coarse.mesh().area_vector(pressed.triangle).norm();
@@ -95,8 +152,11 @@ fn enhanced(
         displacement: -DEPTH * pressed.normal,
         own: -DEPTH * pressed.normal,
     };
+    let presses = if shown.dimple { &[press][..] } else { &[] };
+    let still = vec![Vec3::zeros(); pressed.displacements.len()];
+    let displacements = if shown.pressed { &pressed.displacements } else { &still };
     let mut field = SurfaceField::default();
-    field.update(model.interpolation(), &pressed.displacements, &[press]);
+    field.update(model.interpolation(), displacements, presses);
     let mut patch = EnhancedPatch::default();
     patch.build(&model, &[pressed.triangle]);
     let mut of_patch = vec![Vec3::zeros(); patch.places().len()];

@@ -1,5 +1,6 @@
 //! Rendering (section 7.5 and the pictures of sections 3.4 and 4.3), by the adapter of this machine.
 
+mod look;
 mod pictures;
 mod table_7_1;
 

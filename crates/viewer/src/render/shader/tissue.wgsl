@@ -5,6 +5,12 @@ override SHADING: u32 = 0u;
 // 1 with the tissue map: relief, and colours where the shading has any.
 override DETAIL: u32 = 1u;
 
+// An opening around a straight part of a cut: its ends [m], with the half width there in w [m].
+struct Opening {
+    start: vec4f,
+    end: vec4f,
+};
+
 struct Body {
     // Dark and light tissue, and vessels.
     dark: vec4f,
@@ -15,7 +21,11 @@ struct Body {
     detail: vec4f,
     // Where muscle is cut through: the axis that its outer fibres run along, with w = 1, and a point of it [m].
     fibres: vec4f,
+    // With w: 0 by depth, 1 along the axis, 2 around it.
     fibre_center: vec4f,
+    // How many openings there are in x.
+    opened: vec4f,
+    openings: array<Opening, 128>,
 };
 
 @group(1) @binding(0) var tissue_map: texture_3d<f32>;
@@ -74,6 +84,11 @@ fn left_by(tool: Capsule, position: vec3f, normal: vec3f) -> f32 {
     return mix(1.0, left, tool.end.w);
 }
 
+// A normal under a relief of this slope.
+fn bent(normal: vec3f, slope: vec3f) -> vec3f {
+    return normalize(normal - slope + normal * dot(slope, normal));
+}
+
 // What a capsule leaves of light that comes from the direction `towards`: its soft shadow, by how near the
 // way to the light passes.
 fn lit_beside(tool: Capsule, position: vec3f, towards: vec3f) -> f32 {
@@ -104,64 +119,124 @@ fn looked_up(rest: vec4f) -> vec3f {
     let axis = body.fibres.xyz;
     let out = rest.xyz - body.fibre_center.xyz;
     let around = normalize(cross(axis, out - dot(out, axis) * axis) + vec3f(1e-9, 0.0, 0.0));
-    let run = select(around, axis, rest.w > 0.68);
+    let is_along = select(rest.w > 0.68, body.fibre_center.w < 1.5, body.fibre_center.w > 0.5);
+    let run = select(around, axis, is_along);
     let drawn = rest.xyz - 0.94 * dot(out, run) * run;
     // A wall's rows differ in depth alone, which its openness tells.
     let stacked = drawn * 1.7 + (1.0 - rest.w) * 0.011 * vec3f(0.61, 0.53, 0.59);
     return mix(rest.xyz, stacked, body.fibres.w) * body.detail.x;
 }
 
+// Width of the cut face around an opening [m].
+const FACE: f32 = 0.0003;
+
+// How far a place at rest is outside of the openings of this layer [m].
+fn outside(rest: vec3f) -> f32 {
+    var nearest = 1.0;
+    for (var k = 0u; k < u32(body.opened.x); k++) {
+        let opening = body.openings[k];
+        let along = opening.end.xyz - opening.start.xyz;
+        let offset = rest - opening.start.xyz;
+        let part = clamp(dot(offset, along) / max(dot(along, along), 1e-14), 0.0, 1.0);
+        let half_width = mix(opening.start.w, opening.end.w, part);
+        nearest = min(nearest, length(offset - part * along) - half_width);
+    }
+    return nearest;
+}
+
+// Light from the key that a wet film throws towards the eye: microfacets [Walter et al. 2007] with Smith's shadowing
+// as Karis approximates it, and Schlick's Fresnel term.
+fn glitter(normal: vec3f, towards: vec3f, to_eye: vec3f, roughness: f32, straight: f32) -> f32 {
+    let middle = normalize(towards + to_eye);
+    let facing = clamp(dot(normal, middle), 0.0, 1.0);
+    let lit = clamp(dot(normal, towards), 0.0, 1.0);
+    let seen = clamp(dot(normal, to_eye), 1e-3, 1.0);
+    let alpha = roughness * roughness;
+    let squared = alpha * alpha;
+    let bend = facing * facing * (squared - 1.0) + 1.0;
+    let spread = squared / (3.14159 * bend * bend);
+    let k = 0.5 * alpha;
+    let shadowing = 1.0 / ((lit * (1.0 - k) + k) * (seen * (1.0 - k) + k));
+    let away = 1.0 - clamp(dot(middle, to_eye), 0.0, 1.0);
+    let fresnel = straight + (1.0 - straight) * away * away * away * away * away;
+    return min(0.25 * spread * shadowing * fresnel * lit * 3.14159, 12.0);
+}
+
 @fragment
 fn tissue_fragment(in: Varyings) -> @location(0) vec4f {
     let to_eye = normalize(globals.eye.xyz - in.position);
-    var normal = normalize(in.normal);
+    let smooth_normal = normalize(in.normal);
+    let beside = outside(in.rest.xyz);
+    if (beside < 0.0) {
+        discard;
+    }
+    var normal = smooth_normal;
     var tone = 0.62;
+    var relief = vec3f(0.0);
     if (DETAIL == 1u) {
         let texel = textureSampleLevel(
             tissue_map, tissue_sampler, looked_up(in.rest), globals.levels.x,
         );
-        let slope = (texel.rgb - 0.5) * body.detail.y;
-        normal = normalize(normal - slope + normal * dot(slope, normal));
+        relief = (texel.rgb - 0.5) * body.detail.y;
+        normal = bent(smooth_normal, relief);
         if (SHADING != 0u) {
             tone = texel.a;
         }
     }
     let own = mix(body.dark.rgb, body.light.rgb, clamp((tone - 0.3) / 0.7, 0.0, 1.0));
     var color = mix(body.vessel.rgb, own, smoothstep(0.0, 0.3, tone));
+    // The cut face of a layer, darker towards what lies below.
+    let face = 1.0 - smoothstep(0.7 * FACE, FACE, beside);
+    color = mix(color, body.dark.rgb * mix(0.25, 0.8, clamp(beside / FACE, 0.0, 1.0)), face);
 
     var towards = globals.key.xyz;
     var strength = 1.0;
     if (globals.key.w > 0.5) {
         let away = globals.key.xyz - in.position;
-        strength = min(globals.key_color.w / dot(away, away), 2.5);
         towards = normalize(away);
+        // An endoscope's light falls with the distance and towards the edge of its cone; its back is up.
+        let inside = clamp(dot(towards, globals.up.xyz), 0.0, 1.0);
+        strength = min(globals.key_color.w / dot(away, away), 2.5) * inside * inside;
     }
     let open = in.rest.w
         * left_by(globals.tools[0], in.position, normal)
         * left_by(globals.tools[1], in.position, normal);
-    let facing = dot(normal, towards);
-    // Light enters tissue and comes out beside, red farthest.
+    // Light enters tissue and comes out beside, red farthest: red sees the smoothest surface, and its shadows are
+    // the softest.
+    let facing = vec3f(
+        dot(mix(normal, smooth_normal, 0.75), towards),
+        dot(mix(normal, smooth_normal, 0.35), towards),
+        dot(mix(normal, smooth_normal, 0.20), towards),
+    );
     let wrap = vec3f(0.42, 0.24, 0.20);
-    let soft = clamp((vec3f(facing) + wrap) / (1.0 + wrap), vec3f(0.0), vec3f(1.0));
+    let soft = clamp((facing + wrap) / (1.0 + wrap), vec3f(0.0), vec3f(1.0));
     let around = mix(globals.ground.rgb, globals.sky.rgb, 0.5 + 0.5 * dot(normal, globals.up.xyz));
     let lit = lit_beside(globals.tools[0], in.position, towards)
         * lit_beside(globals.tools[1], in.position, towards);
-    let key = globals.key_color.rgb * strength * mix(0.35, 1.0, open) * mix(0.25, 1.0, lit);
-    let arriving = soft * soft * key + around * open;
+    let direct = globals.key_color.rgb * strength * mix(0.35, 1.0, open);
+    let through = mix(vec3f(0.20, 0.12, 0.11), vec3f(1.0), pow(vec3f(lit), vec3f(0.7, 1.0, 1.1)));
+    let arriving = soft * soft * direct * through + around * open;
 
-    let seen = clamp(dot(normal, to_eye), 0.0, 1.0);
-    let grazing = 1.0 - seen;
-    let film = body.detail.w * (0.05 + 0.75 * grazing * grazing * grazing * grazing);
-    let half_way = clamp(dot(normal, normalize(towards + to_eye)), 0.0, 1.0);
-    // A sharp and a broad lobe, as Gaussians of the half angle.
-    let glint = 1.5 * exp2(420.0 * (half_way - 1.0)) + 0.16 * exp2(36.0 * (half_way - 1.0));
-    var shine = key * glint * body.detail.w;
-    if (SHADING >= 2u) {
-        let reflection = mirrored(2.0 * dot(normal, to_eye) * normal - to_eye);
-        color = mix(color, 0.55 * reflection, body.detail.z);
-        shine += reflection * film * open * (0.4 + 0.6 * strength);
+    let is_wet = SHADING >= 2u && body.detail.w > 0.0;
+    var shine = vec3f(0.0);
+    if (is_wet) {
+        // Liquid fills the relief, more of it in hollows of the tone; where it is thin the film is rough.
+        let pool = smoothstep(0.35, 0.85, tone);
+        let film_normal = bent(smooth_normal, relief * mix(0.75, 0.30, pool));
+        let roughness = mix(0.34, 0.20, pool);
+        // Of water: 2 % straight on.
+        let straight = 0.025;
+        let seen = clamp(dot(film_normal, to_eye), 0.0, 1.0);
+        let away = 1.0 - seen;
+        let fresnel = straight + (1.0 - straight) * away * away * away * away * away;
+        let reflection = mirrored(2.0 * dot(film_normal, to_eye) * film_normal - to_eye);
+        // Wet tissue is darker and fuller in colour: light is kept in by the film.
+        color = mix(0.80 * pow(color, vec3f(1.10)), 0.55 * reflection, body.detail.z);
+        shine = reflection * open * (0.4 + 0.6 * strength) * min(2.6 * fresnel, 1.0);
+        shine += direct * lit * glitter(film_normal, towards, to_eye, roughness, straight);
     } else {
-        shine += around * film * open;
+        let middle = clamp(dot(normal, normalize(towards + to_eye)), 0.0, 1.0);
+        shine = direct * lit * 0.06 * exp2(30.0 * (middle - 1.0)) * body.detail.w;
     }
     let ring = mark(globals.marks[0], in.rest.xyz) + mark(globals.marks[1], in.rest.xyz);
     let light = mix(color * arriving + shine, vec3f(0.10, 0.62, 0.54), min(0.75 * ring, 1.0));
