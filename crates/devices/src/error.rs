@@ -45,6 +45,22 @@ pub enum OpenError {
         /// What was given.
         found: String,
     },
+    /// What shall be on or off is neither.
+    #[error(
+        "PALPATE_DEAD_MAN is {found:?}; set it to 1 for forces only while a button is held, or to 0"
+    )]
+    NoSwitch {
+        /// What was given.
+        found: String,
+    },
+    /// A button shall be held, and there is none for it.
+    #[error(
+        "{device} has no button besides the first that could be held for forces; take a grip with more, or unset PALPATE_DEAD_MAN"
+    )]
+    NoDeadMan {
+        /// The device.
+        device: String,
+    },
     /// A library is not there.
     #[error("the library of `{kind}` is not there: no {names} can be loaded ({cause}); install its driver and its SDK, or say with {variable} where it is", variable = kind.variable())]
     NoLibrary {

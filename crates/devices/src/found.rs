@@ -1,4 +1,4 @@
-use palpate_servo::DeviceSpec;
+use palpate_servo::Capabilities;
 
 /// Where a number of a device comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,7 +21,7 @@ pub struct Found {
     /// What else is known of it, a short sentence each.
     pub remarks: Vec<String>,
     /// Its limits.
-    pub spec: DeviceSpec,
+    pub capabilities: Capabilities,
     /// Where the limits of its forces come from.
     pub forces: Origin,
 }

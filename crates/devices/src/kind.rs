@@ -52,7 +52,8 @@ impl Kind {
         }
     }
 
-    /// Opens device `number` of this kind, from zero on.
+    /// Opens device `number` of this kind, from zero on. What it gives can be commanded by a servo loop alone, whose
+    /// guard makes every force ([`palpate_servo::Command`]).
     ///
     /// # Errors
     /// When it is not there.
@@ -60,7 +61,11 @@ impl Kind {
         match self {
             Self::Haply => {
                 let device = HaplyDevice::open(&places.haply, number)?;
-                Ok(Box::new(device.with_patience(places.patience)))
+                let device = device.with_timeout(places.timeout);
+                match places.dead_man {
+                    true => Ok(Box::new(device.with_dead_man()?)),
+                    false => Ok(Box::new(device)),
+                }
             }
             Self::OpenHaptics if number > 0 => Err(OpenError::NoSuchDevice {
                 kind: self,
@@ -70,12 +75,18 @@ impl Kind {
             Self::OpenHaptics => {
                 let named = places.openhaptics.as_deref();
                 let device = OpenHapticsDevice::open(named)?;
-                Ok(Box::new(device.with_patience(places.patience)))
+                match places.dead_man {
+                    true => Ok(Box::new(device.with_dead_man())),
+                    false => Ok(Box::new(device)),
+                }
             }
             Self::ForceDimension => {
                 let named = places.force_dimension.as_deref();
                 let device = ForceDimensionDevice::open(named, number)?;
-                Ok(Box::new(device.with_patience(places.patience)))
+                match places.dead_man {
+                    true => Ok(Box::new(device.with_dead_man())),
+                    false => Ok(Box::new(device)),
+                }
             }
         }
     }

@@ -1,10 +1,10 @@
-//! Haptic devices that users own, each behind [`palpate_servo::Device`], stand-ins for them, and a server that shows
-//! what is touched to the programs of an operating room ([`openigtlink`]).
+//! Haptic devices that users own, each behind [`palpate_servo::Device`], and a server that shows what is touched to the
+//! programs of an operating room ([`openigtlink`]).
 //!
 //! ```text
-//!  ServoLoop ─exchange▶ HaplyDevice ─────────── WebSocket, one message each way ──▶ Inverse Service
-//!                       OpenHapticsDevice ────── latest force, latest state ──────▶ scheduler of libHD
-//!                       ForceDimensionDevice ─── a thread that makes the calls ───▶ libdhd
+//!  our thread ────────▶ ServoLoop ─exchange▶ HaplyDevice ─── WebSocket, one message each way ──▶ Inverse Service
+//!                       ServoLoop ─exchange▶ ForceDimensionDevice ──────────── calls ──────────▶ libdhd
+//!  scheduler of libHD ▶ ServoLoop ─exchange▶ OpenHapticsDevice ────────── a frame per tick ────▶ libHD
 //! ```
 //!
 //! A driver turns the axes of its device into those of every device here (x right, y up, z toward the user, zero in
@@ -12,7 +12,8 @@
 //! It limits no force: that is the servo loop's, and the same for all. [`Places`] says where services and libraries
 //! are looked for; nothing is looked for anywhere else.
 //!
-//! *How we know*: every driver is run against a stand-in that speaks its protocol ([`stand_in`]), with faults.
+//! *How we know*: every driver is run against a stand-in that speaks its protocol (`crates/device-stand-ins`), with every
+//! fault at random moments in contact (`campaign::…` in the tests).
 //!
 //! *Limits*: the stand-ins were written from the same documents as the drivers. **Nothing here was tried on
 //! hardware.**
@@ -28,7 +29,6 @@ pub mod openigtlink;
 mod places;
 mod rotation;
 mod self_test;
-pub mod stand_in;
 
 pub use error::OpenError;
 pub use found::{Found, Origin};

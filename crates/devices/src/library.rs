@@ -47,13 +47,14 @@ impl Library {
     /// The function `name`.
     ///
     /// # Safety
-    /// `F` has to be the type of a pointer to it.
+    /// `F` has to be the type of a pointer to it, `unsafe extern "C" fn(…)` or `"system"`.
     #[allow(
         unsafe_code,
         reason = "the types of a library's functions are known from its documents only"
     )]
     pub(crate) unsafe fn function<F: Copy>(&self, name: &'static str) -> Result<F, OpenError> {
-        // SAFETY: the caller vouches for the type; the library is never unloaded.
+        // SAFETY: dlsym and GetProcAddress give the address of whatever has that name, and the caller vouches that it is
+        // of type F. The library is leaked, so that the copied pointer stays valid.
         let found = unsafe { self.loaded.get::<F>(name.as_bytes()) };
         found
             .map(|symbol| *symbol)
@@ -70,14 +71,16 @@ impl Library {
 #[allow(unsafe_code, reason = "loading a library runs its initialisation")]
 fn open(name: &std::ffi::OsStr) -> Result<libloading::Library, libloading::Error> {
     use libloading::os::unix::{Library, RTLD_GLOBAL, RTLD_LAZY};
-    // SAFETY: what a library does when it is loaded is its own; the person at the machine installed or named it.
+    // SAFETY: dlopen runs the library's initialisation, which may do anything. The person at the machine installed the
+    // library under its usual name or named its file by a variable of the environment; no document can.
     unsafe { Library::open(Some(name), RTLD_LAZY | RTLD_GLOBAL) }.map(Into::into)
 }
 
 #[cfg(not(unix))]
 #[allow(unsafe_code, reason = "loading a library runs its initialisation")]
 fn open(name: &std::ffi::OsStr) -> Result<libloading::Library, libloading::Error> {
-    // SAFETY: what a library does when it is loaded is its own; the person at the machine installed or named it.
+    // SAFETY: LoadLibrary runs the library's initialisation, which may do anything. The person at the machine installed
+    // the library under its usual name or named its file by a variable of the environment; no document can.
     unsafe { libloading::Library::new(name) }
 }
 
@@ -101,7 +104,7 @@ pub(crate) unsafe fn text(text: *const c_char) -> String {
     if text.is_null() {
         return String::new();
     }
-    // SAFETY: the caller vouches for it.
+    // SAFETY: it is not null, and the caller vouches for its end and its life; it is copied before this returns.
     let text = unsafe { CStr::from_ptr(text) };
     text.to_string_lossy().trim().to_owned()
 }

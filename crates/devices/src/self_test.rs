@@ -10,7 +10,7 @@
 
 use palpate_servo::{
     Clock, Controller, Device, DeviceState, Fault, Limits, LoopReport, ServoLoop, ServoSettings,
-    Stage, Vec3,
+    ServoThread, Stage, Vec3,
 };
 
 /// The largest force of the test [N], and the largest that its limits let by.
@@ -73,20 +73,19 @@ impl Controller for Push {
 ///
 /// # Errors
 /// When the loop cannot be made.
-pub fn self_test(device: Box<dyn Device>, mut clock: Clock) -> Result<SelfTest, Fault> {
+pub fn self_test(device: Box<dyn Device>, clock: Clock) -> Result<SelfTest, Fault> {
     let settings = ServoSettings {
         limits: Some(Limits {
             force: LIMIT,
             speed: 0.3,
             without_dead_man: 1.0,
-            ..Limits::of(device.spec())
+            ..Limits::of(device.capabilities())
         }),
         log: 8192,
         ..ServoSettings::default()
     };
-    let (mut servo, mut reader) = ServoLoop::new(device, Box::new(Push), settings)?;
-    let last = (WHOLE / settings.period) as u64;
-    let report = servo.run(&mut clock, |tick| tick < last);
+    let (servo, mut reader) = ServoLoop::new(device, Box::new(Push), settings)?;
+    let report = run(servo, clock, settings.period)?;
     let mut test = SelfTest {
         ends: None,
         reached: None,
@@ -115,4 +114,18 @@ pub fn self_test(device: Box<dyn Device>, mut clock: Clock) -> Result<SelfTest, 
         }
     }
     Ok(test)
+}
+
+/// Runs `servo` to the end of the test; on the machine's clock as in every session, in the scheduler of a device that has
+/// one.
+fn run(mut servo: ServoLoop, mut clock: Clock, period: f64) -> Result<LoopReport, Fault> {
+    let last = (WHOLE / period) as u64;
+    if let Clock::Virtual(_) = clock {
+        return Ok(servo.run(&mut clock, |tick| tick < last));
+    }
+    let thread = ServoThread::start(servo, clock)?;
+    while thread.is_running() && clock.now() < WHOLE {
+        clock.sleep_until(clock.now() + 0.01);
+    }
+    thread.stop()
 }

@@ -3,25 +3,28 @@ mod motions;
 mod on_device;
 mod sample;
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock};
 
 use palpate_files::recording::RecordingHeader;
 use palpate_servo::dynamics::{Imperfections, Machine};
 use palpate_servo::{
     Clock, Controller, Device, Fault, Limits, MECHANICS_STEP, ServoLoop, ServoSettings, Stage,
-    Supervisor, Vec3, VirtualPhantom, latest,
+    SteppedLoop, Supervisor, Vec3, VirtualPhantom, latest,
 };
 
 pub use sample::{Ended, Listener, Phase, RigSample};
 
 use crate::{Course, Error, ForceSensor, Indenter, Reference, RigSettings, VirtualSpecimen};
 
+/// Samples that a device with a scheduler may be ahead of the rig.
+const LOG: usize = 64;
+
 /// An indenter on its device, with a sensor.
 pub struct Rig {
     settings: RigSettings,
     header: RecordingHeader,
-    servo: ServoLoop,
+    servo: SteppedLoop,
     clock: Clock,
     reference: latest::Sender<Reference>,
     felt: latest::Receiver<f64>,
@@ -39,6 +42,8 @@ pub struct Rig {
     waited: f64,
     /// Whether its device is there, and what is late for it is late.
     is_real: bool,
+    /// Where the handle of such a device was at first [m].
+    rest: Arc<OnceLock<Vec3>>,
 }
 
 impl Rig {
@@ -80,14 +85,14 @@ impl Rig {
         let of_loop = ServoSettings {
             period: settings.period,
             limits: Some(limits(&settings)),
-            log: 1,
+            log: LOG,
             ..ServoSettings::default()
         };
         let (servo, reader) = ServoLoop::new(device, controller, of_loop)?;
         Ok(Self {
             settings,
             header,
-            servo,
+            servo: SteppedLoop::new(servo, reader.log, clock)?,
             clock,
             reference,
             felt,
@@ -102,6 +107,7 @@ impl Rig {
             supervisor: reader.supervisor,
             waited: 0.0,
             is_real: false,
+            rest: Arc::default(),
         })
     }
 
@@ -183,7 +189,10 @@ impl Rig {
         self.time += self.settings.period;
         let seen = seen.inspect_err(|fault| self.stage = Stage::Faulted(*fault))?;
         self.stage = seen.stage;
-        let height = seen.state.position.z;
+        let height = match self.is_real {
+            true => seen.state.position.y - self.rest.get().map_or(0.0, |rest| rest.y),
+            false => seen.state.position.z,
+        };
         Ok(RigSample {
             time,
             phase,

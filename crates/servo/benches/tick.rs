@@ -31,9 +31,7 @@ struct Rendered {
 impl Controller for Rendered {
     fn update(&mut self, state: &DeviceState, _dt: f64) -> Vec3 {
         self.extrapolator.receive(self.answers.latest());
-        let velocity = state.velocity.unwrap_or_else(Vec3::zeros);
-        self.extrapolator
-            .force(state.time, &state.position, &velocity)
+        self.extrapolator.force(state.time, &state.position)
     }
 
     fn age(&self) -> Option<f64> {

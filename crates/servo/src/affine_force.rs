@@ -2,7 +2,7 @@ use nalgebra::Matrix3;
 
 use crate::Vec3;
 
-/// A force around the place where it was computed: f(x) = f₀ + K (x − x₀) − b v. It crosses from the model
+/// A force around the place where it was computed: f(x) = f₀ + K (x − x₀). It crosses from the model
 /// to the servo loop as one value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AffineForce {
@@ -18,8 +18,6 @@ pub struct AffineForce {
     pub gradient: Matrix3<f64>,
     /// Unit normal along which the force pushes and never pulls [-]; zero where it may do both.
     pub normal: Vec3,
-    /// b, a force against the velocity [N s/m].
-    pub damping: f64,
     /// Distance from x₀ beyond which the force stays as it is at this distance [m].
     pub trust_radius: f64,
 }
@@ -37,13 +35,12 @@ impl AffineForce {
             force: Vec3::zeros(),
             gradient: Matrix3::zeros(),
             normal: Vec3::zeros(),
-            damping: 0.0,
             trust_radius: TRUST_RADIUS,
         }
     }
 
     /// Contact at `position` [m] with `force` [N] and its `gradient` [N/m], computed for `time` [s]; it
-    /// may push and pull, is not damped, and is trusted within 5 mm.
+    /// may push and pull, and is trusted within 5 mm.
     pub fn new(time: f64, position: Vec3, force: Vec3, gradient: Matrix3<f64>) -> Self {
         Self {
             contact: true,
@@ -54,14 +51,14 @@ impl AffineForce {
         }
     }
 
-    /// f(x) [N] at `position` [m] with `velocity` [m/s]: within the trust radius, and never pulling.
-    pub fn at(&self, position: &Vec3, velocity: &Vec3) -> Vec3 {
+    /// f(x) [N] at `position` [m]: within the trust radius, and never pulling.
+    pub fn at(&self, position: &Vec3) -> Vec3 {
         if !self.contact {
             return Vec3::zeros();
         }
         let away = position - self.position;
         let shorter = (self.trust_radius / away.norm()).min(1.0);
-        let force = self.force + self.gradient * (away * shorter) - velocity * self.damping;
+        let force = self.force + self.gradient * (away * shorter);
         self.without_pull(force)
     }
 
@@ -90,30 +87,19 @@ mod tests {
 
     #[test]
     fn a_spring_is_a_spring_until_it_would_pull() {
-        let still = Vec3::zeros();
-        let pressed = spring().at(&Vec3::new(1e-3, 0.0, -1e-3), &still);
+        let none = Vec3::zeros();
+        let pressed = spring().at(&Vec3::new(1e-3, 0.0, -1e-3));
         // By hand: 0.1 + 50 × 0.001, −10 × 0.001.
         assert!((pressed - Vec3::new(-0.01, 0.0, 0.15)).norm() < 1e-15);
-        assert_eq!(spring().at(&Vec3::new(1e-3, 0.0, 3e-3), &still), still);
-        assert_eq!(AffineForce::none(0.0).at(&still, &still), still);
+        assert_eq!(spring().at(&Vec3::new(1e-3, 0.0, 3e-3)), none);
+        assert_eq!(AffineForce::none(0.0).at(&none), none);
     }
 
     #[test]
     fn beyond_its_trust_it_stays() {
-        let still = Vec3::zeros();
-        let edge = spring().at(&Vec3::new(0.0, 0.0, -5e-3), &still);
-        let beyond = spring().at(&Vec3::new(0.0, 0.0, -80e-3), &still);
+        let edge = spring().at(&Vec3::new(0.0, 0.0, -5e-3));
+        let beyond = spring().at(&Vec3::new(0.0, 0.0, -80e-3));
         // Rounding.
         assert!((edge - beyond).norm() < 1e-15, "{edge} {beyond}");
-    }
-
-    #[test]
-    fn damping_is_against_the_velocity() {
-        let damped = AffineForce {
-            damping: 2.0,
-            ..spring()
-        };
-        let moving = damped.at(&Vec3::zeros(), &Vec3::new(0.0, 0.0, 0.01));
-        assert!((moving - Vec3::new(0.0, 0.0, 0.08)).norm() < 1e-15);
     }
 }

@@ -71,14 +71,14 @@ impl Extrapolator {
         self.age(time) - self.used
     }
 
-    /// The force [N] at `time` [s], of a hand at `position` [m] with `velocity` [m/s].
-    pub fn force(&self, time: f64, position: &Vec3, velocity: &Vec3) -> Vec3 {
+    /// The force [N] at `time` [s], of a hand at `position` [m].
+    pub fn force(&self, time: f64, position: &Vec3) -> Vec3 {
         if !self.last.contact {
             return Vec3::zeros();
         }
         let age = self.age(time);
         let force = match self.hand_over {
-            HandOver::LocalModel => self.last.at(position, velocity),
+            HandOver::LocalModel => self.last.at(position),
             HandOver::Hold => self.last.force,
             HandOver::Linear => self.last.without_pull(self.line(age.min(self.used))),
         };
@@ -117,7 +117,7 @@ mod tests {
     }
 
     fn force(extrapolator: &Extrapolator, time: f64) -> f64 {
-        extrapolator.force(time, &Vec3::zeros(), &Vec3::zeros()).z
+        extrapolator.force(time, &Vec3::zeros()).z
     }
 
     #[test]

@@ -99,6 +99,19 @@ pub enum Fault {
     /// The thread of the loop ended in a panic; the device was stopped.
     #[error("the servo thread panicked, and the device was stopped; report it as a defect")]
     Panicked,
+    /// A call into the device did not return.
+    #[error(
+        "a call into the device did not return within {limit} s, and its force is not known; switch the device off and start again"
+    )]
+    Hung {
+        /// How long it was waited for [s].
+        limit: f64,
+    },
+    /// The device was called from a thread that is not its scheduler's.
+    #[error(
+        "the device was called outside of its own scheduler, which its library forbids; report it as a defect"
+    )]
+    OutsideScheduler,
     /// The operating system gives no thread.
     #[error("the operating system gives no thread for the servo loop; close other programs")]
     NoThread,

@@ -4,14 +4,14 @@
 //! ```text
 //!                                  Supervisor (a person, a fault, a silent program)
 //!                                             │
-//!  model thread ──latest(AffineForce)──▶ Controller ─wanted▶ Guard ─sent▶ Device ──▶ hand
-//!       ▲                                     ▲                              │
-//!       └────────── latest(Sample) ───────────┴───────────── DeviceState ────┘
+//!  model thread ──latest(AffineForce)──▶ Controller ─wanted▶ Guard ─CommandedForce▶ Device ──▶ hand
+//!       ▲                                     ▲                                        │
+//!       └────────── latest(Sample) ───────────┴───────────────── DeviceState ──────────┘
 //! ```
 //!
 //! The crate knows nothing of tissue, scenes or files. A [`ServoLoop`] owns its [`Device`]; nothing else
-//! calls it, and it waits for nobody. The same loop runs on a real [`Clock`] and on a virtual one. A tick
-//! allocates nothing.
+//! calls it, and it waits for nobody. The same loop runs on a real [`Clock`] and on a virtual one, on a thread of ours
+//! ([`ServoThread`]) and in the scheduler of a device that has one ([`Scheduler`]). A tick allocates nothing.
 
 mod affine_force;
 mod clock;
@@ -31,6 +31,7 @@ mod sample;
 mod servo_loop;
 mod servo_settings;
 mod servo_thread;
+mod stepped_loop;
 mod study;
 pub mod supervisor;
 mod velocity;
@@ -39,13 +40,14 @@ pub use affine_force::AffineForce;
 pub use clock::Clock;
 pub use controller::Controller;
 pub use device::{
-    Command, Device, DeviceSpec, DeviceState, Hand, MECHANICS_STEP, NoDevice, Pointer, PointerHand,
-    Touch, Trajectory, VirtualDevice, VirtualPhantom, Waypoint,
+    Capabilities, Command, Device, DeviceState, Disabled, Hand, MECHANICS_STEP, Next, NoDevice,
+    Pointer, PointerHand, Scheduler, Tick, Touch, Trajectory, VirtualDevice, VirtualPhantom,
+    Waypoint,
 };
 pub use extrapolate::{Extrapolator, HandOver};
 pub use fault::Fault;
 pub use histogram::{Histogram, Percentiles};
-pub use limits::{DeadMan, Guard, Interventions, Limits, Stage};
+pub use limits::{CommandedForce, DeadMan, Guard, Interventions, Limits, Stage};
 pub use pid::{Pid, PidGains};
 pub use priority::{Priority, raise_priority};
 pub use report::{LoopReport, measure_lateness};
@@ -53,6 +55,7 @@ pub use sample::Sample;
 pub use servo_loop::{ServoLoop, ServoReader};
 pub use servo_settings::ServoSettings;
 pub use servo_thread::ServoThread;
+pub use stepped_loop::SteppedLoop;
 pub use study::{HandOverCost, HandOverStudy};
 pub use supervisor::{ForceState, Supervisor};
 

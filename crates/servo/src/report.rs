@@ -2,7 +2,7 @@
 
 use crate::clock::Clock;
 use crate::{
-    Controller, Fault, Histogram, Interventions, NoDevice, Percentiles, Priority, Sample,
+    Controller, Disabled, Fault, Histogram, Interventions, NoDevice, Percentiles, Priority, Sample,
     ServoLoop, ServoSettings, Vec3,
 };
 
@@ -36,6 +36,8 @@ pub struct LoopReport {
     pub faults: u64,
     /// Why forces are off, if they are.
     pub fault: Option<Fault>,
+    /// What the device said when its forces were last disabled; none before.
+    pub disabled: Option<Disabled>,
 }
 
 /// What a loop measures while it runs.

@@ -5,10 +5,8 @@ use crate::{DeviceState, Stage, Vec3};
 pub struct Sample {
     /// Number of the tick, from zero; missed ones have numbers too.
     pub tick: u64,
-    /// What the device answered.
+    /// What the device answered; its velocity is the loop's where the device measures none.
     pub state: DeviceState,
-    /// The velocity of the hand [m/s].
-    pub velocity: Vec3,
     /// The force that the device got at this tick and has until the next [N].
     pub held: Vec3,
     /// The force that the controller wants for this state [N].

@@ -9,17 +9,15 @@
 //!
 //! *Limits*: on an ordinary operating system the longest lateness is that of the scheduler, milliseconds.
 
-use std::time::Duration;
-
 use crate::dynamics::Compensator;
-use crate::limits::{Guard, Limits, Stage, Wish};
+use crate::limits::{CommandedForce, Guard, Limits, Stage, Wish};
 use crate::priority::{Priority, raise_priority};
 use crate::report::Meter;
 use crate::supervisor::Permission;
 use crate::velocity::Velocity;
 use crate::{
-    Clock, Command, Controller, Device, DeviceState, Fault, LoopReport, Sample, ServoSettings,
-    Supervisor, Vec3, latest, log,
+    Clock, Command, Controller, Device, DeviceState, Disabled, Fault, ForceState, LoopReport,
+    Sample, Scheduler, ServoSettings, Supervisor, Vec3, latest, log,
 };
 
 /// What others see of a loop.
@@ -34,7 +32,7 @@ pub struct ServoReader {
     pub supervisor: Supervisor,
 }
 
-/// A device, what controls it, and what it passes. Dropping it stops the device.
+/// A device, what controls it, and what it passes. Dropping it disables the device.
 pub struct ServoLoop {
     device: Box<dyn Device>,
     controller: Box<dyn Controller>,
@@ -45,9 +43,14 @@ pub struct ServoLoop {
     period: f64,
     number: u64,
     last_time: Option<f64>,
-    force: Vec3,
+    /// When a scheduler called first [s].
+    called_first: Option<f64>,
+    /// What the device gets at the next tick.
+    force: CommandedForce,
     compensator: Option<Compensator>,
-    compensation: Vec3,
+    /// Whether the device may display forces, and what it said when it last might not any more.
+    enabled: bool,
+    disabled: Option<Disabled>,
     latest: latest::Sender<Option<Sample>>,
     log: log::Writer<Sample>,
     report: latest::Sender<LoopReport>,
@@ -82,8 +85,10 @@ impl ServoLoop {
         settings: ServoSettings,
         supervisor: Supervisor,
     ) -> Result<(Self, ServoReader), Fault> {
-        let limits = settings.limits.unwrap_or_else(|| Limits::of(device.spec()));
-        let guard = Guard::new(limits, device.spec(), settings.period)?;
+        let limits = settings
+            .limits
+            .unwrap_or_else(|| Limits::of(device.capabilities()));
+        let guard = Guard::new(limits, device.capabilities(), settings.period)?;
         let (latest, latest_reader) = latest::channel(&None);
         let (log, log_reader) = log::ring(settings.log);
         let (report, report_reader) = latest::channel(&LoopReport::default());
@@ -103,9 +108,11 @@ impl ServoLoop {
             period: settings.period,
             number: 0,
             last_time: None,
-            force: Vec3::zeros(),
+            called_first: None,
+            force: CommandedForce::default(),
             compensator: settings.compensation.map(Compensator::new),
-            compensation: Vec3::zeros(),
+            enabled: false,
+            disabled: None,
             latest,
             log,
             report,
@@ -120,6 +127,11 @@ impl ServoLoop {
     /// Time from tick to tick [s].
     pub fn period(&self) -> f64 {
         self.period
+    }
+
+    /// The scheduler of the device, from whose thread it has to be ticked; none for one that any thread may tick.
+    pub fn scheduler(&self) -> Option<Box<dyn Scheduler>> {
+        self.device.scheduler()
     }
 
     /// Asks for real-time priority for the thread that calls, which shall be the one that runs the loop.
@@ -146,29 +158,71 @@ impl ServoLoop {
             self.number += missed;
             self.meter.worked(done - began, missed);
         }
-        self.device.stop();
-        self.report()
+        self.finish()
+    }
+
+    /// One tick at the pace of the device's scheduler: on the machine's clock now, on a virtual one a period after the
+    /// last.
+    ///
+    /// # Errors
+    /// As for [`tick`](Self::tick).
+    pub(crate) fn tick_as_called(&mut self, clock: &mut Clock) -> Result<(), Fault> {
+        if let Clock::Virtual(_) = clock {
+            let first = *self.called_first.get_or_insert(clock.now());
+            clock.wait_until(first + self.number as f64 * self.period);
+        }
+        let began = clock.now();
+        let late = self
+            .last_time
+            .map_or(0.0, |last| began - last - self.period);
+        // Ticks for which it was not called.
+        let missed = match clock {
+            Clock::Real(_) => (late / self.period).floor().max(0.0) as u64,
+            Clock::Virtual(_) => 0,
+        };
+        self.number += missed;
+        self.tick(began, late.max(0.0))?;
+        self.meter.worked(clock.now() - began, missed);
+        Ok(())
+    }
+
+    /// Disables the device; what the loop measured.
+    pub fn finish(&mut self) -> LoopReport {
+        self.disable();
+        let report = self.report();
+        self.report.send(report);
+        report
+    }
+
+    /// The same after a panic, of which the other loops of the session are told.
+    pub(crate) fn abandon(&mut self) {
+        self.supervisor.trip_others();
+        self.guard.trip(Fault::Panicked);
+        self.fault = Some(Fault::Panicked);
+        self.finish();
     }
 
     /// One tick at `time` [s], `lateness` [s] after it was due.
     ///
     /// # Errors
-    /// When the device fails; it is stopped then.
+    /// When the device fails; it is disabled then.
     pub fn tick(&mut self, time: f64, lateness: f64) -> Result<Sample, Fault> {
         let permission = self.supervisor.permission(time);
-        if !permission.state.allows_force() {
-            (self.force, self.compensation) = (Vec3::zeros(), Vec3::zeros());
-        }
-        let command = Command {
-            time,
-            force: self.force + self.compensation,
+        self.follow_session(&permission);
+        let held = match permission.state.allows_force() {
+            true => self.guard.rendered(),
+            false => Vec3::zeros(),
         };
-        let patience = Duration::from_secs_f64(self.period);
-        let state = match self.device.exchange(&command, patience) {
+        let force = match permission.state.allows_force() {
+            true => std::mem::take(&mut self.force),
+            false => CommandedForce::default(),
+        };
+        let state = match self.device.exchange(&Command::new(time, force)) {
             Ok(state) => state,
             Err(fault) => return Err(self.fail(fault)),
         };
-        let sample = self.control(time, state, &permission);
+        let mut sample = self.control(time, state, &permission);
+        sample.held = held;
         self.meter.tick(&sample, lateness);
         self.tell(sample);
         if self.number.is_multiple_of(self.ticks_per_report()) {
@@ -189,6 +243,7 @@ impl ServoLoop {
             interventions: self.guard.interventions(),
             faults: self.guard.faults(),
             fault: self.fault.or(fault),
+            disabled: self.disabled,
             ..self.meter.report()
         }
     }
@@ -207,35 +262,66 @@ impl ServoLoop {
         let wanted = self.controller.update(&state, gap);
         let wish = Wish {
             force: wanted,
+            compensation: self.compensation(&state, gap),
             velocity,
             overdue: self.controller.overdue(),
             gap,
-            allowed: permission.state.allows_force(),
-            asked: permission.armings != self.armings,
+            allowed: permission.state.allows_force() && self.enabled,
+            asked: permission.armings != self.armings && self.enabled,
         };
         self.armings = permission.armings;
         if let Some(fault) = permission.fault {
             self.guard.trip(fault);
         }
-        let held = self.force;
         let was = self.guard.stage();
         self.force = self.guard.pass(&wish, &state, gap);
-        self.compensate(&state, gap);
-        if matches!(self.guard.stage(), Stage::Faulted(_)) {
-            self.force = Vec3::zeros();
-        }
         self.tell_session(was);
+        if self.is_off() {
+            // The same tick, not the next one.
+            self.disable();
+        }
         Sample {
             tick: self.number,
             state,
-            velocity,
-            held,
+            held: Vec3::zeros(),
             wanted,
             added: self.controller.added(),
-            sent: self.force,
-            compensation: self.compensation,
+            sent: self.guard.rendered(),
+            compensation: self.guard.compensation(),
             age: self.controller.age(),
             stage: self.guard.stage(),
+        }
+    }
+
+    /// Lets the device display forces when a person armed, and not any more when the session is over.
+    fn follow_session(&mut self, permission: &Permission) {
+        if matches!(permission.state, ForceState::Off | ForceState::Tripped) {
+            self.disable();
+        }
+        let asked = permission.armings != self.armings;
+        let waits = self.is_off() && !asked;
+        if self.enabled || waits || !permission.state.allows_force() {
+            return;
+        }
+        match self.device.enable() {
+            Ok(()) => self.enabled = true,
+            Err(fault) => {
+                self.guard.trip_again(fault);
+                self.supervisor.trip_others();
+            }
+        }
+    }
+
+    /// Whether forces are off until a person arms.
+    fn is_off(&self) -> bool {
+        self.guard.is_latched() && matches!(self.guard.stage(), Stage::Faulted(_))
+    }
+
+    /// No force from now on, until the device is enabled again.
+    fn disable(&mut self) {
+        self.force = CommandedForce::default();
+        if std::mem::take(&mut self.enabled) {
+            self.disabled = Some(self.device.disable());
         }
     }
 
@@ -249,18 +335,16 @@ impl ServoLoop {
         }
     }
 
-    /// What is added for the device itself, as far as the guard lets it.
-    fn compensate(&mut self, state: &DeviceState, dt: f64) {
+    /// What is wanted for the device itself [N].
+    fn compensation(&mut self, state: &DeviceState, dt: f64) -> Vec3 {
         let Some(compensator) = &mut self.compensator else {
-            return;
+            return Vec3::zeros();
         };
-        let wanted = if self.guard.part() > 0.0 {
-            compensator.force(&state.position, dt)
-        } else {
-            compensator.forget();
-            Vec3::zeros()
-        };
-        self.compensation = self.guard.pass_compensation(&wanted, dt);
+        if self.guard.part() > 0.0 {
+            return compensator.force(&state.position, dt);
+        }
+        compensator.forget();
+        Vec3::zeros()
     }
 
     fn tell(&mut self, sample: Sample) {
@@ -269,16 +353,15 @@ impl ServoLoop {
         self.log.add(sample);
     }
 
-    /// The device is stopped, and the log ends with why: nobody is at the handle any more.
+    /// The device is disabled, and the log ends with why: nobody is at the handle any more.
     fn fail(&mut self, fault: Fault) -> Fault {
-        self.device.stop();
+        self.disable();
         let told = self.fault.is_some();
         if self.guard.is_latched() {
             self.supervisor.trip_others();
         }
         self.guard.trip(fault);
         self.fault = Some(fault);
-        (self.force, self.compensation) = (Vec3::zeros(), Vec3::zeros());
         if let Some(mut sample) = self.last.filter(|_| !told) {
             sample.tick = self.number;
             sample.state.present = false;
@@ -300,6 +383,6 @@ impl ServoLoop {
 impl Drop for ServoLoop {
     /// Also in a panic: no force stays on a hand.
     fn drop(&mut self) {
-        self.device.stop();
+        self.disable();
     }
 }

@@ -1,56 +1,121 @@
+//! A servo loop that runs by itself: on a thread of ours, or in the scheduler of its device.
+//!
+//! Both hosts make the same ticks. A panic in a tick disables the device, in the thread that called it, and takes the
+//! forces of all loops of the session off. Nobody waits for a host without an end: a call into a device that does not
+//! return is [`Fault::Hung`], and what it holds is never freed.
+//!
+//! *How we know*: `hosts::…`, `servo::a_panic_stops_the_device`.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread::JoinHandle;
+use std::time::Duration;
 
-use crate::{Clock, Fault, LoopReport, ServoLoop};
+use crate::{Clock, Fault, LoopReport, Next, Scheduler, ServoLoop};
 
-/// A servo loop on a thread of its own. Dropping it ends the thread.
+/// How long the end of a loop is waited for: some of the longest calls that a driver makes, of 20 ms each.
+const END: Duration = Duration::from_millis(500);
+
+/// A servo loop that runs by itself. Dropping it ends it.
 pub struct ServoThread {
+    signals: Signals,
+    ended: Receiver<Result<LoopReport, Fault>>,
+    /// None once it was waited for.
+    host: Option<Host>,
+}
+
+enum Host {
+    Ours(JoinHandle<()>),
+    Device(Box<dyn Scheduler>),
+}
+
+/// What both sides of a host see.
+#[derive(Clone)]
+struct Signals {
     stop: Arc<AtomicBool>,
-    handle: Option<JoinHandle<LoopReport>>,
+    running: Arc<AtomicBool>,
+}
+
+/// A loop in its host.
+struct Hosted {
+    servo: ServoLoop,
+    clock: Clock,
+    signals: Signals,
+    end: SyncSender<Result<LoopReport, Fault>>,
 }
 
 impl ServoThread {
-    /// Starts `servo` on `clock`, at the best priority that there is.
+    /// Starts `servo` on `clock`: in the scheduler of its device where it has one, else on a thread at the best
+    /// priority that there is.
     ///
     /// # Errors
-    /// When the operating system gives no thread.
-    pub fn start(mut servo: ServoLoop, mut clock: Clock) -> Result<Self, Fault> {
-        let stop = Arc::new(AtomicBool::new(false));
-        let asked = stop.clone();
-        let run = move || {
-            servo.raise_priority();
-            servo.run(&mut clock, |_| !asked.load(Ordering::Relaxed))
+    /// When the operating system gives no thread, or the scheduler does not start.
+    pub fn start(servo: ServoLoop, clock: Clock) -> Result<Self, Fault> {
+        let signals = Signals {
+            stop: Arc::new(AtomicBool::new(false)),
+            running: Arc::new(AtomicBool::new(true)),
         };
-        let thread = std::thread::Builder::new().name("servo".to_owned());
-        let handle = thread.spawn(run).map_err(|_| Fault::NoThread)?;
+        let (end, ended) = sync_channel(1);
+        let scheduler = servo.scheduler();
+        let mut hosted = Hosted {
+            servo,
+            clock,
+            signals: signals.clone(),
+            end,
+        };
+        let host = match scheduler {
+            Some(mut scheduler) => {
+                scheduler.start(Box::new(move || hosted.tick()))?;
+                Host::Device(scheduler)
+            }
+            None => {
+                let thread = std::thread::Builder::new().name("servo".to_owned());
+                let handle = thread.spawn(move || hosted.run());
+                Host::Ours(handle.map_err(|_| Fault::NoThread)?)
+            }
+        };
         Ok(Self {
-            stop,
-            handle: Some(handle),
+            signals,
+            ended,
+            host: Some(host),
         })
     }
 
     /// Whether it still runs; it ends by itself when its device fails.
     pub fn is_running(&self) -> bool {
-        self.handle
-            .as_ref()
-            .is_some_and(|handle| !handle.is_finished())
+        self.signals.running.load(Ordering::Acquire)
     }
 
-    /// Ends the loop, which stops its device, and waits for it.
+    /// Ends the loop, which disables its device, and waits for it, for half a second.
     ///
     /// # Errors
-    /// When it panicked; its device was stopped then.
+    /// When it panicked; its device was disabled then. When a call into its device does not return.
     pub fn stop(mut self) -> Result<LoopReport, Fault> {
         self.join()
     }
 
     fn join(&mut self) -> Result<LoopReport, Fault> {
-        self.stop.store(true, Ordering::Relaxed);
-        let handle = self.handle.take();
-        handle.map_or(Ok(LoopReport::default()), |handle| {
-            handle.join().map_err(|_| Fault::Panicked)
-        })
+        self.signals.stop.store(true, Ordering::Release);
+        let Some(host) = self.host.take() else {
+            return Ok(LoopReport::default());
+        };
+        let ended = self.ended.recv_timeout(END);
+        let hung = Fault::Hung {
+            limit: END.as_secs_f64(),
+        };
+        let left = match host {
+            // One whose call does not return is left to itself; it disables its device should it return.
+            Host::Ours(_) if ended == Err(RecvTimeoutError::Timeout) => Err(hung),
+            Host::Ours(handle) => handle.join().map_err(|_| Fault::Panicked),
+            Host::Device(mut scheduler) => scheduler.stop(END),
+        };
+        match ended {
+            Ok(report) => left.and(report),
+            Err(RecvTimeoutError::Timeout) => Err(hung),
+            Err(RecvTimeoutError::Disconnected) => Err(Fault::Panicked),
+        }
     }
 }
 
@@ -58,5 +123,46 @@ impl Drop for ServoThread {
     fn drop(&mut self) {
         // Who wants to know calls `stop`.
         let _ = self.join();
+    }
+}
+
+impl Hosted {
+    /// All ticks, on the thread that calls.
+    fn run(mut self) {
+        let ran = catch_unwind(AssertUnwindSafe(|| {
+            let stop = self.signals.stop.clone();
+            self.servo.raise_priority();
+            self.servo
+                .run(&mut self.clock, |_| !stop.load(Ordering::Acquire))
+        }));
+        self.ended(ran.map_err(|_| Fault::Panicked));
+    }
+
+    /// One tick, called by a scheduler.
+    fn tick(&mut self) -> Next {
+        if !self.signals.running.load(Ordering::Acquire) {
+            return Next::End;
+        }
+        let ticked = catch_unwind(AssertUnwindSafe(|| {
+            let stops = self.signals.stop.load(Ordering::Acquire);
+            let goes_on = !stops && self.servo.tick_as_called(&mut self.clock).is_ok();
+            (!goes_on).then(|| self.servo.finish())
+        }));
+        match ticked {
+            Ok(None) => return Next::Again,
+            Ok(Some(report)) => self.ended(Ok(report)),
+            Err(_) => self.ended(Err(Fault::Panicked)),
+        }
+        Next::End
+    }
+
+    fn ended(&mut self, how: Result<LoopReport, Fault>) {
+        if how.is_err() {
+            // The device may be what panicked.
+            let _ = catch_unwind(AssertUnwindSafe(|| self.servo.abandon()));
+        }
+        self.signals.running.store(false, Ordering::Release);
+        // Nobody waits for it when the other end was dropped.
+        let _ = self.end.try_send(how);
     }
 }

@@ -1,23 +1,28 @@
 use std::path::Path;
-use std::time::Duration;
 
 use nalgebra::UnitQuaternion;
-use palpate_servo::{Command, Device, DeviceSpec, DeviceState, Fault, Vec3};
+use palpate_servo::{Capabilities, Command, DeadMan, Device, DeviceState, Disabled, Fault, Vec3};
 
-use super::calls::{Calls, Said};
 use super::functions::{Functions, Opened, Status};
 use crate::rotation::rotation;
-use crate::{Found, Kind, OpenError, Origin};
+use crate::{Found, OpenError, Origin};
 
 /// The largest force [N], and the largest for as long as one likes: below what any of them can; the library does not
 /// say.
 const PEAK: f64 = 8.0;
 const CONTINUOUS: f64 = 4.0;
 
-/// A device of Force Dimension.
+/// How long a force is displayed without a new one, by a device with a watchdog [s].
+const FRESH: f64 = 0.020;
+
+/// Every button but the first, which shuts jaws and cuts.
+const OTHER_BUTTONS: u32 = !1;
+
+/// A device of Force Dimension. It is called on the thread of its loop.
 pub struct ForceDimensionDevice {
-    spec: DeviceSpec,
-    calls: Calls,
+    capabilities: Capabilities,
+    device: Opened,
+    enabled: bool,
     was_ready: bool,
     broken: Option<Fault>,
 }
@@ -31,7 +36,6 @@ pub fn list(named: Option<&Path>) -> Result<Vec<Found>, OpenError> {
     let mut found = Vec::new();
     for number in 0..functions.count() {
         let device = functions.open(number)?;
-        let spec = spec(&device);
         found.push(Found {
             number,
             model: device.name(),
@@ -40,20 +44,19 @@ pub fn list(named: Option<&Path>) -> Result<Vec<Found>, OpenError> {
                 Ok(status) if !is_ready(&status) => vec!["it is not ready".to_owned()],
                 _ => Vec::new(),
             },
-            spec,
+            capabilities: capabilities(&device),
             forces: Origin::Ours,
         });
-        device.close();
     }
     Ok(found)
 }
 
-fn spec(device: &Opened) -> DeviceSpec {
-    DeviceSpec {
+fn capabilities(device: &Opened) -> Capabilities {
+    Capabilities {
         peak_force: PEAK,
         continuous_force: CONTINUOUS,
         displays_force: true,
-        ..DeviceSpec::without_force(&format!("Force Dimension {}", device.name()))
+        ..Capabilities::without_force(&format!("Force Dimension {}", device.name()))
     }
 }
 
@@ -67,13 +70,20 @@ fn cause(cause: i32) -> Option<Fault> {
         0 => return None,
         1 => "its button was pressed",
         2 => "its handle was too fast",
-        3 => "its watchdog bit",
+        3 => "its watchdog tripped",
         4 => "a program did it",
         5 => return Some(Fault::Vanished),
-        6 => "its dead-man's switch was let go of",
+        6 => "its dead-man's switch was released",
         _ => "for a reason of its own",
     };
     Some(Fault::Safety { what })
+}
+
+fn library_error(code: i32) -> Fault {
+    Fault::Library {
+        code: code.unsigned_abs(),
+        what: "an error",
+    }
 }
 
 impl ForceDimensionDevice {
@@ -83,56 +93,52 @@ impl ForceDimensionDevice {
     /// When there is no library, or no such device.
     pub fn open(named: Option<&Path>, number: usize) -> Result<Self, OpenError> {
         let device = Functions::load(named)?.open(number)?;
-        let spec = spec(&device);
-        let not_opened = |what: String| OpenError::NotOpened {
-            kind: Kind::ForceDimension,
-            what,
-        };
-        let enabled = device.enable_forces(PEAK);
-        let calls = enabled
-            .map_err(|code| format!("error {code}"))
-            .and_then(|()| Calls::start(device).map_err(|fault| fault.to_string()));
-        let calls = calls.inspect_err(|_| device.close()).map_err(not_opened)?;
-        Ok(Self {
-            spec,
-            calls,
-            was_ready: false,
-            broken: None,
-        })
+        Ok(Self::of(device))
     }
 
-    /// The same with another time that an answer may take.
+    pub(super) fn of(device: Opened) -> Self {
+        Self {
+            capabilities: capabilities(&device),
+            device,
+            enabled: false,
+            was_ready: false,
+            broken: None,
+        }
+    }
+
+    /// The same with a dead-man's switch: one of the buttons but the first.
     #[must_use]
-    pub fn with_patience(mut self, patience: Duration) -> Self {
-        self.calls.patience = patience;
+    pub fn with_dead_man(mut self) -> Self {
+        self.capabilities.dead_man = Some(DeadMan::Buttons(OTHER_BUTTONS));
         self
     }
 
-    fn try_exchange(&mut self, command: &Command) -> Result<DeviceState, Fault> {
-        if !command.force.iter().all(|component| component.is_finite()) {
-            return Err(Fault::NonFiniteForce);
-        }
-        let said = self.calls.exchange(theirs(&command.force))?;
-        let said = said.map_err(|code| Fault::Library {
-            code: code.unsigned_abs(),
-            what: "an error",
-        })?;
-        let status = said.status;
-        let ready = is_ready(&status);
-        let lost = (self.was_ready && !ready).then(|| lost(&status));
+    fn try_exchange(&mut self, command: &Command) -> Result<DeviceState, i32> {
+        self.device.set_force(&theirs(&command.force()))?;
+        let position = ours(&self.device.position()?);
+        let frame = self.device.frame()?;
+        let buttons = self.device.buttons();
+        let status = self.device.status()?;
+        Ok(DeviceState {
+            orientation: orientation(&frame),
+            grip: if buttons & 1 != 0 { 1.0 } else { 0.0 },
+            buttons,
+            ready: is_ready(&status) && !(self.enabled && status.force_off_cause != 0),
+            fault: self.fault_of(&status),
+            ..DeviceState::at(command.time, position)
+        })
+    }
+
+    fn fault_of(&mut self, status: &Status) -> Option<Fault> {
+        let ready = is_ready(status);
+        let lost = (self.was_ready && !ready).then(|| lost(status));
         self.was_ready = ready;
+        // Until a person arms, it is we who keep them off.
+        let took_off = cause(status.force_off_cause).filter(|_| self.enabled);
         let error = status.error.then_some(Fault::Safety {
             what: "it reports an error of its own",
         });
-        let buttons = said.buttons;
-        Ok(DeviceState {
-            orientation: orientation(&said),
-            grip: if buttons & 1 != 0 { 1.0 } else { 0.0 },
-            buttons,
-            ready: ready && status.force_off_cause == 0,
-            fault: lost.or(cause(status.force_off_cause)).or(error),
-            ..DeviceState::at(command.time, ours(&said.position))
-        })
+        lost.or(took_off).or(error)
     }
 }
 
@@ -157,28 +163,50 @@ fn theirs(vector: &Vec3) -> Vec3 {
 }
 
 /// The same turn about an axis in our axes.
-fn orientation(said: &Said) -> Option<UnitQuaternion<f64>> {
-    let column = |at: usize| ours(&Vec3::from_fn(|row, _| said.frame[row][at]));
+fn orientation(frame: &[[f64; 3]; 3]) -> Option<UnitQuaternion<f64>> {
+    let column = |at: usize| ours(&Vec3::from_fn(|row, _| frame[row][at]));
     // Right, up and toward the user are y, z and x of the library.
     rotation([column(1), column(2), column(0)])
 }
 
 impl Device for ForceDimensionDevice {
-    fn spec(&self) -> &DeviceSpec {
-        &self.spec
+    fn capabilities(&self) -> &Capabilities {
+        &self.capabilities
     }
 
-    fn exchange(&mut self, command: &Command, _patience: Duration) -> Result<DeviceState, Fault> {
+    /// A device that took its forces off keeps them off until then.
+    fn enable(&mut self) -> Result<(), Fault> {
+        // Not the force that was set before it was disabled.
+        let cleared = self.device.set_force(&Vec3::zeros());
+        let enabled = cleared.and_then(|()| self.device.enable_forces(PEAK, FRESH));
+        self.enabled = enabled.is_ok();
+        enabled.map_err(library_error)
+    }
+
+    fn exchange(&mut self, command: &Command) -> Result<DeviceState, Fault> {
         if let Some(fault) = self.broken {
             return Err(fault);
         }
-        self.try_exchange(command).inspect_err(|fault| {
+        let exchanged = self.try_exchange(command).map_err(library_error);
+        exchanged.inspect_err(|fault| {
             self.broken = Some(*fault);
         })
     }
 
-    fn stop(&mut self) {
-        // A thread that is stuck takes the force off when it is free again.
-        let _ = self.calls.send(Vec3::zeros());
+    fn disable(&mut self) -> Disabled {
+        self.enabled = false;
+        // The second also of a library that takes no zero.
+        let zero = self.device.set_force(&Vec3::zeros());
+        let disabled = self.device.disable_forces();
+        match zero.and(disabled) {
+            Ok(()) => Disabled::NoForce,
+            Err(_) => Disabled::Unknown,
+        }
+    }
+}
+
+impl Drop for ForceDimensionDevice {
+    fn drop(&mut self) {
+        self.disable();
     }
 }

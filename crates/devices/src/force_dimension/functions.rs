@@ -1,4 +1,8 @@
 //! The functions of `libdhd` that are used, as its interface has them.
+//!
+//! All of them are `unsafe` to call, for their types are known from documents alone: the header dhdc.h of the Force
+//! Dimension SDK, version 3, and its reference. What holds for each call is at the wrapper that makes it, and nobody
+//! else calls them.
 
 #![allow(
     unsafe_code,
@@ -13,7 +17,7 @@ use palpate_servo::Vec3;
 use crate::library::{Library, text};
 use crate::{Kind, OpenError};
 
-/// Room for the states of a device: versions have 15 to 17.
+/// Room for the states of a device: DHD_MAX_STATUS, which versions have as 15 to 17.
 const STATES: usize = 32;
 
 const POWER: usize = 0;
@@ -36,23 +40,25 @@ pub(super) struct Status {
 /// `libdhd`, loaded.
 #[derive(Clone, Copy)]
 pub(super) struct Functions {
-    count: extern "C" fn() -> c_int,
-    open: extern "C" fn(c_char) -> c_int,
-    close: extern "C" fn(c_char) -> c_int,
-    enable_force: extern "C" fn(u8, c_char) -> c_int,
-    position: extern "C" fn(*mut f64, *mut f64, *mut f64, c_char) -> c_int,
-    frame: extern "C" fn(*mut [[f64; 3]; 3], c_char) -> c_int,
-    set_force: extern "C" fn(f64, f64, f64, c_char) -> c_int,
-    set_max_force: extern "C" fn(f64, c_char) -> c_int,
-    buttons: extern "C" fn(c_char) -> c_uint,
-    status: extern "C" fn(*mut c_int, c_char) -> c_int,
-    name: extern "C" fn(c_char) -> *const c_char,
-    last_error: extern "C" fn() -> c_int,
-    last_error_text: extern "C" fn() -> *const c_char,
+    pub(super) count: unsafe extern "C" fn() -> c_int,
+    pub(super) open: unsafe extern "C" fn(c_char) -> c_int,
+    pub(super) close: unsafe extern "C" fn(c_char) -> c_int,
+    pub(super) enable_force: unsafe extern "C" fn(u8, c_char) -> c_int,
+    pub(super) position: unsafe extern "C" fn(*mut f64, *mut f64, *mut f64, c_char) -> c_int,
+    pub(super) frame: unsafe extern "C" fn(*mut [[f64; 3]; 3], c_char) -> c_int,
+    pub(super) set_force: unsafe extern "C" fn(f64, f64, f64, c_char) -> c_int,
+    pub(super) set_max_force: unsafe extern "C" fn(f64, c_char) -> c_int,
+    /// Not in every version.
+    pub(super) set_watchdog: Option<unsafe extern "C" fn(u8, c_char) -> c_int>,
+    pub(super) buttons: unsafe extern "C" fn(c_char) -> c_uint,
+    pub(super) status: unsafe extern "C" fn(*mut c_int, c_char) -> c_int,
+    pub(super) name: unsafe extern "C" fn(c_char) -> *const c_char,
+    pub(super) last_error: unsafe extern "C" fn() -> c_int,
+    pub(super) last_error_text: unsafe extern "C" fn() -> *const c_char,
 }
 
-/// A device of the library.
-#[derive(Clone, Copy)]
+/// A device of the library, which is closed when this is dropped. Not to be copied: what closes it is the last that
+/// calls with its number.
 pub(super) struct Opened {
     functions: Functions,
     id: c_char,
@@ -67,7 +73,8 @@ impl Functions {
         let library = Library::load(Kind::ForceDimension, names, named)?;
         macro_rules! function {
             ($name:literal) => {
-                // SAFETY: the types are those of the interface, version 3; all of them are declared for C.
+                // SAFETY: parameters and result are those that dhdc.h declares for it: int, unsigned int, char, unsigned
+                // char, double, and pointers to them; all are declared extern "C".
                 unsafe { library.function($name)? }
             };
         }
@@ -80,6 +87,8 @@ impl Functions {
             frame: function!("dhdGetOrientationFrame"),
             set_force: function!("dhdSetForce"),
             set_max_force: function!("dhdSetMaxForce"),
+            // SAFETY: as above; dhdc.h has it from version 3.3.2 on.
+            set_watchdog: unsafe { library.function("dhdSetWatchdog") }.ok(),
             buttons: function!("dhdGetButtonMask"),
             status: function!("dhdGetStatus"),
             name: function!("dhdGetSystemName"),
@@ -89,7 +98,8 @@ impl Functions {
     }
 
     pub(super) fn count(&self) -> usize {
-        usize::try_from((self.count)()).unwrap_or(0)
+        // SAFETY: dhdGetDeviceCount takes nothing.
+        usize::try_from(unsafe { (self.count)() }).unwrap_or(0)
     }
 
     /// Opens device `number`, from zero on.
@@ -101,7 +111,8 @@ impl Functions {
             there,
             wanted: number + 1,
         })?;
-        match (self.open)(wanted) {
+        // SAFETY: dhdOpenID takes the number of a device below that of dhdGetDeviceCount, and answers −1 when it cannot.
+        match unsafe { (self.open)(wanted) } {
             id @ 0..=127 => Ok(Opened {
                 functions: *self,
                 id: id as c_char,
@@ -114,46 +125,60 @@ impl Functions {
     }
 
     fn said(&self) -> String {
-        // SAFETY: a text of the library, which ends with a zero and stays until its next error.
+        // SAFETY: dhdErrorGetLastStr takes nothing and returns a text that ends with a zero and belongs to the library,
+        // which is never unloaded; it is copied before any other call.
         let said = unsafe { text((self.last_error_text)()) };
         match said.is_empty() {
-            true => format!("error {}", (self.last_error)()),
+            true => format!("error {}", self.last_error()),
             false => said,
         }
+    }
+
+    fn last_error(&self) -> i32 {
+        // SAFETY: dhdErrorGetLast takes nothing.
+        unsafe { (self.last_error)() }
     }
 }
 
 impl Opened {
-    pub(super) fn close(&self) {
-        (self.functions.close)(self.id);
-    }
-
     pub(super) fn name(&self) -> String {
-        // SAFETY: a text of the library, which ends with a zero and stays while the device is open.
+        // SAFETY: dhdGetSystemName takes the number of an open device and returns null or a text that ends with a zero
+        // and belongs to the library; it is copied before any other call.
         unsafe { text((self.functions.name)(self.id)) }
     }
 
-    /// Its forces are on from now on, but never above `most` [N].
-    pub(super) fn enable_forces(&self, most: f64) -> Result<(), i32> {
-        self.checked((self.functions.set_max_force)(most, self.id))?;
-        self.checked((self.functions.enable_force)(1, self.id))
+    /// Its forces are on from now on, but never above `most` [N], and off when no force comes for `fresh` [s], where the
+    /// device can do that.
+    pub(super) fn enable_forces(&self, most: f64, fresh: f64) -> Result<(), i32> {
+        // SAFETY: dhdSetMaxForce takes a number of newtons and an open device.
+        self.checked(unsafe { (self.functions.set_max_force)(most, self.id) })?;
+        if let Some(set) = self.functions.set_watchdog {
+            // In multiples of 125 µs; a device without one answers an error, and has none.
+            let multiples = (fresh / 125e-6).clamp(1.0, 255.0) as u8;
+            // SAFETY: dhdSetWatchdog takes an unsigned char and an open device.
+            unsafe { set(multiples, self.id) };
+        }
+        // SAFETY: dhdEnableForce takes 1 to enable forces and an open device.
+        self.checked(unsafe { (self.functions.enable_force)(1, self.id) })
     }
 
-    pub(super) fn disable_forces(&self) {
-        (self.functions.enable_force)(0, self.id);
+    pub(super) fn disable_forces(&self) -> Result<(), i32> {
+        // SAFETY: dhdEnableForce takes 0 to disable forces and an open device.
+        self.checked(unsafe { (self.functions.enable_force)(0, self.id) })
     }
 
     /// Hands `force` [N] over, in the library's axes. That motors are at their end is no error.
     pub(super) fn set_force(&self, force: &Vec3) -> Result<(), i32> {
-        self.checked((self.functions.set_force)(
-            force.x, force.y, force.z, self.id,
-        ))
+        // SAFETY: dhdSetForce takes three numbers of newtons and an open device.
+        self.checked(unsafe { (self.functions.set_force)(force.x, force.y, force.z, self.id) })
     }
 
     /// [m], in the library's axes.
     pub(super) fn position(&self) -> Result<Vec3, i32> {
         let [mut x, mut y, mut z] = [f64::NAN; 3];
-        let answer = (self.functions.position)(&raw mut x, &raw mut y, &raw mut z, self.id);
+        // SAFETY: dhdGetPosition writes one double to each of three pointers, which are there until it returns.
+        let answer =
+            unsafe { (self.functions.position)(&raw mut x, &raw mut y, &raw mut z, self.id) };
         self.checked(answer)?;
         Ok(Vec3::new(x, y, z))
     }
@@ -161,17 +186,21 @@ impl Opened {
     /// Row by row, in the library's axes.
     pub(super) fn frame(&self) -> Result<[[f64; 3]; 3], i32> {
         let mut frame = [[f64::NAN; 3]; 3];
-        self.checked((self.functions.frame)(&raw mut frame, self.id))?;
+        // SAFETY: dhdGetOrientationFrame writes a double[3][3], whose layout is that of the array.
+        self.checked(unsafe { (self.functions.frame)(&raw mut frame, self.id) })?;
         Ok(frame)
     }
 
     pub(super) fn buttons(&self) -> u32 {
-        (self.functions.buttons)(self.id)
+        // SAFETY: dhdGetButtonMask takes an open device.
+        unsafe { (self.functions.buttons)(self.id) }
     }
 
     pub(super) fn status(&self) -> Result<Status, i32> {
         let mut states = [0; STATES];
-        self.checked((self.functions.status)(states.as_mut_ptr(), self.id))?;
+        // SAFETY: dhdGetStatus writes DHD_MAX_STATUS integers, 17 at most in the versions known, for which there is room
+        // twice over.
+        self.checked(unsafe { (self.functions.status)(states.as_mut_ptr(), self.id) })?;
         Ok(Status {
             powered: states[POWER] != 0,
             connected: states[CONNECTED] != 0,
@@ -185,7 +214,14 @@ impl Opened {
     fn checked(&self, answer: c_int) -> Result<(), i32> {
         match answer {
             0.. => Ok(()),
-            _ => Err((self.functions.last_error)()),
+            _ => Err(self.functions.last_error()),
         }
+    }
+}
+
+impl Drop for Opened {
+    fn drop(&mut self) {
+        // SAFETY: dhdClose takes an open device, and this one is closed once, by the last that knows its number.
+        unsafe { (self.functions.close)(self.id) };
     }
 }

@@ -1,19 +1,21 @@
 //! Devices of Force Dimension (omega, delta, sigma, lambda), by `libdhd`.
 //!
-//! A call into the library may take as long as it likes, so a thread of its own makes them: it is given a force,
-//! hands it over, reads the device and answers. A servo loop waits for the answer for 20 ms at most. Without a new force
-//! for so long the thread takes the force off by itself, and the library is told the largest force that it may ever
-//! display.
+//! Its functions are called on the thread of the loop, one after another: zero time is spent on waiting for another
+//! thread of ordinary priority. A call that does not return holds up that thread; then the device's own watchdog, which
+//! is set where there is one, takes its forces off after 20 ms. The library is told the largest force that it may ever
+//! display. Arming enables forces again, after whatever took them off.
 //!
 //! The axes of the library are x toward the user, y right, z up; ours are (y, z, x) of it.
 //!
-//! *How we know*: `force_dimension::…` in the tests, against a library that stands for it (`stand_ins/dhd.c`).
+//! *How we know*: `libraries::…`, `library_faults::…`, `campaign::…` in the tests, against a library that stands for it;
+//! `tests` here, under Miri.
 //!
 //! *Limits*: a gripper is shut by its button, not by its angle, whose range is not known. Which way its handle points
-//! was not seen. The device's own watchdog is left as it is. Not tried on hardware.
+//! was not seen. Not tried on hardware.
 
-mod calls;
 mod device;
 mod functions;
+#[cfg(test)]
+mod tests;
 
 pub use device::{ForceDimensionDevice, list};

@@ -1,19 +1,22 @@
 use std::time::{Duration, Instant};
 
-use palpate_servo::{Command, Device, DeviceSpec, DeviceState, Fault, Vec3};
+use palpate_servo::{Capabilities, Command, DeadMan, Device, DeviceState, Disabled, Fault, Vec3};
 
 use super::channel::Channel;
 use super::message::{Generation, Listed, Snapshot, State, force_command};
 use super::{Event, HaplyAddress};
 use crate::OpenError;
 use crate::found::{Found, Origin};
-use crate::places::PATIENCE;
+use crate::places::TIMEOUT;
 
 /// How long the service may take for its first message.
 const FIRST_WITHIN: Duration = Duration::from_secs(1);
 
 /// Messages that nobody asked for and that are taken at a tick.
 const UNASKED: usize = 8;
+
+/// Messages with zero until one has to show.
+const ZEROS: u32 = 3;
 
 /// A force that has to show [N], and ticks until it does.
 const SHOWS: f64 = 0.1;
@@ -25,7 +28,7 @@ const CONTINUOUS: f64 = 1.5;
 
 /// A device of the Inverse Service.
 pub struct HaplyDevice {
-    spec: DeviceSpec,
+    capabilities: Capabilities,
     channel: Channel,
     events: Option<Channel>,
     id: String,
@@ -33,7 +36,9 @@ pub struct HaplyDevice {
     grip: Option<String>,
     generation: Generation,
     message: String,
-    patience: Duration,
+    timeout: Duration,
+    /// The buttons of its grip but the first.
+    other_buttons: u32,
     /// Answers that are still to come.
     owed: u32,
     known: Known,
@@ -77,7 +82,7 @@ pub fn list(address: &HaplyAddress) -> Result<Vec<Found>, OpenError> {
             model: robot.kind.clone(),
             serial: robot.id.clone(),
             remarks,
-            spec: spec(robot),
+            capabilities: capabilities(robot),
             forces: Origin::Ours,
         }
     });
@@ -99,12 +104,12 @@ fn meet(address: &HaplyAddress) -> Result<(Channel, Snapshot), OpenError> {
     Ok((channel, snapshot))
 }
 
-fn spec(robot: &Listed) -> DeviceSpec {
-    DeviceSpec {
+fn capabilities(robot: &Listed) -> Capabilities {
+    Capabilities {
         peak_force: PEAK,
         continuous_force: CONTINUOUS,
         displays_force: true,
-        ..DeviceSpec::without_force(&format!("Haply {} {}", robot.kind, robot.id))
+        ..Capabilities::without_force(&format!("Haply {} {}", robot.kind, robot.id))
     }
 }
 
@@ -121,7 +126,7 @@ impl HaplyDevice {
             wanted: number + 1,
         })?;
         Ok(Self {
-            spec: spec(robot),
+            capabilities: capabilities(robot),
             channel,
             // Services before 3.5 have none.
             events: Channel::open(&address.host, address.events_port).ok(),
@@ -130,7 +135,8 @@ impl HaplyDevice {
             grip: snapshot.grips.get(number).cloned(),
             generation: snapshot.generation,
             message: String::with_capacity(256),
-            patience: PATIENCE,
+            timeout: TIMEOUT,
+            other_buttons: snapshot.other_buttons.get(number).copied().unwrap_or(0),
             owed: 0,
             known: Known::default(),
             hidden: 0,
@@ -140,9 +146,23 @@ impl HaplyDevice {
 
     /// The same with another time that an answer may take.
     #[must_use]
-    pub fn with_patience(mut self, patience: Duration) -> Self {
-        self.patience = patience;
+    pub fn with_timeout(mut self, timeout: Duration) -> Self {
+        self.timeout = timeout;
         self
+    }
+
+    /// The same with a dead-man's switch: one of the buttons of its grip but the first.
+    ///
+    /// # Errors
+    /// When it has no grip with such a button.
+    pub fn with_dead_man(mut self) -> Result<Self, OpenError> {
+        if self.other_buttons == 0 {
+            return Err(OpenError::NoDeadMan {
+                device: self.capabilities.name.clone(),
+            });
+        }
+        self.capabilities.dead_man = Some(DeadMan::Buttons(self.other_buttons));
+        Ok(self)
     }
 
     /// Whether the service tells events.
@@ -164,7 +184,7 @@ impl HaplyDevice {
 
     /// The newest state.
     fn receive(&mut self) -> Result<State, Fault> {
-        let until = Instant::now() + self.patience;
+        let until = Instant::now() + self.timeout;
         let mut newest = None;
         while self.owed > 0 {
             newest = Some(self.channel.receive(until)?);
@@ -186,13 +206,11 @@ impl HaplyDevice {
     }
 
     fn try_exchange(&mut self, command: &Command) -> Result<DeviceState, Fault> {
-        if !command.force.iter().all(|component| component.is_finite()) {
-            return Err(Fault::NonFiniteForce);
-        }
-        self.send(&command.force)?;
+        let force = command.force();
+        self.send(&force)?;
         let state = self.receive()?;
         let reported = self.known.update(&state);
-        let hidden = self.is_hidden(&command.force, &state);
+        let hidden = self.is_hidden(&force, &state);
         let told = self.told();
         let first = state.buttons & 1 != 0;
         Ok(DeviceState {
@@ -269,11 +287,16 @@ impl Known {
 }
 
 impl Device for HaplyDevice {
-    fn spec(&self) -> &DeviceSpec {
-        &self.spec
+    fn capabilities(&self) -> &Capabilities {
+        &self.capabilities
     }
 
-    fn exchange(&mut self, command: &Command, _patience: Duration) -> Result<DeviceState, Fault> {
+    /// A service has nothing to enable: it displays what it is sent.
+    fn enable(&mut self) -> Result<(), Fault> {
+        Ok(())
+    }
+
+    fn exchange(&mut self, command: &Command) -> Result<DeviceState, Fault> {
         if let Some(fault) = self.broken {
             return Err(fault);
         }
@@ -282,18 +305,33 @@ impl Device for HaplyDevice {
         })
     }
 
-    /// Sends no force. A service that hears nothing any more takes it off by itself.
-    fn stop(&mut self) {
-        let gone = matches!(self.broken, Some(Fault::Disconnected));
-        if !gone && self.send(&Vec3::zeros()).is_err() {
-            self.broken = self.broken.or(Some(Fault::Disconnected));
+    /// Sends zero until the service says that it displays it. One that hears nothing any more takes its force off by
+    /// itself, as its documents say.
+    fn disable(&mut self) -> Disabled {
+        for _ in 0..ZEROS {
+            if self.broken == Some(Fault::Disconnected) {
+                return Disabled::Unknown;
+            }
+            if self.send(&Vec3::zeros()).is_err() {
+                self.broken = self.broken.or(Some(Fault::Disconnected));
+                return Disabled::Unknown;
+            }
+            // One that is broken was sent zero, and is not waited for.
+            let Some(Ok(state)) = self.broken.is_none().then(|| self.receive()) else {
+                return Disabled::Unknown;
+            };
+            self.known.update(&state);
+            if state.displayed == Some(Vec3::zeros()) {
+                return Disabled::NoForce;
+            }
         }
+        Disabled::Unknown
     }
 }
 
 impl Drop for HaplyDevice {
     fn drop(&mut self) {
-        self.stop();
+        self.disable();
         self.channel.close();
         if let Some(events) = &mut self.events {
             events.close();

@@ -138,6 +138,8 @@ pub struct Snapshot {
     pub robots: Vec<Listed>,
     /// Grips, those without a cable first.
     pub grips: Vec<String>,
+    /// Of each grip, bit by bit, its buttons but the first.
+    pub other_buttons: Vec<u32>,
     /// How forces are to be written.
     pub generation: Generation,
 }
@@ -174,6 +176,7 @@ impl Snapshot {
                 .grips()
                 .map(|grip| grip.device_id.clone().into_owned())
                 .collect(),
+            other_buttons: frame.grips().map(Grip::other_buttons).collect(),
             generation,
         })
     }
@@ -264,6 +267,13 @@ impl<'a> Frame<'a> {
 impl Triple {
     fn vector(self) -> Vec3 {
         Vec3::new(self.x, self.y, self.z)
+    }
+}
+
+impl Grip<'_> {
+    fn other_buttons(&self) -> u32 {
+        let buttons = self.state.as_ref().and_then(|state| state.buttons);
+        if buttons.is_some() { 0b110 } else { 0 }
     }
 }
 

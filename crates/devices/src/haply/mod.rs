@@ -3,7 +3,7 @@
 //! Both generations of messages are spoken: forces are `vector` from version 3.5 on and `values` before. A grip that
 //! is there turns the tool, shuts it and cuts. Events of the service become faults.
 //!
-//! *How we know*: `haply::…`, `haply_faults::…`, `haply_messages::…` in the tests, against [`crate::stand_in::HaplyStandIn`].
+//! *How we know*: `haply::…`, `haply_faults::…`, `haply_messages::…` in the tests, against a service that stands for it.
 //!
 //! *Limits*: that `cursor_position` is (x right, y away from the user, z up) follows from the middle of its workspace
 //! and was not seen; so do the axes of a grip. A message is allocated at every tick by the WebSocket. The largest

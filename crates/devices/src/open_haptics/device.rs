@@ -1,30 +1,33 @@
 use std::path::Path;
-use std::time::{Duration, Instant};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
-use palpate_servo::{Command, Device, DeviceSpec, DeviceState, Fault, Vec3};
+use palpate_servo::{
+    Capabilities, Command, DeadMan, Device, DeviceState, Disabled, Fault, Scheduler, Vec3,
+};
 
 use super::errors;
-use super::frames::{Frames, Told};
-use super::functions::{Functions, Read};
-use crate::places::PATIENCE;
+use super::functions::{Calibration, Frame, Functions};
+use super::scheduler::OpenHapticsScheduler;
 use crate::rotation::rotation;
 use crate::{Found, Kind, OpenError, Origin};
-
-/// How long a waiting loop sleeps.
-const NAP: Duration = Duration::from_micros(50);
 
 /// A Touch, where the library does not say: 3.3 N, and 0.88 N for as long as one likes.
 const TOUCH: [f64; 2] = [3.3, 0.88];
 
-/// The default device of OpenHaptics.
+/// Every button but the first, which shuts jaws and cuts.
+const OTHER_BUTTONS: u32 = 0b1110;
+
+/// The default device of OpenHaptics. It is called from its scheduler alone.
 pub struct OpenHapticsDevice {
-    spec: DeviceSpec,
+    capabilities: Capabilities,
     functions: Functions,
     handle: u32,
-    /// None once it is dropped.
-    frames: Option<Frames>,
+    has_inkwell: bool,
+    /// Whether the scheduler is calling.
+    inside: Arc<AtomicBool>,
+    enabled: bool,
     was_calibrated: bool,
-    patience: Duration,
     broken: Option<Fault>,
 }
 
@@ -36,10 +39,10 @@ pub fn list(named: Option<&Path>) -> Result<Vec<Found>, OpenError> {
     let functions = Functions::load(named)?;
     let handle = open(&functions)?;
     let [model, serial] = functions.names();
-    let (spec, forces) = spec(&functions);
-    let remarks = match functions.is_calibrated() {
-        true => Vec::new(),
-        false => vec!["not calibrated: put the stylus into its inkwell".to_owned()],
+    let (capabilities, forces) = capabilities(&functions);
+    let remarks = match functions.calibration() {
+        Calibration::Known => Vec::new(),
+        _ => vec!["not calibrated: put the stylus into its inkwell".to_owned()],
     };
     functions.close(handle);
     Ok(vec![Found {
@@ -47,7 +50,7 @@ pub fn list(named: Option<&Path>) -> Result<Vec<Found>, OpenError> {
         model,
         serial,
         remarks,
-        spec,
+        capabilities,
         forces,
     }])
 }
@@ -62,7 +65,7 @@ fn open(functions: &Functions) -> Result<u32, OpenError> {
     })
 }
 
-fn spec(functions: &Functions) -> (DeviceSpec, Origin) {
+fn capabilities(functions: &Functions) -> (Capabilities, Origin) {
     let [model, serial] = functions.names();
     let said = functions.largest_forces();
     let is_said = said.iter().all(|force| force.is_finite() && *force > 0.0);
@@ -75,15 +78,15 @@ fn spec(functions: &Functions) -> (DeviceSpec, Origin) {
     let wide = (corners[1] - corners[0])
         .iter()
         .all(|side| *side > 0.0 && side.is_finite());
-    let spec = DeviceSpec {
+    let capabilities = Capabilities {
         workspace: wide.then_some(corners),
         peak_force: peak,
         // Motors bear no more than they can.
         continuous_force: continuous.min(peak),
         displays_force: true,
-        ..DeviceSpec::without_force(&format!("{model} {serial}"))
+        ..Capabilities::without_force(&format!("{model} {serial}"))
     };
-    (spec, origin)
+    (capabilities, origin)
 }
 
 impl OpenHapticsDevice {
@@ -92,81 +95,87 @@ impl OpenHapticsDevice {
     /// # Errors
     /// When there is no library, or it opens no device.
     pub fn open(named: Option<&Path>) -> Result<Self, OpenError> {
-        let functions = Functions::load(named)?;
+        Self::of(Functions::load(named)?)
+    }
+
+    pub(super) fn of(functions: Functions) -> Result<Self, OpenError> {
         let handle = open(&functions)?;
-        functions.calibrate();
-        functions.enable_forces();
-        let (spec, _) = spec(&functions);
+        let (capabilities, _) = capabilities(&functions);
+        let has_inkwell = functions.has_inkwell();
         // What came up until now belongs to nobody's force.
         functions.last_error();
         Ok(Self {
-            spec,
+            capabilities,
             functions,
             handle,
-            frames: Some(Frames::start(functions, handle)),
+            has_inkwell,
+            inside: Arc::default(),
+            enabled: false,
             was_calibrated: false,
-            patience: PATIENCE,
             broken: None,
         })
     }
 
-    /// The same with another time that a state may take.
+    /// The same with a dead-man's switch: one of the buttons but the first.
     #[must_use]
-    pub fn with_patience(mut self, patience: Duration) -> Self {
-        self.patience = patience;
+    pub fn with_dead_man(mut self) -> Self {
+        self.capabilities.dead_man = Some(DeadMan::Buttons(OTHER_BUTTONS));
         self
     }
 
     fn try_exchange(&mut self, command: &Command) -> Result<DeviceState, Fault> {
-        let frames = self.frames.as_mut().ok_or(Fault::Disconnected)?;
-        frames.send(command.force);
-        let told = newest(frames, self.patience)?;
-        let lived_through = errors::fault(frames.error())?;
-        let state = state(command.time, &told);
-        let lost = self.was_calibrated && !told.calibrated;
-        self.was_calibrated = told.calibrated;
+        if !self.inside.load(Ordering::Acquire) {
+            return Err(Fault::OutsideScheduler);
+        }
+        let calibration = self.functions.calibration();
+        if calibration == Calibration::NeedsUpdate {
+            self.functions.update_calibration();
+        }
+        let frame = self.functions.frame(self.handle);
+        // Where the handle is was not known when the force was made.
+        if calibration == Calibration::Known {
+            frame.set_force(&command.force());
+        }
+        let state = state(command.time, &frame);
+        let in_inkwell = self.has_inkwell && frame.is_in_inkwell();
+        drop(frame);
+        let lived_through = errors::fault(self.functions.last_error())?;
+        let ready = calibration == Calibration::Known;
+        let lost = self.was_calibrated && calibration == Calibration::NeedsHand;
+        self.was_calibrated = ready;
         Ok(DeviceState {
+            present: !in_inkwell,
+            ready,
             fault: lived_through.or(lost.then_some(Fault::Uncalibrated)),
             ..state
         })
     }
 }
 
-/// What a frame told that was not read before.
-fn newest(frames: &mut Frames, patience: Duration) -> Result<Told, Fault> {
-    let until = Instant::now() + patience;
-    while !frames.told.has_news() {
-        if Instant::now() >= until {
-            return Err(Fault::Silent);
-        }
-        std::thread::sleep(NAP);
-    }
-    frames.told.latest().ok_or(Fault::Silent)
-}
-
-fn state(time: f64, told: &Told) -> DeviceState {
-    let Read {
-        position,
-        transform,
-        buttons,
-    } = told.read;
+fn state(time: f64, frame: &Frame<'_>) -> DeviceState {
+    let transform = frame.transform();
     let column = |at: usize| Vec3::new(transform[at], transform[at + 1], transform[at + 2]);
-    let buttons = buttons as u32;
+    let buttons = frame.buttons() as u32;
     DeviceState {
         orientation: rotation([column(0), column(4), column(8)]),
         grip: if buttons & 1 != 0 { 1.0 } else { 0.0 },
         buttons,
-        ready: told.calibrated,
-        ..DeviceState::at(time, 1e-3 * position)
+        ..DeviceState::at(time, 1e-3 * frame.position())
     }
 }
 
 impl Device for OpenHapticsDevice {
-    fn spec(&self) -> &DeviceSpec {
-        &self.spec
+    fn capabilities(&self) -> &Capabilities {
+        &self.capabilities
     }
 
-    fn exchange(&mut self, command: &Command, _patience: Duration) -> Result<DeviceState, Fault> {
+    fn enable(&mut self) -> Result<(), Fault> {
+        self.functions.enable_forces();
+        self.enabled = true;
+        errors::fault(self.functions.last_error())?.map_or(Ok(()), Err)
+    }
+
+    fn exchange(&mut self, command: &Command) -> Result<DeviceState, Fault> {
         if let Some(fault) = self.broken {
             return Err(fault);
         }
@@ -175,18 +184,36 @@ impl Device for OpenHapticsDevice {
         })
     }
 
-    fn stop(&mut self) {
-        if let Some(frames) = &mut self.frames {
-            frames.send(Vec3::zeros());
+    /// A frame of zero force, which is written to the device when the frame ends; then its motors are off. Outside of
+    /// its scheduler the second is all that can be done.
+    fn disable(&mut self) -> Disabled {
+        let was_enabled = std::mem::take(&mut self.enabled);
+        if !was_enabled {
+            return Disabled::NoForce;
         }
+        let inside = self.inside.load(Ordering::Acquire);
+        // Older errors are not about this frame.
+        self.functions.last_error();
+        if inside {
+            self.functions.frame(self.handle).set_force(&Vec3::zeros());
+        }
+        self.functions.disable_forces();
+        match self.functions.last_error() {
+            errors::NONE if inside => Disabled::NoForce,
+            _ => Disabled::Unknown,
+        }
+    }
+
+    fn scheduler(&self) -> Option<Box<dyn Scheduler>> {
+        let scheduler = OpenHapticsScheduler::new(self.functions, self.inside.clone());
+        Some(Box::new(scheduler))
     }
 }
 
 impl Drop for OpenHapticsDevice {
+    /// After its scheduler ended.
     fn drop(&mut self) {
-        self.stop();
-        // The scheduler ends before its device.
-        self.frames = None;
+        self.disable();
         self.functions.close(self.handle);
     }
 }

@@ -1,4 +1,8 @@
 //! The functions of `libHD` that are used, as its interface has them.
+//!
+//! All of them are `unsafe` to call, for their types are known from documents alone: the headers of version 3.00.66 and
+//! the *OpenHaptics Toolkit API Reference Guide*. What holds for each call is at the wrapper that makes it, and nobody
+//! else calls them.
 
 #![allow(
     unsafe_code,
@@ -17,19 +21,28 @@ use crate::{Kind, OpenError};
 /// A handle that is none.
 const INVALID: u32 = 0xFFFF_FFFF;
 
+/// A quantity of the library that is `N` numbers. Its size belongs to its constant, so that nothing is read into less
+/// room than the library fills.
+#[derive(Clone, Copy)]
+struct Quantity<const N: usize>(u32);
+
+const POSITION: Quantity<3> = Quantity(0x2050);
+const TRANSFORM: Quantity<16> = Quantity(0x2052);
+const USABLE_WORKSPACE: Quantity<6> = Quantity(0x2551);
+const NOMINAL_MAX_FORCE: Quantity<1> = Quantity(0x2603);
+const NOMINAL_MAX_CONTINUOUS_FORCE: Quantity<1> = Quantity(0x2604);
+const CURRENT_FORCE: Quantity<3> = Quantity(0x2700);
+
 const BUTTONS: u32 = 0x2000;
-const POSITION: u32 = 0x2050;
-const TRANSFORM: u32 = 0x2052;
+const INKWELL_SWITCH: u32 = 0x2002;
 const MODEL: u32 = 0x2501;
 const SERIAL: u32 = 0x2504;
-const USABLE_WORKSPACE: u32 = 0x2551;
-const NOMINAL_MAX_FORCE: u32 = 0x2603;
-const NOMINAL_MAX_CONTINUOUS_FORCE: u32 = 0x2604;
-const CURRENT_FORCE: u32 = 0x2700;
 const FORCE_OUTPUT: u32 = 0x4000;
 const FORCE_RAMPING: u32 = 0x4002;
 const CALIBRATION_OK: u32 = 0x5000;
 const CALIBRATION_NEEDS_UPDATE: u32 = 0x5001;
+/// The bit of the calibration styles of a stylus that is put into an inkwell.
+const STYLE_INKWELL: u32 = 4;
 
 /// Of all calls the one that may come at any time.
 const HIGHEST_PRIORITY: u16 = 65_535;
@@ -38,15 +51,16 @@ const HIGHEST_PRIORITY: u16 = 65_535;
 pub(super) const DONE: u32 = 0;
 pub(super) const CONTINUE: u32 = 1;
 
+#[derive(Clone, Copy)]
 #[repr(C)]
-struct ErrorInfo {
-    code: u32,
-    internal: i32,
-    device: u32,
+pub(super) struct ErrorInfo {
+    pub(super) code: u32,
+    pub(super) internal: i32,
+    pub(super) device: u32,
 }
 
 /// What the scheduler calls.
-pub(super) type Callback = extern "system" fn(*mut c_void) -> u32;
+pub(super) type Callback = unsafe extern "system" fn(*mut c_void) -> u32;
 
 /// A C long, of whatever size it is here.
 type ULong = std::ffi::c_ulong;
@@ -54,34 +68,36 @@ type ULong = std::ffi::c_ulong;
 /// `libHD`, loaded.
 #[derive(Clone, Copy)]
 pub(super) struct Functions {
-    init_device: extern "system" fn(*const c_char) -> u32,
-    disable_device: extern "system" fn(u32),
-    make_current: extern "system" fn(u32),
-    begin_frame: extern "system" fn(u32),
-    end_frame: extern "system" fn(u32),
-    error: extern "system" fn() -> ErrorInfo,
-    enable: extern "system" fn(u32),
-    doubles: extern "system" fn(u32, *mut f64),
-    integers: extern "system" fn(u32, *mut i32),
-    set_doubles: extern "system" fn(u32, *const f64),
-    string: extern "system" fn(u32) -> *const c_char,
-    check_calibration: extern "system" fn() -> u32,
-    calibration_style: extern "system" fn() -> u32,
-    update_calibration: extern "system" fn(u32),
-    start_scheduler: extern "system" fn(),
-    stop_scheduler: extern "system" fn(),
-    schedule: extern "system" fn(Callback, *mut c_void, u16) -> ULong,
-    unschedule: extern "system" fn(ULong),
+    pub(super) init_device: unsafe extern "system" fn(*const c_char) -> u32,
+    pub(super) disable_device: unsafe extern "system" fn(u32),
+    pub(super) make_current: unsafe extern "system" fn(u32),
+    pub(super) begin_frame: unsafe extern "system" fn(u32),
+    pub(super) end_frame: unsafe extern "system" fn(u32),
+    pub(super) error: unsafe extern "system" fn() -> ErrorInfo,
+    pub(super) enable: unsafe extern "system" fn(u32),
+    pub(super) disable: unsafe extern "system" fn(u32),
+    pub(super) doubles: unsafe extern "system" fn(u32, *mut f64),
+    pub(super) integers: unsafe extern "system" fn(u32, *mut i32),
+    pub(super) booleans: unsafe extern "system" fn(u32, *mut u8),
+    pub(super) set_doubles: unsafe extern "system" fn(u32, *const f64),
+    pub(super) string: unsafe extern "system" fn(u32) -> *const c_char,
+    pub(super) check_calibration: unsafe extern "system" fn() -> u32,
+    pub(super) calibration_style: unsafe extern "system" fn() -> u32,
+    pub(super) update_calibration: unsafe extern "system" fn(u32),
+    pub(super) start_scheduler: unsafe extern "system" fn(),
+    pub(super) stop_scheduler: unsafe extern "system" fn(),
+    pub(super) schedule: unsafe extern "system" fn(Callback, *mut c_void, u16) -> ULong,
+    pub(super) unschedule: unsafe extern "system" fn(ULong),
 }
 
-/// What a frame finds.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Read {
-    /// [mm]
-    pub(super) position: Vec3,
-    /// Column by column.
-    pub(super) transform: [f64; 16],
-    pub(super) buttons: i32,
+/// Whether a device knows where its handle is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Calibration {
+    Known,
+    /// It will, once it is told to look: its stylus is in the inkwell.
+    NeedsUpdate,
+    /// Somebody has to do something.
+    NeedsHand,
 }
 
 impl Functions {
@@ -93,8 +109,9 @@ impl Functions {
         let library = Library::load(Kind::OpenHaptics, names, named)?;
         macro_rules! function {
             ($name:literal) => {
-                // SAFETY: the types are those of the interface, version 3.00.66; an integer of another width would
-                // be another function.
+                // SAFETY: parameters and result are those that hdDefines.h, hdDevice.h and hdScheduler.h declare for
+                // it: HHD, HDenum and HDerror are 32 bits, HDushort 16, HDboolean 8, HDSchedulerHandle a C long, and
+                // HDErrorInfo is three words by value.
                 unsafe { library.function($name)? }
             };
         }
@@ -106,8 +123,10 @@ impl Functions {
             end_frame: function!("hdEndFrame"),
             error: function!("hdGetError"),
             enable: function!("hdEnable"),
+            disable: function!("hdDisable"),
             doubles: function!("hdGetDoublev"),
             integers: function!("hdGetIntegerv"),
+            booleans: function!("hdGetBooleanv"),
             set_doubles: function!("hdSetDoublev"),
             string: function!("hdGetString"),
             check_calibration: function!("hdCheckCalibration"),
@@ -120,12 +139,13 @@ impl Functions {
         })
     }
 
-    /// The last error, and no older one; zero for none.
+    /// The worst error since the last time; zero for none.
     pub(super) fn last_error(&self) -> u32 {
         let mut last = errors::NONE;
         // It keeps a stack; a bound, for a library that never empties it.
         for _ in 0..64 {
-            let found = (self.error)().code;
+            // SAFETY: hdGetError takes nothing, may be called at any time, and returns three words by value.
+            let found = unsafe { (self.error)() }.code;
             if found == errors::NONE {
                 break;
             }
@@ -134,30 +154,40 @@ impl Functions {
         last
     }
 
-    /// Opens the default device.
+    /// Opens the default device. A handle that comes with an error is closed again.
     pub(super) fn open(&self) -> Result<u32, u32> {
-        let handle = (self.init_device)(std::ptr::null());
+        // SAFETY: hdInitDevice takes the name of a device, or null (HD_DEFAULT_DEVICE) for the default one.
+        let handle = unsafe { (self.init_device)(std::ptr::null()) };
         let error = self.last_error();
-        if handle == INVALID || error != errors::NONE {
+        if handle == INVALID {
             return Err(error);
         }
-        (self.make_current)(handle);
+        if error != errors::NONE {
+            self.close(handle);
+            return Err(error);
+        }
+        // SAFETY: hdMakeCurrentDevice takes a handle of hdInitDevice that was not disabled.
+        unsafe { (self.make_current)(handle) };
         Ok(handle)
     }
 
+    /// Closes a device whose scheduler does not run, for good.
     pub(super) fn close(&self, handle: u32) {
-        (self.disable_device)(handle);
+        // SAFETY: hdDisableDevice takes a handle of hdInitDevice; one that it does not know is an error on its stack
+        // and no more. The handle is not used again: every caller drops what holds it.
+        unsafe { (self.disable_device)(handle) };
     }
 
     /// Model and serial number.
     pub(super) fn names(&self) -> [String; 2] {
-        // SAFETY: texts of the library, which end with a zero and stay.
+        // SAFETY: hdGetString returns null or a text that ends with a zero and belongs to the library, which is never
+        // unloaded; it is copied before any other call.
         [MODEL, SERIAL].map(|which| unsafe { text((self.string)(which)) })
     }
 
     /// The largest force, and the largest for as long as one likes [N].
     pub(super) fn largest_forces(&self) -> [f64; 2] {
-        [NOMINAL_MAX_FORCE, NOMINAL_MAX_CONTINUOUS_FORCE].map(|which| self.read::<1>(which)[0])
+        [NOMINAL_MAX_FORCE, NOMINAL_MAX_CONTINUOUS_FORCE].map(|which| self.read(which)[0])
     }
 
     /// Least and greatest corner [mm].
@@ -166,54 +196,132 @@ impl Functions {
     }
 
     pub(super) fn enable_forces(&self) {
-        (self.enable)(FORCE_OUTPUT);
-        (self.enable)(FORCE_RAMPING);
-    }
-
-    /// Whether it knows where its handle is; it may be brought to by itself.
-    pub(super) fn calibrate(&self) {
-        if (self.check_calibration)() == CALIBRATION_NEEDS_UPDATE {
-            (self.update_calibration)((self.calibration_style)());
+        for what in [FORCE_OUTPUT, FORCE_RAMPING] {
+            // SAFETY: hdEnable takes the number of a capability; one that it does not know is an error on its stack.
+            unsafe { (self.enable)(what) };
         }
     }
 
-    pub(super) fn is_calibrated(&self) -> bool {
-        (self.check_calibration)() == CALIBRATION_OK
+    pub(super) fn disable_forces(&self) {
+        // SAFETY: hdDisable takes the number of a capability, as hdEnable does.
+        unsafe { (self.disable)(FORCE_OUTPUT) };
     }
 
-    /// One frame, in the scheduler's thread: reads, and hands `force` [N] over.
-    pub(super) fn frame(&self, handle: u32, force: &Vec3) -> Read {
-        (self.begin_frame)(handle);
-        let position: [f64; 3] = self.read(POSITION);
-        let transform = self.read(TRANSFORM);
-        let mut buttons = 0;
-        (self.integers)(BUTTONS, &raw mut buttons);
-        let force: [f64; 3] = (*force).into();
-        (self.set_doubles)(CURRENT_FORCE, force.as_ptr());
-        (self.end_frame)(handle);
-        Read {
-            position: position.into(),
-            transform,
-            buttons,
+    pub(super) fn calibration(&self) -> Calibration {
+        // SAFETY: hdCheckCalibration takes nothing and asks the current device.
+        match unsafe { (self.check_calibration)() } {
+            CALIBRATION_OK => Calibration::Known,
+            CALIBRATION_NEEDS_UPDATE => Calibration::NeedsUpdate,
+            _ => Calibration::NeedsHand,
         }
     }
 
-    /// Has `callback` called with `data` from now on, until it is unscheduled.
-    pub(super) fn schedule(&self, callback: Callback, data: *mut c_void) -> ULong {
-        let number = (self.schedule)(callback, data, HIGHEST_PRIORITY);
-        (self.start_scheduler)();
-        number
+    /// Has the device find out where its handle is; what needs an update does so by itself.
+    pub(super) fn update_calibration(&self) {
+        // SAFETY: hdUpdateCalibration takes one of the styles that hdCheckCalibrationStyle answers, which takes nothing.
+        unsafe { (self.update_calibration)((self.calibration_style)()) };
     }
 
+    /// Whether its stylus has an inkwell, by which it is calibrated.
+    pub(super) fn has_inkwell(&self) -> bool {
+        // SAFETY: hdCheckCalibrationStyle takes nothing and asks the current device.
+        unsafe { (self.calibration_style)() & STYLE_INKWELL != 0 }
+    }
+
+    /// Begins a frame of `handle`.
+    pub(super) fn frame(&self, handle: u32) -> Frame<'_> {
+        // SAFETY: hdBeginFrame takes a handle of hdInitDevice that was not disabled; who holds a frame borrows the
+        // functions from the device that owns the handle. Frames do not overlap: a frame ends before its caller's next.
+        unsafe { (self.begin_frame)(handle) };
+        Frame {
+            functions: self,
+            handle,
+        }
+    }
+
+    /// Has `callback` called with `data` from now on, until it is unscheduled or answers [`DONE`].
+    ///
+    /// # Safety
+    /// `callback` has to take `data` from any thread, for as long as the program runs: the interface does not say when
+    /// the last call comes.
+    pub(super) unsafe fn schedule(&self, callback: Callback, data: *mut c_void) -> ULong {
+        // SAFETY: hdScheduleAsynchronous takes a callback, what it is called with, and a priority of 0 to 65535;
+        // hdStartScheduler takes nothing. The caller vouches for callback and data.
+        unsafe {
+            let number = (self.schedule)(callback, data, HIGHEST_PRIORITY);
+            (self.start_scheduler)();
+            number
+        }
+    }
+
+    /// In the order of the vendor's examples.
     pub(super) fn unschedule(&self, number: ULong) {
-        (self.stop_scheduler)();
-        (self.unschedule)(number);
+        // SAFETY: hdStopScheduler takes nothing; hdUnschedule takes a number of hdScheduleAsynchronous, also of a
+        // callback that is done, which is an error on its stack at most.
+        unsafe {
+            (self.stop_scheduler)();
+            (self.unschedule)(number);
+        }
     }
 
-    fn read<const N: usize>(&self, which: u32) -> [f64; N] {
+    fn read<const N: usize>(&self, which: Quantity<N>) -> [f64; N] {
         // Of what a library does not know it writes nothing.
         let mut found = [f64::NAN; N];
-        (self.doubles)(which, found.as_mut_ptr());
+        // SAFETY: hdGetDoublev writes as many doubles as the API Reference lists for the quantity, which its constant
+        // has as N; there is room for as many.
+        unsafe { (self.doubles)(which.0, found.as_mut_ptr()) };
         found
+    }
+}
+
+/// A frame that has begun. When it is dropped it ends, and its forces are written to the device: none, unless one was
+/// set.
+pub(super) struct Frame<'f> {
+    functions: &'f Functions,
+    handle: u32,
+}
+
+impl Frame<'_> {
+    /// [mm]
+    pub(super) fn position(&self) -> Vec3 {
+        self.functions.read(POSITION).into()
+    }
+
+    /// Column by column.
+    pub(super) fn transform(&self) -> [f64; 16] {
+        self.functions.read(TRANSFORM)
+    }
+
+    pub(super) fn buttons(&self) -> i32 {
+        let mut buttons = 0;
+        // SAFETY: hdGetIntegerv writes one integer for HD_CURRENT_BUTTONS, for which there is room.
+        unsafe { (self.functions.integers)(BUTTONS, &raw mut buttons) };
+        buttons
+    }
+
+    /// Whether the stylus is in its inkwell: public drivers read 0 then. What is not known is taken for held.
+    pub(super) fn is_in_inkwell(&self) -> bool {
+        let mut switch = 1;
+        // SAFETY: hdGetBooleanv writes one byte for HD_CURRENT_INKWELL_SWITCH, for which there is room.
+        unsafe { (self.functions.booleans)(INKWELL_SWITCH, &raw mut switch) };
+        switch == 0
+    }
+
+    /// The force [N] that is written when the frame ends.
+    pub(super) fn set_force(&self, force: &Vec3) {
+        let force: [f64; 3] = (*force).into();
+        let Quantity(which) = CURRENT_FORCE;
+        // SAFETY: hdSetDoublev reads three doubles for HD_CURRENT_FORCE, which are there until it returns.
+        unsafe { (self.functions.set_doubles)(which, force.as_ptr()) };
+    }
+}
+
+impl Drop for Frame<'_> {
+    fn drop(&mut self) {
+        if std::thread::panicking() {
+            self.set_force(&Vec3::zeros());
+        }
+        // SAFETY: hdEndFrame takes the handle of the frame that has begun, and each frame is ended once.
+        unsafe { (self.functions.end_frame)(self.handle) };
     }
 }

@@ -1,12 +1,13 @@
-//! Hands and walls for all drivers.
+//! Hands, walls and loops for all drivers.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
+use palpate_device_stand_ins::{Mechanics, StandInLibrary};
 use palpate_servo::{
-    Command, Device, DeviceSpec, DeviceState, Fault, Sample, ServoLoop, ServoReader, ServoSettings,
-    Stage, Trajectory, Vec3, VirtualDevice, Waypoint,
+    Clock, Controller, Device, DeviceState, Fault, Limits, Sample, ServoLoop, ServoReader,
+    ServoSettings, ServoThread, Stage, Trajectory, Vec3, VirtualDevice, Waypoint, latest,
 };
 
 /// How stiff the wall is [N/m], and how deep a hand presses [m]: 1 N, below what a device without a dead-man's switch
@@ -29,51 +30,123 @@ pub(crate) fn wall(state: &DeviceState, _: f64) -> Vec3 {
     Vec3::y() * (-state.position.y).max(0.0) * STIFFNESS
 }
 
-pub(crate) fn servo(device: Box<dyn Device>) -> (ServoLoop, ServoReader) {
-    ServoLoop::new(device, Box::new(wall), ServoSettings::default()).unwrap()
-}
-
 /// For all that does not try how long a device may be silent: a machine that is busy elsewhere is no fault.
 pub(crate) const PATIENT: Duration = Duration::from_secs(5);
 
-/// A device in the time of a loop on the virtual clock, however often it is asked.
+/// Mechanics in the time of a loop on the virtual clock, however often they are asked.
 pub(crate) struct InTime {
-    pub(crate) device: Box<dyn Device>,
+    pub(crate) device: VirtualDevice,
     pub(crate) time: Arc<AtomicU64>,
 }
 
-impl Device for InTime {
-    fn spec(&self) -> &DeviceSpec {
-        self.device.spec()
-    }
-
-    fn exchange(&mut self, command: &Command, patience: Duration) -> Result<DeviceState, Fault> {
+impl Mechanics for InTime {
+    fn advance(&mut self, _time: f64, force: &Vec3) -> DeviceState {
         let time = f64::from_bits(self.time.load(Ordering::Acquire));
-        self.device
-            .exchange(&Command { time, ..*command }, patience)
-    }
-
-    fn stop(&mut self) {
-        self.device.stop();
+        self.device.advance(time, force)
     }
 }
 
-/// Ticks on the virtual clock until the hand is down, and force is on. A device [in time](InTime) has it from `time`.
+/// A loop on the virtual clock that a test ticks: itself, or by the periods of the scheduler of a library.
+pub(crate) struct Ticked<'l> {
+    host: Host<'l>,
+    pub(crate) reader: ServoReader,
+    number: u64,
+    /// The time of a hand under a stand-in.
+    pub(crate) time: Arc<AtomicU64>,
+}
+
+enum Host<'l> {
+    Here(Box<ServoLoop>),
+    Scheduler(ServoThread, Box<dyn Fn() -> i32 + Send + Sync + 'l>),
+}
+
+impl<'l> Ticked<'l> {
+    pub(crate) fn new(
+        device: Box<dyn Device>,
+        library: Option<&'l StandInLibrary>,
+        controller: impl Controller + 'static,
+    ) -> Self {
+        let settings = ServoSettings::default();
+        Self::with(device, library, (Box::new(controller), settings))
+    }
+
+    pub(crate) fn with(
+        device: Box<dyn Device>,
+        library: Option<&'l StandInLibrary>,
+        (controller, settings): (Box<dyn Controller>, ServoSettings),
+    ) -> Self {
+        let (servo, reader) = ServoLoop::new(device, controller, settings).unwrap();
+        let host = match (servo.scheduler(), library) {
+            (Some(_), Some(library)) => {
+                library.set("stand_in_manual", 1);
+                let thread = ServoThread::start(servo, Clock::virtual_time());
+                Host::Scheduler(thread.unwrap(), Box::new(library.function("stand_in_step")))
+            }
+            _ => Host::Here(Box::new(servo)),
+        };
+        Self {
+            host,
+            reader,
+            number: 0,
+            time: Arc::default(),
+        }
+    }
+
+    /// The next tick.
+    pub(crate) fn tick(&mut self) -> Result<Sample, Fault> {
+        let time = self.number as f64 * 1e-3;
+        self.number += 1;
+        self.time.store(time.to_bits(), Ordering::Release);
+        let (thread, step) = match &mut self.host {
+            Host::Here(servo) => {
+                let sample = servo.tick(time, 0.0);
+                self.reader.log.drain().for_each(drop);
+                return sample;
+            }
+            Host::Scheduler(thread, step) => (thread, step),
+        };
+        step();
+        let sample = self.reader.log.drain().last();
+        match (thread.is_running(), sample) {
+            (true, Some(sample)) => Ok(sample),
+            _ => Err(self.reader.report.latest().fault.unwrap()),
+        }
+    }
+
+    /// The fault that keeps forces off, if one does.
+    pub(crate) fn fault(&mut self) -> Option<Fault> {
+        match &self.host {
+            Host::Here(servo) => servo.report().fault,
+            Host::Scheduler(..) => self.reader.report.latest().fault,
+        }
+    }
+
+    /// Ends the loop, whose last call a scheduler that a test paces has to make.
+    pub(crate) fn end(self) {
+        let Host::Scheduler(thread, step) = self.host else {
+            return;
+        };
+        std::thread::scope(|scope| {
+            scope.spawn(|| {
+                for _ in 0..300 {
+                    std::thread::sleep(Duration::from_millis(1));
+                    step();
+                }
+            });
+            // What it says is for others to test.
+            let _ = thread.stop();
+        });
+    }
+}
+
+/// A hand that presses into the wall, until its force is whole.
 ///
 /// # Errors
 /// When the device fails.
-pub(crate) fn press(
-    servo: &mut ServoLoop,
-    reader: &mut ServoReader,
-    time: &AtomicU64,
-) -> Result<Vec<Sample>, Fault> {
+pub(crate) fn press(servo: &mut Ticked<'_>) -> Result<Vec<Sample>, Fault> {
     let last = (1e3 * DOWN) as u64 + 10;
-    for tick in 0..last {
-        let now = tick as f64 * 1e-3;
-        time.store(now.to_bits(), Ordering::Release);
-        servo.tick(now, 0.0)?;
-    }
-    let samples: Vec<Sample> = reader.log.drain().collect();
+    let samples: Result<Vec<Sample>, Fault> = (0..last).map(|_| servo.tick()).collect();
+    let samples = samples?;
     let end = samples.last().unwrap();
     assert_eq!(end.stage, Stage::Live);
     assert!(
@@ -81,4 +154,43 @@ pub(crate) fn press(
         "{end:?}"
     );
     Ok(samples)
+}
+
+/// A loop that commands what a test says, as far as the device displays it.
+pub(crate) struct Commanded<'l> {
+    pub(crate) servo: Ticked<'l>,
+    force: latest::Sender<Vec3>,
+}
+
+impl<'l> Commanded<'l> {
+    pub(crate) fn new(device: Box<dyn Device>, library: Option<&'l StandInLibrary>) -> Self {
+        let limits = Limits {
+            force: f64::MAX,
+            slew: f64::MAX,
+            speed: f64::INFINITY,
+            arming_speed: f64::INFINITY,
+            arming_force: f64::INFINITY,
+            ramp: 1e-9,
+            without_dead_man: 1.0,
+            allowance: f64::INFINITY,
+            ..Limits::of(device.capabilities())
+        };
+        let settings = ServoSettings {
+            limits: Some(limits),
+            ..ServoSettings::default()
+        };
+        let (force, mut read) = latest::channel(&Vec3::zeros());
+        let controller = move |_: &DeviceState, _: f64| *read.latest();
+        let servo = Ticked::with(device, library, (Box::new(controller), settings));
+        Self { servo, force }
+    }
+
+    /// What the device answers to `force` [N], once forces are on and it has arrived.
+    pub(crate) fn exchange(&mut self, force: Vec3) -> DeviceState {
+        self.force.send(force);
+        (0..5)
+            .map(|_| self.servo.tick().unwrap().state)
+            .last()
+            .unwrap()
+    }
 }

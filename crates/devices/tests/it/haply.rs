@@ -1,19 +1,20 @@
 //! The driver and its service: what is said both ways, and that a wall feels as on a device without a service.
 
-use std::sync::atomic::AtomicU64;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use nalgebra::UnitQuaternion;
+use palpate_device_stand_ins::{
+    HaplyStandIn, HaplyStandInSettings, Mechanics, Misbehaviour, StandInGrip,
+};
 use palpate_devices::haply::{
     Generation, HaplyAddress, HaplyDevice, Snapshot, State, force_command, list,
 };
-use palpate_devices::stand_in::{HaplyStandIn, HaplyStandInSettings, StandInGrip};
 use palpate_servo::{
-    Command, Device, DeviceState, Fault, Histogram, NoDevice, Trajectory, Vec3, VirtualDevice,
-    Waypoint,
+    Command, DeadMan, Device, Disabled, Fault, Histogram, NoDevice, Stage, Trajectory, Vec3,
+    VirtualDevice, Waypoint,
 };
 
-use crate::hands::{PATIENT, press, pressing, servo};
+use crate::hands::{Commanded, PATIENT, Ticked, press, pressing, wall};
 
 /// As version 3.5 has it, in our words.
 const FIRST: &str = r#"{"session_id": 3,
@@ -72,18 +73,13 @@ fn a_force_is_written_in_the_words_of_its_generation() {
     assert!(message.contains(r#""values":{"x":0.000000,"#), "{message}");
 }
 
-fn stand_in(device: impl Device + 'static, settings: HaplyStandInSettings) -> HaplyStandIn {
+fn stand_in(device: impl Mechanics + 'static, settings: HaplyStandInSettings) -> HaplyStandIn {
     HaplyStandIn::start(vec![Box::new(device)], settings).unwrap()
 }
 
 fn open(service: &HaplyStandIn, number: usize) -> HaplyDevice {
     let device = HaplyDevice::open(service.address(), number).unwrap();
-    device.with_patience(PATIENT)
-}
-
-fn exchange(device: &mut HaplyDevice, time: f64, force: Vec3) -> DeviceState {
-    let command = Command { time, force };
-    device.exchange(&command, Duration::from_millis(1)).unwrap()
+    device.with_timeout(PATIENT)
 }
 
 #[test]
@@ -96,26 +92,44 @@ fn both_generations_take_a_force() {
                 ..HaplyStandInSettings::default()
             },
         );
-        let mut device = open(&service, 0);
+        let device = open(&service, 0);
         assert_eq!(device.generation(), generation);
         assert!(device.hears_events());
+        let mut commanded = Commanded::new(Box::new(device), None);
         let force = Vec3::new(0.1, 0.2, -0.3);
-        let state = exchange(&mut device, 0.0, force);
+        let state = commanded.exchange(force);
         assert!((state.position - Vec3::new(0.01, 0.02, 0.03)).norm() < 1e-15);
         assert!(state.ready && state.present);
         assert_eq!(state.displayed, Some(force));
         assert_eq!(service.force(0), force);
-        device.stop();
-        // The answer to the stop is not taken for that of the next command.
-        let state = exchange(&mut device, 0.001, force * 2.0);
+        let supervisor = commanded.servo.reader.supervisor.clone();
+        supervisor.trip();
+        commanded.servo.tick().unwrap();
+        assert_eq!(service.force(0), Vec3::zeros());
+        // The answers to what disabled it are not taken for those of the next commands.
+        supervisor.arm();
+        let state = commanded.exchange(force * 2.0);
         assert_eq!(state.displayed, Some(force * 2.0));
-        drop(device);
-        // It comes with the good-bye, or a little after.
-        let until = Instant::now() + Duration::from_secs(5);
-        while service.force(0) != Vec3::zeros() {
-            assert!(Instant::now() < until);
-        }
+        drop(commanded);
+        assert_eq!(service.force(0), Vec3::zeros());
     }
+}
+
+/// When it returns, zero is displayed, or it says that it cannot know.
+#[test]
+fn disabling_waits_for_the_zero() {
+    let service = stand_in(
+        NoDevice::new(Vec3::zeros()),
+        HaplyStandInSettings::default(),
+    );
+    let device = HaplyDevice::open(service.address(), 0).unwrap();
+    let mut device = device.with_timeout(std::time::Duration::from_millis(20));
+    assert_eq!(device.disable(), Disabled::NoForce);
+    assert_eq!(service.forces(0), [Vec3::zeros()]);
+    service.misbehave(Some(Misbehaviour::Swallows));
+    assert_eq!(device.disable(), Disabled::Unknown);
+    service.misbehave(Some(Misbehaviour::Drops));
+    assert_eq!(device.disable(), Disabled::Unknown);
 }
 
 /// What a service cannot do with a force must not go unnoticed.
@@ -128,13 +142,47 @@ fn a_force_in_other_words_is_a_fault() {
             ..HaplyStandInSettings::default()
         },
     );
-    let mut device = open(&service, 0);
-    service.misbehave(Some(palpate_devices::stand_in::Misbehaviour::NoForce));
+    let mut commanded = Commanded::new(Box::new(open(&service, 0)), None);
+    service.misbehave(Some(Misbehaviour::NoForce));
+    commanded.exchange(Vec3::y());
     let faults: Vec<_> = (0..100)
-        .filter_map(|tick| exchange(&mut device, f64::from(tick) * 1e-3, Vec3::y()).fault)
+        .filter_map(|_| commanded.servo.tick().unwrap().state.fault)
         .collect();
-    // Every twenty ticks.
-    assert_eq!(faults, [Fault::Ignored; 5]);
+    // After twenty ticks; then there is no force that could be hidden.
+    assert_eq!(faults, [Fault::Ignored]);
+}
+
+/// The button of a grip without a cable that is held, and what becomes of the force of a hand that holds none.
+#[test]
+fn a_grip_with_other_buttons_has_a_dead_mans_switch() {
+    for (buttons, most) in [(0b010, 3.0), (0b100, 3.0), (0b001, 0.0), (0b000, 0.0)] {
+        let hand = VirtualDevice::new(Trajectory::Way(vec![Waypoint {
+            buttons,
+            ..Waypoint::new(0.0, Vec3::zeros())
+        }]));
+        let service = stand_in(hand, HaplyStandInSettings::default());
+        let device = open(&service, 0).with_dead_man().unwrap();
+        assert_eq!(
+            device.capabilities().dead_man,
+            Some(DeadMan::Buttons(0b110))
+        );
+        let push = |state: &palpate_servo::DeviceState, _: f64| {
+            Vec3::y() * if state.time < 0.7 { 0.0 } else { 5.0 }
+        };
+        let mut servo = Ticked::new(Box::new(device), None, push);
+        let last = (0..800).map(|_| servo.tick().unwrap()).last().unwrap();
+        assert_eq!(last.sent.norm(), most, "{buttons:#b}");
+        assert_eq!(last.stage == Stage::Live, most > 0.0);
+    }
+    for grip in [StandInGrip::None, StandInGrip::Wired] {
+        let settings = HaplyStandInSettings {
+            grip,
+            ..HaplyStandInSettings::default()
+        };
+        let service = stand_in(NoDevice::new(Vec3::zeros()), settings);
+        let said = open(&service, 0).with_dead_man().err().unwrap().to_string();
+        assert!(said.contains("has no button besides the first"), "{said}");
+    }
 }
 
 #[test]
@@ -152,7 +200,7 @@ fn a_grip_turns_shuts_and_cuts() {
         };
         let service = stand_in(hand, settings);
         let mut device = open(&service, 0);
-        let state = exchange(&mut device, 0.0, Vec3::zeros());
+        let state = device.exchange(&Command::without_force(0.0)).unwrap();
         let expected = match grip {
             StandInGrip::None => (0, 0.0),
             StandInGrip::Wired => (0b001, 1.0),
@@ -170,13 +218,14 @@ fn a_grip_turns_shuts_and_cuts() {
 #[test]
 fn two_hands_have_a_device_each() {
     let places = [Vec3::x() * 0.05, Vec3::x() * -0.05];
-    let devices = places.map(|place| Box::new(NoDevice::new(place)) as Box<dyn Device>);
+    let devices = places.map(|place| Box::new(NoDevice::new(place)) as Box<dyn Mechanics>);
     let service = HaplyStandIn::start(devices.into(), HaplyStandInSettings::default()).unwrap();
     assert_eq!(list(service.address()).unwrap().len(), 2);
-    let mut hands = [0, 1].map(|number| open(&service, number));
+    let hands = [0, 1].map(|number| open(&service, number));
+    let mut hands = hands.map(|hand| Commanded::new(Box::new(hand), None));
     for (number, hand) in hands.iter_mut().enumerate() {
         let force = Vec3::y() * (0.1 + number as f64);
-        let state = exchange(hand, 0.0, force);
+        let state = hand.exchange(force);
         assert!((state.position - places[number]).norm() < 1e-15);
         assert_eq!(service.force(number), force);
     }
@@ -193,12 +242,11 @@ fn two_hands_have_a_device_each() {
 /// number in text, the same forces but for the millionth of a newton to which they are written.
 #[test]
 fn a_wall_feels_as_without_a_service() {
-    let (mut direct, mut reader) = servo(Box::new(pressing()));
-    let expected = press(&mut direct, &mut reader, &AtomicU64::new(0)).unwrap();
+    let expected = press(&mut Ticked::new(Box::new(pressing()), None, wall)).unwrap();
     let service = stand_in(pressing(), HaplyStandInSettings::default());
     let device = open(&service, 0);
-    let (mut by_service, mut reader) = servo(Box::new(device));
-    let found = press(&mut by_service, &mut reader, &AtomicU64::new(0)).unwrap();
+    let mut by_service = Ticked::new(Box::new(device), None, wall);
+    let found = press(&mut by_service).unwrap();
     assert_eq!(found.len(), expected.len());
     for (found, expected) in found.iter().zip(&expected) {
         assert!((found.state.position - expected.state.position).norm() < 1e-12);
@@ -276,7 +324,8 @@ fn a_round_trip_fits_into_a_tick() {
     let mut times = Histogram::default();
     for tick in 0..5000 {
         let began = Instant::now();
-        exchange(&mut device, f64::from(tick) * 1e-3, Vec3::y());
+        let command = Command::without_force(f64::from(tick) * 1e-3);
+        device.exchange(&command).unwrap();
         times.add(began.elapsed().as_secs_f64());
     }
     let found = times.percentiles();

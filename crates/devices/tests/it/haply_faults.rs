@@ -1,26 +1,25 @@
 //! Whatever goes wrong with the service: no force, and a fault with a name that stays, within 25 ms of the virtual
 //! clock. The wall's is printed.
 
-use std::sync::atomic::AtomicU64;
 use std::time::{Duration, Instant};
 
+use palpate_device_stand_ins::{HaplyStandIn, HaplyStandInSettings, Misbehaviour};
 use palpate_devices::haply::HaplyDevice;
-use palpate_devices::stand_in::{HaplyStandIn, HaplyStandInSettings, Misbehaviour};
-use palpate_servo::{Clock, Fault, ServoLoop, ServoReader, Stage, Vec3};
+use palpate_servo::{Fault, Stage, Vec3};
 
-use crate::hands::{DOWN, PATIENT, press, pressing, servo};
+use crate::hands::{PATIENT, Ticked, press, pressing, wall};
 
-/// A loop whose hand presses. With little patience a machine that is busy elsewhere may be a fault before it should:
+/// A loop whose hand presses. With a short timeout a machine that is busy elsewhere may be a fault before it should:
 /// then it begins anew.
-fn pressed(patience: Duration) -> (HaplyStandIn, ServoLoop, ServoReader) {
+fn pressed(timeout: Duration) -> (HaplyStandIn, Ticked<'static>) {
     for _ in 0..10 {
         let settings = HaplyStandInSettings::default();
         let service = HaplyStandIn::start(vec![Box::new(pressing())], settings).unwrap();
         let device = HaplyDevice::open(service.address(), 0).unwrap();
-        let device = device.with_patience(patience);
-        let (mut servo, mut reader) = servo(Box::new(device));
-        if press(&mut servo, &mut reader, &AtomicU64::new(0)).is_ok() {
-            return (service, servo, reader);
+        let device = device.with_timeout(timeout);
+        let mut servo = Ticked::new(Box::new(device), None, wall);
+        if press(&mut servo).is_ok() {
+            return (service, servo);
         }
     }
     panic!("this machine is too busy");
@@ -31,21 +30,20 @@ const USUAL: Duration = Duration::from_millis(20);
 
 /// What is done at the time, and which fault comes of it; none when nothing may.
 fn after(begin: impl FnOnce(&HaplyStandIn), expected: Option<Fault>) -> Duration {
-    let patience = if expected == Some(Fault::Silent) {
+    let timeout = if expected == Some(Fault::Silent) {
         USUAL
     } else {
         PATIENT
     };
-    let (service, mut servo, _reader) = pressed(patience);
+    let (service, mut servo) = pressed(timeout);
     let commanded = service.forces(0).len();
     begin(&service);
     let (began, mut wall) = (Instant::now(), None);
-    let mut clock = Clock::Virtual(DOWN + 0.010);
     let mut faulted_after = None;
     for tick in 0..150u32 {
-        let time = DOWN + 0.010 + f64::from(tick) * 1e-3;
-        clock.wait_until(time);
-        let fault = match servo.tick(clock.now(), 0.0) {
+        // Answers that nobody asked for have time to come, as between ticks of the machine's clock.
+        std::thread::sleep(Duration::from_micros(500));
+        let fault = match servo.tick() {
             Err(fault) => Some(fault),
             Ok(sample) => match sample.stage {
                 Stage::Faulted(fault) => {
@@ -61,7 +59,7 @@ fn after(begin: impl FnOnce(&HaplyStandIn), expected: Option<Fault>) -> Duration
             assert_eq!(Some(fault), expected);
         }
         // Once it is there it stays.
-        assert!(faulted_after.is_none() || servo.report().fault == expected);
+        assert!(faulted_after.is_none() || servo.fault() == expected);
     }
     assert_eq!(faulted_after.is_some(), expected.is_some(), "{expected:?}");
     if let Some(ticks) = faulted_after {
@@ -142,9 +140,9 @@ fn a_place_out_of_this_world_is_no_force() {
     for place in ["1e300", "-1e308", "5.0"] {
         let leap =
             |service: &HaplyStandIn| service.misbehave(Some(Misbehaviour::Coordinate(place)));
-        let (service, mut servo, _reader) = pressed(PATIENT);
+        let (service, mut servo) = pressed(PATIENT);
         leap(&service);
-        let sample = servo.tick(DOWN + 0.010, 0.0).unwrap();
+        let sample = servo.tick().unwrap();
         assert_eq!(sample.sent, Vec3::zeros());
         // The way over the time is itself beyond all numbers, at times.
         let expected = [Stage::Faulted(Fault::NonFiniteState)];
@@ -219,19 +217,14 @@ fn events_of_the_service_are_faults() {
 /// A fault that the device lives through is armed again by asking, once what it was is over.
 #[test]
 fn what_a_device_lives_through_is_armed_again() {
-    let (service, mut servo, reader) = pressed(PATIENT);
-    let mut tick = 1010;
-    let mut stage_after = |servo: &mut palpate_servo::ServoLoop, ticks: u32| {
-        let mut stage = Stage::Off;
-        for _ in 0..ticks {
-            stage = servo.tick(f64::from(tick) * 1e-3, 0.0).unwrap().stage;
-            tick += 1;
-        }
-        stage
+    let (service, mut servo) = pressed(PATIENT);
+    let stage_after = |servo: &mut Ticked<'_>, ticks: u32| {
+        let stages = (0..ticks).map(|_| servo.tick().unwrap().stage);
+        stages.last().unwrap()
     };
     service.misbehave(Some(Misbehaviour::NoPower));
     assert_eq!(stage_after(&mut servo, 1), Stage::Faulted(Fault::Unpowered));
-    reader.supervisor.arm();
+    servo.reader.supervisor.arm();
     // Still without power.
     assert_eq!(stage_after(&mut servo, 100), Stage::Off);
     service.misbehave(None);

@@ -2,8 +2,8 @@
 
 use std::time::{Duration, Instant};
 
+use palpate_device_stand_ins::{HaplyStandIn, HaplyStandInSettings, Misbehaviour};
 use palpate_devices::haply::{Event, HaplyDevice, Snapshot, State};
-use palpate_devices::stand_in::{HaplyStandIn, HaplyStandInSettings, Misbehaviour};
 use palpate_servo::{Command, Device, NoDevice, Vec3};
 use proptest::prelude::*;
 
@@ -144,18 +144,18 @@ proptest! {
             true => [&[bytes[0], (bytes.len() - 1).min(125) as u8], &bytes[1..]].concat(),
             false => bytes,
         };
-        let rest: Box<dyn Device> = Box::new(NoDevice::new(Vec3::zeros()));
+        let rest: Box<dyn palpate_device_stand_ins::Mechanics> = Box::new(NoDevice::new(Vec3::zeros()));
         let service = HaplyStandIn::start(vec![rest], HaplyStandInSettings::default()).unwrap();
         let mut device = HaplyDevice::open(service.address(), 0).unwrap();
         service.misbehave(Some(Misbehaviour::SaysRaw(wire)));
-        let command = Command { time: 0.0, force: Vec3::y() };
+        let command = Command::without_force(0.0);
         let began = Instant::now();
-        let answer = device.exchange(&command, Duration::from_millis(1));
+        let answer = device.exchange(&command);
         prop_assert!(answer.is_err(), "{answer:?}");
         // Far more than it may take, for a machine that is busy elsewhere.
         prop_assert!(began.elapsed() < Duration::from_secs(2));
         // It stays.
-        prop_assert_eq!(device.exchange(&command, Duration::from_millis(1)), answer);
+        prop_assert_eq!(device.exchange(&command), answer);
     }
 }
 

@@ -1,9 +1,9 @@
 //! The self-test, on devices that are well and on some that are not.
 
 use crate::hands::PATIENT;
+use palpate_device_stand_ins::{HaplyStandIn, HaplyStandInSettings, Misbehaviour};
 use palpate_devices::haply::HaplyDevice;
 use palpate_devices::self_test;
-use palpate_devices::stand_in::{HaplyStandIn, HaplyStandInSettings, Misbehaviour};
 use palpate_servo::{Clock, Fault, Hand, Trajectory, Vec3, VirtualDevice, Waypoint};
 
 fn held() -> HaplyStandIn {
@@ -21,7 +21,7 @@ fn a_device_that_is_well_passes() {
     let service = held();
     let device = HaplyDevice::open(service.address(), 0)
         .unwrap()
-        .with_patience(PATIENT);
+        .with_timeout(PATIENT);
     let test = self_test(Box::new(device), Clock::virtual_time()).unwrap();
     assert!(test.passed() && test.ready, "{test:?}");
     assert!((test.sent - 0.2).abs() < 1e-4, "{}", test.sent);
@@ -47,7 +47,7 @@ fn one_that_is_not_does_not() {
         let service = held();
         let device = HaplyDevice::open(service.address(), 0)
             .unwrap()
-            .with_patience(PATIENT);
+            .with_timeout(PATIENT);
         service.misbehave(Some(wrong));
         let test = self_test(Box::new(device), Clock::virtual_time()).unwrap();
         assert!(!test.passed(), "{test:?}");

@@ -8,11 +8,9 @@
 //! *Limits*: no driver reads a force sensor, so nothing real can be measured; the force in a recording is that of the
 //! virtual tissue at the place of the real handle, with the steps and the noise of the sensor that is not there.
 
-use std::time::Duration;
+use std::sync::{Arc, OnceLock};
 
-use palpate_servo::{
-    Clock, Command, Controller, Device, DeviceSpec, DeviceState, Fault, Vec3, latest,
-};
+use palpate_servo::{Clock, Controller, Device, DeviceState, Vec3, latest};
 
 use super::Rig;
 use crate::{Error, Indenter, Reference, RigSettings, VirtualSpecimen};
@@ -36,15 +34,18 @@ impl Rig {
             specimen,
             feel,
         };
-        let driven = (
-            Box::new(Upright::new(device)) as Box<dyn Device>,
-            Box::new(pressed) as Box<dyn Controller>,
-        );
+        let rest = Arc::<OnceLock<Vec3>>::default();
+        let upright = Upright {
+            pressed,
+            rest: rest.clone(),
+        };
+        let driven = (device, Box::new(upright) as Box<dyn Controller>);
         let (header, breath_held) = of_specimen;
         let of_specimen = (header, breath_held, felt);
         let rig = Self::new(driven, of_specimen, reference, settings, (clock, seed))?;
         Ok(Self {
             is_real: true,
+            rest,
             ..rig
         })
     }
@@ -73,50 +74,34 @@ impl Controller for Pressed {
     }
 }
 
-/// A device with the axes of the rig: x right, y away from the user, z up, zero where its handle was at first.
+/// The axes of the rig: x right, y away from the user, z up, zero where the handle was at first. The loop, its guard and
+/// its walls keep those of the device.
 struct Upright {
-    device: Box<dyn Device>,
-    spec: DeviceSpec,
-    first: Option<Vec3>,
+    pressed: Pressed,
+    /// Where the handle was at first, in the device's axes [m].
+    rest: Arc<OnceLock<Vec3>>,
 }
 
-impl Upright {
-    fn new(device: Box<dyn Device>) -> Self {
-        // Where its walls are is not known before the handle is; the rig's own limits keep it near its zero.
-        let spec = DeviceSpec {
-            workspace: None,
-            ..device.spec().clone()
-        };
-        Self {
-            device,
-            spec,
-            first: None,
-        }
-    }
-}
-
-impl Device for Upright {
-    fn spec(&self) -> &DeviceSpec {
-        &self.spec
-    }
-
-    fn exchange(&mut self, command: &Command, patience: Duration) -> Result<DeviceState, Fault> {
-        let [x, y, z] = command.force.into();
-        let force = Vec3::new(x, z, -y);
-        let command = Command { force, ..*command };
-        let state = self.device.exchange(&command, patience)?;
-        let first = *self.first.get_or_insert(state.position);
+impl Controller for Upright {
+    fn update(&mut self, state: &DeviceState, dt: f64) -> Vec3 {
+        let rest = *self.rest.get_or_init(|| state.position);
         let turned = |vector: Vec3| Vec3::new(vector.x, -vector.z, vector.y);
-        Ok(DeviceState {
-            position: turned(state.position - first),
+        let upright = DeviceState {
+            position: turned(state.position - rest),
             velocity: state.velocity.map(turned),
             displayed: state.displayed.map(turned),
             orientation: None,
-            ..state
-        })
+            ..*state
+        };
+        let [x, y, z] = self.pressed.update(&upright, dt).into();
+        Vec3::new(x, z, -y)
     }
 
-    fn stop(&mut self) {
-        self.device.stop();
+    fn age(&self) -> Option<f64> {
+        self.pressed.age()
+    }
+
+    fn overdue(&self) -> Option<f64> {
+        self.pressed.overdue()
     }
 }

@@ -1,12 +1,15 @@
 //! The rig on a device that is carried by its own mechanics. The judge is the rig whose tissue touches the virtual
 //! machine itself.
 
+use std::sync::{Arc, Mutex};
+
+use palpate_device_stand_ins::{HaplyStandIn, HaplyStandInSettings, Mechanics, Misbehaviour};
 use palpate_devices::haply::HaplyDevice;
-use palpate_devices::stand_in::{HaplyStandIn, HaplyStandInSettings, Misbehaviour};
 use palpate_measure::{Ended, Error, Rig, RigSample, RigSettings};
 use palpate_servo::dynamics::{Imperfections, Machine, TwoMass};
 use palpate_servo::{
-    Clock, Command, Device, DeviceSpec, DeviceState, Fault, MECHANICS_STEP, Vec3, VirtualPhantom,
+    Capabilities, Clock, Command, Device, DeviceState, Disabled, Fault, MECHANICS_STEP, Vec3,
+    VirtualPhantom,
 };
 
 use crate::rig::{rig, soft, usual};
@@ -28,24 +31,34 @@ impl OnTable {
 }
 
 impl Device for OnTable {
-    fn spec(&self) -> &DeviceSpec {
-        self.0.spec()
+    fn capabilities(&self) -> &Capabilities {
+        self.0.capabilities()
     }
 
-    fn exchange(
-        &mut self,
-        command: &Command,
-        patience: std::time::Duration,
-    ) -> Result<DeviceState, Fault> {
-        let state = self.0.exchange(command, patience)?;
+    fn enable(&mut self) -> Result<(), Fault> {
+        self.0.enable()
+    }
+
+    fn exchange(&mut self, command: &Command) -> Result<DeviceState, Fault> {
+        let state = self.0.exchange(command)?;
         Ok(DeviceState {
             position: state.position + SOMEWHERE,
             ..state
         })
     }
 
-    fn stop(&mut self) {
-        self.0.stop();
+    fn disable(&mut self) -> Disabled {
+        self.0.disable()
+    }
+}
+
+impl Mechanics for OnTable {
+    fn advance(&mut self, time: f64, force: &Vec3) -> DeviceState {
+        let state = self.0.advance(time, force);
+        DeviceState {
+            position: state.position + SOMEWHERE,
+            ..state
+        }
     }
 }
 
@@ -142,8 +155,68 @@ fn by_service() -> (HaplyStandIn, Rig) {
     let service = HaplyStandIn::start(vec![device], HaplyStandInSettings::default()).unwrap();
     let device = HaplyDevice::open(service.address(), 0).unwrap();
     // A machine that is busy elsewhere is no fault here.
-    let device = device.with_patience(std::time::Duration::from_secs(5));
+    let device = device.with_timeout(std::time::Duration::from_secs(5));
     let clock = (Clock::virtual_time(), 7);
     let rig = Rig::on(Box::new(device), soft(), RigSettings::default(), clock).unwrap();
     (service, rig)
+}
+
+/// A device whose workspace ends where its handle rests, and the force that it gets.
+struct AtItsEnd {
+    device: OnTable,
+    capabilities: Capabilities,
+    force: Arc<Mutex<Vec3>>,
+}
+
+impl Device for AtItsEnd {
+    fn capabilities(&self) -> &Capabilities {
+        &self.capabilities
+    }
+
+    fn enable(&mut self) -> Result<(), Fault> {
+        self.device.enable()
+    }
+
+    fn exchange(&mut self, command: &Command) -> Result<DeviceState, Fault> {
+        *self.force.lock().unwrap() = command.force();
+        Device::exchange(&mut self.device, command)
+    }
+
+    fn disable(&mut self) -> Disabled {
+        self.device.disable()
+    }
+}
+
+/// The walls of a device stay, in the device's axes: half of their force in the middle of the wall, pushing inward, on a
+/// machine whose rest is there.
+#[test]
+fn a_rig_keeps_the_walls_of_its_device() {
+    let device = OnTable::new(Imperfections::none());
+    let below = SOMEWHERE - Vec3::new(0.1, 0.005, 0.1);
+    let force = Arc::new(Mutex::new(Vec3::zeros()));
+    let device = AtItsEnd {
+        capabilities: Capabilities {
+            workspace: Some([below, below + Vec3::repeat(0.2)]),
+            ..device.capabilities().clone()
+        },
+        device,
+        force: force.clone(),
+    };
+    let clock = (Clock::virtual_time(), 7);
+    let mut rig = Rig::on(Box::new(device), soft(), RigSettings::default(), clock).unwrap();
+    let mut highest: f64 = 0.0;
+    for _ in 0..700 {
+        rig.limp(&mut |sample| {
+            highest = highest.max(sample.height);
+            true
+        })
+        .unwrap();
+        let force = *force.lock().unwrap();
+        // Along the device's up, and inward.
+        assert!(
+            force.y >= 0.0 && force.x == 0.0 && force.z == 0.0,
+            "{force}"
+        );
+    }
+    assert!(highest > 1e-3, "{highest}");
 }

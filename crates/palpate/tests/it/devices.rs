@@ -2,8 +2,8 @@
 
 use std::process::{Command, Output};
 
+use palpate_device_stand_ins::{HaplyStandIn, HaplyStandInSettings, Misbehaviour, StandInClock};
 use palpate_devices::haply::HaplyAddress;
-use palpate_devices::stand_in::{HaplyStandIn, HaplyStandInSettings, Misbehaviour, StandInClock};
 use palpate_servo::{Hand, Trajectory, Vec3, VirtualDevice, Waypoint};
 
 use crate::{json, stderr, stdout};

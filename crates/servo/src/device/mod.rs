@@ -1,73 +1,90 @@
 //! The seam to devices. The virtual ones and the real ones are the same to everybody above it.
+//!
+//! A device is commanded by a [`ServoLoop`](crate::ServoLoop) alone, for nobody else can make a [`Command`] with a
+//! force: its force is a [`CommandedForce`], which the guard makes, and the loop gives it to the device whose
+//! [`Capabilities`] the guard was made for.
+//!
+//! ```compile_fail,E0624
+//! use palpate_servo::{Command, Vec3};
+//! // No constructor with a force outside this crate.
+//! let command = Command::new(0.0, Vec3::x());
+//! ```
+//!
+//! ```compile_fail,E0451
+//! use palpate_servo::{CommandedForce, Vec3};
+//! // Its field is private.
+//! let force = CommandedForce { force: Vec3::x() };
+//! ```
+//!
+//! ```compile_fail,E0451
+//! use palpate_servo::{Command, CommandedForce};
+//! // Nor can the force of a guard with other limits be sent.
+//! fn sent(force: CommandedForce) -> Command {
+//!     Command { time: 0.0, force }
+//! }
+//! ```
+//!
+//! ```compile_fail,E0616
+//! use palpate_servo::{Command, Vec3};
+//! fn enlarged(command: &mut Command) {
+//!     command.force = Vec3::x();
+//! }
+//! ```
+//!
+//! What is without force is open to everybody:
+//!
+//! ```
+//! use palpate_servo::{Command, Device, NoDevice, Vec3};
+//! let mut device = NoDevice::new(Vec3::zeros());
+//! let state = device.exchange(&Command::without_force(0.0)).unwrap();
+//! assert_eq!(state.position, Vec3::zeros());
+//! ```
 
+mod capabilities;
 mod hand;
 mod no_device;
 mod pointer;
+mod scheduler;
 mod trajectory;
 mod virtual_device;
 mod virtual_phantom;
 
-use std::time::Duration;
-
 use nalgebra::UnitQuaternion;
 
+pub use capabilities::Capabilities;
 pub use hand::Hand;
 pub use no_device::NoDevice;
 pub use pointer::{Pointer, PointerHand};
+pub use scheduler::{Next, Scheduler, Tick};
 pub use trajectory::{Trajectory, Waypoint};
 pub use virtual_device::VirtualDevice;
 pub use virtual_phantom::{MECHANICS_STEP, Touch, VirtualPhantom};
 
-use crate::{DeadMan, Fault, Vec3};
+use crate::{CommandedForce, Fault, Vec3};
 
-/// What a device is. Its frame is right-handed: x right, y up, z toward the user.
-#[derive(Debug, Clone, PartialEq)]
-pub struct DeviceSpec {
-    /// Its name.
-    pub name: String,
-    /// Least and greatest corner of where its handle can go [m]; none for everywhere.
-    pub workspace: Option<[Vec3; 2]>,
-    /// The largest force that it displays [N].
-    pub peak_force: f64,
-    /// The largest that its motors bear for as long as one likes [N].
-    pub continuous_force: f64,
-    /// What a hand holds while it wants forces; none where there is no such switch.
-    pub dead_man: Option<DeadMan>,
-    /// Whether its forces reach a hand. A mouse takes every force and displays none.
-    pub displays_force: bool,
-}
-
-impl DeviceSpec {
-    /// One that takes every force and displays none.
-    pub fn without_force(name: &str) -> Self {
-        Self {
-            name: name.to_owned(),
-            workspace: None,
-            peak_force: f64::INFINITY,
-            continuous_force: f64::INFINITY,
-            dead_man: None,
-            displays_force: false,
-        }
-    }
-
-    /// A PHANTOM Premium 1.5: 8.5 N, and 1.4 N for as long as one likes, as its maker states.
-    pub fn premium(name: &str) -> Self {
-        Self {
-            peak_force: 8.5,
-            continuous_force: 1.4,
-            displays_force: true,
-            ..Self::without_force(name)
-        }
-    }
-}
-
-/// What is said to a device at a tick.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// What a device is told at a tick.
+#[derive(Debug, PartialEq)]
 pub struct Command {
     /// The time on the loop's clock [s].
     pub time: f64,
-    /// The force on the hand until the next command [N].
-    pub force: Vec3,
+    force: CommandedForce,
+}
+
+impl Command {
+    /// `force` from `time` [s] on.
+    pub(crate) fn new(time: f64, force: CommandedForce) -> Self {
+        Self { time, force }
+    }
+
+    /// No force from `time` [s] on.
+    pub fn without_force(time: f64) -> Self {
+        Self::new(time, CommandedForce::default())
+    }
+
+    /// The force on the hand until the next command [N], within the limits of the device's loop.
+    pub fn force(&self) -> Vec3 {
+        self.force.newtons()
+    }
 }
 
 /// What a device answers.
@@ -86,7 +103,8 @@ pub struct DeviceState {
     pub grip: f64,
     /// Bit by bit, which buttons are pressed.
     pub buttons: u32,
-    /// Whether somebody is there: false before a hand takes a tool up, as a mouse outside its window.
+    /// Whether somebody is there: false before a hand takes a tool up, as a mouse outside its window, and for a stylus
+    /// in its inkwell.
     pub present: bool,
     /// Whether it is calibrated, powered and free to display forces.
     pub ready: bool,
@@ -115,19 +133,42 @@ impl DeviceState {
     }
 }
 
-/// A haptic device, or what stands for one.
-pub trait Device: Send {
-    /// What it is.
-    fn spec(&self) -> &DeviceSpec;
+/// What is known of a device whose forces were disabled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Disabled {
+    /// It took the command for zero force, and displays none.
+    NoForce,
+    /// It did not answer, or cannot say: its own watchdog, or its switch, has to do it.
+    Unknown,
+}
 
-    /// Force out, state back, within `patience`: the one call of a tick. It allocates nothing, unless the
-    /// device's protocol cannot do without.
+/// A haptic device, or what stands for one.
+///
+/// A loop calls [`enable`](Self::enable) when a person armed, [`exchange`](Self::exchange) at every tick, and
+/// [`disable`](Self::disable) at once after a fault, at its end, and when it is dropped.
+pub trait Device: Send {
+    /// What it is, and what it can do.
+    fn capabilities(&self) -> &Capabilities;
+
+    /// Lets it display forces, also after it took them off by itself. Before, it answers and displays none.
     ///
     /// # Errors
-    /// When the device does not answer or reports a fault; the loop then stops it and ends.
-    fn exchange(&mut self, command: &Command, patience: Duration) -> Result<DeviceState, Fault>;
+    /// When the device refuses; it goes on answering without force.
+    fn enable(&mut self) -> Result<(), Fault>;
 
-    /// Takes every force off. It can be called at any time and any number of times; a device does it by
-    /// itself when it is dropped.
-    fn stop(&mut self);
+    /// Force out, state back: the one call of a tick. It allocates nothing, unless the device's protocol cannot do
+    /// without, and waits no longer than the time that the device was opened with.
+    ///
+    /// # Errors
+    /// When the device does not answer or reports a fault; the loop then disables it and ends.
+    fn exchange(&mut self, command: &Command) -> Result<DeviceState, Fault>;
+
+    /// Takes every force off, and returns when that is done or cannot be known. It can be called at any time and any
+    /// number of times; a device does it by itself when it is dropped.
+    fn disable(&mut self) -> Disabled;
+
+    /// The scheduler from whose thread the device has to be called; none for one that any thread may call.
+    fn scheduler(&self) -> Option<Box<dyn Scheduler>> {
+        None
+    }
 }

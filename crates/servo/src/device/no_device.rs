@@ -1,31 +1,38 @@
-use std::time::Duration;
-
-use super::{Command, Device, DeviceSpec, DeviceState};
+use super::{Capabilities, Command, Device, DeviceState, Disabled};
 use crate::{Fault, Vec3};
 
 /// Nobody: a handle that rests in one place and feels nothing.
 #[derive(Debug, Clone)]
 pub struct NoDevice {
-    spec: DeviceSpec,
+    capabilities: Capabilities,
     position: Vec3,
 }
 
 impl NoDevice {
     /// At rest at `position` [m].
     pub fn new(position: Vec3) -> Self {
-        let spec = DeviceSpec::without_force("none");
-        Self { spec, position }
+        let capabilities = Capabilities::without_force("none");
+        Self {
+            capabilities,
+            position,
+        }
     }
 }
 
 impl Device for NoDevice {
-    fn spec(&self) -> &DeviceSpec {
-        &self.spec
+    fn capabilities(&self) -> &Capabilities {
+        &self.capabilities
     }
 
-    fn exchange(&mut self, command: &Command, _patience: Duration) -> Result<DeviceState, Fault> {
+    fn enable(&mut self) -> Result<(), Fault> {
+        Ok(())
+    }
+
+    fn exchange(&mut self, command: &Command) -> Result<DeviceState, Fault> {
         Ok(DeviceState::at(command.time, self.position))
     }
 
-    fn stop(&mut self) {}
+    fn disable(&mut self) -> Disabled {
+        Disabled::NoForce
+    }
 }

@@ -8,11 +8,9 @@
 //!
 //! *Limits*: the tool is τ behind the mouse, 15 ms unless set otherwise.
 
-use std::time::Duration;
-
 use nalgebra::UnitQuaternion;
 
-use super::{Command, Device, DeviceSpec, DeviceState};
+use super::{Capabilities, Command, Device, DeviceState, Disabled};
 use crate::latest::{Receiver, Sender, channel};
 use crate::{Fault, Vec3};
 
@@ -37,7 +35,7 @@ pub struct PointerHand {
 
 /// The end of a pointer that is a device.
 pub struct Pointer {
-    spec: DeviceSpec,
+    capabilities: Capabilities,
     receiver: Receiver<Target>,
     smoothing: f64,
     position: Option<Vec3>,
@@ -52,7 +50,7 @@ impl Pointer {
         let target = Target::default();
         let (sender, receiver) = channel(&target);
         let pointer = Self {
-            spec: DeviceSpec::without_force("mouse"),
+            capabilities: Capabilities::without_force("mouse"),
             receiver,
             smoothing: SMOOTHING,
             position: None,
@@ -103,11 +101,15 @@ impl PointerHand {
 }
 
 impl Device for Pointer {
-    fn spec(&self) -> &DeviceSpec {
-        &self.spec
+    fn capabilities(&self) -> &Capabilities {
+        &self.capabilities
     }
 
-    fn exchange(&mut self, command: &Command, _patience: Duration) -> Result<DeviceState, Fault> {
+    fn enable(&mut self) -> Result<(), Fault> {
+        Ok(())
+    }
+
+    fn exchange(&mut self, command: &Command) -> Result<DeviceState, Fault> {
         let target = *self.receiver.latest();
         let elapsed = command.time - self.time;
         self.time = command.time;
@@ -132,5 +134,7 @@ impl Device for Pointer {
         })
     }
 
-    fn stop(&mut self) {}
+    fn disable(&mut self) -> Disabled {
+        Disabled::NoForce
+    }
 }

@@ -9,16 +9,15 @@
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
-use std::time::Duration;
 
 use super::hand::HandState;
-use super::{Command, Device, DeviceSpec, DeviceState, Hand, Trajectory};
+use super::{Capabilities, Command, Device, DeviceState, Disabled, Hand, Trajectory};
 use crate::{Fault, Vec3};
 
 /// A handle that follows a script.
 #[derive(Debug)]
 pub struct VirtualDevice {
-    spec: DeviceSpec,
+    capabilities: Capabilities,
     trajectory: Trajectory,
     hand: Option<Hand>,
     state: Option<HandState>,
@@ -31,7 +30,7 @@ impl VirtualDevice {
     /// A hand that is exactly where `trajectory` says.
     pub fn new(trajectory: Trajectory) -> Self {
         Self {
-            spec: DeviceSpec::premium("virtual"),
+            capabilities: Capabilities::premium("virtual"),
             trajectory,
             hand: None,
             state: None,
@@ -52,14 +51,36 @@ impl VirtualDevice {
     }
 
     /// The same with another specification.
-    pub fn with_spec(mut self, spec: DeviceSpec) -> Self {
-        self.spec = spec;
+    pub fn with_capabilities(mut self, capabilities: Capabilities) -> Self {
+        self.capabilities = capabilities;
         self
     }
 
-    /// How often it was stopped, to be read also when it is gone.
+    /// How often it was disabled, to be read also when it is gone.
     pub fn stops(&self) -> Arc<AtomicU32> {
         self.stops.clone()
+    }
+
+    /// Moves on to `time` [s] under the last force, and takes `force` [N] from then on. What simulates a device under
+    /// another's driver calls it; no hand is there.
+    pub fn advance(&mut self, time: f64, force: &Vec3) -> DeviceState {
+        let scripted = self.trajectory.at(time);
+        let position = match self.hand {
+            None => scripted.position,
+            Some(hand) => {
+                let moved = self.move_hand(hand, time);
+                self.state = Some(moved);
+                moved.position
+            }
+        };
+        self.time = time;
+        self.held_force = *force;
+        DeviceState {
+            orientation: scripted.orientation,
+            grip: scripted.grip,
+            buttons: scripted.buttons,
+            ..DeviceState::at(time, position)
+        }
     }
 
     fn move_hand(&self, hand: Hand, time: f64) -> HandState {
@@ -81,39 +102,27 @@ impl VirtualDevice {
 }
 
 impl Device for VirtualDevice {
-    fn spec(&self) -> &DeviceSpec {
-        &self.spec
+    fn capabilities(&self) -> &Capabilities {
+        &self.capabilities
     }
 
-    fn exchange(&mut self, command: &Command, _patience: Duration) -> Result<DeviceState, Fault> {
-        let scripted = self.trajectory.at(command.time);
-        let position = match self.hand {
-            None => scripted.position,
-            Some(hand) => {
-                // The last force acted until now; this one acts from now on.
-                let moved = self.move_hand(hand, command.time);
-                self.state = Some(moved);
-                moved.position
-            }
-        };
-        self.time = command.time;
-        self.held_force = command.force;
-        Ok(DeviceState {
-            orientation: scripted.orientation,
-            grip: scripted.grip,
-            buttons: scripted.buttons,
-            ..DeviceState::at(command.time, position)
-        })
+    fn enable(&mut self) -> Result<(), Fault> {
+        Ok(())
     }
 
-    fn stop(&mut self) {
+    fn exchange(&mut self, command: &Command) -> Result<DeviceState, Fault> {
+        Ok(self.advance(command.time, &command.force()))
+    }
+
+    fn disable(&mut self) -> Disabled {
         self.held_force = Vec3::zeros();
         self.stops.fetch_add(1, Ordering::Relaxed);
+        Disabled::NoForce
     }
 }
 
 impl Drop for VirtualDevice {
     fn drop(&mut self) {
-        self.stop();
+        self.disable();
     }
 }

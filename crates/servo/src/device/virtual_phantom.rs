@@ -8,9 +8,7 @@
 //!
 //! *Limits*: the axes of a linear machine do not know one another; steps of encoders are taken at the handle.
 
-use std::time::Duration;
-
-use super::{Command, Device, DeviceSpec, DeviceState};
+use super::{Capabilities, Command, Device, DeviceState, Disabled};
 use crate::dynamics::{
     FlexibleBody, FlexibleJoints, Imperfections, Joints, LONGEST_DELAY, Machine, MachineState,
     RigidBody,
@@ -25,7 +23,7 @@ pub const MECHANICS_STEP: f64 = 50e-6;
 
 /// A handle with mechanics.
 pub struct VirtualPhantom {
-    spec: DeviceSpec,
+    capabilities: Capabilities,
     mechanics: Mechanics,
     imperfections: Imperfections,
     touch: Touch,
@@ -69,9 +67,9 @@ impl VirtualPhantom {
 
     fn new(mechanics: Mechanics, imperfections: Imperfections) -> Self {
         Self {
-            spec: DeviceSpec {
+            capabilities: Capabilities {
                 peak_force: imperfections.peak_force,
-                ..DeviceSpec::premium("virtual PHANTOM")
+                ..Capabilities::premium("virtual PHANTOM")
             },
             mechanics,
             imperfections,
@@ -86,6 +84,20 @@ impl VirtualPhantom {
     pub fn touched_by(mut self, touch: Touch) -> Self {
         self.touch = touch;
         self
+    }
+
+    /// Moves on to `time` [s] under the last force, and takes `force` [N] from then on. What simulates a device under
+    /// another's driver calls it; no hand is there.
+    pub fn advance(&mut self, time: f64, force: &Vec3) -> DeviceState {
+        self.move_on(time);
+        self.exchanges += 1;
+        let newest = self.exchanges % self.commands.len();
+        self.commands[newest] = *force;
+        let seen = self
+            .mechanics
+            .encoded()
+            .map(|place| self.imperfections.encoded(place));
+        DeviceState::at(time, seen)
     }
 
     /// The force of the motors now [N].
@@ -164,33 +176,29 @@ impl Mechanics {
 }
 
 impl Device for VirtualPhantom {
-    fn spec(&self) -> &DeviceSpec {
-        &self.spec
+    fn capabilities(&self) -> &Capabilities {
+        &self.capabilities
     }
 
-    fn exchange(&mut self, command: &Command, _patience: Duration) -> Result<DeviceState, Fault> {
+    fn enable(&mut self) -> Result<(), Fault> {
+        Ok(())
+    }
+
+    fn exchange(&mut self, command: &Command) -> Result<DeviceState, Fault> {
         if command.time >= self.imperfections.lost_at {
             return Err(Fault::Silent);
         }
-        // The last force acted until now; this one acts from now on.
-        self.move_on(command.time);
-        self.exchanges += 1;
-        let newest = self.exchanges % self.commands.len();
-        self.commands[newest] = command.force;
-        let seen = self
-            .mechanics
-            .encoded()
-            .map(|place| self.imperfections.encoded(place));
-        Ok(DeviceState::at(command.time, seen))
+        Ok(self.advance(command.time, &command.force()))
     }
 
-    fn stop(&mut self) {
+    fn disable(&mut self) -> Disabled {
         self.commands = [Vec3::zeros(); LONGEST_DELAY + 1];
+        Disabled::NoForce
     }
 }
 
 impl Drop for VirtualPhantom {
     fn drop(&mut self) {
-        self.stop();
+        self.disable();
     }
 }

@@ -7,13 +7,37 @@ use super::slew::limit_rise;
 use super::walls::wall_force;
 use super::watchdog::{Verdict, judge_gap, judge_silence};
 use super::{Interventions, Limits};
-use crate::{DeviceSpec, DeviceState, Fault, Vec3};
+use crate::{Capabilities, DeviceState, Fault, Vec3};
+
+/// The force of a tick, within every limit. The guard makes it, and nobody else; all may make one that is zero.
+#[derive(Debug, PartialEq)]
+pub struct CommandedForce {
+    force: Vec3,
+}
+
+impl Default for CommandedForce {
+    /// No force.
+    fn default() -> Self {
+        Self {
+            force: Vec3::zeros(),
+        }
+    }
+}
+
+impl CommandedForce {
+    /// The force [N].
+    pub fn newtons(&self) -> Vec3 {
+        self.force
+    }
+}
 
 /// A force that a controller wants, and what is known at the tick.
 #[derive(Debug, Clone, Copy)]
 pub struct Wish {
     /// The force [N]; any number, or none.
     pub force: Vec3,
+    /// What is wanted besides against the device's own weight, spring and mass [N].
+    pub compensation: Vec3,
     /// The velocity of the hand [m/s].
     pub velocity: Vec3,
     /// How far what it is made of is beyond its time [s], below zero before; none for what does not age.
@@ -38,13 +62,20 @@ pub struct Guard {
     passivity: Passivity,
     /// Where the hand was at the last tick [m].
     position: Option<Vec3>,
-    /// The force that was sent last [N], and the one before, which the device had until now.
-    last: Vec3,
-    before: Vec3,
-    /// What was sent besides for the device itself [N].
-    compensation: Vec3,
+    /// What was sent last, and before that, which the device had until now.
+    last: Sent,
+    before: Sent,
     faults: u64,
     interventions: Interventions,
+}
+
+/// The two parts of a force that was sent.
+#[derive(Debug, Clone, Copy, Default)]
+struct Sent {
+    /// Of the controller and the walls [N].
+    rendered: Vec3,
+    /// Of both [N].
+    whole: Vec3,
 }
 
 /// What of a device the stages ask for.
@@ -64,25 +95,28 @@ impl Guard {
     ///
     /// # Errors
     /// When a limit is not a number above zero.
-    pub fn new(limits: Limits, spec: &DeviceSpec, period: f64) -> Result<Self, Fault> {
+    pub fn new(limits: Limits, capabilities: &Capabilities, period: f64) -> Result<Self, Fault> {
         limits.check()?;
-        Fault::unless_positive("the largest force of the device [N]", spec.peak_force)?;
+        Fault::unless_positive(
+            "the largest force of the device [N]",
+            capabilities.peak_force,
+        )?;
         Fault::unless_positive(
             "the continuous force of the device [N]",
-            spec.continuous_force,
+            capabilities.continuous_force,
         )?;
         Fault::unless_finite_and_positive("the period of the loop [s]", period)?;
-        let part = match spec.dead_man {
-            None if spec.displays_force => limits.without_dead_man,
+        let part = match capabilities.dead_man {
+            None if capabilities.displays_force => limits.without_dead_man,
             _ => 1.0,
         };
         Ok(Self {
             device: Bounds {
-                workspace: spec.workspace,
-                dead_man: spec.dead_man,
-                most: part * limits.force.min(spec.peak_force),
-                peak: spec.peak_force,
-                continuous: spec.continuous_force,
+                workspace: capabilities.workspace,
+                dead_man: capabilities.dead_man,
+                most: part * limits.force.min(capabilities.peak_force),
+                peak: capabilities.peak_force,
+                continuous: capabilities.continuous_force,
             },
             period,
             limits,
@@ -91,9 +125,8 @@ impl Guard {
             heat: Heat::default(),
             passivity: Passivity::default(),
             position: None,
-            last: Vec3::zeros(),
-            before: Vec3::zeros(),
-            compensation: Vec3::zeros(),
+            last: Sent::default(),
+            before: Sent::default(),
             faults: 0,
             interventions: Interventions::default(),
         })
@@ -129,46 +162,46 @@ impl Guard {
         self.interventions
     }
 
+    /// What was sent last of what the controller wants [N].
+    pub fn rendered(&self) -> Vec3 {
+        self.last.rendered
+    }
+
+    /// What was sent last against the device's own weight, spring and mass [N].
+    pub fn compensation(&self) -> Vec3 {
+        self.last.whole - self.last.rendered
+    }
+
     /// Takes forces off for a reason from outside.
     pub fn trip(&mut self, fault: Fault) {
         if !matches!(self.stage, Stage::Faulted(_)) {
             self.faults += 1;
             self.stage = Stage::Faulted(fault);
         }
-        (self.last, self.compensation) = (Vec3::zeros(), Vec3::zeros());
+        self.last = Sent::default();
     }
 
-    /// The force [N] that may be sent for `wish` at `state`, `dt` [s] after the last.
-    pub fn pass(&mut self, wish: &Wish, state: &DeviceState, dt: f64) -> Vec3 {
+    /// Takes forces off for another reason than the one before, which a person has seen.
+    pub(crate) fn trip_again(&mut self, fault: Fault) {
+        self.stage = Stage::Off;
+        self.trip(fault);
+    }
+
+    /// The force that may be sent for `wish` at `state`, `dt` [s] after the last.
+    pub fn pass(&mut self, wish: &Wish, state: &DeviceState, dt: f64) -> CommandedForce {
         self.observe(state, dt);
         self.follow_hold(state, dt);
         let fault = self.fault_of(wish, state);
-        let may_be_sent = match fault {
+        self.last = match fault {
             Some(fault) => {
                 self.trip(fault);
-                Vec3::zeros()
+                Sent::default()
             }
             None => self.limited(wish, state, dt),
         };
-        self.last = may_be_sent;
-        may_be_sent
-    }
-
-    /// What may be sent besides the last force, `dt` [s] after the last, of the `wanted` compensation [N] of the device
-    /// itself: as much as forces are on, rising no faster than any force, and no more in all than the device displays.
-    pub fn pass_compensation(&mut self, wanted: &Vec3, dt: f64) -> Vec3 {
-        if !is_finite(wanted) {
-            self.trip(Fault::NonFiniteForce);
+        CommandedForce {
+            force: self.last.whole,
         }
-        let part = self.part();
-        if part == 0.0 {
-            self.compensation = Vec3::zeros();
-            return self.compensation;
-        }
-        let rise = self.limits.slew * dt.min(self.period);
-        let risen = limit_rise(&self.compensation, &(wanted * part), rise);
-        self.compensation = shorten(&(self.last + risen), self.device.peak) - self.last;
-        self.compensation
     }
 
     /// What the last forces did.
@@ -176,10 +209,12 @@ impl Guard {
         let there = state.present && is_finite(&state.position);
         let place = there.then_some(state.position);
         if let (Some(from), Some(to)) = (self.position, place) {
-            self.passivity.observe(&self.before, &(to - from), dt);
+            self.passivity
+                .observe(&self.before.rendered, &(to - from), dt);
         }
         self.position = place;
-        self.heat.add(self.before.norm(), dt, self.limits.heat_time);
+        let force = self.before.whole.norm();
+        self.heat.add(force, dt, self.limits.heat_time);
         self.before = self.last;
     }
 
@@ -195,7 +230,7 @@ impl Guard {
         self.hold = hold;
     }
 
-    fn limited(&mut self, wish: &Wish, state: &DeviceState, dt: f64) -> Vec3 {
+    fn limited(&mut self, wish: &Wish, state: &DeviceState, dt: f64) -> Sent {
         self.arm(wish, state, dt);
         let part = self.part();
         let late = self.judge_gap(wish) == Verdict::NoForce;
@@ -204,15 +239,33 @@ impl Guard {
         let is_overdue = |overdue: f64| overdue > 0.0 && overdue.is_finite();
         counted.faded += u64::from(on && wish.overdue.is_some_and(is_overdue));
         if late || !on {
-            return Vec3::zeros();
+            return Sent::default();
         }
+        let rendered = self.render(wish, state, dt);
+        if wish.compensation == Vec3::zeros() && self.last.whole == self.last.rendered {
+            return Sent {
+                rendered,
+                whole: rendered,
+            };
+        }
+        let whole = rendered + wish.compensation * part;
+        let most = self.heat.most(self.device.peak, self.device.continuous);
+        let risen = limit_rise(&self.last.whole, &shorten(&whole, most), self.rise(dt));
+        Sent {
+            rendered,
+            whole: shorten(&risen, most),
+        }
+    }
+
+    /// What is sent of what the controller wants [N].
+    fn render(&mut self, wish: &Wish, state: &DeviceState, dt: f64) -> Vec3 {
         // Shortened before and after: a rise towards a long force would else turn it.
         let cold = shorten(&wish.force, self.device.most);
         let damped = self.passivity.control(&cold, self.limits.allowance);
         let walls = self.walls(state);
         let most = self.most();
-        let wanted = shorten(&(damped + walls), most) * part;
-        let risen = limit_rise(&self.last, &wanted, self.limits.slew * dt.min(self.period));
+        let wanted = shorten(&(damped + walls), most) * self.part();
+        let risen = limit_rise(&self.last.rendered, &wanted, self.rise(dt));
         let counted = &mut self.interventions;
         counted.damped += u64::from(damped != cold);
         counted.walls += u64::from(walls != Vec3::zeros());
@@ -221,6 +274,11 @@ impl Guard {
         counted.shortened += u64::from(cold != wish.force || size > self.device.most);
         counted.slowed += u64::from(risen != wanted);
         shorten(&risen, most)
+    }
+
+    /// The most that a force may rise in `dt` [s] [N].
+    fn rise(&self, dt: f64) -> f64 {
+        self.limits.slew * dt.min(self.period)
     }
 
     /// How far forces are on after `dt` [s] more.
@@ -242,7 +300,7 @@ impl Guard {
         if !is_finite(&state.position) || !is_finite(&wish.velocity) {
             return Some(Fault::NonFiniteState);
         }
-        if !is_finite(&wish.force) {
+        if !is_finite(&wish.force) || !is_finite(&wish.compensation) {
             return Some(Fault::NonFiniteForce);
         }
         let (speed, limit) = (wish.velocity.norm(), self.limits.speed);

@@ -15,8 +15,8 @@
 //!    where no dead-man's switch is; [`heat`]: at most what its motors bear.
 //! 9. [`slew`]: a force rises by at most 400 N/s and falls at once.
 //!
-//! What is added against the device's own weight, spring and mass passes stages 1, 4, 5, 8 (what the device displays)
-//! and 9 ([`Guard::pass_compensation`]).
+//! What is added against the device's own weight, spring and mass passes stages 1 to 5, 8 (what the device displays, and
+//! its motors bear) and 9 with the rest: what is sent is one force, a [`CommandedForce`].
 //!
 //! A fault keeps forces off until somebody arms them again. What the stages did is counted
 //! ([`Interventions`]).
@@ -39,11 +39,11 @@ pub mod watchdog;
 
 pub use arming::Stage;
 pub use dead_man::DeadMan;
-pub use guard::{Guard, Wish};
+pub use guard::{CommandedForce, Guard, Wish};
 pub use interventions::Interventions;
 
 use crate::extrapolate::FADE;
-use crate::{DeviceSpec, Fault};
+use crate::{Capabilities, Fault};
 
 /// The numbers of the stages.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -105,9 +105,9 @@ impl Default for Limits {
 impl Limits {
     /// The limits for a device. Where no force reaches a hand nothing can hurt it: a mouse may be as fast
     /// as it likes, and a fault ends by itself.
-    pub fn of(spec: &DeviceSpec) -> Self {
+    pub fn of(capabilities: &Capabilities) -> Self {
         let default = Self::default();
-        if spec.displays_force {
+        if capabilities.displays_force {
             return default;
         }
         Self {

@@ -2,7 +2,7 @@
 
 use palpate_servo::limits::slew::fallen_towards;
 use palpate_servo::{
-    Clock, DeadMan, DeviceSpec, DeviceState, Fault, HandOver, Limits, Sample, ServoLoop,
+    Capabilities, Clock, DeadMan, DeviceState, Fault, HandOver, Limits, Sample, ServoLoop,
     ServoSettings, Stage, Trajectory, Vec3, VirtualDevice, Waypoint,
 };
 use proptest::prelude::*;
@@ -29,10 +29,10 @@ fn does() -> impl Strategy<Value = Does> {
 }
 
 fn handle(held: Vec<Waypoint>) -> VirtualDevice {
-    VirtualDevice::new(Trajectory::way(held).unwrap()).with_spec(DeviceSpec {
+    VirtualDevice::new(Trajectory::way(held).unwrap()).with_capabilities(Capabilities {
         workspace: Some([Vec3::repeat(-0.1), Vec3::repeat(0.1)]),
         dead_man: Some(DeadMan::Buttons(1)),
-        ..DeviceSpec::premium("test")
+        ..Capabilities::premium("test")
     })
 }
 

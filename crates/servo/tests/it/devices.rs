@@ -1,17 +1,14 @@
 //! One battery for all devices, and what each does of its own.
 
 use std::sync::atomic::Ordering;
-use std::time::Duration;
 
 use palpate_servo::{
-    Command, Device, DeviceState, Hand, NoDevice, Pointer, PointerHand, Trajectory, Vec3,
+    Command, Device, DeviceState, Disabled, Hand, NoDevice, Pointer, PointerHand, Trajectory, Vec3,
     VirtualDevice,
 };
 
-const PATIENCE: Duration = Duration::from_millis(1);
-
-fn exchange(device: &mut dyn Device, time: f64, force: Vec3) -> DeviceState {
-    device.exchange(&Command { time, force }, PATIENCE).unwrap()
+fn exchange(device: &mut dyn Device, time: f64) -> DeviceState {
+    device.exchange(&Command::without_force(time)).unwrap()
 }
 
 fn still() -> Trajectory {
@@ -42,19 +39,20 @@ fn all() -> Vec<Box<dyn Device>> {
 }
 
 #[test]
-fn every_device_answers_is_finite_and_can_be_stopped_twice() {
+fn every_device_answers_is_finite_and_can_be_disabled_twice() {
     for mut device in all() {
-        let name = device.spec().name.clone();
-        assert!(device.spec().peak_force > 0.0, "{name}");
+        let name = device.capabilities().name.clone();
+        assert!(device.capabilities().peak_force > 0.0, "{name}");
         for tick in 0..100 {
             let time = f64::from(tick) * 1e-3;
-            let state = exchange(&mut *device, time, Vec3::x() * 0.1);
+            let state = exchange(&mut *device, time);
             assert_eq!((state.time, state.present), (time, true), "{name}");
             assert!(state.position.iter().all(|x| x.is_finite()), "{name}");
         }
-        device.stop();
-        device.stop();
-        exchange(&mut *device, 1.0, Vec3::zeros());
+        assert_eq!(device.disable(), Disabled::NoForce, "{name}");
+        assert_eq!(device.disable(), Disabled::NoForce, "{name}");
+        device.enable().unwrap();
+        exchange(&mut *device, 1.0);
     }
 }
 
@@ -63,18 +61,13 @@ fn every_device_answers_is_finite_and_can_be_stopped_twice() {
 fn a_pointer_glides_to_its_hand() {
     let (pointer, mut hand) = Pointer::new();
     let mut pointer = pointer.with_smoothing(0.01);
-    assert!(!exchange(&mut pointer, 0.0, Vec3::zeros()).present);
+    assert!(!exchange(&mut pointer, 0.0).present);
     hand.move_to(Vec3::x());
-    assert_eq!(
-        exchange(&mut pointer, 0.001, Vec3::zeros()).position,
-        Vec3::x()
-    );
+    assert_eq!(exchange(&mut pointer, 0.001).position, Vec3::x());
     hand.move_to(Vec3::zeros());
     for tick in 1..50 {
         let time = 1e-3 * f64::from(tick);
-        let place = exchange(&mut pointer, 0.001 + time, Vec3::zeros())
-            .position
-            .x;
+        let place = exchange(&mut pointer, 0.001 + time).position.x;
         // Rounding.
         assert!(
             (place - (-time / 0.01).exp()).abs() < 1e-12,
@@ -82,12 +75,9 @@ fn a_pointer_glides_to_its_hand() {
         );
     }
     hand.leave();
-    assert!(!exchange(&mut pointer, 0.1, Vec3::zeros()).present);
+    assert!(!exchange(&mut pointer, 0.1).present);
     hand.move_to(Vec3::y());
-    assert_eq!(
-        exchange(&mut pointer, 0.2, Vec3::zeros()).position,
-        Vec3::y()
-    );
+    assert_eq!(exchange(&mut pointer, 0.2).position, Vec3::y());
 }
 
 /// Judge: the exponential from where it was put. What the hand says next does not undo it.
@@ -96,12 +86,12 @@ fn a_pointer_that_is_put_down_glides_from_there() {
     let (pointer, mut hand) = Pointer::new();
     let mut pointer = pointer.with_smoothing(0.01);
     hand.move_to(Vec3::x());
-    exchange(&mut pointer, 0.0, Vec3::zeros());
+    exchange(&mut pointer, 0.0);
     hand.move_from(Vec3::y(), Vec3::zeros());
     hand.move_to(Vec3::zeros());
     for tick in 1..20 {
         let time = 1e-3 * f64::from(tick);
-        let place = exchange(&mut pointer, time, Vec3::zeros()).position;
+        let place = exchange(&mut pointer, time).position;
         // Rounding.
         assert!((place - Vec3::y() * (-time / 0.01).exp()).norm() < 1e-12);
     }
@@ -114,7 +104,7 @@ fn a_hand_yields_as_its_spring_says() {
     let mut device = VirtualDevice::new(still()).with_hand(hand).unwrap();
     let mut place = Vec3::zeros();
     for tick in 0..3000 {
-        place = exchange(&mut device, f64::from(tick) * 1e-3, Vec3::z()).position;
+        place = device.advance(f64::from(tick) * 1e-3, &Vec3::z()).position;
     }
     // 3 s are 40 times b/2m's, so that nothing swings any more.
     assert!((place.z * hand.stiffness - 1.0).abs() < 1e-9, "{place}");
@@ -126,14 +116,14 @@ fn a_hand_swings_at_its_frequency() {
     let hand = Hand::default();
     let mut device = VirtualDevice::new(still()).with_hand(hand).unwrap();
     for tick in 0..3000 {
-        exchange(&mut device, f64::from(tick) * 1e-3, Vec3::z());
+        device.advance(f64::from(tick) * 1e-3, &Vec3::z());
     }
-    let start = exchange(&mut device, 3.0, Vec3::zeros()).position.z;
+    let start = exchange(&mut device, 3.0).position.z;
     let beta = hand.damping / (2.0 * hand.mass);
     let omega = (hand.stiffness / hand.mass - beta * beta).sqrt();
     for tick in 1..300 {
         let time = f64::from(tick) * 1e-3;
-        let place = exchange(&mut device, 3.0 + time, Vec3::zeros()).position.z;
+        let place = exchange(&mut device, 3.0 + time).position.z;
         let (sine, cosine) = (omega * time).sin_cos();
         let expected = start * (-beta * time).exp() * (cosine + beta / omega * sine);
         // First order in the step: ω h = 1.3 %.
@@ -145,7 +135,7 @@ fn a_hand_swings_at_its_frequency() {
 }
 
 #[test]
-fn a_virtual_device_is_stopped_when_it_is_dropped() {
+fn a_virtual_device_is_disabled_when_it_is_dropped() {
     let device = VirtualDevice::new(still());
     let stops = device.stops();
     drop(device);

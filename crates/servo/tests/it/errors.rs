@@ -38,6 +38,8 @@ fn every_fault_is_one_sentence_with_its_mend() {
             what: "hot motors",
         },
         Fault::EmergencyStop,
+        Fault::Hung { limit: 0.5 },
+        Fault::OutsideScheduler,
         Fault::Panicked,
         Fault::NoThread,
     ];

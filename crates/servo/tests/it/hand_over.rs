@@ -140,7 +140,7 @@ fn a_stale_model_fades_to_zero() {
         let mut last = f64::INFINITY;
         for tick in 11..22 {
             let force = extrapolator
-                .force(f64::from(tick) * 1e-3, &Vec3::zeros(), &Vec3::zeros())
+                .force(f64::from(tick) * 1e-3, &Vec3::zeros())
                 .norm();
             assert!(force < last || force == 0.0, "{kind:?}, {tick} ms: {force}");
             last = force;

@@ -19,8 +19,7 @@ struct Rendered {
 impl Controller for Rendered {
     fn update(&mut self, state: &DeviceState, _dt: f64) -> Vec3 {
         self.extrapolator.receive(self.answers.latest());
-        self.extrapolator
-            .force(state.time, &state.position, &Vec3::zeros())
+        self.extrapolator.force(state.time, &state.position)
     }
 
     fn age(&self) -> Option<f64> {

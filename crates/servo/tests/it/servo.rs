@@ -4,8 +4,8 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use palpate_servo::{
-    Clock, Command, Controller, Device, DeviceSpec, DeviceState, Fault, Sample, ServoLoop,
-    ServoReader, ServoSettings, ServoThread, Stage, Trajectory, Vec3, VirtualDevice,
+    Capabilities, Clock, Command, Controller, Device, DeviceState, Disabled, Fault, Sample,
+    ServoLoop, ServoReader, ServoSettings, ServoThread, Stage, Trajectory, Vec3, VirtualDevice,
     measure_lateness,
 };
 
@@ -75,16 +75,20 @@ fn energy_at_the_port_is_that_of_the_lag() {
 
 /// A device that takes its time on the machine's clock.
 struct Slow {
-    spec: DeviceSpec,
+    capabilities: Capabilities,
     exchanges: u32,
 }
 
 impl Device for Slow {
-    fn spec(&self) -> &DeviceSpec {
-        &self.spec
+    fn capabilities(&self) -> &Capabilities {
+        &self.capabilities
     }
 
-    fn exchange(&mut self, command: &Command, _patience: Duration) -> Result<DeviceState, Fault> {
+    fn enable(&mut self) -> Result<(), Fault> {
+        Ok(())
+    }
+
+    fn exchange(&mut self, command: &Command) -> Result<DeviceState, Fault> {
         self.exchanges += 1;
         if self.exchanges == 10 {
             std::thread::sleep(Duration::from_millis(30));
@@ -95,14 +99,19 @@ impl Device for Slow {
         Ok(DeviceState::at(command.time, Vec3::zeros()))
     }
 
-    fn stop(&mut self) {}
+    fn disable(&mut self) -> Disabled {
+        Disabled::Unknown
+    }
 }
 
 /// One tick of 30 ms leaves some 29 out; the next ones are at their times, not all at once.
 #[test]
 fn skips_and_never_bursts() {
-    let spec = DeviceSpec::without_force("slow");
-    let (mut servo, mut reader) = servo(Slow { spec, exchanges: 0 });
+    let capabilities = Capabilities::without_force("slow");
+    let (mut servo, mut reader) = servo(Slow {
+        capabilities,
+        exchanges: 0,
+    });
     let report = servo.run(&mut Clock::real(), |_| true);
     // A busy machine leaves out more.
     assert!(report.missed >= 29, "{report:?}");

@@ -62,9 +62,7 @@ impl Controller for SlowModel {
             self.pending = Some(self.answer(state));
             self.steps += 1;
         }
-        let velocity = state.velocity.unwrap_or_else(Vec3::zeros);
-        self.extrapolator
-            .force(state.time, &state.position, &velocity)
+        self.extrapolator.force(state.time, &state.position)
     }
 
     fn age(&self) -> Option<f64> {

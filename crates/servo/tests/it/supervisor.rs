@@ -3,7 +3,7 @@
 use palpate_servo::dynamics::Compensation;
 use palpate_servo::supervisor::SILENCE;
 use palpate_servo::{
-    DeviceSpec, DeviceState, Fault, ForceState, Sample, ServoLoop, ServoSettings, Stage,
+    Capabilities, DeviceState, Fault, ForceState, Sample, ServoLoop, ServoSettings, Stage,
     Supervisor, Trajectory, Vec3, VirtualDevice, Waypoint,
 };
 use proptest::prelude::*;
@@ -29,7 +29,7 @@ impl Session {
                 Waypoint::new(0.6, pressed * side),
             ];
             let device = VirtualDevice::new(Trajectory::way(way).unwrap())
-                .with_spec(DeviceSpec::premium("test"));
+                .with_capabilities(Capabilities::premium("test"));
             let law = |state: &DeviceState, _: f64| match state.time {
                 // What a fault looks like from inside a loop.
                 time if (7.0..7.0005).contains(&time) && state.position.z > 0.0 => {

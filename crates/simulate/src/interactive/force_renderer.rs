@@ -47,10 +47,8 @@ impl Controller for ForceRenderer {
             self.of_wall = Vec3::zeros();
             return Vec3::zeros();
         }
-        let velocity = state.velocity.unwrap_or_else(Vec3::zeros);
         let tip = self.mount.tip(&state.position);
-        let of_tip = self.mount.velocity_of_tip(&state.position, &velocity);
-        let force = self.extrapolator.force(state.time, &tip, &of_tip);
+        let force = self.extrapolator.force(state.time, &tip);
         let wall = self
             .mount
             .wall_force(&state.position, &mut self.friction, dt);

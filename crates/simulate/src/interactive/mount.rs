@@ -46,14 +46,6 @@ impl Mount {
         self.trocar.map_or(hand, |trocar| trocar.tip(&hand))
     }
 
-    /// The velocity of the tip [m/s] of a handle at `position` [m] with `velocity` [m/s], both of the device.
-    pub fn velocity_of_tip(&self, position: &Vec3, velocity: &Vec3) -> Vec3 {
-        let velocity = self.vector_in_scene(velocity);
-        let hand = self.place_in_scene(position);
-        self.trocar
-            .map_or(velocity, |trocar| trocar.velocity_of_tip(&hand, &velocity))
-    }
-
     /// What a handle at `position` of the device [m] feels, in the device's frame, of a `force` on the tip [N].
     pub fn force_on_handle(&self, position: &Vec3, force: &Vec3) -> Vec3 {
         let hand = self.place_in_scene(position);

@@ -96,9 +96,9 @@ fn a_pull_is_handed_over_but_not_felt() {
     let given = affine_force(&simulation.tools()[0], &hand.state.tools[0], 0.0);
     assert!(given.contact && given.force.z < 0.0, "{given:?}");
     let still = Vec3::zeros();
-    assert_eq!(given.at(&below(2e-4), &still), still);
-    assert_eq!(given.at(&below(4e-4), &still), still);
-    assert!(given.at(&below(3e-3), &still).z > 0.0);
+    assert_eq!(given.at(&below(2e-4)), still);
+    assert_eq!(given.at(&below(4e-4)), still);
+    assert!(given.at(&below(3e-3)).z > 0.0);
 }
 
 /// A free window in the top of a cube whose surface is held around it: stiffer than a half-space.

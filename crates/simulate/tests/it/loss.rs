@@ -5,8 +5,8 @@ use std::time::Duration;
 
 use palpate_geometry::Vec3;
 use palpate_servo::{
-    AffineForce, Clock, Command, Device, DeviceSpec, DeviceState, Extrapolator, Fault, HandOver,
-    Sample, ServoLoop, ServoSettings, Stage, VirtualDevice, latest,
+    AffineForce, Capabilities, Clock, Command, Device, DeviceState, Disabled, Extrapolator, Fault,
+    HandOver, Sample, ServoLoop, ServoSettings, Stage, VirtualDevice, latest,
 };
 use palpate_simulate::interactive::{
     ForceRenderer, Interaction, Mount, Station, VirtualInteraction,
@@ -18,19 +18,23 @@ use crate::interactive::{POLE, advance, palpating, simulation};
 struct Unplugged(VirtualDevice, f64);
 
 impl Device for Unplugged {
-    fn spec(&self) -> &DeviceSpec {
-        self.0.spec()
+    fn capabilities(&self) -> &Capabilities {
+        self.0.capabilities()
     }
 
-    fn exchange(&mut self, command: &Command, patience: Duration) -> Result<DeviceState, Fault> {
+    fn enable(&mut self) -> Result<(), Fault> {
+        self.0.enable()
+    }
+
+    fn exchange(&mut self, command: &Command) -> Result<DeviceState, Fault> {
         if command.time > self.1 {
             return Err(Fault::Silent);
         }
-        self.0.exchange(command, patience)
+        self.0.exchange(command)
     }
 
-    fn stop(&mut self) {
-        self.0.stop();
+    fn disable(&mut self) -> Disabled {
+        self.0.disable()
     }
 }
 

@@ -105,19 +105,21 @@ impl Answer {
 
 impl Device {
     pub(super) fn new(kind: Kind, found: &Found, test: Option<&SelfTest>) -> Self {
-        let spec = &found.spec;
+        let capabilities = &found.capabilities;
         Self {
             kind: kind.word(),
-            name: spec.name.clone(),
+            name: capabilities.name.clone(),
             model: found.model.clone(),
             serial: found.serial.clone(),
-            peak_force_n: spec.peak_force,
-            continuous_force_n: spec.continuous_force,
+            peak_force_n: capabilities.peak_force,
+            continuous_force_n: capabilities.continuous_force,
             forces_are: match found.forces {
                 Origin::Device => "as the device says",
                 Origin::Ours => "ours, for the device does not say",
             },
-            workspace_m: spec.workspace.map(|corners| corners.map(Into::into)),
+            workspace_m: capabilities
+                .workspace
+                .map(|corners| corners.map(Into::into)),
             remarks: found.remarks.clone(),
             self_test: test.map(Test::new),
         }

@@ -116,7 +116,7 @@ fn tested(
     let progress = Progress::new(Reader::of_json(arguments.json), None);
     progress.say(format!(
         "{}: hold the handle for three seconds",
-        found.spec.name
+        found.capabilities.name
     ));
     let device = kind.open(found.number, places).map_err(Failure::failed)?;
     let test = self_test(device, Clock::real()).map_err(Failure::failed);

@@ -1,6 +1,7 @@
 /* A library that stands for libHD, version 3: its functions over mechanics that a test puts in. Written from the
  * documents of the interface, with its numbers and without its text. Without mechanics, the handle rests in the middle
- * and reads no force. Switches for faults begin with stand_in_. */
+ * and reads no force. Where the documents promise nothing it does the worst: a device that is disabled keeps its force,
+ * and a scheduler that is stopped may call once more. Switches for faults begin with stand_in_. */
 #include <math.h>
 #include <pthread.h>
 #include <stdatomic.h>
@@ -34,15 +35,42 @@ static int32_t buttons;
 static callback called;
 static void *called_data;
 static pthread_t thread;
-static atomic_int running, open_devices, in_frame, enabled;
-static atomic_int calibration = 0x5000, fails_to_open, stalled_ms, nan_position, period_us = 1000;
-static atomic_int frames;
+static _Thread_local int in_callback;
+static atomic_int running, open_devices, in_frame, enabled, manual;
+static atomic_int calibration = 0x5000, inkwell, fails_to_open, opens_with_error, stalled_ms, late_ms, nan_position;
+static atomic_int twice, at_once, after_stop, hangs, stop_hangs, motors_stay, period_us = 1000;
+static atomic_int frames, frames_outside;
 static double displayed[3];
 
 static void push(uint32_t code) {
     pthread_mutex_lock(&lock);
     if (count < ERRORS) errors[count++] = code;
     pthread_mutex_unlock(&lock);
+}
+static void nap(long nanoseconds) {
+    struct timespec time = {nanoseconds / 1000000000L, nanoseconds % 1000000000L};
+    nanosleep(&time, NULL);
+}
+static uint32_t call(callback with, void *data) {
+    in_callback = 1;
+    uint32_t again = with(data);
+    in_callback = 0;
+    return again;
+}
+static void *call_once(void *unused) {
+    (void)unused;
+    if (called) call(called, called_data);
+    return NULL;
+}
+/* One period: once, twice, or from two threads. Whether there shall be another. */
+static int period(void) {
+    if (!called) return 1;
+    pthread_t other;
+    int second = at_once && pthread_create(&other, NULL, call_once, NULL) == 0;
+    uint32_t again = call(called, called_data);
+    if (second) pthread_join(other, NULL);
+    if (again && twice) again = call(called, called_data);
+    return again != 0;
 }
 
 /* For tests. */
@@ -55,11 +83,29 @@ void stand_in_mechanics(mechanics with, void *data, int device) {
 }
 void stand_in_error(int code) { push((uint32_t)code); }
 void stand_in_calibration(int state) { calibration = state; }
+/* The stylus is put into its inkwell, or taken out. */
+void stand_in_inkwell(int in) {
+    inkwell = in;
+    if (in && calibration == 0x5002) calibration = 0x5001;
+}
 void stand_in_fails_to_open(int code) { fails_to_open = code; }
+void stand_in_opens_with_error(int code) { opens_with_error = code; }
 void stand_in_stalls(int milliseconds) { stalled_ms = milliseconds; }
+void stand_in_late_ms(int milliseconds) { late_ms = milliseconds; }
 void stand_in_period_us(int period) { period_us = period; }
 void stand_in_nan(int on) { nan_position = on; }
+void stand_in_twice(int on) { twice = on; }
+void stand_in_at_once(int on) { at_once = on; }
+void stand_in_after_stop(int on) { after_stop = on; }
+void stand_in_hangs(int on) { hangs = on; }
+void stand_in_stop_hangs(int on) { stop_hangs = on; }
+/* Motors that are switched off keep their force until the next frame. */
+void stand_in_motors_stay(int on) { motors_stay = on; }
+/* The scheduler has no thread: a test makes its periods. */
+void stand_in_manual(int on) { manual = on; }
+int stand_in_step(void) { return running && !stalled_ms ? period() : 0; }
 int stand_in_frames(void) { return frames; }
+int stand_in_frames_outside(void) { return frames_outside; }
 int stand_in_open_devices(void) { return open_devices; }
 void stand_in_displayed(double out[3], int device) {
     (void)device;
@@ -68,23 +114,29 @@ void stand_in_displayed(double out[3], int device) {
     pthread_mutex_unlock(&lock);
 }
 
-static void nap(long nanoseconds) {
-    struct timespec time = {nanoseconds / 1000000000L, nanoseconds % 1000000000L};
-    nanosleep(&time, NULL);
-}
-
 static void *schedule(void *unused) {
     (void)unused;
     while (running) {
-        int stall = stalled_ms;
-        if (stall) {
+        int late = atomic_exchange(&late_ms, 0);
+        if (late) nap(1000000L * late);
+        if (stalled_ms) {
             nap(1000000L);
             continue;
         }
-        if (called && called(called_data) == 0) break;
+        if (!period()) break;
         nap(1000L * period_us);
     }
     return NULL;
+}
+static void *call_late(void *unused) {
+    (void)unused;
+    nap(20000000L);
+    return call_once(NULL);
+}
+static void no_force(void) {
+    pthread_mutex_lock(&lock);
+    memset(displayed, 0, sizeof displayed);
+    pthread_mutex_unlock(&lock);
 }
 
 /* The interface. */
@@ -98,21 +150,21 @@ uint32_t hdInitDevice(const char *name) {
         push(0x0301);
         return 0xFFFFFFFFu;
     }
+    if (opens_with_error) push((uint32_t)opens_with_error);
     open_devices++;
     return 7;
 }
+/* It says nothing of the force. */
 void hdDisableDevice(uint32_t device) {
     if (device != 7 || !open_devices) push(0x0104);
     else open_devices--;
     if (running) push(0x0500);
-    pthread_mutex_lock(&lock);
-    memset(displayed, 0, sizeof displayed);
-    pthread_mutex_unlock(&lock);
 }
 void hdMakeCurrentDevice(uint32_t device) { if (device != 7) push(0x0104); }
 void hdBeginFrame(uint32_t device) {
     if (device != 7) push(0x0104);
     if (in_frame) push(0x0400);
+    if (!in_callback) frames_outside++;
     in_frame = 1;
     pthread_mutex_lock(&lock);
     mechanics with = moves;
@@ -124,6 +176,7 @@ void hdBeginFrame(uint32_t device) {
     memset(force, 0, sizeof force);
 }
 void hdEndFrame(uint32_t device) {
+    while (hangs) nap(1000000L);
     if (device != 7) push(0x0104);
     if (!in_frame) push(0x0400);
     in_frame = 0;
@@ -140,12 +193,16 @@ error_info hdGetError(void) {
     pthread_mutex_unlock(&lock);
     return found;
 }
-const char *hdGetErrorString(uint32_t code) { (void)code; return "an error of the stand-in"; }
 void hdEnable(uint32_t what) {
     if (what == 0x4000) enabled = 1;
     else if (what < 0x4000 || what > 0x4004) push(0x0100);
 }
-void hdDisable(uint32_t what) { if (what == 0x4000) enabled = 0; }
+void hdDisable(uint32_t what) {
+    if (what < 0x4000 || what > 0x4004) push(0x0100);
+    if (what != 0x4000) return;
+    enabled = 0;
+    if (!motors_stay) no_force();
+}
 void hdGetDoublev(uint32_t what, double *out) {
     static const double workspace[6] = {-80, -60, -35, 80, 60, 35};
     switch (what) {
@@ -168,6 +225,10 @@ void hdGetIntegerv(uint32_t what, int32_t *out) {
     if (what == 0x2000) *out = buttons;
     else push(0x0100);
 }
+void hdGetBooleanv(uint32_t what, uint8_t *out) {
+    if (what == 0x2002) *out = !inkwell;
+    else push(0x0100);
+}
 void hdSetDoublev(uint32_t what, const double *in) {
     if (what != 0x2700) { push(0x0100); return; }
     if (!in_frame) { push(0x0400); return; }
@@ -185,26 +246,31 @@ const char *hdGetString(uint32_t what) {
 uint32_t hdCheckCalibration(void) { return (uint32_t)calibration; }
 uint32_t hdCheckCalibrationStyle(void) { return 4; }
 void hdUpdateCalibration(uint32_t style) {
-    if (style == 4) calibration = 0x5000;
-    else push(0x0100);
+    if (style != 4) push(0x0100);
+    /* A stylus that is elsewhere is not calibrated by its inkwell. */
+    else if (calibration == 0x5001) calibration = 0x5000;
 }
 void hdStartScheduler(void) {
     if (running) { push(0x0500); return; }
     running = 1;
-    pthread_create(&thread, NULL, schedule, NULL);
+    if (!manual) pthread_create(&thread, NULL, schedule, NULL);
 }
 void hdStopScheduler(void) {
+    while (stop_hangs) nap(1000000L);
     if (!running) { push(0x0500); return; }
     running = 0;
-    pthread_join(thread, NULL);
+    if (after_stop && !manual) pthread_detach(thread);
+    else if (!manual) pthread_join(thread, NULL);
 }
 unsigned long hdScheduleAsynchronous(callback with, void *data, uint16_t priority) {
     (void)priority;
-    called = with;
     called_data = data;
+    called = with;
     return 42;
 }
 void hdUnschedule(unsigned long number) {
+    pthread_t late;
     if (number != 42) push(0x0500);
-    called = NULL;
+    if (after_stop && pthread_create(&late, NULL, call_late, NULL) == 0) pthread_detach(late);
+    else called = NULL;
 }

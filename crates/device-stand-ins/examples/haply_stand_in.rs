@@ -7,7 +7,7 @@
 
 use std::time::Duration;
 
-use palpate_devices::stand_in::{HaplyStandIn, HaplyStandInSettings, StandInClock};
+use palpate_device_stand_ins::{HaplyStandIn, HaplyStandInSettings, StandInClock};
 use palpate_servo::{Hand, Trajectory, Vec3, VirtualDevice};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

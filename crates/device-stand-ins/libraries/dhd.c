@@ -1,6 +1,7 @@
 /* A library that stands for libdhd, version 3: its functions over mechanics that a test puts in. Written from the
  * documents of the interface, with its numbers and without its text. Without mechanics, the handle rests in the middle.
- * Switches for faults begin with stand_in_. */
+ * Where the documents promise nothing it does the worst: a device that is closed keeps its force, and one that took its
+ * forces off displays none until they are enabled again. Switches for faults begin with stand_in_. */
 #include <math.h>
 #include <pthread.h>
 #include <stdatomic.h>
@@ -18,10 +19,27 @@ static void *moves_data[DEVICES];
 static double position[DEVICES][3], displayed[DEVICES][3];
 static double frame[DEVICES][9];
 static unsigned buttons[DEVICES];
-static double most[DEVICES];
-static atomic_int is_open[DEVICES], enabled[DEVICES];
-static atomic_int devices = 1, fails_to_open, stalled_ms, nan_position, answer;
-static atomic_int power = 1, connected = 1, cause, error_state, last_error;
+static double most[DEVICES], watchdog[DEVICES], last_set[DEVICES];
+static atomic_int is_open[DEVICES], enabled[DEVICES], cause[DEVICES];
+static atomic_int devices = 1, fails_to_open, stalled_ms, nan_position, answer, hangs, has_watchdog;
+static atomic_int power = 1, connected = 1, error_state, refuses, last_error;
+
+static double now(void) {
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+/* With the lock: forces off, for this reason, until they are enabled. */
+static void take_off(int device, int why) {
+    enabled[device] = 0;
+    cause[device] = why;
+    memset(displayed[device], 0, sizeof displayed[device]);
+}
+/* With the lock: what the device does by itself without a force for as long as its watchdog has. */
+static void watch(int device) {
+    int bites = watchdog[device] > 0 && enabled[device] && now() - last_set[device] > watchdog[device];
+    if (bites) take_off(device, 3);
+}
 
 /* For tests. */
 void stand_in_mechanics(mechanics with, void *data, int device) {
@@ -33,12 +51,22 @@ void stand_in_mechanics(mechanics with, void *data, int device) {
 void stand_in_devices(int number) { devices = number; }
 void stand_in_fails_to_open(int on) { fails_to_open = on; }
 void stand_in_stalls(int milliseconds) { stalled_ms = milliseconds; }
+void stand_in_hangs(int on) { hangs = on; }
 void stand_in_nan(int on) { nan_position = on; }
 void stand_in_error(int code) { answer = code ? -1 : 0; last_error = code; }
 void stand_in_power(int on) { power = on; }
 void stand_in_connected(int on) { connected = on; }
-void stand_in_cause(int why) { cause = why; }
 void stand_in_error_state(int on) { error_state = on; }
+/* Devices of newer versions have a watchdog. */
+void stand_in_watchdog(int on) { has_watchdog = on; }
+/* Forces cannot be enabled. */
+void stand_in_refuses(int on) { refuses = on; }
+/* The first device takes its forces off. */
+void stand_in_cause(int why) {
+    pthread_mutex_lock(&lock);
+    take_off(0, why);
+    pthread_mutex_unlock(&lock);
+}
 int stand_in_open_devices(void) {
     int open = 0;
     for (int device = 0; device < DEVICES; device++) open += is_open[device];
@@ -46,6 +74,7 @@ int stand_in_open_devices(void) {
 }
 void stand_in_displayed(double out[3], int device) {
     pthread_mutex_lock(&lock);
+    watch(device);
     memcpy(out, displayed[device], sizeof displayed[device]);
     pthread_mutex_unlock(&lock);
 }
@@ -53,6 +82,8 @@ void stand_in_displayed(double out[3], int device) {
 static void stall(void) {
     struct timespec time = {stalled_ms / 1000, stalled_ms % 1000 * 1000000L};
     if (stalled_ms) nanosleep(&time, NULL);
+    struct timespec tick = {0, 1000000L};
+    while (hangs) nanosleep(&tick, NULL);
 }
 static int is_there(char id) { return id >= 0 && id < DEVICES && is_open[(int)id]; }
 static int failed(int code) {
@@ -67,28 +98,37 @@ int dhdOpenID(char index) {
     if (fails_to_open || device < 0 || device >= devices || is_open[device]) return failed(2);
     for (int entry = 0; entry < 9; entry++) frame[device][entry] = entry % 4 == 0;
     most[device] = -1;
+    watchdog[device] = 0;
+    enabled[device] = cause[device] = 0;
     is_open[device] = 1;
     return device;
 }
+/* It says nothing of the force. */
 int dhdClose(char id) {
     if (!is_there(id)) return failed(4);
-    is_open[(int)id] = enabled[(int)id] = 0;
-    pthread_mutex_lock(&lock);
-    memset(displayed[(int)id], 0, sizeof displayed[0]);
-    pthread_mutex_unlock(&lock);
+    is_open[(int)id] = 0;
     return 0;
 }
 int dhdEnableForce(unsigned char on, char id) {
     if (!is_there(id)) return failed(4);
-    enabled[(int)id] = on;
+    if (on && refuses) return failed(6);
     pthread_mutex_lock(&lock);
-    if (!on) memset(displayed[(int)id], 0, sizeof displayed[0]);
+    if (on) {
+        enabled[(int)id] = 1;
+        cause[(int)id] = 0;
+        last_set[(int)id] = now();
+    } else take_off((int)id, cause[(int)id] ? cause[(int)id] : 4);
     pthread_mutex_unlock(&lock);
     return 0;
 }
 int dhdSetMaxForce(double limit, char id) {
     if (!is_there(id)) return failed(4);
     most[(int)id] = limit;
+    return 0;
+}
+int dhdSetWatchdog(unsigned char duration, char id) {
+    if (!is_there(id) || !has_watchdog) return failed(4);
+    watchdog[(int)id] = 125e-6 * duration;
     return 0;
 }
 int dhdSetForce(double fx, double fy, double fz, char id) {
@@ -99,8 +139,10 @@ int dhdSetForce(double fx, double fy, double fz, char id) {
     double size = sqrt(fx * fx + fy * fy + fz * fz);
     if (!isfinite(size)) return failed(5);
     double part = most[(int)id] >= 0 && size > most[(int)id] ? most[(int)id] / size : 1;
-    int is_on = enabled[(int)id] && power && connected && !cause;
     pthread_mutex_lock(&lock);
+    watch((int)id);
+    last_set[(int)id] = now();
+    int is_on = enabled[(int)id] && power && connected;
     mechanics with = moves[(int)id];
     void *data = moves_data[(int)id];
     double held[3];
@@ -131,7 +173,7 @@ int dhdGetStatus(int status[], char id) {
     status[2] = 1;
     status[5] = enabled[(int)id];
     status[9] = error_state;
-    status[14] = cause;
+    status[14] = cause[(int)id];
     return 0;
 }
 const char *dhdGetSystemName(char id) { return is_there(id) ? "stand-in.3" : NULL; }

@@ -15,11 +15,11 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use palpate_servo::{Device, Vec3};
+use palpate_devices::haply::{Generation, HaplyAddress};
+use palpate_servo::Vec3;
 
 use super::robot::Robot;
-use super::{Misbehaviour, StandInClock};
-use crate::haply::{Generation, HaplyAddress};
+use super::{Mechanics, Misbehaviour, StandInClock};
 
 /// What is held.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -86,7 +86,7 @@ impl HaplyStandIn {
     /// # Errors
     /// When a port is taken.
     pub fn start(
-        devices: Vec<Box<dyn Device>>,
+        devices: Vec<Box<dyn Mechanics>>,
         settings: HaplyStandInSettings,
     ) -> io::Result<Self> {
         let robots = devices.into_iter();

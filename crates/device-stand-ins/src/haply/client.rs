@@ -11,7 +11,7 @@ use tungstenite::{Error, Message, WebSocket};
 
 use super::words::{commands, frame};
 use super::{PATIENCE, Shared, locked};
-use crate::stand_in::Misbehaviour;
+use crate::Misbehaviour;
 
 type Socket = WebSocket<TcpStream>;
 

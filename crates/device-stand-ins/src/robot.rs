@@ -1,8 +1,10 @@
 use std::time::{Duration, Instant};
 
-use palpate_servo::{Command, Device, DeviceState, Vec3};
+use palpate_servo::{DeviceState, Vec3};
 
-/// How time goes by for the device under a stand-in.
+use super::Mechanics;
+
+/// How time goes by for the mechanics under a stand-in.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum StandInClock {
     /// So much at every command [s]: the same commands give the same states.
@@ -14,9 +16,9 @@ pub enum StandInClock {
 /// Forces that are remembered.
 const REMEMBERED: usize = 1 << 20;
 
-/// A device under a stand-in.
+/// A simulated device under a stand-in.
 pub(crate) struct Robot {
-    device: Box<dyn Device>,
+    mechanics: Box<dyn Mechanics>,
     clock: StandInClock,
     began: Instant,
     commands: u64,
@@ -28,18 +30,19 @@ pub(crate) struct Robot {
 }
 
 impl Robot {
-    pub(crate) fn new(device: Box<dyn Device>, clock: StandInClock) -> Self {
+    pub(crate) fn new(mechanics: Box<dyn Mechanics>, clock: StandInClock) -> Self {
         let mut robot = Self {
-            device,
+            mechanics,
             clock,
             began: Instant::now(),
             commands: 0,
             commanded: None,
             force: Vec3::zeros(),
-            forces: Vec::new(),
+            // Room for a test that counts allocations.
+            forces: Vec::with_capacity(1 << 13),
             state: DeviceState::at(0.0, Vec3::zeros()),
         };
-        robot.exchange(0.0, Vec3::zeros());
+        robot.state = robot.mechanics.advance(0.0, &Vec3::zeros());
         robot
     }
 
@@ -54,16 +57,8 @@ impl Robot {
         if self.forces.len() < REMEMBERED {
             self.forces.push(force);
         }
-        self.exchange(time, force);
-    }
-
-    fn exchange(&mut self, time: f64, force: Vec3) {
         self.force = force;
-        let command = Command { time, force };
-        // One that is gone stays where it was.
-        if let Ok(state) = self.device.exchange(&command, Duration::ZERO) {
-            self.state = state;
-        }
+        self.state = self.mechanics.advance(time, &force);
     }
 
     /// Without a command for `long` it takes its force off.
@@ -76,6 +71,5 @@ impl Robot {
     pub(crate) fn rest(&mut self) {
         self.commanded = None;
         self.force = Vec3::zeros();
-        self.device.stop();
     }
 }

@@ -1,12 +1,12 @@
 //! What the stand-in says and understands.
 
+use palpate_devices::haply::Generation;
 use palpate_servo::Vec3;
 use serde_json::{Value, json};
 
 use super::{HaplyStandInSettings, StandInGrip};
-use crate::haply::Generation;
-use crate::stand_in::Misbehaviour;
-use crate::stand_in::robot::Robot;
+use crate::Misbehaviour;
+use crate::robot::Robot;
 
 /// A message: everything at first, later what changes.
 pub(super) fn frame(
@@ -131,7 +131,7 @@ pub(super) fn commands(text: &str, generation: Generation) -> Vec<(usize, Vec3)>
     let robots = message["inverse3"].as_array();
     let commands = robots.into_iter().flatten().filter_map(|robot| {
         let number = robot["device_id"].as_str()?.parse().ok()?;
-        let force = &robot["commands"]["set_cursor_force"][generation.key()];
+        let force = &robot["commands"]["set_cursor_force"][key(generation)];
         let [x, y, z] = ["x", "y", "z"].map(|axis| force[axis].as_f64());
         Some((number, Vec3::new(x?, z?, -y?)))
     });
@@ -150,4 +150,12 @@ fn device_place(place: &Vec3) -> Vec3 {
 
 fn vector(vector: &Vec3) -> Value {
     json!({ "x": vector.x, "y": vector.y, "z": vector.z })
+}
+
+/// How forces are called.
+fn key(generation: Generation) -> &'static str {
+    match generation {
+        Generation::Values => "values",
+        Generation::Vector => "vector",
+    }
 }
