@@ -83,6 +83,14 @@ pub enum Error {
         /// Poisson's ratio [-].
         poissons_ratio: f64,
     },
+    /// The local model without calibration lacks something.
+    #[error(
+        "the local model without calibration does not have {asked}; ask for a tip that slips, the weak form, the template, every step and the direct solver, or for calibration = \"fitted\""
+    )]
+    NotWithoutCalibration {
+        /// What it lacks.
+        asked: &'static str,
+    },
     /// An element names a node that is not there.
     #[error("element {element} names a node beyond the {nodes} of the mesh")]
     NodeOutOfRange {

@@ -226,5 +226,7 @@ pub(crate) fn place(
         triangle: footing.triangle,
         radius: tool.tip.contact_radius(depth),
         organ_radius: simulation.organ_radius,
+        // As the calibrated model has it: held as a hemisphere of its volume is.
+        thickness: simulation.organ_radius,
     }
 }

@@ -15,8 +15,8 @@
 use std::fmt::{Debug, Write};
 
 use palpate_files::scene::{
-    Cutting, DeviceKind, Enhancement, IntegrationPoints, Jaws, Layer, LocalSettings, Model, Nodule,
-    Region, RegionBox, RegionPlane, RegionSphere, Tip, Tool,
+    Calibration, Cutting, DeviceKind, Enhancement, IntegrationPoints, Jaws, Layer, LocalSettings,
+    Model, Nodule, Region, RegionBox, RegionPlane, RegionSphere, Tip, Tool,
 };
 use palpate_files::{Scene, Tissue};
 use palpate_geometry::Surface;
@@ -195,6 +195,7 @@ impl Form {
             solver,
             assembly,
             integration_points,
+            calibration,
         } = local;
         self.word("particles", &particles.to_string());
         self.word("form", form.word());
@@ -207,6 +208,10 @@ impl Form {
             IntegrationPoints::Many => "many",
         };
         self.word("integration_points", points);
+        // Sessions from before there was a choice keep their digest.
+        if *calibration != Calibration::Fitted {
+            self.word("calibration", calibration.word());
+        }
         let Enhancement {
             area,
             levels,

@@ -4,7 +4,8 @@ use palpate_files::scene::{self, ToolKind};
 use palpate_geometry::{AabbTree, PatchField, Surface, TriangleMesh, Vec3, read_mesh};
 use palpate_mechanics::contact::{Bond, Tip};
 use palpate_mechanics::finite_spheres::{
-    Assembly, FiniteSphereModel, FiniteSphereSettings, Form, Integration, Placement, Solver,
+    Assembly, Calibration, FiniteSphereModel, FiniteSphereSettings, Form, Integration, Placement,
+    Solver,
 };
 use palpate_mechanics::surface_response::TipField;
 use palpate_mechanics::{LinearElastic, TipLaw};
@@ -139,6 +140,10 @@ pub(crate) fn settings(local: &scene::LocalSettings) -> FiniteSphereSettings {
         assembly: match local.assembly {
             scene::Assembly::EveryStep => Assembly::EveryStep,
             scene::Assembly::Reused => Assembly::Reused,
+        },
+        calibration: match local.calibration {
+            scene::Calibration::Fitted => Calibration::Fitted,
+            scene::Calibration::None => Calibration::None,
         },
         integration: match local.integration_points {
             scene::IntegrationPoints::Few => Integration::Coarse,

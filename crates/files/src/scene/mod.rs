@@ -20,8 +20,8 @@ pub use cutting::{CutMode, Cutting};
 pub use jaws::Jaws;
 pub use model::{Enhancement, LocalSettings, Model};
 pub use model_words::{
-    Assembly, EnhancementArea, Form, HandOver, IntegrationPoints, ModelKind, Placement,
-    ResponseMethod, Smoothing, Solver,
+    Assembly, Calibration, EnhancementArea, Form, HandOver, IntegrationPoints, ModelKind,
+    Placement, ResponseMethod, Smoothing, Solver,
 };
 pub use organ::{Layer, Location, Neighbour, Nodule, Organ};
 pub use region::{Region, RegionBox, RegionPlane, RegionSphere};

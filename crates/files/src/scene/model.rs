@@ -1,6 +1,6 @@
 use super::model_words::{
-    Assembly, EnhancementArea, Form, HandOver, IntegrationPoints, ModelKind, Placement,
-    ResponseMethod, Smoothing, Solver,
+    Assembly, Calibration, EnhancementArea, Form, HandOver, IntegrationPoints, ModelKind,
+    Placement, ResponseMethod, Smoothing, Solver,
 };
 use crate::{Domain, Error, Keys};
 
@@ -43,6 +43,8 @@ pub struct LocalSettings {
     pub assembly: Assembly,
     /// At how many points they are integrated.
     pub integration_points: IntegrationPoints,
+    /// What makes a force of their solution.
+    pub calibration: Calibration,
 }
 
 /// Settings of the refinement around a contact.
@@ -65,6 +67,7 @@ impl Default for LocalSettings {
             solver: Solver::Direct,
             assembly: Assembly::EveryStep,
             integration_points: IntegrationPoints::Standard,
+            calibration: Calibration::Fitted,
         }
     }
 }
@@ -105,6 +108,7 @@ impl Model {
         "solver",
         "assembly",
         "integration_points",
+        "calibration",
         "enhancement",
         "mechanical_triangles",
         "response",
@@ -156,6 +160,9 @@ impl LocalSettings {
                 .word("assembly", Assembly::WORDS)?
                 .unwrap_or(default.assembly),
             integration_points: integration_points(keys)?,
+            calibration: keys
+                .word("calibration", Calibration::WORDS)?
+                .unwrap_or(default.calibration),
         };
         if settings.assembly == Assembly::Reused && settings.placement == Placement::Source {
             return Err(keys.bad(

@@ -43,6 +43,16 @@ words! {
 }
 
 words! {
+    /// What makes a force of the finite spheres' solution.
+    pub enum Calibration {
+        /// Constants fitted to half-spaces and hemispheres.
+        Fitted = "fitted",
+        /// Nothing but the particles and where the organ is held.
+        None = "none",
+    }
+}
+
+words! {
     /// How the equations of the finite spheres are solved.
     pub enum Solver {
         /// Factored.

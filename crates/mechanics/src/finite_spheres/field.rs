@@ -74,6 +74,11 @@ impl Spread {
 
 /// One at the outermost shell, zero at `SHOWN` of its radii, flat at both.
 fn fade(outward: f64) -> f64 {
-    let along = ((outward - 1.0) / (SHOWN - 1.0)).clamp(0.0, 1.0);
+    smooth_fall((outward - 1.0) / (SHOWN - 1.0))
+}
+
+/// One up to zero, zero from one on, flat at both.
+pub(super) fn smooth_fall(along: f64) -> f64 {
+    let along = along.clamp(0.0, 1.0);
     1.0 - along * along * (3.0 - 2.0 * along)
 }

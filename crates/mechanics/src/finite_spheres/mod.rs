@@ -7,8 +7,8 @@
 //! condition on the same functions (weak form, the default), with φ_J(x_I) in the rows of the held and
 //! the carried particles: the U_J are not displacements.
 //!
-//! Three corrections make a force of it, all in `exterior`: the tool has a radius a, and h = a/α; what
-//! lies beyond the shells gives way too; and an organ of finite size is held somewhere.
+//! With [`Calibration::None`] nothing is fitted (`uncalibrated`). By default three corrections make a force
+//! of it, all in `exterior`: the tool has a radius a, and h = a/α; what lies beyond the shells gives way too; and an organ of finite size is held somewhere.
 //!
 //! *How we know*: `agreement::hemisphere_meets_its_closed_form`, `agreement::flat_contact_is_the_half_space`,
 //! `convergence::finer_integration_changes_the_force_less`, `invariants::stiffness_is_symmetric_and_positive`.
@@ -27,6 +27,7 @@ mod shape_function;
 mod solution;
 mod source_placement;
 mod strong_form;
+mod uncalibrated;
 mod weak_form;
 mod weight;
 mod workspace;
@@ -34,7 +35,9 @@ mod workspace;
 pub use exterior::{EXTERIOR_CONSTANTS, ExteriorConstants, LARGEST_CALIBRATED_RATIO};
 pub use layout::SOURCE_PARTICLES;
 pub use model::{FiniteSphereModel, LocalContact, Response};
-pub use settings::{Assembly, FiniteSphereSettings, Form, Integration, Placement, Solver};
+pub use settings::{
+    Assembly, Calibration, FiniteSphereSettings, Form, Integration, Placement, Solver,
+};
 pub use source_placement::first_direction;
 pub use weight::quartic;
 pub use workspace::FiniteSphereWorkspace;

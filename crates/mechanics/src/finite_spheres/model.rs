@@ -2,13 +2,16 @@ use nalgebra::{Matrix3, Vector3};
 use palpate_geometry::{AabbTree, Surface, TriangleId};
 
 use super::exterior::{Calibration, LARGEST_CALIBRATED_RATIO};
-use super::field::{SHOWN, Spread};
+use super::field::{SHOWN, Spread, smooth_fall as fade};
 use super::layout::{CapShape, Layout};
 use super::quadrature::Quadrature;
 use super::reuse::ReuseTable;
-use super::settings::{Assembly, FiniteSphereSettings, Form, Placement};
+use super::settings::{
+    Assembly, Calibration as Fit, FiniteSphereSettings, Form, Placement, Solver,
+};
 use super::solution::Solution;
 use super::source_placement::SourcePlacement;
+use super::uncalibrated::Uncalibrated;
 use super::workspace::FiniteSphereWorkspace;
 use crate::contact::{Bond, half_space_stiffness, half_space_tangential_stiffness};
 use crate::{Error, Limit, Limits, LinearElastic, Reached, Vec3};
@@ -27,7 +30,13 @@ pub struct FiniteSphereModel {
     calibration: Calibration,
     reuse: Option<ReuseTable>,
     source: Option<SourcePlacement>,
+    /// What stands in place of the calibrated shells, if nothing is to be fitted.
+    uncalibrated: Option<Uncalibrated>,
 }
+
+/// Without calibration the organ's curvature is that within this distance, and what is shown of its
+/// displacement fades out from the second to the third [tip radii]: at 12 radii 5 % of the depth are left.
+const UNCALIBRATED_RADII: [f64; 3] = [4.0, 8.0, 16.0];
 
 /// Where a tip touches an organ, and how the organ is shaped there.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,6 +53,9 @@ pub struct LocalContact {
     pub radius: f64,
     /// Radius of a hemisphere of the organ's volume [m].
     pub organ_radius: f64,
+    /// Distance along the inward normal to where the organ is held [m], infinite for a half-space; asked for
+    /// without calibration only.
+    pub thickness: f64,
 }
 
 /// How a contact answers.
@@ -62,12 +74,14 @@ impl FiniteSphereModel {
     /// The model for a tissue `law` under tips with the bond `bond`.
     ///
     /// # Errors
-    /// When the number of particles is out of range, or they do not determine a displacement.
+    /// When the number of particles is out of range, they do not determine a displacement, or a setting or
+    /// a tip that sticks is asked for that the model without calibration does not have.
     pub fn new(
         settings: FiniteSphereSettings,
         law: &LinearElastic,
         bond: Bond,
     ) -> Result<Self, Error> {
+        check_uncalibrated(&settings, bond)?;
         let layout = Layout::new(settings.particles)?;
         let quadrature = Quadrature::new(settings.integration, layout.shells);
         let solved = LinearElastic::new(
@@ -96,7 +110,15 @@ impl FiniteSphereModel {
             calibration,
             reuse: None,
             source: None,
+            uncalibrated: None,
         };
+        if settings.calibration != Fit::Fitted {
+            let enriched = settings.calibration == Fit::None;
+            let uncalibrated =
+                Uncalibrated::new(&model.layout, settings.integration, law, enriched);
+            model.uncalibrated = Some(uncalibrated);
+            return Ok(model);
+        }
         // α < 0, NaN or a tip wider than the shells: the equations do not hold a displacement.
         let alpha = model.calibration.radius_in_spacings;
         if !(alpha > 0.05 && alpha < 1.5) {
@@ -120,7 +142,11 @@ impl FiniteSphereModel {
 
     /// Fresh scratch for this model.
     pub fn workspace(&self) -> FiniteSphereWorkspace {
-        FiniteSphereWorkspace::new(&self.settings, &self.layout, &self.quadrature)
+        let mut workspace =
+            FiniteSphereWorkspace::new(&self.settings, &self.layout, &self.quadrature);
+        let own = self.uncalibrated.as_ref().map(Uncalibrated::workspace);
+        workspace.uncalibrated = own.map(Box::new);
+        workspace
     }
 
     /// Distance between shells [m] for a touching area of `radius` [m]: h = a/α.
@@ -130,17 +156,26 @@ impl FiniteSphereModel {
 
     /// Radius of the held shell [m] for a touching area of `radius` [m].
     pub fn held_radius(&self, radius: f64) -> f64 {
-        self.spacing(radius) * self.layout.shells as f64
+        match self.uncalibrated {
+            Some(_) => UNCALIBRATED_RADII[0] * radius,
+            None => self.spacing(radius) * self.layout.shells as f64,
+        }
     }
 
     /// Beyond this distance [m] from the contact nothing is shown to move.
     pub fn shown_radius(&self, radius: f64) -> f64 {
-        SHOWN * self.held_radius(radius)
+        match self.uncalibrated {
+            Some(_) => UNCALIBRATED_RADII[2] * radius,
+            None => SHOWN * self.held_radius(radius),
+        }
     }
 
     /// Number of integration points.
     pub fn integration_points(&self) -> usize {
-        self.quadrature.count()
+        match &self.uncalibrated {
+            Some(own) => own.integration_points(),
+            None => self.quadrature.count(),
+        }
     }
 
     /// α = a/h [-], from the half-space (see the table in `exterior`).
@@ -150,7 +185,7 @@ impl FiniteSphereModel {
 
     /// Whether the tissue's Poisson's ratio lies beyond what the model is calibrated for.
     pub fn is_extrapolated(&self) -> bool {
-        self.ratio_of_half_spaces[1] != 1.0
+        self.uncalibrated.is_none() && self.ratio_of_half_spaces[1] != 1.0
     }
 
     /// Places the particles of `contact`, solves, and answers its stiffness.
@@ -176,6 +211,9 @@ impl FiniteSphereModel {
     /// The first half of [`Self::respond`], for measuring its parts: places the particles and makes the
     /// equations.
     pub fn assemble(&self, contact: &LocalContact, workspace: &mut FiniteSphereWorkspace) {
+        if let (Some(own), Some(scratch)) = (&self.uncalibrated, &mut workspace.uncalibrated) {
+            return own.assemble(contact, scratch);
+        }
         let spacing = self.spacing(contact.radius);
         let cap = CapShape::new(contact.curvature * spacing, self.layout.shells);
         match &self.source {
@@ -189,6 +227,16 @@ impl FiniteSphereModel {
 
     /// The second half of [`Self::respond`]: solves what [`Self::assemble`] made.
     pub fn solve(&self, contact: &LocalContact, workspace: &mut FiniteSphereWorkspace) -> Response {
+        if let (Some(own), Some(scratch)) = (&self.uncalibrated, &mut workspace.uncalibrated) {
+            let mut stiffness = Matrix3::zeros();
+            stiffness[(2, 2)] = own.solve(contact.radius, scratch);
+            return Response {
+                stiffness,
+                limits: Limits::NONE,
+                share: [0.0; 2],
+                spacing: contact.radius,
+            };
+        }
         workspace.solve();
         let mut response = self.correct(contact, &workspace.solution);
         if let Some(reached) = workspace.not_converged() {
@@ -209,6 +257,13 @@ impl FiniteSphereModel {
         let mut tip = contact.frame.tr_mul(tip);
         if self.bond == Bond::Slip {
             (tip.x, tip.y) = (0.0, 0.0);
+        }
+        if let (Some(own), Some(scratch)) = (&self.uncalibrated, &mut workspace.uncalibrated) {
+            let local = contact.frame.tr_mul(&(x - contact.point)) / contact.radius;
+            let [_, from, to] = UNCALIBRATED_RADII;
+            let shown = fade((local.norm() - from) / (to - from));
+            // A unit depth is a displacement of −1 along the normal.
+            return contact.frame * own.displacement(scratch, &local) * (-tip.z * shown);
         }
         let spread = Spread {
             tip,
@@ -277,4 +332,32 @@ impl FiniteSphereModel {
             poissons_ratio: self.law.poissons_ratio(),
         }
     }
+}
+
+/// What the model without calibration does not have.
+fn check_uncalibrated(settings: &FiniteSphereSettings, bond: Bond) -> Result<(), Error> {
+    let asked = match settings {
+        FiniteSphereSettings {
+            calibration: Fit::Fitted,
+            ..
+        } => return Ok(()),
+        _ if bond == Bond::Stick => "a tip that sticks",
+        FiniteSphereSettings {
+            form: Form::Strong, ..
+        } => "the strong form",
+        FiniteSphereSettings {
+            placement: Placement::Source,
+            ..
+        } => "the source's placement",
+        FiniteSphereSettings {
+            assembly: Assembly::Reused,
+            ..
+        } => "reused equations",
+        FiniteSphereSettings {
+            solver: Solver::Gmres { .. },
+            ..
+        } => "GMRES",
+        _ => return Ok(()),
+    };
+    Err(Error::NotWithoutCalibration { asked })
 }

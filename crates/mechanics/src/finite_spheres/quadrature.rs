@@ -88,7 +88,7 @@ impl Quadrature {
 }
 
 /// Points and weights of Gauss and Legendre on [0, 1], by Newton on the polynomial.
-fn gauss_points(count: usize) -> Vec<(f64, f64)> {
+pub(super) fn gauss_points(count: usize) -> Vec<(f64, f64)> {
     let order = count as f64;
     (0..count)
         .map(|k| {

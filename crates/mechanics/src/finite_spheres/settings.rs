@@ -13,6 +13,19 @@ pub struct FiniteSphereSettings {
     pub assembly: Assembly,
     /// How finely they are integrated.
     pub integration: Integration,
+    /// What makes a force of their solution.
+    pub calibration: Calibration,
+}
+
+/// What makes a force of the particles' solution.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Calibration {
+    /// Spacing and exterior are fitted, so that a half-space and hemispheres have their known force.
+    Fitted,
+    /// Nothing is fitted; each sphere carries the field of a punch beside its polynomials.
+    None,
+    /// Nothing is fitted, and spheres carry polynomials alone: what the particles do by themselves.
+    ParticlesAlone,
 }
 
 /// How the equations are made.
@@ -75,6 +88,7 @@ impl Default for FiniteSphereSettings {
             solver: Solver::Direct,
             assembly: Assembly::EveryStep,
             integration: Integration::Standard,
+            calibration: Calibration::Fitted,
         }
     }
 }

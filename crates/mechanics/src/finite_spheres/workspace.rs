@@ -4,6 +4,7 @@ use super::settings::{FiniteSphereSettings, Form, Solver};
 use super::shape_function::ShapeFunctions;
 use super::solution::{Partition, Solution, Solved};
 use super::strong_form::StrongForm;
+use super::uncalibrated::UncalibratedWorkspace;
 use super::weak_form::{self, WeakForm};
 use crate::linear::gmres::Gmres;
 use crate::{LinearElastic, Reached};
@@ -16,6 +17,8 @@ pub struct FiniteSphereWorkspace {
     gmres: Option<(Gmres, f64)>,
     cap: CapShape,
     solved: Solved,
+    /// Of a model that is not calibrated.
+    pub(super) uncalibrated: Option<Box<UncalibratedWorkspace>>,
 }
 
 enum Equations {
@@ -52,6 +55,7 @@ impl FiniteSphereWorkspace {
             gmres,
             cap: CapShape::FLAT,
             solved: Solved::Directly,
+            uncalibrated: None,
         }
     }
 

@@ -251,6 +251,7 @@ fn ratios_over(
                 triangle,
                 radius,
                 organ_radius: (1.5 * volume / std::f64::consts::PI).cbrt(),
+                thickness: (1.5 * volume / std::f64::consts::PI).cbrt(),
             };
             source.respond(&contact, &mut other).stiffness[(2, 2)]
                 / template.respond(&contact, &mut one).stiffness[(2, 2)]

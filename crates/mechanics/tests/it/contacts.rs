@@ -44,6 +44,7 @@ pub(crate) fn bare_contact(curvature: Vector3<f64>, radius: f64, organ: f64) -> 
         triangle: TriangleId(0),
         radius,
         organ_radius: organ,
+        thickness: organ,
     }
 }
 
@@ -79,6 +80,7 @@ pub(crate) fn contact_near(
         triangle: nearest.triangle,
         radius,
         organ_radius: (1.5 * surface.mesh().volume() / PI).cbrt(),
+        thickness: (1.5 * surface.mesh().volume() / PI).cbrt(),
     }
 }
 

@@ -47,5 +47,6 @@ mod thin_patch;
 mod tip_field;
 mod tip_tangent;
 mod tube;
+mod uncalibrated;
 mod uniaxial;
 mod unsound;

@@ -39,6 +39,7 @@ pub(super) fn contact(radius: f64) -> Result<LocalContact, Failure> {
         triangle: nearest.triangle,
         radius,
         organ_radius: RADIUS,
+        thickness: RADIUS,
     })
 }
 
