@@ -1,4 +1,5 @@
-//! Haptic devices that users own, each behind [`palpate_servo::Device`], stand-ins for them, and a server that shows
+//! Haptic devices that users own, each behind [`palpate_servo::Device`], force sensors ([`force_sensor`]), stand-ins for
+//! them, and a server that shows
 //! what is touched to the programs of an operating room ([`openigtlink`]).
 //!
 //! ```text
@@ -19,6 +20,7 @@
 
 mod error;
 pub mod force_dimension;
+pub mod force_sensor;
 mod found;
 pub mod haply;
 mod kind;

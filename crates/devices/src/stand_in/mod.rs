@@ -5,12 +5,16 @@
 //!
 //! *Limits*: they were written from documents. A driver that gets along with them was not tried on hardware.
 
+mod daq;
 mod haply;
 mod library;
 mod misbehaviour;
+mod net_ft;
 mod robot;
 
+pub use daq::DaqStandIn;
 pub use haply::{HaplyStandIn, HaplyStandInSettings, StandInGrip};
 pub use library::StandInLibrary;
 pub use misbehaviour::Misbehaviour;
+pub use net_ft::{NetFtFault, NetFtStandIn};
 pub use robot::StandInClock;

@@ -6,6 +6,7 @@
     reason = "tests may unwrap, and print what they measured"
 )]
 
+mod force_sensors;
 mod hands;
 mod haply;
 mod haply_faults;
