@@ -7,14 +7,18 @@
 //!
 //! *Limits*: they were written from documents. A driver that gets along with them was not tried on hardware.
 
+mod daq;
 mod haply;
 mod library;
 mod mechanics;
 mod misbehaviour;
+mod net_ft;
 mod robot;
 
+pub use daq::DaqStandIn;
 pub use haply::{HaplyStandIn, HaplyStandInSettings, StandInGrip};
 pub use library::StandInLibrary;
 pub use mechanics::Mechanics;
 pub use misbehaviour::Misbehaviour;
+pub use net_ft::{NetFtFault, NetFtStandIn};
 pub use robot::StandInClock;

@@ -103,4 +103,60 @@ pub enum OpenError {
         /// Which one is asked for, from one on.
         wanted: usize,
     },
+    /// Nobody said where a force sensor is.
+    #[error("nobody said where the force sensor is; set {variable}, as in {variable}={example}")]
+    NoSensorPlace {
+        /// The variable of the environment that says it.
+        variable: &'static str,
+        /// What it may be.
+        example: &'static str,
+    },
+    /// The address of a force sensor is no address.
+    #[error(
+        "{found:?} is no address of a force sensor; write HOST or HOST:PORT in PALPATE_NET_FT, as in 192.168.1.1"
+    )]
+    NoSensorAddress {
+        /// What was given.
+        found: String,
+    },
+    /// A force sensor does not answer.
+    #[error(
+        "no force sensor answers at {place} ({cause}); connect it and switch it on, or say where it is"
+    )]
+    NoSensor {
+        /// Where it was looked for.
+        place: String,
+        /// What the system said.
+        cause: io::Error,
+    },
+    /// The library of NI-DAQmx is not there.
+    #[error(
+        "the library of NI-DAQmx is not there: no {names} can be loaded ({cause}); install NI-DAQmx, or say with PALPATE_NIDAQMX where it is"
+    )]
+    NoSensorLibrary {
+        /// What was looked for.
+        names: String,
+        /// What the system said.
+        cause: String,
+    },
+    /// The library of NI-DAQmx is another one.
+    #[error(
+        "{library} is no library of NI-DAQmx, for it has no function {function}; say with PALPATE_NIDAQMX where that is"
+    )]
+    NoSensorFunction {
+        /// Its file.
+        library: String,
+        /// What it has not.
+        function: &'static str,
+    },
+    /// The library of NI-DAQmx does not read.
+    #[error(
+        "NI-DAQmx does not read the force sensor and reports {what} ({code}); compare `channels`, `rate_hz` and `range_v` with the device"
+    )]
+    SensorLibrary {
+        /// The library's own number for it.
+        code: i32,
+        /// What it said.
+        what: String,
+    },
 }

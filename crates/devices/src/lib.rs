@@ -1,5 +1,5 @@
-//! Haptic devices that users own, each behind [`palpate_servo::Device`], and a server that shows what is touched to the
-//! programs of an operating room ([`openigtlink`]).
+//! Haptic devices that users own, each behind [`palpate_servo::Device`], force sensors ([`force_sensor`]), and a server
+//! that shows what is touched to the programs of an operating room ([`openigtlink`]).
 //!
 //! ```text
 //!  our thread ────────▶ ServoLoop ─exchange▶ HaplyDevice ─── WebSocket, one message each way ──▶ Inverse Service
@@ -20,6 +20,7 @@
 
 mod error;
 pub mod force_dimension;
+pub mod force_sensor;
 mod found;
 pub mod haply;
 mod kind;

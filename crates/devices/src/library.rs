@@ -6,19 +6,20 @@ use std::path::Path;
 use crate::{Kind, OpenError};
 
 /// A library that stays loaded to the end of the program: its threads may outlive whoever opened it.
-pub(crate) struct Library {
+pub(crate) struct Loaded {
     loaded: &'static libloading::Library,
-    kind: Kind,
     name: String,
 }
 
-impl Library {
+/// What was looked for, and what the system said.
+pub(crate) struct NotLoaded {
+    pub(crate) names: String,
+    pub(crate) cause: String,
+}
+
+impl Loaded {
     /// Loads the first of `names` that is there, or only `named`.
-    pub(crate) fn load(
-        kind: Kind,
-        names: &[&str],
-        named: Option<&Path>,
-    ) -> Result<Self, OpenError> {
+    pub(crate) fn load(names: &[&str], named: Option<&Path>) -> Result<Self, NotLoaded> {
         let names: Vec<OsString> = match named {
             Some(path) => vec![path.into()],
             None => names.iter().map(Into::into).collect(),
@@ -29,7 +30,6 @@ impl Library {
                 Ok(loaded) => {
                     return Ok(Self {
                         loaded: Box::leak(Box::new(loaded)),
-                        kind,
                         name: name.to_string_lossy().into_owned(),
                     });
                 }
@@ -37,11 +37,51 @@ impl Library {
             }
         }
         let names: Vec<_> = names.iter().map(|name| name.to_string_lossy()).collect();
-        Err(OpenError::NoLibrary {
-            kind,
+        Err(NotLoaded {
             names: names.join(" or "),
             cause: one_line(causes.first()),
         })
+    }
+
+    /// Its file.
+    pub(crate) fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The function `name`; none when it has no such function.
+    ///
+    /// # Safety
+    /// `F` has to be the type of a pointer to it.
+    #[allow(
+        unsafe_code,
+        reason = "the types of a library's functions are known from its documents only"
+    )]
+    pub(crate) unsafe fn function<F: Copy>(&self, name: &'static str) -> Option<F> {
+        // SAFETY: the caller vouches for the type; the library is never unloaded.
+        let found = unsafe { self.loaded.get::<F>(name.as_bytes()) };
+        found.ok().map(|symbol| *symbol)
+    }
+}
+
+/// The library of a kind of haptic devices.
+pub(crate) struct Library {
+    loaded: Loaded,
+    kind: Kind,
+}
+
+impl Library {
+    /// Loads the first of `names` that is there, or only `named`.
+    pub(crate) fn load(
+        kind: Kind,
+        names: &[&str],
+        named: Option<&Path>,
+    ) -> Result<Self, OpenError> {
+        let loaded = Loaded::load(names, named).map_err(|missing| OpenError::NoLibrary {
+            kind,
+            names: missing.names,
+            cause: missing.cause,
+        })?;
+        Ok(Self { loaded, kind })
     }
 
     /// The function `name`.
@@ -53,16 +93,13 @@ impl Library {
         reason = "the types of a library's functions are known from its documents only"
     )]
     pub(crate) unsafe fn function<F: Copy>(&self, name: &'static str) -> Result<F, OpenError> {
-        // SAFETY: dlsym and GetProcAddress give the address of whatever has that name, and the caller vouches that it is
-        // of type F. The library is leaked, so that the copied pointer stays valid.
-        let found = unsafe { self.loaded.get::<F>(name.as_bytes()) };
-        found
-            .map(|symbol| *symbol)
-            .map_err(|_| OpenError::NoFunction {
-                kind: self.kind,
-                library: self.name.clone(),
-                function: name,
-            })
+        // SAFETY: the caller vouches for the type.
+        let found = unsafe { self.loaded.function::<F>(name) };
+        found.ok_or_else(|| OpenError::NoFunction {
+            kind: self.kind,
+            library: self.loaded.name().to_owned(),
+            function: name,
+        })
     }
 }
 

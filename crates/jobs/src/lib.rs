@@ -28,6 +28,7 @@ pub mod plot;
 pub mod preparation;
 mod quantity;
 mod recordings;
+mod sideways;
 pub mod solve;
 mod watch;
 
@@ -37,6 +38,7 @@ pub use lossy::{LossyPath, lossy};
 pub use nearest::nearest;
 pub use quantity::{Scale, quantity, rounded, unit, without_unit};
 pub use recordings::{ReadRecording, Recordings, Unusable, hexadecimal};
+pub use sideways::Sideways;
 pub use watch::{Nobody, Watch};
 
 /// The version that stands in every machine-readable answer as `palpate`.

@@ -10,7 +10,7 @@ use palpate_files::{MOST_OF_TABLE, Recording, read_bytes, read_text};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-use crate::{Error, nearest};
+use crate::{Error, Sideways, nearest};
 
 /// Which recordings, and what they do not say themselves.
 #[derive(Debug, Clone, Default, Deserialize)]
@@ -41,6 +41,8 @@ pub struct ReadRecording {
     pub path: PathBuf,
     /// What it holds, from first contact on.
     pub clean: CleanRecording,
+    /// What its sensor shows besides the force along the approach; none for a sensor of one axis.
+    pub sideways: Option<Sideways>,
     /// SHA-256 of the file.
     pub digest: String,
 }
@@ -77,10 +79,11 @@ impl Recordings {
         for (path, text) in files.chain(texts) {
             at_file(&path);
             match self.one((&path, text), &said) {
-                Ok(clean) => good.push(ReadRecording {
+                Ok((clean, sideways)) => good.push(ReadRecording {
                     digest: digest(&path, text),
                     path,
                     clean,
+                    sideways,
                 }),
                 Err(reason) => bad.push(Unusable { file: path, reason }),
             }
@@ -139,7 +142,7 @@ impl Recordings {
         &self,
         (path, text): (&Path, Option<&str>),
         said: &RecordingHeader,
-    ) -> Result<CleanRecording, String> {
+    ) -> Result<(CleanRecording, Option<Sideways>), String> {
         let columns = self.columns();
         let recording = match (self.is_of_this_project(path, text), text) {
             (true, None) => Recording::read(path),
@@ -149,8 +152,13 @@ impl Recordings {
         };
         let mut recording = recording.map_err(|error| error.to_string())?;
         recording.header = recording.header.completed_by(said);
-        clean(&recording, &CleanSettings::default())
-            .map_err(|error| format!("{}: {error}", path.display()))
+        let mut clean = clean(&recording, &CleanSettings::default())
+            .map_err(|error| format!("{}: {error}", path.display()))?;
+        let sideways = Sideways::of(&recording);
+        clean
+            .doubts
+            .extend(sideways.and_then(|found| found.doubt()));
+        Ok((clean, sideways))
     }
 
     fn columns(&self) -> ForeignColumns {

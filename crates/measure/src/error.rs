@@ -60,13 +60,42 @@ pub enum Error {
     /// It was not yet looked for tissue.
     #[error("where the tissue begins is not known; approach it first")]
     NotApproached,
-    /// The indenter is at an end of where it may go.
+    /// The indenter shall go beyond where it may.
     #[error(
-        "the indenter is at {height_mm:.1} mm, an end of its way; move it the other way, or raise the limit of depth"
+        "the indenter would be at {to_mm:.1} mm {direction}, and may be from {least_mm:.1} to {most_mm:.1} mm; move it less far, or raise the limit"
     )]
-    EndOfWay {
-        /// Where it is, from where the rig began [mm].
-        height_mm: f64,
+    OutOfReach {
+        /// Along the normal of the surface, or beside it.
+        direction: &'static str,
+        /// Where it would be [mm].
+        to_mm: f64,
+        /// The least that it may be [mm].
+        least_mm: f64,
+        /// The most that it may be [mm].
+        most_mm: f64,
+    },
+    /// The indenter shall go sideways through tissue.
+    #[error(
+        "the indenter is {depth_mm:.1} mm deep in tissue and does not go sideways there; withdraw it first"
+    )]
+    InTissue {
+        /// How deep it is [mm].
+        depth_mm: f64,
+    },
+    /// A direction does not lead out of tissue that lies below.
+    #[error(
+        "a normal leads out of the tissue and a tip hangs below its device; give a direction whose z is above 0"
+    )]
+    NotUpward,
+    /// The surface is steeper than can be pressed.
+    #[error(
+        "the surface is {angle_deg:.0} degrees from the direction of the approach, beyond {limit_deg:.0}; turn the specimen, or state its normal"
+    )]
+    TooSteep {
+        /// How steep it is [degrees].
+        angle_deg: f64,
+        /// How steep it may be [degrees].
+        limit_deg: f64,
     },
     /// Nothing is under the indenter.
     #[error("no tissue was met on {way_mm:.0} mm; bring the indenter nearer")]
@@ -87,6 +116,9 @@ pub enum Error {
     /// The device, or the loop that drives it.
     #[error(transparent)]
     Device(#[from] palpate_servo::Fault),
+    /// The force sensor.
+    #[error(transparent)]
+    Sensor(#[from] palpate_servo::SensorFault),
     /// The tissue of a specimen.
     #[error(transparent)]
     Mechanics(#[from] palpate_mechanics::Error),

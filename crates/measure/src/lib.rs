@@ -7,7 +7,7 @@
 //!               └──── RigSample ◀── encoders ────────────────────────────────┘   sensor ──┘
 //! ```
 //!
-//! [`Rig`] approaches until first contact, presses one [`Course`] of a stimulus at a time and withdraws. It runs on a real
+//! [`Rig`] approaches along the surface's normal until first contact, presses one [`Course`] of a stimulus at a time and withdraws. It runs on a real
 //! clock and on a virtual one. Where there is no device, a [`VirtualSpecimen`] under a virtual PHANTOM stands
 //! for both; what is recorded of it has the sensor's steps, the encoder's steps, a heart that beats and a
 //! breath that is held. A [`live`] rig runs on a thread of its own and carries out the orders of a person.
@@ -22,6 +22,7 @@ mod noise;
 mod recorder;
 mod rig;
 mod rig_settings;
+mod sensing;
 mod sensor;
 mod specimen;
 
@@ -29,8 +30,9 @@ pub use course::Course;
 pub use error::Error;
 pub use indenter::{Indenter, Reference};
 pub use naming::{recording_name, stimulus_name};
-pub use recorder::{Recorded, Recorder};
+pub use recorder::{Axes, Recorded, Recorder};
 pub use rig::{Ended, Listener, Phase, Rig, RigSample};
-pub use rig_settings::RigSettings;
-pub use sensor::ForceSensor;
-pub use specimen::{BREATH_MOTION, Rhythm, VirtualSpecimen};
+pub use rig_settings::{NormalFrom, RigSettings};
+pub use sensing::MountedSensor;
+pub use sensor::VirtualForceSensor;
+pub use specimen::{BREATH_MOTION, Rhythm, Shape, VirtualSpecimen};

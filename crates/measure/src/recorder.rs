@@ -1,7 +1,7 @@
 use std::path::{Path, PathBuf};
 
 use palpate_files::Error;
-use palpate_files::recording::{RecordingHeader, RecordingWriter};
+use palpate_files::recording::{RecordingHeader, RecordingRow, RecordingWriter};
 
 use crate::{Ended, RigSample};
 
@@ -28,15 +28,37 @@ pub struct Recorded {
     pub cut_short: Option<String>,
 }
 
+/// The axes of a sensor.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Axes {
+    /// All six.
+    Six,
+    /// Its own alone.
+    One,
+}
+
+impl Axes {
+    /// Those of a sample.
+    pub fn of(sample: &RigSample) -> Self {
+        match sample.axes {
+            Some(_) => Self::Six,
+            None => Self::One,
+        }
+    }
+}
+
 impl Recorder {
-    /// Begins the recording at `file`, whose folder must exist.
+    /// Begins the recording at `file`, whose folder must exist, of a sensor with six axes or one.
     ///
     /// # Errors
     /// When the operating system refuses, or `header` holds what a recording cannot.
-    pub fn begin(file: &Path, header: &RecordingHeader) -> Result<Self, Error> {
+    pub fn begin(file: &Path, header: &RecordingHeader, axes: Axes) -> Result<Self, Error> {
         Ok(Self {
             file: file.to_owned(),
-            writer: RecordingWriter::create(file, header)?,
+            writer: match axes {
+                Axes::Six => RecordingWriter::create_with_axes(file, header)?,
+                Axes::One => RecordingWriter::create(file, header)?,
+            },
             first: None,
             samples: 0,
             peak: 0.0,
@@ -52,19 +74,24 @@ impl Recorder {
         self.write(row)
     }
 
-    /// What of a sample is written: time from the first [s], depth [m], force [N].
-    pub(crate) fn row(&mut self, sample: &RigSample) -> [f64; 3] {
+    /// What of a sample is written, with its time from the first.
+    pub(crate) fn row(&mut self, sample: &RigSample) -> RecordingRow {
         let begun = *self.first.get_or_insert(sample.time);
         // To the microsecond, which is what a clock can say.
-        let time = (1e6 * (sample.time - begun)).round() / 1e6;
-        [time, sample.depth.unwrap_or_default(), sample.force]
+        let time_s = (1e6 * (sample.time - begun)).round() / 1e6;
+        RecordingRow {
+            time_s,
+            depth_m: sample.depth.unwrap_or_default(),
+            force_n: sample.force,
+            axes: sample.axes.map(|axes| axes.components()),
+        }
     }
 
     /// Writes a row.
-    pub(crate) fn write(&mut self, row: [f64; 3]) -> Result<(), Error> {
+    pub(crate) fn write(&mut self, row: RecordingRow) -> Result<(), Error> {
         self.writer.write(row)?;
         self.samples += 1;
-        self.peak = self.peak.max(row[2]);
+        self.peak = self.peak.max(row.force_n);
         Ok(())
     }
 

@@ -1,5 +1,7 @@
 mod by_hand;
+mod line;
 mod motions;
+mod normal;
 mod on_device;
 mod sample;
 
@@ -9,13 +11,16 @@ use std::sync::{Arc, OnceLock};
 use palpate_files::recording::RecordingHeader;
 use palpate_servo::dynamics::{Imperfections, Machine};
 use palpate_servo::{
-    Clock, Controller, Device, Fault, Limits, MECHANICS_STEP, ServoLoop, ServoSettings, Stage,
-    SteppedLoop, Supervisor, Vec3, VirtualPhantom, latest,
+    Clock, Controller, Device, Fault, ForceTorque, Limits, MECHANICS_STEP, ServoLoop,
+    ServoSettings, Stage, SteppedLoop, Supervisor, Vec3, VirtualPhantom, latest,
 };
 
 pub use sample::{Ended, Listener, Phase, RigSample};
 
-use crate::{Course, Error, ForceSensor, Indenter, Reference, RigSettings, VirtualSpecimen};
+use line::Line;
+
+use crate::sensing::{Sensing, Source};
+use crate::{Course, Error, Indenter, Reference, RigSettings, VirtualForceSensor, VirtualSpecimen};
 
 /// Samples that a device with a scheduler may be ahead of the rig.
 const LOG: usize = 64;
@@ -27,11 +32,14 @@ pub struct Rig {
     servo: SteppedLoop,
     clock: Clock,
     reference: latest::Sender<Reference>,
-    felt: latest::Receiver<f64>,
-    sensor: ForceSensor,
+    sensing: Sensing,
     breath_held: Arc<AtomicBool>,
     time: f64,
+    /// Where it approaches, presses and withdraws.
+    line: Line,
+    /// Where on it the indenter shall be [m].
     aim: f64,
+    /// Where on it the tissue begins [m].
     contact: Option<f64>,
     /// Height to which it withdraws before there was a contact [m].
     retreat: f64,
@@ -58,47 +66,68 @@ impl Rig {
         settings: RigSettings,
         (clock, seed): (Clock, u64),
     ) -> Result<Self, Error> {
-        let header = specimen.header.clone();
-        let breath_held = specimen.breath_held();
-        let (mut feel, felt) = latest::channel(&0.0);
+        settings.check_direction()?;
         let mut specimen = specimen;
+        specimen.indenter_axis = settings.indenter_axis.normalize();
+        let (header, breath_held) = (specimen.header.clone(), specimen.breath_held());
+        let (mut feel, felt) = latest::channel(&ForceTorque::zero());
         let touch = move |time: f64, place: &Vec3, _: &Vec3| {
-            let force = specimen.force(time, place.z, MECHANICS_STEP);
-            feel.send(force);
-            Vec3::z() * force
+            let on_tip = specimen.touch(time, place, MECHANICS_STEP);
+            feel.send(on_tip);
+            on_tip.force
         };
         let device = VirtualPhantom::with_axes(machine, &Vec3::zeros(), imperfections)
             .touched_by(Box::new(touch));
         let (indenter, reference) = Indenter::new(settings.gains, Reference::at_rest());
-        let driven = (Box::new(device) as Box<dyn Device>, Box::new(indenter) as _);
-        let of_specimen = (header, breath_held, felt);
-        Self::new(driven, of_specimen, reference, settings, (clock, seed))
+        Self::new(Parts {
+            device: Box::new(device),
+            controller: Box::new(indenter),
+            reference,
+            sensor: Source::Virtual {
+                sensor: VirtualForceSensor::nano17(seed),
+                felt,
+                tip_distance: settings.tip_distance,
+            },
+            header,
+            breath_held,
+            settings,
+            clock,
+        })
     }
 
-    fn new(
-        (device, controller): (Box<dyn Device>, Box<dyn Controller>),
-        (header, breath_held, felt): (RecordingHeader, Arc<AtomicBool>, latest::Receiver<f64>),
-        reference: latest::Sender<Reference>,
-        settings: RigSettings,
-        (clock, seed): (Clock, u64),
-    ) -> Result<Self, Error> {
+    fn new(parts: Parts) -> Result<Self, Error> {
+        let Parts {
+            header, settings, ..
+        } = parts;
         let of_loop = ServoSettings {
             period: settings.period,
             limits: Some(limits(&settings)),
             log: LOG,
             ..ServoSettings::default()
         };
-        let (servo, reader) = ServoLoop::new(device, controller, of_loop)?;
+        let (servo, reader) = ServoLoop::new(parts.device, parts.controller, of_loop)?;
+        let axis = settings.indenter_axis.normalize();
+        let mut sensing = Sensing::new(parts.sensor, &axis);
+        sensing.begin_zero((ZEROING / settings.period) as usize);
+        let header = RecordingHeader {
+            force_sensor: Some(sensing.name()),
+            indenter_axis: Some(axis.into()),
+            tip_distance_m: sensing.tip_distance(),
+            ..header
+        };
         Ok(Self {
             settings,
             header,
-            servo: SteppedLoop::new(servo, reader.log, clock)?,
-            clock,
-            reference,
-            felt,
-            sensor: ForceSensor::nano17(seed),
-            breath_held,
+            servo: SteppedLoop::new(servo, reader.log, parts.clock)?,
+            clock: parts.clock,
+            reference: parts.reference,
+            sensing,
+            breath_held: parts.breath_held,
             time: 0.0,
+            line: Line {
+                normal: Vec3::z(),
+                side: Vec3::zeros(),
+            },
             aim: 0.0,
             contact: None,
             retreat: 0.0,
@@ -111,14 +140,27 @@ impl Rig {
         })
     }
 
-    /// What a recording of `course` says at its top.
-    pub fn describe(&self, course: &Course, repeat: u64) -> RecordingHeader {
-        self.settings.describe(&self.header, (course, repeat))
+    /// What its recordings say of specimen, indenter and sensor.
+    pub fn header(&self) -> &RecordingHeader {
+        &self.header
     }
 
-    /// The largest force that its sensor shows [N].
+    /// Whether its sensor has six axes.
+    pub fn has_six_axes(&self) -> bool {
+        self.sensing.has_six_axes()
+    }
+
+    /// What a recording of `course` says at its top.
+    pub fn describe(&self, course: &Course, repeat: u64) -> RecordingHeader {
+        RecordingHeader {
+            approach_normal: Some(self.line.normal.into()),
+            ..self.settings.describe(&self.header, (course, repeat))
+        }
+    }
+
+    /// The largest force that its sensor shows along its axis [N].
     pub fn sensor_range(&self) -> f64 {
-        self.sensor.range
+        self.sensing.axial_range()
     }
 
     /// Asks for real-time priority for the thread that calls, which shall be the one that runs the rig.
@@ -144,26 +186,33 @@ impl Rig {
         self.breath_since = held.then_some(self.time);
     }
 
-    /// One tick toward a height [m] and speed [m/s] of the tip.
+    /// One tick toward a height [m] and speed [m/s] of the tip along the normal.
     fn tick(&mut self, phase: Phase, [height, speed]: [f64; 2]) -> Result<RigSample, Error> {
+        self.tick_with(phase, height, self.line.normal * speed)
+    }
+
+    /// One tick toward a height [m] on its line with a velocity [m/s].
+    fn tick_with(&mut self, phase: Phase, height: f64, velocity: Vec3) -> Result<RigSample, Error> {
         self.aim = height;
-        let sample = self.exchange(
-            phase,
-            Reference {
-                position: Vec3::z() * height,
-                velocity: Vec3::z() * speed,
-                driven: true,
-            },
-        )?;
+        let reference = Reference {
+            position: self.line.at(height),
+            velocity,
+            driven: true,
+        };
+        let sample = self.exchange(phase, reference)?;
         if let Some(fault) = self.fault() {
             return Err(fault.into());
         }
         if phase == Phase::Withdrawing {
             return Ok(sample);
         }
-        if sample.force > self.settings.force_limit {
+        if let Some(fault) = sample.sensor_fault {
+            return Err(fault.into());
+        }
+        let force = sample.largest_force();
+        if force > self.settings.force_limit {
             return Err(Error::TooMuchForce {
-                force: sample.force,
+                force,
                 limit: self.settings.force_limit,
             });
         }
@@ -189,16 +238,22 @@ impl Rig {
         self.time += self.settings.period;
         let seen = seen.inspect_err(|fault| self.stage = Stage::Faulted(*fault))?;
         self.stage = seen.stage;
-        let height = match self.is_real {
-            true => seen.state.position.y - self.rest.get().map_or(0.0, |rest| rest.y),
-            false => seen.state.position.z,
+        self.sensing.read();
+        let position = match self.is_real {
+            true => on_device::upright(&(seen.state.position - self.rest.get().copied().unwrap_or_default())),
+            false => seen.state.position,
         };
+        let height = self.line.height(&position);
         Ok(RigSample {
             time,
             phase,
             height,
             depth: self.contact.map(|contact| contact - height),
-            force: self.sensor.read(*self.felt.latest()),
+            force: self.sensing.force_in_rig().dot(&self.line.normal),
+            position,
+            normal: self.line.normal,
+            axes: self.sensing.has_six_axes().then_some(self.sensing.last),
+            sensor_fault: self.sensing.fault,
             breath: self.breath_since.map(|since| time - since),
             waited: self.waited,
         })
@@ -217,6 +272,22 @@ impl Rig {
         lateness
     }
 }
+
+/// What a rig is made of.
+struct Parts {
+    device: Box<dyn Device>,
+    controller: Box<dyn Controller>,
+    reference: latest::Sender<Reference>,
+    sensor: Source,
+    /// What recordings say of the specimen and the indenter.
+    header: RecordingHeader,
+    breath_held: Arc<AtomicBool>,
+    settings: RigSettings,
+    clock: Clock,
+}
+
+/// Time over which the zero of the sensor is taken [s].
+const ZEROING: f64 = 0.5;
 
 fn limits(settings: &RigSettings) -> Limits {
     Limits {

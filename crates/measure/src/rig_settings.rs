@@ -1,6 +1,15 @@
-use palpate_servo::PidGains;
+use palpate_servo::{PidGains, Vec3};
 
 use crate::{Course, Error};
+
+/// How the normal of a surface is known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum NormalFrom {
+    /// Somebody said it.
+    Stated,
+    /// The surface is touched around the place.
+    ByTouch,
+}
 
 /// What may be chosen about a rig.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,6 +29,14 @@ pub struct RigSettings {
     /// How far up breath moves the tissue [m]: so much higher it waits, and a stimulus begins when the held tissue
     /// is at rest. Zero for what does not breathe.
     pub breath_motion: f64,
+    /// How far sideways it may go from where the rig began [m].
+    pub lateral_limit: f64,
+    /// The direction from the tip to the device, in the rig's axes [-].
+    pub indenter_axis: Vec3,
+    /// From the origin of a virtual sensor to the tip [m].
+    pub tip_distance: f64,
+    /// How far from a place the surface is touched to measure its normal [m].
+    pub probe_distance: f64,
     /// How fast it is moved by hand [m/s].
     pub jog_speed: f64,
     /// How fast it leaves the tissue [m/s].
@@ -46,6 +63,10 @@ impl Default for RigSettings {
             approach_way: 0.030,
             clearance: 0.002,
             breath_motion: 0.0,
+            lateral_limit: 0.030,
+            indenter_axis: Vec3::z(),
+            tip_distance: 0.040,
+            probe_distance: 0.005,
             jog_speed: 0.005,
             withdrawal_speed: 0.02,
             force_limit: 2.0,
@@ -72,6 +93,59 @@ impl RigSettings {
         let down = self.breath_motion / self.withdrawal_speed;
         let way = (self.clearance - STANDOFF).abs() / self.approach_speed;
         self.calm() + down + way + LEAD + STANDOFF / speed + course.duration()
+    }
+
+    /// Whether the indenter hangs from its device.
+    ///
+    /// # Errors
+    /// When it does not.
+    pub(crate) fn check_direction(&self) -> Result<(), Error> {
+        let axis = self.indenter_axis;
+        match axis.norm().is_normal() && axis.z > 0.0 {
+            true => Ok(()),
+            false => Err(Error::NotUpward),
+        }
+    }
+
+    /// Whether a place [m] can be reached from where the rig begins, with the contacts around it if its normal is
+    /// `measured`.
+    ///
+    /// # Errors
+    /// When it cannot.
+    pub fn check_place(
+        &self,
+        place: &Vec3,
+        normal: &Vec3,
+        measured: NormalFrom,
+    ) -> Result<(), Error> {
+        let normal = normal.normalize();
+        let height = normal.dot(place);
+        let around = match measured {
+            NormalFrom::Stated => 0.0,
+            // At most, for places around it lie across the normal.
+            NormalFrom::ByTouch => self.probe_distance,
+        };
+        let sideways = (place - normal * height).norm() + around;
+        let bounds = [
+            (
+                "along the normal",
+                height,
+                -self.approach_way,
+                self.approach_way,
+            ),
+            ("sideways", sideways, 0.0, self.lateral_limit),
+        ];
+        for (direction, found, least, most) in bounds {
+            if !(found >= least && found <= most) {
+                return Err(Error::OutOfReach {
+                    direction,
+                    to_mm: 1e3 * found,
+                    least_mm: 1e3 * least,
+                    most_mm: 1e3 * most,
+                });
+            }
+        }
+        Ok(())
     }
 
     /// How long tissue takes to come to rest when a breath is held [s].

@@ -1,13 +1,15 @@
 //! Tissue that is not there.
 //!
 //! The indenter's tip is met by the force of a half-space of a law, or of a static response that was measured,
-//! which then relaxes by a Prony series. The surface moves with a heart that beats and a breath that is drawn or
-//! held.
+//! which then relaxes by a Prony series. The surface is a plane or a ball ([`Shape`]), which moves with a heart that beats
+//! and a breath that is drawn or held. What it does across its normal, and to a tip that is tilted: `touch`.
 //!
 //! *How we know*: `specimen::…`, and the chain: what `characterize` finds in its recordings is what it was made
 //! of.
 //!
-//! *Limits*: it feels the tip along its axis alone, and nothing of how the tip came there sideways.
+//! *Limits*: a tip that is dragged along the surface never slips.
+
+mod touch;
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -22,6 +24,8 @@ use palpate_mechanics::finite_elements::indentation::{
 use palpate_mechanics::{
     ForceHistory, IndentationCurve, Material, PronySeries, TipLaw, Vec3, contact,
 };
+
+pub use touch::Shape;
 
 use crate::Error;
 use crate::noise::Noise;
@@ -57,6 +61,16 @@ pub struct VirtualSpecimen {
     pub breath: Option<Rhythm>,
     /// Height of its surface at rest [m].
     pub surface: f64,
+    /// The shape of its surface.
+    pub shape: Shape,
+    /// The direction from the tip to the device, of length one [-].
+    pub(crate) indenter_axis: Vec3,
+    /// Radius of the punch [m].
+    radius: f64,
+    /// Tangential over normal stiffness of the bonded punch [-].
+    tangential: f64,
+    /// Where the tip met the surface, from the surface's point under the rig's zero [m].
+    first_contact: Option<Vec3>,
     elastic: Elastic,
     series: PronySeries,
     history: ForceHistory,
@@ -67,6 +81,8 @@ pub struct VirtualSpecimen {
 
 /// How far up a breath moves tissue that is alive [m].
 pub const BREATH_MOTION: f64 = 8e-3;
+/// Tangential over normal stiffness of a bonded punch on what does not change its volume [-]: 16/3 over 8.
+const INCOMPRESSIBLE: f64 = 2.0 / 3.0;
 /// Time in which a breath comes to rest [s].
 const BREATH_RESTS: f64 = 0.3;
 
@@ -92,7 +108,7 @@ impl VirtualSpecimen {
             law: Box::new(TipLaw::linear(tip, bond, material.at_rest)),
             stiffness: contact::half_space_stiffness(&material.at_rest, radius, bond),
         };
-        Ok(Self::named(tissue, elastic, material.prony, radius))
+        Ok(Self::named(tissue, elastic, &material, radius))
     }
 
     /// The same of a tissue whose `curve` under this punch was [solved](Self::solved) before.
@@ -100,13 +116,9 @@ impl VirtualSpecimen {
     /// # Errors
     /// When the tissue makes no material.
     pub fn of_solved(tissue: &Tissue, radius: f64, curve: IndentationCurve) -> Result<Self, Error> {
-        let series = Material::from_tissue(tissue)?.prony;
-        Ok(Self::named(
-            tissue,
-            Elastic::Response(curve),
-            series,
-            radius,
-        ))
+        let material = Material::from_tissue(tissue)?;
+        let elastic = Elastic::Response(curve);
+        Ok(Self::named(tissue, elastic, &material, radius))
     }
 
     /// Its force over depth at once, where that had to be solved.
@@ -117,8 +129,11 @@ impl VirtualSpecimen {
         }
     }
 
-    fn named(tissue: &Tissue, elastic: Elastic, series: PronySeries, radius: f64) -> Self {
-        let mut specimen = Self::new(elastic, series, radius);
+    fn named(tissue: &Tissue, elastic: Elastic, material: &Material, radius: f64) -> Self {
+        let mut specimen = Self::new(elastic, material.prony.clone(), radius);
+        let law = &material.at_rest;
+        specimen.tangential = contact::half_space_tangential_stiffness(law, radius)
+            / contact::half_space_stiffness(law, radius, Bond::Stick);
         specimen.header.organ.clone_from(&tissue.name);
         specimen
     }
@@ -145,6 +160,11 @@ impl VirtualSpecimen {
             heart: None,
             breath: None,
             surface: -0.005,
+            shape: Shape::level(),
+            indenter_axis: Vec3::z(),
+            radius,
+            tangential: INCOMPRESSIBLE,
+            first_contact: None,
             elastic,
             series,
             history: ForceHistory::default(),
@@ -152,6 +172,12 @@ impl VirtualSpecimen {
             breath_level: 0.0,
             phases: [0.0; 2],
         }
+    }
+
+    /// The same with a surface of another shape.
+    #[must_use]
+    pub fn shaped(self, shape: Shape) -> Self {
+        Self { shape, ..self }
     }
 
     /// The same with a heart of 1.5 Hz that moves it by 0.4 mm and a breath of 0.25 Hz by 8 mm, each beginning
@@ -175,21 +201,7 @@ impl VirtualSpecimen {
         self.breath_held.clone()
     }
 
-    /// The force on a tip [N], upward, with its face at `height` [m] at `time` [s], `step` [s] after the last.
-    pub fn force(&mut self, time: f64, height: f64, step: f64) -> f64 {
-        let depth = self.height(time, step) - height;
-        let elastic = match &self.elastic {
-            _ if depth <= 0.0 => 0.0,
-            Elastic::Law { law, stiffness } => law.normal_force(depth, *stiffness).force,
-            Elastic::Response(response) => response.force(depth),
-        };
-        let upward = Vec3::new(0.0, 0.0, self.factor * elastic);
-        let relaxed = self.history.advance(&self.series, upward, step).z;
-        // Tissue that has given way does not pull a tip that leaves it.
-        if depth > 0.0 { relaxed.max(0.0) } else { 0.0 }
-    }
-
-    /// Height of the surface [m].
+    /// Height of the surface under the rig's zero [m].
     fn height(&mut self, time: f64, step: f64) -> f64 {
         let turns = |rhythm: Rhythm, phase: f64| rhythm.frequency * time + phase;
         let heart = self.heart.map_or(0.0, |heart| {

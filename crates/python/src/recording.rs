@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use numpy::PyArray1;
-use palpate_files::recording::{ForeignColumns, RecordingHeader, Samples};
+use palpate_files::recording::{ForeignColumns, RecordingHeader, Samples, SensorAxes};
 use palpate_files::{MOST_OF_TABLE, Recording as Document, read_text};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple, PyType};
@@ -156,6 +156,11 @@ impl Recording {
         columns.set_item("time_s", self.time(py))?;
         columns.set_item("depth_m", self.depth(py))?;
         columns.set_item("force_n", self.force(py))?;
+        if let Some(axes) = self.recording.axes() {
+            for (name, values) in SensorAxes::COLUMNS.iter().zip(&axes.columns) {
+                columns.set_item(name, PyArray1::from_slice(py, values))?;
+            }
+        }
         for column in self.recording.extra_columns() {
             match column.numbers() {
                 Some(numbers) => columns.set_item(&column.name, PyArray1::from_vec(py, numbers))?,

@@ -20,6 +20,7 @@ mod device;
 pub mod dynamics;
 mod extrapolate;
 mod fault;
+mod force_sensor;
 mod histogram;
 pub mod latest;
 pub mod limits;
@@ -46,6 +47,7 @@ pub use device::{
 };
 pub use extrapolate::{Extrapolator, HandOver};
 pub use fault::Fault;
+pub use force_sensor::{AXIS_NAMES, ForceSensor, ForceSensorSpec, ForceTorque, SensorFault};
 pub use histogram::{Histogram, Percentiles};
 pub use limits::{CommandedForce, DeadMan, Guard, Interventions, Limits, Stage};
 pub use pid::{Pid, PidGains};

@@ -7,6 +7,7 @@
 )]
 
 mod ends;
+mod force_sensors;
 mod hands;
 mod haply;
 mod haply_faults;

@@ -75,6 +75,13 @@ impl Domain {
     /// A force in a table [N], or that of a stress on a square metre.
     pub const ANY_FORCE: Self = Self::quantity("a force", "n", [Included(-1e9), Included(1e9)]);
 
+    /// The range of a torque sensor [N m].
+    pub const TORQUE: Self =
+        Self::quantity("a torque", "n_m", [Included(1e-9), Included(1e4)]).usually(1e-4, 100.0);
+
+    /// A torque in a table [N m].
+    pub const ANY_TORQUE: Self = Self::quantity("a torque", "n_m", [Included(-1e9), Included(1e9)]);
+
     /// A modulus of tissue [Pa].
     pub const MODULUS: Self = Self::quantity(
         "a modulus of tissue",

@@ -1,12 +1,18 @@
 //! What an experimenter wants measured: specimens, stimuli, and how careful the rig is.
 
+mod place;
 mod rig;
+mod sensor;
+mod serial_line;
 mod specimen;
 mod stimulus;
 
 use std::path::Path;
 
+pub use place::{MeasuredPlace, VirtualSurface};
 pub use rig::{Gains, RigDevice, RigLimits};
+pub use sensor::{Counts, SensorKind, SensorPlan, SensorSource, Voltages};
+pub use serial_line::{SerialField, SerialLine, SerialSeparator};
 pub use specimen::{Measured, MeasuredTissue, PublishedOrgan};
 pub use stimulus::{Stimulus, StimulusPlan, Sweep};
 
@@ -18,6 +24,8 @@ use crate::{Document, Error};
 pub struct Protocol {
     /// How the rig goes about it.
     pub rig: RigLimits,
+    /// What measures the force.
+    pub sensor: SensorPlan,
     /// What is measured: one or more.
     pub specimens: Vec<Measured>,
     /// What is done to each: one or more.
@@ -26,7 +34,7 @@ pub struct Protocol {
     pub warnings: Vec<String>,
 }
 
-const KEYS: &[&str] = &["rig", "specimen", "stimulus"];
+const KEYS: &[&str] = &["rig", "sensor", "specimen", "stimulus"];
 
 impl Protocol {
     /// Reads a protocol file.
@@ -60,12 +68,24 @@ impl Protocol {
         for keys in &stimuli {
             plans.extend(StimulusPlan::from_keys(keys)?);
         }
+        let rig = RigLimits::from_keys(keys.table("rig", RigLimits::KEYS)?.as_ref())?;
+        let sensor = keys.table("sensor", SensorPlan::KEYS)?;
+        let sensor_plan = SensorPlan::from_keys(sensor.as_ref())?;
+        let is_virtual = sensor_plan.source == SensorSource::Virtual;
+        if let Some(sensor) = sensor.filter(|_| !is_virtual && rig.has_virtual_device()) {
+            return Err(sensor.bad(
+                "kind",
+                "\"virtual\", or a device in [rig] that presses what this sensor feels: a virtual one cannot",
+            ));
+        }
+        let specimen = |keys| match is_virtual {
+            true => Measured::from_keys(keys, folder),
+            false => Measured::real_from_keys(keys),
+        };
         Ok(Self {
-            rig: RigLimits::from_keys(keys.table("rig", RigLimits::KEYS)?.as_ref())?,
-            specimens: specimens
-                .iter()
-                .map(|keys| Measured::from_keys(keys, folder))
-                .collect::<Result<_, _>>()?,
+            rig,
+            sensor: sensor_plan,
+            specimens: specimens.iter().map(specimen).collect::<Result<_, _>>()?,
             stimuli: plans,
             warnings: keys.warnings(),
         })

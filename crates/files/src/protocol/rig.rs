@@ -1,3 +1,4 @@
+use super::place::upward;
 use crate::words::words;
 use crate::{Domain, Error, Keys};
 
@@ -44,6 +45,10 @@ pub struct RigLimits {
     pub gains: Option<Gains>,
     /// What carries the indenter.
     pub device: Option<RigDevice>,
+    /// How far sideways the indenter may be moved from where the rig began [m].
+    pub lateral_limit_m: Option<f64>,
+    /// The direction from the tip to the device, in the rig's axes [-].
+    pub indenter_axis: Option<[f64; 3]>,
 }
 
 impl RigLimits {
@@ -56,7 +61,14 @@ impl RigLimits {
         "recovery_s",
         "gains",
         "device",
+        "lateral_limit_m",
+        "indenter_axis",
     ];
+
+    /// Whether nothing that is there carries the indenter.
+    pub(super) fn has_virtual_device(&self) -> bool {
+        matches!(self.device, None | Some(RigDevice::Virtual))
+    }
 
     pub(super) fn from_keys(keys: Option<&Keys<'_>>) -> Result<Self, Error> {
         let Some(keys) = keys else {
@@ -71,6 +83,8 @@ impl RigLimits {
             recovery_s: keys.number("recovery_s", Domain::DURATION_OR_NONE)?,
             gains: keys.word("gains", Gains::WORDS)?,
             device: keys.word("device", RigDevice::WORDS)?,
+            lateral_limit_m: keys.number("lateral_limit_m", Domain::LENGTH)?,
+            indenter_axis: upward(keys, "indenter_axis")?,
         })
     }
 }

@@ -1,5 +1,6 @@
 use std::path::Path;
 
+use super::place::{MeasuredPlace, VirtualSurface};
 use crate::recording::Condition;
 use crate::scene::TissueChoice;
 use crate::words::words;
@@ -26,6 +27,8 @@ pub enum MeasuredTissue {
     Tissue(TissueChoice),
     /// The static response of table 5-1, and the relaxation of table 6-3.
     Published(PublishedOrgan),
+    /// What lies under a real sensor.
+    Real,
 }
 
 /// A specimen.
@@ -49,6 +52,10 @@ pub struct Measured {
     pub factor: f64,
     /// The radius, not the diameter, of the indenter [m].
     pub indenter_radius_m: f64,
+    /// Where on it, and along which direction.
+    pub place: MeasuredPlace,
+    /// The shape of a virtual one.
+    pub surface: VirtualSurface,
 }
 
 impl Measured {
@@ -64,7 +71,29 @@ impl Measured {
         "alive",
         "factor",
         "indenter_radius_m",
+        "place_m",
+        "normal",
+        "measure_normal",
+        "surface_normal",
+        "surface_radius_m",
     ];
+
+    /// One under a real sensor, which is made of nothing that a document could say.
+    pub(super) fn real_from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
+        const REAL: &str = "nothing: the specimen under a real force sensor is real";
+        let of_virtual = [
+            "tissue",
+            "builtin_tissue",
+            "published",
+            "factor",
+            "surface_normal",
+            "surface_radius_m",
+        ];
+        of_virtual
+            .iter()
+            .try_for_each(|key| keys.refuse(key, REAL))?;
+        Self::of(keys, MeasuredTissue::Real)
+    }
 
     pub(super) fn from_keys(keys: &Keys<'_>, folder: &Path) -> Result<Self, Error> {
         let published = keys.word("published", PublishedOrgan::WORDS)?;
@@ -78,6 +107,10 @@ impl Measured {
             Some(organ) => MeasuredTissue::Published(organ),
             None => MeasuredTissue::Tissue(TissueChoice::from_keys(keys, folder)?),
         };
+        Self::of(keys, tissue)
+    }
+
+    fn of(keys: &Keys<'_>, tissue: MeasuredTissue) -> Result<Self, Error> {
         Ok(Self {
             tissue,
             organ: keys.text("organ")?,
@@ -90,6 +123,8 @@ impl Measured {
             indenter_radius_m: keys
                 .number("indenter_radius_m", Domain::TIP_RADIUS)?
                 .unwrap_or(0.001),
+            place: MeasuredPlace::from_keys(keys)?,
+            surface: VirtualSurface::from_keys(keys)?,
         })
     }
 }

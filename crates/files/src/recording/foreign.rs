@@ -1,5 +1,6 @@
 use std::path::Path;
 
+use super::axes::{Reading, SensorAxes};
 use super::foreign_names::Wanted;
 use super::samples::{self, Repeated};
 use super::{Recording, RecordingHeader, foreign_table, foreign_units, stretches};
@@ -70,7 +71,13 @@ impl Recording {
         let header = RecordingHeader::from_keys(&keys)?;
         let (found, has_units) = foreign_units::columns(&table, columns)?;
         let is_unit_row = |row: &Row<'_>| has_units && foreign_units::of_row(row, &found).is_some();
-        let read = samples::read(&table, &found, is_unit_row, Repeated::LeftOut)?;
+        let axes = SensorAxes::columns_of(&table)?;
+        let reading = Reading {
+            columns: &found,
+            axes: axes.as_ref(),
+            on_repeated: Repeated::LeftOut,
+        };
+        let read = samples::read(&table, &reading, is_unit_row)?;
         let mut remarks = Vec::new();
         if wanted.iter().any(Wanted::is_recognised) {
             remarks.push(taken(&found));
@@ -84,6 +91,7 @@ impl Recording {
         Ok(Self {
             header,
             samples: read.samples,
+            axes: read.axes,
             extra_columns: read.extra_columns,
             remarks,
             is_foreign: true,

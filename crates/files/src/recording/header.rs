@@ -101,6 +101,14 @@ pub struct RecordingHeader {
     pub indenter_radius_m: Option<f64>,
     /// The angle between a cone's axis and its side [degrees].
     pub indenter_half_angle_deg: Option<f64>,
+    /// What measured the force.
+    pub force_sensor: Option<String>,
+    /// The direction out of the tissue along which the indenter was moved, in the rig's axes [-].
+    pub approach_normal: Option<[f64; 3]>,
+    /// The direction from the indenter's tip to the device, in the rig's axes [-].
+    pub indenter_axis: Option<[f64; 3]>,
+    /// From the sensor's origin, about which torques are, to the tip [m].
+    pub tip_distance_m: Option<f64>,
     /// Thickness of the specimen under the indenter [m].
     pub thickness_m: Option<f64>,
     /// Radius of a round specimen, indented in its middle [m].
@@ -156,6 +164,7 @@ impl RecordingHeader {
             condition post_mortem_s breath_held stimulus ramp_s
             amplitude_m pre_indentation_m frequency_hz end_frequency_hz sample_rate_hz
             indenter_shape indenter_radius_m indenter_half_angle_deg
+            force_sensor approach_normal indenter_axis tip_distance_m
             thickness_m specimen_radius_m specimen_width_m support density_kg_per_m3
             area_m2 height_m
             specimen inner_radius_m outer_radius_m length_m pressure_pa

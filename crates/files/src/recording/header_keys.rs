@@ -23,6 +23,10 @@ impl RecordingHeader {
         "indenter_shape",
         "indenter_radius_m",
         "indenter_half_angle_deg",
+        "force_sensor",
+        "approach_normal",
+        "indenter_axis",
+        "tip_distance_m",
         "thickness_m",
         "specimen_radius_m",
         "specimen_width_m",
@@ -60,6 +64,10 @@ impl RecordingHeader {
             indenter_shape: keys.word("indenter_shape", IndenterShape::WORDS)?,
             indenter_radius_m: number("indenter_radius_m", Domain::TIP_RADIUS)?,
             indenter_half_angle_deg: number("indenter_half_angle_deg", Domain::HALF_ANGLE)?,
+            force_sensor: keys.text("force_sensor")?,
+            approach_normal: keys.direction("approach_normal")?,
+            indenter_axis: keys.direction("indenter_axis")?,
+            tip_distance_m: number("tip_distance_m", Domain::LENGTH)?,
             thickness_m: number("thickness_m", Domain::LENGTH)?,
             specimen_radius_m: number("specimen_radius_m", Domain::LENGTH)?,
             specimen_width_m: number("specimen_width_m", Domain::LENGTH)?,
@@ -102,6 +110,9 @@ impl RecordingHeader {
     pub fn entries(&self) -> Vec<(&'static str, String)> {
         let text = |text: &Option<String>| text.as_deref().map(quoted);
         let number = |number: Option<f64>| number.map(toml_number);
+        let direction = |direction: Option<[f64; 3]>| {
+            direction.map(|along| format!("[{}]", along.map(toml_number).join(", ")))
+        };
         let values = [
             text(&self.organ),
             text(&self.subject),
@@ -121,6 +132,10 @@ impl RecordingHeader {
             self.indenter_shape.map(|word| quoted(word.word())),
             number(self.indenter_radius_m),
             number(self.indenter_half_angle_deg),
+            text(&self.force_sensor),
+            direction(self.approach_normal),
+            direction(self.indenter_axis),
+            number(self.tip_distance_m),
             number(self.thickness_m),
             number(self.specimen_radius_m),
             number(self.specimen_width_m),

@@ -1,6 +1,7 @@
 //! What was measured on a specimen: depth and force against time, and what is known of the
 //! specimen, the indenter and the stimulus.
 
+mod axes;
 mod foreign;
 mod foreign_names;
 mod foreign_table;
@@ -14,6 +15,8 @@ mod writer;
 
 use std::path::Path;
 
+use axes::Reading;
+pub use axes::{RecordingRow, SensorAxes};
 pub use foreign::ForeignColumns;
 pub use header::{Condition, IndenterShape, RecordingHeader, Specimen, StimulusKind, Support};
 use samples::Repeated;
@@ -34,6 +37,7 @@ pub struct Recording {
     /// What is known of the specimen, the indenter and the stimulus.
     pub header: RecordingHeader,
     samples: Samples,
+    axes: Option<SensorAxes>,
     extra_columns: Vec<ExtraColumn>,
     /// What was done to read the table of another program, and what deserves a warning above it.
     remarks: Vec<String>,
@@ -52,11 +56,22 @@ impl Recording {
         Ok(Self {
             header,
             samples,
+            axes: None,
             extra_columns: Vec::new(),
             remarks: Vec::new(),
             is_foreign: false,
             incomplete: None,
         })
+    }
+
+    /// The same recording with the six axes of its sensor.
+    ///
+    /// # Errors
+    /// When an axis has another number of values than the recording has samples, or one is not finite.
+    pub fn with_axes(mut self, axes: SensorAxes) -> Result<Self, Error> {
+        axes.check(self.samples.time_s.len())?;
+        self.axes = Some(axes);
+        Ok(self)
     }
 
     /// The same recording with one more column.
@@ -105,11 +120,18 @@ impl Recording {
             table.column("depth_m")?,
             table.column("force_n")?,
         ];
-        let read = samples::read(&table, &columns, |_| false, Repeated::Refused)?;
+        let axes = SensorAxes::columns_of(&table)?;
+        let reading = Reading {
+            columns: &columns,
+            axes: axes.as_ref(),
+            on_repeated: Repeated::Refused,
+        };
+        let read = samples::read(&table, &reading, |_| false)?;
         let incomplete = ended.incomplete(read.samples.time_s.len());
         Ok(Self {
             header,
             samples: read.samples,
+            axes: read.axes,
             extra_columns: read.extra_columns,
             remarks: keys.warnings(),
             is_foreign: false,
@@ -130,6 +152,11 @@ impl Recording {
     /// The forces [N].
     pub fn force_n(&self) -> &[f64] {
         &self.samples.force_n
+    }
+
+    /// The six axes of its sensor; none for a sensor of one axis.
+    pub fn axes(&self) -> Option<&SensorAxes> {
+        self.axes.as_ref()
     }
 
     /// Whether it is from a table of another program: its depth need not begin at first contact, and

@@ -1,4 +1,5 @@
-use crate::table::{Column, Row, TableText};
+use super::axes::{Reading, SensorAxes};
+use crate::table::{Row, TableText};
 use crate::{Domain, Error, units};
 
 /// The samples of a recording, column by column; all columns have one number for each sample.
@@ -90,6 +91,7 @@ impl ExtraColumn {
         };
         let taken = ["time_s", "depth_m", "force_n"]
             .into_iter()
+            .chain(SensorAxes::COLUMNS)
             .any(|name| units::matches(&self.name, name).is_some());
         if taken || self.name.is_empty() || self.name.trim() != self.name {
             let expected = "another name, without spaces at its ends";
@@ -119,29 +121,31 @@ pub(super) enum Repeated {
 #[derive(Debug, Default)]
 pub(super) struct Read {
     pub(super) samples: Samples,
+    pub(super) axes: Option<SensorAxes>,
     pub(super) extra_columns: Vec<ExtraColumn>,
     /// Rows that were left out because they repeat another.
     pub(super) repeated: usize,
 }
 
-/// The samples of a table, of which `columns` are the time, the depth and the force. Rows that
-/// `is_passed_over` are left out.
+/// The samples of a table. Rows that `is_passed_over` are left out.
 pub(super) fn read(
     table: &TableText<'_>,
-    columns: &[Column; 3],
+    reading: &Reading<'_>,
     is_passed_over: impl Fn(&Row<'_>) -> bool,
-    on_repeated: Repeated,
 ) -> Result<Read, Error> {
-    let [time, depth, force] = columns;
-    let mut read = Read::default();
-    let mut extra = extra_columns(table, columns);
+    let [time, depth, force] = reading.columns;
+    let mut read = Read {
+        axes: reading.axes.map(|_| SensorAxes::default()),
+        ..Read::default()
+    };
+    let mut extra = extra_columns(table, reading);
     let mut above: Vec<String> = Vec::new();
     let mut rows = table.rows();
     while let Some(row) = rows.next()? {
         if is_passed_over(&row) {
             continue;
         }
-        if on_repeated == Repeated::LeftOut {
+        if reading.on_repeated == Repeated::LeftOut {
             if row.fields().eq(above.iter().map(String::as_str)) {
                 read.repeated += 1;
                 continue;
@@ -155,6 +159,9 @@ pub(super) fn read(
         samples.time_s.push(time_s);
         samples.depth_m.push(row.number(depth, Domain::POSITION)?);
         samples.force_n.push(row.number(force, Domain::ANY_FORCE)?);
+        if let Some((own, columns)) = read.axes.as_mut().zip(reading.axes) {
+            own.take(&row, columns)?;
+        }
         for (index, column) in &mut extra {
             column.values.push(row.field(*index).to_owned());
         }
@@ -167,10 +174,17 @@ pub(super) fn read(
     Ok(read)
 }
 
-fn extra_columns(table: &TableText<'_>, columns: &[Column; 3]) -> Vec<(usize, ExtraColumn)> {
+fn extra_columns(table: &TableText<'_>, reading: &Reading<'_>) -> Vec<(usize, ExtraColumn)> {
     let names = table.columns().iter().enumerate();
+    let axes = reading.axes.into_iter().flatten();
+    let known: Vec<usize> = reading
+        .columns
+        .iter()
+        .chain(axes)
+        .map(|c| c.index)
+        .collect();
     names
-        .filter(|(index, name)| !name.is_empty() && columns.iter().all(|c| c.index != *index))
+        .filter(|(index, name)| !name.is_empty() && !known.contains(index))
         .map(|(index, name)| {
             let column = ExtraColumn {
                 name: name.clone(),

@@ -40,6 +40,7 @@ pub(super) fn parse(
     Ok(Some(Recording {
         header,
         samples: samples(&table, stretch, (stress, unit))?,
+        axes: None,
         extra_columns: Vec::new(),
         remarks: vec![remark],
         is_foreign: false,

@@ -1,9 +1,17 @@
 use std::fmt::{self, Write};
 use std::path::Path;
 
-use super::{Recording, RecordingHeader};
+use super::{Recording, RecordingHeader, SensorAxes};
 use crate::table::{TableText, end_mark, field, header_line};
 use crate::{Error, write_whole};
+
+/// The columns that every recording has.
+pub(super) const COLUMNS: &str = "time_s,depth_m,force_n";
+
+/// The columns of a sensor of six axes, behind the others.
+pub(super) fn axes_names() -> String {
+    format!(",{}", SensorAxes::COLUMNS.join(","))
+}
 
 impl Recording {
     /// The text of a recording file: what [`Recording::parse`] reads back to the same recording. One that was read
@@ -28,7 +36,10 @@ impl Recording {
     }
 
     fn print(&self, text: &mut String) -> fmt::Result {
-        text.push_str("time_s,depth_m,force_n");
+        text.push_str(COLUMNS);
+        if self.axes().is_some() {
+            text.push_str(&axes_names());
+        }
         for column in self.extra_columns() {
             write!(text, ",{}", field(&column.name))?;
         }
@@ -36,6 +47,9 @@ impl Recording {
         let (depth, force) = (self.depth_m(), self.force_n());
         for (sample, time) in self.time_s().iter().enumerate() {
             write!(text, "{time:?},{:?},{:?}", depth[sample], force[sample])?;
+            for value in self.axes().iter().flat_map(|axes| axes.of_sample(sample)) {
+                write!(text, ",{value:?}")?;
+            }
             for column in self.extra_columns() {
                 write!(text, ",{}", field(&column.values[sample]))?;
             }

@@ -1,7 +1,8 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use super::RecordingHeader;
+use super::write::{COLUMNS, axes_names};
+use super::{RecordingHeader, RecordingRow};
 use crate::Error;
 use crate::table::{TableWriter, header_line};
 use crate::toml_document::quoted;
@@ -19,45 +20,80 @@ pub struct RecordingWriter {
     table: TableWriter,
     /// Where the line of how it ended begins [byte].
     ended_at: usize,
+    has_axes: bool,
 }
 
 impl RecordingWriter {
-    /// Begins the recording at `path`. Its folder must exist; what `header` says of its end is not taken.
+    /// Begins the recording at `path`, of a sensor of one axis. Its folder must exist; what `header` says of its end
+    /// is not taken.
     ///
     /// # Errors
     /// When the header holds what a recording cannot, or the operating system refuses.
     pub fn create(path: impl AsRef<Path>, header: &RecordingHeader) -> Result<Self, Error> {
-        let path = path.as_ref();
+        Self::begin(path.as_ref(), header, false)
+    }
+
+    /// The same, of a sensor of six axes.
+    ///
+    /// # Errors
+    /// As for [`create`](Self::create).
+    pub fn create_with_axes(
+        path: impl AsRef<Path>,
+        header: &RecordingHeader,
+    ) -> Result<Self, Error> {
+        Self::begin(path.as_ref(), header, true)
+    }
+
+    fn begin(path: &Path, header: &RecordingHeader, has_axes: bool) -> Result<Self, Error> {
         header.check(path)?;
         let head = RecordingHeader {
             ended: None,
             ..header.clone()
         };
         let head = head.print();
+        let columns = match has_axes {
+            true => COLUMNS.to_owned() + &axes_names(),
+            false => COLUMNS.to_owned(),
+        };
         Ok(Self {
+            has_axes,
             ended_at: head.len(),
-            table: TableWriter::create(
-                path,
-                &(head + &ended_line(UNFINISHED)),
-                "time_s,depth_m,force_n",
-            )?,
+            table: TableWriter::create(path, &(head + &ended_line(UNFINISHED)), &columns)?,
         })
     }
 
-    /// Adds a sample: time [s], depth [m] and force [N].
+    /// Adds a sample.
     ///
     /// # Errors
-    /// When one is no finite number, or the operating system refuses.
-    pub fn write(&mut self, [time, depth, force]: [f64; 3]) -> Result<(), Error> {
-        if let Some(wrong) = [time, depth, force].iter().find(|value| !value.is_finite()) {
+    /// When a number is not finite, the axes are not those that it began with, or the operating system refuses.
+    pub fn write(&mut self, row: impl Into<RecordingRow>) -> Result<(), Error> {
+        let row = row.into();
+        let own = [row.time_s, row.depth_m, row.force_n];
+        let mut all = own.iter().chain(row.axes.iter().flatten());
+        let wrong = match all.find(|value| !value.is_finite()) {
+            Some(value) => Some((value.to_string(), "a finite number")),
+            None if row.axes.is_some() != self.has_axes => {
+                let found = row.axes.map_or(1, |axes| axes.len());
+                let found = format!("a force on {found} axes");
+                Some((found, "the axes of the samples before it"))
+            }
+            None => None,
+        };
+        if let Some((found, expected)) = wrong {
             return Err(Error::BadContent {
-                what: format!("a sample of the recording at {time} s"),
-                found: wrong.to_string(),
-                expected: "a finite number".into(),
+                what: format!("a sample of the recording at {} s", row.time_s),
+                found,
+                expected: expected.into(),
             });
         }
-        self.table
-            .row(|text| writeln!(text, "{time:?},{depth:?},{force:?}"))
+        let [time, depth, force] = own;
+        self.table.row(|text| {
+            write!(text, "{time:?},{depth:?},{force:?}")?;
+            for value in row.axes.iter().flatten() {
+                write!(text, ",{value:?}")?;
+            }
+            writeln!(text)
+        })
     }
 
     /// Says at its top how it `ended` (in ASCII, what is longer than its room is cut), ends it with its mark,

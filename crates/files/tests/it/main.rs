@@ -11,6 +11,7 @@ mod motion;
 mod plausible;
 mod readers;
 mod response;
+mod rig_protocol;
 mod round_trip;
 mod scene;
 mod session;

@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::analyzed::Analyzed;
 use crate::VERSION;
-use crate::{ReadRecording, Unusable};
+use crate::{ReadRecording, Sideways, Unusable};
 
 /// The machine-readable answer.
 #[derive(Debug, Serialize)]
@@ -42,6 +42,9 @@ pub struct FileAnswer {
     pub relaxation: Option<RelaxationAnswer>,
     /// The longest sine.
     pub sinusoid: Option<SinusoidAnswer>,
+    /// What the other axes of its sensor show at the largest force.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sideways: Option<Sideways>,
     /// All sines, where there are several.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     sinusoids: Vec<SinusoidAnswer>,
@@ -207,6 +210,7 @@ impl FileAnswer {
             static_response: found.holds.iter().map(StaticAnswer::of_hold).collect(),
             relaxation: found.relaxation.as_ref().map(RelaxationAnswer::of),
             sinusoid: longest.map(SinusoidAnswer::of),
+            sideways: read.sideways,
             sinusoids: if all.len() > 1 { all } else { Vec::new() },
             chirps: found.sweeps.iter().map(chirp).collect(),
         }

@@ -1,18 +1,18 @@
 use std::path::Path;
 
 use palpate_measure::{
-    Course, Ended, Recorded, Recorder, Rig, RigSample, VirtualSpecimen, recording_name,
-    stimulus_name,
+    Axes, Course, Ended, Recorded, Recorder, Rig, RigSample, recording_name, stimulus_name,
 };
+use palpate_servo::Vec3;
 
 use super::Files;
-use super::plan::Plan;
+use super::plan::{OnRig, Plan};
 use crate::{Error, Watch};
 
 /// A protocol that is carried out without a window.
 pub struct Measuring {
     plan: Plan,
-    specimens: Vec<VirtualSpecimen>,
+    specimens: Vec<OnRig>,
     /// Each with what it is called and which repetition it is.
     stimuli: Vec<(String, u64, Course)>,
     /// What deserves doubt.
@@ -49,7 +49,7 @@ impl Measuring {
         let mut names: Vec<String> = Vec::new();
         for (place, specimen) in (1..).zip(&self.specimens) {
             for (stimulus, repeat, _) in &self.stimuli {
-                let name = recording_name(&specimen.header, place, (stimulus, *repeat));
+                let name = recording_name(specimen.header(), place, (stimulus, *repeat));
                 names.push(unique(name, &names));
             }
         }
@@ -65,6 +65,9 @@ impl Measuring {
         for (place, specimen) in self.specimens.iter().enumerate() {
             let clock = self.plan.clock();
             let mut rig = self.plan.rig((specimen.clone(), place), clock)?;
+            if self.go_to_place(&mut rig, place, watch)? == Ended::Stopped {
+                return Ok(recorded);
+            }
             for ((name, repeat, course), file) in self.stimuli.iter().zip(files.by_ref()) {
                 watch.say(&file.display().to_string());
                 if watch.is_asked_to_stop() {
@@ -80,6 +83,23 @@ impl Measuring {
             }
         }
         Ok(recorded)
+    }
+}
+
+impl Measuring {
+    /// Moves to the place of a specimen, and measures the normal there if the protocol says so.
+    fn go_to_place(&self, rig: &mut Rig, place: usize, watch: &dyn Watch) -> Result<Ended, Error> {
+        let place = &self.plan.specimens[place].place;
+        let go_on = &mut |_: &RigSample| !watch.is_asked_to_stop();
+        let there = rig.go_to(&Vec3::from(place.place_m), go_on);
+        if there.map_err(Error::failed)? == Ended::Stopped || !place.measure_normal {
+            return Ok(match watch.is_asked_to_stop() {
+                true => Ended::Stopped,
+                false => Ended::Whole,
+            });
+        }
+        watch.say("measuring the normal of the surface");
+        rig.measure_normal(go_on).map_err(Error::failed)
     }
 }
 
@@ -108,7 +128,11 @@ fn record(
             return Ok(None);
         }
     }
-    let mut recorder = Recorder::begin(file, &rig.describe(course, repeat))?;
+    let axes = match rig.has_six_axes() {
+        true => Axes::Six,
+        false => Axes::One,
+    };
+    let mut recorder = Recorder::begin(file, &rig.describe(course, repeat), axes)?;
     let mut unwritten = None;
     let ended = rig.press(course, &mut |sample| {
         unwritten = recorder.take(sample).err();

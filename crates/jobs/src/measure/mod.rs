@@ -5,12 +5,13 @@ mod files;
 mod kept;
 mod measuring;
 mod plan;
+mod sensor;
 mod specimen;
 
 pub use answer::Answer;
 pub use files::{Files, Out, files, folder};
 pub use measuring::Measuring;
-pub use plan::Plan;
+pub use plan::{OnRig, Plan};
 
 /// What is measured without a protocol, with every key explained.
 pub const DEFAULT: &str = include_str!("protocol.toml");

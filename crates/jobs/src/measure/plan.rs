@@ -1,10 +1,14 @@
 use palpate_devices::{Kind, Places};
 use palpate_files::Protocol;
 use palpate_files::protocol::{Gains, Measured, RigDevice, RigLimits, Stimulus};
-use palpate_measure::{BREATH_MOTION, Course, Rig, RigSettings, VirtualSpecimen, stimulus_name};
+use palpate_files::recording::RecordingHeader;
+use palpate_measure::{
+    BREATH_MOTION, Course, NormalFrom, Rig, RigSettings, VirtualSpecimen, stimulus_name,
+};
 use palpate_servo::dynamics::{Imperfections, Machine, TwoMass};
-use palpate_servo::{Clock, Device, MECHANICS_STEP, PidGains};
+use palpate_servo::{Clock, Device, MECHANICS_STEP, PidGains, Vec3};
 
+use super::sensor::RealSensor;
 use super::specimen;
 use crate::Error;
 
@@ -28,7 +32,28 @@ pub struct Plan {
     pub doubts: Vec<String>,
     /// A device that is there; none for one that is not.
     device: Option<(Kind, Places)>,
+    /// A force sensor that is there; none for a virtual one.
+    sensor: Option<RealSensor>,
     seed: u64,
+}
+
+/// What lies under the indenter.
+#[derive(Debug, Clone)]
+pub enum OnRig {
+    /// A virtual specimen.
+    Virtual(Box<VirtualSpecimen>),
+    /// A real one, with what recordings say of it.
+    Real(Box<RecordingHeader>),
+}
+
+impl OnRig {
+    /// What its recordings say of it.
+    pub fn header(&self) -> &RecordingHeader {
+        match self {
+            Self::Virtual(specimen) => &specimen.header,
+            Self::Real(header) => header,
+        }
+    }
 }
 
 /// What a protocol calls a device that is there.
@@ -47,6 +72,10 @@ impl Plan {
         let breathes = protocol.specimens.iter().any(|own| own.alive);
         let settings = RigSettings {
             breath_motion: if breathes { BREATH_MOTION } else { 0.0 },
+            tip_distance: protocol
+                .sensor
+                .tip_distance_m
+                .unwrap_or(RigSettings::default().tip_distance),
             ..settings(&protocol.rig)
         };
         let mut doubts = protocol.warnings.clone();
@@ -54,10 +83,13 @@ impl Plan {
             None => None,
             Some(kind) => Some((kind, Places::from_environment().map_err(Error::input)?)),
         };
-        if let Some((kind, _)) = &device {
+        let sensor = RealSensor::of(&protocol.sensor)?;
+        if sensor.is_some() {
+            doubts.push("the drivers of force sensors were not tried on hardware".to_owned());
+        } else if let Some((kind, _)) = &device {
             doubts.push(format!(
-                "the tissue is not there and its force is displayed by `{kind}`, which has no force sensor; it was \
-                 not tried on hardware"
+                "the tissue is not there and its force is displayed by `{kind}`, without a force sensor in [sensor]; \
+                 it was not tried on hardware"
             ));
         }
         let mut stimuli = Vec::new();
@@ -84,6 +116,7 @@ impl Plan {
             stimuli,
             doubts,
             device,
+            sensor,
             seed,
         })
     }
@@ -91,6 +124,16 @@ impl Plan {
     /// Refuses, before anything moves, what goes beyond a limit; a window says it on the stimulus's button.
     pub fn check(&self) -> Result<(), Error> {
         self.open_device()?;
+        for measured in &self.specimens {
+            let place = &measured.place;
+            let [to, normal] = [place.place_m, place.normal].map(Vec3::from);
+            let from = match place.measure_normal {
+                true => NormalFrom::ByTouch,
+                false => NormalFrom::Stated,
+            };
+            let checked = self.settings.check_place(&to, &normal, from);
+            checked.map_err(Error::input)?;
+        }
         let courses = self.stimuli.iter();
         let mut checked = courses.map(|(course, _)| self.settings.check(course));
         checked.try_for_each(|one| one.map_err(Error::input))
@@ -102,8 +145,12 @@ impl Plan {
         &self,
         place: usize,
         at_step: &mut dyn FnMut(f64),
-    ) -> Result<(VirtualSpecimen, Vec<String>), Error> {
+    ) -> Result<(OnRig, Vec<String>), Error> {
         let measured = &self.specimens[place];
+        if self.sensor.is_some() {
+            let header = specimen::real(measured);
+            return Ok((OnRig::Real(Box::new(header)), Vec::new()));
+        }
         let deepest = self.stimuli.iter().map(|(course, _)| course.deepest());
         let deepest = deepest.fold(0.0, f64::max);
         let further = if measured.alive { BEATING } else { MISSED };
@@ -112,7 +159,7 @@ impl Plan {
             true => found.alive(self.seed.wrapping_add(place as u64)),
             false => found,
         };
-        Ok((found, doubts))
+        Ok((OnRig::Virtual(Box::new(found)), doubts))
     }
 
     /// The device that is there, if the protocol names one.
@@ -130,21 +177,35 @@ impl Plan {
         }
     }
 
-    /// A rig over the specimen at `place`, on `clock`.
-    pub fn rig(
-        &self,
-        (specimen, place): (VirtualSpecimen, usize),
-        clock: Clock,
-    ) -> Result<Rig, Error> {
-        if let Some(device) = self.open_device()? {
-            let seed = self.seed.wrapping_add(place as u64);
-            let rig = Rig::on(device, specimen, self.settings, (clock, seed));
-            return rig.map_err(Error::failed);
-        }
-        let machine = Machine::of_two_masses(&TwoMass::consistent(), MECHANICS_STEP);
-        let device = (machine, Imperfections::premium());
-        let seed = self.seed.wrapping_add(place as u64);
-        Rig::over(specimen, device, self.settings, (clock, seed)).map_err(Error::failed)
+    /// A rig over the specimen at `place`, on `clock`, that faces it as the protocol says.
+    pub fn rig(&self, (specimen, place): (OnRig, usize), clock: Clock) -> Result<Rig, Error> {
+        let mut rig = self.made((specimen, place), clock)?;
+        let normal = Vec3::from(self.specimens[place].place.normal);
+        rig.face(&normal).map_err(Error::input)?;
+        Ok(rig)
+    }
+
+    fn made(&self, (specimen, place): (OnRig, usize), clock: Clock) -> Result<Rig, Error> {
+        let (settings, seed) = (self.settings, self.seed.wrapping_add(place as u64));
+        let rig = match (specimen, self.open_device()?, &self.sensor) {
+            (OnRig::Virtual(specimen), Some(device), _) => {
+                Rig::on(device, *specimen, settings, (clock, seed))
+            }
+            (OnRig::Virtual(specimen), None, _) => {
+                let machine = Machine::of_two_masses(&TwoMass::consistent(), MECHANICS_STEP);
+                let device = (machine, Imperfections::premium());
+                Rig::over(*specimen, device, settings, (clock, seed))
+            }
+            (OnRig::Real(header), Some(device), Some(sensor)) => {
+                Rig::with_sensor(device, sensor.open()?, *header, settings, clock)
+            }
+            (OnRig::Real(_), ..) => {
+                return Err(Error::input(
+                    "a real specimen needs a device and a force sensor; name them in [rig] and [sensor]",
+                ));
+            }
+        };
+        rig.map_err(Error::failed)
     }
 }
 
@@ -158,6 +219,10 @@ fn settings(limits: &RigLimits) -> RigSettings {
         depth_limit: limits.depth_limit_m.unwrap_or(default.depth_limit),
         speed_limit: limits.speed_limit_m_per_s.unwrap_or(default.speed_limit),
         breath: limits.breath_s,
+        lateral_limit: limits.lateral_limit_m.unwrap_or(default.lateral_limit),
+        indenter_axis: limits
+            .indenter_axis
+            .map_or(default.indenter_axis, Vec3::from),
         recovery: limits.recovery_s.unwrap_or(default.recovery),
         gains: match limits.gains {
             Some(Gains::Gentle) => PidGains::gentle(),

@@ -1,7 +1,9 @@
 use palpate_files::protocol::{Measured, MeasuredTissue, PublishedOrgan};
+use palpate_files::recording::{IndenterShape, RecordingHeader};
 use palpate_files::{BuiltinTissue, Tissue};
-use palpate_measure::VirtualSpecimen;
+use palpate_measure::{Shape, VirtualSpecimen};
 use palpate_mechanics::{IndentationCurve, Material};
+use palpate_servo::Vec3;
 
 use super::kept;
 use crate::Error;
@@ -25,9 +27,34 @@ pub(crate) fn of(
             (specimen, [tissue.source.warnings, tissue.warnings].concat())
         }
         MeasuredTissue::Published(organ) => published(*organ, measured.indenter_radius_m)?,
+        MeasuredTissue::Real => {
+            return Err(Error::input(
+                "a real specimen is measured by a force sensor; name one in [sensor]",
+            ));
+        }
     };
     specimen.factor = measured.factor;
-    let header = &mut specimen.header;
+    specimen.shape = Shape {
+        normal: Vec3::from(measured.surface.normal).normalize(),
+        radius: measured.surface.radius_m,
+    };
+    describe(measured, &mut specimen.header);
+    specimen.header.source = Some("a virtual specimen of palpate".to_owned());
+    Ok((specimen, doubts))
+}
+
+/// What recordings say of a real specimen of a protocol.
+pub(crate) fn real(measured: &Measured) -> RecordingHeader {
+    let mut header = RecordingHeader {
+        indenter_shape: Some(IndenterShape::Flat),
+        indenter_radius_m: Some(measured.indenter_radius_m),
+        ..RecordingHeader::default()
+    };
+    describe(measured, &mut header);
+    header
+}
+
+fn describe(measured: &Measured, header: &mut RecordingHeader) {
     if measured.organ.is_some() {
         header.organ.clone_from(&measured.organ);
     }
@@ -35,8 +62,6 @@ pub(crate) fn of(
     header.weight_kg = measured.weight_kg;
     header.site.clone_from(&measured.site);
     header.condition = measured.condition;
-    header.source = Some("a virtual specimen of palpate".to_owned());
-    Ok((specimen, doubts))
 }
 
 /// An organ that answers with the mean forces of table 5-1 when it has been held, and relaxes as its built-in

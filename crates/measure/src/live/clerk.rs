@@ -1,12 +1,12 @@
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, Sender};
 
-use palpate_files::recording::RecordingHeader;
+use palpate_files::recording::{RecordingHeader, RecordingRow};
 use palpate_servo::{Fault, log};
 
 use super::console::Switches;
 use super::{Order, Told};
-use crate::{Ended, Error, Phase, Recorded, Recorder, RigSample};
+use crate::{Axes, Ended, Error, Phase, Recorded, Recorder, RigSample};
 
 /// A recording that is to be made.
 #[derive(Debug, Clone)]
@@ -34,8 +34,8 @@ pub enum News {
     Faulted(Fault),
     /// Forces are on again.
     Armed,
-    /// A recording is there, by its number, with its samples: time [s], depth [m], force [N].
-    Recorded(u64, Recorded, Vec<[f64; 3]>),
+    /// A recording is there, by its number, with its samples.
+    Recorded(u64, Recorded, Vec<RecordingRow>),
     /// A recording could not be written; the rig was stopped.
     Unwritten(Box<Unwritten>),
 }
@@ -46,8 +46,8 @@ pub enum News {
 pub struct Unwritten {
     /// What was to be recorded.
     pub commission: Commission,
-    /// Its samples: time [s], depth [m], force [N].
-    pub rows: Vec<[f64; 3]>,
+    /// Its samples.
+    pub rows: Vec<RecordingRow>,
     /// Why.
     pub error: palpate_files::Error,
 }
@@ -58,7 +58,9 @@ impl Unwritten {
     /// # Errors
     /// When the operating system refuses that, too.
     pub fn write_to(&self, file: &Path) -> Result<Recorded, palpate_files::Error> {
-        let mut recorder = Recorder::begin(file, &self.commission.header)?;
+        let has_axes = self.rows.first().is_some_and(|row| row.axes.is_some());
+        let axes = if has_axes { Axes::Six } else { Axes::One };
+        let mut recorder = Recorder::begin(file, &self.commission.header, axes)?;
         for row in &self.rows {
             recorder.write(*row)?;
         }
@@ -81,7 +83,7 @@ pub(super) struct Open {
     commission: Commission,
     /// None before its first sample: what is refused leaves no file.
     recorder: Option<Recorder>,
-    rows: Vec<[f64; 3]>,
+    rows: Vec<RecordingRow>,
 }
 
 impl Clerk {
@@ -171,8 +173,11 @@ impl Open {
         let recorder = match &mut self.recorder {
             Some(recorder) => recorder,
             None => {
-                let Commission { file, header, .. } = &self.commission;
-                self.recorder.insert(Recorder::begin(file, header)?)
+                let Commission { file, header, .. } = &mut self.commission;
+                // A normal may have been measured since it was asked for.
+                header.approach_normal = Some(sample.normal.into());
+                let begun = Recorder::begin(file, header, Axes::of(sample))?;
+                self.recorder.insert(begun)
             }
         };
         let row = recorder.row(sample);
@@ -188,6 +193,7 @@ mod tests {
     use crate::Course;
     use palpate_files::Recording;
     use palpate_files::protocol::Stimulus;
+    use palpate_servo::Vec3;
     use palpate_servo::log::Writer;
     use std::sync::mpsc::channel;
 
@@ -235,6 +241,10 @@ mod tests {
             height: -5e-3,
             depth: Some(1e-6 * f64::from(tick)),
             force: 1e-3,
+            position: Vec3::z() * -5e-3,
+            normal: Vec3::z(),
+            axes: Some(palpate_servo::ForceTorque::zero()),
+            sensor_fault: None,
             breath: None,
             waited: 0.0,
         }

@@ -1,17 +1,23 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-use palpate_servo::{Supervisor, log};
+use palpate_servo::{Supervisor, Vec3, log};
 
 use crate::Course;
 
 /// What a rig is asked to do.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Order {
-    /// To go up by so much [m], down when it is negative.
-    Jog(f64),
-    /// To go up, or down when false, for as long as the order comes again within a sixth of a second.
-    Drive(bool),
+    /// To go by so much in the rig's axes [m].
+    Jog(Vec3),
+    /// To go to a place in the rig's axes [m].
+    GoTo(Vec3),
+    /// To go along a direction in the rig's axes for as long as the order comes again within a sixth of a second.
+    Drive(Vec3),
+    /// To approach along a direction out of the tissue from now on.
+    Face(Vec3),
+    /// To touch the surface around the place, and to approach along the normal that is measured.
+    MeasureNormal,
     /// To find where the tissue begins.
     Approach,
     /// To press a course, and what number its recording has.

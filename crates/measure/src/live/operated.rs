@@ -1,4 +1,4 @@
-use palpate_servo::{Fault, log};
+use palpate_servo::{Fault, Vec3, log};
 
 use super::console::{Given, Switches};
 use super::{Console, Order};
@@ -110,8 +110,11 @@ impl Operated {
             switches.stops() == given.stops && !switches.is_ending()
         };
         let ended = match order {
-            Order::Jog(way) => rig.jog(way, &mut heard),
-            Order::Drive(up) => {
+            Order::Jog(way) => rig.jog(&way, &mut heard),
+            Order::GoTo(place) => rig.go_to(&place, &mut heard),
+            Order::Face(normal) => rig.face(&normal).map(|()| Ended::Whole),
+            Order::MeasureNormal => rig.measure_normal(&mut heard),
+            Order::Drive(direction) => {
                 let mut told_at = None;
                 rig.drive(&mut |sample| {
                     let goes_on = heard(sample);
@@ -126,10 +129,9 @@ impl Operated {
                     }
                     told_at = Some(since);
                     let held = goes_on && next.is_none() && sample.time < since + DRIVEN;
-                    match (held, up) {
-                        (false, _) => 0.0,
-                        (true, true) => 1.0,
-                        (true, false) => -1.0,
+                    match held {
+                        true => direction,
+                        false => Vec3::zeros(),
                     }
                 })
             }

@@ -1,63 +1,178 @@
 use palpate_servo::{Fault, Stage, Vec3};
 
-use super::{Ended, Listener, Phase, Reference, Rig, RigSample};
+use super::{Ended, Line, Listener, Phase, Reference, Rig, RigSample};
 use crate::Error;
 
+/// What rounding may make of a way [m].
+const ROUNDED: f64 = 1e-9;
+
 impl Rig {
-    /// Goes up by `way` [m], down when that is negative, but not beyond where it may go.
+    /// Goes straight by `way` in the rig's axes [m]. After a way that is not along the normal the contact is not known
+    /// any more.
     ///
     /// # Errors
-    /// When it is at that end already, the device fails, or the force is too large: it is withdrawn then.
-    pub fn jog(&mut self, way: f64, listener: Listener<'_>) -> Result<Ended, Error> {
-        let to = self.within_reach(self.aim + way);
-        if to == self.aim {
-            return Err(self.end_of_way());
+    /// When that ends beyond where it may go, or leads sideways through tissue, which is known before it moves; when the
+    /// device fails, or the force is too large: it is withdrawn then.
+    pub fn jog(&mut self, way: &Vec3, listener: Listener<'_>) -> Result<Ended, Error> {
+        let to = self.line.at(self.aim) + way;
+        self.check_reach(&to)?;
+        if self.leads_sideways(way) {
+            self.check_out_of_tissue()?;
         }
-        let gone = self.go((to, self.settings.jog_speed), Phase::Jogging, listener);
-        self.withdraw_unless(gone, listener)
+        self.travel(&to, Phase::Jogging, listener)
     }
 
-    /// Moves as fast as a jog, up or down as the sign of what `wanted` answers at each tick, until that is
+    /// The same, to a `place` in the rig's axes [m].
+    ///
+    /// # Errors
+    /// As for [`jog`](Self::jog).
+    pub fn go_to(&mut self, place: &Vec3, listener: Listener<'_>) -> Result<Ended, Error> {
+        let way = place - self.line.at(self.aim);
+        self.jog(&way, listener)
+    }
+
+    /// Moves as fast as a jog along what `wanted` answers at each tick, a direction in the rig's axes, until that is
     /// zero or an end is reached.
     ///
     /// # Errors
     /// As for [`jog`](Self::jog).
-    pub fn drive(&mut self, wanted: &mut dyn FnMut(&RigSample) -> f64) -> Result<Ended, Error> {
+    pub fn drive(&mut self, wanted: &mut dyn FnMut(&RigSample) -> Vec3) -> Result<Ended, Error> {
         let driven = self.drive_on(wanted);
-        self.withdraw_unless(driven, &mut |sample| wanted(sample) != 0.0)
+        self.withdraw_unless(driven, &mut |sample| wanted(sample) != Vec3::zeros())
     }
 
-    fn drive_on(&mut self, wanted: &mut dyn FnMut(&RigSample) -> f64) -> Result<Ended, Error> {
+    fn drive_on(&mut self, wanted: &mut dyn FnMut(&RigSample) -> Vec3) -> Result<Ended, Error> {
         let mut sample = self.tick(Phase::Jogging, [self.aim, 0.0])?;
         loop {
-            let direction = wanted(&sample);
-            if direction == 0.0 {
+            let Some(direction) = wanted(&sample).try_normalize(0.0) else {
                 return Ok(Ended::Whole);
+            };
+            let velocity = self.settings.jog_speed * direction;
+            let way = self.settings.period * velocity;
+            let to = self.line.at(self.aim) + way;
+            self.check_reach(&to)?;
+            if self.leads_sideways(&way) {
+                self.check_out_of_tissue()?;
+                self.forget_contact();
             }
-            let speed = self.settings.jog_speed.copysign(direction);
-            let to = self.within_reach(self.aim + speed * self.settings.period);
-            if to == self.aim {
-                return Err(self.end_of_way());
-            }
-            sample = self.tick(Phase::Jogging, [to, speed])?;
+            sample = self.tick_at(Phase::Jogging, &to, velocity)?;
         }
     }
 
-    /// The height [m] nearest to one that a hand may go to: as deep as a stimulus from a contact, else as far as
-    /// tissue is looked for.
-    fn within_reach(&self, height: f64) -> f64 {
-        let way = self.settings.approach_way;
-        let lowest = self
+    /// Straight to a place [m] that was checked; it is withdrawn when that fails.
+    pub(super) fn travel(
+        &mut self,
+        to: &Vec3,
+        phase: Phase,
+        listener: Listener<'_>,
+    ) -> Result<Ended, Error> {
+        let gone = self.travel_to(to, phase, listener);
+        self.withdraw_unless(gone, listener)
+    }
+
+    fn travel_to(
+        &mut self,
+        to: &Vec3,
+        phase: Phase,
+        listener: Listener<'_>,
+    ) -> Result<Ended, Error> {
+        let speed = self.settings.jog_speed;
+        let from = self.line.at(self.aim);
+        let way = to - from;
+        if !self.leads_sideways(&way) {
+            return self.go((self.line.height(to), speed), phase, listener);
+        }
+        self.forget_contact();
+        let ticks = (way.norm() / speed / self.settings.period).ceil().max(1.0) as u64;
+        let velocity = speed * way.normalize();
+        for tick in 1..=ticks + 1 {
+            let (part, velocity) = match tick <= ticks {
+                true => (tick as f64 / ticks as f64, velocity),
+                false => (1.0, Vec3::zeros()),
+            };
+            let sample = self.tick_at(phase, &(from + part * way), velocity)?;
+            if !listener(&sample) {
+                break;
+            }
+        }
+        self.retreat = self.retreat.max(self.aim);
+        let is_there = (self.line.at(self.aim) - to).norm() <= ROUNDED;
+        Ok(if is_there {
+            Ended::Whole
+        } else {
+            Ended::Stopped
+        })
+    }
+
+    /// One tick toward a place [m] with a velocity [m/s].
+    fn tick_at(&mut self, phase: Phase, to: &Vec3, velocity: Vec3) -> Result<RigSample, Error> {
+        self.line = Line::through(to, self.line.normal);
+        let height = self.line.height(to);
+        self.tick_with(phase, height, velocity)
+    }
+
+    /// Whether a way [m] is not along the normal.
+    fn leads_sideways(&self, way: &Vec3) -> bool {
+        let normal = self.line.normal;
+        let beside = way - normal * normal.dot(way);
+        // What is no number is refused as out of reach.
+        beside.norm() > ROUNDED * way.norm().max(1.0)
+    }
+
+    /// Sideways it goes only above the tissue.
+    pub(super) fn check_out_of_tissue(&self) -> Result<(), Error> {
+        match self.contact {
+            Some(contact) if self.aim < contact - ROUNDED => Err(Error::InTissue {
+                depth_mm: 1e3 * (contact - self.aim),
+            }),
+            _ => Ok(()),
+        }
+    }
+
+    /// Where the tissue begins is not known any more; it is withdrawn as high as before, or to where it is.
+    pub(super) fn forget_contact(&mut self) {
+        let above = self
             .contact
-            .map_or(-way, |contact| contact - self.settings.depth_limit);
-        // Where it is already is never out of reach.
-        height.clamp(lowest.min(self.aim), way.max(self.aim))
+            .take()
+            .map(|contact| contact + self.settings.clearance);
+        self.retreat = above.unwrap_or(self.retreat).max(self.aim);
     }
 
-    fn end_of_way(&self) -> Error {
-        Error::EndOfWay {
-            height_mm: 1e3 * self.aim,
+    /// Whether a hand may go to a place [m]: as deep as a stimulus from a contact, else as far as tissue is looked for.
+    ///
+    /// # Errors
+    /// When it may not.
+    pub(super) fn check_reach(&self, to: &Vec3) -> Result<(), Error> {
+        let settings = &self.settings;
+        let lowest = match self.contact {
+            Some(contact) => contact - settings.depth_limit,
+            None => -settings.approach_way,
+        };
+        let to_line = Line::through(to, self.line.normal);
+        // Where it is already is never out of reach.
+        let bounds = [
+            (
+                "along the normal",
+                self.line.height(to),
+                [lowest.min(self.aim), settings.approach_way.max(self.aim)],
+            ),
+            (
+                "sideways",
+                to_line.side.norm(),
+                [0.0, settings.lateral_limit.max(self.line.side.norm())],
+            ),
+        ];
+        for (direction, found, [least, most]) in bounds {
+            if !(found >= least - ROUNDED && found <= most + ROUNDED) {
+                return Err(Error::OutOfReach {
+                    direction,
+                    to_mm: 1e3 * found,
+                    least_mm: 1e3 * least,
+                    most_mm: 1e3 * most,
+                });
+            }
         }
+        Ok(())
     }
 
     /// Lets forces on again after a fault; until they are, the rig is [`limp`](Self::limp).
@@ -72,11 +187,12 @@ impl Rig {
     pub fn limp(&mut self, listener: Listener<'_>) -> Result<bool, Fault> {
         self.hold_breath(false);
         let reference = Reference {
-            position: Vec3::z() * self.aim,
+            position: self.line.at(self.aim),
             velocity: Vec3::zeros(),
             driven: false,
         };
         let sample = self.exchange(Phase::Limp, reference)?;
+        self.line = Line::through(&sample.position, self.line.normal);
         self.aim = sample.height;
         listener(&sample);
         Ok(self.stage == Stage::Live)

@@ -1,12 +1,9 @@
 use palpate_files::recording::RecordingHeader;
 
-use super::{Ended, Listener, Phase, Rig};
+use super::{Ended, Listener, Phase, Rig, ZEROING};
 use crate::approach::contact_height;
 use crate::rig_settings::{CALM, LEAD, STANDOFF};
 use crate::{Course, Error, RigSettings};
-
-/// Time over which the zero of the sensor is taken [s].
-const ZEROING: f64 = 0.5;
 
 /// Ticks of an approach that room is made for at once: an hour and more at 1 kHz, 64 MB.
 const MOST_ROOM: usize = 4_000_000;
@@ -44,6 +41,7 @@ impl Rig {
         let mut heights = Vec::with_capacity(room);
         let mut forces = Vec::with_capacity(room);
         let from = self.aim;
+        self.sensing.begin_zero(resting);
         for tick in 0..ticks {
             let gone = tick.saturating_sub(resting) as f64 * period;
             let speed = if tick < resting { 0.0 } else { -approach_speed };
@@ -154,12 +152,17 @@ impl Rig {
         self.withdraw_unless(waited, listener)
     }
 
-    /// Waits for one tick.
+    /// Waits for one tick. A fault of the sensor is an error once; until it is over, the indenter stays where it is.
     ///
     /// # Errors
     /// As for [`wait`](Self::wait).
     pub fn wait_one_tick(&mut self, listener: Listener<'_>) -> Result<Ended, Error> {
-        self.wait(self.settings.period, listener)
+        let was_blind = self.sensing.fault.is_some();
+        let waited = self.stay(self.settings.period, listener);
+        match waited {
+            Err(Error::Sensor(_)) if was_blind => Ok(Ended::Whole),
+            waited => self.withdraw_unless(waited, listener),
+        }
     }
 
     /// Lets the tissue rest.
@@ -180,13 +183,14 @@ impl Rig {
         Ok(Ended::Whole)
     }
 
-    /// Leaves the tissue: to the clearance above the contact, or to where it was before it looked for one.
+    /// Leaves the tissue: to the clearance above the contact, or to where it was before it looked for one; never down.
     ///
     /// # Errors
     /// When the device fails.
     pub fn withdraw(&mut self, listener: Listener<'_>) -> Result<Ended, Error> {
         let waits = self.settings.clearance + self.settings.breath_motion;
         let above = self.contact.map_or(self.retreat, |contact| contact + waits);
+        let above = above.max(self.aim);
         let speed = self.settings.withdrawal_speed;
         self.go((above, speed), Phase::Withdrawing, listener)
     }
@@ -204,7 +208,7 @@ impl Rig {
         done
     }
 
-    /// Goes straight to a height [m] with a speed [m/s].
+    /// Goes along the normal to a height [m] with a speed [m/s].
     pub(super) fn go(
         &mut self,
         (height, speed): (f64, f64),

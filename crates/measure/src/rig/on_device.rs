@@ -1,19 +1,23 @@
-//! The rig on a device that is there, over tissue that is not: the device displays the tissue's force on the tip
-//! besides what drives it.
+//! The rig on a device that is there: over tissue that is not, whose force the device displays on the tip besides what
+//! drives it, or over real tissue with a force sensor.
 //!
 //! Height is up at the device, its y, from where the handle is at first.
 //!
-//! *How we know*: `real_device::…` in the tests.
+//! *How we know*: `real_device::…` and `real_sensor::…` in the tests.
 //!
-//! *Limits*: no driver reads a force sensor, so nothing real can be measured; the force in a recording is that of the
-//! virtual tissue at the place of the real handle, with the steps and the noise of the sensor that is not there.
+//! *Limits*: over virtual tissue the force in a recording is that of the tissue at the place of the real handle, with the
+//! steps and the noise of a virtual sensor.
 
 use std::sync::{Arc, OnceLock};
 
-use palpate_servo::{Clock, Controller, Device, DeviceState, Vec3, latest};
+use palpate_files::recording::RecordingHeader;
+use palpate_servo::{
+    Clock, Controller, Device, DeviceState, ForceTorque, Vec3, latest,
+};
 
-use super::Rig;
-use crate::{Error, Indenter, Reference, RigSettings, VirtualSpecimen};
+use super::{Parts, Rig};
+use crate::sensing::{MountedSensor, Source};
+use crate::{Error, Indenter, Reference, RigSettings, VirtualForceSensor, VirtualSpecimen};
 
 impl Rig {
     /// A rig whose indenter `device` carries, over a specimen that is not there.
@@ -26,23 +30,66 @@ impl Rig {
         settings: RigSettings,
         (clock, seed): (Clock, u64),
     ) -> Result<Self, Error> {
-        let of_specimen = (specimen.header.clone(), specimen.breath_held());
-        let (feel, felt) = latest::channel(&0.0);
+        settings.check_direction()?;
+        let mut specimen = specimen;
+        specimen.indenter_axis = settings.indenter_axis.normalize();
+        let (header, breath_held) = (specimen.header.clone(), specimen.breath_held());
+        let (feel, felt) = latest::channel(&ForceTorque::zero());
         let (indenter, reference) = Indenter::new(settings.gains, Reference::at_rest());
         let pressed = Pressed {
             indenter,
             specimen,
             feel,
         };
-        let rest = Arc::<OnceLock<Vec3>>::default();
-        let upright = Upright {
-            pressed,
-            rest: rest.clone(),
-        };
-        let driven = (device, Box::new(upright) as Box<dyn Controller>);
-        let (header, breath_held) = of_specimen;
-        let of_specimen = (header, breath_held, felt);
-        let rig = Self::new(driven, of_specimen, reference, settings, (clock, seed))?;
+        let (controller, rest) = Upright::new(pressed);
+        let rig = Self::new(Parts {
+            device,
+            controller: Box::new(controller),
+            reference,
+            sensor: Source::Virtual {
+                sensor: VirtualForceSensor::nano17(seed),
+                felt,
+                tip_distance: settings.tip_distance,
+            },
+            header,
+            breath_held,
+            settings,
+            clock,
+        })?;
+        Ok(Self {
+            is_real: true,
+            rest,
+            ..rig
+        })
+    }
+
+    /// A rig whose indenter `device` carries over tissue that is there, with a sensor between them. `header` says what
+    /// recordings say of specimen and indenter. Nothing may touch the indenter for the first half second, in which the
+    /// sensor's zero is taken.
+    ///
+    /// # Errors
+    /// When a setting is out of range.
+    pub fn with_sensor(
+        device: Box<dyn Device>,
+        sensor: MountedSensor,
+        header: RecordingHeader,
+        settings: RigSettings,
+        clock: Clock,
+    ) -> Result<Self, Error> {
+        settings.check_direction()?;
+        let (indenter, reference) = Indenter::new(settings.gains, Reference::at_rest());
+        let (controller, rest) = Upright::new(indenter);
+        let rig = Self::new(Parts {
+            device,
+            controller: Box::new(controller),
+            reference,
+            sensor: Source::Real(sensor),
+            header,
+            // Who holds a real breath is told by the window.
+            breath_held: Arc::default(),
+            settings,
+            clock,
+        })?;
         Ok(Self {
             is_real: true,
             rest,
@@ -55,14 +102,14 @@ impl Rig {
 struct Pressed {
     indenter: Indenter,
     specimen: VirtualSpecimen,
-    feel: latest::Sender<f64>,
+    feel: latest::Sender<ForceTorque>,
 }
 
 impl Controller for Pressed {
     fn update(&mut self, state: &DeviceState, dt: f64) -> Vec3 {
-        let force = self.specimen.force(state.time, state.position.z, dt);
-        self.feel.send(force);
-        self.indenter.update(state, dt) + Vec3::z() * force
+        let on_tip = self.specimen.touch(state.time, &state.position, dt);
+        self.feel.send(on_tip);
+        self.indenter.update(state, dt) + on_tip.force
     }
 
     fn age(&self) -> Option<f64> {
@@ -76,32 +123,47 @@ impl Controller for Pressed {
 
 /// The axes of the rig: x right, y away from the user, z up, zero where the handle was at first. The loop, its guard and
 /// its walls keep those of the device.
-struct Upright {
-    pressed: Pressed,
+struct Upright<Inner> {
+    inner: Inner,
     /// Where the handle was at first, in the device's axes [m].
     rest: Arc<OnceLock<Vec3>>,
 }
 
-impl Controller for Upright {
+impl<Inner: Controller> Upright<Inner> {
+    fn new(inner: Inner) -> (Self, Arc<OnceLock<Vec3>>) {
+        let rest = Arc::<OnceLock<Vec3>>::default();
+        let upright = Self {
+            inner,
+            rest: rest.clone(),
+        };
+        (upright, rest)
+    }
+}
+
+/// A vector of the device in the axes of the rig.
+pub(super) fn upright(vector: &Vec3) -> Vec3 {
+    Vec3::new(vector.x, -vector.z, vector.y)
+}
+
+impl<Inner: Controller> Controller for Upright<Inner> {
     fn update(&mut self, state: &DeviceState, dt: f64) -> Vec3 {
         let rest = *self.rest.get_or_init(|| state.position);
-        let turned = |vector: Vec3| Vec3::new(vector.x, -vector.z, vector.y);
-        let upright = DeviceState {
-            position: turned(state.position - rest),
-            velocity: state.velocity.map(turned),
-            displayed: state.displayed.map(turned),
+        let turned = DeviceState {
+            position: upright(&(state.position - rest)),
+            velocity: state.velocity.map(|velocity| upright(&velocity)),
+            displayed: state.displayed.map(|force| upright(&force)),
             orientation: None,
             ..*state
         };
-        let [x, y, z] = self.pressed.update(&upright, dt).into();
+        let [x, y, z] = self.inner.update(&turned, dt).into();
         Vec3::new(x, z, -y)
     }
 
     fn age(&self) -> Option<f64> {
-        self.pressed.age()
+        self.inner.age()
     }
 
     fn overdue(&self) -> Option<f64> {
-        self.pressed.overdue()
+        self.inner.overdue()
     }
 }

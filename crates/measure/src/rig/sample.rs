@@ -1,3 +1,5 @@
+use palpate_servo::{ForceTorque, SensorFault, Vec3};
+
 /// What the rig does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Phase {
@@ -22,16 +24,38 @@ pub struct RigSample {
     pub time: f64,
     /// What it does.
     pub phase: Phase,
-    /// Height of the tip as the encoders say [m].
+    /// Height of the tip along the normal as the encoders say [m].
     pub height: f64,
     /// How deep that is from first contact [m]; none before there was one.
     pub depth: Option<f64>,
-    /// What the sensor shows [N], positive on the tissue.
+    /// What the sensor shows along the normal [N], positive on the tissue.
     pub force: f64,
+    /// The tip in the rig's axes as the encoders say [m].
+    pub position: Vec3,
+    /// The direction out of the tissue along which it approaches, in the rig's axes [-].
+    pub normal: Vec3,
+    /// What the sensor shows in the indenter's axes, about the sensor's origin; none for a sensor of one axis.
+    pub axes: Option<ForceTorque>,
+    /// Why force and axes are those of an earlier tick.
+    pub sensor_fault: Option<SensorFault>,
     /// How long the breath has been held [s]; none while it is drawn.
     pub breath: Option<f64>,
     /// How long everything has waited for the processor so far [s].
     pub waited: f64,
+}
+
+impl RigSample {
+    /// The size of all that the sensor shows as a force [N].
+    pub fn largest_force(&self) -> f64 {
+        let whole = self.axes.map_or(0.0, |axes| axes.force.norm());
+        whole.max(self.force.abs())
+    }
+
+    /// The force beside the indenter's axis [N]; none for a sensor of one axis.
+    pub fn lateral_force(&self) -> Option<f64> {
+        let axes = self.axes?;
+        Some(axes.force.x.hypot(axes.force.y))
+    }
 }
 
 /// How a stimulus ended.

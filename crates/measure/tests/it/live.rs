@@ -3,7 +3,7 @@
 
 use palpate_measure::live::{Console, Operated, Order, Told};
 use palpate_measure::{Ended, Error, Phase, RigSample, RigSettings};
-use palpate_servo::{Fault, log};
+use palpate_servo::{Fault, Vec3, log};
 
 use crate::rig::{rig, soft, usual};
 
@@ -59,8 +59,8 @@ fn orders_are_carried_out_in_their_order() {
         ..RigSettings::default()
     });
     let orders = [
-        Order::Jog(-1e-3),
-        Order::Jog(5e-4),
+        Order::Jog(-1e-3 * Vec3::z()),
+        Order::Jog(5e-4 * Vec3::z()),
         Order::Approach,
         Order::Rest,
         Order::Press(usual(), 7),
@@ -162,28 +162,87 @@ fn an_emergency_stop_is_latched_until_somebody_arms() {
     assert_eq!(out, ended(Order::Withdraw));
 }
 
-/// By hand it goes no deeper than a stimulus may, and no further than tissue is looked for.
+/// A step beyond a limit is refused before anything moves; held down it goes no deeper than a stimulus may, and up no
+/// further than tissue is looked for.
 #[test]
 fn a_jog_ends_at_the_limits() {
     let mut bench = Bench::new(RigSettings::default());
     bench.carry_out(&[Order::Approach]);
-    let mut deepest = 0.0_f64;
-    bench.console.order(Order::Jog(-1.0));
-    let mut watch = |sample: &RigSample| deepest = deepest.max(sample.depth.unwrap());
-    for _ in 0..1000 {
-        bench.operated.turn(&mut watch);
+    let before = bench.idle(10).last().unwrap().height;
+    for way in [
+        -Vec3::z(),
+        Vec3::x() * 0.031,
+        Vec3::y() * -0.031,
+        Vec3::z() * f64::NAN,
+    ] {
+        let said = bench.carry_out(&[Order::Jog(way)]);
+        assert!(
+            matches!(said[1], Told::Ended(_, Err(Error::OutOfReach { .. }))),
+            "{way:?}: {said:?}"
+        );
     }
-    // What the drive is off by at most when it comes to rest (0.034 mm), and two steps of the encoder.
-    assert!((deepest - 0.012).abs() < 1e-4, "{deepest}");
-    bench.told.drain().for_each(drop);
-    let said = bench.carry_out(&[Order::Jog(-1.0)]);
+    let after = bench.idle(10).last().unwrap().height;
+    // Two steps of the encoder.
+    assert!((after - before).abs() < 6e-5, "{before} {after}");
+    for (direction, end) in [(-1.0, 0.012), (1.0, -0.030)] {
+        let drive = Order::Drive(direction * Vec3::z());
+        let (console, mut depth) = (&mut bench.console, 0.0);
+        console.order(drive);
+        let (mut ticks, mut farthest) = (0, 0.0_f64);
+        bench.operated.turn(&mut |sample| {
+            ticks += 1;
+            if ticks % 100 == 0 {
+                console.order(drive);
+            }
+            depth = match direction > 0.0 {
+                true => -sample.height,
+                false => sample.depth.unwrap(),
+            };
+            farthest = if end > 0.0 {
+                farthest.max(depth)
+            } else {
+                farthest.min(depth)
+            };
+        });
+        let said: Vec<Told> = bench
+            .told
+            .drain()
+            .filter(|t| !matches!(t, Told::Sample(_)))
+            .collect();
+        assert!(
+            matches!(said[1], Told::Ended(_, Err(Error::OutOfReach { .. }))),
+            "{said:?}"
+        );
+        // What the drive is off by at most when it comes to rest (0.034 mm), and two steps of the encoder.
+        assert!((farthest - end).abs() < 1e-4, "{farthest}");
+    }
+}
+
+/// Judge: the encoders. A millimetre in each direction and back is where it began; sideways the contact is forgotten,
+/// and in tissue it is refused.
+#[test]
+fn a_jog_goes_along_all_three_axes() {
+    let mut bench = Bench::new(RigSettings::default());
+    for axis in [Vec3::x(), Vec3::y(), Vec3::z()] {
+        let before = bench.idle(200).last().unwrap().position;
+        let out = Order::Jog(3e-3 * axis);
+        assert_eq!(bench.carry_out(&[out]), ended(out));
+        let there = bench.idle(300).last().unwrap().position;
+        // Dry friction holds the PID a step of the encoder or two away.
+        assert!((there - before - 3e-3 * axis).norm() < 1.2e-4, "{there:?}");
+        let back = Order::Jog(-3e-3 * axis);
+        assert_eq!(bench.carry_out(&[back]), ended(back));
+    }
+    bench.carry_out(&[Order::Approach]);
+    assert!(bench.idle(1)[0].depth.is_some());
+    bench.carry_out(&[Order::Jog(-5e-3 * Vec3::z())]);
+    let said = bench.carry_out(&[Order::Jog(1e-3 * Vec3::x())]);
     assert!(
-        matches!(said[1], Told::Ended(_, Err(Error::EndOfWay { .. }))),
+        matches!(said[1], Told::Ended(_, Err(Error::InTissue { .. }))),
         "{said:?}"
     );
-    bench.carry_out(&[Order::Jog(1.0)]);
-    let highest = bench.idle(300).last().unwrap().height;
-    assert!((highest - 0.030).abs() < 6e-5, "{highest}");
+    bench.carry_out(&[Order::Withdraw, Order::Jog(1e-3 * Vec3::x())]);
+    assert_eq!(bench.idle(1)[0].depth, None);
 }
 
 /// Driving lasts as long as the order comes again, and ends within its time when it does not.
@@ -191,13 +250,14 @@ fn a_jog_ends_at_the_limits() {
 fn a_held_jog_ends_when_nobody_holds_it() {
     let mut bench = Bench::new(RigSettings::default());
     let (console, mut moved) = (&mut bench.console, 0);
-    console.order(Order::Drive(true));
+    let drive = Order::Drive(Vec3::z());
+    console.order(drive);
     let mut next = 0.1;
     let mut began = None;
     bench.operated.turn(&mut |sample| {
         let begun = *began.get_or_insert(sample.time);
         if sample.time - begun > next && next < 0.95 {
-            console.order(Order::Drive(true));
+            console.order(drive);
             next += 0.1;
         }
         moved += 1;
@@ -215,7 +275,7 @@ fn a_jog_into_too_much_force_is_withdrawn() {
         force_limit: 0.05,
         ..RigSettings::default()
     });
-    let said = bench.carry_out(&[Order::Jog(-0.02)]);
+    let said = bench.carry_out(&[Order::Jog(-0.02 * Vec3::z())]);
     assert!(
         matches!(said[1], Told::Ended(_, Err(Error::TooMuchForce { .. }))),
         "{said:?}"

@@ -9,5 +9,8 @@
 mod live;
 mod loss;
 mod no_allocation;
+mod normal;
 mod real_device;
+mod real_sensor;
 mod rig;
+mod six_axes;

@@ -1,5 +1,6 @@
-use eframe::egui::{Button, Grid, RichText, Ui, Vec2, vec2};
+use eframe::egui::{Button, Grid, RichText, Ui, vec2};
 use palpate_measure::live::Order;
+use palpate_servo::Vec3;
 
 use super::{RigWindow, keys};
 use crate::style::QUIET;
@@ -12,10 +13,27 @@ pub(super) fn show(window: &mut RigWindow, ui: &mut Ui) {
     ui.add_space(4.0);
     ui.label(RichText::new("by hand").strong());
     steps(window, ui);
+    let size = vec2((ui.available_width() - 20.0) / 3.0, 26.0);
+    Grid::new("sideways")
+        .spacing(vec2(8.0, 6.0))
+        .show(ui, |ui| {
+            for row in PAD {
+                for button in row {
+                    match button {
+                        Some(own) => jog(window, own, size, ui),
+                        None => {
+                            ui.label("");
+                        }
+                    }
+                }
+                ui.end_row();
+            }
+        });
     let size = vec2(0.5 * (ui.available_width() - 12.0), 28.0);
     Grid::new("by hand").spacing(vec2(8.0, 6.0)).show(ui, |ui| {
-        jog(window, (true, "Page Up"), size, ui);
-        jog(window, (false, "Page Down"), size, ui);
+        drive(window, (true, "Page Up"), size, ui);
+        drive(window, (false, "Page Down"), size, ui);
+        ui.end_row();
         programmed(window, size, ui);
     });
     ui.add_space(2.0);
@@ -48,20 +66,75 @@ fn steps(window: &mut RigWindow, ui: &mut Ui) {
     });
 }
 
-/// By a step, and for as long as a button is held.
-fn jog(window: &mut RigWindow, (up, key): (bool, &str), size: Vec2, ui: &mut Ui) {
-    let free = window.watch.is_free();
-    let (word, way) = match up {
-        true => ("Up", window.step),
-        false => ("Down", -window.step),
-    };
-    let shown = (1e4 * window.step).round() / 10.0;
-    let step = Button::new(format!("{word} {shown} mm")).min_size(size);
-    let step = ui.add_enabled(free, step);
-    if step.on_hover_text("by one step (arrow key)").clicked() {
-        window.order(Order::Jog(way));
+/// A button that moves the indenter by a step.
+#[derive(Debug, Clone, Copy)]
+struct Jog {
+    word: &'static str,
+    key: &'static str,
+    way: Way,
+}
+
+/// Where a step goes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Way {
+    /// Along x (right) and y (away), in steps.
+    Sideways([f64; 2]),
+    /// Out of the tissue, or into it when it is negative, in steps.
+    AlongNormal(f64),
+}
+
+impl Way {
+    /// In the rig's axes [m], where a step is so long [m] and the normal leads there [-].
+    pub(super) fn in_rig(self, step: f64, normal: &Vec3) -> Vec3 {
+        match self {
+            Self::Sideways([x, y]) => step * Vec3::new(x, y, 0.0),
+            Self::AlongNormal(steps) => step * steps * normal,
+        }
     }
-    let held = Button::new(format!("Hold to go {}", word.to_lowercase())).min_size(size);
+}
+
+const fn to(word: &'static str, key: &'static str, way: Way) -> Option<Jog> {
+    Some(Jog { word, key, way })
+}
+
+/// As the operator sees the rig from above, with up and down at the right.
+const PAD: [[Option<Jog>; 3]; 3] = [
+    [
+        None,
+        to("Away", "Shift+Up", Way::Sideways([0.0, 1.0])),
+        to("Up", "Up", Way::AlongNormal(1.0)),
+    ],
+    [
+        to("Left", "Left", Way::Sideways([-1.0, 0.0])),
+        None,
+        to("Right", "Right", Way::Sideways([1.0, 0.0])),
+    ],
+    [
+        None,
+        to("Near", "Shift+Down", Way::Sideways([0.0, -1.0])),
+        to("Down", "Down", Way::AlongNormal(-1.0)),
+    ],
+];
+
+/// By a step.
+fn jog(window: &mut RigWindow, own: Jog, size: eframe::egui::Vec2, ui: &mut Ui) {
+    let button = Button::new(own.word).min_size(size);
+    let button = ui.add_enabled(window.watch.is_free(), button);
+    let along = match own.way {
+        Way::Sideways(_) => "sideways, above the tissue",
+        Way::AlongNormal(_) => "along the normal",
+    };
+    let hint = format!("by one step, {along} ({} key)", own.key);
+    if button.on_hover_text(hint).clicked() {
+        window.jog(own.way);
+    }
+}
+
+/// For as long as a button is held.
+fn drive(window: &mut RigWindow, (up, key): (bool, &str), size: eframe::egui::Vec2, ui: &mut Ui) {
+    let free = window.watch.is_free();
+    let word = if up { "up" } else { "down" };
+    let held = Button::new(format!("Hold to go {word}")).min_size(size);
     // Enabled while it is held, when its own order is being carried out.
     let driving = matches!(window.watch.doing, Some((Order::Drive(_), _)));
     let speed = 1e3 * window.settings.jog_speed;
@@ -70,10 +143,9 @@ fn jog(window: &mut RigWindow, (up, key): (bool, &str), size: Vec2, ui: &mut Ui)
     if held.is_pointer_button_down_on() {
         keys::drive(window, up);
     }
-    ui.end_row();
 }
 
-fn programmed(window: &mut RigWindow, size: Vec2, ui: &mut Ui) {
+fn programmed(window: &mut RigWindow, size: eframe::egui::Vec2, ui: &mut Ui) {
     let down = "down until tissue is met, then wait above it (A key)";
     let out = "out of the tissue (W key)";
     for (word, hint, order) in [

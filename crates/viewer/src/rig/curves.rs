@@ -1,4 +1,5 @@
 use palpate_files::protocol::Stimulus;
+use palpate_files::recording::RecordingRow;
 
 /// Points that a curve is drawn with.
 const POINTS: usize = 600;
@@ -12,27 +13,32 @@ const EARLIEST: f64 = 0.01;
 /// A step of the encoder, and a little [m].
 const ENCODED: f64 = 0.04e-3;
 
-/// Force [mN] over depth [mm] of a recording: time [s], depth [m], force [N].
-pub(super) fn force_over_depth(rows: &[[f64; 3]]) -> Vec<[f64; 2]> {
+/// Force [mN] over depth [mm] of a recording.
+pub(super) fn force_over_depth(rows: &[RecordingRow]) -> Vec<[f64; 2]> {
     let stretch = rows.len().div_ceil(POINTS).max(1);
     rows.chunks(stretch)
-        .map(|part| [1, 2].map(|column| 1e3 * mean(part, column)))
+        .map(|part| {
+            [
+                1e3 * mean(part, |row| row.depth_m),
+                1e3 * mean(part, |row| row.force_n),
+            ]
+        })
         .collect()
 }
 
 /// What is left of the force at the end of the ramp [-], over the logarithm of the time since [s]; nothing for a
 /// stimulus that is not held.
-pub(super) fn relaxation(rows: &[[f64; 3]], stimulus: &Stimulus) -> Vec<[f64; 2]> {
+pub(super) fn relaxation(rows: &[RecordingRow], stimulus: &Stimulus) -> Vec<[f64; 2]> {
     let Stimulus::RampAndHold { depth_m, .. } = *stimulus else {
         return Vec::new();
     };
-    let Some(held) = rows.iter().position(|row| row[1] > depth_m - ENCODED) else {
+    let Some(held) = rows.iter().position(|row| row.depth_m > depth_m - ENCODED) else {
         return Vec::new();
     };
     let rows = &rows[held..];
-    let began = rows[0][0];
-    let largest = rows.iter().take_while(|row| row[0] < began + EARLIEST);
-    let largest = largest.fold(0.0_f64, |most, row| most.max(row[2]));
+    let began = rows[0].time_s;
+    let largest = rows.iter().take_while(|row| row.time_s < began + EARLIEST);
+    let largest = largest.fold(0.0_f64, |most, row| most.max(row.force_n));
     if largest <= 0.0 {
         return Vec::new();
     }
@@ -41,11 +47,11 @@ pub(super) fn relaxation(rows: &[[f64; 3]], stimulus: &Stimulus) -> Vec<[f64; 2]
     let mut bin = (EARLIEST.log10() * PER_DECADE).round();
     while !rest.is_empty() {
         let until = began + 10.0_f64.powf((bin + 1.0) / PER_DECADE);
-        let end = rest.partition_point(|row| row[0] < until);
+        let end = rest.partition_point(|row| row.time_s < until);
         let (part, later) = rest.split_at(end);
         if !part.is_empty() {
             let place = (bin + 0.5) / PER_DECADE;
-            points.push([place, mean(part, 2) / largest]);
+            points.push([place, mean(part, |row| row.force_n) / largest]);
         }
         rest = later;
         bin += 1.0;
@@ -53,8 +59,8 @@ pub(super) fn relaxation(rows: &[[f64; 3]], stimulus: &Stimulus) -> Vec<[f64; 2]
     points
 }
 
-fn mean(rows: &[[f64; 3]], column: usize) -> f64 {
-    rows.iter().map(|row| row[column]).sum::<f64>() / rows.len() as f64
+fn mean(rows: &[RecordingRow], column: impl Fn(&RecordingRow) -> f64) -> f64 {
+    rows.iter().map(column).sum::<f64>() / rows.len() as f64
 }
 
 #[cfg(test)]
@@ -74,9 +80,9 @@ mod tests {
             let time = 1e-3 * f64::from(tick);
             let since = (time - 1.0).max(EARLIEST);
             let depth = if time < 1.0 { 0.0 } else { 4e-3 };
-            [time, depth, 0.1 * (0.8 - 0.1 * since.log10())]
+            RecordingRow::from([time, depth, 0.1 * (0.8 - 0.1 * since.log10())])
         };
-        let rows: Vec<[f64; 3]> = (0..11_000).map(row).collect();
+        let rows: Vec<RecordingRow> = (0..11_000).map(row).collect();
         let points = relaxation(&rows, &stimulus);
         assert!(points.len() > 40);
         for [log, part] in &points {

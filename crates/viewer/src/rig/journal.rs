@@ -1,6 +1,6 @@
 use std::path::{Path, PathBuf};
 
-use palpate_files::recording::RecordingHeader;
+use palpate_files::recording::{RecordingHeader, RecordingRow};
 use palpate_files::{Claim, Error, Overwrite, unfinished};
 use palpate_measure::live::{Commission, Unwritten};
 use palpate_measure::{Course, Recorded, RigSettings, recording_name, stimulus_name};
@@ -106,7 +106,7 @@ impl Journal {
     }
 
     /// A recording was made.
-    pub(super) fn enter(&mut self, number: u64, recorded: Recorded, rows: &[[f64; 3]]) {
+    pub(super) fn enter(&mut self, number: u64, recorded: Recorded, rows: &[RecordingRow]) {
         let Some(place) = self.asked.iter().position(|asked| asked.number == number) else {
             return;
         };
@@ -233,7 +233,9 @@ mod tests {
         let name = commission.file.file_name().unwrap().to_owned();
         journal.keep_unsaved(Unwritten {
             commission,
-            rows: vec![[0.0, 0.0, 0.1], [0.001, 1e-4, 0.2]],
+            rows: [[0.0, 0.0, 0.1], [0.001, 1e-4, 0.2]]
+                .map(RecordingRow::from)
+                .into(),
             error: Error::Exists { path: full },
         });
         // What the rig says in the end takes nothing away.
@@ -287,7 +289,11 @@ mod tests {
         journal.forget(first);
         let (again, repeat, _) = ask(&mut journal);
         assert_eq!(repeat, Some(3));
-        journal.enter(again, recorded(file), &[[0.0, 0.0, 0.1]]);
+        journal.enter(
+            again,
+            recorded(file),
+            &[RecordingRow::from([0.0, 0.0, 0.1])],
+        );
         assert!(journal.compared().is_some_and(|(entry, mut others)| {
             entry.what.repeat == 3 && others.next().is_none()
         }));

@@ -2,6 +2,7 @@ use eframe::egui::{Context, Key, Modifiers};
 use palpate_measure::live::Order;
 
 use super::RigWindow;
+use super::by_hand::Way;
 
 /// What the keyboard asks for. Space is the emergency stop, whatever else has the keyboard.
 pub(super) fn take(window: &mut RigWindow, context: &Context) {
@@ -18,14 +19,25 @@ pub(super) fn take(window: &mut RigWindow, context: &Context) {
     if window.watch.fault.is_some() {
         return;
     }
-    let step = window.step;
+    let taken = |modifiers, key| context.input_mut(|input| input.consume_key(modifiers, key));
+    for (modifiers, key, way) in [
+        (Modifiers::SHIFT, Key::ArrowUp, Way::Sideways([0.0, 1.0])),
+        (Modifiers::SHIFT, Key::ArrowDown, Way::Sideways([0.0, -1.0])),
+        (Modifiers::NONE, Key::ArrowUp, Way::AlongNormal(1.0)),
+        (Modifiers::NONE, Key::ArrowDown, Way::AlongNormal(-1.0)),
+        (Modifiers::NONE, Key::ArrowLeft, Way::Sideways([-1.0, 0.0])),
+        (Modifiers::NONE, Key::ArrowRight, Way::Sideways([1.0, 0.0])),
+    ] {
+        if taken(modifiers, key) && window.watch.is_free() {
+            window.jog(way);
+        }
+    }
     for (key, order) in [
-        (Key::ArrowDown, Order::Jog(-step)),
-        (Key::ArrowUp, Order::Jog(step)),
         (Key::A, Order::Approach),
+        (Key::N, Order::MeasureNormal),
         (Key::W, Order::Withdraw),
     ] {
-        if taken(key) && window.watch.is_free() {
+        if taken(Modifiers::NONE, key) && window.watch.is_free() {
             window.order(order);
         }
     }
@@ -38,7 +50,8 @@ pub(super) fn take(window: &mut RigWindow, context: &Context) {
 
 /// Drives the indenter for as long as this is called at every picture.
 pub(super) fn drive(window: &mut RigWindow, up: bool) {
-    let order = Order::Drive(up);
+    let normal = window.watch.normal();
+    let order = Order::Drive(if up { normal } else { -normal });
     let driven = window.watch.doing.is_some_and(|(doing, _)| doing == order);
     if driven {
         // What only prolongs is not heard of again.

@@ -12,6 +12,7 @@
 mod above;
 mod by_hand;
 mod curves;
+mod direction;
 mod journal;
 mod keys;
 mod plots;
@@ -29,6 +30,7 @@ use eframe::egui;
 use palpate_files::recording::RecordingHeader;
 use palpate_measure::live::{LiveRig, Order};
 use palpate_measure::{Course, Rig, RigSettings};
+use palpate_servo::Vec3;
 
 use crate::{Error, native, style};
 use journal::Journal;
@@ -56,8 +58,19 @@ pub struct Bench {
 pub struct Place {
     /// What it is called.
     pub name: String,
+    /// Where on it a protocol begins.
+    pub begin: Begin,
     /// Makes the rig, on a thread of its own.
     pub make: Arc<Make>,
+}
+
+/// What a protocol does before it approaches.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Begin {
+    /// Where the indenter goes first, in the rig's axes [m].
+    pub place: Vec3,
+    /// Whether it measures the normal of the surface there.
+    pub measures_normal: bool,
 }
 
 /// Makes a rig, on a real clock, and tells the part that is done [-].
@@ -67,8 +80,6 @@ pub type Make = dyn Fn(&mut dyn FnMut(f64)) -> Result<MadeRig, String> + Send + 
 pub struct MadeRig {
     /// The rig.
     pub rig: Rig,
-    /// What its recordings say of the specimen.
-    pub header: RecordingHeader,
     /// What deserves doubt about it.
     pub doubts: Vec<String>,
 }
@@ -98,6 +109,8 @@ struct RigWindow {
     journal: Journal,
     /// How far a click moves the indenter [m].
     step: f64,
+    /// The tilt of the normal toward x and y, as it is typed [degrees].
+    tilt: [f64; 2],
     /// Doubts about the protocol, and about the specimen.
     doubts: [Vec<String>; 2],
     is_ended: fn() -> bool,
@@ -130,6 +143,7 @@ impl RigWindow {
             watch: Watch::default(),
             journal: Journal::new(bench.folder),
             step: 1e-3,
+            tilt: [0.0; 2],
             doubts: [bench.doubts, Vec::new()],
             is_ended: bench.is_ended,
         }
@@ -153,7 +167,7 @@ impl RigWindow {
         };
         if let Some(outcome) = outcome {
             let live = outcome.and_then(|made| {
-                self.header = made.header;
+                self.header = made.rig.header().clone();
                 self.doubts[1] = made.doubts;
                 self.watch.sensor_range = made.rig.sensor_range();
                 LiveRig::start(made.rig).map_err(|error| error.to_string())
@@ -189,6 +203,12 @@ impl RigWindow {
         }
     }
 
+    /// Moves the indenter by a step.
+    fn jog(&mut self, way: by_hand::Way) {
+        let way = way.in_rig(self.step, &self.watch.normal());
+        self.order(Order::Jog(way));
+    }
+
     /// Has a course pressed and recorded.
     fn press(&mut self, course: &Course) {
         if !self.can_record() {
@@ -217,6 +237,13 @@ impl RigWindow {
     fn press_all(&mut self) {
         if !self.can_record() {
             return;
+        }
+        let begin = self.places[self.place].begin;
+        if begin.place != Vec3::zeros() {
+            self.order(Order::GoTo(begin.place));
+        }
+        if begin.measures_normal {
+            self.order(Order::MeasureNormal);
         }
         let all: Vec<Course> = self.prepared.iter().flat_map(Prepared::repeated).collect();
         for course in all {
@@ -294,6 +321,8 @@ impl eframe::App for RigWindow {
                     .auto_shrink([false, false])
                     .show(ui, |ui| {
                         by_hand::show(self, ui);
+                        direction::show(self, ui);
+                        direction::axes(self, ui);
                         ui.separator();
                         stimuli::show(self, ui);
                     });

@@ -1,5 +1,6 @@
 use palpate_measure::live::{LiveRig, News, Order};
 use palpate_measure::{Phase, RigSample};
+use palpate_servo::{ForceTorque, Vec3};
 
 use super::journal::Journal;
 use crate::history::History;
@@ -20,6 +21,7 @@ pub(super) struct Watch {
     /// The largest force that the sensor shows [N].
     pub(super) sensor_range: f64,
     last_forces: [f64; AVERAGED],
+    last_axes: [ForceTorque; AVERAGED],
     samples: usize,
 }
 
@@ -51,13 +53,38 @@ impl Watch {
         self.history
             .add(sample.time, [sample.force, -sample.height]);
         self.last_forces[self.samples % AVERAGED] = sample.force;
+        self.last_axes[self.samples % AVERAGED] = sample.axes.unwrap_or_default();
         self.samples += 1;
         self.now = Some(sample);
+    }
+
+    /// The direction out of the tissue along which the rig approaches [-].
+    pub(super) fn normal(&self) -> Vec3 {
+        self.now.map_or(Vec3::z(), |now| now.normal)
+    }
+
+    /// Where the indenter is, from where the rig began [mm].
+    pub(super) fn place_mm(&self) -> [f64; 3] {
+        let place = self.now.map_or(Vec3::zeros(), |now| now.position);
+        // Not −0.
+        place
+            .map(|metres| (1e4 * metres).round() / 10.0 + 0.0)
+            .into()
     }
 
     /// The mean force of the last samples [N].
     pub(super) fn calm_force(&self) -> f64 {
         self.last_forces.iter().sum::<f64>() / AVERAGED as f64
+    }
+
+    /// The mean of the last samples on all axes; none for a sensor of one.
+    pub(super) fn calm_axes(&self) -> Option<ForceTorque> {
+        self.now?.axes?;
+        let sum = self
+            .last_axes
+            .iter()
+            .fold(ForceTorque::zero(), |sum, axes| sum + *axes);
+        Some(sum.map(|vector| vector / AVERAGED as f64))
     }
 
     fn hear(&mut self, news: News, journal: &mut Journal) {

@@ -38,6 +38,16 @@ fn of_file(text: &mut String, file: &FileAnswer) -> std::fmt::Result {
             found.settle_s
         )?;
     }
+    if let Some(found) = &file.sideways {
+        writeln!(
+            text,
+            "  all axes    {:.2} mN along the approach, {:.2} mN sideways ({:.1} %), {:.3} mN m at the sensor",
+            1e3 * found.force_n,
+            1e3 * found.lateral_n,
+            100.0 * found.part,
+            1e3 * found.torque_n_m
+        )?;
+    }
     if let Some(found) = &file.sinusoid {
         writeln!(
             text,

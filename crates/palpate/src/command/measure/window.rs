@@ -6,8 +6,8 @@ use std::sync::Arc;
 use palpate_files::Overwrite;
 use palpate_files::protocol::MeasuredTissue;
 use palpate_jobs::measure::{Plan, folder as claimed};
-use palpate_servo::Clock;
-use palpate_viewer::rig::{Bench, MadeRig, Place, open_rig_window};
+use palpate_servo::{Clock, Vec3};
+use palpate_viewer::rig::{Begin, Bench, MadeRig, Place, open_rig_window};
 use palpate_viewer::{Error, check_display};
 
 use crate::command::window::is_absent;
@@ -57,7 +57,7 @@ fn place(plan: &Plan, place: usize) -> Place {
     let measured = &plan.specimens[place];
     let published = match &measured.tissue {
         MeasuredTissue::Published(organ) => Some(organ.to_string()),
-        MeasuredTissue::Tissue(_) => None,
+        MeasuredTissue::Tissue(_) | MeasuredTissue::Real => None,
     };
     let organ = measured.organ.clone().or(published);
     let known = [organ, measured.subject.clone(), measured.site.clone()];
@@ -65,15 +65,17 @@ fn place(plan: &Plan, place: usize) -> Place {
     let plan = plan.clone();
     let make = move |at_step: &mut dyn FnMut(f64)| -> Result<MadeRig, String> {
         let (specimen, doubts) = plan.specimen(place, at_step).map_err(|e| e.to_string())?;
-        let header = specimen.header.clone();
         let rig = plan.rig((specimen, place), Clock::real());
         Ok(MadeRig {
             rig: rig.map_err(|error| error.to_string())?,
-            header,
             doubts,
         })
     };
     Place {
+        begin: Begin {
+            place: Vec3::from(measured.place.place_m),
+            measures_normal: measured.place.measure_normal,
+        },
         name: match known.as_slice() {
             [] => format!("specimen {}", place + 1),
             known => known.join(", "),

@@ -2,6 +2,7 @@
 
 mod pressed;
 mod relaxation;
+mod sideways;
 mod statics;
 mod swings;
 
@@ -85,7 +86,8 @@ fn section(analyzed: &Analyzed, response: &OrganResponse, several: bool) -> Mark
         .and(Markup::of_class("div", "figures", figures))
         .and(statics::table(&groups))
         .and(relaxation::table(&own))
-        .and(swings::table(&own));
+        .and(swings::table(&own))
+        .and(sideways::table(&own));
     Markup::plain("section", inside)
 }
 

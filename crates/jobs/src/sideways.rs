@@ -1,0 +1,105 @@
+use palpate_files::Recording;
+use palpate_files::recording::SensorAxes;
+use serde::Serialize;
+
+/// What a sensor of six axes shows besides the force along the approach, around the largest of that force.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Sideways {
+    /// Along the approach [N].
+    pub force_n: f64,
+    /// Beside the indenter's axis [N].
+    pub lateral_n: f64,
+    /// The second over the first [-].
+    pub part: f64,
+    /// About the sensor's origin [N m].
+    pub torque_n_m: f64,
+}
+
+/// Samples of a mean on each side of the largest force: steps of the sensor leave.
+const AROUND: usize = 10;
+/// Samples of the sensor's zero, which a recording of the rig has before first contact.
+const BEFORE: usize = 100;
+/// A part of the force that goes sideways beyond which the approach deserves doubt [-]: a bonded punch at 18 degrees.
+const DOUBTFUL: f64 = 0.1;
+
+impl Sideways {
+    /// Of a recording; none for a sensor of one axis.
+    pub(crate) fn of(recording: &Recording) -> Option<Self> {
+        let axes = recording.axes()?;
+        let forces = recording.force_n();
+        let largest = |(_, a): &(usize, &f64), (_, b): &(usize, &f64)| a.total_cmp(b);
+        let (at, _) = forces.iter().enumerate().max_by(largest)?;
+        let there = at.saturating_sub(AROUND)..(at + AROUND + 1).min(forces.len());
+        let before = 0..BEFORE.min(at.saturating_sub(AROUND));
+        let rise = |values: &[f64]| {
+            let zero = match before.is_empty() {
+                true => 0.0,
+                false => mean(&values[before.clone()]),
+            };
+            mean(&values[there.clone()]) - zero
+        };
+        let SensorAxes { columns } = axes;
+        let [fx, fy, _, tx, ty, tz] = columns.each_ref().map(|values| rise(values));
+        let (force_n, lateral_n) = (rise(forces), fx.hypot(fy));
+        Some(Self {
+            force_n,
+            lateral_n,
+            part: lateral_n / force_n.abs().max(f64::MIN_POSITIVE),
+            torque_n_m: tx.hypot(ty).hypot(tz),
+        })
+    }
+
+    /// What deserves doubt about it.
+    pub(crate) fn doubt(&self) -> Option<String> {
+        (self.part > DOUBTFUL).then(|| {
+            format!(
+                "{:.0} % of the force acts sideways; approach along the surface's normal (measure_normal = true in the \
+                 protocol), for all models take the indenter for perpendicular",
+                100.0 * self.part
+            )
+        })
+    }
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use palpate_files::recording::{RecordingHeader, Samples};
+
+    /// A force that rises to 1 N, 0.3 N and 0.4 N of it sideways, over zeros that are somewhere.
+    #[test]
+    fn what_acts_sideways_is_told_without_the_zero() {
+        let rise: Vec<f64> = (0..400)
+            .map(|i| (f64::from(i) - 200.0).clamp(0.0, 100.0) / 100.0)
+            .collect();
+        let scaled = |part: f64, zero: f64| rise.iter().map(|r| part * r + zero).collect();
+        let samples = Samples {
+            time_s: (0..400).map(|i| 1e-3 * f64::from(i)).collect(),
+            depth_m: scaled(4e-3, 0.0),
+            force_n: scaled(1.0, 0.2),
+        };
+        let recording = Recording::new(RecordingHeader::default(), samples).unwrap();
+        assert_eq!(Sideways::of(&recording), None);
+        let columns = [
+            scaled(0.3, 0.1),
+            scaled(-0.4, 0.1),
+            scaled(1.0, 0.0),
+            scaled(0.0, 0.5),
+            scaled(2e-3, -0.1),
+            scaled(0.0, 0.0),
+        ];
+        let recording = recording.with_axes(SensorAxes { columns }).unwrap();
+        let found = Sideways::of(&recording).unwrap();
+        // The last of the largest is at the end, where the mean has half of its samples.
+        let near = |a: f64, b: f64| (a - b).abs() < 1e-9;
+        assert!(
+            near(found.force_n, 1.0) && near(found.lateral_n, 0.5) && near(found.torque_n_m, 2e-3),
+            "{found:?}"
+        );
+        assert!(found.doubt().unwrap().starts_with("50 %"));
+    }
+}
