@@ -130,7 +130,9 @@ impl Simulation {
 
     /// Whether what is cut yields more.
     pub(crate) fn forces_follow_cuts(&self) -> bool {
-        self.cutting.as_ref().is_some_and(|model| model.changes_force)
+        self.cutting
+            .as_ref()
+            .is_some_and(|model| model.changes_force)
     }
 
     /// The organ at rest.

@@ -106,11 +106,7 @@ impl Scene {
             cutting: Cutting::from_keys(keys.table("cutting", Cutting::KEYS)?.as_ref())?,
             tools: tool::from_keys(&keys, &folder)?,
             view: View::from_keys(keys.table("view", View::KEYS)?.as_ref())?,
-            task: Task::from_keys(
-                keys.table("task", Task::KEYS)?.as_ref(),
-                &folder,
-                layers,
-            )?,
+            task: Task::from_keys(keys.table("task", Task::KEYS)?.as_ref(), &folder, layers)?,
             folder,
             written: Some(standing_alone(text, path)?),
             warnings: keys.warnings(),

@@ -90,7 +90,9 @@ impl Events {
     /// The number, from 1 for the outermost, of the deepest layer that was opened; none if none was.
     pub fn deepest_opened(self) -> Option<usize> {
         let mut opened = Event::OPENS_LAYER.iter();
-        opened.rposition(|event| self.contains(*event)).map(|index| index + 1)
+        opened
+            .rposition(|event| self.contains(*event))
+            .map(|index| index + 1)
     }
 
     /// Whether nothing happened.

@@ -3,7 +3,7 @@
 use palpate_files::scene::Shading;
 use palpate_geometry::{Surface, Vec3};
 use palpate_viewer::{
-    Body, FRAME_SIZE, Gpu, Orbit, Renderer, Target, Tint, View, png, single_precision,
+    Body, FRAME_SIZE, Gpu, Orbit, Renderer, Target, Tint, View, png, single_precision, wire_frame,
 };
 
 use crate::failure::Failure;
@@ -18,6 +18,8 @@ pub(super) struct Sitter<'a> {
     pub(super) middle: (Vec3, Vec3),
     /// Part of the way from where the whole fills the picture [-].
     pub(super) near: f64,
+    /// Width of the lines along the edges of its triangles [m]; none without lines.
+    pub(super) lines: Option<f64>,
 }
 
 /// Who draws them.
@@ -43,6 +45,12 @@ impl Painter {
         let mesh = sitter.surface.mesh();
         let mut body = Body::new(&self.gpu, sitter.surface, Tint::MUSCLE);
         body.deform(&self.gpu, &single_precision(sitter.places));
+        let lines = match sitter.lines {
+            Some(width) => Some(wire_frame(mesh, sitter.places, width)?),
+            None => None,
+        };
+        let lines = lines.map(|lines| Body::of_mesh(&self.gpu, &lines, Tint::WIRE));
+        let bodies: Vec<&Body> = std::iter::once(&body).chain(&lines).collect();
         let aspect = f64::from(FRAME_SIZE.0) / f64::from(FRAME_SIZE.1);
         let mut orbit = Orbit::framing(mesh, 0.785, aspect);
         let (middle, side) = sitter.middle;
@@ -62,7 +70,7 @@ impl Painter {
             reach: (high - low).norm(),
         };
         self.renderer
-            .draw(&self.gpu, &view, (&[&body], &[]), &self.target);
+            .draw(&self.gpu, &view, (&bodies, &[]), &self.target);
         Ok(png(&self.target.read(&self.gpu)?)?)
     }
 }

@@ -2,8 +2,8 @@ use nalgebra::Vector3;
 use palpate_files::scene::ToolKind;
 use palpate_geometry::{Footing, Vec3, follow};
 
-use super::{Cuts, CuttingModel};
 use super::model::cuts;
+use super::{Cuts, CuttingModel};
 use crate::contact::place;
 use crate::simulation::Simulation;
 use crate::state::ToolState;

@@ -1,6 +1,7 @@
 use palpate_geometry::Vec3;
 
-/// An opening at one place is this wide, in widths of a cut [-].
+/// An opening at one place is this wide, and one along a cut reaches this far beyond its ends on both sides together,
+/// in widths of a cut [-].
 const PUNCTURE: f64 = 0.5;
 
 /// A straight part of a cut on the resting surface. One without length is a puncture, where a cut begins.
@@ -68,7 +69,7 @@ pub(super) fn nearest(parts: &[CutPart], place: &Vec3) -> Option<Near> {
     found
 }
 
-/// The part in whose opening, `width` [m] wide, `place` [m] lies: beside the cut and not beyond its ends.
+/// The part in whose opening, `width` [m] wide, `place` [m] lies: beside the cut, or close beyond its ends.
 pub(super) fn opening_at(parts: &[CutPart], place: &Vec3, width: f64) -> Option<usize> {
     let near = nearest(parts, place)?;
     let number = near.part;
@@ -77,7 +78,12 @@ pub(super) fn opening_at(parts: &[CutPart], place: &Vec3, width: f64) -> Option<
     let is_first = parts[number].begins || parts[number - 1].length() == 0.0;
     let is_last = parts.get(number + 1).is_none_or(|next| next.begins);
     let beyond = near.along < 0.0 && is_first || near.along > 1.0 && is_last;
-    (near.distance < reach && !beyond).then_some(number)
+    let reach = if beyond {
+        0.5 * width * PUNCTURE
+    } else {
+        reach
+    };
+    (near.distance < reach).then_some(number)
 }
 
 #[cfg(test)]
@@ -96,14 +102,25 @@ mod tests {
 
     #[test]
     fn an_opening_ends_at_its_ends() {
-        let parts = [part(0.0, 0.0, true), part(0.0, 1.0, false), part(1.0, 2.0, false)];
+        let parts = [
+            part(0.0, 0.0, true),
+            part(0.0, 1.0, false),
+            part(1.0, 2.0, false),
+        ];
         let at = |x: f64, y: f64| opening_at(&parts, &Vec3::new(x, y, 0.0), 1.0);
         assert_eq!(at(0.5, 0.3), Some(1));
         assert_eq!(at(1.6, -0.3), Some(2));
         assert_eq!(at(1.6, 0.6), None);
-        assert_eq!(at(-0.1, 0.0), None);
-        assert_eq!(at(2.1, 0.0), None);
-        assert_eq!(opening_at(&parts[..1], &Vec3::new(0.2, 0.0, 0.0), 1.0), Some(0));
-        assert_eq!(opening_at(&parts[..1], &Vec3::new(0.3, 0.0, 0.0), 1.0), None);
+        assert_eq!(at(-0.2, 0.0), Some(1));
+        assert_eq!(at(-0.3, 0.0), None);
+        assert_eq!(at(2.3, 0.0), None);
+        assert_eq!(
+            opening_at(&parts[..1], &Vec3::new(0.2, 0.0, 0.0), 1.0),
+            Some(0)
+        );
+        assert_eq!(
+            opening_at(&parts[..1], &Vec3::new(0.3, 0.0, 0.0), 1.0),
+            None
+        );
     }
 }

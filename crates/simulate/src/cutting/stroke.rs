@@ -47,7 +47,11 @@ pub(crate) fn advance(
         return;
     };
     let by_hand = cuts(tool.kind) && own.pose.is_some_and(|pose| pose.cut);
-    let reached = if by_hand { model.reached(contact.depth) } else { 0 };
+    let reached = if by_hand {
+        model.reached(contact.depth)
+    } else {
+        0
+    };
     let edge = Edge {
         tool: number,
         footing: blade.footing,
@@ -109,7 +113,10 @@ impl Cuts {
         }
         let at = edge.footing.point;
         let leaps = |stroke: Stroke| (at - stroke.blade).norm() > LEAP;
-        if self.stroke.is_some_and(|stroke| stroke.tool == edge.tool && leaps(stroke)) {
+        if self
+            .stroke
+            .is_some_and(|stroke| stroke.tool == edge.tool && leaps(stroke))
+        {
             self.lift(simulation, edge.tool);
         }
         let Some(stroke) = self.stroke else {
@@ -120,6 +127,11 @@ impl Cuts {
         }
         if !stroke.opens {
             return self.leave_opening(simulation, model, edge);
+        }
+        let earlier = &self.parts[..stroke.before.parts];
+        if model.is_layered && opening_at(earlier, &at, model.width).is_some() {
+            self.enter_opening(simulation, at);
+            return Opened::default();
         }
         let vertices = self.surface.mesh().vertices().len();
         let Ok(progress) = self.surface.advance(&simulation.surface, &at) else {
@@ -145,6 +157,16 @@ impl Cuts {
         opened
     }
 
+    /// Ends the opening of the surface where an earlier cut has opened it.
+    fn enter_opening(&mut self, simulation: &Simulation, at: Vec3) {
+        self.surface.end(&simulation.surface).ok();
+        self.version += 1;
+        if let Some(stroke) = &mut self.stroke {
+            stroke.opens = false;
+            stroke.blade = at;
+        }
+    }
+
     fn set_blade(&mut self, at: Vec3) {
         if let Some(stroke) = &mut self.stroke {
             stroke.blade = at;
@@ -168,13 +190,20 @@ impl Cuts {
     }
 
     /// Goes along in an opening, and begins to open the surface where that ends.
-    fn leave_opening(&mut self, simulation: &Simulation, model: &CuttingModel, edge: &Edge) -> Opened {
+    fn leave_opening(
+        &mut self,
+        simulation: &Simulation,
+        model: &CuttingModel,
+        edge: &Edge,
+    ) -> Opened {
         let at = edge.footing.point;
         self.set_blade(at);
         if model.is_layered && opening_at(&self.parts, &at, model.width).is_some() {
             return Opened::default();
         }
-        let begun = self.surface.begin(&simulation.surface, edge.footing.triangle, &at);
+        let begun = self
+            .surface
+            .begin(&simulation.surface, edge.footing.triangle, &at);
         let Some(stroke) = self.stroke.as_mut().filter(|_| begun.is_ok()) else {
             self.lift(simulation, edge.tool);
             return Opened::default();
@@ -207,7 +236,8 @@ impl Cuts {
         });
         // Each part can be deepened once per layer that is still closed.
         let room = Event::OPENS_LAYER.len() * self.parts.len();
-        self.deepened.reserve(room.saturating_sub(self.deepened.len()));
+        self.deepened
+            .reserve(room.saturating_sub(self.deepened.len()));
         if let Some(stroke) = &mut self.stroke {
             stroke.at = at;
         }

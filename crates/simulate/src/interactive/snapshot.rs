@@ -182,11 +182,12 @@ impl OpenedSnapshot {
         self.places.clear();
         self.places.extend(cuts.places().iter().map(single));
         self.parts.clear();
-        self.parts.extend(cuts.parts().iter().map(|part| OpenedPart {
-            ends: [single(&part.ends[0]), single(&part.ends[1])],
-            begins: part.begins,
-            layers: part.layers,
-        }));
+        self.parts
+            .extend(cuts.parts().iter().map(|part| OpenedPart {
+                ends: [single(&part.ends[0]), single(&part.ends[1])],
+                begins: part.begins,
+                layers: part.layers,
+            }));
         if self.version == cuts.version() {
             return;
         }

@@ -117,7 +117,9 @@ impl CutWay {
         let along = (to - from) / wanted;
         let mut parts: Vec<[f64; 2]> = Vec::new();
         for stroke in &self.strokes {
-            let deep = stroke.iter().filter(|place| place.layer >= self.wanted_layers);
+            let deep = stroke
+                .iter()
+                .filter(|place| place.layer >= self.wanted_layers);
             let at = deep.map(|place| (place.tip - from).dot(&along));
             let (low, high) = at.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| {
                 (low.min(at), high.max(at))
@@ -140,7 +142,9 @@ impl CutWay {
             return None;
         }
         let pieces = self.strokes.iter().flat_map(|stroke| stroke.windows(2));
-        let length = pieces.clone().map(|piece| (piece[1].tip - piece[0].tip).norm());
+        let length = pieces
+            .clone()
+            .map(|piece| (piece[1].tip - piece[0].tip).norm());
         Some(CutScore {
             count: self.strokes.len(),
             length: length.sum(),

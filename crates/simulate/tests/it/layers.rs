@@ -56,7 +56,13 @@ impl<'a> Hand<'a> {
         let time = elapsed * f64::from(self.steps);
         self.steps += 1;
         let (state, workspace) = (&mut self.state, &mut self.workspace);
-        step(self.simulation, (time, elapsed), &[Some(pose)], state, workspace);
+        step(
+            self.simulation,
+            (time, elapsed),
+            &[Some(pose)],
+            state,
+            workspace,
+        );
         (state.tools[0].row.events, state.tools[0].force)
     }
 
@@ -84,7 +90,10 @@ fn a_blade_opens_the_layers_that_its_depth_reaches() {
     let simulation = prepared(&text("scissors", ""));
     let mut hand = Hand::new(&simulation);
     let scratch = hand.stroke(0.0009);
-    assert_eq!((scratch.deepest_opened(), scratch.contains(Event::Cut)), (None, false));
+    assert_eq!(
+        (scratch.deepest_opened(), scratch.contains(Event::Cut)),
+        (None, false)
+    );
     assert_eq!(hand.lengths(), [0.0; 3]);
     let mut triangles = 0;
     for (depth, layer) in [(0.0011, 1), (0.0021, 2), (0.0031, 3)] {
@@ -105,7 +114,11 @@ fn a_blade_opens_the_layers_that_its_depth_reaches() {
     // Undone one by one.
     for open in [2, 1, 0] {
         assert!(hand.state.undo_cut());
-        let deep = hand.lengths().iter().filter(|length| **length > 0.0).count();
+        let deep = hand
+            .lengths()
+            .iter()
+            .filter(|length| **length > 0.0)
+            .count();
         assert_eq!(deep, open);
     }
     assert!(!hand.state.undo_cut());
@@ -139,7 +152,10 @@ fn a_press_breaks_each_layer_at_its_own_force() {
         for (limit, found) in limits.into_iter().zip(broke_at) {
             let found = found.unwrap();
             // 2e-5 m more a step are 0.5 mN at 25 N/m, for at most three steps.
-            assert!(found > limit && found < limit + 0.003, "{found} N, {limit} N");
+            assert!(
+                found > limit && found < limit + 0.003,
+                "{found} N, {limit} N"
+            );
         }
     }
 }
@@ -158,8 +174,14 @@ fn an_edge_is_held_back_by_the_layers_it_is_in() {
         (0.00205, 40.0 * 0.001 + 20.0 * 0.00005),
     ] {
         let mut back = 0.0;
-        for k in 0..=300 {
+        // It ends where the opening of the first stroke goes on.
+        for k in 0..=180 {
             back = -hand.at(-0.015 + 1e-4 * f64::from(k), depth, true).1.x;
+        }
+        if depth < 0.002 {
+            for k in 181..=300 {
+                hand.at(-0.015 + 1e-4 * f64::from(k), depth, true);
+            }
         }
         hand.at(0.02, -0.01, false);
         println!("{back} N of {expected} N");
@@ -201,13 +223,16 @@ fn a_deepened_cut_yields_as_one_that_was_made_at_once() {
 /// score says so. Judge: the scene's words.
 #[test]
 fn the_myotomy_is_two_strokes_and_a_third_layer_is_a_perforation() {
-    let text = include_str!("../../../../assets/tasks/myotomy.toml").replace("\"hybrid\"", "\"local\"");
+    let text =
+        include_str!("../../../../assets/tasks/myotomy.toml").replace("\"hybrid\"", "\"local\"");
     let text = text.replace("mechanical_triangles = 2500\n", "");
     let scene = Scene::parse(&text, "myotomy.toml").unwrap();
     let simulation = Simulation::new(&scene).unwrap();
     let motion = include_str!("../../../../assets/esophagus/myotomy.csv");
     for (deeper, perforations) in [(0.0, 0), (0.0009, 1)] {
-        let motion = motion.replace(",-0.0058,", &format!(",{:?},", deeper - 0.0058));
+        let motion = [-0.005, -0.0059].iter().fold(motion.to_owned(), |text, y| {
+            text.replace(&format!(",{y:?},"), &format!(",{:?},", y + deeper))
+        });
         let motion = motion.lines().filter(|line| !line.starts_with("# end"));
         let motion = motion.map(|line| format!("{line}\n")).collect::<String>();
         let motion = Motion::parse(&motion, "myotomy.csv").unwrap();
@@ -218,7 +243,13 @@ fn the_myotomy_is_two_strokes_and_a_third_layer_is_a_perforation() {
         for k in 0..2400 {
             let time = 0.005 * f64::from(k);
             let poses = ["left", "right"].map(|name| motion.pose(name, time));
-            step(&simulation, (time, if k == 0 { 0.0 } else { 0.005 }), &poses, &mut state, &mut workspace);
+            step(
+                &simulation,
+                (time, if k == 0 { 0.0 } else { 0.005 }),
+                &poses,
+                &mut state,
+                &mut workspace,
+            );
             for tool in &state.tools {
                 performance.add(&tool.row);
             }
@@ -227,7 +258,10 @@ fn the_myotomy_is_two_strokes_and_a_third_layer_is_a_perforation() {
         let outcome = performance.score().outcome;
         println!("{deeper}: {errors:?} {outcome:?}");
         let torn = state.cuts.as_ref().unwrap().length_through(3) > 0.0;
-        assert_eq!((errors.perforations, torn), (perforations, perforations > 0));
+        assert_eq!(
+            (errors.perforations, torn),
+            (perforations, perforations > 0)
+        );
         assert_eq!(outcome.passed(), Some(perforations == 0), "{outcome:?}");
     }
 }

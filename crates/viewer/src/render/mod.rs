@@ -32,8 +32,8 @@ mod wire;
 use palpate_files::scene::Shading;
 use wgpu::util::DeviceExt;
 
-pub(crate) use body::{FibreRun, Fibres};
 pub use body::{Body, single_precision};
+pub(crate) use body::{FibreRun, Fibres};
 pub use target::Target;
 pub use tint::Tint;
 pub use tool::ToolPicture;

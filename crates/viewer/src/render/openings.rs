@@ -56,7 +56,11 @@ fn add(run: &[&OpenedPart], width: f32, found: &mut Vec<Opening>) {
     for part in run {
         let after = before + length(part);
         let [start, end] = [before, after].map(|along| {
-            let from_middle = if whole > 0.0 { 2.0 * along / whole - 1.0 } else { 0.0 };
+            let from_middle = if whole > 0.0 {
+                2.0 * along / whole - 1.0
+            } else {
+                0.0
+            };
             half * (1.0 - from_middle * from_middle).max(0.02).sqrt()
         });
         before = after;

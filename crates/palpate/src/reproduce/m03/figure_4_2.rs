@@ -29,6 +29,7 @@ fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
             places: mesh.vertices(),
             middle: (0.5 * (low + high), body.touched_normal()),
             near: 1.0,
+            lines: None,
         })?;
         let adapter = painter.gpu.adapter();
         let note = format!(

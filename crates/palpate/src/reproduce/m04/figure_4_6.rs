@@ -48,7 +48,11 @@ const PICTURES: [Shown; 9] = [
     shown("edge", EnhancementArea::Edge, Smoothing::None),
     shown("edge_shepard", EnhancementArea::Edge, Smoothing::Shepard),
     shown("vertex", EnhancementArea::Vertex, Smoothing::None),
-    shown("vertex_shepard", EnhancementArea::Vertex, Smoothing::Shepard),
+    shown(
+        "vertex_shepard",
+        EnhancementArea::Vertex,
+        Smoothing::Shepard,
+    ),
     shown(
         "edge_moving_least_squares",
         EnhancementArea::Edge,
@@ -61,7 +65,11 @@ const PICTURES: [Shown; 9] = [
     ),
     Shown {
         dimple: true,
-        ..shown("vertex_shepard_dimple", EnhancementArea::Vertex, Smoothing::Shepard)
+        ..shown(
+            "vertex_shepard_dimple",
+            EnhancementArea::Vertex,
+            Smoothing::Shepard,
+        )
     },
 ];
 
@@ -90,9 +98,10 @@ fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
             places: &places,
             middle: (pressed.place, pressed.normal),
             near: 0.62,
+            lines: Some(1.2e-4),
         })?;
         let note = format!(
-            "{}, {}; {} triangles are drawn, lit by their own normals; geometry, no mechanics; drawn by {}",
+            "{}, {}; {} triangles are drawn, with their edges; geometry, no mechanics; drawn by {}",
             cube.told,
             shown.told(),
             surface.mesh().triangles().len(),
@@ -154,7 +163,11 @@ fn enhanced(
     };
     let presses = if shown.dimple { &[press][..] } else { &[] };
     let still = vec![Vec3::zeros(); pressed.displacements.len()];
-    let displacements = if shown.pressed { &pressed.displacements } else { &still };
+    let displacements = if shown.pressed {
+        &pressed.displacements
+    } else {
+        &still
+    };
     let mut field = SurfaceField::default();
     field.update(model.interpolation(), displacements, presses);
     let mut patch = EnhancedPatch::default();

@@ -46,5 +46,6 @@ fn portrait(painter: &mut Painter, mesh: TriangleMesh) -> Result<Vec<u8>, Failur
         places: &places,
         middle: ((low + high) / 2.0, Vec3::zeros()),
         near: 1.0,
+        lines: None,
     })
 }

@@ -119,7 +119,8 @@ fn looked_up(rest: vec4f) -> vec3f {
     let axis = body.fibres.xyz;
     let out = rest.xyz - body.fibre_center.xyz;
     let around = normalize(cross(axis, out - dot(out, axis) * axis) + vec3f(1e-9, 0.0, 0.0));
-    let is_along = select(rest.w > 0.68, body.fibre_center.w < 1.5, body.fibre_center.w > 0.5);
+    let by_depth = rest.w > 0.68;
+    let is_along = select(by_depth, (body.fibre_center.w < 1.5), (body.fibre_center.w > 0.5));
     let run = select(around, axis, is_along);
     let drawn = rest.xyz - 0.94 * dot(out, run) * run;
     // A wall's rows differ in depth alone, which its openness tells.
@@ -222,8 +223,8 @@ fn tissue_fragment(in: Varyings) -> @location(0) vec4f {
     if (is_wet) {
         // Liquid fills the relief, more of it in hollows of the tone; where it is thin the film is rough.
         let pool = smoothstep(0.35, 0.85, tone);
-        let film_normal = bent(smooth_normal, relief * mix(0.75, 0.30, pool));
-        let roughness = mix(0.34, 0.20, pool);
+        let film_normal = bent(smooth_normal, relief * mix(1.0, 0.55, pool));
+        let roughness = mix(0.42, 0.24, pool);
         // Of water: 2 % straight on.
         let straight = 0.025;
         let seen = clamp(dot(film_normal, to_eye), 0.0, 1.0);
@@ -232,8 +233,14 @@ fn tissue_fragment(in: Varyings) -> @location(0) vec4f {
         let reflection = mirrored(2.0 * dot(film_normal, to_eye) * film_normal - to_eye);
         // Wet tissue is darker and fuller in colour: light is kept in by the film.
         color = mix(0.80 * pow(color, vec3f(1.10)), 0.55 * reflection, body.detail.z);
-        shine = reflection * open * (0.4 + 0.6 * strength) * min(2.6 * fresnel, 1.0);
+        shine = reflection * open * (0.4 + 0.6 * strength) * min(3.0 * fresnel, 1.0);
         shine += direct * lit * glitter(film_normal, towards, to_eye, roughness, straight);
+        if (globals.key.w < 0.5) {
+            // A lamp beside the eye, which a film shows before it lights the tissue.
+            let beside_eye = normalize(to_eye + 0.35 * globals.up.xyz);
+            shine += 3.0 * globals.sky.rgb * open
+                * glitter(film_normal, beside_eye, to_eye, roughness, straight);
+        }
     } else {
         let middle = clamp(dot(normal, normalize(towards + to_eye)), 0.0, 1.0);
         shine = direct * lit * 0.06 * exp2(30.0 * (middle - 1.0)) * body.detail.w;
