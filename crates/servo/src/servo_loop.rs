@@ -209,13 +209,11 @@ impl ServoLoop {
     pub fn tick(&mut self, time: f64, lateness: f64) -> Result<Sample, Fault> {
         let permission = self.supervisor.permission(time);
         self.follow_session(&permission);
-        let held = match permission.state.allows_force() {
-            true => self.guard.rendered(),
-            false => Vec3::zeros(),
-        };
-        let force = match permission.state.allows_force() {
-            true => std::mem::take(&mut self.force),
-            false => CommandedForce::default(),
+        // What was made before a stop is not sent after it, be the session armed again meanwhile.
+        let goes_on = permission.state.allows_force() && permission.armings == self.armings;
+        let (held, force) = match goes_on {
+            true => (self.guard.rendered(), std::mem::take(&mut self.force)),
+            false => (Vec3::zeros(), CommandedForce::default()),
         };
         let state = match self.device.exchange(&Command::new(time, force)) {
             Ok(state) => state,

@@ -15,6 +15,10 @@ use std::time::Duration;
 
 use crate::{Clock, Fault, LoopReport, Next, Scheduler, ServoLoop};
 
+/// How long a scheduler may take to its next call before its device is disabled from here: more than the guard lets a tick
+/// be late.
+const CALL: Duration = Duration::from_millis(50);
+
 /// How long the end of a loop is waited for: some of the longest calls that a driver makes, of 20 ms each.
 const END: Duration = Duration::from_millis(500);
 
@@ -98,10 +102,17 @@ impl ServoThread {
 
     fn join(&mut self) -> Result<LoopReport, Fault> {
         self.signals.stop.store(true, Ordering::Release);
-        let Some(host) = self.host.take() else {
+        let Some(mut host) = self.host.take() else {
             return Ok(LoopReport::default());
         };
-        let ended = self.ended.recv_timeout(END);
+        let mut ended = self.ended.recv_timeout(CALL);
+        if ended == Err(RecvTimeoutError::Timeout) {
+            if let Host::Device(scheduler) = &mut host {
+                // Whether it is done nobody can say: the loop is told that it hangs.
+                scheduler.disable();
+            }
+            ended = self.ended.recv_timeout(END.saturating_sub(CALL));
+        }
         let hung = Fault::Hung {
             limit: END.as_secs_f64(),
         };

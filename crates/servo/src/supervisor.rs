@@ -66,7 +66,7 @@ enum Cause {
 /// The state of a session and its ends: cheap to clone, and safe to use from any thread. No call waits.
 #[derive(Debug, Clone)]
 pub struct Supervisor {
-    /// How often a person armed, the cause and the state, packed.
+    /// How often forces were armed, the cause and the state, packed.
     word: Arc<AtomicU64>,
     /// When the program reported last [s, as bits]; infinite when it does not have to.
     reported: Arc<AtomicU64>,
@@ -76,7 +76,7 @@ pub struct Supervisor {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Permission {
     pub(crate) state: ForceState,
-    /// Another number whenever a person armed.
+    /// Another number whenever a person armed what was off.
     pub(crate) armings: u64,
     /// Why forces are off, where they tripped.
     pub(crate) fault: Option<Fault>,
@@ -219,13 +219,16 @@ impl Supervisor {
     fn obey(&self, order: Order, why: Option<Cause>) {
         let next = |word| {
             let (state, cause, armings) = unpacked(word);
-            let armed = u64::from(order == Order::Arm);
+            let next = state.after(order);
+            // A loop that sees another number begins anew, also when it was between two ticks that forces were off.
+            let armed = next == ForceState::Armed && matches!(order, Order::Arm | Order::Resume);
+            let armed = u64::from(armed && (order == Order::Arm || state == ForceState::Paused));
             // Who stopped first is told.
             let cause = match state {
                 ForceState::Tripped => cause,
                 _ => why.unwrap_or(cause),
             };
-            Some(packed(state.after(order), cause, armings + armed))
+            Some(packed(next, cause, armings + armed))
         };
         // It always answers a word.
         let _ = self

@@ -316,8 +316,9 @@ impl Device for HaplyDevice {
                 self.broken = self.broken.or(Some(Fault::Disconnected));
                 return Disabled::Unknown;
             }
-            // One that is broken was sent zero, and is not waited for.
-            let Some(Ok(state)) = self.broken.is_none().then(|| self.receive()) else {
+            // One that is silent is not waited for once more.
+            let waits = self.broken != Some(Fault::Silent);
+            let Some(Ok(state)) = waits.then(|| self.receive()) else {
                 return Disabled::Unknown;
             };
             self.known.update(&state);

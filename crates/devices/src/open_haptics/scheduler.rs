@@ -14,7 +14,7 @@ use std::sync::mpsc::channel;
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
-use palpate_servo::{Fault, Next, Scheduler, Tick};
+use palpate_servo::{Disabled, Fault, Next, Scheduler, Tick};
 
 use super::errors;
 use super::functions::{CONTINUE, DONE, Functions};
@@ -121,6 +121,12 @@ impl Scheduler for OpenHapticsScheduler {
         Ok(())
     }
 
+    /// No frame comes that could say zero, but hdDisable is no call that belongs to a frame.
+    fn disable(&mut self) -> Disabled {
+        self.functions.disable_forces();
+        Disabled::Unknown
+    }
+
     fn stop(&mut self, timeout: Duration) -> Result<(), Fault> {
         let Some(started) = self.started.take() else {
             return Ok(());
@@ -130,7 +136,6 @@ impl Scheduler for OpenHapticsScheduler {
         };
         let ended = started.ends_within(timeout);
         if !ended {
-            // No frame comes any more that could say zero; the motors can be switched off from any thread.
             self.functions.disable_forces();
         }
         // A library that hangs holds up a thread that nobody waits for.

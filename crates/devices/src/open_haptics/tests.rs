@@ -1,1 +1,197 @@
+//! The driver over functions of ours, so that Miri can look at every pointer: `cargo +nightly miri test -p
+//! palpate-devices --lib`.
 
+#![allow(unsafe_code, reason = "functions that stand for those of a library")]
+
+use std::ffi::{c_char, c_ulong, c_void};
+use std::sync::Mutex;
+
+use palpate_servo::{Clock, DeviceState, Fault, ServoLoop, ServoSettings, ServoThread, Vec3};
+
+use super::OpenHapticsDevice;
+use super::functions::{CONTINUE, Callback, ErrorInfo, Functions};
+
+/// What the library was told.
+#[derive(Default)]
+struct Told {
+    frame: Option<[f64; 3]>,
+    displayed: [f64; 3],
+    enabled: bool,
+    open: i32,
+    frames: u32,
+    called: Option<(Callback, usize)>,
+}
+
+static TOLD: Mutex<Option<Told>> = Mutex::new(None);
+/// One library in the process, one test at a time.
+static ALONE: Mutex<()> = Mutex::new(());
+
+fn told<T>(act: impl FnOnce(&mut Told) -> T) -> T {
+    act(TOLD.lock().unwrap().get_or_insert_with(Told::default))
+}
+
+unsafe extern "system" fn init(_: *const c_char) -> u32 {
+    told(|told| told.open += 1);
+    7
+}
+unsafe extern "system" fn close(_: u32) {
+    told(|told| told.open -= 1);
+}
+unsafe extern "system" fn nothing_of(_: u32) {}
+unsafe extern "system" fn nothing() {}
+unsafe extern "system" fn begin(_: u32) {
+    told(|told| told.frame = Some([0.0; 3]));
+}
+unsafe extern "system" fn end(_: u32) {
+    told(|told| {
+        let force = told.frame.take().unwrap();
+        told.displayed = if told.enabled { force } else { [0.0; 3] };
+        told.frames += 1;
+    });
+}
+unsafe extern "system" fn error() -> ErrorInfo {
+    ErrorInfo {
+        code: 0,
+        internal: 0,
+        device: 7,
+    }
+}
+unsafe extern "system" fn enable(what: u32) {
+    told(|told| told.enabled |= what == 0x4000);
+}
+unsafe extern "system" fn disable(what: u32) {
+    told(|told| told.enabled &= what != 0x4000);
+}
+/// As many numbers as the documents list, one after another, so that Miri finds room that is too small.
+unsafe extern "system" fn doubles(what: u32, out: *mut f64) {
+    let count = match what {
+        0x2050 => 3,
+        0x2052 => 16,
+        0x2551 => 6,
+        _ => 1,
+    };
+    for at in 0..count {
+        let value = match (what, at) {
+            (0x2052, 0 | 5 | 10 | 15) => 1.0,
+            (0x2551, _) => [-80.0, -60.0, -35.0, 80.0, 60.0, 35.0][at],
+            (0x2603 | 0x2604, _) => 2.0,
+            _ => 0.0,
+        };
+        // SAFETY: the caller has room for what the documents list.
+        unsafe { out.add(at).write(value) };
+    }
+}
+unsafe extern "system" fn integers(_: u32, out: *mut i32) {
+    // SAFETY: the caller has room for one.
+    unsafe { out.write(0) };
+}
+unsafe extern "system" fn booleans(_: u32, out: *mut u8) {
+    // SAFETY: the caller has room for one.
+    unsafe { out.write(1) };
+}
+unsafe extern "system" fn set_doubles(_: u32, force: *const f64) {
+    // SAFETY: the caller has three numbers there.
+    let force = unsafe { force.cast::<[f64; 3]>().read() };
+    told(|told| told.frame = Some(force));
+}
+unsafe extern "system" fn string(_: u32) -> *const c_char {
+    c"ours".as_ptr()
+}
+unsafe extern "system" fn calibrated() -> u32 {
+    0x5000
+}
+unsafe extern "system" fn style() -> u32 {
+    4
+}
+unsafe extern "system" fn schedule(with: Callback, data: *mut c_void, _: u16) -> c_ulong {
+    told(|told| told.called = Some((with, data.expose_provenance())));
+    1
+}
+unsafe extern "system" fn unschedule(_: c_ulong) {}
+
+fn functions() -> Functions {
+    Functions {
+        init_device: init,
+        disable_device: close,
+        make_current: nothing_of,
+        begin_frame: begin,
+        end_frame: end,
+        error,
+        enable,
+        disable,
+        doubles,
+        integers,
+        booleans,
+        set_doubles,
+        string,
+        check_calibration: calibrated,
+        calibration_style: style,
+        update_calibration: nothing_of,
+        start_scheduler: nothing,
+        stop_scheduler: nothing,
+        schedule,
+        unschedule,
+    }
+}
+
+/// One call of the scheduler, from a thread of its own; what it answers.
+fn call() -> u32 {
+    let (with, data) = told(|told| told.called).unwrap();
+    let called = std::thread::spawn(move || {
+        let data = std::ptr::with_exposed_provenance_mut(data);
+        // SAFETY: what was scheduled, with what it was scheduled.
+        unsafe { with(data) }
+    });
+    called.join().unwrap()
+}
+
+fn loop_of(push: impl FnMut(&DeviceState, f64) -> Vec3 + Send + 'static) -> ServoThread {
+    *TOLD.lock().unwrap() = None;
+    let device = OpenHapticsDevice::of(functions()).unwrap();
+    let settings = ServoSettings {
+        limits: Some(palpate_servo::Limits {
+            ramp: 1e-9,
+            ..palpate_servo::Limits::default()
+        }),
+        log: 64,
+        ..ServoSettings::default()
+    };
+    let (servo, _) = ServoLoop::new(Box::new(device), Box::new(push), settings).unwrap();
+    ServoThread::start(servo, Clock::virtual_time()).unwrap()
+}
+
+/// Ticks, the last of which says zero, and calls after that.
+#[test]
+fn a_loop_in_the_callback_ends_with_zero() {
+    let _alone = ALONE.lock();
+    let thread = loop_of(|_, _| Vec3::y() * 0.2);
+    for _ in 0..10 {
+        assert_eq!(call(), CONTINUE);
+    }
+    assert!(told(|told| told.displayed[1] > 0.1));
+    let ended = std::thread::spawn(move || thread.stop());
+    while call() == CONTINUE {
+        std::thread::yield_now();
+    }
+    assert_eq!(ended.join().unwrap().unwrap().fault, None);
+    let (displayed, frames) = told(|told| (told.displayed, told.frames));
+    assert_eq!(displayed, [0.0; 3]);
+    assert!(told(|told| !told.enabled && told.open == 0));
+    // A call that comes too late finds nobody, and what it is called with is still there.
+    assert_ne!(call(), CONTINUE);
+    assert_eq!(told(|told| told.frames), frames);
+}
+
+#[test]
+fn a_panic_in_the_callback_ends_with_zero() {
+    let _alone = ALONE.lock();
+    let thread = loop_of(|state, _| {
+        assert!(state.time < 0.008, "a defect");
+        Vec3::y() * 0.2
+    });
+    while call() == CONTINUE {}
+    assert_eq!(told(|told| told.displayed), [0.0; 3]);
+    assert!(told(|told| told.frame.is_none() && !told.enabled));
+    assert_eq!(thread.stop(), Err(Fault::Panicked));
+    assert_eq!(told(|told| told.open), 0);
+}

@@ -56,6 +56,7 @@ pub(crate) struct Ticked<'l> {
 }
 
 enum Host<'l> {
+    Gone,
     Here(Box<ServoLoop>),
     Scheduler(ServoThread, Box<dyn Fn() -> i32 + Send + Sync + 'l>),
 }
@@ -104,6 +105,7 @@ impl<'l> Ticked<'l> {
                 return sample;
             }
             Host::Scheduler(thread, step) => (thread, step),
+            Host::Gone => return Err(Fault::Panicked),
         };
         step();
         let sample = self.reader.log.drain().last();
@@ -117,8 +119,13 @@ impl<'l> Ticked<'l> {
     pub(crate) fn fault(&mut self) -> Option<Fault> {
         match &self.host {
             Host::Here(servo) => servo.report().fault,
-            Host::Scheduler(..) => self.reader.report.latest().fault,
+            Host::Scheduler(..) | Host::Gone => self.reader.report.latest().fault,
         }
+    }
+
+    /// Drops the loop, as a thread that panicked does.
+    pub(crate) fn lose(&mut self) {
+        self.host = Host::Gone;
     }
 
     /// Ends the loop, whose last call a scheduler that a test paces has to make.

@@ -6,6 +6,7 @@
     reason = "tests may unwrap, and print what they measured"
 )]
 
+mod campaign;
 mod ends;
 mod force_sensors;
 mod hands;

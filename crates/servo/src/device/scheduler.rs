@@ -1,6 +1,6 @@
 use std::time::Duration;
 
-use crate::Fault;
+use crate::{Disabled, Fault};
 
 /// Whether a scheduler shall call again.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,6 +21,9 @@ pub trait Scheduler: Send {
     /// # Errors
     /// When the library refuses.
     fn start(&mut self, tick: Tick) -> Result<(), Fault>;
+
+    /// Switches the motors off from another thread than that of the calls, for a tick that does not come to its end.
+    fn disable(&mut self) -> Disabled;
 
     /// Ends the calls and drops the tick, with its device, after `tick` answered [`Next::End`].
     ///

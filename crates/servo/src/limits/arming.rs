@@ -44,7 +44,8 @@ impl Stage {
                 Self::Off
             }
             Self::Faulted(_) => self,
-            _ if !conditions.ready => Self::Off,
+            // Forces were off meanwhile, be it for less than a tick.
+            _ if conditions.asked || !conditions.ready => Self::Off,
             Self::Off => Self::Ready,
             Self::Ready => {
                 let slow = conditions.speed < limits.arming_speed;

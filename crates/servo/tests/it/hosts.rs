@@ -74,6 +74,10 @@ struct Paced {
 }
 
 impl Scheduler for Paced {
+    fn disable(&mut self) -> Disabled {
+        Disabled::Unknown
+    }
+
     fn start(&mut self, mut tick: Tick) -> Result<(), Fault> {
         let calls = self.calls.lock().unwrap().take().ok_or(Fault::NoThread)?;
         let ended = self.ended.clone();

@@ -195,3 +195,74 @@ proptest! {
         }
     }
 }
+
+/// A stop and an arming between two ticks are a stop. Judge: zero, for a hand whose force is too large to be armed.
+#[test]
+fn a_stop_is_not_lost_when_somebody_arms_before_the_next_tick() {
+    let stops: [fn(&Supervisor); 2] = [Supervisor::trip, Supervisor::switch_off];
+    for stop in stops {
+        let mut session = Session::new(Supervisor::armed());
+        session.after(2000);
+        stop(&session.supervisor);
+        session.supervisor.arm();
+        for _ in 0..100 {
+            let samples = session.tick();
+            assert!(samples.iter().all(is_forceless));
+        }
+    }
+    let mut session = Session::new(Supervisor::armed());
+    session.after(2000);
+    session.supervisor.pause();
+    session.supervisor.resume();
+    assert!(
+        session
+            .tick()
+            .iter()
+            .all(|sample| sample.sent == Vec3::zeros())
+    );
+    // Who arms what runs changes nothing.
+    let mut session = Session::new(Supervisor::armed());
+    session.after(2000);
+    session.supervisor.arm();
+    assert!(session.tick().iter().all(|sample| sample.sent.norm() > 0.9));
+}
+
+/// The table of `docs/theory/haptics.md`, row by row, by what a session does.
+#[test]
+fn the_table_of_the_documents_is_that_of_the_code() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/theory/haptics.md");
+    // Who embeds the crate alone has no such document.
+    let Ok(document) = std::fs::read_to_string(path) else {
+        return;
+    };
+    type Act = fn(&Supervisor);
+    let orders: [(&str, Act); 5] = [
+        ("arm", Supervisor::arm),
+        ("pause", Supervisor::pause),
+        ("resume", Supervisor::resume),
+        ("trip", Supervisor::trip),
+        ("switch off", Supervisor::switch_off),
+    ];
+    let word = |state: ForceState| format!("{state:?}").to_lowercase();
+    for (order, act) in orders {
+        let found = ["off", "armed", "running", "paused", "tripped"].map(|state| {
+            let mut session = Session::new(Supervisor::default());
+            if state != "off" {
+                session.supervisor.arm();
+            }
+            match state {
+                "running" => {
+                    session.after(10);
+                }
+                "paused" => session.supervisor.pause(),
+                "tripped" => session.supervisor.trip(),
+                _ => {}
+            }
+            assert_eq!(word(session.supervisor.state()), state);
+            act(&session.supervisor);
+            word(session.supervisor.state())
+        });
+        let row = format!("| {order} | {} |", found.join(" | "));
+        assert!(document.contains(&row), "{row}");
+    }
+}
