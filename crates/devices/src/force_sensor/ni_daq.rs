@@ -55,7 +55,7 @@ impl NiDaq {
         let (own, seen) = (gauges.clone(), end.clone());
         let thread = std::thread::Builder::new().name("ni-daq".to_owned());
         let thread = thread
-            .spawn(move || serve(functions, &own, &opened, (send, &seen)))
+            .spawn(move || serve(functions, &own, &opened, send, &seen))
             .map_err(|cause| OpenError::NoSensor {
                 place: gauges.channels.clone(),
                 cause,
@@ -84,7 +84,8 @@ fn serve(
     functions: Functions,
     gauges: &Gauges,
     opened: &SyncSender<Result<(), OpenError>>,
-    (mut send, end): (latest::Sender<Read>, &AtomicBool),
+    mut send: latest::Sender<Read>,
+    end: &AtomicBool,
 ) {
     let task = match Task::start(functions, gauges) {
         Ok(task) => task,

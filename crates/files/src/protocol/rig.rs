@@ -45,6 +45,8 @@ pub struct RigLimits {
     pub gains: Option<Gains>,
     /// What carries the indenter.
     pub device: Option<RigDevice>,
+    /// The rise of the force that is a contact [N].
+    pub contact_force_n: Option<f64>,
     /// How far sideways the indenter may be moved from where the rig began [m].
     pub lateral_limit_m: Option<f64>,
     /// The direction from the tip to the device, in the rig's axes [-].
@@ -61,6 +63,7 @@ impl RigLimits {
         "recovery_s",
         "gains",
         "device",
+        "contact_force_n",
         "lateral_limit_m",
         "indenter_axis",
     ];
@@ -83,6 +86,7 @@ impl RigLimits {
             recovery_s: keys.number("recovery_s", Domain::DURATION_OR_NONE)?,
             gains: keys.word("gains", Gains::WORDS)?,
             device: keys.word("device", RigDevice::WORDS)?,
+            contact_force_n: keys.number("contact_force_n", Domain::FORCE)?,
             lateral_limit_m: keys.number("lateral_limit_m", Domain::LENGTH)?,
             indenter_axis: upward(keys, "indenter_axis")?,
         })

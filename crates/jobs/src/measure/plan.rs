@@ -179,13 +179,13 @@ impl Plan {
 
     /// A rig over the specimen at `place`, on `clock`, that faces it as the protocol says.
     pub fn rig(&self, (specimen, place): (OnRig, usize), clock: Clock) -> Result<Rig, Error> {
-        let mut rig = self.made((specimen, place), clock)?;
+        let mut rig = self.made(specimen, place, clock)?;
         let normal = Vec3::from(self.specimens[place].place.normal);
         rig.face(&normal).map_err(Error::input)?;
         Ok(rig)
     }
 
-    fn made(&self, (specimen, place): (OnRig, usize), clock: Clock) -> Result<Rig, Error> {
+    fn made(&self, specimen: OnRig, place: usize, clock: Clock) -> Result<Rig, Error> {
         let (settings, seed) = (self.settings, self.seed.wrapping_add(place as u64));
         let rig = match (specimen, self.open_device()?, &self.sensor) {
             (OnRig::Virtual(specimen), Some(device), _) => {
@@ -219,6 +219,7 @@ fn settings(limits: &RigLimits) -> RigSettings {
         depth_limit: limits.depth_limit_m.unwrap_or(default.depth_limit),
         speed_limit: limits.speed_limit_m_per_s.unwrap_or(default.speed_limit),
         breath: limits.breath_s,
+        contact_force: limits.contact_force_n.unwrap_or(default.contact_force),
         lateral_limit: limits.lateral_limit_m.unwrap_or(default.lateral_limit),
         indenter_axis: limits
             .indenter_axis
