@@ -7,7 +7,7 @@
 //! Muscle fibres run along the organ in the outermost layer and around it in the next (section 7.1). Triangles are
 //! made when the cut has changed, places with every picture.
 //!
-//! *How we know*: `golden::a_cut_looks_as_it_did`, `agreement::layers_are_seen_open_where_events_say`.
+//! *How we know*: `golden::a_cut_looks_as_it_did`.
 //!
 //! *Limits*: an inner layer is not moved by the opening, and on a wall thinner than two layers it is the
 //! outer side's alone; a slit wider than twice [`AROUND`] shows its end. An opening of an inner layer has a cut

@@ -1,6 +1,7 @@
 use palpate_geometry::{CutSurface, TriangleMesh, Vec3};
 
 use super::parts::{CutPart, nearest, opening_at};
+use super::stroke::LEAVES;
 use super::{CuttingModel, gape};
 use crate::Simulation;
 
@@ -181,7 +182,7 @@ impl Cuts {
         if !model.is_layered || own.is_some_and(|stroke| stroke.opens) {
             return 0;
         }
-        let Some(part) = opening_at(&self.parts, place, model.width) else {
+        let Some(part) = opening_at(&self.parts, place, LEAVES * model.width) else {
             return 0;
         };
         let since = own.map_or(self.deepened.len(), |stroke| stroke.before.deepened);

@@ -15,6 +15,12 @@ const LEFT: f64 = 3.0;
 /// A blade that is farther from where it was a step before [m] was lifted in between: no hand is that fast.
 const LEAP: f64 = 5e-3;
 
+/// A blade that opens the surface goes on in an earlier opening where it has come this near to its middle, and one
+/// that goes along in an opening begins another where it has left its middle this far behind, in widths of an opening
+/// [-]: between the two it stays what it is, so that a path along the edge is not a row of punctures.
+const ENTERS: f64 = 0.5;
+pub(super) const LEAVES: f64 = 1.5;
+
 /// What the force of a tool opens, and what its blade does. Called when the forces are known.
 pub(crate) fn advance(
     simulation: &Simulation,
@@ -61,7 +67,7 @@ pub(crate) fn advance(
     let mut opened = all.go_on(simulation, model, &edge);
     // What is pressed gives way under the whole tip, what is cut in its opening alone.
     let under = under.filter(|_| gives_way);
-    let below = opening_at(&all.parts, &blade.footing.point, model.width);
+    let below = opening_at(&all.parts, &blade.footing.point, LEAVES * model.width);
     for part in [under, below].into_iter().flatten() {
         opened.events = opened.events | all.deepen(model, part, edge.layers);
     }
@@ -129,7 +135,7 @@ impl Cuts {
             return self.leave_opening(simulation, model, edge);
         }
         let earlier = &self.parts[..stroke.before.parts];
-        if model.is_layered && opening_at(earlier, &at, model.width).is_some() {
+        if model.is_layered && opening_at(earlier, &at, ENTERS * model.width).is_some() {
             self.enter_opening(simulation, at);
             return Opened::default();
         }
@@ -198,7 +204,7 @@ impl Cuts {
     ) -> Opened {
         let at = edge.footing.point;
         self.set_blade(at);
-        if model.is_layered && opening_at(&self.parts, &at, model.width).is_some() {
+        if model.is_layered && opening_at(&self.parts, &at, LEAVES * model.width).is_some() {
             return Opened::default();
         }
         let begun = self

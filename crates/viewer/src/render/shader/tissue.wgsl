@@ -237,8 +237,8 @@ fn tissue_fragment(in: Varyings) -> @location(0) vec4f {
         shine += direct * lit * glitter(film_normal, towards, to_eye, roughness, straight);
         if (globals.key.w < 0.5) {
             // A lamp beside the eye, which a film shows before it lights the tissue.
-            let beside_eye = normalize(to_eye + 0.35 * globals.up.xyz);
-            shine += 3.0 * globals.sky.rgb * open
+            let beside_eye = normalize(to_eye - 0.25 * globals.up.xyz);
+            shine += 6.0 * globals.sky.rgb * open
                 * glitter(film_normal, beside_eye, to_eye, roughness, straight);
         }
     } else {
