@@ -71,6 +71,7 @@ placement = "source"
 solver = "gmres"
 assembly = "every_step"
 integration_points = 957
+calibration = "none"
 enhancement = { area = "vertex", levels = 2, smoothing = "shepard" }
 hand_over = "hold"
 force_scale = 2.0

@@ -80,6 +80,7 @@ fn every_setting_of_the_model_is_understood() {
     assert_eq!(model.local.placement, Placement::Source);
     assert_eq!(model.local.solver, Solver::Gmres);
     assert_eq!(model.local.integration_points.count(), 957);
+    assert_eq!(model.local.calibration, Calibration::None);
     assert_eq!(model.enhancement.area, EnhancementArea::Vertex);
     assert_eq!(model.enhancement.levels, 2);
     assert_eq!(model.enhancement.smoothing, Smoothing::Shepard);
@@ -121,6 +122,7 @@ fn what_is_not_stated_has_its_default() {
     assert_eq!(scene.model.kind, ModelKind::Local);
     assert_eq!(scene.model.step_s, 0.005);
     assert_eq!(scene.model.local.particles, 34);
+    assert_eq!(scene.model.local.calibration, Calibration::Fitted);
     assert_eq!(
         scene.model.local.integration_points,
         IntegrationPoints::Standard

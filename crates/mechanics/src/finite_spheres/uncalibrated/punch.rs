@@ -2,7 +2,7 @@
 //! finite sphere carries beside its polynomials.
 //!
 //! With V = (2/π) Im ln(R + ζ), ζ = z + i, R² = ρ² + ζ², the potential of the punch [Sneddon], and χ its
-//! integral along the depth z, u = −(1 − 2ν) ∇χ − z ∇V + 2 (1 − ν) V e_z.
+//! integral along the depth z, 2 (1 − ν) u = −(1 − 2ν) ∇ₕχ − z ∇V + 2 (1 − ν) V e_z, ∇ₕ being along the surface.
 
 use std::f64::consts::FRAC_2_PI;
 
@@ -34,13 +34,13 @@ pub(super) fn punch(x: &Vec3, poissons_ratio: f64) -> (Vec3, Matrix3<f64>) {
     let v_rr = -v_zz - v_r / rho;
     let chi_r = -im(Complex::new(rho, 0.0) / sum);
     let chi_rr = -v_z - chi_r / rho;
-    let k = 1.0 - 2.0 * nu;
-    let outward = -(k * chi_r + z * v_r);
-    let down = v - z * v_z;
-    let outward_r = -(k * chi_rr + z * v_rr);
-    let outward_z = -((k + 1.0) * v_r + z * v_rz);
-    let down_r = v_r - z * v_rz;
-    let down_z = -z * v_zz;
+    let (k, n) = (1.0 - 2.0 * nu, 0.5 / (1.0 - nu));
+    let outward = -n * (k * chi_r + z * v_r);
+    let down = v - n * z * v_z;
+    let outward_r = -n * (k * chi_rr + z * v_rr);
+    let outward_z = -n * ((k + 1.0) * v_r + z * v_rz);
+    let down_r = v_r - n * z * v_rz;
+    let down_z = v_z - n * (v_z + z * v_zz);
     let hoop = outward / rho;
     let mixed = (outward_r - hoop) * cosine * sine;
     let gradient = Matrix3::new(
@@ -78,6 +78,31 @@ mod tests {
                 // Differences of 1e-6.
                 assert!((slope - gradient.column(axis)).norm() < 1e-8, "{nu} {axis}");
             }
+        }
+    }
+
+    /// Judge: the field equations, (1 − 2ν) ∇²u + ∇(∇·u) = 0, and no traction beside the punch.
+    #[test]
+    fn punch_field_is_in_equilibrium() {
+        for nu in [0.0, 0.3, 0.49] {
+            let stress = |x: &Vec3| {
+                let (_, gradient) = punch(x, nu);
+                let lame = 2.0 * nu / (1.0 - 2.0 * nu);
+                gradient
+                    + gradient.transpose()
+                    + Matrix3::from_diagonal_element(lame * gradient.trace())
+            };
+            let x = Vec3::new(0.7, -0.4, -0.5);
+            let mut sum = Vec3::zeros();
+            for axis in 0..3 {
+                let mut step = Vec3::zeros();
+                step[axis] = 1e-5;
+                sum += (stress(&(x + step)) - stress(&(x - step))).column(axis) / 2e-5;
+            }
+            // Differences of 1e-5 of terms up to 2ν/(1 − 2ν) = 49.
+            assert!(sum.norm() < 1e-6, "{nu}: {sum}");
+            let traction = stress(&Vec3::new(1.2, 0.9, 0.0)).column(2).norm();
+            assert!(traction < 1e-12, "{nu}: {traction}");
         }
     }
 }

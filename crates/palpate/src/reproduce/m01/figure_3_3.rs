@@ -1,7 +1,9 @@
 use palpate_mechanics::LinearElastic;
 use palpate_mechanics::Vec3;
 use palpate_mechanics::contact::Bond;
-use palpate_mechanics::finite_spheres::{FiniteSphereModel, FiniteSphereSettings, Form};
+use palpate_mechanics::finite_spheres::{
+    Calibration, FiniteSphereModel, FiniteSphereSettings, Form,
+};
 
 use super::pole::{FORMS, POISSONS_RATIOS, RADIUS, YOUNGS_MODULUS, contact, finite_elements};
 use crate::failure::Failure;
@@ -22,13 +24,29 @@ const TIP_RADIUS: f64 = 3e-3;
 const NOTE: &str = "root mean square over the surface that the model shows, in parts of the depth; the \
     source's profile has no numbers, and stands beside finite elements that displace one node";
 
+/// Largest distance from finite elements that the weak form may have beyond the tip's edge, in depths [-].
+const PROFILE_BOUND: f64 = 0.05;
+
+/// The model's kinds with the words of their rows.
+fn kinds() -> Vec<(FiniteSphereSettings, &'static str)> {
+    let settings = FiniteSphereSettings::default();
+    let forms = FORMS.map(|(form, word)| (FiniteSphereSettings { form, ..settings }, word));
+    let calibration = Calibration::None;
+    let own = FiniteSphereSettings {
+        form: Form::Weak,
+        calibration,
+        ..settings
+    };
+    forms.into_iter().chain([(own, "uncalibrated")]).collect()
+}
+
 fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
     for poissons_ratio in POISSONS_RATIOS {
         let law = LinearElastic::new(YOUNGS_MODULUS, poissons_ratio)?;
         let judge = finite_elements(&law, TIP_RADIUS)?.answer.profile;
         let mut series = vec![series("finite elements", &judge, Style::Line, 0)];
-        for (color, (form, word)) in FORMS.into_iter().enumerate() {
-            let (profile, shown) = profile(form, &law, &judge)?;
+        for (color, (settings, word)) in kinds().into_iter().enumerate() {
+            let (profile, shown) = profile(settings, &law, &judge)?;
             let each = judge
                 .iter()
                 .zip(&profile)
@@ -45,7 +63,28 @@ fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
                 value,
                 NOTE,
             );
-            let name = format!("34 particles, {word} form");
+            let beyond = judge.iter().zip(&profile);
+            let beyond = beyond.filter(|((arc, _), _)| *arc > TIP_RADIUS && *arc < shown);
+            let worst = beyond
+                .map(|((_, a), (_, b))| (a - b).abs())
+                .fold(0.0, f64::max);
+            let value = Value {
+                published: None,
+                ours: Some(worst),
+                unit: "1",
+            };
+            let verdict = if worst <= PROFILE_BOUND {
+                "within"
+            } else {
+                "misses"
+            };
+            let note = format!("{verdict} {PROFILE_BOUND} of the depth beyond the tip's edge");
+            rows.add(
+                &format!("profile_worst/{word}/nu_{poissons_ratio}"),
+                value,
+                note,
+            );
+            let name = format!("34 particles, {}", word.replace('_', " "));
             series.push(self::series(&name, &profile, Style::DashedLine, color + 1));
         }
         let plot = Plot {
@@ -68,14 +107,10 @@ fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
 /// The local model's profile at the arcs of `judge` [m], for a depth of one, and the arc up to which it
 /// shows any [m].
 fn profile(
-    form: Form,
+    settings: FiniteSphereSettings,
     law: &LinearElastic,
     judge: &[(f64, f64)],
 ) -> Result<(Vec<(f64, f64)>, f64), Failure> {
-    let settings = FiniteSphereSettings {
-        form,
-        ..FiniteSphereSettings::default()
-    };
     let model = FiniteSphereModel::new(settings, law, Bond::Slip)?;
     let contact = contact(TIP_RADIUS)?;
     let mut workspace = model.workspace();

@@ -6,6 +6,7 @@ mod plots;
 mod pole;
 mod table_3_1;
 mod timing;
+mod uncalibrated;
 
 pub(super) use figure_3_3::FIGURE_3_3;
 pub(super) use figure_3_4::FIGURE_3_4;

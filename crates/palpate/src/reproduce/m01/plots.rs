@@ -19,7 +19,7 @@ pub(super) fn of_errors(series: Vec<Series>) -> Plot {
         x_label: "number of particles [-]".to_owned(),
         y_label: "size of the force error [%]".to_owned(),
         x_axis: Axis::Logarithmic,
-        y_axis: Axis::Linear,
+        y_axis: Axis::Logarithmic,
         series,
         ..Plot::default()
     }
