@@ -35,7 +35,7 @@ pub use serial::{Field, LineFormat, Separator};
 #[derive(Debug, Clone, PartialEq)]
 pub enum SensorFormat {
     /// Voltages of strain gauges at NI-DAQmx.
-    NiDaq(Gauges),
+    NiDaq(Box<Gauges>),
     /// Counts of an ATI Net F/T.
     NetFt(Counts),
     /// Lines of text.

@@ -139,12 +139,12 @@ fn gauges(channels: &str) -> SensorFormat {
         row[axis] = if axis < 3 { 2.0 } else { 1e-3 };
     }
     matrix[0][5] = 0.5;
-    SensorFormat::NiDaq(Gauges {
+    SensorFormat::NiDaq(Box::new(Gauges {
         channels: channels.to_owned(),
         rate: 10_000.0,
         range: 10.0,
         matrix,
-    })
+    }))
 }
 
 fn daq() -> (DaqStandIn, SensorPlaces, tempfile::TempDir) {

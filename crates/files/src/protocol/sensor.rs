@@ -41,7 +41,7 @@ pub enum SensorSource {
     /// A virtual specimen.
     Virtual,
     /// Voltages.
-    NiDaq(Voltages),
+    NiDaq(Box<Voltages>),
     /// Packets of counts.
     NetFt(Counts),
     /// Lines of text.
@@ -121,7 +121,7 @@ impl SensorPlan {
         Self::only(keys, kind)?;
         let source = match kind {
             SensorKind::Virtual => SensorSource::Virtual,
-            SensorKind::NiDaq => SensorSource::NiDaq(Voltages::from_keys(keys)?),
+            SensorKind::NiDaq => SensorSource::NiDaq(Box::new(Voltages::from_keys(keys)?)),
             SensorKind::NetFt => SensorSource::NetFt(Counts::from_keys(keys)?),
             SensorKind::Serial => SensorSource::Serial(SerialLine::from_keys(keys)?),
         };

@@ -25,12 +25,12 @@ impl RealSensor {
     pub(super) fn of(plan: &SensorPlan) -> Result<Option<Self>, Error> {
         let format = match &plan.source {
             SensorSource::Virtual => return Ok(None),
-            SensorSource::NiDaq(voltages) => SensorFormat::NiDaq(Gauges {
+            SensorSource::NiDaq(voltages) => SensorFormat::NiDaq(Box::new(Gauges {
                 channels: voltages.channels.clone(),
                 rate: voltages.rate_hz,
                 range: voltages.range_v,
                 matrix: voltages.matrix,
-            }),
+            })),
             SensorSource::NetFt(counts) => SensorFormat::NetFt(Counts {
                 per_newton: counts.per_newton,
                 per_newton_metre: counts.per_newton_metre,
