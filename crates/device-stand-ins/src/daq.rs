@@ -48,7 +48,9 @@ impl DaqStandIn {
     /// The six voltages [V].
     pub fn set_volts(&self, volts: &[f64; 6]) {
         // SAFETY: it takes six numbers, as the C file has it.
-        unsafe { self.function::<unsafe extern "C" fn(*const f64)>("stand_in_volts")(volts.as_ptr()) };
+        unsafe {
+            self.function::<unsafe extern "C" fn(*const f64)>("stand_in_volts")(volts.as_ptr())
+        };
     }
 
     /// Every reading fails with this number; 0 for none.

@@ -240,7 +240,9 @@ impl Rig {
         self.stage = seen.stage;
         self.sensing.read();
         let position = match self.is_real {
-            true => on_device::upright(&(seen.state.position - self.rest.get().copied().unwrap_or_default())),
+            true => on_device::upright(
+                &(seen.state.position - self.rest.get().copied().unwrap_or_default()),
+            ),
             false => seen.state.position,
         };
         let height = self.line.height(&position);

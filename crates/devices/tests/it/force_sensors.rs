@@ -3,11 +3,11 @@
 
 use std::time::{Duration, Instant};
 
+use palpate_device_stand_ins::{DaqStandIn, NetFtFault, NetFtStandIn};
 use palpate_devices::OpenError;
 use palpate_devices::force_sensor::{
     Counts, Gauges, NetFtAddress, SensorFormat, SensorLimits, SensorPlaces, open_force_sensor,
 };
-use palpate_device_stand_ins::{DaqStandIn, NetFtFault, NetFtStandIn};
 use palpate_servo::{ForceSensor, ForceTorque, SensorFault};
 
 const COUNTS: Counts = Counts {

@@ -11,9 +11,7 @@
 use std::sync::{Arc, OnceLock};
 
 use palpate_files::recording::RecordingHeader;
-use palpate_servo::{
-    Clock, Controller, Device, DeviceState, ForceTorque, Vec3, latest,
-};
+use palpate_servo::{Clock, Controller, Device, DeviceState, ForceTorque, Vec3, latest};
 
 use super::{Parts, Rig};
 use crate::sensing::{MountedSensor, Source};
