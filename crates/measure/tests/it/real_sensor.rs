@@ -11,8 +11,8 @@ use palpate_measure::{
 };
 use palpate_servo::dynamics::{Imperfections, Machine, TwoMass};
 use palpate_servo::{
-    Clock, Command, Device, DeviceSpec, DeviceState, Fault, ForceSensor, ForceSensorSpec,
-    ForceTorque, MECHANICS_STEP, SensorFault, Vec3, VirtualPhantom,
+    Capabilities, Clock, Command, Device, DeviceState, Disabled, Fault, ForceSensor,
+    ForceSensorSpec, ForceTorque, MECHANICS_STEP, SensorFault, Vec3, VirtualPhantom,
 };
 
 use crate::rig::{rig, soft, usual};
@@ -49,20 +49,20 @@ impl ForceSensor for OnWire {
 struct OverTissue(VirtualPhantom);
 
 impl Device for OverTissue {
-    fn spec(&self) -> &DeviceSpec {
-        self.0.spec()
+    fn capabilities(&self) -> &Capabilities {
+        self.0.capabilities()
     }
 
-    fn exchange(
-        &mut self,
-        command: &Command,
-        patience: std::time::Duration,
-    ) -> Result<DeviceState, Fault> {
-        self.0.exchange(command, patience)
+    fn enable(&mut self) -> Result<(), Fault> {
+        self.0.enable()
     }
 
-    fn stop(&mut self) {
-        self.0.stop();
+    fn exchange(&mut self, command: &Command) -> Result<DeviceState, Fault> {
+        self.0.exchange(command)
+    }
+
+    fn disable(&mut self) -> Disabled {
+        self.0.disable()
     }
 }
 

@@ -219,7 +219,7 @@ fn what_needs_the_machines_time_once() {
 }
 
 #[test]
-#[ignore = "slow: five moments each, minutes on the machine's clock"]
+#[ignore = "by hand: minutes; all long forms in one process once ended with signal 11, of unknown cause"]
 fn every_fault_at_five_moments() {
     campaign(5, &TROUBLES);
 }

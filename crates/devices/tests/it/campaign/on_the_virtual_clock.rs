@@ -212,13 +212,13 @@ fn a_stop_in_every_state_once() {
 }
 
 #[test]
-#[ignore = "slow: five moments each, minutes"]
+#[ignore = "by hand: minutes; all long forms in one process once ended with signal 11, of unknown cause"]
 fn every_fault_at_five_moments() {
     faults(5);
 }
 
 #[test]
-#[ignore = "slow: five moments each, minutes"]
+#[ignore = "by hand: minutes; all long forms in one process once ended with signal 11, of unknown cause"]
 fn a_stop_in_every_state_at_five_moments() {
     stops(5);
 }

@@ -76,7 +76,7 @@ const PICTURES: [Shown; 9] = [
 /// Each triangle becomes 64.
 const LEVELS: usize = 3;
 
-/// How deep a triangle is pressed in [m]: half of the cube, for the means of linear triangles keep a third of it.
+/// How deep a triangle is pressed in [m]: two fifths of the cube.
 const DEPTH: f64 = 40e-3;
 
 fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {

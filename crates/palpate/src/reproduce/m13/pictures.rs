@@ -80,8 +80,7 @@ fn figure_7_12(rows: &mut Rows<'_>) -> Result<(), Failure> {
              organ fills about half of the picture",
         );
         let note = "pixels with all channels above 200 of 255, in the middle picture and in the right one; no \
-                    statistics of photographs are compared: papers on endoscopic images tell how highlights are found \
-                    and removed, and none that we know tells their area with the light and the tissue";
+                    statistics of photographs are compared";
         rows.add("highlights/middle", percent(look::highlights(middle)), note);
         rows.add("highlights/right", percent(look::highlights(right)), note);
     }
