@@ -141,11 +141,14 @@ fn after(
     }
 }
 
+/// What happens to a session.
+type Happening<'a> = &'a dyn Fn(&World, &Supervisor);
+
 /// The worst time to zero of `moments` sessions of `driver`.
 fn worst(
     driver: Driver,
     (moments, chance): (u32, &mut Chance),
-    (promised, happen): (f64, &dyn Fn(&World, &Supervisor)),
+    (promised, happen): (f64, Happening<'_>),
     is_named: &dyn Fn(Option<Fault>) -> bool,
 ) -> f64 {
     let mut worst: f64 = 0.0;

@@ -156,8 +156,10 @@ const STOPS: [Order; 3] = [
     ("switch off", Supervisor::switch_off),
 ];
 
-/// How a session in contact comes into each state.
-const STATES: [(ForceState, fn(&Supervisor)); 5] = [
+/// A state, and how a session in contact comes into it.
+type Entry = (ForceState, fn(&Supervisor));
+
+const STATES: [Entry; 5] = [
     (ForceState::Off, Supervisor::switch_off),
     (ForceState::Armed, |session| {
         session.trip();
