@@ -15,6 +15,7 @@ mod indentation_curve;
 mod limits;
 mod linear;
 mod material;
+pub mod nonlinear;
 pub mod surface_response;
 mod tip_law;
 

@@ -10,6 +10,9 @@
 //! to notice.
 
 mod many;
+mod single;
+
+pub(crate) use single::SingleFactors;
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::ldlt::factor::LdltRegularization;

@@ -30,6 +30,7 @@ mod invariants;
 mod laws;
 mod linear_system;
 mod no_allocation;
+mod nonlinear;
 mod orders;
 mod patch_on_hemisphere;
 mod path;

@@ -11,13 +11,13 @@ use faer::{Accum, MatMut, MatRef, Par};
 use super::Factors;
 
 /// Columns of L that have their rows in common.
-struct Supernode<'a> {
-    start: usize,
+pub(super) struct Supernode<'a> {
+    pub(super) start: usize,
     /// Unit lower triangle, D on its diagonal.
-    top: MatRef<'a, f64>,
-    bottom: MatRef<'a, f64>,
+    pub(super) top: MatRef<'a, f64>,
+    pub(super) bottom: MatRef<'a, f64>,
     /// Rows of `bottom`.
-    rows: &'a [usize],
+    pub(super) rows: &'a [usize],
 }
 
 impl Factors {
@@ -42,7 +42,7 @@ impl Factors {
         }
     }
 
-    fn supernodes(&self) -> Vec<Supernode<'_>> {
+    pub(super) fn supernodes(&self) -> Vec<Supernode<'_>> {
         let SymbolicCholeskyRaw::Supernodal(nodes) = self.symbolic.raw() else {
             unreachable!("supernodal factors were asked for");
         };

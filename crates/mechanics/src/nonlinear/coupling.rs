@@ -1,0 +1,259 @@
+use nalgebra::{DMatrix, DVector, Matrix3};
+
+use super::model::NonlinearModel;
+use crate::Vec3;
+
+/// What a tool does to the body in a step: it moves the weighted mean of some nodes through its own compliance,
+///
+/// ```text
+/// Σ w u + C F + o = d
+/// ```
+///
+/// along all directions, or along one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Coupling<'a> {
+    /// Nodes with their weights w [-], whose sum is one.
+    pub nodes: &'a [(u32, f64)],
+    /// The only direction along which it acts, of length one; all if there is none.
+    pub along: Option<Vec3>,
+    /// Displacement d [m] of the tool since it touched the body at rest.
+    pub displacement: Vec3,
+    /// C [m/N], symmetric and not negative.
+    pub compliance: Matrix3<f64>,
+    /// o [m]: what the tool's own deformation under the last force is beyond C times it.
+    pub offset: Vec3,
+}
+
+impl Coupling<'_> {
+    pub(super) fn directions(&self) -> impl Iterator<Item = Vec3> {
+        let all = [Vec3::x(), Vec3::y(), Vec3::z()];
+        let (axes, count) = match self.along {
+            Some(along) => ([along, along, along], 1),
+            None => (all, 3),
+        };
+        axes.into_iter().take(count)
+    }
+}
+
+/// A direction in which one of the tools acts.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Row {
+    pub(super) tool: usize,
+    pub(super) direction: Vec3,
+}
+
+/// The rows of all tools and what they do to the body.
+#[derive(Debug, Clone)]
+pub(super) struct Rows {
+    pub(super) rows: Vec<Row>,
+    /// Z = Q K⁻¹ Qᵀ W, row after row; each has three values a node [m/N].
+    pub(super) influences: Vec<f32>,
+    /// C + Wᵀ Z [m/N].
+    pub(super) compliance: DMatrix<f64>,
+    /// C [m/N].
+    pub(super) own: DMatrix<f64>,
+    /// The inverse of `compliance` [N/m].
+    inverse: DMatrix<f64>,
+    size: usize,
+}
+
+impl Rows {
+    pub(super) fn new(model: &NonlinearModel, tools: usize) -> Self {
+        let (rows, size) = (3 * tools, 3 * model.nodes().len());
+        Self {
+            rows: Vec::with_capacity(rows),
+            influences: vec![0.0; rows * size],
+            compliance: DMatrix::zeros(rows, rows),
+            own: DMatrix::zeros(rows, rows),
+            inverse: DMatrix::zeros(rows, rows),
+            size,
+        }
+    }
+
+    /// Lists the rows of `couplings`.
+    pub(super) fn list(&mut self, couplings: &[Option<Coupling<'_>>]) {
+        self.rows.clear();
+        for (tool, coupling) in couplings.iter().enumerate() {
+            if let Some(coupling) = coupling {
+                let directions = coupling.directions();
+                self.rows
+                    .extend(directions.map(|direction| Row { tool, direction }));
+            }
+        }
+    }
+
+    /// Makes Z and the compliances with the `rotations` of the nodes.
+    #[inline(always)]
+    pub(super) fn prepare(
+        &mut self,
+        model: &NonlinearModel,
+        couplings: &[Option<Coupling<'_>>],
+        rotations: &[[f32; 9]],
+    ) {
+        let mut first = 0;
+        for coupling in couplings.iter().flatten() {
+            let count = coupling.directions().count();
+            let columns = &mut self.influences[first * self.size..(first + count) * self.size];
+            influence(model, coupling, rotations, columns);
+            first += count;
+        }
+        self.inverse.fill(0.0);
+        for (i, row) in self.rows.iter().enumerate() {
+            for (j, column) in self.rows.iter().enumerate() {
+                let loads = &self.influences[j * self.size..(j + 1) * self.size];
+                let moved = couplings[row.tool]
+                    .as_ref()
+                    .map_or(0.0, |coupling| mean(coupling, &row.direction, loads));
+                let own = match (row.tool == column.tool, &couplings[row.tool]) {
+                    (true, Some(coupling)) => {
+                        row.direction.dot(&(coupling.compliance * column.direction))
+                    }
+                    _ => 0.0,
+                };
+                self.own[(i, j)] = own;
+                self.compliance[(i, j)] = own + moved;
+            }
+        }
+        self.invert();
+    }
+
+    /// Gauss and Jordan, in place and without an allocation; the compliance is positive.
+    fn invert(&mut self) {
+        let count = self.rows.len();
+        let (a, inverse) = (&mut self.compliance, &mut self.inverse);
+        for i in 0..count {
+            inverse[(i, i)] = 1.0;
+        }
+        for pivot in 0..count {
+            let scale = 1.0 / a[(pivot, pivot)];
+            for j in 0..count {
+                a[(pivot, j)] *= scale;
+                inverse[(pivot, j)] *= scale;
+            }
+            for i in (0..count).filter(|&i| i != pivot) {
+                let factor = a[(i, pivot)];
+                for j in 0..count {
+                    a[(i, j)] -= factor * a[(pivot, j)];
+                    inverse[(i, j)] -= factor * inverse[(pivot, j)];
+                }
+            }
+        }
+    }
+
+    /// (C + Wᵀ Z)⁻¹ times `right`.
+    pub(super) fn solve(&self, right: &DVector<f64>, solution: &mut DVector<f64>) {
+        for i in 0..self.rows.len() {
+            solution[i] = (0..self.rows.len())
+                .map(|j| self.inverse[(i, j)] * right[j])
+                .sum();
+        }
+    }
+
+    /// Zᵀ r.
+    #[inline(always)]
+    pub(super) fn project(&self, r: &[f32], projected: &mut DVector<f64>) {
+        for (row, z) in self.influences.chunks_exact(self.size).enumerate() {
+            if row < self.rows.len() {
+                projected[row] = super::step::dot(z, r);
+            }
+        }
+    }
+
+    /// x ← x + Z t.
+    #[inline(always)]
+    pub(super) fn add_influence(&self, t: &DVector<f64>, x: &mut [f32]) {
+        let columns = self.influences.chunks_exact(self.size);
+        for (z, row) in columns.zip(0..self.rows.len()) {
+            let factor = t[row] as f32;
+            for (x, z) in x.iter_mut().zip(z) {
+                *x += factor * z;
+            }
+        }
+    }
+
+    /// r ← r + W t.
+    pub(super) fn add_load(
+        &self,
+        couplings: &[Option<Coupling<'_>>],
+        t: &DVector<f64>,
+        r: &mut [f32],
+    ) {
+        for (number, row) in self.rows.iter().enumerate() {
+            if let Some(coupling) = &couplings[row.tool] {
+                for &(node, weight) in coupling.nodes {
+                    let at = 3 * node as usize;
+                    let force = row.direction * (weight * t[number]);
+                    for axis in 0..3 {
+                        r[at + axis] += force[axis] as f32;
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The weighted mean of `values` over the nodes of a coupling, along `direction`.
+fn mean(coupling: &Coupling<'_>, direction: &Vec3, values: &[f32]) -> f64 {
+    let nodes = coupling.nodes.iter();
+    nodes
+        .map(|&(node, weight)| {
+            let value = &values[3 * node as usize..][..3];
+            let along: f64 = (0..3)
+                .map(|axis| direction[axis] * f64::from(value[axis]))
+                .sum();
+            weight * along
+        })
+        .sum()
+}
+
+/// Columns of Z of one coupling: Q_a Σ_b w_b K⁻¹_ab Q_bᵀ, along its directions.
+#[inline(always)]
+fn influence(
+    model: &NonlinearModel,
+    coupling: &Coupling<'_>,
+    rotations: &[[f32; 9]],
+    columns: &mut [f32],
+) {
+    columns.fill(0.0);
+    let size = rotations.len() * 3;
+    let (directions, count) = match coupling.along {
+        Some(along) => ([along; 3], 1),
+        None => ([Vec3::x(), Vec3::y(), Vec3::z()], 3),
+    };
+    for &(node, weight) in coupling.nodes {
+        let Some(place) = model.loaded[node as usize] else {
+            continue;
+        };
+        let influence = &model.influences[place as usize].values;
+        let q = &rotations[node as usize];
+        for (column, direction) in columns.chunks_exact_mut(size).zip(&directions[..count]) {
+            // w Qᵀ times the direction.
+            let turned: [f32; 3] = std::array::from_fn(|i| {
+                let sum: f64 = (0..3).map(|k| f64::from(q[3 * i + k]) * direction[k]).sum();
+                (weight * sum) as f32
+            });
+            for (own, g) in column.chunks_exact_mut(3).zip(influence.chunks_exact(9)) {
+                for i in 0..3 {
+                    own[i] += g[i] * turned[0] + g[3 + i] * turned[1] + g[6 + i] * turned[2];
+                }
+            }
+        }
+    }
+    for column in columns.chunks_exact_mut(size) {
+        for (own, q) in column.chunks_exact_mut(3).zip(rotations) {
+            let [x, y, z] = [own[0], own[1], own[2]];
+            for i in 0..3 {
+                own[i] = q[i] * x + q[3 + i] * y + q[6 + i] * z;
+            }
+        }
+    }
+}
+
+impl Rows {
+    /// tᵀ C t [J].
+    pub(super) fn own_curvature(&self, t: &DVector<f64>) -> f64 {
+        let count = self.rows.len();
+        let row = |i: usize| (0..count).map(|j| self.own[(i, j)] * t[j]).sum::<f64>();
+        (0..count).map(|i| t[i] * row(i)).sum()
+    }
+}

@@ -1,0 +1,187 @@
+//! Forces of the elements and their change, without a matrix.
+//!
+//! ```text
+//! P = 2 c₁₀ F + 2 c₀₁ (I₁ F − F C) + (p − 2 c₁₀ − 4 c₀₁) cof F,   p = λ′ (J̄ − 1)
+//! ```
+//!
+//! J − 1 is computed from the displacement gradient, so that no digit is lost at small strain.
+
+use super::elements::{Nodal, POINTS, Pack};
+use super::lanes::{
+    Columns, Lanes, Scalar, cofactors, contraction, cross, dot, plus, product, scaled,
+    transposed_times,
+};
+
+/// What eight elements keep of their deformation.
+#[derive(Debug, Clone)]
+pub(super) struct Deformed<T> {
+    /// F at each integration point [-].
+    pub(super) gradients: [Columns<T>; POINTS],
+    /// p − 2 c₁₀ − 4 c₀₁ [Pa].
+    pressure: Lanes<T>,
+    /// Whether one of the elements has c₀₁.
+    has_second: bool,
+}
+
+impl<T: Scalar> Default for Deformed<T> {
+    fn default() -> Self {
+        Self {
+            gradients: [Columns::default(); POINTS],
+            pressure: Lanes::default(),
+            has_second: false,
+        }
+    }
+}
+
+/// Deforms every element by the displacements `u` [m] and adds its forces [N], by which it resists, to `forces`.
+#[inline(always)]
+pub(super) fn forces<T: Scalar>(
+    packs: &[Pack<T>],
+    u: &[f64],
+    deformed: &mut [Deformed<T>],
+    forces: &mut [T],
+) {
+    for (pack, deformed) in packs.iter().zip(deformed) {
+        pack.deform(&pack.gather_displacements(u), deformed);
+        pack.scatter(&pack.resist(deformed), forces);
+    }
+}
+
+/// Adds the change of the forces [N] when the displacements change by `du` [m].
+#[inline(always)]
+pub(super) fn products<T: Scalar>(
+    packs: &[Pack<T>],
+    deformed: &[Deformed<T>],
+    du: &[T],
+    forces: &mut [T],
+) {
+    for (pack, deformed) in packs.iter().zip(deformed) {
+        let nodal = pack.change(deformed, &pack.gather(du));
+        pack.scatter(&nodal, forces);
+    }
+}
+
+impl<T: Scalar> Pack<T> {
+    #[inline(always)]
+    pub(super) fn deform(&self, nodal: &Nodal<T>, deformed: &mut Deformed<T>) {
+        let one = Lanes::splat(1.0);
+        let mut dilation = Lanes::default();
+        for point in 0..POINTS {
+            let mut h = self.gradient(nodal, point);
+            // J − 1 = tr H + tr cof H + det H.
+            let minors = cofactors(&h);
+            let traces = [0, 1, 2].map(|i| h[i][i] + minors[i][i]);
+            dilation += traces[0] + traces[1] + traces[2] + dot(&h[0], &minors[0]);
+            for (axis, column) in h.iter_mut().enumerate() {
+                column[axis] += one;
+            }
+            deformed.gradients[point] = h;
+        }
+        let moduli = &self.moduli;
+        let mean = dilation * Lanes::splat(1.0 / POINTS as f64);
+        let (two, four) = (Lanes::splat(2.0), Lanes::splat(4.0));
+        deformed.pressure = moduli.dilation * mean - (two * moduli.c10 + four * moduli.c01);
+        deformed.has_second = moduli.c01 != Lanes::default();
+    }
+
+    /// The forces of the elements on their nodes, with the sign by which they resist [N].
+    #[inline(always)]
+    pub(super) fn resist(&self, deformed: &Deformed<T>) -> Nodal<T> {
+        let mut nodal = Nodal::default();
+        for point in 0..POINTS {
+            let stress = self.stress(deformed, point);
+            self.add_forces(&stress, point, &mut nodal);
+        }
+        nodal
+    }
+
+    /// P at an integration point times its volume [N m].
+    #[inline(always)]
+    fn stress(&self, deformed: &Deformed<T>, point: usize) -> Columns<T> {
+        let f = &deformed.gradients[point];
+        let two = Lanes::splat(2.0) * self.quarter;
+        let pressure = deformed.pressure * self.quarter;
+        let mut first = two * self.moduli.c10;
+        let mut stress = cofactors(f).map(|column| scaled(&column, pressure));
+        if deformed.has_second {
+            let second = two * self.moduli.c01;
+            let c = transposed_times(f, f);
+            first += second * (c[0][0] + c[1][1] + c[2][2]);
+            let fc = product(f, &c);
+            for (column, fc) in stress.iter_mut().zip(&fc) {
+                *column = plus(column, &scaled(fc, -second));
+            }
+        }
+        for (column, f) in stress.iter_mut().zip(f) {
+            *column = plus(column, &scaled(f, first));
+        }
+        stress
+    }
+
+    /// The change of the forces when the nodes move by `nodal` [m].
+    #[inline(always)]
+    pub(super) fn change(&self, deformed: &Deformed<T>, nodal: &Nodal<T>) -> Nodal<T> {
+        let mut dilation = Lanes::default();
+        let mut changes = [Columns::default(); POINTS];
+        for (point, change) in changes.iter_mut().enumerate() {
+            *change = self.gradient(nodal, point);
+            dilation += contraction(&cofactors(&deformed.gradients[point]), change);
+        }
+        let by_dilation =
+            self.moduli.dilation * dilation * Lanes::splat(1.0 / POINTS as f64) * self.quarter;
+        let mut forces = Nodal::default();
+        for (point, change) in changes.iter().enumerate() {
+            let stress = self.stress_change(deformed, point, change, by_dilation);
+            self.add_forces(&stress, point, &mut forces);
+        }
+        forces
+    }
+
+    /// dP at an integration point times its volume [N m], for dF = `change`.
+    #[inline(always)]
+    fn stress_change(
+        &self,
+        deformed: &Deformed<T>,
+        point: usize,
+        change: &Columns<T>,
+        by_dilation: Lanes<T>,
+    ) -> Columns<T> {
+        let f = &deformed.gradients[point];
+        let two = Lanes::splat(2.0) * self.quarter;
+        let pressure = deformed.pressure * self.quarter;
+        let mut first = two * self.moduli.c10;
+        let cofactors = cofactors(f);
+        let mut stress = Columns::default();
+        for (i, own) in stress.iter_mut().enumerate() {
+            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+            let turned = plus(&cross(&change[j], &f[k]), &cross(&f[j], &change[k]));
+            *own = plus(
+                &scaled(&turned, pressure),
+                &scaled(&cofactors[i], by_dilation),
+            );
+        }
+        if deformed.has_second {
+            let second = two * self.moduli.c01;
+            let c = transposed_times(f, f);
+            first += second * (c[0][0] + c[1][1] + c[2][2]);
+            let along = Lanes::splat(2.0) * contraction(f, change) * second;
+            let mixed = transposed_times(f, change);
+            // dC = Fᵀ dF + (Fᵀ dF)ᵀ.
+            let mut dc = mixed;
+            for (i, column) in dc.iter_mut().enumerate() {
+                for (j, entry) in column.iter_mut().enumerate() {
+                    *entry += mixed[j][i];
+                }
+            }
+            let (change_c, f_dc) = (product(change, &c), product(f, &dc));
+            for (i, own) in stress.iter_mut().enumerate() {
+                let bent = plus(&change_c[i], &f_dc[i]);
+                *own = plus(own, &plus(&scaled(&f[i], along), &scaled(&bent, -second)));
+            }
+        }
+        for (own, change) in stress.iter_mut().zip(change) {
+            *own = plus(own, &scaled(change, first));
+        }
+        stress
+    }
+}

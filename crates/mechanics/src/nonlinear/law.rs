@@ -1,0 +1,49 @@
+//! The laws that the kernel knows, in one form that is stable under compression and inversion:
+//!
+//! ```text
+//! Ψ = c₁₀ (I₁ − 3) + c₀₁ (I₂ − 3) − (2 c₁₀ + 4 c₀₁) (J − 1) + ½ λ′ (J̄ − 1)²
+//! ```
+//!
+//! with the invariants of C themselves, not of its isochoric part, J̄ the mean of J over the element, and
+//! λ′ = λ + 2 c₁₀, so that the law at rest is Hooke's with μ = 2 (c₁₀ + c₀₁) and λ [Smith, de Goes and Kim 2018],
+//! without their logarithm. At constant volume these are the neo-Hookean and Mooney-Rivlin laws of `material`.
+
+use super::lanes::{LANES, Lanes, Scalar};
+use crate::{Error, LinearElastic};
+
+/// Parameters of the law of an element.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Moduli<T> {
+    /// c₁₀ [Pa].
+    pub c10: T,
+    /// c₀₁ [Pa].
+    pub c01: T,
+    /// λ′ [Pa].
+    pub dilation: T,
+}
+
+impl Moduli<f64> {
+    /// A Mooney-Rivlin law (`c01` = 0: neo-Hookean) of the `poissons_ratio` [-] at rest; `c10` and `c01` in [Pa].
+    ///
+    /// # Errors
+    /// When they are those of no solid at rest.
+    pub fn mooney_rivlin(c10: f64, c01: f64, poissons_ratio: f64) -> Result<Self, Error> {
+        let shear = 2.0 * (c10 + c01);
+        let at_rest = LinearElastic::new(2.0 * shear * (1.0 + poissons_ratio), poissons_ratio)?;
+        let lame = 2.0 * at_rest.shear_modulus() * poissons_ratio / (1.0 - 2.0 * poissons_ratio);
+        Ok(Self {
+            c10,
+            c01,
+            dilation: lame + 2.0 * c10,
+        })
+    }
+}
+
+impl<T: Scalar> Moduli<Lanes<T>> {
+    pub(super) fn put(&mut self, lane: usize, moduli: &Moduli<f64>) {
+        debug_assert!(lane < LANES);
+        self.c10.0[lane] = T::of(moduli.c10);
+        self.c01.0[lane] = T::of(moduli.c01);
+        self.dilation.0[lane] = T::of(moduli.dilation);
+    }
+}

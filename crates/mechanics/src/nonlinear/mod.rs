@@ -1,0 +1,36 @@
+//! A body at large deformation, moved by tools at haptic rates.
+//!
+//! Quadratic tetrahedra with one change of volume each, of a law that is stable under compression (`law`), in
+//! quasi-static equilibrium with rigid tools, each of which moves a few nodes through its own compliance
+//! ([`Coupling`]). One step per period:
+//!
+//! 1. continue the last displacement as far as the tools continue their paths;
+//! 2. forces of the elements, rotations of the nodes;
+//! 3. one step of Newton's method by a few conjugate gradients, projected onto the conditions of the tools and
+//!    preconditioned by the factors of the stiffness at rest, turned with the nodes, Q K⁻¹ Qᵀ;
+//! 4. if the forces along the step have turned against it, back to the zero of their secant.
+//!
+//! No matrix is assembled in a step: the product of the stiffness with a vector is the change of the elements'
+//! forces. All of it works in single precision, eight elements at a time; displacements are kept in double.
+//!
+//! *How we know*: `nonlinear::…`.
+//!
+//! *Limits*: quasi-static: no mass. A step does not solve to convergence; its error against it is in
+//! `docs/theory/large_deformation.md`.
+
+mod coupling;
+mod elements;
+mod kernel;
+mod lanes;
+mod law;
+mod model;
+mod rest;
+mod rotation;
+mod step;
+#[cfg(test)]
+mod tests;
+
+pub use coupling::Coupling;
+pub use law::Moduli;
+pub use model::{MOST_INFLUENCE_BYTES, NonlinearModel};
+pub use step::{Advance, NonlinearState, Workspace, advance};

@@ -1,0 +1,119 @@
+use palpate_geometry::{NodeId, TetrahedronMesh};
+
+use super::elements::{Pack, nodes};
+use super::law::Moduli;
+use super::rest::{Influence, RestFactors};
+use super::step::Workspace;
+use crate::finite_elements::Mismatch;
+use crate::{Error, Vec3};
+
+/// Largest memory of the influences of the nodes that can be loaded [bytes].
+pub const MOST_INFLUENCE_BYTES: usize = 1 << 30;
+
+/// A body of quadratic tetrahedra, fixed at some nodes, with its stiffness at rest in factors.
+#[derive(Debug, Clone)]
+pub struct NonlinearModel {
+    pub(super) packs: Vec<Pack<f32>>,
+    pub(super) rest: RestFactors,
+    /// 1/volume of the elements around each node [1/m³].
+    pub(super) inverse_volumes: Vec<f32>,
+    /// Those of the nodes that can be loaded.
+    pub(super) influences: Vec<Influence>,
+    /// Place of each node in `influences`.
+    pub(super) loaded: Vec<Option<u32>>,
+    nodes: Vec<Vec3>,
+    middles: Vec<[NodeId; 2]>,
+}
+
+impl NonlinearModel {
+    /// `moduli` are those of each tetrahedron of `mesh`. Nodes are its vertices, then the middles of its edges
+    /// ([`TetrahedronMesh::edges`]); `is_fixed` says of each whether it cannot move, `can_be_loaded` whether tools may
+    /// act on it, which costs 36 bytes times the square of their number.
+    ///
+    /// # Errors
+    /// When a list has another length, nothing is fixed, the influences need more than [`MOST_INFLUENCE_BYTES`], or
+    /// the stiffness at rest is not positive.
+    pub fn new(
+        mesh: &TetrahedronMesh,
+        moduli: &[Moduli<f64>],
+        is_fixed: impl Fn(usize, &Vec3) -> bool,
+        can_be_loaded: impl Fn(usize, &Vec3) -> bool,
+    ) -> Result<Self, Error> {
+        if moduli.len() != mesh.tetrahedra().len() {
+            return Err(Mismatch::WrongLength {
+                what: "the list of the elements' moduli",
+                found: moduli.len(),
+                expected: mesh.tetrahedra().len(),
+            }
+            .into());
+        }
+        let (numbers, middles) = nodes(mesh);
+        let mut places = mesh.vertices().to_vec();
+        places.extend(middles.iter().map(|ends| {
+            let [a, b] = ends.map(|node| mesh.vertices()[node.index()]);
+            0.5 * (a + b)
+        }));
+        let select = |holds: &dyn Fn(usize, &Vec3) -> bool| -> Vec<bool> {
+            let nodes = places.iter().enumerate();
+            nodes.map(|(node, place)| holds(node, place)).collect()
+        };
+        let is_fixed = select(&is_fixed);
+        if !is_fixed.contains(&true) {
+            return Err(Error::NothingHeld);
+        }
+        let can_be_loaded = select(&can_be_loaded);
+        let list: Vec<u32> = (0..places.len() as u32)
+            .filter(|&node| can_be_loaded[node as usize] && !is_fixed[node as usize])
+            .collect();
+        let needed = 36 * list.len() * places.len();
+        if needed > MOST_INFLUENCE_BYTES {
+            return Err(Error::NotEnoughMemory {
+                needed,
+                memory: MOST_INFLUENCE_BYTES,
+            });
+        }
+        let exact = Pack::<f64>::all(mesh, &numbers, moduli);
+        let (rest, influences) = RestFactors::new(&exact, &is_fixed, &list)?;
+        let mut loaded = vec![None; places.len()];
+        for (place, &node) in list.iter().enumerate() {
+            loaded[node as usize] = Some(place as u32);
+        }
+        Ok(Self {
+            packs: Pack::all(mesh, &numbers, moduli),
+            inverse_volumes: inverse_volumes(&exact, places.len()),
+            rest,
+            influences,
+            loaded,
+            nodes: places,
+            middles,
+        })
+    }
+
+    /// Places of the nodes at rest [m].
+    pub fn nodes(&self) -> &[Vec3] {
+        &self.nodes
+    }
+
+    /// The vertices at the ends of the edge of each node that is no vertex.
+    pub fn middles(&self) -> &[[NodeId; 2]] {
+        &self.middles
+    }
+
+    /// Scratch for [`super::advance`] with at most `tools` tools.
+    pub fn workspace(&self, tools: usize) -> Workspace {
+        Workspace::new(self, tools)
+    }
+}
+
+fn inverse_volumes(packs: &[Pack<f64>], nodes: usize) -> Vec<f32> {
+    let mut volumes = vec![0.0; nodes];
+    for pack in packs {
+        for own in &pack.nodes {
+            for (&node, quarter) in own.iter().zip(pack.quarter.0) {
+                volumes[node as usize] += 4.0 * quarter;
+            }
+        }
+    }
+    let inverse = |volume: f64| (1.0 / volume) as f32;
+    volumes.into_iter().map(inverse).collect()
+}
