@@ -95,8 +95,9 @@ fn former(scene: &Scene, tissue: &Tissue) -> String {
         &scene.organ.nodules,
     ];
     let text = parts.map(|part| format!("{part:?}")).concat();
-    // Layers had no toughness of their own then.
+    // Layers had no toughness of their own then, and the local model no calibration.
     text.replace(", toughness_j_per_m2: None", "")
+        .replace(", calibration: Fitted", "")
 }
 
 /// The canonical text.

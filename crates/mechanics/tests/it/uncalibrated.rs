@@ -177,9 +177,9 @@ fn uncalibrated_force_improves_with_particles() {
 }
 
 /// A cylinder and a saddle have no other method's answer here: the judge is the same model with 300
-/// particles, so this shows convergence, not truth.
+/// particles, so this shows convergence, not truth. On the saddle 34 particles fail, nine times too stiff.
 #[test]
-#[ignore = "slow: 300 particles, minutes"]
+#[ignore = "by hand: 300 particles, minutes; fails on the saddle with 34 particles, of which scenes warn"]
 fn cylinder_and_saddle_converge_with_particles() {
     for nu in RATIOS {
         let models = [34, 93, 300].map(|n| model(settings(n, Calibration::None), nu, Bond::Slip));
