@@ -7,14 +7,15 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use palpate_files::recording::RecordingHeader;
-use palpate_servo::dynamics::{Imperfections, Machine};
+use palpate_servo::watch::{Pulse, Watched};
 use palpate_servo::{
-    Clock, Controller, Device, Fault, Limits, MECHANICS_STEP, ServoLoop, ServoSettings, Stage,
-    Supervisor, Vec3, VirtualPhantom, latest,
+    Clock, Controller, Device, Fault, Limits, ServoLoop, ServoSettings, Stage, Supervisor, Vec3,
+    latest,
 };
 
 pub use sample::{Ended, Listener, Phase, RigSample};
 
+use crate::phantom::{Imperfections, MECHANICS_STEP, Machine, VirtualPhantom};
 use crate::{Course, Error, ForceSensor, Indenter, Reference, RigSettings, VirtualSpecimen};
 
 /// An indenter on its device, with a sensor.
@@ -39,6 +40,7 @@ pub struct Rig {
     waited: f64,
     /// Whether its device is there, and what is late for it is late.
     is_real: bool,
+    pulse: Pulse,
 }
 
 impl Rig {
@@ -102,6 +104,7 @@ impl Rig {
             supervisor: reader.supervisor,
             waited: 0.0,
             is_real: false,
+            pulse: Pulse::default(),
         })
     }
 
@@ -123,6 +126,24 @@ impl Rig {
     /// What takes every force off, from anywhere, and lets forces on again.
     pub fn supervisor(&self) -> Supervisor {
         self.supervisor.clone()
+    }
+
+    /// Whether its device is there; a hand may be on it.
+    pub fn is_real(&self) -> bool {
+        self.is_real
+    }
+
+    /// The clock that it runs on.
+    pub fn clock(&self) -> Clock {
+        self.clock
+    }
+
+    /// When it ticks, for a watch; a rig without a device never hangs.
+    pub fn watched(&self) -> Watched {
+        Watched {
+            name: "the device of the rig".to_owned(),
+            pulse: self.pulse.clone(),
+        }
     }
 
     /// Why forces are off; none when they are not, or will be on in a moment.
@@ -180,6 +201,9 @@ impl Rig {
             time
         };
         let seen = self.servo.tick(of_loop, lateness);
+        if self.is_real {
+            self.pulse.beat(self.clock.now());
+        }
         self.time += self.settings.period;
         let seen = seen.inspect_err(|fault| self.stage = Stage::Faulted(*fault))?;
         self.stage = seen.stage;
@@ -206,6 +230,13 @@ impl Rig {
             return 0.0;
         }
         lateness
+    }
+}
+
+impl Drop for Rig {
+    /// A rig that is gone does not hang.
+    fn drop(&mut self) {
+        self.pulse.end();
     }
 }
 

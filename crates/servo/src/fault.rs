@@ -96,6 +96,31 @@ pub enum Fault {
         /// How long it may be [s].
         limit: f64,
     },
+    /// Somebody pressed the stop button of a device.
+    #[error("the stop button of a device was pressed; look after what is touched and arm again")]
+    DeviceButton,
+    /// The program was asked to end.
+    #[error("the program was asked to end (Ctrl-C or SIGTERM); start it again")]
+    Interrupted,
+    /// A loop hangs inside a call of its device's driver.
+    #[error(
+        "a device has not answered for {limit} s inside a call of its driver and may still display its last force; cut its power and start again"
+    )]
+    HungDevice {
+        /// How long a call may take [s].
+        limit: f64,
+    },
+    /// What happens can no longer be recorded.
+    #[error("the recording can no longer be written; record it elsewhere and arm again")]
+    Unrecorded,
+    /// The thread that watches the loops does not run any more.
+    #[error(
+        "the thread that watches the devices was silent for more than {limit} s; free the processor and arm again"
+    )]
+    Unwatched {
+        /// How long it may be [s].
+        limit: f64,
+    },
     /// The thread of the loop ended in a panic; the device was stopped.
     #[error("the servo thread panicked, and the device was stopped; report it as a defect")]
     Panicked,

@@ -4,8 +4,10 @@ use palpate_measure::{
     Course, Ended, Recorded, Recorder, Rig, RigSample, VirtualSpecimen, recording_name,
     stimulus_name,
 };
+use palpate_servo::lock_memory;
 
 use super::Files;
+use super::live::LiveMeasuring;
 use super::plan::Plan;
 use crate::{Error, Watch};
 
@@ -24,6 +26,9 @@ impl Measuring {
     pub fn of(plan: Plan, watch: &dyn Watch) -> Result<Self, Error> {
         plan.check()?;
         let mut doubts = plan.doubts.clone();
+        if plan.has_device() {
+            doubts.extend(lock_memory().warning());
+        }
         let mut specimens = Vec::new();
         for place in 0..plan.specimens.len() {
             let (found, said) = plan.specimen(place, &mut |part| {
@@ -64,13 +69,20 @@ impl Measuring {
         let mut files = files.paths.iter();
         for (place, specimen) in self.specimens.iter().enumerate() {
             let clock = self.plan.clock();
-            let mut rig = self.plan.rig((specimen.clone(), place), clock)?;
+            let mut rig = Measured::by(self.plan.rig((specimen.clone(), place), clock)?)?;
             for ((name, repeat, course), file) in self.stimuli.iter().zip(files.by_ref()) {
                 watch.say(&file.display().to_string());
                 if watch.is_asked_to_stop() {
                     return Ok(recorded);
                 }
-                let done = record(&mut rig, (course, *repeat), file, watch);
+                let done = match &mut rig {
+                    Measured::Virtual(rig) => record(rig, (course, *repeat), file, watch),
+                    Measured::Live(live) => {
+                        let settings = &self.plan.settings;
+                        let header = settings.describe(&specimen.header, (course, *repeat));
+                        live.record((course, header), file, watch)
+                    }
+                };
                 let done = done.map_err(|failure| failure.about(file))?;
                 watch.at((recorded.len() + 1) as f64 / count as f64);
                 let Some(done) = done else {
@@ -80,6 +92,21 @@ impl Measuring {
             }
         }
         Ok(recorded)
+    }
+}
+
+/// A rig that measures: in the calling thread as fast as the machine can, or on a device that is there.
+enum Measured {
+    Virtual(Box<Rig>),
+    Live(Box<LiveMeasuring>),
+}
+
+impl Measured {
+    fn by(rig: Rig) -> Result<Self, Error> {
+        match rig.is_real() {
+            false => Ok(Self::Virtual(Box::new(rig))),
+            true => Ok(Self::Live(Box::new(LiveMeasuring::start(rig)?))),
+        }
     }
 }
 

@@ -1,9 +1,9 @@
 use palpate_devices::{Kind, Places};
 use palpate_files::Protocol;
 use palpate_files::protocol::{Gains, Measured, RigDevice, RigLimits, Stimulus};
+use palpate_measure::phantom::{Imperfections, MECHANICS_STEP, Machine, TwoMass};
 use palpate_measure::{BREATH_MOTION, Course, Rig, RigSettings, VirtualSpecimen, stimulus_name};
-use palpate_servo::dynamics::{Imperfections, Machine, TwoMass};
-use palpate_servo::{Clock, Device, MECHANICS_STEP, PidGains};
+use palpate_servo::{Clock, Device, PidGains};
 
 use super::specimen;
 use crate::Error;
@@ -113,6 +113,11 @@ impl Plan {
             false => found,
         };
         Ok((found, doubts))
+    }
+
+    /// Whether a device that is there carries the indenter.
+    pub fn has_device(&self) -> bool {
+        self.device.is_some()
     }
 
     /// The device that is there, if the protocol names one.

@@ -42,11 +42,9 @@ impl Rig {
         );
         let (header, breath_held) = of_specimen;
         let of_specimen = (header, breath_held, felt);
-        let rig = Self::new(driven, of_specimen, reference, settings, (clock, seed))?;
-        Ok(Self {
-            is_real: true,
-            ..rig
-        })
+        let mut rig = Self::new(driven, of_specimen, reference, settings, (clock, seed))?;
+        rig.is_real = true;
+        Ok(rig)
     }
 }
 

@@ -6,8 +6,12 @@
     reason = "clippy.toml allows both in tests, but does not see helpers as tests"
 )]
 
+mod compensation;
 mod live;
 mod loss;
 mod no_allocation;
+mod phantom;
+mod phantom_dynamics;
 mod real_device;
 mod rig;
+mod session_end;

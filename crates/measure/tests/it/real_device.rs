@@ -3,11 +3,9 @@
 
 use palpate_devices::haply::HaplyDevice;
 use palpate_devices::stand_in::{HaplyStandIn, HaplyStandInSettings, Misbehaviour};
+use palpate_measure::phantom::{Imperfections, MECHANICS_STEP, Machine, TwoMass, VirtualPhantom};
 use palpate_measure::{Ended, Error, Rig, RigSample, RigSettings};
-use palpate_servo::dynamics::{Imperfections, Machine, TwoMass};
-use palpate_servo::{
-    Clock, Command, Device, DeviceSpec, DeviceState, Fault, MECHANICS_STEP, Vec3, VirtualPhantom,
-};
+use palpate_servo::{Clock, Command, Device, DeviceSpec, DeviceState, Fault, Vec3};
 
 use crate::rig::{rig, soft, usual};
 

@@ -5,7 +5,6 @@ mod no_device;
 mod pointer;
 mod trajectory;
 mod virtual_device;
-mod virtual_phantom;
 
 use std::time::Duration;
 
@@ -16,7 +15,6 @@ pub use no_device::NoDevice;
 pub use pointer::{Pointer, PointerHand};
 pub use trajectory::{Trajectory, Waypoint};
 pub use virtual_device::VirtualDevice;
-pub use virtual_phantom::{MECHANICS_STEP, Touch, VirtualPhantom};
 
 use crate::{DeadMan, Fault, Vec3};
 

@@ -7,16 +7,14 @@
 )]
 
 mod chain;
-mod compensation;
 mod devices;
-mod dynamics;
 mod errors;
 mod hand_over;
 mod limits;
 mod no_allocation;
 mod passivity;
-mod phantom;
 mod servo;
 mod slow_model;
 mod stability;
 mod supervisor;
+mod watch;

@@ -1,7 +1,11 @@
 use palpate_files::scene;
 use palpate_geometry::Vec3;
 use palpate_servo::latest::Receiver;
-use palpate_servo::{AffineForce, Controller, DeviceState, Extrapolator, HandOver};
+use palpate_servo::watch::Pulse;
+use palpate_servo::{
+    AffineForce, Controller, DeviceState, Extrapolator, ForceState, HandOver, StopReason,
+    Supervisor,
+};
 
 use super::Mount;
 use crate::ShaftFriction;
@@ -16,6 +20,23 @@ pub struct ForceRenderer {
     /// What the abdominal wall did last, in the device's frame [N].
     of_wall: Vec3,
     time: f64,
+    pulse: Pulse,
+    stop_button: Option<StopButton>,
+}
+
+/// Buttons of a device that take all forces of a session off for as long as one of them is pressed.
+pub(super) struct StopButton {
+    /// Bit by bit.
+    pub(super) buttons: u32,
+    pub(super) supervisor: Supervisor,
+}
+
+impl StopButton {
+    fn look(&self, pressed: u32) {
+        if pressed & self.buttons != 0 && self.supervisor.state() != ForceState::Off {
+            self.supervisor.trip_because(StopReason::DeviceButton);
+        }
+    }
 }
 
 impl ForceRenderer {
@@ -34,13 +55,38 @@ impl ForceRenderer {
             friction: ShaftFriction::default(),
             of_wall: Vec3::zeros(),
             time: f64::NEG_INFINITY,
+            pulse: Pulse::default(),
+            stop_button: None,
         }
+    }
+
+    /// The same with a `pulse` that beats at every tick.
+    pub(super) fn watched_by(mut self, pulse: Pulse) -> Self {
+        self.pulse = pulse;
+        self
+    }
+
+    /// The same with a stop button on its device.
+    pub(super) fn stopped_by(mut self, button: StopButton) -> Self {
+        self.stop_button = Some(button);
+        self
+    }
+}
+
+impl Drop for ForceRenderer {
+    /// A loop that has ended does not hang.
+    fn drop(&mut self) {
+        self.pulse.end();
     }
 }
 
 impl Controller for ForceRenderer {
     fn update(&mut self, state: &DeviceState, dt: f64) -> Vec3 {
         self.time = state.time;
+        self.pulse.beat(state.time);
+        if let Some(button) = &self.stop_button {
+            button.look(state.buttons);
+        }
         self.extrapolator.receive(self.answers.latest());
         if !state.present {
             self.friction = ShaftFriction::default();

@@ -4,8 +4,8 @@ use palpate_files::scene::DeviceKind;
 use palpate_geometry::Vec3;
 use palpate_servo::{Device, Pointer, PointerHand, Trajectory, VirtualDevice};
 
-use super::Station;
 use super::standing::standing;
+use super::{STOPS, Station};
 use crate::{Error, Simulation, Tool};
 
 /// What the tools of a scene are moved by, each in the scene's order.
@@ -69,7 +69,13 @@ impl SceneDevices {
                 (DeviceKind::Virtual, _) => (Some(Station::palpating(simulation, model)), None),
                 (_, Some(device)) => {
                     let mount = standing((scene, simulation), model);
-                    (Some(Station { device, mount }), None)
+                    let stop_buttons = STOPS;
+                    let station = Station {
+                        device,
+                        mount,
+                        stop_buttons,
+                    };
+                    (Some(station), None)
                 }
                 (_, None) => (None, None),
             };

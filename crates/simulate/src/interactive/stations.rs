@@ -1,11 +1,12 @@
 use palpate_servo::latest::{Receiver, Sender, channel};
+use palpate_servo::watch::{Pulse, Watched};
 use palpate_servo::{
     AffineForce, Device, Extrapolator, LoopReport, Sample, ServoLoop, ServoSettings, Supervisor,
     log,
 };
 
 use super::Mount;
-use super::force_renderer::{ForceRenderer, hand_over};
+use super::force_renderer::{ForceRenderer, StopButton, hand_over};
 use crate::{Error, Simulation};
 
 /// The device of a tool and where it stands.
@@ -14,6 +15,8 @@ pub struct Station {
     pub device: Box<dyn Device>,
     /// Where it stands.
     pub mount: Mount,
+    /// Bit by bit, which of its buttons take all forces off for as long as one is pressed.
+    pub stop_buttons: u32,
 }
 
 impl Station {
@@ -22,6 +25,7 @@ impl Station {
         Self {
             device: Box::new(device),
             mount: Mount::default(),
+            stop_buttons: 0,
         }
     }
 }
@@ -44,6 +48,10 @@ pub(super) struct Parts {
     pub(super) servo: ServoLoop,
     pub(super) line: Line,
     pub(super) watch: Watch,
+    /// Who its loop is, and when it ticks.
+    pub(super) watched: Watched,
+    /// Whether its forces reach a hand.
+    pub(super) displays_force: bool,
 }
 
 /// The parts of every station, none for a tool without a device.
@@ -59,29 +67,47 @@ pub(super) fn take_apart(
             stations: stations.len(),
         });
     }
-    let parts = |station| Parts::new(simulation, station, settings, supervisor.clone());
-    let parts = stations
-        .into_iter()
-        .map(|station| station.map(parts).transpose());
+    let tools = simulation.tools().iter().zip(stations);
+    let parts = tools.map(|(tool, station)| {
+        let parts = |station| Parts::new((simulation, &tool.name), station, settings, supervisor);
+        station.map(parts).transpose()
+    });
     parts.collect()
 }
 
 impl Parts {
     fn new(
-        simulation: &Simulation,
+        (simulation, tool): (&Simulation, &str),
         station: Station,
         settings: ServoSettings,
-        supervisor: Supervisor,
+        supervisor: &Supervisor,
     ) -> Result<Self, Error> {
-        let Station { device, mount } = station;
+        let Station {
+            device,
+            mount,
+            stop_buttons,
+        } = station;
         let (answers, heard) = channel(&AffineForce::none(f64::NEG_INFINITY));
         let hand_over = hand_over(simulation.hand_over());
         let extrapolator = Extrapolator::new(hand_over, simulation.step(), settings.period);
         let scale = simulation.force_scale();
-        let renderer = ForceRenderer::new(heard, extrapolator, mount, scale);
+        let stop_button = StopButton {
+            buttons: stop_buttons,
+            supervisor: supervisor.clone(),
+        };
+        let pulse = Pulse::default();
+        let renderer = ForceRenderer::new(heard, extrapolator, mount, scale)
+            .watched_by(pulse.clone())
+            .stopped_by(stop_button);
+        let (name, displays_force) = (device.spec().name.clone(), device.spec().displays_force);
         let (servo, reader) =
-            ServoLoop::supervised(device, Box::new(renderer), settings, supervisor)?;
+            ServoLoop::supervised(device, Box::new(renderer), settings, supervisor.clone())?;
         Ok(Self {
+            watched: Watched {
+                name: format!("the device of the tool {tool:?} ({name})"),
+                pulse,
+            },
+            displays_force,
             servo,
             line: Line {
                 samples: reader.latest,

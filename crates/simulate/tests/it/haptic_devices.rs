@@ -18,7 +18,7 @@ use palpate_servo::{
 };
 use palpate_simulate::Simulation;
 use palpate_simulate::interactive::{
-    Interaction, Mount, SceneDevices, Station, VirtualInteraction,
+    Environment, Interaction, Mount, PreparedModel, SceneDevices, Station, VirtualInteraction,
 };
 
 use crate::interactive::{POLE, advance};
@@ -121,8 +121,8 @@ fn an_organ_feels_the_same_through_a_service() {
     let (scene, simulation) = scene(DeviceKind::Haply);
     let (mount, spec) = stands(&scene, &simulation);
     let direct = Station {
-        device: Box::new(palpating(&mount).with_spec(spec)),
         mount,
+        ..Station::new(palpating(&mount).with_spec(spec))
     };
     let (expected, expected_rows) = palpated(&simulation, direct);
     let (service, places) = service(Box::new(palpating(&mount)));
@@ -180,8 +180,8 @@ fn an_organ_feels_the_same_through_a_library() {
         let station = open(&scene, &simulation, &places);
         let (found, _) = palpated_in_time(&simulation, station, &time);
         let direct = Station {
-            device: Box::new(palpating(&mount).with_spec(spec)),
             mount,
+            ..Station::new(palpating(&mount).with_spec(spec))
         };
         let (expected, _) = palpated(&simulation, direct);
         let largest = expected.iter().map(|sample| sample.sent.norm());
@@ -277,8 +277,12 @@ fn a_touch_is_shown_in_an_operating_room() {
     let station = Station::palpating(&simulation, &simulation.tools()[0]);
     let settings = ServoSettings::default();
     let stations = vec![Some(station)];
-    let touch =
-        Interaction::start_shown(simulation.clone(), stations, settings, Some(&room)).unwrap();
+    let environment = Environment {
+        operating_room: Some(&room),
+        ..Environment::default()
+    };
+    let prepared = PreparedModel::new(simulation.clone());
+    let touch = Interaction::start_in(&environment, prepared, stations, settings).unwrap();
     let mut stream = std::net::TcpStream::connect(room.address()).unwrap();
     let mut request = Vec::new();
     let now = std::time::SystemTime::now();

@@ -1,6 +1,6 @@
-use nalgebra::{Matrix3, Vector3};
-
-use crate::Vec3;
+use nalgebra::Matrix3;
+use palpate_servo::Vec3;
+use palpate_servo::dynamics::Linkage;
 
 /// Joints of the machine: about the upright axis, of the upper and of the lower link [rad], and how they turn
 /// [rad/s].
@@ -16,15 +16,11 @@ pub struct Joints {
 /// [Çavuşoğlu, Feygin and Tendick 2002].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RigidBody {
-    /// Lengths l₁, l₂, l₃, l₅, l₆ [m].
-    lengths: [f64; 5],
-    /// Masses of links a, c and the balanced bodies be, df [kg].
-    masses: [f64; 4],
+    /// Lengths, masses and weight.
+    pub linkage: Linkage,
     /// Inertias about x, y and z of a, c, be, df, and about y of the base [kg m²].
     inertias: [[f64; 3]; 4],
     base: f64,
-    /// What gravity pulls with [m/s²]; zero of a machine whose weight is made up for.
-    pub gravity: f64,
     /// Damping of each joint [N m s].
     pub damping: f64,
 }
@@ -36,8 +32,7 @@ impl RigidBody {
     /// The published numbers, with the weight of the links and without friction.
     pub fn premium() -> Self {
         Self {
-            lengths: [0.215, 0.170, 0.0325, -0.0368, 0.0527],
-            masses: [0.0202, 0.0249, 0.2359, 0.1906],
+            linkage: Linkage::premium(),
             inertias: [
                 [0.4864e-4, 0.001843e-4, 0.4864e-4],
                 [0.959e-4, 0.959e-4, 0.0051e-4],
@@ -45,69 +40,14 @@ impl RigidBody {
                 [7.11e-4, 0.629e-4, 6.246e-4],
             ],
             base: 11.87e-4,
-            gravity: 9.81,
             damping: 0.0,
         }
     }
 
-    /// Where the handle is [m], for joints at `angles` [rad]: x right, y up, z toward the user, zero at rest.
-    pub fn position(&self, angles: &Vec3) -> Vec3 {
-        let [l1, l2, ..] = self.lengths;
-        let reach = l1 * angles.y.cos() + l2 * angles.z.sin();
-        Vec3::new(
-            angles.x.sin() * reach,
-            l2 - l2 * angles.z.cos() + l1 * angles.y.sin(),
-            -l1 + angles.x.cos() * reach,
-        )
-    }
-
-    /// The handle's move with each joint, a column each [m].
-    pub fn jacobian(&self, angles: &Vec3) -> Matrix3<f64> {
-        let [l1, l2, ..] = self.lengths;
-        let (s1, c1) = angles.x.sin_cos();
-        let (s2, c2) = angles.y.sin_cos();
-        let (s3, c3) = angles.z.sin_cos();
-        let reach = l1 * c2 + l2 * s3;
-        Matrix3::from_columns(&[
-            Vector3::new(c1 * reach, 0.0, -s1 * reach),
-            Vector3::new(-s1 * l1 * s2, l1 * c2, -c1 * l1 * s2),
-            Vector3::new(s1 * l2 * c3, l2 * s3, c1 * l2 * c3),
-        ])
-    }
-
-    /// The joints at which the handle is at `position` [m]; none where it cannot be. The elbow is bent as at rest.
-    pub fn angles(&self, position: &Vec3) -> Option<Vec3> {
-        let [l1, l2, ..] = self.lengths;
-        let (x, z) = (position.x, position.z + l1);
-        let (out, up) = (x.hypot(z), position.y - l2);
-        // out = l₁ cos q₂ + l₂ sin q₃ and up = l₁ sin q₂ − l₂ cos q₃, so that their squares know q₃ − q₂ alone.
-        let sine = (out * out + up * up - l1 * l1 - l2 * l2) / (2.0 * l1 * l2);
-        if sine.is_nan() || sine.abs() > 1.0 {
-            return None;
-        }
-        let elbow = sine.asin();
-        let (along, across) = (l1 + l2 * sine, l2 * elbow.cos());
-        let upper = up.atan2(out) + across.atan2(along);
-        Some(Vec3::new(x.atan2(z), upper, upper + elbow))
-    }
-
-    /// The force on the handle [N] that holds the links' weight at `position` [m]; none where they cannot be.
-    pub fn holding_force(&self, position: &Vec3) -> Option<Vec3> {
-        let angles = self.angles(position)?;
-        let back = self.jacobian(&angles).transpose().try_inverse()?;
-        Some(back * self.weight(&angles))
-    }
-
-    /// The length over which a force at the handle turns each joint [m].
-    pub(super) fn arms(&self) -> Vec3 {
-        let [l1, l2, ..] = self.lengths;
-        Vec3::new(l1, l1, l2)
-    }
-
     /// M(q) [kg m²].
     pub fn inertia(&self, angles: &Vec3) -> Matrix3<f64> {
-        let [l1, l2, l3, ..] = self.lengths;
-        let [ma, mc, ..] = self.masses;
+        let [l1, l2, l3, ..] = self.linkage.lengths;
+        let [ma, mc, ..] = self.linkage.masses;
         let [a, c, be, df] = self.inertias;
         let turning = [a, c, be, df].iter().map(|i| i[1] + i[2]).sum::<f64>();
         let reaching = 4.0 * l1 * l1 * ma + l2 * l2 * ma + l1 * l1 * mc + 4.0 * l3 * l3 * mc;
@@ -126,8 +66,8 @@ impl RigidBody {
 
     /// How much of M₁₁ goes with cos 2 q₂, cos 2 q₃ and cos q₂ sin q₃ [kg m²].
     fn waves(&self) -> [f64; 3] {
-        let [l1, l2, l3, ..] = self.lengths;
-        let [ma, mc, ..] = self.masses;
+        let [l1, l2, l3, ..] = self.linkage.lengths;
+        let [ma, mc, ..] = self.linkage.masses;
         let [a, c, be, df] = self.inertias;
         [
             0.5 * (be[1] - be[2] + c[1] - c[2]) + l1 * l1 * (4.0 * ma + mc) / 8.0,
@@ -149,36 +89,19 @@ impl RigidBody {
         changes.map(|(m11, m23)| Matrix3::new(m11, 0.0, 0.0, 0.0, 0.0, m23, 0.0, m23, 0.0))
     }
 
-    /// The torque with which gravity pulls at each joint [N m] against its sense of rotation, as g(q) of the
-    /// equation of motion: ∂V/∂q.
-    pub fn weight(&self, angles: &Vec3) -> Vec3 {
-        let [upper, lower] = self.weights();
-        Vec3::new(0.0, upper * angles.y.cos(), lower * angles.z.sin())
-    }
-
-    fn weights(&self) -> [f64; 2] {
-        let [l1, l2, l3, l5, l6] = self.lengths;
-        let [ma, mc, mbe, mdf] = self.masses;
-        [
-            0.5 * self.gravity * (2.0 * l1 * ma + 2.0 * l5 * mbe + l1 * mc),
-            0.5 * self.gravity * (l2 * ma + 2.0 * l3 * mc - 2.0 * l6 * mdf),
-        ]
-    }
-
     /// Kinetic and potential energy [J], the latter from joints at zero.
     pub fn energy(&self, joints: &Joints) -> f64 {
         let moving = 0.5
             * joints
                 .rates
                 .dot(&(self.inertia(&joints.angles) * joints.rates));
-        let [upper, lower] = self.weights();
-        moving + upper * joints.angles.y.sin() + lower * (1.0 - joints.angles.z.cos())
+        moving + self.linkage.potential(&joints.angles)
     }
 
     /// The mass that a hand feels along each axis [kg] with joints at `angles` [rad]: the diagonal of
     /// J⁻ᵀ M J⁻¹. None where a joint cannot move the handle.
     pub fn apparent_mass(&self, angles: &Vec3) -> Option<Vec3> {
-        let back = self.jacobian(angles).try_inverse()?;
+        let back = self.linkage.jacobian(angles).try_inverse()?;
         Some((back.transpose() * self.inertia(angles) * back).diagonal())
     }
 
@@ -211,7 +134,7 @@ impl RigidBody {
     /// Dry friction of up to `friction` [N] at the handle during `elapsed` [s], as torques on the lengths of the
     /// links: it takes speed and never turns it.
     pub(crate) fn rub(&self, joints: &mut Joints, friction: f64, elapsed: f64) {
-        let (arms, inertia) = (self.arms(), self.inertia(&joints.angles));
+        let (arms, inertia) = (self.linkage.arms(), self.inertia(&joints.angles));
         for joint in 0..3 {
             let most = friction * arms[joint] * elapsed / inertia[(joint, joint)];
             joints.rates[joint] -= joints.rates[joint].clamp(-most, most);
@@ -225,8 +148,8 @@ impl RigidBody {
         let changing = (by_upper * rates.y + by_lower * rates.z) * rates;
         let half = |change: &Matrix3<f64>| 0.5 * rates.dot(&(change * rates));
         let turning = changing - Vec3::new(0.0, half(&by_upper), half(&by_lower));
-        let driven = torque + self.jacobian(angles).transpose() * force;
-        let left = driven - turning - self.weight(angles) - rates * self.damping;
+        let driven = torque + self.linkage.jacobian(angles).transpose() * force;
+        let left = driven - turning - self.linkage.weight(angles) - rates * self.damping;
         // A mass that moves has an inverse; at worst the joints stay.
         let inertia = self.inertia(angles).cholesky();
         inertia.map_or_else(Vec3::zeros, |factor| factor.solve(&left))

@@ -1,12 +1,11 @@
 use std::f64::consts::TAU;
 
 use nalgebra::{Complex, SMatrix};
-
-use super::{Machine, MachineState};
+use palpate_measure::phantom::{Machine, MachineState, STATES};
 
 /// Where a sine is injected.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Port {
+pub(super) enum Port {
     /// As a force of the hand.
     Hand,
     /// As a force of the motor.
@@ -20,7 +19,7 @@ const PERIODS: f64 = 8.0;
 /// place over the force [m/N], read by correlation as from a recording.
 ///
 /// G₁ is one over the answer to the hand, G₂ the answer to the motor over that to the hand.
-pub fn inject(machine: &Machine, port: Port, frequency: f64) -> Complex<f64> {
+pub(super) fn inject(machine: &Machine, port: Port, frequency: f64) -> Complex<f64> {
     let omega = TAU * frequency;
     let mut state = steady(machine, port, omega);
     let samples = (PERIODS / frequency / machine.step()).round() as usize;
@@ -40,7 +39,8 @@ pub fn inject(machine: &Machine, port: Port, frequency: f64) -> Complex<f64> {
 
 /// The state at time zero of a machine that has always swung: Re (iω − A)⁻¹ B.
 fn steady(machine: &Machine, port: Port, omega: f64) -> MachineState {
-    let rates: SMatrix<Complex<f64>, 6, 6> = machine.rates().map(|rate| Complex::new(-rate, 0.0));
+    let rates: SMatrix<Complex<f64>, STATES, STATES> =
+        machine.rates().map(|rate| Complex::new(-rate, 0.0));
     let swinging = rates + SMatrix::from_diagonal_element(Complex::new(0.0, omega));
     let column = match port {
         Port::Hand => 0,

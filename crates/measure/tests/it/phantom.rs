@@ -4,10 +4,11 @@
 use std::f64::consts::TAU;
 
 use nalgebra::Complex;
-use palpate_servo::dynamics::{FlexibleBody, Imperfections, Machine, RigidBody, TwoMass};
+use palpate_measure::phantom::{
+    FlexibleBody, Imperfections, MECHANICS_STEP, Machine, RigidBody, TwoMass, VirtualPhantom,
+};
 use palpate_servo::{
-    Clock, DeviceState, Limits, MECHANICS_STEP, Pid, PidGains, Sample, ServoLoop, ServoSettings,
-    Stage, Vec3, VirtualPhantom,
+    Clock, DeviceState, Limits, Pid, PidGains, Sample, ServoLoop, ServoSettings, Stage, Vec3,
 };
 
 /// Limits that nothing here meets.
@@ -146,7 +147,7 @@ fn friction_sticks_and_slips() {
             let imperfections = Imperfections::premium();
             let device = if body {
                 let mut links = RigidBody::premium();
-                links.gravity = 0.0;
+                links.linkage.gravity = 0.0;
                 VirtualPhantom::with_links(links, imperfections)
             } else {
                 let machine = Machine::of_two_masses(&TwoMass::consistent(), MECHANICS_STEP);
@@ -163,7 +164,7 @@ fn friction_sticks_and_slips() {
 /// The largest stiffness of a wall [N/m] under a hand that damps with 5 N s/m, knocked with `knock` [N].
 fn largest_stiffness(flexible: bool, friction: f64, knock: f64) -> f64 {
     let mut body = FlexibleBody::premium();
-    body.links.gravity = 0.0;
+    body.links.linkage.gravity = 0.0;
     let imperfections = Imperfections {
         friction,
         ..Imperfections::none()

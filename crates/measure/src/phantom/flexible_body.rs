@@ -2,7 +2,7 @@ use std::f64::consts::TAU;
 
 use super::rigid_body::after;
 use super::{Joints, RigidBody};
-use crate::Vec3;
+use palpate_servo::Vec3;
 
 /// The three joints with rotors that drive them through cables and links that give way, each a spring: what
 /// keeps a real machine from rendering the stiffness that its friction would allow [Díaz and Gil 2010].
@@ -43,7 +43,7 @@ impl FlexibleBody {
     pub fn premium() -> Self {
         let links = RigidBody::premium();
         let rotors = Vec3::new(13.3, 11.2, 11.2).map(|ratio: f64| 1.08e-6 * ratio * ratio);
-        let stiffness = links.arms().map(|arm| 3545.0 * arm * arm);
+        let stiffness = links.linkage.arms().map(|arm| 3545.0 * arm * arm);
         let masses = links.inertia(&Vec3::zeros()).diagonal();
         let reduced = rotors.zip_map(&masses, |rotor, mass| rotor * mass / (rotor + mass));
         let damping = stiffness.zip_map(&reduced, |k, mass| 0.03 * 2.0 * (k * mass).sqrt());
@@ -130,7 +130,7 @@ impl FlexibleBody {
     /// Dry friction of up to `friction` [N] at the handle during `elapsed` [s], in the motors and their cables:
     /// like [`RigidBody::rub`], on the rotors.
     pub(crate) fn rub(&self, joints: &mut FlexibleJoints, friction: f64, elapsed: f64) {
-        let most = self.links.arms().component_div(&self.rotors) * (friction * elapsed);
+        let most = self.links.linkage.arms().component_div(&self.rotors) * (friction * elapsed);
         for joint in 0..3 {
             let rate = &mut joints.rotors.rates[joint];
             *rate -= rate.clamp(-most[joint], most[joint]);

@@ -2,13 +2,15 @@ use nalgebra::{SMatrix, SVector};
 
 use super::TwoMass;
 
-/// Numbers that a machine remembers.
-const STATES: usize = 6;
+/// Numbers of a machine's state.
+pub const STATES: usize = 6;
 /// Those and the two forces.
 const ALL: usize = STATES + 2;
 
-type StateMatrix = SMatrix<f64, STATES, STATES>;
-type ForceMatrix = SMatrix<f64, STATES, 2>;
+/// A of a linear machine.
+pub type StateMatrix = SMatrix<f64, STATES, STATES>;
+/// B of a linear machine.
+pub type ForceMatrix = SMatrix<f64, STATES, 2>;
 
 /// One axis of a device in time, linear. Between two changes of the forces it is exact, whatever the step: ẋ =
 /// A x + B F is solved by the exponential of A.
@@ -24,7 +26,7 @@ pub struct Machine {
 
 /// What a machine remembers: place [m] and velocity [m/s] of the handle, then what is inside.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct MachineState(pub(super) SVector<f64, STATES>);
+pub struct MachineState(pub SVector<f64, STATES>);
 
 impl MachineState {
     /// A handle at rest at `position` [m].
@@ -70,37 +72,12 @@ impl Machine {
         let mut forces = ForceMatrix::zeros();
         forces[(1, 0)] = 1.0 / ml;
         forces[(3, 1)] = 1.0 / mm;
-        Self::of(rates, forces, step)
+        Self::linear(rates, forces, step)
     }
 
-    /// (7.6) as printed: a mass on a spring and a damper, to which the motor's force comes through two
-    /// oscillators that nothing damps, at 26.8 Hz and 9.35 kHz. What once swings in them swings for ever.
-    pub fn as_printed(step: f64) -> Self {
-        let (mass, damping, stiffness) = (0.09641, 2.6, 32.0);
-        let [quartic, square, constant]: [f64; 3] = [3.97e-9, 13.71, 3.9e5];
-        // c₄ s⁴ + c₂ s² + c₀ = c₄ (s² + ω₁²)(s² + ω₂²); the smaller root without cancellation.
-        let root = (square * square - 4.0 * quartic * constant).sqrt();
-        let fast = (square + root) / (2.0 * quartic);
-        let slow = constant / (quartic * fast);
-        let gain = constant / quartic / (fast - slow);
-        let mut rates = StateMatrix::zeros();
-        let mut forces = ForceMatrix::zeros();
-        rates[(0, 1)] = 1.0;
-        rates[(1, 0)] = -stiffness / mass;
-        rates[(1, 1)] = -damping / mass;
-        forces[(1, 0)] = 1.0 / mass;
-        for (first, square, sign) in [(2, slow, 1.0), (4, fast, -1.0)] {
-            // q̈ = −ω² q + gain F as q and q̇/ω, which have the same size.
-            let omega: f64 = f64::sqrt(square);
-            rates[(first, first + 1)] = omega;
-            rates[(first + 1, first)] = -omega;
-            forces[(first + 1, 1)] = gain / omega;
-            rates[(1, first)] = sign / mass;
-        }
-        Self::of(rates, forces, step)
-    }
-
-    fn of(rates: StateMatrix, forces: ForceMatrix, step: f64) -> Self {
+    /// ẋ = A x + B F in steps of `step` [s]: `rates` is A, `forces` is B for the force of the hand and the one of the
+    /// motor. The first two numbers of x are place [m] and velocity [m/s] of the handle.
+    pub fn linear(rates: StateMatrix, forces: ForceMatrix, step: f64) -> Self {
         let mut both = SMatrix::<f64, ALL, ALL>::zeros();
         both.fixed_view_mut::<STATES, STATES>(0, 0)
             .copy_from(&(rates * step));
@@ -133,11 +110,13 @@ impl Machine {
         state.0[1] -= state.0[1].clamp(-most, most);
     }
 
-    pub(super) fn rates(&self) -> &StateMatrix {
+    /// A.
+    pub fn rates(&self) -> &StateMatrix {
         &self.rates
     }
 
-    pub(super) fn forces(&self) -> &ForceMatrix {
+    /// B.
+    pub fn forces(&self) -> &ForceMatrix {
         &self.forces
     }
 }

@@ -1,5 +1,3 @@
-use super::Transfer;
-
 /// A link that a hand holds, on a spring to a rotor that is held lightly: the source's figure 7-6, and its
 /// figure 5-6.
 ///
@@ -46,45 +44,5 @@ impl TwoMass {
     pub fn structural_frequency(&self) -> f64 {
         let both = 1.0 / self.link_mass + 1.0 / self.rotor_mass;
         (self.structure_stiffness * both).sqrt() / std::f64::consts::TAU
-    }
-
-    /// G₁ [N/m]: the hand's force over its place, without the motor.
-    pub fn input_impedance(&self) -> Transfer {
-        let Self {
-            link_mass: ml,
-            rotor_mass: mm,
-            structure_stiffness: ks,
-            structure_damping: bs,
-            stiffness: k,
-            damping: b,
-        } = *self;
-        // (m_l s² + b_s s + k_s) − (b_s s + k_s)²/(m_m s² + (b + b_s) s + k + k_s).
-        let rotor = self.rotor();
-        Transfer {
-            above: vec![
-                ks * k,
-                ks * b + bs * k,
-                ks * (mm + ml) + bs * b + ml * k,
-                bs * (mm + ml) + ml * b,
-                ml * mm,
-            ],
-            below: rotor.to_vec(),
-        }
-    }
-
-    /// G₂ [-]: the force on a hand that keeps still, over the motor's.
-    pub fn force_transmission(&self) -> Transfer {
-        Transfer {
-            above: vec![self.structure_stiffness, self.structure_damping],
-            below: self.rotor().to_vec(),
-        }
-    }
-
-    fn rotor(&self) -> [f64; 3] {
-        [
-            self.stiffness + self.structure_stiffness,
-            self.damping + self.structure_damping,
-            self.rotor_mass,
-        ]
     }
 }

@@ -1,104 +1,7 @@
-//! How a haptic device moves. Judges: closed forms in frequency, energy, masses that were published.
+//! How the virtual PHANTOM moves. Judges: energy, virtual work, masses that were published, closed forms of the modes.
 
-use std::f64::consts::TAU;
-
-use nalgebra::Complex;
+use palpate_measure::phantom::{FlexibleBody, FlexibleJoints, Joints, RigidBody, TwoMass};
 use palpate_servo::Vec3;
-use palpate_servo::dynamics::{
-    FlexibleBody, Joints, Machine, Port, RigidBody, TwoMass, TwoPort, inject,
-};
-
-/// The step of the machines [s].
-const STEP: f64 = 50e-6;
-
-fn decibels(value: Complex<f64>) -> f64 {
-    20.0 * value.norm().log10()
-}
-
-/// A difference in decibels and in degrees is small: 0.05 dB are asked for; a held sine is flatter by (ω T)²/24,
-/// 1e-6 here, so that 0.001 would do.
-fn assert_alike(found: Complex<f64>, expected: Complex<f64>, what: &str) {
-    let apart = decibels(found / expected).abs();
-    assert!(apart < 1e-3, "{what}: {apart} dB");
-    let turned = (found / expected).arg().to_degrees().abs();
-    assert!(turned < 0.1, "{what}: {turned} degrees");
-}
-
-/// Judge: (7.6), and the two-mass closed forms. A sine is injected at the hand and at the motor, and what the
-/// handle answers is read as from a recording.
-#[test]
-fn sine_injection_meets_the_closed_form() {
-    let two_masses = TwoMass::consistent();
-    let machines = [
-        (
-            "as printed",
-            TwoPort::as_printed(),
-            Machine::as_printed(STEP),
-        ),
-        (
-            "two masses",
-            TwoPort::of(&two_masses),
-            Machine::of_two_masses(&two_masses, STEP),
-        ),
-    ];
-    for (name, port, machine) in machines {
-        for frequency in [1.0, 8.0, 15.0, 100.0] {
-            let hand = inject(&machine, Port::Hand, frequency);
-            let motor = inject(&machine, Port::Motor, frequency);
-            let impedance = port.input_impedance.at(frequency);
-            assert_alike(hand.inv(), impedance, &format!("G1 {name} {frequency} Hz"));
-            let transmission = port.force_transmission.at(frequency);
-            assert_alike(
-                motor / hand,
-                transmission,
-                &format!("G2 {name} {frequency} Hz"),
-            );
-        }
-    }
-}
-
-/// What the printed numbers come to, computed by hand from (7.6): magnitudes at 1, 8 and 15 Hz, in N/mm for G₁.
-#[test]
-fn the_printed_numbers_are_read_as_they_stand() {
-    let port = TwoPort::as_printed();
-    for (frequency, g1, g2) in [
-        (1.0, 0.03258, 1.00139),
-        (8.0, 0.24870, 1.09748),
-        (15.0, 0.86002, 1.45403),
-    ] {
-        let found = [
-            1e-3 * port.input_impedance.at(frequency).norm(),
-            port.force_transmission.at(frequency).norm(),
-        ];
-        // Five digits.
-        assert!((found[0] / g1 - 1.0).abs() < 3e-4, "{frequency}: {found:?}");
-        assert!((found[1] / g2 - 1.0).abs() < 3e-5, "{frequency}: {found:?}");
-    }
-    // A liver of 0.009 N/mm is felt 3.6 times over at rest: the device's own spring.
-    let felt = port.transparency(0.0, Complex::new(9.0, 0.0)).re;
-    assert!((felt - (32.0 + 9.0) / 9.0).abs() < 1e-12);
-}
-
-/// Link and rotor swing at 151 Hz; at low frequency both are one mass.
-#[test]
-fn two_masses_have_their_mode() {
-    let machine = TwoMass::consistent();
-    assert!(
-        (machine.structural_frequency() - 151.0).abs() < 1.0,
-        "{}",
-        machine.structural_frequency()
-    );
-    let frequency = 5.0;
-    let omega = TAU * frequency;
-    let whole = machine.link_mass + machine.rotor_mass;
-    let rigid = Complex::new(
-        machine.stiffness - whole * omega * omega,
-        machine.damping * omega,
-    );
-    let found = machine.input_impedance().at(frequency);
-    // The spring between gives way by k/k_s, a hundredth.
-    assert!((found / rigid - 1.0).norm() < 0.03, "{}", found / rigid);
-}
 
 /// Masses at rest: lateral 77 g, upright 52 g, radial 32 g, of the published model; to the digits.
 #[test]
@@ -137,14 +40,15 @@ fn energy_stays() {
 #[test]
 fn forces_and_torques_are_in_balance() {
     let mut machine = RigidBody::premium();
-    machine.gravity = 0.0;
+    machine.linkage.gravity = 0.0;
     let angles = Vec3::new(0.3, -0.2, 0.5);
-    let jacobian = machine.jacobian(&angles);
+    let jacobian = machine.linkage.jacobian(&angles);
     for joint in 0..3 {
         let mut beside = [angles; 2];
         beside[0][joint] -= 1e-6;
         beside[1][joint] += 1e-6;
-        let slope = (machine.position(&beside[1]) - machine.position(&beside[0])) / 2e-6;
+        let slope =
+            (machine.linkage.position(&beside[1]) - machine.linkage.position(&beside[0])) / 2e-6;
         // The square of the step and rounding.
         assert!((slope - jacobian.column(joint)).norm() < 1e-9);
     }
@@ -162,7 +66,7 @@ fn forces_and_torques_are_in_balance() {
 #[test]
 fn each_joint_has_its_mode() {
     let mut body = FlexibleBody::premium();
-    body.links.gravity = 0.0;
+    body.links.linkage.gravity = 0.0;
     body.damping = Vec3::zeros();
     let expected = body.structural_frequencies(&Vec3::zeros());
     for joint in 0..3 {
@@ -202,7 +106,7 @@ fn each_joint_has_its_mode() {
 fn energy_stays_in_springs_too() {
     let mut body = FlexibleBody::premium();
     body.damping = Vec3::zeros();
-    let energy = |joints: &palpate_servo::dynamics::FlexibleJoints| {
+    let energy = |joints: &FlexibleJoints| {
         let twist = joints.rotors.angles - joints.links.angles;
         let turning = joints.rotors.rates.component_mul(&joints.rotors.rates);
         body.links.energy(&joints.links)

@@ -4,16 +4,16 @@ use nalgebra::Complex;
 
 /// A ratio of two polynomials in s.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Transfer {
+pub(super) struct Transfer {
     /// Coefficients of s⁰, s¹ and so on, above the line.
-    pub above: Vec<f64>,
+    pub(super) above: Vec<f64>,
     /// The same below the line.
-    pub below: Vec<f64>,
+    pub(super) below: Vec<f64>,
 }
 
 impl Transfer {
     /// Its value at `frequency` [Hz].
-    pub fn at(&self, frequency: f64) -> Complex<f64> {
+    pub(super) fn at(&self, frequency: f64) -> Complex<f64> {
         let s = Complex::new(0.0, TAU * frequency);
         let value = |coefficients: &[f64]| {
             let terms = coefficients.iter().rev();

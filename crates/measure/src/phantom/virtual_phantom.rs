@@ -1,4 +1,4 @@
-//! A PHANTOM that is not there: the mechanics of [`crate::dynamics`] with encoders, amplifiers, friction and
+//! A PHANTOM that is not there: the mechanics of [`crate::phantom`] with encoders, amplifiers, friction and
 //! delay, between a loop and whatever touches the handle.
 //!
 //! Between two exchanges the motors keep their force, and the machine moves in steps of 50 µs under it and under
@@ -10,12 +10,12 @@
 
 use std::time::Duration;
 
-use super::{Command, Device, DeviceSpec, DeviceState};
-use crate::dynamics::{
+use palpate_servo::{Command, Device, DeviceSpec, DeviceState, Fault, Vec3};
+
+use super::{
     FlexibleBody, FlexibleJoints, Imperfections, Joints, LONGEST_DELAY, Machine, MachineState,
     RigidBody,
 };
-use crate::{Fault, Vec3};
 
 /// What touches a handle: its force on it [N], given the time [s], the place [m] and the velocity [m/s].
 pub type Touch = Box<dyn FnMut(f64, &Vec3, &Vec3) -> Vec3 + Send>;
@@ -123,12 +123,12 @@ impl Mechanics {
                 Vec3::from_fn(|axis, _| states[axis].velocity()),
             ),
             Self::Links(body, joints) => (
-                body.position(&joints.angles),
-                body.jacobian(&joints.angles) * joints.rates,
+                body.linkage.position(&joints.angles),
+                body.linkage.jacobian(&joints.angles) * joints.rates,
             ),
             Self::Flexible(body, joints) => (
-                body.links.position(&joints.links.angles),
-                body.links.jacobian(&joints.links.angles) * joints.links.rates,
+                body.links.linkage.position(&joints.links.angles),
+                body.links.linkage.jacobian(&joints.links.angles) * joints.links.rates,
             ),
         }
     }
@@ -136,7 +136,7 @@ impl Mechanics {
     /// Where its encoders say that the handle is [m].
     fn encoded(&self) -> Vec3 {
         match self {
-            Self::Flexible(body, joints) => body.links.position(&joints.rotors.angles),
+            Self::Flexible(body, joints) => body.links.linkage.position(&joints.rotors.angles),
             _ => self.handle().0,
         }
     }
@@ -150,12 +150,17 @@ impl Mechanics {
                 }
             }
             Self::Links(body, joints) => {
-                let torque = body.jacobian(&joints.angles).transpose() * motor;
+                let torque = body.linkage.jacobian(&joints.angles).transpose() * motor;
                 body.advance(joints, &torque, touched, MECHANICS_STEP);
                 body.rub(joints, friction, MECHANICS_STEP);
             }
             Self::Flexible(body, joints) => {
-                let torque = body.links.jacobian(&joints.rotors.angles).transpose() * motor;
+                let torque = body
+                    .links
+                    .linkage
+                    .jacobian(&joints.rotors.angles)
+                    .transpose()
+                    * motor;
                 body.advance(joints, &torque, touched, MECHANICS_STEP);
                 body.rub(joints, friction, MECHANICS_STEP);
             }
