@@ -24,6 +24,6 @@ pub use error::Error;
 pub use grouping::specimens;
 pub use specimen::{
     Characterization, CharacterizeSettings, FittedLaw, FittedRecording, FittedRelaxation,
-    characterize,
+    characterize, characterize_in_loop,
 };
 pub use without_geometry::WithoutGeometry;

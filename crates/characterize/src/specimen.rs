@@ -6,6 +6,7 @@
 
 mod criteria;
 mod fitted;
+mod in_loop;
 
 use std::ops::Range;
 
@@ -24,6 +25,7 @@ use crate::viscoelastic::{
 use crate::{CleanRecording, Error, WithoutGeometry};
 
 pub use fitted::{FittedLaw, FittedRecording, FittedRelaxation};
+pub use in_loop::characterize_in_loop;
 
 /// What may be chosen about a characterization.
 #[derive(Debug, Clone, PartialEq)]

@@ -134,6 +134,7 @@ pub(crate) fn _characterize(
             terms,
             draws,
             seed,
+            ..Choice::default()
         };
         let open = |(path, overwrite): (PathBuf, bool)| {
             StudyFolder::open(&path, Overwrite::of_option(overwrite))

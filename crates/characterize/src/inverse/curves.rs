@@ -216,6 +216,30 @@ impl Curves {
         self.depths().into_iter().map(press).collect()
     }
 
+    /// By what a force of the law on the coarsest mesh at `depth` [m] is to be multiplied [-].
+    ///
+    /// # Errors
+    /// As [`Self::of`].
+    pub(crate) fn mesh_correction(&mut self, depth: f64) -> Result<f64, Error> {
+        let Body::Block { block, indenter } = self.body else {
+            return Ok(1.0);
+        };
+        if self.body.is_tabulated() {
+            return Ok(tables::correction_of(&self.body, self.law, depth));
+        }
+        let known = self.mesh_error((block, indenter))?.correction;
+        let depths = self.depths();
+        let after = depths
+            .partition_point(|own| *own < depth)
+            .min(depths.len() - 1);
+        let before = after.saturating_sub(1);
+        let part = match depths[after] > depths[before] {
+            true => ((depth - depths[before]) / (depths[after] - depths[before])).clamp(0.0, 1.0),
+            false => 1.0,
+        };
+        Ok(known[before] + part * (known[after] - known[before]))
+    }
+
     /// How much too stiff the coarsest mesh is: tabulated, or from neo-Hookean tissue on a mesh with every element
     /// halved, for it is about alike for every law.
     fn mesh_error(&mut self, piece: (Block, Indenter)) -> Result<MeshError, Error> {

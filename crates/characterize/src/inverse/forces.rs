@@ -102,19 +102,21 @@ fn relaxed(
 }
 
 /// What changes the residuals of all `indentations` and is no noise [N]: each column by one standard deviation.
-/// The zeros of each recording, and, of all alike, the part `model` [-] of the force and the part `mesh` [-] of
-/// a force that grows faster with depth than it should. Both are bounds, taken for even distributions.
+/// The zeros of each recording, and, of all alike, the part `model` [-] of the force, the part `mesh` [-] of
+/// a force that grows faster with depth than it should, and what a history at finite strain under an indenter of
+/// `radius` [m] may be off. The last three are bounds, taken for even distributions.
 pub(super) fn systematic(
     indentations: &[Indentation<'_>],
     curve: &UnitCurve,
     (modulus, series): (f64, &PronySeries),
-    [model, mesh]: [f64; 2],
+    ([model, mesh], radius): ([f64; 2], f64),
 ) -> Vec<Vec<f64>> {
     let samples: usize = indentations.iter().map(|each| each.time.len()).sum();
     let deepest = indentations.iter().flat_map(|each| each.depth);
     let deepest = deepest.copied().fold(f64::MIN_POSITIVE, f64::max);
     let even = 1.0 / 3.0_f64.sqrt();
     let (mut scale, mut tilt) = (Vec::with_capacity(samples), Vec::with_capacity(samples));
+    let mut history = Vec::with_capacity(samples);
     let mut columns = Vec::new();
     for each in indentations {
         let start = scale.len();
@@ -137,6 +139,8 @@ pub(super) fn systematic(
         if each.zeros.force > 0.0 {
             own(vec![-each.zeros.force; force.len()]);
         }
+        let less = less_of_earlier(each, curve, (modulus, series), radius);
+        history.extend(less.iter().map(|force| even * force));
         let share = each.depth.iter().map(|d| 2.0 * d / deepest - 1.0);
         tilt.extend(
             force
@@ -146,6 +150,37 @@ pub(super) fn systematic(
         );
         scale.extend(force.iter().map(|f| even * model * f));
     }
-    columns.extend([scale, tilt]);
+    columns.extend([scale, tilt, history]);
     columns
+}
+
+/// Part by which stress of an earlier depth counts less at a later one, per radius between them [-]: the most that full
+/// runs with internal variables show at three to six radii (`docs/theory/characterization.md`, Limits of the product).
+const EARLIER: f64 = 0.2;
+
+/// What a force loses less [N] when earlier stress does less work on later strain, by [`EARLIER`]:
+/// Σ gᵢ ∫ ε (d(t) − d(s))/a Fₑ(d(s)) exp(−(t − s)/τᵢ) ds/τᵢ.
+fn less_of_earlier(
+    each: &Indentation<'_>,
+    curve: &UnitCurve,
+    (modulus, series): (f64, &PronySeries),
+    radius: f64,
+) -> Vec<f64> {
+    let elastic = each.depth.iter().map(|&d| modulus * curve.force.force(d));
+    let elastic: Vec<f64> = elastic.collect();
+    let moment: Vec<f64> = each
+        .depth
+        .iter()
+        .zip(&elastic)
+        .map(|(d, f)| d * f)
+        .collect();
+    let mut less = vec![0.0; elastic.len()];
+    for &(g, tau) in series.terms() {
+        let [lost, of_moment] = [&elastic, &moment].map(|own| branch(tau, each.time, own).0);
+        for (place, less) in less.iter_mut().enumerate() {
+            let between = each.depth[place] * lost[place] - of_moment[place];
+            *less += EARLIER * g * between / radius;
+        }
+    }
+    less
 }

@@ -23,7 +23,7 @@ pub struct LawFit {
     /// Part of the force that the elements may be off [-].
     pub discretisation: f64,
     /// What changes the residuals and is no noise [N], each column by one standard deviation: the zeros of the
-    /// recordings, the elements, and that force is taken for an elastic one times G(t).
+    /// recordings, the elements, and that force is taken for an elastic one times G(t), at all depths and at finite strain.
     pub systematic: Vec<Vec<f64>>,
     /// Sums of squares of the other minima that were found [N²], the least first, each with its shape [-].
     pub others: Vec<[f64; 2]>,
@@ -219,7 +219,12 @@ fn found(
     ];
     LawFit {
         law: curves.law(),
-        systematic: forces::systematic(indentations, curve, (values[0], series), off),
+        systematic: forces::systematic(
+            indentations,
+            curve,
+            (values[0], series),
+            (off, curves.body().radius()),
+        ),
         fit,
         forces,
         solves: curves.solves(),

@@ -147,6 +147,16 @@ pub(super) fn correction(body: &Body, depth: f64) -> f64 {
     1.0 - TOO_STIFF_OTHERS * depth / body.radius()
 }
 
+/// The same for a run of `law`, as its tabulated column was corrected; of Mooney-Rivlin tissue, as the middle column.
+pub(super) fn correction_of(body: &Body, law: SoughtLaw, depth: f64) -> f64 {
+    let depth = depth / body.radius();
+    match law {
+        SoughtLaw::NeoHookean => 1.0 - TOO_STIFF[0] * depth,
+        SoughtLaw::MooneyRivlin => 1.0 - TOO_STIFF[2] * depth,
+        SoughtLaw::Exponential => 1.0 - TOO_STIFF_OTHERS * depth,
+    }
+}
+
 /// What is left wrong on the coarsest mesh after that [-].
 pub(super) const fn discretisation() -> f64 {
     LEFT

@@ -7,11 +7,11 @@
 
 use std::path::{Path, PathBuf};
 
-use palpate_characterize::CharacterizeSettings;
 use palpate_files::{Claim, MOST_OF_TABLE, Overwrite, read_text, write_whole};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
+use super::Choice;
 use super::answer::Specimen;
 use super::finished::Finished;
 use crate::{Error, ReadRecording, VERSION, Watch, hexadecimal, json_text};
@@ -90,12 +90,7 @@ impl StudyFolder {
     }
 
     /// Where the specimen at `place` of `groups` is kept.
-    pub(crate) fn kept(
-        &self,
-        groups: &[Vec<ReadRecording>],
-        place: usize,
-        settings: &CharacterizeSettings,
-    ) -> Kept {
+    pub(crate) fn kept(&self, groups: &[Vec<ReadRecording>], place: usize, choice: Choice) -> Kept {
         let name = |group: &[ReadRecording]| {
             file_name(&Specimen::title(&group[0].clean.header, &group[0].path))
         };
@@ -107,7 +102,7 @@ impl StudyFolder {
         };
         Kept {
             json: self.path.join(format!("{stem}.json")),
-            digest: digest(&groups[place], settings),
+            digest: digest(&groups[place], choice),
         }
     }
 
@@ -165,9 +160,9 @@ fn file_name(title: &str) -> String {
 }
 
 /// What a specimen is found from: names, headers and samples of its recordings, and the settings.
-fn digest(group: &[ReadRecording], settings: &CharacterizeSettings) -> String {
+fn digest(group: &[ReadRecording], choice: Choice) -> String {
     let mut hash = Sha256::new();
-    hash.update(format!("{settings:?}"));
+    hash.update(format!("{choice:?}"));
     for read in group {
         let clean = &read.clean;
         hash.update(format!("{}{:?}", read.path.display(), clean.header));

@@ -1,8 +1,9 @@
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use palpate_characterize::{CharacterizeSettings, characterize, specimens};
+use palpate_characterize::{characterize, characterize_in_loop, specimens};
 
+use super::Choice;
 use super::answer::Specimen;
 use super::finished::{Finished, Studied};
 use super::folder::StudyFolder;
@@ -12,7 +13,7 @@ use crate::{Error, ReadRecording, Watch, on_all_cores};
 /// already is taken from there, and what is finished goes there at once.
 pub(crate) fn of(
     recordings: Vec<ReadRecording>,
-    settings: &CharacterizeSettings,
+    choice: Choice,
     folder: Option<&StudyFolder>,
     watch: &dyn Watch,
 ) -> Result<Vec<Finished>, Error> {
@@ -20,7 +21,7 @@ pub(crate) fn of(
     let kept = |folder: &StudyFolder| -> Vec<_> {
         let places = 0..groups.len();
         places
-            .map(|place| folder.kept(&groups, place, settings))
+            .map(|place| folder.kept(&groups, place, choice))
             .collect()
     };
     let kept = folder.map(kept).unwrap_or_default();
@@ -35,7 +36,7 @@ pub(crate) fn of(
         let finished = match before {
             Some(finished) => Ok(finished),
             None => {
-                let finished = finish(group, settings, &say);
+                let finished = finish(group, choice, &say)?;
                 let written = kept
                     .get(place)
                     .map_or(Ok(()), |kept| kept.write(&finished, watch));
@@ -64,17 +65,18 @@ fn grouped(recordings: Vec<ReadRecording>) -> Vec<Vec<ReadRecording>> {
 }
 
 /// What is found of one specimen; `say` hears what is being done.
-fn finish(
-    group: &[ReadRecording],
-    settings: &CharacterizeSettings,
-    say: &dyn Fn(&str),
-) -> Finished {
+fn finish(group: &[ReadRecording], choice: Choice, say: &dyn Fn(&str)) -> Result<Finished, Error> {
     let recordings: Vec<_> = group.iter().map(|read| read.clean.clone()).collect();
-    let found = characterize(&recordings, settings, &mut |doing| say(doing));
-    Finished::of(&Studied {
+    let (settings, mut hear) = (choice.settings(), |doing: &'static str| say(doing));
+    let found = match choice.law.filter(|_| choice.in_loop) {
+        Some(law) => characterize_in_loop(&recordings, law, &settings, &mut hear)
+            .map_err(|why| Error::failed(why.to_string()))?,
+        None => characterize(&recordings, &settings, &mut hear),
+    };
+    Ok(Finished::of(&Studied {
         files: group.iter().map(|read| read.path.clone()).collect(),
         digests: group.iter().map(|read| read.digest.clone()).collect(),
         recordings,
         found,
-    })
+    }))
 }

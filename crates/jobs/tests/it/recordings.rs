@@ -9,7 +9,7 @@ use crate::measured;
 pub(crate) fn quick() -> Choice {
     Choice {
         law: Some(Choice::law_named("neo_hookean").unwrap()),
-        draws: 5,
+        draws: 10,
         ..Choice::default()
     }
 }
