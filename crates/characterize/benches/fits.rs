@@ -48,7 +48,7 @@ fn of_relaxation(criterion: &mut Criterion) {
         force_n,
     } = samples();
     let largest = force_n.iter().copied().fold(0.0, f64::max);
-    let course = Course::new((&time_s, &depth_m, &force_n), largest, |depth| depth).unwrap();
+    let course = Course::new((&time_s, &depth_m, &force_n), largest, &IndentationCurve::through(&[1.0], &[1.0])).unwrap();
     let settings = RelaxationSettings { terms: Some(2) };
     criterion.bench_function("relaxation of two terms (budget 50 ms)", |b| {
         b.iter(|| relaxation(black_box(std::slice::from_ref(&course)), settings).unwrap());

@@ -11,6 +11,7 @@ use std::ops::Range;
 
 use palpate_files::recording::StimulusKind;
 use palpate_files::{Estimate, PronyTerm, Tissue};
+use palpate_mechanics::IndentationCurve;
 
 use crate::clean::SegmentKind;
 use crate::fit::{Draws, simplest};
@@ -212,16 +213,14 @@ impl Pressed {
 fn courses(pressed: &[Pressed], curves: Option<&mut Curves>) -> Vec<Course> {
     let of_block = curves.filter(|curves| matches!(curves.body(), Body::Block { .. }));
     let curve = of_block.and_then(|curves| curves.of(f64::INFINITY, 0.0).ok());
-    let shape = |depth: f64| match &curve {
-        Some(curve) => curve.force.force(depth),
-        None => depth,
-    };
+    let linear = || IndentationCurve::through(&[1.0], &[1.0]);
+    let curve = curve.map_or_else(linear, |curve| curve.force);
     // One for all: a sensor's noise is as many newtons in each.
     let largest = pressed.iter().map(|each| each.largest).fold(0.0, f64::max);
     let felt = pressed.iter().filter(|each| each.is_felt());
     let each = felt.filter_map(|each| {
-        let course = Course::new((&each.time, &each.depth, &each.force), largest, shape)?;
-        Some(course.with_zeros((&each.depth, each.zeros), largest, shape))
+        let course = Course::new((&each.time, &each.depth, &each.force), largest, &curve)?;
+        Some(course.with_zeros((&each.depth, each.zeros), largest, &curve))
     });
     each.collect()
 }

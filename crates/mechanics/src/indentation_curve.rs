@@ -2,15 +2,15 @@
 //!
 //! Between the depths that are known the force follows monotone cubics [Fritsch and Carlson 1980], so it
 //! never falls where the known forces rise. With one relaxation function for the whole body the force
-//! of any history d(t) is the convolution of F(d(t)) with it: one elastic curve answers for every
-//! stimulus.
+//! of any history d(t) is the convolution of F(d(t)) with it, where earlier forces count by their hereditary factor
+//! ([`HereditaryFactor`]): one elastic curve answers for every stimulus.
 //!
-//! *How we know*: `curves::…`; `indentation::convolution_is_the_full_run`.
+//! *How we know*: `curves::…`; `hereditary::…`.
 //!
 //! *Limits*: nothing is known beyond the last depth, where the curve goes on along its tangent and says
 //! so by [`IndentationCurve::deepest`].
 
-use crate::{ForceHistory, PronySeries, Vec3};
+use crate::{HereditaryFactor, PronySeries};
 
 /// Elastic force over depth, both ascending from zero.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,6 +18,8 @@ pub struct IndentationCurve {
     depths: Vec<f64>,
     forces: Vec<f64>,
     slopes: Vec<f64>,
+    /// What earlier stresses contribute to a force.
+    hereditary: HereditaryFactor,
 }
 
 /// Parts of the way between two times of a history in which the elastic force is taken as linear.
@@ -30,6 +32,7 @@ impl IndentationCurve {
             depths: vec![0.0],
             forces: vec![0.0],
             slopes: vec![0.0],
+            hereditary: HereditaryFactor::ONE,
         }
     }
 
@@ -81,7 +84,19 @@ impl IndentationCurve {
             depths: times(&self.depths, length),
             forces: times(&self.forces, force),
             slopes: times(&self.slopes, force / length),
+            hereditary: self.hereditary.scaled(length),
         }
+    }
+
+    /// The same with what earlier stresses contribute, so that [`Self::relaxed`] answers for finite strain.
+    pub fn with_hereditary(mut self, hereditary: HereditaryFactor) -> Self {
+        self.hereditary = hereditary;
+        self
+    }
+
+    /// What earlier stresses contribute to a force; one unless it was stated.
+    pub fn hereditary(&self) -> &HereditaryFactor {
+        &self.hereditary
     }
 
     /// Force [N] at `depth` [m]; zero without contact.
@@ -132,21 +147,28 @@ impl IndentationCurve {
     /// through `depths` [m]. Before the first time nothing was touched; a first depth above zero is a
     /// step.
     pub fn relaxed(&self, series: &PronySeries, times: &[f64], depths: &[f64]) -> Vec<f64> {
-        let mut history = ForceHistory::default();
+        let mut finer = [Vec::new(), Vec::new()];
+        let mut asked = Vec::with_capacity(times.len());
         let mut before: Option<(f64, f64)> = None;
-        let mut forces = Vec::with_capacity(times.len());
         for (&time, &depth) in times.iter().zip(depths) {
             let (start, from) = before.unwrap_or((time, depth));
             let parts = if depth == from { 1 } else { PARTS };
-            let step = (time - start) / parts as f64;
-            let mut force = 0.0;
             for part in 1..=parts {
-                let depth = from + (depth - from) * part as f64 / parts as f64;
-                let elastic = Vec3::new(self.force(depth), 0.0, 0.0);
-                force = history.advance(series, elastic, step).x;
+                let share = part as f64 / parts as f64;
+                finer[0].push(start + (time - start) * share);
+                finer[1].push(from + (depth - from) * share);
             }
-            forces.push(force);
+            asked.push(finer[0].len() - 1);
             before = Some((time, depth));
+        }
+        let [times, depths] = finer;
+        let elastic: Vec<f64> = depths.iter().map(|&depth| self.force(depth)).collect();
+        let mut forces: Vec<f64> = asked.iter().map(|&place| elastic[place]).collect();
+        for &(g, tau) in series.terms() {
+            let (lost, _) = self.hereditary.branch(tau, &times, &depths, &elastic);
+            for (force, &place) in forces.iter_mut().zip(&asked) {
+                *force -= g * lost[place];
+            }
         }
         forces
     }

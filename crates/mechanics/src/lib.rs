@@ -11,6 +11,7 @@ pub mod enhance;
 mod error;
 pub mod finite_elements;
 pub mod finite_spheres;
+mod hereditary;
 mod indentation_curve;
 mod limits;
 mod linear;
@@ -20,6 +21,7 @@ mod tip_law;
 
 pub use cores::{on_all_cores, threads_were_refused};
 pub use error::Error;
+pub use hereditary::HereditaryFactor;
 pub use indentation_curve::IndentationCurve;
 pub use limits::{Limit, Limits, Reached};
 pub use material::exponential::Exponential;

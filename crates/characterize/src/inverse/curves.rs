@@ -4,7 +4,7 @@ use palpate_mechanics::finite_elements::indentation::{
     Block, IndentationRun, IndentationSettings, Indenter, IndenterShape,
 };
 use palpate_mechanics::finite_elements::tube::{Ends, Tube, TubeProblem, TubePunch, indent};
-use palpate_mechanics::{IndentationCurve, Law, PronySeries};
+use palpate_mechanics::{HereditaryFactor, IndentationCurve, Law, PronySeries};
 
 use super::body::Body;
 use super::family::Family;
@@ -171,7 +171,7 @@ impl Curves {
     fn solve_block(&mut self, piece: (Block, Indenter), shape: f64) -> Result<UnitCurve, Error> {
         let mesh_error = self.mesh_error(piece)?;
         let depths = self.depths();
-        let points = self.run(piece, self.law.unit(shape)?, 0)?;
+        let Run { points, hereditary } = self.run(piece, self.law.unit(shape)?, 0)?;
         let right = |place: usize| mesh_error.correction[place];
         let forces: Vec<f64> = points
             .iter()
@@ -184,19 +184,19 @@ impl Curves {
             .collect();
         Ok(UnitCurve {
             shape,
-            force: IndentationCurve::through(&depths, &forces),
+            force: IndentationCurve::through(&depths, &forces).with_hereditary(hereditary),
             by_shape: IndentationCurve::through(&depths, &slopes),
             discretisation: mesh_error.left,
         })
     }
 
-    /// Forces at all depths on one mesh, each with its changes with the parameters of the law.
+    /// Forces at all depths on one mesh.
     fn run(
         &mut self,
         (block, indenter): (Block, Indenter),
         law: Arc<dyn Law>,
         halvings: i32,
-    ) -> Result<Vec<(f64, Vec<f64>)>, Error> {
+    ) -> Result<Run, Error> {
         self.solves += 1;
         let mut run = IndentationRun::new(&IndentationSettings {
             block,
@@ -206,14 +206,19 @@ impl Curves {
             deepest: self.deepest,
             halvings,
         })?
-        .with_sensitivities();
+        .with_sensitivities()
+        .with_path();
         let (name, deepest) = (self.law.name(), self.deepest);
         let press = |depth: f64| {
             let point = run.press(depth, depth, |_| ());
             let point = point.map_err(|why| Error::of_law(name, deepest, why))?;
             Ok((point.force, point.by_parameter))
         };
-        self.depths().into_iter().map(press).collect()
+        let points = self.depths().into_iter().map(press);
+        Ok(Run {
+            points: points.collect::<Result<_, Error>>()?,
+            hereditary: run.hereditary_factor(),
+        })
     }
 
     /// How much too stiff the coarsest mesh is: tabulated, or from neo-Hookean tissue on a mesh with every element
@@ -231,8 +236,8 @@ impl Curves {
                 }
             } else {
                 let law = SoughtLaw::NeoHookean.unit(0.0)?;
-                let coarse = self.run(piece, law.clone(), 0)?;
-                MeshError::of_two(&coarse, &self.run(piece, law, 1)?)
+                let coarse = self.run(piece, law.clone(), 0)?.points;
+                MeshError::of_two(&coarse, &self.run(piece, law, 1)?.points)
             });
         }
         self.mesh_error.clone().ok_or(Error::NothingFelt)
@@ -259,6 +264,14 @@ impl Curves {
             discretisation: found.error,
         })
     }
+}
+
+/// What a run on one mesh gives.
+struct Run {
+    /// Force [N] at each depth, and its changes with the parameters of the law [N per unit].
+    points: Vec<(f64, Vec<f64>)>,
+    /// What earlier stresses contribute to a later force.
+    hereditary: HereditaryFactor,
 }
 
 /// By what forces of the coarsest mesh are to be multiplied at each depth [-], and what is left wrong then.

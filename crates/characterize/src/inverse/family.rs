@@ -51,6 +51,11 @@ impl Family {
         let after = self.known.partition_point(|own| own.shape < shape);
         let high = &self.known[after.min(self.known.len() - 1)];
         let low = &self.known[after.saturating_sub(1)];
+        // It hardly changes with the shape.
+        let nearer = match shape - low.shape < high.shape - shape {
+            true => low,
+            false => high,
+        };
         let mut values = Vec::new();
         for ((depth, one), (_, other)) in low.logarithms().zip(high.logarithms()) {
             let [log, slope] = match low.shape < high.shape {
@@ -65,7 +70,7 @@ impl Family {
         };
         UnitCurve {
             shape,
-            force: through(|own| own.1),
+            force: through(|own| own.1).with_hereditary(*nearer.force.hereditary()),
             by_shape: through(|own| own.2),
             discretisation: low.discretisation.max(high.discretisation),
         }

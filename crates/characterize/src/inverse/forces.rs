@@ -1,5 +1,5 @@
 use nalgebra::DMatrix;
-use palpate_mechanics::{IndentationCurve, PronySeries, branch};
+use palpate_mechanics::{IndentationCurve, PronySeries};
 
 use super::curves::UnitCurve;
 
@@ -51,7 +51,10 @@ pub(super) fn forces(
     let branches: Vec<_> = series
         .terms()
         .iter()
-        .map(|&(_, tau)| (branch(tau, time, &elastic), branch(tau, time, &by_shape).0))
+        .map(|&(_, tau)| {
+            let of = |elastic: &[f64]| curve.force.hereditary().branch(tau, time, depth, elastic);
+            (of(&elastic), of(&by_shape).0)
+        })
         .collect();
     let (mut lost, mut shape) = (vec![0.0; time.len()], by_shape);
     for ((g, _), ((values, _), of_shape)) in series.terms().iter().zip(&branches) {
@@ -89,10 +92,11 @@ fn relaxed(
     modulus: f64,
     series: &PronySeries,
 ) -> Vec<f64> {
-    let elastic: Vec<f64> = depth.map(|d| modulus * curve.force(d)).collect();
+    let depth: Vec<f64> = depth.collect();
+    let elastic: Vec<f64> = depth.iter().map(|d| modulus * curve.force(*d)).collect();
     let mut force = elastic.clone();
     for &(g, tau) in series.terms() {
-        let lost = branch(tau, time, &elastic).0;
+        let lost = curve.hereditary().branch(tau, time, &depth, &elastic).0;
         force
             .iter_mut()
             .zip(lost)

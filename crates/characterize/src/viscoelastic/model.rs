@@ -1,5 +1,5 @@
 use nalgebra::DMatrix;
-use palpate_mechanics::branch;
+use palpate_mechanics::{HereditaryFactor, IndentationCurve};
 
 use crate::inverse::ZeroErrors;
 
@@ -8,6 +8,8 @@ use crate::inverse::ZeroErrors;
 pub struct Course {
     /// Times [s], ascending.
     pub time: Vec<f64>,
+    /// Depths [m].
+    pub depth: Vec<f64>,
     /// Elastic force of the depths relative to that of the largest, as far as it is known [-].
     pub shape: Vec<f64>,
     /// ln of the depths relative to the largest [-]; of no depth, zero, where the shape is zero too.
@@ -18,6 +20,8 @@ pub struct Course {
     pub by_contact: Vec<f64>,
     /// Standard error of the force without load, relative to the largest force [-].
     pub zero_error: f64,
+    /// What earlier stresses contribute to a later force.
+    pub hereditary: HereditaryFactor,
 }
 
 /// Samples of a moving depth that a thinned course keeps, at most about.
@@ -26,23 +30,24 @@ const THINNED: usize = 200;
 const SCALE: f64 = 50.0;
 
 impl Course {
-    /// Of `force` [N] at `depth` [m], where an elastic force of `shape` [any unit] is felt; none when
+    /// Of `force` [N] at `depth` [m], where the elastic force of `curve` [any unit] is felt; none when
     /// nothing is pressed or felt. `largest_force` [N] is one for all courses of a fit: a sensor's noise is
     /// as many newtons in each.
     pub fn new(
         (time, depth, force): (&[f64], &[f64], &[f64]),
         largest_force: f64,
-        shape: impl Fn(f64) -> f64,
+        curve: &IndentationCurve,
     ) -> Option<Self> {
         let deepest = depth.iter().copied().fold(0.0, f64::max);
-        let most = shape(deepest);
+        let most = curve.force(deepest);
         if !(deepest > 0.0 && most > 0.0 && largest_force > 0.0) {
             return None;
         }
         let relative = |d: f64| (d / deepest).max(0.0);
         Some(Self {
             time: time.to_vec(),
-            shape: depth.iter().map(|&d| shape(d.max(0.0)) / most).collect(),
+            depth: depth.iter().map(|d| d.max(0.0)).collect(),
+            shape: depth.iter().map(|&d| curve.force(d) / most).collect(),
             logarithm: depth
                 .iter()
                 .map(|&d| relative(d).max(f64::MIN_POSITIVE).ln())
@@ -50,6 +55,7 @@ impl Course {
             force: force.iter().map(|f| f / largest_force).collect(),
             by_contact: vec![0.0; time.len()],
             zero_error: 0.0,
+            hereditary: *curve.hereditary(),
         })
     }
 
@@ -58,11 +64,11 @@ impl Course {
         mut self,
         (depth, zeros): (&[f64], ZeroErrors),
         largest_force: f64,
-        shape: impl Fn(f64) -> f64,
+        curve: &IndentationCurve,
     ) -> Self {
-        let most = shape(depth.iter().copied().fold(0.0, f64::max));
+        let most = curve.force(depth.iter().copied().fold(0.0, f64::max));
         let change = |d: &f64| {
-            let ends = [d + zeros.depth, d - zeros.depth].map(|d| shape(d.max(0.0)));
+            let ends = [d + zeros.depth, d - zeros.depth].map(|d| curve.force(d));
             0.5 * (ends[0] - ends[1]) / most
         };
         self.by_contact = depth.iter().map(change).collect();
@@ -83,12 +89,15 @@ impl Course {
         let start = self.time[peak];
         Self {
             time: self.time[peak..].iter().map(|t| t - start).collect(),
+            depth: self.depth[peak..].to_vec(),
             shape: vec![1.0; self.time.len() - peak],
             logarithm: vec![0.0; self.time.len() - peak],
             force: self.force[peak..].to_vec(),
             // A step has no ramp to be shifted on.
             by_contact: vec![0.0; self.time.len() - peak],
             zero_error: self.zero_error,
+            // Nor has it an earlier depth.
+            hereditary: HereditaryFactor::ONE,
         }
     }
 
@@ -110,11 +119,13 @@ impl Course {
         let of = |values: &[f64]| kept.iter().map(|&i| values[i]).collect();
         Self {
             time: of(&self.time),
+            depth: of(&self.depth),
             shape: of(&self.shape),
             logarithm: of(&self.logarithm),
             force: of(&self.force),
             by_contact: of(&self.by_contact),
             zero_error: self.zero_error,
+            hereditary: self.hereditary,
         }
     }
 
@@ -186,7 +197,7 @@ impl Model<'_> {
         for (number, course) in self.courses.iter().enumerate() {
             let size = parameters[1 + 2 * self.terms + number];
             let (elastic, by_mu) = course.elastic(parameters[0]);
-            let (force, columns) = relaxed(&course.time, (&elastic, &by_mu), &series);
+            let (force, columns) = course.relaxed((&elastic, &by_mu), &series);
             let rows = course.force.len();
             for row in 0..rows {
                 residuals[start + row] = size * force[row] - course.force[row];
@@ -223,11 +234,8 @@ impl Model<'_> {
                 columns.push(column);
             };
             if course.by_contact.iter().any(|change| *change != 0.0) {
-                let (force, _) = relaxed(
-                    &course.time,
-                    (&course.by_contact, &course.by_contact),
-                    &series,
-                );
+                let (force, _) =
+                    course.relaxed((&course.by_contact, &course.by_contact), &series);
                 own(force.iter().map(|change| size * change).collect());
             }
             if course.zero_error > 0.0 {
@@ -248,39 +256,45 @@ pub(crate) fn terms(parameters: &[f64], terms: usize) -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// Relaxed force of a course of size one, and its change with μ and with each ρᵢ and ln τᵢ.
-fn relaxed(
-    time: &[f64],
-    (elastic, by_mu): (&[f64], &[f64]),
-    series: &[(f64, f64)],
-) -> (Vec<f64>, Vec<Vec<f64>>) {
-    let left: f64 = 1.0 - series.iter().map(|(g, _)| g).sum::<f64>();
-    let branches: Vec<_> = series
-        .iter()
-        .map(|&(_, tau)| branch(tau, time, elastic))
-        .collect();
-    let mut lost = vec![0.0; time.len()];
-    for ((g, _), (values, _)) in series.iter().zip(&branches) {
-        add(&mut lost, *g, values);
+impl Course {
+    /// Relaxed force of a course of size one, and its change with μ and with each ρᵢ and ln τᵢ.
+    fn relaxed(
+        &self,
+        (elastic, by_mu): (&[f64], &[f64]),
+        series: &[(f64, f64)],
+    ) -> (Vec<f64>, Vec<Vec<f64>>) {
+        let branch = |tau: f64, elastic: &[f64]| {
+            let hereditary = &self.hereditary;
+            hereditary.branch(tau, &self.time, &self.depth, elastic)
+        };
+        let left: f64 = 1.0 - series.iter().map(|(g, _)| g).sum::<f64>();
+        let branches: Vec<_> = series
+            .iter()
+            .map(|&(_, tau)| branch(tau, elastic))
+            .collect();
+        let mut lost = vec![0.0; self.time.len()];
+        for ((g, _), (values, _)) in series.iter().zip(&branches) {
+            add(&mut lost, *g, values);
+        }
+        let mut columns = Vec::with_capacity(1 + 2 * series.len());
+        let mut mu = by_mu.to_vec();
+        for &(g, tau) in series {
+            add(&mut mu, -g, &branch(tau, by_mu).0);
+        }
+        columns.push(mu);
+        for ((g, _), (values, slopes)) in series.iter().zip(&branches) {
+            // ∂gⱼ/∂ρᵢ = (δᵢⱼ − gⱼ)(1 − Σ g).
+            columns.push(
+                lost.iter()
+                    .zip(values)
+                    .map(|(l, h)| left * (l - h))
+                    .collect(),
+            );
+            columns.push(slopes.iter().map(|slope| -g * slope).collect());
+        }
+        let force = elastic.iter().zip(&lost).map(|(e, l)| e - l).collect();
+        (force, columns)
     }
-    let mut columns = Vec::with_capacity(1 + 2 * series.len());
-    let mut mu = by_mu.to_vec();
-    for &(g, tau) in series {
-        add(&mut mu, -g, &branch(tau, time, by_mu).0);
-    }
-    columns.push(mu);
-    for ((g, _), (values, slopes)) in series.iter().zip(&branches) {
-        // ∂gⱼ/∂ρᵢ = (δᵢⱼ − gⱼ)(1 − Σ g).
-        columns.push(
-            lost.iter()
-                .zip(values)
-                .map(|(l, h)| left * (l - h))
-                .collect(),
-        );
-        columns.push(slopes.iter().map(|slope| -g * slope).collect());
-    }
-    let force = elastic.iter().zip(&lost).map(|(e, l)| e - l).collect();
-    (force, columns)
 }
 
 fn add(sum: &mut [f64], factor: f64, values: &[f64]) {

@@ -25,7 +25,7 @@ fn course(exponent: f64, ramp: f64, rate: f64, noise: f64, seed: u64) -> Course 
     for force in &mut forces {
         *force += noise * largest * random.normal();
     }
-    Course::new((&times, &depths, &forces), largest, |d| d).unwrap()
+    Course::new((&times, &depths, &forces), largest, &IndentationCurve::through(&[1.0], &[1.0])).unwrap()
 }
 
 /// Judge: multiplied out, with G at 30 times. Rounding, which grows as times come close.
@@ -136,7 +136,7 @@ fn a_ramp_that_is_no_power_is_no_relaxation() {
         let forces = IndentationCurve::through(&known, &elastic).relaxed(&series, &times, &depths);
         let mut random = Random::new(4);
         let forces: Vec<f64> = forces.iter().map(|f| f + 3e-4 * random.normal()).collect();
-        let course = Course::new((&times, &depths, &forces), 1.0, |d| d).unwrap();
+        let course = Course::new((&times, &depths, &forces), 1.0, &IndentationCurve::through(&[1.0], &[1.0])).unwrap();
         let found = relaxation(&[course], RelaxationSettings::default()).unwrap();
         println!(
             "{ramp}: {:?} {:?} {:?}",

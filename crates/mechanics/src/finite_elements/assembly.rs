@@ -121,9 +121,39 @@ pub(super) fn add_by_parameter(
 /// Elastic stresses [Pa] at the points of integration, as relaxation takes them: second
 /// Piola-Kirchhoff at finite strain.
 pub(super) fn elastic_stresses(model: &FiniteElementModel, unknowns: &[f64]) -> Vec<Matrix3<f64>> {
-    let local = model.local_unknowns();
     let law = model.law.as_ref();
-    let mut stresses = Vec::with_capacity(model.mapping.weights.len());
+    at_each_point(model, unknowns, |point, f| {
+        let stress = if point.pressures.is_empty() {
+            law.stress(f)
+        } else {
+            law.distortion_stress(f)
+        };
+        match law.volume().strain {
+            Strain::Small => stress,
+            Strain::Finite => f.try_inverse().unwrap_or_default() * stress,
+        }
+    })
+}
+
+/// Strains [-] at the points of integration, of which the stresses of [`elastic_stresses`] are the conjugates:
+/// Green's at finite strain.
+pub(super) fn strains(model: &FiniteElementModel, unknowns: &[f64]) -> Vec<Matrix3<f64>> {
+    at_each_point(model, unknowns, |_, f| {
+        match model.law.volume().strain {
+            Strain::Small => 0.5 * (f + f.transpose()) - Matrix3::identity(),
+            Strain::Finite => 0.5 * (f.transpose() * f - Matrix3::identity()),
+        }
+    })
+}
+
+/// What `of` makes of each point of integration and its deformation gradient; element by element.
+fn at_each_point<T>(
+    model: &FiniteElementModel,
+    unknowns: &[f64],
+    of: impl Fn(&Point<'_>, &Matrix3<f64>) -> T,
+) -> Vec<T> {
+    let local = model.local_unknowns();
+    let mut all = Vec::with_capacity(model.mapping.weights.len());
     let mut values = vec![0.0; local];
     for (element, numbers) in model.unknowns.chunks_exact(local).enumerate() {
         for (value, &number) in values.iter_mut().zip(numbers) {
@@ -136,18 +166,10 @@ pub(super) fn elastic_stresses(model: &FiniteElementModel, unknowns: &[f64]) -> 
             } else {
                 point.gradient::<3>(&values)
             };
-            let stress = if point.pressures.is_empty() {
-                law.stress(&f)
-            } else {
-                law.distortion_stress(&f)
-            };
-            stresses.push(match law.volume().strain {
-                Strain::Small => stress,
-                Strain::Finite => f.try_inverse().unwrap_or_default() * stress,
-            });
+            all.push(of(&point, &f));
         }
     }
-    stresses
+    all
 }
 
 /// θ − p/κ at a point, and what its change and its block of the matrix need.

@@ -22,6 +22,7 @@ mod errors;
 mod every_law;
 mod exterior;
 mod field;
+mod hereditary;
 mod hexahedra;
 mod homogeneous;
 mod indentation;

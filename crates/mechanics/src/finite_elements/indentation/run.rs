@@ -10,11 +10,12 @@ use super::super::relaxation::{Memory, RelaxationStep};
 use super::super::snap::equilibrate_downhill;
 use super::super::supports::{Sliding, Supports};
 use super::contact::Touch;
+use super::elastic_path::ElasticPath;
 use super::indenter::{Indenter, IndenterShape};
 use super::mesh::{Base, Block, graded_block};
 use super::slopes::Slopes;
 use crate::material::law::Law;
-use crate::{Error, PronySeries, Strain};
+use crate::{Error, HereditaryFactor, PronySeries, Strain};
 
 /// An indentation to be solved on one mesh.
 #[derive(Debug, Clone)]
@@ -66,6 +67,8 @@ pub struct IndentationRun {
     before: Option<Standing>,
     /// The next step [m].
     step: f64,
+    /// What was passed, where asked for.
+    path: Option<ElasticPath>,
 }
 
 /// An equilibrium at a depth.
@@ -156,6 +159,7 @@ impl IndentationRun {
             },
             before: None,
             step: FIRST_STEP * scale,
+            path: None,
             model,
         })
     }
@@ -165,6 +169,19 @@ impl IndentationRun {
     pub fn with_sensitivities(mut self) -> Self {
         self.now.slopes = Some(Slopes::at_rest(&self.model));
         self
+    }
+
+    /// Answers also for [`Self::hereditary_factor`], from the depths that are pressed to from now on. Only for an
+    /// elastic tissue.
+    pub fn with_path(mut self) -> Self {
+        self.path = Some(ElasticPath::default());
+        self
+    }
+
+    /// κ of the depths that were pressed to, where it was asked for; else one.
+    pub fn hereditary_factor(&self) -> HereditaryFactor {
+        let path = self.path.as_ref();
+        path.map_or(HereditaryFactor::ONE, |path| path.factor(&self.model))
     }
 
     /// The body.
@@ -212,6 +229,10 @@ impl IndentationRun {
                     gone = next;
                     self.pace(step, effort);
                     if part == 1.0 {
+                        if let Some(path) = &mut self.path {
+                            let reached = [point.depth, point.force];
+                            path.add(&self.model, &self.now.state, reached);
+                        }
                         return Ok(point);
                     }
                 }

@@ -60,7 +60,7 @@ fn seen(recording: &CleanRecording, curve: &IndentationCurve) -> Option<Course> 
         &recording.force[..],
     );
     let largest = recording.filtered_force.iter().copied().fold(0.0, f64::max);
-    Course::new(columns, largest, |depth| curve.force(depth))
+    Course::new(columns, largest, curve)
 }
 
 fn add(

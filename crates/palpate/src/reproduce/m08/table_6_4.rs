@@ -44,7 +44,7 @@ fn run(rows: &mut Rows<'_>, law: SoughtLaw, table: Table) -> Result<(), Failure>
         let assumed = elastic(SoughtLaw::NeoHookean, (1.0, 0.0))?;
         let largest = forces.iter().copied().fold(0.0, f64::max);
         let columns = (&course.times[..], &course.depths[..], &forces[..]);
-        let seen = Course::new(columns, largest, |depth| assumed.force(depth));
+        let seen = Course::new(columns, largest, &assumed);
         let seen: Vec<Course> = seen.into_iter().collect();
         let relaxing = relaxation(&seen, RelaxationSettings { terms: Some(2) })?;
         let indentation = Indentation::new(&course.times, &course.depths, &forces);

@@ -95,7 +95,7 @@ fn add_relaxation(rows: &mut Rows<'_>, printed: &Printed) -> Result<(), Failure>
         &recording.depth[..],
         &recording.force[..],
     );
-    let seen: Vec<Course> = Course::new(columns, largest, |depth| depth)
+    let seen: Vec<Course> = Course::new(columns, largest, &IndentationCurve::through(&[1.0], &[1.0]))
         .into_iter()
         .collect();
     let one = RelaxationSettings { terms: Some(1) };

@@ -38,13 +38,7 @@ fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
         .iter()
         .map(|row| 1e-3 * f64::from(row.depth_mm))
         .collect();
-    let scene = Scene::parse(ESOPHAGUS, "built-in scene")?;
-    let simulation = preparation::simulation(&scene, &preparation::resources(), Reader::Machine)?;
-    let unit: Vec<f64> = pressed(&simulation, &depths)
-        .iter()
-        .map(|force| force / UNIT)
-        .collect();
-
+    let unit = unit_forces(&depths)?;
     let note = "the esophagus of 3,726 triangles between its anchors, probe of 1 mm radius bonded to its front, half-way";
     for (row, unit) in measured.iter().zip(&unit) {
         let value = Value::beside(Some(row.mean), printed * unit, "N");
@@ -90,6 +84,14 @@ fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
     let remark =
         "linear tissue: the measured curve bends a little more than the simulated organ does";
     rows.add_figure(None, &plot, remark)
+}
+
+/// The force [N] that a Young's modulus of 1 Pa gives at each of `depths` [m], ascending.
+pub(super) fn unit_forces(depths: &[f64]) -> Result<Vec<f64>, Failure> {
+    let scene = Scene::parse(ESOPHAGUS, "built-in scene")?;
+    let simulation = preparation::simulation(&scene, &preparation::resources(), Reader::Machine)?;
+    let forces = pressed(&simulation, depths);
+    Ok(forces.iter().map(|force| force / UNIT).collect())
 }
 
 /// The force [N] at each of `depths` [m] below the front of the organ, half-way.
