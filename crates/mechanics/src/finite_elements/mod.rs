@@ -27,6 +27,7 @@ mod sensitivity;
 mod snap;
 pub mod solid;
 mod supports;
+mod surface;
 pub mod tube;
 pub mod uniaxial;
 
@@ -42,3 +43,5 @@ pub use path::{Path, PathPoint};
 pub use punched::{PunchedLines, PunchedMesh};
 pub use relaxation::{Memory, RelaxationStep};
 pub use supports::{RigidSurface, Sliding, Supports};
+/// lab
+pub fn solves() -> usize { newton::SOLVES.load(std::sync::atomic::Ordering::Relaxed) }

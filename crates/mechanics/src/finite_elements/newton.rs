@@ -279,10 +279,13 @@ pub(super) fn turn_back(
     }
 }
 
+/// lab
+pub(super) static SOLVES: std::sync::atomic::AtomicUsize = std::sync::atomic::AtomicUsize::new(0);
 pub(super) fn factor(
     model: &FiniteElementModel,
     workspace: &mut FiniteElementWorkspace,
 ) -> Result<(), Failure> {
+    SOLVES.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
     workspace
         .factors
         .factor(&model.pattern, &workspace.supported)

@@ -10,6 +10,7 @@
 //! surface under it at some depth, and what lies beyond is refused.
 
 mod contact;
+mod corner;
 mod indenter;
 mod mesh;
 mod problem;

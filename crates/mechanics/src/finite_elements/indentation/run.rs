@@ -119,8 +119,12 @@ impl IndentationRun {
     pub fn new(settings: &IndentationSettings) -> Result<Self, Error> {
         let (block, indenter) = (&settings.block, settings.indenter);
         block.check(&indenter)?;
-        let mesh = graded_block(block, &indenter, settings.deepest, settings.halvings);
-        let top = mesh.nodes_where(|x| x.y == 0.0);
+        let mesh = match std::env::var("PARTS").ok().and_then(|s| s.parse().ok()) {
+            Some(parts) => super::corner::corner_block(block, &indenter, parts),
+            None => graded_block(block, &indenter, settings.deepest, settings.halvings),
+        };
+        let mut top = mesh.nodes_where(|x| x.y == 0.0);
+        top.sort_by(|&a, &b| mesh.nodes[a].x.total_cmp(&mesh.nodes[b].x));
         let bottom = mesh.nodes_where(|x| x.y == -block.height);
         let axis = mesh.nodes_where(|x| x.x == 0.0);
         let model = FiniteElementModel::new(mesh, settings.law.clone(), Formulation::Mixed)?;
@@ -215,7 +219,18 @@ impl IndentationRun {
                         return Ok(point);
                     }
                 }
-                Err(_) if step > SHORTEST_STEP * scale => self.step = 0.5 * step,
+                Err(why) if step > SHORTEST_STEP * scale => {
+                    if std::env::var("VERB").is_ok() {
+                        let w = &self.workspace;
+                        let n = self.model.mesh().nodes.len();
+                        let supports = self.supports(&self.now.touch, self.now.depth, None);
+                        let worst = (0..2*n).filter(|&i| supports.held[i].is_none() && w.residual[i].is_finite()).max_by(|&i, &j| { let f = |i: usize| w.residual[i].powi(2) / w.tangent[self.model.pattern.range(i).start].abs(); f(i).total_cmp(&f(j)) }).unwrap();
+                        let x = self.model.mesh().nodes[worst / 2];
+                        println!("      worst at {:.5} {:.5}", x.x / self.indenter.radius - 1.0, x.y / self.indenter.radius);
+                        println!("      cut {:.5} of {:.5}: {why:?} {way:?} {}", step / scale, self.now.depth / scale, super::super::solves());
+                    }
+                    self.step = 0.5 * step
+                }
                 Err(failure) => {
                     return Err(Error::NoEquilibrium {
                         depth: self.now.depth,
