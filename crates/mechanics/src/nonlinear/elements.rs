@@ -1,15 +1,12 @@
 //! Quadratic tetrahedra with straight edges, eight side by side, and what passes between them and their nodes.
 
-use palpate_geometry::{NodeId, TetrahedronMesh};
+use palpate_geometry::TetrahedronMesh;
 
 use super::lanes::{LANES, Lanes, Scalar, Vector, plus, scaled};
 use super::law::Moduli;
 
-/// Nodes of a quadratic tetrahedron: four corners, then the middles of [`EDGES`].
+/// Nodes of a quadratic tetrahedron, in the order of `ElementKind::Tet10`.
 pub(super) const NODES: usize = 10;
-
-/// Corners at the ends of each middle node, as `finite_elements` numbers them.
-pub(super) const EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], [0, 2], [0, 3], [1, 3], [2, 3]];
 
 /// Middle node between two corners.
 const MIDDLE: [[usize; 4]; 4] = [[0, 4, 6, 7], [4, 0, 5, 8], [6, 5, 0, 9], [7, 8, 9, 0]];
@@ -174,20 +171,4 @@ fn weights(corner: usize, point: usize) -> [f64; 4] {
     weights[point] = 4.0 * NEAR;
     weights[corner] -= 1.0;
     weights
-}
-
-/// The ten nodes of each tetrahedron, number by number, and how many nodes there are: vertices keep their numbers,
-/// the middles follow in the order of [`TetrahedronMesh::edges`].
-pub(super) fn nodes(mesh: &TetrahedronMesh) -> (Vec<u32>, Vec<[NodeId; 2]>) {
-    let edges = mesh.edges();
-    let mut nodes = Vec::with_capacity(NODES * mesh.tetrahedra().len());
-    for corners in mesh.tetrahedra() {
-        nodes.extend(corners.map(|node| node.0));
-        nodes.extend(EDGES.map(|[a, b]| {
-            let [a, b] = [corners[a], corners[b]];
-            let edge = edges.binary_search(&[a.min(b), a.max(b)]);
-            (mesh.vertices().len() + edge.expect("all edges are listed")) as u32
-        }));
-    }
-    (nodes, edges)
 }

@@ -1,10 +1,10 @@
-use palpate_geometry::{NodeId, TetrahedronMesh};
+use palpate_geometry::TetrahedronMesh;
 
-use super::elements::{Pack, nodes};
+use super::elements::Pack;
 use super::law::Moduli;
 use super::rest::{Influence, RestFactors};
 use super::step::Workspace;
-use crate::finite_elements::Mismatch;
+use crate::finite_elements::{ElementMesh, Mismatch};
 use crate::{Error, Vec3};
 
 /// Largest memory of the influences of the nodes that can be loaded [bytes].
@@ -22,12 +22,11 @@ pub struct NonlinearModel {
     /// Place of each node in `influences`.
     pub(super) loaded: Vec<Option<u32>>,
     nodes: Vec<Vec3>,
-    middles: Vec<[NodeId; 2]>,
 }
 
 impl NonlinearModel {
-    /// `moduli` are those of each tetrahedron of `mesh`. Nodes are its vertices, then the middles of its edges
-    /// ([`TetrahedronMesh::edges`]); `is_fixed` says of each whether it cannot move, `can_be_loaded` whether tools may
+    /// `moduli` are those of each tetrahedron of `mesh`. Nodes are those of
+    /// [`ElementMesh::from_tetrahedra`]; `is_fixed` says of each whether it cannot move, `can_be_loaded` whether tools may
     /// act on it, which costs 36 bytes times the square of their number.
     ///
     /// # Errors
@@ -47,12 +46,11 @@ impl NonlinearModel {
             }
             .into());
         }
-        let (numbers, middles) = nodes(mesh);
-        let mut places = mesh.vertices().to_vec();
-        places.extend(middles.iter().map(|ends| {
-            let [a, b] = ends.map(|node| mesh.vertices()[node.index()]);
-            0.5 * (a + b)
-        }));
+        let ElementMesh {
+            nodes: places,
+            elements: numbers,
+            ..
+        } = ElementMesh::from_tetrahedra(mesh);
         let select = |holds: &dyn Fn(usize, &Vec3) -> bool| -> Vec<bool> {
             let nodes = places.iter().enumerate();
             nodes.map(|(node, place)| holds(node, place)).collect()
@@ -85,18 +83,12 @@ impl NonlinearModel {
             influences,
             loaded,
             nodes: places,
-            middles,
         })
     }
 
     /// Places of the nodes at rest [m].
     pub fn nodes(&self) -> &[Vec3] {
         &self.nodes
-    }
-
-    /// The vertices at the ends of the edge of each node that is no vertex.
-    pub fn middles(&self) -> &[[NodeId; 2]] {
-        &self.middles
     }
 
     /// Scratch for [`super::advance`] with at most `tools` tools.

@@ -3,10 +3,11 @@
 use nalgebra::Matrix3;
 use palpate_geometry::{NodeId, TetrahedronMesh};
 
-use super::elements::{Nodal, Pack, nodes};
+use super::elements::{Nodal, Pack};
 use super::kernel::Deformed;
 use super::law::Moduli;
 use crate::Vec3;
+use crate::finite_elements::ElementMesh;
 
 fn two_tetrahedra() -> TetrahedronMesh {
     let vertices = [
@@ -55,13 +56,9 @@ fn pack_and_nodes() -> (Pack<f64>, Nodal<f64>) {
         Moduli::mooney_rivlin(3.0, 1.0, 0.45).unwrap(),
         Moduli::mooney_rivlin(2.0, 0.0, 0.3).unwrap(),
     ];
-    let (numbers, edges) = nodes(&mesh);
-    let pack = Pack::all(&mesh, &numbers, &moduli).remove(0);
-    let mut places = mesh.vertices().to_vec();
-    places.extend(edges.iter().map(|edge| {
-        let [a, b] = edge.map(|node| mesh.vertices()[node.index()]);
-        0.5 * (a + b)
-    }));
+    let elements = ElementMesh::from_tetrahedra(&mesh);
+    let pack = Pack::all(&mesh, &elements.elements, &moduli).remove(0);
+    let places = &elements.nodes;
     let values: Vec<f64> = places
         .iter()
         .flat_map(|place| <[f64; 3]>::from(displacement(place)))
