@@ -22,6 +22,8 @@ const LARGEST: usize = 1 << 20;
 /// A connection that speaks in messages.
 pub(super) struct Channel {
     socket: WebSocket<TimedStream>,
+    /// Why nothing is read any more: after a frame that it refuses, the socket is not in a state to read the next.
+    unreadable: Option<Fault>,
 }
 
 impl Channel {
@@ -46,7 +48,10 @@ impl Channel {
             .max_message_size(Some(LARGEST))
             .max_frame_size(Some(LARGEST));
         match tungstenite::client::client_with_config(request, stream, Some(limits)) {
-            Ok((socket, _)) => Ok(Self { socket }),
+            Ok((socket, _)) => Ok(Self {
+                socket,
+                unreadable: None,
+            }),
             Err(HandshakeError::Interrupted(_)) => Err(other("it accepts, and is silent".into())),
             Err(HandshakeError::Failure(Error::Io(cause))) => Err(no_service(cause)),
             Err(HandshakeError::Failure(error)) => Err(other(error.to_string())),
@@ -64,18 +69,17 @@ impl Channel {
     pub(super) fn receive(&mut self, until: Instant) -> Result<Utf8Bytes, Fault> {
         self.socket.get_mut().wait_until(Some(until));
         loop {
-            match self.socket.read() {
-                Ok(Message::Text(text)) => return Ok(text),
-                Ok(Message::Binary(_)) => {
+            match self.read()? {
+                Some(Message::Text(text)) => return Ok(text),
+                Some(Message::Binary(_)) => {
                     return Err(Fault::BadMessage {
                         what: "bytes instead of a text",
                     });
                 }
-                Ok(Message::Close(_)) => return Err(Fault::Disconnected),
+                Some(Message::Close(_)) => return Err(Fault::Disconnected),
                 // It answers pings by itself; a service that does nothing else is silent.
-                Ok(_) if Instant::now() >= until => return Err(Fault::Silent),
-                Ok(_) => {}
-                Err(error) => return Err(fault_of(&error)),
+                Some(_) if Instant::now() < until => {}
+                Some(_) | None => return Err(Fault::Silent),
             }
         }
     }
@@ -85,15 +89,30 @@ impl Channel {
         self.socket.get_mut().wait_until(None);
         // A bound, for pings of which there is no end.
         for _ in 0..8 {
-            match self.socket.read() {
-                Ok(Message::Text(text)) => return Ok(Some(text)),
-                Ok(Message::Close(_)) => return Err(Fault::Disconnected),
-                Ok(_) => {}
-                Err(error) if is_waiting(&error) => return Ok(None),
-                Err(error) => return Err(fault_of(&error)),
+            match self.read()? {
+                Some(Message::Text(text)) => return Ok(Some(text)),
+                Some(Message::Close(_)) => return Err(Fault::Disconnected),
+                Some(_) => {}
+                None => return Ok(None),
             }
         }
         Ok(None)
+    }
+
+    /// The next message; none when it does not come in time.
+    fn read(&mut self) -> Result<Option<Message>, Fault> {
+        if let Some(fault) = self.unreadable {
+            return Err(fault);
+        }
+        match self.socket.read() {
+            Ok(message) => Ok(Some(message)),
+            Err(error) if is_waiting(&error) => Ok(None),
+            Err(error) => {
+                let fault = fault_of(&error);
+                self.unreadable = Some(fault);
+                Err(fault)
+            }
+        }
     }
 
     /// Says good-bye, and does not wait for the answer.
@@ -123,6 +142,7 @@ fn is_waiting(error: &Error) -> bool {
 
 fn fault_of(error: &Error) -> Fault {
     match error {
+        // What is written has no room: nobody takes it.
         _ if is_waiting(error) => Fault::Silent,
         Error::Io(_) | Error::ConnectionClosed | Error::AlreadyClosed => Fault::Disconnected,
         Error::Protocol(tungstenite::error::ProtocolError::ResetWithoutClosingHandshake) => {
