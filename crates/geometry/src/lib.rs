@@ -6,6 +6,7 @@
 
 mod aabb_tree;
 mod check;
+mod coarsen;
 mod cut;
 mod deviation;
 mod fill;
@@ -26,6 +27,7 @@ mod weld;
 pub use aabb_tree::{AabbTree, Hit, Nearest};
 pub use check::problem::{MeshProblem, ProblemKind};
 pub use check::{MeshReport, inspect};
+pub use coarsen::coarsen;
 pub use cut::error::CutError;
 pub use cut::net::{Origin, Side};
 pub use cut::{CutMethod, CutProgress, CutSurface};

@@ -24,6 +24,8 @@ mod quadric;
 mod reference;
 mod relax;
 
+pub(crate) use quadric::Quadric;
+
 use std::ops::ControlFlow;
 
 use self::net::Net;

@@ -10,7 +10,7 @@
 //! *Limits*: over ridges and thin walls the depth creeps towards its measure, so that a slide there lags
 //! behind the nearest point of the surface.
 
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Rotation3};
 use palpate_geometry::{Footing, Vec3, follow, settle};
 use palpate_mechanics::contact::Bond;
 use palpate_mechanics::finite_spheres::{LocalContact, Placement, first_direction};
@@ -34,14 +34,26 @@ pub struct Contact {
     pub(crate) signed: f64,
     /// Depth below the rest surface [m].
     pub depth: f64,
+    /// How the organ has turned there since rest; only the nonlinear model turns it.
+    pub(crate) turn: Rotation3<f64>,
     /// Whether it was pressed against the organ in its last step, without which nothing holds it there.
     pub(crate) is_pressed: bool,
 }
 
 impl Contact {
-    /// Unit outward normal of the rest surface where it is touched [-].
+    /// Unit outward normal of the surface where it is touched [-].
     pub fn normal(&self) -> Vec3 {
+        self.turn * self.rest_normal()
+    }
+
+    /// The same at rest.
+    pub(crate) fn rest_normal(&self) -> Vec3 {
         self.place.frame.column(2).into_owned()
+    }
+
+    /// Two tangents and the normal of the surface there [-].
+    pub(crate) fn frame(&self) -> Matrix3<f64> {
+        self.turn * self.place.frame
     }
 
     /// The touched point of the rest surface [m].
@@ -89,6 +101,7 @@ pub(crate) fn detect(
         tip: *tip,
         signed,
         depth,
+        turn: last.turn,
         is_pressed: last.is_pressed,
     };
     if tool.bond == Bond::Slip || !last.is_pressed {
@@ -184,6 +197,7 @@ fn begin(simulation: &Simulation, tool: &Tool, tip: &Vec3) -> Option<Contact> {
         tip: *tip,
         signed,
         depth,
+        turn: Rotation3::identity(),
         is_pressed: true,
     })
 }

@@ -98,6 +98,7 @@ fn former(scene: &Scene, tissue: &Tissue) -> String {
     // Layers had no toughness of their own then, and the local model no calibration.
     text.replace(", toughness_j_per_m2: None", "")
         .replace(", calibration: Fitted", "")
+        .replace(", nodes: None", "")
 }
 
 /// The canonical text.
@@ -183,6 +184,7 @@ impl Form {
             local,
             enhancement,
             mechanical_triangles,
+            nodes,
             response,
             hand_over,
             force_scale,
@@ -226,6 +228,9 @@ impl Form {
             "mechanical_triangles",
             triangles.as_deref().unwrap_or("none"),
         );
+        if let Some(nodes) = nodes {
+            self.word("nodes", &nodes.to_string());
+        }
         self.word("response", response.word());
         self.word("hand_over", hand_over.word());
         self.numbers("force_scale", &[*force_scale]);

@@ -139,7 +139,7 @@ impl ToolState {
         }
         // Of held tissue the stiffness is in the scene's frame.
         let force = match &self.contact {
-            Some(contact) => contact.place.frame.tr_mul(&self.force),
+            Some(contact) => contact.frame().tr_mul(&self.force),
             None => self.force,
         };
         let hold = self.grip.hold.as_ref();

@@ -24,6 +24,7 @@ mod indentation;
 pub mod interactive;
 mod limits;
 mod nodule;
+mod nonlinear;
 mod organ;
 mod orientation;
 pub mod performance;

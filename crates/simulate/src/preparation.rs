@@ -1,7 +1,10 @@
+use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use palpate_devices::Places;
 use palpate_devices::openigtlink::OperatingRoom;
+
+use crate::Error;
 
 /// What may be used to make a simulation.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -73,4 +76,15 @@ pub struct Progress {
     pub work: Work,
     /// How much of it is done [-]; of a response, how much of all three of its works.
     pub part: f64,
+}
+
+/// Tells what is begun; an error when it shall not be.
+pub(crate) fn tell(
+    watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+    work: Work,
+) -> Result<(), Error> {
+    match watch(Progress { work, part: 0.0 }) {
+        ControlFlow::Continue(()) => Ok(()),
+        ControlFlow::Break(()) => Err(palpate_mechanics::Error::BrokenOff.into()),
+    }
 }

@@ -8,6 +8,8 @@ use palpate_mechanics::Material;
 use crate::cutting::CuttingModel;
 use crate::digest::SceneDigest;
 use crate::global::{GlobalModel, GlobalProblem, ResponseOrigin};
+use crate::nonlinear::NonlinearOrgan;
+use crate::preparation::tell;
 use crate::tool::{Tool, settings};
 use crate::{Error, Progress, Resources, Work, nodule, organ, tip_laws, trocar};
 
@@ -20,6 +22,8 @@ pub struct Simulation {
     pub(crate) tools: Vec<Tool>,
     /// How the whole organ answers, if the scene wants that.
     pub(crate) global: Option<GlobalModel>,
+    /// How it bends, if the scene wants that.
+    pub(crate) nonlinear: Option<NonlinearOrgan>,
     /// How it is cut, if anything can.
     pub(crate) cutting: Option<CuttingModel>,
     /// Stiff balls in the organ.
@@ -28,6 +32,7 @@ pub struct Simulation {
     pub(crate) typical_edge: f64,
     pub(crate) organ_radius: f64,
     pub(crate) step: f64,
+    kind: ModelKind,
     hand_over: HandOver,
     force_scale: f64,
     pub(crate) scene_digest: SceneDigest,
@@ -71,7 +76,7 @@ impl Simulation {
             .map(|tool| Tool::new(tool, settings, &material.at_rest, (&surface, &tree)))
             .collect::<Result<Vec<_>, _>>()?;
         let global = match scene.model.kind {
-            ModelKind::Local => None,
+            ModelKind::Local | ModelKind::Nonlinear => None,
             ModelKind::Hybrid => {
                 let problem = GlobalProblem::new(scene, &surface, &material.at_rest)?;
                 let (global, more) = problem.solve((scene, &surface), resources, watch)?;
@@ -82,6 +87,16 @@ impl Simulation {
                 Some(global)
             }
         };
+        let nonlinear = match scene.model.kind {
+            ModelKind::Local | ModelKind::Hybrid => None,
+            ModelKind::Nonlinear => {
+                tell(watch, Work::Tetrahedra)?;
+                let (organ, more) = NonlinearOrgan::new(scene, &surface, (&tissue, &material))?;
+                doubts.extend(more);
+                Some(organ)
+            }
+        };
+        let is_local = scene.model.kind == ModelKind::Local;
         doubts.extend(tip_laws::stiffen(
             &mut tools,
             (&tissue, &material),
@@ -91,7 +106,7 @@ impl Simulation {
                 let _ = watch(Progress { work, part });
             },
         )?);
-        if global.is_none() && tools.iter().any(|tool| tool.model.is_extrapolated()) {
+        if is_local && tools.iter().any(|tool| tool.model.is_extrapolated()) {
             doubts.push(format!(
                 "Poisson's ratio {:.3} is beyond the {} that the local model is calibrated for; its \
                  force is the one there, times the ratio of the half-spaces",
@@ -99,7 +114,7 @@ impl Simulation {
                 palpate_mechanics::finite_spheres::LARGEST_CALIBRATED_RATIO,
             ));
         }
-        if scene.model.local.calibration == Calibration::None && global.is_none() {
+        if scene.model.local.calibration == Calibration::None && is_local {
             doubts.push(
                 "calibration = \"none\" is judged on flat and convex organs; on a saddle 34 particles were nine \
                  times too stiff and 93 within 1 % of 300, so use 93 or more where the organ is concave"
@@ -121,6 +136,7 @@ impl Simulation {
             organ_radius: (1.5 * surface.mesh().volume() / std::f64::consts::PI).cbrt(),
             scene_digest: SceneDigest::of(scene, &surface, &tissue),
             step: scene.model.step_s,
+            kind: scene.model.kind,
             hand_over: scene.model.hand_over,
             force_scale: scene.model.force_scale,
             typical_edge: typical_edge(&surface),
@@ -131,6 +147,7 @@ impl Simulation {
             material,
             tools,
             global,
+            nonlinear,
             doubts,
         })
     }
@@ -216,10 +233,7 @@ impl Simulation {
         SessionHeader {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             scene_digest: self.scene_digest.canonical.clone(),
-            model: match self.global {
-                Some(_) => ModelKind::Hybrid,
-                None => ModelKind::Local,
-            },
+            model: self.kind,
             step_s: self.step,
             seed: 0,
             force_scale: self.force_scale,

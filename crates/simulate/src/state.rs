@@ -11,6 +11,7 @@ use crate::energy::{EnergyAccount, Pressed};
 use crate::global::{GlobalWorkspace, OrganField};
 use crate::grip::Grip;
 use crate::limits::LimitCounts;
+use crate::nonlinear::{Body, Moved, NonlinearWorkspace};
 use crate::{Contact, Error, Simulation, nodule};
 
 /// All that a step changes.
@@ -22,6 +23,8 @@ pub struct SimulationState {
     pub deformed: TriangleMesh,
     /// What moved it, if the whole organ answers.
     pub whole: Option<OrganField>,
+    /// Where the nonlinear model has it, if that answers.
+    pub(crate) body: Option<Body>,
     /// Its cuts, if anything can cut it.
     pub cuts: Option<Cuts>,
     /// Stiff balls in it.
@@ -85,6 +88,9 @@ pub struct ToolState {
     pub(crate) elastic: Vec3,
     /// Displacement of the touched point where the whole organ answers [m].
     pub(crate) displaced: Vec3,
+    /// Its elastic force at the last solution of the nonlinear model [N], and how the place that it touches has moved.
+    pub(crate) solved: Vec3,
+    pub(crate) moved: Moved,
     /// How far its tip moves the organ beside all that others do [m].
     pub(crate) moves: f64,
     /// How it pressed in the last step.
@@ -118,6 +124,7 @@ pub struct ToolState {
 pub struct SimulationWorkspace {
     pub(crate) models: Vec<FiniteSphereWorkspace>,
     pub(crate) global: Option<GlobalWorkspace>,
+    pub(crate) nonlinear: Option<NonlinearWorkspace>,
     pub(crate) seen: Vec<u32>,
     pub(crate) seen_triangles: Vec<u32>,
     pub(crate) turn: u32,
@@ -137,6 +144,10 @@ impl SimulationState {
                 .map(|model| Cuts::new(simulation, model)),
             deformed: simulation.surface.mesh().clone(),
             whole: OrganField::at_rest(simulation),
+            body: simulation
+                .nonlinear
+                .as_ref()
+                .map(|organ| organ.at_rest(simulation.tools.len())),
             nodules: simulation.nodules.clone(),
             tree: simulation.tree.clone(),
             moved: MovedVertices::with_room(simulation.surface.mesh().vertices().len()),
@@ -226,6 +237,8 @@ impl ToolState {
             elastic: Vec3::zeros(),
             site: None,
             displaced: Vec3::zeros(),
+            solved: Vec3::zeros(),
+            moved: Moved::default(),
             moves: 0.0,
             pressed: None,
             own: Vec3::zeros(),
@@ -263,6 +276,10 @@ impl SimulationWorkspace {
             global: simulation.global.as_ref().map(|global| {
                 global.workspace(simulation.tools.len(), simulation.forces_follow_cuts())
             }),
+            nonlinear: simulation
+                .nonlinear
+                .as_ref()
+                .map(|organ| organ.workspace(simulation.tools.len())),
             seen: vec![0; mesh.vertices().len()],
             seen_triangles: vec![0; mesh.triangles().len()],
             turn: 0,

@@ -40,7 +40,9 @@ pub fn step(
         let pose = poses.get(number).copied().flatten();
         let own = &mut state.tools[number];
         let jumps = hand_speed::follow(simulation, pose.as_ref(), elapsed, own);
-        own.row.events = jumps | detect(simulation, tool, pose, own);
+        let tip = at_rest(simulation, (number, pose.as_ref()), state);
+        let own = &mut state.tools[number];
+        own.row.events = jumps | detect(simulation, tool, (pose, tip), own);
         if let (Some(model), Some(cuts)) = (&simulation.cutting, &state.cuts) {
             cutting::lead(simulation, (model, cuts), number, own);
         }
@@ -61,9 +63,13 @@ pub fn step(
             cutting::advance(simulation, model, number, state);
         }
     }
-    match (&simulation.global, &mut workspace.global) {
-        (Some(global), Some(workspace)) => global.deform((simulation, time), state, workspace),
-        _ => deform::deform(simulation, state, workspace),
+    if let (Some(global), Some(workspace)) = (&simulation.global, &mut workspace.global) {
+        global.deform((simulation, time), state, workspace);
+    } else if let (Some(organ), Some(workspace)) = (&simulation.nonlinear, &mut workspace.nonlinear)
+    {
+        organ.deform((simulation, time), state, workspace);
+    } else {
+        deform::deform(simulation, state, workspace);
     }
     show_cuts(simulation, time, state);
     for (number, tool) in simulation.tools.iter().enumerate() {
@@ -71,17 +77,29 @@ pub fn step(
     }
 }
 
-/// 1. Where does the tip touch?
+/// Where a tip is beside the organ at rest [m], which only the nonlinear model moves under it; none where it is clear.
+fn at_rest(
+    simulation: &Simulation,
+    (number, pose): (usize, Option<&Pose>),
+    state: &SimulationState,
+) -> Option<Vec3> {
+    let tip = Vec3::from(pose?.position_m);
+    match &simulation.nonlinear {
+        Some(organ) => organ.carry_back(simulation, (number, &tip), state),
+        None => Some(tip),
+    }
+}
+
+/// 1. Where does the tip touch, which is at `tip` [m] beside the organ at rest?
 fn detect(
     simulation: &Simulation,
     tool: &Tool,
-    pose: Option<Pose>,
+    (pose, tip): (Option<Pose>, Option<Vec3>),
     state: &mut ToolState,
 ) -> Events {
     let touched = state.touches();
     let mut events = grip::follow(tool, pose, state);
     state.pose = pose;
-    let tip = pose.map(|pose| Vec3::from(pose.position_m));
     let tip = tip.filter(|_| !state.holds());
     state.contact =
         tip.and_then(|tip| contact::detect(simulation, tool, state.contact.as_ref(), &tip));
@@ -133,6 +151,13 @@ pub(crate) fn respond(
     if let (Some(global), Some(workspace)) = (&simulation.global, &mut workspace.global) {
         return global.press(simulation, &mut state.tools, workspace);
     }
+    if let (Some(organ), Some(body), Some(workspace)) = (
+        &simulation.nonlinear,
+        &mut state.body,
+        &mut workspace.nonlinear,
+    ) {
+        return organ.press(simulation, (&mut state.tools, body), workspace);
+    }
     let tools = simulation.tools.iter().zip(&mut state.tools);
     for ((tool, state), workspace) in tools.zip(&mut workspace.models) {
         state.limited = Limits::NONE;
@@ -147,6 +172,18 @@ pub(crate) fn respond(
     }
 }
 
+/// The same once more in a step, after tissue has slid in its jaws or out of them.
+pub(crate) fn respond_again(
+    simulation: &Simulation,
+    state: &mut SimulationState,
+    workspace: &mut SimulationWorkspace,
+) {
+    match &simulation.nonlinear {
+        Some(organ) => organ.press_again(&mut state.tools),
+        None => respond(simulation, state, workspace),
+    }
+}
+
 /// Where a stiff ball lies under a tip, it is pushed harder.
 fn find_nodules(simulation: &Simulation, state: &mut SimulationState) {
     let SimulationState { tools, nodules, .. } = state;
@@ -155,7 +192,7 @@ fn find_nodules(simulation: &Simulation, state: &mut SimulationState) {
     }
     for (tool, own) in simulation.tools.iter().zip(tools) {
         if let (Some(contact), false) = (own.contact, own.holds()) {
-            let place = (&contact.point(), &contact.normal());
+            let place = (&contact.point(), &contact.rest_normal());
             let harder = nodule::stiffening(nodules, tool.typical_radius, place);
             own.elastic *= harder;
             own.stiffness *= harder;
@@ -226,7 +263,7 @@ fn answer(tool: &Tool, state: &mut ToolState) {
     };
     let displacement = contact.displacement(tool, &Vec3::from(pose.position_m));
     let answer = tool.law.force(&displacement, &response.stiffness);
-    state.elastic = contact.place.frame * answer.force;
+    state.elastic = contact.frame() * answer.force;
     state.stiffness = answer.stiffness;
     state.limited = response.limits;
     state.limited.merge(&answer.limits);

@@ -115,7 +115,7 @@ impl Scene {
             return Err(organ.missing(
                 "anchor",
                 "regions that are held, such as `[organ.anchor]` with `planes`, \
-                 for the hybrid model cannot compute a body that nothing holds",
+                 for a model of the whole organ cannot compute a body that nothing holds",
             ));
         }
         Ok(scene)
@@ -123,7 +123,7 @@ impl Scene {
 
     /// Built-in organs are held where they grow; a mesh is held only where the scene says so.
     fn lacks_anchor(&self) -> bool {
-        self.model.kind == ModelKind::Hybrid
+        self.model.kind != ModelKind::Local
             && matches!(self.organ.shape, Shape::Mesh { .. })
             && self.organ.anchor.as_ref().is_none_or(Region::is_empty)
     }

@@ -19,7 +19,9 @@ pub struct Model {
     /// How many triangles carry the hybrid model's mechanics at most; the shown surface keeps its own. The
     /// default is chosen by the model.
     pub mechanical_triangles: Option<usize>,
-    /// How its response is solved.
+    /// About how many nodes carry the nonlinear model's mechanics. The default is chosen by the model.
+    pub nodes: Option<usize>,
+    /// How the hybrid model's response is solved.
     pub response: ResponseMethod,
     /// What is handed over to the servo loop.
     pub hand_over: HandOver,
@@ -91,6 +93,7 @@ impl Default for Model {
             local: LocalSettings::default(),
             enhancement: Enhancement::default(),
             mechanical_triangles: None,
+            nodes: None,
             response: ResponseMethod::Automatic,
             hand_over: HandOver::LocalModel,
             force_scale: 1.0,
@@ -111,6 +114,7 @@ impl Model {
         "calibration",
         "enhancement",
         "mechanical_triangles",
+        "nodes",
         "response",
         "hand_over",
         "force_scale",
@@ -123,6 +127,8 @@ impl Model {
         };
         // A few dozen triangles are no organ; with ten thousand the matrices take gigabytes.
         let triangles = keys.integer("mechanical_triangles", 48..=20_000)?;
+        // Fewer resolve nothing; with more the influences of the surface take gigabytes, and a step its period.
+        let nodes = keys.integer("nodes", 200..=6_000)?;
         let or = |key, domain, or: f64| Ok(keys.number(key, domain)?.unwrap_or(or));
         Ok(Self {
             kind: keys.word("kind", ModelKind::WORDS)?.unwrap_or(default.kind),
@@ -130,6 +136,7 @@ impl Model {
             local: LocalSettings::from_keys(keys)?,
             enhancement: Enhancement::from_keys(keys)?,
             mechanical_triangles: triangles.map(|number| number as usize),
+            nodes: nodes.map(|number| number as usize),
             response: keys
                 .word("response", ResponseMethod::WORDS)?
                 .unwrap_or(default.response),

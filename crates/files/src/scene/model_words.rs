@@ -7,6 +7,8 @@ words! {
         Local = "local",
         /// The response of the whole organ, solved beforehand, with local enhancement.
         Hybrid = "hybrid",
+        /// The whole organ at large deformation, solved anew in every step.
+        Nonlinear = "nonlinear",
     }
 }
 

@@ -8,14 +8,14 @@ const TETHER: f64 = 1e-3;
 
 /// Sum of squared distances to planes, each with a weight [m²]: a quadratic form of the position.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Quadric {
+pub(crate) struct Quadric {
     matrix: Matrix3<f64>,
     vector: Vec3,
     constant: f64,
 }
 
 impl Quadric {
-    pub(super) fn zero() -> Self {
+    pub(crate) fn zero() -> Self {
         Self {
             matrix: Matrix3::zeros(),
             vector: Vec3::zeros(),
@@ -24,7 +24,7 @@ impl Quadric {
     }
 
     /// Squared distance to the plane through `point` [m] with unit `normal`, times `weight` [m²].
-    pub(super) fn of_plane(point: &Vec3, normal: &Vec3, weight: f64) -> Self {
+    pub(crate) fn of_plane(point: &Vec3, normal: &Vec3, weight: f64) -> Self {
         let offset = normal.dot(point);
         Self {
             matrix: weight * normal * normal.transpose(),
@@ -33,7 +33,7 @@ impl Quadric {
         }
     }
 
-    pub(super) fn plus(&self, other: &Self) -> Self {
+    pub(crate) fn plus(&self, other: &Self) -> Self {
         Self {
             matrix: self.matrix + other.matrix,
             vector: self.vector + other.vector,
@@ -42,14 +42,14 @@ impl Quadric {
     }
 
     /// Value at a position [m⁴].
-    pub(super) fn at(&self, x: &Vec3) -> f64 {
+    pub(crate) fn at(&self, x: &Vec3) -> f64 {
         let value = x.dot(&(self.matrix * x + 2.0 * self.vector)) + self.constant;
         // Rounding may leave a little less than nothing.
         value.max(0.0)
     }
 
     /// Where the value is least, drawn a little to `middle` [m].
-    pub(super) fn least_near(&self, middle: &Vec3) -> Vec3 {
+    pub(crate) fn least_near(&self, middle: &Vec3) -> Vec3 {
         let tether = TETHER * self.matrix.trace();
         let held = self.matrix + Matrix3::from_diagonal_element(tether);
         let slope = self.matrix * middle + self.vector;

@@ -1,7 +1,7 @@
 //! Forces of the elements and their change, without a matrix.
 //!
 //! ```text
-//! P = 2 c₁₀ F + 2 c₀₁ (I₁ F − F C) + (p − 2 c₁₀ − 4 c₀₁) cof F,   p = λ′ (J̄ − 1)
+//! P = 2 c₁₀ F + 2 c₀₁ (I₁ F − F C) + (p − 2 c₁₀ − 4 c₀₁) cof F,   p = λ (J̄ − 1) + 2 c₁₀ (J − 1)
 //! ```
 //!
 //! J − 1 is computed from the displacement gradient, so that no digit is lost at small strain.
@@ -17,8 +17,8 @@ use super::lanes::{
 pub(super) struct Deformed<T> {
     /// F at each integration point [-].
     pub(super) gradients: [Columns<T>; POINTS],
-    /// p − 2 c₁₀ − 4 c₀₁ [Pa].
-    pressure: Lanes<T>,
+    /// p − 2 c₁₀ − 4 c₀₁ at each integration point [Pa].
+    pressures: [Lanes<T>; POINTS],
     /// Whether one of the elements has c₀₁.
     has_second: bool,
 }
@@ -27,7 +27,7 @@ impl<T: Scalar> Default for Deformed<T> {
     fn default() -> Self {
         Self {
             gradients: [Columns::default(); POINTS],
-            pressure: Lanes::default(),
+            pressures: [Lanes::default(); POINTS],
             has_second: false,
         }
     }
@@ -65,22 +65,28 @@ impl<T: Scalar> Pack<T> {
     #[inline(always)]
     pub(super) fn deform(&self, nodal: &Nodal<T>, deformed: &mut Deformed<T>) {
         let one = Lanes::splat(1.0);
-        let mut dilation = Lanes::default();
+        let (two, four) = (Lanes::splat(2.0), Lanes::splat(4.0));
+        let first = two * self.moduli.c10;
+        let mut sum = Lanes::default();
         for point in 0..POINTS {
             let mut h = self.gradient(nodal, point);
             // J − 1 = tr H + tr cof H + det H.
             let minors = cofactors(&h);
             let traces = [0, 1, 2].map(|i| h[i][i] + minors[i][i]);
-            dilation += traces[0] + traces[1] + traces[2] + dot(&h[0], &minors[0]);
+            let dilation = traces[0] + traces[1] + traces[2] + dot(&h[0], &minors[0]);
+            sum += dilation;
+            deformed.pressures[point] = first * dilation;
             for (axis, column) in h.iter_mut().enumerate() {
                 column[axis] += one;
             }
             deformed.gradients[point] = h;
         }
         let moduli = &self.moduli;
-        let mean = dilation * Lanes::splat(1.0 / POINTS as f64);
-        let (two, four) = (Lanes::splat(2.0), Lanes::splat(4.0));
-        deformed.pressure = moduli.dilation * mean - (two * moduli.c10 + four * moduli.c01);
+        let mean = sum * Lanes::splat(1.0 / POINTS as f64);
+        let all = moduli.dilation * mean - (first + four * moduli.c01);
+        for pressure in &mut deformed.pressures {
+            *pressure += all;
+        }
         deformed.has_second = moduli.c01 != Lanes::default();
     }
 
@@ -100,7 +106,7 @@ impl<T: Scalar> Pack<T> {
     fn stress(&self, deformed: &Deformed<T>, point: usize) -> Columns<T> {
         let f = &deformed.gradients[point];
         let two = Lanes::splat(2.0) * self.quarter;
-        let pressure = deformed.pressure * self.quarter;
+        let pressure = deformed.pressures[point] * self.quarter;
         let mut first = two * self.moduli.c10;
         let mut stress = cofactors(f).map(|column| scaled(&column, pressure));
         if deformed.has_second {
@@ -121,16 +127,19 @@ impl<T: Scalar> Pack<T> {
     /// The change of the forces when the nodes move by `nodal` [m].
     #[inline(always)]
     pub(super) fn change(&self, deformed: &Deformed<T>, nodal: &Nodal<T>) -> Nodal<T> {
-        let mut dilation = Lanes::default();
+        let mut sum = Lanes::default();
+        let mut dilations = [Lanes::default(); POINTS];
         let mut changes = [Columns::default(); POINTS];
         for (point, change) in changes.iter_mut().enumerate() {
             *change = self.gradient(nodal, point);
-            dilation += contraction(&cofactors(&deformed.gradients[point]), change);
+            dilations[point] = contraction(&cofactors(&deformed.gradients[point]), change);
+            sum += dilations[point];
         }
-        let by_dilation =
-            self.moduli.dilation * dilation * Lanes::splat(1.0 / POINTS as f64) * self.quarter;
+        let mean = self.moduli.dilation * sum * Lanes::splat(1.0 / POINTS as f64);
+        let first = Lanes::splat(2.0) * self.moduli.c10;
         let mut forces = Nodal::default();
         for (point, change) in changes.iter().enumerate() {
+            let by_dilation = (mean + first * dilations[point]) * self.quarter;
             let stress = self.stress_change(deformed, point, change, by_dilation);
             self.add_forces(&stress, point, &mut forces);
         }
@@ -148,7 +157,7 @@ impl<T: Scalar> Pack<T> {
     ) -> Columns<T> {
         let f = &deformed.gradients[point];
         let two = Lanes::splat(2.0) * self.quarter;
-        let pressure = deformed.pressure * self.quarter;
+        let pressure = deformed.pressures[point] * self.quarter;
         let mut first = two * self.moduli.c10;
         let cofactors = cofactors(f);
         let mut stress = Columns::default();

@@ -18,6 +18,8 @@
 //! *Limits*: quasi-static: no mass. A step does not solve to convergence; its error against it is in
 //! `docs/theory/large_deformation.md`.
 
+mod boundary;
+mod carried;
 mod coupling;
 mod elements;
 mod kernel;
@@ -30,6 +32,8 @@ mod step;
 #[cfg(test)]
 mod tests;
 
+pub use boundary::{Boundary, SpreadLoad};
+pub use carried::CarriedPoints;
 pub use coupling::Coupling;
 pub use law::Moduli;
 pub use model::{MOST_INFLUENCE_BYTES, NonlinearModel};

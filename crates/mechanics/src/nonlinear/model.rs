@@ -1,9 +1,12 @@
+use nalgebra::Matrix3;
 use palpate_geometry::TetrahedronMesh;
 
+use super::boundary::{Boundary, SpreadLoad};
+use super::carried::CarriedPoints;
 use super::elements::Pack;
 use super::law::Moduli;
 use super::rest::{Influence, RestFactors};
-use super::step::Workspace;
+use super::step::{NonlinearState, Workspace};
 use crate::finite_elements::{ElementMesh, Mismatch};
 use crate::{Error, Vec3};
 
@@ -22,6 +25,10 @@ pub struct NonlinearModel {
     /// Place of each node in `influences`.
     pub(super) loaded: Vec<Option<u32>>,
     nodes: Vec<Vec3>,
+    mesh: TetrahedronMesh,
+    /// Ten nodes for each tetrahedron.
+    elements: Vec<u32>,
+    boundary: Boundary,
 }
 
 impl NonlinearModel {
@@ -83,12 +90,82 @@ impl NonlinearModel {
             influences,
             loaded,
             nodes: places,
+            boundary: Boundary::new(mesh)?,
+            mesh: mesh.clone(),
+            elements: numbers,
         })
+    }
+
+    /// As [`Self::new`], held where the boundary is and `is_fixed` says so; tools may act on all of the boundary.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn on_boundary(
+        mesh: &TetrahedronMesh,
+        moduli: &[Moduli<f64>],
+        is_fixed: impl Fn(&Vec3) -> bool,
+    ) -> Result<Self, Error> {
+        let nodes = Boundary::new(mesh)?.nodes();
+        let is_on = |node: usize| nodes.binary_search(&(node as u32)).is_ok();
+        Self::new(
+            mesh,
+            moduli,
+            |node, place| is_on(node) && is_fixed(place),
+            |node, _| is_on(node),
+        )
     }
 
     /// Places of the nodes at rest [m].
     pub fn nodes(&self) -> &[Vec3] {
         &self.nodes
+    }
+
+    /// The tetrahedra.
+    pub fn mesh(&self) -> &TetrahedronMesh {
+        &self.mesh
+    }
+
+    /// Where tools load it.
+    pub fn boundary(&self) -> &Boundary {
+        &self.boundary
+    }
+
+    /// Room for a load on its boundary.
+    pub fn spread_load(&self) -> SpreadLoad {
+        SpreadLoad::with_room(self.nodes.len())
+    }
+
+    /// The `points` [m], to be carried along.
+    pub fn carried(&self, points: &[Vec3]) -> CarriedPoints {
+        CarriedPoints::new(&self.mesh, &self.elements, points)
+    }
+
+    /// What a force on `loaded` moves the mean of `moved` by [m/N], by the factors of the stiffness at rest, turned as
+    /// the nodes are in `state`; weights [-]. Of nodes that cannot be loaded it has nothing.
+    pub fn compliance(
+        &self,
+        state: &NonlinearState,
+        (moved, loaded): (&[(u32, f64)], &[(u32, f64)]),
+    ) -> Matrix3<f64> {
+        let rotation = |node: u32| {
+            let q = &state.rotations[node as usize];
+            Matrix3::from_iterator(q.iter().map(|&entry| f64::from(entry)))
+        };
+        let mut sum = Matrix3::zeros();
+        for &(there, weight) in loaded {
+            let Some(place) = self.loaded[there as usize] else {
+                continue;
+            };
+            let influence = &self.influences[place as usize].values;
+            let mut own = Matrix3::zeros();
+            for &(here, weight) in moved {
+                let entries = &influence[9 * here as usize..][..9];
+                let by = Matrix3::from_iterator(entries.iter().map(|&entry| f64::from(entry)));
+                own += weight * rotation(here) * by;
+            }
+            sum += weight * own * rotation(there).transpose();
+        }
+        sum
     }
 
     /// Scratch for [`super::advance`] with at most `tools` tools.

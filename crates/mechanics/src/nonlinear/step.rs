@@ -1,4 +1,4 @@
-use nalgebra::DVector;
+use nalgebra::{DVector, Matrix3, Rotation3};
 
 use super::coupling::{Coupling, Rows};
 use super::kernel::{self, Deformed};
@@ -12,18 +12,31 @@ const SLOPE_LEFT: f64 = 0.3;
 /// Largest factor with which the last displacement is continued [-].
 const MOST_CONTINUED: f64 = 1.5;
 
+/// Steps in which the force of a tool that has let go fades: at once the body would spring back farther than a step
+/// follows.
+const FADES: u32 = 10;
+
+const UNTURNED: [f32; 9] = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+
 /// A body between two steps.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NonlinearState {
     /// Displacements of the nodes [m]; three a node.
     pub displacements: Vec<f64>,
     before: Vec<f64>,
+    /// Rotations of the nodes in the last step, each column by column [-].
+    pub(super) rotations: Vec<[f32; 9]>,
     tools: Vec<ToolMemory>,
+    /// Forces on the nodes by tools that have let go [N], and the steps in which they still act.
+    fading: Vec<f32>,
+    fades: u32,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq)]
 struct ToolMemory {
     is_coupled: bool,
+    /// Its forces on the nodes [N].
+    load: Vec<f32>,
     force: Vec3,
     force_before: Vec3,
     displacement: Vec3,
@@ -40,6 +53,8 @@ pub struct Advance {
     pub was_shortened: bool,
     /// Whether the stiffness was not positive along a direction, which ended the iterations.
     pub was_unstable: bool,
+    /// Whether no finite displacements were found, which put the body back to rest.
+    pub was_reset: bool,
 }
 
 /// Scratch of a step; dropping it changes nothing.
@@ -48,7 +63,6 @@ pub struct Workspace {
     deformed: Vec<Deformed<f32>>,
     forces: Vec<f32>,
     gradients: Vec<[f32; 9]>,
-    rotations: Vec<[f32; 9]>,
     guess: Vec<f64>,
     rows: Rows,
     residual: Vec<f32>,
@@ -74,12 +88,65 @@ struct Small {
 impl NonlinearState {
     /// The body at rest, beside `tools` tools.
     pub fn at_rest(model: &NonlinearModel, tools: usize) -> Self {
-        let size = 3 * model.nodes().len();
+        let nodes = model.nodes().len();
+        let size = 3 * nodes;
+        let tool = ToolMemory {
+            is_coupled: false,
+            load: vec![0.0; size],
+            force: Vec3::zeros(),
+            force_before: Vec3::zeros(),
+            displacement: Vec3::zeros(),
+            advance: Vec3::zeros(),
+        };
         Self {
             displacements: vec![0.0; size],
             before: vec![0.0; size],
-            tools: vec![ToolMemory::default(); tools],
+            rotations: vec![UNTURNED; nodes],
+            tools: vec![tool; tools],
+            fading: vec![0.0; size],
+            fades: 0,
         }
+    }
+
+    /// Puts the body back to rest; nothing is allocated.
+    pub fn reset(&mut self) {
+        self.displacements.fill(0.0);
+        self.before.fill(0.0);
+        self.rotations.fill(UNTURNED);
+        self.fading.fill(0.0);
+        self.fades = 0;
+        for tool in &mut self.tools {
+            tool.load.fill(0.0);
+            tool.is_coupled = false;
+            (tool.force, tool.force_before) = (Vec3::zeros(), Vec3::zeros());
+            (tool.displacement, tool.advance) = (Vec3::zeros(), Vec3::zeros());
+        }
+    }
+
+    /// Weighted mean of the displacements of `nodes` [m].
+    pub fn mean_displacement(&self, nodes: &[(u32, f64)]) -> Vec3 {
+        let nodes = nodes.iter();
+        nodes
+            .map(|&(node, weight)| {
+                let u = &self.displacements[3 * node as usize..][..3];
+                weight * Vec3::new(u[0], u[1], u[2])
+            })
+            .sum()
+    }
+
+    /// Mean rotation of `nodes`.
+    pub fn mean_rotation(&self, nodes: &[(u32, f64)]) -> Rotation3<f64> {
+        let mut mean = Matrix3::zeros();
+        for &(node, weight) in nodes {
+            let q = &self.rotations[node as usize];
+            mean += Matrix3::from_iterator(q.iter().map(|&entry| weight * f64::from(entry)));
+        }
+        Rotation3::from_matrix_eps(&mean, 1e-9, 20, Rotation3::identity())
+    }
+
+    /// Whether no node is displaced by more than `most` [m] along any axis, and no force fades.
+    pub fn is_within(&self, most: f64) -> bool {
+        self.fades == 0 && self.displacements.iter().all(|u| u.abs() <= most)
     }
 
     /// Force of a tool on the body [N].
@@ -96,12 +163,10 @@ impl Workspace {
         let (nodes, rows) = (model.nodes().len(), 3 * tools);
         let vector = || vec![0.0_f32; 3 * nodes];
         let small = || DVector::zeros(rows);
-        let unit = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
         Self {
             deformed: vec![Deformed::default(); model.packs.len()],
             forces: vector(),
             gradients: vec![[0.0; 9]; nodes],
-            rotations: vec![unit; nodes],
             guess: vec![0.0; 3 * nodes],
             rows: Rows::new(model, tools),
             residual: vector(),
@@ -147,19 +212,50 @@ fn step(
     state: &mut NonlinearState,
     workspace: &mut Workspace,
 ) -> Advance {
+    state.fade(couplings);
     guess(couplings, state, workspace);
     workspace.deform(model, GuessOrEnd::Guess, state);
-    workspace.rotate(model);
+    workspace.rotate(model, state);
     workspace.rows.list(couplings);
-    workspace
-        .rows
-        .prepare(model, couplings, &workspace.rotations);
+    workspace.rows.prepare(model, couplings, &state.rotations);
     workspace.carry(model, couplings, state);
-    let mut advance = workspace.iterate(model, couplings, iterations);
+    let mut advance = workspace.iterate(model, couplings, &state.rotations, iterations);
     workspace.finish_forces();
     advance.was_shortened = workspace.take(model, couplings, state);
     workspace.remember(couplings, state);
+    advance.was_reset = !state.is_finite();
+    if advance.was_reset {
+        state.reset();
+    }
     advance
+}
+
+impl NonlinearState {
+    /// Lets the forces of tools that have let go act on, each step less.
+    #[inline(always)]
+    fn fade(&mut self, couplings: &[Option<Coupling<'_>>]) {
+        self.fades = self.fades.saturating_sub(1);
+        let part = self.fades as f32 / (self.fades + 1) as f32;
+        if part == 0.0 {
+            self.fading.fill(0.0);
+        } else {
+            self.fading.iter_mut().for_each(|force| *force *= part);
+        }
+        for (coupling, memory) in couplings.iter().zip(&mut self.tools) {
+            if coupling.is_none() && memory.is_coupled {
+                self.fades = FADES;
+                for (sum, force) in self.fading.iter_mut().zip(&memory.load) {
+                    *sum += force;
+                }
+            }
+        }
+    }
+
+    fn is_finite(&self) -> bool {
+        let sum: f64 = self.displacements.iter().sum();
+        let forces = self.tools.iter().flat_map(|tool| tool.force.iter());
+        sum.is_finite() && forces.sum::<f64>().is_finite()
+    }
 }
 
 enum GuessOrEnd {
@@ -210,12 +306,21 @@ impl Workspace {
         };
         self.forces.fill(0.0);
         kernel::forces(&model.packs, u, &mut self.deformed, &mut self.forces);
+        if state.fades > 0 {
+            for (force, load) in self.forces.iter_mut().zip(&state.fading) {
+                *force -= load;
+            }
+        }
     }
 
     #[inline(always)]
-    fn rotate(&mut self, model: &NonlinearModel) {
+    fn rotate(&mut self, model: &NonlinearModel, state: &mut NonlinearState) {
         rotation::add_gradients(&model.packs, &self.deformed, &mut self.gradients);
-        rotation::rotate(&self.gradients, &model.inverse_volumes, &mut self.rotations);
+        rotation::rotate(
+            &self.gradients,
+            &model.inverse_volumes,
+            &mut state.rotations,
+        );
     }
 
     /// Moves the body by Z t so that every tool's condition holds, and finds what is then left of the forces.
@@ -269,12 +374,12 @@ impl Workspace {
         &mut self,
         model: &NonlinearModel,
         couplings: &[Option<Coupling<'_>>],
+        rotations: &[[f32; 9]],
         iterations: usize,
     ) -> Advance {
         let mut advance = Advance::default();
         let (mut released, mut first) = (0.0, 0.0);
         for iteration in 0..iterations {
-            let rotations = &self.rotations;
             model
                 .rest
                 .apply(rotations, &self.residual, &mut self.z, &mut self.scratch);
@@ -385,6 +490,15 @@ impl Workspace {
         }
         for (number, row) in self.rows.rows.iter().enumerate() {
             state.tools[row.tool].force += self.small.force[number] * row.direction;
+        }
+        for (coupling, memory) in couplings.iter().zip(&mut state.tools) {
+            memory.load.fill(0.0);
+            for &(node, weight) in coupling.iter().flat_map(|coupling| coupling.nodes) {
+                let load = &mut memory.load[3 * node as usize..][..3];
+                for (load, force) in load.iter_mut().zip(memory.force.iter()) {
+                    *load = (weight * force) as f32;
+                }
+            }
         }
     }
 }

@@ -45,6 +45,7 @@ fn energy(pack: &Pack<f64>, nodal: &Nodal<f64>, lane: usize) -> f64 {
         let second = 0.5 * (first * first - (c * c).trace());
         let j = f.determinant();
         sum += c10 * (first - 3.0) + c01 * (second - 3.0) - (2.0 * c10 + 4.0 * c01) * (j - 1.0);
+        sum += c10 * (j - 1.0).powi(2);
         dilation += 0.25 * (j - 1.0);
     }
     pack.quarter.0[lane] * (sum + 2.0 * lambda * dilation * dilation)

@@ -235,7 +235,7 @@ impl Cuts {
         let begins = before.is_none_or(|part| part.ends[1] != stroke.at);
         self.parts.push(CutPart {
             ends: [stroke.at, at],
-            normal: edge.contact.normal(),
+            normal: edge.contact.rest_normal(),
             begins,
             layers: edge.layers,
             felt: edge.layers,

@@ -159,7 +159,7 @@ impl OrganSlit {
             let on = global.load(tool, state);
             let spot = state.contact.map(|contact| Spot {
                 place: contact.point(),
-                normal: contact.normal(),
+                normal: contact.rest_normal(),
                 radius: tool.typical_radius,
             });
             let shares = on.iter().flat_map(|on| on.shares());

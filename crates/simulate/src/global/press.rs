@@ -53,7 +53,7 @@ impl GlobalModel {
             });
         }
         let interpolation = self.enhancement.interpolation();
-        let near = interpolation.nearest_facing(&self.tree, (&place.point, &contact.normal()));
+        let near = interpolation.nearest_facing(&self.tree, (&place.point, &contact.rest_normal()));
         // The nearest point of a mesh leaps at its edges; the point under the averaged normal does not.
         let from = Footing {
             triangle: near.triangle,

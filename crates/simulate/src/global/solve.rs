@@ -10,6 +10,7 @@ use palpate_mechanics::surface_response::{
 
 use super::key::Ingredients;
 use super::method::Method;
+use crate::preparation::tell;
 use crate::{Error, Progress, Resources, Work};
 
 /// Where the response of `ingredients` is stored, or would be.
@@ -99,13 +100,6 @@ fn solve(
         .solve(memory, &mut watch),
     };
     Ok(response?)
-}
-
-fn tell(watch: &mut dyn FnMut(Progress) -> ControlFlow<()>, work: Work) -> Result<(), Error> {
-    match watch(Progress { work, part: 0.0 }) {
-        ControlFlow::Continue(()) => Ok(()),
-        ControlFlow::Break(()) => Err(palpate_mechanics::Error::BrokenOff.into()),
-    }
 }
 
 fn of_stage(solving: Solving, method: Method) -> Progress {

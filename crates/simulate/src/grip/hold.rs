@@ -1,4 +1,4 @@
-use nalgebra::UnitQuaternion;
+use nalgebra::{Matrix3, UnitQuaternion};
 use palpate_files::Pose;
 use palpate_geometry::{TriangleId, Vec3};
 use palpate_mechanics::enhance::SurfacePoint;
@@ -38,6 +38,17 @@ pub(crate) enum Held {
     Patch(HeldPatch),
     /// The local model's.
     Place(HeldPlace),
+    /// The nonlinear model's.
+    Area(HeldArea),
+}
+
+/// What is held of an organ that bends, as a bonded flat tip holds it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct HeldArea {
+    /// Two tangents and the normal of the surface at rest there [-].
+    pub(crate) frame: Matrix3<f64>,
+    /// What the jaws were beyond what they held when they took hold of it under the tip's force [m], in the tool's frame.
+    pub(crate) offset: Vec3,
 }
 
 /// Triangles of the mechanical surface, in a few parts: where triangles are small, several in one, each of which
@@ -128,6 +139,11 @@ impl Hold {
         self.now.0 + self.now.1 * within
     }
 
+    /// A vector of the tool's frame in the scene.
+    pub(crate) fn in_scene(&self, vector: &Vec3) -> Vec3 {
+        self.now.1 * vector
+    }
+
     /// How far the jaws have turned since they took hold [rad].
     pub(crate) fn has_turned(&self) -> f64 {
         self.began.1.angle_to(&self.now.1)
@@ -162,7 +178,7 @@ impl Hold {
     pub(crate) fn patch(&self) -> Option<&HeldPatch> {
         match &self.held {
             Held::Patch(patch) => Some(patch),
-            Held::Place(_) => None,
+            Held::Place(_) | Held::Area(_) => None,
         }
     }
 }

@@ -32,14 +32,14 @@ use palpate_geometry::Vec3;
 use palpate_mechanics::finite_spheres::LocalContact;
 
 pub(crate) use hold::{
-    Held, HeldPart, HeldPatch, HeldTriangle, Hold, MOST_PARTS, MOST_TRIANGLES, SeenHold,
+    Held, HeldArea, HeldPart, HeldPatch, HeldTriangle, Hold, MOST_PARTS, MOST_TRIANGLES, SeenHold,
 };
 pub(crate) use jaws::Swept;
 pub(crate) use place::{HeldPlace, answer};
 
 use crate::simulation::Simulation;
 use crate::state::{SimulationState, SimulationWorkspace, ToolState};
-use crate::step::respond;
+use crate::step::respond_again;
 use crate::tool::Tool;
 use slip::Slides;
 
@@ -131,7 +131,7 @@ fn slide(
         if !slipped {
             return;
         }
-        respond(simulation, state, workspace);
+        respond_again(simulation, state, workspace);
     }
 }
 
@@ -152,7 +152,7 @@ fn lose(
         }
     }
     if lost {
-        respond(simulation, state, workspace);
+        respond_again(simulation, state, workspace);
     }
     lost
 }
@@ -164,15 +164,15 @@ fn take_hold(
     workspace: &mut SimulationWorkspace,
 ) {
     let touched = state.tools[number].contact.is_some();
-    let took = match (&simulation.global, &mut workspace.global) {
-        (Some(global), Some(workspace)) => {
-            global.take_hold(simulation, number, &mut state.tools, workspace)
-        }
-        _ => {
-            let tool = &simulation.tools[number];
-            let workspace = &mut workspace.models[number];
-            place::take_hold(simulation, tool, &mut state.tools[number], workspace)
-        }
+    let took = if let (Some(global), Some(workspace)) = (&simulation.global, &mut workspace.global)
+    {
+        global.take_hold(simulation, number, &mut state.tools, workspace)
+    } else if let Some(organ) = &simulation.nonlinear {
+        organ.take_hold(simulation, number, state)
+    } else {
+        let tool = &simulation.tools[number];
+        let workspace = &mut workspace.models[number];
+        place::take_hold(simulation, tool, &mut state.tools[number], workspace)
     };
     let own = &mut state.tools[number];
     if let (true, Some(at)) = (took, own.grip.hold.as_ref().map(Hold::place)) {
@@ -196,7 +196,7 @@ impl Grip {
         let hold = self.hold.as_ref()?;
         match &hold.held {
             Held::Place(held) => Some((held.place, hold.displaced())),
-            Held::Patch(_) => None,
+            Held::Patch(_) | Held::Area(_) => None,
         }
     }
 }

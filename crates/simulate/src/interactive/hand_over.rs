@@ -23,7 +23,7 @@ pub fn affine_force(tool: &Tool, state: &ToolState, time: f64) -> AffineForce {
     let (Some(contact), Some(pose)) = (&state.contact, &state.pose) else {
         return AffineForce::none(time);
     };
-    let frame = contact.place.frame;
+    let frame = contact.frame();
     let mut stiffness = state.stiffness;
     if tool.bond == Bond::Slip {
         // Along the surface nothing holds the tip.

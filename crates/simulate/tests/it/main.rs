@@ -30,6 +30,7 @@ mod loss;
 mod neighbours;
 mod no_allocation;
 mod nodules;
+mod nonlinear;
 mod performance;
 mod random_scenes;
 mod replay;

@@ -92,6 +92,7 @@ fn model(choice: &mut super::Choice, ui: &mut Ui) {
     let words = |kind| match kind {
         ModelKind::Local => "around the tip",
         ModelKind::Hybrid => "the whole organ",
+        ModelKind::Nonlinear => "the whole organ, which bends",
     };
     egui::ComboBox::from_id_salt("model")
         .selected_text(words(choice.model))

@@ -102,7 +102,7 @@ impl Drop for Preparation {
 
 impl Work {
     fn run(self, tell: &Sender<Outcome>) {
-        let second = self.scene.model.kind == ModelKind::Hybrid;
+        let second = self.scene.model.kind != ModelKind::Local;
         if second {
             let mut local = self.scene.clone();
             local.model.kind = ModelKind::Local;

@@ -40,17 +40,17 @@ fn middle(mesh: &TetrahedronMesh, edges: &[[NodeId; 2]], [a, b]: [NodeId; 2]) ->
 
 /// A triangle of the boundary.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::finite_elements) struct Face {
+pub(crate) struct Face {
     /// Its corners, counter-clockwise seen from outside.
-    pub(in crate::finite_elements) corners: [NodeId; 3],
+    pub(crate) corners: [NodeId; 3],
     /// Its six nodes: corners, then middles.
-    pub(in crate::finite_elements) nodes: [usize; 6],
+    pub(crate) nodes: [usize; 6],
     /// The tetrahedron that it belongs to.
     pub(super) tetrahedron: usize,
 }
 
 /// The boundary of `mesh`, with the node numbers of [`ElementMesh::from_tetrahedra`].
-pub(in crate::finite_elements) fn faces(mesh: &TetrahedronMesh) -> Vec<Face> {
+pub(crate) fn faces(mesh: &TetrahedronMesh) -> Vec<Face> {
     let edges = mesh.edges();
     let faces = mesh.boundary().into_iter();
     faces

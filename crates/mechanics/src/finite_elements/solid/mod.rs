@@ -25,7 +25,7 @@ mod run;
 mod solve;
 mod supports;
 
-pub(super) use mesh::{Face, faces};
+pub(crate) use mesh::{Face, faces};
 
 pub use answer::{SolidAnswer, SolidFields};
 pub use problem::{Body, MovedPatch, SolidProblem};

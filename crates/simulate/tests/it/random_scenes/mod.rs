@@ -118,6 +118,7 @@ fn played(number: u64, (scene, simulation): (&Scene, &Simulation)) -> Played {
     let kind = match scene.model.kind {
         ModelKind::Local => "local",
         ModelKind::Hybrid => "hybrid",
+        ModelKind::Nonlinear => "nonlinear",
     };
     Played {
         kind: format!("{kind} {}", tools.join("+")),

@@ -1,0 +1,216 @@
+//! The boundary of a body: where tools load it.
+
+use std::f64::consts::PI;
+
+use palpate_geometry::{AabbTree, TetrahedronMesh, TriangleMesh};
+
+use crate::finite_elements::solid::{Face, faces};
+use crate::{Error, LinearElastic, Vec3};
+
+/// A face is taken at the centroids of its equal parts, in so many rows.
+const ROWS: usize = 4;
+
+/// R of a load over the length √(2 A) of the faces there [-]: less is not resolved by quadratic elements.
+const REACH_IN_SIZES: f64 = 1.2;
+
+/// R ⟨1/r⟩ of a load with the weights (1 − (r/R)²)² on itself [-], over all pairs of places: by Hankel's transform
+/// 48 J₃(k R)/(k R)³ of the weights it is 48² ∫ J₃²(x) x⁻⁶ dx.
+const MEAN_INVERSE_DISTANCE: f64 = 2.408_17;
+
+/// The boundary of the tetrahedra of a body.
+#[derive(Debug, Clone)]
+pub struct Boundary {
+    faces: Vec<BoundaryFace>,
+    mesh: TriangleMesh,
+    tree: AabbTree,
+    /// Mean of √(2 A) of the faces around each vertex [m]; zero inside.
+    sizes: Vec<f64>,
+}
+
+#[derive(Debug, Clone)]
+struct BoundaryFace {
+    /// Corners, then the middles of 01, 12, 20.
+    nodes: [u32; 6],
+    corners: [Vec3; 3],
+    centroid: Vec3,
+    /// Largest distance of a corner from the centroid [m].
+    extent: f64,
+    /// Its area along its outward normal [m²].
+    area: Vec3,
+}
+
+/// A load that is spread over the boundary around a place.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SpreadLoad {
+    /// Nodes with their weights [-], whose sum is one.
+    pub nodes: Vec<(u32, f64)>,
+    /// R, beyond which nothing is loaded [m].
+    pub radius: f64,
+    /// Outward normal at its middle, at rest [-].
+    pub normal: Vec3,
+    /// Place of each node in `nodes`; scratch.
+    places: Vec<u32>,
+}
+
+const NOWHERE: u32 = u32::MAX;
+
+impl Boundary {
+    pub(super) fn new(mesh: &TetrahedronMesh) -> Result<Self, Error> {
+        let numbers = faces(mesh);
+        let corners = numbers.iter().map(|face| face.corners).collect();
+        let triangles = TriangleMesh::new(mesh.vertices().to_vec(), corners);
+        let triangles = triangles.map_err(|_| Error::NoElements)?;
+        let (mut sizes, mut counts) = (
+            vec![0.0; mesh.vertices().len()],
+            vec![0_u32; mesh.vertices().len()],
+        );
+        let faces = numbers.iter().map(|&Face { corners, nodes, .. }| {
+            let places = corners.map(|node| mesh.vertices()[node.index()]);
+            let [a, b, c] = places;
+            let centroid = (a + b + c) / 3.0;
+            let area = 0.5 * (b - a).cross(&(c - a));
+            for node in corners {
+                sizes[node.index()] += (2.0 * area.norm()).sqrt();
+                counts[node.index()] += 1;
+            }
+            BoundaryFace {
+                nodes: nodes.map(|node| node as u32),
+                corners: places,
+                centroid,
+                extent: places
+                    .iter()
+                    .map(|corner| (corner - centroid).norm())
+                    .fold(0.0, f64::max),
+                area,
+            }
+        });
+        let faces = faces.collect();
+        for (size, count) in sizes.iter_mut().zip(counts) {
+            *size /= f64::from(count.max(1));
+        }
+        Ok(Self {
+            faces,
+            tree: AabbTree::new(&triangles),
+            mesh: triangles,
+            sizes,
+        })
+    }
+
+    /// All nodes of the boundary, ascending.
+    pub fn nodes(&self) -> Vec<u32> {
+        let mut nodes: Vec<u32> = self.faces.iter().flat_map(|face| face.nodes).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        nodes
+    }
+
+    /// Spreads a load around `place` [m], on what faces as `normal` [-] does: (1 − (r/R)²)² with R no less than `radius`
+    /// [m] nor than the faces resolve.
+    pub fn spread(&self, place: &Vec3, normal: &Vec3, radius: f64, load: &mut SpreadLoad) {
+        let nearest = self.tree.nearest(&self.mesh, place);
+        let corners = self.mesh.corners(nearest.triangle);
+        let size: f64 = corners
+            .iter()
+            .zip(nearest.on.barycentric)
+            .map(|(corner, weight)| weight * self.sizes[corner.index()])
+            .sum();
+        load.clear();
+        load.radius = radius.max(REACH_IN_SIZES * size);
+        load.normal = *normal;
+        let square = load.radius * load.radius;
+        let mut all = 0.0;
+        for face in &self.faces {
+            let facing = face.area.dot(normal);
+            let apart = (face.centroid - place).norm();
+            if facing <= 0.0 || apart > load.radius + face.extent {
+                continue;
+            }
+            let [a, b, c] = face.corners;
+            for_each_part(|[u, v, w]| {
+                let near = 1.0 - (a * u + b * v + c * w - place).norm_squared() / square;
+                if near <= 0.0 {
+                    return;
+                }
+                let weight = near * near * facing;
+                all += weight;
+                let corner = |l: f64| l * (2.0 * l - 1.0);
+                let shape = [
+                    corner(u),
+                    corner(v),
+                    corner(w),
+                    4.0 * u * v,
+                    4.0 * v * w,
+                    4.0 * w * u,
+                ];
+                for (node, shape) in face.nodes.into_iter().zip(shape) {
+                    load.add(node, weight * shape);
+                }
+            });
+        }
+        if all > 0.0 {
+            for (_, weight) in &mut load.nodes {
+                *weight /= all;
+            }
+        }
+    }
+}
+
+impl SpreadLoad {
+    /// Room for loads on any of `nodes` nodes.
+    pub(super) fn with_room(nodes: usize) -> Self {
+        Self {
+            nodes: Vec::with_capacity(nodes),
+            radius: 0.0,
+            normal: Vec3::z(),
+            places: vec![NOWHERE; nodes],
+        }
+    }
+
+    /// Loads what `other` loads; nothing is allocated.
+    pub fn copy(&mut self, other: &Self) {
+        self.clear();
+        for &(node, weight) in &other.nodes {
+            self.add(node, weight);
+        }
+        (self.radius, self.normal) = (other.radius, other.normal);
+    }
+
+    fn clear(&mut self) {
+        for (node, _) in self.nodes.drain(..) {
+            self.places[node as usize] = NOWHERE;
+        }
+    }
+
+    fn add(&mut self, node: u32, weight: f64) {
+        let place = &mut self.places[node as usize];
+        if *place == NOWHERE {
+            *place = self.nodes.len() as u32;
+            self.nodes.push((node, 0.0));
+        }
+        self.nodes[*place as usize].1 += weight;
+    }
+
+    /// What such a load on a half-space of `law` moves its own weighted mean by [m/N]: along the surface, and along its
+    /// normal.
+    ///
+    /// ```text
+    /// c_n = (1 − ν²) J/(π E),   c_t = (1 + ν)(1 − ν/2) J/(π E),   J = 2.408/R
+    /// ```
+    pub fn own_compliance(&self, law: &LinearElastic) -> [f64; 2] {
+        let nu = law.poissons_ratio();
+        let mean = MEAN_INVERSE_DISTANCE / (self.radius * PI * law.youngs_modulus());
+        [(1.0 + nu) * (1.0 - 0.5 * nu) * mean, (1.0 - nu * nu) * mean]
+    }
+}
+
+/// The centroids of a triangle's equal parts, as barycentric coordinates.
+fn for_each_part(mut visit: impl FnMut([f64; 3])) {
+    for off in [1, 2] {
+        for i in 0..=ROWS - off {
+            for j in 0..=ROWS - off - i {
+                let [u, v] = [i, j].map(|n| (3 * n + off) as f64 / (3 * ROWS) as f64);
+                visit([u, v, 1.0 - u - v]);
+            }
+        }
+    }
+}

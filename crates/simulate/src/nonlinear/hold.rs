@@ -1,0 +1,63 @@
+//! Jaws that take hold of the organ as it is now.
+
+use super::touch::{Now, carry_back_anew};
+use super::{Body, NonlinearOrgan, REACH_IN_RADII, jaws_radius};
+use crate::contact;
+use crate::grip::{Held, HeldArea, Hold, SeenHold, Swept};
+use crate::simulation::Simulation;
+use crate::state::SimulationState;
+
+impl NonlinearOrgan {
+    /// The jaws of tool `number` take hold of the place that the tool touches, or would touch a little ahead; whether
+    /// there is one. The force stays what it was.
+    pub(crate) fn take_hold(
+        &self,
+        simulation: &Simulation,
+        number: usize,
+        state: &mut SimulationState,
+    ) -> bool {
+        let tool = &simulation.tools[number];
+        let own = &state.tools[number];
+        let (Some(swept), Some(jaws), Some(radius)) =
+            (own.swept(tool), tool.jaws, jaws_radius(tool))
+        else {
+            return false;
+        };
+        let ahead = || {
+            let ahead = carry_back_anew(simulation, (tool, &swept.ahead()), state)?;
+            contact::detect(simulation, tool, None, &ahead)
+        };
+        let Some(contact) = own.contact.or_else(ahead) else {
+            return false;
+        };
+        let Some(body) = &mut state.body else {
+            return false;
+        };
+        let Body { loads, .. } = body;
+        let (point, frame) = (contact.point(), contact.place.frame);
+        let reach = REACH_IN_RADII * radius;
+        let boundary = self.model.boundary();
+        boundary.spread(&point, &contact.rest_normal(), reach, &mut loads[number]);
+        let now = Now::of(self, body, number);
+        let Some(compliance) = self.of_jaws(tool, (&frame, &now)) else {
+            return false;
+        };
+        let offset = -(compliance * now.force);
+        let held = Held::Area(HeldArea {
+            frame,
+            offset: swept.turned.inverse() * offset,
+        });
+        let seen = SeenHold {
+            triangle: contact.place.triangle,
+            place: point,
+            at: None,
+            displaced: now.mean,
+        };
+        let between = (Swept::face(&jaws), jaws.opening_m);
+        let own = &mut state.tools[number];
+        own.grip.hold = Some(Hold::new(&swept, between, held, seen));
+        own.displaced = now.mean;
+        own.solved = own.elastic;
+        true
+    }
+}

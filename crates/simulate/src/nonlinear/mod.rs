@@ -1,0 +1,174 @@
+//! The whole organ at large deformation: `model.kind = "nonlinear"`.
+//!
+//! ```text
+//! surface ──fill, coarsen──▶ quadratic tetrahedra ──factors at rest──▶ NonlinearModel
+//!                                                                          │
+//! tips, jaws ──touch: loads, couplings──▶ one step of Newton's method ◀────┘
+//!                                               │
+//!                          forces ◀─────────────┴──▶ shape: the surface that is seen
+//! ```
+//!
+//! A tip loads the surface around the place that it touches, wide enough for the elements to resolve it, and is in
+//! series with what such a load leaves out of its own law, as with the hybrid model ([`TipField`]). Here it is so about
+//! the present state: place, normal and frame go with the organ, and what the organ yields is solved anew in every step.
+//! Jaws hold as a bonded flat tip of their faces' area does, and pull.
+//!
+//! *How we know*: `nonlinear::…`.
+//!
+//! *Limits*: quasi-static; relaxation acts on the forces of the tools; nothing touches but tips and jaws, and the
+//! organ does not touch itself. A body that is nearly incompressible is taken with a Poisson's ratio of 0.49.
+//!
+//! [`TipField`]: palpate_mechanics::surface_response::TipField
+
+mod hold;
+mod shape;
+mod touch;
+
+pub(crate) use touch::Moved;
+
+use palpate_files::{Elasticity, Scene, Tissue};
+use palpate_geometry::{FillSettings, Surface, TetrahedronMesh, Vec3, coarsen, fill};
+use palpate_mechanics::nonlinear::{
+    CarriedPoints, Moduli, NonlinearModel, NonlinearState, SpreadLoad, Workspace,
+};
+use palpate_mechanics::{LinearElastic, Material};
+
+use crate::grip::Swept;
+use crate::tool::Tool;
+use crate::{Error, held_region};
+
+/// About so many nodes, if the scene does not say.
+const NODES: usize = 1_500;
+
+/// Tetrahedra of the first filling for each node that is wanted, and by how much they become more where walls are lost.
+const TETRAHEDRA_PER_NODE: usize = 8;
+const MORE: usize = 3;
+
+/// Fillings to try.
+const FILLINGS: usize = 5;
+
+/// A larger Poisson's ratio is taken as this [-]: volume is kept to the percent, and a few iterations suffice.
+const LARGEST_RATIO: f64 = 0.49;
+
+/// Iterations in a step: below, and from this Poisson's ratio [-] on more (`docs/theory/large_deformation.md`).
+const ITERATIONS: (usize, usize) = (4, 6);
+const NEARLY_INCOMPRESSIBLE: f64 = 0.46;
+
+/// R of a load over the largest touching area's radius [-]: it then yields less than the tip itself.
+const REACH_IN_RADII: f64 = 1.7;
+
+/// An organ that bends. Built once.
+#[derive(Debug, Clone)]
+pub(crate) struct NonlinearOrgan {
+    pub(crate) model: NonlinearModel,
+    /// The law of the body at rest.
+    law: LinearElastic,
+    shown: CarriedPoints,
+    iterations: usize,
+}
+
+/// Where the organ is, and what the tools do to it.
+#[derive(Debug, Clone)]
+pub(crate) struct Body {
+    state: NonlinearState,
+    /// Whether it has come back to rest since it was touched.
+    is_at_rest: bool,
+    /// Per tool.
+    loads: Vec<SpreadLoad>,
+}
+
+/// Scratch of its part in a step.
+#[derive(Debug)]
+pub(crate) struct NonlinearWorkspace {
+    solver: Workspace,
+    wishes: Vec<Option<touch::Wish>>,
+    /// Displacements of the shown vertices [m].
+    shown: Vec<Vec3>,
+}
+
+impl NonlinearOrgan {
+    /// That of the organ of `scene`, which is seen as `shown`; with what deserves doubt.
+    pub(crate) fn new(
+        scene: &Scene,
+        shown: &Surface,
+        (tissue, material): (&Tissue, &Material),
+    ) -> Result<(Self, Vec<String>), Error> {
+        let mut doubts = Vec::new();
+        let mesh = tetrahedra(shown, scene.model.nodes.unwrap_or(NODES))?;
+        let ratio = material.at_rest.poissons_ratio().min(LARGEST_RATIO);
+        let shear = material.at_rest.shear_modulus();
+        let law = LinearElastic::new(2.0 * shear * (1.0 + ratio), ratio)?;
+        let (c10, c01) = match tissue.elasticity {
+            Elasticity::MooneyRivlin { c10_pa, c01_pa } => (c10_pa.value, c01_pa.value),
+            Elasticity::Exponential { .. } => {
+                doubts.push(
+                    "the organ around the tips answers as neo-Hookean tissue of the same modulus at rest; the tips \
+                     themselves meet the exponential law"
+                        .to_owned(),
+                );
+                (0.5 * shear, 0.0)
+            }
+            Elasticity::Linear { .. } | Elasticity::NeoHookean { .. } => (0.5 * shear, 0.0),
+        };
+        let moduli = Moduli::mooney_rivlin(c10, c01, ratio)?;
+        let moduli = vec![moduli; mesh.tetrahedra().len()];
+        let anchor = held_region(&scene.organ.shape, scene.organ.anchor.as_ref());
+        let model =
+            NonlinearModel::on_boundary(&mesh, &moduli, |place| anchor.holds((*place).into()))?;
+        let organ = Self {
+            shown: model.carried(shown.mesh().vertices()),
+            iterations: match ratio < NEARLY_INCOMPRESSIBLE {
+                true => ITERATIONS.0,
+                false => ITERATIONS.1,
+            },
+            law,
+            model,
+        };
+        Ok((organ, doubts))
+    }
+
+    /// The organ at rest, which so many tools may touch.
+    pub(crate) fn at_rest(&self, tools: usize) -> Body {
+        Body {
+            state: NonlinearState::at_rest(&self.model, tools),
+            is_at_rest: true,
+            loads: vec![self.model.spread_load(); tools],
+        }
+    }
+
+    pub(crate) fn workspace(&self, tools: usize) -> NonlinearWorkspace {
+        NonlinearWorkspace {
+            solver: self.model.workspace(tools),
+            wishes: vec![None; tools],
+            shown: vec![Vec3::zeros(); self.shown.len()],
+        }
+    }
+
+    /// Radius of the load of a tool's tip [m].
+    fn reach(tool: &Tool) -> f64 {
+        // A sphere's touching area grows to its own radius.
+        REACH_IN_RADII * tool.shaft_radius()
+    }
+}
+
+/// Radius of a disc with the area of a jaw's face [m].
+fn jaws_radius(tool: &Tool) -> Option<f64> {
+    let face = Swept::face(&tool.jaws?);
+    Some((face / std::f64::consts::PI).sqrt())
+}
+
+/// About so many nodes in the body within `surface`: a filling that has all of its walls, made coarser.
+fn tetrahedra(surface: &Surface, nodes: usize) -> Result<TetrahedronMesh, Error> {
+    let mut wanted = TETRAHEDRA_PER_NODE * nodes;
+    let mut filling = fill(surface, &FillSettings::with_about(surface, wanted));
+    for _ in 1..FILLINGS {
+        if filling.is_ok() {
+            break;
+        }
+        wanted *= MORE;
+        filling = fill(surface, &FillSettings::with_about(surface, wanted));
+    }
+    let volume = surface.mesh().volume();
+    let mesh = filling.and_then(|fine| coarsen(&fine, nodes, volume));
+    mesh.map_err(|error| palpate_mechanics::Error::from(error).into())
+}

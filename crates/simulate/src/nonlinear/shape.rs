@@ -1,0 +1,121 @@
+//! The organ that is seen: its surface, carried by the elements, and under each tool where the tool has it.
+//!
+//! The elements around a tip know a load as wide as they resolve, and not the tip. What the surface lacks to meet the tip
+//! fades as the dimple of a flat tip does, and ends where the load ends:
+//!
+//! ```text
+//! e 2/π asin(a/r) (1 − (r/R)²)²
+//! ```
+
+use std::f64::consts::FRAC_2_PI;
+
+use palpate_geometry::{Nearest, NodeId, Vec3};
+
+use super::{NonlinearOrgan, NonlinearWorkspace, jaws_radius};
+use palpate_mechanics::contact::Bond;
+
+use crate::simulation::Simulation;
+use crate::state::SimulationState;
+
+/// A surface that has moved less than this [m] is at rest.
+const AT_REST: f64 = 1e-7;
+
+impl NonlinearOrgan {
+    /// Moves all vertices of the shown surface, if it is time.
+    pub(crate) fn deform(
+        &self,
+        (simulation, time): (&Simulation, f64),
+        state: &mut SimulationState,
+        workspace: &mut NonlinearWorkspace,
+    ) {
+        if time < state.shown_at + state.show_every {
+            return;
+        }
+        state.shown_at = time;
+        let Some(body) = &state.body else {
+            return;
+        };
+        let shown = &mut workspace.shown;
+        let mut largest = 0.0_f64;
+        let carried = self.shown.displacements(&body.state.displacements);
+        for (own, by) in shown.iter_mut().zip(carried) {
+            *own = by;
+            largest = largest.max(by.norm_squared());
+        }
+        if largest < AT_REST.powi(2) && !state.shown_deformed {
+            return;
+        }
+        state.shown_deformed = largest >= AT_REST.powi(2);
+        let rest = simulation.surface.mesh();
+        for (number, (tool, own)) in simulation.tools.iter().zip(&state.tools).enumerate() {
+            let (triangle, place) = match (&own.grip.hold, &own.contact) {
+                (Some(hold), _) => (hold.seen.triangle, hold.place()),
+                (None, Some(contact)) => (contact.place.triangle, contact.point()),
+                (None, None) => continue,
+            };
+            let radius = match own.holds() {
+                true => jaws_radius(tool).unwrap_or(tool.typical_radius),
+                false => tool.typical_radius,
+            };
+            let corners = rest.corners(triangle);
+            let on = palpate_geometry::closest_on_triangle(&rest.positions(triangle), &place);
+            let there: Vec3 = corners
+                .iter()
+                .zip(on.barycentric)
+                .map(|(node, weight)| shown[node.index()] * weight)
+                .sum();
+            let mut lacks = own.displaced - there;
+            if let (Some(contact), Bond::Slip) = (&own.contact, tool.bond) {
+                // What slips is not carried along.
+                let normal = contact.normal();
+                lacks = normal * normal.dot(&lacks);
+            }
+            let load = &body.loads[number];
+            let square = load.radius.powi(2);
+            for ((by, vertex), normal) in shown
+                .iter_mut()
+                .zip(rest.vertices())
+                .zip(simulation.surface.vertex_normals())
+            {
+                let apart = (vertex - place).norm_squared();
+                if apart < square && normal.dot(&load.normal) > 0.0 {
+                    let dimple = FRAC_2_PI * (radius / apart.sqrt()).min(1.0).asin();
+                    *by += lacks * (dimple * (1.0 - apart / square).powi(2));
+                }
+            }
+        }
+        for (number, (from, by)) in rest.vertices().iter().zip(shown.iter()).enumerate() {
+            if by.iter().all(|component| component.is_finite()) {
+                state.deformed.move_vertex(NodeId(number as u32), from + by);
+            }
+        }
+        state.tree.refit_all(&state.deformed);
+    }
+}
+
+impl SimulationState {
+    /// A place of the scene [m] near the point `nearest` of the deformed surface, carried back with that triangle to where
+    /// it is at rest.
+    pub(crate) fn carry_back_from(
+        &self,
+        rest: &palpate_geometry::TriangleMesh,
+        nearest: &Nearest,
+        place: &Vec3,
+    ) -> Vec3 {
+        let now = frame(&self.deformed.positions(nearest.triangle));
+        let corners = rest.positions(nearest.triangle);
+        let at: Vec3 = corners
+            .iter()
+            .zip(nearest.on.barycentric)
+            .map(|(corner, weight)| corner * weight)
+            .sum();
+        at + frame(&corners) * now.tr_mul(&(place - nearest.on.position))
+    }
+}
+
+/// The orthogonal frame of a triangle: along its first edge, across it, and its normal.
+fn frame([a, b, c]: &[Vec3; 3]) -> nalgebra::Matrix3<f64> {
+    let normal = (b - a).cross(&(c - a)).normalize();
+    let along = (b - a).normalize();
+    nalgebra::Matrix3::from_columns(&[along, normal.cross(&along), normal])
+}

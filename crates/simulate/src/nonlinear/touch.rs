@@ -1,0 +1,356 @@
+//! Tips and jaws on the organ as it is now, and the step that moves it.
+//!
+//! Contact is sought on the organ at rest, with the tip carried back there: with X the touched place, Q the mean rotation
+//! and ū the mean displacement of what the tip loads, Z what its force F moves that by,
+//!
+//! ```text
+//! X + Qᵀ (tip − X − (ū − Z F))
+//! ```
+//!
+//! is where the tip would be on an organ that it alone does not move. So depth is what it is with the other models: how
+//! far the tip is below the surface that would be there without it.
+//!
+//! With C the tip's own compliance at the force F* that its law and the organ's compliance ask for, less that of its
+//! load, the step solves W ᵀu + C F + o = d; o makes F* its solution where the organ is linear. What the factors at
+//! rest say of Z then changes how fast the steps converge, and not where to.
+
+use nalgebra::{Matrix3, Rotation3, SymmetricEigen};
+use palpate_geometry::Vec3;
+use palpate_mechanics::Limits;
+use palpate_mechanics::contact::{Bond, half_space_stiffness, half_space_tangential_stiffness};
+use palpate_mechanics::nonlinear::{Coupling, advance};
+
+use super::{Body, NonlinearOrgan, NonlinearWorkspace};
+use crate::grip::Held;
+use crate::simulation::Simulation;
+use crate::state::{SimulationState, ToolState};
+use crate::tool::Tool;
+
+/// Farther than this a step moves no part of the organ that a tool loads [m]: a longer way is taken in several, at most
+/// in so many.
+const FARTHEST: f64 = 2e-3;
+const MOST_PARTS: usize = 8;
+
+/// Displacements below this [m] are none: less than is seen or felt.
+const AT_REST: f64 = 1e-6;
+
+/// Scenes have no more tools.
+const MOST_TOOLS: usize = 2;
+
+/// Softer than this part of the organ around it, a contact is none yet [-].
+const LEAST_STIFFNESS: f64 = 1e-6;
+
+/// What a tool would do to the organ in this step.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Wish {
+    along: Option<Vec3>,
+    /// d, C and o.
+    displacement: Vec3,
+    compliance: Matrix3<f64>,
+    offset: Vec3,
+    /// What its condition lacks now [m].
+    jump: Vec3,
+    /// How far what it loads will move [m].
+    way: f64,
+}
+
+/// How the place that a tool touches has moved, without what the tool itself does.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Moved {
+    pub(crate) by: Vec3,
+    pub(crate) turn: Rotation3<f64>,
+}
+
+impl Default for Moved {
+    fn default() -> Self {
+        Self {
+            by: Vec3::zeros(),
+            turn: Rotation3::identity(),
+        }
+    }
+}
+
+impl Moved {
+    /// A place of the scene [m], carried back to where it would be around `rest` [m] at rest.
+    fn back(&self, rest: &Vec3, place: &Vec3) -> Vec3 {
+        rest + self.turn.inverse() * (place - rest - self.by)
+    }
+}
+
+/// Where a tip that touches nothing yet would be [m] on the organ at rest, by the triangle that is nearest to it now.
+/// None where it is clear of that.
+pub(super) fn carry_back_anew(
+    simulation: &Simulation,
+    (tool, tip): (&Tool, &Vec3),
+    state: &SimulationState,
+) -> Option<Vec3> {
+    let nearest = state.tree.nearest(&state.deformed, tip);
+    let outward = state.deformed.area_vector(nearest.triangle);
+    let is_outside = outward.dot(&(tip - nearest.on.position)) > 0.0;
+    (!is_outside || nearest.distance < tool.overhang())
+        .then(|| state.carry_back_from(simulation.surface.mesh(), &nearest, tip))
+}
+
+impl Body {
+    /// Puts a body that nothing loads and that is as good as at rest there; whether it is.
+    fn come_to_rest(&mut self) -> bool {
+        if !self.is_at_rest && self.state.is_within(AT_REST) {
+            self.state.reset();
+            self.is_at_rest = true;
+        }
+        self.is_at_rest
+    }
+}
+
+impl NonlinearOrgan {
+    /// Where the tip of tool `number` would be [m] on the organ at rest; none where it is clear of the organ.
+    pub(crate) fn carry_back(
+        &self,
+        simulation: &Simulation,
+        (number, tip): (usize, &Vec3),
+        state: &SimulationState,
+    ) -> Option<Vec3> {
+        let own = &state.tools[number];
+        match &own.contact {
+            Some(contact) => Some(own.moved.back(&contact.point(), tip)),
+            None => carry_back_anew(simulation, (&simulation.tools[number], tip), state),
+        }
+    }
+
+    /// Finds the elastic force and the stiffness of every tool, and moves the organ.
+    pub(crate) fn press(
+        &self,
+        simulation: &Simulation,
+        (tools, body): (&mut [ToolState], &mut Body),
+        workspace: &mut NonlinearWorkspace,
+    ) {
+        let wishes = &mut workspace.wishes;
+        for (number, (tool, own)) in simulation.tools.iter().zip(tools.iter_mut()).enumerate() {
+            own.elastic = Vec3::zeros();
+            own.stiffness = Matrix3::zeros();
+            own.limited = Limits::NONE;
+            wishes[number] = match own.holds() {
+                true => self.hold(tool, (number, own), body),
+                false => self.touch(tool, (number, own), body),
+            };
+        }
+        if wishes.iter().all(Option::is_none) && body.come_to_rest() {
+            return;
+        }
+        body.is_at_rest = false;
+        let ways = wishes.iter().flatten().map(|wish| wish.way);
+        let parts = (ways.fold(0.0, f64::max) / FARTHEST).ceil();
+        let parts = (parts as usize).clamp(1, MOST_PARTS);
+        for part in 1..=parts {
+            let left = 1.0 - part as f64 / parts as f64;
+            let loads = &body.loads;
+            let couplings: [_; MOST_TOOLS] = std::array::from_fn(|number| {
+                let wish = wishes.get(number)?.as_ref()?;
+                Some(wish.coupling(&loads[number].nodes, left))
+            });
+            let couplings = &couplings[..tools.len().min(MOST_TOOLS)];
+            let solver = &mut workspace.solver;
+            advance(
+                &self.model,
+                couplings,
+                self.iterations,
+                &mut body.state,
+                solver,
+            );
+        }
+        for (number, (own, wish)) in tools.iter_mut().zip(wishes).enumerate() {
+            if wish.is_some() {
+                own.elastic = -body.state.force(number);
+            }
+            own.solved = own.elastic;
+            if let Some(hold) = &own.grip.hold {
+                own.displaced = hold.displaced();
+            }
+        }
+    }
+
+    /// The forces after tissue has slid in its jaws, as far as the organ is linear: the next step solves for them.
+    pub(crate) fn press_again(&self, tools: &mut [ToolState]) {
+        for own in tools {
+            own.elastic = match &own.grip.hold {
+                Some(hold) => own.solved - own.stiffness * (hold.displaced() - own.displaced),
+                None if own.contact.is_some() => own.solved,
+                None => Vec3::zeros(),
+            };
+        }
+    }
+
+    /// What a tip that touches does.
+    fn touch(
+        &self,
+        tool: &Tool,
+        (number, own): (usize, &mut ToolState),
+        body: &mut Body,
+    ) -> Option<Wish> {
+        let (pose, contact) = (own.pose?, own.contact.as_mut()?);
+        let place = contact.place;
+        let load = &mut body.loads[number];
+        let boundary = self.model.boundary();
+        boundary.spread(
+            &place.point,
+            &contact.rest_normal(),
+            Self::reach(tool),
+            load,
+        );
+        let now = Now::of(self, body, number);
+        own.moved = Moved {
+            by: now.mean - now.yields * now.force,
+            turn: now.turn,
+        };
+        contact.turn = now.turn;
+        let frame = contact.frame();
+        let tip = own.moved.back(&place.point, &Vec3::from(pose.position_m));
+        let moved = contact.displacement(tool, &tip);
+        own.displaced = own.moved.by + frame * moved;
+        let further = frame.tr_mul(&now.yields) * frame - self.of_load(&now);
+        let answer = tool.law.force_in_series(&moved, &further);
+        own.stiffness = answer.stiffness;
+        own.limited = answer.limits;
+        let (along, stiffness) = match tool.bond {
+            Bond::Slip => (Some(contact.normal()), slippery(&answer.stiffness)),
+            Bond::Stick => (None, answer.stiffness),
+        };
+        let tip_and_organ = frame * stiffness.try_inverse()? * frame.transpose();
+        // A tip that hardly touches.
+        if now.yields.trace() < LEAST_STIFFNESS * tip_and_organ.trace() {
+            return None;
+        }
+        Some(Wish::new(
+            along,
+            own.displaced,
+            (&tip_and_organ, &-(frame * answer.force)),
+            &now,
+        ))
+    }
+
+    /// What jaws that hold do.
+    fn hold(
+        &self,
+        tool: &Tool,
+        (number, own): (usize, &mut ToolState),
+        body: &Body,
+    ) -> Option<Wish> {
+        let hold = own.grip.hold.as_ref()?;
+        let Held::Area(area) = &hold.held else {
+            return None;
+        };
+        let now = Now::of(self, body, number);
+        let compliance = self.of_jaws(tool, (&area.frame, &now))?;
+        own.stiffness = (compliance + now.yields).try_inverse()?;
+        let displacement = hold.displaced();
+        let offset = hold.in_scene(&area.offset);
+        let jump = displacement - offset - compliance * now.force - now.mean;
+        Some(Wish {
+            along: None,
+            displacement,
+            compliance,
+            offset,
+            jump,
+            way: jump.norm(),
+        })
+    }
+
+    /// What a load makes of its own half-space [m/N], in the frame of the contact.
+    fn of_load(&self, now: &Now) -> Matrix3<f64> {
+        let [along, normal] = now.own;
+        Matrix3::from_diagonal(&Vec3::new(along, along, normal))
+    }
+
+    /// The compliance of jaws [m/N] beyond that of their load: that of a bonded flat tip of their faces' area, in
+    /// the `frame` at rest that the organ has turned since.
+    pub(super) fn of_jaws(
+        &self,
+        tool: &Tool,
+        (frame, now): (&Matrix3<f64>, &Now),
+    ) -> Option<Matrix3<f64>> {
+        let radius = super::jaws_radius(tool)?;
+        let along = 1.0 / half_space_tangential_stiffness(&self.law, radius);
+        let normal = 1.0 / half_space_stiffness(&self.law, radius, Bond::Stick);
+        let own = Matrix3::from_diagonal(&Vec3::new(along, along, normal)) - self.of_load(now);
+        let frame = now.turn * frame;
+        Some(positive(&(frame * own * frame.transpose())))
+    }
+}
+
+/// A load as it is now.
+pub(super) struct Now {
+    /// ū [m], F [N] and Z [m/N].
+    pub(super) mean: Vec3,
+    pub(super) force: Vec3,
+    yields: Matrix3<f64>,
+    turn: Rotation3<f64>,
+    /// What it moves itself by on a half-space [m/N]: along the surface, and along its normal.
+    own: [f64; 2],
+}
+
+impl Now {
+    pub(super) fn of(organ: &NonlinearOrgan, body: &Body, number: usize) -> Self {
+        let load = &body.loads[number];
+        let state = &body.state;
+        Self {
+            mean: state.mean_displacement(&load.nodes),
+            force: state.force(number),
+            yields: organ.model.compliance(state, (&load.nodes, &load.nodes)),
+            turn: state.mean_rotation(&load.nodes),
+            own: load.own_compliance(&organ.law),
+        }
+    }
+}
+
+impl Wish {
+    /// Of a tool that is displaced by d [m], of which tip and organ together make the force `goal` [N] on the organ, and
+    /// yield `both` [m/N] to more.
+    fn new(
+        along: Option<Vec3>,
+        displacement: Vec3,
+        (both, goal): (&Matrix3<f64>, &Vec3),
+        now: &Now,
+    ) -> Self {
+        let compliance = match along {
+            Some(normal) => {
+                let own = normal.dot(&((both - now.yields) * normal)).max(0.0);
+                Matrix3::from_diagonal_element(own)
+            }
+            None => positive(&(both - now.yields)),
+        };
+        let free = now.mean - now.yields * now.force;
+        let offset = displacement - free - (now.yields + compliance) * goal;
+        let way = now.yields * (goal - now.force);
+        Self {
+            along,
+            displacement,
+            compliance,
+            offset,
+            jump: way + compliance * (goal - now.force),
+            way: way.norm(),
+        }
+    }
+
+    /// With this part of the jump left.
+    fn coupling<'a>(&self, nodes: &'a [(u32, f64)], left: f64) -> Coupling<'a> {
+        Coupling {
+            nodes,
+            along: self.along,
+            displacement: self.displacement,
+            compliance: self.compliance,
+            offset: self.offset + left * self.jump,
+        }
+    }
+}
+
+/// The stiffness of a tip that slips, with enough along the surface for an inverse: it is not asked for there.
+fn slippery(stiffness: &Matrix3<f64>) -> Matrix3<f64> {
+    Matrix3::from_diagonal_element(stiffness[(2, 2)])
+}
+
+/// The nearest matrix that gives no energy.
+fn positive(matrix: &Matrix3<f64>) -> Matrix3<f64> {
+    let mut eigen = SymmetricEigen::new(0.5 * (matrix + matrix.transpose()));
+    eigen.eigenvalues.apply(|value| *value = value.max(0.0));
+    eigen.recompose()
+}
