@@ -24,6 +24,8 @@ pub enum Limit {
     Coupling,
     /// Several tips: how far one moves the organ under another [of how far it moves it under itself].
     Carried,
+    /// Nonlinear model: how far a tool was to move the organ in a step [m], and how far it did.
+    Pace,
 }
 
 /// How far a bound changed an answer.
@@ -43,7 +45,7 @@ pub struct Limits {
 
 impl Limit {
     /// All of them, in the order in which they are told.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Curvature,
         Self::LocalStiffness,
         Self::LocalShearStiffness,
@@ -53,6 +55,7 @@ impl Limit {
         Self::TipDepth,
         Self::Coupling,
         Self::Carried,
+        Self::Pace,
     ];
 }
 

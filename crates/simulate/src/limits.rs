@@ -126,6 +126,13 @@ fn sentence(limit: Limit, reached: &Reached, (tool, when): (&str, &str)) -> Stri
             "the forces of tools that touch together, {tool:?} among them, still changed by {asked:.1e} of the largest \
              in the last sweep over them, above {used:.1e}, {when}: the tips are on the same spot; keep them apart"
         ),
+        Limit::Pace => format!(
+            "the tool {tool:?} was to move the organ by {:.1} mm in a step, and the model followed by {:.1} mm {when}: \
+             the force is that of the organ where it is; move slower, or set `model.nodes` higher if the organ is thin \
+             there",
+            1e3 * asked,
+            1e3 * used
+        ),
         Limit::Carried => format!(
             "what the other tool moves the organ by under the tip {tool:?} was taken as {used:.2} of what it moves it by \
              under itself, where its model asks for {asked:.2}, {when}: the tips are on the same spot, or deep beside \

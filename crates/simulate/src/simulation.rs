@@ -123,6 +123,11 @@ impl Simulation {
         }
         doubts.extend(check_neighbours(scene)?);
         let cutting = CuttingModel::new(scene, &surface)?;
+        if nonlinear.is_some() && cutting.as_ref().is_some_and(|model| model.changes_force) {
+            doubts.push(
+                "cuts are seen, and do not change the force of the nonlinear model".to_owned(),
+            );
+        }
         doubts.extend(cutting.iter().filter_map(CuttingModel::doubt));
         if !scene.organ.layers.is_empty() {
             doubts.push(

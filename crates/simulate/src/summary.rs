@@ -130,9 +130,12 @@ impl Tally {
         warn(
             self.pulled > TRUSTED_DEPTH,
             format!(
-                "held tissue was moved by {:.1} mm; it answers as at small strain, and beyond 10 mm no \
-                 model here has been compared with tissue",
-                1e3 * self.pulled
+                "held tissue was moved by {:.1} mm; {}beyond 10 mm no model here has been compared with tissue",
+                1e3 * self.pulled,
+                match simulation.nonlinear {
+                    Some(_) => "",
+                    None => "it answers as at small strain, and ",
+                }
             ),
         );
         warn(

@@ -9,6 +9,7 @@
 mod agreement;
 mod analytic;
 mod check;
+mod coarsen;
 mod cut;
 mod data;
 mod files;

@@ -41,6 +41,11 @@ pub fn precompute(
     resources: &Resources,
     watch: &dyn Watch,
 ) -> Result<Precomputed, Error> {
+    if scene.model.kind == ModelKind::Nonlinear {
+        return Err(Error::input(
+            "nothing is kept of `model.kind = \"nonlinear\"`: it is ready in seconds; simulate the scene",
+        ));
+    }
     scene.model.kind = ModelKind::Hybrid;
     let begin = Instant::now();
     let simulation = super::simulation(&scene, resources, watch)?;

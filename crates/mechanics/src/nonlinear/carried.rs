@@ -13,8 +13,9 @@ pub struct CarriedPoints {
 }
 
 impl CarriedPoints {
-    /// `elements` are the nodes of the quadratic tetrahedra of `mesh`. A point outside belongs to the tetrahedron whose
-    /// smallest barycentric coordinate there is the largest.
+    /// `elements` are the nodes of the quadratic tetrahedra of `mesh`. A point outside goes with the tetrahedron whose
+    /// smallest barycentric coordinate there is the largest, as the point of it does whose coordinates are cut off at zero:
+    /// quadratic functions grow fast outside.
     pub(super) fn new(mesh: &TetrahedronMesh, elements: &[u32], points: &[Vec3]) -> Self {
         let frames: Vec<_> = (0..mesh.tetrahedra().len())
             .map(|t| {
@@ -34,6 +35,7 @@ impl CarriedPoints {
                 }
             }
             let (number, at) = found;
+            let at = within(at);
             let own = &elements[number * NODES..][..NODES];
             let mut shape = [0.0; NODES];
             ElementKind::Tet10.shape(at, &mut shape);
@@ -71,4 +73,11 @@ impl CarriedPoints {
             sum
         })
     }
+}
+
+/// A point whose barycentric coordinates are not negative.
+fn within([x, y, z]: [f64; 3]) -> [f64; 3] {
+    let cut = [1.0 - x - y - z, x, y, z].map(|coordinate: f64| coordinate.max(0.0));
+    let sum: f64 = cut.iter().sum();
+    [cut[1] / sum, cut[2] / sum, cut[3] / sum]
 }

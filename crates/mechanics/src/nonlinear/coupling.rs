@@ -20,6 +20,8 @@ pub struct Coupling<'a> {
     pub displacement: Vec3,
     /// C [m/N], symmetric and not negative.
     pub compliance: Matrix3<f64>,
+    /// How far the mean will go in this step, as far as that is known [m]: so far the last step is continued.
+    pub advance: Vec3,
     /// o [m]: what the tool's own deformation under the last force is beyond C times it.
     pub offset: Vec3,
 }

@@ -13,6 +13,9 @@ use crate::{Error, Vec3};
 /// Largest memory of the influences of the nodes that can be loaded [bytes].
 pub const MOST_INFLUENCE_BYTES: usize = 1 << 30;
 
+/// A node moves at most by this part of a mean edge in a step, beside what is continued [-].
+const FARTHEST: f64 = 0.5;
+
 /// A body of quadratic tetrahedra, fixed at some nodes, with its stiffness at rest in factors.
 #[derive(Debug, Clone)]
 pub struct NonlinearModel {
@@ -25,6 +28,8 @@ pub struct NonlinearModel {
     /// Place of each node in `influences`.
     pub(super) loaded: Vec<Option<u32>>,
     nodes: Vec<Vec3>,
+    /// What a node moves at most in a step, beside what is continued [m].
+    pub(super) farthest: f32,
     mesh: TetrahedronMesh,
     /// Ten nodes for each tetrahedron.
     elements: Vec<u32>,
@@ -90,6 +95,7 @@ impl NonlinearModel {
             influences,
             loaded,
             nodes: places,
+            farthest: (FARTHEST * mean_edge(mesh)) as f32,
             boundary: Boundary::new(mesh)?,
             mesh: mesh.clone(),
             elements: numbers,
@@ -172,6 +178,16 @@ impl NonlinearModel {
     pub fn workspace(&self, tools: usize) -> Workspace {
         Workspace::new(self, tools)
     }
+}
+
+/// Mean length of the edges [m].
+fn mean_edge(mesh: &TetrahedronMesh) -> f64 {
+    let edges = mesh.edges();
+    let lengths = edges.iter().map(|edge| {
+        let [from, to] = edge.map(|node| mesh.vertices()[node.index()]);
+        (to - from).norm()
+    });
+    lengths.sum::<f64>() / edges.len() as f64
 }
 
 fn inverse_volumes(packs: &[Pack<f64>], nodes: usize) -> Vec<f32> {

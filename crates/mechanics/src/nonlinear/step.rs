@@ -9,7 +9,7 @@ use crate::Vec3;
 /// Part of the slope at the beginning of a step that may be left at its end before the step is shortened [-].
 const SLOPE_LEFT: f64 = 0.3;
 
-/// Largest factor with which the last displacement is continued [-].
+/// Largest factor with which the last displacement is continued, or gone back [-].
 const MOST_CONTINUED: f64 = 1.5;
 
 /// Steps in which the force of a tool that has let go fades: at once the body would spring back farther than a step
@@ -24,6 +24,8 @@ pub struct NonlinearState {
     /// Displacements of the nodes [m]; three a node.
     pub displacements: Vec<f64>,
     before: Vec<f64>,
+    /// Whether the last step can be continued.
+    is_smooth: bool,
     /// Rotations of the nodes in the last step, each column by column [-].
     pub(super) rotations: Vec<[f32; 9]>,
     tools: Vec<ToolMemory>,
@@ -39,8 +41,6 @@ struct ToolMemory {
     load: Vec<f32>,
     force: Vec3,
     force_before: Vec3,
-    displacement: Vec3,
-    advance: Vec3,
 }
 
 /// How a step went.
@@ -95,12 +95,11 @@ impl NonlinearState {
             load: vec![0.0; size],
             force: Vec3::zeros(),
             force_before: Vec3::zeros(),
-            displacement: Vec3::zeros(),
-            advance: Vec3::zeros(),
         };
         Self {
             displacements: vec![0.0; size],
             before: vec![0.0; size],
+            is_smooth: true,
             rotations: vec![UNTURNED; nodes],
             tools: vec![tool; tools],
             fading: vec![0.0; size],
@@ -119,8 +118,20 @@ impl NonlinearState {
             tool.load.fill(0.0);
             tool.is_coupled = false;
             (tool.force, tool.force_before) = (Vec3::zeros(), Vec3::zeros());
-            (tool.displacement, tool.advance) = (Vec3::zeros(), Vec3::zeros());
         }
+    }
+
+    /// The largest displacement of a node along an axis [m].
+    pub fn largest(&self) -> f64 {
+        self.displacements
+            .iter()
+            .fold(0.0, |most, u| u.abs().max(most))
+    }
+
+    /// Shrinks all displacements to a `part` [-] of what they are; there is nothing to be continued then.
+    pub fn shrink(&mut self, part: f64) {
+        self.displacements.iter_mut().for_each(|u| *u *= part);
+        self.is_smooth = false;
     }
 
     /// Weighted mean of the displacements of `nodes` [m].
@@ -130,6 +141,20 @@ impl NonlinearState {
             .map(|&(node, weight)| {
                 let u = &self.displacements[3 * node as usize..][..3];
                 weight * Vec3::new(u[0], u[1], u[2])
+            })
+            .sum()
+    }
+
+    /// By how much the last step changed the weighted mean of the displacements of `nodes` [m].
+    fn last_advance(&self, nodes: &[(u32, f64)]) -> Vec3 {
+        let nodes = nodes.iter();
+        nodes
+            .map(|&(node, weight)| {
+                let at = 3 * node as usize;
+                weight
+                    * Vec3::from_fn(|axis, _| {
+                        self.displacements[at + axis] - self.before[at + axis]
+                    })
             })
             .sum()
     }
@@ -146,7 +171,7 @@ impl NonlinearState {
 
     /// Whether no node is displaced by more than `most` [m] along any axis, and no force fades.
     pub fn is_within(&self, most: f64) -> bool {
-        self.fades == 0 && self.displacements.iter().all(|u| u.abs() <= most)
+        self.fades == 0 && self.largest() <= most
     }
 
     /// Force of a tool on the body [N].
@@ -220,9 +245,11 @@ fn step(
     workspace.rows.prepare(model, couplings, &state.rotations);
     workspace.carry(model, couplings, state);
     let mut advance = workspace.iterate(model, couplings, &state.rotations, iterations);
+    workspace.bound(model.farthest, &mut advance);
+    advance.was_shortened |= workspace.take(model, couplings, state);
     workspace.finish_forces();
-    advance.was_shortened = workspace.take(model, couplings, state);
     workspace.remember(couplings, state);
+    state.is_smooth = !advance.was_shortened && !advance.was_unstable;
     advance.was_reset = !state.is_finite();
     if advance.was_reset {
         state.reset();
@@ -273,13 +300,13 @@ fn guess(
     for (coupling, memory) in couplings.iter().zip(&state.tools) {
         all_known &= coupling.is_some() == memory.is_coupled;
         if let Some(coupling) = coupling {
-            let advance = coupling.displacement - memory.displacement;
-            along += advance.dot(&memory.advance);
-            length += memory.advance.norm_squared();
+            let last = state.last_advance(coupling.nodes);
+            along += coupling.advance.dot(&last);
+            length += last.norm_squared();
         }
     }
-    let part = if all_known && length > 0.0 {
-        (along / length).clamp(0.0, MOST_CONTINUED)
+    let part = if all_known && state.is_smooth && length > 0.0 {
+        (along / length).clamp(-MOST_CONTINUED, MOST_CONTINUED)
     } else {
         0.0
     };
@@ -404,11 +431,13 @@ impl Workspace {
             self.multiply(model, false);
             let own = self.rows.own_curvature(&self.small.direction);
             let curvature = dot(&self.direction, &self.product) + own;
-            if curvature <= 0.0 {
-                advance.was_unstable = true;
-                break;
-            }
-            let length = now / curvature;
+            advance.was_unstable = curvature <= 0.0;
+            let length = match advance.was_unstable {
+                false => now / curvature,
+                // Downhill all the same, as far as the stiffness at rest has it.
+                true if iteration == 0 => 1.0,
+                true => break,
+            };
             self.small.force.axpy(length, &self.small.direction, 1.0);
             let along = self.direction.iter().zip(&self.product);
             for ((change, r), (direction, product)) in
@@ -421,6 +450,9 @@ impl Workspace {
             self.small.projected *= length;
             self.rows
                 .add_load(couplings, &self.small.projected, &mut self.residual);
+            if advance.was_unstable {
+                break;
+            }
         }
         advance.reduction = if released > 0.0 {
             first / released
@@ -428,6 +460,19 @@ impl Workspace {
             1.0
         };
         advance
+    }
+
+    /// Shortens a change that moves a node too far for what is linear about it.
+    fn bound(&mut self, farthest: f32, advance: &mut Advance) {
+        let largest = self
+            .change
+            .iter()
+            .fold(0.0_f32, |most, by| most.max(by.abs()));
+        if largest > farthest {
+            let part = farthest / largest;
+            self.change.iter_mut().for_each(|by| *by *= part);
+            advance.was_shortened = true;
+        }
     }
 
     /// The forces of the tools that leave the least of the residual.
@@ -483,10 +528,6 @@ impl Workspace {
         for (coupling, memory) in couplings.iter().zip(&mut state.tools) {
             memory.force = Vec3::zeros();
             memory.is_coupled = coupling.is_some();
-            if let Some(coupling) = coupling {
-                memory.advance = coupling.displacement - memory.displacement;
-                memory.displacement = coupling.displacement;
-            }
         }
         for (number, row) in self.rows.rows.iter().enumerate() {
             state.tools[row.tool].force += self.small.force[number] * row.direction;

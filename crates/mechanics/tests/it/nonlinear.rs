@@ -62,6 +62,7 @@ impl Bar {
             nodes: &self.end,
             along: None,
             displacement,
+            advance: Vec3::new(0.0, 1e-3, 0.0),
             compliance: Matrix3::zeros(),
             offset: Vec3::zeros(),
         })]

@@ -65,6 +65,8 @@ pub(crate) struct NonlinearOrgan {
     law: LinearElastic,
     shown: CarriedPoints,
     iterations: usize,
+    /// Of its bounds, across [m]: nothing of it goes farther.
+    size: f64,
 }
 
 /// Where the organ is, and what the tools do to it.
@@ -75,6 +77,9 @@ pub(crate) struct Body {
     is_at_rest: bool,
     /// Per tool.
     loads: Vec<SpreadLoad>,
+    /// Which tools act on it; those that have let go, for so many steps more at most.
+    is_loaded: Vec<bool>,
+    lets_go: Vec<u32>,
 }
 
 /// Scratch of its part in a step.
@@ -115,7 +120,9 @@ impl NonlinearOrgan {
         let anchor = held_region(&scene.organ.shape, scene.organ.anchor.as_ref());
         let model =
             NonlinearModel::on_boundary(&mesh, &moduli, |place| anchor.holds((*place).into()))?;
+        let (low, high) = shown.mesh().bounds();
         let organ = Self {
+            size: (high - low).norm(),
             shown: model.carried(shown.mesh().vertices()),
             iterations: match ratio < NEARLY_INCOMPRESSIBLE {
                 true => ITERATIONS.0,
@@ -133,6 +140,8 @@ impl NonlinearOrgan {
             state: NonlinearState::at_rest(&self.model, tools),
             is_at_rest: true,
             loads: vec![self.model.spread_load(); tools],
+            is_loaded: vec![false; tools],
+            lets_go: vec![0; tools],
         }
     }
 

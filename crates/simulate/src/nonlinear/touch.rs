@@ -14,11 +14,14 @@
 //! load, the step solves W ᵀu + C F + o = d; o makes F* its solution where the organ is linear. What the factors at
 //! rest say of Z then changes how fast the steps converge, and not where to.
 
+use std::f64::consts::PI;
+
 use nalgebra::{Matrix3, Rotation3, SymmetricEigen};
+use palpate_files::session::Event;
 use palpate_geometry::Vec3;
-use palpate_mechanics::Limits;
 use palpate_mechanics::contact::{Bond, half_space_stiffness, half_space_tangential_stiffness};
-use palpate_mechanics::nonlinear::{Coupling, advance};
+use palpate_mechanics::nonlinear::{Coupling, SpreadLoad, advance};
+use palpate_mechanics::{Limit, Limits, Reached};
 
 use super::{Body, NonlinearOrgan, NonlinearWorkspace};
 use crate::grip::Held;
@@ -26,13 +29,27 @@ use crate::simulation::Simulation;
 use crate::state::{SimulationState, ToolState};
 use crate::tool::Tool;
 
-/// Farther than this a step moves no part of the organ that a tool loads [m]: a longer way is taken in several, at most
-/// in so many.
+/// Farther than this a step moves no part of the organ that a tool loads, and no farther than a part of the load's radius:
+/// a longer way is taken in several steps, at most in so many [m, -].
 const FARTHEST: f64 = 2e-3;
+const FARTHEST_OF_LOAD: f64 = 1.0 / 6.0;
 const MOST_PARTS: usize = 8;
 
 /// Displacements below this [m] are none: less than is seen or felt.
 const AT_REST: f64 = 1e-6;
+
+/// What is left of the largest displacement after a step in which nothing loads the organ, at most [-].
+const SLOWEST_RETURN: f64 = 0.9;
+
+/// A tool that has let go is followed for so many steps at most: a fifth of a second, in which tissue goes back by 4 cm.
+const LETS_GO_WITHIN: u32 = 40;
+
+/// Mean pressure of a load [Young's moduli] beyond which there is no answer: a flat punch eight radii deep in neo-Hookean
+/// tissue has a tenth of it.
+const MOST_PRESSURE: f64 = 100.0;
+
+/// A lag behind a tool is told from this on: in parts of its way in a step, and [m].
+const TOLD_LAG: (f64, f64) = (0.1, 1e-4);
 
 /// Scenes have no more tools.
 const MOST_TOOLS: usize = 2;
@@ -51,7 +68,7 @@ pub(crate) struct Wish {
     /// What its condition lacks now [m].
     jump: Vec3,
     /// How far what it loads will move [m].
-    way: f64,
+    way: Vec3,
 }
 
 /// How the place that a tool touches has moved, without what the tool itself does.
@@ -124,49 +141,99 @@ impl NonlinearOrgan {
         (tools, body): (&mut [ToolState], &mut Body),
         workspace: &mut NonlinearWorkspace,
     ) {
-        let wishes = &mut workspace.wishes;
         for (number, (tool, own)) in simulation.tools.iter().zip(tools.iter_mut()).enumerate() {
             own.elastic = Vec3::zeros();
             own.stiffness = Matrix3::zeros();
             own.limited = Limits::NONE;
-            wishes[number] = match own.holds() {
-                true => self.hold(tool, (number, own), body),
-                false => self.touch(tool, (number, own), body),
-            };
+            workspace.wishes[number] = self.wish(tool, (number, own), body);
         }
-        if wishes.iter().all(Option::is_none) && body.come_to_rest() {
+        let is_free = workspace.wishes.iter().all(Option::is_none);
+        if is_free && body.come_to_rest() {
             return;
         }
-        body.is_at_rest = false;
-        let ways = wishes.iter().flatten().map(|wish| wish.way);
-        let parts = (ways.fold(0.0, f64::max) / FARTHEST).ceil();
-        let parts = (parts as usize).clamp(1, MOST_PARTS);
-        for part in 1..=parts {
-            let left = 1.0 - part as f64 / parts as f64;
-            let loads = &body.loads;
-            let couplings: [_; MOST_TOOLS] = std::array::from_fn(|number| {
-                let wish = wishes.get(number)?.as_ref()?;
-                Some(wish.coupling(&loads[number].nodes, left))
-            });
-            let couplings = &couplings[..tools.len().min(MOST_TOOLS)];
-            let solver = &mut workspace.solver;
-            advance(
-                &self.model,
-                couplings,
-                self.iterations,
-                &mut body.state,
-                solver,
-            );
+        let before = body.state.largest();
+        let was_reset = self.go(body, workspace);
+        if was_reset || body.state.largest() > self.size || self.is_unsound(body) {
+            body.state.reset();
+            tools.iter_mut().for_each(ToolState::lose);
+            return;
         }
-        for (number, (own, wish)) in tools.iter_mut().zip(wishes).enumerate() {
-            if wish.is_some() {
+        // Rest is where an organ goes that nothing loads; elements that were turned inside out may not find there.
+        if is_free && body.state.largest() > SLOWEST_RETURN * before {
+            body.state.shrink(SLOWEST_RETURN);
+        }
+        for (number, (own, wish)) in tools.iter_mut().zip(&workspace.wishes).enumerate() {
+            if let (Some(wish), false) = (wish, body.lets_go[number] > 0) {
                 own.elastic = -body.state.force(number);
+                wish.tell_pace(body, number, own);
             }
             own.solved = own.elastic;
             if let Some(hold) = &own.grip.hold {
                 own.displaced = hold.displaced();
             }
         }
+    }
+
+    /// Whether a tool bears on the organ with more than any tissue withstands: the step had no answer.
+    fn is_unsound(&self, body: &Body) -> bool {
+        body.loads.iter().enumerate().any(|(number, load)| {
+            let most = MOST_PRESSURE * self.law.youngs_modulus() * PI * load.radius.powi(2);
+            body.is_loaded[number] && body.state.force(number).norm() > most
+        })
+    }
+
+    /// What a tool does in this step; or what it leaves, that has let go.
+    fn wish(
+        &self,
+        tool: &Tool,
+        (number, own): (usize, &mut ToolState),
+        body: &mut Body,
+    ) -> Option<Wish> {
+        let mut wish = match own.holds() {
+            true => self.hold(tool, (number, own), body),
+            false if body.lets_go[number] > 0 => None,
+            false => self.touch(tool, (number, own), body),
+        };
+        let steps = &mut body.lets_go[number];
+        *steps = match (&wish, *steps) {
+            (Some(_), _) => 0,
+            (None, 0) if body.is_loaded[number] => LETS_GO_WITHIN,
+            (None, steps) => steps.saturating_sub(1),
+        };
+        if *steps > 0 {
+            wish = self.let_go(number, body);
+            if wish.is_none() {
+                body.lets_go[number] = 0;
+            }
+        }
+        body.is_loaded[number] = wish.is_some();
+        wish
+    }
+
+    /// Moves the organ as far as the tools have it, and no farther than a step can; whether it had to be put back to rest.
+    fn go(&self, body: &mut Body, workspace: &mut NonlinearWorkspace) -> bool {
+        body.is_at_rest = false;
+        let wishes = &workspace.wishes;
+        let ways = wishes
+            .iter()
+            .zip(&body.loads)
+            .map(|(wish, load)| wish.map_or(0.0, |wish| wish.way.norm() / farthest(load)));
+        let way = ways.fold(0.0, f64::max);
+        let parts = (way.ceil() as usize).clamp(1, MOST_PARTS);
+        let reach = (MOST_PARTS as f64 / way).min(1.0) / parts as f64;
+        let mut was_reset = false;
+        for part in 1..=parts {
+            let loads = &body.loads;
+            let couplings: [_; MOST_TOOLS] = std::array::from_fn(|number| {
+                let wish = wishes.get(number)?.as_ref()?;
+                let left = 1.0 - reach * part as f64;
+                Some(wish.coupling(&loads[number].nodes, (left, reach)))
+            });
+            let couplings = &couplings[..wishes.len().min(MOST_TOOLS)];
+            let (state, solver) = (&mut body.state, &mut workspace.solver);
+            was_reset |= advance(&self.model, couplings, self.iterations, state, solver).was_reset;
+        }
+        was_reset
     }
 
     /// The forces after tissue has slid in its jaws, as far as the organ is linear: the next step solves for them.
@@ -251,7 +318,27 @@ impl NonlinearOrgan {
             compliance,
             offset,
             jump,
-            way: jump.norm(),
+            way: now.yields * own.stiffness * jump,
+        })
+    }
+
+    /// What is left of a tool that has let go: its place goes back to where it bears no force, no farther in a step than a
+    /// step follows well. None once the rest is a small way.
+    fn let_go(&self, number: usize, body: &Body) -> Option<Wish> {
+        let now = Now::of(self, body, number);
+        let back = -(now.yields * now.force);
+        let way = back.norm();
+        let farthest = farthest(&body.loads[number]);
+        (way > farthest).then(|| {
+            let displacement = now.mean + back * (farthest / way);
+            Wish {
+                along: None,
+                displacement,
+                compliance: Matrix3::zeros(),
+                offset: Vec3::zeros(),
+                jump: displacement - now.mean,
+                way: displacement - now.mean,
+            }
         })
     }
 
@@ -275,6 +362,27 @@ impl NonlinearOrgan {
         let frame = now.turn * frame;
         Some(positive(&(frame * own * frame.transpose())))
     }
+}
+
+impl ToolState {
+    /// Loses what it touches and holds of an organ whose answer was none.
+    fn lose(&mut self) {
+        if self.touches() {
+            self.row.events.insert(Event::NonFiniteForce);
+            self.row.events.insert(Event::Release);
+        }
+        if self.grip.hold.take().is_some() {
+            self.row.events.insert(Event::GripRelease);
+        }
+        self.contact = None;
+        self.elastic = Vec3::zeros();
+        self.stiffness = Matrix3::zeros();
+    }
+}
+
+/// How far a load moves in a step, at most [m].
+fn farthest(load: &SpreadLoad) -> f64 {
+    FARTHEST.min(FARTHEST_OF_LOAD * load.radius)
 }
 
 /// A load as it is now.
@@ -327,13 +435,33 @@ impl Wish {
             compliance,
             offset,
             jump: way + compliance * (goal - now.force),
-            way: way.norm(),
+            way,
         }
     }
 
-    /// With this part of the jump left.
-    fn coupling<'a>(&self, nodes: &'a [(u32, f64)], left: f64) -> Coupling<'a> {
+    /// Tells of a step that did not take the organ to where its tool has it.
+    fn tell_pace(&self, body: &Body, number: usize, tool: &mut ToolState) {
+        let mean = body.state.mean_displacement(&body.loads[number].nodes);
+        let lag =
+            self.displacement - self.offset - self.compliance * body.state.force(number) - mean;
+        let lag = match self.along {
+            Some(normal) => normal.dot(&lag).abs(),
+            None => lag.norm(),
+        };
+        let way = self.way.norm();
+        if lag > TOLD_LAG.1.max(TOLD_LAG.0 * way) {
+            let reached = Reached {
+                asked: way.max(lag),
+                used: (way.max(lag) - lag).max(0.0),
+            };
+            tool.limited.add(Limit::Pace, reached);
+        }
+    }
+
+    /// With this part of the jump `left` [-], after this part of the `way` [-].
+    fn coupling<'a>(&self, nodes: &'a [(u32, f64)], (left, way): (f64, f64)) -> Coupling<'a> {
         Coupling {
+            advance: self.way * way,
             nodes,
             along: self.along,
             displacement: self.displacement,

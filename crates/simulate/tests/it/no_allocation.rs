@@ -33,6 +33,8 @@ fn a_sliding_step_allocates_nothing() {
         ("local", "slip", "assembly = \"reused\""),
         ("local", "slip", "form = \"strong\""),
         ("hybrid", "stick", "mechanical_triangles = 400"),
+        ("nonlinear", "stick", "nodes = 400"),
+        ("nonlinear", "slip", "nodes = 400"),
         (
             "hybrid",
             "slip",
@@ -67,7 +69,7 @@ fn a_sliding_step_allocates_nothing() {
 /// Two graspers that take hold, pull, slip and let go, and take hold again.
 #[test]
 fn a_step_with_two_grips_allocates_nothing() {
-    for kind in ["hybrid", "local"] {
+    for kind in ["hybrid", "local", "nonlinear"] {
         let setting = Setting {
             organ: "builtin = \"kidney\"",
             kind,

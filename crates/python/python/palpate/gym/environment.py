@@ -35,7 +35,7 @@ class TouchEnv(gymnasium.Env[Seen, NDArray[np.float32]]):
         One with the task; the built-in one without.
     simulation : palpate.Simulation, optional
         One that was prepared already, in place of a scene.
-    model : {"local", "hybrid"}, optional
+    model : {"local", "hybrid", "nonlinear"}, optional
         Another model than the scene's.
     substeps : int
         Steps of the model in an action.

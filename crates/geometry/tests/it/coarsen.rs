@@ -1,0 +1,85 @@
+//! Fewer tetrahedra in the same body.
+
+use palpate_geometry::{
+    FillSettings, Organ, Surface, TetrahedronMesh, TriangleMesh, Vec3, coarsen, deviation, fill,
+};
+
+fn organ(organ: Organ, triangles: usize) -> Surface {
+    Surface::new(organ.surface_mesh(triangles).unwrap()).unwrap()
+}
+
+fn coarse(surface: &Surface, tetrahedra: usize, nodes: usize) -> TetrahedronMesh {
+    let fine = fill(surface, &FillSettings::with_about(surface, tetrahedra)).unwrap();
+    coarsen(&fine, nodes, surface.mesh().volume()).unwrap()
+}
+
+/// Vertices and edges: the nodes of quadratic elements.
+fn nodes(mesh: &TetrahedronMesh) -> usize {
+    mesh.vertices().len() + mesh.edges().len()
+}
+
+fn boundary(mesh: &TetrahedronMesh) -> TriangleMesh {
+    let faces = mesh.boundary().into_iter().map(|(corners, _)| corners);
+    TriangleMesh::new(mesh.vertices().to_vec(), faces.collect()).unwrap()
+}
+
+/// Judge: the surface. The number of nodes is met to a percent, the volume to rounding of four inflations, and a boundary
+/// with elements as large as the body allows stays near the surface: within 4 % of the body's size.
+#[test]
+fn organs_keep_their_shape_with_few_nodes() {
+    for (which, triangles, tetrahedra) in [
+        (Organ::Liver, 3000, 12_000),
+        (Organ::Kidney, 2000, 12_000),
+        (Organ::Esophagus, 4000, 12_000),
+        (Organ::Diaphragm, 4000, 36_000),
+    ] {
+        let surface = organ(which, triangles);
+        let mesh = coarse(&surface, tetrahedra, 1500);
+        let volume = surface.mesh().volume();
+        let (low, high) = surface.mesh().bounds();
+        let boundary = boundary(&mesh);
+        let apart = deviation(&boundary, surface.mesh());
+        let off = apart.max / (high - low).norm();
+        println!(
+            "{which:?}: {} nodes, volume {:+.2e}, off {off:.4}",
+            nodes(&mesh),
+            mesh.volume() / volume - 1.0
+        );
+        assert!(nodes(&mesh).abs_diff(1500) < 16, "{}", nodes(&mesh));
+        assert!((mesh.volume() / volume - 1.0).abs() < 1e-3);
+        assert!(off < 0.04, "{off}");
+        // One closed surface with as many handles as before.
+        let of = |mesh: &TriangleMesh| Surface::new(mesh.clone()).unwrap().mesh().triangles().len();
+        assert!(of(&boundary) > 100);
+        let euler =
+            |mesh: &TriangleMesh| mesh.vertices().len() as i64 - mesh.triangles().len() as i64 / 2;
+        assert_eq!(euler(&boundary), euler(surface.mesh()), "{which:?}");
+    }
+}
+
+/// None is flat: the mean square edge of each has a fifth of a regular tetrahedron's volume, or a tenth where the boundary
+/// moved outward.
+#[test]
+fn none_of_few_tetrahedra_is_flat() {
+    let surface = organ(Organ::Spleen, 2000);
+    for nodes in [500, 1500, 4000] {
+        let mesh = coarse(&surface, 12_000, nodes);
+        for number in 0..mesh.tetrahedra().len() {
+            let [a, b, c, d] = mesh.positions(number);
+            let six_fold = (b - a).cross(&(c - a)).dot(&(d - a));
+            let edges = [b - a, c - a, d - a, c - b, d - b, d - c];
+            let square = edges.iter().map(Vec3::norm_squared).sum::<f64>() / 6.0;
+            let shape = std::f64::consts::SQRT_2 * six_fold / square.powf(1.5);
+            assert!(shape > 0.1, "{nodes}: {shape}");
+        }
+    }
+}
+
+/// More nodes than there are: nothing changes but the volume.
+#[test]
+fn a_mesh_that_is_coarse_enough_stays() {
+    let surface = organ(Organ::Hemisphere, 500);
+    let fine = fill(&surface, &FillSettings::with_about(&surface, 500)).unwrap();
+    let same = coarsen(&fine, 100_000, fine.volume()).unwrap();
+    assert_eq!(same.tetrahedra(), fine.tetrahedra());
+}
