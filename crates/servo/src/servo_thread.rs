@@ -63,6 +63,7 @@ impl ServoThread {
         };
         let (end, ended) = sync_channel(1);
         let scheduler = servo.scheduler();
+        servo.begin(clock.now());
         let mut hosted = Hosted {
             servo,
             clock,

@@ -4,6 +4,7 @@ use std::sync::mpsc::{self, Receiver, Sender};
 use std::thread::{Builder, JoinHandle};
 use std::time::Duration;
 
+use palpate_servo::watch::{Watch, WatchThread};
 use palpate_servo::{Fault, log};
 
 use super::clerk::Clerk;
@@ -20,6 +21,7 @@ pub struct LiveRig {
     pub news: Receiver<News>,
     commissions: Sender<Commission>,
     threads: Vec<JoinHandle<()>>,
+    watch: WatchThread,
 }
 
 /// Samples that wait for a window: a quarter of a minute.
@@ -34,6 +36,18 @@ impl LiveRig {
     /// # Errors
     /// When the operating system gives no thread.
     pub fn start(rig: Rig) -> Result<Self, Error> {
+        Self::start_until(rig, || false)
+    }
+
+    /// The same for a program that `is_ended` says shall end: a device that is there has no force then.
+    ///
+    /// # Errors
+    /// As for [`start`](Self::start).
+    pub fn start_until(rig: Rig, is_ended: fn() -> bool) -> Result<Self, Error> {
+        // Over tissue that is not there nobody can be hurt, and the indenter withdraws in good order.
+        let ends = if rig.is_real() { is_ended } else { || false };
+        let watch = Watch::new(rig.supervisor(), vec![rig.watched()], ends);
+        let watch = WatchThread::start(watch, rig.clock())?;
         let (operated, console, told) = Operated::new(rig);
         let (samples, samples_reader) = log::ring(SAMPLES);
         let (news, news_reader) = mpsc::channel();
@@ -52,6 +66,7 @@ impl LiveRig {
             news: news_reader,
             commissions,
             threads: Vec::new(),
+            watch,
         };
         let ended = Arc::new(AtomicBool::new(false));
         let seen = ended.clone();
@@ -66,6 +81,11 @@ impl LiveRig {
         // A clerk that has gone says so by `is_running`.
         let _ = self.commissions.send(commission);
         self.console.order(Order::Press(course, number));
+    }
+
+    /// What a person has to know of a device that does not answer any more.
+    pub fn hung_device(&self) -> Option<String> {
+        self.watch.watch().warning()
     }
 
     /// Whether its threads still run.
@@ -84,6 +104,10 @@ impl LiveRig {
 impl Drop for LiveRig {
     fn drop(&mut self) {
         self.console.end();
+        if self.hung_device().is_some() {
+            // Its thread never ends; without a force if it ever does.
+            return;
+        }
         for thread in self.threads.drain(..) {
             // One that panicked has stopped its device.
             let _ = thread.join();
