@@ -51,7 +51,19 @@ static void nap(long nanoseconds) {
     struct timespec time = {nanoseconds / 1000000000L, nanoseconds % 1000000000L};
     nanosleep(&time, NULL);
 }
-static uint32_t call(callback with, void *data) {
+static void schedule_callback(callback with, void *data) {
+    pthread_mutex_lock(&lock);
+    called = with;
+    called_data = data;
+    pthread_mutex_unlock(&lock);
+}
+/* Calls what is scheduled now, for it may be unscheduled by another thread meanwhile. */
+static uint32_t call(void) {
+    pthread_mutex_lock(&lock);
+    callback with = called;
+    void *data = called_data;
+    pthread_mutex_unlock(&lock);
+    if (!with) return 1;
     in_callback = 1;
     uint32_t again = with(data);
     in_callback = 0;
@@ -59,17 +71,16 @@ static uint32_t call(callback with, void *data) {
 }
 static void *call_once(void *unused) {
     (void)unused;
-    if (called) call(called, called_data);
+    call();
     return NULL;
 }
 /* One period: once, twice, or from two threads. Whether there shall be another. */
 static int period(void) {
-    if (!called) return 1;
     pthread_t other;
     int second = at_once && pthread_create(&other, NULL, call_once, NULL) == 0;
-    uint32_t again = call(called, called_data);
+    uint32_t again = call();
     if (second) pthread_join(other, NULL);
-    if (again && twice) again = call(called, called_data);
+    if (again && twice) again = call();
     return again != 0;
 }
 
@@ -264,13 +275,12 @@ void hdStopScheduler(void) {
 }
 unsigned long hdScheduleAsynchronous(callback with, void *data, uint16_t priority) {
     (void)priority;
-    called_data = data;
-    called = with;
+    schedule_callback(with, data);
     return 42;
 }
 void hdUnschedule(unsigned long number) {
     pthread_t late;
     if (number != 42) push(0x0500);
     if (after_stop && pthread_create(&late, NULL, call_late, NULL) == 0) pthread_detach(late);
-    else called = NULL;
+    else schedule_callback(NULL, NULL);
 }

@@ -222,7 +222,7 @@ fn what_needs_the_machines_time_once() {
 }
 
 #[test]
-#[ignore = "by hand: minutes; all long forms in one process once ended with signal 11, of unknown cause"]
+#[ignore = "slow: five moments of each, a minute"]
 fn every_fault_at_five_moments() {
     campaign(5, &TROUBLES);
 }

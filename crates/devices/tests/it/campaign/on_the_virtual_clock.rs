@@ -214,13 +214,13 @@ fn a_stop_in_every_state_once() {
 }
 
 #[test]
-#[ignore = "by hand: minutes; all long forms in one process once ended with signal 11, of unknown cause"]
+#[ignore = "slow: five moments of each, a minute"]
 fn every_fault_at_five_moments() {
     faults(5);
 }
 
 #[test]
-#[ignore = "by hand: minutes; all long forms in one process once ended with signal 11, of unknown cause"]
+#[ignore = "slow: five moments of each, a minute"]
 fn a_stop_in_every_state_at_five_moments() {
     stops(5);
 }
