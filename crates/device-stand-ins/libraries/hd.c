@@ -38,7 +38,7 @@ static pthread_t thread;
 static _Thread_local int in_callback;
 static atomic_int running, open_devices, in_frame, enabled, manual;
 static atomic_int calibration = 0x5000, inkwell, fails_to_open, opens_with_error, stalled_ms, late_ms, nan_position;
-static atomic_int twice, at_once, after_stop, hangs, stop_hangs, motors_stay, period_us = 1000;
+static atomic_int twice, at_once, after_stop, hangs, stop_hangs, disable_hangs, motors_stay, period_us = 1000;
 static atomic_int frames, frames_outside;
 static double displayed[3];
 
@@ -110,6 +110,7 @@ void stand_in_at_once(int on) { at_once = on; }
 void stand_in_after_stop(int on) { after_stop = on; }
 void stand_in_hangs(int on) { hangs = on; }
 void stand_in_stop_hangs(int on) { stop_hangs = on; }
+void stand_in_disable_hangs(int on) { disable_hangs = on; }
 /* Motors that are switched off keep their force until the next frame. */
 void stand_in_motors_stay(int on) { motors_stay = on; }
 /* The scheduler has no thread: a test makes its periods. */
@@ -209,6 +210,7 @@ void hdEnable(uint32_t what) {
     else if (what < 0x4000 || what > 0x4004) push(0x0100);
 }
 void hdDisable(uint32_t what) {
+    while (disable_hangs) nap(1000000L);
     if (what < 0x4000 || what > 0x4004) push(0x0100);
     if (what != 0x4000) return;
     enabled = 0;

@@ -26,6 +26,7 @@ pub mod latest;
 pub mod limits;
 pub mod log;
 mod memory;
+mod panics;
 mod pid;
 mod priority;
 mod report;

@@ -146,7 +146,7 @@ type Happening<'a> = &'a dyn Fn(&World, &Supervisor);
 
 /// The worst time to zero of `moments` sessions of `driver`.
 fn worst(
-    driver: Driver,
+    (driver, name): (Driver, &str),
     (moments, chance): (u32, &mut Chance),
     (promised, happen): (f64, Happening<'_>),
     is_named: &dyn Fn(Option<Fault>) -> bool,
@@ -161,10 +161,14 @@ fn worst(
         });
         let (world, session) = session.expect("a machine that is not too busy");
         let found = after(&world, session, |supervisor| happen(&world, supervisor));
-        assert!(is_named(found.fault), "{driver:?}: {:?}", found.fault);
+        assert!(
+            is_named(found.fault),
+            "{driver:?}, {name}: {:?}",
+            found.fault
+        );
         assert!(
             found.time <= promised + 2.0 * found.late,
-            "{driver:?}: {:.1} ms, promised {promised} ms, on a machine that was {:.1} ms late",
+            "{driver:?}, {name}: {:.1} ms, promised {promised} ms, on a machine that was {:.1} ms late",
             found.time,
             found.late
         );
@@ -187,14 +191,20 @@ fn campaign(moments: u32, troubles: &[Trouble]) {
                     let happens = |world: &World, _: &Supervisor| world.befall(trouble);
                     let named = |fault| is_named(driver, trouble, fault);
                     let promised = promised(driver, trouble);
-                    worst(driver, (moments, &mut chance), (promised, &happens), &named)
+                    let name = format!("{trouble:?}");
+                    worst(
+                        (driver, &name),
+                        (moments, &mut chance),
+                        (promised, &happens),
+                        &named,
+                    )
                 }));
             }
             // 5 ms, as the session promises of every order.
             let stops = |_: &World, session: &Supervisor| session.trip();
             let named = |fault| fault == Some(Fault::EmergencyStop);
             times.push(Some(worst(
-                driver,
+                (driver, "emergency stop"),
                 (moments, &mut chance),
                 (5.0, &stops),
                 &named,
