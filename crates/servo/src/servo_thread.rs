@@ -17,10 +17,13 @@ use crate::{Clock, Fault, LoopReport, Next, Scheduler, ServoLoop};
 
 /// How long a scheduler may take to its next call before its device is disabled from here: more than the guard lets a tick
 /// be late.
-const CALL: Duration = Duration::from_millis(50);
+const CALL: Duration = Duration::from_millis(50 * SLOWER);
 
 /// How long the end of a loop is waited for: some of the longest calls that a driver makes, of 20 ms each.
-const END: Duration = Duration::from_millis(500);
+const END: Duration = Duration::from_millis(500 * SLOWER);
+
+/// A tick in Miri takes as long as hundreds elsewhere.
+const SLOWER: u64 = if cfg!(miri) { 1000 } else { 1 };
 
 /// A servo loop that runs by itself. Dropping it ends it.
 pub struct ServoThread {
