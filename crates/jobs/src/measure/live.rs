@@ -76,6 +76,7 @@ impl LiveMeasuring {
     fn wait_for(&mut self, order: Order, watch: &dyn Watch) -> Result<Done, Error> {
         let (mut recorded, mut is_stopped) = (None, false);
         loop {
+            self.live.report_alive();
             if !is_stopped && watch.is_asked_to_stop() {
                 self.live.console.emergency_stop();
                 is_stopped = true;

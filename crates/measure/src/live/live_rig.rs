@@ -5,7 +5,7 @@ use std::thread::{Builder, JoinHandle};
 use std::time::Duration;
 
 use palpate_servo::watch::{Watch, WatchThread};
-use palpate_servo::{Fault, log};
+use palpate_servo::{Clock, Fault, Supervisor, log};
 
 use super::clerk::Clerk;
 use super::{Commission, Console, News, Operated, Order};
@@ -22,6 +22,9 @@ pub struct LiveRig {
     commissions: Sender<Commission>,
     threads: Vec<JoinHandle<()>>,
     watch: WatchThread,
+    /// What is told of who operates a device that is there, and when.
+    supervisor: Option<Supervisor>,
+    clock: Clock,
 }
 
 /// Samples that wait for a window: a quarter of a minute.
@@ -47,7 +50,9 @@ impl LiveRig {
         // Over tissue that is not there nobody can be hurt, and the indenter withdraws in good order.
         let ends = if rig.is_real() { is_ended } else { || false };
         let watch = Watch::new(rig.supervisor(), vec![rig.watched()], ends);
-        let watch = WatchThread::start(watch, rig.clock())?;
+        let clock = rig.clock();
+        let watch = WatchThread::start(watch, clock)?;
+        let supervisor = rig.is_real().then(|| rig.supervisor());
         let (operated, console, told) = Operated::new(rig);
         let (samples, samples_reader) = log::ring(SAMPLES);
         let (news, news_reader) = mpsc::channel();
@@ -67,6 +72,8 @@ impl LiveRig {
             commissions,
             threads: Vec::new(),
             watch,
+            supervisor,
+            clock,
         };
         let ended = Arc::new(AtomicBool::new(false));
         let seen = ended.clone();
@@ -81,6 +88,14 @@ impl LiveRig {
         // A clerk that has gone says so by `is_running`.
         let _ = self.commissions.send(commission);
         self.console.order(Order::Press(course, number));
+    }
+
+    /// Says that who operates it is alive. A device that is there has no force any more when that is not said again within
+    /// [`SILENCE`](palpate_servo::supervisor::SILENCE); who never says it need not.
+    pub fn report_alive(&self) {
+        if let Some(supervisor) = &self.supervisor {
+            supervisor.report(self.clock.now());
+        }
     }
 
     /// What a person has to know of a device that does not answer any more.

@@ -4,9 +4,10 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-use palpate_measure::live::LiveRig;
+use palpate_measure::live::{LiveRig, News};
 use palpate_measure::phantom::{Imperfections, MECHANICS_STEP, Machine, TwoMass, VirtualPhantom};
 use palpate_measure::{Rig, RigSettings};
+use palpate_servo::supervisor::SILENCE;
 use palpate_servo::{Capabilities, Clock, Command, Device, DeviceState, Disabled, Fault, Vec3};
 
 use crate::rig::soft;
@@ -112,6 +113,27 @@ fn an_emergency_stop_a_signal_and_a_lost_window_leave_no_force() {
     drop(pressed);
     println!("lost window: zero and ended after {:?}", dropped.elapsed());
     assert!(zero_after(&force) < Duration::from_millis(5));
+}
+
+/// Who operates a rig and says no more is lost, be it a window or a program without one.
+#[test]
+fn a_silent_window_of_the_rig_leaves_no_force() {
+    let pressed = Pressed::new(|| false);
+    pressed.live.report_alive();
+    let begun = Instant::now();
+    while pressed.force() > 0.0 {
+        assert!(begun.elapsed() < Duration::from_secs(30));
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    println!("zero after {:?}", begun.elapsed());
+    let silent = Fault::ProgramSilent { limit: SILENCE };
+    let news: Vec<News> = std::iter::from_fn(|| {
+        let news = pressed.live.news.recv_timeout(Duration::from_secs(1));
+        news.ok()
+    })
+    .collect();
+    let is_silent = |news: &News| matches!(news, News::Faulted(fault) if *fault == silent);
+    assert!(news.iter().any(is_silent), "{news:?}");
 }
 
 #[test]

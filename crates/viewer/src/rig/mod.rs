@@ -180,6 +180,7 @@ impl RigWindow {
         let Behind::Live(live) = &mut self.behind else {
             return;
         };
+        live.report_alive();
         self.watch.read(live, &mut self.journal);
         if let Some(hung) = live.hung_device() {
             self.watch.notice = Some(hung);

@@ -9,8 +9,10 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use palpate_device_stand_ins::StandInClock;
+use palpate_servo::supervisor::SILENCE;
 use palpate_servo::{
-    Clock, Fault, ServoLoop, ServoReader, ServoSettings, ServoThread, Stage, Supervisor, Vec3,
+    Clock, Fault, ServoLoop, ServoReader, ServoSettings, ServoThread, Stage, StopReason,
+    Supervisor, Vec3,
 };
 
 use super::world::{CONTACT, World, hand};
@@ -22,6 +24,60 @@ const WATCH: Duration = Duration::from_millis(50);
 const STAYS: Duration = Duration::from_millis(100);
 /// From one look at the device to the next.
 const LOOK: Duration = Duration::from_micros(200);
+
+/// What takes the force off from outside.
+#[derive(Clone, Copy)]
+struct Order {
+    name: &'static str,
+    /// At a time [s].
+    give: fn(&Supervisor, f64),
+    /// The time [ms] within which zero is displayed.
+    promised: f64,
+    fault: Option<Fault>,
+}
+
+impl Order {
+    /// One that is zero within 5 ms, as the session promises.
+    const fn new(name: &'static str, give: fn(&Supervisor, f64), fault: Option<Fault>) -> Self {
+        Self {
+            name,
+            give,
+            promised: 5.0,
+            fault,
+        }
+    }
+}
+
+const ORDERS: [Order; 6] = [
+    Order::new(
+        "emergency stop",
+        |session, _| session.trip(),
+        Some(Fault::EmergencyStop),
+    ),
+    Order {
+        name: "killed window",
+        // It never reports again.
+        give: |session, now| session.report(now),
+        promised: 1e3 * SILENCE + 5.0,
+        fault: Some(Fault::ProgramSilent { limit: SILENCE }),
+    },
+    Order::new(
+        "Ctrl-C or SIGTERM",
+        |session, _| session.trip_because(StopReason::Signal),
+        Some(Fault::Interrupted),
+    ),
+    Order::new(
+        "disk full",
+        |session, _| session.trip_because(StopReason::Unrecorded),
+        Some(Fault::Unrecorded),
+    ),
+    Order::new("pause", |session, _| session.pause(), None),
+    Order::new(
+        "end of the session",
+        |session, _| session.switch_off(),
+        None,
+    ),
+];
 
 /// The time [ms] within which zero is displayed.
 fn promised(driver: Driver, trouble: Trouble) -> f64 {
@@ -68,11 +124,15 @@ impl Lateness {
 }
 
 /// A session in contact, at a moment of `chance`; none when this machine was too busy to come there.
-fn in_contact(world: &World, chance: &mut Chance) -> Option<(ServoThread, ServoReader)> {
+fn in_contact(
+    world: &World,
+    clock: Clock,
+    chance: &mut Chance,
+) -> Option<(ServoThread, ServoReader)> {
     let device = world.open(Duration::from_millis(20));
     let settings = ServoSettings::default();
     let (servo, mut reader) = ServoLoop::new(device, Box::new(world.law()), settings).unwrap();
-    let thread = ServoThread::start(servo, Clock::real()).unwrap();
+    let thread = ServoThread::start(servo, clock).unwrap();
     let until = Instant::now() + Duration::from_secs_f64(CONTACT + 0.4 * chance.next());
     while Instant::now() < until {
         assert!(world.displayed().norm() <= LIMIT);
@@ -141,8 +201,8 @@ fn after(
     }
 }
 
-/// What happens to a session.
-type Happening<'a> = &'a dyn Fn(&World, &Supervisor);
+/// What happens to a session at a time [s].
+type Happening<'a> = &'a dyn Fn(&World, &Supervisor, f64);
 
 /// The worst time to zero of `moments` sessions of `driver`.
 fn worst(
@@ -152,15 +212,18 @@ fn worst(
     is_named: &dyn Fn(Option<Fault>) -> bool,
 ) -> f64 {
     let mut worst: f64 = 0.0;
+    let clock = Clock::real();
     for _ in 0..moments {
         let session = (0..20).find_map(|_| {
             let carried = (Box::new(hand()) as _, StandInClock::Wall);
             let world = World::new(driver, carried);
-            let session = in_contact(&world, chance);
+            let session = in_contact(&world, clock, chance);
             session.map(|session| (world, session))
         });
         let (world, session) = session.expect("a machine that is not too busy");
-        let found = after(&world, session, |supervisor| happen(&world, supervisor));
+        let found = after(&world, session, |supervisor| {
+            happen(&world, supervisor, clock.now());
+        });
         assert!(
             is_named(found.fault),
             "{driver:?}, {name}: {:?}",
@@ -178,9 +241,9 @@ fn worst(
 }
 
 /// A driver each on a thread of its own.
-fn campaign(moments: u32, troubles: &[Trouble]) {
+fn campaign(moments: u32, troubles: &[Trouble], orders: &[Order]) {
     let columns = DRIVERS.map(|driver| {
-        let troubles = troubles.to_vec();
+        let (troubles, orders) = (troubles.to_vec(), orders.to_vec());
         std::thread::spawn(move || {
             let mut chance = Chance(driver as u64 + 3);
             let mut times: Vec<Option<f64>> = Vec::new();
@@ -188,7 +251,7 @@ fn campaign(moments: u32, troubles: &[Trouble]) {
                 let doubled = trouble == Trouble::Doubled && driver == Driver::OpenHaptics;
                 let befalls = befalls(driver, trouble) && !doubled;
                 times.push(befalls.then(|| {
-                    let happens = |world: &World, _: &Supervisor| world.befall(trouble);
+                    let happens = |world: &World, _: &Supervisor, _: f64| world.befall(trouble);
                     let named = |fault| is_named(driver, trouble, fault);
                     let promised = promised(driver, trouble);
                     let name = format!("{trouble:?}");
@@ -200,15 +263,22 @@ fn campaign(moments: u32, troubles: &[Trouble]) {
                     )
                 }));
             }
-            // 5 ms, as the session promises of every order.
-            let stops = |_: &World, session: &Supervisor| session.trip();
-            let named = |fault| fault == Some(Fault::EmergencyStop);
-            times.push(Some(worst(
-                (driver, "emergency stop"),
-                (moments, &mut chance),
-                (5.0, &stops),
-                &named,
-            )));
+            for Order {
+                name,
+                give,
+                promised,
+                fault,
+            } in orders
+            {
+                let happens = |_: &World, session: &Supervisor, now: f64| give(session, now);
+                let named = |found| found == fault;
+                times.push(Some(worst(
+                    (driver, name),
+                    (moments, &mut chance),
+                    (promised, &happens),
+                    &named,
+                )));
+            }
             times
         })
     });
@@ -217,7 +287,7 @@ fn campaign(moments: u32, troubles: &[Trouble]) {
         .iter()
         .map(|trouble| format!("{trouble:?}"))
         .collect();
-    names.push("emergency stop".to_owned());
+    names.extend(orders.iter().map(|order| order.name.to_owned()));
     let rows: Vec<(String, Row)> = names
         .into_iter()
         .enumerate()
@@ -228,11 +298,12 @@ fn campaign(moments: u32, troubles: &[Trouble]) {
 
 #[test]
 fn what_needs_the_machines_time_once() {
-    campaign(1, &[Trouble::Silence, Trouble::Late, Trouble::Hung]);
+    let troubles = [Trouble::Silence, Trouble::Late, Trouble::Hung];
+    campaign(1, &troubles, &ORDERS[..2]);
 }
 
 #[test]
 #[ignore = "slow: five moments of each, a minute"]
 fn every_fault_at_five_moments() {
-    campaign(5, &TROUBLES);
+    campaign(5, &TROUBLES, &ORDERS);
 }
