@@ -58,7 +58,7 @@ fn is_there(name: &str, path: &str) -> bool {
     };
     let has_it = |file: PathBuf| {
         let text = std::fs::read_to_string(file).unwrap();
-        let written = format!("fn {test}()");
+        let written = format!("fn {test}(");
         let tests = text.split("#[test]").skip(1);
         tests.into_iter().any(|after| {
             let to_its_body = after.split('{').next().unwrap_or_default();
