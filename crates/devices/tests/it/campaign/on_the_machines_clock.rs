@@ -309,6 +309,7 @@ fn what_needs_the_machines_time_once() {
     campaign(1, &troubles, &ORDERS[..2]);
 }
 
+/// Judge: the limit of force, the time that is promised, and the name of the fault.
 #[test]
 #[ignore = "slow: five moments of each, a minute"]
 fn every_fault_at_five_moments() {

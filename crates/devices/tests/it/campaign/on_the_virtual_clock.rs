@@ -213,12 +213,14 @@ fn a_stop_in_every_state_once() {
     stops(1);
 }
 
+/// Judge: the limit of force, the time that is promised, and the name of the fault.
 #[test]
 #[ignore = "slow: five moments of each, a minute"]
 fn every_fault_at_five_moments() {
     faults(5);
 }
 
+/// Judge: the limit of force, the time that is promised, and the name of the fault.
 #[test]
 #[ignore = "slow: five moments of each, a minute"]
 fn a_stop_in_every_state_at_five_moments() {
