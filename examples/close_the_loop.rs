@@ -5,9 +5,9 @@
 use palpate_characterize::clean::{CleanSettings, clean};
 use palpate_characterize::{CharacterizeSettings, characterize, inverse::SoughtLaw};
 use palpate_files::{BuiltinTissue, Recording, Scene, Tissue, protocol, recording::Samples, scene};
+use palpate_measure::phantom::{Imperfections, MECHANICS_STEP, Machine, TwoMass};
 use palpate_measure::{Course, Rig, RigSettings, VirtualSpecimen};
-use palpate_servo::dynamics::{Imperfections, Machine, TwoMass};
-use palpate_servo::{Clock, MECHANICS_STEP};
+use palpate_servo::Clock;
 use palpate_simulate::{Error, Flow, Simulation, play};
 
 const RAMP: protocol::Stimulus = protocol::Stimulus::RampAndHold {

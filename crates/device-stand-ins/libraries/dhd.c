@@ -98,8 +98,10 @@ int dhdOpenID(char index) {
     if (fails_to_open || device < 0 || device >= devices || is_open[device]) return failed(2);
     for (int entry = 0; entry < 9; entry++) frame[device][entry] = entry % 4 == 0;
     most[device] = -1;
+    pthread_mutex_lock(&lock);
     watchdog[device] = 0;
     enabled[device] = cause[device] = 0;
+    pthread_mutex_unlock(&lock);
     is_open[device] = 1;
     return device;
 }
@@ -128,7 +130,9 @@ int dhdSetMaxForce(double limit, char id) {
 }
 int dhdSetWatchdog(unsigned char duration, char id) {
     if (!is_there(id) || !has_watchdog) return failed(4);
+    pthread_mutex_lock(&lock);
     watchdog[(int)id] = 125e-6 * duration;
+    pthread_mutex_unlock(&lock);
     return 0;
 }
 int dhdSetForce(double fx, double fy, double fz, char id) {

@@ -38,7 +38,7 @@ static pthread_t thread;
 static _Thread_local int in_callback;
 static atomic_int running, open_devices, in_frame, enabled, manual;
 static atomic_int calibration = 0x5000, inkwell, fails_to_open, opens_with_error, stalled_ms, late_ms, nan_position;
-static atomic_int twice, at_once, after_stop, hangs, stop_hangs, motors_stay, period_us = 1000;
+static atomic_int twice, at_once, after_stop, hangs, stop_hangs, disable_hangs, motors_stay, period_us = 1000;
 static atomic_int frames, frames_outside;
 static double displayed[3];
 
@@ -51,7 +51,19 @@ static void nap(long nanoseconds) {
     struct timespec time = {nanoseconds / 1000000000L, nanoseconds % 1000000000L};
     nanosleep(&time, NULL);
 }
-static uint32_t call(callback with, void *data) {
+static void schedule_callback(callback with, void *data) {
+    pthread_mutex_lock(&lock);
+    called = with;
+    called_data = data;
+    pthread_mutex_unlock(&lock);
+}
+/* Calls what is scheduled now, for it may be unscheduled by another thread meanwhile. */
+static uint32_t call(void) {
+    pthread_mutex_lock(&lock);
+    callback with = called;
+    void *data = called_data;
+    pthread_mutex_unlock(&lock);
+    if (!with) return 1;
     in_callback = 1;
     uint32_t again = with(data);
     in_callback = 0;
@@ -59,17 +71,16 @@ static uint32_t call(callback with, void *data) {
 }
 static void *call_once(void *unused) {
     (void)unused;
-    if (called) call(called, called_data);
+    call();
     return NULL;
 }
 /* One period: once, twice, or from two threads. Whether there shall be another. */
 static int period(void) {
-    if (!called) return 1;
     pthread_t other;
     int second = at_once && pthread_create(&other, NULL, call_once, NULL) == 0;
-    uint32_t again = call(called, called_data);
+    uint32_t again = call();
     if (second) pthread_join(other, NULL);
-    if (again && twice) again = call(called, called_data);
+    if (again && twice) again = call();
     return again != 0;
 }
 
@@ -99,6 +110,7 @@ void stand_in_at_once(int on) { at_once = on; }
 void stand_in_after_stop(int on) { after_stop = on; }
 void stand_in_hangs(int on) { hangs = on; }
 void stand_in_stop_hangs(int on) { stop_hangs = on; }
+void stand_in_disable_hangs(int on) { disable_hangs = on; }
 /* Motors that are switched off keep their force until the next frame. */
 void stand_in_motors_stay(int on) { motors_stay = on; }
 /* The scheduler has no thread: a test makes its periods. */
@@ -198,6 +210,7 @@ void hdEnable(uint32_t what) {
     else if (what < 0x4000 || what > 0x4004) push(0x0100);
 }
 void hdDisable(uint32_t what) {
+    while (disable_hangs) nap(1000000L);
     if (what < 0x4000 || what > 0x4004) push(0x0100);
     if (what != 0x4000) return;
     enabled = 0;
@@ -264,13 +277,12 @@ void hdStopScheduler(void) {
 }
 unsigned long hdScheduleAsynchronous(callback with, void *data, uint16_t priority) {
     (void)priority;
-    called_data = data;
-    called = with;
+    schedule_callback(with, data);
     return 42;
 }
 void hdUnschedule(unsigned long number) {
     pthread_t late;
     if (number != 42) push(0x0500);
     if (after_stop && pthread_create(&late, NULL, call_late, NULL) == 0) pthread_detach(late);
-    else called = NULL;
+    else schedule_callback(NULL, NULL);
 }

@@ -27,7 +27,7 @@ enum Below {
     Triangle(TriangleId),
 }
 
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 struct TreeNode {
     aabb: Aabb,
     below: Below,
@@ -119,6 +119,16 @@ impl AabbTree {
                 }
             };
         }
+    }
+
+    /// Takes over the boxes of `other`, a tree over as many triangles. It allocates nothing.
+    ///
+    /// # Panics
+    /// When `other` is over another number of triangles.
+    pub fn copy_boxes(&mut self, other: &Self) {
+        self.nodes.copy_from_slice(&other.nodes);
+        self.leaf_of.copy_from_slice(&other.leaf_of);
+        self.tie = other.tie;
     }
 
     fn split(&mut self, at: usize, items: &mut [(TriangleId, Aabb)]) {

@@ -85,6 +85,8 @@ pub struct CutSurface {
     net: Net,
     stroke: Option<Stroke>,
     cuts: Vec<Mark>,
+    /// Before the first cut.
+    uncut: Mark,
 }
 
 impl CutSurface {
@@ -99,13 +101,15 @@ impl CutSurface {
             })
             .sum();
         let triangles = mesh.triangles().len();
+        let net = Net::new(surface);
         Self {
             method,
             limits: Limits {
                 edge: SHORTEST * sum / (3 * triangles) as f64,
                 triangles: MOST_GROWTH * triangles,
             },
-            net: Net::new(surface),
+            uncut: net.mark(),
+            net,
             stroke: None,
             cuts: Vec::new(),
         }
@@ -261,5 +265,12 @@ impl CutSurface {
             self.net.go_back(mark);
         }
         Ok(last.is_some())
+    }
+
+    /// Closes all cuts, and one that is under way, as if they had never been. It allocates nothing.
+    pub fn close_all(&mut self) {
+        self.stroke = None;
+        self.cuts.clear();
+        self.net.go_back(self.uncut);
     }
 }

@@ -19,6 +19,7 @@ mod indenter;
 pub mod live;
 mod naming;
 mod noise;
+pub mod phantom;
 mod recorder;
 mod rig;
 mod rig_settings;

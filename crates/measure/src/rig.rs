@@ -9,16 +9,17 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock};
 
 use palpate_files::recording::RecordingHeader;
-use palpate_servo::dynamics::{Imperfections, Machine};
+use palpate_servo::watch::{Pulse, Watched};
 use palpate_servo::{
-    Clock, Controller, Device, Fault, ForceTorque, Limits, MECHANICS_STEP, ServoLoop,
-    ServoSettings, Stage, SteppedLoop, Supervisor, Vec3, VirtualPhantom, latest,
+    Clock, Controller, Device, Fault, ForceTorque, Limits, ServoLoop, ServoSettings, Stage,
+    SteppedLoop, Supervisor, Vec3, latest,
 };
 
 pub use sample::{Ended, Listener, Phase, RigSample};
 
 use line::Line;
 
+use crate::phantom::{Imperfections, MECHANICS_STEP, Machine, VirtualPhantom};
 use crate::sensing::{Sensing, Source};
 use crate::{Course, Error, Indenter, Reference, RigSettings, VirtualForceSensor, VirtualSpecimen};
 
@@ -52,6 +53,8 @@ pub struct Rig {
     is_real: bool,
     /// Where the handle of such a device was at first [m].
     rest: Arc<OnceLock<Vec3>>,
+    /// When its device answered last.
+    pulse: Pulse,
 }
 
 impl Rig {
@@ -137,6 +140,7 @@ impl Rig {
             waited: 0.0,
             is_real: false,
             rest: Arc::default(),
+            pulse: reader.pulse,
         })
     }
 
@@ -171,6 +175,27 @@ impl Rig {
     /// What takes every force off, from anywhere, and lets forces on again.
     pub fn supervisor(&self) -> Supervisor {
         self.supervisor.clone()
+    }
+
+    /// Whether its device is there; a hand may be on it.
+    pub fn is_real(&self) -> bool {
+        self.is_real
+    }
+
+    /// The clock that it runs on.
+    pub fn clock(&self) -> Clock {
+        self.clock
+    }
+
+    /// When it ticks, for a watch; a rig without a device never hangs.
+    pub fn watched(&self) -> Watched {
+        Watched {
+            name: "the device of the rig".to_owned(),
+            pulse: match self.is_real {
+                true => self.pulse.clone(),
+                false => Pulse::default(),
+            },
+        }
     }
 
     /// Why forces are off; none when they are not, or will be on in a moment.

@@ -7,8 +7,8 @@
 //! followed by the next one period later, and the state that it was made of may be a tick older. Then it
 //! fades, slowly at first: f (1 − ((age − used)/10 ms)²). A force never pulls past the loss of contact.
 //!
-//! *How we know*: `hand_over::errors_of_a_spring_are_those_of_the_closed_form`,
-//! `hand_over::a_stale_model_fades_to_zero`.
+//! *How we know*: `hand_over::a_stale_model_fades_to_zero`; against a closed form and an independent program by
+//! `palpate reproduce section-3-4`.
 //!
 //! *Limits*: contact that begins between two answers is felt with the next one.
 

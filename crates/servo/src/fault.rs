@@ -96,12 +96,29 @@ pub enum Fault {
         /// How long it may be [s].
         limit: f64,
     },
+    /// Somebody pressed the stop button of a device.
+    #[error("the stop button of a device was pressed; look after what is touched and arm again")]
+    DeviceButton,
+    /// The program was asked to end.
+    #[error("the program was asked to end (Ctrl-C or SIGTERM); start it again")]
+    Interrupted,
+    /// What happens can no longer be recorded.
+    #[error("the recording can no longer be written; record it elsewhere and arm again")]
+    Unrecorded,
+    /// The thread that watches the loops does not run any more.
+    #[error(
+        "the thread that watches the devices was silent for more than {limit} s; free the processor and arm again"
+    )]
+    Unwatched {
+        /// How long it may be [s].
+        limit: f64,
+    },
     /// The thread of the loop ended in a panic; the device was stopped.
     #[error("the servo thread panicked, and the device was stopped; report it as a defect")]
     Panicked,
-    /// A call into the device did not return.
+    /// A call into the device does not return, or its scheduler does not call any more.
     #[error(
-        "a call into the device did not return within {limit} s, and its force is not known; switch the device off and start again"
+        "a device has not answered for {limit} s and may still display its last force; cut its power and start again"
     )]
     Hung {
         /// How long it was waited for [s].

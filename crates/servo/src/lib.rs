@@ -25,6 +25,8 @@ mod histogram;
 pub mod latest;
 pub mod limits;
 pub mod log;
+mod memory;
+mod panics;
 mod pid;
 mod priority;
 mod report;
@@ -33,33 +35,32 @@ mod servo_loop;
 mod servo_settings;
 mod servo_thread;
 mod stepped_loop;
-mod study;
 pub mod supervisor;
 mod velocity;
+pub mod watch;
 
 pub use affine_force::AffineForce;
 pub use clock::Clock;
 pub use controller::Controller;
 pub use device::{
-    Capabilities, Command, Device, DeviceState, Disabled, Hand, MECHANICS_STEP, Next, NoDevice,
-    Pointer, PointerHand, Scheduler, Tick, Touch, Trajectory, VirtualDevice, VirtualPhantom,
-    Waypoint,
+    Capabilities, Command, Device, DeviceState, Disabled, Hand, Next, NoDevice, Pointer,
+    PointerHand, Scheduler, Tick, Trajectory, VirtualDevice, Waypoint,
 };
 pub use extrapolate::{Extrapolator, HandOver};
 pub use fault::Fault;
 pub use force_sensor::{AXIS_NAMES, ForceSensor, ForceSensorSpec, ForceTorque, SensorFault};
 pub use histogram::{Histogram, Percentiles};
 pub use limits::{CommandedForce, DeadMan, Guard, Interventions, Limits, Stage};
+pub use memory::{MemoryLock, lock_memory};
 pub use pid::{Pid, PidGains};
-pub use priority::{Priority, raise_priority};
+pub use priority::{Priority, lower_priority, raise_model_priority, raise_priority};
 pub use report::{LoopReport, measure_lateness};
 pub use sample::Sample;
 pub use servo_loop::{ServoLoop, ServoReader};
 pub use servo_settings::ServoSettings;
 pub use servo_thread::ServoThread;
 pub use stepped_loop::SteppedLoop;
-pub use study::{HandOverCost, HandOverStudy};
-pub use supervisor::{ForceState, Supervisor};
+pub use supervisor::{ForceState, StopReason, Supervisor};
 
 /// Three numbers: a place [m], a velocity [m/s] or a force [N].
 pub type Vec3 = nalgebra::Vector3<f64>;

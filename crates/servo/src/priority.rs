@@ -1,3 +1,15 @@
+//! The priority of a thread: those that a hand waits for before all others, long preparations after them.
+//!
+//! | thread | on Linux |
+//! |---|---|
+//! | watch ([`crate::watch`]) | SCHED_FIFO 46: a loop that spins must not keep it from running |
+//! | servo | SCHED_FIFO 45 |
+//! | model | SCHED_FIFO 40 |
+//! | window, recorder | ordinary |
+//! | preparation of an organ | nice 10 |
+//!
+//! All real-time levels are below 50, the default of interrupt threads, which devices wait for.
+
 use thread_priority::{ThreadPriority, ThreadPriorityValue};
 
 /// What the operating system gave a thread.
@@ -10,13 +22,52 @@ pub enum Priority {
     Ordinary,
 }
 
-/// Of 1 to 99; above the default of interrupt threads it would hold up the devices it waits for.
-const LEVEL: u8 = 45;
+const WATCH: u8 = 46;
+const SERVO: u8 = 45;
+const MODEL: u8 = 40;
 
-/// Asks for real-time priority for the thread that calls. Without the right to it (on Linux CAP_SYS_NICE or
-/// an `rtprio` limit) the thread goes on as it is.
+/// By how much the niceness of a preparation is raised [-].
+#[cfg(target_os = "linux")]
+const NICER: i32 = 10;
+
+impl Priority {
+    /// The priority as a word.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::RealTime => "real time",
+            Self::Ordinary => "ordinary",
+        }
+    }
+
+    /// Where the `thread` has no raised priority, what that means and how to allow it.
+    pub fn warning(self, thread: &str) -> Option<String> {
+        (self == Self::Ordinary).then(|| {
+            format!(
+                "the {thread} thread runs at ordinary priority, and other programs can delay it; allow real-time \
+                 priority (on Linux CAP_SYS_NICE, or an rtprio limit of {WATCH})"
+            )
+        })
+    }
+}
+
+/// Asks for real-time priority for the calling thread, which runs a servo loop. Without the right to it (on Linux
+/// CAP_SYS_NICE or an `rtprio` limit) the thread goes on as it is.
 pub fn raise_priority() -> Priority {
-    let Ok(level) = ThreadPriorityValue::try_from(LEVEL) else {
+    ask_for(SERVO)
+}
+
+/// The same for a thread that computes the forces between which servo loops extrapolate: below those of the loops.
+pub fn raise_model_priority() -> Priority {
+    ask_for(MODEL)
+}
+
+/// The same for the thread that watches the loops.
+pub(crate) fn raise_watch_priority() -> Priority {
+    ask_for(WATCH)
+}
+
+fn ask_for(level: u8) -> Priority {
+    let Ok(level) = ThreadPriorityValue::try_from(level) else {
         return Priority::Ordinary;
     };
     if raise_to(ThreadPriority::Crossplatform(level)) {
@@ -38,4 +89,70 @@ fn raise_to(priority: ThreadPriority) -> bool {
 #[cfg(not(unix))]
 fn raise_to(_priority: ThreadPriority) -> bool {
     thread_priority::set_current_thread_priority(ThreadPriority::Max).is_ok()
+}
+
+/// Lowers the priority of the calling thread, and on Linux of the threads that it starts, below that of every ordinary
+/// one: for work beside a touch that may take longer. Whether the operating system did so.
+pub fn lower_priority() -> bool {
+    lower()
+}
+
+/// On Linux the niceness is that of a thread; elsewhere it is that of the process, which must keep its own.
+#[cfg(target_os = "linux")]
+fn lower() -> bool {
+    rustix::process::nice(NICER).is_ok()
+}
+
+#[cfg(not(target_os = "linux"))]
+fn lower() -> bool {
+    thread_priority::set_current_thread_priority(ThreadPriority::Min).is_ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of the levels of Linux; each is one that `thread_priority` takes.
+    #[test]
+    fn levels_are_ordered_and_below_those_of_interrupts() {
+        let levels = [MODEL, SERVO, WATCH, 50];
+        assert!(levels.is_sorted_by(|lower, higher| lower < higher));
+        assert!(
+            levels
+                .map(ThreadPriorityValue::try_from)
+                .iter()
+                .all(Result::is_ok)
+        );
+    }
+
+    #[test]
+    fn only_an_ordinary_priority_is_warned_of() {
+        assert_eq!(Priority::RealTime.warning("model"), None);
+        let warning = Priority::Ordinary.warning("model").unwrap();
+        assert!(
+            warning.contains("model thread") && warning.contains("CAP_SYS_NICE"),
+            "{warning}"
+        );
+    }
+
+    /// A thread that lowers its priority leaves that of others alone.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_preparation_is_nicer_than_its_neighbours() {
+        // Field 19 of stat(5), the seventeenth after the name.
+        let niceness = || -> i32 {
+            let stat = std::fs::read_to_string("/proc/thread-self/stat").unwrap();
+            let after_name = stat.rsplit_once(") ").unwrap().1;
+            after_name.split(' ').nth(16).unwrap().parse().unwrap()
+        };
+        let before = niceness();
+        let lowered = std::thread::spawn(move || {
+            assert!(lower_priority());
+            let inherited = std::thread::spawn(niceness).join().unwrap();
+            [niceness(), inherited]
+        });
+        let expected = (before + NICER).min(19);
+        assert_eq!(lowered.join().unwrap(), [expected; 2]);
+        assert_eq!(niceness(), before);
+    }
 }

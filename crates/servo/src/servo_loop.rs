@@ -13,8 +13,9 @@ use crate::dynamics::Compensator;
 use crate::limits::{CommandedForce, Guard, Limits, Stage, Wish};
 use crate::priority::{Priority, raise_priority};
 use crate::report::Meter;
-use crate::supervisor::Permission;
+use crate::supervisor::{Permission, StopReason};
 use crate::velocity::Velocity;
+use crate::watch::Pulse;
 use crate::{
     Clock, Command, Controller, Device, DeviceState, Disabled, Fault, ForceState, LoopReport,
     Sample, Scheduler, ServoSettings, Supervisor, Vec3, latest, log,
@@ -30,6 +31,8 @@ pub struct ServoReader {
     pub report: latest::Receiver<LoopReport>,
     /// What arms its forces and takes them off.
     pub supervisor: Supervisor,
+    /// When its device answered last, for a watch.
+    pub pulse: Pulse,
 }
 
 /// A device, what controls it, and what it passes. Dropping it disables the device.
@@ -55,6 +58,7 @@ pub struct ServoLoop {
     log: log::Writer<Sample>,
     report: latest::Sender<LoopReport>,
     supervisor: Supervisor,
+    pulse: Pulse,
     /// How often a person had armed when the loop last heard of it.
     armings: u64,
     last: Option<Sample>,
@@ -92,11 +96,13 @@ impl ServoLoop {
         let (latest, latest_reader) = latest::channel(&None);
         let (log, log_reader) = log::ring(settings.log);
         let (report, report_reader) = latest::channel(&LoopReport::default());
+        let pulse = Pulse::default();
         let reader = ServoReader {
             latest: latest_reader,
             log: log_reader,
             report: report_reader,
             supervisor: supervisor.clone(),
+            pulse: pulse.clone(),
         };
         let servo = Self {
             device,
@@ -118,6 +124,7 @@ impl ServoLoop {
             report,
             armings: supervisor.permission(f64::NEG_INFINITY).armings,
             supervisor,
+            pulse,
             last: None,
             fault: None,
         };
@@ -137,6 +144,11 @@ impl ServoLoop {
     /// Asks for real-time priority for the thread that calls, which shall be the one that runs the loop.
     pub fn raise_priority(&mut self) {
         self.priority = raise_priority();
+    }
+
+    /// Its host starts at `time` [s]; from then on its device has to answer.
+    pub(crate) fn begin(&self, time: f64) {
+        self.pulse.begin(time);
     }
 
     /// Ticks while `go_on` says so, given the number of the next tick, or until the device fails.
@@ -189,6 +201,7 @@ impl ServoLoop {
     /// Disables the device; what the loop measured.
     pub fn finish(&mut self) -> LoopReport {
         self.disable();
+        self.pulse.end();
         let report = self.report();
         self.report.send(report);
         report
@@ -215,10 +228,13 @@ impl ServoLoop {
             true => (self.guard.rendered(), std::mem::take(&mut self.force)),
             false => (Vec3::zeros(), CommandedForce::default()),
         };
-        let state = match self.device.exchange(&Command::new(time, force)) {
+        let answer = self.device.exchange(&Command::new(time, force));
+        self.pulse.beat(time);
+        let state = match answer {
             Ok(state) => state,
             Err(fault) => return Err(self.fail(fault)),
         };
+        let permission = self.after_stop_button(&state, permission);
         let mut sample = self.control(time, state, &permission);
         sample.held = held;
         self.meter.tick(&sample, lateness);
@@ -288,6 +304,19 @@ impl ServoLoop {
             compensation: self.guard.compensation(),
             age: self.controller.age(),
             stage: self.guard.stage(),
+        }
+    }
+
+    /// What the loop may do once the stop button of its device was looked at: it stops all loops of the session.
+    fn after_stop_button(&self, state: &DeviceState, permission: Permission) -> Permission {
+        let is_pressed = state.buttons & self.device.capabilities().stop_buttons != 0;
+        if !is_pressed || permission.state == ForceState::Off {
+            return permission;
+        }
+        self.supervisor.trip_because(StopReason::DeviceButton);
+        Permission {
+            armings: permission.armings,
+            ..self.supervisor.permission(state.time)
         }
     }
 
@@ -382,5 +411,6 @@ impl Drop for ServoLoop {
     /// Also in a panic: no force stays on a hand.
     fn drop(&mut self) {
         self.disable();
+        self.pulse.end();
     }
 }

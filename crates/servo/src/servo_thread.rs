@@ -6,21 +6,24 @@
 //!
 //! *How we know*: `hosts::…`, `servo::a_panic_stops_the_device`.
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
+use crate::panics::{self, Panic, caught};
 use crate::{Clock, Fault, LoopReport, Next, Scheduler, ServoLoop};
 
 /// How long a scheduler may take to its next call before its device is disabled from here: more than the guard lets a tick
 /// be late.
-const CALL: Duration = Duration::from_millis(50);
+const CALL: Duration = Duration::from_millis(50 * SLOWER);
 
 /// How long the end of a loop is waited for: some of the longest calls that a driver makes, of 20 ms each.
-const END: Duration = Duration::from_millis(500);
+const END: Duration = Duration::from_millis(500 * SLOWER);
+
+/// A tick in Miri takes as long as hundreds elsewhere.
+const SLOWER: u64 = if cfg!(miri) { 1000 } else { 1 };
 
 /// A servo loop that runs by itself. Dropping it ends it.
 pub struct ServoThread {
@@ -62,7 +65,9 @@ impl ServoThread {
             running: Arc::new(AtomicBool::new(true)),
         };
         let (end, ended) = sync_channel(1);
+        panics::prepare();
         let scheduler = servo.scheduler();
+        servo.begin(clock.now());
         let mut hosted = Hosted {
             servo,
             clock,
@@ -140,13 +145,13 @@ impl Drop for ServoThread {
 impl Hosted {
     /// All ticks, on the thread that calls.
     fn run(mut self) {
-        let ran = catch_unwind(AssertUnwindSafe(|| {
+        let ran = caught(|| {
             let stop = self.signals.stop.clone();
             self.servo.raise_priority();
             self.servo
                 .run(&mut self.clock, |_| !stop.load(Ordering::Acquire))
-        }));
-        self.ended(ran.map_err(|_| Fault::Panicked));
+        });
+        self.ended(ran);
     }
 
     /// One tick, called by a scheduler.
@@ -154,24 +159,27 @@ impl Hosted {
         if !self.signals.running.load(Ordering::Acquire) {
             return Next::End;
         }
-        let ticked = catch_unwind(AssertUnwindSafe(|| {
+        let ticked = caught(|| {
             let stops = self.signals.stop.load(Ordering::Acquire);
             let goes_on = !stops && self.servo.tick_as_called(&mut self.clock).is_ok();
             (!goes_on).then(|| self.servo.finish())
-        }));
+        });
         match ticked {
             Ok(None) => return Next::Again,
             Ok(Some(report)) => self.ended(Ok(report)),
-            Err(_) => self.ended(Err(Fault::Panicked)),
+            Err(panic) => self.ended(Err(panic)),
         }
         Next::End
     }
 
-    fn ended(&mut self, how: Result<LoopReport, Fault>) {
-        if how.is_err() {
+    fn ended(&mut self, how: Result<LoopReport, Panic>) {
+        let how = how.map_err(|panic| {
             // The device may be what panicked.
-            let _ = catch_unwind(AssertUnwindSafe(|| self.servo.abandon()));
-        }
+            let abandoned = caught(|| self.servo.abandon());
+            panic.report();
+            abandoned.map_or_else(Panic::report, |()| ());
+            Fault::Panicked
+        });
         self.signals.running.store(false, Ordering::Release);
         // Nobody waits for it when the other end was dropped.
         let _ = self.end.try_send(how);

@@ -7,6 +7,7 @@
 
 use std::time::{Duration, Instant};
 
+use crate::panics::{self, Panic, caught};
 use crate::{Clock, Fault, Sample, ServoLoop, ServoThread, Stage, log};
 
 /// How long a tick of a scheduler is waited for: longer than the guard lets one be late.
@@ -37,6 +38,7 @@ impl SteppedLoop {
         samples: log::Reader<Sample>,
         clock: Clock,
     ) -> Result<Self, Fault> {
+        panics::prepare();
         let host = match servo.scheduler() {
             None => Host::Here(Box::new(servo)),
             Some(_) => Host::Device {
@@ -61,7 +63,7 @@ impl SteppedLoop {
     /// When the device fails; it is disabled then.
     pub fn tick(&mut self, time: f64, lateness: f64) -> Result<Sample, Fault> {
         let (thread, samples) = match &mut self.host {
-            Host::Here(servo) => return servo.tick(time, lateness),
+            Host::Here(servo) => return ticked(servo, time, lateness),
             Host::Device { thread, samples } => (thread, samples),
         };
         let until = Instant::now() + LATEST;
@@ -80,4 +82,14 @@ impl SteppedLoop {
             }
         }
     }
+}
+
+/// A tick of a loop on the thread of whoever asks.
+fn ticked(servo: &mut ServoLoop, time: f64, lateness: f64) -> Result<Sample, Fault> {
+    caught(|| servo.tick(time, lateness)).unwrap_or_else(|panic| {
+        let abandoned = caught(|| servo.abandon());
+        panic.report();
+        abandoned.map_or_else(Panic::report, |()| ());
+        Err(Fault::Panicked)
+    })
 }

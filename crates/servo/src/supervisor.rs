@@ -15,7 +15,7 @@
 //!
 //! *How we know*: `tests` (every pair), `supervisor::…`.
 //!
-//! *Limits*: a loop that hangs in its device reads nothing; that is left to the device's own watchdog.
+//! *Limits*: a loop that hangs in its device reads nothing; [`crate::watch`] notices that, but cannot reach the device.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -25,6 +25,10 @@ use crate::Fault;
 /// How long a program that has to report may be silent before forces are taken off [s]: longer than it takes to lay out
 /// a window, shorter than it takes a person to wonder.
 pub const SILENCE: f64 = 2.0;
+
+/// How long the thread that watches the loops may be silent before forces are taken off [s]: it reports a thousand times a
+/// second, and a loaded machine can delay it by some tens of milliseconds.
+pub const WATCH_SILENCE: f64 = 0.5;
 
 /// Whether forces may be displayed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -54,22 +58,34 @@ enum Order {
 
 /// Why forces were taken off.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Cause {
-    /// A person.
+pub enum StopReason {
+    /// A person, at the keyboard or in the window.
     EmergencyStop,
     /// A fault of one of the loops.
     OtherDevice,
-    /// The program that shows what is touched.
+    /// The program that shows what is touched is silent.
     Silence,
+    /// A person, by the stop button of a device.
+    DeviceButton,
+    /// The program was asked to end: Ctrl-C, SIGTERM or the end of its terminal.
+    Signal,
+    /// A device does not answer any more: its loop hangs inside a call of the driver.
+    HungDevice,
+    /// What happens can no longer be recorded.
+    Unrecorded,
+    /// The thread that watches the loops is silent.
+    Unwatched,
 }
 
 /// The state of a session and its ends: cheap to clone, and safe to use from any thread. No call waits.
 #[derive(Debug, Clone)]
 pub struct Supervisor {
-    /// How often forces were armed, the cause and the state, packed.
+    /// How often forces were armed, the reason of a stop and the state, packed.
     word: Arc<AtomicU64>,
     /// When the program reported last [s, as bits]; infinite when it does not have to.
     reported: Arc<AtomicU64>,
+    /// When the thread that watches the loops reported last [s, as bits]; infinite when there is none.
+    watched: Arc<AtomicU64>,
 }
 
 /// What a loop reads at a tick.
@@ -110,28 +126,46 @@ const STATES: [ForceState; 5] = [
     ForceState::Tripped,
 ];
 
-const CAUSES: [Cause; 3] = [Cause::EmergencyStop, Cause::OtherDevice, Cause::Silence];
+const REASONS: [StopReason; 8] = [
+    StopReason::EmergencyStop,
+    StopReason::OtherDevice,
+    StopReason::Silence,
+    StopReason::DeviceButton,
+    StopReason::Signal,
+    StopReason::HungDevice,
+    StopReason::Unrecorded,
+    StopReason::Unwatched,
+];
 
-impl Cause {
+impl StopReason {
     fn fault(self) -> Fault {
         match self {
             Self::EmergencyStop => Fault::EmergencyStop,
             Self::OtherDevice => Fault::OtherDevice,
             Self::Silence => Fault::ProgramSilent { limit: SILENCE },
+            Self::DeviceButton => Fault::DeviceButton,
+            Self::Signal => Fault::Interrupted,
+            Self::HungDevice => Fault::Hung {
+                limit: crate::watch::HUNG,
+            },
+            Self::Unrecorded => Fault::Unrecorded,
+            Self::Unwatched => Fault::Unwatched {
+                limit: WATCH_SILENCE,
+            },
         }
     }
 }
 
-/// A word: the state in the lowest byte, the cause in the next, then the count.
-fn packed(state: ForceState, cause: Cause, armings: u64) -> u64 {
-    (armings << 16) | ((cause as u64) << 8) | state as u64
+/// A word: the state in the lowest byte, the reason in the next, then the count.
+fn packed(state: ForceState, reason: StopReason, armings: u64) -> u64 {
+    (armings << 16) | ((reason as u64) << 8) | state as u64
 }
 
-fn unpacked(word: u64) -> (ForceState, Cause, u64) {
+fn unpacked(word: u64) -> (ForceState, StopReason, u64) {
     // Nothing else is ever written.
     let state = STATES[(word & 0xff) as usize % STATES.len()];
-    let cause = CAUSES[(word >> 8 & 0xff) as usize % CAUSES.len()];
-    (state, cause, word >> 16)
+    let reason = REASONS[(word >> 8 & 0xff) as usize % REASONS.len()];
+    (state, reason, word >> 16)
 }
 
 impl Default for Supervisor {
@@ -140,10 +174,11 @@ impl Default for Supervisor {
         Self {
             word: Arc::new(AtomicU64::new(packed(
                 ForceState::Off,
-                Cause::EmergencyStop,
+                StopReason::EmergencyStop,
                 0,
             ))),
             reported: Arc::new(AtomicU64::new(f64::INFINITY.to_bits())),
+            watched: Arc::new(AtomicU64::new(f64::INFINITY.to_bits())),
         }
     }
 }
@@ -178,7 +213,12 @@ impl Supervisor {
 
     /// The emergency stop: no force until a person arms again.
     pub fn trip(&self) {
-        self.obey(Order::Trip, Some(Cause::EmergencyStop));
+        self.trip_because(StopReason::EmergencyStop);
+    }
+
+    /// The same for another `reason`.
+    pub fn trip_because(&self, reason: StopReason) {
+        self.obey(Order::Trip, Some(reason));
     }
 
     /// The session is over.
@@ -192,17 +232,27 @@ impl Supervisor {
         self.reported.store(time.to_bits(), Ordering::Relaxed);
     }
 
+    /// The thread that watches the loops is alive at `time` [s] of their clock; infinite when it ends with the session.
+    pub(crate) fn report_watch(&self, time: f64) {
+        self.watched.store(time.to_bits(), Ordering::Relaxed);
+    }
+
     /// What a loop may do at `time` [s].
     pub(crate) fn permission(&self, time: f64) -> Permission {
-        let reported = f64::from_bits(self.reported.load(Ordering::Relaxed));
-        if time - reported > SILENCE && self.state().allows_force() {
-            self.obey(Order::Trip, Some(Cause::Silence));
+        let since = |last: &AtomicU64| time - f64::from_bits(last.load(Ordering::Relaxed));
+        if self.state().allows_force() {
+            if since(&self.reported) > SILENCE {
+                self.trip_because(StopReason::Silence);
+            }
+            if since(&self.watched) > WATCH_SILENCE {
+                self.trip_because(StopReason::Unwatched);
+            }
         }
-        let (state, cause, armings) = unpacked(self.word.load(Ordering::Acquire));
+        let (state, reason, armings) = unpacked(self.word.load(Ordering::Acquire));
         Permission {
             state,
             armings,
-            fault: (state == ForceState::Tripped).then(|| cause.fault()),
+            fault: (state == ForceState::Tripped).then(|| reason.fault()),
         }
     }
 
@@ -213,22 +263,22 @@ impl Supervisor {
 
     /// A loop took its force off; all others do.
     pub(crate) fn trip_others(&self) {
-        self.obey(Order::Trip, Some(Cause::OtherDevice));
+        self.trip_because(StopReason::OtherDevice);
     }
 
-    fn obey(&self, order: Order, why: Option<Cause>) {
+    fn obey(&self, order: Order, why: Option<StopReason>) {
         let next = |word| {
-            let (state, cause, armings) = unpacked(word);
+            let (state, reason, armings) = unpacked(word);
             let next = state.after(order);
             // A loop that sees another number begins anew, also when it was between two ticks that forces were off.
             let armed = next == ForceState::Armed && matches!(order, Order::Arm | Order::Resume);
             let armed = u64::from(armed && (order == Order::Arm || state == ForceState::Paused));
             // Who stopped first is told.
-            let cause = match state {
-                ForceState::Tripped => cause,
-                _ => why.unwrap_or(cause),
+            let reason = match state {
+                ForceState::Tripped => reason,
+                _ => why.unwrap_or(reason),
             };
-            Some(packed(next, cause, armings + armed))
+            Some(packed(next, reason, armings + armed))
         };
         // It always answers a word.
         let _ = self
@@ -263,11 +313,25 @@ mod tests {
     #[test]
     fn a_word_holds_what_was_packed() {
         for state in STATES {
-            for cause in CAUSES {
-                let word = packed(state, cause, 70_000);
-                assert_eq!(unpacked(word), (state, cause, 70_000));
+            for reason in REASONS {
+                let word = packed(state, reason, 70_000);
+                assert_eq!(unpacked(word), (state, reason, 70_000));
             }
         }
+    }
+
+    #[test]
+    fn a_watch_that_is_silent_takes_the_force_off() {
+        let supervisor = Supervisor::armed();
+        supervisor.report_watch(1.0);
+        assert_eq!(supervisor.permission(1.0 + WATCH_SILENCE).fault, None);
+        let limit = WATCH_SILENCE;
+        let unwatched = supervisor.permission(1.1 + WATCH_SILENCE).fault;
+        assert_eq!(unwatched, Some(Fault::Unwatched { limit }));
+        // One that ended in good order does not have to report.
+        supervisor.report_watch(f64::INFINITY);
+        supervisor.arm();
+        assert_eq!(supervisor.permission(1e9).fault, None);
     }
 
     #[test]

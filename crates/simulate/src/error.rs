@@ -153,6 +153,12 @@ pub enum Error {
     /// The thread of the model ended in a panic.
     #[error("the model thread panicked, and the devices were stopped; report it as a defect")]
     ModelPanicked,
+    /// Another model cannot take over in a touch that goes on.
+    #[error("the touch cannot go on with this model: {why}; start anew")]
+    NoTakeOver {
+        /// Why.
+        why: &'static str,
+    },
     /// The motion moves a tool that the scene has not.
     #[error("the motion moves the tool {found:?}, but the scene has {known}; name one of these")]
     UnknownTool {
@@ -190,6 +196,7 @@ impl Error {
             Self::Servo(_)
             | Self::NoDevice { .. }
             | Self::ModelPanicked
+            | Self::NoTakeOver { .. }
             | Self::Unrecorded { .. }
             | Self::Model(palpate_mechanics::Error::BrokenOff) => false,
             _ => true,

@@ -159,15 +159,38 @@ impl SimulationState {
         }
     }
 
-    /// The organ at rest and whole, as if nothing had been touched yet.
+    /// The organ at rest and whole, as if nothing had been touched yet. It allocates nothing, so that a model in real time
+    /// may do it between two steps.
     pub fn begin_anew(&mut self, simulation: &Simulation) {
-        let version = self.cuts.as_ref().map_or(0, Cuts::version);
-        let nodules = std::mem::take(&mut self.nodules);
-        *self = Self::new(simulation).show_every(self.show_every);
-        self.nodules = nodules;
-        if let Some(cuts) = &mut self.cuts {
-            cuts.version = version + 1;
+        let Self {
+            tools,
+            deformed,
+            whole,
+            cuts,
+            nodules: _,
+            tree,
+            moved,
+            show_every: _,
+            shown_deformed,
+            shown_at,
+            energy,
+            cuts_shown_at,
+        } = self;
+        for (number, tool) in tools.iter_mut().enumerate() {
+            *tool = ToolState::new(number);
         }
+        deformed.move_vertices_to(simulation.surface.mesh());
+        tree.copy_boxes(&simulation.tree);
+        moved.0.clear();
+        if let Some(whole) = whole {
+            whole.lay_to_rest();
+        }
+        if let Some(cuts) = cuts {
+            cuts.begin_anew();
+        }
+        *energy = EnergyAccount::default();
+        *shown_deformed = false;
+        (*shown_at, *cuts_shown_at) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
     }
 
     /// Other stiff balls than those of the scene: one model serves organs that differ in nothing else.

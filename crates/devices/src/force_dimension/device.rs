@@ -55,6 +55,7 @@ fn capabilities(device: &Opened) -> Capabilities {
     Capabilities {
         peak_force: PEAK,
         continuous_force: CONTINUOUS,
+        stop_buttons: OTHER_BUTTONS,
         displays_force: true,
         ..Capabilities::without_force(&format!("Force Dimension {}", device.name()))
     }
@@ -106,10 +107,11 @@ impl ForceDimensionDevice {
         }
     }
 
-    /// The same with a dead-man's switch: one of the buttons but the first.
+    /// The same with a dead-man's switch: one of the buttons but the first, which then is no stop button.
     #[must_use]
     pub fn with_dead_man(mut self) -> Self {
         self.capabilities.dead_man = Some(DeadMan::Buttons(OTHER_BUTTONS));
+        self.capabilities.stop_buttons = 0;
         self
     }
 

@@ -125,8 +125,12 @@ impl HaplyDevice {
             there: snapshot.robots.len(),
             wanted: number + 1,
         })?;
+        let other_buttons = snapshot.other_buttons.get(number).copied().unwrap_or(0);
         Ok(Self {
-            capabilities: capabilities(robot),
+            capabilities: Capabilities {
+                stop_buttons: other_buttons,
+                ..capabilities(robot)
+            },
             channel,
             // Services before 3.5 have none.
             events: Channel::open(&address.host, address.events_port).ok(),
@@ -136,7 +140,7 @@ impl HaplyDevice {
             generation: snapshot.generation,
             message: String::with_capacity(256),
             timeout: TIMEOUT,
-            other_buttons: snapshot.other_buttons.get(number).copied().unwrap_or(0),
+            other_buttons,
             owed: 0,
             known: Known::default(),
             hidden: 0,
@@ -151,7 +155,7 @@ impl HaplyDevice {
         self
     }
 
-    /// The same with a dead-man's switch: one of the buttons of its grip but the first.
+    /// The same with a dead-man's switch: one of the buttons of its grip but the first, which then is no stop button.
     ///
     /// # Errors
     /// When it has no grip with such a button.
@@ -162,6 +166,7 @@ impl HaplyDevice {
             });
         }
         self.capabilities.dead_man = Some(DeadMan::Buttons(self.other_buttons));
+        self.capabilities.stop_buttons = 0;
         Ok(self)
     }
 

@@ -83,6 +83,7 @@ fn capabilities(functions: &Functions) -> (Capabilities, Origin) {
         peak_force: peak,
         // Motors bear no more than they can.
         continuous_force: continuous.min(peak),
+        stop_buttons: OTHER_BUTTONS,
         displays_force: true,
         ..Capabilities::without_force(&format!("{model} {serial}"))
     };
@@ -116,10 +117,11 @@ impl OpenHapticsDevice {
         })
     }
 
-    /// The same with a dead-man's switch: one of the buttons but the first.
+    /// The same with a dead-man's switch: one of the buttons but the first, which then is no stop button.
     #[must_use]
     pub fn with_dead_man(mut self) -> Self {
         self.capabilities.dead_man = Some(DeadMan::Buttons(OTHER_BUTTONS));
+        self.capabilities.stop_buttons = 0;
         self
     }
 

@@ -19,6 +19,9 @@ use palpate_servo::{Disabled, Fault, Next, Scheduler, Tick};
 use super::errors;
 use super::functions::{CONTINUE, DONE, Functions};
 
+/// How long a library may take to switch forces off.
+const DISABLE: Duration = Duration::from_millis(20);
+
 /// How long a waiting thread sleeps.
 const NAP: Duration = Duration::from_millis(1);
 
@@ -123,7 +126,7 @@ impl Scheduler for OpenHapticsScheduler {
 
     /// No frame comes that could say zero, but hdDisable is no call that belongs to a frame.
     fn disable(&mut self) -> Disabled {
-        self.functions.disable_forces();
+        disable_within(self.functions, DISABLE);
         Disabled::Unknown
     }
 
@@ -136,7 +139,7 @@ impl Scheduler for OpenHapticsScheduler {
         };
         let ended = started.ends_within(timeout);
         if !ended {
-            self.functions.disable_forces();
+            disable_within(self.functions, DISABLE);
         }
         // A library that hangs holds up a thread that nobody waits for.
         let (functions, number) = (self.functions, started.number);
@@ -159,6 +162,21 @@ impl Scheduler for OpenHapticsScheduler {
             .take();
         drop(tick);
         Ok(())
+    }
+}
+
+/// Has the library take forces off; one that hangs in that holds up a thread that nobody waits for.
+fn disable_within(functions: Functions, timeout: Duration) {
+    let (disabled, wait) = channel();
+    let thread = std::thread::Builder::new().name("openhaptics disable".to_owned());
+    let spawned = thread.spawn(move || {
+        functions.disable_forces();
+        let _ = disabled.send(());
+    });
+    match spawned {
+        Ok(_) => drop(wait.recv_timeout(timeout)),
+        // The only way that is left.
+        Err(_) => functions.disable_forces(),
     }
 }
 

@@ -19,7 +19,20 @@ struct Told {
     enabled: bool,
     open: i32,
     frames: u32,
-    called: Option<(Callback, usize)>,
+    called: Option<(Callback, Data)>,
+}
+
+/// What a callback is called with.
+#[derive(Clone, Copy)]
+struct Data(*mut c_void);
+
+// SAFETY: what the scheduler was given may be used from any thread; it says so where it is scheduled.
+unsafe impl Send for Data {}
+
+impl Data {
+    fn pointer(self) -> *mut c_void {
+        self.0
+    }
 }
 
 static TOLD: Mutex<Option<Told>> = Mutex::new(None);
@@ -104,7 +117,7 @@ unsafe extern "system" fn style() -> u32 {
     4
 }
 unsafe extern "system" fn schedule(with: Callback, data: *mut c_void, _: u16) -> c_ulong {
-    told(|told| told.called = Some((with, data.expose_provenance())));
+    told(|told| told.called = Some((with, Data(data))));
     1
 }
 unsafe extern "system" fn unschedule(_: c_ulong) {}
@@ -138,9 +151,8 @@ fn functions() -> Functions {
 fn call() -> u32 {
     let (with, data) = told(|told| told.called).unwrap();
     let called = std::thread::spawn(move || {
-        let data = std::ptr::with_exposed_provenance_mut(data);
         // SAFETY: what was scheduled, with what it was scheduled.
-        unsafe { with(data) }
+        unsafe { with(data.pointer()) }
     });
     called.join().unwrap()
 }

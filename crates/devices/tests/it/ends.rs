@@ -1,11 +1,15 @@
 //! What the drivers of both libraries display in contact, at their end, and after what took their forces off.
 
+use std::time::{Duration, Instant};
+
+use palpate_device_stand_ins::StandInClock;
 use palpate_devices::{Kind, Places};
 use palpate_servo::{
-    DeadMan, DeviceState, Fault, ForceState, Stage, Trajectory, Vec3, VirtualDevice, Waypoint,
+    Clock, DeadMan, DeviceState, Fault, ForceState, ServoLoop, ServoSettings, ServoThread, Stage,
+    Trajectory, Vec3, VirtualDevice, Waypoint,
 };
 
-use crate::hands::{Commanded, Ticked, press, pressing, wall};
+use crate::hands::{Commanded, InTime, Ticked, press, pressing, wall};
 use crate::libraries::{BOTH, CLOCK, carry_pressing, library, pressed};
 
 /// The judge is the same hand on the same wall without a library between. One is asked at every tick; the loop ticks in
@@ -186,6 +190,73 @@ fn buttons_are_dead_mans_switches_where_that_is_asked_for() {
             assert_eq!(library.force(0).norm(), most, "{kind}: {buttons:#b}");
             servo.end();
         }
+    }
+}
+
+/// Without a dead-man's switch the same buttons stop: the first tick that sees one is the last with a force, and a
+/// button that is released again arms nothing.
+#[test]
+fn buttons_are_stops_where_no_dead_mans_switch_is_asked_for() {
+    for kind in BOTH {
+        let (library, places) = library(kind);
+        let at = |time, height, buttons| Waypoint {
+            buttons,
+            ..Waypoint::new(time, Vec3::new(0.02, height, -0.01))
+        };
+        let way = vec![
+            at(0.0, 2e-3, 1),
+            at(0.7, 2e-3, 1),
+            at(1.0, -5e-3, 1),
+            at(1.1, -5e-3, 0b10),
+            at(1.2, -5e-3, 0),
+        ];
+        let device = kind.open(0, &places).unwrap();
+        let mut servo = Ticked::new(device, Some(&library), wall);
+        let hand = InTime {
+            device: VirtualDevice::new(Trajectory::way(way).unwrap()),
+            time: servo.time.clone(),
+        };
+        library.carry(Box::new(hand), CLOCK, 0);
+        let mut pressed = None;
+        for tick in 0..1500 {
+            let sample = servo.tick().unwrap();
+            let stops = sample.state.buttons & 0b10 != 0;
+            match pressed {
+                None if stops => pressed = Some(library.force(0)),
+                None if tick > 1050 => assert!(library.force(0).norm() > 0.9, "{kind}"),
+                None => {}
+                Some(_) => assert_eq!(library.force(0), Vec3::zeros(), "{kind}: {tick}"),
+            }
+        }
+        assert!(pressed.is_some(), "{kind}");
+        assert_eq!(servo.fault(), Some(Fault::DeviceButton), "{kind}");
+        servo.end();
+    }
+}
+
+/// A library that hangs while it stops its scheduler, or while it switches its forces off, keeps nobody waiting. Judge:
+/// the time, half a second for the loop and half for the scheduler.
+#[test]
+fn a_library_that_hangs_at_the_end_is_not_waited_for() {
+    for hangs in ["stand_in_stop_hangs", "stand_in_disable_hangs"] {
+        let (library, places) = library(Kind::OpenHaptics);
+        library.carry(Box::new(pressing()), StandInClock::Wall, 0);
+        let device = Kind::OpenHaptics.open(0, &places).unwrap();
+        let settings = ServoSettings::default();
+        let (servo, mut reader) = ServoLoop::new(device, Box::new(wall), settings).unwrap();
+        let thread = ServoThread::start(servo, Clock::real()).unwrap();
+        while reader.latest.latest().is_none() {
+            std::thread::yield_now();
+        }
+        // No more calls, so that the loop is ended from outside.
+        library.set("stand_in_stalls", 1);
+        library.set(hangs, 1);
+        let began = Instant::now();
+        assert_eq!(thread.stop(), Err(Fault::Hung { limit: 0.5 }), "{hangs}");
+        // Twice that on a busy machine.
+        assert!(began.elapsed() < Duration::from_secs(2), "{hangs}");
+        library.set(hangs, 0);
+        library.set("stand_in_stalls", 0);
     }
 }
 

@@ -58,7 +58,7 @@ fn places_turns_buttons_and_forces_are_in_our_axes() {
         let (library, places) = library(kind);
         let hand = VirtualDevice::new(Trajectory::Way(vec![Waypoint {
             orientation: Some(turned),
-            buttons: 0b11,
+            buttons: 0b1,
             ..Waypoint::new(0.0, place)
         }]));
         library.carry(Box::new(hand), CLOCK, 0);
@@ -72,7 +72,7 @@ fn places_turns_buttons_and_forces_are_in_our_axes() {
             state.orientation.unwrap().angle_to(&turned) < 1e-7,
             "{kind}"
         );
-        assert_eq!((state.buttons, state.grip, state.ready), (0b11, 1.0, true));
+        assert_eq!((state.buttons, state.grip, state.ready), (0b1, 1.0, true));
         assert!((library.force(0) - force).norm() < 1e-15, "{kind}");
         commanded.servo.end();
         assert_eq!(library.open_devices(), 0, "{kind}");

@@ -140,6 +140,14 @@ impl TriangleMesh {
         self.vertices[node.index()] = position;
     }
 
+    /// Moves every vertex to where it is in `other`, a mesh with as many vertices. It allocates nothing.
+    ///
+    /// # Panics
+    /// When `other` has another number of vertices.
+    pub fn move_vertices_to(&mut self, other: &Self) {
+        self.vertices.copy_from_slice(&other.vertices);
+    }
+
     /// Adds a vertex at a finite `position` [m], for whoever then adds its triangles.
     pub(crate) fn push_vertex(&mut self, position: Vec3) -> NodeId {
         self.vertices.push(position);

@@ -1,11 +1,13 @@
 use std::path::Path;
 
+use palpate_measure::live::Order;
 use palpate_measure::{
     Axes, Course, Ended, Recorded, Recorder, Rig, RigSample, recording_name, stimulus_name,
 };
-use palpate_servo::Vec3;
+use palpate_servo::{Vec3, lock_memory};
 
 use super::Files;
+use super::live::LiveMeasuring;
 use super::plan::{OnRig, Plan};
 use crate::{Error, Watch};
 
@@ -24,6 +26,9 @@ impl Measuring {
     pub fn of(plan: Plan, watch: &dyn Watch) -> Result<Self, Error> {
         plan.check()?;
         let mut doubts = plan.doubts.clone();
+        if plan.has_device() {
+            doubts.extend(lock_memory().warning());
+        }
         let mut specimens = Vec::new();
         for place in 0..plan.specimens.len() {
             let (found, said) = plan.specimen(place, &mut |part| {
@@ -64,7 +69,7 @@ impl Measuring {
         let mut files = files.paths.iter();
         for (place, specimen) in self.specimens.iter().enumerate() {
             let clock = self.plan.clock();
-            let mut rig = self.plan.rig((specimen.clone(), place), clock)?;
+            let mut rig = Measured::by(self.plan.rig((specimen.clone(), place), clock)?)?;
             if self.go_to_place(&mut rig, place, watch)? == Ended::Stopped {
                 return Ok(recorded);
             }
@@ -73,7 +78,14 @@ impl Measuring {
                 if watch.is_asked_to_stop() {
                     return Ok(recorded);
                 }
-                let done = record(&mut rig, (course, *repeat), file, watch);
+                let done = match &mut rig {
+                    Measured::Virtual(rig) => record(rig, (course, *repeat), file, watch),
+                    Measured::Live(live) => {
+                        let settings = &self.plan.settings;
+                        let header = settings.describe(live.header(), (course, *repeat));
+                        live.record((course, header), file, watch)
+                    }
+                };
                 let done = done.map_err(|failure| failure.about(file))?;
                 watch.at((recorded.len() + 1) as f64 / count as f64);
                 let Some(done) = done else {
@@ -88,18 +100,50 @@ impl Measuring {
 
 impl Measuring {
     /// Moves to the place of a specimen, and measures the normal there if the protocol says so.
-    fn go_to_place(&self, rig: &mut Rig, place: usize, watch: &dyn Watch) -> Result<Ended, Error> {
+    fn go_to_place(
+        &self,
+        rig: &mut Measured,
+        place: usize,
+        watch: &dyn Watch,
+    ) -> Result<Ended, Error> {
         let place = &self.plan.specimens[place].place;
-        let go_on = &mut |_: &RigSample| !watch.is_asked_to_stop();
-        let there = rig.go_to(&Vec3::from(place.place_m), go_on);
-        if there.map_err(Error::failed)? == Ended::Stopped || !place.measure_normal {
-            return Ok(match watch.is_asked_to_stop() {
-                true => Ended::Stopped,
-                false => Ended::Whole,
-            });
+        let there = rig.go_to(&Vec3::from(place.place_m), watch)?;
+        if there == Ended::Stopped || !place.measure_normal {
+            return Ok(there);
         }
         watch.say("measuring the normal of the surface");
-        rig.measure_normal(go_on).map_err(Error::failed)
+        rig.measure_normal(watch)
+    }
+}
+
+/// A rig that measures: in the calling thread as fast as the machine can, or on a device that is there.
+enum Measured {
+    Virtual(Box<Rig>),
+    Live(Box<LiveMeasuring>),
+}
+
+impl Measured {
+    fn by(rig: Rig) -> Result<Self, Error> {
+        match rig.is_real() {
+            false => Ok(Self::Virtual(Box::new(rig))),
+            true => Ok(Self::Live(Box::new(LiveMeasuring::start(rig)?))),
+        }
+    }
+
+    fn go_to(&mut self, place: &Vec3, watch: &dyn Watch) -> Result<Ended, Error> {
+        let go_on = &mut |_: &RigSample| !watch.is_asked_to_stop();
+        match self {
+            Self::Virtual(rig) => rig.go_to(place, go_on).map_err(Error::failed),
+            Self::Live(live) => live.carry_out(Order::GoTo(*place), watch),
+        }
+    }
+
+    fn measure_normal(&mut self, watch: &dyn Watch) -> Result<Ended, Error> {
+        let go_on = &mut |_: &RigSample| !watch.is_asked_to_stop();
+        match self {
+            Self::Virtual(rig) => rig.measure_normal(go_on).map_err(Error::failed),
+            Self::Live(live) => live.carry_out(Order::MeasureNormal, watch),
+        }
     }
 }
 

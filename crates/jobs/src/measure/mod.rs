@@ -3,6 +3,7 @@
 mod answer;
 mod files;
 mod kept;
+mod live;
 mod measuring;
 mod plan;
 mod sensor;

@@ -2,11 +2,11 @@ use palpate_devices::{Kind, Places};
 use palpate_files::Protocol;
 use palpate_files::protocol::{Gains, Measured, RigDevice, RigLimits, Stimulus};
 use palpate_files::recording::RecordingHeader;
+use palpate_measure::phantom::{Imperfections, MECHANICS_STEP, Machine, TwoMass};
 use palpate_measure::{
     BREATH_MOTION, Course, NormalFrom, Rig, RigSettings, VirtualSpecimen, stimulus_name,
 };
-use palpate_servo::dynamics::{Imperfections, Machine, TwoMass};
-use palpate_servo::{Clock, Device, MECHANICS_STEP, PidGains, Vec3};
+use palpate_servo::{Clock, Device, PidGains, Vec3};
 
 use super::sensor::RealSensor;
 use super::specimen;
@@ -160,6 +160,11 @@ impl Plan {
             false => found,
         };
         Ok((OnRig::Virtual(Box::new(found)), doubts))
+    }
+
+    /// Whether a device that is there carries the indenter.
+    pub fn has_device(&self) -> bool {
+        self.device.is_some()
     }
 
     /// The device that is there, if the protocol names one.

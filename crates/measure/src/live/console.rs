@@ -33,6 +33,8 @@ pub struct Console {
     orders: log::Writer<Given>,
     switches: Switches,
     supervisor: Supervisor,
+    /// Whether its end takes all forces off at once: a hand may be on the device.
+    is_real: bool,
 }
 
 /// An order, and how often everything was stopped before it.
@@ -54,13 +56,17 @@ pub(super) struct Switches {
 const ORDERS: usize = 8192;
 
 impl Console {
-    pub(super) fn new(supervisor: Supervisor) -> (Self, log::Reader<Given>, Switches) {
+    pub(super) fn new(
+        supervisor: Supervisor,
+        is_real: bool,
+    ) -> (Self, log::Reader<Given>, Switches) {
         let (orders, reader) = log::ring(ORDERS);
         let switches = Switches::default();
         let console = Self {
             orders,
             switches: switches.clone(),
             supervisor,
+            is_real,
         };
         (console, reader, switches)
     }
@@ -92,6 +98,9 @@ impl Console {
     }
 
     pub(super) fn end(&self) {
+        if self.is_real {
+            self.supervisor.switch_off();
+        }
         self.switches.end.store(true, Ordering::Relaxed);
     }
 }

@@ -4,7 +4,8 @@ use std::sync::mpsc::{self, Receiver, Sender};
 use std::thread::{Builder, JoinHandle};
 use std::time::Duration;
 
-use palpate_servo::{Fault, log};
+use palpate_servo::watch::{Watch, WatchThread};
+use palpate_servo::{Clock, Fault, Supervisor, log};
 
 use super::clerk::Clerk;
 use super::{Commission, Console, News, Operated, Order};
@@ -20,6 +21,10 @@ pub struct LiveRig {
     pub news: Receiver<News>,
     commissions: Sender<Commission>,
     threads: Vec<JoinHandle<()>>,
+    watch: WatchThread,
+    /// What is told of who operates a device that is there, and when.
+    supervisor: Option<Supervisor>,
+    clock: Clock,
 }
 
 /// Samples that wait for a window: a quarter of a minute.
@@ -34,6 +39,20 @@ impl LiveRig {
     /// # Errors
     /// When the operating system gives no thread.
     pub fn start(rig: Rig) -> Result<Self, Error> {
+        Self::start_until(rig, || false)
+    }
+
+    /// The same for a program that `is_ended` says shall end: a device that is there has no force then.
+    ///
+    /// # Errors
+    /// As for [`start`](Self::start).
+    pub fn start_until(rig: Rig, is_ended: fn() -> bool) -> Result<Self, Error> {
+        // Over tissue that is not there nobody can be hurt, and the indenter withdraws in good order.
+        let ends = if rig.is_real() { is_ended } else { || false };
+        let watch = Watch::new(rig.supervisor(), vec![rig.watched()], ends);
+        let clock = rig.clock();
+        let watch = WatchThread::start(watch, clock)?;
+        let supervisor = rig.is_real().then(|| rig.supervisor());
         let (operated, console, told) = Operated::new(rig);
         let (samples, samples_reader) = log::ring(SAMPLES);
         let (news, news_reader) = mpsc::channel();
@@ -52,6 +71,9 @@ impl LiveRig {
             news: news_reader,
             commissions,
             threads: Vec::new(),
+            watch,
+            supervisor,
+            clock,
         };
         let ended = Arc::new(AtomicBool::new(false));
         let seen = ended.clone();
@@ -66,6 +88,19 @@ impl LiveRig {
         // A clerk that has gone says so by `is_running`.
         let _ = self.commissions.send(commission);
         self.console.order(Order::Press(course, number));
+    }
+
+    /// Says that who operates it is alive. A device that is there has no force any more when that is not said again within
+    /// [`SILENCE`](palpate_servo::supervisor::SILENCE); who never says it need not.
+    pub fn report_alive(&self) {
+        if let Some(supervisor) = &self.supervisor {
+            supervisor.report(self.clock.now());
+        }
+    }
+
+    /// What a person has to know of a device that does not answer any more.
+    pub fn hung_device(&self) -> Option<String> {
+        self.watch.watch().warning()
     }
 
     /// Whether its threads still run.
@@ -84,6 +119,10 @@ impl LiveRig {
 impl Drop for LiveRig {
     fn drop(&mut self) {
         self.console.end();
+        if self.hung_device().is_some() {
+            // Its thread never ends; without a force if it ever does.
+            return;
+        }
         for thread in self.threads.drain(..) {
             // One that panicked has stopped its device.
             let _ = thread.join();

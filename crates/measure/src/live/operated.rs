@@ -44,7 +44,7 @@ const DRIVEN: f64 = 0.16;
 impl Operated {
     /// `rig`, from where it is operated, and what it says.
     pub fn new(rig: Rig) -> (Self, Console, log::Reader<Told>) {
-        let (console, orders, switches) = Console::new(rig.supervisor());
+        let (console, orders, switches) = Console::new(rig.supervisor(), rig.is_real());
         let (told, reader) = log::ring(TOLD);
         let operated = Self {
             rig,
@@ -67,7 +67,8 @@ impl Operated {
     /// before anybody else.
     pub fn turn(&mut self, watch: &mut dyn FnMut(&RigSample)) -> bool {
         if self.switches.is_ending() {
-            if !self.limp {
+            // One on a device that is there has no force any more, which moves nothing.
+            if !self.limp && !self.rig.is_real() {
                 // Nobody is there any more who could be told that this failed.
                 let _ = self.rig.withdraw(&mut |_| true);
             }

@@ -40,7 +40,7 @@ impl Rig {
             feel,
         };
         let (controller, rest) = Upright::new(pressed);
-        let rig = Self::new(Parts {
+        let mut rig = Self::new(Parts {
             device,
             controller: Box::new(controller),
             reference,
@@ -54,11 +54,8 @@ impl Rig {
             settings,
             clock,
         })?;
-        Ok(Self {
-            is_real: true,
-            rest,
-            ..rig
-        })
+        (rig.is_real, rig.rest) = (true, rest);
+        Ok(rig)
     }
 
     /// A rig whose indenter `device` carries over tissue that is there, with a sensor between them. `header` says what
@@ -77,7 +74,7 @@ impl Rig {
         settings.check_direction()?;
         let (indenter, reference) = Indenter::new(settings.gains, Reference::at_rest());
         let (controller, rest) = Upright::new(indenter);
-        let rig = Self::new(Parts {
+        let mut rig = Self::new(Parts {
             device,
             controller: Box::new(controller),
             reference,
@@ -88,11 +85,8 @@ impl Rig {
             settings,
             clock,
         })?;
-        Ok(Self {
-            is_real: true,
-            rest,
-            ..rig
-        })
+        (rig.is_real, rig.rest) = (true, rest);
+        Ok(rig)
     }
 }
 

@@ -3,11 +3,10 @@
 
 use palpate_files::Recording;
 use palpate_files::recording::RecordingWriter;
+use palpate_measure::phantom::{Imperfections, MECHANICS_STEP, Machine, TwoMass, VirtualPhantom};
 use palpate_measure::{Error, Indenter, Reference, RigSample, RigSettings, VirtualSpecimen};
-use palpate_servo::dynamics::{Imperfections, Machine, TwoMass};
 use palpate_servo::{
-    Clock, Fault, Limits, MECHANICS_STEP, PidGains, Sample, ServoLoop, ServoSettings, Stage, Vec3,
-    VirtualPhantom,
+    Clock, Fault, Limits, PidGains, Sample, ServoLoop, ServoSettings, Stage, Vec3,
 };
 
 use crate::rig::{RADIUS, rig_on, tissue, usual};

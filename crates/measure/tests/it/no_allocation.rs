@@ -1,8 +1,8 @@
 //! A tick that allocates may wait for the allocator longer than it has time.
 
 use assert_no_alloc::{AllocDisabler, assert_no_alloc, reset_violation_count, violation_count};
+use palpate_measure::phantom::Imperfections;
 use palpate_measure::{Ended, RigSettings, VirtualSpecimen};
-use palpate_servo::dynamics::Imperfections;
 
 use crate::rig::{RADIUS, rig_on, tissue, usual};
 

@@ -5,12 +5,9 @@ use std::sync::{Arc, Mutex};
 
 use palpate_device_stand_ins::{HaplyStandIn, HaplyStandInSettings, Mechanics, Misbehaviour};
 use palpate_devices::haply::HaplyDevice;
+use palpate_measure::phantom::{Imperfections, MECHANICS_STEP, Machine, TwoMass, VirtualPhantom};
 use palpate_measure::{Ended, Error, Rig, RigSample, RigSettings};
-use palpate_servo::dynamics::{Imperfections, Machine, TwoMass};
-use palpate_servo::{
-    Capabilities, Clock, Command, Device, DeviceState, Disabled, Fault, MECHANICS_STEP, Vec3,
-    VirtualPhantom,
-};
+use palpate_servo::{Capabilities, Clock, Command, Device, DeviceState, Disabled, Fault, Vec3};
 
 use crate::rig::{rig, soft, usual};
 

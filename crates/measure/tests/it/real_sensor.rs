@@ -6,13 +6,13 @@ use std::sync::{Arc, Mutex};
 use nalgebra::Matrix3;
 use palpate_files::Recording;
 use palpate_files::recording::RecordingHeader;
+use palpate_measure::phantom::{Imperfections, MECHANICS_STEP, Machine, TwoMass, VirtualPhantom};
 use palpate_measure::{
     Axes, Ended, Error, MountedSensor, Phase, Recorder, Rig, RigSample, RigSettings,
 };
-use palpate_servo::dynamics::{Imperfections, Machine, TwoMass};
 use palpate_servo::{
     Capabilities, Clock, Command, Device, DeviceState, Disabled, Fault, ForceSensor,
-    ForceSensorSpec, ForceTorque, MECHANICS_STEP, SensorFault, Vec3, VirtualPhantom,
+    ForceSensorSpec, ForceTorque, SensorFault, Vec3,
 };
 
 use crate::rig::{rig, soft, usual};

@@ -3,11 +3,11 @@
 
 use palpate_files::protocol::{Stimulus, Sweep};
 use palpate_files::{Elasticity, Estimate, PronyTerm, Tissue};
+use palpate_measure::phantom::{Imperfections, MECHANICS_STEP, Machine, TwoMass};
 use palpate_measure::{
     BREATH_MOTION, Course, Ended, Error, Rig, RigSample, RigSettings, VirtualSpecimen,
 };
-use palpate_servo::dynamics::{Imperfections, Machine, TwoMass};
-use palpate_servo::{Clock, MECHANICS_STEP};
+use palpate_servo::Clock;
 
 const YOUNG: f64 = 10e3;
 const POISSON: f64 = 0.45;

@@ -12,6 +12,7 @@ mod crash;
 mod devices;
 mod errors;
 mod foreign_text;
+mod hazards;
 mod limits;
 mod measure;
 mod mesh;

@@ -13,6 +13,8 @@ pub struct Capabilities {
     pub continuous_force: f64,
     /// What a hand holds while it wants forces; none where there is no such switch.
     pub dead_man: Option<DeadMan>,
+    /// Bit by bit, which of its buttons take all forces of the session off for as long as one is pressed.
+    pub stop_buttons: u32,
     /// Whether its forces reach a hand. A mouse takes every force and displays none.
     pub displays_force: bool,
 }
@@ -26,6 +28,7 @@ impl Capabilities {
             peak_force: f64::INFINITY,
             continuous_force: f64::INFINITY,
             dead_man: None,
+            stop_buttons: 0,
             displays_force: false,
         }
     }

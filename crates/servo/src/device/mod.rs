@@ -47,7 +47,6 @@ mod pointer;
 mod scheduler;
 mod trajectory;
 mod virtual_device;
-mod virtual_phantom;
 
 use nalgebra::UnitQuaternion;
 
@@ -58,7 +57,6 @@ pub use pointer::{Pointer, PointerHand};
 pub use scheduler::{Next, Scheduler, Tick};
 pub use trajectory::{Trajectory, Waypoint};
 pub use virtual_device::VirtualDevice;
-pub use virtual_phantom::{MECHANICS_STEP, Touch, VirtualPhantom};
 
 use crate::{CommandedForce, Fault, Vec3};
 

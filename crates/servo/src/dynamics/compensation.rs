@@ -13,7 +13,7 @@
 //!
 //! with t from a place to its force, one and a half ticks of a loop.
 //!
-//! *How we know*: `compensation::…` in the tests: mass by sine injection beside the closed form, force at rest
+//! *How we know*: `compensation::…` in the tests of the crate `measure`: mass by sine injection beside the closed form, force at rest
 //! over the workspace, the edge of stability in the loop.
 //!
 //! *Limits*: a mass is taken off alike in all directions; steps of an encoder are felt as a rustle of M times
@@ -23,14 +23,14 @@ use std::f64::consts::TAU;
 
 use nalgebra::Complex;
 
-use super::{RigidBody, TwoPort};
+use super::Linkage;
 use crate::{Hand, Vec3};
 
 /// What is compensated of a device.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Compensation {
     /// Whose weight is held; none for a device that is balanced.
-    pub weight: Option<RigidBody>,
+    pub weight: Option<Linkage>,
     /// k, of the device's own spring to the middle [N/m].
     pub stiffness: f64,
     /// M, what is taken off its mass [kg].
@@ -53,12 +53,6 @@ impl Compensation {
         let held = if half > 0.0 { half.sin() / half } else { 1.0 };
         let late = Complex::from_polar(held, -1.5 * turn);
         (moved * moved * self.mass + self.stiffness) * late
-    }
-
-    /// What a hand feels of the device alone at `frequency` [Hz], G₁ − G₂ F_c/x [N/m].
-    pub fn felt(&self, port: &TwoPort, frequency: f64, period: f64) -> Complex<f64> {
-        let helped = port.force_transmission.at(frequency) * self.impedance(frequency, period);
-        port.input_impedance.at(frequency) - helped
     }
 
     /// The part of a step that a filter follows in a tick [-].
@@ -129,7 +123,7 @@ impl Compensator {
         self.last = Some(*position);
         let holding = settings
             .weight
-            .and_then(|body| body.holding_force(position));
+            .and_then(|links| links.holding_force(position));
         holding.unwrap_or_default()
             + position * settings.stiffness
             + self.acceleration * settings.mass

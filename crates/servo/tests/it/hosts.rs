@@ -6,9 +6,9 @@ use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use palpate_servo::{
-    Capabilities, Clock, Command, Device, DeviceState, Disabled, Fault, Next, Sample, Scheduler,
-    ServoLoop, ServoReader, ServoSettings, ServoThread, SteppedLoop, Tick, Trajectory, Vec3,
-    VirtualDevice,
+    Capabilities, Clock, Command, Device, DeviceState, Disabled, Fault, ForceState, Next, Sample,
+    Scheduler, ServoLoop, ServoReader, ServoSettings, ServoThread, SteppedLoop, Tick, Trajectory,
+    Vec3, VirtualDevice,
 };
 
 /// A device with a scheduler that a test paces: each value that is sent is a call.
@@ -153,16 +153,18 @@ fn both_hosts_make_the_same_ticks() {
     }
 }
 
+/// A controller that panics after 50 ms.
+fn defect(state: &DeviceState, _: f64) -> Vec3 {
+    assert!(state.time < 0.05, "a defect");
+    Vec3::zeros()
+}
+
 #[test]
 fn a_panic_in_a_scheduler_disables_the_device_and_trips_the_session() {
     let (device, call) = Scheduled::new();
     let stops = device.device.stops();
-    let panics = |state: &DeviceState, _: f64| {
-        assert!(state.time < 0.05, "a defect");
-        Vec3::zeros()
-    };
     let (servo, reader) =
-        ServoLoop::new(Box::new(device), Box::new(panics), ServoSettings::default()).unwrap();
+        ServoLoop::new(Box::new(device), Box::new(defect), ServoSettings::default()).unwrap();
     let thread = ServoThread::start(servo, Clock::virtual_time()).unwrap();
     for _ in 0..100 {
         let _ = call.send(());
@@ -171,11 +173,58 @@ fn a_panic_in_a_scheduler_disables_the_device_and_trips_the_session() {
         std::thread::yield_now();
     }
     assert!(stops.load(Ordering::Relaxed) >= 1);
-    assert_eq!(
-        reader.supervisor.state(),
-        palpate_servo::ForceState::Tripped
-    );
+    assert_eq!(reader.supervisor.state(), ForceState::Tripped);
     assert_eq!(thread.stop(), Err(Fault::Panicked));
+}
+
+/// A hook that prints a backtrace takes tens of milliseconds. It runs alone, for hooks are those of a whole program.
+#[test]
+fn a_panic_takes_the_force_off_before_it_is_reported() {
+    let own = std::env::current_exe().unwrap();
+    let helper = "hosts::a_panic_under_a_hook_that_looks_at_the_device";
+    let mut command = std::process::Command::new(own);
+    let ran = command.args(["--exact", helper, "--ignored"]).output();
+    let said = String::from_utf8_lossy(&ran.unwrap().stdout).into_owned();
+    assert!(said.contains("1 passed"), "{said}");
+}
+
+#[test]
+#[ignore = "helper: of the test before it, in a program of its own"]
+fn a_panic_under_a_hook_that_looks_at_the_device() {
+    let (device, call) = Scheduled::new();
+    let stops = device.device.stops();
+    let seen = Arc::new(Mutex::new(None));
+    let (at_hook, at_stops) = (seen.clone(), stops.clone());
+    std::panic::set_hook(Box::new(move |panic| {
+        let found = (at_stops.load(Ordering::Relaxed), panic.to_string());
+        at_hook.lock().unwrap().get_or_insert(found);
+    }));
+    let (servo, _reader) =
+        ServoLoop::new(Box::new(device), Box::new(defect), ServoSettings::default()).unwrap();
+    let thread = ServoThread::start(servo, Clock::virtual_time()).unwrap();
+    for _ in 0..100 {
+        let _ = call.send(());
+    }
+    while thread.is_running() {
+        std::thread::yield_now();
+    }
+    assert_eq!(thread.stop(), Err(Fault::Panicked));
+    let (stops, said) = seen.lock().unwrap().clone().unwrap();
+    assert!(stops >= 1 && said.contains("a defect"), "{stops}: {said}");
+}
+
+#[test]
+fn a_panic_in_a_stepped_loop_is_a_fault() {
+    let (device, _call) = Scheduled::new();
+    let stops = device.device.stops();
+    let device = Box::new(Unscheduled(device));
+    let (servo, reader) =
+        ServoLoop::new(device, Box::new(defect), ServoSettings::default()).unwrap();
+    let mut stepped = SteppedLoop::new(servo, reader.log, Clock::virtual_time()).unwrap();
+    let mut ticks = (0..100).map(|tick| stepped.tick(1e-3 * f64::from(tick), 0.0));
+    assert_eq!(ticks.find_map(Result::err), Some(Fault::Panicked));
+    assert!(stops.load(Ordering::Relaxed) >= 1);
+    assert_eq!(reader.supervisor.state(), ForceState::Tripped);
 }
 
 /// Half a second is waited for a call, not for ever. Judge: the time.

@@ -7,9 +7,7 @@
 )]
 
 mod chain;
-mod compensation;
 mod devices;
-mod dynamics;
 mod enabling;
 mod errors;
 mod hand_over;
@@ -17,8 +15,8 @@ mod hosts;
 mod limits;
 mod no_allocation;
 mod passivity;
-mod phantom;
 mod servo;
 mod slow_model;
 mod stability;
 mod supervisor;
+mod watch;

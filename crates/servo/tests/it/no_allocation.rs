@@ -1,11 +1,10 @@
 //! A tick that allocates may wait for the allocator longer than it has time.
 
 use assert_no_alloc::{AllocDisabler, assert_no_alloc, reset_violation_count, violation_count};
-use palpate_servo::dynamics::{Compensation, FlexibleBody, Imperfections};
+use palpate_servo::dynamics::{Compensation, Linkage};
 use palpate_servo::{
     AffineForce, Clock, Controller, Device, DeviceState, Extrapolator, Hand, HandOver, Limits,
-    NoDevice, Pointer, ServoLoop, ServoSettings, Trajectory, Vec3, VirtualDevice, VirtualPhantom,
-    latest,
+    NoDevice, Pointer, ServoLoop, ServoSettings, Trajectory, Vec3, VirtualDevice, latest,
 };
 
 #[global_allocator]
@@ -40,10 +39,7 @@ fn a_tick_allocates_nothing() {
         .unwrap();
     let (pointer, mut mouse) = Pointer::new();
     mouse.move_to(Vec3::zeros());
-    let machine = FlexibleBody::premium();
-    let flexible = VirtualPhantom::with_flexible_links(machine, Imperfections::premium());
-    let devices: [Box<dyn Device>; 5] = [
-        Box::new(flexible),
+    let devices: [Box<dyn Device>; 4] = [
         Box::new(VirtualDevice::new(sine)),
         Box::new(yielding),
         Box::new(pointer),
@@ -58,7 +54,7 @@ fn a_tick_allocates_nothing() {
             extrapolator: Extrapolator::new(kind, 5e-3, 1e-3),
         };
         let weight = Compensation {
-            weight: Some(machine.links),
+            weight: Some(Linkage::premium()),
             stiffness: 10.0,
             mass: 0.02,
             cutoff: 30.0,

@@ -3,8 +3,8 @@
 use palpate_servo::dynamics::Compensation;
 use palpate_servo::supervisor::SILENCE;
 use palpate_servo::{
-    Capabilities, DeviceState, Fault, ForceState, Sample, ServoLoop, ServoSettings, Stage,
-    Supervisor, Trajectory, Vec3, VirtualDevice, Waypoint,
+    Capabilities, DeviceState, Fault, ForceState, NoDevice, Sample, ServoLoop, ServoSettings,
+    Stage, Supervisor, Trajectory, Vec3, VirtualDevice, Waypoint,
 };
 use proptest::prelude::*;
 
@@ -72,6 +72,22 @@ impl Session {
         }
         self.tick()
     }
+}
+
+/// Whether a loop that ticks at `time` [s] finds the session tripped.
+pub(crate) fn is_tripped_at(supervisor: &Supervisor, time: f64) -> bool {
+    let law = |_: &DeviceState, _: f64| Vec3::zeros();
+    let device = NoDevice::new(Vec3::zeros());
+    let settings = ServoSettings::default();
+    let loops = ServoLoop::supervised(
+        Box::new(device),
+        Box::new(law),
+        settings,
+        supervisor.clone(),
+    );
+    let (mut servo, _reader) = loops.unwrap();
+    servo.tick(time, 0.0).unwrap();
+    supervisor.state() == ForceState::Tripped
 }
 
 fn is_forceless(sample: &Sample) -> bool {

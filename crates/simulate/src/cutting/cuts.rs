@@ -76,6 +76,23 @@ impl Cuts {
         }
     }
 
+    /// None any more, as at the beginning, but for the version. It allocates nothing.
+    pub(crate) fn begin_anew(&mut self) {
+        self.surface.close_all();
+        self.places.clear();
+        self.places
+            .extend_from_slice(self.surface.mesh().vertices());
+        self.stroke = None;
+        self.parts.clear();
+        self.deepened.clear();
+        self.before.clear();
+        self.largest_lag = 0;
+        self.version += 1;
+        // What is closed gapes nowhere.
+        self.ways.clear();
+        self.gapes = self.version;
+    }
+
     /// The organ's triangles with their openings, at rest and closed: the first are those of its surface.
     pub fn mesh(&self) -> &TriangleMesh {
         self.surface.mesh()

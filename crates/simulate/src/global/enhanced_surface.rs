@@ -38,6 +38,12 @@ impl OrganField {
         })
     }
 
+    /// Makes it that of an untouched organ. It allocates nothing.
+    pub(crate) fn lay_to_rest(&mut self) {
+        self.displacements.fill(Vec3::zeros());
+        self.contacts.fill(None);
+    }
+
     /// Takes over `other`, which is of the same simulation; nothing is allocated.
     pub(crate) fn copy(&mut self, other: &Self) {
         self.displacements.copy_from_slice(&other.displacements);

@@ -4,31 +4,63 @@ use std::thread::JoinHandle;
 
 use palpate_devices::openigtlink::OperatingRoom;
 use palpate_files::SessionRow;
+use palpate_servo::watch::{Watch as LoopWatch, WatchThread};
 use palpate_servo::{
     Clock, Fault, LoopReport, Sample, ServoSettings, ServoThread, Supervisor, latest, log,
+    raise_model_priority,
 };
 
-use super::model_loop::ModelLoop;
-use super::operating_room::shown_in;
+use super::model::{PreparedModel, Replacing, take_over};
+use super::model_loop::{Channels, ModelLoop};
 use super::order::orders;
 use super::recorder::{SessionRecorder, Unwritten};
 use super::stations::{Parts, Station, Watch, take_apart};
 use super::{ModelReport, Order, Quality, ROWS, Snapshot};
 use crate::{Error, SessionFolderWriter, Simulation};
 
-/// The model on a thread and a servo loop per device on others, on the machine's clock. Dropping it ends
-/// them and stops the devices.
+/// The model on a thread and a servo loop per device on others, on the machine's clock. Dropping it takes all forces off,
+/// ends the threads and stops the devices.
 pub struct Interaction {
     stop: Arc<AtomicBool>,
     model: Option<JoinHandle<ModelReport>>,
     servos: Vec<Option<ServoThread>>,
     watches: Vec<Option<Watch>>,
+    /// After the loops that it watches.
+    watch: WatchThread,
     recorder: SessionRecorder,
     rows: log::Reader<SessionRow>,
     orders: log::Writer<Order>,
     snapshots: latest::Receiver<Snapshot>,
+    replacing: Replacing,
     supervisor: Supervisor,
     clock: Clock,
+}
+
+/// What surrounds a touch.
+#[derive(Clone, Copy)]
+pub struct Environment<'a> {
+    /// Where it is shown besides, if anywhere.
+    pub operating_room: Option<&'a OperatingRoom>,
+    /// Whether the program was asked to end; no device has a force then.
+    pub is_ended: fn() -> bool,
+}
+
+impl Default for Environment<'_> {
+    /// Nothing.
+    fn default() -> Self {
+        Self {
+            operating_room: None,
+            is_ended: || false,
+        }
+    }
+}
+
+/// What runs beside the model, in the order of the tools.
+#[derive(Default)]
+struct Running {
+    servos: Vec<Option<ServoThread>>,
+    lines: Vec<Option<super::stations::Line>>,
+    watches: Vec<Option<Watch>>,
 }
 
 impl Interaction {
@@ -41,46 +73,48 @@ impl Interaction {
         stations: Vec<Option<Station>>,
         settings: ServoSettings,
     ) -> Result<Self, Error> {
-        Self::start_shown(simulation, stations, settings, None)
+        let prepared = PreparedModel::new(simulation);
+        Self::start_in(&Environment::default(), prepared, stations, settings)
     }
 
-    /// The same, shown in an operating room.
+    /// The same with a model that was prepared beside the caller, in an `environment`.
     ///
     /// # Errors
     /// As for [`start`](Self::start).
-    pub fn start_shown(
-        simulation: Arc<Simulation>,
+    pub fn start_in(
+        environment: &Environment<'_>,
+        prepared: PreparedModel,
         stations: Vec<Option<Station>>,
         settings: ServoSettings,
-        room: Option<&OperatingRoom>,
     ) -> Result<Self, Error> {
         let supervisor = Supervisor::armed();
+        let PreparedModel { model, seen } = prepared.shown_in(environment.operating_room);
+        let simulation = model.simulation.clone();
         let parts = take_apart(&simulation, stations, settings, &supervisor)?;
+        let displays = parts.iter().flatten().any(|parts| parts.displays_force);
         let (rows, read_rows) = log::ring(ROWS);
-        let (recorder, read_rows) = SessionRecorder::start(read_rows).ok_or(Fault::NoThread)?;
+        let stops = displays.then(|| supervisor.clone());
+        let recorder = SessionRecorder::start(read_rows, stops);
+        let (recorder, read_rows) = recorder.ok_or(Fault::NoThread)?;
         let (give, orders) = orders();
-        let (snapshots, seen) = latest::channel(&Snapshot::new(&simulation));
-        let mut snapshots = vec![snapshots];
-        if let Some(room) = room {
-            snapshots.push(shown_in(room, &simulation));
-        }
+        let (replacing, taking_over) = take_over(&simulation, &supervisor);
         let clock = Clock::real();
-        let (mut servos, mut lines, mut watches) = (Vec::new(), Vec::new(), Vec::new());
-        for parts in parts {
-            let Some(Parts { servo, line, watch }) = parts else {
-                servos.push(None);
-                lines.push(None);
-                watches.push(None);
-                continue;
-            };
-            servos.push(Some(ServoThread::start(servo, clock)?));
-            lines.push(Some(line));
-            watches.push(Some(watch));
-        }
+        let watched = parts.iter().flatten().map(|parts| parts.watched.clone());
+        let watch = LoopWatch::new(supervisor.clone(), watched.collect(), environment.is_ended);
+        let watch = WatchThread::start(watch, clock)?;
+        let Running {
+            servos,
+            lines,
+            watches,
+        } = Running::start(parts, clock)?;
+        let channels = Channels {
+            orders,
+            rows,
+            taking_over,
+        };
         let stop = Arc::new(AtomicBool::new(false));
-        let asked = stop.clone();
-        let period = simulation.step();
-        let model = ModelLoop::new(simulation, lines, (orders, rows), snapshots);
+        let (asked, period) = (stop.clone(), simulation.step());
+        let model = ModelLoop::new(model, lines, channels);
         let thread = std::thread::Builder::new().name("model".to_owned());
         let handle = thread.spawn(move || run(model, clock, period, &asked));
         Ok(Self {
@@ -88,13 +122,30 @@ impl Interaction {
             model: Some(handle.map_err(|_| Fault::NoThread)?),
             servos,
             watches,
+            watch,
             recorder,
             rows: read_rows,
             orders: give,
             snapshots: seen,
+            replacing,
             supervisor,
             clock,
         })
+    }
+
+    /// Goes on with another model, the organ at rest, while all devices stay open and their loops run: forces are off for
+    /// some milliseconds and are armed again. `environment` is that of the start.
+    ///
+    /// # Errors
+    /// When the loops of this touch do not serve the other model, or the model thread has ended.
+    pub fn replace_model(
+        &mut self,
+        environment: &Environment<'_>,
+        prepared: PreparedModel,
+    ) -> Result<(), Error> {
+        let prepared = prepared.shown_in(environment.operating_room);
+        self.snapshots = self.replacing.replace(prepared)?;
+        Ok(())
     }
 
     /// The time that rows and samples count in [s].
@@ -189,6 +240,11 @@ impl Interaction {
         self.supervisor.arm();
     }
 
+    /// What a person has to know of a device whose driver does not return from a call; none when all answer.
+    pub fn hung_device(&self) -> Option<String> {
+        self.watch.watch().warning()
+    }
+
     /// Whether all threads still run.
     pub fn is_running(&self) -> bool {
         let model = self
@@ -198,11 +254,12 @@ impl Interaction {
         model && self.servos.iter().flatten().all(ServoThread::is_running)
     }
 
-    /// Ends all threads, devices first, and tells how good the touch was. What nobody has read stays to be
-    /// read.
+    /// Takes all forces off, ends all threads, devices first, and tells how good the touch was. What nobody has read stays
+    /// to be read.
     ///
     /// # Errors
-    /// When a thread panicked.
+    /// When a thread panicked, a loop hangs in its device (it is left behind, without a force if it ever returns), or the
+    /// recording could not be written.
     pub fn stop(&mut self) -> Result<Quality, Error> {
         self.supervisor.switch_off();
         let stopped = |servo: &mut Option<ServoThread>| servo.take().map(ServoThread::stop);
@@ -230,8 +287,29 @@ impl Drop for Interaction {
     }
 }
 
+impl Running {
+    /// Starts the loops; each is watched from here on.
+    fn start(parts: Vec<Option<Parts>>, clock: Clock) -> Result<Self, Fault> {
+        let mut running = Self::default();
+        for parts in parts {
+            let (servo, line, watch) = match parts {
+                None => (None, None, None),
+                Some(parts) => {
+                    let servo = ServoThread::start(parts.servo, clock)?;
+                    (Some(servo), Some(parts.line), Some(parts.watch))
+                }
+            };
+            running.servos.push(servo);
+            running.lines.push(line);
+            running.watches.push(watch);
+        }
+        Ok(running)
+    }
+}
+
 /// Steps at whole multiples of the period; what is late is left out, never made up for.
 fn run(mut model: ModelLoop, mut clock: Clock, period: f64, stop: &AtomicBool) -> ModelReport {
+    model.priority = raise_model_priority();
     let mut number = (clock.now() / period).ceil() as u64;
     while !stop.load(Ordering::Relaxed) {
         clock.sleep_until(number as f64 * period);

@@ -6,7 +6,8 @@
 //! ```
 //!
 //! An [`Order`] (pause, undo, anew) goes to the model by a ring of its own. The recorder writes a session that is
-//! recorded, and hands its rows on to who shows them.
+//! recorded, and hands its rows on to who shows them. A watch thread notices a loop that hangs and a program that shall end
+//! ([`palpate_servo::watch`]). Another model takes over while the devices stay open ([`PreparedModel`]).
 //!
 //! Nobody waits for anybody: what was not read is replaced, and what finds no room is counted.
 //! [`Interaction`] runs it on the machine's clock; [`VirtualInteraction`] runs the same parts on a virtual
@@ -21,6 +22,7 @@ mod hand_over;
 mod happenings;
 mod interaction;
 mod judge;
+mod model;
 mod model_loop;
 mod mount;
 mod operating_room;
@@ -40,8 +42,9 @@ const ROWS: usize = 24_000;
 pub use force_renderer::ForceRenderer;
 pub use hand_over::affine_force;
 pub use happenings::{Happening, Happenings};
-pub use interaction::Interaction;
+pub use interaction::{Environment, Interaction};
 pub use judge::judge_samples;
+pub use model::PreparedModel;
 pub use model_loop::CUTS;
 pub(crate) use model_loop::DISPLAY;
 pub use mount::Mount;

@@ -1,16 +1,16 @@
-use std::sync::Arc;
 use std::time::Instant;
 
 use palpate_files::{Event, Events, Pose, SessionRow};
-use palpate_servo::{AffineForce, Histogram, Sample, Stage, latest, log};
+use palpate_servo::{AffineForce, Histogram, Priority, Sample, Stage, log};
 
 use super::hand_over::affine_force;
 use super::judge::made;
+use super::model::{Model, TakingOver};
 use super::quality::ExtrapolationError;
 use super::snapshot::Felt;
 use super::stations::Line;
-use super::{Happenings, ModelReport, Mount, Order, Snapshot};
-use crate::{Simulation, SimulationState, SimulationWorkspace, step};
+use super::{Happenings, ModelReport, Mount, Order};
+use crate::step;
 
 /// The period of a display [s], with some room: a step that is a little early counts.
 pub(crate) const DISPLAY: f64 = 0.9 / 60.0;
@@ -20,9 +20,8 @@ pub const CUTS: u32 = 1;
 
 /// The model and its ends of all channels. A step allocates nothing and waits for nobody.
 pub(super) struct ModelLoop {
-    simulation: Arc<Simulation>,
-    state: SimulationState,
-    workspace: SimulationWorkspace,
+    model: Box<Model>,
+    taking_over: TakingOver,
     lines: Vec<Option<Line>>,
     samples: Vec<Option<Sample>>,
     poses: Vec<Option<Pose>>,
@@ -37,8 +36,6 @@ pub(super) struct ModelLoop {
     /// When it was asked last [s], and how long it stood still in all [s].
     asked: f64,
     stood: f64,
-    /// One for each who looks on.
-    snapshots: Vec<latest::Sender<Snapshot>>,
     happenings: Happenings,
     steps: u64,
     step_times: Histogram,
@@ -48,20 +45,27 @@ pub(super) struct ModelLoop {
     /// The step of the last row [s]; none before the first.
     last: Option<f64>,
     missed: u64,
+    pub(super) priority: Priority,
+}
+
+/// Where a model gets its orders from, and where its rows go.
+pub(super) struct Channels {
+    pub(super) orders: log::Reader<Order>,
+    pub(super) rows: log::Writer<SessionRow>,
+    pub(super) taking_over: TakingOver,
 }
 
 impl ModelLoop {
-    pub(super) fn new(
-        simulation: Arc<Simulation>,
-        lines: Vec<Option<Line>>,
-        (orders, rows): (log::Reader<Order>, log::Writer<SessionRow>),
-        snapshots: Vec<latest::Sender<Snapshot>>,
-    ) -> Self {
+    pub(super) fn new(model: Box<Model>, lines: Vec<Option<Line>>, channels: Channels) -> Self {
+        let Channels {
+            orders,
+            rows,
+            taking_over,
+        } = channels;
         let tools = lines.len();
         Self {
-            state: SimulationState::new(&simulation).show_every(DISPLAY),
-            workspace: SimulationWorkspace::new(&simulation),
-            simulation,
+            model,
+            taking_over,
             lines,
             samples: vec![None; tools],
             poses: vec![None; tools],
@@ -73,7 +77,6 @@ impl ModelLoop {
             were_there: vec![false; tools],
             asked: 0.0,
             stood: 0.0,
-            snapshots,
             happenings: Happenings::default(),
             step_times: Histogram::default(),
             error: ExtrapolationError::default(),
@@ -82,6 +85,7 @@ impl ModelLoop {
             steps: 0,
             last: None,
             missed: 0,
+            priority: Priority::Ordinary,
         }
     }
 
@@ -89,6 +93,7 @@ impl ModelLoop {
     pub(super) fn step(&mut self, time: f64) {
         let start = Instant::now();
         self.read_hands();
+        self.let_another_take_over();
         self.obey();
         if self.paused {
             self.stood += time - self.asked;
@@ -106,21 +111,25 @@ impl ModelLoop {
         }
         self.steps += 1;
         self.now = time;
-        step(
-            &self.simulation,
-            (time, elapsed),
-            &self.poses,
-            &mut self.state,
-            &mut self.workspace,
-        );
-        self.compare();
+        let Model {
+            simulation,
+            state,
+            workspace,
+            ..
+        } = &mut *self.model;
+        step(simulation, (time, elapsed), &self.poses, state, workspace);
+        // After a new beginning, what was felt was made of another touch.
+        if self.last.is_some() {
+            self.compare();
+        }
         self.record(time);
         self.step_times.add(start.elapsed().as_secs_f64());
     }
 
     /// Hands the step over to the servo loops and to the display.
     pub(super) fn publish(&mut self) {
-        let tools = self.simulation.tools().iter().zip(&self.state.tools);
+        let model = &self.model;
+        let tools = model.simulation.tools().iter().zip(&model.state.tools);
         for ((line, sample), (tool, state)) in self.lines.iter_mut().zip(&self.samples).zip(tools) {
             if let (Some(line), Some(sample)) = (line, sample) {
                 let time = sample.state.time;
@@ -132,14 +141,16 @@ impl ModelLoop {
         }
         let report = self.report();
         let Self {
-            snapshots,
-            state,
+            model,
             felt,
             happenings,
             now,
             paused,
             ..
         } = self;
+        let Model {
+            snapshots, state, ..
+        } = &mut **model;
         for snapshots in snapshots {
             snapshots.send_with(|snapshot| {
                 snapshot.fill(*now, state, felt);
@@ -168,7 +179,25 @@ impl ModelLoop {
             },
             step_times: self.step_times.percentiles(),
             extrapolation: self.error,
+            priority: self.priority,
         }
+    }
+
+    /// Goes on with another model, the organ at rest, where one is ready.
+    fn let_another_take_over(&mut self) {
+        let Some(next) = self.taking_over.next(&self.samples) else {
+            return;
+        };
+        let old = std::mem::replace(&mut self.model, next);
+        self.note_new_beginning();
+        self.taking_over.finish(old, self.paused);
+    }
+
+    /// The next row is the first of a new touch, and says so.
+    fn note_new_beginning(&mut self) {
+        self.were_there.fill(false);
+        self.last = None;
+        self.ordered.insert(Event::BeginAnew);
     }
 
     /// Does what was ordered. What changes the organ is told by the next row, one thing at a time.
@@ -180,13 +209,14 @@ impl ModelLoop {
                 Order::Pause => self.paused = true,
                 Order::Resume => self.paused = false,
                 Order::Reset => {
-                    self.state.begin_anew(&self.simulation);
-                    self.were_there.fill(false);
-                    self.last = None;
-                    self.ordered.insert(Event::BeginAnew);
+                    let Model {
+                        simulation, state, ..
+                    } = &mut *self.model;
+                    state.begin_anew(simulation);
+                    self.note_new_beginning();
                 }
                 Order::UndoCut => {
-                    if self.state.undo_cut() {
+                    if self.model.state.undo_cut() {
                         self.ordered.insert(Event::UndoCut);
                     }
                 }
@@ -213,13 +243,16 @@ impl ModelLoop {
 
     /// What was felt at the place of a hand, made of older answers, beside what is found for it now.
     fn compare(&mut self) {
-        for ((line, sample), tool) in self.lines.iter().zip(&self.samples).zip(&self.state.tools) {
+        let Model {
+            simulation, state, ..
+        } = &*self.model;
+        for ((line, sample), tool) in self.lines.iter().zip(&self.samples).zip(&state.tools) {
             let (Some(line), Some(sample)) = (line, sample) else {
                 continue;
             };
             // Before the first answer nothing was handed over.
             let answered = sample.age.is_some_and(f64::is_finite);
-            let made = made(&self.simulation, &line.mount, sample);
+            let made = made(simulation, &line.mount, sample);
             if answered && made.iter().all(|component| component.is_finite()) {
                 self.error.add(&made, &tool.force);
             }
@@ -228,8 +261,9 @@ impl ModelLoop {
 
     /// A row for each tool that is there or has just gone; what was ordered is told by the first.
     fn record(&mut self, time: f64) {
-        let nobody = self.state.tools.iter().all(|tool| tool.pose.is_none());
-        for (number, tool) in self.state.tools.iter().enumerate() {
+        let tools = &self.model.state.tools;
+        let nobody = tools.iter().all(|tool| tool.pose.is_none());
+        for (number, tool) in tools.iter().enumerate() {
             let is_there = tool.pose.is_some();
             let was_there = std::mem::replace(&mut self.were_there[number], is_there);
             let speaks = nobody && number == 0 && !self.ordered.is_empty();

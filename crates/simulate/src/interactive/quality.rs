@@ -1,5 +1,5 @@
 use palpate_geometry::Vec3;
-use palpate_servo::{LoopReport, Percentiles};
+use palpate_servo::{LoopReport, MemoryLock, Percentiles, Priority};
 
 /// How good the touch was.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,6 +23,22 @@ pub struct ModelReport {
     pub step_times: Percentiles,
     /// How far the forces between steps were off.
     pub extrapolation: ExtrapolationError,
+    /// What the operating system gave the model's thread.
+    pub priority: Priority,
+}
+
+impl Quality {
+    /// Where the operating system does not give what a touch needs, what that means and how to allow it: a sentence for
+    /// each of servo loops, model and memory.
+    pub fn warnings(&self, memory: MemoryLock) -> Vec<String> {
+        let mut loops = self.loops.iter().flatten();
+        let servo = loops.find_map(|report| report.priority.warning("servo"));
+        let model = self.model.priority.warning("model");
+        [servo, model, memory.warning()]
+            .into_iter()
+            .flatten()
+            .collect()
+    }
 }
 
 /// How far the force that the servo loop made of older answers was from the one that the model then found

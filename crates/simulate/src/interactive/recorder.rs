@@ -4,7 +4,7 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 use palpate_files::{Event, SessionRow};
-use palpate_servo::log;
+use palpate_servo::{StopReason, Supervisor, log};
 
 use super::ROWS;
 use crate::{Error, SessionFolderWriter};
@@ -56,6 +56,8 @@ struct Recording {
     /// Why rows can no longer be written.
     failed: Option<String>,
     unwritten: Arc<Mutex<Option<Unwritten>>>,
+    /// Whose forces are taken off when a row cannot be written.
+    stops: Option<Supervisor>,
 }
 
 /// How far the recording is.
@@ -70,15 +72,20 @@ enum Stage {
 }
 
 impl SessionRecorder {
-    /// Starts; none when there is no thread. The other end of the rows is given back.
-    pub(super) fn start(from: log::Reader<SessionRow>) -> Option<(Self, log::Reader<SessionRow>)> {
-        Self::with_memory(from, MOST_ROWS_IN_MEMORY)
+    /// Starts; none when there is no thread. The other end of the rows is given back. `stops` is the session whose forces
+    /// are taken off when a row cannot be written, if it displays any.
+    pub(super) fn start(
+        from: log::Reader<SessionRow>,
+        stops: Option<Supervisor>,
+    ) -> Option<(Self, log::Reader<SessionRow>)> {
+        Self::with_memory(from, MOST_ROWS_IN_MEMORY, stops)
     }
 
     /// With another number of rows in memory.
     fn with_memory(
         from: log::Reader<SessionRow>,
         most: usize,
+        stops: Option<Supervisor>,
     ) -> Option<(Self, log::Reader<SessionRow>)> {
         let (to, rows) = log::ring(ROWS);
         let (requests, requested) = channel();
@@ -92,6 +99,7 @@ impl SessionRecorder {
             most,
             failed: None,
             unwritten: unwritten.clone(),
+            stops,
         };
         let thread = std::thread::Builder::new().name("recorder".to_owned());
         let thread = thread.spawn(move || recording.run(&requested)).ok()?;
@@ -213,6 +221,9 @@ impl Recording {
         if let Some(Err(error)) = written {
             self.failed = Some(error.to_string());
             self.writer = None;
+            if let Some(supervisor) = &self.stops {
+                supervisor.trip_because(StopReason::Unrecorded);
+            }
             self.show_failure();
         }
     }

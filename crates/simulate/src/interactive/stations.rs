@@ -1,4 +1,5 @@
 use palpate_servo::latest::{Receiver, Sender, channel};
+use palpate_servo::watch::Watched;
 use palpate_servo::{
     AffineForce, Device, Extrapolator, LoopReport, Sample, ServoLoop, ServoSettings, Supervisor,
     log,
@@ -44,6 +45,10 @@ pub(super) struct Parts {
     pub(super) servo: ServoLoop,
     pub(super) line: Line,
     pub(super) watch: Watch,
+    /// Who its loop is, and when it ticks.
+    pub(super) watched: Watched,
+    /// Whether its forces reach a hand.
+    pub(super) displays_force: bool,
 }
 
 /// The parts of every station, none for a tool without a device.
@@ -59,19 +64,20 @@ pub(super) fn take_apart(
             stations: stations.len(),
         });
     }
-    let parts = |station| Parts::new(simulation, station, settings, supervisor.clone());
-    let parts = stations
-        .into_iter()
-        .map(|station| station.map(parts).transpose());
+    let tools = simulation.tools().iter().zip(stations);
+    let parts = tools.map(|(tool, station)| {
+        let parts = |station| Parts::new((simulation, &tool.name), station, settings, supervisor);
+        station.map(parts).transpose()
+    });
     parts.collect()
 }
 
 impl Parts {
     fn new(
-        simulation: &Simulation,
+        (simulation, tool): (&Simulation, &str),
         station: Station,
         settings: ServoSettings,
-        supervisor: Supervisor,
+        supervisor: &Supervisor,
     ) -> Result<Self, Error> {
         let Station { device, mount } = station;
         let (answers, heard) = channel(&AffineForce::none(f64::NEG_INFINITY));
@@ -79,9 +85,16 @@ impl Parts {
         let extrapolator = Extrapolator::new(hand_over, simulation.step(), settings.period);
         let scale = simulation.force_scale();
         let renderer = ForceRenderer::new(heard, extrapolator, mount, scale);
+        let capabilities = device.capabilities();
+        let (name, displays_force) = (capabilities.name.clone(), capabilities.displays_force);
         let (servo, reader) =
-            ServoLoop::supervised(device, Box::new(renderer), settings, supervisor)?;
+            ServoLoop::supervised(device, Box::new(renderer), settings, supervisor.clone())?;
         Ok(Self {
+            watched: Watched {
+                name: format!("the device of the tool {tool:?} ({name})"),
+                pulse: reader.pulse,
+            },
+            displays_force,
             servo,
             line: Line {
                 samples: reader.latest,

@@ -3,7 +3,8 @@ use std::sync::Arc;
 use palpate_files::SessionRow;
 use palpate_servo::{Fault, Sample, ServoLoop, ServoSettings, Supervisor, latest, log};
 
-use super::model_loop::ModelLoop;
+use super::model::{PreparedModel, Replacing, take_over};
+use super::model_loop::{Channels, ModelLoop};
 use super::order::orders;
 use super::stations::{Station, Watch, take_apart};
 use super::{Order, Quality, Snapshot};
@@ -19,6 +20,7 @@ pub struct VirtualInteraction {
     rows: log::Reader<SessionRow>,
     orders: log::Writer<Order>,
     snapshots: latest::Receiver<Snapshot>,
+    replacing: Replacing,
     supervisor: Supervisor,
     period: f64,
     tick: u64,
@@ -39,7 +41,13 @@ impl VirtualInteraction {
         let parts = take_apart(&simulation, stations, settings, &supervisor)?;
         let (rows, read_rows) = log::ring(settings.log.max(1) * parts.len());
         let (give, orders) = orders();
-        let (snapshots, seen) = latest::channel(&Snapshot::new(&simulation));
+        let PreparedModel { model, seen } = PreparedModel::new(simulation.clone());
+        let (replacing, taking_over) = take_over(&simulation, &supervisor);
+        let channels = Channels {
+            orders,
+            rows,
+            taking_over,
+        };
         let (mut servos, mut lines, mut watches) = (Vec::new(), Vec::new(), Vec::new());
         for parts in parts {
             let (servo, line, watch) = parts.map_or((None, None, None), |parts| {
@@ -51,12 +59,13 @@ impl VirtualInteraction {
         }
         Ok(Self {
             model_period: simulation.step(),
-            model: ModelLoop::new(simulation, lines, (orders, rows), vec![snapshots]),
+            model: ModelLoop::new(model, lines, channels),
             servos,
             watches,
             rows: read_rows,
             orders: give,
             snapshots: seen,
+            replacing,
             supervisor,
             period: settings.period,
             tick: 0,
@@ -101,6 +110,15 @@ impl VirtualInteraction {
     pub fn order(&mut self, order: Order) {
         order.supervise(&self.supervisor);
         self.orders.add(order);
+    }
+
+    /// Goes on with another model, the organ at rest, while the loops run.
+    ///
+    /// # Errors
+    /// When the loops do not serve the other model.
+    pub fn replace_model(&mut self, prepared: PreparedModel) -> Result<(), Error> {
+        self.snapshots = self.replacing.replace(prepared)?;
+        Ok(())
     }
 
     /// What arms the forces of all devices and takes them off.

@@ -18,7 +18,7 @@ use palpate_servo::{
 };
 use palpate_simulate::Simulation;
 use palpate_simulate::interactive::{
-    Interaction, Mount, SceneDevices, Station, VirtualInteraction,
+    Environment, Interaction, Mount, PreparedModel, SceneDevices, Station, VirtualInteraction,
 };
 
 use crate::interactive::{POLE, advance};
@@ -248,8 +248,12 @@ fn a_touch_is_shown_in_an_operating_room() {
     let station = Station::palpating(&simulation, &simulation.tools()[0]);
     let settings = ServoSettings::default();
     let stations = vec![Some(station)];
-    let touch =
-        Interaction::start_shown(simulation.clone(), stations, settings, Some(&room)).unwrap();
+    let environment = Environment {
+        operating_room: Some(&room),
+        ..Environment::default()
+    };
+    let prepared = PreparedModel::new(simulation.clone());
+    let touch = Interaction::start_in(&environment, prepared, stations, settings).unwrap();
     let mut stream = std::net::TcpStream::connect(room.address()).unwrap();
     let mut request = Vec::new();
     let now = std::time::SystemTime::now();

@@ -124,6 +124,34 @@ fn a_blade_opens_the_layers_that_its_depth_reaches() {
     assert!(!hand.state.undo_cut());
 }
 
+/// A new beginning in the middle of a cut that was deepened, with the same scratch. Judge: the first time, to the bit.
+#[test]
+fn a_new_beginning_forgets_cuts_and_their_depth() {
+    let simulation = prepared(&text("scissors", ""));
+    let mut hand = Hand::new(&simulation);
+    let mut course = || {
+        let mut told = Vec::new();
+        for depth in [0.0011, 0.0021] {
+            for k in 0..=200 {
+                told.push(hand.at(-0.02 + 1e-4 * f64::from(k), depth, true));
+            }
+            told.push(hand.at(0.0, -0.01, false));
+        }
+        // The blade stays in.
+        told.push(hand.at(0.0, 0.0011, true));
+        let cuts = hand.state.cuts.as_ref().unwrap();
+        let vertices = cuts.mesh().vertices().to_vec();
+        let found = (told, vertices, hand.lengths());
+        hand.state.begin_anew(&simulation);
+        assert_eq!(hand.lengths(), [0.0; 3]);
+        assert_eq!(hand.state.cuts.as_ref().unwrap().count(), 0);
+        found
+    };
+    let first = course();
+    assert!(first.2[1] > 0.0, "{:?}", first.2);
+    assert!(course() == first);
+}
+
 /// A probe breaks each layer at that layer's own force. Judge: the forces that the scene names. Where they
 /// fall from layer to layer, all break with the first.
 #[test]

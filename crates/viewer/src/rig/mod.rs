@@ -170,7 +170,7 @@ impl RigWindow {
                 self.header = made.rig.header().clone();
                 self.doubts[1] = made.doubts;
                 self.watch.sensor_range = made.rig.sensor_range();
-                LiveRig::start(made.rig).map_err(|error| error.to_string())
+                LiveRig::start_until(made.rig, self.is_ended).map_err(|error| error.to_string())
             });
             self.behind = match live {
                 Ok(live) => Behind::Live(Box::new(live)),
@@ -180,7 +180,11 @@ impl RigWindow {
         let Behind::Live(live) = &mut self.behind else {
             return;
         };
+        live.report_alive();
         self.watch.read(live, &mut self.journal);
+        if let Some(hung) = live.hung_device() {
+            self.watch.notice = Some(hung);
+        }
         if !live.is_running() {
             let sentence =
                 "a thread of the rig has ended, and its device was stopped; open the window anew";

@@ -21,6 +21,7 @@ impl Preparation {
         let (make, told) = (make.clone(), part.clone());
         let refused = tell.clone();
         let work = move || {
+            palpate_servo::lower_priority();
             let made = make(&mut |part| told.store(part.to_bits(), Ordering::Relaxed));
             // Nobody waits any more when another was chosen since.
             let _ = tell.send(made);

@@ -194,7 +194,7 @@ impl SimulatorWindow {
         }
         self.history.clear();
         match outcome.play {
-            Ok(prepared) => self.touch(prepared, outcome.last),
+            Ok(prepared) => self.touch(prepared, (outcome.last, outcome.second)),
             Err(error) if outcome.second => self.notice = Some(error.to_string()),
             Err(error) => {
                 self.play = None;
@@ -204,14 +204,27 @@ impl SimulatorWindow {
     }
 
     /// Begins the touch of what was prepared; with the last of it, a session that waited for it is looked at.
-    fn touch(&mut self, prepared: Prepared, is_last: bool) {
+    fn touch(&mut self, mut prepared: Prepared, (is_last, is_second): (bool, bool)) {
         let before = self.play.as_ref();
         let before = before.map(|play| play.scene.organ.shape.clone());
-        if prepared.has_devices() {
-            // What is still touched lets go of them first.
-            self.play = None;
-        }
-        let mut play = match Play::start(prepared) {
+        // The organ-scale model takes over from the local one in the middle of a touch: no device is closed.
+        let mut touched = self.play.take();
+        let is_ended = self.is_ended;
+        let takes_over = is_second
+            && touched
+                .as_mut()
+                .is_some_and(|play| play.take_over(&mut prepared, is_ended));
+        let started = match touched {
+            Some(play) if takes_over => Ok(play.showing(prepared)),
+            touched => {
+                if prepared.has_devices() {
+                    // What is still touched lets go of them first.
+                    drop(touched);
+                }
+                Play::start(prepared, is_ended)
+            }
+        };
+        let mut play = match started {
             Ok(play) => play,
             Err(error) => {
                 self.play = None;

@@ -2,7 +2,7 @@ use eframe::egui::{self, Button, Color32, RichText, Ui};
 use egui_plot::{Line, Plot, PlotPoints};
 use palpate_files::BuiltinTissue;
 use palpate_files::scene::{BuiltinOrgan, ModelKind, Shading, TipContact, TipShape};
-use palpate_servo::LoopReport;
+use palpate_servo::{LoopReport, lock_memory};
 use palpate_simulate::TRUSTED_DEPTH;
 
 use super::SimulatorWindow;
@@ -245,13 +245,18 @@ fn rates(window: &SimulatorWindow, ui: &mut Ui) {
         ui.end_row();
         ui.label("model");
         ui.label(format!(
-            "{:.0} of {:.0} Hz",
+            "{:.0} of {:.0} Hz, {} priority",
             rates.model,
-            wanted.unwrap_or(0.0)
+            wanted.unwrap_or(0.0),
+            rates.answers.priority.word()
         ));
         ui.end_row();
         ui.label("servo");
-        ui.label(format!("{:.0} of 1000 Hz", rates.servo));
+        ui.label(format!(
+            "{:.0} of 1000 Hz, {} priority",
+            rates.servo,
+            rates.touch.priority.word()
+        ));
         ui.end_row();
         quality(rates, ui);
     });
@@ -307,7 +312,11 @@ pub(super) fn status(window: &SimulatorWindow, ui: &mut Ui) {
     ui.horizontal_wrapped(|ui| {
         emergency_stop(window, ui);
         let depth = window.history.last().1;
-        let said = window.fault.as_ref().or(window.notice.as_ref()).cloned();
+        let hung = window
+            .play
+            .as_ref()
+            .and_then(|play| play.source.hung_device());
+        let said = hung.or_else(|| window.fault.as_ref().or(window.notice.as_ref()).cloned());
         let felt = window.rates.touch.fault.map(|fault| fault.to_string());
         let is_latched = felt.is_some() && said.is_none();
         if let Some(fault) = said.or(felt) {
@@ -364,12 +373,24 @@ fn waiting(preparation: &Preparation, ui: &mut Ui) {
     ui.ctx().request_repaint_after(super::REST);
 }
 
+/// Where the operating system does not give what a touch with forces needs.
+fn conditions(rates: &Rates) -> impl Iterator<Item = String> {
+    let servo = rates.touch.priority.warning("servo");
+    let model = rates.answers.priority.warning("model");
+    [servo, model, lock_memory().warning()]
+        .into_iter()
+        .flatten()
+}
+
 fn doubts(window: &SimulatorWindow, ui: &mut Ui) {
     // What changes the force that is felt now comes first.
     let play = window.play.iter();
-    let doubts: Vec<_> = play
+    let mut doubts: Vec<_> = play
         .flat_map(|play| play.limits.iter().chain(&play.doubts).cloned())
         .collect();
+    if window.play.as_ref().is_some_and(super::Play::has_devices) {
+        doubts.extend(conditions(&window.rates));
+    }
     match &doubts[..] {
         [] => {
             ui.colored_label(QUIET, "nothing deserves doubt");

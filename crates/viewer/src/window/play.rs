@@ -3,8 +3,10 @@ use std::sync::Arc;
 
 use palpate_files::Scene;
 use palpate_geometry::{AabbTree, Surface, Vec3};
-use palpate_servo::{PointerHand, ServoSettings};
-use palpate_simulate::interactive::{CUTS, Interaction, Order, SceneDevices};
+use palpate_servo::{PointerHand, ServoSettings, lock_memory};
+use palpate_simulate::interactive::{
+    CUTS, Environment, Interaction, Order, PreparedModel, SceneDevices,
+};
 use palpate_simulate::{Progress, Replay, Resources, Simulation, read_neighbour};
 
 use super::hands::Hand;
@@ -35,6 +37,8 @@ pub(super) struct Prepared {
     neighbours: Vec<Body>,
     doubts: Vec<String>,
     resources: Resources,
+    /// None for a session that is played again.
+    model: Option<PreparedModel>,
 }
 
 /// A scene that is being touched.
@@ -66,7 +70,12 @@ impl Prepared {
         watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
         let simulation = Arc::new(Simulation::prepare(&scene, resources, watch)?);
-        Self::around((scene, simulation), resources.clone(), gpu)
+        let model = PreparedModel::new(simulation.clone());
+        let around = Self::around((scene, simulation), resources.clone(), gpu)?;
+        Ok(Self {
+            model: Some(model),
+            ..around
+        })
     }
 
     /// What is seen around a simulation that is there.
@@ -91,6 +100,7 @@ impl Prepared {
             simulation,
             scene,
             resources,
+            model: None,
         })
     }
 
@@ -111,17 +121,37 @@ impl Play {
     ///
     /// # Errors
     /// When a device is not there, or a thread does not start.
-    pub(super) fn start(prepared: Prepared) -> Result<Self, Error> {
+    pub(super) fn start(mut prepared: Prepared, is_ended: fn() -> bool) -> Result<Self, Error> {
+        if prepared.has_devices() {
+            lock_memory();
+        }
         let (scene, simulation) = (&prepared.scene, prepared.simulation.clone());
         let devices = SceneDevices::open(scene, &simulation, &prepared.resources.devices)?;
-        let interaction = Interaction::start_shown(
-            simulation,
+        let model = prepared.model.take();
+        let interaction = Interaction::start_in(
+            &environment(&prepared.resources, is_ended),
+            model.unwrap_or_else(|| PreparedModel::new(simulation)),
             devices.stations,
             ServoSettings::default(),
-            prepared.resources.operating_room.as_ref(),
         )?;
         let source = Source::Touched(Box::new(interaction));
         Ok(Self::of(prepared, (source, devices.pointers)))
+    }
+
+    /// Goes on with what was prepared, while the devices stay open and their loops run. Whether the touch could: else it
+    /// is as before.
+    pub(super) fn take_over(&mut self, prepared: &mut Prepared, is_ended: fn() -> bool) -> bool {
+        let (Source::Touched(touch), Some(model)) = (&mut self.source, prepared.model.take())
+        else {
+            return false;
+        };
+        let environment = environment(&prepared.resources, is_ended);
+        touch.replace_model(&environment, model).is_ok()
+    }
+
+    /// What is shown of `prepared` from now on, whose model has taken over.
+    pub(super) fn showing(self, prepared: Prepared) -> Self {
+        Self::of(prepared, (self.source, self.pointers))
     }
 
     /// A session of `scene` that is played again; its hands move nothing.
@@ -201,5 +231,12 @@ impl Play {
     /// Goes on, if all stood still.
     pub(super) fn go_on(&mut self) {
         self.source.order(Order::Resume);
+    }
+}
+
+fn environment(resources: &Resources, is_ended: fn() -> bool) -> Environment<'_> {
+    Environment {
+        operating_room: resources.operating_room.as_ref(),
+        is_ended,
     }
 }

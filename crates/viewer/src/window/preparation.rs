@@ -6,6 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use eframe::egui;
 use palpate_files::Scene;
 use palpate_files::scene::ModelKind;
+use palpate_servo::lower_priority;
 use palpate_simulate::{Progress, Resources};
 
 use super::play::Prepared;
@@ -102,6 +103,8 @@ impl Drop for Preparation {
 
 impl Work {
     fn run(self, tell: &Sender<Outcome>) {
+        // The touch goes on beside it.
+        lower_priority();
         let second = self.scene.model.kind != ModelKind::Local;
         if second {
             let mut local = self.scene.clone();

@@ -80,6 +80,14 @@ impl Source {
         }
     }
 
+    /// What a person has to know of a device that does not answer any more.
+    pub(super) fn hung_device(&self) -> Option<String> {
+        match self {
+            Self::Touched(interaction) => interaction.hung_device(),
+            Self::Again(_) => None,
+        }
+    }
+
     /// Arms the forces of all devices again after a fault or an emergency stop.
     pub(super) fn arm(&self) {
         if let Self::Touched(interaction) = self {

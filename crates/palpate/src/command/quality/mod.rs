@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use clap::Args;
 use palpate_files::Scene;
-use palpate_servo::ServoSettings;
+use palpate_servo::{ServoSettings, lock_memory};
 use palpate_simulate::Simulation;
 use palpate_simulate::interactive::{Interaction, Quality, Station};
 
@@ -61,14 +61,20 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let simulation = preparation::simulation(&scene, &preparation::resources(), reader)?;
     let simulation = Arc::new(simulation);
     let progress = Progress::new(reader, None);
+    let memory = lock_memory();
+    let mut warnings = simulation.doubts().to_vec();
     let mut runs = Vec::new();
     for &rate in &arguments.rates {
         progress.say(format!("{rate} Hz for {} s", arguments.seconds));
         let quality = touch(&simulation, rate, arguments.seconds)?;
+        for warning in quality.warnings(memory) {
+            if !warnings.contains(&warning) {
+                warnings.push(warning);
+            }
+        }
         runs.push(Run::new(rate, &simulation, &quality));
     }
     drop(progress);
-    let warnings = simulation.doubts().to_vec();
     let answer = Answer {
         palpate: output::VERSION,
         runs,

@@ -6,9 +6,9 @@ use std::time::Duration;
 
 use palpate_files::Scene;
 use palpate_files::scene::DeviceKind;
-use palpate_servo::ServoSettings;
+use palpate_servo::{ServoSettings, lock_memory};
 use palpate_simulate::Resources;
-use palpate_simulate::interactive::{Interaction, SceneDevices};
+use palpate_simulate::interactive::{Environment, Interaction, PreparedModel, SceneDevices};
 
 use crate::failure::Failure;
 use crate::progress::Reader;
@@ -30,10 +30,17 @@ pub(super) fn run(scene: Scene, resources: Resources) -> Result<(), Failure> {
     output::warnings(simulation.doubts());
     let names = simulation.clone();
     let devices = SceneDevices::open(&scene, &simulation, &resources.devices)?;
-    let room = resources.operating_room.as_ref();
+    let environment = Environment {
+        operating_room: resources.operating_room.as_ref(),
+        is_ended: interrupt::is_asked,
+    };
+    let prepared = PreparedModel::new(simulation);
     let settings = ServoSettings::default();
-    let mut touch = Interaction::start_shown(simulation, devices.stations, settings, room)?;
-    if let Some(room) = room {
+    // Asked once, so that signals are heard from now on.
+    let _ = interrupt::is_asked();
+    let memory = lock_memory();
+    let mut touch = Interaction::start_in(&environment, prepared, devices.stations, settings)?;
+    if let Some(room) = environment.operating_room {
         output::line(format!("shown at {}, Ctrl-C ends it", room.address()))?;
     }
     // What nobody moves by hand is armed again by nobody either: a fault is told, and stays.
@@ -53,6 +60,7 @@ pub(super) fn run(scene: Scene, resources: Resources) -> Result<(), Failure> {
     }
     let ended = touch.is_running();
     let quality = touch.stop()?;
+    output::warnings(&quality.warnings(memory));
     output::warnings(&touch.snapshot().warnings(names.tools()));
     match quality.loops.iter().flatten().find_map(|own| own.fault) {
         Some(fault) if !ended => Err(Failure::failed(fault)),

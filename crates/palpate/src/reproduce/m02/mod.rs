@@ -4,9 +4,11 @@
 //! kidney's means in table 5-1, and leaves it in every cycle. The source extrapolates forces to 1 kHz, which is taken as a line in time.
 
 mod plots;
+mod study;
 
-use palpate_servo::{HandOver, HandOverCost, HandOverStudy};
+use palpate_servo::HandOver;
 
+use self::study::{HandOverCost, HandOverStudy};
 use crate::failure::Failure;
 use crate::reproduce::row::Value;
 use crate::reproduce::{Item, Rows};

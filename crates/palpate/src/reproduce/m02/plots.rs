@@ -1,4 +1,4 @@
-use palpate_servo::HandOverCost;
+use super::study::HandOverCost;
 
 use super::DRAWN;
 use crate::plot::{Plot, Series, Style};

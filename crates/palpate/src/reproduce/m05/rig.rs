@@ -4,9 +4,9 @@
 use palpate_files::Recording;
 use palpate_files::protocol::Stimulus;
 use palpate_files::recording::Samples;
+use palpate_measure::phantom::{Imperfections, MECHANICS_STEP, Machine, TwoMass};
 use palpate_measure::{Course, Rig, RigSample, RigSettings, VirtualSpecimen};
-use palpate_servo::dynamics::{Imperfections, Machine, TwoMass};
-use palpate_servo::{Clock, MECHANICS_STEP};
+use palpate_servo::Clock;
 
 use crate::failure::Failure;
 

@@ -1,8 +1,11 @@
 //! The device as it is printed, and of two masses with one unit for everything: formulas, and the same in time.
 
 use nalgebra::Complex;
-use palpate_servo::MECHANICS_STEP;
-use palpate_servo::dynamics::{Machine, Port, TwoMass, TwoPort, inject};
+use palpate_measure::phantom::{MECHANICS_STEP, Machine, TwoMass};
+
+use super::frequency_response::{Port, inject};
+use super::printed_machine::printed_machine;
+use super::two_port::TwoPort;
 
 /// A device by its formulas and as a machine that moves.
 pub(super) struct Device {
@@ -22,7 +25,7 @@ impl Device {
             name: "printed",
             words: "(7.6) as printed",
             port: TwoPort::as_printed(),
-            machine: Machine::as_printed(MECHANICS_STEP),
+            machine: printed_machine(MECHANICS_STEP),
         }
     }
 

@@ -89,7 +89,7 @@ fn add_modes(rows: &mut Rows<'_>, [c4, c2, c0]: [f64; 3]) {
                 `two_masses/mode`";
     rows.add("g2/first_mode", Value::own(slow.sqrt() / TAU, "Hz"), note);
     rows.add("g2/second_mode", Value::own(fast.sqrt() / TAU, "Hz"), note);
-    let mode = palpate_servo::dynamics::TwoMass::consistent().structural_frequency();
+    let mode = palpate_measure::phantom::TwoMass::consistent().structural_frequency();
     let note = "of two masses made of what the printed coefficients must have been made of: 79.5 g, 4.1 g, 3545 N/m";
     rows.add("two_masses/mode", Value::own(mode, "Hz"), note);
 }

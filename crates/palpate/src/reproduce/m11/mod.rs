@@ -7,7 +7,11 @@ mod equation_7_6;
 mod figure_5_6;
 mod figure_7_7;
 mod figure_7_8;
+mod frequency_response;
+mod printed_machine;
 mod section_7_3;
+mod transfer;
+mod two_port;
 
 pub(super) use equation_7_6::EQUATION_7_6;
 pub(super) use figure_5_6::FIGURE_5_6;

@@ -87,7 +87,7 @@ struct Played {
 
 fn played(most: usize) -> Played {
     let (model, from) = log::ring(ROWS);
-    let (recorder, rows) = SessionRecorder::with_memory(from, most).unwrap();
+    let (recorder, rows) = SessionRecorder::with_memory(from, most, None).unwrap();
     Played {
         recorder,
         model,

@@ -1,0 +1,121 @@
+//! A protocol on a device that is there: the rig runs on its own thread and another one writes, as in the window, so that
+//! neither the disk nor a number that is formatted delays a tick.
+
+use std::path::Path;
+use std::sync::mpsc::RecvTimeoutError;
+use std::time::Duration;
+
+use palpate_files::recording::RecordingHeader;
+use palpate_measure::live::{Commission, LiveRig, News, Order};
+use palpate_measure::{Course, Ended, Recorded, Rig};
+
+use crate::{Error, Watch};
+
+/// How often it is looked whether somebody asks to stop.
+const LOOK: Duration = Duration::from_millis(1);
+
+/// A rig on a device that is there.
+pub(super) struct LiveMeasuring {
+    live: LiveRig,
+    header: RecordingHeader,
+    number: u64,
+}
+
+/// How an order ended, and what was recorded meanwhile.
+struct Done {
+    ended: Ended,
+    recorded: Option<Recorded>,
+}
+
+impl LiveMeasuring {
+    pub(super) fn start(rig: Rig) -> Result<Self, Error> {
+        let header = rig.header().clone();
+        let live = LiveRig::start(rig).map_err(Error::failed)?;
+        Ok(Self {
+            live,
+            header,
+            number: 0,
+        })
+    }
+
+    /// What recordings say of specimen, indenter and sensor.
+    pub(super) fn header(&self) -> &RecordingHeader {
+        &self.header
+    }
+
+    /// One order. To stop takes all forces off at once, for a hand may be on the device.
+    pub(super) fn carry_out(&mut self, order: Order, watch: &dyn Watch) -> Result<Ended, Error> {
+        self.live.console.order(order);
+        self.wait_for(order, watch).map(|done| done.ended)
+    }
+
+    /// One stimulus; none when it was stopped before anything was recorded.
+    pub(super) fn record(
+        &mut self,
+        (course, header): (&Course, RecordingHeader),
+        file: &Path,
+        watch: &dyn Watch,
+    ) -> Result<Option<Recorded>, Error> {
+        self.number += 1;
+        // The tissue rests from what was done to it, then from being looked for.
+        for order in [Order::Rest, Order::Approach, Order::Rest] {
+            if self.carry_out(order, watch)? == Ended::Stopped {
+                return Ok(None);
+            }
+        }
+        let commission = Commission {
+            number: self.number,
+            file: file.to_owned(),
+            header,
+        };
+        self.live.press(*course, commission);
+        let pressed = self.wait_for(Order::Press(*course, self.number), watch);
+        pressed.map(|done| done.recorded)
+    }
+
+    fn wait_for(&mut self, order: Order, watch: &dyn Watch) -> Result<Done, Error> {
+        let (mut recorded, mut is_stopped) = (None, false);
+        loop {
+            self.live.report_alive();
+            if !is_stopped && watch.is_asked_to_stop() {
+                self.live.console.emergency_stop();
+                is_stopped = true;
+            }
+            let news = match self.live.news.recv_timeout(LOOK) {
+                Ok(news) => news,
+                Err(RecvTimeoutError::Timeout) => {
+                    self.check_device()?;
+                    continue;
+                }
+                Err(RecvTimeoutError::Disconnected) => {
+                    let gone =
+                        "a thread of the rig has ended, and its device was stopped; start again";
+                    return Err(Error::failed(gone));
+                }
+            };
+            let ended = match news {
+                News::Recorded(_, done, _) => {
+                    recorded = Some(done);
+                    continue;
+                }
+                News::Unwritten(unwritten) => return Err(unwritten.error.into()),
+                News::Ended(_, Err(error)) | News::Disturbed(error) if !is_stopped => {
+                    return Err(Error::failed(error));
+                }
+                News::Ended(done, how) if done == order => how.unwrap_or(Ended::Stopped),
+                News::Dropped(dropped) if dropped == order => Ended::Stopped,
+                _ => continue,
+            };
+            // What was asked for while the last tick of an order was made counts for the order, too.
+            let ended = if is_stopped { Ended::Stopped } else { ended };
+            return Ok(Done { ended, recorded });
+        }
+    }
+
+    /// A device that hangs is an error at once: its rig says nothing any more.
+    fn check_device(&self) -> Result<(), Error> {
+        self.live
+            .hung_device()
+            .map_or(Ok(()), |hung| Err(Error::failed(hung)))
+    }
+}

@@ -1,0 +1,163 @@
+//! The model of a running touch, and how another takes its place: the local model that a hand touches first, and the
+//! organ-scale model that was prepared beside it.
+//!
+//! The devices stay open and their loops go on. Nothing is allocated, copied or freed on the model thread: it exchanges
+//! one box for the other and sends the old one back. Forces are off until every loop has seen it, and are armed again with
+//! the new model.
+//!
+//! *How we know*: `take_over::…`.
+
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+
+use palpate_devices::openigtlink::OperatingRoom;
+use palpate_servo::{Sample, Stage, Supervisor, latest};
+
+use super::Snapshot;
+use super::model_loop::DISPLAY;
+use super::operating_room::shown_in;
+use crate::{Error, Simulation, SimulationState, SimulationWorkspace};
+
+/// A model with its state and scratch, and those who see its steps.
+pub(super) struct Model {
+    pub(super) simulation: Arc<Simulation>,
+    pub(super) state: SimulationState,
+    pub(super) workspace: SimulationWorkspace,
+    /// One for each who looks on.
+    pub(super) snapshots: Vec<latest::Sender<Snapshot>>,
+}
+
+/// A model that is ready to be touched. Making it copies the organ, so that it is made beside the touch.
+pub struct PreparedModel {
+    pub(super) model: Box<Model>,
+    pub(super) seen: latest::Receiver<Snapshot>,
+}
+
+impl PreparedModel {
+    /// `simulation` with its organ at rest.
+    pub fn new(simulation: Arc<Simulation>) -> Self {
+        let (snapshots, seen) = latest::channel(&Snapshot::new(&simulation));
+        let model = Box::new(Model {
+            state: SimulationState::new(&simulation).show_every(DISPLAY),
+            workspace: SimulationWorkspace::new(&simulation),
+            snapshots: vec![snapshots],
+            simulation,
+        });
+        Self { model, seen }
+    }
+
+    /// The same, shown in an operating room, if there is one, from now on.
+    pub(super) fn shown_in(mut self, room: Option<&OperatingRoom>) -> Self {
+        if let Some(room) = room {
+            let shown = shown_in(room, &self.model.simulation);
+            self.model.snapshots.push(shown);
+        }
+        self
+    }
+}
+
+/// The end from which a model is replaced.
+pub(super) struct Replacing {
+    next: SyncSender<Box<Model>>,
+    replaced: Receiver<Box<Model>>,
+    /// What is touched, or will be within a moment.
+    touched: Arc<Simulation>,
+}
+
+/// The end at which it happens, between two steps.
+pub(super) struct TakingOver {
+    next: Receiver<Box<Model>>,
+    replaced: SyncSender<Box<Model>>,
+    supervisor: Supervisor,
+    waiting: Option<Box<Model>>,
+    /// Whether forces were on, or about to be, when it came.
+    resumes: bool,
+}
+
+/// Both ends, for the session of `supervisor` in which `touched` is touched.
+pub(super) fn take_over(
+    touched: &Arc<Simulation>,
+    supervisor: &Supervisor,
+) -> (Replacing, TakingOver) {
+    let (next, waiting) = sync_channel(1);
+    let (give_back, replaced) = sync_channel(1);
+    let replacing = Replacing {
+        next,
+        replaced,
+        touched: touched.clone(),
+    };
+    let taking_over = TakingOver {
+        next: waiting,
+        replaced: give_back,
+        supervisor: supervisor.clone(),
+        waiting: None,
+        resumes: false,
+    };
+    (replacing, taking_over)
+}
+
+impl Replacing {
+    /// Hands `prepared` to the model thread, and returns what is seen of it from now on.
+    pub(super) fn replace(
+        &mut self,
+        prepared: PreparedModel,
+    ) -> Result<latest::Receiver<Snapshot>, Error> {
+        // What was replaced before is freed here, not on the model thread.
+        while self.replaced.try_recv().is_ok() {}
+        let PreparedModel { model, seen } = prepared;
+        let refused = |why| Error::NoTakeOver { why };
+        if !have_one_touch(&self.touched, &model.simulation) {
+            return Err(refused("its tools, step or scale of forces differ"));
+        }
+        let touched = model.simulation.clone();
+        let sent = self.next.try_send(model);
+        sent.map_err(|_| {
+            refused("another model is just taking over, or the model thread has ended")
+        })?;
+        self.touched = touched;
+        Ok(seen)
+    }
+}
+
+/// Whether the loops of the one serve the other.
+fn have_one_touch(one: &Simulation, other: &Simulation) -> bool {
+    let fulcrums = |simulation: &Simulation| -> Vec<_> {
+        let tools = simulation.tools().iter();
+        tools
+            .map(|tool| (tool.name.clone(), tool.fulcrum))
+            .collect()
+    };
+    one.step() == other.step()
+        && one.force_scale() == other.force_scale()
+        && one.hand_over() == other.hand_over()
+        && fulcrums(one) == fulcrums(other)
+}
+
+impl TakingOver {
+    /// The model that takes over now; none while there is none, or a loop still displays a force of the old one, as its
+    /// last of `samples` says.
+    pub(super) fn next(&mut self, samples: &[Option<Sample>]) -> Option<Box<Model>> {
+        if self.waiting.is_none() {
+            self.waiting = Some(self.next.try_recv().ok()?);
+            self.resumes = self.supervisor.state().allows_force();
+            // A pause that a person asked for stays one.
+            if self.resumes {
+                self.supervisor.pause();
+            }
+        }
+        let displays = |sample: &Sample| matches!(sample.stage, Stage::Ramping(_) | Stage::Live);
+        if samples.iter().flatten().any(displays) {
+            return None;
+        }
+        self.waiting.take()
+    }
+
+    /// Sends `old` to where it is freed, and lets forces come back, unless a person has `paused` meanwhile.
+    pub(super) fn finish(&mut self, old: Box<Model>, paused: bool) {
+        // There is room: what was replaced before was taken when this one was sent.
+        let _ = self.replaced.try_send(old);
+        if self.resumes && !paused {
+            self.supervisor.resume();
+        }
+    }
+}
