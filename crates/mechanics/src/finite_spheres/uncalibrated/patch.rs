@@ -95,8 +95,8 @@ fn error(gradient: &Matrix3<f64>, plane: bool, count: usize) -> f64 {
         let value: f64 = (0..unknowns)
             .map(|row| of(row) * exact(row / 3)[row % 3])
             .sum();
-        for row in 0..unknowns {
-            loads[row] += factor * of(row) * value;
+        for (row, load) in loads.iter_mut().enumerate() {
+            *load += factor * of(row) * value;
             for column in 0..unknowns {
                 matrix[(row, column)] += factor * of(row) * of(column);
             }
