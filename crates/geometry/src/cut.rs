@@ -49,6 +49,11 @@ const SHORTEST: f64 = 0.1;
 /// Splitting ends at this many triangles per triangle of the surface.
 const MOST_GROWTH: usize = 8;
 
+/// A surface has room for this part of its vertices and triangles more [-], and for this many: beyond, a cut may
+/// allocate.
+const ROOM: f64 = 0.25;
+const LEAST_ROOM: usize = 2048;
+
 /// Most change of area of the triangles around a vertex that is moved [-].
 const MOST_AREA_CHANGE: f64 = 0.01;
 
@@ -111,8 +116,13 @@ impl CutSurface {
             uncut: net.mark(),
             net,
             stroke: None,
-            cuts: Vec::new(),
+            cuts: Vec::with_capacity(LEAST_ROOM),
         }
+    }
+
+    /// Vertices and triangles that it has room for without an allocation.
+    pub fn room(&self) -> [usize; 2] {
+        [self.net.nodes.capacity(), self.net.facets.capacity()]
     }
 
     /// The triangles with their openings, at rest and without width. Splitting keeps the number of a

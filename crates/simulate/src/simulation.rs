@@ -1,6 +1,6 @@
 use std::ops::ControlFlow;
 
-use palpate_files::scene::{Calibration, Enhancement, HandOver, ModelKind, Nodule, Shape};
+use palpate_files::scene::{Enhancement, HandOver, ModelKind, Nodule, Shape};
 use palpate_files::{Scene, SessionHeader};
 use palpate_geometry::{AabbTree, Surface};
 use palpate_mechanics::Material;
@@ -113,13 +113,6 @@ impl Simulation {
                 material.at_rest.poissons_ratio(),
                 palpate_mechanics::finite_spheres::LARGEST_CALIBRATED_RATIO,
             ));
-        }
-        if scene.model.local.calibration == Calibration::None && is_local {
-            doubts.push(
-                "calibration = \"none\" is judged on flat and convex organs; on a saddle 34 particles were nine \
-                 times too stiff and 93 within 1 % of 300, so use 93 or more where the organ is concave"
-                    .to_owned(),
-            );
         }
         doubts.extend(check_neighbours(scene)?);
         let cutting = CuttingModel::new(scene, &surface)?;

@@ -166,6 +166,7 @@ impl SimulationState {
             tools,
             deformed,
             whole,
+            body,
             cuts,
             nodules: _,
             tree,
@@ -184,6 +185,9 @@ impl SimulationState {
         moved.0.clear();
         if let Some(whole) = whole {
             whole.lay_to_rest();
+        }
+        if let Some(body) = body {
+            body.begin_anew();
         }
         if let Some(cuts) = cuts {
             cuts.begin_anew();

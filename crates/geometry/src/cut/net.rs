@@ -1,3 +1,4 @@
+use super::{LEAST_ROOM, ROOM};
 use crate::{NodeId, Surface, TriangleId, TriangleMesh, Vec3};
 
 /// A side of a cut, seen along the way of the blade from outside.
@@ -82,7 +83,7 @@ pub(super) struct Net {
 
 impl Net {
     pub(super) fn new(surface: &Surface) -> Self {
-        let mesh = surface.mesh().clone();
+        let mut mesh = surface.mesh().clone();
         let facets = mesh.triangle_ids().map(|triangle| Facet {
             across: surface
                 .adjacency()
@@ -104,10 +105,17 @@ impl Net {
                 side: None,
             }
         });
+        let (mut facets, mut nodes): (Vec<Facet>, Vec<Node>) = (facets.collect(), nodes.collect());
+        let more = |count: usize| ((ROOM * count as f64) as usize).max(LEAST_ROOM);
+        let [more_nodes, more_facets] = [more(nodes.len()), more(facets.len())];
+        nodes.reserve(more_nodes);
+        facets.reserve(more_facets);
+        mesh.reserve(more_nodes, more_facets);
         Self {
-            facets: facets.collect(),
-            nodes: nodes.collect(),
-            earlier: Vec::new(),
+            // A new triangle changes itself and its neighbours, some of them twice.
+            earlier: Vec::with_capacity(8 * more_facets),
+            facets,
+            nodes,
             mesh,
         }
     }

@@ -148,6 +148,12 @@ impl TriangleMesh {
         self.vertices.copy_from_slice(&other.vertices);
     }
 
+    /// Makes room for more vertices and triangles.
+    pub(crate) fn reserve(&mut self, vertices: usize, triangles: usize) {
+        self.vertices.reserve(vertices);
+        self.triangles.reserve(triangles);
+    }
+
     /// Adds a vertex at a finite `position` [m], for whoever then adds its triangles.
     pub(crate) fn push_vertex(&mut self, position: Vec3) -> NodeId {
         self.vertices.push(position);

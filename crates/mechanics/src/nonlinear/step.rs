@@ -114,6 +114,7 @@ impl NonlinearState {
         self.rotations.fill(UNTURNED);
         self.fading.fill(0.0);
         self.fades = 0;
+        self.is_smooth = true;
         for tool in &mut self.tools {
             tool.load.fill(0.0);
             tool.is_coupled = false;

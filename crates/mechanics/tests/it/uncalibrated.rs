@@ -2,13 +2,21 @@
 
 use std::f64::consts::PI;
 
+use std::sync::Arc;
+
 use nalgebra::{DMatrix, DVector, Vector3};
-use palpate_mechanics::Vec3;
-use palpate_mechanics::contact::{Bond, half_space_stiffness};
+use palpate_files::scene::{Region, RegionPlane};
+use palpate_geometry::{NodeId, Surface, TriangleMesh};
+use palpate_mechanics::contact::{Bond, Tip, half_space_stiffness};
 use palpate_mechanics::finite_elements::hemisphere::{self, HemisphereProblem, Patch};
+use palpate_mechanics::finite_elements::indentation::{
+    Base, Block, Grip, IndentationRun, IndentationSettings, Indenter, IndenterShape,
+};
+use palpate_mechanics::finite_elements::solid::{self, Body, MovedPatch, SolidProblem};
 use palpate_mechanics::finite_spheres::{
     Calibration, FiniteSphereModel, FiniteSphereSettings, Integration, LocalContact,
 };
+use palpate_mechanics::{PronySeries, TipLaw, Vec3};
 
 use crate::contacts::{bare_contact, model, tissue};
 
@@ -176,30 +184,200 @@ fn uncalibrated_force_improves_with_particles() {
     }
 }
 
-/// A cylinder and a saddle have no other method's answer here: the judge is the same model with 300
-/// particles, so this shows convergence, not truth. On the saddle 34 particles fail, nine times too stiff.
+/// The body that a contact's curvature and thickness mean, closed at 40 tip radii aside: along each azimuth the surface
+/// is an arc of the curvature there, bending up by no more than the model's bound.
+fn body(contact: &LocalContact) -> Surface {
+    const AROUND: usize = 48;
+    const RINGS: usize = 36;
+    let [k11, k12, k22] = (contact.curvature * TIP).into();
+    let base = -contact.thickness / TIP;
+    let place = |azimuth: f64, chord: f64| {
+        let (sine, cosine) = azimuth.sin_cos();
+        let along = k11 * cosine * cosine + 2.0 * k12 * cosine * sine + k22 * sine * sine;
+        let m = 0.5 * along * chord;
+        let (bound, power) = if m < 0.0 { (0.3, 2) } else { (0.95, 8) };
+        let m = m * (1.0 + (m.abs() / bound).powi(power)).powf(-1.0 / f64::from(power));
+        let across = chord * (1.0 - m * m).sqrt();
+        Vec3::new(across * cosine, across * sine, -chord * m)
+    };
+    let mut vertices = vec![Vec3::zeros(), Vec3::new(0.0, 0.0, base)];
+    let mut triangles = Vec::new();
+    let at = |bottom: usize, ring: usize, turn: usize| {
+        NodeId((2 + (2 * ring + bottom) * AROUND + turn % AROUND) as u32)
+    };
+    for ring in 0..RINGS {
+        // Steps that grow from a third of the tip's radius.
+        let part = (ring + 1) as f64 / RINGS as f64;
+        for bottom in [0, 1] {
+            for turn in 0..AROUND {
+                let azimuth = std::f64::consts::TAU * turn as f64 / AROUND as f64;
+                let mut farthest = 40.0;
+                // To where the surface has nearly come down to the base.
+                let (mut low, mut high) = (0.0, farthest);
+                if place(azimuth, farthest).z < 0.97 * base {
+                    for _ in 0..60 {
+                        farthest = 0.5 * (low + high);
+                        match place(azimuth, farthest).z < 0.97 * base {
+                            true => high = farthest,
+                            false => low = farthest,
+                        }
+                    }
+                }
+                let mut at = place(azimuth, farthest * (0.25 * part + 0.75 * part.powi(3)));
+                if bottom == 1 {
+                    at.z = base;
+                }
+                vertices.push(at);
+            }
+        }
+    }
+    for turn in 0..AROUND {
+        triangles.push([NodeId(0), at(0, 0, turn), at(0, 0, turn + 1)]);
+        triangles.push([NodeId(1), at(1, 0, turn + 1), at(1, 0, turn)]);
+        for ring in 1..RINGS {
+            for bottom in [0, 1] {
+                let [a, b] = [at(bottom, ring - 1, turn), at(bottom, ring, turn)];
+                let [c, d] = [at(bottom, ring, turn + 1), at(bottom, ring - 1, turn + 1)];
+                match bottom {
+                    0 => triangles.extend([[a, b, c], [a, c, d]]),
+                    _ => triangles.extend([[a, c, b], [a, d, c]]),
+                }
+            }
+        }
+        let [a, b] = [at(0, RINGS - 1, turn), at(1, RINGS - 1, turn)];
+        let [c, d] = [at(1, RINGS - 1, turn + 1), at(0, RINGS - 1, turn + 1)];
+        triangles.extend([[a, b, c], [a, c, d]]);
+    }
+    let vertices = vertices.into_iter().map(|at| at * TIP).collect();
+    Surface::new(TriangleMesh::new(vertices, triangles).unwrap()).unwrap()
+}
+
+/// Stiffness of a body that finite elements fill, in half-spaces, and its relative error.
+fn solid_in_half_spaces(contact: &LocalContact, nu: f64) -> (f64, f64) {
+    let law = tissue(nu);
+    let problem = SolidProblem {
+        body: Body::Surface(body(contact)),
+        anchor: Region {
+            planes: vec![RegionPlane {
+                point_m: [0.0, 0.0, -0.999 * contact.thickness],
+                normal: [0.0, 0.0, 1.0],
+            }],
+            ..Region::default()
+        },
+        patch: MovedPatch {
+            center: Vec3::zeros(),
+            radius: TIP,
+            displacement: Vec3::new(0.0, 0.0, -1e-3 * TIP),
+            grip: Grip::Slide,
+        },
+        law: Arc::new(law),
+    };
+    let found = solid::solve(&problem, 0.02, &mut |_| ()).unwrap();
+    let stiffness = found.answer.force_along / (1e-3 * TIP);
+    let half_space = half_space_stiffness(&law, TIP, Bond::Slip);
+    (stiffness / half_space, found.error)
+}
+
+/// Judge: finite elements that fill the same bodies, which nothing was chosen on. Prints the table of
+/// docs/theory/finite_spheres.md. Bounds: what these numbers of particles are asked for, and the judge's own error.
 #[test]
-#[ignore = "by hand: 300 particles, minutes; fails on the saddle with 34 particles, of which scenes warn"]
-fn cylinder_and_saddle_converge_with_particles() {
-    for nu in RATIOS {
+#[ignore = "slow: 300 particles and finite elements, minutes"]
+fn cylinder_and_saddle_are_those_of_finite_elements() {
+    for nu in [0.3, 0.45] {
         let models = [34, 93, 300].map(|n| model(settings(n, Calibration::None), nu, Bond::Slip));
+        let half_space = half_space_stiffness(&tissue(nu), TIP, Bond::Slip);
         for (name, curvature) in [
+            ("slab", [0.0; 3]),
             ("cylinder", [0.1, 0.0, 0.0]),
             ("saddle", [0.05, 0.0, -0.05]),
         ] {
-            let found = models
+            let contact = contact(curvature, 10.0);
+            let (judge, error) = solid_in_half_spaces(&contact, nu);
+            let off = models
                 .each_ref()
-                .map(|m| stiffness(m, &contact(curvature, 10.0)));
-            let off = [0, 1].map(|k| found[k] / found[2] - 1.0);
+                .map(|m| stiffness(m, &contact) / half_space / judge - 1.0);
+            let percent = off.map(|e| format!("{:+.2}", 100.0 * e)).join(" | ");
+            println!("| {name} of 10 radii | {nu} | {judge:.3} ± {error:.3} | {percent} |");
+            for (off, bound) in off.into_iter().zip([0.10, 0.05, 0.02]) {
+                assert!(off.abs() < bound + error, "{name} {nu}: {off}");
+            }
+        }
+    }
+}
+
+/// A saddle's base is never met where its surface bends up. Finer integration and more particles must not find
+/// functions of infinite energy there: 34 particles were nine times too stiff. Judges: finer integration, and 93
+/// particles, to what 34 may be off.
+#[test]
+fn a_saddle_is_no_stiffer_with_finer_integration() {
+    for curvature in [[0.05, 0.0, -0.05], [0.0, 0.05, 0.0]] {
+        let contact = contact(curvature, 10.0);
+        let found = [
+            (34, Integration::Standard),
+            (34, Integration::Fine),
+            (93, Integration::Standard),
+        ]
+        .map(|(particles, integration)| {
+            let settings = FiniteSphereSettings {
+                integration,
+                ..settings(particles, Calibration::None)
+            };
+            stiffness(&model(settings, 0.3, Bond::Slip), &contact)
+        });
+        println!("{curvature:?}: {found:?}");
+        for other in &found[1..] {
+            assert!((found[0] / other - 1.0).abs() < 0.02, "{found:?}");
+        }
+    }
+}
+
+/// The force of a sphere that slips on a bonded slab `thickness` touching radii thick, over that of finite elements in
+/// contact, at a hundredth of its radius; the touching radius is Hertz's on a half-space.
+fn sphere_on_slab(particles: usize, nu: f64, thickness: f64) -> f64 {
+    let (sphere, law) = (0.02, tissue(nu));
+    let depth = 0.01 * sphere;
+    let tip = Tip::Sphere { radius: sphere };
+    let touching = tip.contact_radius(depth);
+    let contact = LocalContact {
+        thickness: thickness * touching,
+        ..bare_contact(Vector3::zeros(), touching, f64::INFINITY)
+    };
+    let model = model(settings(particles, Calibration::None), nu, Bond::Slip);
+    let ours =
+        TipLaw::linear(tip, Bond::Slip, law).normal_force(depth, stiffness(&model, &contact));
+    let mut run = IndentationRun::new(&IndentationSettings {
+        block: Block {
+            radius: (6.0 * thickness * touching).max(1.2 * sphere),
+            height: thickness * touching,
+            base: Base::Bonded,
+        },
+        indenter: Indenter {
+            shape: IndenterShape::Sphere,
+            radius: sphere,
+            face: Grip::Slide,
+        },
+        law: Arc::new(law),
+        prony: PronySeries::default(),
+        deepest: depth,
+        halvings: 0,
+    })
+    .unwrap();
+    ours.force / run.press(depth, depth, |_| {}).unwrap().force
+}
+
+/// Judge: finite elements in contact with the sphere, on bodies that nothing was chosen on. Bounds: the elements' own 2 %
+/// (`indentation::a_sphere_meets_hertz`); a slab of 3 touching radii is touched over a larger circle than Hertz's, which
+/// the model does not know and which takes 2 to 3 % more.
+#[test]
+fn uncalibrated_spheres_on_slabs_are_those_of_finite_elements() {
+    for (thickness, bound) in [(20.0, 0.02), (6.0, 0.02), (3.0, 0.04)] {
+        for nu in [0.3, 0.45] {
+            let off = sphere_on_slab(34, nu, thickness) - 1.0;
             println!(
-                "| {name} | {nu} | {:+.2} | {:+.2} |",
-                100.0 * off[0],
-                100.0 * off[1]
+                "| sphere, slab of {thickness} radii | {nu} | {:+.1} |",
+                100.0 * off
             );
-            assert!(
-                off[0].abs() < 0.10 && off[1].abs() < 0.05,
-                "{name} {nu}: {off:?}"
-            );
+            assert!(off.abs() < bound, "{thickness} {nu}: {off}");
         }
     }
 }

@@ -152,6 +152,7 @@ pub(crate) const ITEMS: &[Item] = &[
     m15::FIGURE_7_16,
     m09::FIGURE_7_17,
     m16::SECTION_7_8,
+    m16::ESOPHAGUS,
     m16::FIGURE_7_18,
     m16::FIGURE_7_19,
     not_computed::APPENDIX_A,

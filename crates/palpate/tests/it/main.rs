@@ -11,6 +11,7 @@ mod closed_loop;
 mod crash;
 mod devices;
 mod errors;
+mod esophagus;
 mod foreign_text;
 mod hazards;
 mod limits;

@@ -1,9 +1,14 @@
+use palpate_files::session::Event;
 use palpate_geometry::{CutSurface, TriangleMesh, Vec3};
 
+use super::CuttingModel;
+use super::gape::Gape;
 use super::parts::{CutPart, nearest, opening_at};
 use super::stroke::LEAVES;
-use super::{CuttingModel, gape};
 use crate::Simulation;
+
+/// Parts and cuts for which there is room from the beginning: beyond, a step may allocate.
+const ROOM: usize = 1024;
 
 /// The cuts of an organ.
 #[derive(Debug, Clone)]
@@ -17,8 +22,8 @@ pub struct Cuts {
     pub(super) deepened: Vec<Deepened>,
     /// What there was before each cut that can be undone.
     pub(super) before: Vec<Mark>,
-    /// How far they are moved to gape [m], and of which version that is.
-    ways: Vec<Vec3>,
+    /// How far they are moved to gape, and of which version that is.
+    gape: Gape,
     gapes: u64,
     /// Where the vertices are now [m].
     places: Vec<Vec3>,
@@ -62,15 +67,18 @@ impl Cuts {
     /// None yet.
     pub(crate) fn new(simulation: &Simulation, model: &CuttingModel) -> Self {
         let surface = CutSurface::new(&simulation.surface, model.method);
+        let [vertices, triangles] = surface.room();
+        let mut places = Vec::with_capacity(vertices);
+        places.extend_from_slice(surface.mesh().vertices());
         Self {
-            places: surface.mesh().vertices().to_vec(),
+            places,
             surface,
             stroke: None,
-            ways: Vec::new(),
+            gape: Gape::with_room(vertices, triangles),
             gapes: 0,
-            parts: Vec::new(),
-            deepened: Vec::new(),
-            before: Vec::new(),
+            parts: Vec::with_capacity(ROOM),
+            deepened: Vec::with_capacity(ROOM * Event::OPENS_LAYER.len()),
+            before: Vec::with_capacity(ROOM),
             version: 0,
             largest_lag: 0,
         }
@@ -89,7 +97,7 @@ impl Cuts {
         self.largest_lag = 0;
         self.version += 1;
         // What is closed gapes nowhere.
-        self.ways.clear();
+        self.gape.clear();
         self.gapes = self.version;
     }
 
@@ -169,15 +177,16 @@ impl Cuts {
         true
     }
 
-    /// Follows the organ to where its vertices are moved [m]. It allocates where the triangles are others.
+    /// Follows the organ to where its vertices are moved [m]. It allocates where
+    /// the triangles are more than there is room for.
     pub(crate) fn follow(&mut self, simulation: &Simulation, moved: &[Vec3], width: f64) {
         if self.gapes != self.version {
             self.gapes = self.version;
-            self.ways = gape(&self.surface, width);
+            self.gape.follow(&self.surface, width);
         }
         self.surface
             .place(&simulation.surface, moved, 0.0, &mut self.places);
-        for (place, way) in self.places.iter_mut().zip(&self.ways) {
+        for (place, way) in self.places.iter_mut().zip(self.gape.ways()) {
             *place += way;
         }
     }

@@ -1,6 +1,6 @@
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::VecDeque;
 
-use palpate_geometry::{CutSurface, NodeId, TriangleId, TriangleMesh, Vec3};
+use palpate_geometry::{CutSurface, NodeId, Vec3};
 
 /// Passes by which an opening is spread over the triangles beside it.
 const PASSES: usize = 100;
@@ -9,126 +9,185 @@ const PASSES: usize = 100;
 /// middle, as an ellipse is. What is beside it moves along, less and less up to the width of the slit away: each
 /// vertex as the mean of its neighbours, so that no triangle folds over.
 pub fn gape(cut: &CutSurface, width: f64) -> Vec<Vec3> {
-    ways(cut, &rims(cut), width)
+    let mut gape = Gape::default();
+    gape.follow(cut, width);
+    gape.ways
 }
 
-/// The ends of the open edges of `cut`.
-fn rims(cut: &CutSurface) -> Vec<[NodeId; 2]> {
-    let of_triangle = |triangle: TriangleId| {
-        let corners = cut.mesh().corners(triangle);
-        let sides = cut.sides(triangle).into_iter().enumerate();
-        sides
-            .filter(|(_, side)| side.is_some())
-            .map(move |(edge, _)| [corners[edge], corners[(edge + 1) % 3]])
-    };
-    cut.mesh().triangle_ids().flat_map(of_triangle).collect()
+/// The same with its memory, which is kept for the next step of a cut.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Gape {
+    /// How far each vertex is moved [m].
+    ways: Vec<Vec3>,
+    /// The ends of the open edges.
+    rims: Vec<[NodeId; 2]>,
+    /// The vertices of these, ascending.
+    on_rim: Vec<NodeId>,
+    /// Distance along the rim to the nearest end of a slit [m]; infinite off the rims and on loops.
+    from_end: Vec<f64>,
+    /// The neighbours of all vertices, one vertex after the other, and where each vertex's begin.
+    around: Vec<NodeId>,
+    begins: Vec<usize>,
+    /// The vertex of a rim from which each vertex was reached.
+    source: Vec<Option<NodeId>>,
+    waiting: VecDeque<NodeId>,
+    /// Vertices beside a rim that are on none.
+    free: Vec<NodeId>,
 }
 
-/// How far each vertex is moved [m].
-fn ways(cut: &CutSurface, rims: &[[NodeId; 2]], width: f64) -> Vec<Vec3> {
-    let vertices = cut.mesh().vertices();
-    let mut ways = vec![Vec3::zeros(); vertices.len()];
-    let along = from_ends(cut, rims);
-    let half = along.values().copied().fold(0.0, f64::max).max(1e-12);
-    for (node, from_end) in &along {
-        let part = 1.0 - from_end / half;
-        let open = (1.0 - part * part).max(0.0).sqrt();
-        ways[node.index()] = 0.5 * width * open * cut.opening(*node);
-    }
-    let free = free_near(cut, &along, 1.5 * width);
-    let neighbours = neighbours(cut.mesh(), &free);
-    for _ in 0..PASSES {
-        for (node, around) in free.iter().zip(&neighbours) {
-            let sum: Vec3 = around.iter().map(|other| ways[other.index()]).sum();
-            ways[node.index()] = sum / around.len() as f64;
+impl Gape {
+    /// Memory for a surface of so many vertices and triangles.
+    pub(super) fn with_room(vertices: usize, triangles: usize) -> Self {
+        Self {
+            ways: Vec::with_capacity(vertices),
+            rims: Vec::with_capacity(triangles),
+            on_rim: Vec::with_capacity(2 * triangles),
+            from_end: Vec::with_capacity(vertices),
+            around: Vec::with_capacity(6 * triangles),
+            begins: Vec::with_capacity(vertices + 1),
+            source: Vec::with_capacity(vertices),
+            waiting: VecDeque::with_capacity(vertices),
+            free: Vec::with_capacity(vertices),
         }
     }
-    ways
-}
 
-/// Way along the rim to the nearest end of a slit [m], for each vertex of a rim.
-fn from_ends(cut: &CutSurface, rims: &[[NodeId; 2]]) -> BTreeMap<NodeId, f64> {
-    let vertices = cut.mesh().vertices();
-    let is_end = |node: NodeId| cut.opening(node) == Vec3::zeros();
-    let mut found: BTreeMap<NodeId, f64> = BTreeMap::new();
-    for node in rims.iter().flatten() {
-        let way = if is_end(*node) { 0.0 } else { f64::INFINITY };
-        found.insert(*node, way);
+    /// Nothing gapes.
+    pub(super) fn clear(&mut self) {
+        self.ways.clear();
     }
-    // As often as a rim is long, at most; rims are short.
-    for _ in 0..found.len() {
-        let mut changed = false;
-        for [a, b] in rims {
-            let length = (vertices[a.index()] - vertices[b.index()]).norm();
-            for (from, to) in [(a, b), (b, a)] {
-                let way = found[from] + length;
-                if way < found[to] {
-                    found.insert(*to, way);
-                    changed = true;
+
+    /// How far each vertex is moved [m].
+    pub(super) fn ways(&self) -> &[Vec3] {
+        &self.ways
+    }
+
+    /// Follows `cut`, which gapes up to `width` [m].
+    pub(super) fn follow(&mut self, cut: &CutSurface, width: f64) {
+        self.find_rims(cut);
+        self.measure_rims(cut);
+        let lengths = self.on_rim.iter().map(|node| self.from_end[node.index()]);
+        let half = lengths.fold(0.0, f64::max).max(1e-12);
+        self.ways.clear();
+        self.ways.resize(cut.mesh().vertices().len(), Vec3::zeros());
+        for node in &self.on_rim {
+            let part = 1.0 - self.from_end[node.index()] / half;
+            let open = (1.0 - part * part).max(0.0).sqrt();
+            self.ways[node.index()] = 0.5 * width * open * cut.opening(*node);
+        }
+        self.find_neighbours(cut);
+        self.find_free(cut, 1.5 * width);
+        for _ in 0..PASSES {
+            for node in &self.free {
+                let around = &self.around[self.begins[node.index()]..self.begins[node.index() + 1]];
+                let sum: Vec3 = around.iter().map(|other| self.ways[other.index()]).sum();
+                self.ways[node.index()] = sum / around.len() as f64;
+            }
+        }
+    }
+
+    fn find_rims(&mut self, cut: &CutSurface) {
+        self.rims.clear();
+        self.on_rim.clear();
+        for triangle in cut.mesh().triangle_ids() {
+            let corners = cut.mesh().corners(triangle);
+            for (edge, side) in cut.sides(triangle).into_iter().enumerate() {
+                if side.is_some() {
+                    let ends = [corners[edge], corners[(edge + 1) % 3]];
+                    self.rims.push(ends);
+                    self.on_rim.extend(ends);
                 }
             }
         }
-        if !changed {
-            break;
-        }
+        self.on_rim.sort_unstable();
+        self.on_rim.dedup();
     }
-    // A loop without an end is as open as any.
-    let known = found.values().copied().filter(|way| way.is_finite());
-    let longest = known.fold(0.0, f64::max).max(1e-9);
-    for way in found.values_mut().filter(|way| way.is_infinite()) {
-        *way = longest;
-    }
-    found
-}
 
-/// The vertices that are on no rim, within `reach` [m] of one.
-fn free_near(cut: &CutSurface, rims: &BTreeMap<NodeId, f64>, reach: f64) -> Vec<NodeId> {
-    let mesh = cut.mesh();
-    let vertices = mesh.vertices();
-    let mut around: Vec<Vec<NodeId>> = vec![Vec::new(); vertices.len()];
-    for corners in mesh.triangles() {
-        for k in 0..3 {
-            around[corners[k].index()].push(corners[(k + 1) % 3]);
-            around[corners[k].index()].push(corners[(k + 2) % 3]);
+    fn measure_rims(&mut self, cut: &CutSurface) {
+        let vertices = cut.mesh().vertices();
+        self.from_end.clear();
+        self.from_end.resize(vertices.len(), f64::INFINITY);
+        for node in &self.on_rim {
+            if cut.opening(*node) == Vec3::zeros() {
+                self.from_end[node.index()] = 0.0;
+            }
         }
-    }
-    let mut source: Vec<Option<NodeId>> = vec![None; vertices.len()];
-    let mut waiting = VecDeque::new();
-    for node in rims.keys() {
-        source[node.index()] = Some(*node);
-        waiting.push_back(*node);
-    }
-    let mut found = Vec::new();
-    while let Some(node) = waiting.pop_front() {
-        let Some(from) = source[node.index()] else {
-            continue;
-        };
-        for next in &around[node.index()] {
-            let near = (vertices[next.index()] - vertices[from.index()]).norm() < reach;
-            if near && source[next.index()].is_none() {
-                source[next.index()] = Some(from);
-                found.push(*next);
-                waiting.push_back(*next);
+        // As often as a rim is long, at most; rims are short.
+        for _ in 0..self.on_rim.len() {
+            let mut changed = false;
+            for [a, b] in &self.rims {
+                let length = (vertices[a.index()] - vertices[b.index()]).norm();
+                for (from, to) in [(a, b), (b, a)] {
+                    let way = self.from_end[from.index()] + length;
+                    if way < self.from_end[to.index()] {
+                        self.from_end[to.index()] = way;
+                        changed = true;
+                    }
+                }
+            }
+            if !changed {
+                break;
+            }
+        }
+        // A loop without an end is as open as any.
+        let known = self.on_rim.iter().map(|node| self.from_end[node.index()]);
+        let longest = known.filter(|way| way.is_finite()).fold(0.0, f64::max);
+        for node in &self.on_rim {
+            let way = &mut self.from_end[node.index()];
+            if way.is_infinite() {
+                *way = longest.max(1e-9);
             }
         }
     }
-    found
-}
 
-/// The neighbours of each of `nodes`.
-fn neighbours(mesh: &TriangleMesh, nodes: &[NodeId]) -> Vec<Vec<NodeId>> {
-    let mut number: Vec<Option<usize>> = vec![None; mesh.vertices().len()];
-    for (k, node) in nodes.iter().enumerate() {
-        number[node.index()] = Some(k);
+    fn find_neighbours(&mut self, cut: &CutSurface) {
+        let mesh = cut.mesh();
+        let count = mesh.vertices().len();
+        self.begins.clear();
+        self.begins.resize(count + 1, 0);
+        for corner in mesh.triangles().iter().flatten() {
+            self.begins[corner.index() + 1] += 2;
+        }
+        for k in 0..count {
+            self.begins[k + 1] += self.begins[k];
+        }
+        self.around.clear();
+        self.around.resize(self.begins[count], NodeId(0));
+        for corners in mesh.triangles() {
+            for k in 0..3 {
+                let next = &mut self.begins[corners[k].index()];
+                self.around[*next] = corners[(k + 1) % 3];
+                self.around[*next + 1] = corners[(k + 2) % 3];
+                *next += 2;
+            }
+        }
+        // Each has come to where the next one begins.
+        self.begins.copy_within(0..count, 1);
+        self.begins[0] = 0;
     }
-    let mut found = vec![Vec::new(); nodes.len()];
-    for corners in mesh.triangles() {
-        for k in 0..3 {
-            if let Some(own) = number[corners[k].index()] {
-                found[own].push(corners[(k + 1) % 3]);
-                found[own].push(corners[(k + 2) % 3]);
+
+    /// The vertices that are on no rim, within `reach` [m] of one.
+    fn find_free(&mut self, cut: &CutSurface, reach: f64) {
+        let vertices = cut.mesh().vertices();
+        self.source.clear();
+        self.source.resize(vertices.len(), None);
+        self.waiting.clear();
+        self.free.clear();
+        for node in &self.on_rim {
+            self.source[node.index()] = Some(*node);
+            self.waiting.push_back(*node);
+        }
+        while let Some(node) = self.waiting.pop_front() {
+            let Some(from) = self.source[node.index()] else {
+                continue;
+            };
+            for next in &self.around[self.begins[node.index()]..self.begins[node.index() + 1]] {
+                let near = (vertices[next.index()] - vertices[from.index()]).norm() < reach;
+                if near && self.source[next.index()].is_none() {
+                    self.source[next.index()] = Some(from);
+                    self.free.push(*next);
+                    self.waiting.push_back(*next);
+                }
             }
         }
     }
-    found
 }

@@ -109,6 +109,14 @@ pub(super) fn carry_back_anew(
 }
 
 impl Body {
+    /// At rest, and touched by nothing; nothing is allocated.
+    pub(crate) fn begin_anew(&mut self) {
+        self.state.reset();
+        self.is_at_rest = true;
+        self.is_loaded.fill(false);
+        self.lets_go.fill(0);
+    }
+
     /// Puts a body that nothing loads and that is as good as at rest there; whether it is.
     fn come_to_rest(&mut self) -> bool {
         if !self.is_at_rest && self.state.is_within(AT_REST) {

@@ -28,6 +28,8 @@ struct Place {
     depth: f64,
     /// The deepest layer that was opened there; none in an organ without layers.
     layer: Option<usize>,
+    /// Whether the surface was opened there, not a layer below an opening.
+    outermost: bool,
 }
 
 /// What was cut.
@@ -35,7 +37,7 @@ struct Place {
 pub struct CutScore {
     /// How many cuts there are.
     pub count: usize,
-    /// The way of the tip while something was opened [m].
+    /// The way of the tip while the surface was opened [m]: layers below an opening add nothing.
     pub length: f64,
     /// Of cuts along a line.
     pub along_line: Option<LineScore>,
@@ -106,6 +108,7 @@ impl CutWay {
                 tip,
                 depth: row.depth_m,
                 layer: row.events.deepest_opened(),
+                outermost: happened(Event::OpensLayer1) || row.events.deepest_opened().is_none(),
             });
         }
     }
@@ -144,6 +147,7 @@ impl CutWay {
         let pieces = self.strokes.iter().flat_map(|stroke| stroke.windows(2));
         let length = pieces
             .clone()
+            .filter(|piece| piece[0].outermost && piece[1].outermost)
             .map(|piece| (piece[1].tip - piece[0].tip).norm());
         Some(CutScore {
             count: self.strokes.len(),

@@ -7,7 +7,7 @@ use palpate_simulate::{Simulation, SimulationState, SimulationWorkspace, perform
 
 /// A cube of 0.1 m whose upper side is at z = 0.05, with layers of 1, 1 and 1 mm that give way at 0.10, 0.04 and
 /// 0.07 N, and one tool called "right".
-fn text(kind: &str, model: &str) -> String {
+pub(crate) fn text(kind: &str, model: &str) -> String {
     format!(
         "format = 1\n[organ]\nbuiltin = \"cube\"\ntriangles = 3072\n\
          [organ.tissue]\nlaw = \"linear\"\nyoungs_modulus_pa = 10000.0\npoissons_ratio = 0.45\n\
@@ -27,15 +27,15 @@ const LAYERS: &str = "[[organ.layer]]\nname = \"longitudinal\"\nthickness_m = 0.
     [[organ.layer]]\nname = \"mucosa\"\nthickness_m = 0.001\n\
     builtin_tissue = \"pig-esophagus\"\nperforation_force_n = 0.07\ntoughness_j_per_m2 = 20.0\n";
 
-struct Hand<'a> {
+pub(crate) struct Hand<'a> {
     simulation: &'a Simulation,
-    state: SimulationState,
+    pub(crate) state: SimulationState,
     workspace: SimulationWorkspace,
     steps: u32,
 }
 
 impl<'a> Hand<'a> {
-    fn new(simulation: &'a Simulation) -> Self {
+    pub(crate) fn new(simulation: &'a Simulation) -> Self {
         Self {
             state: SimulationState::new(simulation),
             workspace: SimulationWorkspace::new(simulation),
@@ -67,7 +67,7 @@ impl<'a> Hand<'a> {
     }
 
     /// What happens in a stroke of 40 mm with the blade `depth` [m] deep, and in the step that lifts it.
-    fn stroke(&mut self, depth: f64) -> Events {
+    pub(crate) fn stroke(&mut self, depth: f64) -> Events {
         let steps = (0..=400).map(|k| -0.02 + 1e-4 * f64::from(k));
         let mut all = Events::NONE;
         for x in steps {
@@ -247,17 +247,25 @@ fn a_deepened_cut_yields_as_one_that_was_made_at_once() {
     assert_eq!(feel(&mut twice), deep);
 }
 
-/// The demonstration of the myotomy opens both muscles and leaves the mucosa; a deeper second stroke tears it, and the
-/// score says so. Judge: the scene's words.
+/// The demonstration of the myotomy opens both muscles and leaves the mucosa, also where its second stroke is 0.2 mm
+/// shallower or deeper: a person needs some tenths of a millimetre. A stroke 0.5 mm deeper tears the mucosa and one
+/// 0.5 mm shallower leaves circular muscle, and the score says so. Judge: the scene's words.
 #[test]
 fn the_myotomy_is_two_strokes_and_a_third_layer_is_a_perforation() {
     let text =
         include_str!("../../../../assets/tasks/myotomy.toml").replace("\"hybrid\"", "\"local\"");
     let text = text.replace("mechanical_triangles = 2500\n", "");
+    let text = text.replace("triangles = 14000", "triangles = 6000");
     let scene = Scene::parse(&text, "myotomy.toml").unwrap();
     let simulation = Simulation::new(&scene).unwrap();
     let motion = include_str!("../../../../assets/esophagus/myotomy.csv");
-    for (deeper, perforations) in [(0.0, 0), (0.0009, 1)] {
+    let cases = [
+        (-0.0005, 0, false),
+        (-0.0002, 0, true),
+        (0.0002, 0, true),
+        (0.0005, 1, false),
+    ];
+    for (deeper, perforations, passes) in cases {
         let motion = [-0.005, -0.0059].iter().fold(motion.to_owned(), |text, y| {
             text.replace(&format!(",{y:?},"), &format!(",{:?},", y + deeper))
         });
@@ -268,12 +276,12 @@ fn the_myotomy_is_two_strokes_and_a_third_layer_is_a_perforation() {
         let mut workspace = SimulationWorkspace::new(&simulation);
         let names: Vec<String> = scene.tools.iter().map(|tool| tool.name.clone()).collect();
         let mut performance = performance::Performance::new(&scene.task, &names);
-        for k in 0..2400 {
-            let time = 0.005 * f64::from(k);
+        for k in 0..800 {
+            let time = 0.015 * f64::from(k);
             let poses = ["left", "right"].map(|name| motion.pose(name, time));
             step(
                 &simulation,
-                (time, if k == 0 { 0.0 } else { 0.005 }),
+                (time, if k == 0 { 0.0 } else { 0.015 }),
                 &poses,
                 &mut state,
                 &mut workspace,
@@ -285,11 +293,25 @@ fn the_myotomy_is_two_strokes_and_a_third_layer_is_a_perforation() {
         let errors = performance.errors();
         let outcome = performance.score().outcome;
         println!("{deeper}: {errors:?} {outcome:?}");
-        let torn = state.cuts.as_ref().unwrap().length_through(3) > 0.0;
+        let cuts = state.cuts.as_ref().unwrap();
+        let torn = cuts.length_through(3) > 0.0;
         assert_eq!(
             (errors.perforations, torn),
             (perforations, perforations > 0)
         );
-        assert_eq!(outcome.passed(), Some(perforations == 0), "{outcome:?}");
+        assert_eq!(outcome.passed(), Some(passes), "{outcome:?}");
+        if passes {
+            // The task is over at 97 % of its line. The strokes go on, beyond both of its ends.
+            let deep = cuts.parts().iter().filter(|part| part.layers == 2);
+            let along = deep.flat_map(|part| part.ends.map(|end| end.z));
+            let ends = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), z| {
+                (low.min(z), high.max(z))
+            });
+            println!("circular muscle is open from {} to {} m", ends.0, ends.1);
+            assert!(ends.0 < -0.011 && ends.1 > 0.014, "{ends:?}");
+            // Both strokes go through one opening.
+            let length = performance.score().cut.unwrap().length;
+            assert!((length - cuts.length()).abs() < 0.003, "{length}");
+        }
     }
 }

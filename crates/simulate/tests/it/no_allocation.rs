@@ -1,10 +1,12 @@
 //! A step that allocates may wait for the allocator longer than it has time.
 
 use assert_no_alloc::{AllocDisabler, assert_no_alloc, reset_violation_count, violation_count};
+use palpate_files::Scene;
 use palpate_files::scene::Jaws;
 use palpate_geometry::{AabbTree, Vec3};
 
 use crate::grip::{Hands, grasping, pose};
+use crate::layers;
 use crate::scenes::{Hand, Setting, nearest};
 
 #[global_allocator]
@@ -119,5 +121,34 @@ fn a_step_with_two_grips_allocates_nothing() {
         // Not to the end: it slips out.
         assert!(held > 100 && held < 330, "{kind}: {held}");
         assert_eq!(allocations, 0, "{kind}");
+    }
+}
+
+/// A blade that opens the surface, and one that goes along in the opening and cuts the layers below it, or scratches.
+/// Cuts have room for as many triangles as the strokes make.
+#[test]
+fn a_step_that_cuts_layers_allocates_nothing() {
+    for model in [
+        "",
+        "[organ.touchable]\nspheres = [{ center_m = [0.0, 0.0, 0.05], radius_m = 0.03 }]\n\
+         [model]\nkind = \"hybrid\"\nmechanical_triangles = 400\nresponse = \"boundary_elements\"\n",
+    ] {
+        let scene = Scene::parse(&layers::text("scissors", model), "layers.toml").unwrap();
+        let simulation = palpate_simulate::Simulation::new(&scene).unwrap();
+        let mut hand = layers::Hand::new(&simulation);
+        for (depth, layer) in [
+            (0.0009, None),
+            (0.0011, Some(1)),
+            (0.0021, Some(2)),
+            (0.0031, Some(3)),
+        ] {
+            reset_violation_count();
+            let before = violation_count();
+            let events = assert_no_alloc(|| hand.stroke(depth));
+            let allocations = violation_count() - before;
+            println!("{depth} m deep: {events}, {allocations} allocations");
+            assert_eq!(events.deepest_opened(), layer);
+            assert_eq!(allocations, 0, "{depth}");
+        }
     }
 }

@@ -12,6 +12,7 @@ mod errors;
 mod golden;
 mod hands;
 mod invariants;
+mod layers;
 
 use std::sync::{Mutex, OnceLock};
 

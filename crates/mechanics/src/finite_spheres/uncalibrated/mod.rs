@@ -9,11 +9,13 @@
 //! A flat tip that slips presses with p = (p₀ + p₁ r²/a²)/√(1 − r²/a²). The two unknown p make the mean of
 //! u over either part of the load equal to the depth; the force is their sum. Nothing is fitted.
 //!
-//! *How we know*: `uncalibrated::…` against closed forms, slabs, finite elements and itself.
+//! *How we know*: `uncalibrated::…` against closed forms, slabs, finite elements; `patch::…`.
 //!
 //! *Limits*: tips that slip; small strain. On a half-space the basis holds the answer, so only the other
 //! shapes, and [`super::Calibration::ParticlesAlone`], test the particles.
 
+#[cfg(test)]
+mod patch;
 mod punch;
 mod region;
 mod template;

@@ -19,6 +19,10 @@ const SCALE: f64 = 4.0;
 const STEEPEST_DOWN: f64 = 0.95;
 const STEEPEST_UP: f64 = 0.3;
 
+/// Where the surface bends up with the curvature κ the base is never met, and where that begins, along the azimuth, 1/b
+/// grows as √(κ/t): its slope has no finite energy. So 1/b is nowhere less than this part of √(κ/t) [-].
+const LEAST: f64 = 0.2;
+
 /// The organ around a contact; lengths in tip radii.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Region {
@@ -78,11 +82,26 @@ impl Region {
         )
     }
 
-    /// 1/b and its derivatives by φ and f; zero where the organ is not held in this direction.
+    /// 1/b and its derivatives by φ and f; zero where the organ is not held.
     fn inverse_held(&self, azimuth: f64, fraction: f64) -> [f64; 3] {
         if !self.thickness.is_finite() {
             return [0.0; 3];
         }
+        let [q, by_azimuth, by_fraction] = self.inverse_base(azimuth, fraction);
+        let [k11, k12, k22] = self.curvature.into();
+        let up = (0.5 * (k11 - k22)).hypot(k12) - 0.5 * (k11 + k22);
+        if up <= 0.0 {
+            return [q, by_azimuth, by_fraction];
+        }
+        // Smooth at zero. At κ t = 1 the base comes nearer below the contact by 4 · 10⁻⁴.
+        let least = LEAST * (up.min(1.0 / self.thickness) / self.thickness).sqrt();
+        let held = (q.powi(4) + least.powi(4)).powf(0.25);
+        let slope = (q / held).powi(3);
+        [held, slope * by_azimuth, slope * by_fraction]
+    }
+
+    /// One over the distance of the base and its derivatives by φ and f; zero where the base is not met.
+    fn inverse_base(&self, azimuth: f64, fraction: f64) -> [f64; 3] {
         // Depth over distance, cos(f ψ), minus t/r: positive beyond the base.
         let beyond = |q: f64| {
             let (surface, ..) = self.surface_angle(1.0 / q, azimuth);

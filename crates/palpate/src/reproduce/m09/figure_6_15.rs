@@ -1,16 +1,12 @@
-use std::sync::Arc;
+use palpate_mechanics::{IndentationCurve, PronySeries};
 
-use palpate_mechanics::finite_elements::estimate::Progress;
-use palpate_mechanics::finite_elements::indentation::Grip;
-use palpate_mechanics::finite_elements::tube::{Ends, Tube, TubeProblem, TubePunch, indent};
-use palpate_mechanics::{IndentationCurve, NeoHookean, PronySeries};
-
+use super::indented::at_finite_strain;
 use super::organ::printed;
 use crate::failure::Failure;
 use crate::plot::{Plot, Series, Style};
 use crate::reproduce::m06::Printed;
 use crate::reproduce::row::Value;
-use crate::reproduce::virtual_rig::{END, RADIUS, ramp_and_hold};
+use crate::reproduce::virtual_rig::{END, ramp_and_hold};
 use crate::reproduce::{Item, Rows};
 
 pub(crate) const FIGURE_6_15: Item = Item {
@@ -20,15 +16,14 @@ pub(crate) const FIGURE_6_15: Item = Item {
     run,
 };
 
-const ACCURACY: f64 = 0.1;
-
 fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
     let organ = printed()?;
     let outer_mm = 1e3 * organ.tube.outer_radius;
     let (measured, too_deep): (Vec<Printed>, Vec<Printed>) = Printed::all("esophagus")
         .into_iter()
         .partition(|row| f64::from(row.depth_mm) < outer_mm);
-    let (curve, error) = indented(rows, organ.tube, &measured)?;
+    let tube = at_finite_strain(rows)?;
+    let (curve, error) = (&tube.unit, tube.error);
     let series = organ.series()?;
     let note = format!(
         "tube of 60 mm with radii of 5 and 7.5 mm, of which the source gives only the length and about 15 mm of diameter; held ends, \
@@ -36,8 +31,7 @@ fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
          relative error {error:.3}"
     );
     for row in &measured {
-        // E = 6 C10.
-        let elastic = 1e3 * organ.modulus_kpa / 6.0 * curve.force(1e-3 * f64::from(row.depth_mm));
+        let elastic = 1e3 * organ.modulus_kpa * curve.force(1e-3 * f64::from(row.depth_mm));
         let own = series.relaxation(f64::INFINITY) * elastic;
         let name = format!("{}_mm", row.depth_mm);
         let remark = format!(
@@ -57,53 +51,26 @@ fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
         );
         rows.add(&format!("{}_mm", row.depth_mm), value, reason);
     }
-    let modulus = nearest_modulus(&curve, &measured);
+    let modulus = nearest_modulus(curve, &measured);
     let remark = format!(
         "published as found with the tube; ours: the tube whose steady forces come nearest to the means of table 5-1 down to 6 mm, without relaxation, so \
          that it is a relaxed modulus; a tube gives way as a whole, so its tissue has to be several times stiffer than (6.1) says; {note}"
     );
     let value = Value::beside(Some(organ.modulus_kpa), modulus, "kPa");
     rows.add("tube_modulus", value, remark);
-    let plot = drawn(&curve, (organ.modulus_kpa, modulus), &series, &measured);
+    let plot = drawn(curve, (organ.modulus_kpa, modulus), &series, &measured);
     rows.add_figure(None, &plot, note)
 }
 
-/// The elastic curve [N over m] for C10 = 1 Pa through the measured depths, and its relative error [-]: without
-/// pressure all force is proportional to C10.
-fn indented(
-    rows: &Rows<'_>,
-    tube: Tube,
-    measured: &[Printed],
-) -> Result<(IndentationCurve, f64), Failure> {
-    let problem = TubeProblem {
-        tube,
-        law: Arc::new(NeoHookean::incompressible(1.0)?),
-        ends: Ends::Held,
-    };
-    let depths = measured.iter().map(|row| 1e-3 * f64::from(row.depth_mm));
-    let punch = TubePunch {
-        radius: RADIUS,
-        face: Grip::Stick,
-        pressure: 0.0,
-        depths: depths.collect(),
-    };
-    let found = indent(&problem, &punch, ACCURACY, &mut |progress: Progress| {
-        let (mesh, part) = (progress.mesh + 1, 100.0 * progress.part);
-        rows.say(format!("mesh {mesh}, {part:.0} %"));
-    })?;
-    let curve = IndentationCurve::through(&punch.depths, &found.answer.forces);
-    Ok((curve, found.error))
-}
-
-/// The relaxed modulus [kPa] with which a tube of this `curve` for C10 = 1 Pa comes nearest to the means.
-fn nearest_modulus(curve: &IndentationCurve, measured: &[Printed]) -> f64 {
+/// The relaxed modulus [kPa] with which a tube of this `curve` for 1 Pa comes nearest to the means.
+pub(in crate::reproduce) fn nearest_modulus(curve: &IndentationCurve, measured: &[Printed]) -> f64 {
     let (mut products, mut squares) = (0.0, 0.0);
     for row in measured {
         let unit = curve.force(1e-3 * f64::from(row.depth_mm));
         products += unit * row.mean;
         squares += unit * unit;
     }
-    6e-3 * products / squares
+    1e-3 * products / squares
 }
 
 /// Force over time at the last measured depth with both moduli [kPa].
@@ -118,7 +85,7 @@ fn drawn(
         .map_or((0, 0.0), |row| (row.depth_mm, row.mean));
     let course = ramp_and_hold(1e-3 * f64::from(last.0));
     let line = |modulus_kpa: f64, name: &str, color| {
-        let scaled = curve.scaled(1.0, 1e3 * modulus_kpa / 6.0);
+        let scaled = curve.scaled(1.0, 1e3 * modulus_kpa);
         let forces = scaled.relaxed(series, &course.times, &course.depths);
         Series {
             name: name.to_owned(),

@@ -38,13 +38,7 @@ fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
         .iter()
         .map(|row| 1e-3 * f64::from(row.depth_mm))
         .collect();
-    let scene = Scene::parse(ESOPHAGUS, "built-in scene")?;
-    let simulation = preparation::simulation(&scene, &preparation::resources(), Reader::Machine)?;
-    let unit: Vec<f64> = pressed(&simulation, &depths)
-        .iter()
-        .map(|force| force / UNIT)
-        .collect();
-
+    let unit = unit_forces(&simulated(&scene()?)?, &depths);
     let note = "the esophagus of 3,726 triangles between its anchors, probe of 1 mm radius bonded to its front, half-way";
     for (row, unit) in measured.iter().zip(&unit) {
         let value = Value::beside(Some(row.mean), printed * unit, "N");
@@ -92,19 +86,50 @@ fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
     rows.add_figure(None, &plot, remark)
 }
 
-/// The force [N] at each of `depths` [m] below the front of the organ, half-way.
-fn pressed(simulation: &Simulation, depths: &[f64]) -> Vec<f64> {
+pub(super) fn scene() -> Result<Scene, Failure> {
+    Ok(Scene::parse(ESOPHAGUS, "built-in scene")?)
+}
+
+/// The same on the trainer's triangles: as many are drawn and as many are solved as in its scene.
+pub(super) fn scene_of_the_trainer() -> Result<Scene, Failure> {
+    let text = ESOPHAGUS
+        .replace("triangles = 3726", "triangles = 14000")
+        .replace(
+            "kind = \"hybrid\"",
+            "kind = \"hybrid\"\nmechanical_triangles = 2500",
+        );
+    Ok(Scene::parse(&text, "built-in scene")?)
+}
+
+pub(super) fn simulated(scene: &Scene) -> Result<Simulation, Failure> {
+    preparation::simulation(scene, &preparation::resources(), Reader::Machine)
+}
+
+/// The force [N] that a Young's modulus of 1 Pa gives at each of `depths` [m], ascending.
+pub(super) fn unit_forces(simulation: &Simulation, depths: &[f64]) -> Vec<f64> {
+    let forces = pressed(simulation, depths);
+    forces.iter().map(|force| force / UNIT).collect()
+}
+
+/// The touched place of the front, half-way [m], and the outward normal there [-].
+pub(super) fn front(simulation: &Simulation) -> (Vec3, Vec3) {
     let surface = simulation.surface();
     let tree = AabbTree::new(surface.mesh());
     let front = tree.nearest(surface.mesh(), &Vec3::new(0.0, -1.0, 0.0));
     let near = tree.nearest(surface.mesh(), &Vec3::new(0.0, front.on.position.y, 0.0));
     let normal = surface.mesh().area_vector(near.triangle).normalize();
+    (near.on.position, normal)
+}
+
+/// The force [N] at each of `depths` [m] below the front of the organ, half-way.
+fn pressed(simulation: &Simulation, depths: &[f64]) -> Vec<f64> {
+    let (place, normal) = front(simulation);
     let mut state = SimulationState::new(simulation);
     let mut workspace = SimulationWorkspace::new(simulation);
     let mut time = 0.0;
     let mut at = |depth: f64| {
         let pose = Pose {
-            position_m: (near.on.position - normal * depth).into(),
+            position_m: (place - normal * depth).into(),
             orientation: None,
             grip: 0.0,
             cut: false,
