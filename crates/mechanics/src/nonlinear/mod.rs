@@ -28,6 +28,7 @@ mod law;
 mod model;
 mod rest;
 mod rotation;
+mod state;
 mod step;
 #[cfg(test)]
 mod tests;
@@ -37,4 +38,5 @@ pub use carried::CarriedPoints;
 pub use coupling::Coupling;
 pub use law::Moduli;
 pub use model::{MOST_INFLUENCE_BYTES, NonlinearModel};
-pub use step::{Advance, NonlinearState, Workspace, advance};
+pub use state::NonlinearState;
+pub use step::{Advance, Workspace, advance};

@@ -6,7 +6,8 @@ use super::carried::CarriedPoints;
 use super::elements::Pack;
 use super::law::Moduli;
 use super::rest::{Influence, RestFactors};
-use super::step::{NonlinearState, Workspace};
+use super::state::NonlinearState;
+use super::step::Workspace;
 use crate::finite_elements::{ElementMesh, Mismatch};
 use crate::{Error, Vec3};
 
@@ -146,25 +147,21 @@ impl NonlinearModel {
         CarriedPoints::new(&self.mesh, &self.elements, points)
     }
 
-    /// What a force on `loaded` moves the mean of `moved` by [m/N], by the factors of the stiffness at rest, turned as
-    /// the nodes are in `state`; weights [-]. Of nodes that cannot be loaded it has nothing.
-    pub fn compliance(
-        &self,
-        state: &NonlinearState,
-        (moved, loaded): (&[(u32, f64)], &[(u32, f64)]),
-    ) -> Matrix3<f64> {
+    /// What a force on the weighted mean of `nodes` moves it by [m/N], by the factors of the stiffness at rest, turned as
+    /// the nodes are in `state`. Of nodes that cannot be loaded it has nothing.
+    pub fn compliance(&self, state: &NonlinearState, nodes: &[(u32, f64)]) -> Matrix3<f64> {
         let rotation = |node: u32| {
             let q = &state.rotations[node as usize];
             Matrix3::from_iterator(q.iter().map(|&entry| f64::from(entry)))
         };
         let mut sum = Matrix3::zeros();
-        for &(there, weight) in loaded {
+        for &(there, weight) in nodes {
             let Some(place) = self.loaded[there as usize] else {
                 continue;
             };
             let influence = &self.influences[place as usize].values;
             let mut own = Matrix3::zeros();
-            for &(here, weight) in moved {
+            for &(here, weight) in nodes {
                 let entries = &influence[9 * here as usize..][..9];
                 let by = Matrix3::from_iterator(entries.iter().map(|&entry| f64::from(entry)));
                 own += weight * rotation(here) * by;

@@ -1,9 +1,10 @@
-use nalgebra::{DVector, Matrix3, Rotation3};
+use nalgebra::DVector;
 
 use super::coupling::{Coupling, Rows};
 use super::kernel::{self, Deformed};
 use super::model::NonlinearModel;
 use super::rotation;
+use super::state::NonlinearState;
 use crate::Vec3;
 
 /// Part of the slope at the beginning of a step that may be left at its end before the step is shortened [-].
@@ -11,37 +12,6 @@ const SLOPE_LEFT: f64 = 0.3;
 
 /// Largest factor with which the last displacement is continued, or gone back [-].
 const MOST_CONTINUED: f64 = 1.5;
-
-/// Steps in which the force of a tool that has let go fades: at once the body would spring back farther than a step
-/// follows.
-const FADES: u32 = 10;
-
-const UNTURNED: [f32; 9] = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
-
-/// A body between two steps.
-#[derive(Debug, Clone, PartialEq)]
-pub struct NonlinearState {
-    /// Displacements of the nodes [m]; three a node.
-    pub displacements: Vec<f64>,
-    before: Vec<f64>,
-    /// Whether the last step can be continued.
-    is_smooth: bool,
-    /// Rotations of the nodes in the last step, each column by column [-].
-    pub(super) rotations: Vec<[f32; 9]>,
-    tools: Vec<ToolMemory>,
-    /// Forces on the nodes by tools that have let go [N], and the steps in which they still act.
-    fading: Vec<f32>,
-    fades: u32,
-}
-
-#[derive(Debug, Clone, PartialEq)]
-struct ToolMemory {
-    is_coupled: bool,
-    /// Its forces on the nodes [N].
-    load: Vec<f32>,
-    force: Vec3,
-    force_before: Vec3,
-}
 
 /// How a step went.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -83,105 +53,6 @@ struct Small {
     t: DVector<f64>,
     projected: DVector<f64>,
     direction: DVector<f64>,
-}
-
-impl NonlinearState {
-    /// The body at rest, beside `tools` tools.
-    pub fn at_rest(model: &NonlinearModel, tools: usize) -> Self {
-        let nodes = model.nodes().len();
-        let size = 3 * nodes;
-        let tool = ToolMemory {
-            is_coupled: false,
-            load: vec![0.0; size],
-            force: Vec3::zeros(),
-            force_before: Vec3::zeros(),
-        };
-        Self {
-            displacements: vec![0.0; size],
-            before: vec![0.0; size],
-            is_smooth: true,
-            rotations: vec![UNTURNED; nodes],
-            tools: vec![tool; tools],
-            fading: vec![0.0; size],
-            fades: 0,
-        }
-    }
-
-    /// Puts the body back to rest; nothing is allocated.
-    pub fn reset(&mut self) {
-        self.displacements.fill(0.0);
-        self.before.fill(0.0);
-        self.rotations.fill(UNTURNED);
-        self.fading.fill(0.0);
-        self.fades = 0;
-        self.is_smooth = true;
-        for tool in &mut self.tools {
-            tool.load.fill(0.0);
-            tool.is_coupled = false;
-            (tool.force, tool.force_before) = (Vec3::zeros(), Vec3::zeros());
-        }
-    }
-
-    /// The largest displacement of a node along an axis [m].
-    pub fn largest(&self) -> f64 {
-        self.displacements
-            .iter()
-            .fold(0.0, |most, u| u.abs().max(most))
-    }
-
-    /// Shrinks all displacements to a `part` [-] of what they are; there is nothing to be continued then.
-    pub fn shrink(&mut self, part: f64) {
-        self.displacements.iter_mut().for_each(|u| *u *= part);
-        self.is_smooth = false;
-    }
-
-    /// Weighted mean of the displacements of `nodes` [m].
-    pub fn mean_displacement(&self, nodes: &[(u32, f64)]) -> Vec3 {
-        let nodes = nodes.iter();
-        nodes
-            .map(|&(node, weight)| {
-                let u = &self.displacements[3 * node as usize..][..3];
-                weight * Vec3::new(u[0], u[1], u[2])
-            })
-            .sum()
-    }
-
-    /// By how much the last step changed the weighted mean of the displacements of `nodes` [m].
-    fn last_advance(&self, nodes: &[(u32, f64)]) -> Vec3 {
-        let nodes = nodes.iter();
-        nodes
-            .map(|&(node, weight)| {
-                let at = 3 * node as usize;
-                weight
-                    * Vec3::from_fn(|axis, _| {
-                        self.displacements[at + axis] - self.before[at + axis]
-                    })
-            })
-            .sum()
-    }
-
-    /// Mean rotation of `nodes`.
-    pub fn mean_rotation(&self, nodes: &[(u32, f64)]) -> Rotation3<f64> {
-        let mut mean = Matrix3::zeros();
-        for &(node, weight) in nodes {
-            let q = &self.rotations[node as usize];
-            mean += Matrix3::from_iterator(q.iter().map(|&entry| weight * f64::from(entry)));
-        }
-        Rotation3::from_matrix_eps(&mean, 1e-9, 20, Rotation3::identity())
-    }
-
-    /// Whether no node is displaced by more than `most` [m] along any axis, and no force fades.
-    pub fn is_within(&self, most: f64) -> bool {
-        self.fades == 0 && self.largest() <= most
-    }
-
-    /// Force of a tool on the body [N].
-    ///
-    /// # Panics
-    /// When there is no such tool.
-    pub fn force(&self, tool: usize) -> Vec3 {
-        self.tools[tool].force
-    }
 }
 
 impl Workspace {
@@ -256,34 +127,6 @@ fn step(
         state.reset();
     }
     advance
-}
-
-impl NonlinearState {
-    /// Lets the forces of tools that have let go act on, each step less.
-    #[inline(always)]
-    fn fade(&mut self, couplings: &[Option<Coupling<'_>>]) {
-        self.fades = self.fades.saturating_sub(1);
-        let part = self.fades as f32 / (self.fades + 1) as f32;
-        if part == 0.0 {
-            self.fading.fill(0.0);
-        } else {
-            self.fading.iter_mut().for_each(|force| *force *= part);
-        }
-        for (coupling, memory) in couplings.iter().zip(&mut self.tools) {
-            if coupling.is_none() && memory.is_coupled {
-                self.fades = FADES;
-                for (sum, force) in self.fading.iter_mut().zip(&memory.load) {
-                    *sum += force;
-                }
-            }
-        }
-    }
-
-    fn is_finite(&self) -> bool {
-        let sum: f64 = self.displacements.iter().sum();
-        let forces = self.tools.iter().flat_map(|tool| tool.force.iter());
-        sum.is_finite() && forces.sum::<f64>().is_finite()
-    }
 }
 
 enum GuessOrEnd {

@@ -411,7 +411,7 @@ impl Now {
         Self {
             mean: state.mean_displacement(&load.nodes),
             force: state.force(number),
-            yields: organ.model.compliance(state, (&load.nodes, &load.nodes)),
+            yields: organ.model.compliance(state, &load.nodes),
             turn: state.mean_rotation(&load.nodes),
             own: load.own_compliance(&organ.law),
         }
