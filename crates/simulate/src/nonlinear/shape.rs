@@ -20,6 +20,9 @@ use crate::state::SimulationState;
 /// A surface that has moved less than this [m] is at rest.
 const AT_REST: f64 = 1e-7;
 
+/// Depth of a dimple over the radius of the load under it [-]: ten radii of a tip.
+const DEEPEST_DIMPLE: f64 = 6.0;
+
 impl NonlinearOrgan {
     /// Moves all vertices of the shown surface, if it is time.
     pub(crate) fn deform(
@@ -71,6 +74,10 @@ impl NonlinearOrgan {
                 lacks = normal * normal.dot(&lacks);
             }
             let load = &body.loads[number];
+            // A tool that the organ does not follow is not met: no dimple is that deep.
+            if lacks.norm() > DEEPEST_DIMPLE * load.radius {
+                continue;
+            }
             let square = load.radius.powi(2);
             for ((by, vertex), normal) in shown
                 .iter_mut()
