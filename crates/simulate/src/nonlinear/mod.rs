@@ -86,7 +86,7 @@ pub(crate) struct Body {
 #[derive(Debug)]
 pub(crate) struct NonlinearWorkspace {
     solver: Workspace,
-    wishes: Vec<Option<touch::Wish>>,
+    targets: Vec<Option<touch::Target>>,
     /// Displacements of the shown vertices [m].
     shown: Vec<Vec3>,
 }
@@ -102,6 +102,13 @@ impl NonlinearOrgan {
         let mesh = tetrahedra(shown, scene.model.nodes.unwrap_or(NODES))?;
         let ratio = material.at_rest.poissons_ratio().min(LARGEST_RATIO);
         let shear = material.at_rest.shear_modulus();
+        if ratio < material.at_rest.poissons_ratio() {
+            doubts.push(format!(
+                "Poisson's ratio {:.4} is taken as {LARGEST_RATIO} around the tips, with the same shear modulus: the nonlinear \
+                 model keeps volume to the percent",
+                material.at_rest.poissons_ratio()
+            ));
+        }
         let law = LinearElastic::new(2.0 * shear * (1.0 + ratio), ratio)?;
         let (c10, c01) = match tissue.elasticity {
             Elasticity::MooneyRivlin { c10_pa, c01_pa } => (c10_pa.value, c01_pa.value),
@@ -148,7 +155,7 @@ impl NonlinearOrgan {
     pub(crate) fn workspace(&self, tools: usize) -> NonlinearWorkspace {
         NonlinearWorkspace {
             solver: self.model.workspace(tools),
-            wishes: vec![None; tools],
+            targets: vec![None; tools],
             shown: vec![Vec3::zeros(); self.shown.len()],
         }
     }

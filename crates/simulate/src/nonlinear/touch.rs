@@ -57,9 +57,9 @@ const MOST_TOOLS: usize = 2;
 /// Softer than this part of the organ around it, a contact is none yet [-].
 const LEAST_STIFFNESS: f64 = 1e-6;
 
-/// What a tool would do to the organ in this step.
+/// Where a tool moves the organ in this step.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Wish {
+pub(crate) struct Target {
     along: Option<Vec3>,
     /// d, C and o.
     displacement: Vec3,
@@ -153,9 +153,9 @@ impl NonlinearOrgan {
             own.elastic = Vec3::zeros();
             own.stiffness = Matrix3::zeros();
             own.limited = Limits::NONE;
-            workspace.wishes[number] = self.wish(tool, (number, own), body);
+            workspace.targets[number] = self.target(tool, (number, own), body);
         }
-        let is_free = workspace.wishes.iter().all(Option::is_none);
+        let is_free = workspace.targets.iter().all(Option::is_none);
         if is_free && body.come_to_rest() {
             return;
         }
@@ -170,10 +170,10 @@ impl NonlinearOrgan {
         if is_free && body.state.largest() > SLOWEST_RETURN * before {
             body.state.shrink(SLOWEST_RETURN);
         }
-        for (number, (own, wish)) in tools.iter_mut().zip(&workspace.wishes).enumerate() {
-            if let (Some(wish), false) = (wish, body.lets_go[number] > 0) {
+        for (number, (own, target)) in tools.iter_mut().zip(&workspace.targets).enumerate() {
+            if let (Some(target), false) = (target, body.lets_go[number] > 0) {
                 own.elastic = -body.state.force(number);
-                wish.tell_pace(body, number, own);
+                target.tell_pace(body, number, own);
             }
             own.solved = own.elastic;
             if let Some(hold) = &own.grip.hold {
@@ -191,41 +191,41 @@ impl NonlinearOrgan {
     }
 
     /// What a tool does in this step; or what it leaves, that has let go.
-    fn wish(
+    fn target(
         &self,
         tool: &Tool,
         (number, own): (usize, &mut ToolState),
         body: &mut Body,
-    ) -> Option<Wish> {
-        let mut wish = match own.holds() {
+    ) -> Option<Target> {
+        let mut target = match own.holds() {
             true => self.hold(tool, (number, own), body),
             false if body.lets_go[number] > 0 => None,
             false => self.touch(tool, (number, own), body),
         };
         let steps = &mut body.lets_go[number];
-        *steps = match (&wish, *steps) {
+        *steps = match (&target, *steps) {
             (Some(_), _) => 0,
             (None, 0) if body.is_loaded[number] => LETS_GO_WITHIN,
             (None, steps) => steps.saturating_sub(1),
         };
         if *steps > 0 {
-            wish = self.let_go(number, body);
-            if wish.is_none() {
+            target = self.let_go(number, body);
+            if target.is_none() {
                 body.lets_go[number] = 0;
             }
         }
-        body.is_loaded[number] = wish.is_some();
-        wish
+        body.is_loaded[number] = target.is_some();
+        target
     }
 
     /// Moves the organ as far as the tools have it, and no farther than a step can; whether it had to be put back to rest.
     fn go(&self, body: &mut Body, workspace: &mut NonlinearWorkspace) -> bool {
         body.is_at_rest = false;
-        let wishes = &workspace.wishes;
-        let ways = wishes
+        let targets = &workspace.targets;
+        let ways = targets
             .iter()
             .zip(&body.loads)
-            .map(|(wish, load)| wish.map_or(0.0, |wish| wish.way.norm() / farthest(load)));
+            .map(|(target, load)| target.map_or(0.0, |target| target.way.norm() / farthest(load)));
         let way = ways.fold(0.0, f64::max);
         let parts = (way.ceil() as usize).clamp(1, MOST_PARTS);
         let reach = (MOST_PARTS as f64 / way).min(1.0) / parts as f64;
@@ -233,11 +233,11 @@ impl NonlinearOrgan {
         for part in 1..=parts {
             let loads = &body.loads;
             let couplings: [_; MOST_TOOLS] = std::array::from_fn(|number| {
-                let wish = wishes.get(number)?.as_ref()?;
+                let target = targets.get(number)?.as_ref()?;
                 let left = 1.0 - reach * part as f64;
-                Some(wish.coupling(&loads[number].nodes, (left, reach)))
+                Some(target.coupling(&loads[number].nodes, (left, reach)))
             });
-            let couplings = &couplings[..wishes.len().min(MOST_TOOLS)];
+            let couplings = &couplings[..targets.len().min(MOST_TOOLS)];
             let (state, solver) = (&mut body.state, &mut workspace.solver);
             was_reset |= advance(&self.model, couplings, self.iterations, state, solver).was_reset;
         }
@@ -261,7 +261,7 @@ impl NonlinearOrgan {
         tool: &Tool,
         (number, own): (usize, &mut ToolState),
         body: &mut Body,
-    ) -> Option<Wish> {
+    ) -> Option<Target> {
         let (pose, contact) = (own.pose?, own.contact.as_mut()?);
         let place = contact.place;
         let load = &mut body.loads[number];
@@ -295,7 +295,7 @@ impl NonlinearOrgan {
         if now.yields.trace() < LEAST_STIFFNESS * tip_and_organ.trace() {
             return None;
         }
-        Some(Wish::new(
+        Some(Target::new(
             along,
             own.displaced,
             (&tip_and_organ, &-(frame * answer.force)),
@@ -309,7 +309,7 @@ impl NonlinearOrgan {
         tool: &Tool,
         (number, own): (usize, &mut ToolState),
         body: &Body,
-    ) -> Option<Wish> {
+    ) -> Option<Target> {
         let hold = own.grip.hold.as_ref()?;
         let Held::Area(area) = &hold.held else {
             return None;
@@ -320,7 +320,7 @@ impl NonlinearOrgan {
         let displacement = hold.displaced();
         let offset = hold.in_scene(&area.offset);
         let jump = displacement - offset - compliance * now.force - now.mean;
-        Some(Wish {
+        Some(Target {
             along: None,
             displacement,
             compliance,
@@ -332,14 +332,14 @@ impl NonlinearOrgan {
 
     /// What is left of a tool that has let go: its place goes back to where it bears no force, no farther in a step than a
     /// step follows well. None once the rest is a small way.
-    fn let_go(&self, number: usize, body: &Body) -> Option<Wish> {
+    fn let_go(&self, number: usize, body: &Body) -> Option<Target> {
         let now = Now::of(self, body, number);
         let back = -(now.yields * now.force);
         let way = back.norm();
         let farthest = farthest(&body.loads[number]);
         (way > farthest).then(|| {
             let displacement = now.mean + back * (farthest / way);
-            Wish {
+            Target {
                 along: None,
                 displacement,
                 compliance: Matrix3::zeros(),
@@ -418,7 +418,7 @@ impl Now {
     }
 }
 
-impl Wish {
+impl Target {
     /// Of a tool that is displaced by d [m], of which tip and organ together make the force `goal` [N] on the organ, and
     /// yield `both` [m/N] to more.
     fn new(
