@@ -1,5 +1,5 @@
 //! One step, as the source lists it (section 3.4): detect the collision, place the particles, solve for
-//! the displacement, compute the force.
+//! the displacement, compute the force. What a hand waits for is [`touch`]; what is seen, [`shape`].
 
 use palpate_files::Pose;
 use palpate_files::session::{Event, Events};
@@ -22,6 +22,19 @@ const SHAFT: f64 = 0.3;
 /// Takes `state` one step of `elapsed` [s] on to `time` [s], with the tools at `poses` (none: not there
 /// yet). A first step has an `elapsed` of zero: whatever depth there is then comes as a jump.
 pub fn step(
+    simulation: &Simulation,
+    moment: (f64, f64),
+    poses: &[Option<Pose>],
+    state: &mut SimulationState,
+    workspace: &mut SimulationWorkspace,
+) {
+    touch(simulation, moment, poses, state, workspace);
+    shape(simulation, moment.0, state, workspace);
+}
+
+/// The part of [`step`] that finds the forces: [`ToolState::force`] and [`ToolState::stiffness`] are those of the step
+/// after it. [`shape`] completes the step, after the forces are handed over.
+pub fn touch(
     simulation: &Simulation,
     (time, elapsed): (f64, f64),
     poses: &[Option<Pose>],
@@ -57,6 +70,16 @@ pub fn step(
             state.limits.count(&state.limited);
         }
     }
+}
+
+/// The part of [`step`] that no force of it waits for: cuts go on, the surface follows the organ at `time` [s], and the
+/// rows of the tools are complete.
+pub fn shape(
+    simulation: &Simulation,
+    time: f64,
+    state: &mut SimulationState,
+    workspace: &mut SimulationWorkspace,
+) {
     energy::check(simulation, state);
     if let Some(model) = &simulation.cutting {
         for number in 0..simulation.tools.len() {
