@@ -23,6 +23,7 @@ mod hand_speed;
 mod indentation;
 pub mod interactive;
 mod limits;
+mod neighbour;
 mod nodule;
 mod nonlinear;
 mod organ;

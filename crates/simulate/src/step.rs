@@ -11,7 +11,7 @@ use crate::contact;
 use crate::simulation::Simulation;
 use crate::state::{SimulationState, SimulationWorkspace, ToolState};
 use crate::tool::Tool;
-use crate::{cutting, deform, energy, grip, hand_speed, nodule, orientation};
+use crate::{cutting, deform, energy, grip, hand_speed, neighbour, nodule, orientation};
 
 /// Depth beyond which no model here has been compared with tissue [m].
 pub const TRUSTED_DEPTH: f64 = 0.010;
@@ -63,11 +63,14 @@ pub fn touch(
     respond(simulation, state, workspace);
     find_nodules(simulation, state);
     grip::act(simulation, elapsed, state, workspace);
-    for (tool, state) in simulation.tools.iter().zip(&mut state.tools) {
-        let failed = feel(simulation, tool, (time, elapsed), state);
-        record(simulation, tool, (time, failed), state);
-        if state.touches() {
-            state.limits.count(&state.limited);
+    for (number, tool) in simulation.tools.iter().enumerate() {
+        let own = &mut state.tools[number];
+        let failed = feel(simulation, tool, (time, elapsed), own);
+        neighbour::press(simulation, number, state);
+        let own = &mut state.tools[number];
+        record(simulation, tool, (time, failed), own);
+        if own.touches() {
+            own.limits.count(&own.limited);
         }
     }
 }
@@ -124,11 +127,13 @@ fn detect(
     let mut events = grip::follow(tool, pose, state);
     state.pose = pose;
     let tip = tip.filter(|_| !state.holds());
-    state.contact =
-        tip.and_then(|tip| contact::detect(simulation, tool, state.contact.as_ref(), &tip));
+    state.contact = tip.and_then(|tip| {
+        contact::detect(&simulation.ground(tool), tool, state.contact.as_ref(), &tip)
+    });
     match (touched, state.contact) {
         (false, Some(contact)) => {
             events.insert(Event::Contact);
+            state.history_frame = None;
             state.forget_elsewhere(tool, &contact.point());
         }
         (true, None) if !state.holds() => events.insert(Event::Release),
@@ -237,7 +242,17 @@ fn feel(
             0.0
         }
     };
-    let relaxed = state
+    if let Some(contact) = &mut state.contact {
+        contact.slide(tool, &mut state.elastic);
+        if tool.friction.is_some() {
+            // What it remembers along the surface stays along the surface.
+            let frame = contact.frame();
+            if let Some(before) = state.history_frame.replace(frame) {
+                state.history.turn(&(frame * before.transpose()));
+            }
+        }
+    }
+    let mut relaxed = state
         .history
         .advance(&simulation.material.prony, state.elastic, elapsed);
     state.force = Vec3::zeros();
@@ -261,6 +276,10 @@ fn feel(
     let normal = contact.normal();
     let outward = relaxed.dot(&normal);
     contact.is_pressed = outward > 0.0;
+    // The history of the force along the surface is another than that of its normal part.
+    let slides = contact.slides;
+    contact.slide(tool, &mut relaxed);
+    contact.slides |= slides;
     state.with_pull = match tool.bond {
         Bond::Stick => relaxed,
         // The history of a slide has other normals in it; there is no friction all the same.
