@@ -6,6 +6,7 @@
 
 mod criteria;
 mod fitted;
+mod in_loop;
 
 use std::ops::Range;
 
@@ -34,6 +35,8 @@ pub struct CharacterizeSettings {
     pub laws: Vec<SoughtLaw>,
     /// How often their fits are made again to see how well they are known.
     pub draws: Option<Draws>,
+    /// Whether full viscoelastic runs of finite elements are solved in the loop of the fit, of one law.
+    pub in_loop: bool,
 }
 
 impl Default for CharacterizeSettings {
@@ -45,6 +48,7 @@ impl Default for CharacterizeSettings {
                 count: 100,
                 seed: 1,
             }),
+            in_loop: false,
         }
     }
 }
@@ -108,6 +112,8 @@ pub fn characterize(
         .filter(|own| is_piece(own))
         .cloned()
         .collect();
+    // The loop makes the fits again.
+    let quick_draws = settings.draws.filter(|_| !settings.in_loop);
     for &law in &settings.laws {
         at_step(law.name().word());
         if !pieces.is_empty() {
@@ -117,30 +123,32 @@ pub fn characterize(
             continue;
         }
         let answer = curves.clone().and_then(|curves| {
-            let curves = curves.of_law(law);
-            sought(curves, &pressed, &found.relaxation, settings.draws)
+            let relaxation = found.relaxation.as_ref().map_err(Clone::clone)?;
+            let mut curves = curves.of_law(law);
+            sought(&mut curves, &pressed, (relaxation, quick_draws))
         });
         found.laws.push((law, answer));
+    }
+    if settings.in_loop {
+        in_loop::refine(&mut found, (&pressed, body), settings, at_step);
     }
     found.speak(&pressed);
     found
 }
 
 fn sought(
-    mut curves: Curves,
+    curves: &mut Curves,
     pressed: &[Pressed],
-    relaxation: &Result<Relaxation, Error>,
-    draws: Option<Draws>,
+    (relaxation, draws): (&Relaxation, Option<Draws>),
 ) -> Result<LawDescription, Error> {
     let law = curves.law();
     if matches!(curves.body(), Body::Tube { .. }) && law != SoughtLaw::NeoHookean {
         return Err(Error::TubeLaw { law: law.name() });
     }
-    let relaxation = relaxation.as_ref().map_err(Clone::clone)?;
     let indentations: Vec<Indentation<'_>> = pressed.iter().map(Pressed::indentation).collect();
-    let fit = law_fit(&mut curves, &indentations, &relaxation.series)?;
+    let fit = law_fit(curves, &indentations, &relaxation.series)?;
     let mut description = LawDescription::of(fit, &indentations);
-    description.repeated = draws.map(|draws| repeated(&description, &curves, &indentations, draws));
+    description.repeated = draws.map(|draws| repeated(&description, curves, &indentations, draws));
     Ok(description)
 }
 
@@ -150,6 +158,7 @@ fn is_piece(recording: &CleanRecording) -> bool {
 }
 
 /// What of a recording is fitted: from first contact to where the indenter goes back.
+#[derive(Debug, Clone)]
 struct Pressed {
     time: Vec<f64>,
     depth: Vec<f64>,
