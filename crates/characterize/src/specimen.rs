@@ -16,7 +16,8 @@ use palpate_files::{Estimate, PronyTerm, Tissue};
 use crate::clean::SegmentKind;
 use crate::fit::{Draws, simplest};
 use crate::inverse::{
-    Body, Curves, Indentation, LawDescription, SoughtLaw, ZeroErrors, assumption, law_fit, repeated,
+    Body, Curves, Indentation, LawDescription, SoughtLaw, UnitCurve, ZeroErrors, assumption,
+    law_fit, repeated,
 };
 use crate::lumped::{Contact, UniaxialFit, fit_uniaxial_recordings, mean_modulus};
 use crate::viscoelastic::{
@@ -87,7 +88,10 @@ pub fn characterize(
         .clone()
         .map(|body| Curves::new(body, SoughtLaw::NeoHookean, deepest));
     at_step("relaxation");
-    let courses = courses(&pressed, curves.as_mut().ok());
+    let of_block = curves.as_mut().ok();
+    let of_block = of_block.filter(|curves| matches!(curves.body(), Body::Block { .. }));
+    let neo_hookean = of_block.and_then(|curves| curves.of(f64::INFINITY, 0.0).ok());
+    let courses = courses(&pressed, neo_hookean.as_ref());
     let relaxing = relaxation(&courses, settings.relaxation);
     let of_steps = relaxation_of_steps(&courses, settings.relaxation);
     at_step("springs and dampers");
@@ -117,19 +121,24 @@ pub fn characterize(
     for &law in &settings.laws {
         at_step(law.name().word());
         if !pieces.is_empty() {
-            found
-                .uniaxial
-                .push((law, fit_uniaxial_recordings(law, &pieces)));
+            let answer = match settings.in_loop {
+                true => Err(Error::NoLoop),
+                false => fit_uniaxial_recordings(law, &pieces),
+            };
+            found.uniaxial.push((law, answer));
             continue;
         }
         let answer = curves.clone().and_then(|curves| {
+            if settings.in_loop && !matches!(curves.body(), Body::Block { .. }) {
+                return Err(Error::NoLoop);
+            }
             let relaxation = found.relaxation.as_ref().map_err(Clone::clone)?;
             let mut curves = curves.of_law(law);
             sought(&mut curves, &pressed, (relaxation, quick_draws))
         });
         found.laws.push((law, answer));
     }
-    if settings.in_loop {
+    if settings.in_loop && pieces.is_empty() {
         in_loop::refine(&mut found, (&pressed, body), settings, at_step);
     }
     found.speak(&pressed);
@@ -216,12 +225,9 @@ impl Pressed {
     }
 }
 
-/// The courses of relaxation; the elastic force is taken for that of neo-Hookean tissue, where the body is
-/// known, and for a linear one else.
-fn courses(pressed: &[Pressed], curves: Option<&mut Curves>) -> Vec<Course> {
-    let of_block = curves.filter(|curves| matches!(curves.body(), Body::Block { .. }));
-    let curve = of_block.and_then(|curves| curves.of(f64::INFINITY, 0.0).ok());
-    let shape = |depth: f64| match &curve {
+/// The courses of relaxation; the elastic force is taken for that of `curve`, and for a linear one without it.
+fn courses(pressed: &[Pressed], curve: Option<&UnitCurve>) -> Vec<Course> {
+    let shape = |depth: f64| match curve {
         Some(curve) => curve.force.force(depth),
         None => depth,
     };

@@ -3,7 +3,7 @@
 //! A fit takes force for the product of an elastic force and G(t). For the tissue that was found, a full run with
 //! internal variables and an elastic one on the same mesh say by which factor the product is off at each time; the
 //! measured force is divided by it and fitted again, until the tissue stays. Then the full run is as near to the measured
-//! force as the product to the divided one. A round takes two runs for each recording, and none for a derivative; errors
+//! force as the product to the divided one. Relaxation is sought with the elastic force of the law. A round takes two runs for each recording, and none for a derivative; errors
 //! of the mesh are in both runs and leave the factor.
 //!
 //! *How we know*: `in_loop::…`: full runs of known tissue on another mesh, off the table's grid.
@@ -108,7 +108,6 @@ impl Specimen<'_> {
         let relaxing = found.relaxation.as_ref().map_err(Clone::clone)?;
         let mut tissue = Tissue::of(relaxing, first);
         let mut curves = Curves::new(self.body, self.law, self.deepest).in_loop();
-        let mut neo_hookean = Curves::new(self.body, SoughtLaw::NeoHookean, self.deepest);
         let mut solves = 0;
         let places: Vec<Vec<usize>> = self.pressed.iter().map(kept).collect::<Result<_, _>>()?;
         for _ in 0..ROUNDS {
@@ -119,10 +118,10 @@ impl Specimen<'_> {
             for (pressed, factor) in divided.iter_mut().zip(&factors) {
                 divide(pressed, factor);
             }
-            let relaxing = relaxation(
-                &courses(&divided, Some(&mut neo_hookean)),
-                settings.relaxation,
-            )?;
+            // The law's own elastic force, where a first fit takes that of neo-Hookean tissue.
+            let elastic = curves.of(f64::INFINITY, of.shape)?;
+            let courses = courses(&divided, Some(&elastic));
+            let mut relaxing = relaxation(&courses, settings.relaxation)?;
             let mut law = |draws: Option<Draws>| sought(&mut curves, &divided, (&relaxing, draws));
             let description = law(None)?;
             let next = Tissue::of(&relaxing, &description);
@@ -133,12 +132,11 @@ impl Specimen<'_> {
                 };
                 let law = &mut description.found;
                 law.solves = solves + curves.solves();
-                for (forces, factor) in law.forces.iter_mut().zip(&factors) {
-                    forces
-                        .iter_mut()
-                        .zip(factor)
-                        .for_each(|(own, by)| *own *= by);
-                }
+                multiply(&mut law.forces, &factors);
+                let felt = self.pressed.iter().zip(&factors);
+                let felt = felt.filter(|(pressed, _)| pressed.is_felt());
+                let of_felt: Vec<_> = felt.map(|(_, factor)| factor.clone()).collect();
+                multiply(&mut relaxing.forces, &of_felt);
                 return Ok((relaxing, description));
             }
             tissue = next;
@@ -274,6 +272,14 @@ fn at_samples(pressed: &Pressed, places: &[usize], values: &[f64]) -> Vec<f64> {
         values[before] + part * (values[next] - values[before])
     };
     (0..time.len()).map(&mut at).collect()
+}
+
+/// Forces of the product become those of the full runs.
+fn multiply(forces: &mut [Vec<f64>], factors: &[Vec<f64>]) {
+    let each = forces.iter_mut().zip(factors);
+    for (force, by) in each.flat_map(|(forces, factor)| forces.iter_mut().zip(factor)) {
+        *force *= by;
+    }
 }
 
 fn divide(pressed: &mut Pressed, factor: &[f64]) {
