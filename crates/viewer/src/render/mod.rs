@@ -52,10 +52,36 @@ pub struct View {
     pub camera: Camera,
     /// How the organ is drawn.
     pub shading: Shading,
-    /// Whether the tissue has its fine relief and its patches and vessels.
-    pub detail: bool,
+    /// What tissue shows of itself.
+    pub looks: Looks,
     /// What lies within this distance of the camera's target is drawn [m].
     pub reach: f64,
+}
+
+/// What tissue shows beyond its shape.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Looks {
+    /// Its fine relief, patches and vessels.
+    pub relief: bool,
+    /// Light that goes round the edges of relief and shadows, red farthest.
+    pub scattering: bool,
+    /// The shadows of tools.
+    pub shadows: bool,
+}
+
+impl Looks {
+    /// Everything.
+    pub const ALL: Self = Self {
+        relief: true,
+        scattering: true,
+        shadows: true,
+    };
+    /// The shape alone.
+    pub const NONE: Self = Self {
+        relief: false,
+        scattering: false,
+        shadows: false,
+    };
 }
 
 /// What draws pictures.
@@ -119,15 +145,13 @@ impl Renderer {
             let mut pass = begin(&mut encoder, target);
             pass.set_bind_group(0, &self.globals.group, &[]);
             let pipeline = |subject| self.pipelines.of(gpu, subject, target.samples());
-            pass.set_pipeline(&pipeline(Subject::Backdrop));
-            pass.draw(0..3, 0..1);
             pass.set_pipeline(&pipeline(Subject::Tissue {
                 shading: number(view.shading),
-                detail: view.detail,
+                looks: view.looks,
             }));
-            pass.set_bind_group(1, &self.maps.bound, &[]);
             let bodies = bodies.iter().zip(&self.bodies);
             for (body, bound) in bodies.filter(|(body, _)| body.triangles() > 0) {
+                pass.set_bind_group(1, self.maps.of(body.tint.has_vessels), &[]);
                 pass.set_bind_group(2, &bound.group, &[]);
                 pass.set_vertex_buffer(0, body.moving_buffer.slice(..));
                 pass.set_vertex_buffer(1, body.resting_buffer.slice(..));
@@ -144,6 +168,9 @@ impl Renderer {
                     pass.draw(0..kept.part.corners.len() as u32, 0..1);
                 }
             }
+            // Last, where nothing is: a slow machine does not draw it twice.
+            pass.set_pipeline(&pipeline(Subject::Backdrop));
+            pass.draw(0..3, 0..1);
         }
         gpu.queue.submit([encoder.finish()]);
     }
