@@ -4,17 +4,21 @@
 //! Tissue is lit by a key light and by light from all sides, less in hollows and under tools, which cast soft
 //! shadows of the key light. Light that enters tissue comes out beside: each colour has its own normal between that of
 //! the relief and that of the surface, red the smoothest [Ma et al. 2007]. With a map of the surroundings (section
-//! 7.5) tissue is wet: a film of liquid fills its relief, darkens it, mirrors the map by Fresnel's law and shows the
-//! lamp as a microfacet surface of the film's roughness. Without one it is dull. An endoscope's light falls with the
-//! squared distance and towards the edge of its cone. Everything is bent to the display's gamma in the shader.
+//! 7.5) tissue is wet: a film of water fills its relief, darkens it [Lekner and Dorf 1988], mirrors the map by Fresnel's
+//! law and shows the lamp as a microfacet surface of the film's roughness. Without one it is dull. An endoscope's light
+//! falls with the squared distance and towards the edge of its cone. Everything is bent to the display's gamma in the
+//! shader. Numbers and costs: `docs/theory/pictures.md`.
 //!
-//! *How we know*: `golden::…` compare pictures; `agreement::the_picture_is_where_the_camera_says`.
+//! *How we know*: `golden::…` compare pictures; `agreement::the_picture_is_where_the_camera_says`;
+//! `film_tests::…` integrate what the shader computes; `wet::…` measure light in pictures.
 //!
 //! *Limits*: no shadows but those of tools, as capsules; the film mirrors no organ.
 
 mod body;
 mod crease;
 pub(crate) mod environment;
+#[cfg(test)]
+mod film_tests;
 mod light;
 mod maps;
 mod noise;

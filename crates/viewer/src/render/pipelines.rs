@@ -3,8 +3,8 @@ use std::collections::BTreeMap;
 
 use palpate_files::scene::Shading;
 
-use super::maps::Maps;
 use super::Looks;
+use super::maps::Maps;
 use super::target::{COLOR, DEPTH};
 use crate::Gpu;
 
@@ -34,7 +34,10 @@ impl Pipelines {
         let shared = include_str!("shader/picture.wgsl");
         let shaders = [
             include_str!("shader/backdrop.wgsl"),
-            concat!(include_str!("shader/film.wgsl"), include_str!("shader/tissue.wgsl")),
+            concat!(
+                include_str!("shader/film.wgsl"),
+                include_str!("shader/tissue.wgsl")
+            ),
             include_str!("shader/instrument.wgsl"),
         ];
         Self {

@@ -165,3 +165,17 @@ fn halved(finer: &[u8], edge: usize) -> Vec<u8> {
 pub(super) fn texel_length() -> f64 {
     LENGTH / EDGE as f64
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The tone of dark tissue is 0.32 of 255; what is darker is a vessel.
+    #[test]
+    fn only_one_block_has_vessels() {
+        let [bare, vessels] = levels();
+        let darkest = |levels: &[Vec<u8>]| levels[0].iter().skip(3).step_by(4).copied().min();
+        assert_eq!(darkest(&bare), Some(82));
+        assert!(darkest(&vessels) < Some(20));
+    }
+}
