@@ -13,7 +13,7 @@
 use nalgebra::{Matrix3, Rotation3};
 use palpate_geometry::{Footing, Vec3, follow, settle};
 use palpate_mechanics::contact::Bond;
-use palpate_mechanics::finite_spheres::{LocalContact, Placement, first_direction};
+use palpate_mechanics::finite_spheres::{LocalContact, Placement, Surroundings, first_direction};
 
 use crate::simulation::Simulation;
 use crate::tool::Tool;
@@ -229,9 +229,10 @@ pub(crate) fn place(
         .unwrap_or_else(Vec3::z);
     let second = patch.normal.cross(&first);
     let between = |a: &Vec3, b: &Vec3| a.dot(&(patch.curvature * b));
+    let frame = Matrix3::from_columns(&[first, second, patch.normal]);
     LocalContact {
         point: footing.point,
-        frame: Matrix3::from_columns(&[first, second, patch.normal]),
+        frame,
         curvature: Vec3::new(
             between(&first, &first),
             between(&first, &second),
@@ -239,8 +240,26 @@ pub(crate) fn place(
         ),
         triangle: footing.triangle,
         radius: tool.tip.contact_radius(depth),
-        organ_radius: simulation.organ_radius,
+        surroundings: surroundings(simulation, tool, (footing, &frame)),
         // As the calibrated model has it: held as a hemisphere of its volume is.
         thickness: simulation.organ_radius,
     }
+}
+
+/// What the organ is around a place, in its frame.
+fn surroundings(
+    simulation: &Simulation,
+    tool: &Tool,
+    (footing, frame): (&Footing, &Matrix3<f64>),
+) -> Surroundings {
+    let Some(at) = &tool.further else {
+        return tool.model.by_volume(simulation.organ_radius);
+    };
+    let nodes = simulation.surface.mesh().corners(footing.triangle);
+    let further: Matrix3<f64> = nodes
+        .iter()
+        .zip(footing.barycentric)
+        .map(|(node, weight)| at[node.index()] * weight)
+        .sum();
+    Surroundings::Known(frame.tr_mul(&further) * frame)
 }

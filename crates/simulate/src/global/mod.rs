@@ -31,6 +31,7 @@ mod method;
 mod organ_slit;
 mod press;
 mod solve;
+mod surroundings;
 mod take_hold;
 
 use std::ops::ControlFlow;
@@ -52,6 +53,7 @@ use held::HeldWorkspace;
 use key::Ingredients;
 use method::Method;
 use organ_slit::OrganSlit;
+pub(crate) use surroundings::surround;
 use solve::Found;
 use take_hold::Candidate;
 
