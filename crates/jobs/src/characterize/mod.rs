@@ -12,7 +12,7 @@ use std::path::PathBuf;
 
 use palpate_characterize::CharacterizeSettings;
 use palpate_characterize::fit::Draws;
-use palpate_characterize::inverse::SoughtLaw;
+use palpate_characterize::inverse::{LEAST_DRAWS, SoughtLaw};
 use palpate_characterize::viscoelastic::RelaxationSettings;
 
 pub use answer::{
@@ -34,10 +34,12 @@ pub struct Choice {
     pub law: Option<SoughtLaw>,
     /// Terms of the relaxation; none: as many as the recordings can tell.
     pub terms: Option<usize>,
-    /// How often fits are made again to see how well parameters are known.
+    /// How often fits are repeated to see how well parameters are known: 0 for never, else [`LEAST_DRAWS`] or more.
     pub draws: usize,
     /// The seed of these draws.
     pub seed: u64,
+    /// Whether full viscoelastic runs of finite elements are solved in the loop of the fit, of one specimen and one law.
+    pub in_loop: bool,
 }
 
 impl Default for Choice {
@@ -47,6 +49,7 @@ impl Default for Choice {
             terms: None,
             draws: 100,
             seed: 1,
+            in_loop: false,
         }
     }
 }
@@ -67,15 +70,42 @@ impl Choice {
         })
     }
 
+    /// Refuses fewer draws than a spread needs.
+    fn check(self) -> Result<(), Error> {
+        if (1..LEAST_DRAWS).contains(&self.draws) {
+            return Err(Error::input(format!(
+                "{} draws are too few for a spread; ask for {LEAST_DRAWS} or more, or for 0 to repeat no fit",
+                self.draws
+            )));
+        }
+        Ok(())
+    }
+
+    /// Refuses finite elements in the loop of more than one fit.
+    fn check_loop(self, specimens: usize) -> Result<(), Error> {
+        if self.in_loop && self.law.is_none() {
+            return Err(Error::input(
+                "finite elements in the loop need one law; name it, such as neo_hookean",
+            ));
+        }
+        if self.in_loop && specimens > 1 {
+            return Err(Error::input(format!(
+                "finite elements in the loop need one specimen, and there are {specimens}; name the recordings of one"
+            )));
+        }
+        Ok(())
+    }
+
     fn settings(self) -> CharacterizeSettings {
         let all = CharacterizeSettings::default();
         CharacterizeSettings {
             relaxation: RelaxationSettings { terms: self.terms },
-            draws: (self.draws > 1).then_some(Draws {
+            draws: (self.draws > 0).then_some(Draws {
                 count: self.draws,
                 seed: self.seed,
             }),
             laws: self.law.map_or(all.laws, |law| vec![law]),
+            in_loop: self.in_loop,
         }
     }
 }
@@ -125,8 +155,11 @@ pub fn characterize(
     folder: Option<&StudyFolder>,
     watch: &dyn Watch,
 ) -> Result<Characterized, Error> {
+    choice.check()?;
     let (read, unusable) =
         recordings.read(|path| watch.say(&format!("reading {}", path.display())))?;
+    let headers: Vec<_> = read.iter().map(|read| &read.clean.header).collect();
+    choice.check_loop(palpate_characterize::specimens(&headers).len())?;
     let finished = study::of(read, &choice.settings(), folder, watch)?;
     let mut tissues = Vec::new();
     let (specimens, portraits): (Vec<_>, Vec<_>) = finished

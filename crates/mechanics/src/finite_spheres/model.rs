@@ -209,11 +209,6 @@ impl FiniteSphereModel {
         self.calibration.radius_in_spacings
     }
 
-    /// Whether the tissue's Poisson's ratio lies beyond what the model is calibrated for.
-    pub fn is_extrapolated(&self) -> bool {
-        self.uncalibrated.is_none() && self.ratio_of_half_spaces[1] != 1.0
-    }
-
     /// Places the particles of `contact`, solves, and answers its stiffness.
     pub fn respond(
         &self,
