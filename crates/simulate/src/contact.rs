@@ -167,7 +167,10 @@ pub(crate) fn detect(
             contact.sheared = moved - normal * normal.dot(&moved);
         }
         Bond::Stick if contact.displacement(tool, tip).z >= 0.0 => return None,
-        Bond::Stick => contact.place.radius = tool.tip.contact_radius(depth),
+        Bond::Stick => {
+            let tip = tool.tip.beside(contact.place.mean_curvature());
+            contact.place.radius = tip.contact_radius(depth);
+        }
     }
     Some(contact)
 }
@@ -285,16 +288,18 @@ pub(crate) fn place(
     let second = patch.normal.cross(&first);
     let between = |a: &Vec3, b: &Vec3| a.dot(&(patch.curvature * b));
     let frame = Matrix3::from_columns(&[first, second, patch.normal]);
+    let curvature = Vec3::new(
+        between(&first, &first),
+        between(&first, &second),
+        between(&second, &second),
+    );
+    let mean = 0.5 * (curvature.x + curvature.z);
     LocalContact {
         point: footing.point,
         frame,
-        curvature: Vec3::new(
-            between(&first, &first),
-            between(&first, &second),
-            between(&second, &second),
-        ),
+        curvature,
         triangle: footing.triangle,
-        radius: tool.tip.contact_radius(depth),
+        radius: tool.tip.beside(mean).contact_radius(depth),
         surroundings: surroundings(ground, tool, (footing, &frame)),
         // As the calibrated model has it: held as a hemisphere of its volume is.
         thickness: ground.radius,

@@ -210,12 +210,7 @@ impl Calibration {
         }
     }
 
-    fn on_hemisphere(
-        &self,
-        shells: &Matrix3<f64>,
-        spacing: f64,
-        organ_radius: f64,
-    ) -> Corrected {
+    fn on_hemisphere(&self, shells: &Matrix3<f64>, spacing: f64, organ_radius: f64) -> Corrected {
         let unit = self.youngs_modulus * spacing;
         let held_at = self.shells * spacing;
         let inside = 1.0 / (shells[(2, 2)] * unit);

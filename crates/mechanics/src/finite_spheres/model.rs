@@ -58,6 +58,13 @@ pub struct LocalContact {
     pub thickness: f64,
 }
 
+impl LocalContact {
+    /// Mean curvature of the surface under the tip [1/m], positive where it bulges out.
+    pub fn mean_curvature(&self) -> f64 {
+        0.5 * (self.curvature.x + self.curvature.z)
+    }
+}
+
 /// What an organ is beyond the particles around a tip.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Surroundings {
@@ -310,13 +317,11 @@ impl FiniteSphereModel {
         if let Surroundings::Known(further) = &mut surroundings {
             // What is multiplied again below.
             further[(2, 2)] *= normal;
-            further
-                .fixed_view_mut::<2, 2>(0, 0)
-                .scale_mut(tangential);
+            further.fixed_view_mut::<2, 2>(0, 0).scale_mut(tangential);
         }
-        let corrected =
-            self.calibration
-                .correct(&solution.stiffness, spacing, &surroundings);
+        let corrected = self
+            .calibration
+            .correct(&solution.stiffness, spacing, &surroundings);
         let mut stiffness = corrected.stiffness * tangential;
         stiffness[(2, 2)] = corrected.stiffness[(2, 2)] * normal;
         let mut limits = corrected.limits;

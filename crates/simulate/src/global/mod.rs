@@ -53,8 +53,8 @@ use held::HeldWorkspace;
 use key::Ingredients;
 use method::Method;
 use organ_slit::OrganSlit;
-pub(crate) use surroundings::surround;
 use solve::Found;
+pub(crate) use surroundings::surround;
 use take_hold::Candidate;
 
 /// How the whole organ answers.
