@@ -52,7 +52,8 @@ fn a_hemisphere_is_that_of_finite_elements() {
     assert!((force.z / 0.078_752 - 1.0).abs() < 0.05, "{force}");
 }
 
-/// Judge: the whole organ, on half as many triangles again, at forty places of a kidney. Tolerance: TOLERANCE.
+/// Judge: the whole organ, on half as many triangles again, at forty places of a kidney. Tolerance: a tenth, which is
+/// asked of the local model, and the 3 % that the whole organ is off finite elements; half of all places within those 3 %.
 #[test]
 fn the_local_model_knows_what_the_organ_yields() {
     let whole = KIDNEY.simulation();
@@ -75,7 +76,8 @@ fn the_local_model_knows_what_the_organ_yields() {
     }
     seen.sort_by(f64::total_cmp);
     println!("finite spheres beside the whole organ: {seen:.3?}");
-    assert!(seen[0] > 0.9 && seen[39] < 1.1, "{seen:?}");
+    assert!(seen[0] > 0.87 && seen[39] < 1.13, "{seen:?}");
+    assert!((seen[20] - 1.0).abs() < 0.03, "{seen:?}");
 }
 
 /// Judge: proportion. The response is that of a unit modulus, so that none is solved anew.
