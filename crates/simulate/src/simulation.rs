@@ -7,7 +7,7 @@ use palpate_mechanics::Material;
 
 use crate::cutting::CuttingModel;
 use crate::digest::SceneDigest;
-use crate::global::{GlobalModel, GlobalProblem, ResponseOrigin};
+use crate::global::{GlobalModel, GlobalProblem, ResponseOrigin, surround};
 use crate::neighbour::Neighbour;
 use crate::nonlinear::NonlinearOrgan;
 use crate::preparation::tell;
@@ -99,7 +99,15 @@ impl Simulation {
                 Some(organ)
             }
         };
-        let is_local = scene.model.kind == ModelKind::Local;
+        if scene.model.kind == ModelKind::Local {
+            let organ = (scene, &surface);
+            if let Err(error) = surround(&mut tools, organ, &material.at_rest, resources.memory) {
+                doubts.push(format!(
+                    "the organ's size is felt as that of a hemisphere of its volume, for boundary elements have no \
+                     answer: {error}"
+                ));
+            }
+        }
         doubts.extend(tip_laws::stiffen(
             &mut tools,
             (&tissue, &material),
@@ -109,14 +117,6 @@ impl Simulation {
                 let _ = watch(Progress { work, part });
             },
         )?);
-        if is_local && tools.iter().any(|tool| tool.model.is_extrapolated()) {
-            doubts.push(format!(
-                "Poisson's ratio {:.3} is beyond the {} that the local model is calibrated for; its \
-                 force is the one there, times the ratio of the half-spaces",
-                material.at_rest.poissons_ratio(),
-                palpate_mechanics::finite_spheres::LARGEST_CALIBRATED_RATIO,
-            ));
-        }
         let neighbours = Neighbour::all(scene, &tools)?;
         if !neighbours.is_empty() {
             doubts.push(

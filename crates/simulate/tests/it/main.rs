@@ -40,5 +40,6 @@ mod session_end;
 mod slides;
 mod take_over;
 mod thin_walls;
+mod tips;
 mod trocar;
 mod tutor;
