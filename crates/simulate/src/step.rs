@@ -170,8 +170,8 @@ impl ToolState {
     }
 }
 
-/// 2. and 3. The elastic force and its stiffness, of the whole organ, for which `elapsed` [s] have gone by, or of particles
-/// around each tip.
+/// Steps 2 and 3: the elastic force and its stiffness, of the whole organ or of particles around each tip. `elapsed` [s] have
+/// gone by since the last step.
 pub(crate) fn respond(
     simulation: &Simulation,
     elapsed: f64,
