@@ -66,11 +66,10 @@ impl Tool {
             scene::TipContact::Stick => Bond::Stick,
             scene::TipContact::Slip => Bond::Slip,
         };
-        let radius = tool.tip.radius_m;
-        let (tip, typical) = match tool.tip.shape {
-            scene::TipShape::Flat => (Tip::Flat { radius }, radius),
-            // Half the radius touches at a quarter of the radius in depth.
-            scene::TipShape::Sphere => (Tip::Sphere { radius }, 0.5 * radius),
+        let (radius, typical) = (tool.tip.radius_m, typical_radius(&tool.tip));
+        let tip = match tool.tip.shape {
+            scene::TipShape::Flat => Tip::Flat { radius },
+            scene::TipShape::Sphere => Tip::Sphere { radius },
         };
         let mut model = FiniteSphereModel::new(settings, law, bond)?;
         model.precompute_placement(surface, tree, typical);
@@ -120,6 +119,15 @@ impl Tool {
         match self.tip {
             Tip::Flat { radius } | Tip::Sphere { radius } => radius,
         }
+    }
+}
+
+/// Radius of the touching area that stands for all [m].
+pub(crate) fn typical_radius(tip: &scene::Tip) -> f64 {
+    match tip.shape {
+        scene::TipShape::Flat => tip.radius_m,
+        // Half the radius touches at a quarter of the radius in depth.
+        scene::TipShape::Sphere => 0.5 * tip.radius_m,
     }
 }
 

@@ -2,6 +2,7 @@
 //! the tools that touch it.
 
 mod cutting;
+mod inclusion;
 mod jaws;
 mod model;
 mod model_words;
@@ -17,6 +18,7 @@ mod view;
 use std::path::{Path, PathBuf};
 
 pub use cutting::{CutMode, Cutting};
+pub use inclusion::{Inclusion, InclusionShape};
 pub use jaws::Jaws;
 pub use model::{Enhancement, LocalSettings, Model};
 pub use model_words::{

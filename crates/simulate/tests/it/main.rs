@@ -32,6 +32,7 @@ mod neighbours;
 mod no_allocation;
 mod nodules;
 mod nonlinear;
+mod nonlinear_regions;
 mod performance;
 mod random_scenes;
 mod replay;
