@@ -41,6 +41,7 @@ mod tip_laws;
 mod tool;
 mod trocar;
 mod tutor;
+mod variant;
 mod walls;
 
 pub use contact::Contact;
@@ -62,3 +63,4 @@ pub use summary::{CutSummary, LayerCut, StepTimes, Summary};
 pub use tool::Tool;
 pub use trocar::{ShaftFriction, Trocar};
 pub use tutor::{Ghost, Guidance, HeldTool, Stray, Tutor};
+pub use variant::draw_variant;

@@ -42,3 +42,4 @@ mod take_over;
 mod thin_walls;
 mod trocar;
 mod tutor;
+mod variants;

@@ -157,17 +157,17 @@ fn goes_on(ui: &mut Ui, attempt: &Attempt, badge: Option<RichText>, asked: &mut 
             }
         });
     });
-    if let Status::GoesOn { part, force } = attempt.status() {
+    if let Status::GoesOn { part, pull: now } = attempt.status() {
         if let (
             Goal::Traction {
                 force_n,
                 tolerance_n,
                 ..
             },
-            Some(force),
-        ) = (&attempt.task.goal, force)
+            Some(now),
+        ) = (&attempt.task.goal, now)
         {
-            pull(ui, force, [*force_n, *tolerance_n]);
+            pull(ui, now.force, [*force_n, *tolerance_n]);
         }
         if let Some(part) = part {
             let bar = egui::ProgressBar::new(part as f32)

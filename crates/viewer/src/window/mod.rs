@@ -87,6 +87,8 @@ struct SimulatorWindow {
     home: Option<Home>,
     /// The task that is attempted.
     attempt: Option<Attempt>,
+    /// Whether the attempt begins as soon as its organ is prepared.
+    begins: bool,
     /// The session that shall be looked at again when its organ is prepared.
     awaited: Option<PathBuf>,
     /// Whether the window shall close, as if somebody had closed it.
@@ -159,6 +161,7 @@ impl SimulatorWindow {
             training,
             home: None,
             attempt: None,
+            begins: false,
             awaited: None,
             is_ended,
             gpu,
@@ -242,6 +245,9 @@ impl SimulatorWindow {
         self.notice = enhanced.err().map(|error| error.to_string());
         self.take_task(&play);
         self.play = Some(play);
+        if is_last && self.begins {
+            self.begin_attempt();
+        }
         if is_last && let Some(session) = self.awaited.take() {
             self.look_again(&session);
         }

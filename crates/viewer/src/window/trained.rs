@@ -60,6 +60,7 @@ impl SimulatorWindow {
         self.play = None;
         self.attempt = None;
         self.awaited = None;
+        self.begins = false;
         self.notice = None;
         self.home = Some(Home::default());
     }
@@ -135,6 +136,12 @@ impl SimulatorWindow {
         };
         match cards::show(ui, attempt, &around) {
             None => {}
+            Some(Asked::Begin) if attempt.is_over() && self.choice.draws() => {
+                let context = ui.ctx().clone();
+                self.attempt = None;
+                self.begins = true;
+                self.begin_anew(&context);
+            }
             Some(Asked::Begin) => self.begin_attempt(),
             Some(Asked::End) => self.end_attempt(),
             Some(Asked::RecordElsewhere) => {
@@ -179,7 +186,8 @@ impl SimulatorWindow {
         }
     }
 
-    fn begin_attempt(&mut self) {
+    pub(super) fn begin_attempt(&mut self) {
+        self.begins = false;
         if self.preparing().is_some() {
             return;
         }
