@@ -14,6 +14,7 @@
 mod contact;
 mod cutting;
 mod deform;
+mod demonstration;
 mod digest;
 mod energy;
 mod error;
@@ -46,6 +47,7 @@ mod walls;
 
 pub use contact::Contact;
 pub use cutting::{CutPart, Cuts, gape};
+pub use demonstration::{Demonstration, ShownTool};
 pub use error::Error;
 pub use global::{EnhancedSurface, OrganField, ResponseOrigin};
 pub use hand_speed::FASTEST_HAND;

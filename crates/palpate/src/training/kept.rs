@@ -114,7 +114,7 @@ impl TrainingRecord for Kept {
     fn keep(&mut self, result: &TrainingResult<'_>) -> Result<(), String> {
         let who = Who {
             trainee: result.trainee,
-            is_expert: result.is_expert,
+            is_expert: false,
         };
         let folder = SessionFolder::read(result.session).map_err(|error| error.to_string())?;
         let kept = keep(&self.file, who, &folder, (&result.scene.task, result.score));

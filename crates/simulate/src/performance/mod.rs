@@ -10,6 +10,7 @@
 
 mod comparison;
 mod cut;
+mod feedback;
 mod force;
 mod goal;
 mod hand;
@@ -23,6 +24,7 @@ use palpate_geometry::Vec3;
 
 pub use comparison::{Comparison, Standard, compare};
 pub use cut::CutScore;
+pub use feedback::{Feedback, feedback};
 pub use force::ForceScore;
 pub use goal::{Outcome, Pull, PullCue, Status};
 pub use hand::HandScore;

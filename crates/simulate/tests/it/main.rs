@@ -11,6 +11,7 @@ mod analytic;
 mod cut_mechanics;
 mod cutting;
 mod data;
+mod demonstration;
 mod digest;
 mod enhanced;
 mod errors;
