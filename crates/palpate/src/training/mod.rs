@@ -9,7 +9,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use palpate_viewer::training::{Training, TrainingRecord};
 
-pub(crate) use kept::{Who, keep};
+pub(crate) use kept::{VARIANT, Who, keep};
 pub(crate) use record::record_file;
 pub(crate) use tasks::free;
 

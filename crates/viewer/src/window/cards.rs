@@ -29,6 +29,8 @@ pub(super) enum Asked {
 pub(super) struct Around {
     /// How far the preparation of the organ is [-]; none when it is done.
     pub(super) preparing: Option<f64>,
+    /// Whether the attempt begins when it is done.
+    pub(super) begins: bool,
     /// Whether there is a start screen.
     pub(super) has_home: bool,
 }
@@ -138,7 +140,18 @@ fn reads(ui: &mut Ui, attempt: &Attempt, around: &Around, asked: &mut Option<Ask
     ui.horizontal(|ui| match around.preparing {
         Some(part) => {
             ui.add(egui::Spinner::new().color(DEPTH));
-            ui.label(format!("preparing the organ, {:.0} %", 100.0 * part));
+            let then = if around.begins {
+                "; then it begins"
+            } else {
+                ""
+            };
+            ui.label(format!("preparing the organ, {:.0} %{then}", 100.0 * part));
+            if !around.begins && ui.button("Begin when ready").clicked() {
+                *asked = Some(Asked::Begin);
+            }
+            if around.has_home && ui.button("Tasks").clicked() {
+                *asked = Some(Asked::Home);
+            }
         }
         None => {
             let begin = button(ui, "Begin").on_hover_text("or Enter");

@@ -139,6 +139,7 @@ impl SimulatorWindow {
     pub(super) fn show_card(&mut self, ui: &egui::Ui) {
         let around = Around {
             preparing: self.preparing(),
+            begins: self.begins,
             has_home: self.training.is_some(),
         };
         let (Some(attempt), Some(play)) = (&mut self.attempt, &mut self.play) else {
@@ -159,6 +160,7 @@ impl SimulatorWindow {
             Some(Asked::Show) => {
                 attempt.show(play);
                 self.picture.lay_down();
+                self.picture.lists_keys = false;
                 self.history.clear();
             }
             Some(Asked::Begin)
@@ -211,8 +213,9 @@ impl SimulatorWindow {
     }
 
     pub(super) fn begin_attempt(&mut self) {
-        self.begins = false;
-        if self.preparing().is_some() {
+        // Whoever asks before the organ is prepared begins when it is.
+        self.begins = self.preparing().is_some();
+        if self.begins {
             return;
         }
         if let (Some(attempt), Some(play)) = (&mut self.attempt, &mut self.play) {
@@ -262,7 +265,8 @@ impl SimulatorWindow {
     /// wrong. Beside a device with forces the emergency stop stays.
     pub(super) fn show_panels(&mut self, ui: &mut egui::Ui) {
         let has_devices = self.play.as_ref().is_some_and(Play::has_devices);
-        let is_trainee = self.attempt.is_some() && !self.engineer_view && !has_devices;
+        let trains = self.attempt.is_some() || self.begins;
+        let is_trainee = trains && !self.engineer_view && !has_devices;
         let is_quiet = self.fault.is_none() && self.notice.is_none() && self.preparation.is_none();
         if !is_trainee || !is_quiet {
             egui::Panel::bottom("status").show(ui, |ui| panel::status(self, ui));

@@ -1,5 +1,6 @@
 //! What became of one task, trainee by trainee.
 
+use crate::training::VARIANT;
 use palpate_record::{
     Attempt, CurvePoint, Judgement, Spread, Standards, learning_curve, proficient_since,
 };
@@ -96,7 +97,13 @@ impl<'r> Course<'r> {
         Self {
             task,
             trainees: trainees.collect(),
-            scenes: distinct(own().map(|own| own.scene_digest.as_str())).len(),
+            // Variants of a task are meant to differ.
+            scenes: distinct(
+                own()
+                    .map(|own| own.scene_digest.as_str())
+                    .filter(|digest| !digest.contains(VARIANT)),
+            )
+            .len(),
             experts,
             standards,
         }
