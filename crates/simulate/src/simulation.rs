@@ -40,6 +40,8 @@ pub struct Simulation {
     hand_over: HandOver,
     force_scale: f64,
     pub(crate) scene_digest: SceneDigest,
+    /// That of the variant; 0 for a scene of fixed numbers.
+    seed: u64,
     doubts: Vec<String>,
 }
 
@@ -63,6 +65,9 @@ impl Simulation {
         resources: &Resources,
         watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
+        if scene.draws.is_some() {
+            return Err(Error::NotDrawn);
+        }
         let (surface, mut doubts) = organ::read_organ(&scene.organ.shape)?;
         let tissue = scene.organ.tissue.read()?;
         let material = Material::from_tissue(&tissue)?;
@@ -168,6 +173,7 @@ impl Simulation {
                 (&tissue, &felt),
                 neighbours.iter().map(|body| &body.surface),
             ),
+            seed: scene.variant.as_ref().map_or(0, |own| own.seed),
             step: scene.model.step_s,
             kind: scene.model.kind,
             hand_over: scene.model.hand_over,
@@ -269,7 +275,7 @@ impl Simulation {
             scene_digest: self.scene_digest.canonical.clone(),
             model: self.kind,
             step_s: self.step,
-            seed: 0,
+            seed: self.seed,
             force_scale: self.force_scale,
         }
     }
