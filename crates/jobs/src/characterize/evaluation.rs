@@ -72,7 +72,7 @@ impl FoundLaw {
                 course.len()
             )));
         }
-        if let Some(place) = (1..time.len()).find(|&i| !(time[i] > time[i - 1])) {
+        if let Some(place) = (1..time.len()).find(|&i| time[i] <= time[i - 1]) {
             return Err(Error::input(format!(
                 "time {} s follows {} s; give times that ascend",
                 time[place],

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     import matplotlib.axes
     import matplotlib.figure
 
-    from palpate.fits import Abscissa, Law
+    from palpate.fits import Law
 
 #: How a style is drawn: line, marker.
 STYLES: dict[str, dict[str, Any]] = {
@@ -49,7 +49,7 @@ def draw(plot: dict[str, Any], axes: matplotlib.axes.Axes | None = None) -> matp
     return axes
 
 
-def draw_fit(law: Law, against: Abscissa | None, figure: matplotlib.figure.Figure | None) -> matplotlib.figure.Figure:
+def draw_fit(law: Law, against: str | None, figure: matplotlib.figure.Figure | None) -> matplotlib.figure.Figure:
     """Draw ``law`` beside the recordings that it was found from, and below it the residual."""
     if figure is None:
         import matplotlib.pyplot

@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     import pandas
 
 Floats: TypeAlias = NDArray[np.float64]
-Abscissa: TypeAlias = Literal["time", "course"]
 
 
 class Parameter(dict[str, Any]):
@@ -330,7 +329,7 @@ class Law(dict[str, Any]):
         return pandas.concat(parts, ignore_index=True)
 
     def plot(
-        self, against: Abscissa | None = None, figure: matplotlib.figure.Figure | None = None
+        self, against: Literal["time", "course"] | None = None, figure: matplotlib.figure.Figure | None = None
     ) -> matplotlib.figure.Figure:
         """Draw measured and fitted values of all recordings, with the band of 95 %, and below them the residual.
 
@@ -433,7 +432,7 @@ class Specimen(dict[str, Any]):
         return self.laws[self.preferred]
 
     def plot(
-        self, against: Abscissa | None = None, figure: matplotlib.figure.Figure | None = None
+        self, against: Literal["time", "course"] | None = None, figure: matplotlib.figure.Figure | None = None
     ) -> matplotlib.figure.Figure:
         """Draw the preferred law beside the recordings, as `Law.plot`."""
         return self.law.plot(against, figure)
