@@ -1,11 +1,11 @@
 //! A closed envelope of any triangles: open, crossing, doubled or unoriented.
 //!
-//! The rims of holes are capped by fans. On a grid of half the asked distance, the outside is what a ball of radius r
+//! The rims of holes are capped by fans. On a grid somewhat finer than the asked distance, the outside is what a ball of radius r
 //! reaches from the border without touching a triangle; the inside is what no such ball covers (a morphological closing
 //! [Serra 1982]). Its surface is closed, manifold and in one piece ([`isosurface`](crate::isosurface)), and its vertices
 //! are moved to the nearest point of the triangles where one is near and no triangle is turned by it.
 //!
-//! *How we know*: `wrap::…`: balls of crossing, doubled, shifted and missing triangles keep their volume and distance.
+//! *How we know*: `wrap::…`: balls of crossing, doubled, turned and missing triangles keep their volume and distance.
 //!
 //! *Limits*: a closing fills what is narrower than twice r, also a fissure of the organ. Cavities are filled. Sharp edges
 //! are rounded by about the asked distance.
@@ -25,8 +25,12 @@ use crate::{
 use closing::Closing;
 use grid::Grid;
 
-/// Voxels that a grid may have; they take 12 bytes each.
+/// Voxels that a grid may have; they take 15 bytes each.
 const MOST_VOXELS: f64 = 3e8;
+
+/// The edge of a voxel over the asked distance [-]. A voxel's surface is off by half of it and by half its diagonal at
+/// most, and its vertices are then moved to the triangles.
+const SPACING: f64 = 0.75;
 
 /// How [`wrap`] works.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -140,7 +144,7 @@ pub fn wrap_with_progress(
     at(0.0)?;
     let (input, _) = repair(mesh)?;
     let capped = holes::cap(&input)?;
-    let spacing = 0.5 * distance;
+    let spacing = SPACING * distance;
     let radius = (0.5 * settings.close_gaps).max(spacing);
     let grid = Grid::around(&capped.mesh, spacing, radius);
     if grid.voxels() > MOST_VOXELS {
