@@ -275,12 +275,13 @@ fn tips_on_a_cube() {
 }
 
 /// Judge: full runs, each on a mesh made for its depth. Tolerance: what is asked of the whole organ, to an eighth of the
-/// thickness deep; deeper its own stiffening is left out.
+/// thickness deep and under tips that are no wider than it is thick; beyond, its own stiffening is left out.
 #[test]
 #[ignore = "slow: minutes"]
 fn tips_on_a_slab() {
-    tabled(Body::Slab, |kind, _, depth| {
-        (kind == "hybrid" && depth <= 0.002_5).then_some(PROMISED)
+    tabled(Body::Slab, |kind, case, depth| {
+        let is_small = case.radius <= 0.01 && depth <= 0.002_5;
+        (kind == "hybrid" && is_small).then_some(PROMISED)
     });
 }
 
