@@ -182,21 +182,31 @@ fn force_and_stiffness_are_continuous_at_the_half_space() {
     }
 }
 
-/// Judge: the growth of the touching area by hand, q F₀ with q = 1/(1 + c k₀), k₀ ∝ √d.
+/// k₁ [N/m] of the half-space that the law has of a stiffer organ: F₀/d, half as much again under a sphere.
+fn slope_at_depth(law: &TipLaw, tip: Tip) -> f64 {
+    let exponent = match tip {
+        Tip::Flat { .. } => 1.0,
+        Tip::Sphere { .. } => 1.5,
+    };
+    exponent * law.normal_force_in_series(DEPTH, 0.0).force / DEPTH
+}
+
+/// Judge: q F₀ by hand, with q = 1/(1 + c k₁) and k₁ ∝ F₀/d.
 #[test]
 fn sphere_in_a_stiffer_organ_stiffens_with_its_touching_area() {
     let law = tissue(0.45);
     let tip = Tip::Sphere { radius: RADIUS };
     let sphere = TipLaw::linear(tip, Bond::Slip, law);
-    let half_space = half_space_stiffness(&law, tip.contact_radius(DEPTH), Bond::Slip);
+    let half_space = slope_at_depth(&sphere, tip);
     let exponent_at = |compliance: f64| {
         let found = sphere.normal_force_in_series(DEPTH, compliance);
         found.stiffness * DEPTH / found.force
     };
     for times in [1.25, 1.67, 2.5] {
         let product = 1.0 / times - 1.0;
-        // d ln F/d ln d = d ln F₀/d ln d − (c k₀/2) q.
-        let expected = exponent_at(0.0) - 0.5 * product * times;
+        // d ln F/d ln d = n − (n − 1) c k₁ q with n = d ln F₀/d ln d.
+        let exponent = exponent_at(0.0);
+        let expected = exponent - (exponent - 1.0) * product * times;
         let found = exponent_at(product / half_space);
         assert!((found / expected - 1.0).abs() < 1e-12);
     }
@@ -206,7 +216,8 @@ fn sphere_in_a_stiffer_organ_stiffens_with_its_touching_area() {
 #[test]
 fn a_bounded_stiffness_is_told() {
     for (law, tip, bond) in laws() {
-        let [normal, tangential] = half_space((tip, bond), DEPTH);
+        let [_, tangential] = half_space((tip, bond), DEPTH);
+        let normal = slope_at_depth(&law, tip);
         let inward = Vec3::new(0.01, 0.0, -1.0) * DEPTH;
         for (product, asked) in [(-0.96, 25.0), (-1.2, f64::INFINITY)] {
             let diagonal = Vec3::new(product / tangential, 0.0, product / normal);

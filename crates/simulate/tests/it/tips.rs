@@ -235,11 +235,13 @@ fn flat_tips_are_those_of_finite_elements() {
     }
 }
 
-/// Prints the table of docs/theory/tips.md for `body`; where `promised` is true the errors are no larger than that.
-fn tabled(body: Body, promised: impl Fn(&Case<'_>) -> bool) {
+/// Prints the table of docs/theory/tips.md for `body`. Where `promised` has a bound [-] for a model, a case and a depth
+/// [m], the error is no larger.
+fn tabled(body: Body, promised: impl Fn(&str, &Case<'_>, f64) -> Option<f64>) {
     let folder = tempfile::tempdir().unwrap();
     println!("| tip, mm | body | ν | depth, mm | finite elements, mN | local, mN | hybrid, mN |");
     println!("|---|---|---|---|---|---|---|");
+    let mut missed = Vec::new();
     for poissons_ratio in [0.3, 0.45, 0.49] {
         for (shape, depths) in [("sphere", &[0.2, 0.5, 1.0][..]), ("flat", &[0.01])] {
             for radius in [0.001, 0.005, 0.01, 0.015] {
@@ -251,36 +253,46 @@ fn tabled(body: Body, promised: impl Fn(&Case<'_>) -> bool) {
                     responses: Some(folder.path()),
                 };
                 for (kind, depth, off) in case.compared(&["local", "hybrid"], depths) {
-                    let small = off.abs() < PROMISED;
-                    assert!(
-                        small || !promised(&case),
-                        "{shape} {radius} {kind} {poissons_ratio} {depth}: {off}"
-                    );
+                    if promised(kind, &case, depth).is_some_and(|most| off.abs() > most) {
+                        missed.push((shape, radius, kind, poissons_ratio, depth, off));
+                    }
                 }
             }
         }
     }
+    assert!(missed.is_empty(), "{missed:?}");
 }
 
-/// Judge: full runs, each on a mesh made for its depth.
+/// Judge: full runs, each on a mesh made for its depth. Tolerance: what is asked, to 10 mm deep, beyond which a scene
+/// warns; of the local model under wide flat tips a tenth, as on other organs.
 #[test]
 #[ignore = "slow: minutes"]
 fn tips_on_a_cube() {
-    tabled(Body::Cube, |case| case.radius <= 0.01);
+    tabled(Body::Cube, |kind, case, depth| {
+        let is_wide = kind == "local" && case.shape == "flat" && case.radius > 0.005;
+        (depth <= 0.01).then_some(if is_wide { 0.1 } else { PROMISED })
+    });
 }
 
-/// Judge: full runs, each on a mesh made for its depth.
+/// Judge: full runs, each on a mesh made for its depth. Tolerance: what is asked of the whole organ, to an eighth of the
+/// thickness deep and under tips that are no wider than it is thick; beyond, its own stiffening is left out.
 #[test]
 #[ignore = "slow: minutes"]
 fn tips_on_a_slab() {
-    tabled(Body::Slab, |_| false);
+    tabled(Body::Slab, |kind, case, depth| {
+        let is_small = case.radius <= 0.01 && depth <= 0.002_5;
+        (kind == "hybrid" && is_small).then_some(PROMISED)
+    });
 }
 
-/// Judge: full runs, each on a mesh made for its depth.
+/// Judge: full runs, each on a mesh made for its depth. Tolerance: what is asked of spheres, to a tenth of the radius
+/// deep; deeper, at ν = 0.3, the whole organ has up to 4.3 % more.
 #[test]
 #[ignore = "slow: minutes"]
 fn tips_on_a_hemisphere() {
-    tabled(Body::Hemisphere, |case| case.radius <= 0.01);
+    tabled(Body::Hemisphere, |_, case, depth| {
+        (case.shape == "sphere" && depth <= 0.005).then_some(PROMISED)
+    });
 }
 
 /// Neo-Hookean tissue, incompressible.
