@@ -112,7 +112,9 @@ fn former(scene: &Scene, tissue: &Tissue) -> String {
     // Layers had no toughness of their own then, and the local model no calibration.
     text.replace(", toughness_j_per_m2: None", "")
         .replace(", calibration: Fitted", "")
-        .replace(", nodes: None, gravity_m_per_s2: None", "")
+        .replace(", reason: None", "")
+        .replace(", nodes: None", "")
+        .replace(", gravity_m_per_s2: None", "")
         .replace(", friction: None", "")
 }
 
