@@ -20,6 +20,11 @@ pub enum Error {
         /// What is wrong with it.
         fault: MeshError,
     },
+    /// A scene whose numbers have not been drawn.
+    #[error(
+        "the scene draws its numbers anew for each attempt; draw a variant of it first (`draw_variant`)"
+    )]
+    NotDrawn,
     /// A neighbour cannot stand where the scene has it.
     #[error(
         "a neighbour bounds no solid where it is placed ({fault}); give `at_m` and `scale` that fit a body"

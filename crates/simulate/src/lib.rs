@@ -14,6 +14,7 @@
 mod contact;
 mod cutting;
 mod deform;
+mod demonstration;
 mod digest;
 mod energy;
 mod error;
@@ -42,10 +43,12 @@ mod tip_laws;
 mod tool;
 mod trocar;
 mod tutor;
+mod variant;
 mod walls;
 
 pub use contact::Contact;
 pub use cutting::{CutPart, Cuts, gape};
+pub use demonstration::{Demonstration, ShownTool};
 pub use error::Error;
 pub use global::{EnhancedSurface, OrganField, ResponseOrigin};
 pub use hand_speed::FASTEST_HAND;
@@ -63,3 +66,4 @@ pub use summary::{CutSummary, LayerCut, StepTimes, Summary};
 pub use tool::Tool;
 pub use trocar::{ShaftFriction, Trocar};
 pub use tutor::{Ghost, Guidance, HeldTool, Stray, Tutor};
+pub use variant::draw_variant;

@@ -7,7 +7,7 @@ use palpate_mechanics::Material;
 
 use crate::cutting::CuttingModel;
 use crate::digest::SceneDigest;
-use crate::global::{GlobalModel, GlobalProblem, ResponseOrigin};
+use crate::global::{GlobalModel, GlobalProblem, ResponseOrigin, surround};
 use crate::neighbour::Neighbour;
 use crate::nonlinear::{NonlinearOrgan, Regions};
 use crate::preparation::tell;
@@ -40,6 +40,8 @@ pub struct Simulation {
     hand_over: HandOver,
     force_scale: f64,
     pub(crate) scene_digest: SceneDigest,
+    /// That of the variant; 0 for a scene of fixed numbers.
+    seed: u64,
     doubts: Vec<String>,
 }
 
@@ -63,6 +65,9 @@ impl Simulation {
         resources: &Resources,
         watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
+        if scene.draws.is_some() {
+            return Err(Error::NotDrawn);
+        }
         let (surface, mut doubts) = organ::read_organ(&scene.organ.shape)?;
         let tissue = scene.organ.tissue.read()?;
         let material = Material::from_tissue(&tissue)?;
@@ -119,20 +124,20 @@ impl Simulation {
                 Some(organ)
             }
         };
-        let is_local = scene.model.kind == ModelKind::Local;
+        if scene.model.kind == ModelKind::Local {
+            let organ = (scene, &surface);
+            if let Err(error) = surround(&mut tools, organ, &material.at_rest, resources.memory) {
+                doubts.push(format!(
+                    "the organ's size is felt as that of a hemisphere of its volume, for boundary elements have no \
+                     answer: {error}"
+                ));
+            }
+        }
         doubts.extend(tip_laws::stiffen(&mut tools, &touched, &mut |part| {
             let work = Work::ForceOverDepth;
             // It cannot be broken off, and takes seconds.
             let _ = watch(Progress { work, part });
         })?);
-        if is_local && tools.iter().any(|tool| tool.model.is_extrapolated()) {
-            doubts.push(format!(
-                "Poisson's ratio {:.3} is beyond the {} that the local model is calibrated for; its \
-                 force is the one there, times the ratio of the half-spaces",
-                material.at_rest.poissons_ratio(),
-                palpate_mechanics::finite_spheres::LARGEST_CALIBRATED_RATIO,
-            ));
-        }
         let neighbours = Neighbour::all(scene, &tools)?;
         if !neighbours.is_empty() {
             doubts.push(
@@ -174,6 +179,7 @@ impl Simulation {
                 (&tissue, &felt),
                 neighbours.iter().map(|body| &body.surface),
             ),
+            seed: scene.variant.as_ref().map_or(0, |own| own.seed),
             step: scene.model.step_s,
             kind: scene.model.kind,
             hand_over: scene.model.hand_over,
@@ -283,7 +289,7 @@ impl Simulation {
             scene_digest: self.scene_digest.canonical.clone(),
             model: self.kind,
             step_s: self.step,
-            seed: 0,
+            seed: self.seed,
             force_scale: self.force_scale,
         }
     }

@@ -306,7 +306,8 @@ fn answer(tool: &Tool, state: &mut ToolState) {
         return;
     };
     let displacement = contact.displacement(tool, &Vec3::from(pose.position_m));
-    let answer = tool.law.force(&displacement, &response.stiffness);
+    let law = tool.law.beside(contact.place.mean_curvature());
+    let answer = law.force(&displacement, &response.stiffness);
     state.elastic = contact.frame() * answer.force;
     state.stiffness = answer.stiffness;
     state.limited = response.limits;

@@ -1,5 +1,6 @@
 use std::sync::Arc;
 
+use nalgebra::Matrix3;
 use palpate_files::scene::{self, ToolKind};
 use palpate_geometry::{AabbTree, PatchField, Surface, TriangleMesh, Vec3, read_mesh};
 use palpate_mechanics::contact::{Bond, Tip};
@@ -44,6 +45,9 @@ pub struct Tool {
     pub(crate) placement: Placement,
     /// What the whole organ adds under this tip, if there is a model of it.
     pub(crate) field: Option<TipField>,
+    /// What the organ yields beyond a half-space under this tip at each vertex [1/m], for the local model; none where
+    /// that is not known.
+    pub(crate) further: Option<Arc<[Matrix3<f64>]>>,
     /// Radius of the touching area that stands for all [m].
     pub(crate) typical_radius: f64,
 }
@@ -90,6 +94,7 @@ impl Tool {
             patches: PatchField::new(surface, model.held_radius(typical)),
             placement: settings.placement,
             field: None,
+            further: None,
             typical_radius: typical,
             model,
         })

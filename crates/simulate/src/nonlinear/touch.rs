@@ -326,7 +326,8 @@ impl NonlinearOrgan {
         let moved = contact.displacement(tool, &tip);
         own.displaced = own.moved.by + frame * moved;
         let further = frame.tr_mul(&now.yields) * frame - self.of_load(&now);
-        let answer = tool.law.force_in_series(&moved, &further);
+        let law = tool.law.beside(place.mean_curvature());
+        let answer = law.force_in_series(&moved, &further);
         own.stiffness = answer.stiffness;
         own.limited = answer.limits;
         let goal = -(frame * answer.force);
