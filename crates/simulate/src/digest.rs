@@ -44,6 +44,11 @@ impl SceneDigest {
     ) -> Self {
         let mut form = canonical(scene, tissue);
         felt.iter().for_each(|tissue| form.tissue(tissue));
+        if scene.model.gravity_m_per_s2.is_some() {
+            for tissue in std::iter::once(tissue).chain(felt) {
+                form.numbers("density_kg_m3", &[tissue.density_kg_m3.value]);
+            }
+        }
         neighbours.for_each(|body| form.word("neighbour", &digits(of_surface(body))));
         let of_surface = of_surface(surface);
         let with = |text: &str| digits(of_surface.clone().chain_update(text));
@@ -107,7 +112,9 @@ fn former(scene: &Scene, tissue: &Tissue) -> String {
     // Layers had no toughness of their own then, and the local model no calibration.
     text.replace(", toughness_j_per_m2: None", "")
         .replace(", calibration: Fitted", "")
+        .replace(", reason: None", "")
         .replace(", nodes: None", "")
+        .replace(", gravity_m_per_s2: None", "")
         .replace(", friction: None", "")
 }
 
@@ -202,6 +209,7 @@ impl Form {
             enhancement,
             mechanical_triangles,
             nodes,
+            gravity_m_per_s2,
             response,
             hand_over,
             force_scale,
@@ -247,6 +255,9 @@ impl Form {
         );
         if let Some(nodes) = nodes {
             self.word("nodes", &nodes.to_string());
+        }
+        if let Some(gravity) = gravity_m_per_s2 {
+            self.numbers("gravity_m_per_s2", gravity);
         }
         self.word("response", response.word());
         self.word("hand_over", hand_over.word());

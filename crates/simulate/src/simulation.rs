@@ -2,7 +2,7 @@ use std::ops::ControlFlow;
 
 use palpate_files::scene::{Enhancement, HandOver, ModelKind, Nodule};
 use palpate_files::{Scene, SessionHeader};
-use palpate_geometry::{AabbTree, Surface};
+use palpate_geometry::{AabbTree, Surface, TriangleMesh};
 use palpate_mechanics::Material;
 
 use crate::cutting::CuttingModel;
@@ -159,6 +159,12 @@ impl Simulation {
                     .to_owned(),
             );
         }
+        if scene.model.gravity_m_per_s2.is_some() && nonlinear.is_none() {
+            doubts.push(
+                "only the nonlinear model has weight; `model.gravity_m_per_s2` changes nothing here"
+                    .to_owned(),
+            );
+        }
         if !scene.organ.inclusions.is_empty() && nonlinear.is_none() {
             doubts.push(
                 "only the nonlinear model feels inclusions; this one answers as if there were none"
@@ -190,6 +196,14 @@ impl Simulation {
             nonlinear,
             doubts,
         })
+    }
+
+    /// The surface that nothing touches, and its boxes: that at rest, or as the organ hangs under its weight.
+    pub(crate) fn untouched(&self) -> (&TriangleMesh, &AabbTree) {
+        let organ = self.nonlinear.as_ref();
+        organ
+            .and_then(NonlinearOrgan::hangs)
+            .unwrap_or((self.surface.mesh(), &self.tree))
     }
 
     /// Whether what is cut yields more.

@@ -143,20 +143,21 @@ impl SimulationState {
     /// Nothing touched yet.
     pub fn new(simulation: &Simulation) -> Self {
         let tools = (0..simulation.tools().len()).map(ToolState::new).collect();
+        let (rest, boxes) = simulation.untouched();
         Self {
             tools,
             cuts: simulation
                 .cutting
                 .as_ref()
                 .map(|model| Cuts::new(simulation, model)),
-            deformed: simulation.surface.mesh().clone(),
+            deformed: rest.clone(),
             whole: OrganField::at_rest(simulation),
             body: simulation
                 .nonlinear
                 .as_ref()
                 .map(|organ| organ.at_rest(simulation.tools.len())),
             nodules: simulation.nodules.clone(),
-            tree: simulation.tree.clone(),
+            tree: boxes.clone(),
             moved: MovedVertices::with_room(simulation.surface.mesh().vertices().len()),
             show_every: 0.0,
             shown_deformed: false,
@@ -190,14 +191,15 @@ impl SimulationState {
         for (number, tool) in tools.iter_mut().enumerate() {
             *tool = ToolState::new(number);
         }
-        deformed.move_vertices_to(simulation.surface.mesh());
-        tree.copy_boxes(&simulation.tree);
+        let (rest, boxes) = simulation.untouched();
+        deformed.move_vertices_to(rest);
+        tree.copy_boxes(boxes);
         moved.0.clear();
         if let Some(whole) = whole {
             whole.lay_to_rest();
         }
-        if let Some(body) = body {
-            body.begin_anew();
+        if let (Some(body), Some(organ)) = (body, &simulation.nonlinear) {
+            body.begin_anew(organ);
         }
         if let Some(cuts) = cuts {
             cuts.begin_anew();

@@ -1,3 +1,5 @@
+use std::ops::Bound::Included;
+
 use super::model_words::{
     Assembly, Calibration, EnhancementArea, Form, HandOver, IntegrationPoints, ModelKind,
     Placement, ResponseMethod, Smoothing, Solver,
@@ -24,6 +26,9 @@ pub struct Model {
     pub mechanical_triangles: Option<usize>,
     /// About how many nodes carry the nonlinear model's mechanics. The default is chosen by the model.
     pub nodes: Option<usize>,
+    /// Acceleration by which the nonlinear model's organ hangs under its own weight [m/s²]; none where the mesh is the organ as
+    /// it hangs.
+    pub gravity_m_per_s2: Option<[f64; 3]>,
     /// How the hybrid model's response is solved.
     pub response: ResponseMethod,
     /// What is handed over to the servo loop.
@@ -98,6 +103,7 @@ impl Default for Model {
             enhancement: Enhancement::default(),
             mechanical_triangles: None,
             nodes: None,
+            gravity_m_per_s2: None,
             response: ResponseMethod::Automatic,
             hand_over: HandOver::LocalModel,
             force_scale: 1.0,
@@ -134,6 +140,13 @@ fn choose(organ: &Organ, tools: &[Tool], cuts: bool) -> (ModelKind, &'static str
     }
 }
 
+/// A component of an acceleration [m/s²].
+const ACCELERATION: Domain = Domain::quantity(
+    "an acceleration",
+    "m/s2",
+    [Included(-100.0), Included(100.0)],
+);
+
 impl Model {
     pub(super) const KEYS: &'static [&'static str] = &[
         "kind",
@@ -148,6 +161,7 @@ impl Model {
         "enhancement",
         "mechanical_triangles",
         "nodes",
+        "gravity_m_per_s2",
         "response",
         "hand_over",
         "force_scale",
@@ -185,6 +199,7 @@ impl Model {
             enhancement: Enhancement::from_keys(keys)?,
             mechanical_triangles: triangles.map(|number| number as usize),
             nodes: nodes.map(|number| number as usize),
+            gravity_m_per_s2: keys.vector("gravity_m_per_s2", ACCELERATION)?,
             response: keys
                 .word("response", ResponseMethod::WORDS)?
                 .unwrap_or(default.response),

@@ -70,6 +70,45 @@ fn layers_hold_their_own_tissues() {
 }
 
 #[test]
+fn inclusions_and_weight_are_understood() {
+    let text = "format = 1\n[organ]\nbuiltin = \"liver\"\nbuiltin_tissue = \"pig-liver\"\n\
+        [[organ.inclusion]]\nname = \"tumour\"\nball = { center_m = [0.01, 0, 0], radius_m = 0.005 }\n\
+        builtin_tissue = \"pig-liver\"\n[[organ.inclusion]]\n\
+        ellipsoid = { center_m = [0, 0.01, 0], radii_m = [0.01, 0.02, 0.03], turn_rad = [0.1, 0.2, 0.3] }\n\
+        tissue = \"cyst.toml\"\n[[organ.inclusion]]\n\
+        capsule = { from_m = [0, 0, 0], to_m = [0, 0, 0.1], radius_m = 0.002 }\ntissue = \"vessel.toml\"\n\
+        [model]\nkind = \"nonlinear\"\ngravity_m_per_s2 = [0, 0, -9.81]\n[[tool]]\nname = \"right\"\n";
+    let scene = parse(text);
+    assert_eq!(scene.model.gravity_m_per_s2, Some([0.0, 0.0, -9.81]));
+    let [ball, ellipsoid, capsule] = &scene.organ.inclusions[..] else {
+        panic!("{:?}", scene.organ.inclusions)
+    };
+    assert_eq!(
+        (ball.name.as_str(), ellipsoid.name.as_str()),
+        ("tumour", "inclusion 2")
+    );
+    let shape = InclusionShape::Ball {
+        center_m: [0.01, 0.0, 0.0],
+        radius_m: 0.005,
+    };
+    assert_eq!(ball.shape, shape);
+    let shape = InclusionShape::Ellipsoid {
+        center_m: [0.0, 0.01, 0.0],
+        radii_m: [0.01, 0.02, 0.03],
+        turn_rad: [0.1, 0.2, 0.3],
+    };
+    assert_eq!(ellipsoid.shape, shape);
+    let shape = InclusionShape::Capsule {
+        from_m: [0.0; 3],
+        to_m: [0.0, 0.0, 0.1],
+        radius_m: 0.002,
+    };
+    assert_eq!(capsule.shape, shape);
+    let tissue = PathBuf::from("scenes/vessel.toml");
+    assert_eq!(capsule.tissue, TissueChoice::File(tissue));
+}
+
+#[test]
 fn every_setting_of_the_model_is_understood() {
     let model = parse(SCENE).model;
     assert_eq!(model.kind, ModelKind::Hybrid);

@@ -22,6 +22,7 @@ mod boundary;
 mod carried;
 mod coupling;
 mod elements;
+mod gravity;
 mod kernel;
 mod lanes;
 mod law;

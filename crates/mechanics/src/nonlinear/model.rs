@@ -24,6 +24,9 @@ pub struct NonlinearModel {
     pub(super) packs: Vec<Pack<f32>>,
     pub(super) rest: RestFactors,
     pub(super) relaxation: Option<Relaxation>,
+    /// Weight on each node [N]; none without gravity. And the body as it hangs.
+    pub(super) weight: Vec<f32>,
+    pub(super) settled: Option<Box<NonlinearState>>,
     /// 1/volume of the elements around each node [1/m³].
     pub(super) inverse_volumes: Vec<f32>,
     /// Those of the nodes that can be loaded.
@@ -96,6 +99,8 @@ impl NonlinearModel {
             inverse_volumes: inverse_volumes(&exact, places.len()),
             rest,
             relaxation: None,
+            weight: Vec::new(),
+            settled: None,
             influences,
             loaded,
             nodes: places,

@@ -51,7 +51,7 @@ impl NonlinearState {
             force: Vec3::zeros(),
             force_before: Vec3::zeros(),
         };
-        Self {
+        let mut state = Self {
             displacements: vec![0.0; size],
             before: vec![0.0; size],
             is_smooth: true,
@@ -63,15 +63,27 @@ impl NonlinearState {
                 .map_or_else(Vec::new, Relaxation::memory),
             fading: vec![0.0; size],
             fades: 0,
-        }
+        };
+        state.reset(model);
+        state
     }
 
     /// Puts the body back to rest; nothing is allocated.
-    pub fn reset(&mut self) {
-        self.displacements.fill(0.0);
-        self.before.fill(0.0);
-        self.rotations.fill(UNTURNED);
-        self.stress.fill(Remembered::default());
+    ///
+    /// # Panics
+    /// When it is that of another model.
+    pub fn reset(&mut self, model: &NonlinearModel) {
+        if let Some(settled) = &model.settled {
+            self.displacements.copy_from_slice(&settled.displacements);
+            self.before.copy_from_slice(&settled.displacements);
+            self.rotations.copy_from_slice(&settled.rotations);
+            self.stress.copy_from_slice(&settled.stress);
+        } else {
+            self.displacements.fill(0.0);
+            self.before.fill(0.0);
+            self.rotations.fill(UNTURNED);
+            self.stress.fill(Remembered::default());
+        }
         self.fading.fill(0.0);
         self.fades = 0;
         self.is_smooth = true;
@@ -82,17 +94,34 @@ impl NonlinearState {
         }
     }
 
-    /// The largest displacement of a node along an axis [m].
-    pub fn largest(&self) -> f64 {
-        self.displacements
-            .iter()
-            .fold(0.0, |most, u| u.abs().max(most))
+    /// The largest displacement of a node from rest along an axis [m].
+    pub fn largest(&self, model: &NonlinearModel) -> f64 {
+        let largest = |most: f64, off: f64| off.abs().max(most);
+        match &model.settled {
+            None => self.displacements.iter().copied().fold(0.0, largest),
+            Some(settled) => {
+                let each = self.displacements.iter().zip(&settled.displacements);
+                each.map(|(u, rest)| u - rest).fold(0.0, largest)
+            }
+        }
     }
 
-    /// Shrinks all displacements to a `part` [-] of what they are; there is nothing to be continued then.
-    pub fn shrink(&mut self, part: f64) {
-        self.displacements.iter_mut().for_each(|u| *u *= part);
+    /// Shrinks all displacements from rest to a `part` [-] of what they are; there is nothing to be continued then.
+    pub fn shrink(&mut self, model: &NonlinearModel, part: f64) {
+        match &model.settled {
+            None => self.displacements.iter_mut().for_each(|u| *u *= part),
+            Some(settled) => {
+                for (u, rest) in self.displacements.iter_mut().zip(&settled.displacements) {
+                    *u = rest + part * (*u - rest);
+                }
+            }
+        }
         self.is_smooth = false;
+    }
+
+    /// Forgets how it moved last.
+    pub(super) fn stop(&mut self) {
+        self.before.copy_from_slice(&self.displacements);
     }
 
     /// Weighted mean of the displacements of `nodes` [m].
@@ -130,9 +159,9 @@ impl NonlinearState {
         Rotation3::from_matrix_eps(&mean, 1e-9, 20, Rotation3::identity())
     }
 
-    /// Whether no node is displaced by more than `most` [m] along any axis, and no force fades.
-    pub fn is_within(&self, most: f64) -> bool {
-        self.fades == 0 && self.largest() <= most
+    /// Whether no node is displaced from rest by more than `most` [m] along any axis, and no force fades.
+    pub fn is_within(&self, model: &NonlinearModel, most: f64) -> bool {
+        self.fades == 0 && self.largest(model) <= most
     }
 
     /// Force of a tool on the body [N].

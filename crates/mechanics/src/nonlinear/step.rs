@@ -140,7 +140,7 @@ fn step(
     state.is_smooth = !advance.was_shortened && !advance.was_unstable;
     advance.was_reset = !state.is_finite();
     if advance.was_reset {
-        state.reset();
+        state.reset(model);
     }
     advance
 }
@@ -219,6 +219,9 @@ impl Workspace {
         };
         self.forces.fill(0.0);
         kernel::forces(&model.packs, u, &mut self.deformed, &mut self.forces);
+        for (force, weight) in self.forces.iter_mut().zip(&model.weight) {
+            *force -= weight;
+        }
         if state.fades > 0 {
             for (force, load) in self.forces.iter_mut().zip(&state.fading) {
                 *force -= load;

@@ -31,6 +31,7 @@ mod laws;
 mod linear_system;
 mod no_allocation;
 mod nonlinear;
+mod nonlinear_judges;
 mod nonlinear_regions;
 mod nonlinear_relaxation;
 mod orders;

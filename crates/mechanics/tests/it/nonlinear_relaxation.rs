@@ -15,6 +15,9 @@ use palpate_mechanics::{NeoHookean, PronySeries, Vec3};
 
 const STEP: f64 = 5e-3;
 
+/// The number of the series at a place.
+type Numbers<'a> = &'a dyn Fn(&Vec3) -> usize;
+
 /// A block that is fixed where x = 0 and held by the mean of its other end.
 struct Held {
     mesh: TetrahedronMesh,
@@ -27,7 +30,7 @@ impl Held {
         high: Vec3,
         cells: [usize; 3],
         moduli: Moduli<f64>,
-        (series, of): (&[PronySeries], &dyn Fn(&Vec3) -> usize),
+        (series, of): (&[PronySeries], Numbers<'_>),
     ) -> Self {
         let mesh = TetrahedronMesh::block(Vec3::zeros(), high, cells).unwrap();
         let count = mesh.tetrahedra().len();

@@ -28,12 +28,16 @@ mod shape;
 mod target;
 mod touch;
 
+use regions::Elements;
 pub(crate) use regions::Regions;
 pub(crate) use touch::Moved;
 
 use nalgebra::Rotation3;
 use palpate_files::Scene;
-use palpate_geometry::{FillSettings, Surface, TetrahedronMesh, Vec3, coarsen, fill, refine_to};
+use palpate_geometry::{
+    AabbTree, FillSettings, NodeId, Surface, TetrahedronMesh, TriangleMesh, Vec3, coarsen, fill,
+    refine_to,
+};
 use palpate_mechanics::nonlinear::{
     CarriedPoints, NonlinearModel, NonlinearState, SpreadLoad, Workspace,
 };
@@ -71,6 +75,8 @@ pub(crate) struct NonlinearOrgan {
     /// The tissue at the surface at rest.
     law: LinearElastic,
     shown: CarriedPoints,
+    /// The shown surface as the organ hangs under its weight, if it has any.
+    hangs: Option<(TriangleMesh, AabbTree)>,
     iterations: usize,
     /// Of its bounds, across [m]: nothing of it goes farther.
     size: f64,
@@ -109,16 +115,36 @@ impl NonlinearOrgan {
         regions: Regions,
     ) -> Result<(Self, Vec<String>), Error> {
         let mesh = tetrahedra(shown, scene.model.nodes.unwrap_or(NODES), &regions)?;
-        let (moduli, numbers, mut doubts) = regions.of_elements(&mesh);
+        let Elements {
+            moduli,
+            numbers,
+            densities,
+            mut doubts,
+        } = regions.of_elements(&mesh);
         doubts.extend(regions.doubts.iter().cloned());
         let anchor = held_region(&scene.organ.shape, scene.organ.anchor.as_ref());
-        let model =
+        let mut model =
             NonlinearModel::on_boundary(&mesh, &moduli, |place| anchor.holds((*place).into()))?
                 .relaxing(&regions.series(), &numbers)?;
+        if let Some(gravity) = scene.model.gravity_m_per_s2 {
+            model = model.under_gravity(&densities, &gravity.into())?;
+        }
+        let carried = model.carried(shown.mesh().vertices());
+        let hangs = scene.model.gravity_m_per_s2.map(|_| {
+            let rest = NonlinearState::at_rest(&model, 0);
+            let mut mesh = shown.mesh().clone();
+            let moved = carried.displacements(&rest.displacements);
+            for (number, (from, by)) in shown.mesh().vertices().iter().zip(moved).enumerate() {
+                mesh.move_vertex(NodeId(number as u32), from + by);
+            }
+            let tree = AabbTree::new(&mesh);
+            (mesh, tree)
+        });
         let (low, high) = shown.mesh().bounds();
         let organ = Self {
             size: (high - low).norm(),
-            shown: model.carried(shown.mesh().vertices()),
+            shown: carried,
+            hangs,
             iterations: match regions.largest_ratio() < NEARLY_INCOMPRESSIBLE {
                 true => ITERATIONS.0,
                 false => ITERATIONS.1,
@@ -128,6 +154,11 @@ impl NonlinearOrgan {
             model,
         };
         Ok((organ, doubts))
+    }
+
+    /// The shown surface and its boxes as the organ hangs under its weight, if it has any.
+    pub(crate) fn hangs(&self) -> Option<(&TriangleMesh, &AabbTree)> {
+        self.hangs.as_ref().map(|(mesh, tree)| (mesh, tree))
     }
 
     /// The organ at rest, which so many tools may touch.

@@ -67,6 +67,18 @@ pub(crate) struct Regions {
     pub(crate) doubts: Vec<String>,
 }
 
+/// What the elements are made of.
+#[derive(Debug, Default)]
+pub(super) struct Elements {
+    pub(super) moduli: Vec<Moduli<f64>>,
+    /// The tissue that each relaxes as.
+    pub(super) numbers: Vec<usize>,
+    /// [kg/m³]
+    pub(super) densities: Vec<f64>,
+    /// What deserves doubt.
+    pub(super) doubts: Vec<String>,
+}
+
 impl Regions {
     /// Those of `scene`, whose organ is mostly of one tissue.
     pub(crate) fn new(
@@ -158,22 +170,22 @@ impl Regions {
         ratios.fold(-1.0, f64::max)
     }
 
-    /// The moduli of each element and the number of its tissue; and what deserves doubt.
-    pub(super) fn of_elements(
-        &self,
-        mesh: &TetrahedronMesh,
-    ) -> (Vec<Moduli<f64>>, Vec<usize>, Vec<String>) {
+    /// What each element of `mesh` is made of.
+    pub(super) fn of_elements(&self, mesh: &TetrahedronMesh) -> Elements {
         let count = mesh.tetrahedra().len();
-        if self.tissues.len() == 1 {
-            return (
-                vec![self.tissues[0].moduli; count],
-                vec![0; count],
-                Vec::new(),
-            );
+        let density = |region: &RegionTissue| region.tissue.density_kg_m3.value;
+        if let [only] = &self.tissues[..] {
+            return Elements {
+                moduli: vec![only.moduli; count],
+                numbers: vec![0; count],
+                densities: vec![density(only); count],
+                doubts: Vec::new(),
+            };
         }
         let places = parts();
+        let mut elements = Elements::default();
         let mut found = vec![false; self.tissues.len()];
-        let each = (0..count).map(|element| {
+        for element in 0..count {
             let corners = mesh.positions(element);
             let mut shares = vec![0.0; self.tissues.len()];
             for barycentric in &places {
@@ -181,24 +193,26 @@ impl Regions {
                 let place: Vec3 = place.map(|(corner, part)| corner * *part).sum();
                 shares[self.at(&place)] += 1.0 / places.len() as f64;
             }
-            let mixed = self.tissues.iter().zip(&shares);
-            let mixed = mixed.map(|(region, share)| (region.moduli, *share));
+            let each = || self.tissues.iter().zip(&shares);
+            let mixed = Moduli::mixed(each().map(|(region, share)| (region.moduli, *share)));
             let most = (0..shares.len()).max_by(|a, b| shares[*a].total_cmp(&shares[*b]));
+            elements.moduli.push(mixed);
+            elements.numbers.push(most.unwrap_or(0));
+            let weights = each().map(|(region, share)| share * density(region));
+            elements.densities.push(weights.sum());
             for (found, share) in found.iter_mut().zip(&shares) {
                 *found |= *share > 0.0;
             }
-            (Moduli::mixed(mixed), most.unwrap_or(0))
-        });
-        let (moduli, numbers) = each.unzip();
+        }
         found.remove(self.bottoms.len());
         let missing = self.names.iter().zip(found).filter(|(_, found)| !found);
-        let missing = missing.map(|(name, _)| {
+        elements.doubts.extend(missing.map(|(name, _)| {
             format!(
                 "{name:?} is in no element of the nonlinear model: the organ has no place as deep, or `model.nodes` is too \
                  small for it"
             )
-        });
-        (moduli, numbers, missing.collect())
+        }));
+        elements
     }
 
     pub(super) fn has_inclusions(&self) -> bool {

@@ -23,7 +23,7 @@ use nalgebra::{Matrix3, Rotation3};
 use palpate_files::session::Event;
 use palpate_geometry::Vec3;
 use palpate_mechanics::contact::{Bond, half_space_stiffness, half_space_tangential_stiffness};
-use palpate_mechanics::nonlinear::{Pace, advance};
+use palpate_mechanics::nonlinear::{NonlinearModel, Pace, advance};
 use palpate_mechanics::{ForceHistory, Limits, PronySeries};
 
 use super::target::{Now, Target, farthest, positive, slippery};
@@ -103,8 +103,8 @@ struct Ended {
 
 impl Body {
     /// At rest, and touched by nothing; nothing is allocated.
-    pub(crate) fn begin_anew(&mut self) {
-        self.state.reset();
+    pub(crate) fn begin_anew(&mut self, organ: &NonlinearOrgan) {
+        self.state.reset(&organ.model);
         self.is_at_rest = true;
         self.is_loaded.fill(false);
         self.lets_go.fill(0);
@@ -112,9 +112,9 @@ impl Body {
     }
 
     /// Puts a body that nothing loads and that is as good as at rest there; whether it is.
-    fn come_to_rest(&mut self) -> bool {
-        if !self.is_at_rest && self.state.is_within(AT_REST) {
-            self.state.reset();
+    fn come_to_rest(&mut self, model: &NonlinearModel) -> bool {
+        if !self.is_at_rest && self.state.is_within(model, AT_REST) {
+            self.state.reset(model);
             self.is_at_rest = true;
         }
         self.is_at_rest
@@ -152,22 +152,22 @@ impl NonlinearOrgan {
             workspace.targets[number] = self.target(tool, (number, own), relaxes, body);
         }
         let is_free = workspace.targets.iter().all(Option::is_none);
-        if is_free && body.come_to_rest() {
+        if is_free && body.come_to_rest(&self.model) {
             return;
         }
-        let before = body.state.largest();
+        let before = body.state.largest(&self.model);
         let ended = self.go(relaxes, body, workspace);
-        if ended.was_reset || body.state.largest() > self.size || self.is_unsound(body) {
-            body.state.reset();
+        if ended.was_reset || body.state.largest(&self.model) > self.size || self.is_unsound(body) {
+            body.state.reset(&self.model);
             body.histories.fill(ForceHistory::default());
             tools.iter_mut().for_each(ToolState::lose);
             return;
         }
         // Rest is where an organ goes that nothing loads; elements that were turned inside out may not find there. What
         // relaxes takes its time.
-        let is_late = body.state.largest() > SLOWEST_RETURN * before;
+        let is_late = body.state.largest(&self.model) > SLOWEST_RETURN * before;
         if is_free && is_late && (ended.is_inverted || !self.model.relaxes()) {
-            body.state.shrink(SLOWEST_RETURN);
+            body.state.shrink(&self.model, SLOWEST_RETURN);
         }
         for (number, (own, target)) in tools.iter_mut().zip(&workspace.targets).enumerate() {
             if let (Some(target), false) = (target, body.lets_go[number] > 0) {

@@ -39,6 +39,7 @@ mod random_scenes;
 mod replay;
 mod scenes;
 mod session_end;
+mod silicone_beam;
 mod slides;
 mod take_over;
 mod thin_walls;
