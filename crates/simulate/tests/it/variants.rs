@@ -141,18 +141,18 @@ fn clicking_without_touching_passes_by_chance_alone() {
 
 /// Who presses to the same depth on places some millimetres apart, and marks the one with the largest force, as the
 /// task says, passes far more often than by chance. It knows nothing of where the lump is. Judge: chance, 2 % of the
-/// area; six of ten by chance is less than one in a million.
+/// area; four of five by chance is one in a million.
 #[test]
 fn a_finger_that_compares_forces_finds_the_lump() {
     const DEPTH: f64 = 0.005;
     let scene = palpation();
     let mut places: Vec<Vec3> = Vec::new();
     for click in clicks(&scene) {
-        if places.iter().all(|own| (own - click).norm() > 0.006) {
+        if places.iter().all(|own| (own - click).norm() > 0.008) {
             places.push(click);
         }
     }
-    let found = (0..10).filter(|seed| {
+    let found = (0..5).filter(|seed| {
         let mut variant = draw_variant(&scene, *seed).unwrap();
         variant.model.kind = ModelKind::Local;
         let simulation = Simulation::new(&variant).unwrap();
@@ -165,7 +165,15 @@ fn a_finger_that_compares_forces_finds_the_lump() {
             let normal = mesh
                 .area_vector(tree.nearest(mesh, place).triangle)
                 .normalize();
-            for height in [0.01, -DEPTH] {
+            for height in [
+                0.012,
+                0.001,
+                -0.2 * DEPTH,
+                -0.4 * DEPTH,
+                -0.6 * DEPTH,
+                -0.8 * DEPTH,
+                -DEPTH,
+            ] {
                 let pose = Pose {
                     position_m: (place + height * normal).into(),
                     orientation: None,
@@ -188,6 +196,6 @@ fn a_finger_that_compares_forces_finds_the_lump() {
         passes(&variant.task, &places[best.unwrap()])
     });
     let found = found.count();
-    println!("{found} of 10, by {} presses each", places.len());
-    assert!(found >= 6, "{found}");
+    println!("{found} of 5, by {} presses each", places.len());
+    assert!(found >= 4, "{found}");
 }
