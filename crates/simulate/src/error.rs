@@ -108,6 +108,25 @@ pub enum Error {
         /// How far outside [m].
         outside: f64,
     },
+    /// An inclusion reaches out of the organ.
+    #[error(
+        "the `organ.inclusion` {name:?} reaches {} mm out of the organ; make it smaller or move it in (`palpate mesh info` tells where the organ lies)",
+        millimetres(*.outside)
+    )]
+    InclusionOutside {
+        /// Its name.
+        name: String,
+        /// How far [m].
+        outside: f64,
+    },
+    /// Two inclusions share a place.
+    #[error("the `organ.inclusion`s {one:?} and {other:?} overlap; move them apart")]
+    InclusionsOverlap {
+        /// The name of one.
+        one: String,
+        /// The name of the other.
+        other: String,
+    },
     /// A session was recorded under other conditions than those of its scene now.
     #[error(
         "the session was recorded with the {what} {was}, and its scene now has {is}; it can be scored, but not be played again"

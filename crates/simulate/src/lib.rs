@@ -21,6 +21,7 @@ mod error;
 mod global;
 mod grip;
 mod hand_speed;
+mod inclusion;
 mod indentation;
 pub mod interactive;
 mod limits;
