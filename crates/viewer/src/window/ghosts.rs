@@ -55,8 +55,8 @@ impl Over<'_> {
     /// Draws what of a line is not cut yet.
     pub(super) fn left(&self, stretches: &[[Vec3; 2]]) {
         for [from, to] in stretches {
-            self.line(from, to, Stroke::new(9.0, Color32::from_black_alpha(90)));
-            self.line(from, to, Stroke::new(5.0, LEFT));
+            self.line(from, to, Stroke::new(5.0, Color32::from_black_alpha(110)));
+            self.line(from, to, Stroke::new(2.5, LEFT));
         }
     }
 
