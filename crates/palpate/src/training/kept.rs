@@ -4,7 +4,7 @@ use palpate_files::scene::Task;
 use palpate_record::{Added, Attempt, Filter, Record};
 use palpate_simulate::SessionFolder;
 use palpate_simulate::performance::Score;
-use palpate_viewer::training::{PastResult, TrainingResult};
+use palpate_viewer::training::{Assigned, PastResult, TrainingResult};
 
 use super::TrainingRecord;
 use super::record::{measures, record_file};
@@ -138,6 +138,32 @@ impl TrainingRecord for Kept {
             [] => Ok(()),
             doubts => Err(doubts.join(" ")),
         }
+    }
+
+    fn assigned(&self, trainee: &str) -> Result<Vec<Assigned>, String> {
+        if !self.file.exists() {
+            return Ok(Vec::new());
+        }
+        let read = || -> Result<Vec<Assigned>, palpate_record::Error> {
+            let record = Record::read(&self.file)?;
+            let cohorts = record.cohorts()?;
+            let attempts = self.attempts(Some(trainee))?;
+            let is_in = |cohort: &str| {
+                let mut own = cohorts.iter().filter(|own| own.name == cohort);
+                own.any(|own| own.trainees.iter().any(|name| name == trainee))
+            };
+            let given = record.assignments()?.into_iter();
+            let given = given.filter(|given| is_in(&given.cohort));
+            let assigned = given.map(|given| Assigned {
+                due: date::short(given.due),
+                passed: given.standing(attempts.iter()).passed,
+                passes: given.passes as usize,
+                is_over: super::now() > given.due,
+                task: given.task,
+            });
+            Ok(assigned.collect())
+        };
+        read().map_err(|error| error.to_string())
     }
 
     fn results(&self, trainee: &str) -> Result<Vec<PastResult>, String> {

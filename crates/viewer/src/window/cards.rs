@@ -6,7 +6,7 @@ use palpate_simulate::performance::{PullCue, Status};
 
 use super::attempt::{Attempt, Phase, Unsaved};
 use super::results::over;
-use crate::style::{DEPTH, DOUBT, FAULT, QUIET};
+use crate::style::{DEPTH, DOUBT, FAULT, QUIET, WHITE};
 
 /// What somebody wants of an attempt.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,8 +34,6 @@ pub(super) struct Around {
     /// Whether there is a start screen.
     pub(super) has_home: bool,
 }
-
-pub(super) const WHITE: Color32 = Color32::from_rgb(232, 235, 240);
 
 /// Shows the card of an attempt; what was asked by it.
 pub(super) fn show(ui: &Ui, attempt: &mut Attempt, around: &Around) -> Option<Asked> {

@@ -7,6 +7,7 @@ use palpate_geometry::Vec3;
 use palpate_simulate::Ghost;
 
 use crate::Camera;
+use crate::style::{BRIGHT, LEFT};
 
 /// How much of a shaft is drawn [m].
 const SHAFT: f64 = 0.06;
@@ -17,11 +18,6 @@ const OPEN: f64 = 0.004;
 
 /// Length of the arrow of a pull [m].
 const ARROW: f64 = 0.025;
-
-/// What is left to do, and the truth: yellow is seen on red by everybody.
-const LEFT: Color32 = Color32::from_rgb(255, 224, 92);
-
-const BRIGHT: Color32 = Color32::from_rgb(120, 232, 214);
 
 /// A picture that is drawn on, and from where it was taken.
 pub(super) struct Over<'a> {
@@ -59,8 +55,8 @@ impl Over<'_> {
     /// Draws what of a line is not cut yet.
     pub(super) fn left(&self, stretches: &[[Vec3; 2]]) {
         for [from, to] in stretches {
-            self.line(from, to, Stroke::new(9.0, Color32::from_black_alpha(90)));
-            self.line(from, to, Stroke::new(5.0, LEFT));
+            self.line(from, to, Stroke::new(5.0, Color32::from_black_alpha(110)));
+            self.line(from, to, Stroke::new(2.5, LEFT));
         }
     }
 

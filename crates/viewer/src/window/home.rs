@@ -4,8 +4,8 @@ use eframe::egui::{self, Color32, Frame, Margin, RichText, Ui};
 use egui_plot::{Line, Plot, PlotPoints, Points};
 use palpate_files::Scene;
 
-use super::training::{PastResult, Training};
-use crate::style::{DEPTH, DOUBT, FAULT, QUIET};
+use super::training::{Assigned, PastResult, Training};
+use crate::style::{DEPTH, DOUBT, FAULT, QUIET, WHITE};
 
 /// What was chosen on the start screen.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,9 +25,9 @@ pub(super) struct Home {
     pub(super) trouble: Option<String>,
     /// Whose results are shown, and what they are.
     results: Option<(String, Result<Vec<PastResult>, String>)>,
+    /// What they shall do.
+    assigned: Vec<Assigned>,
 }
-
-const WHITE: Color32 = Color32::from_rgb(232, 235, 240);
 
 /// What this is not.
 const NOT: &str = "What it is not: there is no bleeding, no smoke and no suturing; neighbours are seen and not \
@@ -104,6 +104,10 @@ impl Home {
         let words = format!("sessions are kept in {}", training.sessions.display());
         ui.label(RichText::new(words).small().color(QUIET));
         ui.add_space(10.0);
+        let _ = self.results(training);
+        for own in &self.assigned {
+            assigned(ui, own);
+        }
         match self.results(training) {
             Err(trouble) => {
                 ui.colored_label(FAULT, trouble);
@@ -120,6 +124,10 @@ impl Home {
         if self.results.as_ref().is_some_and(|(own, _)| own != trainee) {
             self.results = None;
         }
+        if self.results.is_none() {
+            // Where the record cannot be read, the results say so.
+            self.assigned = training.record.assigned(trainee).unwrap_or_default();
+        }
         let read = || (trainee.to_owned(), training.record.results(trainee));
         &self.results.get_or_insert_with(read).1
     }
@@ -127,6 +135,22 @@ impl Home {
 
 fn title(scene: &Scene) -> &str {
     scene.task.title.as_deref().unwrap_or("without a title")
+}
+
+/// A line of what somebody shall do.
+fn assigned(ui: &mut Ui, own: &Assigned) {
+    let (words, color) = match (own.passed >= own.passes, own.is_over) {
+        (true, _) => ("done", DEPTH),
+        (false, false) => ("assigned", DOUBT),
+        (false, true) => ("late", FAULT),
+    };
+    ui.horizontal(|ui| {
+        ui.label(RichText::new(words).strong().color(color));
+        ui.label(format!(
+            "{}: pass {} times by {}; {} so far",
+            own.task, own.passes, own.due, own.passed
+        ));
+    });
 }
 
 /// How often a task was tried and done, in words; whether it was ever done.
@@ -153,7 +177,7 @@ fn entry(ui: &mut Ui, title: &str, words: &str, standing: &Option<(String, bool)
         .corner_radius(6.0)
         .inner_margin(Margin::symmetric(14, 10));
     let mut clicked = false;
-    frame.show(ui, |ui| {
+    let card = frame.show(ui, |ui| {
         ui.set_width(ui.available_width());
         ui.horizontal(|ui| {
             ui.label(RichText::new(title).size(16.0).color(WHITE));
@@ -170,6 +194,8 @@ fn entry(ui: &mut Ui, title: &str, words: &str, standing: &Option<(String, bool)
             ui.label(RichText::new(standing).small().color(color));
         }
     });
+    // The whole card opens.
+    clicked |= card.response.interact(egui::Sense::click()).clicked();
     ui.add_space(8.0);
     clicked
 }

@@ -467,6 +467,9 @@ impl eframe::App for SimulatorWindow {
     }
 
     fn raw_input_hook(&mut self, _context: &egui::Context, raw: &mut egui::RawInput) {
+        if self.home.is_some() {
+            return;
+        }
         // Else it would walk through the side panel, which Shift and Tab still do.
         raw.events.retain(|event| match event {
             egui::Event::Key {

@@ -6,8 +6,8 @@ use palpate_files::scene::Goal;
 use palpate_simulate::performance::{Measure, feedback};
 
 use super::attempt::{Attempt, Done};
-use super::cards::{Around, Asked, WHITE, button, title, trouble};
-use crate::style::{DEPTH, DOUBT, FORCE, QUIET};
+use super::cards::{Around, Asked, button, title, trouble};
+use crate::style::{DEPTH, DOUBT, FORCE, QUIET, WHITE};
 
 /// How it was done.
 pub(super) fn over(

@@ -31,11 +31,32 @@ pub trait TrainingRecord {
     /// When it cannot be kept.
     fn keep(&mut self, result: &TrainingResult<'_>) -> Result<(), String>;
 
+    /// What a trainee shall do, the first due first.
+    ///
+    /// # Errors
+    /// When it cannot be read; in a sentence.
+    fn assigned(&self, trainee: &str) -> Result<Vec<Assigned>, String>;
+
     /// The results of a trainee, the last one last.
     ///
     /// # Errors
     /// When they cannot be read; in a sentence.
     fn results(&self, trainee: &str) -> Result<Vec<PastResult>, String>;
+}
+
+/// What somebody shall do.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Assigned {
+    /// The title of the task.
+    pub task: String,
+    /// Until when, for people.
+    pub due: String,
+    /// Passed attempts until then.
+    pub passed: usize,
+    /// Passed attempts that are needed.
+    pub passes: usize,
+    /// Whether the time is over.
+    pub is_over: bool,
 }
 
 /// How somebody has just done a task.

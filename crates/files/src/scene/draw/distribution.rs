@@ -219,17 +219,17 @@ impl Recipe {
         let ends = keys.values_of("uniform", expected, Drawn::of)?;
         let finite = |all: &[f64]| all.iter().all(|one| one.is_finite());
         match ends.as_slice() {
-            &[Drawn::Number(least), Drawn::Number(most)]
-                if least <= most && finite(&[least, most]) =>
+            [Drawn::Number(least), Drawn::Number(most)]
+                if least <= most && finite(&[*least, *most]) =>
             {
-                Ok(Self::Uniform([least, most]))
+                Ok(Self::Uniform([*least, *most]))
             }
-            &[Drawn::Vector(least), Drawn::Vector(most)]
+            [Drawn::Vector(least), Drawn::Vector(most)]
                 if (0..3).all(|axis| least[axis] <= most[axis])
-                    && finite(&least)
-                    && finite(&most) =>
+                    && finite(least)
+                    && finite(most) =>
             {
-                Ok(Self::UniformVector([least, most]))
+                Ok(Self::UniformVector([*least, *most]))
             }
             _ => Err(keys.bad("uniform", expected)),
         }
