@@ -2,6 +2,7 @@ mod settle;
 
 use std::sync::Arc;
 
+use super::super::mesh::ElementMesh;
 use super::super::model::{
     FiniteElementModel, FiniteElementState, FiniteElementWorkspace, Formulation,
 };
@@ -10,6 +11,7 @@ use super::super::relaxation::{Memory, RelaxationStep};
 use super::super::snap::equilibrate_downhill;
 use super::super::supports::{Sliding, Supports};
 use super::contact::Touch;
+use super::edge::edge_block;
 use super::indenter::{Indenter, IndenterShape};
 use super::mesh::{Base, Block, graded_block};
 use super::slopes::Slopes;
@@ -83,7 +85,7 @@ pub(super) struct Standing {
 /// Steps in radii of the contact [-]: the first, the longest, the shortest before giving up.
 const FIRST_STEP: f64 = 0.1;
 const LONGEST_STEP: f64 = 0.5;
-const SHORTEST_STEP: f64 = 1e-4;
+const SHORTEST_STEP: f64 = 1e-3;
 /// From this step down, an element that gives way is followed downhill [-].
 const DOWNHILL_STEP: f64 = 0.1;
 /// Rounds of Newton's method and changes of contact at one depth.
@@ -120,7 +122,24 @@ impl IndentationRun {
         let (block, indenter) = (&settings.block, settings.indenter);
         block.check(&indenter)?;
         let mesh = graded_block(block, &indenter, settings.deepest, settings.halvings);
-        let top = mesh.nodes_where(|x| x.y == 0.0);
+        Self::on(mesh, settings)
+    }
+
+    /// A flat punch that just touches a block whose elements shrink towards its edge, with `parts` of them along half
+    /// the width of the rings there; the halvings of `settings` are not used.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub(super) fn around_edge(settings: &IndentationSettings, parts: usize) -> Result<Self, Error> {
+        settings.block.check(&settings.indenter)?;
+        let mesh = edge_block(&settings.block, &settings.indenter, parts);
+        Self::on(mesh, settings)
+    }
+
+    fn on(mesh: ElementMesh, settings: &IndentationSettings) -> Result<Self, Error> {
+        let (block, indenter) = (&settings.block, settings.indenter);
+        let mut top = mesh.nodes_where(|x| x.y == 0.0);
+        top.sort_by(|&a, &b| mesh.nodes[a].x.total_cmp(&mesh.nodes[b].x));
         let bottom = mesh.nodes_where(|x| x.y == -block.height);
         let axis = mesh.nodes_where(|x| x.x == 0.0);
         let model = FiniteElementModel::new(mesh, settings.law.clone(), Formulation::Mixed)?;
@@ -310,6 +329,12 @@ impl IndentationRun {
             let before = (way == Way::Downhill).then(|| state.clone());
             let workspace = &mut self.workspace;
             let done = newton::correct(effort, &self.model, &supports, (&mut state, workspace));
+            let unstable = relaxing.is_none()
+                && workspace.factors.negative_eigenvalues() > self.model.pressures();
+            let done = done.and_then(|done| match unstable && done.iterations > 0 {
+                true => Err(Failure::NotConverged),
+                false => Ok(done),
+            });
             let done = match (done, before) {
                 (Err(_), Some(before)) => {
                     state = before;
