@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use palpate_mechanics::finite_elements::indentation::{
-    Base, Block, Grip, IndentationProblem, Indenter, IndenterShape, Side, solve,
+    Base, Block, Grip, IndentationProblem, IndentationRun, IndentationSettings, Indenter,
+    IndenterShape, Side, solve,
 };
-use palpate_mechanics::{Exponential, Law, MooneyRivlin, NeoHookean, PronySeries};
+use palpate_mechanics::{Exponential, Law, LinearElastic, MooneyRivlin, NeoHookean, PronySeries};
 
 const RADIUS: f64 = 1e-3;
 const C10: f64 = 1000.0;
@@ -110,4 +111,43 @@ fn other_laws_store_the_work_to_eight_radii() {
             assert!((coarse.0 / fine.0 - 1.0).abs() < 0.015, "{side:?}");
         }
     }
+}
+
+/// Judge: grids that do not know the edge, the second with elements half as long, and what is left beyond it at order 1, in a block
+/// that is not much larger than the punch. Tolerance: the answer's own error, and a tenth of a per cent of the judge.
+#[test]
+fn a_small_block_is_that_of_a_grid() {
+    let block = Block {
+        radius: 5.64 * RADIUS,
+        height: 10.0 * RADIUS,
+        base: Base::Bonded,
+    };
+    let depth = 1e-3 * RADIUS;
+    let law: Arc<dyn Law> = Arc::new(LinearElastic::new(6.0 * C10, 0.3).unwrap());
+    let indenter = Indenter {
+        shape: IndenterShape::Flat { side: Side::Absent },
+        radius: RADIUS,
+        face: Grip::Slide,
+    };
+    let problem = IndentationProblem {
+        block,
+        indenter,
+        law: law.clone(),
+    };
+    let found = solve(&problem, &[depth], 0.003, &mut |_| {}).unwrap();
+    let [coarse, fine] = [1, 2].map(|halvings| {
+        let settings = IndentationSettings {
+            block,
+            indenter,
+            law: law.clone(),
+            prony: PronySeries::default(),
+            deepest: depth,
+            halvings,
+        };
+        let mut run = IndentationRun::new(&settings).unwrap();
+        run.press(depth, depth, |_| {}).unwrap().force
+    });
+    let off = found.answer.points[0].force / (2.0 * fine - coarse) - 1.0;
+    println!("{coarse} {fine} {found:?}");
+    assert!(off.abs() < found.error + 1e-3, "{off}");
 }

@@ -79,7 +79,8 @@ pub(super) fn edge_block(block: &Block, indenter: &Indenter, parts: usize) -> El
     }
 }
 
+/// Ends at `to` to the last bit where that is 0: nodes of the surface are found by their height.
 fn even(from: f64, to: f64, parts: usize) -> Vec<f64> {
-    let at = |part: usize| from + (to - from) * part as f64 / parts as f64;
+    let at = |part: usize| from + (to - from) * (part as f64 / parts as f64);
     (0..=parts).map(at).collect()
 }
