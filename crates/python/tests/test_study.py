@@ -135,9 +135,9 @@ def test_specimens_travel_with_their_recordings(tmp_path: Path, monkeypatch: pyt
         out="recordings",
         progress=False,
     )
-    tasks = study.characterizations("recordings", laws=("neo_hookean", None), seeds=(1, 2), draws=5)
+    tasks = study.characterizations("recordings", laws=("neo_hookean", None), seeds=(1, 2), draws=10)
     assert len(tasks) == 2 * 2 * 2 and len({task.key for task in tasks}) == 8
-    whole = palpate.characterize("recordings", law="neo_hookean", draws=5, progress=False)
+    whole = palpate.characterize("recordings", law="neo_hookean", draws=10, progress=False)
     for file in Path("recordings").iterdir():
         file.unlink()
     answers = [json.loads(execute(task.document)) for task in tasks if task.labels["law"] and task.labels["seed"] == 1]

@@ -32,6 +32,6 @@ pub use description::LawDescription;
 pub use forces::{Indentation, ZeroErrors};
 pub use law::{LawParameter, SoughtLaw};
 pub use law_fit::{LawFit, law_fit};
-pub use repeated::{NoiseEffect, Repeated, repeated};
+pub use repeated::{LEAST_DRAWS, NoiseEffect, Repeated, repeated};
 pub use tables::{PUNCH, SHAPES};
 pub use thickness::{CONE_ON_LAYER, PUNCH_ON_LAYER, THICKNESSES, assumption, sphere_on_layer};

@@ -12,7 +12,7 @@ use std::path::PathBuf;
 
 use palpate_characterize::CharacterizeSettings;
 use palpate_characterize::fit::Draws;
-use palpate_characterize::inverse::SoughtLaw;
+use palpate_characterize::inverse::{LEAST_DRAWS, SoughtLaw};
 use palpate_characterize::viscoelastic::RelaxationSettings;
 
 pub use answer::{
@@ -34,7 +34,7 @@ pub struct Choice {
     pub law: Option<SoughtLaw>,
     /// Terms of the relaxation; none: as many as the recordings can tell.
     pub terms: Option<usize>,
-    /// How often fits are made again to see how well parameters are known.
+    /// How often fits are repeated to see how well parameters are known: 0 for never, else [`LEAST_DRAWS`] or more.
     pub draws: usize,
     /// The seed of these draws.
     pub seed: u64,
@@ -67,11 +67,22 @@ impl Choice {
         })
     }
 
+    /// Refuses fewer draws than a spread needs.
+    fn check(self) -> Result<(), Error> {
+        if (1..LEAST_DRAWS).contains(&self.draws) {
+            return Err(Error::input(format!(
+                "{} draws are too few for a spread; ask for {LEAST_DRAWS} or more, or for 0 to repeat no fit",
+                self.draws
+            )));
+        }
+        Ok(())
+    }
+
     fn settings(self) -> CharacterizeSettings {
         let all = CharacterizeSettings::default();
         CharacterizeSettings {
             relaxation: RelaxationSettings { terms: self.terms },
-            draws: (self.draws > 1).then_some(Draws {
+            draws: (self.draws > 0).then_some(Draws {
                 count: self.draws,
                 seed: self.seed,
             }),
@@ -125,6 +136,7 @@ pub fn characterize(
     folder: Option<&StudyFolder>,
     watch: &dyn Watch,
 ) -> Result<Characterized, Error> {
+    choice.check()?;
     let (read, unusable) =
         recordings.read(|path| watch.say(&format!("reading {}", path.display())))?;
     let finished = study::of(read, &choice.settings(), folder, watch)?;

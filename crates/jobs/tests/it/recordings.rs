@@ -9,7 +9,7 @@ use crate::measured;
 pub(crate) fn quick() -> Choice {
     Choice {
         law: Some(Choice::law_named("neo_hookean").unwrap()),
-        draws: 5,
+        draws: 10,
         ..Choice::default()
     }
 }
@@ -40,6 +40,31 @@ fn texts_answer_as_files_do() {
         specimens(&as_files).unwrap().0,
         specimens(&as_texts).unwrap().0
     );
+}
+
+/// The bounds are those of the settings: 0 is an answer without repeated fits, and from ten draws on there is a spread.
+#[test]
+fn too_few_draws_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let recordings = Recordings {
+        paths: measured(folder.path()),
+        ..Recordings::default()
+    };
+    let found = |draws: usize| {
+        let choice = Choice { draws, ..quick() };
+        characterize(&recordings, choice, None, &Nobody).map(|found| json_text(&found.answer))
+    };
+    for draws in [1, 9] {
+        let sentence = found(draws).map(drop).unwrap_err().to_string();
+        assert!(
+            sentence.contains(&format!("{draws} draws are too few")),
+            "{sentence}"
+        );
+    }
+    for (draws, repeated) in [(0, false), (10, true)] {
+        let text = found(draws).unwrap().unwrap();
+        assert_eq!(text.contains("\"bootstrap\""), repeated, "{draws}: {text}");
+    }
 }
 
 #[test]

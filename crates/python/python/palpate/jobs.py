@@ -221,7 +221,7 @@ def characterize(
     terms : int, optional
         Terms of the relaxation, 1 to 4; by default as many as the recordings can tell.
     draws : int
-        How often fits are made again to see how well parameters are known.
+        How often fits are made again to see how well parameters are known; 0 for never, else 10 or more.
     seed : int
         Of these draws.
     study : path, optional

@@ -40,7 +40,7 @@ pub(super) fn edge_block(block: &Block, indenter: &Indenter, parts: usize) -> El
         .iter()
         .map(|x| radius + wide + x)
         .collect();
-    let mut lower: Vec<f64> = line(block.height - wide, 1.1)
+    let mut lower: Vec<f64> = line(block.height - wide, 1.3)
         .iter()
         .rev()
         .map(|z| -wide - z)
@@ -55,17 +55,20 @@ pub(super) fn edge_block(block: &Block, indenter: &Indenter, parts: usize) -> El
     }
     surface.add(&inner, &upper, as_is);
     surface.add(&outer, &upper, as_is);
-    // Half-widths of the rings, from the edge outward.
+    // Half-widths of the rings, from the edge outward; one element alone has no smaller one within it.
+    let rings = if parts > 1 { parts } else { 0 };
     let last = 1.0 / parts as f64;
-    let widths: Vec<f64> = (0..=parts)
+    let widths: Vec<f64> = (0..=rings)
         .map(|ring| wide * last.powf(1.0 - ring as f64 / parts as f64))
         .collect();
     let least = widths[0];
     let narrowing: Vec<f64> = widths.iter().rev().map(|width| -width).collect();
     let (beside, around) = (even(-1.0, 0.0, parts), even(-1.0, 1.0, 2 * parts));
-    surface.add(&widths, &beside, |x, part| [radius + x, x * part]);
-    surface.add(&narrowing, &beside, |x, part| [radius + x, -x * part]);
-    surface.add(&around, &narrowing, |part, z| [radius - part * z, z]);
+    if rings > 0 {
+        surface.add(&widths, &beside, |x, part| [radius + x, x * part]);
+        surface.add(&narrowing, &beside, |x, part| [radius + x, -x * part]);
+        surface.add(&around, &narrowing, |part, z| [radius - part * z, z]);
+    }
     surface.add(
         &even(radius - least, radius + least, 2 * parts),
         &even(-least, 0.0, parts),

@@ -58,16 +58,16 @@ const ROUND: Meshes<'static> = Meshes {
 /// The meshes of a flat punch: elements along half the width of the rings around its edge, and the sizes of all
 /// elements. Stress at the edge is infinite as the root of the distance, which leaves the first power of the size of
 /// the smallest elements, and that is the second of the others'.
-const FLAT_PARTS: [usize; 4] = [2, 3, 4, 6];
+const FLAT_PARTS: [usize; 5] = [1, 2, 3, 4, 6];
 const FLAT: Meshes<'static> = Meshes {
-    sizes: &[0.5, 1.0 / 3.0, 0.25, 1.0 / 6.0],
+    sizes: &[1.0, 0.5, 1.0 / 3.0, 0.25, 1.0 / 6.0],
     order: 2.0,
 };
 
 /// Deeper than this under a side that slides, in radii [-], tissue under the face gives way element by element, and the last mesh
 /// takes five minutes: it is left out.
 const DEEP: f64 = 5.0;
-const DEEP_MESHES: usize = 3;
+const DEEP_MESHES: usize = 4;
 
 /// Elastic forces at `depths` [m], to the relative `accuracy` [-].
 ///

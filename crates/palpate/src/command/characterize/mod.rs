@@ -67,7 +67,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_enum)]
     law: Option<Law>,
     /// How often fits are made again, with residuals in other blocks and with noise, to see how well
-    /// parameters are known; 0 for never.
+    /// parameters are known; 0 for never, else 10 or more.
     #[arg(long, value_name = "TIMES", default_value_t = 100, value_parser = clap::value_parser!(u64).range(..=10_000))]
     draws: u64,
     /// Terms of the relaxation, 1 to 4; by default as many as the recordings can tell.

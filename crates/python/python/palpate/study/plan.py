@@ -46,7 +46,7 @@ def characterizations(
     terms : sequence of int or None
         Terms of the relaxation; ``None`` for as many as the recordings can tell.
     seeds, draws
-        Seeds of the bootstraps, and how often each fits anew.
+        Seeds of the bootstraps, and how often each fits anew: 0 for never, else 10 or more.
     **columns
         As of `palpate.characterize`.
     """
