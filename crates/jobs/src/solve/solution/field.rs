@@ -20,7 +20,7 @@ pub(crate) fn of_indentation(problem: &Problem, case: &Indentation) -> Result<Ve
     };
     let refused = |error| problem.refused(error);
     let mut run = mechanical(problem, case)
-        .run(&PronySeries::default(), depth, 0)
+        .run(&PronySeries::default(), depth, 1)
         .map_err(refused)?;
     if depth > 0.0 {
         run.press(0.0, depth, |_| ()).map_err(refused)?;

@@ -55,7 +55,7 @@ pub(super) fn edge_block(block: &Block, indenter: &Indenter, parts: usize) -> El
     }
     surface.add(&inner, &upper, as_is);
     surface.add(&outer, &upper, as_is);
-    // Half-widths of the rings, from the edge outward; one element alone has no smaller one within it.
+    // Half-widths of the rings, from the edge outward; a single element has none.
     let rings = if parts > 1 { parts } else { 0 };
     let last = 1.0 / parts as f64;
     let widths: Vec<f64> = (0..=rings)
@@ -64,11 +64,9 @@ pub(super) fn edge_block(block: &Block, indenter: &Indenter, parts: usize) -> El
     let least = widths[0];
     let narrowing: Vec<f64> = widths.iter().rev().map(|width| -width).collect();
     let (beside, around) = (even(-1.0, 0.0, parts), even(-1.0, 1.0, 2 * parts));
-    if rings > 0 {
-        surface.add(&widths, &beside, |x, part| [radius + x, x * part]);
-        surface.add(&narrowing, &beside, |x, part| [radius + x, -x * part]);
-        surface.add(&around, &narrowing, |part, z| [radius - part * z, z]);
-    }
+    surface.add(&widths, &beside, |x, part| [radius + x, x * part]);
+    surface.add(&narrowing, &beside, |x, part| [radius + x, -x * part]);
+    surface.add(&around, &narrowing, |part, z| [radius - part * z, z]);
     surface.add(
         &even(radius - least, radius + least, 2 * parts),
         &even(-least, 0.0, parts),
