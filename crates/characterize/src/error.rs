@@ -108,6 +108,29 @@ pub enum Error {
         /// The law.
         law: LawName,
     },
+    /// Finite elements in the loop of a hollow organ.
+    #[error(
+        "finite elements in the loop need a solid specimen under an indenter; leave them out for a tube or a piece along one axis"
+    )]
+    NoLoop,
+    /// A run in the loop would take too many steps.
+    #[error(
+        "a run of finite elements through this recording takes {samples} steps, and {most} are the most; use finite elements in the loop on a ramp and a hold"
+    )]
+    LoopMovesTooLong {
+        /// How many.
+        samples: usize,
+        /// The most.
+        most: usize,
+    },
+    /// The loop goes on changing the tissue.
+    #[error(
+        "the parameters still change after {rounds} rounds of finite elements, so the recording does not tell them apart; use another law or press deeper"
+    )]
+    LoopDoesNotSettle {
+        /// How many.
+        rounds: usize,
+    },
     /// Fits that would take runs of finite elements each.
     #[error("fits of `{}` are not repeated under pressure, because each takes runs of finite elements; its standard errors hold for small changes", .law.word())]
     CostlyToRepeat {

@@ -6,6 +6,7 @@
 
 mod criteria;
 mod fitted;
+mod in_loop;
 
 use std::ops::Range;
 
@@ -15,7 +16,8 @@ use palpate_files::{Estimate, PronyTerm, Tissue};
 use crate::clean::SegmentKind;
 use crate::fit::{Draws, simplest};
 use crate::inverse::{
-    Body, Curves, Indentation, LawDescription, SoughtLaw, ZeroErrors, assumption, law_fit, repeated,
+    Body, Curves, Indentation, LawDescription, SoughtLaw, UnitCurve, ZeroErrors, assumption,
+    law_fit, repeated,
 };
 use crate::lumped::{Contact, UniaxialFit, fit_uniaxial_recordings, mean_modulus};
 use crate::viscoelastic::{
@@ -34,6 +36,8 @@ pub struct CharacterizeSettings {
     pub laws: Vec<SoughtLaw>,
     /// How often their fits are made again to see how well they are known.
     pub draws: Option<Draws>,
+    /// Whether full viscoelastic runs of finite elements are solved in the loop of the fit, of one law.
+    pub in_loop: bool,
 }
 
 impl Default for CharacterizeSettings {
@@ -45,6 +49,7 @@ impl Default for CharacterizeSettings {
                 count: 100,
                 seed: 1,
             }),
+            in_loop: false,
         }
     }
 }
@@ -83,7 +88,10 @@ pub fn characterize(
         .clone()
         .map(|body| Curves::new(body, SoughtLaw::NeoHookean, deepest));
     at_step("relaxation");
-    let courses = courses(&pressed, curves.as_mut().ok());
+    let of_block = curves.as_mut().ok();
+    let of_block = of_block.filter(|curves| matches!(curves.body(), Body::Block { .. }));
+    let neo_hookean = of_block.and_then(|curves| curves.of(f64::INFINITY, 0.0).ok());
+    let courses = courses(&pressed, neo_hookean.as_ref());
     let relaxing = relaxation(&courses, settings.relaxation);
     let of_steps = relaxation_of_steps(&courses, settings.relaxation);
     at_step("springs and dampers");
@@ -108,39 +116,48 @@ pub fn characterize(
         .filter(|own| is_piece(own))
         .cloned()
         .collect();
+    // The loop makes the fits again.
+    let quick_draws = settings.draws.filter(|_| !settings.in_loop);
     for &law in &settings.laws {
         at_step(law.name().word());
         if !pieces.is_empty() {
-            found
-                .uniaxial
-                .push((law, fit_uniaxial_recordings(law, &pieces)));
+            let answer = match settings.in_loop {
+                true => Err(Error::NoLoop),
+                false => fit_uniaxial_recordings(law, &pieces),
+            };
+            found.uniaxial.push((law, answer));
             continue;
         }
         let answer = curves.clone().and_then(|curves| {
-            let curves = curves.of_law(law);
-            sought(curves, &pressed, &found.relaxation, settings.draws)
+            if settings.in_loop && !matches!(curves.body(), Body::Block { .. }) {
+                return Err(Error::NoLoop);
+            }
+            let relaxation = found.relaxation.as_ref().map_err(Clone::clone)?;
+            let mut curves = curves.of_law(law);
+            sought(&mut curves, &pressed, (relaxation, quick_draws))
         });
         found.laws.push((law, answer));
+    }
+    if settings.in_loop && pieces.is_empty() {
+        in_loop::refine(&mut found, (&pressed, body), settings, at_step);
     }
     found.speak(&pressed);
     found
 }
 
 fn sought(
-    mut curves: Curves,
+    curves: &mut Curves,
     pressed: &[Pressed],
-    relaxation: &Result<Relaxation, Error>,
-    draws: Option<Draws>,
+    (relaxation, draws): (&Relaxation, Option<Draws>),
 ) -> Result<LawDescription, Error> {
     let law = curves.law();
     if matches!(curves.body(), Body::Tube { .. }) && law != SoughtLaw::NeoHookean {
         return Err(Error::TubeLaw { law: law.name() });
     }
-    let relaxation = relaxation.as_ref().map_err(Clone::clone)?;
     let indentations: Vec<Indentation<'_>> = pressed.iter().map(Pressed::indentation).collect();
-    let fit = law_fit(&mut curves, &indentations, &relaxation.series)?;
+    let fit = law_fit(curves, &indentations, &relaxation.series)?;
     let mut description = LawDescription::of(fit, &indentations);
-    description.repeated = draws.map(|draws| repeated(&description, &curves, &indentations, draws));
+    description.repeated = draws.map(|draws| repeated(&description, curves, &indentations, draws));
     Ok(description)
 }
 
@@ -150,6 +167,7 @@ fn is_piece(recording: &CleanRecording) -> bool {
 }
 
 /// What of a recording is fitted: from first contact to where the indenter goes back.
+#[derive(Debug, Clone)]
 struct Pressed {
     time: Vec<f64>,
     depth: Vec<f64>,
@@ -207,12 +225,9 @@ impl Pressed {
     }
 }
 
-/// The courses of relaxation; the elastic force is taken for that of neo-Hookean tissue, where the body is
-/// known, and for a linear one else.
-fn courses(pressed: &[Pressed], curves: Option<&mut Curves>) -> Vec<Course> {
-    let of_block = curves.filter(|curves| matches!(curves.body(), Body::Block { .. }));
-    let curve = of_block.and_then(|curves| curves.of(f64::INFINITY, 0.0).ok());
-    let shape = |depth: f64| match &curve {
+/// The courses of relaxation; the elastic force is taken for that of `curve`, and for a linear one without it.
+fn courses(pressed: &[Pressed], curve: Option<&UnitCurve>) -> Vec<Course> {
+    let shape = |depth: f64| match curve {
         Some(curve) => curve.force.force(depth),
         None => depth,
     };

@@ -122,18 +122,19 @@ pub(crate) fn _analyze(
 pub(crate) fn _characterize(
     py: Python<'_>,
     recordings: &str,
-    choice: (Option<String>, Option<usize>, usize, u64),
+    choice: (Option<String>, Option<usize>, usize, u64, bool),
     study: Option<(PathBuf, bool)>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<(String, Vec<FoundTissue>)> {
     let recordings = asked(recordings)?;
-    let (law, terms, draws, seed) = choice;
+    let (law, terms, draws, seed, in_loop) = choice;
     waiting(py, progress, move |told| {
         let choice = Choice {
             law: law.as_deref().map(Choice::law_named).transpose()?,
             terms,
             draws,
             seed,
+            in_loop,
         };
         let open = |(path, overwrite): (PathBuf, bool)| {
             StudyFolder::open(&path, Overwrite::of_option(overwrite))

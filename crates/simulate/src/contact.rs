@@ -3,7 +3,8 @@
 //! A tip below the rest surface is in contact, from the first step with positive depth until the depth
 //! is gone. A tip that slips is met by the surface that it is over; one that sticks carries the place
 //! of its first contact with it, as long as it is pressed against the organ. Where the organ would pull on it, nothing
-//! holds it to that place: it goes on as one that slips, and sticks where it is pressed again.
+//! holds it to that place: it goes on as one that slips, and sticks where it is pressed again. With friction it sticks
+//! beside the place that it is over, and slides where the force leaves the cone.
 //!
 //! *How we know*: `invariants::real_organs_under_random_pokes_and_slides`.
 //!
@@ -11,7 +12,7 @@
 //! behind the nearest point of the surface.
 
 use nalgebra::{Matrix3, Rotation3};
-use palpate_geometry::{Footing, Vec3, follow, settle};
+use palpate_geometry::{AabbTree, Footing, PatchField, Surface, Vec3, follow, settle};
 use palpate_mechanics::contact::Bond;
 use palpate_mechanics::finite_spheres::{LocalContact, Placement, first_direction};
 
@@ -20,6 +21,29 @@ use crate::tool::Tool;
 
 /// A tip below this depth [m] that has come out of the organ elsewhere has passed through it.
 const PASSED_THROUGH: f64 = 0.025;
+
+/// A surface at rest as a tip feels it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Ground<'a> {
+    pub(crate) surface: &'a Surface,
+    pub(crate) tree: &'a AabbTree,
+    /// Its normals and curvatures over the tip.
+    pub(crate) patches: &'a PatchField,
+    /// Radius of a hemisphere of its volume [m].
+    pub(crate) radius: f64,
+}
+
+impl Simulation {
+    /// The organ as `tool` feels it.
+    pub(crate) fn ground<'a>(&'a self, tool: &'a Tool) -> Ground<'a> {
+        Ground {
+            surface: &self.surface,
+            tree: &self.tree,
+            patches: &tool.patches,
+            radius: self.organ_radius,
+        }
+    }
+}
 
 /// A contact of one tool.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,6 +62,10 @@ pub struct Contact {
     pub(crate) turn: Rotation3<f64>,
     /// Whether it was pressed against the organ in its last step, without which nothing holds it there.
     pub(crate) is_pressed: bool,
+    /// How far friction holds it back beside the place that it is over [m], along the surface.
+    sheared: Vec3,
+    /// Whether it slid in its last step, against friction.
+    pub(crate) slides: bool,
 }
 
 impl Contact {
@@ -65,35 +93,54 @@ impl Contact {
     pub(crate) fn displacement(&self, tool: &Tool, tip: &Vec3) -> Vec3 {
         let mut local = self.place.frame.tr_mul(&(tip - self.place.point));
         local.z -= tool.overhang();
-        if tool.bond == Bond::Slip {
-            local = Vec3::new(0.0, 0.0, -self.depth);
+        if tool.slides() {
+            local = self.place.frame.tr_mul(&self.sheared);
+            local.z = -self.depth;
         }
         local
+    }
+
+    /// Lets a tip slide whose `force` [N] is outside the cone of its friction, which is left inside.
+    pub(crate) fn slide(&mut self, tool: &Tool, force: &mut Vec3) {
+        self.slides = false;
+        let Some(friction) = tool.friction else {
+            return;
+        };
+        let normal = self.normal();
+        let outward = normal * normal.dot(force);
+        let along = *force - outward;
+        let most = friction * normal.dot(force).max(0.0);
+        if along.norm() > most {
+            let part = most / along.norm();
+            self.slides = true;
+            self.sheared *= part;
+            *force = outward + along * part;
+        }
     }
 }
 
 /// The contact of `tool` at `tip` [m], given its last one.
 pub(crate) fn detect(
-    simulation: &Simulation,
+    ground: &Ground<'_>,
     tool: &Tool,
     last: Option<&Contact>,
     tip: &Vec3,
 ) -> Option<Contact> {
     let Some(last) = last else {
-        return begin(simulation, tool, tip);
+        return begin(ground, tool, tip);
     };
     let way = (&last.tip, tip);
-    let Some(footing) = follow(&simulation.surface, &tool.patches, &last.footing, way) else {
-        return begin(simulation, tool, tip);
+    let Some(footing) = follow(ground.surface, ground.patches, &last.footing, way) else {
+        return begin(ground, tool, tip);
     };
-    let (below, signed) = depth_of_tip(simulation, &footing, tip);
+    let (below, signed) = depth_of_tip(ground, &footing, tip);
     let run = (footing.point - last.footing.point).norm();
     let depth = creep(last, (tool.overhang() + below, signed), (tip, run));
     if depth > PASSED_THROUGH && signed > tool.overhang() {
         return None;
     }
     if depth <= 0.0 {
-        return go_on_elsewhere(simulation, tool, last, tip);
+        return go_on_elsewhere(ground, tool, last, tip);
     }
     let mut contact = Contact {
         footing,
@@ -103,12 +150,19 @@ pub(crate) fn detect(
         depth,
         turn: last.turn,
         is_pressed: last.is_pressed,
+        sheared: Vec3::zeros(),
+        slides: last.slides,
     };
-    if tool.bond == Bond::Slip || !last.is_pressed {
-        contact.place = place(simulation, tool, (&footing, depth), Some(&last.place.frame));
+    if tool.slides() || !last.is_pressed {
+        contact.place = place(ground, tool, (&footing, depth), Some(&last.place.frame));
     }
     match tool.bond {
         Bond::Slip => {}
+        Bond::Stick if tool.slides() => {
+            let normal = contact.rest_normal();
+            let moved = last.sheared + (tip - last.tip);
+            contact.sheared = moved - normal * normal.dot(&moved);
+        }
         Bond::Stick if contact.displacement(tool, tip).z >= 0.0 => return None,
         Bond::Stick => contact.place.radius = tool.tip.contact_radius(depth),
     }
@@ -118,13 +172,13 @@ pub(crate) fn detect(
 /// A tip that has left the side that it touched and is below another one touches that, and its depth
 /// grows from nothing.
 fn go_on_elsewhere(
-    simulation: &Simulation,
+    ground: &Ground<'_>,
     tool: &Tool,
     last: &Contact,
     tip: &Vec3,
 ) -> Option<Contact> {
-    let mut contact = begin(simulation, tool, tip)?;
-    if tool.bond == Bond::Slip {
+    let mut contact = begin(ground, tool, tip)?;
+    if tool.slides() {
         contact.depth = creep(last, (contact.depth, contact.signed), (tip, 0.0));
     }
     (contact.depth > 0.0).then_some(contact)
@@ -149,9 +203,9 @@ fn creep(last: &Contact, (measured, signed): (f64, f64), (tip, run): (&Vec3, f64
 /// point of the surface is the one that is touched. Where it is another one (below a thin wall, or
 /// behind a ridge) it is the depth below the footing, with a continuous passage between the two. With
 /// it the signed distance.
-fn depth_of_tip(simulation: &Simulation, footing: &Footing, tip: &Vec3) -> (f64, f64) {
-    let surface = &simulation.surface;
-    let (nearest, signed) = surface.signed_distance(&simulation.tree, tip);
+fn depth_of_tip(ground: &Ground<'_>, footing: &Footing, tip: &Vec3) -> (f64, f64) {
+    let surface = ground.surface;
+    let (nearest, signed) = surface.signed_distance(ground.tree, tip);
     let outward = (tip - nearest.on.position) * signed.signum();
     let cosine = outward.dot(&footing.normal) / nearest.distance.max(f64::MIN_POSITIVE);
     let apart = (signed + footing.depth).abs() / signed.abs().max(footing.depth.abs());
@@ -168,8 +222,8 @@ fn depth_of_tip(simulation: &Simulation, footing: &Footing, tip: &Vec3) -> (f64,
 }
 
 /// The first contact: at the nearest point of the rest surface, when the tip is below it.
-fn begin(simulation: &Simulation, tool: &Tool, tip: &Vec3) -> Option<Contact> {
-    let (nearest, signed) = simulation.surface.signed_distance(&simulation.tree, tip);
+fn begin(ground: &Ground<'_>, tool: &Tool, tip: &Vec3) -> Option<Contact> {
+    let (nearest, signed) = ground.surface.signed_distance(ground.tree, tip);
     let depth = tool.overhang() - signed;
     if depth <= 0.0 {
         return None;
@@ -178,48 +232,46 @@ fn begin(simulation: &Simulation, tool: &Tool, tip: &Vec3) -> Option<Contact> {
         triangle: nearest.triangle,
         barycentric: nearest.on.barycentric,
         point: nearest.on.position,
-        normal: tool
+        normal: ground
             .patches
-            .at(
-                &simulation.surface,
-                nearest.triangle,
-                &nearest.on.barycentric,
-            )
+            .at(ground.surface, nearest.triangle, &nearest.on.barycentric)
             .normal,
         depth: -signed,
     };
     // The nearest point of a mesh leaps at its edges; the point under the averaged normal does not.
-    let normals = tool.patches.vertex_normals();
-    let footing = settle(&simulation.surface, normals, &found, tip).unwrap_or(found);
+    let normals = ground.patches.vertex_normals();
+    let footing = settle(ground.surface, normals, &found, tip).unwrap_or(found);
     Some(Contact {
         footing,
-        place: place(simulation, tool, (&footing, depth), None),
+        place: place(ground, tool, (&footing, depth), None),
         tip: *tip,
         signed,
         depth,
         turn: Rotation3::identity(),
         is_pressed: true,
+        sheared: Vec3::zeros(),
+        slides: false,
     })
 }
 
 /// The place at `footing`, with tangents carried along from `last`, so that the particles do not turn
 /// under a sliding tip; at first along an edge of the triangle, so that they turn with the organ.
 pub(crate) fn place(
-    simulation: &Simulation,
+    ground: &Ground<'_>,
     tool: &Tool,
     (footing, depth): (&Footing, f64),
     last: Option<&Matrix3<f64>>,
 ) -> LocalContact {
-    let patch = tool
+    let patch = ground
         .patches
-        .at(&simulation.surface, footing.triangle, &footing.barycentric);
+        .at(ground.surface, footing.triangle, &footing.barycentric);
     let along = match (tool.placement, last) {
         (Placement::Template, Some(frame)) => frame.column(0).into_owned(),
         (Placement::Template, None) => {
-            let [a, b, _] = simulation.surface.mesh().positions(footing.triangle);
+            let [a, b, _] = ground.surface.mesh().positions(footing.triangle);
             b - a
         }
-        (Placement::Source, _) => first_direction(&simulation.surface, footing.triangle),
+        (Placement::Source, _) => first_direction(ground.surface, footing.triangle),
     };
     let flat = |v: &Vec3| (v - patch.normal * patch.normal.dot(v)).try_normalize(1e-9 * v.norm());
     // A tangent that has become the normal says nothing any more; any other will do.
@@ -239,8 +291,8 @@ pub(crate) fn place(
         ),
         triangle: footing.triangle,
         radius: tool.tip.contact_radius(depth),
-        organ_radius: simulation.organ_radius,
+        organ_radius: ground.radius,
         // As the calibrated model has it: held as a hemisphere of its volume is.
-        thickness: simulation.organ_radius,
+        thickness: ground.radius,
     }
 }

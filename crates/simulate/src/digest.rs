@@ -35,11 +35,19 @@ pub(crate) struct SceneDigest {
 }
 
 impl SceneDigest {
-    pub(crate) fn of(scene: &Scene, surface: &Surface, tissue: &Tissue) -> Self {
+    /// `neighbours` are those at which tools stop.
+    pub(crate) fn of<'a>(
+        scene: &Scene,
+        surface: &Surface,
+        tissue: &Tissue,
+        neighbours: impl Iterator<Item = &'a Surface>,
+    ) -> Self {
+        let mut form = canonical(scene, tissue);
+        neighbours.for_each(|body| form.word("neighbour", &digits(of_surface(body))));
         let of_surface = of_surface(surface);
         let with = |text: &str| digits(of_surface.clone().chain_update(text));
         Self {
-            canonical: format!("{VERSION}{}", with(&canonical(scene, tissue))),
+            canonical: format!("{VERSION}{}", with(&form.0)),
             former: with(&former(scene, tissue)),
         }
     }
@@ -99,10 +107,11 @@ fn former(scene: &Scene, tissue: &Tissue) -> String {
     text.replace(", toughness_j_per_m2: None", "")
         .replace(", calibration: Fitted", "")
         .replace(", nodes: None", "")
+        .replace(", friction: None", "")
 }
 
 /// The canonical text.
-fn canonical(scene: &Scene, tissue: &Tissue) -> String {
+fn canonical(scene: &Scene, tissue: &Tissue) -> Form {
     let mut form = Form::default();
     form.tissue(tissue);
     form.region("anchor", scene.organ.anchor.as_ref());
@@ -119,7 +128,7 @@ fn canonical(scene: &Scene, tissue: &Tissue) -> String {
         .nodules
         .iter()
         .for_each(|ball| form.nodule(ball));
-    form.0
+    form
 }
 
 /// Lines `key = values`. Structs are taken apart whole, so that a field that is new asks for its place here.
@@ -245,6 +254,7 @@ impl Form {
                     shape,
                     radius_m,
                     contact,
+                    friction,
                 },
             trocar_m,
             trocar_friction_n,
@@ -260,6 +270,10 @@ impl Form {
         self.word("shape", shape.word());
         self.numbers("radius_m", &[*radius_m]);
         self.word("contact", contact.word());
+        // Written where a scene states one: earlier scenes had none.
+        if let Some(friction) = friction {
+            self.numbers("tip_friction", &[*friction]);
+        }
         match trocar_m {
             Some(place) => self.numbers("trocar_m", place),
             None => self.word("trocar_m", "none"),

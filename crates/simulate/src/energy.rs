@@ -128,7 +128,10 @@ pub(crate) fn check(simulation: &Simulation, state: &mut SimulationState) {
 fn has_energy(tool: &Tool, state: &ToolState) -> bool {
     match &state.grip.hold {
         Some(hold) => hold.has_turned() <= MOST_TURNED,
-        None => matches!((tool.tip, tool.bond), (Tip::Flat { .. }, Bond::Stick)),
+        None => {
+            matches!((tool.tip, tool.bond), (Tip::Flat { .. }, Bond::Stick))
+                && tool.friction.is_none()
+        }
     }
 }
 
@@ -139,8 +142,8 @@ impl ToolState {
         }
         // Of held tissue the stiffness is in the scene's frame.
         let force = match &self.contact {
-            Some(contact) => contact.frame().tr_mul(&self.force),
-            None => self.force,
+            Some(contact) => contact.frame().tr_mul(&self.force_of_organ()),
+            None => self.force_of_organ(),
         };
         let hold = self.grip.hold.as_ref();
         let yields = self.stiffness.try_inverse().map(|inverse| inverse * force);
@@ -151,7 +154,7 @@ impl ToolState {
             point: hold
                 .map(Hold::place)
                 .or(self.contact.map(|contact| contact.point()))?,
-            force: self.force,
+            force: self.force_of_organ(),
             stored: yields.map_or(0.0, |by| (0.5 * force.dot(&by)).max(0.0)),
         })
     }

@@ -1,6 +1,6 @@
 use std::ops::ControlFlow;
 
-use palpate_files::scene::{Enhancement, HandOver, ModelKind, Nodule, Shape};
+use palpate_files::scene::{Enhancement, HandOver, ModelKind, Nodule};
 use palpate_files::{Scene, SessionHeader};
 use palpate_geometry::{AabbTree, Surface};
 use palpate_mechanics::Material;
@@ -8,6 +8,7 @@ use palpate_mechanics::Material;
 use crate::cutting::CuttingModel;
 use crate::digest::SceneDigest;
 use crate::global::{GlobalModel, GlobalProblem, ResponseOrigin};
+use crate::neighbour::Neighbour;
 use crate::nonlinear::NonlinearOrgan;
 use crate::preparation::tell;
 use crate::tool::{Tool, settings};
@@ -26,6 +27,8 @@ pub struct Simulation {
     pub(crate) nonlinear: Option<NonlinearOrgan>,
     /// How it is cut, if anything can.
     pub(crate) cutting: Option<CuttingModel>,
+    /// The bodies at which tools stop.
+    pub(crate) neighbours: Vec<Neighbour>,
     /// Stiff balls in the organ.
     pub(crate) nodules: Vec<Nodule>,
     /// Length of the edges of a typical triangle [m].
@@ -114,7 +117,13 @@ impl Simulation {
                 palpate_mechanics::finite_spheres::LARGEST_CALIBRATED_RATIO,
             ));
         }
-        doubts.extend(check_neighbours(scene)?);
+        let neighbours = Neighbour::all(scene, &tools)?;
+        if !neighbours.is_empty() {
+            doubts.push(
+                "neighbours that collide are rigid to the tips of tools; shafts and the organ pass through them"
+                    .to_owned(),
+            );
+        }
         let cutting = CuttingModel::new(scene, &surface)?;
         if nonlinear.is_some() && cutting.as_ref().is_some_and(|model| model.changes_force) {
             doubts.push(
@@ -130,9 +139,13 @@ impl Simulation {
             );
         }
         Ok(Self {
-            // A hemisphere of the organ's volume V has R³ = 3 V / (2 π).
-            organ_radius: (1.5 * surface.mesh().volume() / std::f64::consts::PI).cbrt(),
-            scene_digest: SceneDigest::of(scene, &surface, &tissue),
+            organ_radius: radius_of_hemisphere(&surface),
+            scene_digest: SceneDigest::of(
+                scene,
+                &surface,
+                &tissue,
+                neighbours.iter().map(|body| &body.surface),
+            ),
             step: scene.model.step_s,
             kind: scene.model.kind,
             hand_over: scene.model.hand_over,
@@ -140,6 +153,7 @@ impl Simulation {
             typical_edge: typical_edge(&surface),
             nodules: scene.organ.nodules.clone(),
             cutting,
+            neighbours,
             surface,
             tree,
             material,
@@ -239,17 +253,9 @@ impl Simulation {
     }
 }
 
-/// What deserves doubt about the neighbours, of which a file has to be there although only who looks needs it.
-fn check_neighbours(scene: &Scene) -> Result<Option<String>, Error> {
-    for neighbour in &scene.neighbours {
-        if matches!(neighbour.shape, Shape::Mesh { .. }) {
-            organ::read_neighbour(neighbour)?;
-        }
-    }
-    let collides = scene.neighbours.iter().any(|neighbour| neighbour.collides);
-    Ok(collides.then(|| {
-        "tools pass through neighbours: their `collides` is read, and not felt yet".to_owned()
-    }))
+/// Of the hemisphere with the volume V of a body: R³ = 3 V / (2 π) [m].
+pub(crate) fn radius_of_hemisphere(surface: &Surface) -> f64 {
+    (1.5 * surface.mesh().volume() / std::f64::consts::PI).cbrt()
 }
 
 /// The edge of the regular triangle of mean area [m].

@@ -11,6 +11,7 @@ use crate::energy::{EnergyAccount, Pressed};
 use crate::global::{GlobalWorkspace, OrganField};
 use crate::grip::Grip;
 use crate::limits::LimitCounts;
+use crate::neighbour::Stopped;
 use crate::nonlinear::{Body, Moved, NonlinearWorkspace};
 use crate::{Contact, Error, Simulation, nodule};
 
@@ -43,6 +44,8 @@ pub struct SimulationState {
     pub(crate) energy: EnergyAccount,
     /// When the cuts were last taken to where the organ is [s].
     pub(crate) cuts_shown_at: f64,
+    /// Where tools touch neighbours; those of each tool one after the other.
+    pub(crate) touched_neighbours: Vec<Option<Contact>>,
 }
 
 /// Vertices, with room for all of the organ's, which a clone has as well: its steps allocate nothing either.
@@ -70,7 +73,7 @@ pub struct ToolState {
     pub pose: Option<Pose>,
     /// What it touches.
     pub contact: Option<Contact>,
-    /// Force on the tool [N].
+    /// Force on the tool [N], of the organ and of the neighbours at which it stops.
     pub force: Vec3,
     /// Stiffness of the contact in its frame, of held tissue in the scene's [N/m]; zero without either.
     pub stiffness: nalgebra::Matrix3<f64>,
@@ -106,9 +109,13 @@ pub struct ToolState {
     pub(crate) history: ForceHistory,
     /// Where the history was made [m].
     pub(crate) history_at: Option<Vec3>,
+    /// The frame of the contact in which it was made, of a tip that slides against friction [-].
+    pub(crate) history_frame: Option<nalgebra::Matrix3<f64>>,
     /// Whether it was not there in the step before.
     pub(crate) is_away: bool,
     pub(crate) shaft_touches: bool,
+    /// What neighbours do to it.
+    pub(crate) stopped: Stopped,
     pub(crate) beyond_trust: bool,
     /// Triangles from the end of an opening to the blade that makes it.
     pub cut_lag: usize,
@@ -156,6 +163,7 @@ impl SimulationState {
             shown_at: f64::NEG_INFINITY,
             cuts_shown_at: f64::NEG_INFINITY,
             energy: EnergyAccount::default(),
+            touched_neighbours: vec![None; simulation.tools.len() * simulation.neighbours.len()],
         }
     }
 
@@ -176,7 +184,9 @@ impl SimulationState {
             shown_at,
             energy,
             cuts_shown_at,
+            touched_neighbours,
         } = self;
+        touched_neighbours.fill(None);
         for (number, tool) in tools.iter_mut().enumerate() {
             *tool = ToolState::new(number);
         }
@@ -237,6 +247,11 @@ impl SimulationState {
 }
 
 impl ToolState {
+    /// The part of its force that is the organ's [N].
+    pub(crate) fn force_of_organ(&self) -> Vec3 {
+        self.force - self.stopped.force
+    }
+
     fn new(number: usize) -> Self {
         Self {
             pose: None,
@@ -273,8 +288,10 @@ impl ToolState {
             with_pull: Vec3::zeros(),
             history: ForceHistory::default(),
             history_at: None,
+            history_frame: None,
             is_away: true,
             shaft_touches: false,
+            stopped: Stopped::default(),
             beyond_trust: false,
             cut_lag: 0,
             blade: None,

@@ -1,5 +1,5 @@
 //! One step, as the source lists it (section 3.4): detect the collision, place the particles, solve for
-//! the displacement, compute the force.
+//! the displacement, compute the force. What a hand waits for is [`touch`]; what is seen, [`shape`].
 
 use palpate_files::Pose;
 use palpate_files::session::{Event, Events};
@@ -11,7 +11,7 @@ use crate::contact;
 use crate::simulation::Simulation;
 use crate::state::{SimulationState, SimulationWorkspace, ToolState};
 use crate::tool::Tool;
-use crate::{cutting, deform, energy, grip, hand_speed, nodule, orientation};
+use crate::{cutting, deform, energy, grip, hand_speed, neighbour, nodule, orientation};
 
 /// Depth beyond which no model here has been compared with tissue [m].
 pub const TRUSTED_DEPTH: f64 = 0.010;
@@ -22,6 +22,19 @@ const SHAFT: f64 = 0.3;
 /// Takes `state` one step of `elapsed` [s] on to `time` [s], with the tools at `poses` (none: not there
 /// yet). A first step has an `elapsed` of zero: whatever depth there is then comes as a jump.
 pub fn step(
+    simulation: &Simulation,
+    moment: (f64, f64),
+    poses: &[Option<Pose>],
+    state: &mut SimulationState,
+    workspace: &mut SimulationWorkspace,
+) {
+    touch(simulation, moment, poses, state, workspace);
+    shape(simulation, moment.0, state, workspace);
+}
+
+/// The part of [`step`] that finds the forces: [`ToolState::force`] and [`ToolState::stiffness`] are those of the step
+/// after it. [`shape`] completes the step, after the forces are handed over.
+pub fn touch(
     simulation: &Simulation,
     (time, elapsed): (f64, f64),
     poses: &[Option<Pose>],
@@ -50,13 +63,26 @@ pub fn step(
     respond(simulation, state, workspace);
     find_nodules(simulation, state);
     grip::act(simulation, elapsed, state, workspace);
-    for (tool, state) in simulation.tools.iter().zip(&mut state.tools) {
-        let failed = feel(simulation, tool, (time, elapsed), state);
-        record(simulation, tool, (time, failed), state);
-        if state.touches() {
-            state.limits.count(&state.limited);
+    for (number, tool) in simulation.tools.iter().enumerate() {
+        let own = &mut state.tools[number];
+        let failed = feel(simulation, tool, (time, elapsed), own);
+        neighbour::press(simulation, number, state);
+        let own = &mut state.tools[number];
+        record(simulation, tool, (time, failed), own);
+        if own.touches() {
+            own.limits.count(&own.limited);
         }
     }
+}
+
+/// The part of [`step`] that no force of it waits for: cuts go on, the surface follows the organ at `time` [s], and the
+/// rows of the tools are complete.
+pub fn shape(
+    simulation: &Simulation,
+    time: f64,
+    state: &mut SimulationState,
+    workspace: &mut SimulationWorkspace,
+) {
     energy::check(simulation, state);
     if let Some(model) = &simulation.cutting {
         for number in 0..simulation.tools.len() {
@@ -101,11 +127,13 @@ fn detect(
     let mut events = grip::follow(tool, pose, state);
     state.pose = pose;
     let tip = tip.filter(|_| !state.holds());
-    state.contact =
-        tip.and_then(|tip| contact::detect(simulation, tool, state.contact.as_ref(), &tip));
+    state.contact = tip.and_then(|tip| {
+        contact::detect(&simulation.ground(tool), tool, state.contact.as_ref(), &tip)
+    });
     match (touched, state.contact) {
         (false, Some(contact)) => {
             events.insert(Event::Contact);
+            state.history_frame = None;
             state.forget_elsewhere(tool, &contact.point());
         }
         (true, None) if !state.holds() => events.insert(Event::Release),
@@ -214,7 +242,17 @@ fn feel(
             0.0
         }
     };
-    let relaxed = state
+    if let Some(contact) = &mut state.contact {
+        contact.slide(tool, &mut state.elastic);
+        if tool.friction.is_some() {
+            // What it remembers along the surface stays along the surface.
+            let frame = contact.frame();
+            if let Some(before) = state.history_frame.replace(frame) {
+                state.history.turn(&(frame * before.transpose()));
+            }
+        }
+    }
+    let mut relaxed = state
         .history
         .advance(&simulation.material.prony, state.elastic, elapsed);
     state.force = Vec3::zeros();
@@ -238,6 +276,10 @@ fn feel(
     let normal = contact.normal();
     let outward = relaxed.dot(&normal);
     contact.is_pressed = outward > 0.0;
+    // The history of the force along the surface is another than that of its normal part.
+    let slides = contact.slides;
+    contact.slide(tool, &mut relaxed);
+    contact.slides |= slides;
     state.with_pull = match tool.bond {
         Bond::Stick => relaxed,
         // The history of a slide has other normals in it; there is no friction all the same.

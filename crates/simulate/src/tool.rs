@@ -26,6 +26,8 @@ pub struct Tool {
     pub tip: Tip,
     /// Whether the surface can run along the tip.
     pub bond: Bond,
+    /// Coulomb's coefficient of a tip that sticks [-]; none where it never slides.
+    pub friction: Option<f64>,
     /// What it looks like in its own frame [m], if not as its kind does.
     pub look: Option<Arc<TriangleMesh>>,
     /// The force of the tissue on it.
@@ -74,6 +76,7 @@ impl Tool {
             look: look(tool)?,
             tip,
             bond,
+            friction: tool.tip.friction,
             law: TipLaw::linear(tip, bond, *law),
             jaws: tool.jaws.filter(|_| tool.kind == scene::ToolKind::Grasper),
             trocar: tool.trocar_m.map(Vec3::from),
@@ -100,6 +103,11 @@ impl Tool {
             Tip::Flat { .. } => 0.0,
             Tip::Sphere { radius } => radius,
         }
+    }
+
+    /// Whether its tip can move along the surface.
+    pub(crate) fn slides(&self) -> bool {
+        self.bond == Bond::Slip || self.friction.is_some()
     }
 
     /// Radius of the shaft [m]: that of the tip.

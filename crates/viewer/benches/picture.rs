@@ -14,7 +14,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use palpate_files::scene::{BuiltinOrgan, Shading, Shape};
 use palpate_geometry::{Organ, Surface};
 use palpate_viewer::{
-    Body, FRAME_SIZE, Gpu, Orbit, Renderer, Target, Tint, View, single_precision,
+    Body, FRAME_SIZE, Gpu, Looks, Orbit, Renderer, Target, Tint, View, single_precision,
 };
 
 fn liver(gpu: &Gpu) -> (Surface, Body) {
@@ -59,7 +59,7 @@ fn picture(c: &mut Criterion) {
         let view = View {
             camera: Orbit::framing(surface.mesh(), 0.785, 1.6).camera(),
             shading: *shading,
-            detail: true,
+            looks: Looks::ALL,
             reach: 0.3,
         };
         group.bench_function(*word, |b| {

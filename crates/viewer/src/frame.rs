@@ -11,7 +11,7 @@ use palpate_geometry::{Surface, TriangleMesh, Vec3};
 use palpate_simulate::interactive::OpenedSnapshot;
 use palpate_simulate::{Frame, Simulation, SimulationState, read_neighbour};
 
-use crate::render::{Body, Renderer, Target, Tint, ToolPicture, View, single_precision};
+use crate::render::{Body, Looks, Renderer, Target, Tint, ToolPicture, View, single_precision};
 use crate::seen_organ::SeenOrgan;
 use crate::{Error, Gpu, TissuePicture, scene_camera};
 
@@ -67,7 +67,7 @@ impl Studio {
             view: View {
                 camera: scene_camera(&scene.view, (mesh, None), aspect),
                 shading: scene.view.shading,
-                detail: true,
+                looks: Looks::ALL,
                 reach: (high - low).norm(),
             },
             gpu,

@@ -101,20 +101,36 @@ fn relaxed(
     force
 }
 
-/// What changes the residuals of all `indentations` and is no noise [N]: each column by one standard deviation.
-/// The zeros of each recording, and, of all alike, the part `model` [-] of the force and the part `mesh` [-] of
-/// a force that grows faster with depth than it should. Both are bounds, taken for even distributions.
+/// Part by which stress of an earlier depth counts less at a later one than the product says, per radius of the indenter
+/// between them [-]: from 0.1 to 0.5 by finite elements to six radii (`docs/theory/characterization.md`, Limits of the
+/// product).
+pub(super) const EARLIER: f64 = 0.5;
+
+/// How far a model may be off, each taken for an even distribution.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Bounds {
+    /// Part of the force [-].
+    pub(super) model: f64,
+    /// Part of a force that grows faster with depth than it should [-].
+    pub(super) mesh: f64,
+    /// Part by which stress of an earlier depth counts less, for the length between the two [1/m].
+    pub(super) earlier: f64,
+}
+
+/// What changes the residuals of all `indentations` and is no noise [N], each column by one standard deviation: the zeros
+/// of each recording, and, of all alike, what the model may be off by its `bounds`.
 pub(super) fn systematic(
     indentations: &[Indentation<'_>],
     curve: &UnitCurve,
     (modulus, series): (f64, &PronySeries),
-    [model, mesh]: [f64; 2],
+    bounds: Bounds,
 ) -> Vec<Vec<f64>> {
     let samples: usize = indentations.iter().map(|each| each.time.len()).sum();
     let deepest = indentations.iter().flat_map(|each| each.depth);
     let deepest = deepest.copied().fold(f64::MIN_POSITIVE, f64::max);
     let even = 1.0 / 3.0_f64.sqrt();
-    let (mut scale, mut tilt) = (Vec::with_capacity(samples), Vec::with_capacity(samples));
+    let mut of_model = [(); 3].map(|()| Vec::with_capacity(samples));
+    let [scale, tilt, history] = &mut of_model;
     let mut columns = Vec::new();
     for each in indentations {
         let start = scale.len();
@@ -142,10 +158,33 @@ pub(super) fn systematic(
             force
                 .iter()
                 .zip(share)
-                .map(|(f, share)| even * mesh * f * share),
+                .map(|(f, share)| even * bounds.mesh * f * share),
         );
-        scale.extend(force.iter().map(|f| even * model * f));
+        scale.extend(force.iter().map(|f| even * bounds.model * f));
+        let more = kept_of_earlier(each, curve, (modulus, series));
+        history.extend(more.iter().map(|more| even * bounds.earlier * more));
     }
-    columns.extend([scale, tilt]);
+    columns.extend(of_model);
     columns
+}
+
+/// By what the force is larger [N m] when stress of an earlier depth counts less by the length between the two:
+/// Σ gᵢ ∫ (d(t) − d(s)) Fₑ(d(s)) exp(−(t − s)/τᵢ) ds/τᵢ.
+fn kept_of_earlier(
+    each: &Indentation<'_>,
+    curve: &UnitCurve,
+    (modulus, series): (f64, &PronySeries),
+) -> Vec<f64> {
+    let elastic = each.depth.iter().map(|&d| modulus * curve.force.force(d));
+    let elastic: Vec<f64> = elastic.collect();
+    let moment = elastic.iter().zip(each.depth).map(|(force, d)| force * d);
+    let moment: Vec<f64> = moment.collect();
+    let mut kept = vec![0.0; elastic.len()];
+    for &(g, tau) in series.terms() {
+        let [lost, of_moment] = [&elastic, &moment].map(|own| branch(tau, each.time, own).0);
+        for (place, kept) in kept.iter_mut().enumerate() {
+            *kept += g * (each.depth[place] * lost[place] - of_moment[place]);
+        }
+    }
+    kept
 }

@@ -2,7 +2,7 @@ use nalgebra::DMatrix;
 use palpate_mechanics::PronySeries;
 
 use super::curves::{Curves, UnitCurve};
-use super::forces::{self, Indentation};
+use super::forces::{self, Bounds, EARLIER, Indentation};
 use super::law::SoughtLaw;
 use crate::Error;
 use crate::fit::{Differences, Fit, Parameter, Settings, least_squares_with_jacobian, multi_start};
@@ -22,8 +22,10 @@ pub struct LawFit {
     pub solves: usize,
     /// Part of the force that the elements may be off [-].
     pub discretisation: f64,
+    /// Part of the force that is off because it is taken for an elastic one times G(t), at any depth [-].
+    pub product_error: f64,
     /// What changes the residuals and is no noise [N], each column by one standard deviation: the zeros of the
-    /// recordings, the elements, and that force is taken for an elastic one times G(t).
+    /// recordings, the elements, and that force is taken for an elastic one times G(t), at any depth and at finite strain.
     pub systematic: Vec<Vec<f64>>,
     /// Sums of squares of the other minima that were found [N²], the least first, each with its shape [-].
     pub others: Vec<[f64; 2]>,
@@ -43,9 +45,7 @@ impl LawFit {
     /// Part of the force, and so of the modulus, that the model may be off [-]: by its elements, and because
     /// force is taken for an elastic one times G(t).
     pub fn model_error(&self) -> f64 {
-        let ratios = self.fit.parameters.iter().skip(2).step_by(2);
-        let left = 1.0 / (1.0 + ratios.map(|p| p.value).sum::<f64>());
-        model_error(self.discretisation, left)
+        self.discretisation + self.product_error
     }
 }
 
@@ -71,12 +71,6 @@ impl LawFit {
 
 /// Sums of squares of two minima of which the second is about as good as the first [-].
 const AS_GOOD: f64 = 1.5;
-
-/// Part of the force that the model may be off [-], when the elements may be off by the part `discretisation` and
-/// the part `left` of the force is left after relaxation.
-fn model_error(discretisation: f64, left: f64) -> f64 {
-    discretisation + QUASI_LINEAR * (1.0 - left)
-}
 
 /// Relative change of the parameters below which a fit has arrived [-]: less than the elements are off.
 pub(super) const SETTINGS: Settings = Settings {
@@ -213,13 +207,16 @@ fn found(
     }
     let (indentations, series) = felt;
     let left = 1.0 - series.terms().iter().map(|(g, _)| g).sum::<f64>();
-    let off = [
-        model_error(curve.discretisation, left),
-        curve.discretisation,
-    ];
+    let product_error = curves.product_share() * QUASI_LINEAR * (1.0 - left);
+    let bounds = Bounds {
+        model: curve.discretisation + product_error,
+        mesh: curve.discretisation,
+        earlier: curves.product_share() * EARLIER / curves.body().radius(),
+    };
     LawFit {
         law: curves.law(),
-        systematic: forces::systematic(indentations, curve, (values[0], series), off),
+        systematic: forces::systematic(indentations, curve, (values[0], series), bounds),
+        product_error,
         fit,
         forces,
         solves: curves.solves(),

@@ -14,6 +14,7 @@ mod family;
 mod filter;
 mod fit;
 mod fitted;
+mod in_loop;
 mod independent;
 mod law_repeated;
 mod lumped;

@@ -72,6 +72,8 @@ pub struct Tip {
     pub radius_m: f64,
     /// How it holds the tissue.
     pub contact: TipContact,
+    /// Coulomb's coefficient of a tip that sticks [-], beyond which it slides; none where it never does.
+    pub friction: Option<f64>,
 }
 
 /// What a tool looks like, from a file: in the tool's frame, with the tip at the origin and the shaft along +z.
@@ -114,6 +116,7 @@ impl Default for Tip {
             shape: TipShape::Flat,
             radius_m: 0.001,
             contact: TipContact::Stick,
+            friction: None,
         }
     }
 }
@@ -225,17 +228,24 @@ impl ToolMesh {
 }
 
 impl Tip {
-    const KEYS: &[&str] = &["shape", "radius_m", "contact"];
+    const KEYS: &[&str] = &["shape", "radius_m", "contact", "friction"];
 
     fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
+        let contact = keys.word("contact", TipContact::WORDS)?;
+        let friction = keys.number("friction", Domain::FRICTION)?;
+        if contact == Some(TipContact::Slip) && friction.is_some() {
+            return Err(keys.bad(
+                "friction",
+                "no friction of a tip that slips: it is that of `contact = \"stick\"`, beyond which it slides",
+            ));
+        }
         Ok(Self {
             shape: keys
                 .word("shape", TipShape::WORDS)?
                 .ok_or_else(|| keys.missing("shape", "\"flat\" or \"sphere\""))?,
             radius_m: keys.required_number("radius_m", Domain::TIP_RADIUS)?,
-            contact: keys
-                .word("contact", TipContact::WORDS)?
-                .unwrap_or(TipContact::Stick),
+            contact: contact.unwrap_or(TipContact::Stick),
+            friction,
         })
     }
 }

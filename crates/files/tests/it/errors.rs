@@ -272,6 +272,14 @@ const BAD_SCENES: &[(&str, &str)] = &[
         "`tool[0].tip.radius_m` is missing",
     ),
     (
+        "[[tool]]\ntip = { shape = \"flat\", radius_mm = 1, contact = \"slip\", friction = 0.3 }",
+        "`tool[0].tip.friction` is 0.3; give no friction of a tip that slips",
+    ),
+    (
+        "[[tool]]\ntip = { shape = \"flat\", radius_mm = 1, friction = -1 }",
+        "`tool[0].tip.friction` is -1; give a coefficient of friction from 0 to 100",
+    ),
+    (
         "[[tool]]\ntrocar_m = [0, 1]",
         "`tool[0].trocar_m` is [0, 1]; give a list of three",
     ),

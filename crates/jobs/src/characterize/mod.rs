@@ -38,6 +38,8 @@ pub struct Choice {
     pub draws: usize,
     /// The seed of these draws.
     pub seed: u64,
+    /// Whether full viscoelastic runs of finite elements are solved in the loop of the fit, of one specimen and one law.
+    pub in_loop: bool,
 }
 
 impl Default for Choice {
@@ -47,6 +49,7 @@ impl Default for Choice {
             terms: None,
             draws: 100,
             seed: 1,
+            in_loop: false,
         }
     }
 }
@@ -78,6 +81,21 @@ impl Choice {
         Ok(())
     }
 
+    /// Refuses finite elements in the loop of more than one fit.
+    fn check_loop(self, specimens: usize) -> Result<(), Error> {
+        if self.in_loop && self.law.is_none() {
+            return Err(Error::input(
+                "finite elements in the loop need one law; name it, such as neo_hookean",
+            ));
+        }
+        if self.in_loop && specimens > 1 {
+            return Err(Error::input(format!(
+                "finite elements in the loop need one specimen, and there are {specimens}; name the recordings of one"
+            )));
+        }
+        Ok(())
+    }
+
     fn settings(self) -> CharacterizeSettings {
         let all = CharacterizeSettings::default();
         CharacterizeSettings {
@@ -87,6 +105,7 @@ impl Choice {
                 seed: self.seed,
             }),
             laws: self.law.map_or(all.laws, |law| vec![law]),
+            in_loop: self.in_loop,
         }
     }
 }
@@ -139,6 +158,8 @@ pub fn characterize(
     choice.check()?;
     let (read, unusable) =
         recordings.read(|path| watch.say(&format!("reading {}", path.display())))?;
+    let headers: Vec<_> = read.iter().map(|read| &read.clean.header).collect();
+    choice.check_loop(palpate_characterize::specimens(&headers).len())?;
     let finished = study::of(read, &choice.settings(), folder, watch)?;
     let mut tissues = Vec::new();
     let (specimens, portraits): (Vec<_>, Vec<_>) = finished

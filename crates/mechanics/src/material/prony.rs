@@ -10,6 +10,8 @@
 //!
 //! *Limits*: quasi-linear: exact when the elastic force is that of the whole displacement history.
 
+use nalgebra::Matrix3;
+
 use crate::{Error, Vec3};
 
 /// Most terms that a series may have, so that a history needs no allocation.
@@ -136,6 +138,13 @@ impl ForceHistory {
         }
         self.elastic = elastic;
         force
+    }
+
+    /// Turns what it remembers by `rotation` [-].
+    pub fn turn(&mut self, rotation: &Matrix3<f64>) {
+        for force in self.branches.iter_mut().chain([&mut self.elastic]) {
+            *force = rotation * *force;
+        }
     }
 
     /// Forgets all but what was along the unit vector `direction` [-].

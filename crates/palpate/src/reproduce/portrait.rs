@@ -3,7 +3,8 @@
 use palpate_files::scene::Shading;
 use palpate_geometry::{Surface, Vec3};
 use palpate_viewer::{
-    Body, FRAME_SIZE, Gpu, Orbit, Renderer, Target, Tint, View, png, single_precision, wire_frame,
+    Body, FRAME_SIZE, Gpu, Looks, Orbit, Renderer, Target, Tint, View, png, single_precision,
+    wire_frame,
 };
 
 use crate::failure::Failure;
@@ -66,7 +67,7 @@ impl Painter {
         let view = View {
             camera,
             shading: Shading::Plain,
-            detail: false,
+            looks: Looks::NONE,
             reach: (high - low).norm(),
         };
         self.renderer

@@ -48,18 +48,42 @@ pub(super) fn recorded(
     seed: u64,
 ) -> Result<CleanRecording, Failure> {
     let mut random = Random::new(seed);
+    let noisy: Vec<f64> = forces.iter().map(|f| f + NOISE * random.normal()).collect();
     let header = RecordingHeader {
-        organ: Some(organ.to_owned()),
         subject: Some(subject.to_string()),
+        ..header(organ)
+    };
+    cleaned(header, course, noisy)
+}
+
+/// The same as it was felt.
+pub(super) fn without_noise(
+    organ: &str,
+    course: &History,
+    forces: &[f64],
+) -> Result<CleanRecording, Failure> {
+    cleaned(header(organ), course, forces.to_vec())
+}
+
+fn header(organ: &str) -> RecordingHeader {
+    RecordingHeader {
+        organ: Some(organ.to_owned()),
         condition: Some(Condition::InVivo),
         indenter_shape: Some(IndenterShape::Flat),
         indenter_radius_m: Some(RADIUS),
         ..RecordingHeader::default()
-    };
+    }
+}
+
+fn cleaned(
+    header: RecordingHeader,
+    course: &History,
+    force_n: Vec<f64>,
+) -> Result<CleanRecording, Failure> {
     let samples = Samples {
         time_s: course.times.clone(),
         depth_m: course.depths.clone(),
-        force_n: forces.iter().map(|f| f + NOISE * random.normal()).collect(),
+        force_n,
     };
     let recording = Recording::new(header, samples)?;
     Ok(clean(&recording, &CleanSettings::default())?)

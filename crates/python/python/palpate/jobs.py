@@ -205,6 +205,7 @@ def characterize(
     terms: int | None = None,
     draws: int = 100,
     seed: int = 1,
+    in_loop: bool = False,
     study: PathLike | None = None,
     overwrite: bool = False,
     progress: Progress = None,
@@ -224,6 +225,9 @@ def characterize(
         How often fits are made again to see how well parameters are known; 0 for never, else 10 or more.
     seed : int
         Of these draws.
+    in_loop : bool
+        Whether full viscoelastic runs of finite elements are solved in the loop of the fit: for deep and fast presses, of
+        one specimen and one ``law``, in seconds for each run. ``solves`` counts the runs.
     study : path, optional
         A folder that keeps every finished specimen; a study that was stopped goes on.
     overwrite : bool
@@ -235,7 +239,7 @@ def characterize(
         ``known``: what the files do not say, such as ``{"indenter_radius_m": 0.001}``.
     """
     folder = None if study is None else (study, overwrite)
-    answer, tissues = _palpate._characterize(asked(recordings, **columns), (law, terms, draws, seed), folder, progress)
+    answer, tissues = _palpate._characterize(asked(recordings, **columns), (law, terms, draws, seed, in_loop), folder, progress)
     found = Characterization(json.loads(answer))
     found["specimens"] = [Specimen(specimen) for specimen in found["specimens"]]
     found.tissues = [text for text, _ in tissues]

@@ -65,7 +65,7 @@ pub(crate) fn lead(
     state.blade = Some(Blade { footing, tip: goal });
     let held_at = (&footing, contact.depth);
     if let Some(contact) = &mut state.contact {
-        contact.place = place(simulation, tool, held_at, Some(&frame));
+        contact.place = place(&simulation.ground(tool), tool, held_at, Some(&frame));
     }
 }
 

@@ -42,7 +42,7 @@ pub(crate) fn advance(
     let reach = 0.5 * model.width + tool.typical_radius;
     let under = all.part_near(&contact.point(), reach);
     let bare = under.map_or(0, |part| all.parts[part].layers);
-    let pressed = own.force.dot(&contact.normal());
+    let pressed = own.force_of_organ().dot(&contact.normal());
     let limit = model.layers.get(bare).and_then(|layer| layer.limit);
     let gives_way = limit.is_some_and(|limit| pressed > limit);
     if gives_way {

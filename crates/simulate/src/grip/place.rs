@@ -37,7 +37,7 @@ pub(super) fn take_hold(
     let (Some(swept), Some(jaws)) = (state.swept(tool), tool.jaws) else {
         return false;
     };
-    let ahead = || contact::detect(simulation, tool, None, &swept.ahead());
+    let ahead = || contact::detect(&simulation.ground(tool), tool, None, &swept.ahead());
     let Some(contact) = state.contact.or_else(ahead) else {
         return false;
     };

@@ -11,6 +11,24 @@ use crate::tool::Tool;
 /// What jaws hold pulls and pushes.
 /// `time` [s] is that of the pose.
 pub fn affine_force(tool: &Tool, state: &ToolState, time: f64) -> AffineForce {
+    let organ = of_organ(tool, state, time);
+    let (Some(normal), Some(pose)) = (state.stopped.normal, &state.pose) else {
+        return organ;
+    };
+    let force = organ.force + state.stopped.force;
+    let gradient = organ.gradient + state.stopped.gradient;
+    AffineForce {
+        // Two surfaces that push have no one normal.
+        normal: match organ.contact {
+            true => Vec3::zeros(),
+            false => normal,
+        },
+        ..AffineForce::new(time, Vec3::from(pose.position_m), force, gradient)
+    }
+}
+
+/// The same of the organ alone.
+fn of_organ(tool: &Tool, state: &ToolState, time: f64) -> AffineForce {
     if let (true, Some(pose)) = (state.holds(), &state.pose) {
         let tip = Vec3::from(pose.position_m);
         let answer = AffineForce::new(time, tip, state.with_pull, -state.stiffness);
@@ -25,7 +43,7 @@ pub fn affine_force(tool: &Tool, state: &ToolState, time: f64) -> AffineForce {
     };
     let frame = contact.frame();
     let mut stiffness = state.stiffness;
-    if tool.bond == Bond::Slip {
+    if tool.bond == Bond::Slip || contact.slides {
         // Along the surface nothing holds the tip.
         let normal = stiffness[(2, 2)];
         stiffness.fill(0.0);

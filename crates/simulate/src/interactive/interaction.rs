@@ -313,8 +313,10 @@ fn run(mut model: ModelLoop, mut clock: Clock, period: f64, stop: &AtomicBool) -
     let mut number = (clock.now() / period).ceil() as u64;
     while !stop.load(Ordering::Relaxed) {
         clock.sleep_until(number as f64 * period);
-        model.step(clock.now());
-        model.publish();
+        model.touch(clock.now());
+        model.hand_over();
+        model.shape();
+        model.show();
         let next = (clock.now() / period).ceil() as u64;
         model.miss(next.saturating_sub(number + 1));
         number = next.max(number + 1);

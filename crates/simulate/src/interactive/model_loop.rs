@@ -10,7 +10,7 @@ use super::quality::ExtrapolationError;
 use super::snapshot::Felt;
 use super::stations::Line;
 use super::{Happenings, ModelReport, Mount, Order};
-use crate::step;
+use crate::{shape, touch};
 
 /// The period of a display [s], with some room: a step that is a little early counts.
 pub(crate) const DISPLAY: f64 = 0.9 / 60.0;
@@ -38,6 +38,9 @@ pub(super) struct ModelLoop {
     stood: f64,
     happenings: Happenings,
     steps: u64,
+    /// When the step began.
+    start: Instant,
+    touch_times: Histogram,
     step_times: Histogram,
     error: ExtrapolationError,
     began: f64,
@@ -78,6 +81,8 @@ impl ModelLoop {
             asked: 0.0,
             stood: 0.0,
             happenings: Happenings::default(),
+            start: Instant::now(),
+            touch_times: Histogram::default(),
             step_times: Histogram::default(),
             error: ExtrapolationError::default(),
             began: 0.0,
@@ -89,9 +94,9 @@ impl ModelLoop {
         }
     }
 
-    /// A step at `time` [s] with the hands where they are.
-    pub(super) fn step(&mut self, time: f64) {
-        let start = Instant::now();
+    /// The forces of a step at `time` [s] with the hands where they are.
+    pub(super) fn touch(&mut self, time: f64) {
+        self.start = Instant::now();
         self.read_hands();
         self.let_another_take_over();
         self.obey();
@@ -117,17 +122,12 @@ impl ModelLoop {
             workspace,
             ..
         } = &mut *self.model;
-        step(simulation, (time, elapsed), &self.poses, state, workspace);
-        // After a new beginning, what was felt was made of another touch.
-        if self.last.is_some() {
-            self.compare();
-        }
-        self.record(time);
-        self.step_times.add(start.elapsed().as_secs_f64());
+        touch(simulation, (time, elapsed), &self.poses, state, workspace);
+        self.touch_times.add(self.start.elapsed().as_secs_f64());
     }
 
-    /// Hands the step over to the servo loops and to the display.
-    pub(super) fn publish(&mut self) {
+    /// Hands the forces over to the servo loops.
+    pub(super) fn hand_over(&mut self) {
         let model = &self.model;
         let tools = model.simulation.tools().iter().zip(&model.state.tools);
         for ((line, sample), (tool, state)) in self.lines.iter_mut().zip(&self.samples).zip(tools) {
@@ -139,6 +139,30 @@ impl ModelLoop {
                 });
             }
         }
+    }
+
+    /// Completes the step, after its forces were handed over: what is seen and recorded of it.
+    pub(super) fn shape(&mut self) {
+        if self.paused {
+            return;
+        }
+        let Model {
+            simulation,
+            state,
+            workspace,
+            ..
+        } = &mut *self.model;
+        shape(simulation, self.now, state, workspace);
+        // After a new beginning, what was felt was made of another touch.
+        if self.last.is_some() {
+            self.compare();
+        }
+        self.record(self.now);
+        self.step_times.add(self.start.elapsed().as_secs_f64());
+    }
+
+    /// Shows the step.
+    pub(super) fn show(&mut self) {
         let report = self.report();
         let Self {
             model,
@@ -177,6 +201,7 @@ impl ModelLoop {
             } else {
                 0.0
             },
+            touch_times: self.touch_times.percentiles(),
             step_times: self.step_times.percentiles(),
             extrapolation: self.error,
             priority: self.priority,

@@ -19,7 +19,9 @@ pub struct ModelReport {
     pub missed: u64,
     /// Steps per second [Hz].
     pub rate: f64,
-    /// How long steps took [s]; zeros on a virtual clock.
+    /// How long steps took to find their forces, from reading the hands on [s].
+    pub touch_times: Percentiles,
+    /// How long whole steps took, with what is seen and recorded of them [s].
     pub step_times: Percentiles,
     /// How far the forces between steps were off.
     pub extrapolation: ExtrapolationError,

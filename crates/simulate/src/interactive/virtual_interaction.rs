@@ -87,13 +87,15 @@ impl VirtualInteraction {
         // A millionth of a tick: rounding of the times.
         let due = time >= self.steps as f64 * self.model_period - 1e-6 * self.period;
         if due && self.steps > 0 {
-            self.model.publish();
+            self.model.hand_over();
+            self.model.show();
         }
         for servo in self.servos.iter_mut().flatten() {
             servo.tick(time, 0.0)?;
         }
         if due {
-            self.model.step(time);
+            self.model.touch(time);
+            self.model.shape();
             self.steps += 1;
         }
         self.tick += 1;

@@ -25,7 +25,7 @@ impl NonlinearOrgan {
         };
         let ahead = || {
             let ahead = carry_back_anew(simulation, (tool, &swept.ahead()), state)?;
-            contact::detect(simulation, tool, None, &ahead)
+            contact::detect(&simulation.ground(tool), tool, None, &ahead)
         };
         let Some(contact) = own.contact.or_else(ahead) else {
             return false;

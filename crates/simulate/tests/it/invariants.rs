@@ -3,9 +3,11 @@
 use std::fmt::Write;
 use std::fs;
 
-use palpate_files::SessionWriter;
+use palpate_files::{Pose, SessionWriter};
 use palpate_geometry::{TriangleMesh, Vec3};
-use palpate_simulate::{Error, Flow, Simulation, SimulationWorkspace, play};
+use palpate_simulate::{
+    Error, Flow, Simulation, SimulationState, SimulationWorkspace, play, shape, step, touch,
+};
 
 use crate::no_allocation::track;
 use crate::scenes::{Hand, Random, Setting, motion};
@@ -206,5 +208,50 @@ fn real_organs_under_random_pokes_and_slides() {
     });
     for (mesh, counts) in meshes.iter().zip(&found) {
         counts.iter().for_each(|count| count.assert_sound(mesh));
+    }
+}
+
+/// Nothing that is only seen stands before a force: after `touch` the forces are those of the step, and the surface is
+/// still that of the step before.
+#[test]
+fn forces_are_found_before_the_surface_follows() {
+    for (kind, model) in [
+        ("local", ""),
+        ("hybrid", "mechanical_triangles = 400"),
+        ("nonlinear", "nodes = 500"),
+    ] {
+        let simulation = Setting {
+            organ: "builtin = \"kidney\"",
+            kind,
+            model,
+            ..Setting::default()
+        }
+        .simulation();
+        let mut workspace = SimulationWorkspace::new(&simulation);
+        let mut whole = SimulationState::new(&simulation);
+        let mut split = SimulationState::new(&simulation);
+        let mut pressed = 0;
+        for (number, tip) in track(&simulation).iter().take(40).enumerate() {
+            let (time, elapsed) = (0.005 * number as f64, 0.005);
+            let poses = [Some(Pose {
+                position_m: (*tip).into(),
+                orientation: None,
+                grip: 0.0,
+                cut: false,
+            })];
+            let moment = (time, elapsed);
+            step(&simulation, moment, &poses, &mut whole, &mut workspace);
+            let seen = split.deformed.clone();
+            touch(&simulation, moment, &poses, &mut split, &mut workspace);
+            let forces = [&whole, &split].map(|state| state.tools[0].force);
+            assert_eq!(forces[0], forces[1], "{kind}");
+            assert_eq!(whole.tools[0].stiffness, split.tools[0].stiffness, "{kind}");
+            assert!(seen.vertices() == split.deformed.vertices(), "{kind}");
+            shape(&simulation, time, &mut split, &mut workspace);
+            assert_eq!(whole.tools[0].row, split.tools[0].row, "{kind}");
+            assert!(whole.deformed.vertices() == split.deformed.vertices());
+            pressed += usize::from(forces[0] != Vec3::zeros());
+        }
+        assert!(pressed > 10, "{kind}: {pressed}");
     }
 }

@@ -14,6 +14,7 @@ mod data;
 mod digest;
 mod enhanced;
 mod errors;
+mod friction;
 mod gestures;
 mod grip;
 mod hand_over;

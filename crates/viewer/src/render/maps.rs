@@ -2,9 +2,9 @@ use super::environment::{CUBE_EDGE, SPHERE_EDGE, abdomen, cube_map, sphere_map};
 use super::tissue_map;
 use crate::{Gpu, TissuePicture};
 
-/// The textures of an organ, bound together.
+/// The textures of organs, bound together: for those without vessels on their surface, and with them.
 pub(super) struct Maps {
-    pub(super) bound: wgpu::BindGroup,
+    bound: [wgpu::BindGroup; 2],
     /// 1 when the surroundings are a picture of the tissue, whose colours it then takes [-].
     pub(super) map_as_color: f32,
 }
@@ -28,32 +28,39 @@ impl Maps {
         };
         let sphere = flat_texture(gpu, &sphere, SPHERE_EDGE, 1);
         let cube = flat_texture(gpu, &cube, CUBE_EDGE, 6);
-        let views = [
-            tissue_texture(gpu).create_view(&wgpu::TextureViewDescriptor::default()),
-            sphere.create_view(&wgpu::TextureViewDescriptor::default()),
-            cube.create_view(&wgpu::TextureViewDescriptor {
-                dimension: Some(wgpu::TextureViewDimension::Cube),
-                ..wgpu::TextureViewDescriptor::default()
-            }),
-        ];
+        let sphere = sphere.create_view(&wgpu::TextureViewDescriptor::default());
+        let cube = cube.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::Cube),
+            ..wgpu::TextureViewDescriptor::default()
+        });
         let samplers = [wgpu::AddressMode::Repeat, wgpu::AddressMode::ClampToEdge]
             .map(|mode| sampler(gpu, mode));
-        let entries = [
-            wgpu::BindingResource::TextureView(&views[0]),
-            wgpu::BindingResource::Sampler(&samplers[0]),
-            wgpu::BindingResource::TextureView(&views[1]),
-            wgpu::BindingResource::TextureView(&views[2]),
-            wgpu::BindingResource::Sampler(&samplers[1]),
-        ];
-        let entries: Vec<_> = (0..).zip(entries).map(entry).collect();
-        Self {
-            bound: gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        let bound = tissue_map::levels().map(|levels| {
+            let tissue = tissue_texture(gpu, &levels);
+            let tissue = tissue.create_view(&wgpu::TextureViewDescriptor::default());
+            let entries = [
+                wgpu::BindingResource::TextureView(&tissue),
+                wgpu::BindingResource::Sampler(&samplers[0]),
+                wgpu::BindingResource::TextureView(&sphere),
+                wgpu::BindingResource::TextureView(&cube),
+                wgpu::BindingResource::Sampler(&samplers[1]),
+            ];
+            let entries: Vec<_> = (0..).zip(entries).map(entry).collect();
+            gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
                 label: Some("maps"),
                 layout,
                 entries: &entries,
-            }),
+            })
+        });
+        Self {
+            bound,
             map_as_color: if picture.is_some() { 0.9 } else { 0.0 },
         }
+    }
+
+    /// The textures of tissue with vessels on its surface, or without.
+    pub(super) fn of(&self, has_vessels: bool) -> &wgpu::BindGroup {
+        &self.bound[usize::from(has_vessels)]
     }
 
     /// What the shader `tissue.wgsl` binds in its group 1.
@@ -115,13 +122,12 @@ fn flat_texture(gpu: &Gpu, bytes: &[u8], edge: usize, layers: u32) -> wgpu::Text
     texture
 }
 
-fn tissue_texture(gpu: &Gpu) -> wgpu::Texture {
+fn tissue_texture(gpu: &Gpu, levels: &[Vec<u8>]) -> wgpu::Texture {
     let cube = |edge: usize| wgpu::Extent3d {
         width: edge as u32,
         height: edge as u32,
         depth_or_array_layers: edge as u32,
     };
-    let levels = tissue_map::levels();
     let edge = tissue_map::EDGE;
     let texture = texture(
         gpu,

@@ -4,17 +4,21 @@
 //! Tissue is lit by a key light and by light from all sides, less in hollows and under tools, which cast soft
 //! shadows of the key light. Light that enters tissue comes out beside: each colour has its own normal between that of
 //! the relief and that of the surface, red the smoothest [Ma et al. 2007]. With a map of the surroundings (section
-//! 7.5) tissue is wet: a film of liquid fills its relief, darkens it, mirrors the map by Fresnel's law and shows the
-//! lamp as a microfacet surface of the film's roughness. Without one it is dull. An endoscope's light falls with the
-//! squared distance and towards the edge of its cone. Everything is bent to the display's gamma in the shader.
+//! 7.5) tissue is wet: a film of water fills its relief, darkens it [Lekner and Dorf 1988], mirrors the map by Fresnel's
+//! law and shows the lamp as a microfacet surface of the film's roughness. Without one it is dull. An endoscope's light
+//! falls with the squared distance and towards the edge of its cone. Everything is bent to the display's gamma in the
+//! shader. Numbers and costs: `docs/theory/pictures.md`.
 //!
-//! *How we know*: `golden::…` compare pictures; `agreement::the_picture_is_where_the_camera_says`.
+//! *How we know*: `golden::…` compare pictures; `agreement::the_picture_is_where_the_camera_says`;
+//! `film_tests::…` integrate what the shader computes; `wet::…` measure light in pictures.
 //!
 //! *Limits*: no shadows but those of tools, as capsules; the film mirrors no organ.
 
 mod body;
 mod crease;
 pub(crate) mod environment;
+#[cfg(test)]
+mod film_tests;
 mod light;
 mod maps;
 mod noise;
@@ -52,10 +56,36 @@ pub struct View {
     pub camera: Camera,
     /// How the organ is drawn.
     pub shading: Shading,
-    /// Whether the tissue has its fine relief and its patches and vessels.
-    pub detail: bool,
+    /// What tissue shows of itself.
+    pub looks: Looks,
     /// What lies within this distance of the camera's target is drawn [m].
     pub reach: f64,
+}
+
+/// What tissue shows beyond its shape.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Looks {
+    /// Its fine relief, patches and vessels.
+    pub relief: bool,
+    /// Light that goes round the edges of relief and shadows, red farthest.
+    pub scattering: bool,
+    /// The shadows of tools.
+    pub shadows: bool,
+}
+
+impl Looks {
+    /// Everything.
+    pub const ALL: Self = Self {
+        relief: true,
+        scattering: true,
+        shadows: true,
+    };
+    /// The shape alone.
+    pub const NONE: Self = Self {
+        relief: false,
+        scattering: false,
+        shadows: false,
+    };
 }
 
 /// What draws pictures.
@@ -119,15 +149,13 @@ impl Renderer {
             let mut pass = begin(&mut encoder, target);
             pass.set_bind_group(0, &self.globals.group, &[]);
             let pipeline = |subject| self.pipelines.of(gpu, subject, target.samples());
-            pass.set_pipeline(&pipeline(Subject::Backdrop));
-            pass.draw(0..3, 0..1);
             pass.set_pipeline(&pipeline(Subject::Tissue {
                 shading: number(view.shading),
-                detail: view.detail,
+                looks: view.looks,
             }));
-            pass.set_bind_group(1, &self.maps.bound, &[]);
             let bodies = bodies.iter().zip(&self.bodies);
             for (body, bound) in bodies.filter(|(body, _)| body.triangles() > 0) {
+                pass.set_bind_group(1, self.maps.of(body.tint.has_vessels), &[]);
                 pass.set_bind_group(2, &bound.group, &[]);
                 pass.set_vertex_buffer(0, body.moving_buffer.slice(..));
                 pass.set_vertex_buffer(1, body.resting_buffer.slice(..));
@@ -144,6 +172,9 @@ impl Renderer {
                     pass.draw(0..kept.part.corners.len() as u32, 0..1);
                 }
             }
+            // Last, where nothing is: a slow machine does not draw it twice.
+            pass.set_pipeline(&pipeline(Subject::Backdrop));
+            pass.draw(0..3, 0..1);
         }
         gpu.queue.submit([encoder.finish()]);
     }

@@ -3,6 +3,7 @@ use std::collections::BTreeMap;
 
 use palpate_files::scene::Shading;
 
+use super::Looks;
 use super::maps::Maps;
 use super::target::{COLOR, DEPTH};
 use crate::Gpu;
@@ -14,7 +15,7 @@ pub(super) enum Subject {
     Tissue {
         /// As `SHADING` in `tissue.wgsl`.
         shading: u8,
-        detail: bool,
+        looks: Looks,
     },
     Instrument,
 }
@@ -33,7 +34,10 @@ impl Pipelines {
         let shared = include_str!("shader/picture.wgsl");
         let shaders = [
             include_str!("shader/backdrop.wgsl"),
-            include_str!("shader/tissue.wgsl"),
+            concat!(
+                include_str!("shader/film.wgsl"),
+                include_str!("shader/tissue.wgsl")
+            ),
             include_str!("shader/instrument.wgsl"),
         ];
         Self {
@@ -80,9 +84,11 @@ impl Pipelines {
                 immediate_size: 0,
             });
         let constants = match subject {
-            Subject::Tissue { shading, detail } => vec![
+            Subject::Tissue { shading, looks } => vec![
                 ("SHADING", f64::from(shading)),
-                ("DETAIL", f64::from(u8::from(detail))),
+                ("RELIEF", f64::from(u8::from(looks.relief))),
+                ("SCATTERING", f64::from(u8::from(looks.scattering))),
+                ("SHADOWS", f64::from(u8::from(looks.shadows))),
             ],
             _ => Vec::new(),
         };
@@ -164,7 +170,7 @@ fn depth(subject: Subject) -> wgpu::DepthStencilState {
         format: DEPTH,
         depth_write_enabled: Some(!behind),
         depth_compare: Some(match behind {
-            true => wgpu::CompareFunction::Always,
+            true => wgpu::CompareFunction::LessEqual,
             false => wgpu::CompareFunction::Less,
         }),
         stencil: wgpu::StencilState::default(),

@@ -9,8 +9,10 @@ pub struct Tint {
     pub dark: [f32; 3],
     /// Where it is light.
     pub light: [f32; 3],
-    /// Its vessels.
+    /// Its vessels, where its surface has some.
     pub vessel: [f32; 3],
+    /// Whether vessels are seen on its surface: not under the capsule of a solid organ.
+    pub has_vessels: bool,
     /// How rough it is [-]: 1 for folded mucosa, less for a smooth capsule.
     pub relief: f32,
 }
@@ -22,6 +24,13 @@ impl Tint {
             dark,
             light,
             vessel,
+            has_vessels: matches!(
+                shape,
+                Shape::Builtin {
+                    organ: BuiltinOrgan::Stomach | BuiltinOrgan::Esophagus,
+                    ..
+                }
+            ),
             relief,
         };
         let Shape::Builtin { organ, .. } = shape else {
@@ -73,6 +82,7 @@ impl Tint {
         dark: [0.25, 0.062, 0.050],
         light: [0.44, 0.155, 0.120],
         vessel: [0.20, 0.018, 0.018],
+        has_vessels: false,
         relief: 0.7,
     };
 
@@ -81,6 +91,7 @@ impl Tint {
         dark: [0.17, 0.022, 0.018],
         light: [0.42, 0.095, 0.070],
         vessel: [0.13, 0.012, 0.012],
+        has_vessels: false,
         relief: 1.1,
     };
 
@@ -89,6 +100,7 @@ impl Tint {
         dark: [0.30, 0.048, 0.038],
         light: [0.52, 0.150, 0.115],
         vessel: [0.22, 0.020, 0.020],
+        has_vessels: false,
         relief: 0.9,
     };
 
@@ -97,6 +109,7 @@ impl Tint {
         dark: [0.76, 0.315, 0.295],
         light: [0.93, 0.490, 0.460],
         vessel: [0.62, 0.110, 0.110],
+        has_vessels: true,
         relief: 0.35,
     };
 
@@ -105,6 +118,7 @@ impl Tint {
         dark: [0.016, 0.004, 0.004],
         light: [0.040, 0.010, 0.009],
         vessel: [0.012, 0.003, 0.003],
+        has_vessels: false,
         relief: 0.3,
     };
 
@@ -113,6 +127,7 @@ impl Tint {
         dark: [0.010, 0.012, 0.016],
         light: [0.010, 0.012, 0.016],
         vessel: [0.010, 0.012, 0.016],
+        has_vessels: false,
         relief: 0.0,
     };
 
@@ -124,6 +139,7 @@ impl Tint {
             dark: dull(self.dark),
             light: dull(self.light),
             vessel: dull(self.vessel),
+            has_vessels: self.has_vessels,
             relief: self.relief,
         }
     }

@@ -14,23 +14,27 @@ pub(super) const EDGE: usize = 80;
 /// Length of an edge of the block [m].
 pub(super) const LENGTH: f64 = 0.030;
 
-/// The block and its halves, quarters and so on, as bytes.
-pub(super) fn levels() -> Vec<Vec<u8>> {
-    let mut levels = vec![finest()];
-    let mut edge = EDGE;
-    while edge > 6 {
-        levels.push(halved(&levels[levels.len() - 1], edge));
-        edge /= 2;
-    }
-    levels
+/// The block without vessels and with them, each with its halves, quarters and so on, as bytes.
+pub(super) fn levels() -> [Vec<Vec<u8>>; 2] {
+    let values = values();
+    [0.0, 1.0].map(|vessels| {
+        let mut levels = vec![finest(&values, vessels)];
+        let mut edge = EDGE;
+        while edge > 6 {
+            levels.push(halved(&levels[levels.len() - 1], edge));
+            edge /= 2;
+        }
+        levels
+    })
 }
 
-fn finest() -> Vec<u8> {
+/// Height, tone and vessels of each texel.
+fn values() -> Vec<[f32; 3]> {
     let layers = EDGE.div_ceil(4);
     let grain = &Grain::new();
     // The block is made in four parts at once: it is what takes longest of all that is made at a start.
-    let parts: Vec<Vec<[f32; 2]>> = std::thread::scope(|scope| {
-        let make = move |part: usize| -> Vec<[f32; 2]> {
+    let parts: Vec<Vec<[f32; 3]>> = std::thread::scope(|scope| {
+        let make = move |part: usize| -> Vec<[f32; 3]> {
             let range = part * layers..((part + 1) * layers).min(EDGE);
             range.flat_map(|z| grain.layer(z)).collect()
         };
@@ -51,9 +55,16 @@ fn finest() -> Vec<u8> {
             })
             .collect()
     });
-    let values: Vec<[f32; 2]> = parts.into_iter().flatten().collect();
+    parts.into_iter().flatten().collect()
+}
+
+fn finest(values: &[[f32; 3]], vessels: f32) -> Vec<u8> {
     let index = |x: usize, y: usize, z: usize| (z % EDGE * EDGE + y % EDGE) * EDGE + x % EDGE;
-    let height = |x, y, z| values[index(x, y, z)][0];
+    // A vessel stands out a little.
+    let height = |x, y, z| {
+        let [bumps, _, blood] = values[index(x, y, z)];
+        bumps + 0.16 * vessels * blood
+    };
     let mut bytes = Vec::with_capacity(4 * EDGE * EDGE * EDGE);
     let byte = |value: f32| (value.clamp(0.0, 1.0) * 255.0).round() as u8;
     for z in 0..EDGE {
@@ -66,7 +77,8 @@ fn finest() -> Vec<u8> {
                     height(x, y, z + 1) - height(x, y, z + before),
                 ];
                 bytes.extend(slopes.map(|slope| byte(0.5 + slope)));
-                bytes.push(byte(values[index(x, y, z)][1]));
+                let [_, patches, blood] = values[index(x, y, z)];
+                bytes.push(byte(patches * (1.0 - vessels * blood)));
             }
         }
     }
@@ -93,16 +105,16 @@ impl Grain {
         }
     }
 
-    /// Height and tone of the texels of one layer.
-    fn layer(&self, z: usize) -> impl Iterator<Item = [f32; 2]> {
+    /// Height, tone and vessels of the texels of one layer.
+    fn layer(&self, z: usize) -> impl Iterator<Item = [f32; 3]> {
         (0..EDGE * EDGE).map(move |k| {
             let at = Vector3::new((k % EDGE) as f32, (k / EDGE) as f32, z as f32);
             self.texel(at / EDGE as f32)
         })
     }
 
-    /// Height and tone at a place of the block, from 0 to 1 along its edges.
-    fn texel(&self, at: Vector3<f32>) -> [f32; 2] {
+    /// Height, tone and vessels at a place of the block, from 0 to 1 along its edges.
+    fn texel(&self, at: Vector3<f32>) -> [f32; 3] {
         let bumps = 0.55 * self.bumps[0].at(at * 9.0) + 0.30 * self.bumps[1].at(at * 20.0);
         let patches = 0.68 + 0.36 * self.patches.at(at * 4.0);
         // Vessels lie where a warped noise changes its sign; they thin out and end.
@@ -113,9 +125,7 @@ impl Grain {
         let trunk = vessel(self.vessels[0].at(warped * 3.0), wide);
         let branch = vessel(self.vessels[1].at(warped * 7.0), 1.6 * thin);
         let blood = trunk.max(0.85 * branch);
-        let tone = patches.clamp(0.32, 1.0) * (1.0 - blood);
-        // A vessel stands out a little.
-        [bumps + 0.16 * blood, tone]
+        [bumps, patches.clamp(0.32, 1.0), blood]
     }
 }
 
@@ -154,4 +164,18 @@ fn halved(finer: &[u8], edge: usize) -> Vec<u8> {
 /// Length of a texel [m].
 pub(super) fn texel_length() -> f64 {
     LENGTH / EDGE as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The tone of dark tissue is 0.32 of 255; what is darker is a vessel.
+    #[test]
+    fn only_one_block_has_vessels() {
+        let [bare, vessels] = levels();
+        let darkest = |levels: &[Vec<u8>]| levels[0].iter().skip(3).step_by(4).copied().min();
+        assert_eq!(darkest(&bare), Some(82));
+        assert!(darkest(&vessels) < Some(20));
+    }
 }

@@ -168,7 +168,7 @@ fn look(window: &mut SimulatorWindow, ui: &mut Ui) {
         {
             picture.frame_anew();
         }
-        ui.checkbox(&mut picture.detail, "relief");
+        ui.checkbox(&mut picture.looks.relief, "relief");
     });
     match window.surroundings.clone() {
         None => {

@@ -12,7 +12,7 @@ use super::ghosts::Over;
 use super::hands::gamepad::Gamepad;
 use super::hands::{Hand, Room, keys};
 use super::play::Play;
-use crate::render::{Body, Renderer, Target, ToolPicture, View};
+use crate::render::{Body, Looks, Renderer, Target, ToolPicture, View};
 use crate::{Camera, Error, Gpu, Orbit, TissuePicture, pick, scene_camera};
 
 /// Turn of the camera per point of the window [rad].
@@ -21,7 +21,7 @@ const TURN: f64 = 0.007;
 /// Where the organ is seen and touched.
 pub(super) struct Picture {
     pub(super) shading: Shading,
-    pub(super) detail: bool,
+    pub(super) looks: Looks,
     pub(super) endoscope: bool,
     /// How the whole organ is shown around its contacts, if not as the scene wants it.
     pub(super) enhancement: Option<Enhancement>,
@@ -49,7 +49,7 @@ impl Picture {
     pub(super) fn new(gpu: &Gpu, shading: Shading) -> Self {
         Self {
             shading,
-            detail: true,
+            looks: Looks::ALL,
             endoscope: false,
             enhancement: None,
             effort: Effort::new(gpu.is_software()),
@@ -318,7 +318,7 @@ impl Picture {
         let view = View {
             camera: *camera,
             shading: self.shading,
-            detail: self.detail,
+            looks: self.looks,
             reach: extent,
         };
         // Places, not forces: tissue that relaxes looks the same. A slow machine has better things to do.

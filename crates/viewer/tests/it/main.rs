@@ -13,6 +13,7 @@ mod golden;
 mod hands;
 mod invariants;
 mod layers;
+mod wet;
 
 use std::sync::{Mutex, OnceLock};
 

@@ -34,6 +34,8 @@ Examples:
       what a file does not say itself
   palpate characterize liver.csv --law neo_hookean --abaqus liver.inp --febio liver.feb
       material cards for finite element packages
+  palpate characterize liver.csv --law neo_hookean --in-loop
+      with full viscoelastic runs of finite elements in the loop, for deep and fast presses
 
 Recordings that name the same organ, subject, site and indenter are one specimen and are fitted
 together. Tables of other programs are read by the names of their columns, or as --time, --depth
@@ -66,6 +68,10 @@ pub(crate) struct Arguments {
     /// Seek this law alone; by default all are, and the simplest that no other beats is preferred.
     #[arg(long, value_enum)]
     law: Option<Law>,
+    /// Solve full viscoelastic runs of finite elements in the loop of the fit, for one specimen and one law: takes
+    /// seconds for each run, and returns what the product of an elastic force and G(t) misses.
+    #[arg(long, requires = "law")]
+    in_loop: bool,
     /// How often fits are made again, with residuals in other blocks and with noise, to see how well
     /// parameters are known; 0 for never, else 10 or more.
     #[arg(long, value_name = "TIMES", default_value_t = 100, value_parser = clap::value_parser!(u64).range(..=10_000))]
@@ -140,6 +146,7 @@ impl Arguments {
             law: self.law.map(SoughtLaw::from),
             terms: self.terms.map(|terms| terms as usize),
             draws: self.draws as usize,
+            in_loop: self.in_loop,
             ..Choice::default()
         }
     }
@@ -153,6 +160,9 @@ impl Arguments {
         }
         if let Some(terms) = self.terms {
             say("--terms", terms.to_string());
+        }
+        if self.in_loop {
+            say("--in-loop", String::new());
         }
         say("--draws", self.draws.to_string());
         said.extend(self.recordings.asked().said());

@@ -59,8 +59,13 @@ fn of_law(law: &LawAnswer) -> String {
         .map(|(name, known)| format!("{} {}", without_unit(name), shown(name, known)))
         .collect();
     let misfit = 100.0 * law.misfit;
+    let solves = match law.solves {
+        0 => String::new(),
+        1 => "; 1 run of finite elements".to_owned(),
+        solves => format!("; {solves} runs of finite elements"),
+    };
     format!(
-        "{}; misfit {misfit:.1} % of the largest force",
+        "{}; misfit {misfit:.1} % of the largest force{solves}",
         parameters.join(", ")
     )
 }

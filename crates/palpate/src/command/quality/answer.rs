@@ -55,6 +55,7 @@ struct Model {
     rate_hz: f64,
     steps: u64,
     missed: u64,
+    touch_s: Times,
     step_s: Times,
     extrapolation_rms_n: f64,
     extrapolation_max_n: f64,
@@ -110,6 +111,7 @@ impl Model {
             rate_hz: report.rate,
             steps: report.steps,
             missed: report.missed,
+            touch_s: report.touch_times.into(),
             step_s: report.step_times.into(),
             extrapolation_rms_n: report.extrapolation.rms,
             extrapolation_max_n: report.extrapolation.max,
@@ -224,6 +226,7 @@ impl Run {
                 model.missed,
                 model.steps + model.missed
             ),
+            format!("    force   {}", model.touch_s.microseconds()),
             format!("    step    {}", model.step_s.microseconds()),
             format!(
                 "    extrapolation  off by {:.3} mN (rms), {:.3} mN at most, of {:.1} mN",

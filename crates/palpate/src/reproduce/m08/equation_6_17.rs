@@ -94,6 +94,16 @@ fn neo_hookean(rows: &mut Rows<'_>) -> Result<(), Failure> {
             column.note()
         );
         rows.add(&format!("{organ}/c10"), value, note);
+        let needed = published.map(|c10| column.area * column.neo_hookean() / c10);
+        let note = "area of the column with which (6.17) returns the printed value, where the probe's face has 3.14 mm²: moduli go as \
+                    one over the area, so that this is all of the difference for this length; the two organs need different areas, and \
+                    none of them is printed";
+        let needed = Value {
+            published: None,
+            ours: needed.map(|area| 1e6 * area),
+            unit: "mm²",
+        };
+        rows.add(&format!("{organ}/area_needed"), needed, note);
     }
     Ok(())
 }

@@ -62,7 +62,7 @@ fn figure_7_12(rows: &mut Rows<'_>) -> Result<(), Failure> {
     for (shading, name, what) in shadings {
         let made = picture(ESOPHAGUS, 0.002, |studio| {
             studio.view.shading = shading;
-            studio.view.detail = shading != Shading::Plain;
+            studio.view.looks.relief = shading != Shading::Plain;
         });
         seen.extend(made.as_ref().ok().map(|made| made.pixels.clone()));
         add(rows, Some(name), what, made)?;

@@ -2,7 +2,7 @@ use std::time::Instant;
 
 use palpate_files::scene::{BuiltinOrgan, Shading, Shape};
 use palpate_geometry::{Organ, Surface};
-use palpate_viewer::{Body, FRAME_SIZE, Gpu, Orbit, Renderer, Target, Tint, View};
+use palpate_viewer::{Body, FRAME_SIZE, Gpu, Looks, Orbit, Renderer, Target, Tint, View};
 
 use crate::failure::Failure;
 use crate::reproduce::published::TABLE_7_1 as PUBLISHED;
@@ -74,7 +74,7 @@ fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
             let view = View {
                 camera: Orbit::framing(surface.mesh(), 0.785, 1.6).camera(),
                 shading,
-                detail: false,
+                looks: Looks::NONE,
                 reach: 0.3,
             };
             let time = measure(|| {

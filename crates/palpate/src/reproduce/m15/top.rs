@@ -85,7 +85,7 @@ impl Top {
         let moved = surface.mesh().vertices();
         let open = OpenedSurface::new(cut, (surface, moved), look.width);
         self.studio.view.shading = look.shading;
-        self.studio.view.detail = look.shading != Shading::Plain;
+        self.studio.view.looks.relief = look.shading != Shading::Plain;
         self.studio.beside.clear();
         if let Some(width) = look.wires {
             let wires = wire_frame(open.mesh(), open.places(), width)

@@ -30,7 +30,7 @@ fn instrument_fragment(in: Varyings) -> @location(0) vec4f {
     var strength = 1.0;
     if (globals.key.w > 0.5) {
         let away = globals.key.xyz - in.position;
-        strength = min(globals.key_color.w / dot(away, away), 2.0);
+        strength = globals.key_color.w / dot(away, away);
         towards = normalize(away);
     }
     let reflected = 2.0 * dot(normal, to_eye) * normal - to_eye;

@@ -3,7 +3,11 @@
 // How the organ is drawn: 0 plain, 1 texture, 2 sphere map, 3 cube map.
 override SHADING: u32 = 0u;
 // 1 with the tissue map: relief, and colours where the shading has any.
-override DETAIL: u32 = 1u;
+override RELIEF: u32 = 1u;
+// 1 where light goes round the edges of shadows and relief, red farthest.
+override SCATTERING: u32 = 1u;
+// 1 where tools cast shadows.
+override SHADOWS: u32 = 1u;
 
 // An opening around a straight part of a cut: its ends [m], with the half width there in w [m].
 struct Opening {
@@ -74,14 +78,16 @@ fn mirrored(reflected: vec3f) -> vec3f {
 
 // Light from all sides that a capsule leaves over.
 fn left_by(tool: Capsule, position: vec3f, normal: vec3f) -> f32 {
+    if (tool.end.w < 0.5) {
+        return 1.0;
+    }
     let along = tool.end.xyz - tool.start.xyz;
     let offset = position - tool.start.xyz;
     let part = clamp(dot(offset, along) / max(dot(along, along), 1e-12), 0.0, 1.0);
     let away = offset - part * along;
     let distance = max(length(away), tool.start.w);
     let ratio = tool.start.w / distance;
-    let left = 1.0 - max(dot(-away, normal), 0.0) / distance * ratio;
-    return mix(1.0, left, tool.end.w);
+    return 1.0 - max(dot(-away, normal), 0.0) / distance * ratio;
 }
 
 // A normal under a relief of this slope.
@@ -92,6 +98,9 @@ fn bent(normal: vec3f, slope: vec3f) -> vec3f {
 // What a capsule leaves of light that comes from the direction `towards`: its soft shadow, by how near the
 // way to the light passes.
 fn lit_beside(tool: Capsule, position: vec3f, towards: vec3f) -> f32 {
+    if (tool.end.w < 0.5) {
+        return 1.0;
+    }
     let along = tool.end.xyz - tool.start.xyz;
     let offset = position - tool.start.xyz;
     let squared = max(dot(along, along), 1e-12);
@@ -104,18 +113,23 @@ fn lit_beside(tool: Capsule, position: vec3f, towards: vec3f) -> f32 {
     let nearest = offset + way * towards - part * along;
     let blur = 0.6 * tool.start.w + 0.16 * way;
     let lit = smoothstep(-blur, blur, length(nearest) - tool.start.w);
-    return mix(1.0, lit, tool.end.w * smoothstep(0.0, 0.3 * tool.start.w, way));
+    return mix(1.0, lit, smoothstep(0.0, 0.3 * tool.start.w, way));
 }
 
 fn mark(place: vec4f, rest: vec3f) -> f32 {
-    let distance = length(rest - place.xyz) / max(place.w, 1e-6);
-    let ring = exp(-130.0 * (distance - 1.0) * (distance - 1.0));
-    return select(0.0, ring, place.w > 0.0);
+    if (place.w <= 0.0) {
+        return 0.0;
+    }
+    let distance = length(rest - place.xyz) / place.w;
+    return exp(-130.0 * (distance - 1.0) * (distance - 1.0));
 }
 
 // Where the tissue map is looked up: at the place at rest, on cut muscle drawn out along the fibres, which
 // run along the axis in the outer half of the wall and around it in the inner one.
 fn looked_up(rest: vec4f) -> vec3f {
+    if (body.fibres.w < 0.5) {
+        return rest.xyz * body.detail.x;
+    }
     let axis = body.fibres.xyz;
     let out = rest.xyz - body.fibre_center.xyz;
     let around = normalize(cross(axis, out - dot(out, axis) * axis) + vec3f(1e-9, 0.0, 0.0));
@@ -124,8 +138,7 @@ fn looked_up(rest: vec4f) -> vec3f {
     let run = select(around, axis, is_along);
     let drawn = rest.xyz - 0.94 * dot(out, run) * run;
     // A wall's rows differ in depth alone, which its openness tells.
-    let stacked = drawn * 1.7 + (1.0 - rest.w) * 0.011 * vec3f(0.61, 0.53, 0.59);
-    return mix(rest.xyz, stacked, body.fibres.w) * body.detail.x;
+    return (drawn * 1.7 + (1.0 - rest.w) * 0.011 * vec3f(0.61, 0.53, 0.59)) * body.detail.x;
 }
 
 // Width of the cut face around an opening [m].
@@ -145,24 +158,6 @@ fn outside(rest: vec3f) -> f32 {
     return nearest;
 }
 
-// Light from the key that a wet film throws towards the eye: microfacets [Walter et al. 2007] with Smith's shadowing
-// as Karis approximates it, and Schlick's Fresnel term.
-fn glitter(normal: vec3f, towards: vec3f, to_eye: vec3f, roughness: f32, straight: f32) -> f32 {
-    let middle = normalize(towards + to_eye);
-    let facing = clamp(dot(normal, middle), 0.0, 1.0);
-    let lit = clamp(dot(normal, towards), 0.0, 1.0);
-    let seen = clamp(dot(normal, to_eye), 1e-3, 1.0);
-    let alpha = roughness * roughness;
-    let squared = alpha * alpha;
-    let bend = facing * facing * (squared - 1.0) + 1.0;
-    let spread = squared / (3.14159 * bend * bend);
-    let k = 0.5 * alpha;
-    let shadowing = 1.0 / ((lit * (1.0 - k) + k) * (seen * (1.0 - k) + k));
-    let away = 1.0 - clamp(dot(middle, to_eye), 0.0, 1.0);
-    let fresnel = straight + (1.0 - straight) * away * away * away * away * away;
-    return min(0.25 * spread * shadowing * fresnel * lit * 3.14159, 12.0);
-}
-
 @fragment
 fn tissue_fragment(in: Varyings) -> @location(0) vec4f {
     let to_eye = normalize(globals.eye.xyz - in.position);
@@ -174,7 +169,7 @@ fn tissue_fragment(in: Varyings) -> @location(0) vec4f {
     var normal = smooth_normal;
     var tone = 0.62;
     var relief = vec3f(0.0);
-    if (DETAIL == 1u) {
+    if (RELIEF == 1u) {
         let texel = textureSampleLevel(
             tissue_map, tissue_sampler, looked_up(in.rest), globals.levels.x,
         );
@@ -197,49 +192,44 @@ fn tissue_fragment(in: Varyings) -> @location(0) vec4f {
         towards = normalize(away);
         // An endoscope's light falls with the distance and towards the edge of its cone; its back is up.
         let inside = clamp(dot(towards, globals.up.xyz), 0.0, 1.0);
-        strength = min(globals.key_color.w / dot(away, away), 2.5) * inside * inside;
+        strength = fallen(dot(away, away), globals.key_color.w) * inside * inside;
     }
-    let open = in.rest.w
-        * left_by(globals.tools[0], in.position, normal)
-        * left_by(globals.tools[1], in.position, normal);
-    // Light enters tissue and comes out beside, red farthest: red sees the smoothest surface, and its shadows are
-    // the softest.
-    let facing = vec3f(
-        dot(mix(normal, smooth_normal, 0.75), towards),
-        dot(mix(normal, smooth_normal, 0.35), towards),
-        dot(mix(normal, smooth_normal, 0.20), towards),
-    );
-    let wrap = vec3f(0.42, 0.24, 0.20);
-    let soft = clamp((facing + wrap) / (1.0 + wrap), vec3f(0.0), vec3f(1.0));
+    var open = in.rest.w;
+    var lit = 1.0;
+    if (SHADOWS == 1u) {
+        open *= left_by(globals.tools[0], in.position, normal)
+            * left_by(globals.tools[1], in.position, normal);
+        lit = lit_beside(globals.tools[0], in.position, towards)
+            * lit_beside(globals.tools[1], in.position, towards);
+    }
     let around = mix(globals.ground.rgb, globals.sky.rgb, 0.5 + 0.5 * dot(normal, globals.up.xyz));
-    let lit = lit_beside(globals.tools[0], in.position, towards)
-        * lit_beside(globals.tools[1], in.position, towards);
     let direct = globals.key_color.rgb * strength * mix(0.35, 1.0, open);
-    let through = mix(vec3f(0.20, 0.12, 0.11), vec3f(1.0), pow(vec3f(lit), vec3f(0.7, 1.0, 1.1)));
-    let arriving = soft * soft * direct * through + around * open;
+    var arriving = direct * lit * clamp(dot(normal, towards), 0.0, 1.0);
+    if (SCATTERING == 1u) {
+        // Light enters tissue and comes out beside: red sees the smoothest surface, and its shadows are the softest.
+        let rough = dot(normal, towards);
+        let even = dot(smooth_normal, towards);
+        let facing = mix(vec3f(even), vec3f(rough), vec3f(0.25, 0.65, 0.80));
+        let through = mix(vec3f(0.20, 0.12, 0.11), vec3f(1.0), vec3f(sqrt(lit), lit, lit));
+        arriving = scattered(facing, WRAP) * direct * through;
+    }
+    arriving += around * open;
 
-    let is_wet = SHADING >= 2u && body.detail.w > 0.0;
     var shine = vec3f(0.0);
-    if (is_wet) {
+    if (SHADING >= 2u && body.detail.w > 0.0) {
         // Liquid fills the relief, more of it in hollows of the tone; where it is thin the film is rough.
         let pool = smoothstep(0.35, 0.85, tone);
-        let film_normal = bent(smooth_normal, relief * mix(1.0, 0.55, pool));
-        let roughness = mix(0.42, 0.24, pool);
-        // Of water: 2 % straight on.
-        let straight = 0.025;
-        let seen = clamp(dot(film_normal, to_eye), 0.0, 1.0);
-        let away = 1.0 - seen;
-        let fresnel = straight + (1.0 - straight) * away * away * away * away * away;
+        let film_normal = bent(smooth_normal, relief * mix(1.0, 0.45, pool));
+        let roughness = mix(0.40, 0.20, pool);
+        let reflectance = fresnel(dot(film_normal, to_eye));
         let reflection = mirrored(2.0 * dot(film_normal, to_eye) * film_normal - to_eye);
-        // Wet tissue is darker and fuller in colour: light is kept in by the film.
-        color = mix(0.80 * pow(color, vec3f(1.10)), 0.55 * reflection, body.detail.z);
-        shine = reflection * open * (0.4 + 0.6 * strength) * min(3.0 * fresnel, 1.0);
-        shine += direct * lit * glitter(film_normal, towards, to_eye, roughness, straight);
+        color = wetted(mix(color, 0.55 * reflection, body.detail.z)) * leaving(reflectance);
+        shine = reflection * open * (0.4 + 0.6 * min(strength, 1.0)) * reflectance;
+        shine += direct * lit * glitter(film_normal, towards, to_eye, roughness);
         if (globals.key.w < 0.5) {
             // A lamp beside the eye, which a film shows before it lights the tissue.
             let beside_eye = normalize(to_eye - 0.25 * globals.up.xyz);
-            shine += 6.0 * globals.sky.rgb * open
-                * glitter(film_normal, beside_eye, to_eye, roughness, straight);
+            shine += 3.0 * globals.sky.rgb * open * glitter(film_normal, beside_eye, to_eye, roughness);
         }
     } else {
         let middle = clamp(dot(normal, normalize(towards + to_eye)), 0.0, 1.0);

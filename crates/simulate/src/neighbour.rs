@@ -1,0 +1,127 @@
+//! Neighbours at which tools stop: rigid bodies that push a tip back along their surface's normal.
+//!
+//! A tip that is d deep is pushed with k d. One that sticks is held in place by the same k, up to its friction. A tool
+//! touches a neighbour once it comes from outside: one that first appears within it, as where an organ grows through
+//! the diaphragm, is let out.
+//!
+//! *How we know*: `neighbours::…`.
+//!
+//! *Limits*: only tips touch them, no shafts, and the organ passes through them.
+
+use nalgebra::Matrix3;
+use palpate_files::Scene;
+use palpate_files::scene::Shape;
+use palpate_geometry::{AabbTree, PatchField, Surface, Vec3};
+use palpate_mechanics::contact::Bond;
+
+use crate::contact::{self, Contact, Ground};
+use crate::simulation::{Simulation, radius_of_hemisphere};
+use crate::state::{SimulationState, ToolState};
+use crate::tool::Tool;
+use crate::{Error, organ};
+
+/// Stiffness of a rigid body under a tip [N/m]: what a loop at 1 kHz displays without trembling on the devices of
+/// `docs/devices.md`.
+const RIGID_STIFFNESS: f64 = 1000.0;
+
+/// A body at which tools stop.
+#[derive(Debug, Clone)]
+pub(crate) struct Neighbour {
+    pub(crate) surface: Surface,
+    tree: AabbTree,
+    /// Its normals as each tool feels them.
+    patches: Vec<PatchField>,
+    radius: f64,
+}
+
+/// What neighbours do to one tool.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Stopped {
+    /// Where the tip was in the last step [m].
+    tip: Option<Vec3>,
+    /// Force on the tool [N], how it changes with the tip's place [N/m], and the normal of what was touched last [-].
+    pub(crate) force: Vec3,
+    pub(crate) gradient: Matrix3<f64>,
+    pub(crate) normal: Option<Vec3>,
+}
+
+impl Neighbour {
+    /// Those of `scene` at which its tools stop. The others are read too, so that a missing file is told here.
+    pub(crate) fn all(scene: &Scene, tools: &[Tool]) -> Result<Vec<Self>, Error> {
+        let mut all = Vec::new();
+        for neighbour in &scene.neighbours {
+            let is_file = matches!(neighbour.shape, Shape::Mesh { .. });
+            if !neighbour.collides && !is_file {
+                continue;
+            }
+            let (surface, _) = organ::read_neighbour(neighbour)?;
+            if neighbour.collides {
+                all.push(Self {
+                    tree: AabbTree::new(surface.mesh()),
+                    patches: tools
+                        .iter()
+                        .map(|tool| PatchField::new(&surface, tool.shaft_radius()))
+                        .collect(),
+                    radius: radius_of_hemisphere(&surface),
+                    surface,
+                });
+            }
+        }
+        Ok(all)
+    }
+
+    fn ground(&self, tool: usize) -> Ground<'_> {
+        Ground {
+            surface: &self.surface,
+            tree: &self.tree,
+            patches: &self.patches[tool],
+            radius: self.radius,
+        }
+    }
+}
+
+/// Adds what neighbours do to tool `number`.
+pub(crate) fn press(simulation: &Simulation, number: usize, state: &mut SimulationState) {
+    let neighbours = &simulation.neighbours;
+    let own = &mut state.tools[number];
+    let touched = &mut state.touched_neighbours[number * neighbours.len()..][..neighbours.len()];
+    let tool = &simulation.tools[number];
+    let tip = own.pose.map(|pose| Vec3::from(pose.position_m));
+    let before = std::mem::replace(
+        &mut own.stopped,
+        Stopped {
+            tip,
+            ..Stopped::default()
+        },
+    )
+    .tip;
+    for (neighbour, contact) in neighbours.iter().zip(touched) {
+        let last = contact.take();
+        let Some(tip) = tip else { continue };
+        let ground = neighbour.ground(number);
+        let found = contact::detect(&ground, tool, last.as_ref(), &tip);
+        let travel = before.map_or(0.0, |before| (tip - before).norm());
+        let Some(mut found) = found.filter(|found| last.is_some() || found.depth <= travel) else {
+            continue;
+        };
+        own.stop(tool, &tip, &mut found);
+        *contact = Some(found);
+    }
+    own.force += own.stopped.force;
+}
+
+impl ToolState {
+    fn stop(&mut self, tool: &Tool, tip: &Vec3, contact: &mut Contact) {
+        let frame = contact.frame();
+        let mut force = frame * (-RIGID_STIFFNESS * contact.displacement(tool, tip));
+        contact.slide(tool, &mut force);
+        let along = match tool.bond {
+            Bond::Stick if !contact.slides => RIGID_STIFFNESS,
+            Bond::Stick | Bond::Slip => 0.0,
+        };
+        let stiffness = Matrix3::from_diagonal(&Vec3::new(along, along, RIGID_STIFFNESS));
+        self.stopped.force += force;
+        self.stopped.gradient -= frame * stiffness * frame.transpose();
+        self.stopped.normal = Some(contact.normal());
+    }
+}
