@@ -143,8 +143,11 @@ fn follow(
             continue;
         }
         workspace.trial.copy_from_slice(&trial);
-        let after = newton::size_of_residual(model, supports, workspace).free;
-        let good = if known {
+        let size = newton::size_of_residual(model, supports, workspace);
+        let after = size.free;
+        let good = if size.is_small(Effort::FULL.tolerance) {
+            true
+        } else if known {
             energy(workspace, &trial[displacements..]) < most || after <= 0.25 * before
         } else {
             gap > 0.0 || after <= GROWTH * GROWTH * before

@@ -58,14 +58,14 @@ const ROUND: Meshes<'static> = Meshes {
 /// The meshes of a flat punch: elements along half the width of the rings around its edge, and the sizes of all
 /// elements. Stress at the edge is infinite as the root of the distance, which leaves the first power of the size of
 /// the smallest elements, and that is the second of the others'.
-const FLAT_PARTS: [usize; 5] = [1, 2, 3, 4, 6];
+const FLAT_PARTS: [usize; 5] = [1, 2, 3, 5, 8];
 const FLAT: Meshes<'static> = Meshes {
-    sizes: &[1.0, 0.5, 1.0 / 3.0, 0.25, 1.0 / 6.0],
+    sizes: &[1.0, 0.5, 1.0 / 3.0, 0.2, 0.125],
     order: 2.0,
 };
 
-/// Deeper than this under a side that slides, in radii [-], tissue under the face gives way element by element, and the last mesh
-/// takes five minutes: it is left out.
+/// Deeper than this under a side that slides, in radii [-], tissue at the edge gives way element by element, and the last mesh
+/// would take most of an hour: it is left out.
 const DEEP: f64 = 5.0;
 const DEEP_MESHES: usize = 4;
 
