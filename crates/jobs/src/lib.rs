@@ -8,6 +8,7 @@
 //! | [`characterize`] | recordings | the tissue behind them, specimen by specimen |
 //! | [`measure`] | a protocol | recordings by the rig |
 //! | [`preparation`] | a scene | a simulation, from what was prepared before where there is such |
+//! | [`mod@validate`] | a file | what it is, and whether it is right |
 //!
 //! *How we know*: the tests of the command, which runs every job, and those here: a study that is broken off at any of
 //! its words leaves no half file and goes on, and what is answered does not depend on who waits.
@@ -30,6 +31,7 @@ mod quantity;
 mod recordings;
 mod sideways;
 pub mod solve;
+pub mod validate;
 mod watch;
 
 pub use cores::on_all_cores;

@@ -24,6 +24,7 @@ use command::CommandLine;
 use failure::Failure;
 
 fn main() -> ExitCode {
+    quieten_driver();
     let outcome = match CommandLine::try_parse() {
         Ok(line) => line.run(),
         Err(answer) if !answer.use_stderr() => output::text(answer.render()),
@@ -41,5 +42,15 @@ fn main() -> ExitCode {
             output::error(&failure);
             ExitCode::from(failure.exit_status())
         }
+    }
+}
+
+/// Without a desktop session, Mesa's layer that chooses a device asks Wayland in vain, and prints an error of which
+/// nobody here is the cause.
+#[allow(unsafe_code, reason = "drivers are told by the environment alone")]
+fn quieten_driver() {
+    if std::env::var_os("XDG_RUNTIME_DIR").is_none() {
+        // SAFETY: no other thread runs yet.
+        unsafe { std::env::set_var("NODEVICE_SELECT", "1") };
     }
 }

@@ -15,6 +15,16 @@ use crate::failure::Failure;
 /// The version that stands in every machine-readable answer as `palpate`.
 pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
 
+/// The version with what the program was built of and for.
+pub(crate) const LONG_VERSION: &str = concat!(
+    env!("CARGO_PKG_VERSION"),
+    "\ncommit ",
+    env!("PALPATE_COMMIT"),
+    "\ntarget ",
+    env!("PALPATE_TARGET"),
+    "\ndevices haply, openhaptics, force_dimension (libraries are loaded when one is opened)",
+);
+
 /// Prints `text` to standard output, with a line end if it has none.
 pub(crate) fn text(text: impl Display) -> Result<(), Failure> {
     print(printable_lines(&text.to_string()))

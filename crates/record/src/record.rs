@@ -196,7 +196,7 @@ fn looked_at(path: &Path, begins: bool) -> rusqlite::Result<(Connection, Found)>
     connection.busy_timeout(PATIENCE)?;
     // What was added outlives the power: the journal's end is waited for, too.
     connection.pragma_update(None, "synchronous", "EXTRA")?;
-    let mut found = schema::look(&connection)?;
+    let mut found = schema::look_once(&mut connection)?;
     // A file of a few bytes passes for an empty database, and would be written over. The remains of a record whose
     // beginning was broken off are long before and empty afterwards.
     if found == Found::Nothing && was_long && is_long() {
@@ -204,7 +204,7 @@ fn looked_at(path: &Path, begins: bool) -> rusqlite::Result<(Connection, Found)>
     }
     if found == Found::Nothing && begins {
         schema::begin(&mut connection)?;
-        found = schema::look(&connection)?;
+        found = schema::look_once(&mut connection)?;
     }
     if found == Found::Record && begins {
         schema::upgrade(&mut connection)?;

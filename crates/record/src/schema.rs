@@ -63,8 +63,12 @@ pub(crate) enum Found {
     Foreign,
 }
 
-/// What there is.
-pub(crate) fn look(connection: &Connection) -> rusqlite::Result<Found> {
+/// What there is, at one moment: a record that another program begins meanwhile is nothing or whole.
+pub(crate) fn look_once(connection: &mut Connection) -> rusqlite::Result<Found> {
+    look(&*connection.transaction()?)
+}
+
+fn look(connection: &Connection) -> rusqlite::Result<Found> {
     let number = |sql: &str| connection.query_row(sql, [], |row| row.get::<_, i64>(0));
     let application = number("PRAGMA application_id")?;
     let version = version(connection)?;

@@ -189,6 +189,8 @@ impl Form {
     fn model(&mut self, model: &Model) {
         let Model {
             kind,
+            // Why is no part of what was simulated.
+            reason: _,
             step_s,
             local,
             enhancement,

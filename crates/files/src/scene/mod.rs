@@ -96,21 +96,32 @@ impl Scene {
         let neighbours = keys.tables("neighbour", Neighbour::KEYS)?;
         let touched = Organ::from_keys(&organ, &folder)?;
         let layers = touched.layers.len();
-        let scene = Self {
+        let tools = tool::from_keys(&keys, &folder)?;
+        let cutting = keys.table("cutting", Cutting::KEYS)?;
+        let model = keys.table("model", Model::KEYS)?;
+        let model = Model::from_keys(model.as_ref(), &touched, &tools, cutting.as_ref())?;
+        let mut scene = Self {
             organ: touched,
             neighbours: neighbours
                 .iter()
                 .map(|keys| Neighbour::from_keys(keys, &folder))
                 .collect::<Result<_, _>>()?,
-            model: Model::from_keys(keys.table("model", Model::KEYS)?.as_ref())?,
-            cutting: Cutting::from_keys(keys.table("cutting", Cutting::KEYS)?.as_ref())?,
-            tools: tool::from_keys(&keys, &folder)?,
+            model,
+            cutting: Cutting::from_keys(cutting.as_ref())?,
+            tools,
             view: View::from_keys(keys.table("view", View::KEYS)?.as_ref())?,
             task: Task::from_keys(keys.table("task", Task::KEYS)?.as_ref(), &folder, layers)?,
             folder,
             written: Some(standing_alone(text, path)?),
             warnings: keys.warnings(),
         };
+        if let Some(reason) = model.reason {
+            scene.warnings.push(format!(
+                "{}: model.kind = \"auto\" is {:?}, for {reason}",
+                path.display(),
+                model.kind.word()
+            ));
+        }
         if scene.lacks_anchor() {
             return Err(organ.missing(
                 "anchor",

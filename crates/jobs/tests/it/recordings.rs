@@ -63,7 +63,11 @@ fn too_few_draws_are_refused() {
     }
     for (draws, repeated) in [(0, false), (10, true)] {
         let text = found(draws).unwrap().unwrap();
-        assert_eq!(text.contains("\"bootstrap\""), repeated, "{draws}: {text}");
+        assert_eq!(
+            text.contains("\"bootstrap_error\""),
+            repeated,
+            "{draws}: {text}"
+        );
     }
 }
 

@@ -1,9 +1,11 @@
 //! The command line: one file per command.
 
 mod analyze;
+mod cache;
 mod characterize;
 mod demonstration;
 mod devices;
+mod examples;
 mod measure;
 mod mesh;
 mod overwrite;
@@ -14,8 +16,10 @@ mod recordings;
 mod replay;
 mod reproduce;
 mod score;
+mod shell;
 mod simulate;
 mod solve;
+mod validate;
 mod window;
 
 use clap::{Parser, Subcommand};
@@ -67,16 +71,20 @@ Examples:
       an organ from a segmented volume
   palpate reproduce table-3-1
       a published table beside ours
+  palpate examples .
+      writes scenes, motions, tasks, problems and a recording, to begin from
+  palpate validate scene.toml
+      what a file is, and whether it is right
 
-Every command has its own --help. With --json a command prints one machine-readable
-document on standard output. No command replaces a file that exists without --overwrite.
-Exit status: 0 done, 2 the input has to be mended, 1 a failure.";
+Every command has its own --help. With --json a command prints one machine-readable document on standard output. No \
+command replaces a file that exists without --overwrite. Exit status: 0 done, 2 the input has to be mended, 1 a \
+failure.";
 
 /// Soft-tissue touch, from the first indentation to the trained hand.
 ///
 /// Without a command, the window opens; where there is no display, a demonstration runs.
 #[derive(Debug, Parser)]
-#[command(name = "palpate", version, after_help = EXAMPLES, disable_help_subcommand = true)]
+#[command(name = "palpate", version, long_version = output::LONG_VERSION, after_help = EXAMPLES, disable_help_subcommand = true)]
 #[command(args_conflicts_with_subcommands = true)]
 pub(crate) struct CommandLine {
     /// Print the licences of the libraries and fonts that this program contains.
@@ -115,6 +123,16 @@ enum Command {
     /// Look at meshes, make them smaller, convert them, make them from segmented volumes.
     #[command(subcommand)]
     Mesh(mesh::Mesh),
+    /// Say what files are, and whether they are right.
+    Validate(validate::Arguments),
+    /// Write the example files of the documentation into a folder.
+    Examples(examples::Arguments),
+    /// Tell or clear what is kept because it took long, and can be made again.
+    Cache(cache::Arguments),
+    /// Print the script by which a shell completes the command line.
+    Completions(shell::Completions),
+    /// Write manual pages into a folder.
+    Manual(shell::Manual),
 }
 
 impl CommandLine {
@@ -136,6 +154,11 @@ impl CommandLine {
             Some(Command::Quality(arguments)) => quality::run(&arguments),
             Some(Command::Devices(arguments)) => devices::run(&arguments),
             Some(Command::Mesh(command)) => mesh::run(&command),
+            Some(Command::Validate(arguments)) => validate::run(&arguments),
+            Some(Command::Examples(arguments)) => examples::run(&arguments),
+            Some(Command::Cache(arguments)) => cache::run(&arguments),
+            Some(Command::Completions(arguments)) => shell::completions(&arguments),
+            Some(Command::Manual(arguments)) => shell::manual(&arguments),
         }
     }
 }

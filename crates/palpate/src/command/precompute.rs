@@ -18,8 +18,8 @@ Examples:
   palpate precompute scene.toml --memory-gb 4 --json
       refuses what takes more than 4 GB; tells as one JSON object
 
-The hybrid model (`model.kind = \"hybrid\"`) needs this once per organ, Poisson's ratio and anchor; the
-stiffness of the tissue, tips and tools can change without it. `palpate simulate` does it by itself when it
+The hybrid model (`model.kind = \"hybrid\"`) needs this once per organ, Poisson's ratio and anchor; the \
+stiffness of the tissue, tips and tools can change without it. `palpate simulate` does it by itself when it \
 has not been done. What takes too long or too much memory becomes less with
   [model]
   mechanical_triangles = 2000         the shown surface keeps its own

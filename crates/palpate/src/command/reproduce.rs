@@ -19,9 +19,9 @@ Examples:
   palpate reproduce figure-5-1 table-3-1/solution_s
   palpate reproduce chapter-5 table-3 --out figures --json
 
-A name selects that item or row alone; any other word selects what begins with it. An item that fails
-becomes a row with the reason, and the others go on. Finished rows are printed as they come, and kept in
-rows.jsonl of the folder, one JSON object per line. A dash stands where there is no number; the note says
+A name selects that item or row alone; any other word selects what begins with it. An item that fails \
+becomes a row with the reason, and the others go on. Finished rows are printed as they come, and kept in \
+rows.jsonl of the folder, one JSON object per line. A dash stands where there is no number; the note says \
 why. Exit status: 0 when every row has a number, a figure or a reason.";
 
 #[derive(Debug, Args)]

@@ -12,6 +12,7 @@ mod crash;
 mod devices;
 mod errors;
 mod esophagus;
+mod first_steps;
 mod foreign_text;
 mod hazards;
 mod limits;

@@ -103,7 +103,8 @@ fn exact(cosine: f64) -> f64 {
     0.5 * (across * across + along * along)
 }
 
-/// Judge: Fresnel's equations. Schlick's approximation is off by at most 0.05 at an index of 1.33, close to grazing.
+/// Judge: Fresnel's equations. At an index of 1.33 Schlick's formula, with 2.01 % straight on, leaves them by at most
+/// 0.0600, at a cosine of 0.108: a property of the formula, to which rounding adds less than 0.001.
 #[test]
 fn film_reflects_as_fresnel_says_and_most_at_grazing_angles() {
     let Some(answers) = answers() else { return };
@@ -111,7 +112,7 @@ fn film_reflects_as_fresnel_says_and_most_at_grazing_angles() {
         let cosine = (view as f64 + 0.5) / VIEWS as f64;
         let off = f64::from(answer[0]) - exact(cosine);
         assert!(
-            off.abs() < 0.05,
+            off.abs() < 0.061,
             "{cosine}: {} {}",
             answer[0],
             exact(cosine)

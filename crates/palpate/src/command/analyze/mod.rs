@@ -28,7 +28,7 @@ Examples:
   palpate analyze test.txt --depth 'Extension' --depth-unit mm --force 'Load' --force-unit N
       a table of another program
 
-Steady force is the mean of the last tenth of a hold. The phase is positive when force leads depth,
+Steady force is the mean of the last tenth of a hold. The phase is positive when force leads depth, \
 the hysteresis when energy is lost.";
 
 #[derive(Debug, Args)]

@@ -37,7 +37,7 @@ Examples:
   palpate characterize liver.csv --law neo_hookean --in-loop
       with full viscoelastic runs of finite elements in the loop, for deep and fast presses
 
-Recordings that name the same organ, subject, site and indenter are one specimen and are fitted
+Recordings that name the same organ, subject, site and indenter are one specimen and are fitted \
 together. Tables of other programs are read by the names of their columns, or as --time, --depth
 and --force say. All moduli are instantaneous; g is relative to them:
 G(t) = G0 (1 - sum g (1 - exp(-t/tau))).";

@@ -20,8 +20,8 @@ Examples:
   palpate devices haply --self-test
       every Haply device answers, and pushes a hand with 0.2 N right, up and toward it: hold the handle
 
-The variable PALPATE_HAPLY says where the Haply Inverse Service is (HOST:PORT, or HOST:PORT,PORT with
-that of its events), PALPATE_OPENHAPTICS and PALPATE_FORCE_DIMENSION where libHD and libdhd are, if not
+The variable PALPATE_HAPLY says where the Haply Inverse Service is (HOST:PORT, or HOST:PORT,PORT with \
+that of its events), PALPATE_OPENHAPTICS and PALPATE_FORCE_DIMENSION where libHD and libdhd are, if not \
 where the system looks for them. None of the drivers was tried on hardware yet: docs/devices.md.";
 
 #[derive(Debug, Args)]

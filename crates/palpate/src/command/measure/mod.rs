@@ -30,8 +30,8 @@ Examples:
   palpate characterize recordings/
       the tissue behind them
 
-Each stimulus is approached until first contact, pressed, withdrawn and recorded at 1 kHz. Ctrl-C withdraws
-the indenter and keeps what was recorded. A recording that is being made has the ending .part; one that was
+Each stimulus is approached until first contact, pressed, withdrawn and recorded at 1 kHz. Ctrl-C withdraws \
+the indenter and keeps what was recorded. A recording that is being made has the ending .part; one that was \
 cut short says why at its top. A window never writes over a recording, it counts on.";
 
 #[derive(Debug, Args)]

@@ -20,8 +20,8 @@ Examples:
   palpate mesh convert organ.glb organ.stl --to-unit mm
       for a program that wants millimetres
 
-Formats are named by the extensions: STL, OBJ, PLY, glTF and GLB are read; STL, OBJ, PLY and VTP (ParaView)
-are written. Corners that were written once per triangle are joined, and triangles are turned outward; what
+Formats are named by the extensions: STL, OBJ, PLY, glTF and GLB are read; STL, OBJ, PLY and VTP (ParaView) \
+are written. Corners that were written once per triangle are joined, and triangles are turned outward; what \
 was mended is told.";
 
 #[derive(Debug, Args)]

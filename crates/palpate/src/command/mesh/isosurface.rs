@@ -27,10 +27,10 @@ Examples:
   palpate mesh isosurface segmentation.nrrd --label all --out organs
       a file for each label in the folder organs
 
-The surface is closed and in one piece, also where the border of the volume cuts the organ; the steps of the
-voxels are smoothed away without loss of volume. Metres; x to the patient's left, y to the back, z to the head,
-as all organs of one volume share it. Names come from the file (TotalSegmentator, 3D Slicer) or from a file
-beside it, segmentation.json, with {\"labels\": {\"5\": \"liver\"}}. A volume has at most 400 million voxels, which take
+The surface is closed and in one piece, also where the border of the volume cuts the organ; the steps of the \
+voxels are smoothed away without loss of volume. Metres; x to the patient's left, y to the back, z to the head, \
+as all organs of one volume share it. Names come from the file (TotalSegmentator, 3D Slicer) or from a file \
+beside it, segmentation.json, with {\"labels\": {\"5\": \"liver\"}}. A volume has at most 400 million voxels, which take \
 1 GB, and a label at most 4 million triangles before they are simplified, which take 2.5 GB and minutes.";
 
 #[derive(Debug, Args)]

@@ -21,7 +21,7 @@ Examples:
   palpate mesh simplify esophagus.ply esophagus-3726.ply --triangles 3726
   palpate mesh simplify scan.stl small.stl --unit mm --triangles 5000 --json
 
-Sharp edges, borders, handles and the volume stay, and triangles become even, as mechanics wants them. The
+Sharp edges, borders, handles and the volume stay, and triangles become even, as mechanics wants them. The \
 distances are those between the two surfaces: from the original to the result and back.";
 
 #[derive(Debug, Args)]

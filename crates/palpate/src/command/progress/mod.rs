@@ -35,8 +35,8 @@ Examples:
   palpate progress --csv attempts.csv
       every measure of every attempt in a row of its own, for a program of statistics
 
-A measure is proficient when it is not worse than the mean of the experts' sessions by more than one
-standard deviation. A trainee is, after two attempts in a row that did not fail and are proficient in as
+A measure is proficient when it is not worse than the mean of the experts' sessions by more than one \
+standard deviation. A trainee is, after two attempts in a row that did not fail and are proficient in as \
 many measures as the experts themselves on average. Dates are in universal time.";
 
 #[derive(Debug, Args)]

@@ -26,7 +26,7 @@ Examples:
   palpate score session --trainee Anna
       keeps the score, too; `palpate progress` shows how Anna comes along
 
-The folder holds session.csv, and scene.toml where there was a task. Each measure is defined, with its formula
+The folder holds session.csv, and scene.toml where there was a task. Each measure is defined, with its formula \
 and its reference, in docs/theory/performance.md.";
 
 #[derive(Debug, Args)]

@@ -45,9 +45,9 @@ The keys of each kind:
   uniaxial     stretches
   solid        mesh (a surface or tetrahedra) and mesh_unit, or builtin and triangles; anchor as in
                a scene; patch = { center_m, radius_m, displacement_m, contact = \"stick\" | \"slip\" }
-All have format = 1, kind, accuracy (0.01 if not given), and tissue (a table or a file) or
-builtin_tissue, as in a scene. A key ends in its unit; depths_mm is read as well as depths_m.
-Moduli are instantaneous; only a ramp relaxes. More problems are in assets/problems."
+All have format = 1, kind, accuracy (0.01 if not given), and tissue (a table or a file) or \
+builtin_tissue, as in a scene. A key ends in its unit; depths_mm is read as well as depths_m. \
+Moduli are instantaneous; only a ramp relaxes. `palpate examples DIR` writes a problem of each kind."
 );
 
 #[derive(Debug, Args)]

@@ -20,8 +20,8 @@ Examples:
   palpate mesh info scan.glb --json
   palpate mesh info --builtin kidney --triangles 8000
 
-The report is of the mesh as it is in the file (only STL and glTF, which write a corner
-once per triangle, are welded first); what a repair would do is said in addition.
+The report is of the mesh as it is in the file (only STL and glTF, which write a corner \
+once per triangle, are welded first); what a repair would do is said in addition. \
 A faulty mesh is no error of this command: the exit status is 0 unless it cannot be read.";
 
 #[derive(Debug, Args)]

@@ -1,0 +1,293 @@
+//! `validate`: what a file is, and whether it is right, with all that it names.
+
+use std::path::{Path, PathBuf};
+
+use palpate_files::recording::ForeignColumns;
+use palpate_files::scene::{Goal, Shape, Task};
+use palpate_files::{
+    Document, Incomplete, MOST_OF_DOCUMENT, MOST_OF_TABLE, Motion, Protocol, Recording, Scene,
+    Session, Tissue, read_bytes, read_text,
+};
+use serde::Serialize;
+
+use crate::Error;
+use crate::solve::Problem;
+
+/// A file that is right.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Validated {
+    /// The file.
+    pub file: PathBuf,
+    /// What it is.
+    pub kind: Kind,
+    /// What is in it, for people.
+    pub content: String,
+    /// What deserves a look, as sentences.
+    pub warnings: Vec<String>,
+}
+
+/// What a file can be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    /// A scene without a task.
+    Scene,
+    /// A scene with a task.
+    Task,
+    /// A tissue.
+    Tissue,
+    /// A protocol of the rig.
+    Protocol,
+    /// A problem for finite elements.
+    Problem,
+    /// Poses of tools over time.
+    Motion,
+    /// Depth and force over time.
+    Recording,
+    /// What tools did and felt.
+    Session,
+    /// A surface.
+    Mesh,
+}
+
+impl Kind {
+    /// The word for people.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Scene => "scene",
+            Self::Task => "task",
+            Self::Tissue => "tissue",
+            Self::Protocol => "protocol",
+            Self::Problem => "problem",
+            Self::Motion => "motion",
+            Self::Recording => "recording",
+            Self::Session => "session",
+            Self::Mesh => "mesh",
+        }
+    }
+}
+
+/// Reads `path`, finds what it is, and reads every file that it names.
+///
+/// # Errors
+/// When it cannot be read, is none of what this project reads, or is wrong.
+pub fn validate(path: &Path) -> Result<Validated, Error> {
+    let ending = path.extension().map(|end| end.to_ascii_lowercase());
+    let read = match ending.as_ref().and_then(|end| end.to_str()) {
+        Some("toml") => document(path),
+        Some("csv" | "txt" | "tsv" | "part") => table(path),
+        Some("stl" | "obj" | "ply" | "gltf" | "glb") => mesh(path),
+        _ => Err(Error::input(format!(
+            "{}: the end of its name says none of what is read here: .toml (scene, task, tissue, protocol, problem), \
+             .csv, .tsv or .txt (motion, recording, session), .stl, .obj, .ply, .gltf or .glb (mesh)",
+            path.display()
+        ))),
+    };
+    read.map_err(|error| error.about(path))
+}
+
+fn document(path: &Path) -> Result<Validated, Error> {
+    let document = Document::parse(&read_text(path, MOST_OF_DOCUMENT)?, path)?;
+    let keys = document.open_keys(&[]);
+    // By a key that each must have.
+    match () {
+        () if keys.contains("organ") => scene(path),
+        () if keys.contains("specimen") || keys.contains("stimulus") => protocol(path),
+        () if keys.contains("kind") => problem(path),
+        () if keys.contains("tissue") => tissue(path),
+        () => Err(Error::input(format!(
+            "{}: it has neither `organ` (a scene or task), `specimen` (a protocol), `kind` (a problem) nor `tissue` \
+             (a tissue)",
+            path.display()
+        ))),
+    }
+}
+
+fn scene(path: &Path) -> Result<Validated, Error> {
+    let scene = Scene::read(path)?;
+    let mut warnings = scene.warnings.clone();
+    let (surface, said) = palpate_simulate::read_organ(&scene.organ.shape)?;
+    warnings.extend(said);
+    scene.organ.tissue.read()?;
+    for layer in &scene.organ.layers {
+        layer.tissue.read()?;
+    }
+    for neighbour in &scene.neighbours {
+        palpate_simulate::read_neighbour(neighbour)?;
+    }
+    let organ = match &scene.organ.shape {
+        Shape::Mesh { path, .. } => path.display().to_string(),
+        Shape::Builtin { organ, .. } => format!("built-in {}", organ.word()),
+    };
+    let tools: Vec<_> = scene.tools.iter().map(|tool| tool.name.as_str()).collect();
+    let triangles = surface.mesh().triangles().len();
+    let mut content = format!(
+        "{organ} of {triangles} triangles, {} model, tools {}",
+        scene.model.kind.word(),
+        tools.join(" and ")
+    );
+    let kind = match scene.task == Task::default() {
+        true => Kind::Scene,
+        false => Kind::Task,
+    };
+    if let Some(title) = &scene.task.title {
+        content = format!("{title:?}, {content}");
+    }
+    if kind == Kind::Task && scene.task.goal == Goal::Free {
+        warnings.push(
+            "the task has no goal ([task.find], [task.traction] or [task.cut]): it ends when the trainee says so"
+                .to_owned(),
+        );
+    }
+    Ok(Validated {
+        file: path.to_owned(),
+        kind,
+        content,
+        warnings,
+    })
+}
+
+fn protocol(path: &Path) -> Result<Validated, Error> {
+    let protocol = Protocol::read(path)?;
+    Ok(Validated {
+        file: path.to_owned(),
+        kind: Kind::Protocol,
+        content: format!(
+            "{} on {}",
+            counted(protocol.stimuli.len(), "stimulus", "stimuli"),
+            counted(protocol.specimens.len(), "specimen", "specimens")
+        ),
+        warnings: protocol.warnings,
+    })
+}
+
+fn problem(path: &Path) -> Result<Validated, Error> {
+    let problem = Problem::read(path)?;
+    Ok(Validated {
+        file: path.to_owned(),
+        kind: Kind::Problem,
+        content: format!(
+            "{} of {} tissue",
+            problem.kind(),
+            problem.tissue.elasticity.law()
+        ),
+        warnings: problem.warnings,
+    })
+}
+
+fn tissue(path: &Path) -> Result<Validated, Error> {
+    let tissue = Tissue::read(path)?;
+    let name = tissue.name.as_ref().map(|name| format!("{name:?}, "));
+    Ok(Validated {
+        file: path.to_owned(),
+        kind: Kind::Tissue,
+        content: format!(
+            "{}{}, {}",
+            name.unwrap_or_default(),
+            tissue.elasticity.law(),
+            match tissue.prony.len() {
+                0 => "elastic".to_owned(),
+                count => counted(count, "relaxation term", "relaxation terms"),
+            }
+        ),
+        warnings: tissue.warnings,
+    })
+}
+
+fn table(path: &Path) -> Result<Validated, Error> {
+    let bytes = read_bytes(path, MOST_OF_TABLE)?;
+    let text = String::from_utf8_lossy(&bytes);
+    let names = text
+        .lines()
+        .map(|line| line.trim_start_matches('\u{feff}').trim())
+        .find(|line| !line.is_empty() && !line.starts_with('#'))
+        .unwrap_or_default();
+    let has = |name: &str| names.split(',').any(|column| column.trim() == name);
+    match (has("tool"), text.contains("# scene_digest")) {
+        (true, true) => session(path),
+        (true, false) => motion(path),
+        (false, _) => recording(path, &text),
+    }
+}
+
+fn session(path: &Path) -> Result<Validated, Error> {
+    let session = Session::read(path)?;
+    let rows = session.rows.iter();
+    Ok(Validated {
+        file: path.to_owned(),
+        kind: Kind::Session,
+        content: format!(
+            "tools {}, {} model, {} to {:.3} s",
+            session.tools.join(" and "),
+            session.header.model.word(),
+            counted(session.rows.len(), "row", "rows"),
+            rows.map(|row| row.time_s).fold(0.0, f64::max)
+        ),
+        warnings: said(session.incomplete.as_ref()),
+    })
+}
+
+fn motion(path: &Path) -> Result<Validated, Error> {
+    let motion = Motion::read(path)?;
+    let names: Vec<_> = motion.tools().iter().map(|tool| tool.name()).collect();
+    let mut warnings = motion.warnings().to_vec();
+    warnings.extend(said(motion.incomplete()));
+    Ok(Validated {
+        file: path.to_owned(),
+        kind: Kind::Motion,
+        content: format!(
+            "tools {}, {:.3} to {:.3} s",
+            names.join(" and "),
+            motion.first_time_s(),
+            motion.final_time_s()
+        ),
+        warnings,
+    })
+}
+
+fn recording(path: &Path, text: &str) -> Result<Validated, Error> {
+    let recording = match Recording::says_format(text) {
+        true => Recording::read(path)?,
+        false => Recording::read_foreign(path, &ForeignColumns::default())?,
+    };
+    let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
+    let mut warnings = recording.remarks().to_vec();
+    warnings.extend(said(recording.incomplete()));
+    Ok(Validated {
+        file: path.to_owned(),
+        kind: Kind::Recording,
+        content: format!(
+            "{}, to {:.3} mm and {:.4} N in {:.3} s",
+            counted(recording.time_s().len(), "sample", "samples"),
+            1e3 * largest(recording.depth_m()),
+            largest(recording.force_n()),
+            largest(recording.time_s())
+        ),
+        warnings,
+    })
+}
+
+fn mesh(path: &Path) -> Result<Validated, Error> {
+    let shape = Shape::Mesh {
+        path: path.to_owned(),
+        unit: None,
+    };
+    let (surface, warnings) = palpate_simulate::read_organ(&shape)?;
+    Ok(Validated {
+        file: path.to_owned(),
+        kind: Kind::Mesh,
+        content: format!(
+            "a closed surface of {} triangles; `palpate mesh info` says more",
+            surface.mesh().triangles().len()
+        ),
+        warnings,
+    })
+}
+
+fn said(incomplete: Option<&Incomplete>) -> Vec<String> {
+    incomplete.map(Incomplete::to_string).into_iter().collect()
+}
+
+fn counted(count: usize, one: &str, many: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { many })
+}

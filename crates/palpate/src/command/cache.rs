@@ -1,0 +1,103 @@
+//! `palpate cache`: what is kept because it took long, and can be made again.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use palpate_jobs::preparation::folder;
+use serde::Serialize;
+
+use crate::failure::Failure;
+use crate::output;
+
+/// Examples at the end of the help.
+const EXAMPLES: &str = "\
+Examples:
+  palpate cache
+      where it is, how many prepared organs it holds, and how large it is
+  palpate cache --clear
+      removes them; each is made again when it is needed
+
+It is in the system's folder for what can be made again, or where PALPATE_CACHE says.";
+
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Arguments {
+    /// Remove what is kept.
+    #[arg(long)]
+    clear: bool,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+/// The end of the name of a prepared organ.
+const RESPONSE: &str = "response";
+
+/// What is printed for a program.
+#[derive(Debug, Serialize)]
+struct Answer {
+    palpate: &'static str,
+    folder: PathBuf,
+    files: usize,
+    bytes: u64,
+    cleared: bool,
+}
+
+/// Tells, and clears if asked to.
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let folder = folder().ok_or_else(|| {
+        Failure::failed(
+            "the system names no folder for what can be made again; name one by PALPATE_CACHE",
+        )
+    })?;
+    let kept = responses(&folder)?;
+    let bytes = kept.iter().map(|(_, bytes)| bytes).sum();
+    if arguments.clear {
+        for (file, _) in &kept {
+            fs::remove_file(file).map_err(|error| unusable(file, &error))?;
+        }
+    }
+    let answer = Answer {
+        palpate: output::VERSION,
+        folder,
+        files: kept.len(),
+        bytes,
+        cleared: arguments.clear,
+    };
+    match arguments.json {
+        true => output::json(&answer),
+        false => output::line(format!(
+            "{}: {} prepared organ{}, {:.1} MB{}",
+            answer.folder.display(),
+            answer.files,
+            if answer.files == 1 { "" } else { "s" },
+            1e-6 * answer.bytes as f64,
+            if answer.cleared { ", removed" } else { "" }
+        )),
+    }
+}
+
+/// The prepared organs of a folder with their sizes [B]; other files are not this program's.
+fn responses(folder: &Path) -> Result<Vec<(PathBuf, u64)>, Failure> {
+    let entries = match fs::read_dir(folder) {
+        Ok(entries) => entries,
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
+        Err(error) => return Err(unusable(folder, &error)),
+    };
+    let mut found = Vec::new();
+    for entry in entries {
+        let entry = entry.map_err(|error| unusable(folder, &error))?;
+        let path = entry.path();
+        let known = entry.metadata().map_err(|error| unusable(&path, &error))?;
+        if known.is_file() && path.extension().is_some_and(|end| end == RESPONSE) {
+            found.push((path, known.len()));
+        }
+    }
+    found.sort();
+    Ok(found)
+}
+
+fn unusable(path: &Path, error: &std::io::Error) -> Failure {
+    Failure::failed(format!("{}: {error}", path.display()))
+}

@@ -1,0 +1,179 @@
+//! `palpate examples`: the example files of the documentation, written into a folder.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use palpate_files::{Claim, write_whole};
+
+use super::overwrite::OverwriteOption;
+use crate::failure::Failure;
+use crate::output;
+
+/// Examples at the end of the help.
+const EXAMPLES: &str = "\
+Examples:
+  palpate examples .
+      writes all of them into this folder; the commands of the documentation then run here
+  palpate examples examples --overwrite
+      replaces those that were changed
+
+Every file says at its top what it is for. `palpate validate FILE` checks one after you changed it.";
+
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Arguments {
+    /// The folder; it is made where there is none.
+    #[arg(value_name = "DIR")]
+    folder: PathBuf,
+    #[command(flatten)]
+    overwrite: OverwriteOption,
+}
+
+/// A file with the sentence that is printed beside its name.
+struct Example {
+    file: &'static str,
+    text: &'static str,
+    what: &'static str,
+}
+
+macro_rules! example {
+    ($file:literal, $source:literal, $what:literal) => {
+        Example {
+            file: $file,
+            text: include_str!(concat!("../../../../assets/", $source)),
+            what: $what,
+        }
+    };
+}
+
+const ALL: &[Example] = &[
+    example!(
+        "scene.toml",
+        "first/scene.toml",
+        "a hemisphere under a probe"
+    ),
+    example!(
+        "motion.csv",
+        "first/motion.csv",
+        "the probe goes 3 mm deep, holds and comes back"
+    ),
+    example!(
+        "closed-loop.toml",
+        "first/closed-loop.toml",
+        "a block of the tissue that was found"
+    ),
+    example!(
+        "liver-4mm.csv",
+        "first/liver-4mm.csv",
+        "a table of depth and force of another program, to be fitted"
+    ),
+    example!(
+        "esophagus/scene.toml",
+        "esophagus/scene.toml",
+        "the lower esophagus under a probe"
+    ),
+    example!(
+        "esophagus/motion.csv",
+        "esophagus/motion.csv",
+        "a motion on it"
+    ),
+    example!(
+        "esophagus/trainer.toml",
+        "esophagus/trainer.toml",
+        "the scene of free play: grasper and scissors"
+    ),
+    example!(
+        "esophagus/myotomy.csv",
+        "esophagus/myotomy.csv",
+        "two strokes through its muscle"
+    ),
+    example!(
+        "esophagus/palpate.csv",
+        "esophagus/palpate.csv",
+        "a probe slides along it"
+    ),
+    example!(
+        "esophagus/pull.csv",
+        "esophagus/pull.csv",
+        "a grasper pulls it"
+    ),
+    example!(
+        "tasks/palpation.toml",
+        "tasks/palpation.toml",
+        "a task: find the lump"
+    ),
+    example!(
+        "tasks/traction.toml",
+        "tasks/traction.toml",
+        "a task: an even pull"
+    ),
+    example!(
+        "tasks/traction-demonstration.csv",
+        "tasks/traction-demonstration.csv",
+        "a session of it, which is a motion too"
+    ),
+    example!(
+        "tasks/myotomy.toml",
+        "tasks/myotomy.toml",
+        "a task: cut the muscle and leave the mucosa"
+    ),
+    example!(
+        "problems/punch.toml",
+        "problems/punch.toml",
+        "a flat punch on a block"
+    ),
+    example!(
+        "problems/ramp.toml",
+        "problems/ramp.toml",
+        "a ramp and a hold over time"
+    ),
+    example!(
+        "problems/hemisphere.toml",
+        "problems/hemisphere.toml",
+        "a patch on a hemisphere"
+    ),
+    example!(
+        "problems/tube.toml",
+        "problems/tube.toml",
+        "a tube under pressure"
+    ),
+    example!(
+        "problems/uniaxial.toml",
+        "problems/uniaxial.toml",
+        "a stretched bar"
+    ),
+    example!(
+        "problems/kidney.toml",
+        "problems/kidney.toml",
+        "an organ, held and moved"
+    ),
+];
+
+/// Writes them all, or none where one is there.
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let path = |example: &Example| arguments.folder.join(example.file);
+    let rule = arguments.overwrite.rule();
+    for example in ALL {
+        make_folder(path(example).parent().unwrap_or(&arguments.folder))?;
+    }
+    let claims = Claim::of_files(ALL.iter().map(path), rule)?;
+    for example in ALL {
+        write_whole(path(example), example.text.as_bytes())?;
+    }
+    drop(claims);
+    let widest = ALL.iter().map(|example| example.file.len()).max();
+    let widest = widest.unwrap_or_default();
+    for Example { file, what, .. } in ALL {
+        output::line(format!("{file:widest$}  {what}"))?;
+    }
+    output::line(format!("written into {}", arguments.folder.display()))
+}
+
+fn make_folder(folder: &Path) -> Result<(), Failure> {
+    std::fs::create_dir_all(folder).map_err(|error| {
+        Failure::failed(format!(
+            "{}: the folder cannot be made: {error}",
+            folder.display()
+        ))
+    })
+}
