@@ -66,8 +66,9 @@ fn laws() -> [Arc<dyn Law>; 3] {
     ]
 }
 
-/// Judge: the same body on a grid that does not know the edge, with every element halved. Tolerance: what is asked for; the grid is
-/// off by less, as it and the one before it extrapolate.
+/// Judges: the same body on grids that do not know the edge, to six radii with every element halved, and at eight as it is, for
+/// halved grids do not go on to there under every law. Tolerance: what is asked for; the halved grid is off by less, as it
+/// and the one before it extrapolate, and the other by as much.
 #[test]
 #[ignore = "slow: eight minutes"]
 fn punches_go_on_to_eight_radii() {
@@ -79,22 +80,24 @@ fn punches_go_on_to_eight_radii() {
     {
         let problem = punch(side, law);
         let found = solve(&problem, &depths, ASKED, &mut |_| {}).unwrap();
-        println!(
-            "{:?} {side:?}: error {:.4}, {:?}",
-            problem.law, found.error, found.warnings
+        let what = format!("{:?} {side:?}", problem.law);
+        println!("{what}: error {:.4}, {:?}", found.error, found.warnings);
+        assert!(
+            found.error <= ASKED && found.warnings.is_empty(),
+            "{what}: {found:?}"
         );
-        assert!(found.error <= ASKED && found.warnings.is_empty());
-        let mut grid = on_grid(&problem, depths[5], 1);
-        for point in &found.answer.points {
+        let [mut usual, mut halved] = [0, 1].map(|halvings| on_grid(&problem, depths[5], halvings));
+        for (i, point) in found.answer.points.iter().enumerate() {
+            let grid = if i < 5 { &mut halved } else { &mut usual };
             let judge = grid.press(point.depth, point.depth, |_| {}).unwrap();
             let off = point.force / judge.force - 1.0;
             println!(
-                "  {:.4} m: {:.3} of {:.3}, {off:.4}",
+                "  {:.4} m: {:.3}, {off:.4}",
                 point.depth,
-                point.force / UNIT,
-                judge.force / UNIT
+                point.force / UNIT
             );
-            assert!(off.abs() < ASKED, "{side:?} at {}: {off}", point.depth);
+            let allowed = if i < 5 { ASKED } else { 2.0 * ASKED };
+            assert!(off.abs() < allowed, "{what} at {}: {off}", point.depth);
         }
     }
 }

@@ -144,7 +144,7 @@ fn add_costs(rows: &mut Rows<'_>, gpu: &Gpu) -> Result<(), Failure> {
             reach: 0.3,
         };
         let time = measure(|| {
-            renderer.draw(gpu, &view, (&[&body], &[tool.clone()]), &target);
+            renderer.draw(gpu, &view, (&[&body], std::slice::from_ref(&tool)), &target);
             gpu.wait()
         })?;
         let value = Value {
