@@ -18,6 +18,7 @@ use toml::Value;
 
 use crate::documents;
 use crate::failure::Failure;
+use crate::fits;
 use crate::waiting::{Told, waiting};
 
 /// Why a thread unwinds.
@@ -116,19 +117,22 @@ pub(crate) fn _analyze(
     })
 }
 
-/// `palpate characterize`: the answer, and the tissue of each specimen or why there is none.
+/// What a characterization comes with: the answer, tissues, and what was fitted of each specimen.
+type Fitted<'py> = (String, Vec<FoundTissue>, Vec<Vec<Bound<'py, PyDict>>>);
+
+/// `palpate characterize`: the answer, the tissue of each specimen or why there is none, and what was fitted.
 #[pyfunction]
 #[pyo3(signature = (recordings, choice, study=None, progress=None))]
-pub(crate) fn _characterize(
-    py: Python<'_>,
+pub(crate) fn _characterize<'py>(
+    py: Python<'py>,
     recordings: &str,
     choice: (Option<String>, Option<usize>, usize, u64, bool),
     study: Option<(PathBuf, bool)>,
     progress: Option<Py<PyAny>>,
-) -> PyResult<(String, Vec<FoundTissue>)> {
+) -> PyResult<Fitted<'py>> {
     let recordings = asked(recordings)?;
     let (law, terms, draws, seed, in_loop) = choice;
-    waiting(py, progress, move |told| {
+    let (answer, tissues, fits) = waiting(py, progress, move |told| {
         let choice = Choice {
             law: law.as_deref().map(Choice::law_named).transpose()?,
             terms,
@@ -146,8 +150,14 @@ pub(crate) fn _characterize(
             Ok(text) => (Some(text), None),
             Err(why) => (None, Some(why)),
         });
-        Ok((json_text(&found.answer)?, tissues.collect()))
-    })
+        let tissues: Vec<FoundTissue> = tissues.collect();
+        Ok((json_text(&found.answer)?, tissues, found.samples))
+    })?;
+    let each = fits.into_iter().map(|specimen| {
+        let recordings = specimen.into_iter();
+        recordings.map(|own| fits::samples(py, own)).collect()
+    });
+    Ok((answer, tissues, each.collect::<PyResult<_>>()?))
 }
 
 /// The specimens among `recordings`, what each is called and its files; and the sentences about what cannot be used.
@@ -235,6 +245,7 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(_solve, module)?)?;
     module.add_function(wrap_pyfunction!(_analyze, module)?)?;
     module.add_function(wrap_pyfunction!(_characterize, module)?)?;
+    module.add_function(wrap_pyfunction!(fits::_evaluate, module)?)?;
     module.add_function(wrap_pyfunction!(_specimens, module)?)?;
     module.add_function(wrap_pyfunction!(_measure, module)?)?;
     module.add_function(wrap_pyfunction!(_precompute, module)?)?;

@@ -15,6 +15,7 @@
 
 mod documents;
 mod failure;
+mod fits;
 mod frames;
 mod isosurface;
 mod jobs;

@@ -10,6 +10,8 @@ pub struct Correlations {
     pub names: Vec<String>,
     /// Their correlations [-].
     pub matrix: DMatrix<f64>,
+    /// Their covariance [products of their units].
+    pub covariance: DMatrix<f64>,
 }
 
 impl Correlations {
@@ -18,11 +20,12 @@ impl Correlations {
         let chosen: Vec<usize> = (0..names.len())
             .filter(|&i| covariance[(i, i)] > 0.0)
             .collect();
-        let matrix = DMatrix::from_fn(chosen.len(), chosen.len(), |row, column| {
-            let (i, j) = (chosen[row], chosen[column]);
-            covariance[(i, j)] / (covariance[(i, i)] * covariance[(j, j)]).sqrt()
-        });
+        let covariance = covariance.select_rows(&chosen).select_columns(&chosen);
+        let errors = covariance.diagonal().map(f64::sqrt);
+        let matrix = covariance
+            .map_with_location(|row, column, value| value / (errors[row] * errors[column]));
         Self {
+            covariance,
             names: chosen.iter().map(|&i| names[i].clone()).collect(),
             matrix,
         }
@@ -30,7 +33,7 @@ impl Correlations {
 }
 
 impl LawDescription {
-    /// Correlations of its parameters and of gᵢ and τᵢ of the relaxation it was found with.
+    /// Correlations and covariance of its parameters and of gᵢ and τᵢ of the relaxation it was found with.
     pub fn correlations(&self) -> Correlations {
         let own = in_its_parameters(&self.found);
         let [covariance, _] = self.uncertainty.of_all(own.parameters.len());
@@ -40,13 +43,16 @@ impl LawDescription {
             .map(|p| p.value)
             .collect();
         let whole = 1.0 + ratios.iter().sum::<f64>();
-        // gᵢ = ρᵢ/(1 + Σ ρ); a correlation of ln τ is one of τ.
+        let times = own.parameters.iter().skip(3).step_by(2);
+        let times: Vec<f64> = times.map(|p| p.value.exp()).collect();
+        // gᵢ = ρᵢ/(1 + Σ ρ); the fit has ln τ.
         let mut to_terms = DMatrix::identity(own.parameters.len(), own.parameters.len());
         for (i, ratio) in ratios.iter().enumerate() {
             for j in 0..ratios.len() {
                 let own = if i == j { 1.0 } else { 0.0 };
                 to_terms[(2 + 2 * i, 2 + 2 * j)] = (own - ratio / whole) / whole;
             }
+            to_terms[(3 + 2 * i, 3 + 2 * i)] = times[i];
         }
         let of_terms = (1..=ratios.len()).flat_map(|i| [format!("g_{i}"), format!("tau_{i}_s")]);
         let of_law = own.parameters[..2].iter().map(|p| p.name.clone());
@@ -55,7 +61,7 @@ impl LawDescription {
         let off = quasi_linear(1.0 - 1.0 / whole);
         for (i, ratio) in ratios.iter().enumerate() {
             covariance[(2 + 2 * i, 2 + 2 * i)] += even(off * ratio / whole);
-            covariance[(3 + 2 * i, 3 + 2 * i)] += even(off);
+            covariance[(3 + 2 * i, 3 + 2 * i)] += even(off * times[i]);
         }
         Correlations::of(of_law.chain(of_terms).collect(), &covariance)
     }

@@ -20,6 +20,8 @@ pub struct LawFit {
     pub forces: Vec<Vec<f64>>,
     /// How many runs of finite elements it took.
     pub solves: usize,
+    /// Elastic force per unit of the modulus at the shape that was found.
+    pub curve: UnitCurve,
     /// Part of the force that the elements may be off [-].
     pub discretisation: f64,
     /// Part of the force that is off because it is taken for an elastic one times G(t), at any depth [-].
@@ -221,6 +223,7 @@ fn found(
         forces,
         solves: curves.solves(),
         discretisation: curve.discretisation,
+        curve: curve.clone(),
         others: Vec::new(),
     }
 }

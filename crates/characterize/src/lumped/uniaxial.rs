@@ -77,7 +77,7 @@ impl UniaxialFit {
     /// Where the law has no stress: at no stretch above zero, or where an exponential overflows.
     pub fn nominal_stress(&self, stretch: f64) -> Result<f64, Error> {
         let values: Vec<f64> = self.fit.parameters.iter().map(|p| p.value).collect();
-        Ok(stress(self.law, &values, stretch)?)
+        Ok(uniaxial_stress(self.law, &values, stretch)?)
     }
 }
 
@@ -170,7 +170,7 @@ fn nearest(law: SoughtLaw, stretches: &[f64], stresses: &[f64], least: f64) -> R
             for (residual, (&stretch, known)) in
                 residuals.iter_mut().zip(stretches.iter().zip(stresses))
             {
-                *residual = stress(law, p, stretch).ok()? - known;
+                *residual = uniaxial_stress(law, p, stretch).ok()? - known;
             }
             Some(())
         },
@@ -193,7 +193,7 @@ fn start(
         let unit: Vec<f64> = law.parameters(1.0, shape).iter().map(|p| p.value).collect();
         let (mut products, mut squares) = (0.0, 0.0);
         for (&stretch, known) in stretches.iter().zip(stresses) {
-            let own = stress(law, &unit, stretch).unwrap_or(f64::INFINITY);
+            let own = uniaxial_stress(law, &unit, stretch).unwrap_or(f64::INFINITY);
             products += own * known;
             squares += own * own;
         }
@@ -215,7 +215,14 @@ fn start(
 
 /// Nominal stress [Pa] of a law with these parameters, also where they are none of a tissue: it is linear in
 /// all but α.
-fn stress(law: SoughtLaw, p: &[f64], stretch: f64) -> Result<f64, palpate_mechanics::Error> {
+///
+/// # Errors
+/// At a stretch where the law has no stress.
+pub fn uniaxial_stress(
+    law: SoughtLaw,
+    p: &[f64],
+    stretch: f64,
+) -> Result<f64, palpate_mechanics::Error> {
     let of = |law: &dyn Law| nominal_stress(law, stretch);
     match law {
         SoughtLaw::NeoHookean => Ok(p[0] * of(&NeoHookean::incompressible(1.0)?)?),

@@ -1,7 +1,7 @@
 //! Recordings beside what was found from them.
 
 use palpate_characterize::fit::Random;
-use palpate_characterize::inverse::{PUNCH, SoughtLaw};
+use palpate_characterize::inverse::{Correlations, ElasticForce, PUNCH, SoughtLaw};
 use palpate_characterize::{Characterization, CharacterizeSettings, CleanRecording};
 use palpate_characterize::{CleanSettings, characterize, clean};
 use palpate_files::Recording;
@@ -129,4 +129,81 @@ fn correlations_are_those_of_the_law() {
     let criteria = found.criteria();
     assert_eq!(criteria.len(), 1);
     assert_eq!(criteria[0].0, SoughtLaw::MooneyRivlin);
+}
+
+/// Judge: at its own depths a law that was found gives the forces of its fit, and its standard error is half the
+/// difference between forces of tissue whose parameter is one standard error more and less.
+#[test]
+fn forces_of_a_found_law_and_their_errors_are_those_of_its_parameters() {
+    let recordings = [recording(1)];
+    let found = found(&recordings, SoughtLaw::MooneyRivlin);
+    let law = found.laws[0].1.as_ref().unwrap();
+    let own = &found.fitted(&recordings, 0.95)[0];
+    let of = |values: &[f64]| values[own.samples.clone()].to_vec();
+    let (time, depth) = (of(&recordings[0].time), of(&recordings[0].depth));
+    let series = &found.relaxation.as_ref().unwrap().series;
+    let known = law.correlations();
+    let elastic = law.elastic();
+    let evaluated = |elastic: &ElasticForce, series: &PronySeries, known: &Correlations| {
+        elastic.evaluate(Some(&time), &depth, (series, known))
+    };
+    let forces = evaluated(&elastic, series, &known);
+    let largest = forces.iter().map(|own| own[0]).fold(0.0, f64::max);
+    for (own, fitted) in forces.iter().zip(&law.found.forces[0]) {
+        assert!((own[0] - fitted).abs() < 1e-12 * largest);
+    }
+    let alone = |name: &str, size: f64| {
+        let covariance = nalgebra::DMatrix::from_element(1, 1, size * size);
+        Correlations::of(vec![name.to_owned()], &covariance)
+    };
+    // Of the law: the elastic force is that of moved parameters.
+    let shape = law.found.shape();
+    for (name, curve) in &elastic.by_parameter {
+        let size = 1e-4 * law.found.modulus() * (1.0 - shape);
+        let moved = |sign: f64| {
+            let points = elastic.force.points();
+            let points = points.map(|(d, force)| (d, force + sign * size * curve.force(d)));
+            let (depths, forces): (Vec<f64>, Vec<f64>) = points.unzip();
+            let force = IndentationCurve::through(&depths, &forces);
+            let by_parameter = Vec::new();
+            let moved = ElasticForce {
+                force,
+                by_parameter,
+            };
+            evaluated(&moved, series, &known)
+        };
+        compare(
+            &moved(1.0),
+            &moved(-1.0),
+            &evaluated(&elastic, series, &alone(name, size)),
+        );
+    }
+    for (place, &(g, tau)) in series.terms().iter().enumerate() {
+        let moved = |by: [f64; 2]| {
+            let mut terms = series.terms().to_vec();
+            terms[place] = (g + by[0], tau + by[1]);
+            evaluated(&elastic, &PronySeries::new(&terms).unwrap(), &known)
+        };
+        let (g_name, tau_name) = (format!("g_{}", place + 1), format!("tau_{}_s", place + 1));
+        let size = 1e-4;
+        let own = evaluated(&elastic, series, &alone(&g_name, size));
+        compare(&moved([size, 0.0]), &moved([-size, 0.0]), &own);
+        let own = evaluated(&elastic, series, &alone(&tau_name, size));
+        compare(&moved([0.0, size]), &moved([0.0, -size]), &own);
+    }
+}
+
+/// Central differences are right to the square of a step of 1e-4; monotone cubics through moved forces are not quite
+/// the moved cubics, by less than 1e-2 of the change.
+fn compare(more: &[[f64; 2]], less: &[[f64; 2]], known: &[[f64; 2]]) {
+    let largest = known.iter().map(|own| own[1]).fold(0.0, f64::max);
+    assert!(largest > 0.0);
+    for ((more, less), known) in more.iter().zip(less).zip(known) {
+        let half = 0.5 * (more[0] - less[0]).abs();
+        assert!(
+            (half - known[1]).abs() < 1e-2 * largest,
+            "{half} {}",
+            known[1]
+        );
+    }
 }

@@ -5,7 +5,7 @@ use palpate_files::Tissue;
 use serde::{Deserialize, Serialize};
 
 use super::answer::{Specimen, former};
-use super::portrait::Portrait;
+use super::portrait::{DrawnFit, Portrait, all_samples};
 use crate::VERSION;
 
 /// One specimen with its recordings and all that was found.
@@ -26,6 +26,10 @@ pub(crate) struct Finished {
     pub(crate) tissue: Result<String, String>,
     /// What a report draws of it.
     pub(crate) portrait: Portrait,
+    /// What was fitted of each recording, with its file, at every sample: not in a study's folder, which would grow
+    /// by a hundred times.
+    #[serde(skip)]
+    pub(crate) samples: Vec<(String, DrawnFit)>,
 }
 
 impl Finished {
@@ -34,6 +38,7 @@ impl Finished {
         Self {
             specimen: Specimen::new(studied),
             portrait: Portrait::of(studied),
+            samples: all_samples(studied),
             tissue: tissue
                 .map(|tissue| tissue.to_toml())
                 .map_err(|why| why.to_string()),

@@ -1,6 +1,7 @@
 //! The tissue behind recordings, specimen by specimen, with how well it is known.
 
 mod answer;
+mod evaluation;
 mod finished;
 mod folder;
 mod pooled;
@@ -16,9 +17,10 @@ use palpate_characterize::inverse::{LEAST_DRAWS, SoughtLaw};
 use palpate_characterize::viscoelastic::RelaxationSettings;
 
 pub use answer::{
-    Answer, Identified, Known, LawAnswer, LumpedAnswer, Modulus, Named, Noise, Partner,
-    RelaxationAnswer, Specimen, Steps, Tried,
+    Answer, CovarianceAnswer, ElasticAnswer, FitAnswer, Identified, Known, LawAnswer, LumpedAnswer,
+    Modulus, Named, Noise, Partner, RelaxationAnswer, Specimen, Steps, Tried,
 };
+pub use evaluation::FoundLaw;
 pub use folder::StudyFolder;
 pub use pooled::Pooled;
 pub use portrait::{
@@ -117,6 +119,9 @@ pub struct Characterized {
     pub answer: Answer,
     /// What is drawn of each specimen.
     pub portraits: Vec<Portrait>,
+    /// What was fitted of each recording of each specimen, with its file: every sample, or of a study those that its
+    /// folder keeps.
+    pub samples: Vec<Vec<(String, DrawnFit)>>,
     /// The text of the tissue file of each specimen, or why there is none.
     pub tissues: Vec<Result<String, String>>,
 }
@@ -161,10 +166,14 @@ pub fn characterize(
     let headers: Vec<_> = read.iter().map(|read| &read.clean.header).collect();
     choice.check_loop(palpate_characterize::specimens(&headers).len())?;
     let finished = study::of(read, &choice.settings(), folder, watch)?;
-    let mut tissues = Vec::new();
+    let (mut tissues, mut samples) = (Vec::new(), Vec::new());
     let (specimens, portraits): (Vec<_>, Vec<_>) = finished
         .into_iter()
         .map(|finished| {
+            samples.push(match folder {
+                Some(_) => finished.portrait.fitted(),
+                None => finished.samples,
+            });
             tissues.push(finished.tissue);
             (finished.specimen, finished.portrait)
         })
@@ -176,6 +185,7 @@ pub fn characterize(
     Ok(Characterized {
         answer,
         portraits,
+        samples,
         tissues,
     })
 }

@@ -108,11 +108,6 @@ const ALL: &[Example] = &[
         "a task: an even pull"
     ),
     example!(
-        "tasks/traction-demonstration.csv",
-        "tasks/traction-demonstration.csv",
-        "a session of it, which is a motion too"
-    ),
-    example!(
         "tasks/myotomy.toml",
         "tasks/myotomy.toml",
         "a task: cut the muscle and leave the mucosa"

@@ -33,7 +33,6 @@ fn examples_are_valid() {
         let kind = valid["kind"].as_str().unwrap();
         let expected = match file {
             "liver-4mm.csv" => "recording",
-            _ if file.ends_with("-demonstration.csv") => "session",
             _ if file.ends_with(".csv") => "motion",
             _ if file.starts_with("tasks/") || file.ends_with("trainer.toml") => "task",
             _ if file.starts_with("problems/") => "problem",

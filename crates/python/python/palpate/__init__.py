@@ -19,12 +19,11 @@ from palpate._palpate import (
     isosurface,
 )
 from palpate.errors import InputError, PalpateError
+from palpate.fits import Characterization, FittedRecording, Law, Parameter, Relaxation, Specimen
 from palpate.jobs import (
     Analysis,
-    Characterization,
     Measurement,
     Solution,
-    Specimen,
     analyze,
     characterize,
     default_protocol,
@@ -36,12 +35,16 @@ from palpate.jobs import (
 __all__ = [
     "Analysis",
     "Characterization",
+    "FittedRecording",
     "InputError",
+    "Law",
     "Measurement",
     "Mesh",
     "Motion",
     "PalpateError",
+    "Parameter",
     "Recording",
+    "Relaxation",
     "Scene",
     "Session",
     "Simulation",

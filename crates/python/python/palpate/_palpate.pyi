@@ -25,6 +25,7 @@ __all__ = [
     "_analyze",
     "_characterize",
     "_default_protocol",
+    "_evaluate",
     "_measure",
     "_precompute",
     "_solve",
@@ -358,7 +359,8 @@ def _characterize(
     choice: tuple[str | None, int | None, int, int, bool],
     study: tuple[_Path, bool] | None = None,
     progress: _Progress = None,
-) -> tuple[str, list[tuple[str | None, str | None]]]: ...
+) -> tuple[str, list[tuple[str | None, str | None]], list[list[dict[str, Any]]]]: ...
+def _evaluate(law: str, time: ArrayLike | None, course: ArrayLike) -> tuple[_Floats, _Floats]: ...
 def _specimens(recordings: str) -> tuple[list[tuple[str, list[Path]]], list[str]]: ...
 def _measure(
     protocol: tuple[Path, str | None] | None, out: tuple[Path, bool], seed: int, progress: _Progress = None

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from palpate import _palpate
+from palpate.fits import Characterization
 
 if TYPE_CHECKING:
     import matplotlib.axes
@@ -43,87 +44,6 @@ class Solution(dict[str, Any]):
         from palpate import drawing
 
         return drawing.draw(self._plot, axes)
-
-
-class Specimen(dict[str, Any]):
-    """One specimen of a `Characterization`: the entry of ``specimens`` that ``--json`` prints.
-
-    ``specimen.laws[specimen.preferred]`` is the preferred law; ``specimen[specimen.preferred]`` is the same.
-
-    The keys of the first version (``specimen["neo_hookean"]``, ``["mooney_rivlin"]``, ``["exponential"]``,
-    ``["kelvin"]``, ``["nonlinear_springs"]``, ``["mean_elastic_modulus"]`` and ``["blatz"]``, which is
-    ``specimen.lumped["column"]``) stay for one release.
-    """
-
-    @property
-    def laws(self) -> dict[str, dict[str, Any]]:
-        """The laws that were found, by their names in a tissue's file.
-
-        Of each parameter there are ``value``, ``standard_error``, ``interval_95`` (from Student's
-        distribution) and ``verdict`` (``"known"``, ``"correlated"``, ``"hardly_known"`` or ``"on_bound"``);
-        ``profile_95`` holds the relaxation at what was found, so that the doubt about the relaxation is not in it.
-        """
-        found: dict[str, dict[str, Any]] = self["laws"]
-        return found
-
-    @property
-    def lumped(self) -> dict[str, Any]:
-        """What was found without geometry: ``kelvin``, ``column``, ``nonlinear_springs``, ``mean_elastic_modulus``."""
-        found: dict[str, Any] = self["lumped"]
-        return found
-
-    @property
-    def preferred(self) -> str | None:
-        """The name of the law to be preferred, a key of `laws`; none where no law was found."""
-        name: str | None = self["preferred"]
-        return name
-
-
-class Characterization(dict[str, Any]):
-    """What ``palpate characterize --json`` prints, and the tissues that were found.
-
-    Attributes
-    ----------
-    tissues : list of str or None
-        The text of the tissue file of each specimen.
-    reasons : list of str or None
-        Why a specimen has none.
-    """
-
-    tissues: list[str | None]
-    reasons: list[str | None]
-
-    @property
-    def specimens(self) -> list[Specimen]:
-        """The specimens, in the order of their first files."""
-        found: list[Specimen] = self["specimens"]
-        return found
-
-    def tissue(self, specimen: int = 0) -> str:
-        """Return the text of a specimen's tissue file, for ``Tissue.parse`` and scenes.
-
-        Raises
-        ------
-        PalpateError
-            When no law was found; the message says why.
-        """
-        text = self.tissues[specimen]
-        if text is None:
-            from palpate.errors import PalpateError
-
-            raise PalpateError(self.reasons[specimen] or "no law was found")
-        return text
-
-    def to_frame(self) -> pandas.DataFrame:
-        """Return a row for each specimen: its names and every number that was found.
-
-        Columns are named by their keys, such as ``laws.neo_hookean.c10_pa.value``; those of the first version, such
-        as ``neo_hookean.c10_pa.value``, stay for one release.
-        """
-        import pandas
-
-        rows = [flat(specimen) for specimen in self["specimens"]]
-        return pandas.DataFrame(rows)
 
 
 class Analysis(dict[str, Any]):
@@ -239,9 +159,9 @@ def characterize(
         ``known``: what the files do not say, such as ``{"indenter_radius_m": 0.001}``.
     """
     folder = None if study is None else (study, overwrite)
-    answer, tissues = _palpate._characterize(asked(recordings, **columns), (law, terms, draws, seed, in_loop), folder, progress)
-    found = Characterization(json.loads(answer))
-    found["specimens"] = [Specimen(specimen) for specimen in found["specimens"]]
+    choice = (law, terms, draws, seed, in_loop)
+    answer, tissues, samples = _palpate._characterize(asked(recordings, **columns), choice, folder, progress)
+    found = Characterization(json.loads(answer), samples)
     found.tissues = [text for text, _ in tissues]
     found.reasons = [why for _, why in tissues]
     return found
@@ -336,18 +256,3 @@ def asked(
 
 def _said(value: object) -> str:
     return str(value).lower() if isinstance(value, bool) else str(value)
-
-
-def flat(found: Mapping[str, Any], before: str = "") -> dict[str, Any]:
-    """Return numbers and texts of nested mappings under names with dots; of a parameter, value and error."""
-    row: dict[str, Any] = {}
-    for key, value in found.items():
-        name = f"{before}{key}"
-        if isinstance(value, Mapping):
-            row.update(flat(value, f"{name}."))
-        elif isinstance(value, list) and all(isinstance(one, Mapping) for one in value):
-            for place, one in enumerate(value, start=1):
-                row.update(flat(one, f"{name}_{place}."))
-        elif not isinstance(value, list):
-            row[name] = value
-    return row

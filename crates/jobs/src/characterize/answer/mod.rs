@@ -1,5 +1,6 @@
 //! The machine-readable answer: what stays of a characterization.
 
+mod fit;
 pub(crate) mod former;
 mod specimen;
 mod values;
@@ -12,6 +13,7 @@ use serde::Serialize;
 use super::pooled::{self, Pooled};
 use crate::{Unusable, VERSION};
 
+pub use self::fit::{CovarianceAnswer, ElasticAnswer, FitAnswer};
 pub use self::specimen::Specimen;
 pub(crate) use self::values::correlations_of_piece;
 pub use self::values::{

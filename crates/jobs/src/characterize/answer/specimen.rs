@@ -7,6 +7,7 @@ use palpate_characterize::{Characterization, CleanRecording, WithoutGeometry};
 use palpate_files::recording::RecordingHeader;
 use serde::{Deserialize, Serialize};
 
+use super::fit::{FitAnswer, fits};
 use super::values::{
     Known, LawAnswer, LumpedAnswer, Modulus, Named, RelaxationAnswer, correlations_of_piece,
 };
@@ -33,6 +34,8 @@ pub struct Specimen {
     pub relaxation: Option<RelaxationAnswer>,
     /// The laws that were found, by their names in a tissue file.
     pub laws: BTreeMap<String, LawAnswer>,
+    /// How they were fitted, by the same names.
+    pub fits: BTreeMap<String, FitAnswer>,
     /// What was found without geometry.
     pub lumped: LumpedAnswer,
     /// The law to be preferred: a key of `laws`.
@@ -73,6 +76,7 @@ impl Specimen {
             lumped: lumped(&found.without_geometry, &mut reasons),
             relaxation,
             laws,
+            fits: fits(found),
             preferred: found
                 .preferred_law()
                 .map(|law| law.name().word().to_owned()),

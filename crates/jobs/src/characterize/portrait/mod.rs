@@ -4,6 +4,8 @@
 mod of_laws;
 mod of_recordings;
 
+pub(crate) use of_recordings::all_samples;
+
 use palpate_characterize::inverse::SoughtLaw;
 use palpate_files::recording::RecordingHeader;
 use serde::{Deserialize, Serialize};
@@ -57,7 +59,7 @@ pub struct DrawnRecording {
 }
 
 /// What of a recording was fitted, beside the models.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct DrawnFit {
     /// Times [s] from first contact.
     pub time: Vec<f64>,
@@ -74,7 +76,7 @@ pub struct DrawnFit {
 }
 
 /// The curve of a law.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct DrawnCurve {
     /// By its key in the answer.
     pub law: String,
@@ -85,7 +87,7 @@ pub struct DrawnCurve {
 }
 
 /// Forces over the instantaneous elastic force at the largest depth [-].
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct DrawnRelaxation {
     /// What was measured.
     pub measured: Vec<f64>,
@@ -126,6 +128,13 @@ pub struct DrawnLaw {
 }
 
 impl Portrait {
+    /// What was fitted of each recording, with its file, at the samples that are drawn.
+    pub(crate) fn fitted(&self) -> Vec<(String, DrawnFit)> {
+        let each = self.recordings.iter();
+        each.filter_map(|own| Some((own.file.clone(), own.fitted.clone()?)))
+            .collect()
+    }
+
     pub(crate) fn of(studied: &Studied) -> Self {
         let recordings = of_recordings::drawn(studied);
         let longest = recordings.iter().filter_map(|own| own.time.last().copied());

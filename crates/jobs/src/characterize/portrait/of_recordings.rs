@@ -20,7 +20,7 @@ pub(crate) fn drawn(studied: &Studied) -> Vec<DrawnRecording> {
         DrawnRecording {
             file: file.display().to_string(),
             digest: studied.digests[place].clone(),
-            fitted: own.and_then(|own| beside(recording, &own, is_piece)),
+            fitted: own.and_then(|own| beside(recording, &own, (is_piece, kept))),
             ..alone(recording)
         }
     });
@@ -66,10 +66,24 @@ fn kind(kind: SegmentKind) -> String {
     }
 }
 
+/// What was fitted of each recording of a specimen, with its file, at every sample.
+pub(crate) fn all_samples(studied: &Studied) -> Vec<(String, DrawnFit)> {
+    let fitted = studied.found.fitted(&studied.recordings, LEVEL).into_iter();
+    let is_piece = !studied.found.uniaxial.is_empty();
+    let every = |time: &[f64], _: &[f64], _: &[f64]| (0..time.len()).collect();
+    let each = fitted.filter_map(|own| {
+        let file = studied.files[own.place].display().to_string();
+        let drawn = beside(&studied.recordings[own.place], &own, (is_piece, every))?;
+        Some((file, drawn))
+    });
+    each.collect()
+}
+
+/// A recording beside its fit, at the samples that `kept` chooses from time, course and measured values.
 fn beside(
     recording: &CleanRecording,
     fitted: &FittedRecording,
-    is_piece: bool,
+    (is_piece, kept): (bool, impl Fn(&[f64], &[f64], &[f64]) -> Vec<usize>),
 ) -> Option<DrawnFit> {
     let of = |values: &[f64]| values.get(fitted.samples.clone()).map(<[f64]>::to_vec);
     let time = of(&recording.time)?;

@@ -11,7 +11,7 @@ from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from typing import TYPE_CHECKING, Any
 
-from palpate import jobs
+from palpate import fits, jobs
 from palpate.errors import PalpateError
 from palpate.study.folder import Folder
 from palpate.study.task import Task, execute, unpacked
@@ -218,9 +218,9 @@ def _row(task: Task, answer: dict[str, Any] | None) -> dict[str, Any]:
         return row
     if task.job == "characterize":
         for specimen in answer["specimens"]:
-            row.update(jobs.flat(specimen))
+            row.update(fits.row(specimen))
         return row
-    for key, value in jobs.flat(answer).items():
+    for key, value in fits.flat(answer).items():
         row.setdefault(key, value)
     for key, value in answer.items():
         if isinstance(value, list) and value and all(isinstance(one, (int, float)) for one in value):

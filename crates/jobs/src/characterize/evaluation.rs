@@ -1,0 +1,120 @@
+//! What a law that was found gives at other depths, times or stretches.
+
+use std::collections::BTreeMap;
+
+use nalgebra::DMatrix;
+use palpate_characterize::inverse::{ElasticForce, SoughtLaw, standard_errors};
+use palpate_characterize::lumped::uniaxial_stress;
+use palpate_mechanics::{IndentationCurve, PronySeries};
+use serde::Deserialize;
+
+use super::Choice;
+use super::answer::{CovarianceAnswer, ElasticAnswer};
+use crate::Error;
+
+/// A law that was found, as its answer has it.
+#[derive(Debug, Deserialize)]
+pub struct FoundLaw {
+    /// Its name in files.
+    pub law: String,
+    /// By their keys.
+    pub values: BTreeMap<String, f64>,
+    /// Pairs of gᵢ [-] and τᵢ [s].
+    pub series: Vec<(f64, f64)>,
+    /// Of its parameters and the relaxation's.
+    pub covariance: CovarianceAnswer,
+    /// Its elastic force; null of a piece.
+    pub elastic: Option<ElasticAnswer>,
+}
+
+/// A step of a derivative of a stress, over the parameter [-]: half the digits.
+const STEP: f64 = 1e-6;
+
+impl FoundLaw {
+    /// Forces [N] at `course`, depths [m], over `time` [s] or at once without it; of a piece nominal stresses [Pa] at
+    /// stretches [-]. Each with its standard error.
+    ///
+    /// # Errors
+    /// When times and depths are not as many, times do not ascend, or a stretch is none.
+    pub fn evaluate(&self, time: Option<&[f64]>, course: &[f64]) -> Result<Vec<[f64; 2]>, Error> {
+        if let Some(time) = time {
+            self.check(time, course)?;
+        }
+        if let Some(wrong) = course.iter().find(|x| !x.is_finite()) {
+            return Err(Error::input(format!(
+                "a depth or stretch is {wrong}; give finite numbers"
+            )));
+        }
+        let Some(elastic) = &self.elastic else {
+            return self.stresses(course);
+        };
+        let through = |forces: &[f64]| IndentationCurve::through(&elastic.depth_m, forces);
+        let by = elastic.by_parameter.iter();
+        let force = ElasticForce {
+            force: through(&elastic.force_n),
+            by_parameter: by.map(|(name, own)| (name.clone(), through(own))).collect(),
+        };
+        let series = PronySeries::new(&self.series).map_err(Error::input)?;
+        let known = self.covariance.correlations();
+        Ok(force.evaluate(time, course, (&series, &known)))
+    }
+
+    fn check(&self, time: &[f64], course: &[f64]) -> Result<(), Error> {
+        if self.elastic.is_none() {
+            return Err(Error::input(
+                "times are given for a piece, whose stress is of its stretch alone; leave them out",
+            ));
+        }
+        if time.len() != course.len() {
+            return Err(Error::input(format!(
+                "there are {} times and {} depths; give as many of both",
+                time.len(),
+                course.len()
+            )));
+        }
+        if let Some(place) = (1..time.len()).find(|&i| time[i] <= time[i - 1]) {
+            return Err(Error::input(format!(
+                "time {} s follows {} s; give times that ascend",
+                time[place],
+                time[place - 1]
+            )));
+        }
+        Ok(())
+    }
+
+    fn stresses(&self, stretches: &[f64]) -> Result<Vec<[f64; 2]>, Error> {
+        let law: SoughtLaw = Choice::law_named(&self.law)?;
+        let names: Vec<&str> = law
+            .parameters(1.0, 0.0)
+            .iter()
+            .map(|own| own.name)
+            .collect();
+        let known = |name: &&str| self.values.get(*name).copied().unwrap_or(0.0);
+        let values: Vec<f64> = names.iter().map(known).collect();
+        let at = |values: &[f64]| -> Result<Vec<f64>, Error> {
+            let each = stretches.iter();
+            let each = each.map(|stretch| uniaxial_stress(law, values, *stretch));
+            each.collect::<Result<_, _>>().map_err(Error::input)
+        };
+        let known = self.covariance.correlations();
+        let mut derivatives = DMatrix::zeros(stretches.len(), known.names.len());
+        for (column, name) in known.names.iter().enumerate() {
+            let Some(place) = names.iter().position(|own| own == name) else {
+                continue;
+            };
+            let step = STEP * values[place].abs().max(STEP);
+            let [mut above, mut below] = [values.clone(), values.clone()];
+            above[place] += step;
+            below[place] -= step;
+            for (row, (above, below)) in at(&above)?.iter().zip(at(&below)?).enumerate() {
+                derivatives[(row, column)] = (above - below) / (2.0 * step);
+            }
+        }
+        let errors = standard_errors(&derivatives, &known.covariance);
+        Ok(at(&values)?
+            .into_iter()
+            .zip(errors)
+            .map(<[f64; 2]>::from)
+            .collect())
+    }
+}
