@@ -27,6 +27,7 @@ mod sensitivity;
 mod snap;
 pub mod solid;
 mod supports;
+mod surface;
 pub mod tube;
 pub mod uniaxial;
 

@@ -356,8 +356,10 @@ fn advance(
         workspace.step = step;
         let good = assembled.is_ok() && {
             workspace.trial.copy_from_slice(&trial);
-            let size = size_of_residual(model, supports, workspace).free;
-            size.is_finite() && before.is_none_or(|before| size <= before.max(1e-40))
+            let size = size_of_residual(model, supports, workspace);
+            // A body that already rests has a residual of rounding, which no step makes smaller.
+            let falls = before.is_none_or(|before| size.free <= before);
+            size.free.is_finite() && (falls || size.is_small(effort.tolerance))
         };
         // A step that turns an element inside out is too long, which does not make it a bad one.
         let shortest = if assembled.is_ok() {

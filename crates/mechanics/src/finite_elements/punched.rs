@@ -9,12 +9,11 @@
 //!
 //! *Limits*: the map's business where it folds; an element then is refused as inverted.
 
-use std::collections::BTreeMap;
-
 use super::element::ElementKind;
 use super::graded::halved;
 use super::mesh::ElementMesh;
 use super::mismatch::Mismatch;
+use super::surface::Surface;
 use crate::{Error, Vec3};
 
 /// Where the lines of the surface run. All places ascend.
@@ -31,6 +30,9 @@ pub struct PunchedLines {
     /// Heights, the last at the surface [m or as the map wants it].
     pub heights: Vec<f64>,
 }
+
+/// Places closer than this are one [m], far below any element.
+const STEP: f64 = 1e-10;
 
 /// A body of hexahedra with a circle on its surface.
 #[derive(Debug, Clone)]
@@ -149,7 +151,7 @@ impl PunchedLines {
                 (r - radius) / (wide - radius),
             )
         };
-        let mut surface = Surface::default();
+        let mut surface = Surface::new(STEP);
         surface.add(&even, &even, |u, v| [core * u, core * v]);
         surface.add(&self.inside, &even, to_circle);
         surface.add(&self.outside, &even, to_box);
@@ -177,40 +179,4 @@ fn split(line: &[f64], parts: usize) -> Vec<f64> {
         .collect();
     all.extend(line.last());
     all
-}
-
-/// Quadratic quadrilaterals in the plane.
-#[derive(Debug, Default)]
-struct Surface {
-    points: Vec<[f64; 2]>,
-    faces: Vec<[u32; 9]>,
-    /// Points by place, in steps far below any element.
-    known: BTreeMap<[i64; 2], u32>,
-}
-
-impl Surface {
-    /// Adds the block between the lines `across` and `up`.
-    fn add(&mut self, across: &[f64], up: &[f64], place: impl Fn(f64, f64) -> [f64; 2]) {
-        let (across, up) = (halved(across), halved(up));
-        for j in (0..up.len() - 1).step_by(2) {
-            for i in (0..across.len() - 1).step_by(2) {
-                let node = |n: usize| place(across[i + n % 3], up[j + n / 3]);
-                let face = std::array::from_fn(|n| self.point(node(n)));
-                self.faces.push(face);
-            }
-        }
-    }
-
-    fn point(&mut self, at: [f64; 2]) -> u32 {
-        // Neighbouring blocks differ by rounding: look on both sides of a step's end.
-        let key = at.map(|x| (x * 1e10).round() as i64);
-        let near = (-1..=1).flat_map(|i| (-1..=1).map(move |j| [key[0] + i, key[1] + j]));
-        if let Some(&number) = near.into_iter().find_map(|key| self.known.get(&key)) {
-            return number;
-        }
-        let number = self.points.len() as u32;
-        self.points.push(at);
-        self.known.insert(key, number);
-        number
-    }
 }

@@ -274,6 +274,18 @@ fn a_sliding_side_forgets_its_path() {
     assert!((direct / slow - 1.0).abs() < 1e-5, "{direct} {slow}");
 }
 
+/// A body at rest has a residual of rounding, which no iteration makes smaller; before, that ended some runs. Judge: nothing moves.
+/// Tolerance: that of Newton's method, squared in the force.
+#[test]
+fn a_held_depth_keeps_its_force() {
+    let mut run = run(bonded(), neo_hookean(), 0);
+    let first = press(&mut run, 2.0).force;
+    for _ in 0..40 {
+        let force = press(&mut run, 2.0).force;
+        assert!((force / first - 1.0).abs() < 1e-12, "{force} {first}");
+    }
+}
+
 /// Judge: energy. Work is stored, so F = dE/dd all along the curve, contacts that grow included.
 /// Tolerance: the secant over a step of 0.05 a, against F at its middle.
 #[test]

@@ -37,6 +37,7 @@ mod nonlinear_relaxation;
 mod orders;
 mod patch_on_hemisphere;
 mod path;
+mod punch_edge;
 mod real_organs;
 mod refused_input;
 mod slit;

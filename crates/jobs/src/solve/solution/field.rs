@@ -1,11 +1,11 @@
 //! Deformed bodies for ParaView: places at rest, and the displacement for `Warp By Vector`.
 
 use palpate_geometry::vtk::{CellKind, Cells, FieldValues, PointField, unstructured_grid};
-use palpate_mechanics::finite_elements::indentation::{IndentationRun, IndentationSettings};
 use palpate_mechanics::finite_elements::{FiniteElementModel, FiniteElementState};
 use palpate_mechanics::{PronySeries, Vec3};
 
 use super::super::problem::{Indentation, Loading, Problem};
+use super::indentation::mechanical;
 use crate::Error;
 
 /// Where the nodes of a row-by-row grid of nine stand in VTK's: corners, middles of the edges, centre.
@@ -18,16 +18,10 @@ pub(crate) fn of_indentation(problem: &Problem, case: &Indentation) -> Result<Ve
         Loading::Depths(depths) => depths.iter().copied().fold(0.0, f64::max),
         Loading::Ramp(ramp) => ramp.depth,
     };
-    let settings = IndentationSettings {
-        block: case.block,
-        indenter: case.indenter,
-        law: problem.material.law.clone(),
-        prony: PronySeries::default(),
-        deepest: depth,
-        halvings: 0,
-    };
     let refused = |error| problem.refused(error);
-    let mut run = IndentationRun::new(&settings).map_err(refused)?;
+    let mut run = mechanical(problem, case)
+        .run(&PronySeries::default(), depth, 1)
+        .map_err(refused)?;
     if depth > 0.0 {
         run.press(0.0, depth, |_| ()).map_err(refused)?;
     }

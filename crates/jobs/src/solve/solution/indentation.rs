@@ -198,7 +198,7 @@ fn recording(
     Ok(Recording::new(header, samples)?)
 }
 
-fn mechanical(problem: &Problem, case: &Indentation) -> IndentationProblem {
+pub(super) fn mechanical(problem: &Problem, case: &Indentation) -> IndentationProblem {
     IndentationProblem {
         block: case.block,
         indenter: case.indenter,

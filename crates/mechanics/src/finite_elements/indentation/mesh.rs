@@ -1,6 +1,7 @@
 use super::super::graded::Grading;
 use super::super::hemisphere::{Lines, QuarterDisc};
 use super::super::mesh::ElementMesh;
+use super::edge::edge_block;
 use super::indenter::{Indenter, IndenterShape};
 use super::run::IndentationSettings;
 use crate::{Error, Vec3};
@@ -67,8 +68,20 @@ impl Body {
             settings.deepest,
             settings.halvings,
         );
+        Self::of_block(mesh, block)
+    }
+
+    /// A block with elements that shrink towards the edge of a flat punch.
+    pub(super) fn around_edge(settings: &IndentationSettings, parts: usize) -> Self {
+        let mesh = edge_block(&settings.block, &settings.indenter, parts);
+        Self::of_block(mesh, &settings.block)
+    }
+
+    fn of_block(mesh: ElementMesh, block: &Block) -> Self {
+        let mut top = mesh.nodes_where(|x| x.y == 0.0);
+        top.sort_by(|&a, &b| mesh.nodes[a].x.total_cmp(&mesh.nodes[b].x));
         Self {
-            top: mesh.nodes_where(|x| x.y == 0.0),
+            top,
             bottom: mesh.nodes_where(|x| x.y == -block.height),
             axis: mesh.nodes_where(|x| x.x == 0.0),
             mesh,

@@ -10,6 +10,7 @@
 //! surface under it at some depth, and what lies beyond is refused.
 
 mod contact;
+mod edge;
 mod indenter;
 mod mesh;
 mod problem;

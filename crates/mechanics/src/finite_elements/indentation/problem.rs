@@ -1,7 +1,7 @@
 use std::sync::Arc;
 
 use super::super::estimate::{Estimated, Meshes, Progress, Quantity, refine};
-use super::indenter::Indenter;
+use super::indenter::{Grip, Indenter, IndenterShape, Side};
 use super::mesh::Block;
 use super::run::{IndentationPoint, IndentationRun, IndentationSettings};
 use crate::material::law::Law;
@@ -47,18 +47,27 @@ pub struct IndentationAnswer {
     pub unknowns: usize,
 }
 
-/// The meshes: elements of a fifth of the indenter's radius at the edge of the contact, then halved. The stress
-/// there is infinite as the root of the distance, which leaves the first power of the size of these
-/// elements.
-const MESHES: Meshes<'static> = Meshes {
+/// The meshes of a sphere or a cone: elements of a tenth of the contact's radius at its edge, doubled first, then halved. The
+/// stress of a cone's apex is infinite, and a contact's end lies between nodes, which leaves the first power of the
+/// size of these elements.
+const ROUND: Meshes<'static> = Meshes {
     sizes: &[2.0, 1.0, 0.5, 0.25],
     order: 1.0,
 };
 
-/// Halvings of the usual mesh in that of this number.
-fn halvings(mesh: usize) -> i32 {
-    mesh as i32 - 1
-}
+/// The meshes of a flat punch: elements along half the width of the rings around its edge, and the sizes of all
+/// elements. Stress at the edge is infinite as the root of the distance, which leaves the first power of the size of
+/// the smallest elements, and that is the second of the others'.
+const FLAT_PARTS: [usize; 5] = [1, 2, 3, 5, 8];
+const FLAT: Meshes<'static> = Meshes {
+    sizes: &[1.0, 0.5, 1.0 / 3.0, 0.2, 0.125],
+    order: 2.0,
+};
+
+/// Deeper than this under a side that slides, in radii [-], tissue at the edge gives way element by element, and the last mesh
+/// would take most of an hour: it is left out.
+const DEEP: f64 = 5.0;
+const DEEP_MESHES: usize = 4;
 
 /// Elastic forces at `depths` [m], to the relative `accuracy` [-].
 ///
@@ -71,7 +80,10 @@ pub fn solve(
     progress: &mut dyn FnMut(Progress),
 ) -> Result<Estimated<IndentationAnswer>, Error> {
     problem.check_depths(depths)?;
-    refine(&MESHES, accuracy, |mesh| {
+    refine(problem.meshes(), accuracy, |mesh| {
+        if !problem.is_in_reach(depths, mesh) {
+            return Ok(None);
+        }
         let answer = problem.elastic(depths, mesh, progress)?;
         let forces = answer.forces();
         Ok(Some((answer, forces)))
@@ -92,7 +104,10 @@ pub fn solve_history(
 ) -> Result<Estimated<IndentationAnswer>, Error> {
     history.check()?;
     problem.check_depths(&history.depths)?;
-    refine(&MESHES, accuracy, |mesh| {
+    refine(problem.meshes(), accuracy, |mesh| {
+        if !problem.is_in_reach(&history.depths, mesh) {
+            return Ok(None);
+        }
         let answer = match relaxing {
             Relaxing::Convolution => problem.convolved(prony, history, mesh, progress)?,
             Relaxing::Full => problem.relaxed(prony, history, mesh, progress)?,
@@ -133,15 +148,56 @@ impl IndentationProblem {
         }
     }
 
-    fn run(&self, prony: &PronySeries, deepest: f64, mesh: usize) -> Result<IndentationRun, Error> {
-        IndentationRun::new(&IndentationSettings {
+    fn meshes(&self) -> &'static Meshes<'static> {
+        match self.indenter.shape {
+            IndenterShape::Flat { .. } => &FLAT,
+            IndenterShape::Sphere | IndenterShape::Cone { .. } => &ROUND,
+        }
+    }
+
+    /// Whether the mesh of this number is solved within minutes to `depths` [m].
+    fn is_in_reach(&self, depths: &[f64], mesh: usize) -> bool {
+        let deepest = depths.iter().copied().fold(0.0, f64::max);
+        let slides = matches!(
+            self.indenter.shape,
+            IndenterShape::Flat {
+                side: Side::Touches(Grip::Slide)
+            }
+        );
+        let most = if slides && deepest > DEEP * self.indenter.radius {
+            DEEP_MESHES
+        } else {
+            FLAT_PARTS.len()
+        };
+        mesh < most
+    }
+
+    /// The run to the depth `deepest` [m] on the mesh of this number, from the coarsest, which is 0, of a tissue that relaxes
+    /// by `prony`.
+    ///
+    /// # Errors
+    /// See [`IndentationRun::new`].
+    pub fn run(
+        &self,
+        prony: &PronySeries,
+        deepest: f64,
+        mesh: usize,
+    ) -> Result<IndentationRun, Error> {
+        let settings = IndentationSettings {
             block: self.block,
             indenter: self.indenter,
             law: self.law.clone(),
             prony: prony.clone(),
             deepest,
-            halvings: halvings(mesh),
-        })
+            halvings: mesh as i32 - 1,
+        };
+        match self.indenter.shape {
+            IndenterShape::Flat { .. } => {
+                let last = FLAT_PARTS.len() - 1;
+                IndentationRun::around_edge(&settings, FLAT_PARTS[mesh.min(last)])
+            }
+            IndenterShape::Sphere | IndenterShape::Cone { .. } => IndentationRun::new(&settings),
+        }
     }
 
     /// Forces at `depths` on one mesh.

@@ -83,7 +83,7 @@ pub(super) struct Standing {
 /// Steps in radii of the contact [-]: the first, the longest, the shortest before giving up.
 const FIRST_STEP: f64 = 0.1;
 const LONGEST_STEP: f64 = 0.5;
-const SHORTEST_STEP: f64 = 1e-4;
+const SHORTEST_STEP: f64 = 1e-3;
 /// From this step down, an element that gives way is followed downhill [-].
 const DOWNHILL_STEP: f64 = 0.1;
 /// Rounds of Newton's method and changes of contact at one depth.
@@ -119,6 +119,16 @@ impl IndentationRun {
     pub fn new(settings: &IndentationSettings) -> Result<Self, Error> {
         settings.block.check(&settings.indenter)?;
         Self::in_body(Body::block(settings), settings)
+    }
+
+    /// A flat punch that just touches a block whose elements shrink towards its edge, with `parts` of them along half
+    /// the width of the rings there; the halvings of `settings` are not used.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub(super) fn around_edge(settings: &IndentationSettings, parts: usize) -> Result<Self, Error> {
+        settings.block.check(&settings.indenter)?;
+        Self::in_body(Body::around_edge(settings, parts), settings)
     }
 
     /// An indenter that just touches the pole of a hemisphere, which is as high as the block and stands in its place.
@@ -324,6 +334,12 @@ impl IndentationRun {
             let before = (way == Way::Downhill).then(|| state.clone());
             let workspace = &mut self.workspace;
             let done = newton::correct(effort, &self.model, &supports, (&mut state, workspace));
+            let unstable = relaxing.is_none()
+                && workspace.factors.negative_eigenvalues() > self.model.pressures();
+            let done = done.and_then(|done| match unstable && done.iterations > 0 {
+                true => Err(Failure::NotConverged),
+                false => Ok(done),
+            });
             let done = match (done, before) {
                 (Err(_), Some(before)) => {
                     state = before;
