@@ -77,7 +77,7 @@ unsafe fn open(
     let place = Answer::at(simulation, "simulation")?;
     // SAFETY: the caller vouches.
     unsafe { place.put(0, ptr::null_mut()) };
-    let scene = scene()?;
+    let scene = palpate_simulate::draw_variant(&scene()?, 0)?;
     // SAFETY: the caller vouches.
     let simulation = unsafe { preparation::prepare(&scene, how) }?;
     let texts = |texts: &mut dyn Iterator<Item = &String>| {

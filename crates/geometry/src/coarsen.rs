@@ -33,7 +33,8 @@ const OFF_SURFACE: f64 = 5.0;
 /// How often the boundary moves outward; each time it comes a hundred times nearer to the volume.
 const INFLATIONS: usize = 4;
 
-/// `mesh` with about as many nodes of quadratic elements as `nodes`, its vertices and edges, and the `volume` [m³].
+/// `mesh` with about as many nodes of quadratic elements as `nodes`, its vertices and edges, and the `volume` [m³]; its edges
+/// are shorter where `detail` [-] at a place [m] is above one, by this factor.
 ///
 /// # Errors
 /// When what is left is no mesh, which does not happen to a sound one.
@@ -41,9 +42,10 @@ pub fn coarsen(
     mesh: &TetrahedronMesh,
     nodes: usize,
     volume: f64,
+    detail: impl Fn(&Vec3) -> f64,
 ) -> Result<TetrahedronMesh, TetrahedronError> {
     let mut net = Net::new(mesh);
-    net.collapse_until(nodes);
+    net.collapse_until(nodes, &detail);
     for _ in 0..INFLATIONS {
         net.inflate(volume);
     }
@@ -145,14 +147,14 @@ impl Net {
         net
     }
 
-    fn collapse_until(&mut self, nodes: usize) {
+    fn collapse_until(&mut self, nodes: usize, detail: &dyn Fn(&Vec3) -> f64) {
         let mut queue = BinaryHeap::new();
         for vertex in 0..self.vertices.len() as u32 {
             let neighbours = self.neighbours(vertex).into_iter();
             queue.extend(
                 neighbours
                     .filter(|&other| other > vertex)
-                    .map(|other| self.entry([vertex, other])),
+                    .map(|other| self.entry([vertex, other], detail)),
             );
         }
         while self.left.nodes() > nodes {
@@ -170,15 +172,16 @@ impl Net {
                 }
                 for vertex in self.neighbours(kept) {
                     let neighbours = self.neighbours(vertex).into_iter();
-                    queue.extend(neighbours.map(|other| self.entry([vertex, other])));
+                    queue.extend(neighbours.map(|other| self.entry([vertex, other], detail)));
                 }
             }
         }
     }
 
-    fn entry(&self, edge: [u32; 2]) -> Entry {
+    fn entry(&self, edge: [u32; 2], detail: &dyn Fn(&Vec3) -> f64) -> Entry {
         let [a, b] = edge.map(|end| end as usize);
-        let squared = (self.vertices[a] - self.vertices[b]).norm_squared();
+        let [from, to] = [self.vertices[a], self.vertices[b]];
+        let squared = (from - to).norm_squared() * detail(&(0.5 * (from + to))).powi(2);
         let off = match self.is_boundary[a] && self.is_boundary[b] {
             true => self.off_surface(edge, &self.places(edge)[0]),
             false => 0.0,

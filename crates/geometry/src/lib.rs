@@ -23,6 +23,7 @@ mod refine;
 mod simplify;
 mod surface;
 mod weld;
+mod wrap;
 
 pub use aabb_tree::{AabbTree, Hit, Nearest};
 pub use check::problem::{MeshProblem, ProblemKind};
@@ -60,6 +61,7 @@ pub use simplify::{
 };
 pub use surface::{SHARP_EDGE, Surface};
 pub use weld::{Repairs, repair, weld_exactly};
+pub use wrap::{WrapError, WrapSettings, Wrapped, wrap, wrap_with_progress};
 
 /// A point or a vector in space [m, unless said otherwise].
 pub type Vec3 = nalgebra::Vector3<f64>;

@@ -103,8 +103,14 @@ fn document(path: &Path) -> Result<Validated, Error> {
     }
 }
 
+/// Variants that are drawn of a scene that draws its numbers.
+const VARIANTS: u64 = 20;
+
 fn scene(path: &Path) -> Result<Validated, Error> {
-    let scene = Scene::read(path)?;
+    let read = Scene::read(path)?;
+    // A place that most variants have may be missing for some.
+    let variants = (0..VARIANTS).map(|seed| palpate_simulate::draw_variant(&read, seed));
+    let scene = variants.collect::<Result<Vec<_>, _>>()?.swap_remove(0);
     let mut warnings = scene.warnings.clone();
     let (surface, said) = palpate_simulate::read_organ(&scene.organ.shape)?;
     warnings.extend(said);

@@ -6,7 +6,8 @@
 //!
 //! *How we know*: `analytic::flat_tip_is_linear_in_depth`, `analytic::sphere_is_hertz`.
 //!
-//! *Limits*: the side of a flat tip does not touch; a sphere that sticks has the normal force of one
+//! *Limits*: the side of a flat tip does not touch; a surface that is curved otherwise in one direction than in the other
+//! touches as one of the mean curvature; a sphere that sticks has the normal force of one
 //! that slips (they differ by under 2 % at ν ≥ 0.3 [Spence 1975]).
 
 use std::f64::consts::FRAC_2_PI;
@@ -75,7 +76,22 @@ fn bonded_factor(nu: f64) -> f64 {
     }
 }
 
+/// Least curvature of a sphere beside the hollow that it is pressed into, in parts of its own [-]: Hertz's surfaces
+/// touch in a small part of theirs.
+const LEAST_CURVATURE: f64 = 0.25;
+
 impl Tip {
+    /// The tip that touches a plane as this one touches a surface of the mean curvature `curvature` [1/m], positive
+    /// where it bulges out: a sphere of the radius 1/(1/ρ + κ) [Hertz 1881], at most four times its own.
+    pub fn beside(&self, curvature: f64) -> Self {
+        match *self {
+            Self::Flat { .. } => *self,
+            Self::Sphere { radius } => Self::Sphere {
+                radius: radius / (1.0 + radius * curvature).max(LEAST_CURVATURE),
+            },
+        }
+    }
+
     /// Radius of the touching area [m] at `depth` [m].
     pub fn contact_radius(&self, depth: f64) -> f64 {
         match *self {

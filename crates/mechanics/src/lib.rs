@@ -12,6 +12,7 @@ mod error;
 pub mod finite_elements;
 pub mod finite_spheres;
 mod indentation_curve;
+pub mod layered;
 mod limits;
 mod linear;
 mod material;

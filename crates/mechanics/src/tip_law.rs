@@ -7,12 +7,13 @@
 //!
 //! ```text
 //! c ≥ 0:   d = s + c F,   F = F₀(s)              ∂F/∂d = F₀′/(1 + c F₀′)     ∂F/∂c = −F F₀′/(1 + c F₀′)
-//! c < 0:   F = q F₀(d),   q = 1/(1 + c k₀(d))    ∂F/∂d = q F₀′ − q² c k₀′ F₀  ∂F/∂c = −q² k₀ F₀
+//! c < 0:   F = q F₀(d),   q = 1/(1 + c k₁(d))    ∂F/∂d = q F₀′ − q² c k₁′ F₀  ∂F/∂c = −q² k₁ F₀
 //! ```
 //!
 //! The series has no answer for c < 0 once F₀′ > −1/c; the second form is the same at small depth, and
-//! force and stiffness pass continuously from one into the other. Under a sphere k₀ grows with the radius
-//! of the touching area, k₀′ = k₀/(2 d). c is held: what surrounds the tip is felt from afar. With the
+//! force and stiffness pass continuously from one into the other. k₁ = F₀/d under a flat tip and 3/2 F₀/d under a
+//! sphere, which at small depth is k₀ and like it grows with the touching area. c is held: what surrounds the tip is
+//! felt from afar. With the
 //! whole organ c does not depend on the touching area; with the local model it changes slowly with it.
 //!
 //! *How we know*: `analytic::flat_tip_is_linear_in_depth`, `analytic::sphere_is_hertz`; the tangent by
@@ -24,6 +25,8 @@
 //! a fifth. q is at most `STIFFEST`; an answer says
 //! where that acts. ∂F/∂c jumps at c = 0 in nonlinear tissue, which the stiffness sees only where normal
 //! and tangent couple under a sphere that sticks.
+
+use std::sync::Arc;
 
 use nalgebra::{Matrix2, Matrix3, Vector2};
 
@@ -39,7 +42,9 @@ pub struct TipLaw {
     tip: Tip,
     bond: Bond,
     at_rest: LinearElastic,
-    stiffening: Stiffening,
+    stiffening: Arc<Stiffening>,
+    /// Radius of the tool, which the stiffening counts depths in [m]; the tip's own beside a plane.
+    radius: f64,
 }
 
 /// Normal force of a tip and its change.
@@ -100,27 +105,37 @@ impl TipLaw {
     /// A tissue that is linear at every depth.
     pub fn linear(tip: Tip, bond: Bond, at_rest: LinearElastic) -> Self {
         let stiffening = Stiffening::linear((tip, bond), at_rest.poissons_ratio());
-        Self {
-            tip,
-            bond,
-            at_rest,
-            stiffening,
-        }
+        Self::of(tip, bond, at_rest, stiffening)
     }
 
     /// A tissue with the stiffening that was found for this tip and bond.
     pub fn stiffening(tip: Tip, bond: Bond, tissue: &Material, stiffening: Stiffening) -> Self {
+        Self::of(tip, bond, tissue.at_rest, stiffening)
+    }
+
+    fn of(tip: Tip, bond: Bond, at_rest: LinearElastic, stiffening: Stiffening) -> Self {
+        let (Tip::Flat { radius } | Tip::Sphere { radius }) = tip;
         Self {
             tip,
             bond,
-            at_rest: tissue.at_rest,
-            stiffening,
+            at_rest,
+            stiffening: Arc::new(stiffening),
+            radius,
+        }
+    }
+
+    /// The law of the same tool on a surface of the mean curvature `curvature` [1/m], positive where it bulges out; see
+    /// [`Tip::beside`]. The stiffening is that beside a plane at the same depth.
+    pub fn beside(&self, curvature: f64) -> Self {
+        Self {
+            tip: self.tip.beside(curvature),
+            ..self.clone()
         }
     }
 
     /// Depth [m] down to which the force is known; beyond, it goes on along its tangent.
     pub fn deepest(&self) -> f64 {
-        self.stiffening.deepest() * self.radius()
+        self.stiffening.deepest() * self.radius
     }
 
     fn beyond(&self, depth: f64) -> Option<Reached> {
@@ -156,14 +171,18 @@ impl TipLaw {
         if compliance > 0.0 {
             return self.softer(depth, compliance);
         }
-        let half_space = half_space_stiffness(&self.at_rest, area_radius, self.bond);
-        let growth = self.tip.contact_radius_growth(depth);
-        let ratio = bounded_ratio(1.0, compliance * half_space, growth);
         let (force, stiffness) = self.on_half_space(depth);
+        let exponent = match self.tip {
+            Tip::Flat { .. } => 1.0,
+            Tip::Sphere { .. } => 1.5,
+        };
+        let slope = exponent * force / depth;
+        let growth = stiffness / force - 1.0 / depth;
+        let ratio = bounded_ratio(1.0, compliance * slope, growth);
         NormalForce {
             force: ratio.value * force,
             stiffness: ratio.value * stiffness + ratio.change * force,
-            by_compliance: ratio.by_compliance * half_space * force,
+            by_compliance: ratio.by_compliance * slope * force,
             limited: ratio.limited,
             beyond: self.beyond(depth),
         }
@@ -299,7 +318,7 @@ impl TipLaw {
 
     /// Force on a half-space [N], r H, and its change [N/m].
     fn on_half_space(&self, depth: f64) -> (f64, f64) {
-        let radius = self.radius();
+        let radius = self.radius;
         let (force, stiffness) = match self.tip {
             Tip::Flat { radius } => {
                 let stiffness = half_space_stiffness(&self.at_rest, radius, self.bond);
@@ -319,12 +338,6 @@ impl TipLaw {
         };
         let (ratio, change) = self.stiffening.ratio(depth / radius);
         (ratio * force, ratio * stiffness + change / radius * force)
-    }
-
-    fn radius(&self) -> f64 {
-        match self.tip {
-            Tip::Flat { radius } | Tip::Sphere { radius } => radius,
-        }
     }
 }
 

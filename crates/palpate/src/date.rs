@@ -23,6 +23,29 @@ pub(crate) fn exact(when: i64) -> String {
     format!("{year:04}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02}Z")
 }
 
+/// The last second of a day that is written as `2026-11-22`, since the beginning of 1970 [s]; none where there is no
+/// such day.
+pub(crate) fn end_of_day(text: &str) -> Option<i64> {
+    let mut parts = text.splitn(3, '-').map(str::parse::<i64>);
+    let (year, month, day) = (
+        parts.next()?.ok()?,
+        parts.next()?.ok()?,
+        parts.next()?.ok()?,
+    );
+    if !(1970..=9999).contains(&year) || !(1..=12).contains(&month) || !(1..=31).contains(&day) {
+        return None;
+    }
+    // Years begin in March, as in `day_of`.
+    let (in_year, year) = match month {
+        1 | 2 => (month + 9, year - 1),
+        _ => (month - 3, year),
+    };
+    let days = 365 * year + year / 4 - year / 100 + year / 400 + (153 * in_year + 2) / 5 + day - 1;
+    let end = (days - EPOCH) * DAY + DAY - 1;
+    // The 30th of February is another day.
+    (day_of(end) == (if month <= 2 { year + 1 } else { year }, month, day)).then_some(end)
+}
+
 fn clock(when: i64) -> [i64; 3] {
     let second = when.rem_euclid(DAY);
     [second / 3600, second / 60 % 60, second % 60]
@@ -49,6 +72,24 @@ fn day_of(when: i64) -> (i64, i64, i64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn days_end_before_the_next_one() {
+        for day in ["1970-01-01", "2000-02-29", "2026-12-31", "2100-02-28"] {
+            let end = end_of_day(day).unwrap();
+            assert_eq!(exact(end), format!("{day}T23:59:59Z"));
+        }
+        for none in [
+            "2100-02-29",
+            "2026-13-01",
+            "2026-04-31",
+            "tomorrow",
+            "2026-4",
+            "",
+        ] {
+            assert_eq!(end_of_day(none), None, "{none}");
+        }
+    }
 
     #[test]
     fn known_dates() {

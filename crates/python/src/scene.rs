@@ -41,6 +41,8 @@ const BUILT_IN: [(&str, &str); 4] = [
 /// ----------
 /// content : dict
 ///     What a scene's file holds; ``format`` may be left out. Paths begin in the working folder.
+/// seed : int, default 0
+///     Which variant of a scene that draws its numbers (``[draw]``).
 #[pyclass(frozen, module = "palpate")]
 #[derive(Debug, Clone)]
 pub(crate) struct Scene {
@@ -50,11 +52,11 @@ pub(crate) struct Scene {
 #[pymethods]
 impl Scene {
     #[new]
-    fn new(content: &Bound<'_, PyDict>) -> Result<Self, Failure> {
+    #[pyo3(signature = (content, seed=0))]
+    fn new(content: &Bound<'_, PyDict>, seed: u64) -> Result<Self, Failure> {
         let mut table = documents::table(content, "")?;
         table.entry("format").or_insert(Value::Integer(1));
-        let scene = Document::parse(&documents::text(&table)?, NAME)?;
-        Ok(Self { scene })
+        Self::drawn(&Document::parse(&documents::text(&table)?, NAME)?, seed)
     }
 
     /// A scene that comes with the program.
@@ -64,8 +66,11 @@ impl Scene {
     /// name : {"esophagus", "palpation", "traction", "myotomy"}
     ///     The esophagus without anything to do, or a task: find the stiff spot in a liver, hold an even pull, cut the
     ///     muscle of the lower esophagus.
+    /// seed : int, default 0
+    ///     Which variant of the task.
     #[classmethod]
-    fn builtin(_class: &Bound<'_, PyType>, name: &str) -> Result<Self, Failure> {
+    #[pyo3(signature = (name, seed=0))]
+    fn builtin(_class: &Bound<'_, PyType>, name: &str, seed: u64) -> Result<Self, Failure> {
         let Some((name, text)) = BUILT_IN.iter().find(|(known, _)| *known == name) else {
             let names = BUILT_IN.map(|(name, _)| name);
             return Err(Failure::Input(format!(
@@ -74,15 +79,17 @@ impl Scene {
                 names.join(", ")
             )));
         };
-        let scene = Document::parse(text, format!("built-in scene {name}"))?;
-        Ok(Self { scene })
+        Self::drawn(
+            &Document::parse(text, format!("built-in scene {name}"))?,
+            seed,
+        )
     }
 
-    /// Reads a scene's file.
+    /// Reads a scene's file; of one that draws its numbers the variant of ``seed``.
     #[classmethod]
-    fn read(_class: &Bound<'_, PyType>, path: PathBuf) -> Result<Self, Failure> {
-        let scene = Document::read(path)?;
-        Ok(Self { scene })
+    #[pyo3(signature = (path, seed=0))]
+    fn read(_class: &Bound<'_, PyType>, path: PathBuf, seed: u64) -> Result<Self, Failure> {
+        Self::drawn(&Document::read(path)?, seed)
     }
 
     /// Reads the text of a scene's file.
@@ -93,16 +100,18 @@ impl Scene {
     ///     The text.
     /// folder : path-like, optional
     ///     Where the paths in it begin; without one in the working folder.
+    /// seed : int, default 0
+    ///     Which variant of a scene that draws its numbers.
     #[classmethod]
-    #[pyo3(signature = (text, folder=None))]
+    #[pyo3(signature = (text, folder=None, seed=0))]
     fn parse(
         _class: &Bound<'_, PyType>,
         text: &str,
         folder: Option<PathBuf>,
+        seed: u64,
     ) -> Result<Self, Failure> {
         let path = folder.unwrap_or_default().join(NAME);
-        let scene = Document::parse(text, path)?;
-        Ok(Self { scene })
+        Self::drawn(&Document::parse(text, path)?, seed)
     }
 
     /// The names of the tools, in the order of the scene.
@@ -160,6 +169,11 @@ impl Scene {
 }
 
 impl Scene {
+    fn drawn(scene: &Document, seed: u64) -> Result<Self, Failure> {
+        let scene = palpate_simulate::draw_variant(scene, seed)?;
+        Ok(Self { scene })
+    }
+
     /// What there is to do; none where nobody judges.
     pub(crate) fn judged(scene: &Document) -> Option<&Task> {
         (scene.task != Task::default()).then_some(&scene.task)

@@ -84,6 +84,20 @@ pub enum Error {
         /// The measure.
         key: String,
     },
+    /// The PIN is not the teacher's.
+    #[error("{path} has a teacher's PIN, and it is another one; give it with --pin", path = path.display())]
+    WrongPin {
+        /// The record.
+        path: PathBuf,
+    },
+    /// Nothing that could be an expert's.
+    #[error(
+        "there is no passed attempt of {trainee} with this session in the record; only a passed attempt can be an expert's"
+    )]
+    NoExpert {
+        /// Who was named.
+        trainee: String,
+    },
     /// The name of a folder cannot be kept.
     #[error("the session's folder {path} has a name that is not UTF-8; rename it", path = path.display())]
     FolderName {

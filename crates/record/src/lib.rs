@@ -8,7 +8,7 @@
 //! [`learning_curve`], the mean over trainees from attempt to attempt.
 //!
 //! *How we know*: `killed::…` (a writer that is killed at random times), `damaged::…`, `refused::…`, `kept::…`,
-//! `proficiency::…`, `learning::…`.
+//! `proficiency::…`, `learning::…`, `class::…`.
 //!
 //! *Limits*: times are those that the caller says. A number that is changed inside a sound page is not noticed.
 //! A program that keeps a record open while its file is moved goes on writing to the moved one, so open it, add
@@ -16,6 +16,7 @@
 
 mod aside;
 mod attempt;
+mod class;
 mod error;
 mod learning;
 mod proficiency;
@@ -25,6 +26,7 @@ mod schema;
 mod spread;
 
 pub use attempt::{Added, Attempt, Better, Measure};
+pub use class::{Assignment, Cohort, Standing};
 pub use error::Error;
 pub use learning::{CurvePoint, learning_curve};
 pub use proficiency::{IN_A_ROW, Judged, Judgement, Standard, Standards, proficient_since};

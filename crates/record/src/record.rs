@@ -100,6 +100,10 @@ impl Record {
         })
     }
 
+    pub(crate) fn connection(&self) -> &Connection {
+        &self.connection
+    }
+
     /// Its file.
     pub fn path(&self) -> &Path {
         &self.path

@@ -6,7 +6,10 @@ use rusqlite::{Connection, Transaction, TransactionBehavior};
 pub(crate) const APPLICATION: i64 = 0x7061_6c70;
 
 /// Of the tables.
-pub(crate) const VERSION: i64 = 2;
+pub(crate) const VERSION: i64 = 3;
+
+/// The first version with a teacher's tables.
+pub(crate) const TEACHERS: i64 = 3;
 
 /// The tables; an attempt is what was done (digest of the session, digest of the scene), by whom and when.
 const TABLES: &str = "
@@ -29,6 +32,23 @@ CREATE TABLE measure (
     value REAL NOT NULL,
     better TEXT NOT NULL CHECK (better IN ('less', 'more', 'neither')),
     PRIMARY KEY (attempt, place)
+) STRICT, WITHOUT ROWID;
+";
+
+/// The tables of a teacher, new in version 3.
+const TEACHER: &str = "
+CREATE TABLE setting (key TEXT PRIMARY KEY, value TEXT NOT NULL) STRICT, WITHOUT ROWID;
+CREATE TABLE member (
+    cohort TEXT NOT NULL,
+    trainee TEXT NOT NULL,
+    PRIMARY KEY (cohort, trainee)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE assignment (
+    cohort TEXT NOT NULL,
+    task TEXT NOT NULL,
+    due_s INTEGER NOT NULL,
+    passes INTEGER NOT NULL CHECK (passes > 0),
+    PRIMARY KEY (cohort, task)
 ) STRICT, WITHOUT ROWID;
 ";
 
@@ -100,6 +120,7 @@ pub(crate) fn begin(connection: &mut Connection) -> rusqlite::Result<()> {
     let transaction = Transaction::new(connection, TransactionBehavior::Immediate)?;
     if look(&transaction)? == Found::Nothing {
         transaction.execute_batch(TABLES)?;
+        transaction.execute_batch(TEACHER)?;
         transaction.pragma_update(None, "application_id", APPLICATION)?;
         transaction.pragma_update(None, "user_version", VERSION)?;
     }
@@ -113,10 +134,14 @@ pub(crate) fn upgrade(connection: &mut Connection) -> rusqlite::Result<()> {
     }
     let transaction = Transaction::new(connection, TransactionBehavior::Immediate)?;
     // Somebody else may have been faster.
-    if version(&transaction)? == 1 {
+    let found = version(&transaction)?;
+    if found == 1 {
         transaction.execute_batch(FROM_VERSION_1)?;
         transaction.execute_batch(TABLES)?;
         transaction.execute_batch(KEPT_OF_VERSION_1)?;
+    }
+    if found < VERSION {
+        transaction.execute_batch(TEACHER)?;
         transaction.pragma_update(None, "user_version", VERSION)?;
     }
     transaction.commit()

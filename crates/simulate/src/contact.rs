@@ -14,7 +14,7 @@
 use nalgebra::{Matrix3, Rotation3};
 use palpate_geometry::{AabbTree, Footing, PatchField, Surface, Vec3, follow, settle};
 use palpate_mechanics::contact::Bond;
-use palpate_mechanics::finite_spheres::{LocalContact, Placement, first_direction};
+use palpate_mechanics::finite_spheres::{LocalContact, Placement, Surroundings, first_direction};
 
 use crate::simulation::Simulation;
 use crate::tool::Tool;
@@ -31,6 +31,8 @@ pub(crate) struct Ground<'a> {
     pub(crate) patches: &'a PatchField,
     /// Radius of a hemisphere of its volume [m].
     pub(crate) radius: f64,
+    /// What it yields beyond a half-space at each vertex [1/m]; none where only its volume is known.
+    pub(crate) further: Option<&'a [Matrix3<f64>]>,
 }
 
 impl Simulation {
@@ -41,6 +43,7 @@ impl Simulation {
             tree: &self.tree,
             patches: &tool.patches,
             radius: self.organ_radius,
+            further: tool.further.as_deref(),
         }
     }
 }
@@ -164,7 +167,10 @@ pub(crate) fn detect(
             contact.sheared = moved - normal * normal.dot(&moved);
         }
         Bond::Stick if contact.displacement(tool, tip).z >= 0.0 => return None,
-        Bond::Stick => contact.place.radius = tool.tip.contact_radius(depth),
+        Bond::Stick => {
+            let tip = tool.tip.beside(contact.place.mean_curvature());
+            contact.place.radius = tip.contact_radius(depth);
+        }
     }
     Some(contact)
 }
@@ -281,18 +287,39 @@ pub(crate) fn place(
         .unwrap_or_else(Vec3::z);
     let second = patch.normal.cross(&first);
     let between = |a: &Vec3, b: &Vec3| a.dot(&(patch.curvature * b));
+    let frame = Matrix3::from_columns(&[first, second, patch.normal]);
+    let curvature = Vec3::new(
+        between(&first, &first),
+        between(&first, &second),
+        between(&second, &second),
+    );
+    let mean = 0.5 * (curvature.x + curvature.z);
     LocalContact {
         point: footing.point,
-        frame: Matrix3::from_columns(&[first, second, patch.normal]),
-        curvature: Vec3::new(
-            between(&first, &first),
-            between(&first, &second),
-            between(&second, &second),
-        ),
+        frame,
+        curvature,
         triangle: footing.triangle,
-        radius: tool.tip.contact_radius(depth),
-        organ_radius: ground.radius,
+        radius: tool.tip.beside(mean).contact_radius(depth),
+        surroundings: surroundings(ground, tool, (footing, &frame)),
         // As the calibrated model has it: held as a hemisphere of its volume is.
         thickness: ground.radius,
     }
+}
+
+/// What the organ is around a place, in its frame.
+fn surroundings(
+    ground: &Ground<'_>,
+    tool: &Tool,
+    (footing, frame): (&Footing, &Matrix3<f64>),
+) -> Surroundings {
+    let Some(at) = ground.further else {
+        return tool.model.by_volume(ground.radius);
+    };
+    let nodes = ground.surface.mesh().corners(footing.triangle);
+    let further: Matrix3<f64> = nodes
+        .iter()
+        .zip(footing.barycentric)
+        .map(|(node, weight)| at[node.index()] * weight)
+        .sum();
+    Surroundings::Known(frame.tr_mul(&further) * frame)
 }

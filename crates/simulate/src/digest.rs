@@ -15,8 +15,8 @@
 use std::fmt::{Debug, Write};
 
 use palpate_files::scene::{
-    Calibration, Cutting, DeviceKind, Enhancement, IntegrationPoints, Jaws, Layer, LocalSettings,
-    Model, Nodule, Region, RegionBox, RegionPlane, RegionSphere, Tip, Tool,
+    Calibration, Cutting, DeviceKind, Enhancement, InclusionShape, IntegrationPoints, Jaws, Layer,
+    LocalSettings, Model, Nodule, Region, RegionBox, RegionPlane, RegionSphere, Tip, Tool,
 };
 use palpate_files::{Scene, Tissue};
 use palpate_geometry::Surface;
@@ -35,14 +35,15 @@ pub(crate) struct SceneDigest {
 }
 
 impl SceneDigest {
-    /// `neighbours` are those at which tools stop.
+    /// `felt` are the tissues of layers and inclusions that are felt, `neighbours` those at which tools stop.
     pub(crate) fn of<'a>(
         scene: &Scene,
         surface: &Surface,
-        tissue: &Tissue,
+        (tissue, felt): (&Tissue, &[Tissue]),
         neighbours: impl Iterator<Item = &'a Surface>,
     ) -> Self {
         let mut form = canonical(scene, tissue);
+        felt.iter().for_each(|tissue| form.tissue(tissue));
         neighbours.for_each(|body| form.word("neighbour", &digits(of_surface(body))));
         let of_surface = of_surface(surface);
         let with = |text: &str| digits(of_surface.clone().chain_update(text));
@@ -128,6 +129,11 @@ fn canonical(scene: &Scene, tissue: &Tissue) -> Form {
         .nodules
         .iter()
         .for_each(|ball| form.nodule(ball));
+    scene
+        .organ
+        .inclusions
+        .iter()
+        .for_each(|inclusion| form.inclusion(&inclusion.shape));
     form
 }
 
@@ -189,6 +195,8 @@ impl Form {
     fn model(&mut self, model: &Model) {
         let Model {
             kind,
+            // Why is no part of what was simulated.
+            reason: _,
             step_s,
             local,
             enhancement,
@@ -310,7 +318,7 @@ impl Form {
         self.optional("force_limit_n", *force_limit_n);
     }
 
-    /// A layer's own tissue is cut and not felt.
+    /// A layer's own tissue stands among those that are felt, if it is.
     fn layer(&mut self, layer: &Layer) {
         let Layer {
             name: _,
@@ -324,6 +332,24 @@ impl Form {
         // Scenes of before layers had it keep their digest.
         if let Some(toughness) = toughness_j_per_m2 {
             self.numbers("layer_toughness_j_per_m2", &[*toughness]);
+        }
+    }
+
+    fn inclusion(&mut self, shape: &InclusionShape) {
+        match shape {
+            InclusionShape::Ball { center_m, radius_m } => {
+                self.numbers("ball", &[&center_m[..], &[*radius_m]].concat());
+            }
+            InclusionShape::Ellipsoid {
+                center_m,
+                radii_m,
+                turn_rad,
+            } => self.numbers("ellipsoid", &[*center_m, *radii_m, *turn_rad].concat()),
+            InclusionShape::Capsule {
+                from_m,
+                to_m,
+                radius_m,
+            } => self.numbers("capsule", &[&from_m[..], to_m, &[*radius_m]].concat()),
         }
     }
 

@@ -20,6 +20,11 @@ pub enum Error {
         /// What is wrong with it.
         fault: MeshError,
     },
+    /// A scene whose numbers have not been drawn.
+    #[error(
+        "the scene draws its numbers anew for each attempt; draw a variant of it first (`draw_variant`)"
+    )]
+    NotDrawn,
     /// A neighbour cannot stand where the scene has it.
     #[error(
         "a neighbour bounds no solid where it is placed ({fault}); give `at_m` and `scale` that fit a body"
@@ -102,6 +107,25 @@ pub enum Error {
         number: usize,
         /// How far outside [m].
         outside: f64,
+    },
+    /// An inclusion reaches out of the organ.
+    #[error(
+        "the `organ.inclusion` {name:?} reaches {} mm out of the organ; make it smaller or move it in (`palpate mesh info` tells where the organ lies)",
+        millimetres(*.outside)
+    )]
+    InclusionOutside {
+        /// Its name.
+        name: String,
+        /// How far [m].
+        outside: f64,
+    },
+    /// Two inclusions share a place.
+    #[error("the `organ.inclusion`s {one:?} and {other:?} overlap; move them apart")]
+    InclusionsOverlap {
+        /// The name of one.
+        one: String,
+        /// The name of the other.
+        other: String,
     },
     /// A session was recorded under other conditions than those of its scene now.
     #[error(

@@ -76,6 +76,7 @@ impl Neighbour {
             tree: &self.tree,
             patches: &self.patches[tool],
             radius: self.radius,
+            further: None,
         }
     }
 }

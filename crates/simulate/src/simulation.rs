@@ -7,18 +7,19 @@ use palpate_mechanics::Material;
 
 use crate::cutting::CuttingModel;
 use crate::digest::SceneDigest;
-use crate::global::{GlobalModel, GlobalProblem, ResponseOrigin};
+use crate::global::{GlobalModel, GlobalProblem, ResponseOrigin, surround};
 use crate::neighbour::Neighbour;
-use crate::nonlinear::NonlinearOrgan;
+use crate::nonlinear::{NonlinearOrgan, Regions};
 use crate::preparation::tell;
-use crate::tool::{Tool, settings};
-use crate::{Error, Progress, Resources, Work, nodule, organ, tip_laws, trocar};
+use crate::tool::{Tool, settings, typical_radius};
+use crate::{Error, Progress, Resources, Work, inclusion, nodule, organ, tip_laws, trocar};
 
 /// An organ and the tools that may touch it. Built once, never changed.
 #[derive(Debug, Clone)]
 pub struct Simulation {
     pub(crate) surface: Surface,
     pub(crate) tree: AabbTree,
+    /// That at the surface.
     pub(crate) material: Material,
     pub(crate) tools: Vec<Tool>,
     /// How the whole organ answers, if the scene wants that.
@@ -39,6 +40,8 @@ pub struct Simulation {
     hand_over: HandOver,
     force_scale: f64,
     pub(crate) scene_digest: SceneDigest,
+    /// That of the variant; 0 for a scene of fixed numbers.
+    seed: u64,
     doubts: Vec<String>,
 }
 
@@ -62,6 +65,9 @@ impl Simulation {
         resources: &Resources,
         watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
+        if scene.draws.is_some() {
+            return Err(Error::NotDrawn);
+        }
         let (surface, mut doubts) = organ::read_organ(&scene.organ.shape)?;
         let tissue = scene.organ.tissue.read()?;
         let material = Material::from_tissue(&tissue)?;
@@ -72,11 +78,26 @@ impl Simulation {
             trocar::check(tool, (&surface, &tree))?;
         }
         nodule::check(&scene.organ.nodules, (&surface, &tree))?;
+        inclusion::check(&scene.organ.inclusions, (&surface, &tree))?;
+        let regions = match scene.model.kind {
+            ModelKind::Local | ModelKind::Hybrid => None,
+            ModelKind::Nonlinear => Some(Regions::new(
+                scene,
+                (&surface, &tree),
+                (&tissue, &material),
+            )?),
+        };
+        let touched = scene.tools.iter().map(|tool| match &regions {
+            Some(regions) => regions.touched(typical_radius(&tool.tip)),
+            None => Ok((tissue.clone(), material.clone())),
+        });
+        let touched = touched.collect::<Result<Vec<_>, _>>()?;
         let settings = settings(&scene.model.local);
         let mut tools = scene
             .tools
             .iter()
-            .map(|tool| Tool::new(tool, settings, &material.at_rest, (&surface, &tree)))
+            .zip(&touched)
+            .map(|(tool, (_, own))| Tool::new(tool, settings, &own.at_rest, (&surface, &tree)))
             .collect::<Result<Vec<_>, _>>()?;
         let global = match scene.model.kind {
             ModelKind::Local | ModelKind::Nonlinear => None,
@@ -90,33 +111,33 @@ impl Simulation {
                 Some(global)
             }
         };
-        let nonlinear = match scene.model.kind {
-            ModelKind::Local | ModelKind::Hybrid => None,
-            ModelKind::Nonlinear => {
+        let felt: Vec<_> = regions.iter().flat_map(Regions::beside).cloned().collect();
+        let surface_material = regions
+            .as_ref()
+            .map(|regions| regions.at_surface().material.clone());
+        let nonlinear = match regions {
+            None => None,
+            Some(regions) => {
                 tell(watch, Work::Tetrahedra)?;
-                let (organ, more) = NonlinearOrgan::new(scene, &surface, (&tissue, &material))?;
+                let (organ, more) = NonlinearOrgan::new(scene, &surface, regions)?;
                 doubts.extend(more);
                 Some(organ)
             }
         };
-        let is_local = scene.model.kind == ModelKind::Local;
-        doubts.extend(tip_laws::stiffen(
-            &mut tools,
-            (&tissue, &material),
-            &mut |part| {
-                let work = Work::ForceOverDepth;
-                // It cannot be broken off, and takes seconds.
-                let _ = watch(Progress { work, part });
-            },
-        )?);
-        if is_local && tools.iter().any(|tool| tool.model.is_extrapolated()) {
-            doubts.push(format!(
-                "Poisson's ratio {:.3} is beyond the {} that the local model is calibrated for; its \
-                 force is the one there, times the ratio of the half-spaces",
-                material.at_rest.poissons_ratio(),
-                palpate_mechanics::finite_spheres::LARGEST_CALIBRATED_RATIO,
-            ));
+        if scene.model.kind == ModelKind::Local {
+            let organ = (scene, &surface);
+            if let Err(error) = surround(&mut tools, organ, &material.at_rest, resources.memory) {
+                doubts.push(format!(
+                    "the organ's size is felt as that of a hemisphere of its volume, for boundary elements have no \
+                     answer: {error}"
+                ));
+            }
         }
+        doubts.extend(tip_laws::stiffen(&mut tools, &touched, &mut |part| {
+            let work = Work::ForceOverDepth;
+            // It cannot be broken off, and takes seconds.
+            let _ = watch(Progress { work, part });
+        })?);
         let neighbours = Neighbour::all(scene, &tools)?;
         if !neighbours.is_empty() {
             doubts.push(
@@ -131,10 +152,16 @@ impl Simulation {
             );
         }
         doubts.extend(cutting.iter().filter_map(CuttingModel::doubt));
-        if !scene.organ.layers.is_empty() {
+        if !scene.organ.layers.is_empty() && nonlinear.is_none() {
             doubts.push(
                 "layers are cut, seen and perforated each by itself; to a touch the organ answers as its own \
                  tissue"
+                    .to_owned(),
+            );
+        }
+        if !scene.organ.inclusions.is_empty() && nonlinear.is_none() {
+            doubts.push(
+                "only the nonlinear model feels inclusions; this one answers as if there were none"
                     .to_owned(),
             );
         }
@@ -143,9 +170,10 @@ impl Simulation {
             scene_digest: SceneDigest::of(
                 scene,
                 &surface,
-                &tissue,
+                (&tissue, &felt),
                 neighbours.iter().map(|body| &body.surface),
             ),
+            seed: scene.variant.as_ref().map_or(0, |own| own.seed),
             step: scene.model.step_s,
             kind: scene.model.kind,
             hand_over: scene.model.hand_over,
@@ -156,7 +184,7 @@ impl Simulation {
             neighbours,
             surface,
             tree,
-            material,
+            material: surface_material.unwrap_or(material),
             tools,
             global,
             nonlinear,
@@ -247,7 +275,7 @@ impl Simulation {
             scene_digest: self.scene_digest.canonical.clone(),
             model: self.kind,
             step_s: self.step,
-            seed: 0,
+            seed: self.seed,
             force_scale: self.force_scale,
         }
     }

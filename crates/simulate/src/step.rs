@@ -60,7 +60,7 @@ pub fn touch(
             cutting::lead(simulation, (model, cuts), number, own);
         }
     }
-    respond(simulation, state, workspace);
+    respond(simulation, elapsed, state, workspace);
     find_nodules(simulation, state);
     grip::act(simulation, elapsed, state, workspace);
     for (number, tool) in simulation.tools.iter().enumerate() {
@@ -170,9 +170,11 @@ impl ToolState {
     }
 }
 
-/// 2. and 3. The elastic force and its stiffness, of the whole organ or of particles around each tip.
+/// Steps 2 and 3: the elastic force and its stiffness, of the whole organ or of particles around each tip. `elapsed` [s] have
+/// gone by since the last step.
 pub(crate) fn respond(
     simulation: &Simulation,
+    elapsed: f64,
     state: &mut SimulationState,
     workspace: &mut SimulationWorkspace,
 ) {
@@ -184,7 +186,7 @@ pub(crate) fn respond(
         &mut state.body,
         &mut workspace.nonlinear,
     ) {
-        return organ.press(simulation, (&mut state.tools, body), workspace);
+        return organ.press(simulation, elapsed, (&mut state.tools, body), workspace);
     }
     let tools = simulation.tools.iter().zip(&mut state.tools);
     for ((tool, state), workspace) in tools.zip(&mut workspace.models) {
@@ -208,7 +210,7 @@ pub(crate) fn respond_again(
 ) {
     match &simulation.nonlinear {
         Some(organ) => organ.press_again(&mut state.tools),
-        None => respond(simulation, state, workspace),
+        None => respond(simulation, 0.0, state, workspace),
     }
 }
 
@@ -304,7 +306,8 @@ fn answer(tool: &Tool, state: &mut ToolState) {
         return;
     };
     let displacement = contact.displacement(tool, &Vec3::from(pose.position_m));
-    let answer = tool.law.force(&displacement, &response.stiffness);
+    let law = tool.law.beside(contact.place.mean_curvature());
+    let answer = law.force(&displacement, &response.stiffness);
     state.elastic = contact.frame() * answer.force;
     state.stiffness = answer.stiffness;
     state.limited = response.limits;

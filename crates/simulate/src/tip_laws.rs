@@ -8,38 +8,43 @@ use palpate_mechanics::{Material, TipLaw};
 use crate::Error;
 use crate::tool::Tool;
 
-/// Gives each tool the tissue's force over depth; what deserves doubt about it. Tools with the same tip
-/// share the work.
+/// Gives each tool the force over depth of the tissue that it meets, one for each; what deserves doubt about it. Tools with
+/// the same tip and tissue share the work.
 pub(crate) fn stiffen(
     tools: &mut [Tool],
-    (tissue, material): (&Tissue, &Material),
+    touched: &[(Tissue, Material)],
     at_step: &mut dyn FnMut(f64),
 ) -> Result<Vec<String>, Error> {
-    if matches!(tissue.elasticity, Elasticity::Linear { .. }) {
-        return Ok(Vec::new());
-    }
-    let mut found: Vec<(Tip, Bond, Stiffening)> = Vec::new();
-    for tool in tools {
+    let mut found: Vec<(Tip, Bond, Elasticity, Stiffening)> = Vec::new();
+    let mut doubts = Vec::new();
+    for (tool, (tissue, material)) in tools.iter_mut().zip(touched) {
+        if matches!(tissue.elasticity, Elasticity::Linear { .. }) {
+            continue;
+        }
         let (tip, bond) = (tool.tip, tool.bond);
-        let alike = |(other, bonded, _): &&(Tip, Bond, Stiffening)| {
-            std::mem::discriminant(other) == std::mem::discriminant(&tip) && *bonded == bond
+        let alike = |(other, bonded, elasticity, _): &&(Tip, Bond, Elasticity, Stiffening)| {
+            std::mem::discriminant(other) == std::mem::discriminant(&tip)
+                && *bonded == bond
+                && *elasticity == tissue.elasticity
         };
-        let known = found.iter().find(alike).map(|known| known.2.clone());
+        let known = found.iter().find(alike).map(|known| known.3.clone());
         let stiffening = match known {
             Some(known) => known,
             None => {
                 let stiffening = of(tissue, material, (tip, bond), at_step)?;
-                found.push((tip, bond, stiffening.clone()));
+                found.push((tip, bond, tissue.elasticity, stiffening.clone()));
                 stiffening
             }
         };
         tool.law = TipLaw::stiffening(tip, bond, material, stiffening);
+        doubts.push(format!(
+            "the tissue's law {} stiffens with depth under the tip; what surrounds it, and a sideways force, \
+             answer as at small strain, incompressible",
+            tissue.elasticity.law(),
+        ));
     }
-    Ok(vec![format!(
-        "the tissue's law {} stiffens with depth under the tip; what surrounds it, and a sideways force, \
-         answer as at small strain, incompressible",
-        tissue.elasticity.law(),
-    )])
+    doubts.dedup();
+    Ok(doubts)
 }
 
 /// That of neo-Hookean tissue is the same for every modulus, and known.

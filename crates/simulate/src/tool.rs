@@ -1,5 +1,6 @@
 use std::sync::Arc;
 
+use nalgebra::Matrix3;
 use palpate_files::scene::{self, ToolKind};
 use palpate_geometry::{AabbTree, PatchField, Surface, TriangleMesh, Vec3, read_mesh};
 use palpate_mechanics::contact::{Bond, Tip};
@@ -44,6 +45,9 @@ pub struct Tool {
     pub(crate) placement: Placement,
     /// What the whole organ adds under this tip, if there is a model of it.
     pub(crate) field: Option<TipField>,
+    /// What the organ yields beyond a half-space under this tip at each vertex [1/m], for the local model; none where
+    /// that is not known.
+    pub(crate) further: Option<Arc<[Matrix3<f64>]>>,
     /// Radius of the touching area that stands for all [m].
     pub(crate) typical_radius: f64,
 }
@@ -62,11 +66,10 @@ impl Tool {
             scene::TipContact::Stick => Bond::Stick,
             scene::TipContact::Slip => Bond::Slip,
         };
-        let radius = tool.tip.radius_m;
-        let (tip, typical) = match tool.tip.shape {
-            scene::TipShape::Flat => (Tip::Flat { radius }, radius),
-            // Half the radius touches at a quarter of the radius in depth.
-            scene::TipShape::Sphere => (Tip::Sphere { radius }, 0.5 * radius),
+        let (radius, typical) = (tool.tip.radius_m, typical_radius(&tool.tip));
+        let tip = match tool.tip.shape {
+            scene::TipShape::Flat => Tip::Flat { radius },
+            scene::TipShape::Sphere => Tip::Sphere { radius },
         };
         let mut model = FiniteSphereModel::new(settings, law, bond)?;
         model.precompute_placement(surface, tree, typical);
@@ -91,6 +94,7 @@ impl Tool {
             patches: PatchField::new(surface, model.held_radius(typical)),
             placement: settings.placement,
             field: None,
+            further: None,
             typical_radius: typical,
             model,
         })
@@ -115,6 +119,15 @@ impl Tool {
         match self.tip {
             Tip::Flat { radius } | Tip::Sphere { radius } => radius,
         }
+    }
+}
+
+/// Radius of the touching area that stands for all [m].
+pub(crate) fn typical_radius(tip: &scene::Tip) -> f64 {
+    match tip.shape {
+        scene::TipShape::Flat => tip.radius_m,
+        // Half the radius touches at a quarter of the radius in depth.
+        scene::TipShape::Sphere => 0.5 * tip.radius_m,
     }
 }
 

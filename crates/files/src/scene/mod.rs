@@ -2,6 +2,8 @@
 //! the tools that touch it.
 
 mod cutting;
+mod draw;
+mod inclusion;
 mod jaws;
 mod model;
 mod model_words;
@@ -17,6 +19,8 @@ mod view;
 use std::path::{Path, PathBuf};
 
 pub use cutting::{CutMode, Cutting};
+pub use draw::{Drawn, Draws, FindOnSurface, LARGEST_SEED, OnSurface, SurfacePoint, Variant};
+pub use inclusion::{Inclusion, InclusionShape};
 pub use jaws::Jaws;
 pub use model::{Enhancement, LocalSettings, Model};
 pub use model_words::{
@@ -54,6 +58,10 @@ pub struct Scene {
     pub view: View,
     /// What there is to do.
     pub task: Task,
+    /// What has to be drawn before anybody touches it ([`Scene::drawn`]); none for a scene of fixed numbers.
+    pub draws: Option<Draws>,
+    /// Which variant of a task it is; none for a scene that was not drawn.
+    pub variant: Option<Variant>,
     /// Its text, which means the same in any folder ([`standing_alone`]); none once something was changed.
     pub written: Option<String>,
     /// What deserves a warning among its numbers, as sentences; none once something was changed.
@@ -68,6 +76,7 @@ const KEYS: &[&str] = &[
     "tool",
     "view",
     "task",
+    "variant",
 ];
 
 impl Scene {
@@ -88,7 +97,8 @@ impl Scene {
     pub fn parse(text: &str, path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-        let document = Document::parse(text, path)?;
+        let mut document = Document::parse(text, path)?;
+        let draws = document.change(Draws::take)?;
         let keys = document.keys(KEYS)?;
         let organ = keys
             .table("organ", Organ::KEYS)?
@@ -96,21 +106,34 @@ impl Scene {
         let neighbours = keys.tables("neighbour", Neighbour::KEYS)?;
         let touched = Organ::from_keys(&organ, &folder)?;
         let layers = touched.layers.len();
-        let scene = Self {
+        let tools = tool::from_keys(&keys, &folder)?;
+        let cutting = keys.table("cutting", Cutting::KEYS)?;
+        let model = keys.table("model", Model::KEYS)?;
+        let model = Model::from_keys(model.as_ref(), &touched, &tools, cutting.as_ref())?;
+        let mut scene = Self {
             organ: touched,
             neighbours: neighbours
                 .iter()
                 .map(|keys| Neighbour::from_keys(keys, &folder))
                 .collect::<Result<_, _>>()?,
-            model: Model::from_keys(keys.table("model", Model::KEYS)?.as_ref())?,
-            cutting: Cutting::from_keys(keys.table("cutting", Cutting::KEYS)?.as_ref())?,
-            tools: tool::from_keys(&keys, &folder)?,
+            model,
+            cutting: Cutting::from_keys(cutting.as_ref())?,
+            tools,
             view: View::from_keys(keys.table("view", View::KEYS)?.as_ref())?,
             task: Task::from_keys(keys.table("task", Task::KEYS)?.as_ref(), &folder, layers)?,
             folder,
+            draws,
+            variant: Variant::from_keys(&keys)?,
             written: Some(standing_alone(text, path)?),
             warnings: keys.warnings(),
         };
+        if let Some(reason) = model.reason {
+            scene.warnings.push(format!(
+                "{}: model.kind = \"auto\" is {:?}, for {reason}",
+                path.display(),
+                model.kind.word()
+            ));
+        }
         if scene.lacks_anchor() {
             return Err(organ.missing(
                 "anchor",

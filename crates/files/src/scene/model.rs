@@ -2,6 +2,7 @@ use super::model_words::{
     Assembly, Calibration, EnhancementArea, Form, HandOver, IntegrationPoints, ModelKind,
     Placement, ResponseMethod, Smoothing, Solver,
 };
+use super::{Organ, Shape, Tool, ToolKind};
 use crate::{Domain, Error, Keys};
 
 /// How the organ is moved, with the settings of every kind of model; those of the other kind are
@@ -10,6 +11,8 @@ use crate::{Domain, Error, Keys};
 pub struct Model {
     /// Which model.
     pub kind: ModelKind,
+    /// Why it was chosen, where the scene leaves the choice (`kind = "auto"`).
+    pub reason: Option<&'static str>,
     /// The period of the model thread [s].
     pub step_s: f64,
     /// Settings of the finite spheres.
@@ -88,6 +91,7 @@ impl Default for Model {
     fn default() -> Self {
         Self {
             kind: ModelKind::Local,
+            reason: None,
             // The source's 200 Hz.
             step_s: 0.005,
             local: LocalSettings::default(),
@@ -98,6 +102,35 @@ impl Default for Model {
             hand_over: HandOver::LocalModel,
             force_scale: 1.0,
         }
+    }
+}
+
+/// What a scene may say of its model; none leaves the choice.
+const CHOICES: &[(&str, Option<ModelKind>)] = &[
+    ("local", Some(ModelKind::Local)),
+    ("hybrid", Some(ModelKind::Hybrid)),
+    ("nonlinear", Some(ModelKind::Nonlinear)),
+    ("auto", None),
+];
+
+/// The least model that answers what these tools do, and why.
+fn choose(organ: &Organ, tools: &[Tool], cuts: bool) -> (ModelKind, &'static str) {
+    let any = |kinds: &[ToolKind]| tools.iter().any(|tool| kinds.contains(&tool.kind));
+    let is_held = organ.anchor.is_some() || matches!(organ.shape, Shape::Builtin { .. });
+    if !is_held {
+        let reason = "the scene does not say where its mesh is held (organ.anchor)";
+        return (ModelKind::Local, reason);
+    }
+    if cuts || any(&[ToolKind::Scissors, ToolKind::Hook]) || !organ.layers.is_empty() {
+        (ModelKind::Hybrid, "a cut changes its forces alone")
+    } else if any(&[ToolKind::Grasper]) {
+        let reason = "a grasper pulls and lifts, and it alone is right at large deformation";
+        (ModelKind::Nonlinear, reason)
+    } else {
+        (
+            ModelKind::Local,
+            "probes press, and it needs no preparation",
+        )
     }
 }
 
@@ -120,7 +153,13 @@ impl Model {
         "force_scale",
     ];
 
-    pub(super) fn from_keys(keys: Option<&Keys<'_>>) -> Result<Self, Error> {
+    /// The model of a scene with an organ, tools and, if it says so, cuts, which decide what `auto` takes.
+    pub(super) fn from_keys(
+        keys: Option<&Keys<'_>>,
+        organ: &Organ,
+        tools: &[Tool],
+        cutting: Option<&Keys<'_>>,
+    ) -> Result<Self, Error> {
         let default = Self::default();
         let Some(keys) = keys else {
             return Ok(default);
@@ -130,8 +169,17 @@ impl Model {
         // Fewer resolve nothing; with more the influences of the surface take gigabytes, and a step its period.
         let nodes = keys.integer("nodes", 200..=6_000)?;
         let or = |key, domain, or: f64| Ok(keys.number(key, domain)?.unwrap_or(or));
+        let (kind, reason) = match keys.word("kind", CHOICES)? {
+            None => (default.kind, None),
+            Some(Some(kind)) => (kind, None),
+            Some(None) => {
+                let (kind, reason) = choose(organ, tools, cutting.is_some());
+                (kind, Some(reason))
+            }
+        };
         Ok(Self {
-            kind: keys.word("kind", ModelKind::WORDS)?.unwrap_or(default.kind),
+            kind,
+            reason,
             step_s: or("step_s", Domain::STEP, default.step_s)?,
             local: LocalSettings::from_keys(keys)?,
             enhancement: Enhancement::from_keys(keys)?,

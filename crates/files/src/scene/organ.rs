@@ -1,7 +1,7 @@
 use std::ops::Bound::{Excluded, Included};
 use std::path::Path;
 
-use super::{Region, Shape, TissueChoice};
+use super::{Inclusion, Region, Shape, TissueChoice};
 use crate::{Domain, Error, Event, Keys};
 
 /// The organ that is touched.
@@ -18,6 +18,8 @@ pub struct Organ {
     pub touchable: Option<Region>,
     /// Its layers from outside to inside; empty for an organ of one tissue.
     pub layers: Vec<Layer>,
+    /// Parts of another tissue in it.
+    pub inclusions: Vec<Inclusion>,
     /// Stiff balls in it.
     pub nodules: Vec<Nodule>,
 }
@@ -41,7 +43,8 @@ pub struct Nodule {
 }
 
 /// A layer of an organ. A blade opens it where it goes as deep as the layer's lower face, and any tool where the
-/// layer is bare and the normal force exceeds `perforation_force_n`.
+/// layer is bare and the normal force exceeds `perforation_force_n`. The nonlinear model feels its tissue; with the other
+/// models the organ answers as `organ.tissue` does. Below the layers is `organ.tissue`.
 ///
 /// ```toml
 /// [[organ.layer]]              # from outside to inside, at most 6
@@ -118,6 +121,7 @@ impl Organ {
         "anchor",
         "touchable",
         "layer",
+        "inclusion",
         "nodule",
     ];
 
@@ -131,6 +135,7 @@ impl Organ {
             return Err(keys.bad("layer", "at most 6 layers: a session has an event for each"));
         }
         let nodules = keys.tables("nodule", Nodule::KEYS)?;
+        let inclusions = keys.tables("inclusion", Inclusion::KEYS)?;
         Ok(Self {
             nodules: nodules
                 .iter()
@@ -144,6 +149,11 @@ impl Organ {
                 .iter()
                 .enumerate()
                 .map(|(number, keys)| Layer::from_keys(keys, number, folder))
+                .collect::<Result<_, _>>()?,
+            inclusions: inclusions
+                .iter()
+                .enumerate()
+                .map(|(number, keys)| Inclusion::from_keys(keys, number, folder))
                 .collect::<Result<_, _>>()?,
         })
     }

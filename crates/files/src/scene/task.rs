@@ -1,3 +1,5 @@
+use std::f64::consts::PI;
+use std::ops::Bound::{Excluded, Included};
 use std::path::{Path, PathBuf};
 
 use super::standing_alone::plain;
@@ -23,6 +25,9 @@ use crate::{Domain, Error, Keys};
 /// force_n = 0.4
 /// tolerance_n = 0.1
 /// hold_s = 10.0                # how long in all, within the tolerance
+/// direction = [0.0, -1.0, 0.0] # where to pull; default: anywhere
+/// direction_tolerance_deg = 30 # how far from it still counts; this is the default
+/// tear_force_n = 0.6           # a pull above it tears the tissue: the attempt is over, and failed
 ///
 /// [task.cut]
 /// from_m = [0.0, -0.01, 0.015]
@@ -69,6 +74,10 @@ pub enum Goal {
         tolerance_n: f64,
         /// For how long in all [s].
         hold_s: f64,
+        /// Where to pull, and the largest angle from it that still counts [rad]; none for anywhere.
+        direction: Option<([f64; 3], f64)>,
+        /// The pull above which the tissue tears [N].
+        tear_force_n: Option<f64>,
     },
     /// When a straight cut is as long as its line.
     Cut {
@@ -82,6 +91,9 @@ pub enum Goal {
         layers: Option<usize>,
     },
 }
+
+/// How far a pull may be from its direction [rad].
+const ANGLE: Domain = Domain::quantity("an angle", "rad", [Excluded(0.0), Included(PI)]);
 
 /// Where the expert's session is. What the folder of the scene itself holds is, at most, the session that is judged.
 fn expert(keys: &Keys<'_>, folder: &Path) -> Result<Option<PathBuf>, Error> {
@@ -154,19 +166,52 @@ impl Goal {
                 tolerance_m: find.required_number("tolerance_m", Domain::LENGTH)?,
             });
         }
-        const TRACTION: &[&str] = &["tool", "force_n", "tolerance_n", "hold_s"];
+        const TRACTION: &[&str] = &[
+            "tool",
+            "force_n",
+            "tolerance_n",
+            "hold_s",
+            "direction",
+            "direction_tolerance_rad",
+            "tear_force_n",
+        ];
         if let Some(traction) = keys.table("traction", TRACTION)? {
             return Ok(Self::Traction {
                 tool: traction.text("tool")?,
                 force_n: traction.required_number("force_n", Domain::FORCE)?,
                 tolerance_n: traction.required_number("tolerance_n", Domain::FORCE)?,
                 hold_s: traction.required_number("hold_s", Domain::DURATION)?,
+                direction: Self::direction(&traction)?,
+                tear_force_n: Self::tear_force(&traction)?,
             });
         }
         const CUT: &[&str] = &["from_m", "to_m", "tolerance_m", "layers"];
         match keys.table("cut", CUT)? {
             Some(cut) => Self::cut(&cut, layers),
             None => Ok(Self::Free),
+        }
+    }
+
+    fn direction(traction: &Keys<'_>) -> Result<Option<([f64; 3], f64)>, Error> {
+        let tolerance = traction.number("direction_tolerance_rad", ANGLE)?;
+        match traction.direction("direction")? {
+            Some(direction) => Ok(Some((direction, tolerance.unwrap_or(PI / 6.0)))),
+            None if tolerance.is_some() => {
+                Err(traction.missing("direction", "a direction, such as [0.0, -1.0, 0.0]"))
+            }
+            None => Ok(None),
+        }
+    }
+
+    fn tear_force(traction: &Keys<'_>) -> Result<Option<f64>, Error> {
+        let tear = traction.number("tear_force_n", Domain::FORCE)?;
+        let wanted = traction.required_number("force_n", Domain::FORCE)?;
+        match tear {
+            Some(tear) if tear <= wanted => Err(traction.bad(
+                "tear_force_n",
+                "a force above `force_n`, for tissue that tears before cannot be held",
+            )),
+            tear => Ok(tear),
         }
     }
 

@@ -41,6 +41,20 @@ impl Document {
         })
     }
 
+    /// Changes the document's values before they are understood.
+    ///
+    /// # Errors
+    /// Those of `change`, which gets the document's keys to name places.
+    pub(crate) fn change<T>(
+        &mut self,
+        change: impl FnOnce(&mut Table, &Keys<'_>) -> Result<T, Error>,
+    ) -> Result<T, Error> {
+        let mut root = std::mem::take(&mut self.root);
+        let changed = change(&mut root, &self.open_keys(&[]));
+        self.root = root;
+        changed
+    }
+
     /// The keys of the whole document, of which `known` are those beside `format` that may occur.
     ///
     /// # Errors

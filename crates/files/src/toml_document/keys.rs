@@ -188,6 +188,36 @@ impl<'d> Keys<'d> {
         }))
     }
 
+    /// The keys of a `table` that was found outside this one, in the same file, under its full `name`.
+    pub(crate) fn of_entry<'t>(
+        &self,
+        name: &str,
+        entry: &Entry,
+        table: &'t Table,
+        known: &'static [&'static str],
+    ) -> Keys<'t>
+    where
+        'd: 't,
+    {
+        Keys::of_table(
+            self.place_of(entry),
+            name.to_owned(),
+            table,
+            known,
+            self.warnings,
+        )
+    }
+
+    /// The error for the value of an entry, under its full `name`.
+    pub(crate) fn bad_entry(&self, name: &str, entry: &Entry, expected: &'static str) -> Error {
+        Error::BadValue {
+            place: self.place_of(entry),
+            key: self.full_name(name),
+            found: entry.value.described(),
+            expected: expected.into(),
+        }
+    }
+
     /// The error for a key that must be there and is not.
     pub fn missing(&self, key: &str, expected: impl Into<Cow<'static, str>>) -> Error {
         Error::MissingKey {

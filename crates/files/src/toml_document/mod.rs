@@ -11,4 +11,4 @@ pub use document::Document;
 pub(crate) use document::check_format;
 pub use keys::Keys;
 pub(crate) use keys::Warnings;
-pub(crate) use value::{Table, Value, number as toml_number, parse as parse_toml, quoted};
+pub(crate) use value::{Entry, Table, Value, number as toml_number, parse as parse_toml, quoted};

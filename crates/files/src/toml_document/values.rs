@@ -4,7 +4,7 @@ use crate::error::Place;
 use crate::words::either;
 use crate::{Error, Keys};
 
-use super::value::{Entry, Value};
+use super::value::{Entry, Table, Value};
 
 impl<'d> Keys<'d> {
     /// A text that is not empty.
@@ -127,6 +127,34 @@ impl<'d> Keys<'d> {
         let keys = Keys::of_table(found.place, found.key, table, known, found.warnings);
         keys.only(known)?;
         Ok(Some(keys))
+    }
+
+    /// A table whose keys are names of somebody's choice.
+    ///
+    /// # Errors
+    /// When the value is no table.
+    pub(crate) fn any_table(&self, key: &'static str) -> Result<Option<&'d Table>, Error> {
+        self.read(key, "a table", |value| match value {
+            Value::Table(table) => Some(table),
+            _ => None,
+        })
+    }
+
+    /// A list, each of whose values is understood.
+    ///
+    /// # Errors
+    /// When the value is no list, or one of its values is not understood.
+    pub(crate) fn values_of<T>(
+        &self,
+        key: &'static str,
+        expected: &'static str,
+        understand: impl Fn(&Value) -> Option<T>,
+    ) -> Result<Vec<T>, Error> {
+        let list = self.read(key, expected, |value| match value {
+            Value::List(values) => values.iter().map(&understand).collect(),
+            _ => None,
+        })?;
+        Ok(list.unwrap_or_default())
     }
 
     /// A list of tables of which `known` are the keys that may occur; empty when the key is missing.

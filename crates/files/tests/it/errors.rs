@@ -248,7 +248,7 @@ const BAD_SCENES: &[(&str, &str)] = &[
     ("[model]\nparticles = 34.5", "is 34.5; give a whole number"),
     (
         "[model]\nkind = \"global\"",
-        "is \"global\"; give \"local\", \"hybrid\" or \"nonlinear\"",
+        "is \"global\"; give \"local\", \"hybrid\", \"nonlinear\" or \"auto\"",
     ),
     (
         "[model]\nintegration_points = 400",

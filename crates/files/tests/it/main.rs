@@ -4,6 +4,7 @@
 
 mod builtin;
 mod card;
+mod draw;
 mod errors;
 mod foreign;
 mod fuzz;

@@ -290,3 +290,32 @@ fn goals_are_one_table_or_none() {
         assert!(message.contains(expected), "{message}");
     }
 }
+
+/// `auto` takes what the tools need and says why; a stated kind says nothing.
+#[test]
+fn auto_chooses_and_says_why() {
+    let chosen = |more: &str| {
+        let text = format!("format = 1\nmodel = {{ kind = \"auto\" }}\n{more}");
+        let scene = Scene::parse(&text, "scene.toml").unwrap();
+        let said = scene
+            .warnings
+            .iter()
+            .filter(|warning| warning.contains("auto"));
+        assert_eq!(said.count(), 1, "{:?}", scene.warnings);
+        scene.model.kind
+    };
+    let organ = "organ = { builtin = \"liver\", builtin_tissue = \"pig-liver\" }\n";
+    let tool = |kind: &str| format!("{organ}[[tool]]\nname = \"right\"\nkind = \"{kind}\"\n");
+    assert_eq!(chosen(&tool("probe")), ModelKind::Local);
+    assert_eq!(chosen(&tool("grasper")), ModelKind::Nonlinear);
+    assert_eq!(chosen(&tool("scissors")), ModelKind::Hybrid);
+    assert_eq!(chosen(&tool("hook")), ModelKind::Hybrid);
+    let cuts = format!("{}[cutting]\nmode = \"split\"\n", tool("grasper"));
+    assert_eq!(chosen(&cuts), ModelKind::Hybrid);
+    let loose = "organ = { mesh = \"a.stl\", builtin_tissue = \"pig-liver\" }\n\
+                 [[tool]]\nname = \"right\"\nkind = \"grasper\"\n";
+    assert_eq!(chosen(loose), ModelKind::Local);
+    let stated = Scene::parse(&format!("format = 1\n{organ}"), "scene.toml").unwrap();
+    assert_eq!(stated.model.reason, None);
+    assert!(stated.warnings.is_empty());
+}

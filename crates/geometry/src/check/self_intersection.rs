@@ -4,11 +4,16 @@
 use super::contact::{Corners, same_sign, segment_meets_triangle};
 use crate::{NodeId, TriangleId, TriangleMesh, Vec3};
 
-/// Number of triangles that meet another elsewhere than in a vertex or an edge that both have.
+/// Number of triangles that [cross](self_intersecting) another.
+pub(crate) fn count_self_intersections(mesh: &TriangleMesh) -> usize {
+    self_intersecting(mesh).len()
+}
+
+/// Triangles that meet another elsewhere than in a vertex or an edge that both have.
 ///
 /// Vertices in the same place count as one, so that an open seam is no crossing. Triangles without
 /// area are passed over.
-pub(crate) fn count_self_intersections(mesh: &TriangleMesh) -> usize {
+pub(crate) fn self_intersecting(mesh: &TriangleMesh) -> Vec<TriangleId> {
     let (mesh, _) = crate::weld_exactly(mesh);
     let mut crossing = vec![false; mesh.triangles().len()];
     for_each_close_pair(&mesh, |one, other| {
@@ -18,7 +23,10 @@ pub(crate) fn count_self_intersections(mesh: &TriangleMesh) -> usize {
             crossing[other.index()] = true;
         }
     });
-    crossing.into_iter().filter(|&crosses| crosses).count()
+    let crossing = mesh.triangle_ids().zip(crossing);
+    crossing
+        .filter_map(|(triangle, crosses)| crosses.then_some(triangle))
+        .collect()
 }
 
 struct Bounded {

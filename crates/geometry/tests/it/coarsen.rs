@@ -10,7 +10,7 @@ fn organ(organ: Organ, triangles: usize) -> Surface {
 
 fn coarse(surface: &Surface, tetrahedra: usize, nodes: usize) -> TetrahedronMesh {
     let fine = fill(surface, &FillSettings::with_about(surface, tetrahedra)).unwrap();
-    coarsen(&fine, nodes, surface.mesh().volume()).unwrap()
+    coarsen(&fine, nodes, surface.mesh().volume(), |_| 1.0).unwrap()
 }
 
 /// Vertices and edges: the nodes of quadratic elements.
@@ -81,6 +81,6 @@ fn none_of_few_tetrahedra_is_flat() {
 fn a_mesh_that_is_coarse_enough_stays() {
     let surface = organ(Organ::Hemisphere, 500);
     let fine = fill(&surface, &FillSettings::with_about(&surface, 500)).unwrap();
-    let same = coarsen(&fine, 100_000, fine.volume()).unwrap();
+    let same = coarsen(&fine, 100_000, fine.volume(), |_| 1.0).unwrap();
     assert_eq!(same.tetrahedra(), fine.tetrahedra());
 }

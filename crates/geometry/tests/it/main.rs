@@ -26,6 +26,7 @@ mod shapes;
 mod simplify;
 mod tetrahedra;
 mod volumes;
+mod wrap;
 mod write;
 
 /// Whether random tests shall try all of their cases: `PALPATE_FULL=1`.

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use nalgebra::Rotation3;
-use palpate_geometry::{AabbTree, NodeId, Organ, Surface, TriangleMesh, Vec3};
+use palpate_geometry::{AabbTree, NodeId, Organ, Surface, TriangleMesh, Vec3, weld_exactly};
 use parry3d_f64::shape::{TriMesh, TriMeshFlags};
 
 /// `full` tries when `PALPATE_FULL=1`, else a tenth.
@@ -19,6 +19,38 @@ pub(crate) fn organ(organ: Organ, triangles: usize) -> (Surface, AabbTree) {
     let surface = Surface::new(organ.surface_mesh(triangles).unwrap()).unwrap();
     let tree = AabbTree::new(surface.mesh());
     (surface, tree)
+}
+
+/// A ball about the origin [m], of 8,192 triangles; its volume is 0.1 % below that of the sphere through its vertices.
+pub(crate) fn ball(radius: f64) -> TriangleMesh {
+    let mut triangles: Vec<[Vec3; 3]> = Vec::new();
+    for octant in 0..8 {
+        let [x, y, z] = [0, 1, 2].map(|axis| if octant >> axis & 1 == 0 { 1.0 } else { -1.0 });
+        let [a, b, c] = [Vec3::x() * x, Vec3::y() * y, Vec3::z() * z];
+        triangles.push(if x * y * z > 0.0 {
+            [a, b, c]
+        } else {
+            [a, c, b]
+        });
+    }
+    for _ in 0..5 {
+        let quarters = |[a, b, c]: [Vec3; 3]| {
+            let [d, e, f] = [
+                (a + b).normalize(),
+                (b + c).normalize(),
+                (c + a).normalize(),
+            ];
+            [[a, d, f], [d, b, e], [f, e, c], [d, e, f]]
+        };
+        triangles = triangles.into_iter().flat_map(quarters).collect();
+    }
+    let vertices = triangles
+        .iter()
+        .flatten()
+        .map(|vertex| radius * vertex)
+        .collect();
+    let numbers = (0..triangles.len() as u32).map(|k| [3 * k, 3 * k + 1, 3 * k + 2].map(NodeId));
+    weld_exactly(&TriangleMesh::new(vertices, numbers.collect()).unwrap()).0
 }
 
 /// A closed tube of `radius` and `length` [m] along z with `around` equal triangles to a turn.

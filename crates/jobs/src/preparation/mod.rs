@@ -56,6 +56,8 @@ pub fn simulation(
     watch: &dyn Watch,
 ) -> Result<Simulation, Error> {
     watch.say("preparing the organ and its model");
+    // Whoever keeps a session draws before; to look at an organ any variant will do.
+    let scene = &palpate_simulate::draw_variant(scene, 0)?;
     let mut last = None;
     let made = Simulation::prepare(scene, resources, &mut |progress| {
         if last.replace(progress.work) != Some(progress.work) {

@@ -8,14 +8,14 @@
 //!
 //! *How we know*: `derivatives::tangent_is_the_derivative_of_the_residual`, patch tests.
 //!
-//! *Limits*: one law for the whole body.
+//! *Limits*: pressures are continuous where laws meet.
 
 use nalgebra::Matrix3;
 
 use super::model::{ElementSums, FiniteElementModel, FiniteElementWorkspace};
 use super::relaxation::{Past, RelaxationStep};
 use crate::Strain;
-use crate::material::law::{Distortion, Tangent};
+use crate::material::law::{Distortion, Law, Tangent};
 
 /// ε of the pressure block [-].
 pub(super) const PROXIMAL: f64 = 1e-7;
@@ -85,9 +85,9 @@ pub(super) fn add_by_parameter(
     residual: &mut [f64],
 ) {
     let local = model.local_unknowns();
-    let law = model.law.as_ref();
     let (mut values, mut force) = (vec![0.0; local], vec![0.0; local]);
     for (element, numbers) in model.unknowns.chunks_exact(local).enumerate() {
+        let law = model.law_of(element);
         for (value, &number) in values.iter_mut().zip(numbers) {
             *value = unknowns[number as usize];
         }
@@ -122,10 +122,10 @@ pub(super) fn add_by_parameter(
 /// Piola-Kirchhoff at finite strain.
 pub(super) fn elastic_stresses(model: &FiniteElementModel, unknowns: &[f64]) -> Vec<Matrix3<f64>> {
     let local = model.local_unknowns();
-    let law = model.law.as_ref();
     let mut stresses = Vec::with_capacity(model.mapping.weights.len());
     let mut values = vec![0.0; local];
     for (element, numbers) in model.unknowns.chunks_exact(local).enumerate() {
+        let law = model.law_of(element);
         for (value, &number) in values.iter_mut().zip(numbers) {
             *value = unknowns[number as usize];
         }
@@ -162,6 +162,7 @@ struct Constraint {
 
 /// One point of integration, with the slices of the mapping that belong to it.
 struct Point<'a> {
+    law: &'a dyn Law,
     weight: f64,
     gradients: &'a [f64],
     hoops: &'a [f64],
@@ -176,6 +177,7 @@ impl<'a> Point<'a> {
             all.get(index * width..(index + 1) * width).unwrap_or(&[])
         };
         Self {
+            law: model.law_of(element),
             weight: mapping.weights[index],
             gradients: part(&mapping.gradients, nodes * model.dimension()),
             hoops: part(&mapping.hoops, nodes),
@@ -208,7 +210,7 @@ impl<'a> Point<'a> {
         sums: &mut ElementSums,
     ) -> Result<f64, Inverted> {
         let f = self.gradient::<D>(values);
-        let (law, volume) = (model.law.as_ref(), model.law.volume());
+        let (law, volume) = (self.law, self.law.volume());
         let stands = volume.strain == Strain::Small || f.determinant() > 0.0;
         if !stands {
             return Err(Inverted);

@@ -20,11 +20,13 @@ pub enum Formulation {
 /// Largest Poisson's ratio [-] at which elements without a pressure field are still good for a force.
 const LOCKING: f64 = 0.49;
 
-/// A body of one law, cut into elements: all that does not change with its displacement.
+/// A body, cut into elements: all that does not change with its displacement.
 #[derive(Debug)]
 pub struct FiniteElementModel {
     pub(crate) mesh: ElementMesh,
     pub(crate) law: Arc<dyn Law>,
+    /// Laws of the elements, where they are not all `law`.
+    laws: Vec<Arc<dyn Law>>,
     pub(crate) mapping: Mapping,
     /// Unknowns of an element: displacements node by node, then pressures; elements × local unknowns.
     pub(crate) unknowns: Vec<u32>,
@@ -75,12 +77,47 @@ impl FiniteElementModel {
         Ok(Self {
             mesh,
             law,
+            laws: Vec::new(),
             mapping,
             unknowns,
             pattern,
             scatter,
             shear_modulus,
         })
+    }
+
+    /// As [`Self::new`], with a law for each element. Scales of stress are those of the first. Pressures are continuous,
+    /// also where laws meet, so that displacements alone converge faster there.
+    ///
+    /// # Errors
+    /// As [`Self::new`], and when there is not one law for each element, or some are for small and others for finite strain.
+    pub fn with_laws(
+        mesh: ElementMesh,
+        laws: Vec<Arc<dyn Law>>,
+        formulation: Formulation,
+    ) -> Result<Self, Error> {
+        let wrong = |found| Mismatch::WrongLength {
+            what: "the list of the elements' laws",
+            found,
+            expected: mesh.len(),
+        };
+        let first = laws.first().ok_or(wrong(0))?.clone();
+        let strain = first.volume().strain;
+        let alike = laws
+            .iter()
+            .filter(|law| law.volume().strain == strain)
+            .count();
+        if alike != mesh.len() {
+            return Err(wrong(alike).into());
+        }
+        let mut model = Self::new(mesh, first, formulation)?;
+        model.laws = laws;
+        Ok(model)
+    }
+
+    /// The law of an element.
+    pub(crate) fn law_of(&self, element: usize) -> &dyn Law {
+        self.laws.get(element).unwrap_or(&self.law).as_ref()
     }
 
     /// The mesh.

@@ -14,6 +14,7 @@
 use nalgebra::{Matrix2, Matrix3, Vector3};
 
 use super::layout::CapShape;
+use super::model::Surroundings;
 use super::settings::Form;
 use crate::contact::{Bond, half_space_stiffness, half_space_tangential_stiffness};
 use crate::{Limit, Limits, LinearElastic, Reached};
@@ -94,7 +95,7 @@ pub(super) struct Corrected {
 
 /// Constants at ν, linear between the rows; k_c as k_c (1 − ν), which varies least. Outside the rows
 /// the nearest one is taken.
-fn constants(poissons_ratio: f64) -> ExteriorConstants {
+pub(super) fn constants(poissons_ratio: f64) -> ExteriorConstants {
     let above = |row: &ExteriorConstants| row.poissons_ratio >= poissons_ratio;
     let last = EXTERIOR_CONSTANTS.len() - 1;
     let high = EXTERIOR_CONSTANTS
@@ -149,14 +150,67 @@ impl Calibration {
         }
     }
 
-    /// Stiffness of a contact whose shells of spacing `spacing` [m] have the stiffness `shells` [E h],
-    /// on an organ of radius `organ_radius` [m].
+    /// Stiffness of a contact whose shells of spacing `spacing` [m] have the stiffness `shells` [E h], in
+    /// `surroundings`.
     pub(super) fn correct(
         &self,
         shells: &Matrix3<f64>,
         spacing: f64,
-        organ_radius: f64,
+        surroundings: &Surroundings,
     ) -> Corrected {
+        match surroundings {
+            Surroundings::Hemisphere { radius } => self.on_hemisphere(shells, spacing, *radius),
+            Surroundings::Known(further) => self.in_known(shells, spacing, further),
+        }
+    }
+
+    /// The half-space's stiffness in series with `further` [1/m], which holds the curvature as well: of the shells only
+    /// the share of the displacement is taken.
+    fn in_known(&self, shells: &Matrix3<f64>, spacing: f64, further: &Matrix3<f64>) -> Corrected {
+        let (unit, radius) = (
+            self.youngs_modulus * spacing,
+            self.radius_in_spacings * spacing,
+        );
+        let mut limits = Limits::NONE;
+        let mut bounded = |limit, least: f64, compliance: f64| {
+            if compliance >= least {
+                return compliance;
+            }
+            let asked = half_spaces(STIFFEST * least / compliance);
+            let used = STIFFEST;
+            limits.add(limit, Reached { asked, used });
+            least
+        };
+        let own = 1.0 / (self.half_space * radius);
+        let normal = own + further[(2, 2)] / self.youngs_modulus;
+        let normal = bounded(Limit::LocalStiffness, own / STIFFEST, normal);
+        let inside = 1.0 / (shells[(2, 2)] * unit);
+        let mut stiffness = Matrix3::zeros();
+        stiffness[(2, 2)] = 1.0 / normal;
+        let mut share = [0.0, (1.0 - inside / normal).clamp(0.0, 1.0)];
+        if self.bond == Bond::Stick {
+            let own = 1.0 / (self.half_space_tangential * radius);
+            let along = further.fixed_view::<2, 2>(0, 0) / self.youngs_modulus
+                + Matrix2::from_diagonal_element(own);
+            let mean = 0.5 * along.trace();
+            let spread = (0.5 * (along[(0, 0)] - along[(1, 1)])).hypot(along[(0, 1)]);
+            let stiffest = mean - spread;
+            let more = bounded(Limit::LocalShearStiffness, own / STIFFEST, stiffest) - stiffest;
+            let along = along + Matrix2::from_diagonal_element(more);
+            let inverse = along.try_inverse();
+            let both = inverse.unwrap_or_else(|| Matrix2::repeat(f64::NAN));
+            stiffness.fixed_view_mut::<2, 2>(0, 0).copy_from(&both);
+            let of_shells = shells.fixed_view::<2, 2>(0, 0).trace() * unit;
+            share[0] = (1.0 - both.trace() / of_shells).clamp(0.0, 1.0);
+        }
+        Corrected {
+            stiffness,
+            share,
+            limits,
+        }
+    }
+
+    fn on_hemisphere(&self, shells: &Matrix3<f64>, spacing: f64, organ_radius: f64) -> Corrected {
         let unit = self.youngs_modulus * spacing;
         let held_at = self.shells * spacing;
         let inside = 1.0 / (shells[(2, 2)] * unit);

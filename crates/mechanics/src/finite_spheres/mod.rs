@@ -34,7 +34,7 @@ mod workspace;
 
 pub use exterior::{EXTERIOR_CONSTANTS, ExteriorConstants, LARGEST_CALIBRATED_RATIO};
 pub use layout::SOURCE_PARTICLES;
-pub use model::{FiniteSphereModel, LocalContact, Response};
+pub use model::{FiniteSphereModel, LocalContact, Response, Surroundings};
 pub use settings::{
     Assembly, Calibration, FiniteSphereSettings, Form, Integration, Placement, Solver,
 };

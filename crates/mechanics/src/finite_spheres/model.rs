@@ -1,7 +1,7 @@
 use nalgebra::{Matrix3, Vector3};
 use palpate_geometry::{AabbTree, Surface, TriangleId};
 
-use super::exterior::{Calibration, LARGEST_CALIBRATED_RATIO};
+use super::exterior::{self, Calibration, LARGEST_CALIBRATED_RATIO};
 use super::field::{SHOWN, Spread, smooth_fall as fade};
 use super::layout::{CapShape, Layout};
 use super::quadrature::Quadrature;
@@ -51,11 +51,32 @@ pub struct LocalContact {
     pub triangle: TriangleId,
     /// Radius of the touching area [m].
     pub radius: f64,
-    /// Radius of a hemisphere of the organ's volume [m].
-    pub organ_radius: f64,
+    /// What the organ is beyond the particles.
+    pub surroundings: Surroundings,
     /// Distance along the inward normal to where the organ is held [m], infinite for a half-space; asked for
     /// without calibration only.
     pub thickness: f64,
+}
+
+impl LocalContact {
+    /// Mean curvature of the surface under the tip [1/m], positive where it bulges out.
+    pub fn mean_curvature(&self) -> f64 {
+        0.5 * (self.curvature.x + self.curvature.z)
+    }
+}
+
+/// What an organ is beyond the particles around a tip.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Surroundings {
+    /// A hemisphere that is held at its base, of this radius [m]; infinite for a half-space. The particles answer to a
+    /// contact that is flatter or rounder than it, too strongly: this is the source's case, of a tip at the pole.
+    Hemisphere {
+        /// Its radius [m].
+        radius: f64,
+    },
+    /// What the organ yields beyond a half-space, times Young's modulus [1/m], in the contact's frame; symmetric. Its
+    /// curvature is in it.
+    Known(Matrix3<f64>),
 }
 
 /// How a contact answers.
@@ -140,6 +161,18 @@ impl FiniteSphereModel {
         }
     }
 
+    /// An organ of which only the volume is known, that of a hemisphere of `radius` [m]: it takes away from the
+    /// half-space's compliance what that does, held at its base.
+    pub fn by_volume(&self, radius: f64) -> Surroundings {
+        let law = &self.law;
+        let taken = exterior::constants(law.poissons_ratio()).organ_size / radius;
+        let own = half_space_stiffness(law, 1.0, self.bond) / law.youngs_modulus();
+        let [_, ratio] = self.ratio_of_half_spaces;
+        let mut further = Matrix3::zeros();
+        further[(2, 2)] = -taken / (own * ratio);
+        Surroundings::Known(further)
+    }
+
     /// Fresh scratch for this model.
     pub fn workspace(&self) -> FiniteSphereWorkspace {
         let mut workspace =
@@ -181,11 +214,6 @@ impl FiniteSphereModel {
     /// α = a/h [-], from the half-space (see the table in `exterior`).
     pub fn radius_in_spacings(&self) -> f64 {
         self.calibration.radius_in_spacings
-    }
-
-    /// Whether the tissue's Poisson's ratio lies beyond what the model is calibrated for.
-    pub fn is_extrapolated(&self) -> bool {
-        self.uncalibrated.is_none() && self.ratio_of_half_spaces[1] != 1.0
     }
 
     /// Places the particles of `contact`, solves, and answers its stiffness.
@@ -284,10 +312,16 @@ impl FiniteSphereModel {
 
     fn correct(&self, contact: &LocalContact, solution: &Solution) -> Response {
         let spacing = self.spacing(contact.radius);
-        let corrected =
-            self.calibration
-                .correct(&solution.stiffness, spacing, contact.organ_radius);
         let [tangential, normal] = self.ratio_of_half_spaces;
+        let mut surroundings = contact.surroundings;
+        if let Surroundings::Known(further) = &mut surroundings {
+            // What is multiplied again below.
+            further[(2, 2)] *= normal;
+            further.fixed_view_mut::<2, 2>(0, 0).scale_mut(tangential);
+        }
+        let corrected = self
+            .calibration
+            .correct(&solution.stiffness, spacing, &surroundings);
         let mut stiffness = corrected.stiffness * tangential;
         stiffness[(2, 2)] = corrected.stiffness[(2, 2)] * normal;
         let mut limits = corrected.limits;

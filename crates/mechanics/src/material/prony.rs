@@ -112,7 +112,7 @@ pub fn branch(time_constant: f64, times: &[f64], elastic: &[f64]) -> (Vec<f64>, 
 }
 
 /// How a branch goes over a step: h ← kept h + old Fₑ⁰ + new Fₑ¹, each [-].
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Share {
     pub(crate) g: f64,
     pub(crate) kept: f64,
@@ -138,6 +138,22 @@ impl ForceHistory {
         }
         self.elastic = elastic;
         force
+    }
+
+    /// The share γ [-] and the history [N] of the relaxed force γ Fₑ − history that [`Self::advance`] will find for any elastic
+    /// force Fₑ at the end of a `step` [s].
+    pub fn foresee(&self, series: &PronySeries, step: f64) -> (f64, Vec3) {
+        let (mut follows, mut history) = (1.0, Vec3::zeros());
+        for (branch, share) in self.branches.iter().zip(series.shares(step)) {
+            follows -= share.g * share.new;
+            history += share.g * (share.kept * branch + share.old * self.elastic);
+        }
+        (follows, history)
+    }
+
+    /// The last elastic force [N].
+    pub fn elastic(&self) -> Vec3 {
+        self.elastic
     }
 
     /// Turns what it remembers by `rotation` [-].

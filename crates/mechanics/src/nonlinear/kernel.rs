@@ -5,22 +5,29 @@
 //! ```
 //!
 //! J − 1 is computed from the displacement gradient, so that no digit is lost at small strain.
+//!
+//! Where tissue relaxes, a share γ of this follows, less a history: γ P − F Sₕ − pₕ cof F (`relaxation`).
 
 use super::elements::{Nodal, POINTS, Pack};
 use super::lanes::{
     Columns, Lanes, Scalar, cofactors, contraction, cross, dot, plus, product, scaled,
     transposed_times,
 };
+use super::relaxation::Remembered;
 
 /// What eight elements keep of their deformation.
 #[derive(Debug, Clone)]
 pub(super) struct Deformed<T> {
     /// F at each integration point [-].
     pub(super) gradients: [Columns<T>; POINTS],
-    /// p − 2 c₁₀ − 4 c₀₁ at each integration point [Pa].
-    pressures: [Lanes<T>; POINTS],
+    /// γ (p − 2 c₁₀ − 4 c₀₁) − pₕ at each integration point [Pa].
+    pub(super) pressures: [Lanes<T>; POINTS],
     /// Whether one of the elements has c₀₁.
     has_second: bool,
+    /// Whether they relax: then γ [-], and Sₕ and pₕ at each integration point [Pa].
+    pub(super) relaxes: bool,
+    pub(super) follows: Lanes<T>,
+    pub(super) history: [Remembered<T>; POINTS],
 }
 
 impl<T: Scalar> Default for Deformed<T> {
@@ -29,6 +36,21 @@ impl<T: Scalar> Default for Deformed<T> {
             gradients: [Columns::default(); POINTS],
             pressures: [Lanes::default(); POINTS],
             has_second: false,
+            relaxes: false,
+            follows: Lanes::splat(1.0),
+            history: [Remembered::default(); POINTS],
+        }
+    }
+}
+
+impl<T: Scalar> Deformed<T> {
+    /// Takes F Sₕ of the volume `weight` [m³] from a stress.
+    #[inline(always)]
+    fn remember(&self, f: &Columns<T>, point: usize, weight: Lanes<T>, stress: &mut Columns<T>) {
+        let [xx, yy, zz, yz, xz, xy, _] = self.history[point];
+        let history = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
+        for (own, column) in stress.iter_mut().zip(&product(f, &history)) {
+            *own = plus(own, &scaled(column, -weight));
         }
     }
 }
@@ -87,6 +109,11 @@ impl<T: Scalar> Pack<T> {
         for pressure in &mut deformed.pressures {
             *pressure += all;
         }
+        if deformed.relaxes {
+            for (pressure, history) in deformed.pressures.iter_mut().zip(&deformed.history) {
+                *pressure = deformed.follows * *pressure - history[6];
+            }
+        }
         deformed.has_second = moduli.c01 != Lanes::default();
     }
 
@@ -105,7 +132,7 @@ impl<T: Scalar> Pack<T> {
     #[inline(always)]
     fn stress(&self, deformed: &Deformed<T>, point: usize) -> Columns<T> {
         let f = &deformed.gradients[point];
-        let two = Lanes::splat(2.0) * self.quarter;
+        let two = Lanes::splat(2.0) * self.quarter * deformed.follows;
         let pressure = deformed.pressures[point] * self.quarter;
         let mut first = two * self.moduli.c10;
         let mut stress = cofactors(f).map(|column| scaled(&column, pressure));
@@ -120,6 +147,9 @@ impl<T: Scalar> Pack<T> {
         }
         for (column, f) in stress.iter_mut().zip(f) {
             *column = plus(column, &scaled(f, first));
+        }
+        if deformed.relaxes {
+            deformed.remember(f, point, self.quarter, &mut stress);
         }
         stress
     }
@@ -139,7 +169,7 @@ impl<T: Scalar> Pack<T> {
         let first = Lanes::splat(2.0) * self.moduli.c10;
         let mut forces = Nodal::default();
         for (point, change) in changes.iter().enumerate() {
-            let by_dilation = (mean + first * dilations[point]) * self.quarter;
+            let by_dilation = (mean + first * dilations[point]) * self.quarter * deformed.follows;
             let stress = self.stress_change(deformed, point, change, by_dilation);
             self.add_forces(&stress, point, &mut forces);
         }
@@ -156,7 +186,7 @@ impl<T: Scalar> Pack<T> {
         by_dilation: Lanes<T>,
     ) -> Columns<T> {
         let f = &deformed.gradients[point];
-        let two = Lanes::splat(2.0) * self.quarter;
+        let two = Lanes::splat(2.0) * self.quarter * deformed.follows;
         let pressure = deformed.pressures[point] * self.quarter;
         let mut first = two * self.moduli.c10;
         let cofactors = cofactors(f);
@@ -190,6 +220,9 @@ impl<T: Scalar> Pack<T> {
         }
         for (own, change) in stress.iter_mut().zip(change) {
             *own = plus(own, &scaled(change, first));
+        }
+        if deformed.relaxes {
+            deformed.remember(change, point, self.quarter, &mut stress);
         }
         stress
     }

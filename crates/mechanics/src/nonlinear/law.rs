@@ -40,6 +40,33 @@ impl Moduli<f64> {
     }
 }
 
+impl Moduli<f64> {
+    /// The moduli of an element that several tissues share, each with its part of the volume [-]: the mean of the bounds of
+    /// Voigt and Reuss for the shear modulus and for the bulk modulus [Hill 1952], with the part of c₀₁ in shear that
+    /// Voigt's has.
+    pub fn mixed(parts: impl Iterator<Item = (Self, f64)>) -> Self {
+        let (mut sum, mut c01, mut bulk) = ([0.0; 2], 0.0, [0.0; 2]);
+        for (moduli, part) in parts.filter(|(_, part)| *part > 0.0) {
+            let own = moduli.c10 + moduli.c01;
+            c01 += part * moduli.c01;
+            for (sum, value) in [
+                (&mut sum, own),
+                (&mut bulk, moduli.dilation + 4.0 / 3.0 * own),
+            ] {
+                *sum = [sum[0] + part * value, sum[1] + part / value];
+            }
+        }
+        let mean = |[voigt, reuss]: [f64; 2]| 0.5 * (voigt + 1.0 / reuss);
+        let all = mean(sum);
+        let c01 = all * c01 / sum[0];
+        Self {
+            c10: all - c01,
+            c01,
+            dilation: mean(bulk) - 4.0 / 3.0 * all,
+        }
+    }
+}
+
 impl<T: Scalar> Moduli<Lanes<T>> {
     pub(super) fn put(&mut self, lane: usize, moduli: &Moduli<f64>) {
         debug_assert!(lane < LANES);

@@ -5,11 +5,12 @@ use super::boundary::{Boundary, SpreadLoad};
 use super::carried::CarriedPoints;
 use super::elements::Pack;
 use super::law::Moduli;
+use super::relaxation::Relaxation;
 use super::rest::{Influence, RestFactors};
 use super::state::NonlinearState;
 use super::step::Workspace;
 use crate::finite_elements::{ElementMesh, Mismatch};
-use crate::{Error, Vec3};
+use crate::{Error, PronySeries, Vec3};
 
 /// Largest memory of the influences of the nodes that can be loaded [bytes].
 pub const MOST_INFLUENCE_BYTES: usize = 1 << 30;
@@ -22,6 +23,7 @@ const FARTHEST: f64 = 0.5;
 pub struct NonlinearModel {
     pub(super) packs: Vec<Pack<f32>>,
     pub(super) rest: RestFactors,
+    pub(super) relaxation: Option<Relaxation>,
     /// 1/volume of the elements around each node [1/m³].
     pub(super) inverse_volumes: Vec<f32>,
     /// Those of the nodes that can be loaded.
@@ -93,6 +95,7 @@ impl NonlinearModel {
             packs: Pack::all(mesh, &numbers, moduli),
             inverse_volumes: inverse_volumes(&exact, places.len()),
             rest,
+            relaxation: None,
             influences,
             loaded,
             nodes: places,
@@ -120,6 +123,20 @@ impl NonlinearModel {
             |node, place| is_on(node) && is_fixed(place),
             |node, _| is_on(node),
         )
+    }
+
+    /// The same body of tissues that relax: each element by the one of `series` with its number.
+    ///
+    /// # Errors
+    /// When an element has no such number.
+    pub fn relaxing(mut self, series: &[PronySeries], numbers: &[usize]) -> Result<Self, Error> {
+        self.relaxation = Relaxation::new(series, numbers, self.mesh.tetrahedra().len())?;
+        Ok(self)
+    }
+
+    /// Whether any of it relaxes.
+    pub fn relaxes(&self) -> bool {
+        self.relaxation.is_some()
     }
 
     /// Places of the nodes at rest [m].

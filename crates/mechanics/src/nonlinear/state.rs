@@ -4,6 +4,7 @@ use nalgebra::{Matrix3, Rotation3};
 
 use super::coupling::Coupling;
 use super::model::NonlinearModel;
+use super::relaxation::{Relaxation, Remembered};
 use crate::Vec3;
 
 /// Steps in which the force of a tool that has let go fades: at once the body would spring back farther than a step
@@ -23,6 +24,8 @@ pub struct NonlinearState {
     /// Rotations of the nodes in the last step, each column by column [-].
     pub(super) rotations: Vec<[f32; 9]>,
     pub(super) tools: Vec<ToolMemory>,
+    /// Stress at the integration points in the past; none where nothing relaxes.
+    pub(super) stress: Vec<Remembered<f32>>,
     /// Forces on the nodes by tools that have let go [N], and the steps in which they still act.
     pub(super) fading: Vec<f32>,
     pub(super) fades: u32,
@@ -54,6 +57,10 @@ impl NonlinearState {
             is_smooth: true,
             rotations: vec![UNTURNED; nodes],
             tools: vec![tool; tools],
+            stress: model
+                .relaxation
+                .as_ref()
+                .map_or_else(Vec::new, Relaxation::memory),
             fading: vec![0.0; size],
             fades: 0,
         }
@@ -64,6 +71,7 @@ impl NonlinearState {
         self.displacements.fill(0.0);
         self.before.fill(0.0);
         self.rotations.fill(UNTURNED);
+        self.stress.fill(Remembered::default());
         self.fading.fill(0.0);
         self.fades = 0;
         self.is_smooth = true;

@@ -3,6 +3,7 @@ use nalgebra::DVector;
 use super::coupling::{Coupling, Rows};
 use super::kernel::{self, Deformed};
 use super::model::NonlinearModel;
+use super::relaxation::{Relaxation, StepShares};
 use super::rotation;
 use super::state::NonlinearState;
 use crate::Vec3;
@@ -12,6 +13,15 @@ const SLOPE_LEFT: f64 = 0.3;
 
 /// Largest factor with which the last displacement is continued, or gone back [-].
 const MOST_CONTINUED: f64 = 1.5;
+
+/// How a step is taken.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pace {
+    /// Conjugate gradients [-].
+    pub iterations: usize,
+    /// Time since the last step [s], in which tissue relaxes; zero is a jump.
+    pub elapsed: f64,
+}
 
 /// How a step went.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -25,12 +35,15 @@ pub struct Advance {
     pub was_unstable: bool,
     /// Whether no finite displacements were found, which put the body back to rest.
     pub was_reset: bool,
+    /// Whether an element of a body that relaxes is inside out.
+    pub is_inverted: bool,
 }
 
 /// Scratch of a step; dropping it changes nothing.
 #[derive(Debug, Clone)]
 pub struct Workspace {
     deformed: Vec<Deformed<f32>>,
+    shares: Option<StepShares>,
     forces: Vec<f32>,
     gradients: Vec<[f32; 9]>,
     guess: Vec<f64>,
@@ -62,6 +75,7 @@ impl Workspace {
         let small = || DVector::zeros(rows);
         Self {
             deformed: vec![Deformed::default(); model.packs.len()],
+            shares: model.relaxation.as_ref().map(Relaxation::shares),
             forces: vector(),
             gradients: vec![[0.0; 9]; nodes],
             guess: vec![0.0; 3 * nodes],
@@ -84,20 +98,20 @@ impl Workspace {
 }
 
 /// Takes the body to where `couplings`, one a tool, move it: one step of Newton's method, whose linear system is
-/// solved by `iterations` conjugate gradients.
+/// solved by conjugate gradients.
 ///
 /// # Panics
 /// When `state` or `workspace` are those of another model or fewer tools.
 pub fn advance(
     model: &NonlinearModel,
     couplings: &[Option<Coupling<'_>>],
-    iterations: usize,
+    pace: Pace,
     state: &mut NonlinearState,
     workspace: &mut Workspace,
 ) -> Advance {
     pulp::Arch::new().dispatch(
         #[inline(always)]
-        || step(model, couplings, iterations, state, workspace),
+        || step(model, couplings, pace, state, workspace),
     )
 }
 
@@ -105,22 +119,24 @@ pub fn advance(
 fn step(
     model: &NonlinearModel,
     couplings: &[Option<Coupling<'_>>],
-    iterations: usize,
+    pace: Pace,
     state: &mut NonlinearState,
     workspace: &mut Workspace,
 ) -> Advance {
     state.fade(couplings);
+    workspace.begin(model, pace.elapsed, state);
     guess(couplings, state, workspace);
     workspace.deform(model, GuessOrEnd::Guess, state);
     workspace.rotate(model, state);
     workspace.rows.list(couplings);
     workspace.rows.prepare(model, couplings, &state.rotations);
     workspace.carry(model, couplings, state);
-    let mut advance = workspace.iterate(model, couplings, &state.rotations, iterations);
+    let mut advance = workspace.iterate(model, couplings, &state.rotations, pace.iterations);
     workspace.bound(model.farthest, &mut advance);
     advance.was_shortened |= workspace.take(model, couplings, state);
     workspace.finish_forces();
     workspace.remember(couplings, state);
+    advance.is_inverted = workspace.end(model, advance.was_shortened, state);
     state.is_smooth = !advance.was_shortened && !advance.was_unstable;
     advance.was_reset = !state.is_finite();
     if advance.was_reset {
@@ -169,6 +185,32 @@ fn guess(
 }
 
 impl Workspace {
+    #[inline(always)]
+    fn begin(&mut self, model: &NonlinearModel, elapsed: f64, state: &NonlinearState) {
+        if let (Some(relaxation), Some(shares)) = (&model.relaxation, &mut self.shares) {
+            relaxation.begin(elapsed, &state.stress, shares, &mut self.deformed);
+        }
+    }
+
+    /// Remembers the stress; whether an element is inside out.
+    #[inline(always)]
+    fn end(
+        &mut self,
+        model: &NonlinearModel,
+        was_shortened: bool,
+        state: &mut NonlinearState,
+    ) -> bool {
+        if was_shortened && model.relaxes() {
+            self.deform(model, GuessOrEnd::End, state);
+        }
+        match (&model.relaxation, &self.shares) {
+            (Some(relaxation), Some(shares)) => {
+                relaxation.end(&model.packs, &self.deformed, shares, &mut state.stress)
+            }
+            _ => false,
+        }
+    }
+
     #[inline(always)]
     fn deform(&mut self, model: &NonlinearModel, at: GuessOrEnd, state: &NonlinearState) {
         let u = match at {

@@ -6,7 +6,7 @@ use palpate_mechanics::Vec3;
 use palpate_mechanics::contact::{Bond, half_space_stiffness, half_space_tangential_stiffness};
 use palpate_mechanics::finite_spheres::{
     Assembly, EXTERIOR_CONSTANTS, FiniteSphereModel, FiniteSphereSettings, Form, Integration,
-    LocalContact, Placement, Solver, first_direction,
+    LocalContact, Placement, Solver, Surroundings, first_direction,
 };
 
 use crate::contacts::{
@@ -250,7 +250,9 @@ fn ratios_over(
                 ),
                 triangle,
                 radius,
-                organ_radius: (1.5 * volume / std::f64::consts::PI).cbrt(),
+                surroundings: Surroundings::Hemisphere {
+                    radius: (1.5 * volume / std::f64::consts::PI).cbrt(),
+                },
                 thickness: (1.5 * volume / std::f64::consts::PI).cbrt(),
             };
             source.respond(&contact, &mut other).stiffness[(2, 2)]

@@ -5,7 +5,9 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use nalgebra::{Matrix3, Vector3};
 use palpate_geometry::{AabbTree, NodeId, Organ, PatchField, Surface, TriangleId, TriangleMesh};
 use palpate_mechanics::contact::Bond;
-use palpate_mechanics::finite_spheres::{FiniteSphereModel, FiniteSphereSettings, LocalContact};
+use palpate_mechanics::finite_spheres::{
+    FiniteSphereModel, FiniteSphereSettings, LocalContact, Surroundings,
+};
 use palpate_mechanics::{LinearElastic, Vec3};
 
 /// Radius of the hemisphere [m].
@@ -43,7 +45,7 @@ pub(crate) fn bare_contact(curvature: Vector3<f64>, radius: f64, organ: f64) -> 
         curvature,
         triangle: TriangleId(0),
         radius,
-        organ_radius: organ,
+        surroundings: Surroundings::Hemisphere { radius: organ },
         thickness: organ,
     }
 }
@@ -79,7 +81,9 @@ pub(crate) fn contact_near(
         ),
         triangle: nearest.triangle,
         radius,
-        organ_radius: (1.5 * surface.mesh().volume() / PI).cbrt(),
+        surroundings: Surroundings::Hemisphere {
+            radius: (1.5 * surface.mesh().volume() / PI).cbrt(),
+        },
         thickness: (1.5 * surface.mesh().volume() / PI).cbrt(),
     }
 }

@@ -31,6 +31,8 @@ mod laws;
 mod linear_system;
 mod no_allocation;
 mod nonlinear;
+mod nonlinear_regions;
+mod nonlinear_relaxation;
 mod orders;
 mod patch_on_hemisphere;
 mod path;

@@ -10,7 +10,7 @@ use palpate_mechanics::finite_elements::{
     Supports, equilibrate,
 };
 use palpate_mechanics::nonlinear::{
-    Coupling, Moduli, NonlinearModel, NonlinearState, Workspace, advance,
+    Coupling, Moduli, NonlinearModel, NonlinearState, Pace, Workspace, advance,
 };
 use palpate_mechanics::{NeoHookean, Vec3};
 
@@ -80,7 +80,10 @@ impl Bar {
             advance(
                 &self.model,
                 &self.grip(displacement),
-                30,
+                Pace {
+                    iterations: 30,
+                    elapsed: 0.0,
+                },
                 &mut state,
                 workspace,
             );
@@ -102,7 +105,10 @@ impl Bar {
             advance(
                 &self.model,
                 &self.grip(displacement),
-                iterations,
+                Pace {
+                    iterations,
+                    elapsed: 0.0,
+                },
                 &mut state,
                 &mut workspace,
             );

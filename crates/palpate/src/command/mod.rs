@@ -20,6 +20,7 @@ mod score;
 mod shell;
 mod simulate;
 mod solve;
+mod teacher;
 mod validate;
 mod window;
 
@@ -119,6 +120,8 @@ enum Command {
     Design(design::Arguments),
     /// How trainees come along: attempts, learning curves, and who is as good as the experts.
     Progress(progress::Arguments),
+    /// Cohorts, assignments and experts: a teacher's commands.
+    Teacher(teacher::Arguments),
     /// Recompute the tables and figures of the source, published values beside ours.
     Reproduce(reproduce::Arguments),
     /// Measure how good touch is on this machine: rates, lateness, errors.
@@ -156,6 +159,7 @@ impl CommandLine {
             Some(Command::Replay(arguments)) => replay::run(&arguments),
             Some(Command::Score(arguments)) => score::run(&arguments),
             Some(Command::Progress(arguments)) => progress::run(&arguments),
+            Some(Command::Teacher(arguments)) => teacher::run(&arguments),
             Some(Command::Reproduce(arguments)) => reproduce::run(&arguments),
             Some(Command::Quality(arguments)) => quality::run(&arguments),
             Some(Command::Devices(arguments)) => devices::run(&arguments),

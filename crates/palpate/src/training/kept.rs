@@ -27,6 +27,22 @@ pub(crate) struct Who<'a> {
     pub(crate) is_expert: bool,
 }
 
+/// Between the digest of a scene and the seed of the variant that it is.
+pub(crate) const VARIANT: &str = ", variant ";
+
+/// The scene's digest, and the seed where the task draws its numbers.
+fn scene_digest(folder: &SessionFolder) -> String {
+    let digest = &folder.session.header.scene_digest;
+    match folder
+        .scene
+        .as_ref()
+        .and_then(|scene| scene.variant.as_ref())
+    {
+        Some(variant) => format!("{digest}{VARIANT}{}", variant.seed),
+        None => digest.clone(),
+    }
+}
+
 /// Keeps the score of a session in the record; the warnings.
 pub(crate) fn keep(
     file: &Path,
@@ -39,7 +55,7 @@ pub(crate) fn keep(
     let added = record.add(&Attempt {
         trainee: who.trainee.to_owned(),
         task: task.title.clone().unwrap_or_else(|| UNTITLED.to_owned()),
-        scene_digest: folder.session.header.scene_digest.clone(),
+        scene_digest: scene_digest(folder),
         when: folder.when().unwrap_or_else(super::now),
         session: std::path::absolute(session).unwrap_or_else(|_| session.clone()),
         session_digest: folder.session.digest(),
@@ -114,7 +130,7 @@ impl TrainingRecord for Kept {
     fn keep(&mut self, result: &TrainingResult<'_>) -> Result<(), String> {
         let who = Who {
             trainee: result.trainee,
-            is_expert: result.is_expert,
+            is_expert: false,
         };
         let folder = SessionFolder::read(result.session).map_err(|error| error.to_string())?;
         let kept = keep(&self.file, who, &folder, (&result.scene.task, result.score));

@@ -9,7 +9,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use palpate_viewer::training::{Training, TrainingRecord};
 
-pub(crate) use kept::{Who, keep};
+pub(crate) use kept::{VARIANT, Who, keep};
 pub(crate) use record::record_file;
 pub(crate) use tasks::free;
 
@@ -32,7 +32,7 @@ fn folder() -> Result<PathBuf, Failure> {
 }
 
 /// Seconds since the beginning of 1970.
-fn now() -> i64 {
+pub(crate) fn now() -> i64 {
     let since = SystemTime::now().duration_since(UNIX_EPOCH);
     since.map_or(0, |since| since.as_secs() as i64)
 }
@@ -47,7 +47,6 @@ pub(crate) fn training() -> Result<Training, Failure> {
         free: tasks::free()?,
         sessions: folder.join("sessions"),
         trainee: record.last_trainee().unwrap_or(user),
-        is_expert: false,
         record: Box::new(record),
     })
 }

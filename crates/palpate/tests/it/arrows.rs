@@ -301,22 +301,21 @@ fn block<'t>(text: &'t str, language: &str) -> &'t str {
     after.split_once("```").unwrap().0
 }
 
-/// What the README gives to copy is what the program reads.
+/// What the tutorial shows is what `palpate examples` writes.
 #[test]
-fn the_scene_and_motion_of_the_readme_are_read() {
-    let readme = text("README.md");
-    let scene = palpate_files::Scene::parse(block(&readme, "toml"), "README.md").unwrap();
-    let motion = palpate_files::Motion::parse(block(&readme, "csv"), "README.md").unwrap();
-    for tool in motion.tools() {
-        assert!(scene.tools.iter().any(|other| other.name == tool.name()));
+fn the_scene_and_motion_of_the_tutorial_are_examples() {
+    let tutorial = text("docs/tutorials/touch_your_organ.md");
+    for (language, file) in [("toml", "scene.toml"), ("csv", "motion.csv")] {
+        let example = text(&format!("assets/first/{file}"));
+        assert_eq!(block(&tutorial, language), example, "{file}");
     }
 }
 
 #[test]
-fn the_example_of_the_readme_is_an_example() {
-    let readme = text("README.md");
+fn the_example_of_the_tutorial_is_an_example() {
+    let tutorial = text("docs/tutorials/embed_in_rust.md");
     assert!(
-        text("examples/palpate_a_liver.rs").ends_with(block(&readme, "rust")),
-        "README.md and examples/palpate_a_liver.rs differ; copy the example"
+        text("examples/palpate_a_liver.rs").ends_with(block(&tutorial, "rust")),
+        "docs/tutorials/embed_in_rust.md and examples/palpate_a_liver.rs differ; copy the example"
     );
 }

@@ -32,10 +32,10 @@ fn examples_are_valid() {
         let file = valid["file"].as_str().unwrap();
         let kind = valid["kind"].as_str().unwrap();
         let expected = match file {
-            _ if file.starts_with("tasks/") || file.ends_with("trainer.toml") => "task",
-            _ if file.starts_with("problems/") => "problem",
             "liver-4mm.csv" => "recording",
             _ if file.ends_with(".csv") => "motion",
+            _ if file.starts_with("tasks/") || file.ends_with("trainer.toml") => "task",
+            _ if file.starts_with("problems/") => "problem",
             _ => "scene",
         };
         assert_eq!(kind, expected, "{file}");

@@ -317,3 +317,88 @@ fn the_users_own_record_is_the_default() {
         .unwrap();
     assert_eq!(json(&output)["tasks"][0]["trainees"][0]["trainee"], "Anna");
 }
+
+/// What leaves the house has no names, no dates and no folders. Judge: none of them stands in the files.
+#[test]
+fn anonymous_files_name_nobody() {
+    let folder = folder();
+    let more = ["--anonymous", "--xapi", "s.json", "--csv", "s.csv"];
+    let output = progress(folder.path(), &more);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    for name in ["s.json", "s.csv"] {
+        let text = fs::read_to_string(folder.path().join(name)).unwrap();
+        for told in ["Anna", "Béla", "Expert\"", "/sessions/", "2001"] {
+            assert!(!text.contains(told), "{told} in {name}");
+        }
+        assert!(text.contains("trainee 2"), "{name}");
+    }
+}
+
+/// Judge: the words of the xAPI specification, version 1.0.3, and the attempts.
+#[test]
+fn statements_are_those_of_the_experience_api() {
+    let folder = folder();
+    progress(folder.path(), &["--xapi", "s.json"]);
+    let text = fs::read_to_string(folder.path().join("s.json")).unwrap();
+    let all: Vec<serde_json::Value> = serde_json::from_str(&text).unwrap();
+    // Seven attempts of trainees; experts learn nothing.
+    assert_eq!(all.len(), 7);
+    let first = &all[0];
+    assert_eq!(first["actor"]["account"]["name"], "Anna");
+    assert_eq!(first["verb"]["id"], "http://adlnet.gov/expapi/verbs/failed");
+    assert_eq!(first["result"]["success"], false);
+    assert_eq!(first["result"]["duration"], "PT30.00S");
+    assert_eq!(first["timestamp"], "2001-09-09T01:56:40Z");
+    let id = first["object"]["id"].as_str().unwrap();
+    assert!(id.ends_with("/task/Cut%20%3Cstraight%3E"), "{id}");
+    let measures = first["result"]["extensions"].as_object().unwrap();
+    assert_eq!(measures.len(), 4);
+}
+
+/// A teacher's commands on the same record. Judge: the attempts by hand.
+#[test]
+fn a_cohort_has_an_assignment() {
+    let folder = folder();
+    let teacher = |more: &[&str]| {
+        let said = [&["teacher", "--record", FILE], more].concat();
+        let output = palpate_in(folder.path(), &said);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        stdout(&output)
+    };
+    let refused = |more: &[&str], words: &[&str]| {
+        let said = [&["teacher", "--record", FILE], more].concat();
+        assert_refused(folder.path(), &said, words);
+    };
+    teacher(&["cohort", "spring", "--add", "Anna", "--add", "Carla"]);
+    let task = "Cut <straight>";
+    teacher(&[
+        "assign",
+        "spring",
+        task,
+        "--due",
+        "2001-09-09",
+        "--passes",
+        "2",
+    ]);
+    refused(
+        &["assign", "spring", task, "--due", "2001-02-30"],
+        &["`2001-02-30`"],
+    );
+    let shown: serde_json::Value = serde_json::from_str(&teacher(&["show", "--json"])).unwrap();
+    let given = &shown["assignments"][0];
+    assert_eq!(given["due_utc"], "2001-09-09T23:59:59Z");
+    let [anna, carla] = [0, 1].map(|place| &given["trainees"][place]);
+    // Passed below 25 s: 20 s, 11 s and 12 s.
+    assert_eq!([&anna["attempts"], &anna["passed"]], [4, 3]);
+    assert_eq!([&anna["standing"], &carla["standing"]], ["done", "late"]);
+    assert!(teacher(&["show"]).contains("done  passed 3 of 4 attempts"));
+    // The cohort alone.
+    let only = json(&progress(folder.path(), &["--cohort", "spring", "--json"]));
+    assert_eq!(only["tasks"][0]["trainees"].as_array().unwrap().len(), 1);
+    refused(&["cohort"], &["NAME"]);
+    teacher(&["pin", "4711"]);
+    refused(&["cohort", "spring", "--add", "Béla"], &["PIN", "--pin"]);
+    teacher(&["cohort", "spring", "--add", "Béla", "--pin", "4711"]);
+    // To look is everybody's.
+    assert!(teacher(&["show"]).contains("Béla"));
+}

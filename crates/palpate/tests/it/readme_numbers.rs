@@ -1,4 +1,4 @@
-//! Numbers in the README are those that its commands print.
+//! Numbers in README and book are those that the commands print; `.ci/book` runs the commands themselves.
 
 use std::fs;
 use std::path::Path;
@@ -7,20 +7,15 @@ use crate::reproduce::{find, reproduce};
 use crate::reproduce_recordings::number;
 use crate::{json, palpate_in};
 
-fn readme() -> String {
-    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../README.md")).unwrap()
-}
-
-/// The first code block of a language.
-fn block<'t>(text: &'t str, language: &str) -> &'t str {
-    let (_, after) = text.split_once(&format!("```{language}\n")).unwrap();
-    after.split_once("```").unwrap().0
+fn document(path: &str) -> String {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    fs::read_to_string(root.join(path)).unwrap()
 }
 
 /// The two numbers of `before A to B %`.
 pub(crate) fn range(before: &str) -> [f64; 2] {
-    let readme = readme();
-    let (_, after) = readme.split_once(before).unwrap();
+    let page = document("docs/reliance.md");
+    let (_, after) = page.split_once(before).unwrap();
     let mut words = after.split_whitespace();
     let low = words.next().unwrap().parse().unwrap();
     assert_eq!(words.next(), Some("to"));
@@ -29,16 +24,15 @@ pub(crate) fn range(before: &str) -> [f64; 2] {
 
 #[test]
 fn the_first_scene_has_its_peak() {
-    let readme = readme();
     let folder = tempfile::tempdir().unwrap();
-    for (file, language) in [("scene.toml", "toml"), ("motion.csv", "csv")] {
-        fs::write(folder.path().join(file), block(&readme, language)).unwrap();
-    }
+    palpate_in(folder.path(), &["examples", "."]);
     let line = "simulate scene.toml --headless --motion motion.csv --out out --json";
     let words: Vec<&str> = line.split(' ').collect();
     let answer = json(&palpate_in(folder.path(), &words));
     let printed = format!("The peak is {:.4} N", number(&answer, "peak_force_n"));
-    assert!(readme.contains(&printed), "{printed}");
+    for page in ["README.md", "docs/tutorials/touch_your_organ.md"] {
+        assert!(document(page).contains(&printed), "{page}: {printed}");
+    }
 }
 
 #[test]
@@ -54,7 +48,10 @@ fn errors_of_the_hand_over_are_those_of_section_3_4() {
         error("linear"),
         error("hold")
     );
-    assert!(readme().contains(&printed), "{printed}");
+    assert!(
+        document("docs/how_to/quality.md").contains(&printed),
+        "{printed}"
+    );
 }
 
 /// Judge: the command's own rows of all four organs; the quick form is `reproduce_rig::chapter_5_comes_back_through_the_rig`.

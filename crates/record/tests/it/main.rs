@@ -5,6 +5,7 @@
     reason = "clippy.toml allows it in tests, but does not see helpers as tests"
 )]
 
+mod class;
 mod damaged;
 mod kept;
 mod killed;

@@ -31,6 +31,7 @@ mod method;
 mod organ_slit;
 mod press;
 mod solve;
+mod surroundings;
 mod take_hold;
 
 use std::ops::ControlFlow;
@@ -53,6 +54,7 @@ use key::Ingredients;
 use method::Method;
 use organ_slit::OrganSlit;
 use solve::Found;
+pub(crate) use surroundings::surround;
 use take_hold::Candidate;
 
 /// How the whole organ answers.

@@ -209,7 +209,8 @@ impl GlobalModel {
             .site
             .and_then(|site| self.response.find(site.triangle));
         state.off_model = touched.is_none();
-        let answer = tool.law.force_in_series(&moved, &compliance);
+        let law = tool.law.beside(contact.place.mean_curvature());
+        let answer = law.force_in_series(&moved, &compliance);
         let mut own = moved + compliance * answer.force;
         if tool.bond == Bond::Slip {
             own = Vec3::new(0.0, 0.0, own.z);

@@ -1,6 +1,7 @@
 //! Jaws that take hold of the organ as it is now.
 
-use super::touch::{Now, carry_back_anew};
+use super::target::Now;
+use super::touch::carry_back_anew;
 use super::{Body, NonlinearOrgan, REACH_IN_RADII, jaws_radius};
 use crate::contact;
 use crate::grip::{Held, HeldArea, Hold, SeenHold, Swept};

@@ -15,23 +15,29 @@
 //!
 //! *How we know*: `nonlinear::…`.
 //!
-//! *Limits*: quasi-static; relaxation acts on the forces of the tools; nothing touches but tips and jaws, and the
+//! Layers and inclusions are tissues of their own elements (`regions`).
+//!
+//! *Limits*: quasi-static; nothing touches but tips and jaws, and the
 //! organ does not touch itself. A body that is nearly incompressible is taken with a Poisson's ratio of 0.49.
 //!
 //! [`TipField`]: palpate_mechanics::surface_response::TipField
 
 mod hold;
+mod regions;
 mod shape;
+mod target;
 mod touch;
 
+pub(crate) use regions::Regions;
 pub(crate) use touch::Moved;
 
-use palpate_files::{Elasticity, Scene, Tissue};
-use palpate_geometry::{FillSettings, Surface, TetrahedronMesh, Vec3, coarsen, fill};
+use nalgebra::Rotation3;
+use palpate_files::Scene;
+use palpate_geometry::{FillSettings, Surface, TetrahedronMesh, Vec3, coarsen, fill, refine_to};
 use palpate_mechanics::nonlinear::{
-    CarriedPoints, Moduli, NonlinearModel, NonlinearState, SpreadLoad, Workspace,
+    CarriedPoints, NonlinearModel, NonlinearState, SpreadLoad, Workspace,
 };
-use palpate_mechanics::{LinearElastic, Material};
+use palpate_mechanics::{ForceHistory, LinearElastic};
 
 use crate::grip::Swept;
 use crate::tool::Tool;
@@ -44,11 +50,11 @@ const NODES: usize = 1_500;
 const TETRAHEDRA_PER_NODE: usize = 8;
 const MORE: usize = 3;
 
+/// Edges that are made coarser, in those that are wanted [-].
+const OF_EDGE: f64 = 0.6;
+
 /// Fillings to try.
 const FILLINGS: usize = 5;
-
-/// A larger Poisson's ratio is taken as this [-]: volume is kept to the percent, and a few iterations suffice.
-const LARGEST_RATIO: f64 = 0.49;
 
 /// Iterations in a step: below, and from this Poisson's ratio [-] on more (`docs/theory/large_deformation.md`).
 const ITERATIONS: (usize, usize) = (4, 6);
@@ -61,7 +67,8 @@ const REACH_IN_RADII: f64 = 1.7;
 #[derive(Debug, Clone)]
 pub(crate) struct NonlinearOrgan {
     pub(crate) model: NonlinearModel,
-    /// The law of the body at rest.
+    regions: Regions,
+    /// The tissue at the surface at rest.
     law: LinearElastic,
     shown: CarriedPoints,
     iterations: usize,
@@ -80,62 +87,44 @@ pub(crate) struct Body {
     /// Which tools act on it; those that have let go, for so many steps more at most.
     is_loaded: Vec<bool>,
     lets_go: Vec<u32>,
+    /// Elastic forces of the tools in the past, and how what they load was turned then.
+    histories: Vec<ForceHistory>,
+    turns: Vec<Rotation3<f64>>,
 }
 
 /// Scratch of its part in a step.
 #[derive(Debug)]
 pub(crate) struct NonlinearWorkspace {
     solver: Workspace,
-    targets: Vec<Option<touch::Target>>,
+    targets: Vec<Option<target::Target>>,
     /// Displacements of the shown vertices [m].
     shown: Vec<Vec3>,
 }
 
 impl NonlinearOrgan {
-    /// That of the organ of `scene`, which is seen as `shown`; with what deserves doubt.
+    /// That of the organ of `scene` and its tissues, which is seen as `shown`; with what deserves doubt.
     pub(crate) fn new(
         scene: &Scene,
         shown: &Surface,
-        (tissue, material): (&Tissue, &Material),
+        regions: Regions,
     ) -> Result<(Self, Vec<String>), Error> {
-        let mut doubts = Vec::new();
-        let mesh = tetrahedra(shown, scene.model.nodes.unwrap_or(NODES))?;
-        let ratio = material.at_rest.poissons_ratio().min(LARGEST_RATIO);
-        let shear = material.at_rest.shear_modulus();
-        if ratio < material.at_rest.poissons_ratio() {
-            doubts.push(format!(
-                "Poisson's ratio {:.4} is taken as {LARGEST_RATIO} around the tips, with the same shear modulus: the nonlinear \
-                 model keeps volume to the percent",
-                material.at_rest.poissons_ratio()
-            ));
-        }
-        let law = LinearElastic::new(2.0 * shear * (1.0 + ratio), ratio)?;
-        let (c10, c01) = match tissue.elasticity {
-            Elasticity::MooneyRivlin { c10_pa, c01_pa } => (c10_pa.value, c01_pa.value),
-            Elasticity::Exponential { .. } => {
-                doubts.push(
-                    "the organ around the tips answers as neo-Hookean tissue of the same modulus at rest; the tips \
-                     themselves meet the exponential law"
-                        .to_owned(),
-                );
-                (0.5 * shear, 0.0)
-            }
-            Elasticity::Linear { .. } | Elasticity::NeoHookean { .. } => (0.5 * shear, 0.0),
-        };
-        let moduli = Moduli::mooney_rivlin(c10, c01, ratio)?;
-        let moduli = vec![moduli; mesh.tetrahedra().len()];
+        let mesh = tetrahedra(shown, scene.model.nodes.unwrap_or(NODES), &regions)?;
+        let (moduli, numbers, mut doubts) = regions.of_elements(&mesh);
+        doubts.extend(regions.doubts.iter().cloned());
         let anchor = held_region(&scene.organ.shape, scene.organ.anchor.as_ref());
         let model =
-            NonlinearModel::on_boundary(&mesh, &moduli, |place| anchor.holds((*place).into()))?;
+            NonlinearModel::on_boundary(&mesh, &moduli, |place| anchor.holds((*place).into()))?
+                .relaxing(&regions.series(), &numbers)?;
         let (low, high) = shown.mesh().bounds();
         let organ = Self {
             size: (high - low).norm(),
             shown: model.carried(shown.mesh().vertices()),
-            iterations: match ratio < NEARLY_INCOMPRESSIBLE {
+            iterations: match regions.largest_ratio() < NEARLY_INCOMPRESSIBLE {
                 true => ITERATIONS.0,
                 false => ITERATIONS.1,
             },
-            law,
+            law: *regions.at_rest(),
+            regions,
             model,
         };
         Ok((organ, doubts))
@@ -149,6 +138,8 @@ impl NonlinearOrgan {
             loads: vec![self.model.spread_load(); tools],
             is_loaded: vec![false; tools],
             lets_go: vec![0; tools],
+            histories: vec![ForceHistory::default(); tools],
+            turns: vec![Rotation3::identity(); tools],
         }
     }
 
@@ -173,8 +164,14 @@ fn jaws_radius(tool: &Tool) -> Option<f64> {
     Some((face / std::f64::consts::PI).sqrt())
 }
 
-/// About so many nodes in the body within `surface`: a filling that has all of its walls, made coarser.
-fn tetrahedra(surface: &Surface, nodes: usize) -> Result<TetrahedronMesh, Error> {
+/// About so many nodes in the body within `surface`: a filling that has all of its walls, made coarser, finer at inclusions.
+fn tetrahedra(
+    surface: &Surface,
+    nodes: usize,
+    regions: &Regions,
+) -> Result<TetrahedronMesh, Error> {
+    let edge = FillSettings::with_about(surface, nodes).edge;
+    let longest = |place: &Vec3| regions.longest_edge(place).min(edge);
     let mut wanted = TETRAHEDRA_PER_NODE * nodes;
     let mut filling = fill(surface, &FillSettings::with_about(surface, wanted));
     for _ in 1..FILLINGS {
@@ -184,7 +181,12 @@ fn tetrahedra(surface: &Surface, nodes: usize) -> Result<TetrahedronMesh, Error>
         wanted *= MORE;
         filling = fill(surface, &FillSettings::with_about(surface, wanted));
     }
+    if regions.has_inclusions() {
+        filling = filling
+            .and_then(|coarse| refine_to(&coarse, Some(surface), |place| OF_EDGE * longest(place)));
+    }
     let volume = surface.mesh().volume();
-    let mesh = filling.and_then(|fine| coarsen(&fine, nodes, volume));
+    let detail = |place: &Vec3| edge / longest(place);
+    let mesh = filling.and_then(|fine| coarsen(&fine, nodes, volume, detail));
     mesh.map_err(|error| palpate_mechanics::Error::from(error).into())
 }

@@ -13,26 +13,27 @@
 //! With C the tip's own compliance at the force F* that its law and the organ's compliance ask for, less that of its
 //! load, the step solves W ᵀu + C F + o = d; o makes F* its solution where the organ is linear. What the factors at
 //! rest say of Z then changes how fast the steps converge, and not where to.
+//!
+//! Where tissue relaxes, all of this is said of the elastic force Fₑ of a tool, of which F = γ Fₑ − Fₕ is left: the tissue
+//! under a tip relaxes as that at the surface does, and the elements each as their own.
 
 use std::f64::consts::PI;
 
-use nalgebra::{Matrix3, Rotation3, SymmetricEigen};
+use nalgebra::{Matrix3, Rotation3};
 use palpate_files::session::Event;
 use palpate_geometry::Vec3;
 use palpate_mechanics::contact::{Bond, half_space_stiffness, half_space_tangential_stiffness};
-use palpate_mechanics::nonlinear::{Coupling, SpreadLoad, advance};
-use palpate_mechanics::{Limit, Limits, Reached};
+use palpate_mechanics::nonlinear::{Pace, advance};
+use palpate_mechanics::{ForceHistory, Limits, PronySeries};
 
+use super::target::{Now, Target, farthest, positive, slippery};
 use super::{Body, NonlinearOrgan, NonlinearWorkspace};
 use crate::grip::Held;
 use crate::simulation::Simulation;
 use crate::state::{SimulationState, ToolState};
 use crate::tool::Tool;
 
-/// Farther than this a step moves no part of the organ that a tool loads, and no farther than a part of the load's radius:
-/// a longer way is taken in several steps, at most in so many [m, -].
-const FARTHEST: f64 = 2e-3;
-const FARTHEST_OF_LOAD: f64 = 1.0 / 6.0;
+/// A way that is longer than a step goes is taken in several, at most in so many [-].
 const MOST_PARTS: usize = 8;
 
 /// Displacements below this [m] are none: less than is seen or felt.
@@ -48,28 +49,11 @@ const LETS_GO_WITHIN: u32 = 40;
 /// tissue has a tenth of it.
 const MOST_PRESSURE: f64 = 100.0;
 
-/// A lag behind a tool is told from this on: in parts of its way in a step, and [m].
-const TOLD_LAG: (f64, f64) = (0.1, 1e-4);
-
 /// Scenes have no more tools.
 const MOST_TOOLS: usize = 2;
 
 /// Softer than this part of the organ around it, a contact is none yet [-].
 const LEAST_STIFFNESS: f64 = 1e-6;
-
-/// Where a tool moves the organ in this step.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Target {
-    along: Option<Vec3>,
-    /// d, C and o.
-    displacement: Vec3,
-    compliance: Matrix3<f64>,
-    offset: Vec3,
-    /// What its condition lacks now [m].
-    jump: Vec3,
-    /// How far what it loads will move [m].
-    way: Vec3,
-}
 
 /// How the place that a tool touches has moved, without what the tool itself does.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -108,6 +92,15 @@ pub(super) fn carry_back_anew(
         .then(|| state.carry_back_from(simulation.surface.mesh(), &nearest, tip))
 }
 
+/// How the steps of a period ended.
+#[derive(Debug, Clone, Copy, Default)]
+struct Ended {
+    /// Whether the body had to be put back to rest.
+    was_reset: bool,
+    /// Whether elements of a body that relaxes are inside out.
+    is_inverted: bool,
+}
+
 impl Body {
     /// At rest, and touched by nothing; nothing is allocated.
     pub(crate) fn begin_anew(&mut self) {
@@ -115,6 +108,7 @@ impl Body {
         self.is_at_rest = true;
         self.is_loaded.fill(false);
         self.lets_go.fill(0);
+        self.histories.fill(ForceHistory::default());
     }
 
     /// Puts a body that nothing loads and that is as good as at rest there; whether it is.
@@ -146,33 +140,38 @@ impl NonlinearOrgan {
     pub(crate) fn press(
         &self,
         simulation: &Simulation,
+        elapsed: f64,
         (tools, body): (&mut [ToolState], &mut Body),
         workspace: &mut NonlinearWorkspace,
     ) {
+        let relaxes = (&simulation.material.prony, elapsed);
         for (number, (tool, own)) in simulation.tools.iter().zip(tools.iter_mut()).enumerate() {
             own.elastic = Vec3::zeros();
             own.stiffness = Matrix3::zeros();
             own.limited = Limits::NONE;
-            workspace.targets[number] = self.target(tool, (number, own), body);
+            workspace.targets[number] = self.target(tool, (number, own), relaxes, body);
         }
         let is_free = workspace.targets.iter().all(Option::is_none);
         if is_free && body.come_to_rest() {
             return;
         }
         let before = body.state.largest();
-        let was_reset = self.go(body, workspace);
-        if was_reset || body.state.largest() > self.size || self.is_unsound(body) {
+        let ended = self.go(relaxes, body, workspace);
+        if ended.was_reset || body.state.largest() > self.size || self.is_unsound(body) {
             body.state.reset();
+            body.histories.fill(ForceHistory::default());
             tools.iter_mut().for_each(ToolState::lose);
             return;
         }
-        // Rest is where an organ goes that nothing loads; elements that were turned inside out may not find there.
-        if is_free && body.state.largest() > SLOWEST_RETURN * before {
+        // Rest is where an organ goes that nothing loads; elements that were turned inside out may not find there. What
+        // relaxes takes its time.
+        let is_late = body.state.largest() > SLOWEST_RETURN * before;
+        if is_free && is_late && (ended.is_inverted || !self.model.relaxes()) {
             body.state.shrink(SLOWEST_RETURN);
         }
         for (number, (own, target)) in tools.iter_mut().zip(&workspace.targets).enumerate() {
             if let (Some(target), false) = (target, body.lets_go[number] > 0) {
-                own.elastic = -body.state.force(number);
+                own.elastic = -body.histories[number].elastic();
                 target.tell_pace(body, number, own);
             }
             own.solved = own.elastic;
@@ -195,12 +194,14 @@ impl NonlinearOrgan {
         &self,
         tool: &Tool,
         (number, own): (usize, &mut ToolState),
+        relaxes: (&PronySeries, f64),
         body: &mut Body,
     ) -> Option<Target> {
+        self.turn_history(tool, (number, own), body);
         let mut target = match own.holds() {
             true => self.hold(tool, (number, own), body),
             false if body.lets_go[number] > 0 => None,
-            false => self.touch(tool, (number, own), body),
+            false => self.touch(tool, (number, own), relaxes, body),
         };
         let steps = &mut body.lets_go[number];
         *steps = match (&target, *steps) {
@@ -218,8 +219,32 @@ impl NonlinearOrgan {
         target
     }
 
-    /// Moves the organ as far as the tools have it, and no farther than a step can; whether it had to be put back to rest.
-    fn go(&self, body: &mut Body, workspace: &mut NonlinearWorkspace) -> bool {
+    /// Turns what a tool's force was with what it touches, and forgets it where the tool has.
+    fn turn_history(&self, tool: &Tool, (number, own): (usize, &mut ToolState), body: &mut Body) {
+        let nodes = &body.loads[number].nodes;
+        if !self.model.relaxes() || nodes.is_empty() {
+            return;
+        }
+        let turn = body.state.mean_rotation(nodes);
+        let by = turn * body.turns[number].inverse();
+        body.turns[number] = turn;
+        body.histories[number].turn(by.matrix());
+        if own.history == ForceHistory::default() {
+            body.histories[number] = ForceHistory::default();
+        } else if own.holds() || tool.friction.is_none() {
+            // That of a tip with friction turns with its contact.
+            own.history.turn(by.matrix());
+        }
+    }
+
+    /// Moves the organ as far as the tools have it, and no farther than a step can, while it relaxes by the series for so
+    /// long [s].
+    fn go(
+        &self,
+        (series, elapsed): (&PronySeries, f64),
+        body: &mut Body,
+        workspace: &mut NonlinearWorkspace,
+    ) -> Ended {
         body.is_at_rest = false;
         let targets = &workspace.targets;
         let ways = targets
@@ -229,19 +254,36 @@ impl NonlinearOrgan {
         let way = ways.fold(0.0, f64::max);
         let parts = (way.ceil() as usize).clamp(1, MOST_PARTS);
         let reach = (MOST_PARTS as f64 / way).min(1.0) / parts as f64;
-        let mut was_reset = false;
+        let pace = Pace {
+            iterations: self.iterations,
+            elapsed: elapsed / parts as f64,
+        };
+        let mut ended = Ended::default();
         for part in 1..=parts {
-            let loads = &body.loads;
+            let left = 1.0 - reach * part as f64;
+            let relaxes: [_; MOST_TOOLS] = std::array::from_fn(|number| {
+                let history = body.histories.get(number);
+                history.map_or((1.0, Vec3::zeros()), |own| {
+                    own.foresee(series, pace.elapsed)
+                })
+            });
             let couplings: [_; MOST_TOOLS] = std::array::from_fn(|number| {
                 let target = targets.get(number)?.as_ref()?;
-                let left = 1.0 - reach * part as f64;
-                Some(target.coupling(&loads[number].nodes, (left, reach)))
+                let nodes = &body.loads[number].nodes;
+                Some(target.coupling(nodes, (left, reach), relaxes[number]))
             });
             let couplings = &couplings[..targets.len().min(MOST_TOOLS)];
             let (state, solver) = (&mut body.state, &mut workspace.solver);
-            was_reset |= advance(&self.model, couplings, self.iterations, state, solver).was_reset;
+            let advance = advance(&self.model, couplings, pace, state, solver);
+            ended.was_reset |= advance.was_reset;
+            ended.is_inverted = advance.is_inverted;
+            for (number, own) in body.histories.iter_mut().enumerate() {
+                let (follows, history) = relaxes[number];
+                let elastic = (body.state.force(number) + history) / follows;
+                own.advance(series, elastic, pace.elapsed);
+            }
         }
-        was_reset
+        ended
     }
 
     /// The forces after tissue has slid in its jaws, as far as the organ is linear: the next step solves for them.
@@ -260,6 +302,7 @@ impl NonlinearOrgan {
         &self,
         tool: &Tool,
         (number, own): (usize, &mut ToolState),
+        (series, elapsed): (&PronySeries, f64),
         body: &mut Body,
     ) -> Option<Target> {
         let (pose, contact) = (own.pose?, own.contact.as_mut()?);
@@ -283,9 +326,17 @@ impl NonlinearOrgan {
         let moved = contact.displacement(tool, &tip);
         own.displaced = own.moved.by + frame * moved;
         let further = frame.tr_mul(&now.yields) * frame - self.of_load(&now);
-        let answer = tool.law.force_in_series(&moved, &further);
+        let law = tool.law.beside(place.mean_curvature());
+        let answer = law.force_in_series(&moved, &further);
         own.stiffness = answer.stiffness;
         own.limited = answer.limits;
+        let goal = -(frame * answer.force);
+        let (follows, history) = body.histories[number].foresee(series, elapsed);
+        // Tissue that has not come back yet does not hold the tip.
+        if self.model.relaxes() && (follows * goal - history).dot(&contact.normal()) >= 0.0 {
+            own.elastic = -goal;
+            return None;
+        }
         let (along, stiffness) = match tool.bond {
             Bond::Slip => (Some(contact.normal()), slippery(&answer.stiffness)),
             Bond::Stick => (None, answer.stiffness),
@@ -298,7 +349,7 @@ impl NonlinearOrgan {
         Some(Target::new(
             along,
             own.displaced,
-            (&tip_and_organ, &-(frame * answer.force)),
+            (&tip_and_organ, &goal),
             &now,
         ))
     }
@@ -334,7 +385,7 @@ impl NonlinearOrgan {
     /// step follows well. None once the rest is a small way.
     fn let_go(&self, number: usize, body: &Body) -> Option<Target> {
         let now = Now::of(self, body, number);
-        let back = -(now.yields * now.force);
+        let back = -(now.yields * body.state.force(number));
         let way = back.norm();
         let farthest = farthest(&body.loads[number]);
         (way > farthest).then(|| {
@@ -364,8 +415,9 @@ impl NonlinearOrgan {
         (frame, now): (&Matrix3<f64>, &Now),
     ) -> Option<Matrix3<f64>> {
         let radius = super::jaws_radius(tool)?;
-        let along = 1.0 / half_space_tangential_stiffness(&self.law, radius);
-        let normal = 1.0 / half_space_stiffness(&self.law, radius, Bond::Stick);
+        let [along, normal] = self.regions.yields_to_tip(radius);
+        let along = along / half_space_tangential_stiffness(&self.law, radius);
+        let normal = normal / half_space_stiffness(&self.law, radius, Bond::Stick);
         let own = Matrix3::from_diagonal(&Vec3::new(along, along, normal)) - self.of_load(now);
         let frame = now.turn * frame;
         Some(positive(&(frame * own * frame.transpose())))
@@ -386,107 +438,4 @@ impl ToolState {
         self.elastic = Vec3::zeros();
         self.stiffness = Matrix3::zeros();
     }
-}
-
-/// How far a load moves in a step, at most [m].
-fn farthest(load: &SpreadLoad) -> f64 {
-    FARTHEST.min(FARTHEST_OF_LOAD * load.radius)
-}
-
-/// A load as it is now.
-pub(super) struct Now {
-    /// ū [m], F [N] and Z [m/N].
-    pub(super) mean: Vec3,
-    pub(super) force: Vec3,
-    yields: Matrix3<f64>,
-    turn: Rotation3<f64>,
-    /// What it moves itself by on a half-space [m/N]: along the surface, and along its normal.
-    own: [f64; 2],
-}
-
-impl Now {
-    pub(super) fn of(organ: &NonlinearOrgan, body: &Body, number: usize) -> Self {
-        let load = &body.loads[number];
-        let state = &body.state;
-        Self {
-            mean: state.mean_displacement(&load.nodes),
-            force: state.force(number),
-            yields: organ.model.compliance(state, &load.nodes),
-            turn: state.mean_rotation(&load.nodes),
-            own: load.own_compliance(&organ.law),
-        }
-    }
-}
-
-impl Target {
-    /// Of a tool that is displaced by d [m], of which tip and organ together make the force `goal` [N] on the organ, and
-    /// yield `both` [m/N] to more.
-    fn new(
-        along: Option<Vec3>,
-        displacement: Vec3,
-        (both, goal): (&Matrix3<f64>, &Vec3),
-        now: &Now,
-    ) -> Self {
-        let compliance = match along {
-            Some(normal) => {
-                let own = normal.dot(&((both - now.yields) * normal)).max(0.0);
-                Matrix3::from_diagonal_element(own)
-            }
-            None => positive(&(both - now.yields)),
-        };
-        let free = now.mean - now.yields * now.force;
-        let offset = displacement - free - (now.yields + compliance) * goal;
-        let way = now.yields * (goal - now.force);
-        Self {
-            along,
-            displacement,
-            compliance,
-            offset,
-            jump: way + compliance * (goal - now.force),
-            way,
-        }
-    }
-
-    /// Tells of a step that did not take the organ to where its tool has it.
-    fn tell_pace(&self, body: &Body, number: usize, tool: &mut ToolState) {
-        let mean = body.state.mean_displacement(&body.loads[number].nodes);
-        let lag =
-            self.displacement - self.offset - self.compliance * body.state.force(number) - mean;
-        let lag = match self.along {
-            Some(normal) => normal.dot(&lag).abs(),
-            None => lag.norm(),
-        };
-        let way = self.way.norm();
-        if lag > TOLD_LAG.1.max(TOLD_LAG.0 * way) {
-            let reached = Reached {
-                asked: way.max(lag),
-                used: (way.max(lag) - lag).max(0.0),
-            };
-            tool.limited.add(Limit::Pace, reached);
-        }
-    }
-
-    /// With this part of the jump `left` [-], after this part of the `way` [-].
-    fn coupling<'a>(&self, nodes: &'a [(u32, f64)], (left, way): (f64, f64)) -> Coupling<'a> {
-        Coupling {
-            advance: self.way * way,
-            nodes,
-            along: self.along,
-            displacement: self.displacement,
-            compliance: self.compliance,
-            offset: self.offset + left * self.jump,
-        }
-    }
-}
-
-/// The stiffness of a tip that slips, with enough along the surface for an inverse: it is not asked for there.
-fn slippery(stiffness: &Matrix3<f64>) -> Matrix3<f64> {
-    Matrix3::from_diagonal_element(stiffness[(2, 2)])
-}
-
-/// The nearest matrix that gives no energy.
-fn positive(matrix: &Matrix3<f64>) -> Matrix3<f64> {
-    let mut eigen = SymmetricEigen::new(0.5 * (matrix + matrix.transpose()));
-    eigen.eigenvalues.apply(|value| *value = value.max(0.0));
-    eigen.recompose()
 }

@@ -7,6 +7,10 @@ use palpate_geometry::Vec3;
 /// A blade that is farther from its last opening than this [m] was lifted in between.
 const LEAP: f64 = 5e-3;
 
+/// Strokes that leave less than this [m] between them are one cut: an opening goes on to the edge of its triangle,
+/// about a millimetre, and nothing is left there that a blade could open.
+const JOINED: f64 = 1.5e-3;
+
 /// The ways of cuts.
 #[derive(Debug, Clone)]
 pub(super) struct CutWay {
@@ -116,9 +120,37 @@ impl CutWay {
     /// Length of the line that shall be cut, and what of it is cut down to the wanted layer [m].
     pub(super) fn covered(&self) -> Option<(f64, f64)> {
         let [from, to] = self.line?;
+        let parts = self.parts();
+        let covered = parts.iter().map(|[low, high]| high - low).sum();
+        Some(((to - from).norm(), covered))
+    }
+
+    /// The stretches of the line that are not cut down to the wanted layer: their ends [m].
+    pub(super) fn uncut(&self) -> Vec<[Vec3; 2]> {
+        let Some([from, to]) = self.line else {
+            return Vec::new();
+        };
         let wanted = (to - from).norm();
         let along = (to - from) / wanted;
-        let mut parts: Vec<[f64; 2]> = Vec::new();
+        let mut gaps = Vec::new();
+        let mut end = 0.0;
+        for [low, high] in self.parts().into_iter().chain([[wanted, wanted]]) {
+            if low > end {
+                gaps.push([from + along * end, from + along * low]);
+            }
+            end = high;
+        }
+        gaps
+    }
+
+    /// What of the line is cut down to the wanted layer, in order and apart: from where to where along it [m].
+    fn parts(&self) -> Vec<[f64; 2]> {
+        let Some([from, to]) = self.line else {
+            return Vec::new();
+        };
+        let wanted = (to - from).norm();
+        let along = (to - from) / wanted;
+        let mut each: Vec<[f64; 2]> = Vec::new();
         for stroke in &self.strokes {
             let deep = stroke
                 .iter()
@@ -127,17 +159,20 @@ impl CutWay {
             let (low, high) = at.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| {
                 (low.min(at), high.max(at))
             });
+            let (low, high) = (low.max(0.0), high.min(wanted));
             if low < high {
-                parts.push([low.clamp(0.0, wanted), high.clamp(0.0, wanted)]);
+                each.push([low, high]);
             }
         }
-        parts.sort_unstable_by(|one, other| one[0].total_cmp(&other[0]));
-        let (mut covered, mut end) = (0.0, 0.0_f64);
-        for [low, high] in parts {
-            covered += (high - low.max(end)).max(0.0);
-            end = end.max(high);
+        each.sort_unstable_by(|one, other| one[0].total_cmp(&other[0]));
+        let mut parts: Vec<[f64; 2]> = Vec::new();
+        for [low, high] in each {
+            match parts.last_mut() {
+                Some(last) if low <= last[1] + JOINED => last[1] = last[1].max(high),
+                _ => parts.push([low, high]),
+            }
         }
-        Some((wanted, covered))
+        parts
     }
 
     pub(super) fn score(&self) -> Option<CutScore> {

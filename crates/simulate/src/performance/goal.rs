@@ -19,12 +19,36 @@ pub(super) struct GoalWatch {
     /// How far beside the target was marked [m].
     beside: Option<f64>,
     /// Time [s] and force [N] of each tool before.
-    last: Vec<Option<(f64, f64)>>,
-    /// The last force of the tool that pulls [N].
-    force: f64,
+    last: Vec<Option<(f64, Vec3)>>,
+    /// The last pull of the tool that pulls.
+    pull: Option<Pull>,
+    /// The force at which the tissue tore [N].
+    torn: Option<f64>,
     within: f64,
     /// Time of the pull [s], and ∫ (F − wanted)² dt [N² s].
     pulled: (f64, f64),
+}
+
+/// A pull beside the one that is wanted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pull {
+    /// Its size [N].
+    pub force: f64,
+    /// How it should be changed.
+    pub cue: PullCue,
+}
+
+/// The one thing that should be changed of a pull.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PullCue {
+    /// Nothing: hold it.
+    Hold,
+    /// Pull harder.
+    More,
+    /// Pull less.
+    Less,
+    /// Pull in the other direction.
+    Turn,
 }
 
 /// How far a task is.
@@ -34,8 +58,8 @@ pub enum Status {
     GoesOn {
         /// From 0 to 1 [-].
         part: Option<f64>,
-        /// The force of a traction [N].
-        force: Option<f64>,
+        /// The pull of a traction.
+        pull: Option<Pull>,
     },
     /// It is over.
     Over {
@@ -64,6 +88,8 @@ pub enum Outcome {
         error: Option<f64>,
         /// Whether it was held for long enough.
         held: bool,
+        /// The pull at which the tissue tore [N]; none where it did not.
+        torn: Option<f64>,
     },
     /// A line was to be cut.
     Cut {
@@ -88,7 +114,8 @@ impl GoalWatch {
             done: false,
             beside: None,
             last: vec![None; tools.len()],
-            force: 0.0,
+            pull: None,
+            torn: None,
             within: 0.0,
             pulled: (0.0, 0.0),
         }
@@ -109,20 +136,20 @@ impl GoalWatch {
         }
         let &Goal::Traction {
             force_n,
-            tolerance_n,
             hold_s,
+            tear_force_n,
             ..
         } = &self.goal
         else {
             return;
         };
-        let force = Vec3::from(row.force_n).norm();
+        let force = Vec3::from(row.force_n);
         let Some(last) = self.last.get_mut(row.tool) else {
             return;
         };
         let before = last.replace((row.time_s, force));
         // Without a name it is the tool that pulls first.
-        if self.tool.is_none() && force > BEGINS * force_n {
+        if self.tool.is_none() && force.norm() > BEGINS * force_n {
             self.tool = Some(row.tool);
         }
         if self.tool != Some(row.tool) {
@@ -130,17 +157,21 @@ impl GoalWatch {
         }
         if let Some((time, before)) = before {
             let elapsed = row.time_s - time;
-            let middle = 0.5 * (before + force);
-            if (middle - force_n).abs() <= tolerance_n {
+            let pull = self.goal.pull(&(0.5 * (before + force)));
+            if pull.is_some_and(|pull| pull.cue == PullCue::Hold) {
                 self.within += elapsed;
             }
+            let middle = 0.5 * (before.norm() + force.norm());
             if middle > BEGINS * force_n || self.pulled.0 > 0.0 {
                 self.pulled.0 += elapsed;
                 self.pulled.1 += elapsed * (middle - force_n).powi(2);
             }
         }
-        self.force = force;
-        self.done |= self.within >= hold_s;
+        self.pull = self.goal.pull(&force);
+        if tear_force_n.is_some_and(|tear| force.norm() > tear) {
+            self.torn = Some(force.norm());
+        }
+        self.done |= self.within >= hold_s || self.torn.is_some();
     }
 
     pub(super) fn status(&self, cut: &CutWay, late: bool) -> Status {
@@ -156,7 +187,7 @@ impl GoalWatch {
             },
             false => Status::GoesOn {
                 part,
-                force: matches!(self.goal, Goal::Traction { .. }).then_some(self.force),
+                pull: self.pull,
             },
         }
     }
@@ -171,7 +202,8 @@ impl GoalWatch {
             Goal::Traction { hold_s, .. } => Outcome::Traction {
                 within: self.within,
                 error: (self.pulled.0 > 0.0).then(|| (self.pulled.1 / self.pulled.0).sqrt()),
-                held: self.within >= *hold_s,
+                held: self.within >= *hold_s && self.torn.is_none(),
+                torn: self.torn,
             },
             Goal::Cut { tolerance_m, .. } => {
                 let part = cut
@@ -185,6 +217,38 @@ impl GoalWatch {
                 }
             }
         }
+    }
+}
+
+/// The pull of a traction.
+trait Wanted {
+    /// A force on the tool [N] beside the pull that is wanted; none where none is.
+    fn pull(&self, force: &Vec3) -> Option<Pull>;
+}
+
+impl Wanted for Goal {
+    fn pull(&self, force: &Vec3) -> Option<Pull> {
+        let Self::Traction {
+            force_n,
+            tolerance_n,
+            direction,
+            ..
+        } = self
+        else {
+            return None;
+        };
+        let size = force.norm();
+        // A tool pulls against the force on it. Before there is one, it has no direction either.
+        let turned = direction.is_some_and(|(direction, tolerance)| {
+            size > BEGINS * force_n && (-force).angle(&Vec3::from(direction)) > tolerance
+        });
+        let cue = match size {
+            _ if turned => PullCue::Turn,
+            size if size < force_n - tolerance_n => PullCue::More,
+            size if size > force_n + tolerance_n => PullCue::Less,
+            _ => PullCue::Hold,
+        };
+        Some(Pull { force: size, cue })
     }
 }
 

@@ -10,6 +10,7 @@
 
 mod comparison;
 mod cut;
+mod feedback;
 mod force;
 mod goal;
 mod hand;
@@ -19,11 +20,13 @@ mod words;
 
 use palpate_files::scene::Task;
 use palpate_files::{Event, SessionRow};
+use palpate_geometry::Vec3;
 
 pub use comparison::{Comparison, Standard, compare};
 pub use cut::CutScore;
+pub use feedback::{Feedback, feedback};
 pub use force::ForceScore;
-pub use goal::{Outcome, Status};
+pub use goal::{Outcome, Pull, PullCue, Status};
 pub use hand::HandScore;
 pub use measure::{Better, Measure};
 pub use words::outcome_words;
@@ -131,6 +134,11 @@ impl Performance {
             .time_limit_s
             .is_some_and(|limit| self.elapsed() >= limit);
         self.goal.status(&self.cut, late)
+    }
+
+    /// The stretches of the line of a cut that are not cut to the wanted depth yet: their ends [m].
+    pub fn uncut(&self) -> Vec<[Vec3; 2]> {
+        self.cut.uncut()
     }
 
     /// What should not have happened.

@@ -14,9 +14,13 @@ pub fn outcome_words(outcome: &Outcome) -> String {
             1e3 * beside
         ),
         Outcome::Traction {
+            torn: Some(force), ..
+        } => format!("The tissue tore, under a pull of {:.0} mN.", 1e3 * force),
+        Outcome::Traction {
             within,
             error,
             held,
+            torn: None,
         } => {
             let off = error.map_or(String::new(), |error| {
                 format!(", {:.0} mN off on average", 1e3 * error)

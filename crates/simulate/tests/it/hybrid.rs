@@ -52,10 +52,10 @@ fn a_hemisphere_is_that_of_finite_elements() {
     assert!((force.z / 0.078_752 - 1.0).abs() < 0.05, "{force}");
 }
 
-/// Judge: finite spheres, where the organ is large beside the tip. Tolerance: kidneys bend as a whole,
-/// which finite spheres do not know: up to a third softer here, never stiffer than 5 %.
+/// Judge: the whole organ, on half as many triangles again, at forty places of a kidney. Tolerance: a tenth, which is
+/// asked of the local model, and the 3 % that the whole organ is off finite elements; half of all places within those 3 %.
 #[test]
-fn an_organ_yields_more_than_its_neighbourhood() {
+fn the_local_model_knows_what_the_organ_yields() {
     let whole = KIDNEY.simulation();
     let local = Setting {
         kind: "local",
@@ -68,17 +68,16 @@ fn an_organ_yields_more_than_its_neighbourhood() {
     while seen.len() < 40 {
         let (point, normal) = nearest(&whole, &tree, &random.place(&whole).0);
         let tip = point - normal * 1e-3;
-        let ratio = Hand::new(&whole).at(&tip).norm() / Hand::new(&local).at(&tip).norm();
-        if ratio.is_finite() && ratio > 0.0 {
-            seen.push(ratio);
+        let whole = Hand::new(&whole).at(&tip).dot(&normal);
+        let local = Hand::new(&local).at(&tip).dot(&normal);
+        if whole > 0.0 && local > 0.0 {
+            seen.push(local / whole);
         }
     }
     seen.sort_by(f64::total_cmp);
-    println!(
-        "whole organ beside finite spheres: {:.3} to {:.3}, median {:.3}",
-        seen[0], seen[39], seen[20]
-    );
-    assert!(seen[20] < 1.05 && seen[20] > 0.6, "{seen:?}");
+    println!("finite spheres beside the whole organ: {seen:.3?}");
+    assert!(seen[0] > 0.87 && seen[39] < 1.13, "{seen:?}");
+    assert!((seen[20] - 1.0).abs() < 0.03, "{seen:?}");
 }
 
 /// Judge: proportion. The response is that of a unit modulus, so that none is solved anew.

@@ -1,9 +1,12 @@
 //! Layers: each is opened by itself, by a blade's depth and by force, and is named by event, summary and score.
 
+use palpate_files::scene::Goal;
 use palpate_files::session::{Event, Events};
 use palpate_files::{Motion, Pose, Scene};
 use palpate_geometry::Vec3;
-use palpate_simulate::{Simulation, SimulationState, SimulationWorkspace, performance, step};
+use palpate_simulate::{
+    Simulation, SimulationState, SimulationWorkspace, draw_variant, performance, step,
+};
 
 /// A cube of 0.1 m whose upper side is at z = 0.05, with layers of 1, 1 and 1 mm that give way at 0.10, 0.04 and
 /// 0.07 N, and one tool called "right".
@@ -256,7 +259,15 @@ fn the_myotomy_is_two_strokes_and_a_third_layer_is_a_perforation() {
         include_str!("../../../../assets/tasks/myotomy.toml").replace("\"hybrid\"", "\"local\"");
     let text = text.replace("mechanical_triangles = 2500\n", "");
     let text = text.replace("triangles = 14000", "triangles = 6000");
-    let scene = Scene::parse(&text, "myotomy.toml").unwrap();
+    let drawn = Scene::parse(&text, "myotomy.toml").unwrap();
+    let mut scene = draw_variant(&drawn, 0).unwrap();
+    // The line that the motion follows.
+    scene.task.goal = Goal::Cut {
+        from_m: [0.001, -0.0075, 0.014],
+        to_m: [0.001, -0.0075, -0.011],
+        tolerance_m: 0.003,
+        layers: Some(2),
+    };
     let simulation = Simulation::new(&scene).unwrap();
     let motion = include_str!("../../../../assets/esophagus/myotomy.csv");
     let cases = [

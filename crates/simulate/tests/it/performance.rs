@@ -8,7 +8,7 @@ use palpate_files::session::Event;
 use palpate_files::{Events, SessionRow};
 use palpate_geometry::Vec3;
 use palpate_simulate::performance::{
-    Outcome, Performance, Score, Standard, Status, compare, score,
+    Outcome, Performance, Pull, PullCue, Score, Standard, Status, compare, score,
 };
 
 fn row(time: f64, place: Vec3) -> SessionRow {
@@ -313,6 +313,8 @@ fn goals_are_reached() {
             force_n: 0.5,
             tolerance_n: 0.1,
             hold_s: 2.0,
+            direction: Some(([-1.0, 0.0, 0.0], 0.5)),
+            tear_force_n: Some(0.9),
         },
         ..Task::default()
     };
@@ -331,10 +333,14 @@ fn goals_are_reached() {
         panic!("no traction")
     };
     assert!(held && (error.unwrap() - 0.05).abs() < 1e-9);
-    let Status::GoesOn { part, force } = pulled(0.45, 1.0).status() else {
+    let Status::GoesOn { part, pull: now } = pulled(0.45, 1.0).status() else {
         panic!("over")
     };
-    assert!((part.unwrap() - 0.5).abs() < 1e-9 && force == Some(0.45));
+    let hold = Pull {
+        force: 0.45,
+        cue: PullCue::Hold,
+    };
+    assert!((part.unwrap() - 0.5).abs() < 1e-9 && now == Some(hold));
     assert_eq!(pulled(0.7, 70.0).status(), Status::Over { late: true });
     assert_eq!(pulled(0.7, 70.0).score().outcome.passed(), Some(false));
     assert!(matches!(
@@ -344,6 +350,99 @@ fn goals_are_reached() {
             ..
         }
     ));
+}
+
+/// There is one cue for a pull, and time counts while it is to hold. Judge: the band and the cone by hand, 0.5 ± 0.1 N
+/// within 30° of x; a pull above 0.9 N tears.
+#[test]
+fn a_pull_has_one_cue_and_direction_counts() {
+    let tools = vec!["left".to_owned()];
+    let task = Task {
+        goal: Goal::Traction {
+            tool: Some("left".to_owned()),
+            force_n: 0.5,
+            tolerance_n: 0.1,
+            hold_s: 1.0,
+            direction: Some(([2.0, 0.0, 0.0], 30_f64.to_radians())),
+            tear_force_n: Some(0.9),
+        },
+        ..Task::default()
+    };
+    let pulled = |force: f64, turned: f64| {
+        let turned = turned.to_radians();
+        let mut performance = Performance::new(&task, &tools);
+        let rows = course(0.5, 200.0, |t| SessionRow {
+            // On the tool, against the pull.
+            force_n: [-force * turned.cos(), force * turned.sin(), 0.0],
+            contact: true,
+            ..row(t, Vec3::zeros())
+        });
+        rows.iter().for_each(|row| performance.add(row));
+        performance
+    };
+    for (force, turned, expected) in [
+        (0.45, 0.0, PullCue::Hold),
+        (0.45, 29.0, PullCue::Hold),
+        (0.45, 31.0, PullCue::Turn),
+        (0.7, 180.0, PullCue::Turn),
+        (0.39, 0.0, PullCue::More),
+        (0.61, 0.0, PullCue::Less),
+        // Without a pull there is no direction to change.
+        (0.01, 180.0, PullCue::More),
+    ] {
+        let Status::GoesOn { part, pull } = pulled(force, turned).status() else {
+            panic!("over at {force} N")
+        };
+        let cue = pull.unwrap().cue;
+        assert_eq!(cue, expected, "{force} N, {turned}°");
+        assert_eq!(
+            part.unwrap() > 0.4,
+            cue == PullCue::Hold,
+            "{force} N, {turned}°"
+        );
+    }
+    let torn = pulled(0.95, 0.0);
+    assert_eq!(torn.status(), Status::Over { late: false });
+    assert_eq!(torn.score().outcome.passed(), Some(false));
+}
+
+/// What is left of a line to cut is what no stroke has opened. Judge: the ends by hand; strokes that leave a
+/// millimetre are one cut.
+#[test]
+fn the_uncut_stretches_are_told() {
+    let tools = vec!["left".to_owned()];
+    let task = Task {
+        goal: Goal::Cut {
+            from_m: [0.0; 3],
+            to_m: [0.030, 0.0, 0.0],
+            tolerance_m: 0.003,
+            layers: None,
+        },
+        ..Task::default()
+    };
+    let after = |strokes: &[[f64; 2]]| {
+        let mut performance = Performance::new(&task, &tools);
+        for (number, [from, to]) in strokes.iter().enumerate() {
+            for part in 0..=20 {
+                let place = from + (to - from) * f64::from(part) / 20.0;
+                performance.add(&SessionRow {
+                    contact: true,
+                    events: Event::Cut.into(),
+                    ..row(number as f64, Vec3::x() * place)
+                });
+            }
+            // Lifted between strokes.
+            performance.add(&row(number as f64, Vec3::x() * *to));
+        }
+        let gaps = performance.uncut();
+        let micrometres = |end: Vec3| (1e6 * end.x).round() as i64;
+        let ends = gaps.iter().map(|gap| gap.map(micrometres));
+        ends.collect::<Vec<_>>()
+    };
+    assert_eq!(after(&[]), [[0, 30_000]]);
+    let apart = after(&[[-0.002, 0.004], [0.008, 0.012]]);
+    assert_eq!(apart, [[4_000, 8_000], [12_000, 30_000]]);
+    assert!(after(&[[0.011, 0.035], [-0.001, 0.010]]).is_empty());
 }
 
 /// Judge: mean and deviation by hand.

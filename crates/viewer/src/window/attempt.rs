@@ -5,12 +5,14 @@ use std::path::{Path, PathBuf};
 use palpate_files::scene::{Goal, Task};
 use palpate_files::session::{Event, SessionRow};
 use palpate_files::{Claim, Overwrite};
+use palpate_geometry::Vec3;
 use palpate_simulate::performance::{
     Comparison, Errors, Performance, Score, Standard, Status, compare,
 };
-use palpate_simulate::{Guidance, SessionFolder, Tutor, read_experts};
+use palpate_simulate::{Demonstration, Guidance, SessionFolder, ShownTool, Tutor, read_experts};
 
-use super::play::Play;
+use super::play::{Play, Wish};
+use super::training::PastResult;
 
 /// A task that is attempted.
 pub(super) struct Attempt {
@@ -22,6 +24,14 @@ pub(super) struct Attempt {
     standards: Vec<Standard>,
     tutor: Option<Tutor>,
     pub(super) guidance: Option<Guidance>,
+    /// The script that does it, while it is shown.
+    demonstration: Option<Demonstration>,
+    /// Whether this variant was shown: who has seen it knows its answer.
+    pub(super) was_shown: bool,
+    /// Times [s] and forces [N], the largest of all tools.
+    pub(super) forces: Vec<[f64; 2]>,
+    /// Where a place was marked [m].
+    pub(super) marked: Option<Vec3>,
     /// What went wrong beside the touch.
     pub(super) trouble: Option<String>,
     /// The recording, where it cannot be written.
@@ -69,7 +79,12 @@ pub(super) struct Done {
     pub(super) late: bool,
     /// Where it was recorded.
     pub(super) folder: Option<PathBuf>,
+    /// The trainee's attempts at the task before.
+    pub(super) earlier: Vec<PastResult>,
 }
+
+/// Forces are kept for a plot at most so often [s].
+const PLOTTED: f64 = 0.02;
 
 impl Attempt {
     /// Of a scene's task. An expert's sessions that cannot be read are told and left out.
@@ -89,10 +104,19 @@ impl Attempt {
         Self {
             performance: Performance::new(&task, &names),
             standards: Standard::of(&scores),
+            // Where another variant was cut or pulled there is nothing to do here.
             tutor: experts
                 .first()
+                .filter(|expert| {
+                    let own = play.simulation.session_header().scene_digest;
+                    expert.session.header.scene_digest == own
+                })
                 .and_then(|expert| Tutor::new(&expert.session, &names)),
             guidance: None,
+            demonstration: None,
+            was_shown: false,
+            forces: Vec::new(),
+            marked: None,
             phase: Phase::Reads,
             has_begun: false,
             task,
@@ -111,6 +135,9 @@ impl Attempt {
         self.performance = Performance::new(&self.task, &names(play));
         self.has_begun = false;
         self.guidance = None;
+        self.demonstration = None;
+        self.forces.clear();
+        self.marked = None;
         self.unsaved = None;
         if let Some(tutor) = &mut self.tutor {
             tutor.begin_anew();
@@ -151,9 +178,52 @@ impl Attempt {
             return;
         }
         self.has_begun |= row.events.contains(Event::BeginAnew);
-        if self.has_begun {
-            self.performance.add(row);
+        if !self.has_begun {
+            return;
         }
+        self.performance.add(row);
+        let (time, force) = (self.performance.elapsed(), Vec3::from(row.force_n).norm());
+        match self.forces.last_mut() {
+            Some(last) if time - last[0] < PLOTTED => last[1] = last[1].max(force),
+            _ => self.forces.push([time, force]),
+        }
+        if row.events.contains(Event::Mark) && row.contact {
+            self.marked = Some(Vec3::from(row.position_m));
+        }
+    }
+
+    /// Shows how it may be done, on the organ as it was at the start.
+    pub(super) fn show(&mut self, play: &mut Play) {
+        self.begin(play, None);
+        self.demonstration = Demonstration::new(&play.scene, &play.simulation);
+        self.was_shown = true;
+    }
+
+    /// Whether a script does it now.
+    pub(super) fn is_shown(&self) -> bool {
+        self.demonstration.is_some()
+    }
+
+    /// Where the script has the tools after another `elapsed` [s]; none where a trainee has them.
+    pub(super) fn shown(
+        &mut self,
+        play: &mut Play,
+        elapsed: f64,
+    ) -> Option<Vec<Option<ShownTool>>> {
+        let demonstration = self.demonstration.as_mut()?;
+        let tools = play.source.snapshot().tools.iter();
+        let forces: Vec<Vec3> = tools.map(|tool| tool.force).collect();
+        let elapsed = if self.has_begun { elapsed } else { 0.0 };
+        let shown = demonstration.follow(elapsed, &forces).to_vec();
+        if demonstration.marks() {
+            play.order(Wish::Mark);
+        }
+        Some(shown)
+    }
+
+    /// The stretches of a line that are not cut yet [m].
+    pub(super) fn uncut(&self) -> Vec<[Vec3; 2]> {
+        self.performance.uncut()
     }
 
     /// Looks whether it is over, and what the expert says. Whether it has just ended.
@@ -225,6 +295,13 @@ impl Attempt {
         self.performance.errors()
     }
 
+    /// What the trainee did before, as far as it is known.
+    pub(super) fn compare_with(&mut self, earlier: Vec<PastResult>) {
+        if let Phase::Over(done) = &mut self.phase {
+            done.earlier = earlier;
+        }
+    }
+
     /// Whether an expert is followed.
     pub(super) fn has_expert(&self) -> bool {
         self.tutor.is_some()
@@ -232,6 +309,11 @@ impl Attempt {
 
     /// Ends it where it is.
     pub(super) fn end(&mut self, play: &mut Play, late: bool) {
+        if self.demonstration.take().is_some() {
+            self.guidance = None;
+            self.phase = Phase::Reads;
+            return;
+        }
         let score = self.performance.score();
         let mut folder = match &mut self.phase {
             Phase::GoesOn(folder) => folder.take(),
@@ -248,6 +330,7 @@ impl Attempt {
             score,
             late,
             folder,
+            earlier: Vec::new(),
         }));
     }
 }

@@ -37,6 +37,11 @@ impl Choice {
         }
     }
 
+    /// Whether the scene draws its numbers anew for each attempt.
+    pub(super) fn draws(&self) -> bool {
+        self.given.draws.is_some()
+    }
+
     /// The scene that this comes to.
     pub(super) fn scene(&self) -> Scene {
         let mut scene = self.given.clone();

@@ -1,6 +1,7 @@
-//! What a task draws over the picture: the line that shall be cut, and an expert's tools as bright outlines.
+//! What a task draws over the picture: what is left to do, the truth when it is over, and an expert's tools as bright
+//! outlines.
 
-use eframe::egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, Vec2};
+use eframe::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Vec2};
 use nalgebra::{Quaternion, Unit};
 use palpate_geometry::Vec3;
 use palpate_simulate::Ghost;
@@ -13,6 +14,12 @@ const SHAFT: f64 = 0.06;
 /// Length of the jaws that are drawn [m], and how far they open to either side [m].
 const JAWS: f64 = 0.012;
 const OPEN: f64 = 0.004;
+
+/// Length of the arrow of a pull [m].
+const ARROW: f64 = 0.025;
+
+/// What is left to do, and the truth: yellow is seen on red by everybody.
+const LEFT: Color32 = Color32::from_rgb(255, 224, 92);
 
 const BRIGHT: Color32 = Color32::from_rgb(120, 232, 214);
 
@@ -47,6 +54,71 @@ impl Over<'_> {
                 self.painter.circle_filled(end, 3.5, BRIGHT);
             }
         }
+    }
+
+    /// Draws what of a line is not cut yet.
+    pub(super) fn left(&self, stretches: &[[Vec3; 2]]) {
+        for [from, to] in stretches {
+            self.line(from, to, Stroke::new(9.0, Color32::from_black_alpha(90)));
+            self.line(from, to, Stroke::new(5.0, LEFT));
+        }
+    }
+
+    /// Draws where a tip shall pull to.
+    pub(super) fn arrow(&self, tip: &Vec3, direction: &Vec3) {
+        let end = tip + ARROW * direction.normalize();
+        if let (Some(from), Some(to)) = (self.seen(tip), self.seen(&end)) {
+            let way = to - from;
+            // Straight at the eye an arrow is a point, which says so.
+            if way.length() < 12.0 {
+                self.painter
+                    .circle_stroke(from, 14.0, Stroke::new(3.0, LEFT));
+                self.painter.circle_filled(from, 4.0, LEFT);
+            } else {
+                self.painter.arrow(from, way, Stroke::new(3.5, LEFT));
+            }
+        }
+    }
+
+    /// Draws a lump through the organ: a disc of its size.
+    pub(super) fn lump(&self, middle: &Vec3, radius: f64) {
+        let [right, ..] = self.camera.axes();
+        let edge = middle + radius * right;
+        if let (Some(at), Some(edge)) = (self.seen(middle), self.seen(&edge)) {
+            let size = at.distance(edge);
+            self.painter
+                .circle_filled(at, size, LEFT.gamma_multiply(0.45));
+            self.painter.circle_stroke(at, size, Stroke::new(2.5, LEFT));
+            self.named(at + Vec2::new(0.0, -size - 4.0), "the lump", LEFT);
+        }
+    }
+
+    /// Draws where a place was marked, and how far from the right one.
+    pub(super) fn mark(&self, marked: &Vec3, target: &Vec3) {
+        self.line(marked, target, Stroke::new(1.5, BRIGHT));
+        if let Some(at) = self.seen(marked) {
+            let stroke = Stroke::new(3.0, BRIGHT);
+            for side in [-1.0, 1.0] {
+                let way = Vec2::new(7.0, 7.0 * side);
+                self.painter.line_segment([at - way, at + way], stroke);
+            }
+            self.named(at + Vec2::new(0.0, 26.0), "your mark", BRIGHT);
+        }
+    }
+
+    /// Writes a name whose lower middle is `at`.
+    fn named(&self, at: Pos2, words: &str, color: Color32) {
+        let font = FontId::proportional(14.0);
+        let shadow = Color32::from_black_alpha(220);
+        self.painter.text(
+            at + Vec2::splat(1.0),
+            Align2::CENTER_BOTTOM,
+            words,
+            font.clone(),
+            shadow,
+        );
+        self.painter
+            .text(at, Align2::CENTER_BOTTOM, words, font, color);
     }
 
     /// Draws where an expert's tools were.

@@ -101,11 +101,6 @@ impl Home {
             ui.add(field)
                 .on_hover_text("results are kept under this name");
         });
-        ui.checkbox(
-            &mut training.is_expert,
-            "an expert: others are judged by me",
-        )
-        .on_hover_text("results count for the mean and deviation that proficiency is measured by");
         let words = format!("sessions are kept in {}", training.sessions.display());
         ui.label(RichText::new(words).small().color(QUIET));
         ui.add_space(10.0);

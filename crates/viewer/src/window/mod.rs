@@ -27,6 +27,7 @@ mod picture;
 mod play;
 mod preparation;
 mod rates;
+mod results;
 mod source;
 mod timeline;
 mod trained;
@@ -87,6 +88,12 @@ struct SimulatorWindow {
     home: Option<Home>,
     /// The task that is attempted.
     attempt: Option<Attempt>,
+    /// Whether the attempt begins as soon as its organ is prepared.
+    begins: bool,
+    /// Whether a key was pressed that begins an attempt, or the next one.
+    begins_anew: bool,
+    /// Whether what an engineer wants to see is shown during a task.
+    engineer_view: bool,
     /// The session that shall be looked at again when its organ is prepared.
     awaited: Option<PathBuf>,
     /// Whether the window shall close, as if somebody had closed it.
@@ -159,6 +166,9 @@ impl SimulatorWindow {
             training,
             home: None,
             attempt: None,
+            begins: false,
+            begins_anew: false,
+            engineer_view: false,
             awaited: None,
             is_ended,
             gpu,
@@ -242,6 +252,9 @@ impl SimulatorWindow {
         self.notice = enhanced.err().map(|error| error.to_string());
         self.take_task(&play);
         self.play = Some(play);
+        if is_last && self.begins {
+            self.begin_attempt();
+        }
         if is_last && let Some(session) = self.awaited.take() {
             self.look_again(&session);
         }
@@ -323,6 +336,10 @@ impl SimulatorWindow {
                 }
                 Action::Mark => {
                     self.mark();
+                    continue;
+                }
+                Action::EngineerView => {
+                    self.engineer_view = !self.engineer_view;
                     continue;
                 }
                 Action::Undo => Wish::UndoCut,
@@ -411,22 +428,18 @@ impl eframe::App for SimulatorWindow {
         }
         self.supervise(&context);
         self.listen(&context);
-        self.watch_attempt();
+        self.watch_attempt(&context);
         self.take_dropped(&context);
         self.act(&context);
         self.show_timeline(ui);
-        egui::Panel::bottom("status").show(ui, |ui| panel::status(self, ui));
-        egui::Panel::right("panel")
-            .resizable(true)
-            .default_size(300.0)
-            .size_range(220.0..=460.0)
-            .show(ui, |ui| panel::side(self, ui));
+        self.show_panels(ui);
         egui::CentralPanel::no_frame().show(ui, |ui| {
             let tool = self.choice.tool;
             match (&mut self.play, frame.wgpu_render_state()) {
                 (Some(play), Some(state)) => {
                     let rect = self.picture.show(ui, (state, &self.gpu), play, tool);
-                    self.picture.show_task(ui, rect, self.attempt.as_ref());
+                    let attempt = self.attempt.as_ref();
+                    self.picture.show_task(ui, rect, (&mut *play, attempt));
                     if !self.attempt.as_ref().is_some_and(Attempt::is_over) {
                         overlay::show(ui, rect, &self.picture, play, tool);
                     }

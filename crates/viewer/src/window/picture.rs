@@ -2,8 +2,9 @@ use std::time::Duration;
 
 use eframe::egui::{self, Color32, PointerButton, Pos2, Rect, Response, Sense, Vec2};
 use eframe::egui_wgpu::RenderState;
-use palpate_files::scene::{Enhancement, Goal, Shading};
+use palpate_files::scene::{Enhancement, Goal, Shading, Tool};
 use palpate_geometry::Vec3;
+use palpate_simulate::ShownTool;
 
 use super::attempt::Attempt;
 use super::effort::Effort;
@@ -18,6 +19,9 @@ use crate::{Camera, Error, Gpu, Orbit, TissuePicture, pick, scene_camera};
 /// Turn of the camera per point of the window [rad].
 const TURN: f64 = 0.007;
 
+/// A script's tool that is farther from its hand than this was taken up anew [m].
+const TAKEN_UP: f64 = 0.01;
+
 /// Where the organ is seen and touched.
 pub(super) struct Picture {
     pub(super) shading: Shading,
@@ -29,6 +33,8 @@ pub(super) struct Picture {
     pub(super) gesture: Gesture,
     /// One per tool.
     pub(super) hands: Vec<Hand>,
+    /// Where a script has the tools; none where hands have them.
+    pub(super) shown: Option<Vec<Option<ShownTool>>>,
     /// Whether the keys are listed.
     pub(super) lists_keys: bool,
     gamepad: Option<Gamepad>,
@@ -55,6 +61,7 @@ impl Picture {
             effort: Effort::new(gpu.is_software()),
             gesture: Gesture::default(),
             hands: Vec::new(),
+            shown: None,
             lists_keys: false,
             gamepad: Gamepad::first(),
             driven: false,
@@ -140,16 +147,38 @@ impl Picture {
             middle: (0.5 * (low + high), extent),
         };
         self.take_up(play, &room);
-        self.drive(ui, (play, tool), &room);
-        self.touch(ui, (&response, rect), (play, tool), &room);
+        match self.shown.take() {
+            Some(tools) => {
+                self.driven = true;
+                for (number, (hand, tool)) in self.hands.iter_mut().zip(&tools).enumerate() {
+                    if let Some(tool) = tool {
+                        // Taken up over the organ, without a way there from where it lay.
+                        let far = hand
+                            .place
+                            .is_none_or(|(at, _)| (at - tool.tip).norm() > TAKEN_UP);
+                        hand.show(tool, &room);
+                        play.hold(number, hand, far.then_some(tool.tip));
+                    }
+                }
+            }
+            None => {
+                self.drive(ui, (play, tool), &room);
+                self.touch(ui, (&response, rect), (play, tool), &room);
+            }
+        }
         let texture = self.draw((state, gpu), play, &camera, (extent, rect, ui.ctx()));
         let whole = Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0));
         ui.painter().image(texture, rect, whole, Color32::WHITE);
         rect
     }
 
-    /// What a task that goes on draws over the picture.
-    pub(super) fn show_task(&self, ui: &egui::Ui, rect: Rect, attempt: Option<&Attempt>) {
+    /// What a task draws over the picture: what is to be done, and afterwards the truth.
+    pub(super) fn show_task(
+        &self,
+        ui: &egui::Ui,
+        rect: Rect,
+        (play, attempt): (&mut Play, Option<&Attempt>),
+    ) {
         let (Some(camera), Some(attempt)) = (&self.camera, attempt) else {
             return;
         };
@@ -159,8 +188,32 @@ impl Picture {
             rect,
             camera,
         };
-        if let (Goal::Cut { from_m, to_m, .. }, false) = (&attempt.task.goal, attempt.is_over()) {
-            over.wanted([*from_m, *to_m].map(Vec3::from));
+        match &attempt.task.goal {
+            Goal::Cut { from_m, to_m, .. } => {
+                over.wanted([*from_m, *to_m].map(Vec3::from));
+                over.left(&attempt.uncut());
+            }
+            Goal::Traction {
+                direction: Some((direction, _)),
+                tool,
+                ..
+            } if !attempt.is_over() => {
+                let named = |own: &Tool| tool.as_ref().is_none_or(|name| own.name == *name);
+                let number = play.scene.tools.iter().position(named).unwrap_or(0);
+                let seen = play.source.snapshot().tools.get(number);
+                if let Some(pose) = seen.and_then(|seen| seen.pose) {
+                    over.arrow(&Vec3::from(pose.position_m), &Vec3::from(*direction));
+                }
+            }
+            Goal::Find { target_m, .. } if attempt.is_over() => {
+                for nodule in &play.scene.organ.nodules {
+                    over.lump(&Vec3::from(nodule.center_m), nodule.radius_m);
+                }
+                if let Some(marked) = attempt.marked {
+                    over.mark(&marked, &Vec3::from(*target_m));
+                }
+            }
+            _ => {}
         }
         if let Some(guidance) = &attempt.guidance {
             over.tools(&guidance.ghosts);

@@ -1,3 +1,4 @@
+use std::hash::{BuildHasher, RandomState};
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
@@ -7,7 +8,7 @@ use eframe::egui;
 use palpate_files::Scene;
 use palpate_files::scene::ModelKind;
 use palpate_servo::lower_priority;
-use palpate_simulate::{Progress, Resources};
+use palpate_simulate::{Progress, Resources, draw_variant};
 
 use super::play::Prepared;
 use crate::{Error, Gpu};
@@ -29,9 +30,14 @@ pub(super) struct Outcome {
     pub(super) second: bool,
 }
 
+/// Bits of a random number that a seed has no use for: people read it, and may type it.
+const SPARE_BITS: u32 = 40;
+
 /// What the thread needs.
 struct Work {
     scene: Scene,
+    /// Of the variant, if the scene draws its numbers.
+    seed: u64,
     resources: Resources,
     gpu: Gpu,
     context: egui::Context,
@@ -40,7 +46,8 @@ struct Work {
 }
 
 impl Preparation {
-    /// Starts with `scene`, and wakes the window when there is something.
+    /// Starts with `scene`, of which another variant is drawn each time, and wakes the window when there is
+    /// something.
     pub(super) fn start(
         scene: Scene,
         resources: &Resources,
@@ -51,6 +58,7 @@ impl Preparation {
         let (told, given_up) = (Arc::default(), Arc::default());
         let work = Work {
             scene,
+            seed: RandomState::new().hash_one(()) >> SPARE_BITS,
             resources: resources.clone(),
             gpu: gpu.clone(),
             context,
@@ -102,9 +110,21 @@ impl Drop for Preparation {
 }
 
 impl Work {
-    fn run(self, tell: &Sender<Outcome>) {
+    fn run(mut self, tell: &Sender<Outcome>) {
         // The touch goes on beside it.
         lower_priority();
+        match draw_variant(&self.scene, self.seed) {
+            Ok(variant) => self.scene = variant,
+            Err(error) => {
+                let _ = tell.send(Outcome {
+                    play: Err(error.into()),
+                    last: true,
+                    second: false,
+                });
+                self.context.request_repaint();
+                return;
+            }
+        }
         let second = self.scene.model.kind != ModelKind::Local;
         if second {
             let mut local = self.scene.clone();

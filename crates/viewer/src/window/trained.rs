@@ -12,7 +12,7 @@ use super::choice::Choice;
 use super::home::{Chosen, Home};
 use super::play::{Play, Wish};
 use super::training::TrainingResult;
-use super::{SimulatorWindow, timeline};
+use super::{SimulatorWindow, panel, timeline};
 
 impl SimulatorWindow {
     /// The start screen instead of everything else.
@@ -60,6 +60,7 @@ impl SimulatorWindow {
         self.play = None;
         self.attempt = None;
         self.awaited = None;
+        self.begins = false;
         self.notice = None;
         self.home = Some(Home::default());
     }
@@ -91,10 +92,12 @@ impl SimulatorWindow {
     }
 
     /// Looks whether the task is over, and keeps its result.
-    pub(super) fn watch_attempt(&mut self) {
+    pub(super) fn watch_attempt(&mut self, context: &egui::Context) {
         let (Some(attempt), Some(play)) = (&mut self.attempt, &mut self.play) else {
             return;
         };
+        let elapsed = f64::from(context.input(|input| input.stable_dt));
+        self.picture.shown = attempt.shown(play, elapsed.min(0.1));
         if attempt.look(play) {
             self.keep_result();
         }
@@ -109,12 +112,19 @@ impl SimulatorWindow {
         let Phase::Over(done) = &attempt.phase else {
             return;
         };
+        let trainee = training.trainee.trim();
+        let earlier = training.record.results(trainee).unwrap_or_default();
+        let title = play.scene.task.title.as_deref();
+        let earlier = earlier
+            .into_iter()
+            .filter(|own| Some(own.task.as_str()) == title);
+        let earlier: Vec<_> = earlier.collect();
         let Some(folder) = &done.folder else {
+            attempt.compare_with(earlier);
             return;
         };
         let kept = training.record.keep(&TrainingResult {
-            trainee: training.trainee.trim(),
-            is_expert: training.is_expert,
+            trainee,
             scene: &play.scene,
             session: folder,
             score: &done.score,
@@ -122,19 +132,45 @@ impl SimulatorWindow {
         if let Err(trouble) = kept {
             attempt.trouble = Some(format!("the result is not kept: {trouble}"));
         }
+        attempt.compare_with(earlier);
     }
 
     /// The card of the task over the picture.
     pub(super) fn show_card(&mut self, ui: &egui::Ui) {
         let around = Around {
             preparing: self.preparing(),
+            begins: self.begins,
             has_home: self.training.is_some(),
         };
         let (Some(attempt), Some(play)) = (&mut self.attempt, &mut self.play) else {
             return;
         };
-        match cards::show(ui, attempt, &around) {
+        let asked = cards::show(ui, attempt, &around);
+        let by_key = std::mem::take(&mut self.begins_anew).then_some(Asked::Begin);
+        if asked.is_some() {
+            // A button that was clicked would have the keyboard, and Enter click it again.
+            ui.memory_mut(|memory| {
+                if let Some(focused) = memory.focused() {
+                    memory.surrender_focus(focused);
+                }
+            });
+        }
+        match asked.or(by_key) {
             None => {}
+            Some(Asked::Show) => {
+                attempt.show(play);
+                self.picture.lay_down();
+                self.picture.lists_keys = false;
+                self.history.clear();
+            }
+            Some(Asked::Begin)
+                if (attempt.is_over() || attempt.was_shown) && self.choice.draws() =>
+            {
+                let context = ui.ctx().clone();
+                self.attempt = None;
+                self.begins = true;
+                self.begin_anew(&context);
+            }
             Some(Asked::Begin) => self.begin_attempt(),
             Some(Asked::End) => self.end_attempt(),
             Some(Asked::RecordElsewhere) => {
@@ -160,13 +196,10 @@ impl SimulatorWindow {
     pub(super) fn mark(&mut self) {
         match &self.attempt {
             Some(Attempt {
-                phase: Phase::Reads,
+                phase: Phase::Reads | Phase::Over(_),
                 ..
-            }) => self.begin_attempt(),
-            Some(Attempt {
-                phase: Phase::Over(_),
-                ..
-            }) => {}
+            }) => self.begins_anew = true,
+            Some(attempt) if attempt.is_shown() => self.end_attempt(),
             Some(Attempt {
                 phase: Phase::GoesOn(_),
                 ..
@@ -179,8 +212,10 @@ impl SimulatorWindow {
         }
     }
 
-    fn begin_attempt(&mut self) {
-        if self.preparing().is_some() {
+    pub(super) fn begin_attempt(&mut self) {
+        // Whoever asks before the organ is prepared begins when it is.
+        self.begins = self.preparing().is_some();
+        if self.begins {
             return;
         }
         if let (Some(attempt), Some(play)) = (&mut self.attempt, &mut self.play) {
@@ -223,6 +258,25 @@ impl SimulatorWindow {
                 self.picture.lists_keys = false;
             }
             Err(error) => self.notice = Some(error.to_string()),
+        }
+    }
+
+    /// What can be chosen and what is measured; a trainee within a task sees the organ alone, unless something is
+    /// wrong. Beside a device with forces the emergency stop stays.
+    pub(super) fn show_panels(&mut self, ui: &mut egui::Ui) {
+        let has_devices = self.play.as_ref().is_some_and(Play::has_devices);
+        let trains = self.attempt.is_some() || self.begins;
+        let is_trainee = trains && !self.engineer_view && !has_devices;
+        let is_quiet = self.fault.is_none() && self.notice.is_none() && self.preparation.is_none();
+        if !is_trainee || !is_quiet {
+            egui::Panel::bottom("status").show(ui, |ui| panel::status(self, ui));
+        }
+        if !is_trainee {
+            egui::Panel::right("panel")
+                .resizable(true)
+                .default_size(300.0)
+                .size_range(220.0..=460.0)
+                .show(ui, |ui| panel::side(self, ui));
         }
     }
 

@@ -16,8 +16,6 @@ pub struct Training {
     pub sessions: PathBuf,
     /// Who trains.
     pub trainee: String,
-    /// Whether others are judged by what they do.
-    pub is_expert: bool,
     /// Where results are kept.
     pub record: Box<dyn TrainingRecord>,
 }
@@ -44,8 +42,6 @@ pub trait TrainingRecord {
 pub struct TrainingResult<'a> {
     /// Who.
     pub trainee: &'a str,
-    /// Whether others are judged by it.
-    pub is_expert: bool,
     /// The scene of the task.
     pub scene: &'a Scene,
     /// The folder of the session.

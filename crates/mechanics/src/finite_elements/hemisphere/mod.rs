@@ -15,3 +15,4 @@ mod quarter_disc;
 
 pub use half_ball::HalfBall;
 pub use problem::{HemisphereAnswer, HemisphereProblem, Patch, solve};
+pub(super) use quarter_disc::{Lines, QuarterDisc};

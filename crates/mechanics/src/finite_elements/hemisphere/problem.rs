@@ -1,15 +1,14 @@
-use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
 use super::super::estimate::{Estimated, Meshes, Progress, Quantity, refine};
-use super::super::graded::Grading;
 use super::super::mismatch::Mismatch;
 use super::super::model::{
     FiniteElementModel, FiniteElementState, FiniteElementWorkspace, Formulation,
 };
 use super::super::newton::equilibrate;
 use super::super::supports::Supports;
-use super::quarter_disc::{Lines, QuarterDisc, SQUARE};
+use super::quarter_disc::{Lines, QuarterDisc};
 use crate::{Error, LinearElastic};
 
 /// How a rigid patch holds the surface that it moves.
@@ -108,7 +107,11 @@ impl HemisphereProblem {
         check_edge(edge)?;
         let disc = QuarterDisc::new(
             self.radius,
-            &self.lines(edge, halvings.min(0)),
+            &Lines::at_pole(
+                self.patch_radius / self.radius,
+                (edge, 1.25),
+                halvings.min(0),
+            ),
             halvings.max(0).unsigned_abs(),
         );
         let model =
@@ -166,51 +169,6 @@ impl HemisphereProblem {
             });
         }
         Ok(())
-    }
-
-    /// Lines that are fine along the arc around the edge of the patch, and below the arc; their intervals
-    /// `joined` in pairs where that is −1.
-    fn lines(&self, edge: f64, joined: i32) -> Lines {
-        let rim = self.patch_radius / self.radius;
-        let grading = Grading {
-            first: edge * rim.min(FRAC_PI_2 - rim),
-            growth: 1.25,
-            near: 3.0 * rim,
-            far_growth: 1.7,
-        };
-        let mut arc: Vec<f64> = grading
-            .line(rim, joined)
-            .iter()
-            .rev()
-            .map(|x| rim - x)
-            .collect();
-        arc[0] = 0.0;
-        arc.extend(
-            grading.line(FRAC_PI_2 - rim, joined)[1..]
-                .iter()
-                .map(|x| rim + x),
-        );
-        // The blocks meet at the node nearest to the middle.
-        let off = |i: &usize| (arc[*i] - FRAC_PI_4).abs();
-        let seam = (1..arc.len() - 1)
-            .min_by(|a, b| off(a).total_cmp(&off(b)))
-            .expect("there is an interval on either side of the edge");
-        let middle = arc[seam];
-        let down = grading.line(1.0 - SQUARE, joined);
-        Lines {
-            across: arc[..=seam].iter().map(|x| x / middle).collect(),
-            up: arc[seam..]
-                .iter()
-                .rev()
-                .map(|x| (FRAC_PI_2 - x) / (FRAC_PI_2 - middle))
-                .collect(),
-            out: down
-                .iter()
-                .rev()
-                .map(|x| 1.0 - x / (1.0 - SQUARE))
-                .collect(),
-            seam: middle,
-        }
     }
 
     /// Displacement along the normal, with as many points between the nodes as it takes.

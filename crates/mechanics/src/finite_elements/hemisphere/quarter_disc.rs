@@ -5,10 +5,10 @@
 //! the axis and one at the base. Lines across the square run on to the base and to the arc, so a line
 //! of intervals that is fine in one place of the rim is fine along a whole strip.
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use super::super::element::ElementKind;
-use super::super::graded::halved;
+use super::super::graded::{Grading, halved};
 use super::super::mesh::ElementMesh;
 use crate::Vec3;
 
@@ -19,7 +19,7 @@ const FAR_CORNER: f64 = 0.62;
 
 /// Ends of the intervals, each from 0 to 1, before they are halved.
 #[derive(Debug, Clone)]
-pub(super) struct Lines {
+pub(in super::super) struct Lines {
     /// Along the base from the centre, and along the arc from the axis.
     pub(super) across: Vec<f64>,
     /// Along the axis from the centre, and along the arc from the base.
@@ -32,19 +32,70 @@ pub(super) struct Lines {
 
 /// The mesh and the nodes of its rim.
 #[derive(Debug)]
-pub(super) struct QuarterDisc {
-    pub(super) mesh: ElementMesh,
+pub(in super::super) struct QuarterDisc {
+    pub(in super::super) mesh: ElementMesh,
     /// Nodes of the axis.
-    pub(super) axis: Vec<usize>,
+    pub(in super::super) axis: Vec<usize>,
     /// Nodes of the base, from the centre outward.
-    pub(super) base: Vec<usize>,
+    pub(in super::super) base: Vec<usize>,
     /// Nodes of the arc with their polar angles [rad], from the axis to the base.
-    pub(super) arc: Vec<(usize, f64)>,
+    pub(in super::super) arc: Vec<(usize, f64)>,
+}
+
+impl Lines {
+    /// Fine along the arc around the edge of a patch in the pole that reaches to the angle `rim` [rad], and below it:
+    /// intervals of `edge` [-] of the patch at its edge that grow by `within` [-] toward the pole; `joined` in pairs
+    /// where that is −1.
+    pub(in super::super) fn at_pole(rim: f64, (edge, within): (f64, f64), joined: i32) -> Self {
+        let grading = Grading {
+            first: edge * rim.min(FRAC_PI_2 - rim),
+            growth: 1.25,
+            near: 3.0 * rim,
+            far_growth: 1.7,
+        };
+        let inward = Grading {
+            growth: within,
+            ..grading
+        };
+        let mut arc: Vec<f64> = inward
+            .line(rim, joined)
+            .iter()
+            .rev()
+            .map(|x| rim - x)
+            .collect();
+        arc[0] = 0.0;
+        arc.extend(
+            grading.line(FRAC_PI_2 - rim, joined)[1..]
+                .iter()
+                .map(|x| rim + x),
+        );
+        // The blocks meet at the node nearest to the middle.
+        let off = |i: &usize| (arc[*i] - FRAC_PI_4).abs();
+        let seam = (1..arc.len() - 1)
+            .min_by(|a, b| off(a).total_cmp(&off(b)))
+            .expect("there is an interval on either side of the edge");
+        let middle = arc[seam];
+        let down = grading.line(1.0 - SQUARE, joined);
+        Self {
+            across: arc[..=seam].iter().map(|x| x / middle).collect(),
+            up: arc[seam..]
+                .iter()
+                .rev()
+                .map(|x| (FRAC_PI_2 - x) / (FRAC_PI_2 - middle))
+                .collect(),
+            out: down
+                .iter()
+                .rev()
+                .map(|x| 1.0 - x / (1.0 - SQUARE))
+                .collect(),
+            seam: middle,
+        }
+    }
 }
 
 impl QuarterDisc {
     /// Of this radius [m], with every interval halved `halvings` times.
-    pub(super) fn new(radius: f64, lines: &Lines, halvings: u32) -> Self {
+    pub(in super::super) fn new(radius: f64, lines: &Lines, halvings: u32) -> Self {
         let nodes_of = |line: &[f64]| (0..=halvings).fold(line.to_vec(), |line, _| halved(&line));
         let (across, up, out) = (
             nodes_of(&lines.across),

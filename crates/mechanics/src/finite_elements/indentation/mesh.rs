@@ -1,7 +1,9 @@
 use super::super::graded::Grading;
+use super::super::hemisphere::{Lines, QuarterDisc};
 use super::super::mesh::ElementMesh;
 use super::indenter::{Indenter, IndenterShape};
-use crate::Error;
+use super::run::IndentationSettings;
+use crate::{Error, Vec3};
 
 /// What a block rests on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -43,30 +45,80 @@ impl Block {
 
 /// Smallest elements of the usual mesh, in radii of the contact [-].
 const EDGE: f64 = 0.1;
+/// Growth of the elements from there [-].
+const GROWTH: f64 = 1.25;
+
+/// A meshed body whose highest point is at z = 0, and the numbers of its nodes.
+#[derive(Debug)]
+pub(super) struct Body {
+    pub(super) mesh: ElementMesh,
+    /// The surface that can touch, from the axis outward.
+    pub(super) top: Vec<usize>,
+    pub(super) bottom: Vec<usize>,
+    pub(super) axis: Vec<usize>,
+}
+
+impl Body {
+    pub(super) fn block(settings: &IndentationSettings) -> Self {
+        let block = &settings.block;
+        let mesh = graded_block(
+            block,
+            &settings.indenter,
+            settings.deepest,
+            settings.halvings,
+        );
+        Self {
+            top: mesh.nodes_where(|x| x.y == 0.0),
+            bottom: mesh.nodes_where(|x| x.y == -block.height),
+            axis: mesh.nodes_where(|x| x.x == 0.0),
+            mesh,
+        }
+    }
+
+    /// As high as the block.
+    pub(super) fn hemisphere(settings: &IndentationSettings) -> Self {
+        let radius = settings.block.height;
+        let rim = settings.indenter.scale(settings.deepest) / radius;
+        let growth = (EDGE, settings.indenter.shape.growth_within());
+        let lines = Lines::at_pole(rim, growth, settings.halvings.min(0));
+        let halvings = settings.halvings.max(0).unsigned_abs();
+        let mut disc = QuarterDisc::new(radius, &lines, halvings);
+        for node in &mut disc.mesh.nodes {
+            *node -= Vec3::new(0.0, radius, 0.0);
+        }
+        Self {
+            mesh: disc.mesh,
+            top: disc.arc.iter().map(|&(node, _)| node).collect(),
+            bottom: disc.base,
+            axis: disc.axis,
+        }
+    }
+}
+
+impl IndenterShape {
+    /// Growth of the elements from the edge of the contact inward [-]: the edge of one that grows passes over all.
+    fn growth_within(self) -> f64 {
+        match self {
+            Self::Flat { .. } => GROWTH,
+            Self::Sphere | Self::Cone { .. } => 1.0,
+        }
+    }
+}
 
 /// A grid with its smallest elements around the contact of `indenter` at the depth `deepest` [m] on the top
 /// (z = 0); of the usual mesh where `halvings` is 0.
-pub(super) fn graded_block(
-    block: &Block,
-    indenter: &Indenter,
-    deepest: f64,
-    halvings: i32,
-) -> ElementMesh {
+fn graded_block(block: &Block, indenter: &Indenter, deepest: f64, halvings: i32) -> ElementMesh {
     let contact = indenter.scale(deepest);
     let edge = EDGE * contact;
     let grading = Grading {
         first: edge,
-        growth: 1.25,
+        growth: GROWTH,
         near: 3.0 * contact,
         far_growth: 1.7,
     };
-    // The edge of a contact that grows passes over all elements within.
-    let within = match indenter.shape {
-        IndenterShape::Flat { .. } => grading,
-        IndenterShape::Sphere | IndenterShape::Cone { .. } => Grading {
-            growth: 1.0,
-            ..grading
-        },
+    let within = Grading {
+        growth: indenter.shape.growth_within(),
+        ..grading
     };
     let inward = within.line(contact, halvings);
     // Tissue outside the edge is drawn out along the side, so it needs the finest elements.

@@ -11,7 +11,7 @@ use super::super::snap::equilibrate_downhill;
 use super::super::supports::{Sliding, Supports};
 use super::contact::Touch;
 use super::indenter::{Indenter, IndenterShape};
-use super::mesh::{Base, Block, graded_block};
+use super::mesh::{Base, Block, Body};
 use super::slopes::Slopes;
 use crate::material::law::Law;
 use crate::{Error, PronySeries, Strain};
@@ -57,7 +57,7 @@ pub struct IndentationRun {
     /// Radius of the contact at the depth that the mesh is made for [m]: the scale of steps.
     scale: f64,
     prony: PronySeries,
-    /// Nodes of the top, from the axis outward.
+    /// Nodes of the surface that can touch, from the axis outward.
     pub(super) top: Vec<usize>,
     /// Held whatever the indenter does: bottom and axis.
     rest: Vec<Option<f64>>,
@@ -117,21 +117,35 @@ impl IndentationRun {
     /// # Errors
     /// When the block is smaller than the indenter, or see [`FiniteElementModel::new`].
     pub fn new(settings: &IndentationSettings) -> Result<Self, Error> {
-        let (block, indenter) = (&settings.block, settings.indenter);
-        block.check(&indenter)?;
-        let mesh = graded_block(block, &indenter, settings.deepest, settings.halvings);
-        let top = mesh.nodes_where(|x| x.y == 0.0);
-        let bottom = mesh.nodes_where(|x| x.y == -block.height);
-        let axis = mesh.nodes_where(|x| x.x == 0.0);
-        let model = FiniteElementModel::new(mesh, settings.law.clone(), Formulation::Mixed)?;
-        let glued = match block.base {
-            Base::Bonded => bottom.clone(),
+        settings.block.check(&settings.indenter)?;
+        Self::in_body(Body::block(settings), settings)
+    }
+
+    /// An indenter that just touches the pole of a hemisphere, which is as high as the block and stands in its place.
+    ///
+    /// # Errors
+    /// When it is smaller than the indenter, or see [`FiniteElementModel::new`].
+    pub fn on_hemisphere(settings: &IndentationSettings) -> Result<Self, Error> {
+        let within = Block {
+            radius: settings.block.height,
+            ..settings.block
+        };
+        within.check(&settings.indenter)?;
+        Self::in_body(Body::hemisphere(settings), settings)
+    }
+
+    fn in_body(body: Body, settings: &IndentationSettings) -> Result<Self, Error> {
+        let indenter = settings.indenter;
+        let top = body.top;
+        let model = FiniteElementModel::new(body.mesh, settings.law.clone(), Formulation::Mixed)?;
+        let glued = match settings.block.base {
+            Base::Bonded => body.bottom.clone(),
             Base::Lubricated => Vec::new(),
         };
         let rest = Supports::none(&model)
             .hold(&model, glued, 0, 0.0)
-            .hold(&model, bottom, 1, 0.0)
-            .hold(&model, axis, 0, 0.0)
+            .hold(&model, body.bottom, 1, 0.0)
+            .hold(&model, body.axis, 0, 0.0)
             .held;
         let scale = indenter.scale(settings.deepest);
         let touch = top
@@ -388,7 +402,10 @@ impl IndentationRun {
             stray: None,
         };
         for (&node, touch) in self.top.iter().zip(touch) {
-            let at = self.model.mesh().nodes[node].x;
+            let (at, rest) = (
+                self.model.mesh().nodes[node].x,
+                self.model.mesh().nodes[node].y,
+            );
             let held = &mut supports.held[2 * node..2 * node + 2];
             match *touch {
                 Touch::Free => {}
@@ -398,7 +415,7 @@ impl IndentationRun {
                 }
                 Touch::Stuck { radius, above } => {
                     held[0] = Some(radius - at);
-                    held[1] = Some(above - depth);
+                    held[1] = Some(above - depth - rest);
                 }
                 Touch::OnFace => held[1] = Some(-depth),
                 Touch::OnSide => held[0] = Some(self.indenter.radius - at),

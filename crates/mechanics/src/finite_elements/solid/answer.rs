@@ -139,7 +139,7 @@ fn equivalent_stress(
     state: &FiniteElementState,
     element: usize,
 ) -> f64 {
-    let (law, mapping) = (model.law.as_ref(), &model.mapping);
+    let (law, mapping) = (model.law_of(element), &model.mapping);
     let (mut mean, mut volume) = (Matrix3::zeros(), 0.0);
     for point in element * mapping.points..(element + 1) * mapping.points {
         let mut f = Matrix3::identity();

@@ -4,6 +4,7 @@ mod convert;
 mod info;
 mod isosurface;
 mod simplify;
+mod wrap;
 mod written;
 
 use std::path::Path;
@@ -23,6 +24,8 @@ pub(super) enum Mesh {
     Convert(convert::Arguments),
     /// Make the surface of an organ from a segmented volume: NIfTI or NRRD.
     Isosurface(isosurface::Arguments),
+    /// Make a closed surface around any triangles: open, crossing, doubled or in many pieces.
+    Wrap(wrap::Arguments),
 }
 
 /// Does what the line says.
@@ -32,6 +35,7 @@ pub(super) fn run(mesh: &Mesh) -> Result<(), Failure> {
         Mesh::Simplify(arguments) => simplify::run(arguments),
         Mesh::Convert(arguments) => convert::run(arguments),
         Mesh::Isosurface(arguments) => isosurface::run(arguments),
+        Mesh::Wrap(arguments) => wrap::run(arguments),
     }
 }
 

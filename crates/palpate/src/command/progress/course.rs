@@ -1,5 +1,6 @@
 //! What became of one task, trainee by trainee.
 
+use crate::training::VARIANT;
 use palpate_record::{
     Attempt, CurvePoint, Judgement, Spread, Standards, learning_curve, proficient_since,
 };
@@ -71,7 +72,12 @@ impl<'r> Course<'r> {
         let experts: Vec<&Attempt> = own().filter(|attempt| attempt.is_expert).collect();
         let standards = Standards::of(&experts);
         let is_wanted = |own: &&Attempt| only.is_none_or(|only| only == own.trainee);
-        let made = || own().filter(|own| !own.is_expert).filter(is_wanted);
+        // An attempt that others are judged by stays its owner's. Whoever has no other is no trainee.
+        let trains = |attempt: &&Attempt| {
+            !attempt.is_expert
+                || own().any(|other| !other.is_expert && other.trainee == attempt.trainee)
+        };
+        let made = || own().filter(trains).filter(is_wanted);
         let names = distinct(made().map(|own| own.trainee.as_str()));
         let trainees = names.into_iter().map(|name| {
             let own = made().filter(|own| own.trainee == name);
@@ -91,7 +97,13 @@ impl<'r> Course<'r> {
         Self {
             task,
             trainees: trainees.collect(),
-            scenes: distinct(own().map(|own| own.scene_digest.as_str())).len(),
+            // Variants of a task are meant to differ.
+            scenes: distinct(
+                own()
+                    .map(|own| own.scene_digest.as_str())
+                    .filter(|digest| !digest.contains(VARIANT)),
+            )
+            .len(),
             experts,
             standards,
         }

@@ -1,11 +1,13 @@
 //! `palpate progress`: how trainees come along, from the training record.
 
+mod anonymous;
 mod answer;
 mod course;
 mod curves;
 mod export;
 mod report;
 mod table;
+mod xapi;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -32,6 +34,8 @@ Examples:
       one trainee at one task
   palpate progress --report progress.html
       the same as a page with learning curves
+  palpate progress --cohort spring --anonymous --xapi statements.json
+      a cohort without names, as statements for a learning record store
   palpate progress --csv attempts.csv
       every measure of every attempt in a row of its own, for a program of statistics
 
@@ -57,6 +61,15 @@ pub(crate) struct Arguments {
     /// Write a table with a row for each measure of each attempt.
     #[arg(long, value_name = "FILE.csv")]
     csv: Option<PathBuf>,
+    /// Write statements of the Experience API (xAPI), for a learning record store.
+    #[arg(long, value_name = "FILE.json")]
+    xapi: Option<PathBuf>,
+    /// Only the trainees of this cohort (`palpate teacher cohort`).
+    #[arg(long, value_name = "NAME")]
+    cohort: Option<String>,
+    /// Numbers instead of names, times since each trainee's first attempt, and no sessions.
+    #[arg(long, conflicts_with = "trainee")]
+    anonymous: bool,
     /// Write a page with learning curves, for a browser or a printer.
     #[arg(long, value_name = "FILE.html")]
     report: Option<PathBuf>,
@@ -67,7 +80,10 @@ pub(crate) struct Arguments {
 /// Reads the record and prints.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let file = training::record_file(arguments.record.as_deref())?;
-    let files = || arguments.csv.iter().chain(&arguments.report);
+    let files = || {
+        let tables = arguments.csv.iter().chain(&arguments.report);
+        tables.chain(&arguments.xapi)
+    };
     for written in files() {
         if is_same(written, &file) {
             let file = written.display();
@@ -81,14 +97,28 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let trainee = known("trainee", &arguments.trainee, &record.trainees()?)?;
     let task = known("task", &arguments.task, &record.tasks()?)?;
     // Of all trainees, for experts are among them.
-    let attempts = record.attempts(&Filter {
+    let mut attempts = record.attempts(&Filter {
         trainee: None,
         task,
     })?;
+    let cohorts = record.cohorts()?;
+    let names: Vec<String> = cohorts.iter().map(|own| own.name.clone()).collect();
+    if let Some(name) = known("cohort", &arguments.cohort, &names)? {
+        let cohort = cohorts.into_iter().find(|own| own.name == name);
+        let trainees = cohort.map_or(Vec::new(), |own| own.trainees);
+        attempts.retain(|own| own.is_expert || trainees.contains(&own.trainee));
+    }
+    if arguments.anonymous {
+        anonymous::anonymous(&mut attempts);
+    }
     let courses = Course::all(&attempts, trainee.as_deref());
     let answer = Answer::new(record.path(), &courses);
     if let Some(table) = &arguments.csv {
         write_whole(table, export::csv(&courses)?.as_bytes())?;
+    }
+    if let Some(statements) = &arguments.xapi {
+        let text = output::json_text(&xapi::statements(&courses))?;
+        write_whole(statements, text.as_bytes())?;
     }
     if let Some(page) = &arguments.report {
         let html = report::html(&courses, &answer.warnings, &said(arguments, record.path()));

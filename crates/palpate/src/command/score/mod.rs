@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use palpate_files::Scene;
 use palpate_files::scene::Task;
+use palpate_record::Record;
 use palpate_simulate::performance::{Standard, compare};
 use palpate_simulate::{SessionFolder, read_experts};
 
@@ -44,9 +45,12 @@ pub(crate) struct Arguments {
     /// Keep the score in the training record, as this trainee's.
     #[arg(long, value_name = "NAME")]
     trainee: Option<String>,
-    /// With --trainee: others are judged by this session.
+    /// With --trainee: others are judged by this session, which has to be passed; a teacher's to say.
     #[arg(long, requires = "trainee")]
     as_expert: bool,
+    /// With --as-expert: the teacher's PIN, where the record has one.
+    #[arg(long, requires = "as_expert")]
+    pin: Option<String>,
     /// With --trainee: keep a session that is incomplete, too.
     #[arg(long, requires = "trainee")]
     incomplete: bool,
@@ -78,6 +82,17 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let is_refused = folder.session.incomplete.is_some() && !arguments.incomplete;
     if let Some(trainee) = arguments.trainee.as_ref().filter(|_| !is_refused) {
         let file = training::record_file(arguments.record.as_deref())?;
+        if arguments.as_expert {
+            if score.outcome.passed() == Some(false) {
+                return Err(Failure::input(format!(
+                    "{}: the task was not passed, so nobody can be judged by this session; leave --as-expert out",
+                    arguments.session.display()
+                )));
+            }
+            if file.exists() {
+                Record::read(&file)?.check_pin(arguments.pin.as_deref())?;
+            }
+        }
         let who = Who {
             trainee,
             is_expert: arguments.as_expert,

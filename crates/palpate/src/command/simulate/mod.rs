@@ -8,11 +8,11 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use palpate_devices::openigtlink::OperatingRoom;
-use palpate_files::scene::Shape;
+use palpate_files::scene::{LARGEST_SEED, Shape};
 use palpate_files::{Motion, Overwrite, Scene};
 use palpate_geometry::{AabbTree, Vec3};
 use palpate_simulate::interactive::SceneDevices;
-use palpate_simulate::{Resources, Simulation};
+use palpate_simulate::{Resources, Simulation, draw_variant};
 use palpate_viewer::{FrameWriter, Start};
 
 use self::repeated::Repeated;
@@ -83,6 +83,9 @@ pub(crate) struct Arguments {
     /// Where: the place of the organ nearest to this point [m]; else to the middle of the top of its box.
     #[arg(long, value_name = "X,Y,Z", requires = "indentation", allow_hyphen_values = true, value_parser = repeated::point)]
     at: Option<[f64; 3]>,
+    /// Which variant of a scene that draws its numbers; a window draws another for each attempt.
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=LARGEST_SEED))]
+    seed: u64,
     /// The folder to write the session into; it is made when it is not there.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -124,7 +127,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let shows = arguments.openigtlink.is_some();
     match (arguments.headless, played, &arguments.out) {
         (true, Some(played), Some(out)) if !shows => play(arguments, &played, out),
-        (true, None, None) if shows => shown::run(arguments.touched()?, arguments.resources()?),
+        (true, None, None) if shows => {
+            let scene = draw_variant(&arguments.touched()?, arguments.seed)?;
+            shown::run(scene, arguments.resources()?)
+        }
         (false, None, None) => touch(arguments),
         (true, Some(_), Some(_)) => Err(Failure::input(
             "a motion is played at once, which nobody could see; leave --openigtlink out, or --motion and --out",
@@ -247,7 +253,7 @@ fn touched(simulation: &Simulation, motion: &Motion) -> Option<Vec3> {
 
 fn simulate(arguments: &Arguments, played: &Played<'_>, out: &Path) -> Result<Report, Failure> {
     let scene = match &arguments.scene {
-        Some(path) => scene_of(path)?,
+        Some(path) => draw_variant(&scene_of(path)?, arguments.seed)?,
         None => Scene::parse(ESOPHAGUS, "built-in scene")?,
     };
     let reader = Reader::of_json(arguments.json);

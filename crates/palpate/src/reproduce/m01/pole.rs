@@ -7,7 +7,7 @@ use palpate_mechanics::finite_elements::estimate::Estimated;
 use palpate_mechanics::finite_elements::hemisphere::{
     self, HemisphereAnswer, HemisphereProblem, Patch,
 };
-use palpate_mechanics::finite_spheres::{Form, LocalContact};
+use palpate_mechanics::finite_spheres::{Form, LocalContact, Surroundings};
 
 use crate::failure::Failure;
 
@@ -38,7 +38,7 @@ pub(super) fn contact(radius: f64) -> Result<LocalContact, Failure> {
         curvature: Vector3::new(1.0, 0.0, 1.0) / RADIUS,
         triangle: nearest.triangle,
         radius,
-        organ_radius: RADIUS,
+        surroundings: Surroundings::Hemisphere { radius: RADIUS },
         thickness: RADIUS,
     })
 }

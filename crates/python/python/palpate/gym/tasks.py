@@ -173,7 +173,11 @@ class Traction(Task):
         )
         place = draw.choice(self.near(self.vertices[ahead], self.REACH, facing))
         start = self.vertices[place] + CLEAR * facing
-        return Scenario(palpate.Scene(self.with_task(force_n=force)), start, np.array([force]))
+        content = self.with_task(force_n=force)
+        # Only the force is seen, so only the force counts.
+        content["task"][self.word].pop("direction", None)
+        content["task"][self.word].pop("direction_tolerance_deg", None)
+        return Scenario(palpate.Scene(content), start, np.array([force]))
 
     def deeds(self, wish: Floats) -> Deeds:
         """From -1, open, to 1, shut."""

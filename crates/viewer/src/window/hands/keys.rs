@@ -49,16 +49,19 @@ pub enum Action {
     Hints,
     /// This place is meant, or it is done.
     Mark,
+    /// What an engineer wants to see is shown during a task, or not.
+    EngineerView,
 }
 
 /// What is done once, and by which key.
-pub const ACTIONS: [(Key, Action); 6] = [
+pub const ACTIONS: [(Key, Action); 7] = [
     (Key::Enter, Action::Mark),
     (Key::Z, Action::Undo),
     (Key::P, Action::Pause),
     (Key::Backspace, Action::Reset),
     (Key::Questionmark, Action::Hints),
     (Key::F1, Action::Hints),
+    (Key::F4, Action::EngineerView),
 ];
 
 /// Jaws and cut of the tool that the mouse moves.
@@ -76,7 +79,7 @@ pub const LINES: [[&str; 3]; 5] = [
 ];
 
 /// What else is in the list.
-pub const MORE: [[&str; 2]; 10] = [
+pub const MORE: [[&str; 2]; 11] = [
     ["Shift", "finer"],
     ["Tab", "the mouse takes the other tool"],
     ["G · C", "jaws · cut of the mouse's tool"],
@@ -86,6 +89,7 @@ pub const MORE: [[&str; 2]; 10] = [
     ["Backspace", "begin again"],
     ["Enter", "this is the place, or: done"],
     ["Space", "emergency stop: no device has a force"],
+    ["F4", "engineer view, or trainee view"],
     ["? or F1", "this list"],
 ];
 

@@ -18,6 +18,7 @@ pub mod keys;
 
 use nalgebra::UnitQuaternion;
 use palpate_geometry::Vec3;
+use palpate_simulate::ShownTool;
 
 use super::gesture::{Aim, Mouse};
 use crate::Camera;
@@ -142,6 +143,16 @@ impl Hand {
         let way = across * right + along * up - inward * shaft;
         self.roll += ROLL * drive.roll * elapsed;
         self.place = Some((within(tip + speed * elapsed * way, room), turned));
+    }
+
+    /// Takes over where a script has it.
+    pub fn show(&mut self, tool: &ShownTool, room: &Room<'_>) {
+        let (_, turned) = self.place.unwrap_or_else(|| begin(room));
+        self.place = Some((tool.tip, turned));
+        self.grip = tool.grip.max(f64::from(u8::from(tool.cuts)));
+        self.cuts = tool.cuts;
+        self.pull = None;
+        self.by_keys = true;
     }
 
     /// Takes over where a gesture of the mouse wants it.

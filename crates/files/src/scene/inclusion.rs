@@ -1,0 +1,258 @@
+use std::ops::Bound::Included;
+use std::path::Path;
+
+use super::TissueChoice;
+use crate::{Domain, Error, Keys};
+
+/// A part of an organ with a tissue of its own, such as a tumour or a vessel. The nonlinear model feels it.
+///
+/// ```toml
+/// [[organ.inclusion]]
+/// name = "tumour"
+/// ball = { center_m = [0.02, 0.01, 0.03], radius_m = 0.005 }
+/// tissue = { law = "neo_hookean", c10_pa = 10000.0, prony = [{ g = 0.4, tau_s = 1.0 }] }
+///
+/// [[organ.inclusion]]
+/// name = "cyst"
+/// ellipsoid = { center_m = [0.0, 0.0, 0.03], radii_m = [0.01, 0.005, 0.005], turn_rad = [0.0, 0.0, 0.5] }
+/// tissue = "cyst.toml"
+///
+/// [[organ.inclusion]]
+/// name = "vessel"
+/// capsule = { from_m = [-0.02, 0.0, 0.03], to_m = [0.02, 0.0, 0.03], radius_m = 0.003 }
+/// builtin_tissue = "pig-esophagus"
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Inclusion {
+    /// Its name, for people.
+    pub name: String,
+    /// Where it is.
+    pub shape: InclusionShape,
+    /// What it is made of.
+    pub tissue: TissueChoice,
+}
+
+/// The shape of an inclusion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum InclusionShape {
+    /// A ball.
+    Ball {
+        /// Its centre [m].
+        center_m: [f64; 3],
+        /// Its radius [m].
+        radius_m: f64,
+    },
+    /// An ellipsoid.
+    Ellipsoid {
+        /// Its centre [m].
+        center_m: [f64; 3],
+        /// Its semi-axes [m].
+        radii_m: [f64; 3],
+        /// Rotation about x, then y, then z of the scene, counter-clockwise [rad].
+        turn_rad: [f64; 3],
+    },
+    /// All points within a distance of a line segment.
+    Capsule {
+        /// One end of the segment [m].
+        from_m: [f64; 3],
+        /// The other end [m].
+        to_m: [f64; 3],
+        /// The distance [m].
+        radius_m: f64,
+    },
+}
+
+impl Inclusion {
+    pub(super) const KEYS: &[&str] = &[
+        "name",
+        "ball",
+        "ellipsoid",
+        "capsule",
+        "tissue",
+        "builtin_tissue",
+    ];
+
+    pub(super) fn from_keys(keys: &Keys<'_>, number: usize, folder: &Path) -> Result<Self, Error> {
+        let name = keys.text("name")?;
+        Ok(Self {
+            name: name.unwrap_or_else(|| format!("inclusion {}", number + 1)),
+            shape: InclusionShape::from_keys(keys)?,
+            tissue: TissueChoice::from_keys(keys, folder)?,
+        })
+    }
+}
+
+/// A radius [m].
+const RADIUS: Domain = Domain::quantity("a radius", "m", [Included(1e-6), Included(1e3)]);
+
+impl InclusionShape {
+    fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
+        let ball = keys.table("ball", &["center_m", "radius_m"])?;
+        let ellipsoid = keys.table("ellipsoid", &["center_m", "radii_m", "turn_rad"])?;
+        let capsule = keys.table("capsule", &["from_m", "to_m", "radius_m"])?;
+        match (ball, ellipsoid, capsule) {
+            (Some(keys), None, None) => Ok(Self::Ball {
+                center_m: keys.required_vector("center_m", Domain::POSITION)?,
+                radius_m: keys.required_number("radius_m", RADIUS)?,
+            }),
+            (None, Some(keys), None) => Ok(Self::Ellipsoid {
+                center_m: keys.required_vector("center_m", Domain::POSITION)?,
+                radii_m: keys.required_vector("radii_m", RADIUS)?,
+                turn_rad: keys.vector("turn_rad", Domain::TURN)?.unwrap_or_default(),
+            }),
+            (None, None, Some(keys)) => Ok(Self::Capsule {
+                from_m: keys.required_vector("from_m", Domain::POSITION)?,
+                to_m: keys.required_vector("to_m", Domain::POSITION)?,
+                radius_m: keys.required_number("radius_m", RADIUS)?,
+            }),
+            (None, None, None) => Err(keys.missing(
+                "ball",
+                "one shape: `ball = { center_m, radius_m }`, `ellipsoid = { center_m, radii_m }` or \
+                 `capsule = { from_m, to_m, radius_m }`",
+            )),
+            (Some(_), Some(_), _) => Err(keys.given_twice("ball", "ellipsoid")),
+            (Some(_), _, Some(_)) => Err(keys.given_twice("ball", "capsule")),
+            (_, Some(_), Some(_)) => Err(keys.given_twice("ellipsoid", "capsule")),
+        }
+    }
+
+    /// The point of the shape [m] with the coordinates `unit` [-] in a ball of radius one, which in a capsule is around the
+    /// point at `part` [-], from 0 to 1, of its segment. All of these points are the shape.
+    pub fn point(&self, unit: [f64; 3], part: f64) -> [f64; 3] {
+        match *self {
+            Self::Ball { center_m, radius_m } => sum(center_m, unit.map(|x| radius_m * x)),
+            Self::Ellipsoid {
+                center_m,
+                radii_m,
+                turn_rad,
+            } => {
+                let own = [0, 1, 2].map(|axis| radii_m[axis] * unit[axis]);
+                sum(center_m, turned(own, turn_rad))
+            }
+            Self::Capsule {
+                from_m,
+                to_m,
+                radius_m,
+            } => {
+                let way = less(to_m, from_m);
+                let center = sum(from_m, way.map(|x| part * x));
+                sum(center, unit.map(|x| radius_m * x))
+            }
+        }
+    }
+
+    /// Whether a point [m] lies in it or on its border.
+    pub fn holds(&self, point: [f64; 3]) -> bool {
+        self.off(point) <= 0.0
+    }
+
+    /// How far outside a point lies [m], negative inside; for an ellipsoid a lower bound.
+    pub fn off(&self, point: [f64; 3]) -> f64 {
+        let norm = |v: [f64; 3]| dot(v, v).sqrt();
+        match *self {
+            Self::Ball { center_m, radius_m } => norm(less(point, center_m)) - radius_m,
+            Self::Ellipsoid {
+                center_m,
+                radii_m,
+                turn_rad,
+            } => {
+                let own = turned_back(less(point, center_m), turn_rad);
+                let parts = [0, 1, 2].map(|axis| own[axis] / radii_m[axis]);
+                (norm(parts) - 1.0) * self.smallest_radius()
+            }
+            Self::Capsule {
+                from_m,
+                to_m,
+                radius_m,
+            } => {
+                let (way, own) = (less(to_m, from_m), less(point, from_m));
+                let length = dot(way, way);
+                let part = if length > 0.0 {
+                    (dot(own, way) / length).clamp(0.0, 1.0)
+                } else {
+                    0.0
+                };
+                norm(less(own, way.map(|x| part * x))) - radius_m
+            }
+        }
+    }
+
+    /// The smallest of its radii [m].
+    pub fn smallest_radius(&self) -> f64 {
+        match *self {
+            Self::Ball { radius_m, .. } | Self::Capsule { radius_m, .. } => radius_m,
+            Self::Ellipsoid { radii_m, .. } => radii_m.into_iter().fold(f64::INFINITY, f64::min),
+        }
+    }
+}
+
+fn sum(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+}
+
+fn less(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    sum(a, b.map(|x| -x))
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// About x, then y, then z.
+fn turned(v: [f64; 3], by: [f64; 3]) -> [f64; 3] {
+    (0..3).fold(v, |v, axis| about(v, axis, by[axis]))
+}
+
+fn turned_back(v: [f64; 3], by: [f64; 3]) -> [f64; 3] {
+    (0..3).rev().fold(v, |v, axis| about(v, axis, -by[axis]))
+}
+
+fn about(v: [f64; 3], axis: usize, angle: f64) -> [f64; 3] {
+    let (sine, cosine) = angle.sin_cos();
+    let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
+    let mut turned = v;
+    turned[j] = cosine * v[j] - sine * v[k];
+    turned[k] = sine * v[j] + cosine * v[k];
+    turned
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Judge: points of a shape's inside, border and outside, made by the map from the ball.
+    #[test]
+    fn a_shape_holds_the_image_of_the_ball() {
+        let shapes = [
+            InclusionShape::Ball {
+                center_m: [0.1, -0.2, 0.3],
+                radius_m: 0.05,
+            },
+            InclusionShape::Ellipsoid {
+                center_m: [0.1, -0.2, 0.3],
+                radii_m: [0.05, 0.02, 0.01],
+                turn_rad: [0.3, -0.7, 1.1],
+            },
+            InclusionShape::Capsule {
+                from_m: [0.1, -0.2, 0.3],
+                to_m: [0.2, -0.1, 0.25],
+                radius_m: 0.02,
+            },
+        ];
+        for shape in shapes {
+            for (i, j) in (0..8).flat_map(|i| (0..8).map(move |j| (i, j))) {
+                let (height, turn) = (0.25 * f64::from(i) - 0.875, 0.7 * f64::from(j));
+                let around = (1.0 - height * height).sqrt();
+                let unit = [around * turn.cos(), around * turn.sin(), height];
+                for part in [0.0, 0.3, 1.0] {
+                    let inside = shape.point(unit.map(|x| 0.999 * x), part);
+                    assert!(shape.holds(inside), "{shape:?}");
+                }
+                // The capsule's segment goes along (1, 1, −½).
+                let end = f64::from(u8::from(unit[0] + unit[1] - 0.5 * unit[2] > 0.0));
+                let outside = shape.point(unit.map(|x| 1.001 * x), end);
+                assert!(!shape.holds(outside), "{shape:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,237 @@
+//! A closed envelope of any triangles: open, crossing, doubled or unoriented.
+//!
+//! The rims of holes are capped by fans. On a grid of half the asked distance, the outside is what a ball of radius r
+//! reaches from the border without touching a triangle; the inside is what no such ball covers (a morphological closing
+//! [Serra 1982]). Its surface is closed, manifold and in one piece ([`isosurface`](crate::isosurface)), and its vertices
+//! are moved to the nearest point of the triangles where one is near and no triangle is turned by it.
+//!
+//! *How we know*: `wrap::…`: balls of crossing, doubled, shifted and missing triangles keep their volume and distance.
+//!
+//! *Limits*: a closing fills what is narrower than twice r, also a fissure of the organ. Cavities are filled. Sharp edges
+//! are rounded by about the asked distance.
+
+mod closing;
+mod grid;
+mod holes;
+
+use std::ops::ControlFlow;
+
+use crate::check::self_intersection::self_intersecting;
+use crate::deviation::deviation_with_tree;
+use crate::{
+    AabbTree, Deviation, IsosurfaceError, IsosurfaceSettings, MeshError, SimplifyError, Surface,
+    TriangleMesh, deviation, isosurface_with_progress, repair,
+};
+use closing::Closing;
+use grid::Grid;
+
+/// Voxels that a grid may have; they take 12 bytes each.
+const MOST_VOXELS: f64 = 3e8;
+
+/// How [`wrap`] works.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WrapSettings {
+    /// How far the envelope may be from the triangles [m].
+    pub distance: f64,
+    /// Width of gaps between triangles that are closed [m]; holes with a rim are closed at any width.
+    pub close_gaps: f64,
+    /// Triangles at most.
+    pub triangles: usize,
+}
+
+impl Default for WrapSettings {
+    fn default() -> Self {
+        Self {
+            distance: 0.5e-3,
+            close_gaps: 2e-3,
+            triangles: 100_000,
+        }
+    }
+}
+
+/// An envelope.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Wrapped {
+    /// Closed, manifold, oriented outward and in one piece [m].
+    pub surface: Surface,
+    /// How far the envelope is from the triangles.
+    pub to_input: Deviation,
+    /// How far the triangles are from the envelope; large where they lie inside.
+    pub of_input: Deviation,
+    /// Holes with a rim that were capped.
+    pub holes: usize,
+    /// Extent of the largest rim [m]; 0 without one.
+    pub widest_rim: f64,
+    /// Pieces beside the largest that were left out.
+    pub other_pieces: usize,
+    /// Volume of cavities that were filled [m³].
+    pub filled: f64,
+}
+
+/// Why there is no envelope.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum WrapError {
+    /// A distance that is none.
+    #[error("a distance of {distance} m is none; give one above 0, such as 0.0005")]
+    Distance {
+        /// What was asked [m].
+        distance: f64,
+    },
+    /// A grid too large for memory.
+    #[error(
+        "a distance of {distance} m takes {voxels:.1e} voxels, and {MOST_VOXELS:.0e} are the most; ask for {least:.1e} m or more"
+    )]
+    TooFine {
+        /// What was asked [m].
+        distance: f64,
+        /// What it takes.
+        voxels: f64,
+        /// The least distance that fits [m].
+        least: f64,
+    },
+    /// The triangles enclose nothing at this width.
+    #[error("the triangles enclose nothing: a ball of {width:.1e} m passes through a gap to the inside; {}", fix_of_open(*.closing))]
+    Open {
+        /// Width of the gaps that were closed [m].
+        width: f64,
+        /// The width of gaps that encloses something [m], where one does.
+        closing: Option<f64>,
+    },
+    /// See there.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+    /// See there.
+    #[error(transparent)]
+    Surface(#[from] IsosurfaceError),
+}
+
+fn fix_of_open(closing: Option<f64>) -> String {
+    match closing {
+        Some(width) => format!("closing gaps of {width:.1e} m encloses it"),
+        None => "they are no surface of a body".to_owned(),
+    }
+}
+
+/// The envelope of `mesh` [m].
+///
+/// # Errors
+/// When the triangles enclose nothing, or the distance is too small for memory.
+pub fn wrap(mesh: &TriangleMesh, settings: &WrapSettings) -> Result<Wrapped, WrapError> {
+    wrap_with_progress(mesh, settings, &mut |_| ControlFlow::Continue(()))
+}
+
+/// The same. `progress` hears the part of the work that is done, from 0 to 1 [-], and may cancel it.
+///
+/// # Errors
+/// As [`wrap`], and when the work is cancelled.
+pub fn wrap_with_progress(
+    mesh: &TriangleMesh,
+    settings: &WrapSettings,
+    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Wrapped, WrapError> {
+    let distance = settings.distance;
+    if !(distance > 0.0 && distance.is_finite() && settings.close_gaps >= 0.0) {
+        return Err(WrapError::Distance { distance });
+    }
+    let mut at = |part| match progress(part) {
+        ControlFlow::Continue(()) => Ok(()),
+        ControlFlow::Break(()) => Err(WrapError::Surface(SimplifyError::Cancelled.into())),
+    };
+    at(0.0)?;
+    let (input, _) = repair(mesh)?;
+    let capped = holes::cap(&input)?;
+    let spacing = 0.5 * distance;
+    let radius = (0.5 * settings.close_gaps).max(spacing);
+    let grid = Grid::around(&capped.mesh, spacing, radius);
+    if grid.voxels() > MOST_VOXELS {
+        return Err(WrapError::TooFine {
+            distance,
+            voxels: grid.voxels(),
+            least: distance * (grid.voxels() / MOST_VOXELS).cbrt(),
+        });
+    }
+    let mut closing = Closing::new(&grid, &capped.mesh);
+    at(0.1)?;
+    if !closing.encloses(radius) {
+        let extent = grid.extent();
+        let wider = (1..).map(|k| radius * f64::from(1 << k));
+        let closes = wider
+            .take_while(|&r| r < 0.1 * extent)
+            .find(|&r| closing.encloses(r));
+        return Err(WrapError::Open {
+            width: 2.0 * radius,
+            closing: closes.map(|r| 2.0 * r),
+        });
+    }
+    at(0.2)?;
+    let map = closing.inside(radius);
+    at(0.3)?;
+    let found = isosurface_with_progress(
+        &map,
+        1,
+        &IsosurfaceSettings {
+            triangles: settings.triangles,
+            ..IsosurfaceSettings::default()
+        },
+        &mut |part| progress(0.3 + 0.6 * part),
+    )?;
+    let filled = found.filled_voxels as f64 * map.voxel_volume();
+    let tree = AabbTree::new(&capped.mesh);
+    let fitted = fit(found.simplified.mesh, &capped.mesh, &tree, distance);
+    Ok(Wrapped {
+        to_input: deviation_with_tree(&fitted, &capped.mesh, &tree),
+        of_input: deviation(&input, &fitted),
+        holes: capped.holes,
+        widest_rim: capped.widest_rim,
+        other_pieces: found.other_pieces,
+        filled,
+        surface: Surface::new(fitted)?,
+    })
+}
+
+/// Cosine of the angle by which a triangle may turn when its corners move to the input.
+const LEAST_TURN: f64 = 0.5;
+
+/// `envelope` with its vertices on the nearest triangles of `input`, where one is within `distance` [m] and no triangle
+/// turns over or crosses another by it.
+fn fit(
+    envelope: TriangleMesh,
+    input: &TriangleMesh,
+    tree: &AabbTree,
+    distance: f64,
+) -> TriangleMesh {
+    let before = envelope.clone();
+    let mut fitted = envelope;
+    let mut is_free = vec![true; before.vertices().len()];
+    for node in before.triangles().iter().flatten() {
+        let place = before.vertices()[node.index()];
+        let nearest = tree.nearest(input, &place);
+        if nearest.distance <= distance {
+            fitted.move_vertex(*node, nearest.on.position);
+        }
+    }
+    // Each round returns the corners of bad triangles; when all have returned, nothing is left to be bad.
+    loop {
+        let mut bad: Vec<_> = before
+            .triangle_ids()
+            .filter(|&triangle| {
+                let (then, now) = (before.area_vector(triangle), fitted.area_vector(triangle));
+                let turn = then.normalize().dot(&now.normalize());
+                !(turn >= LEAST_TURN && now.norm() > 0.1 * then.norm())
+            })
+            .collect();
+        bad.extend(self_intersecting(&fitted));
+        let mut has_returned = false;
+        for triangle in bad {
+            for node in before.corners(triangle) {
+                if std::mem::take(&mut is_free[node.index()]) {
+                    fitted.move_vertex(node, before.vertices()[node.index()]);
+                    has_returned = true;
+                }
+            }
+        }
+        if !has_returned {
+            return fitted;
+        }
+    }
+}

@@ -1,0 +1,207 @@
+use std::collections::{BTreeMap, VecDeque};
+
+use nalgebra::Matrix3;
+
+use super::grid::Grid;
+use crate::{LabelMap, TriangleId, TriangleMesh, closest_on_triangle};
+
+/// Voxels around a triangle in which its distance is computed; half the diagonal of a voxel and more, so that no path
+/// through sides passes.
+const SEED: f64 = 1.5;
+/// Voxels within an envelope by which its deepest place lies below the closing's radius, at least: less is the skin of
+/// a body that is open.
+const SKIN: f64 = 3.0;
+
+/// The distance of each voxel from a mesh, as far out as was asked, and what balls reach from the border.
+pub(super) struct Closing<'m> {
+    grid: &'m Grid,
+    mesh: &'m TriangleMesh,
+    /// Distance from the nearest triangle [m]; infinite beyond `known`.
+    distance: Vec<f32>,
+    nearest: Vec<TriangleId>,
+    /// How far out distances are known [m].
+    known: f64,
+    outside: Vec<bool>,
+}
+
+impl<'m> Closing<'m> {
+    /// The distances next to the triangles.
+    pub(super) fn new(grid: &'m Grid, mesh: &'m TriangleMesh) -> Self {
+        let count = grid.voxels() as usize;
+        let known = SEED * grid.spacing;
+        let mut closing = Self {
+            grid,
+            mesh,
+            distance: vec![f32::INFINITY; count],
+            nearest: vec![TriangleId(0); count],
+            known,
+            outside: Vec::new(),
+        };
+        for triangle in mesh.triangle_ids() {
+            let [a, b, c] = mesh.positions(triangle);
+            let [x, y, z] = grid.range(&a.inf(&b).inf(&c), &a.sup(&b).sup(&c), known);
+            for k in z {
+                for j in y.clone() {
+                    for i in x.clone() {
+                        closing.offer([i, j, k], triangle, known);
+                    }
+                }
+            }
+        }
+        closing
+    }
+
+    /// Takes the distance of a voxel from `triangle` if it is the least and at most `most` [m].
+    fn offer(&mut self, indices: [usize; 3], triangle: TriangleId, most: f64) -> bool {
+        let place = self.grid.middle(indices);
+        let on = closest_on_triangle(&self.mesh.positions(triangle), &place);
+        let distance = (on.position - place).norm();
+        let number = self.grid.number(indices);
+        let is_less = distance <= most && (distance as f32) < self.distance[number];
+        if is_less {
+            self.distance[number] = distance as f32;
+            self.nearest[number] = triangle;
+        }
+        is_less
+    }
+
+    /// Carries the nearest triangles outward, from voxel to voxel, to `reach` [m].
+    fn reach_out(&mut self, reach: f64) {
+        if reach <= self.known {
+            return;
+        }
+        let begin = (self.known - 2.0 * self.grid.spacing) as f32;
+        let is_front = |&number: &usize| {
+            let distance = self.distance[number];
+            distance.is_finite() && distance >= begin
+        };
+        let mut open: VecDeque<usize> = (0..self.distance.len()).filter(is_front).collect();
+        while let Some(number) = open.pop_front() {
+            let triangle = self.nearest[number];
+            for next in self.grid.neighbours(self.grid.indices(number)) {
+                if self.offer(self.grid.indices(next), triangle, reach) {
+                    open.push_back(next);
+                }
+            }
+        }
+        self.known = reach;
+    }
+
+    /// Finds what a ball of `radius` [m] reaches from the border, and whether something lies deeper than a skin.
+    pub(super) fn encloses(&mut self, radius: f64) -> bool {
+        let skin = radius + SKIN * self.grid.spacing;
+        self.reach_out(skin);
+        let is_free = |number: usize| f64::from(self.distance[number]) > radius;
+        let mut outside = vec![false; self.distance.len()];
+        // The first voxel is in the margin.
+        outside[0] = true;
+        let mut open = vec![0];
+        while let Some(number) = open.pop() {
+            for next in self.grid.neighbours(self.grid.indices(number)) {
+                if !outside[next] && is_free(next) {
+                    outside[next] = true;
+                    open.push(next);
+                }
+            }
+        }
+        let encloses = (0..outside.len())
+            .any(|number| !outside[number] && f64::from(self.distance[number]) >= skin);
+        self.outside = outside;
+        encloses
+    }
+
+    /// What no ball of `radius` [m] covers, as label 1.
+    pub(super) fn inside(self, radius: f64) -> LabelMap {
+        let grid = self.grid;
+        let squared = squared_distances(grid, &self.outside);
+        // The nearest voxel of the outside is half a voxel beyond the ball on the mean.
+        let limit = (radius / grid.spacing + 0.5).powi(2) as f32;
+        LabelMap {
+            size: grid.size,
+            labels: squared
+                .into_iter()
+                .map(|own| u16::from(own > limit))
+                .collect(),
+            steps: Matrix3::from_diagonal_element(grid.spacing),
+            origin: grid.origin,
+            names: BTreeMap::new(),
+            warnings: Vec::new(),
+        }
+    }
+}
+
+/// The squared distance of each voxel from the nearest one that is `set` [voxels²]: lower envelopes of parabolas along
+/// each axis [Felzenszwalb and Huttenlocher 2012].
+fn squared_distances(grid: &Grid, set: &[bool]) -> Vec<f32> {
+    let mut all: Vec<f32> = set
+        .iter()
+        .map(|&is_set| if is_set { 0.0 } else { f32::INFINITY })
+        .collect();
+    let strides = [1, grid.size[0], grid.size[0] * grid.size[1]];
+    for axis in 0..3 {
+        let (length, stride) = (grid.size[axis], strides[axis]);
+        let mut line = vec![0.0f32; length];
+        let mut parabolas = Parabolas::default();
+        for first in 0..all.len() {
+            // The lines along an axis begin where its index is 0.
+            if grid.indices(first)[axis] != 0 {
+                continue;
+            }
+            for (k, value) in line.iter_mut().enumerate() {
+                *value = all[first + k * stride];
+            }
+            parabolas.envelope(&line, |k, value| all[first + k * stride] = value);
+        }
+    }
+    all
+}
+
+/// The lower envelope of parabolas over one line.
+#[derive(Debug, Default)]
+struct Parabolas {
+    places: Vec<usize>,
+    /// Where each begins to be the lowest.
+    begins: Vec<f64>,
+}
+
+impl Parabolas {
+    /// Gives the least of `line[i] + (k − i)²` over i at every k.
+    fn envelope(&mut self, line: &[f32], mut put: impl FnMut(usize, f32)) {
+        self.places.clear();
+        self.begins.clear();
+        for (q, &height) in line.iter().enumerate() {
+            if !height.is_finite() {
+                continue;
+            }
+            let lift = |i: usize| f64::from(line[i]) + (i * i) as f64;
+            let mut begin = f64::NEG_INFINITY;
+            while let Some(&last) = self.places.last() {
+                begin = (lift(q) - lift(last)) / (2.0 * (q - last) as f64);
+                if begin > self.begins[self.places.len() - 1] {
+                    break;
+                }
+                self.places.pop();
+                self.begins.pop();
+                begin = f64::NEG_INFINITY;
+            }
+            self.places.push(q);
+            self.begins.push(begin);
+        }
+        if self.places.is_empty() {
+            return;
+        }
+        let mut which = 0;
+        for k in 0..line.len() {
+            while self
+                .begins
+                .get(which + 1)
+                .is_some_and(|&begin| begin <= k as f64)
+            {
+                which += 1;
+            }
+            let place = self.places[which];
+            let away = k as f64 - place as f64;
+            put(k, (f64::from(line[place]) + away * away) as f32);
+        }
+    }
+}

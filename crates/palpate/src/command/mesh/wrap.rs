@@ -1,0 +1,163 @@
+//! `palpate mesh wrap`: a closed surface around triangles that are none.
+
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+use std::time::Instant;
+
+use clap::Args;
+use palpate_geometry::{LengthUnit, WrapSettings, wrap_with_progress};
+use palpate_jobs::Watch;
+use serde::Serialize;
+
+use super::written::{Distance, Output, Written};
+use crate::command::overwrite::OverwriteOption;
+use crate::failure::Failure;
+use crate::progress::{Progress, Reader};
+use crate::{interrupt, output};
+
+/// Examples at the end of the help.
+const EXAMPLES: &str = "\
+Examples:
+  palpate mesh wrap atlas-kidney.glb kidney.ply
+  palpate mesh wrap scan.stl organ.ply --unit mm --distance 0.001 --close-gaps 0.004 --triangles 20000
+
+Holes with a rim are capped at any width. A gap without a rim, such as one between two pieces, is closed up to \
+--close-gaps; so is a fissure of the organ that is as narrow. Inner walls and cavities vanish. The envelope is closed, \
+manifold, oriented outward, in one piece and crosses nothing.";
+
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Arguments {
+    /// The triangles: STL, OBJ, PLY or glTF.
+    #[arg(value_name = "RAW")]
+    file: PathBuf,
+    /// The file to write, in metres: .stl, .obj, .ply or .vtp.
+    #[arg(value_name = "OUT", required_unless_present = "named")]
+    out: Option<PathBuf>,
+    /// The same, by name.
+    #[arg(long = "out", value_name = "OUT", conflicts_with = "out")]
+    named: Option<PathBuf>,
+    /// How far the envelope may be from the triangles [m].
+    #[arg(long, value_name = "M", default_value_t = WrapSettings::default().distance)]
+    distance: f64,
+    /// Width of gaps without a rim that are closed [m].
+    #[arg(long, value_name = "M", default_value_t = WrapSettings::default().close_gaps)]
+    close_gaps: f64,
+    /// How many triangles the envelope has at most.
+    #[arg(long, value_name = "N", default_value_t = WrapSettings::default().triangles)]
+    triangles: usize,
+    /// The unit of the file: m, cm, mm or um.
+    #[arg(long)]
+    unit: Option<String>,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    overwrite: OverwriteOption,
+}
+
+#[derive(Debug, Serialize)]
+struct Answer {
+    palpate: &'static str,
+    #[serde(flatten)]
+    written: Written,
+    triangles_before: usize,
+    envelope_to_input: Distance,
+    input_to_envelope: Distance,
+    holes_capped: usize,
+    widest_rim_m: f64,
+    pieces_left_out: usize,
+    cavities_filled_m3: f64,
+    seconds: f64,
+    warnings: Vec<String>,
+}
+
+/// Wraps and tells.
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let path = arguments.out.as_ref().or(arguments.named.as_ref());
+    let path = path.ok_or_else(|| Failure::input("name the file to write"))?;
+    let out = Output::new(path, LengthUnit::Metre)?;
+    let _claims = arguments.overwrite.claim([path])?;
+    interrupt::ends_between_files("interrupted; nothing was written");
+    let progress = Progress::of_job(Reader::of_json(arguments.json));
+    progress.say("reading the triangles");
+    let imported = super::read(&arguments.file, arguments.unit.as_deref())?;
+    let begin = Instant::now();
+    progress.say("making the envelope");
+    let settings = WrapSettings {
+        distance: arguments.distance,
+        close_gaps: arguments.close_gaps,
+        triangles: arguments.triangles,
+    };
+    let wrapped = wrap_with_progress(&imported.mesh, &settings, &mut |part| {
+        Watch::at(&progress, part);
+        ControlFlow::Continue(())
+    });
+    let wrapped = wrapped
+        .map_err(|error| Failure::input(format!("{}: {error}", arguments.file.display())))?;
+    let mut warnings = imported.warnings;
+    if wrapped.to_input.max > settings.distance {
+        warnings.push(format!(
+            "the envelope is up to {:.2} mm from the triangles, where it closes a gap or rounds an edge; {:.2} mm was \
+             asked for",
+            1e3 * wrapped.to_input.max,
+            1e3 * settings.distance
+        ));
+    }
+    if wrapped.other_pieces > 0 {
+        warnings.push(format!(
+            "{} pieces beside the largest were left out; close wider gaps to join them",
+            wrapped.other_pieces
+        ));
+    }
+    let answer = Answer {
+        palpate: output::VERSION,
+        written: out.write(wrapped.surface.mesh())?,
+        triangles_before: imported.mesh.triangles().len(),
+        envelope_to_input: wrapped.to_input.into(),
+        input_to_envelope: wrapped.of_input.into(),
+        holes_capped: wrapped.holes,
+        widest_rim_m: wrapped.widest_rim,
+        pieces_left_out: wrapped.other_pieces,
+        cavities_filled_m3: wrapped.filled,
+        seconds: begin.elapsed().as_secs_f64(),
+        warnings,
+    };
+    drop(progress);
+    if arguments.json {
+        return output::json(&answer);
+    }
+    output::warnings(&answer.warnings);
+    output::text(answer.text())
+}
+
+impl Answer {
+    fn text(&self) -> String {
+        let millimetres = |distance: &Distance| {
+            format!(
+                "at most {:.3} mm, {:.3} mm on the mean",
+                1e3 * distance.max_m,
+                1e3 * distance.mean_m
+            )
+        };
+        let holes = match self.holes_capped {
+            0 => "none".to_owned(),
+            count => format!("{count}, the widest over {:.2} mm", 1e3 * self.widest_rim_m),
+        };
+        format!(
+            "{} triangles became {}, written to {} in metres\n\
+             from the envelope to the triangles  {}\n\
+             from the triangles to the envelope  {} (more where they lie inside)\n\
+             holes with a rim that were capped   {holes}\n\
+             volume                              {:.4e} m³\n\
+             took                                {:.1} s",
+            self.triangles_before,
+            self.written.triangles,
+            self.written.file.display(),
+            millimetres(&self.envelope_to_input),
+            millimetres(&self.input_to_envelope),
+            self.written.volume_m3,
+            self.seconds
+        )
+    }
+}

@@ -1,0 +1,269 @@
+//! `palpate teacher`: cohorts, assignments, and whose sessions are experts'.
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, Subcommand};
+use palpate_files::printable;
+use palpate_record::{Assignment, Filter, Record};
+use palpate_simulate::SessionFolder;
+use serde::Serialize;
+
+use crate::failure::Failure;
+use crate::output::{self, VERSION};
+use crate::{date, training};
+
+/// Examples at the end of the help.
+const EXAMPLES: &str = "\
+Examples:
+  palpate teacher cohort spring --add Anna --add Carla
+      Anna and Carla belong to the cohort spring
+  palpate teacher assign spring Palpation --due 2026-12-24 --passes 2
+      both shall pass the task twice by the end of that day, in universal time
+  palpate teacher show
+      how far everybody is
+  palpate teacher expert sessions/2026-11-25-myotomy --trainee Carla
+      others are judged by this passed attempt, which stays Carla's
+  palpate teacher pin 4711
+      from now on these commands ask for --pin 4711
+
+The PIN keeps trainees from these commands by mistake. It protects nothing: whoever may write the record's file may \
+change all of it.";
+
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    what: What,
+    /// The training record; without it, the one in the folder of your data.
+    #[arg(long, value_name = "FILE.sqlite", global = true)]
+    record: Option<PathBuf>,
+    /// The teacher's PIN, where the record has one.
+    #[arg(long, global = true)]
+    pin: Option<String>,
+}
+
+#[derive(Debug, Subcommand)]
+enum What {
+    /// Show assignments, and how far each trainee is.
+    Show {
+        /// Print one JSON object.
+        #[arg(long)]
+        json: bool,
+    },
+    /// Add trainees to a cohort, or remove them.
+    Cohort {
+        /// The cohort.
+        name: String,
+        /// A trainee who joins it.
+        #[arg(long, value_name = "TRAINEE")]
+        add: Vec<String>,
+        /// A trainee who leaves it; their attempts stay.
+        #[arg(long, value_name = "TRAINEE")]
+        remove: Vec<String>,
+    },
+    /// Assign a task to a cohort, with a due date.
+    Assign {
+        /// The cohort.
+        cohort: String,
+        /// The title of the task.
+        task: String,
+        /// The last day, as 2026-12-24.
+        #[arg(long, value_name = "DATE")]
+        due: String,
+        /// Passed attempts that are needed.
+        #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1000))]
+        passes: u32,
+    },
+    /// Make a passed attempt one that others are judged by.
+    Expert {
+        /// The session's folder.
+        session: PathBuf,
+        /// Whose attempt it is.
+        #[arg(long, value_name = "NAME")]
+        trainee: String,
+    },
+    /// Set the teacher's PIN, or another one.
+    Pin {
+        /// The new PIN.
+        new: String,
+    },
+}
+
+/// What `show --json` prints.
+#[derive(Debug, Serialize)]
+struct Answer {
+    palpate: &'static str,
+    #[serde(serialize_with = "palpate_jobs::lossy")]
+    record: PathBuf,
+    cohorts: Vec<CohortAnswer>,
+    assignments: Vec<AssignmentAnswer>,
+}
+
+#[derive(Debug, Serialize)]
+struct CohortAnswer {
+    cohort: String,
+    trainees: Vec<String>,
+}
+
+#[derive(Debug, Serialize)]
+struct AssignmentAnswer {
+    cohort: String,
+    task: String,
+    due_unix_s: i64,
+    due_utc: String,
+    passes: u32,
+    trainees: Vec<StandingAnswer>,
+}
+
+#[derive(Debug, Serialize)]
+struct StandingAnswer {
+    trainee: String,
+    attempts: usize,
+    passed: usize,
+    /// `done`, `open` or `late`.
+    standing: &'static str,
+}
+
+/// Does what a teacher wants.
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let file = training::record_file(arguments.record.as_deref())?;
+    if let What::Show { json } = arguments.what {
+        let answer = answer(&Record::read(&file)?)?;
+        return match json {
+            true => output::json(&answer),
+            false => output::text(text(&answer)),
+        };
+    }
+    let said = change(&arguments.what, &file, arguments.pin.as_deref())?;
+    output::line(said)
+}
+
+fn change(what: &What, file: &Path, pin: Option<&str>) -> Result<String, Failure> {
+    let mut record = Record::open(file)?;
+    record.check_pin(pin)?;
+    output::warnings(record.doubts());
+    Ok(match what {
+        What::Show { .. } => String::new(),
+        What::Cohort { name, add, remove } => {
+            record.join(name, add)?;
+            record.leave(name, remove)?;
+            let cohorts = record.cohorts()?;
+            let own = cohorts.iter().find(|own| own.name == name.trim());
+            let trainees = own.map_or(String::new(), |own| own.trainees.join(", "));
+            format!("{}: {}", printable(name), printable(&trainees))
+        }
+        What::Assign {
+            cohort,
+            task,
+            due,
+            passes,
+        } => {
+            let end = date::end_of_day(due).ok_or_else(|| {
+                Failure::input(format!("`{due}` is no day; give one, such as 2026-12-24"))
+            })?;
+            record.assign(&Assignment {
+                cohort: cohort.clone(),
+                task: task.clone(),
+                due: end,
+                passes: *passes,
+            })?;
+            format!(
+                "{}: {} is due by {}",
+                printable(cohort),
+                printable(task),
+                date::short(end)
+            )
+        }
+        What::Expert { session, trainee } => {
+            let folder = SessionFolder::read(session)?;
+            record.make_expert(trainee, &folder.session.digest())?;
+            format!(
+                "others are judged by this attempt of {}, too",
+                printable(trainee)
+            )
+        }
+        What::Pin { new } => {
+            record.set_pin(new)?;
+            "the PIN is set; it guards against mistakes, not against people who may write the file"
+                .to_owned()
+        }
+    })
+}
+
+fn answer(record: &Record) -> Result<Answer, Failure> {
+    let (cohorts, attempts) = (record.cohorts()?, record.attempts(&Filter::default())?);
+    let now = training::now();
+    let standing = |given: &Assignment, trainee: &String| {
+        let own = attempts.iter().filter(|own| own.trainee == *trainee);
+        let found = given.standing(own);
+        StandingAnswer {
+            trainee: trainee.clone(),
+            attempts: found.attempts,
+            passed: found.passed,
+            standing: match found.is_done {
+                true => "done",
+                false if now <= given.due => "open",
+                false => "late",
+            },
+        }
+    };
+    let assignments = record.assignments()?.into_iter().map(|given| {
+        let cohort = cohorts.iter().find(|own| own.name == given.cohort);
+        let trainees = cohort.iter().flat_map(|own| &own.trainees);
+        AssignmentAnswer {
+            trainees: trainees.map(|own| standing(&given, own)).collect(),
+            due_unix_s: given.due,
+            due_utc: date::exact(given.due),
+            passes: given.passes,
+            cohort: given.cohort,
+            task: given.task,
+        }
+    });
+    let assignments = assignments.collect();
+    let cohorts = cohorts.into_iter().map(|own| CohortAnswer {
+        cohort: own.name,
+        trainees: own.trainees,
+    });
+    Ok(Answer {
+        palpate: VERSION,
+        record: record.path().to_owned(),
+        cohorts: cohorts.collect(),
+        assignments,
+    })
+}
+
+fn text(answer: &Answer) -> String {
+    let mut lines = Vec::new();
+    for cohort in &answer.cohorts {
+        let names: Vec<_> = cohort.trainees.iter().map(|own| printable(own)).collect();
+        lines.push(format!(
+            "{}: {}",
+            printable(&cohort.cohort),
+            names.join(", ")
+        ));
+    }
+    if answer.cohorts.is_empty() {
+        lines.push(
+            "no cohort yet; `palpate teacher cohort NAME --add TRAINEE` begins one".to_owned(),
+        );
+    }
+    for given in &answer.assignments {
+        lines.push(format!(
+            "\n{}, {}: pass {} times by {}",
+            printable(&given.task),
+            printable(&given.cohort),
+            given.passes,
+            date::short(given.due_unix_s)
+        ));
+        for own in &given.trainees {
+            lines.push(format!(
+                "  {:24} {:5} passed {} of {} attempts",
+                printable(&own.trainee),
+                own.standing,
+                own.passed,
+                own.attempts
+            ));
+        }
+    }
+    lines.join("\n")
+}

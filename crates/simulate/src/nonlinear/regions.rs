@@ -1,0 +1,370 @@
+//! The tissues of an organ: layers from its outer surface inwards, inclusions, and what is around them.
+//!
+//! An element that several tissues share has the mean of the bounds of Voigt and Reuss (`Moduli::mixed`), and relaxes as
+//! the tissue that has most of it.
+//!
+//! Depth is the distance to the outer surface: the triangles from which one of seven directions, within 35 degrees of the
+//! normal, leads away from the organ. So the wall of a tube is layered from outside, not from its lumen.
+//!
+//! A tip is smaller than an element. What it meets, and what its load leaves out of the elements, are those of a layered
+//! half-space (`palpate_mechanics::layered`).
+
+use std::f64::consts::PI;
+
+use palpate_files::scene::InclusionShape;
+use palpate_files::{Elasticity, Scene, Tissue};
+use palpate_geometry::{AabbTree, Surface, TetrahedronMesh, TriangleMesh, Vec3};
+use palpate_mechanics::layered::{LayeredHalfSpace, LoadShape};
+use palpate_mechanics::nonlinear::Moduli;
+use palpate_mechanics::{LinearElastic, Material, PronySeries};
+
+use crate::Error;
+
+/// A larger Poisson's ratio is taken as this [-]: volume is kept to the percent, and a few iterations suffice.
+const LARGEST_RATIO: f64 = 0.49;
+
+/// An element is asked for its tissues at the centroids of its parts, so many along an edge.
+const PARTS: usize = 6;
+
+/// Directions in which a triangle of the outer surface may look away: off its normal [-], and how many beside it.
+const OFF_NORMAL: f64 = 0.7;
+const DIRECTIONS: usize = 6;
+
+/// Edges in an inclusion, in its smallest radius, and by how much they grow away from it [-].
+const OF_RADIUS: f64 = 0.6;
+const GROWTH: f64 = 0.25;
+
+/// Radii [m] for which the layers are solved: from one, each by this factor larger than the one before.
+const LEAST_RADIUS: f64 = 1e-4;
+const FACTOR: f64 = 1.2;
+const RADII: usize = 45;
+
+/// A tissue of the organ.
+#[derive(Debug, Clone)]
+pub(crate) struct RegionTissue {
+    pub(crate) tissue: Tissue,
+    pub(crate) material: Material,
+    /// As the elements take it.
+    moduli: Moduli<f64>,
+    /// At rest, as the elements take it.
+    law: LinearElastic,
+}
+
+/// Where which tissue is.
+#[derive(Debug, Clone)]
+pub(crate) struct Regions {
+    /// Of the layers from outside, of what is below, of the inclusions.
+    tissues: Vec<RegionTissue>,
+    /// Depths of the lower faces of the layers [m].
+    bottoms: Vec<f64>,
+    inclusions: Vec<InclusionShape>,
+    /// Names of layers and inclusions.
+    names: Vec<String>,
+    outer: Option<(TriangleMesh, AabbTree)>,
+    /// How much more than their outermost tissue the layers yield to a flat tip and to a load of each radius [-].
+    punch: Vec<[f64; 2]>,
+    load: Vec<[f64; 2]>,
+    pub(crate) doubts: Vec<String>,
+}
+
+impl Regions {
+    /// Those of `scene`, whose organ is mostly of one tissue.
+    pub(crate) fn new(
+        scene: &Scene,
+        (surface, tree): (&Surface, &AabbTree),
+        (tissue, material): (&Tissue, &Material),
+    ) -> Result<Self, Error> {
+        let organ = &scene.organ;
+        let mut doubts = Vec::new();
+        let mut tissues = Vec::new();
+        for layer in &organ.layers {
+            tissues.push(RegionTissue::new(layer.tissue.read()?, None, &mut doubts)?);
+        }
+        let own = Some(material.clone());
+        tissues.push(RegionTissue::new(tissue.clone(), own, &mut doubts)?);
+        for inclusion in &organ.inclusions {
+            let own = inclusion.tissue.read()?;
+            tissues.push(RegionTissue::new(own, None, &mut doubts)?);
+        }
+        doubts.sort();
+        doubts.dedup();
+        let mut bottom = 0.0;
+        let bottoms = organ.layers.iter().map(|layer| {
+            bottom += layer.thickness_m;
+            bottom
+        });
+        let layered = LayeredHalfSpace {
+            layers: organ
+                .layers
+                .iter()
+                .zip(&tissues)
+                .map(|(layer, region)| (layer.thickness_m, region.law))
+                .collect(),
+            base: tissues[organ.layers.len()].law,
+        };
+        let yields = |shape| -> Vec<[f64; 2]> {
+            let radii = (0..RADII).filter(|_| !organ.layers.is_empty());
+            radii
+                .map(|n| layered.yields(shape, LEAST_RADIUS * FACTOR.powi(n as i32)))
+                .collect()
+        };
+        let layers = organ.layers.iter().map(|layer| &layer.name);
+        let inclusions = organ.inclusions.iter().map(|inclusion| &inclusion.name);
+        Ok(Self {
+            bottoms: bottoms.collect(),
+            inclusions: organ.inclusions.iter().map(|one| one.shape).collect(),
+            names: layers.chain(inclusions).cloned().collect(),
+            outer: match organ.layers.is_empty() {
+                true => None,
+                false => Some(outer(surface, tree)?),
+            },
+            punch: yields(LoadShape::Punch),
+            load: yields(LoadShape::Bump),
+            tissues,
+            doubts,
+        })
+    }
+
+    /// Layers and inclusions: with what tissue, beside that of the organ.
+    pub(crate) fn beside(&self) -> impl Iterator<Item = &Tissue> {
+        let own = self.bottoms.len();
+        let all = self.tissues.iter().enumerate();
+        all.filter(move |(number, _)| *number != own)
+            .map(|(_, region)| &region.tissue)
+    }
+
+    /// What lies at the outer surface.
+    pub(crate) fn at_surface(&self) -> &RegionTissue {
+        &self.tissues[0]
+    }
+
+    /// That at rest, as the elements take it.
+    pub(super) fn at_rest(&self) -> &LinearElastic {
+        &self.at_surface().law
+    }
+
+    /// Relaxation of each tissue.
+    pub(super) fn series(&self) -> Vec<PronySeries> {
+        let series = self.tissues.iter();
+        series.map(|region| region.material.prony.clone()).collect()
+    }
+
+    /// The largest Poisson's ratio of the elements [-].
+    pub(super) fn largest_ratio(&self) -> f64 {
+        let ratios = self
+            .tissues
+            .iter()
+            .map(|region| region.law.poissons_ratio());
+        ratios.fold(-1.0, f64::max)
+    }
+
+    /// The moduli of each element and the number of its tissue; and what deserves doubt.
+    pub(super) fn of_elements(
+        &self,
+        mesh: &TetrahedronMesh,
+    ) -> (Vec<Moduli<f64>>, Vec<usize>, Vec<String>) {
+        let count = mesh.tetrahedra().len();
+        if self.tissues.len() == 1 {
+            return (
+                vec![self.tissues[0].moduli; count],
+                vec![0; count],
+                Vec::new(),
+            );
+        }
+        let places = parts();
+        let mut found = vec![false; self.tissues.len()];
+        let each = (0..count).map(|element| {
+            let corners = mesh.positions(element);
+            let mut shares = vec![0.0; self.tissues.len()];
+            for barycentric in &places {
+                let place = corners.iter().zip(barycentric);
+                let place: Vec3 = place.map(|(corner, part)| corner * *part).sum();
+                shares[self.at(&place)] += 1.0 / places.len() as f64;
+            }
+            let mixed = self.tissues.iter().zip(&shares);
+            let mixed = mixed.map(|(region, share)| (region.moduli, *share));
+            let most = (0..shares.len()).max_by(|a, b| shares[*a].total_cmp(&shares[*b]));
+            for (found, share) in found.iter_mut().zip(&shares) {
+                *found |= *share > 0.0;
+            }
+            (Moduli::mixed(mixed), most.unwrap_or(0))
+        });
+        let (moduli, numbers) = each.unzip();
+        found.remove(self.bottoms.len());
+        let missing = self.names.iter().zip(found).filter(|(_, found)| !found);
+        let missing = missing.map(|(name, _)| {
+            format!(
+                "{name:?} is in no element of the nonlinear model: the organ has no place as deep, or `model.nodes` is too \
+                 small for it"
+            )
+        });
+        (moduli, numbers, missing.collect())
+    }
+
+    pub(super) fn has_inclusions(&self) -> bool {
+        !self.inclusions.is_empty()
+    }
+
+    /// The edges that the inclusions ask for at `place` [m].
+    pub(super) fn longest_edge(&self, place: &Vec3) -> f64 {
+        let edges = self.inclusions.iter().map(|shape| {
+            let off = shape.off((*place).into()).max(0.0);
+            OF_RADIUS * shape.smallest_radius() + GROWTH * off
+        });
+        edges.fold(f64::INFINITY, f64::min)
+    }
+
+    /// The number of the tissue at `place` [m].
+    fn at(&self, place: &Vec3) -> usize {
+        let held = |shape: &InclusionShape| shape.holds((*place).into());
+        if let Some(number) = self.inclusions.iter().position(held) {
+            return self.bottoms.len() + 1 + number;
+        }
+        let Some((mesh, tree)) = &self.outer else {
+            return 0;
+        };
+        let depth = tree.nearest(mesh, place).distance;
+        let layer = self.bottoms.iter().position(|bottom| depth < *bottom);
+        layer.unwrap_or(self.bottoms.len())
+    }
+
+    /// How much more than the tissue at the surface the layers yield to a flat tip of this radius [m]: along the surface, and
+    /// along its normal [-].
+    pub(super) fn yields_to_tip(&self, radius: f64) -> [f64; 2] {
+        interpolate(&self.punch, radius)
+    }
+
+    /// The same for a load.
+    pub(super) fn yields_to_load(&self, radius: f64) -> [f64; 2] {
+        interpolate(&self.load, radius)
+    }
+
+    /// What a tip of this radius [m] meets: the tissue at the surface, as stiff as the layers are to it.
+    pub(crate) fn touched(&self, radius: f64) -> Result<(Tissue, Material), Error> {
+        let RegionTissue {
+            tissue, material, ..
+        } = self.at_surface();
+        if self.bottoms.is_empty() {
+            return Ok((tissue.clone(), material.clone()));
+        }
+        let factor = 1.0 / self.yields_to_tip(radius)[1];
+        let mut tissue = tissue.clone();
+        let moduli = match &mut tissue.elasticity {
+            Elasticity::Linear {
+                youngs_modulus_pa, ..
+            } => [Some(youngs_modulus_pa), None],
+            Elasticity::NeoHookean { c10_pa } => [Some(c10_pa), None],
+            Elasticity::MooneyRivlin { c10_pa, c01_pa } => [Some(c10_pa), Some(c01_pa)],
+            Elasticity::Exponential { gamma_pa, .. } => [Some(gamma_pa), None],
+        };
+        moduli
+            .into_iter()
+            .flatten()
+            .for_each(|modulus| modulus.value *= factor);
+        let material = Material::from_tissue(&tissue)?;
+        Ok((tissue, material))
+    }
+}
+
+impl RegionTissue {
+    fn new(
+        tissue: Tissue,
+        material: Option<Material>,
+        doubts: &mut Vec<String>,
+    ) -> Result<Self, Error> {
+        let material = match material {
+            Some(material) => material,
+            None => {
+                let own = Material::from_tissue(&tissue)?;
+                doubts.extend(own.doubts.iter().cloned());
+                own
+            }
+        };
+        let given = material.at_rest.poissons_ratio();
+        let ratio = given.min(LARGEST_RATIO);
+        let shear = material.at_rest.shear_modulus();
+        if ratio < given {
+            doubts.push(format!(
+                "Poisson's ratio {given:.4} is taken as {LARGEST_RATIO} around the tips, with the same shear modulus: the \
+                 nonlinear model keeps volume to the percent"
+            ));
+        }
+        let (c10, c01) = match tissue.elasticity {
+            Elasticity::MooneyRivlin { c10_pa, c01_pa } => (c10_pa.value, c01_pa.value),
+            Elasticity::Exponential { .. } => {
+                doubts.push(
+                    "the organ around the tips answers as neo-Hookean tissue of the same modulus at rest; the tips \
+                     themselves meet the exponential law"
+                        .to_owned(),
+                );
+                (0.5 * shear, 0.0)
+            }
+            Elasticity::Linear { .. } | Elasticity::NeoHookean { .. } => (0.5 * shear, 0.0),
+        };
+        Ok(Self {
+            moduli: Moduli::mooney_rivlin(c10, c01, ratio)?,
+            law: LinearElastic::new(2.0 * shear * (1.0 + ratio), ratio)?,
+            tissue,
+            material,
+        })
+    }
+}
+
+/// At a radius [m]; one of nothing.
+fn interpolate(table: &[[f64; 2]], radius: f64) -> [f64; 2] {
+    let Some(last) = table.len().checked_sub(1) else {
+        return [1.0; 2];
+    };
+    let at = (radius / LEAST_RADIUS).ln() / FACTOR.ln();
+    let at = at.clamp(0.0, last as f64);
+    let low = (at as usize).min(last.saturating_sub(1));
+    let part = at - low as f64;
+    let [from, to] = [table[low], table[(low + 1).min(last)]];
+    [0, 1].map(|axis| (1.0 - part) * from[axis] + part * to[axis])
+}
+
+/// Barycentric coordinates of places spread evenly over a tetrahedron.
+fn parts() -> Vec<[f64; 4]> {
+    let step = 1.0 / PARTS as f64;
+    let at = |n: usize| (n as f64 + 0.25) * step;
+    let mut places = Vec::new();
+    for i in 0..PARTS {
+        for j in 0..PARTS - i {
+            for k in 0..PARTS - i - j {
+                let [x, y, z] = [i, j, k].map(at);
+                places.push([1.0 - x - y - z, x, y, z]);
+            }
+        }
+    }
+    places
+}
+
+/// The triangles of the outer surface.
+fn outer(surface: &Surface, tree: &AabbTree) -> Result<(TriangleMesh, AabbTree), Error> {
+    let mesh = surface.mesh();
+    let (low, high) = mesh.bounds();
+    let reach = (high - low).norm();
+    let looks_out = |triangle| {
+        let [a, b, c] = mesh.positions(triangle);
+        let area = mesh.area_vector(triangle);
+        let normal = area.normalize();
+        let along = (b - a).normalize();
+        let across = normal.cross(&along);
+        let start = (a + b + c) / 3.0 + normal * (1e-3 * (2.0 * area.norm()).sqrt());
+        let mut directions = (0..DIRECTIONS).map(|k| {
+            let (sine, cosine) = (2.0 * PI * k as f64 / DIRECTIONS as f64).sin_cos();
+            (normal + OFF_NORMAL * (cosine * along + sine * across)).normalize()
+        });
+        let is_free = |direction: &Vec3| tree.cast(mesh, &start, direction, reach).is_none();
+        is_free(&normal) || directions.any(|direction| is_free(&direction))
+    };
+    let triangles: Vec<_> = mesh
+        .triangle_ids()
+        .filter(|triangle| looks_out(*triangle))
+        .map(|triangle| mesh.corners(triangle))
+        .collect();
+    let triangles = TriangleMesh::new(mesh.vertices().to_vec(), triangles)
+        .map_err(|_| palpate_mechanics::Error::NoElements)?;
+    let tree = AabbTree::new(&triangles);
+    Ok((triangles, tree))
+}

@@ -1,0 +1,236 @@
+//! Layers and inclusions of the nonlinear model.
+
+use std::sync::Arc;
+
+use palpate_files::Scene;
+use palpate_geometry::Vec3;
+use palpate_mechanics::finite_elements::{
+    ElementMesh, FiniteElementModel, FiniteElementState, FiniteElementWorkspace, Formulation,
+    Supports, equilibrate,
+};
+use palpate_mechanics::{Law, LinearElastic};
+use palpate_simulate::Simulation;
+
+use crate::scenes::{Hand, Setting, YOUNGS_MODULUS};
+
+const RADIUS: f64 = 4e-3;
+const DEPTH: f64 = 0.4e-3;
+const RATIO: f64 = 0.45;
+
+/// A cube with the tissues of `organ`, touched by a flat tip of 4 mm that slips.
+fn cube<'a>(organ: &'a str, nodes: &'a str) -> Setting<'a> {
+    Setting {
+        organ,
+        kind: "nonlinear",
+        model: nodes,
+        poissons_ratio: RATIO,
+        shape: "flat",
+        radius: RADIUS,
+        contact: "slip",
+        prony: "[]",
+    }
+}
+
+fn press(simulation: &Simulation) -> f64 {
+    let mut hand = Hand::new(simulation);
+    let mut force = 0.0;
+    for step in 0..=30 {
+        let depth = DEPTH * (f64::from(step) / 10.0).min(1.0);
+        force = hand.at(&Vec3::new(0.002, 0.003, 0.05 - depth)).z;
+    }
+    force
+}
+
+/// Distances from a fine edge at `from`, ever wider away from it, up to `to` [m].
+fn graded(from: f64, to: f64, first: f64) -> Vec<f64> {
+    let (mut places, mut step) = (vec![from], first);
+    while places[places.len() - 1] + 1.5 * step < to {
+        let last = places[places.len() - 1];
+        places.push(last + step);
+        step = (1.15 * step).min(3e-3);
+    }
+    places.push(to);
+    places
+}
+
+/// Force of the same press on a cylinder of the cube's volume and height, by axisymmetric finite elements; `modulus` is at a
+/// radius and a depth. `fine` is the size of the elements at the tip's edge [m].
+fn finite_elements(modulus: &impl Fn(f64, f64) -> f64, interface: f64, fine: f64) -> f64 {
+    let mut radii: Vec<f64> = graded(0.0, RADIUS, fine)
+        .iter()
+        .rev()
+        .map(|off| RADIUS - off)
+        .collect();
+    radii.extend(graded(RADIUS, 0.0564, fine).into_iter().skip(1));
+    let mut depths = graded(0.0, interface, fine);
+    depths.extend(graded(interface, 0.1, 5e-4).into_iter().skip(1));
+    let heights: Vec<f64> = depths.iter().rev().map(|depth| 0.1 - depth).collect();
+    let mesh = ElementMesh::grid(&radii, &heights, |r, z| [r, z]);
+    let laws: Vec<Arc<dyn Law>> = mesh
+        .elements
+        .chunks_exact(9)
+        .map(|nodes| {
+            let center = mesh.nodes[nodes[4] as usize];
+            let modulus = modulus(center.x, 0.1 - center.y);
+            Arc::new(LinearElastic::new(modulus, RATIO).unwrap()) as Arc<dyn Law>
+        })
+        .collect();
+    let axis = mesh.nodes_where(|place| place.x < 1e-9);
+    let base = mesh.nodes_where(|place| place.y < 1e-9);
+    let tip = mesh.nodes_where(|place| place.y > 0.1 - 1e-9 && place.x < RADIUS + 1e-9);
+    let model = FiniteElementModel::with_laws(mesh, laws, Formulation::Displacement).unwrap();
+    let supports = Supports::none(&model)
+        .hold(&model, axis, 0, 0.0)
+        .hold(&model, base.iter().copied(), 0, 0.0)
+        .hold(&model, base, 1, 0.0)
+        .hold(&model, tip.iter().copied(), 1, -DEPTH);
+    let mut state = FiniteElementState::at_rest(&model);
+    let mut workspace = FiniteElementWorkspace::new(&model).unwrap();
+    equilibrate(&model, &supports, &mut state, &mut workspace).unwrap();
+    let nodes = tip.iter();
+    -nodes
+        .map(|&node| workspace.reaction(&model, node).y)
+        .sum::<f64>()
+}
+
+/// The press on `organ` beside finite elements of `modulus` at a radius and a depth. Judge: a cylinder of the cube's volume,
+/// refined until the force changes by less than 1 %; it and the cube differ by less than 1 % under a tip that is a tenth of
+/// them. Tolerance 5 %, what is asked of the model.
+fn presses_as(name: &str, organ: &str, interface: f64, modulus: impl Fn(f64, f64) -> f64) {
+    let [coarse, expected] = [2e-4, 1e-4].map(|fine| finite_elements(&modulus, interface, fine));
+    assert!(
+        (coarse / expected - 1.0).abs() < 0.01,
+        "{name}: {coarse} {expected}"
+    );
+    for nodes in ["nodes = 1500", "nodes = 3000"] {
+        let found = press(&cube(organ, nodes).simulation());
+        let error = found / expected - 1.0;
+        println!(
+            "{name}, {nodes}: {found:.4} N, finite elements {expected:.4} N, {:+.1} %",
+            100.0 * error
+        );
+        assert!(error.abs() < 0.05, "{name}, {nodes}: {error}");
+    }
+}
+
+#[test]
+fn layers_press_back_as_finite_elements() {
+    let plain = "builtin = \"cube\"\ntriangles = 3072";
+    presses_as("one tissue", plain, 3e-3, |_, _| YOUNGS_MODULUS);
+    for (thickness, modulus) in [(8e-3, 4e4), (3e-3, 4e4), (3e-3, 2.5e3)] {
+        let organ = format!(
+            "{plain}\nlayer = [{{ thickness_m = {thickness}, tissue = {{ law = \"linear\", youngs_modulus_pa = \
+             {modulus:.1}, poissons_ratio = {RATIO} }} }}]"
+        );
+        // All faces of the cube are coated.
+        let of = |r: f64, depth: f64| {
+            let off = depth.min(0.1 - depth).min(0.0564 - r);
+            if off < thickness {
+                modulus
+            } else {
+                YOUNGS_MODULUS
+            }
+        };
+        presses_as(
+            &format!("{modulus} Pa, {thickness} m"),
+            &organ,
+            thickness,
+            of,
+        );
+    }
+}
+
+/// A ball of 8 mm that is ten times as stiff, 6 mm below the surface: a tip of 4 mm feels a fifth more than without it.
+#[test]
+#[ignore = "falls short: the force is 13 % too small on 1,500 nodes, 11 % on 3,000"]
+fn inclusions_press_back_as_finite_elements() {
+    let ball = "builtin = \"cube\"\ntriangles = 3072\ninclusion = [{ ball = { center_m = [0.002, 0.003, 0.036], radius_m = \
+                0.008 }, tissue = { law = \"linear\", youngs_modulus_pa = 100000.0, poissons_ratio = 0.45 } }]";
+    presses_as("inclusion", ball, 22e-3, |r, depth| {
+        let is_inside = r.hypot(depth - 0.014) < 0.008;
+        if is_inside { 1e5 } else { YOUNGS_MODULUS }
+    });
+}
+
+/// What cannot be is refused in a sentence that names it.
+#[test]
+fn regions_that_cannot_be_are_refused() {
+    let tissue = "tissue = { law = \"neo_hookean\", c10_pa = 5000.0 }";
+    let refused = |organ: &str, part: &str| {
+        let setting = cube(organ, "nodes = 300");
+        let error = Simulation::new(&setting.scene()).unwrap_err();
+        assert!(
+            error.is_input() && error.to_string().contains(part),
+            "{error}"
+        );
+    };
+    let ball = |x: f64, radius: f64| {
+        format!("{{ ball = {{ center_m = [{x:?}, 0.0, 0.0], radius_m = {radius:?} }}, {tissue} }}")
+    };
+    refused(
+        &format!("builtin = \"cube\"\ninclusion = [{}]", ball(0.045, 0.01)),
+        "mm out of the organ",
+    );
+    refused(
+        &format!(
+            "builtin = \"cube\"\ninclusion = [{}, {}]",
+            ball(0.0, 0.01),
+            ball(0.015, 0.01)
+        ),
+        "\"inclusion 1\" and \"inclusion 2\" overlap",
+    );
+    refused(
+        &format!("builtin = \"cube\"\nlayer = [{{ thickness_m = 0.2, {tissue} }}]"),
+        "the layers are 200 mm thick",
+    );
+    let parse = |inclusion: &str| {
+        let text = format!(
+            "format = 1\n[organ]\nbuiltin = \"cube\"\nbuiltin_tissue = \"pig-liver\"\n[[organ.inclusion]]\n{inclusion}\n\
+             [[tool]]\nname = \"right\"\n"
+        );
+        Scene::parse(&text, "scene.toml").unwrap_err().to_string()
+    };
+    assert!(parse(tissue).contains("ball"), "{}", parse(tissue));
+    let two = format!(
+        "{tissue}\nball = {{ center_m = [0, 0, 0], radius_m = 0.01 }}\n\
+         capsule = {{ from_m = [0, 0, 0], to_m = [0, 0, 0.01], radius_m = 0.01 }}"
+    );
+    assert!(parse(&two).contains("capsule"), "{}", parse(&two));
+}
+
+/// A tube is layered from outside alone: with the inner half of its wall as soft as nothing beside the outer, it is stiffer
+/// than with the outer half so, for what is farther from the axis bends more.
+#[test]
+fn a_tube_is_layered_from_outside() {
+    let tube = |outer: f64, inner: f64| {
+        let tissue = |modulus: f64| {
+            format!(
+                "tissue = {{ law = \"linear\", youngs_modulus_pa = {modulus:?}, poissons_ratio = 0.45 }}"
+            )
+        };
+        let organ = format!(
+            "builtin = \"esophagus\"\nlayer = [{{ thickness_m = 0.0012, {} }}, {{ thickness_m = 0.001, {} }}]",
+            tissue(outer),
+            tissue(inner)
+        );
+        let simulation = cube(&organ, "nodes = 1500").simulation();
+        assert!(
+            !simulation
+                .doubts()
+                .iter()
+                .any(|doubt| doubt.contains("in no element")),
+            "{:?}",
+            simulation.doubts()
+        );
+        let mut hand = Hand::new(&simulation);
+        let mut force = Vec3::zeros();
+        for step in 0..=30 {
+            let depth = 1e-3 * (f64::from(step) / 20.0).min(1.0);
+            force = hand.at(&Vec3::new(0.0, -0.0075 + depth, 0.0));
+        }
+        force.norm()
+    };
+    let (hard_outside, hard_inside) = (tube(4e4, 4e3), tube(4e3, 4e4));
+    println!("{hard_outside} {hard_inside}");
+    assert!(hard_outside > 1.05 * hard_inside);
+}

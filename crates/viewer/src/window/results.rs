@@ -1,0 +1,238 @@
+//! How an attempt was done: a verdict, what to do about it, one plot; the rest is folded.
+
+use eframe::egui::{self, RichText, Ui};
+use egui_plot::{HLine, Line, Plot, PlotPoints};
+use palpate_files::scene::Goal;
+use palpate_simulate::performance::{Measure, feedback};
+
+use super::attempt::{Attempt, Done};
+use super::cards::{Around, Asked, WHITE, button, title, trouble};
+use crate::style::{DEPTH, DOUBT, FORCE, QUIET};
+
+/// How it was done.
+pub(super) fn over(
+    ui: &mut Ui,
+    (attempt, done): (&Attempt, &Done),
+    around: &Around,
+    asked: &mut Option<Asked>,
+) {
+    let told = feedback(&attempt.task, &done.score, done.late);
+    let color = match done.score.outcome.passed() {
+        Some(true) => DEPTH,
+        Some(false) => DOUBT,
+        None => QUIET,
+    };
+    ui.label(RichText::new(title(attempt)).color(QUIET));
+    ui.label(
+        RichText::new(&told.verdict)
+            .size(22.0)
+            .strong()
+            .color(color),
+    );
+    ui.add_space(4.0);
+    for sentence in [&told.good, &told.change, &told.next] {
+        ui.label(RichText::new(sentence).size(15.0).color(WHITE));
+    }
+    ui.add_space(6.0);
+    forces(ui, attempt);
+    earlier(ui, done);
+    let most = (ui.ctx().content_rect().height() - 520.0).max(90.0);
+    egui::CollapsingHeader::new("All measures").show(ui, |ui| {
+        egui::ScrollArea::vertical()
+            .max_height(most)
+            .show(ui, |ui| measures(ui, done));
+    });
+    if let Some(folder) = &done.folder {
+        let words = format!("recorded in {}", folder.display());
+        ui.label(RichText::new(words).small().color(QUIET));
+    }
+    trouble(ui, attempt);
+    ui.add_space(8.0);
+    ui.horizontal(|ui| {
+        if button(ui, "Retry").on_hover_text("or Enter").clicked() {
+            *asked = Some(Asked::Begin);
+        }
+        if done.folder.is_some() && ui.button("Replay").clicked() {
+            *asked = Some(Asked::Again);
+        }
+        if around.has_home && ui.button("Tasks").clicked() {
+            *asked = Some(Asked::Home);
+        }
+    });
+}
+
+/// The force over time, beside its band or its limit.
+fn forces(ui: &mut Ui, attempt: &Attempt) {
+    let lines: Vec<f64> = match &attempt.task.goal {
+        Goal::Traction {
+            force_n,
+            tolerance_n,
+            ..
+        } => vec![force_n - tolerance_n, force_n + tolerance_n],
+        _ => attempt.task.force_limit_n.into_iter().collect(),
+    };
+    let words = match lines.len() {
+        0 => "Force [mN] over time [s]",
+        1 => "Force [mN] over time [s], and its limit",
+        _ => "Force [mN] over time [s], and its band",
+    };
+    ui.label(RichText::new(words).small().color(QUIET));
+    let points = attempt.forces.iter();
+    let points: Vec<[f64; 2]> = points.map(|[time, force]| [*time, 1e3 * force]).collect();
+    Plot::new("forces")
+        .height(110.0)
+        .include_y(0.0)
+        .allow_drag(false)
+        .allow_zoom(false)
+        .allow_scroll(false)
+        .allow_boxed_zoom(false)
+        .show(ui, |plot| {
+            plot.line(Line::new("force", PlotPoints::from(points)).color(FORCE));
+            for line in lines {
+                plot.hline(HLine::new("band", 1e3 * line).color(DEPTH).width(2.0));
+            }
+        });
+}
+
+/// The last attempts of the same trainee.
+const EARLIER: usize = 4;
+
+/// One's own attempts before.
+fn earlier(ui: &mut Ui, done: &Done) {
+    if done.earlier.is_empty() {
+        ui.label(RichText::new("This was your first attempt.").color(QUIET));
+        return;
+    }
+    let word = |passed: Option<bool>| match passed {
+        Some(true) => ("passed", DEPTH),
+        Some(false) => ("not passed", DOUBT),
+        None => ("", QUIET),
+    };
+    ui.label(RichText::new("Your attempts").small().color(QUIET));
+    egui::Grid::new("earlier")
+        .num_columns(3)
+        .spacing([18.0, 3.0])
+        .show(ui, |ui| {
+            let mut row = |when: &str, passed: Option<bool>, time: f64, errors: u64| {
+                ui.label(RichText::new(when).color(QUIET));
+                let (words, color) = word(passed);
+                ui.label(RichText::new(words).color(color));
+                ui.label(format!("{time:.0} s, {errors} errors"));
+                ui.end_row();
+            };
+            let errors = &done.score.errors;
+            let count = errors.force_limit
+                + errors.perforations
+                + errors.drops
+                + errors.shaft_contacts
+                + errors.undone;
+            row(
+                "now",
+                done.score.outcome.passed(),
+                done.score.duration,
+                count,
+            );
+            for own in done.earlier.iter().rev().take(EARLIER) {
+                row(&own.date, own.passed, own.time, own.errors);
+            }
+        });
+}
+
+/// Whether a tool was held at all; what stayed idle has nothing to tell.
+fn was_held(done: &Done, measure: &Measure) -> bool {
+    let hands = done.score.hands.iter();
+    let mut idle = hands.filter(|hand| hand.path <= 0.0);
+    !idle.any(|hand| {
+        let rest = measure.key.strip_prefix(&hand.tool);
+        rest.is_some_and(|rest| rest.starts_with('.'))
+    })
+}
+
+fn measures(ui: &mut Ui, done: &Done) {
+    egui::Grid::new("measures")
+        .num_columns(4)
+        .striped(true)
+        .spacing([18.0, 3.0])
+        .show(ui, |ui| {
+            let heads = match done.compared.is_empty() {
+                true => ["", "you", "", ""],
+                false => ["", "you", "experts", ""],
+            };
+            for head in heads {
+                ui.label(RichText::new(head).small().color(QUIET));
+            }
+            ui.end_row();
+            let all = done.score.measures().into_iter();
+            for measure in all.filter(|own| was_held(done, own)) {
+                let (name, value) = words(&measure.key, measure.value);
+                ui.label(name);
+                ui.label(RichText::new(value).monospace().color(WHITE));
+                let mut compared = done.compared.iter();
+                if let Some(own) = compared.find(|own| own.measure.key == measure.key) {
+                    let mean = words(&measure.key, own.standard.mean).1;
+                    ui.label(RichText::new(mean).monospace().color(QUIET));
+                    match own.proficient {
+                        Some(true) => ui.label(RichText::new("proficient").color(DEPTH)),
+                        Some(false) => ui.label(RichText::new("not yet").color(DOUBT)),
+                        None => ui.label(""),
+                    };
+                }
+                ui.end_row();
+            }
+        });
+}
+
+/// A measure for people: its name, and its value in units that are read.
+fn words(key: &str, value: f64) -> (String, String) {
+    let (tool, plain) = key
+        .split_once('.')
+        .map_or(("", key), |(tool, plain)| (tool, plain));
+    let units: [(&str, f64, &str); 6] = [
+        ("_n_s", 1.0, "N s"),
+        ("_rad", 57.295_779_513_082_32, "°"),
+        ("_m", 1e3, "mm"),
+        ("_s", 1.0, "s"),
+        ("_n", 1e3, "mN"),
+        ("", 1.0, ""),
+    ];
+    let unit = units.iter().find(|(ending, ..)| plain.ends_with(ending));
+    let (ending, factor, unit) = unit.copied().unwrap_or(("", 1.0, ""));
+    let name = plain
+        .strip_suffix(ending)
+        .unwrap_or(plain)
+        .replace('_', " ");
+    let name = match tool {
+        "" => name,
+        tool => format!("{tool}: {name}"),
+    };
+    let value = factor * value;
+    let decimals = match value.abs() {
+        size if size == size.round() && unit.is_empty() => 0,
+        size if size >= 1e5 => return (name, format!("{value:.1e} {unit}")),
+        size if size < 10.0 => 2,
+        size if size < 100.0 => 1,
+        _ => 0,
+    };
+    (name, format!("{value:.decimals$} {unit}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn measures_are_read_in_common_units() {
+        let read = |key, value| {
+            let (name, value) = words(key, value);
+            format!("{name} {value}")
+        };
+        assert_eq!(read("left.path_m", 0.1234), "left: path 123 mm");
+        assert_eq!(read("time_s", 12.34), "time 12.3 s");
+        assert_eq!(
+            read("right.force_time_n_s", 2.0),
+            "right: force time 2.00 N s"
+        );
+        assert_eq!(read("right.peak_force_n", 0.5), "right: peak force 500 mN");
+        assert_eq!(read("perforations", 2.0), "perforations 2 ");
+    }
+}
