@@ -1,8 +1,6 @@
-use nalgebra::DMatrix;
-
 use super::{Guess, Instrument, Presses};
 use crate::Error;
-use crate::inverse::{Body, Curves, Indentation, UnitCurve, expected_law};
+use crate::inverse::{Body, Correlations, Curves, Indentation, UnitCurve, expected_law};
 use crate::viscoelastic::{Course, expected_relaxation};
 
 /// A parameter as a characterization is expected to state it.
@@ -74,7 +72,7 @@ impl Expecting {
         &self,
         presses: &Presses,
         instrument: &Instrument,
-    ) -> Result<(Vec<ExpectedParameter>, Vec<String>, DMatrix<f64>), Error> {
+    ) -> Result<(Vec<ExpectedParameter>, Correlations), Error> {
         let curve = self.curve.scaled(presses.radius);
         let deepest = presses.deepest();
         let Guess {
@@ -153,7 +151,7 @@ impl Expecting {
                 }
             }
         }
-        Ok((all, correlations.names, correlations.matrix))
+        Ok((all, correlations))
     }
 }
 

@@ -82,7 +82,7 @@ fn score(
 ) -> Result<Option<(f64, f64)>, Error> {
     let (mut worst, mut sum) = (0.0_f64, 0.0);
     for guess in guesses {
-        let (found, names, correlations) = guess.expected(presses, instrument)?;
+        let (found, correlations) = guess.expected(presses, instrument)?;
         let mut chosen = Vec::new();
         for name in wanted {
             let own = found.iter().find(|own| own.name == *name);
@@ -92,10 +92,13 @@ fn score(
             })?;
             worst = worst.max(own.reach());
             sum += own.reach().ln();
-            chosen.extend(names.iter().position(|known| known == name));
+            chosen.extend(correlations.names.iter().position(|known| known == name));
         }
         // Of the covariance of logarithms: the errors, and how they go together.
-        let shared = correlations.select_rows(&chosen).select_columns(&chosen);
+        let shared = correlations
+            .matrix
+            .select_rows(&chosen)
+            .select_columns(&chosen);
         sum += 0.5 * shared.determinant().max(f64::MIN_POSITIVE).ln();
         if criterion == Criterion::Minimax && (!worst.is_finite() || worst >= most) {
             return Ok(None);

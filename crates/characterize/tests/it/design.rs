@@ -303,8 +303,9 @@ fn each_criterion_is_best_in_its_own_sense() {
     assert!(minimax.worst <= determinant.worst);
     assert!(minimax.presses.duration() <= limits().time * (1.0 + 1e-12));
     let volume = |designed: &Designed| {
-        let (found, names, correlations) = base.expected(&designed.presses, &instrument()).unwrap();
-        let chosen: Vec<usize> = names
+        let (found, correlations) = base.expected(&designed.presses, &instrument()).unwrap();
+        let chosen: Vec<usize> = correlations
+            .names
             .iter()
             .enumerate()
             .filter(|(_, own)| wanted.contains(own))
@@ -317,6 +318,7 @@ fn each_criterion_is_best_in_its_own_sense() {
         errors.sum::<f64>()
             + 0.5
                 * correlations
+                    .matrix
                     .select_rows(&chosen)
                     .select_columns(&chosen)
                     .determinant()
