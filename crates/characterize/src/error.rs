@@ -41,6 +41,19 @@ pub enum Error {
         /// The last time recorded [s].
         last: f64,
     },
+    /// A parameter is wanted that no guess has.
+    #[error("there is no parameter `{name}` in the guess; it has {}", known.join(", "))]
+    NotInGuess {
+        /// The name.
+        name: String,
+        /// Those that there are.
+        known: Vec<String>,
+    },
+    /// Every protocol goes beyond a limit.
+    #[error(
+        "no protocol keeps within the limits of force, depth, speed and time; allow more of one of them, or name other radii"
+    )]
+    NoDesign,
     /// A filter that the samples cannot carry.
     #[error(
         "the cut-off is {cutoff} Hz with {rate} samples a second; give one above 0 and below half of that"

@@ -9,6 +9,7 @@
 
 pub mod analyze;
 pub mod clean;
+pub mod design;
 mod error;
 pub mod fit;
 mod grouping;

@@ -19,6 +19,7 @@
 pub mod analyze;
 pub mod characterize;
 mod cores;
+pub mod design;
 mod error;
 pub mod label;
 mod lossy;

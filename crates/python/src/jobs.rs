@@ -245,6 +245,7 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(_solve, module)?)?;
     module.add_function(wrap_pyfunction!(_analyze, module)?)?;
     module.add_function(wrap_pyfunction!(_characterize, module)?)?;
+    module.add_function(wrap_pyfunction!(crate::design::_design, module)?)?;
     module.add_function(wrap_pyfunction!(fits::_evaluate, module)?)?;
     module.add_function(wrap_pyfunction!(_specimens, module)?)?;
     module.add_function(wrap_pyfunction!(_measure, module)?)?;

@@ -13,6 +13,7 @@
 //!
 //! *Limits*: for CPython from 3.10 on, with its global lock.
 
+mod design;
 mod documents;
 mod failure;
 mod fits;

@@ -185,3 +185,16 @@ def test_other_threads_go_on_meanwhile() -> None:
     thread.join()
     # Some seconds of work; an interpreter that was held would have counted a few.
     assert counted > 100
+
+
+def test_a_design_is_the_commands(tmp_path: Path) -> None:
+    tissue = tmp_path / "liver.toml"
+    terms = "[{ g = 0.2866, tau_s = 1.537 }, { g = 0.2022, tau_s = 6.09 }]"
+    tissue.write_text(f'format = 1\n[tissue]\nlaw = "mooney_rivlin"\nc10_pa = 386.0\nc01_pa = 226.0\nprony = {terms}\n')
+    asked = ("design", "liver.toml", "--json", "--parameters", "tau_1_s", "--radii-mm", "1,2", "--out", "protocol.toml")
+    told = command(tmp_path, *asked)
+    found = palpate.design(tissue, parameters=["tau_1_s"], radii_m=[1e-3, 2e-3], progress=False)
+    assert found == json.loads(told.stdout)
+    assert found.protocol == (tmp_path / "protocol.toml").read_text()
+    with pytest.raises(palpate.InputError, match="no criterion"):
+        palpate.design(tissue, criterion="best", progress=False)  # type: ignore[arg-type]

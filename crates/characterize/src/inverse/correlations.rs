@@ -1,6 +1,7 @@
 use nalgebra::DMatrix;
 
 use super::description::{LawDescription, in_its_parameters};
+use crate::fit::Fit;
 use crate::viscoelastic::{even, quasi_linear};
 
 /// How the errors of parameters go together.
@@ -37,6 +38,13 @@ impl LawDescription {
     pub fn correlations(&self) -> Correlations {
         let own = in_its_parameters(&self.found);
         let [covariance, _] = self.uncertainty.of_all(own.parameters.len());
+        Correlations::of_law(&own, covariance)
+    }
+}
+
+impl Correlations {
+    /// Of a fit in a law's own parameters, which has this `covariance`.
+    pub(super) fn of_law(own: &Fit, covariance: DMatrix<f64>) -> Self {
         let ratios: Vec<f64> = own.parameters[2..]
             .iter()
             .step_by(2)
@@ -63,6 +71,6 @@ impl LawDescription {
             covariance[(2 + 2 * i, 2 + 2 * i)] += even(off * ratio / whole);
             covariance[(3 + 2 * i, 3 + 2 * i)] += even(off * times[i]);
         }
-        Correlations::of(of_law.chain(of_terms).collect(), &covariance)
+        Self::of(of_law.chain(of_terms).collect(), &covariance)
     }
 }

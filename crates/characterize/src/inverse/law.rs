@@ -119,6 +119,13 @@ impl SoughtLaw {
         (seen.modulus > 0.0 && known.contains(&seen.shape)).then_some(seen)
     }
 
+    /// Modulus [Pa] and shape [-] of the law with these parameters, in their order; none where they are not sought.
+    pub fn as_shape(self, parameters: &[f64]) -> Option<(f64, f64)> {
+        let of = |place: usize| parameters.get(place).copied().unwrap_or(0.0);
+        let own = self.seen_as_shape([of(0), of(1)])?;
+        Some((own.modulus, own.shape))
+    }
+
     /// The law as files hold it, from its parameters in their order.
     pub fn elasticity(self, parameters: &[Estimate]) -> Elasticity {
         match self {

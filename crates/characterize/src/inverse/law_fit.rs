@@ -195,7 +195,7 @@ fn least_minimum(
 }
 
 /// A fit with the forces of the curve that was solved at its shape.
-fn found(
+pub(super) fn found(
     mut fit: Fit,
     (curves, curve): (&Curves, &UnitCurve),
     felt: (&[Indentation<'_>], &PronySeries),
@@ -276,7 +276,7 @@ fn write(
     each.collect()
 }
 
-fn parameters(law: SoughtLaw, series: &PronySeries, modulus: f64) -> Vec<Parameter> {
+pub(super) fn parameters(law: SoughtLaw, series: &PronySeries, modulus: f64) -> Vec<Parameter> {
     let first = Parameter::new("modulus_pa", modulus).within(0.0, f64::INFINITY);
     let second = match law.shapes() {
         Some([lower, start, upper]) => Parameter::new("shape", start)

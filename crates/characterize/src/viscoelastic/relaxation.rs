@@ -6,7 +6,7 @@ use super::model::{Course, Model, terms};
 use super::product_form::ProductForm;
 use crate::Error;
 use crate::fit::{
-    Fit, HARDLY_KNOWN, Parameter, Settings, Uncertainty, correlated_uncertainty,
+    Expected, Fit, HARDLY_KNOWN, Parameter, Settings, Uncertainty, correlated_uncertainty,
     least_squares_with_jacobian, simplest, student_quantile, with_systematic,
 };
 use crate::inverse::Correlations;
@@ -173,7 +173,53 @@ pub fn relaxation(courses: &[Course], settings: RelaxationSettings) -> Result<Re
         true => of_richest,
         false => correlated_uncertainty(&fits[chosen], &lengths),
     };
-    described(courses, fits.swap_remove(chosen), uncertainty, tried)
+    let fit = fits.swap_remove(chosen);
+    let systematic = Model {
+        courses,
+        terms: terms_of(&fit, courses),
+    };
+    let systematic = systematic.systematic(&values_of(&fit));
+    let uncertainty = with_systematic(uncertainty, &fit, &systematic);
+    described(courses, fit, uncertainty, tried)
+}
+
+fn values_of(fit: &Fit) -> Vec<f64> {
+    fit.parameters.iter().map(|p| p.value).collect()
+}
+
+/// The relaxation that is expected to be found from `courses`, whose elastic forces are of these `sizes` [-], of tissue
+/// that relaxes by `series`: `weights` are the roots of how many samples of unit noise, relative to the largest force,
+/// each row stands for.
+///
+/// # Errors
+/// When the series is none.
+pub(crate) fn expected_relaxation(
+    courses: &[Course],
+    (series, sizes): (&PronySeries, &[f64]),
+    weights: &[f64],
+) -> Result<Relaxation, Error> {
+    let count = series.terms().len();
+    let left = 1.0 - series.terms().iter().map(|(g, _)| g).sum::<f64>();
+    let of_terms = series.terms().iter().flat_map(|(g, tau)| {
+        let time = Parameter::new("log_tau", tau.ln()).scaled(1.0);
+        [Parameter::new("ratio", g / left), time]
+    });
+    let of_sizes = sizes.iter().map(|size| Parameter::new("size", *size));
+    let exponent = Parameter::new("exponent", 0.0);
+    let parameters = [exponent].into_iter().chain(of_terms).chain(of_sizes);
+    let mut fit = Fit::at(parameters.collect(), weights.len());
+    let model = Model {
+        courses,
+        terms: count,
+    };
+    let values = values_of(&fit);
+    model
+        .evaluate(&values, &mut fit.residuals, &mut fit.jacobian)
+        .ok_or(Error::NothingFelt)?;
+    let systematic = model.systematic(&values);
+    let expected = Expected::of(fit, &systematic, weights);
+    let known = expected.known(&expected.fit, systematic.len(), courses.len());
+    described(courses, expected.fit, known, Vec::new())
 }
 
 fn terms_of(fit: &Fit, courses: &[Course]) -> usize {
@@ -298,11 +344,6 @@ fn described(
 ) -> Result<Relaxation, Error> {
     let count = terms_of(&fit, courses);
     let values: Vec<f64> = fit.parameters.iter().map(|p| p.value).collect();
-    let model = Model {
-        courses,
-        terms: count,
-    };
-    let uncertainty = with_systematic(uncertainty, &fit, &model.systematic(&values));
     let [covariance, of_noise] = uncertainty.of_all(fit.parameters.len());
     let pairs = terms(&values, count);
     let left = 1.0 - pairs.iter().map(|(g, _)| g).sum::<f64>();

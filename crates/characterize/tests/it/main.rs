@@ -8,6 +8,7 @@
 
 mod contact;
 mod data;
+mod design;
 mod doubts;
 mod errors;
 mod family;

@@ -4,6 +4,7 @@ mod analyze;
 mod cache;
 mod characterize;
 mod demonstration;
+mod design;
 mod devices;
 mod examples;
 mod measure;
@@ -60,6 +61,8 @@ Examples:
       a protocol is carried out without one
   palpate characterize liver-2mm.csv liver-4mm.csv --out liver.toml
       the tissue behind recordings, with its uncertainty
+  palpate design liver-2mm.csv --out protocol.toml
+      how to press next, so that its parameters are known best
   palpate progress --report progress.html
       learning curves of all trainees beside the experts
   palpate quality
@@ -113,6 +116,8 @@ enum Command {
     Score(score::Arguments),
     /// Find the tissue behind recordings: relaxation and laws, with how well they are known.
     Characterize(characterize::Arguments),
+    /// Find how to press, so that the parameters of a tissue are known best.
+    Design(design::Arguments),
     /// How trainees come along: attempts, learning curves, and who is as good as the experts.
     Progress(progress::Arguments),
     /// Cohorts, assignments and experts: a teacher's commands.
@@ -150,6 +155,7 @@ impl CommandLine {
             Some(Command::Measure(arguments)) => measure::run(&arguments),
             Some(Command::Analyze(arguments)) => analyze::run(&arguments),
             Some(Command::Characterize(arguments)) => characterize::run(&arguments),
+            Some(Command::Design(arguments)) => design::run(&arguments),
             Some(Command::Replay(arguments)) => replay::run(&arguments),
             Some(Command::Score(arguments)) => score::run(&arguments),
             Some(Command::Progress(arguments)) => progress::run(&arguments),

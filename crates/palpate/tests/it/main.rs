@@ -9,6 +9,7 @@
 mod arrows;
 mod closed_loop;
 mod crash;
+mod design;
 mod devices;
 mod errors;
 mod esophagus;

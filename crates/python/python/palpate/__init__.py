@@ -22,11 +22,13 @@ from palpate.errors import InputError, PalpateError
 from palpate.fits import Characterization, FittedRecording, Law, Parameter, Relaxation, Specimen
 from palpate.jobs import (
     Analysis,
+    Design,
     Measurement,
     Solution,
     analyze,
     characterize,
     default_protocol,
+    design,
     measure,
     precompute,
     solve,
@@ -35,6 +37,7 @@ from palpate.jobs import (
 __all__ = [
     "Analysis",
     "Characterization",
+    "Design",
     "FittedRecording",
     "InputError",
     "Law",
@@ -58,6 +61,7 @@ __all__ = [
     "analyze",
     "characterize",
     "default_protocol",
+    "design",
     "isosurface",
     "measure",
     "precompute",

@@ -25,6 +25,7 @@ __all__ = [
     "_analyze",
     "_characterize",
     "_default_protocol",
+    "_design",
     "_evaluate",
     "_measure",
     "_precompute",
@@ -360,6 +361,7 @@ def _characterize(
     study: tuple[_Path, bool] | None = None,
     progress: _Progress = None,
 ) -> tuple[str, list[tuple[str | None, str | None]], list[list[dict[str, Any]]]]: ...
+def _design(asked: str, progress: _Progress = None) -> tuple[str, str]: ...
 def _evaluate(law: str, time: ArrayLike | None, course: ArrayLike) -> tuple[_Floats, _Floats]: ...
 def _specimens(recordings: str) -> tuple[list[tuple[str, list[Path]]], list[str]]: ...
 def _measure(

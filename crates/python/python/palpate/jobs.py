@@ -71,6 +71,18 @@ class Measurement(dict[str, Any]):
         return [Path(recording["file"]) for recording in self["recordings"]]
 
 
+class Design(dict[str, Any]):
+    """What ``palpate design --json`` prints, and the protocol.
+
+    Attributes
+    ----------
+    protocol : str
+        The text of a protocol's file, for `measure`.
+    """
+
+    protocol: str
+
+
 def solve(
     problem: Document,
     *,
@@ -190,6 +202,66 @@ def measure(
     """
     asked_for = None if protocol is None else given(protocol, "protocol")
     return Measurement(json.loads(_palpate._measure(asked_for, (Path(out), overwrite), seed, progress)))
+
+
+def design(
+    start: Recordings,
+    *,
+    law: str | None = None,
+    parameters: Sequence[str] = (),
+    criterion: Literal["minimax", "d_optimal"] = "minimax",
+    depth_m: float | None = None,
+    force_n: float | None = None,
+    time_s: float | None = None,
+    press_s: float | None = None,
+    speed_m_per_s: float | None = None,
+    presses: int | None = None,
+    radii_m: Sequence[float] = (),
+    progress: Progress = None,
+    **columns: Any,
+) -> Design:
+    """Find how to press, so that the parameters of a tissue are known best.
+
+    Parameters
+    ----------
+    start : path or iterable of paths
+        A guess, the file of a tissue; or first recordings of one specimen.
+    law : str, optional
+        The law that is sought in recordings; by default the preferred one.
+    parameters : sequence of str
+        The parameters that count, such as ``"c10_pa"`` and ``"tau_1_s"``; by default all but gᵢ.
+    criterion : {"minimax", "d_optimal"}
+        Whether the interval of the worst parameter is made best, or the determinant of the covariance.
+    depth_m, force_n, time_s, press_s, speed_m_per_s, presses, radii_m
+        Limits; by default those of the recordings or of the default protocol. ``time_s`` is of all presses together,
+        ``press_s`` of one, ``radii_m`` those of the flat punches that there are.
+    progress : callable, False or None
+        Hears ``(part, words)``; ``False`` for silence.
+    **columns
+        As of `characterize`.
+    """
+    paths = [start] if isinstance(start, (str, os.PathLike)) else list(start)
+    is_tissue = len(paths) == 1 and Path(paths[0]).suffix == ".toml"
+    wish = {
+        "tissue": os.fspath(paths[0]) if is_tissue else None,
+        "recordings": json.loads(asked([] if is_tissue else paths, **columns)),
+        "law": law,
+        "parameters": list(parameters),
+        "criterion": criterion,
+        "within": {
+            "depth_m": depth_m,
+            "force_n": force_n,
+            "time_s": time_s,
+            "press_s": press_s,
+            "speed_m_per_s": speed_m_per_s,
+            "presses": presses,
+            "radii_m": list(radii_m),
+        },
+    }
+    answer, protocol = _palpate._design(json.dumps(wish, default=plain), progress)
+    found = Design(json.loads(answer))
+    found.protocol = protocol
+    return found
 
 
 def default_protocol() -> str:

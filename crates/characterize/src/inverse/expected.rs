@@ -1,0 +1,57 @@
+use nalgebra::DMatrix;
+use palpate_mechanics::PronySeries;
+
+use super::correlations::Correlations;
+use super::curves::{Curves, UnitCurve};
+use super::description::in_its_parameters;
+use super::forces::Indentation;
+use super::law_fit::{found, parameters};
+use crate::fit::{Expected, Fit};
+
+impl UnitCurve {
+    /// That of an indenter of unit radius for one of `radius` [m] on a specimen of the same shape.
+    pub(crate) fn scaled(&self, radius: f64) -> Self {
+        let scaled =
+            |curve: &palpate_mechanics::IndentationCurve| curve.scaled(radius, radius * radius);
+        Self {
+            force: scaled(&self.force),
+            by_shape: scaled(&self.by_shape),
+            ..self.clone()
+        }
+    }
+}
+
+/// How well the parameters of the law of `curves` are expected to be known, standard errors and the t of their intervals
+/// of 95 %, from `indentations`, whose forces are
+/// taken for those of `curve` times `modulus` [Pa], and how their errors go together with those of the relaxation.
+/// `weights` are the roots of how many samples of unit noise [1 N] each row stands for.
+pub(crate) fn expected_law(
+    curves: &Curves,
+    curve: &UnitCurve,
+    modulus: f64,
+    (indentations, series): (&[Indentation<'_>], &PronySeries),
+    weights: &[f64],
+) -> (Vec<(f64, f64)>, Correlations) {
+    let mut start = parameters(curves.law(), series, modulus);
+    if !start[1].fixed {
+        start[1].value = curve.shape;
+    }
+    let samples = weights.len();
+    let fit = Fit::at(start, samples);
+    let mut law = found(fit, (curves, curve), (indentations, series));
+    let expected = Expected::of(law.fit.clone(), &law.systematic, weights);
+    law.fit = expected.fit.clone();
+    let own = in_its_parameters(&law);
+    let free = own.unbounded();
+    // The last three are of the model.
+    let zeros = law.systematic.len() - 3;
+    let known = expected.known(&free, zeros, indentations.len());
+    let count = law.law.parameters(1.0, 0.0).len();
+    let error = |place| {
+        let error = known.standard_error(place).unwrap_or(f64::INFINITY);
+        (error, known.quantile(place, 0.95).unwrap_or(f64::INFINITY))
+    };
+    let errors = (0..count).map(error).collect();
+    let [covariance, _]: [DMatrix<f64>; 2] = known.of_all(own.parameters.len());
+    (errors, Correlations::of_law(&own, covariance))
+}

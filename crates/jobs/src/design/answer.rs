@@ -1,0 +1,142 @@
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use palpate_characterize::design::{Criterion, Designed, ExpectedParameter, Presses};
+use serde::Serialize;
+
+use crate::{VERSION, quantity, without_unit};
+
+/// The machine-readable answer.
+#[derive(Debug, Serialize)]
+pub struct Answer {
+    palpate: &'static str,
+    /// What was made best: `minimax` or `d_optimal`.
+    pub criterion: &'static str,
+    /// How it is or was pressed without a design.
+    pub before: PressesAnswer,
+    /// How to press.
+    pub designed: PressesAnswer,
+    /// What is expected of each parameter.
+    pub parameters: BTreeMap<String, Told>,
+    /// The interval of the worst parameter at the worst guess: half of it over the value [-].
+    pub worst: f64,
+    /// Protocols that were compared.
+    pub compared: usize,
+    /// What deserves doubt.
+    pub warnings: Vec<String>,
+}
+
+/// Presses, each a ramp and a hold.
+#[derive(Debug, Serialize)]
+pub struct PressesAnswer {
+    /// [m]
+    pub indenter_radius_m: f64,
+    /// [m]
+    pub depths_m: Vec<f64>,
+    /// [s]
+    pub ramp_s: f64,
+    /// [s]
+    pub hold_s: f64,
+    /// Of all, without the rest between them [s].
+    pub time_s: f64,
+}
+
+/// A parameter, in the unit of its name.
+#[derive(Debug, Serialize)]
+pub struct Told {
+    /// As guessed.
+    pub value: f64,
+    /// Whether the protocol was made for it.
+    pub wanted: bool,
+    /// The interval of 95 % that is expected without a design.
+    pub interval_95_before: Option<[f64; 2]>,
+    /// The same with it.
+    pub interval_95_expected: Option<[f64; 2]>,
+}
+
+impl From<&Presses> for PressesAnswer {
+    fn from(presses: &Presses) -> Self {
+        Self {
+            indenter_radius_m: presses.radius,
+            depths_m: presses.depths.clone(),
+            ramp_s: presses.ramp,
+            hold_s: presses.hold,
+            time_s: presses.duration(),
+        }
+    }
+}
+
+impl Answer {
+    pub(super) fn new(
+        (presses, before): (&Presses, &[ExpectedParameter]),
+        found: &Designed,
+        (criterion, wanted): (Criterion, &[String]),
+    ) -> Self {
+        let told = |own: &ExpectedParameter| {
+            let earlier = before.iter().find(|earlier| earlier.name == own.name);
+            let told = Told {
+                value: own.value,
+                wanted: wanted.contains(&own.name),
+                interval_95_before: earlier.and_then(interval),
+                interval_95_expected: interval(own),
+            };
+            (own.name.clone(), told)
+        };
+        let warnings = vec![
+            "intervals are expected to first order around the guess, of noise and steps of depth as stated or recorded; \
+             a heart, breath or a specimen that is not large beside the indenter widens them"
+                .to_owned(),
+        ];
+        Self {
+            palpate: VERSION,
+            criterion: match criterion {
+                Criterion::Minimax => "minimax",
+                Criterion::Determinant => "d_optimal",
+            },
+            before: presses.into(),
+            designed: (&found.presses).into(),
+            parameters: found.expected.iter().map(told).collect(),
+            worst: found.worst,
+            compared: found.compared,
+            warnings,
+        }
+    }
+
+    /// What is expected, a line for each parameter.
+    pub fn lines(&self) -> Vec<String> {
+        let reach = |own: &Option<[f64; 2]>, value: f64| {
+            own.map_or("unknown".to_owned(), |[low, high]| {
+                format!("± {:.1} %", 50.0 * (high - low) / value.abs())
+            })
+        };
+        let each = self.parameters.iter().map(|(name, told)| {
+            let unit = &name[without_unit(name).len()..];
+            format!(
+                "{:<8} {:>12}   before {:>9}   expected {:>9}{}",
+                without_unit(name),
+                quantity(unit, told.value, None),
+                reach(&told.interval_95_before, told.value),
+                reach(&told.interval_95_expected, told.value),
+                if told.wanted { "   wanted" } else { "" }
+            )
+        });
+        each.collect()
+    }
+
+    /// The same as comments of a protocol.
+    pub(super) fn comments(&self) -> String {
+        let mut text = "# Intervals of 95 %, half over the value:\n".to_owned();
+        for line in self.lines() {
+            // Writing to a string does not fail.
+            let _ = writeln!(text, "#   {}", line.trim_end());
+        }
+        text
+    }
+}
+
+fn interval(own: &ExpectedParameter) -> Option<[f64; 2]> {
+    let reach = own.reach() * own.value.abs();
+    reach
+        .is_finite()
+        .then_some([own.value - reach, own.value + reach])
+}

@@ -1,0 +1,288 @@
+//! How to press: a protocol from which the parameters of a tissue are expected to be known best, from a guess of the
+//! tissue or a first recording of it.
+
+mod answer;
+mod asked;
+mod first;
+
+use std::path::PathBuf;
+
+use palpate_characterize::design::{
+    Criterion, Expecting, Guess, Instrument, Limits, Presses, design as best,
+};
+use palpate_characterize::inverse::{SoughtLaw, ZeroErrors};
+use palpate_files::{Estimate, PronyTerm, Tissue};
+use palpate_mechanics::PronySeries;
+
+pub use answer::{Answer, PressesAnswer, Told};
+
+use crate::{Error, Recordings, VERSION, Watch};
+
+/// What is asked for.
+#[derive(Debug, Clone)]
+pub struct Wish {
+    /// What is known of the tissue.
+    pub known: Known,
+    /// The parameters that count, by their keys; empty: those of the law, and the times of the relaxation.
+    pub parameters: Vec<String>,
+    /// What is made best.
+    pub criterion: Criterion,
+    /// Within what.
+    pub within: Within,
+}
+
+/// What is known of a tissue.
+#[derive(Debug, Clone)]
+pub enum Known {
+    /// A guess: a tissue's file.
+    Tissue(PathBuf),
+    /// First recordings of one specimen, and the law to be sought in them.
+    Recordings(Recordings, Option<SoughtLaw>),
+}
+
+/// Limits of a protocol; what is not stated is that of the recordings, or of the default protocol.
+#[derive(Debug, Clone, Default, PartialEq, serde::Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Within {
+    /// [m]
+    pub depth_m: Option<f64>,
+    /// [N]
+    pub force_n: Option<f64>,
+    /// Of all presses, without the rest between them [s].
+    pub time_s: Option<f64>,
+    /// Of one press, such as a held breath [s].
+    pub press_s: Option<f64>,
+    /// Mean speed of a ramp [m/s].
+    pub speed_m_per_s: Option<f64>,
+    /// Most presses.
+    pub presses: Option<usize>,
+    /// Radii of the indenters that there are [m].
+    pub radii_m: Vec<f64>,
+}
+
+/// A protocol that was found.
+#[derive(Debug)]
+pub struct Designed {
+    /// What `--json` prints.
+    pub answer: Answer,
+    /// The text of the protocol's file.
+    pub protocol: String,
+}
+
+/// The tissue as it was guessed, and how it was or would be pressed without a design.
+struct Start {
+    tissue: Tissue,
+    guess: Guess,
+    /// By what moduli and times may be off [-].
+    factors: [f64; 2],
+    before: Presses,
+    instrument: Instrument,
+}
+
+/// Force that a protocol may reach if nobody states it [N]: three quarters of the rig's limit.
+const FORCE: f64 = 1.5;
+/// Speed [m/s]: three quarters of the rig's.
+const SPEED: f64 = 0.045;
+/// Presses, as in the default protocol.
+const PRESSES: usize = 3;
+/// Radii that are tried if nobody states those that there are, over that of before [-].
+const RADII: [f64; 4] = [0.5, 1.0, 2.0, 3.0];
+/// What a bare guess may be off, up and down [-].
+const BARE: f64 = 1.5;
+/// Radii of the indenter to which a force is known beforehand [-].
+const DEEPEST: f64 = 6.0;
+
+/// Finds the protocol.
+///
+/// # Errors
+/// When the guess or a limit cannot be used, or no protocol keeps within the limits.
+pub fn design(wish: &Wish, watch: &dyn Watch) -> Result<Designed, Error> {
+    let start = match &wish.known {
+        Known::Tissue(path) => of_tissue(Tissue::read(path).map_err(Error::input)?)?,
+        Known::Recordings(recordings, law) => first::of_recordings(recordings, *law, watch)?,
+    };
+    let limits = limits(&wish.within, &start)?;
+    watch.say("comparing protocols");
+    let first = Expecting::new(start.guess.clone(), DEEPEST).map_err(Error::input)?;
+    let guesses = guesses(&first, start.factors)?;
+    let wanted = match wish.parameters.as_slice() {
+        [] => usual(&start.guess),
+        chosen => chosen.to_vec(),
+    };
+    let found = best(
+        &guesses,
+        (&start.instrument, &limits),
+        (&wanted, wish.criterion),
+        &mut |part| watch.at(part),
+    );
+    let found = found.map_err(Error::input)?;
+    let (before, ..) = first
+        .expected(&start.before, &start.instrument)
+        .map_err(Error::input)?;
+    let answer = Answer::new((&start.before, &before), &found, (wish.criterion, &wanted));
+    Ok(Designed {
+        protocol: protocol(&start.tissue, &found.presses, &limits, &answer),
+        answer,
+    })
+}
+
+/// The law's parameters, and the times of the relaxation.
+fn usual(guess: &Guess) -> Vec<String> {
+    let own = guess.law.parameters(guess.modulus, guess.shape).into_iter();
+    let times = (1..=guess.series.terms().len()).map(|place| format!("tau_{place}_s"));
+    own.map(|own| own.name.to_owned()).chain(times).collect()
+}
+
+fn guesses(first: &Expecting, [modulus, time]: [f64; 2]) -> Result<Vec<Expecting>, Error> {
+    let mut all = vec![first.clone()];
+    for (stiffer, slower) in [
+        (modulus, 1.0),
+        (modulus.recip(), 1.0),
+        (1.0, time),
+        (1.0, time.recip()),
+    ] {
+        let changed = first.guess().changed(stiffer, slower);
+        all.push(first.with(changed.map_err(Error::input)?));
+    }
+    Ok(all)
+}
+
+/// A bare guess, pressed by the default protocol on the virtual rig: its steps of depth and force, and its noise.
+fn of_tissue(tissue: Tissue) -> Result<Start, Error> {
+    const DEPTH_STEP: f64 = 30e-6;
+    const NOISE: f64 = 0.5e-3;
+    Ok(Start {
+        guess: guess(&tissue)?,
+        tissue,
+        factors: [BARE; 2],
+        before: Presses {
+            radius: 1e-3,
+            depths: vec![2e-3, 4e-3, 6e-3],
+            ramp: 0.5,
+            hold: 20.0,
+        },
+        instrument: Instrument {
+            noise: NOISE,
+            rate: 1000.0,
+            zeros: ZeroErrors {
+                depth: DEPTH_STEP / 12.0_f64.sqrt(),
+                force: 0.0,
+            },
+        },
+    })
+}
+
+/// A tissue as a fit sees it.
+fn guess(tissue: &Tissue) -> Result<Guess, Error> {
+    let elasticity = &tissue.elasticity;
+    let name = elasticity.law();
+    let law = SoughtLaw::ALL.into_iter().find(|law| law.name() == name);
+    let law = law.ok_or_else(|| {
+        Error::input(format!(
+            "the law `{}` is not one that recordings are fitted with; guess neo_hookean, mooney_rivlin or exponential",
+            name.word()
+        ))
+    })?;
+    let values: Vec<f64> = elasticity
+        .parameters()
+        .iter()
+        .map(|own| own.1.value)
+        .collect();
+    let (modulus, shape) = law.as_shape(&values).ok_or_else(|| {
+        Error::input(format!(
+            "no fit of `{}` ends at these parameters; guess moduli above zero, with c01_pa at most nine times c10_pa",
+            name.word()
+        ))
+    })?;
+    let terms = tissue
+        .prony
+        .iter()
+        .map(|term| (term.g.value, term.tau_s.value));
+    let series = PronySeries::new(&terms.collect::<Vec<_>>()).map_err(Error::input)?;
+    Ok(Guess {
+        law,
+        modulus,
+        shape,
+        series,
+    })
+}
+
+fn limits(within: &Within, start: &Start) -> Result<Limits, Error> {
+    let before = &start.before;
+    let or = |value: Option<f64>, usual: f64, name: &str, unit: &str| match value {
+        Some(value) if !(value > 0.0 && value.is_finite()) => Err(Error::input(format!(
+            "{name} is {value}; give a number of {unit} above zero"
+        ))),
+        value => Ok(value.unwrap_or(usual)),
+    };
+    let time = or(within.time_s, before.duration(), "the time", "seconds")?;
+    let radii = match within.radii_m.as_slice() {
+        [] => RADII.map(|times| times * before.radius).to_vec(),
+        own => own.to_vec(),
+    };
+    if let Some(radius) = radii.iter().find(|radius| !(1e-6..=0.1).contains(*radius)) {
+        return Err(Error::input(format!(
+            "an indenter's radius is {radius} m; give radii from 1e-6 m to 0.1 m"
+        )));
+    }
+    let presses = within.presses.unwrap_or(PRESSES);
+    if !(1..=10).contains(&presses) {
+        return Err(Error::input(format!(
+            "the most presses are {presses}; give 1 to 10"
+        )));
+    }
+    Ok(Limits {
+        depth: or(within.depth_m, before.deepest(), "the depth", "metres")?,
+        force: or(within.force_n, FORCE, "the force", "newtons")?,
+        speed: or(
+            within.speed_m_per_s,
+            SPEED,
+            "the speed",
+            "metres per second",
+        )?,
+        press: or(within.press_s, time, "the time of a press", "seconds")?,
+        time,
+        presses,
+        radii,
+    })
+}
+
+/// The text of a protocol that the rig carries out.
+fn protocol(tissue: &Tissue, presses: &Presses, limits: &Limits, answer: &Answer) -> String {
+    let term =
+        |term: &PronyTerm| format!("{{ g = {}, tau_s = {} }}", term.g.value, term.tau_s.value);
+    let value = |(key, known): (&'static str, Estimate)| format!("{key} = {}, ", known.value);
+    let own: String = tissue
+        .elasticity
+        .parameters()
+        .into_iter()
+        .map(value)
+        .collect();
+    let prony: Vec<String> = tissue.prony.iter().map(term).collect();
+    let depths: Vec<String> = presses
+        .depths
+        .iter()
+        .map(|depth| format!("{depth:.6}"))
+        .collect();
+    let name = tissue
+        .name
+        .as_ref()
+        .map(|name| format!("organ = {name:?}\n"));
+    format!(
+        "# Designed by palpate {VERSION}.\n{}format = 1\n\n[rig]\nforce_limit_n = {}\ndepth_limit_m = {}\n\n\
+         # The guess. For a real specimen name a device in [rig] and a sensor in [sensor].\n[[specimen]]\n{}\
+         tissue = {{ law = \"{}\", {own}prony = [{}] }}\nindenter_radius_m = {}\n\n[[stimulus]]\n\
+         kind = \"ramp_and_hold\"\ndepths_m = [{}]\nramp_s = {:.4}\nhold_s = {:.3}\n",
+        answer.comments(),
+        limits.force,
+        // A contact is not met exactly.
+        format!("{:.6}", limits.depth + 0.5e-3),
+        name.unwrap_or_default(),
+        tissue.elasticity.law().word(),
+        prony.join(", "),
+        presses.radius,
+        depths.join(", "),
+        presses.ramp,
+        presses.hold,
+    )
+}

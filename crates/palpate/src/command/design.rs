@@ -1,0 +1,189 @@
+//! `palpate design`: how to press, so that parameters are known best.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use palpate_characterize::design::Criterion;
+use palpate_characterize::inverse::SoughtLaw;
+use palpate_files::write_whole;
+use palpate_jobs::design::{Answer, Known, PressesAnswer, Wish, Within, design};
+
+use super::overwrite::OverwriteOption;
+use super::recordings::Recordings;
+use crate::failure::Failure;
+use crate::interrupt::{self, Unbroken};
+use crate::output;
+use crate::progress::{Progress, Reader};
+
+/// Examples at the end of the help.
+const EXAMPLES: &str = "\
+Examples:
+  palpate design liver.toml --out protocol.toml
+      from a guess of the tissue; `palpate measure protocol.toml` carries it out
+  palpate design first.csv --law mooney_rivlin --out protocol.toml
+      from a first recording, with its noise, at equal depth and time
+  palpate design first.csv --parameters tau_1_s,tau_2_s --press-time 20 --radii-mm 1,2,3 --out next.toml
+      for the relaxation alone, within a held breath, with the indenters that there are
+  palpate design liver.toml --depth-mm 4 --force-n 0.5 --total-time 60 --json
+      within other limits; prints the expected intervals before and after as JSON
+
+Compares some thousand protocols of ramps and holds under flat punches by the intervals of 95 % that `palpate characterize` \
+is expected to state, at the guess and at stiffer, softer, slower and quicker tissue.";
+
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Arguments {
+    /// A guess, TISSUE.toml, or first recordings of one specimen.
+    #[command(flatten)]
+    known: Recordings,
+    /// Write the protocol, for `palpate measure`.
+    #[arg(long, value_name = "PROTOCOL.toml")]
+    out: Option<PathBuf>,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+    /// The law that is sought in recordings: neo_hookean, mooney_rivlin or exponential; by default the preferred one.
+    #[arg(long)]
+    law: Option<String>,
+    /// The parameters that count, such as c10_pa,tau_1_s; by default those of the law and the times of the relaxation.
+    #[arg(long, value_delimiter = ',')]
+    parameters: Vec<String>,
+    /// What is made best.
+    #[arg(long, value_enum, default_value = "minimax")]
+    criterion: CriterionWord,
+    /// The deepest press [mm]; by default as deep as recorded, or 6.
+    #[arg(long, value_name = "MM")]
+    depth_mm: Option<f64>,
+    /// The largest force [N]; by default 1.5.
+    #[arg(long, value_name = "N")]
+    force_n: Option<f64>,
+    /// Time of all presses together, without the rest between them [s]; by default as recorded, or 61.5.
+    #[arg(long, value_name = "SECONDS")]
+    total_time: Option<f64>,
+    /// Time of one press, such as a held breath [s].
+    #[arg(long, value_name = "SECONDS")]
+    press_time: Option<f64>,
+    /// The fastest ramp [mm/s]; by default 45.
+    #[arg(long, value_name = "MM_PER_S")]
+    speed_mm_per_s: Option<f64>,
+    /// The most presses; by default 3.
+    #[arg(long)]
+    presses: Option<usize>,
+    /// Radii of the flat punches that there are [mm]; by default half, once, twice and three times the one of before.
+    #[arg(long, value_name = "MM", value_delimiter = ',')]
+    radii_mm: Vec<f64>,
+    #[command(flatten)]
+    overwrite: OverwriteOption,
+}
+
+/// A criterion, by its word.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum CriterionWord {
+    /// The interval of the worst parameter, at the worst guess.
+    Minimax,
+    /// The determinant of the covariance.
+    DOptimal,
+}
+
+/// Designs, writes and prints.
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let _claims = arguments.overwrite.claim(arguments.out.iter())?;
+    interrupt::ends_between_files("interrupted; no protocol was found");
+    let wish = arguments.wish()?;
+    let progress = Progress::of_job(Reader::of_json(arguments.json));
+    let found = design(&wish, &progress)?;
+    drop(progress);
+    if let Some(path) = &arguments.out {
+        let _unbroken = Unbroken::begin();
+        write_whole(path, found.protocol.as_bytes())?;
+    }
+    if arguments.json {
+        return output::json(&found.answer);
+    }
+    output::text(table(&found.answer))?;
+    if let Some(path) = &arguments.out {
+        output::line(format!("written: {}", path.display()))?;
+    }
+    output::warnings(&found.answer.warnings);
+    Ok(())
+}
+
+fn table(answer: &Answer) -> String {
+    let presses = |own: &PressesAnswer| {
+        let depths: Vec<String> = own
+            .depths_m
+            .iter()
+            .map(|depth| format!("{:.2}", 1e3 * depth))
+            .collect();
+        format!(
+            "punch of radius {:.2} mm to {} mm, ramp {:.3} s, hold {:.1} s",
+            1e3 * own.indenter_radius_m,
+            depths.join(", "),
+            own.ramp_s,
+            own.hold_s
+        )
+    };
+    let mut text = format!(
+        "before    {}\ndesigned  {}\n\nIntervals of 95 %, half over the value:\n",
+        presses(&answer.before),
+        presses(&answer.designed)
+    );
+    for line in answer.lines() {
+        text += &format!("  {}\n", line.trim_end());
+    }
+    text
+}
+
+impl Arguments {
+    fn wish(&self) -> Result<Wish, Failure> {
+        let recordings = self.known.asked();
+        let law = self
+            .law
+            .as_deref()
+            .map(palpate_jobs::characterize::Choice::law_named)
+            .transpose()?;
+        let millimetres = |value: f64| 1e-3 * value;
+        let is_toml = |path: &PathBuf| path.extension().is_some_and(|own| own == "toml");
+        let known = match recordings.paths.as_slice() {
+            [only] if is_toml(only) => self.tissue(only, law)?,
+            paths => match paths.iter().find(|path| is_toml(path)) {
+                None => Known::Recordings(recordings, law),
+                Some(tissue) => {
+                    return Err(Failure::input(format!(
+                        "{} is a tissue, and there are other files; name one tissue or recordings alone",
+                        tissue.display()
+                    )));
+                }
+            },
+        };
+        Ok(Wish {
+            known,
+            parameters: self.parameters.clone(),
+            criterion: match self.criterion {
+                CriterionWord::Minimax => Criterion::Minimax,
+                CriterionWord::DOptimal => Criterion::Determinant,
+            },
+            within: Within {
+                depth_m: self.depth_mm.map(millimetres),
+                force_n: self.force_n,
+                time_s: self.total_time,
+                press_s: self.press_time,
+                speed_m_per_s: self.speed_mm_per_s.map(millimetres),
+                presses: self.presses,
+                radii_m: self.radii_mm.iter().copied().map(millimetres).collect(),
+            },
+        })
+    }
+
+    /// A guess, whose law is its own.
+    fn tissue(&self, path: &PathBuf, law: Option<SoughtLaw>) -> Result<Known, Failure> {
+        match law {
+            None => Ok(Known::Tissue(path.clone())),
+            Some(law) => Err(Failure::input(format!(
+                "--law {} is for recordings, and {} states its law; leave it out",
+                law.name().word(),
+                path.display()
+            ))),
+        }
+    }
+}
