@@ -264,19 +264,20 @@ fn protocol(tissue: &Tissue, presses: &Presses, limits: &Limits, answer: &Answer
         .iter()
         .map(|depth| format!("{depth:.6}"))
         .collect();
+    // A contact is not met exactly.
+    let depth_limit = limits.depth + 0.5e-3;
     let name = tissue
         .name
         .as_ref()
         .map(|name| format!("organ = {name:?}\n"));
     format!(
-        "# Designed by palpate {VERSION}.\n{}format = 1\n\n[rig]\nforce_limit_n = {}\ndepth_limit_m = {}\n\n\
+        "# Designed by palpate {VERSION}.\n{}format = 1\n\n[rig]\nforce_limit_n = {}\ndepth_limit_m = {:.6}\n\n\
          # The guess. For a real specimen name a device in [rig] and a sensor in [sensor].\n[[specimen]]\n{}\
          tissue = {{ law = \"{}\", {own}prony = [{}] }}\nindenter_radius_m = {}\n\n[[stimulus]]\n\
          kind = \"ramp_and_hold\"\ndepths_m = [{}]\nramp_s = {:.4}\nhold_s = {:.3}\n",
         answer.comments(),
         limits.force,
-        // A contact is not met exactly.
-        format!("{:.6}", limits.depth + 0.5e-3),
+        depth_limit,
         name.unwrap_or_default(),
         tissue.elasticity.law().word(),
         prony.join(", "),
