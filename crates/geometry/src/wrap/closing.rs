@@ -138,8 +138,8 @@ fn squared_distances(grid: &Grid, set: &[bool]) -> Vec<f32> {
         .map(|&is_set| if is_set { 0.0 } else { f32::INFINITY })
         .collect();
     let strides = [1, grid.size[0], grid.size[0] * grid.size[1]];
-    for axis in 0..3 {
-        let (length, stride) = (grid.size[axis], strides[axis]);
+    for (axis, stride) in strides.into_iter().enumerate() {
+        let length = grid.size[axis];
         let mut line = vec![0.0f32; length];
         let mut parabolas = Parabolas::default();
         for first in 0..all.len() {

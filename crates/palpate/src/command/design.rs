@@ -1,6 +1,6 @@
 //! `palpate design`: how to press, so that parameters are known best.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use palpate_characterize::design::Criterion;
@@ -176,9 +176,9 @@ impl Arguments {
     }
 
     /// A guess, whose law is its own.
-    fn tissue(&self, path: &PathBuf, law: Option<SoughtLaw>) -> Result<Known, Failure> {
+    fn tissue(&self, path: &Path, law: Option<SoughtLaw>) -> Result<Known, Failure> {
         match law {
-            None => Ok(Known::Tissue(path.clone())),
+            None => Ok(Known::Tissue(path.to_owned())),
             Some(law) => Err(Failure::input(format!(
                 "--law {} is for recordings, and {} states its law; leave it out",
                 law.name().word(),
