@@ -22,7 +22,7 @@ use sha2::{Digest, Sha256};
 use crate::preparation;
 
 /// Change with the equations, so that what was kept before is solved anew.
-const METHOD: &str = "finite elements under a punch 1";
+const METHOD: &str = "finite elements under a punch 2";
 
 /// A specimen of `tissue` under a punch of a radius [m], down to a depth [m]; from its file when it was solved
 /// before.

@@ -14,7 +14,7 @@ use crate::output;
 const EXAMPLES: &str = "\
 Examples:
   palpate cache
-      where it is, how many prepared organs it holds, and how large it is
+      where it is, how many prepared organs and specimens it holds, and how large it is
   palpate cache --clear
       removes them; each is made again when it is needed
 
@@ -31,8 +31,8 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
-/// The end of the name of a prepared organ.
-const RESPONSE: &str = "response";
+/// Ends of the names of prepared organs and of specimens that were solved for the virtual rig.
+const ENDS: [&str; 2] = ["response", "specimen"];
 
 /// What is printed for a program.
 #[derive(Debug, Serialize)]
@@ -51,7 +51,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
             "the system names no folder for what can be made again; name one by PALPATE_CACHE",
         )
     })?;
-    let kept = responses(&folder)?;
+    let kept = kept_files(&folder)?;
     let bytes = kept.iter().map(|(_, bytes)| bytes).sum();
     if arguments.clear {
         for (file, _) in &kept {
@@ -68,9 +68,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     match arguments.json {
         true => output::json(&answer),
         false => output::line(format!(
-            "{}: {} prepared organ{}, {:.1} MB{}",
+            "{}: {} prepared organ{} or specimen{}, {:.1} MB{}",
             answer.folder.display(),
             answer.files,
+            if answer.files == 1 { "" } else { "s" },
             if answer.files == 1 { "" } else { "s" },
             1e-6 * answer.bytes as f64,
             if answer.cleared { ", removed" } else { "" }
@@ -78,8 +79,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
 }
 
-/// The prepared organs of a folder with their sizes [B]; other files are not this program's.
-fn responses(folder: &Path) -> Result<Vec<(PathBuf, u64)>, Failure> {
+/// What is kept in a folder, with its size [B]; other files are not this program's.
+fn kept_files(folder: &Path) -> Result<Vec<(PathBuf, u64)>, Failure> {
     let entries = match fs::read_dir(folder) {
         Ok(entries) => entries,
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
@@ -90,7 +91,11 @@ fn responses(folder: &Path) -> Result<Vec<(PathBuf, u64)>, Failure> {
         let entry = entry.map_err(|error| unusable(folder, &error))?;
         let path = entry.path();
         let known = entry.metadata().map_err(|error| unusable(&path, &error))?;
-        if known.is_file() && path.extension().is_some_and(|end| end == RESPONSE) {
+        if known.is_file()
+            && path
+                .extension()
+                .is_some_and(|end| ENDS.iter().any(|own| end == *own))
+        {
             found.push((path, known.len()));
         }
     }
