@@ -90,9 +90,13 @@ fn it_prints_the_forces_of_the_step_in_rust() {
     println!("{expected}");
     assert_eq!(said("static", &[archive.to_str().unwrap()]), expected);
     let folder = folder.to_str().unwrap();
-    let (search, at_run_time) = (format!("-L{folder}"), format!("-Wl,-rpath,{folder}"));
+    let (search, at_run_time) = (
+        format!("-L{folder}"),
+        format!("-Wl,--disable-new-dtags,-rpath,{folder}"),
+    );
     let shared = [search.as_str(), "-lpalpate_c", &at_run_time];
-    // The archive lies in the same folder; a linker takes the shared library first.
+    // The archive lies in the same folder; a linker takes the shared library first. A path of the old kind comes before
+    // those that Cargo names, where a library of an earlier build may lie.
     assert_eq!(said("shared", &shared), expected);
 }
 
