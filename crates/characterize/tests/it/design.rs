@@ -253,7 +253,7 @@ fn designed_intervals_are_half_of_default_ones() {
 
 /// The same where the times of the relaxation alone are wanted.
 #[test]
-#[ignore = "slow: 50 specimens, pressed and fitted twice"]
+#[ignore = "by hand: falls short, times alone reach 0.6 of the default intervals, not half"]
 fn designed_intervals_of_times_are_half_of_default_ones() {
     judge(&wanted()[2..], 50, [0.5, 2.0]);
 }
