@@ -311,7 +311,7 @@ fn what_needs_the_machines_time_once() {
 
 /// Judge: the limit of force, the time that is promised, and the name of the fault.
 #[test]
-#[ignore = "slow: five moments of each, a minute"]
+#[ignore = "by hand: two minutes on the machine's clock, with nothing else running"]
 fn every_fault_at_five_moments() {
     campaign(5, &TROUBLES, &ORDERS);
 }
