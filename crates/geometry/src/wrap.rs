@@ -19,8 +19,8 @@ use std::ops::ControlFlow;
 use crate::check::self_intersection::self_intersecting;
 use crate::deviation::deviation_with_tree;
 use crate::{
-    AabbTree, Deviation, IsosurfaceError, IsosurfaceSettings, MeshError, SimplifyError, Surface,
-    TriangleMesh, deviation, isosurface_with_progress, repair,
+    AabbTree, Deviation, IsosurfaceError, IsosurfaceSettings, MeshError, NodeId, SimplifyError,
+    Surface, TriangleMesh, deviation, isosurface_with_progress, repair,
 };
 use closing::Closing;
 use grid::Grid;
@@ -81,6 +81,12 @@ pub enum WrapError {
         /// What was asked [m].
         distance: f64,
     },
+    /// A width of gaps that is none.
+    #[error("gaps of {width} m are none; give a width of 0 or more, such as 0.002")]
+    Gaps {
+        /// What was asked [m].
+        width: f64,
+    },
     /// A grid too large for memory.
     #[error(
         "a distance of {distance} m takes {voxels:.1e} voxels, and {MOST_VOXELS:.0e} are the most; ask for {least:.1e} m or more"
@@ -94,12 +100,14 @@ pub enum WrapError {
         least: f64,
     },
     /// The triangles enclose nothing at this width.
-    #[error("the triangles enclose nothing: a ball of {width:.1e} m passes through a gap to the inside; {}", fix_of_open(*.closing))]
+    #[error("the triangles enclose nothing: a ball of {width:.1e} m passes to the inside, or there is none; {}", fix_of_open(*.closing, *.widest))]
     Open {
         /// Width of the gaps that were closed [m].
         width: f64,
         /// The width of gaps that encloses something [m], where one does.
         closing: Option<f64>,
+        /// The widest gaps that were tried [m].
+        widest: f64,
     },
     /// See there.
     #[error(transparent)]
@@ -109,10 +117,12 @@ pub enum WrapError {
     Surface(#[from] IsosurfaceError),
 }
 
-fn fix_of_open(closing: Option<f64>) -> String {
+fn fix_of_open(closing: Option<f64>, widest: f64) -> String {
     match closing {
-        Some(width) => format!("closing gaps of {width:.1e} m encloses it"),
-        None => "they are no surface of a body".to_owned(),
+        Some(width) => format!("close gaps of {width:.1e} m, which encloses it"),
+        None => format!(
+            "closing gaps of up to {widest:.1e} m encloses nothing either: close a larger opening in a mesh editor first"
+        ),
     }
 }
 
@@ -134,8 +144,12 @@ pub fn wrap_with_progress(
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Wrapped, WrapError> {
     let distance = settings.distance;
-    if !(distance > 0.0 && distance.is_finite() && settings.close_gaps >= 0.0) {
+    if !(distance > 0.0 && distance.is_finite()) {
         return Err(WrapError::Distance { distance });
+    }
+    let width = settings.close_gaps;
+    if !(width >= 0.0 && width.is_finite()) {
+        return Err(WrapError::Gaps { width });
     }
     let mut at = |part| match progress(part) {
         ControlFlow::Continue(()) => Ok(()),
@@ -158,13 +172,16 @@ pub fn wrap_with_progress(
     at(0.1)?;
     if !closing.encloses(radius) {
         let extent = grid.extent();
-        let wider = (1..).map(|k| radius * f64::from(1 << k));
-        let closes = wider
-            .take_while(|&r| r < 0.1 * extent)
-            .find(|&r| closing.encloses(r));
+        let mut wider = radius;
+        let mut closes = false;
+        while !closes && 2.0 * wider < 0.1 * extent {
+            wider *= 2.0;
+            closes = closing.encloses(wider);
+        }
         return Err(WrapError::Open {
             width: 2.0 * radius,
-            closing: closes.map(|r| 2.0 * r),
+            closing: closes.then_some(2.0 * wider),
+            widest: 2.0 * wider,
         });
     }
     at(0.2)?;
@@ -207,11 +224,10 @@ fn fit(
     let before = envelope.clone();
     let mut fitted = envelope;
     let mut is_free = vec![true; before.vertices().len()];
-    for node in before.triangles().iter().flatten() {
-        let place = before.vertices()[node.index()];
-        let nearest = tree.nearest(input, &place);
+    for (number, place) in before.vertices().iter().enumerate() {
+        let nearest = tree.nearest(input, place);
         if nearest.distance <= distance {
-            fitted.move_vertex(*node, nearest.on.position);
+            fitted.move_vertex(NodeId(number as u32), nearest.on.position);
         }
     }
     // Each round returns the corners of bad triangles; when all have returned, nothing is left to be bad.

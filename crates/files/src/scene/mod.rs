@@ -109,7 +109,7 @@ impl Scene {
         let tools = tool::from_keys(&keys, &folder)?;
         let cutting = keys.table("cutting", Cutting::KEYS)?;
         let model = keys.table("model", Model::KEYS)?;
-        let model = Model::from_keys(model.as_ref(), &touched, &tools, cutting.as_ref())?;
+        let model = Model::from_keys(model.as_ref(), &touched, &tools, cutting.is_some())?;
         let mut scene = Self {
             organ: touched,
             neighbours: neighbours

@@ -167,12 +167,12 @@ impl Model {
         "force_scale",
     ];
 
-    /// The model of a scene with an organ, tools and, if it says so, cuts, which decide what `auto` takes.
+    /// The model of a scene whose organ, tools and `cuts` decide what `auto` takes.
     pub(super) fn from_keys(
         keys: Option<&Keys<'_>>,
         organ: &Organ,
         tools: &[Tool],
-        cutting: Option<&Keys<'_>>,
+        cuts: bool,
     ) -> Result<Self, Error> {
         let default = Self::default();
         let Some(keys) = keys else {
@@ -187,7 +187,7 @@ impl Model {
             None => (default.kind, None),
             Some(Some(kind)) => (kind, None),
             Some(None) => {
-                let (kind, reason) = choose(organ, tools, cutting.is_some());
+                let (kind, reason) = choose(organ, tools, cuts);
                 (kind, Some(reason))
             }
         };

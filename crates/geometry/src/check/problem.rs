@@ -50,17 +50,17 @@ impl ProblemKind {
     fn mend(self) -> &'static str {
         match self {
             Self::NotClosed => {
-                "Weld coincident vertices; if borders remain, fill the holes in a mesh editor."
+                "Weld coincident vertices; if borders remain, wrap the mesh (`palpate mesh wrap`) or fill the holes."
             }
             Self::NotManifold => {
-                "Remove inner walls and doubled triangles, and pull apart what touches in a vertex."
+                "Remove inner walls and doubled triangles, and pull apart what touches in a vertex; or wrap the mesh."
             }
             Self::NotOriented => "Turn all triangles to face outward.",
             Self::SeveralPieces => {
-                "Weld coincident vertices; if several pieces remain, keep one or join them."
+                "Weld coincident vertices; if several pieces remain, keep one, join them, or wrap the mesh."
             }
             Self::SelfIntersecting => {
-                "Mesh the outer envelope anew, or pull the crossing parts apart in a mesh editor."
+                "Wrap the mesh (`palpate mesh wrap`), or pull the crossing parts apart in a mesh editor."
             }
             Self::DoubleWall => {
                 "The mesh is a thin sheet with an inner and an outer side; keep the outer side and close it to a solid."

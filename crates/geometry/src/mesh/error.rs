@@ -38,7 +38,7 @@ pub enum MeshError {
     },
     /// The surface branches, or touches itself in a vertex.
     #[error(
-        "the surface is not manifold: {edges} edges have more than two triangles and {vertices} vertices join separate fans; remove inner walls and doubled triangles"
+        "the surface is not manifold: {edges} edges have more than two triangles and {vertices} vertices join separate fans; remove inner walls and doubled triangles, or wrap it (`palpate mesh wrap`)"
     )]
     NotManifold {
         /// Edges with more than two triangles.
@@ -48,7 +48,7 @@ pub enum MeshError {
     },
     /// The surface has a border.
     #[error(
-        "the surface is not closed: {edges} edges have one triangle only; weld the vertices or fill the holes"
+        "the surface is not closed: {edges} edges have one triangle only; weld the vertices or fill the holes, or wrap it (`palpate mesh wrap`)"
     )]
     NotClosed {
         /// Edges with one triangle.
@@ -71,7 +71,9 @@ pub enum MeshError {
         volume_m3: f64,
     },
     /// There are several separate surfaces.
-    #[error("the mesh has {pieces} separate pieces; keep one of them, or join them")]
+    #[error(
+        "the mesh has {pieces} separate pieces; keep one of them, join them, or wrap them (`palpate mesh wrap`)"
+    )]
     SeveralPieces {
         /// How many.
         pieces: usize,

@@ -126,6 +126,17 @@ fn distances_that_are_none_or_too_small_are_refused() {
             "{distance}"
         );
     }
+    for close_gaps in [-1.0, f64::NAN, f64::INFINITY] {
+        let settings = WrapSettings {
+            close_gaps,
+            ..SETTINGS
+        };
+        let refused = wrap(&body, &settings);
+        assert!(
+            matches!(refused, Err(WrapError::Gaps { .. })),
+            "{close_gaps}"
+        );
+    }
     let settings = WrapSettings {
         distance: 1e-6,
         ..SETTINGS

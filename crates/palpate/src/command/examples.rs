@@ -17,7 +17,7 @@ Examples:
   palpate examples examples --overwrite
       replaces those that were changed
 
-Every file says at its top what it is for. `palpate validate FILE` checks one after you changed it.";
+The list that is printed says what each file is. `palpate validate FILE` checks one after you changed it.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]

@@ -110,13 +110,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 
 impl Answer {
     fn text(&self) -> String {
-        let millimetres = |distance: &Distance| {
-            format!(
-                "at most {:.3} mm, {:.3} mm on the mean",
-                1e3 * distance.max_m,
-                1e3 * distance.mean_m
-            )
-        };
         format!(
             "{} triangles became {}, written to {} in metres\n\
              from the original to the result  {}\n\
@@ -125,8 +118,8 @@ impl Answer {
             self.triangles_before,
             self.written.triangles,
             self.written.file.display(),
-            millimetres(&self.original_to_result),
-            millimetres(&self.result_to_original),
+            self.original_to_result,
+            self.result_to_original,
             100.0 * self.volume_change,
         )
     }

@@ -56,6 +56,9 @@ pub(crate) struct Arguments {
     overwrite: OverwriteOption,
 }
 
+/// A rim is wide above this part of the envelope's diagonal [-].
+const WIDE_RIM: f64 = 0.25;
+
 #[derive(Debug, Serialize)]
 struct Answer {
     palpate: &'static str,
@@ -104,6 +107,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
             1e3 * settings.distance
         ));
     }
+    let (low, high) = wrapped.surface.mesh().bounds();
+    if wrapped.widest_rim > WIDE_RIM * (high - low).norm() {
+        warnings.push(format!(
+            "a hole that is {:.1} mm wide was capped by a fan, which knows nothing of the organ's shape there; look at it",
+            1e3 * wrapped.widest_rim
+        ));
+    }
     if wrapped.other_pieces > 0 {
         warnings.push(format!(
             "{} pieces beside the largest were left out; close wider gaps to join them",
@@ -133,13 +143,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 
 impl Answer {
     fn text(&self) -> String {
-        let millimetres = |distance: &Distance| {
-            format!(
-                "at most {:.3} mm, {:.3} mm on the mean",
-                1e3 * distance.max_m,
-                1e3 * distance.mean_m
-            )
-        };
         let holes = match self.holes_capped {
             0 => "none".to_owned(),
             count => format!("{count}, the widest over {:.2} mm", 1e3 * self.widest_rim_m),
@@ -154,8 +157,8 @@ impl Answer {
             self.triangles_before,
             self.written.triangles,
             self.written.file.display(),
-            millimetres(&self.envelope_to_input),
-            millimetres(&self.input_to_envelope),
+            self.envelope_to_input,
+            self.input_to_envelope,
             self.written.volume_m3,
             self.seconds
         )

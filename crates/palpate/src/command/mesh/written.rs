@@ -1,3 +1,4 @@
+use std::fmt;
 use std::path::{Path, PathBuf};
 
 use palpate_files::write_whole;
@@ -58,6 +59,13 @@ impl Output {
             triangles: mesh.triangles().len(),
             volume_m3: mesh.volume(),
         })
+    }
+}
+
+impl fmt::Display for Distance {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [max, mean] = [self.max_m, self.mean_m].map(|metres| 1e3 * metres);
+        write!(f, "at most {max:.3} mm, {mean:.3} mm on the mean")
     }
 }
 
