@@ -166,3 +166,60 @@ fn a_mesh_is_converted_and_made_smaller() {
         assert!(stderr(&refused).contains(words), "{}", stderr(&refused));
     }
 }
+
+/// A box without its lid, which no scene takes, has an envelope that can be simulated. Judge: the whole box; its edges are
+/// rounded within the asked distance, which takes 2 % here.
+#[test]
+fn an_open_box_is_wrapped() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut text = String::new();
+    for corner in 0..8 {
+        let [x, y, z] = [0, 1, 2].map(|axis| if corner >> axis & 1 == 0 { 0.0 } else { 0.04 });
+        text += &format!("v {x} {y} {z}\n");
+    }
+    // The side at the top, 5 to 8, is missing.
+    for quad in ["1 3 4 2", "1 2 6 5", "2 4 8 6", "4 3 7 8", "3 1 5 7"] {
+        text += &format!("f {quad}\n");
+    }
+    fs::write(folder.path().join("open.obj"), text).unwrap();
+    let run = |line: &[&str]| palpate_in(folder.path(), line);
+    let can_be_simulated = |file: &str| {
+        let answer = json(&run(&["mesh", "info", file, "--unit", "m", "--json"]));
+        answer["can_be_simulated"].as_bool().unwrap()
+    };
+    assert!(!can_be_simulated("open.obj"));
+    let line = [
+        "mesh",
+        "wrap",
+        "open.obj",
+        "closed.ply",
+        "--unit",
+        "m",
+        "--distance",
+        "0.001",
+        "--json",
+    ];
+    let answer = json(&run(&line));
+    assert_eq!(answer["holes_capped"], 1);
+    let volume = answer["volume_m3"].as_f64().unwrap();
+    assert!((volume / 0.04_f64.powi(3) - 1.0).abs() < 0.02, "{volume}");
+    assert!(can_be_simulated("closed.ply"));
+
+    let refused = run(&[
+        "mesh",
+        "wrap",
+        "open.obj",
+        "x.ply",
+        "--unit",
+        "m",
+        "--distance",
+        "0",
+    ]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(
+        stderr(&refused).contains("open.obj"),
+        "{}",
+        stderr(&refused)
+    );
+    assert!(!folder.path().join("x.ply").exists());
+}
