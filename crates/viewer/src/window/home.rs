@@ -30,8 +30,8 @@ pub(super) struct Home {
 }
 
 /// What this is not.
-const NOT: &str = "What it is not: there is no bleeding, no smoke and no suturing; neighbours are seen and not \
-                   felt; a mouse feels nothing. It is no certified medical device, and a score here has not been \
+const NOT: &str = "What it is not: there is no bleeding, no smoke and no suturing; neighbours stop the \
+                   tips of tools and nothing else; a mouse gives no force. It is no certified medical device, and a score here has not been \
                    shown to predict one in an operating room.";
 
 impl Home {
@@ -195,7 +195,8 @@ fn entry(ui: &mut Ui, title: &str, words: &str, standing: &Option<(String, bool)
         }
     });
     // The whole card opens.
-    clicked |= card.response.interact(egui::Sense::click()).clicked();
+    // Its button has the keyboard's focus already.
+    clicked |= card.response.interact(egui::Sense::CLICK).clicked();
     ui.add_space(8.0);
     clicked
 }
