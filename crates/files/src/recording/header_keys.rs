@@ -97,6 +97,7 @@ macro_rules! header_keys {
                 meaning: concat!($($meaning),+),
                 omitted: $crate::Omitted::Means("not said"),
                 example: "",
+                in_template: false,
             },)+];
 
             fn read(keys: &Keys<'_>) -> Result<Self, Error> {

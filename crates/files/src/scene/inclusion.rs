@@ -53,7 +53,8 @@ impl Inclusion {
             BALL,
             "A ball. One of the three shapes has to be there.",
         )
-        .required_without("ellipsoid", ""),
+        .optional("", "another shape is there")
+        .in_template(),
         Key::table("ellipsoid", ELLIPSOID, "An ellipsoid.").optional("", "another shape is there"),
         Key::table(
             "capsule",

@@ -53,13 +53,15 @@ impl Tissue {
             Domain::MODULUS,
             "`linear`: Young's modulus. All moduli are instantaneous: `prony` says how they fall.",
         )
-        .required_without("law", "8000.0"),
+        .optional("8000.0", "another law")
+        .in_template(),
         Key::estimate(
             "poissons_ratio",
             elasticity::POISSONS_RATIO,
             "`linear`: Poisson's ratio.",
         )
-        .required_without("law", "0.45"),
+        .optional("0.45", "another law")
+        .in_template(),
         Key::estimate(
             "c10_pa",
             Domain::SIGNED_MODULUS,

@@ -16,6 +16,8 @@ pub struct Key {
     pub omitted: Omitted,
     /// A value for a template, as TOML writes it; empty for a table, which has its own keys.
     pub example: &'static str,
+    /// Whether a template has it, rather than naming it in a comment.
+    pub in_template: bool,
 }
 
 /// What a key holds.
@@ -83,6 +85,7 @@ impl Key {
             meaning,
             omitted: Omitted::Refused,
             example: "",
+            in_template: true,
         }
     }
 
@@ -199,6 +202,7 @@ impl Key {
         Self {
             example: value,
             omitted: Omitted::Example,
+            in_template: false,
             ..self
         }
     }
@@ -208,6 +212,15 @@ impl Key {
         Self {
             example,
             omitted: Omitted::Means(meaning),
+            in_template: false,
+            ..self
+        }
+    }
+
+    /// The same, which a template has.
+    pub const fn in_template(self) -> Self {
+        Self {
+            in_template: true,
             ..self
         }
     }

@@ -53,7 +53,8 @@ pub(crate) const KEYS: &[Key] = &[
         "two numbers, or two vectors",
         "Evenly between the two numbers, or in the box of which the vectors are corners.",
     )
-    .required_without("one_of", "[0.004, 0.008]"),
+    .optional("[0.004, 0.008]", "another key says how")
+    .in_template(),
     Key::other(
         "one_of",
         "a list of numbers, of vectors or of texts",

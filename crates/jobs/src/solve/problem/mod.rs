@@ -171,6 +171,12 @@ impl Problem {
         })
     }
 
+    /// The kinds of problems: word, meaning and keys, beside `format`, of each.
+    pub fn kinds() -> impl Iterator<Item = (&'static str, &'static str, &'static [Key])> {
+        let each = KINDS.iter().zip(KIND_MEANINGS);
+        each.map(|((word, kind), (_, meaning))| (*word, *meaning, kind.keys()))
+    }
+
     /// What the solver says to this problem.
     pub(crate) fn refused(&self, error: palpate_mechanics::Error) -> Error {
         Error::input(format!("{}: {error}", self.path.display()))
@@ -225,10 +231,17 @@ impl Kind {
     /// The keys that a problem of this kind may have, beside `format`.
     fn keys(self) -> &'static [Key] {
         static KEYS: LazyLock<Vec<Vec<Key>>> = LazyLock::new(|| {
-            KINDS
-                .iter()
-                .map(|(_, kind)| [SHARED, kind.own_keys()].concat())
-                .collect()
+            let of_kind = |(word, kind): &(&'static str, Kind)| {
+                let mut keys = [SHARED, kind.own_keys()].concat();
+                // As all declarations, it lives as long as the program.
+                keys[0].example = format!("{word:?}").leak();
+                if matches!(kind, Kind::Hemisphere) {
+                    // It is solved at small strain.
+                    keys[2].example = "\"pig-spleen\"";
+                }
+                keys
+            };
+            KINDS.iter().map(of_kind).collect()
         });
         &KEYS[self as usize]
     }
