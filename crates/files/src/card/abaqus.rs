@@ -23,6 +23,22 @@ pub(super) fn card(tissue: &Tissue) -> Result<String, NoCard> {
                 false,
             )
         }
+        Elasticity::Ogden { terms } => {
+            let terms: Vec<_> = terms.iter().flatten().collect();
+            let keyword = format!("*HYPERELASTIC, OGDEN, N={}", terms.len());
+            let each = terms.iter();
+            let numbers = each.flat_map(|term| [term.mu_pa.value, term.alpha.value]);
+            let numbers: Vec<f64> = numbers.chain(vec![0.0; terms.len()]).collect();
+            (lines(&keyword, tissue, &numbers), false)
+        }
+        Elasticity::ReducedPolynomial { .. } => {
+            let constants = tissue.elasticity.parameters();
+            let count = constants.len();
+            let keyword = format!("*HYPERELASTIC, REDUCED POLYNOMIAL, N={count}");
+            let numbers = constants.iter().map(|(_, constant)| constant.value);
+            let numbers: Vec<f64> = numbers.chain(vec![0.0; count]).collect();
+            (lines(&keyword, tissue, &numbers), false)
+        }
         Elasticity::Exponential { .. } => {
             return Err(NoCard::of("Abaqus", tissue.elasticity.law()));
         }
@@ -50,6 +66,13 @@ fn lines(keyword: &str, tissue: &Tissue, numbers: &[f64]) -> String {
     } else {
         ", MODULI=INSTANTANEOUS"
     };
-    let numbers: Vec<_> = numbers.iter().map(|number| format!("{number:?}")).collect();
-    format!("{keyword}{moduli}\n{}\n", numbers.join(", "))
+    // At most eight numbers stand on a line.
+    let rows = numbers.chunks(8).map(|row| {
+        let row: Vec<_> = row.iter().map(|number| format!("{number:?}")).collect();
+        row.join(", ")
+    });
+    format!(
+        "{keyword}{moduli}\n{}\n",
+        rows.collect::<Vec<_>>().join(",\n")
+    )
 }

@@ -5,6 +5,9 @@ use crate::{Elasticity, Tissue};
 /// Poisson's ratio at 0.4995.
 const STIFF_VOLUME: f64 = 1000.0;
 
+/// What FEBio calls the parameters of the terms of Ogden's law.
+const OGDEN: [[&str; 2]; 3] = [["c1", "m1"], ["c2", "m2"], ["c3", "m3"]];
+
 /// A material of FEBio. Its relaxation is 1 + Σ γᵢ exp(−t/τᵢ) times a law that is left when all has
 /// relaxed: moduli are times 1 − Σ g, and γᵢ = gᵢ/(1 − Σ g).
 pub(super) fn card(tissue: &Tissue) -> Result<String, NoCard> {
@@ -25,7 +28,21 @@ pub(super) fn card(tissue: &Tissue) -> Result<String, NoCard> {
             let numbers = distortion(left * c10_pa.value, left * c01_pa.value);
             ("Mooney-Rivlin", "uncoupled viscoelastic", numbers)
         }
-        Elasticity::Exponential { .. } => return Err(NoCard::of("FEBio", tissue.elasticity.law())),
+        Elasticity::Ogden { terms } => {
+            // c/m² (…) with c = 2 μ.
+            let mut numbers = Vec::new();
+            let mut shear = 0.0;
+            for ([c, m], term) in OGDEN.into_iter().zip(terms.iter().flatten()) {
+                numbers.push((c, 2.0 * left * term.mu_pa.value));
+                numbers.push((m, term.alpha.value));
+                shear += left * term.mu_pa.value;
+            }
+            numbers.push(("k", STIFF_VOLUME * shear));
+            ("Ogden", "uncoupled viscoelastic", numbers)
+        }
+        Elasticity::ReducedPolynomial { .. } | Elasticity::Exponential { .. } => {
+            return Err(NoCard::of("FEBio", tissue.elasticity.law()));
+        }
     };
     let density = ("density", tissue.density_kg_m3.value);
     let material = if tissue.prony.is_empty() {

@@ -8,16 +8,21 @@ mod prony;
 mod source;
 mod write;
 
+use std::ops::Bound::Included;
 use std::path::Path;
 
 pub use builtin::BuiltinTissue;
-pub use elasticity::{Elasticity, LawName};
+pub use elasticity::{Elasticity, LawName, OgdenTerm};
 pub use lumped::{EffectiveColumn, Kelvin, Lumped, NonlinearSprings};
 pub use prony::PronyTerm;
 pub use source::TissueSource;
 
 use crate::whole_file::{MOST_OF_DOCUMENT, read_text};
 use crate::{Document, Domain, Error, Estimate, Key, Keys};
+
+/// An exponent of Ogden's law [-].
+const EXPONENT_OF_OGDEN: Domain =
+    Domain::number("an exponent", [Included(-1e3), Included(1e3)]).usually(-50.0, 50.0);
 
 /// Density of soft tissue when a tissue does not state its own [kg/m³].
 pub const DEFAULT_DENSITY_KG_M3: f64 = 1060.0;
@@ -65,7 +70,7 @@ impl Tissue {
         Key::estimate(
             "c10_pa",
             Domain::SIGNED_MODULUS,
-            "`neo_hookean`: C10, half the shear modulus; `mooney_rivlin`: C10.",
+            "`neo_hookean`, `reduced_polynomial`: C10, half the shear modulus; `mooney_rivlin`: C10.",
         )
         .optional("1333.0", "another law"),
         Key::estimate(
@@ -82,6 +87,22 @@ impl Tissue {
         .optional("2667.0", "another law"),
         Key::estimate("alpha", Domain::EXPONENT, "`exponential`: alpha.")
             .optional("0.5", "another law"),
+        Key::estimate("mu_1_pa", Domain::SIGNED_MODULUS, "`ogden`: mu of the first term; all mu together are the shear modulus.")
+            .optional("2300.0", "another law"),
+        Key::estimate("alpha_1", EXPONENT_OF_OGDEN, "`ogden`: alpha of the first term.")
+            .optional("4.3", "another law"),
+        Key::estimate("mu_2_pa", Domain::SIGNED_MODULUS, "`ogden`: mu of the second term.")
+            .optional("100.0", "one term"),
+        Key::estimate("alpha_2", EXPONENT_OF_OGDEN, "`ogden`: alpha of the second term.")
+            .optional("-2.0", "one term"),
+        Key::estimate("mu_3_pa", Domain::SIGNED_MODULUS, "`ogden`: mu of the third term.")
+            .optional("10.0", "two terms"),
+        Key::estimate("alpha_3", EXPONENT_OF_OGDEN, "`ogden`: alpha of the third term.")
+            .optional("9.0", "two terms"),
+        Key::estimate("c20_pa", Domain::SIGNED_MODULUS, "`reduced_polynomial`: C20.")
+            .optional("500.0", "one term"),
+        Key::estimate("c30_pa", Domain::SIGNED_MODULUS, "`reduced_polynomial`: C30.")
+            .optional("200.0", "two terms"),
         Key::tables(
             "prony",
             prony::KEYS,

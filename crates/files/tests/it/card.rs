@@ -1,5 +1,6 @@
 //! Material cards, read again as their package would and compared with the tissue: G(t) at three times.
 
+use palpate_files::tissue::OgdenTerm;
 use palpate_files::{Elasticity, PronyTerm, Tissue};
 
 const TERMS: [(f64, f64); 2] = [(0.2866, 1.537), (0.2022, 6.09)];
@@ -133,4 +134,78 @@ fn a_law_that_a_package_has_not_is_refused() {
             .to_string()
             .starts_with("FEBio has no law")
     );
+}
+
+fn ogden() -> Tissue {
+    let term = |mu: f64, alpha: f64| {
+        Some(OgdenTerm {
+            mu_pa: mu.into(),
+            alpha: alpha.into(),
+        })
+    };
+    tissue(Elasticity::Ogden {
+        terms: [term(2000.0, 4.3), term(500.0, -2.0), term(-100.0, 9.0)],
+    })
+}
+
+/// The manuals: Abaqus has Σ 2 μᵢ/αᵢ² (…) and one Dᵢ for each term, at most eight numbers on a line; FEBio has
+/// Σ cᵢ/mᵢ² (…), of what is left when all has relaxed. To rounding.
+#[test]
+fn ogden_and_polynomials_have_cards() {
+    let card = ogden().to_abaqus().unwrap();
+    let law = "*HYPERELASTIC, OGDEN, N=3, MODULI=INSTANTANEOUS\n\
+               2000.0, 4.3, 500.0, -2.0, -100.0, 9.0, 0.0, 0.0,\n0.0\n";
+    assert!(card.contains(law), "{card}");
+    let polynomial = tissue(Elasticity::ReducedPolynomial {
+        c10_pa: 450.0.into(),
+        higher_pa: [Some((-20.0).into()), None],
+    });
+    let card = polynomial.to_abaqus().unwrap();
+    let law =
+        "*HYPERELASTIC, REDUCED POLYNOMIAL, N=2, MODULI=INSTANTANEOUS\n450.0, -20.0, 0.0, 0.0\n";
+    assert!(card.contains(law), "{card}");
+    let card = ogden().to_febio().unwrap();
+    let value = |name: &str| -> f64 {
+        let from = card.split(&format!("<{name}>")).nth(1).unwrap();
+        from.split('<').next().unwrap().parse().unwrap()
+    };
+    let left = 1.0 - TERMS.iter().map(|(g, _)| g).sum::<f64>();
+    for (name, expected) in [
+        ("c1", 4000.0 * left),
+        ("c2", 1000.0 * left),
+        ("c3", -200.0 * left),
+        ("m2", -2.0),
+    ] {
+        assert!(
+            (value(name) / expected - 1.0).abs() < 1e-12,
+            "{name}: {card}"
+        );
+    }
+    assert!(polynomial.to_febio().is_err());
+}
+
+#[test]
+fn new_laws_are_read_as_they_are_written() {
+    let polynomial = tissue(Elasticity::ReducedPolynomial {
+        c10_pa: 450.0.into(),
+        higher_pa: [Some(20.0.into()), Some(7.0.into())],
+    });
+    for tissue in [ogden(), polynomial] {
+        assert_eq!(Tissue::parse(&tissue.to_toml(), "t.toml").unwrap(), tissue);
+    }
+    let refused = |more: &str| {
+        let text =
+            format!("format = 1\n[tissue]\nlaw = \"ogden\"\nmu_1_pa = 1000\nalpha_1 = 4\n{more}");
+        Tissue::parse(&text, "t.toml").unwrap_err().to_string()
+    };
+    for (more, said) in [
+        ("mu_2_pa = 3\n", "alpha_2"),
+        ("mu_3_pa = 3\nalpha_3 = 2\n", "mu_2_pa"),
+        ("mu_2_pa = -1001\nalpha_2 = 2\n", "above 0"),
+        ("mu_2_pa = 1\nalpha_2 = 0\n", "0.001"),
+        ("c10_pa = 1\n", "c10_pa"),
+    ] {
+        let error = refused(more);
+        assert!(error.contains(said), "{more}: {error}");
+    }
 }

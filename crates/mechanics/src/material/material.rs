@@ -7,7 +7,9 @@ use super::law::Law;
 use super::linear_elastic::LinearElastic;
 use super::mooney_rivlin::MooneyRivlin;
 use super::neo_hookean::NeoHookean;
+use super::ogden::Ogden;
 use super::prony::PronySeries;
+use super::reduced_polynomial::ReducedPolynomial;
 use crate::Error;
 
 /// A tissue as a model takes it: a law, its relaxation, and what deserves doubt.
@@ -45,6 +47,18 @@ impl Material {
             }
             Elasticity::Exponential { gamma_pa, alpha } => {
                 linearized(Exponential::incompressible(gamma_pa.value, alpha.value)?)?
+            }
+            Elasticity::Ogden { terms } => {
+                let terms = terms.iter().flatten();
+                let terms: Vec<_> = terms
+                    .map(|term| [term.mu_pa.value, term.alpha.value])
+                    .collect();
+                linearized(Ogden::incompressible(&terms)?)?
+            }
+            Elasticity::ReducedPolynomial { .. } => {
+                let constants = tissue.elasticity.parameters().into_iter();
+                let constants: Vec<_> = constants.map(|(_, constant)| constant.value).collect();
+                linearized(ReducedPolynomial::incompressible(&constants)?)?
             }
         };
         let terms: Vec<_> = tissue

@@ -263,18 +263,7 @@ impl Regions {
         }
         let factor = 1.0 / self.yields_to_tip(radius)[1];
         let mut tissue = tissue.clone();
-        let moduli = match &mut tissue.elasticity {
-            Elasticity::Linear {
-                youngs_modulus_pa, ..
-            } => [Some(youngs_modulus_pa), None],
-            Elasticity::NeoHookean { c10_pa } => [Some(c10_pa), None],
-            Elasticity::MooneyRivlin { c10_pa, c01_pa } => [Some(c10_pa), Some(c01_pa)],
-            Elasticity::Exponential { gamma_pa, .. } => [Some(gamma_pa), None],
-        };
-        moduli
-            .into_iter()
-            .flatten()
-            .for_each(|modulus| modulus.value *= factor);
+        tissue.elasticity = tissue.elasticity.stiffened(factor);
         let material = Material::from_tissue(&tissue)?;
         Ok((tissue, material))
     }
@@ -305,12 +294,14 @@ impl RegionTissue {
         }
         let (c10, c01) = match tissue.elasticity {
             Elasticity::MooneyRivlin { c10_pa, c01_pa } => (c10_pa.value, c01_pa.value),
-            Elasticity::Exponential { .. } => {
-                doubts.push(
+            Elasticity::Exponential { .. }
+            | Elasticity::Ogden { .. }
+            | Elasticity::ReducedPolynomial { .. } => {
+                doubts.push(format!(
                     "the organ around the tips answers as neo-Hookean tissue of the same modulus at rest; the tips \
-                     themselves meet the exponential law"
-                        .to_owned(),
-                );
+                     themselves meet the law {}",
+                    tissue.elasticity.law()
+                ));
                 (0.5 * shear, 0.0)
             }
             Elasticity::Linear { .. } | Elasticity::NeoHookean { .. } => (0.5 * shear, 0.0),

@@ -82,5 +82,7 @@ fn in_words(problem: &Problem) -> &'static str {
         LawName::NeoHookean => "neo-Hookean",
         LawName::MooneyRivlin => "Mooney-Rivlin",
         LawName::Exponential => "exponential",
+        LawName::Ogden => "Ogden",
+        LawName::ReducedPolynomial => "reduced polynomial",
     }
 }

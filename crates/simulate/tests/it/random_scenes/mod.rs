@@ -225,6 +225,9 @@ fn largest_force(scene: &Scene, reach: f64) -> f64 {
         Elasticity::NeoHookean { c10_pa } => (8.0 * c10_pa.value, 10.0),
         Elasticity::MooneyRivlin { c10_pa, c01_pa } => (8.0 * (c10_pa.value + c01_pa.value), 10.0),
         Elasticity::Exponential { gamma_pa, .. } => (4.0 * gamma_pa.value, 1e3),
+        Elasticity::Ogden { .. } | Elasticity::ReducedPolynomial { .. } => {
+            unreachable!("no random scene has the law")
+        }
     };
     let tools = scene.tools.iter().map(|tool| {
         let radius = tool.tip.radius_m;
