@@ -41,6 +41,26 @@ pub enum Error {
         /// The value given [-].
         alpha: f64,
     },
+    /// The terms of Ogden's law are not one to three, or their moduli do not sum to a positive number.
+    #[error(
+        "Ogden's law has {order} terms whose mu sum to {shear} Pa; give one to three terms whose mu, the shear modulus at rest, sum to a positive number"
+    )]
+    OgdenOutOfRange {
+        /// Number of terms.
+        order: usize,
+        /// Sum of the values of μ given [Pa].
+        shear: f64,
+    },
+    /// The coefficients of a reduced polynomial are not one to three, or the first is not positive.
+    #[error(
+        "the reduced polynomial has {order} coefficients and C10 is {c10} Pa; give one to three finite coefficients, and a positive C10, half the shear modulus at rest"
+    )]
+    ReducedPolynomialOutOfRange {
+        /// Number of coefficients.
+        order: usize,
+        /// The value of C10 given [Pa].
+        c10: f64,
+    },
     /// The bulk modulus is not a positive number.
     #[error(
         "the bulk modulus is {bulk_modulus} Pa; give a positive number, or make the law incompressible"

@@ -46,7 +46,7 @@ impl TissueChoice {
         {
             return Ok(Self::File(folder.join(path)));
         }
-        match keys.table("tissue", Tissue::KEYS)? {
+        match keys.table("tissue", Tissue::keys())? {
             Some(tissue) => Ok(Self::Inline(Box::new(Tissue::from_keys(&tissue)?))),
             None => Err(keys.missing(
                 "tissue",

@@ -3,15 +3,18 @@
 
 mod builtin;
 mod elasticity;
+mod laws;
 mod lumped;
 mod prony;
 mod source;
 mod write;
 
 use std::path::Path;
+use std::sync::LazyLock;
 
 pub use builtin::BuiltinTissue;
-pub use elasticity::{Elasticity, LawName};
+pub use elasticity::Elasticity;
+pub use laws::{LawName, LawRow};
 pub use lumped::{EffectiveColumn, Kelvin, Lumped, NonlinearSprings};
 pub use prony::PronyTerm;
 pub use source::TissueSource;
@@ -21,6 +24,14 @@ use crate::{Document, Domain, Error, Estimate, Keys};
 
 /// Density of soft tissue when a tissue does not state its own [kg/m³].
 pub const DEFAULT_DENSITY_KG_M3: f64 = 1060.0;
+
+static KEYS: LazyLock<Vec<&'static str>> = LazyLock::new(|| {
+    let laws = LawName::WORDS.iter().flat_map(|(_, law)| law.row().keys());
+    let mut keys: Vec<_> = Tissue::SHARED_KEYS.iter().copied().chain(laws).collect();
+    keys.sort_unstable();
+    keys.dedup();
+    keys
+});
 
 /// A tissue. All moduli are instantaneous: `prony` says how they fall with time.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,21 +54,14 @@ pub struct Tissue {
 }
 
 impl Tissue {
+    /// The keys of a tissue's table that do not depend on its law.
+    pub(crate) const SHARED_KEYS: &'static [&'static str] =
+        &["name", "density_kg_m3", "law", "prony", "lumped", "source"];
+
     /// The keys of a tissue's table, in a file or in line in a scene.
-    pub const KEYS: &'static [&'static str] = &[
-        "name",
-        "density_kg_m3",
-        "law",
-        "youngs_modulus_pa",
-        "poissons_ratio",
-        "c10_pa",
-        "c01_pa",
-        "gamma_pa",
-        "alpha",
-        "prony",
-        "lumped",
-        "source",
-    ];
+    pub fn keys() -> &'static [&'static str] {
+        &KEYS
+    }
 
     /// A tissue with the default density, no relaxation and no history.
     pub fn new(elasticity: Elasticity) -> Self {
@@ -88,7 +92,7 @@ impl Tissue {
     pub fn parse(text: &str, path: impl AsRef<Path>) -> Result<Self, Error> {
         let document = Document::parse(text, path)?;
         let keys = document.keys(&["tissue"])?;
-        match keys.table("tissue", Self::KEYS)? {
+        match keys.table("tissue", Self::keys())? {
             Some(tissue) => {
                 let mut tissue = Self::from_keys(&tissue)?;
                 tissue.warnings = keys.warnings();
@@ -98,7 +102,7 @@ impl Tissue {
         }
     }
 
-    /// A tissue from its table, which was opened with [`Tissue::KEYS`].
+    /// A tissue from its table, which was opened with [`Tissue::keys`].
     ///
     /// # Errors
     /// When the table does not describe a tissue.

@@ -2,7 +2,8 @@
 
 use nalgebra::{Matrix3, Rotation3};
 use palpate_mechanics::{
-    Exponential, Law, LinearElastic, MooneyRivlin, NeoHookean, Strain, Tangent,
+    Exponential, Law, LinearElastic, MooneyRivlin, NeoHookean, Ogden, ReducedPolynomial, Strain,
+    Tangent,
 };
 
 use crate::contacts::{MODULUS, Random};
@@ -121,8 +122,42 @@ pub(crate) fn every_law() -> Vec<Candidate> {
             move |p| Exponential::compressible(p[0], p[1], bulk).unwrap(),
         ));
     }
+    // Terms with shares of μ: stiff, soft, of both signs, and nearly or wholly Hencky's.
+    for terms in OGDEN {
+        let shear = MODULUS / 3.0;
+        let parameters = terms.map(|[share, alpha]| [share * shear, alpha]).concat();
+        let order = if parameters[2] == 0.0 { 2 } else { 6 };
+        let (parameters, bulk) = (&parameters[..order], 10.0 * shear);
+        laws.push(Candidate::new(parameters, 3.0 * shear, |p| {
+            Ogden::incompressible(p.as_chunks().0).unwrap()
+        }));
+        laws.push(Candidate::new(parameters, modulus(shear, 10.0), move |p| {
+            Ogden::compressible(p.as_chunks().0, bulk).unwrap()
+        }));
+    }
+    for order in 1..=3 {
+        let (parameters, bulk) = (&[c10, -0.3 * c10, 0.5 * c10][..order], 20.0 * c10);
+        laws.push(Candidate::new(parameters, 6.0 * c10, |p| {
+            ReducedPolynomial::incompressible(p).unwrap()
+        }));
+        laws.push(Candidate::new(
+            parameters,
+            modulus(2.0 * c10, 10.0),
+            move |p| ReducedPolynomial::compressible(p, bulk).unwrap(),
+        ));
+    }
     laws
 }
+
+/// Shares of μ and exponents α of Ogden's law.
+pub(crate) const OGDEN: [[[f64; 2]; 3]; 6] = [
+    [[1.0, 2.0], [0.0; 2], [0.0; 2]],
+    [[1.0, 0.0], [0.0; 2], [0.0; 2]],
+    [[1.0, 1e-9], [0.0; 2], [0.0; 2]],
+    [[1.0, -25.0], [0.0; 2], [0.0; 2]],
+    [[1.0, 25.0], [0.0; 2], [0.0; 2]],
+    [[0.9, 1.3], [0.2, 5.0], [-0.1, -2.0]],
+];
 
 /// A deformation of up to a fifth that does not turn inside out.
 pub(crate) fn deformation(random: &mut Random) -> Matrix3<f64> {
