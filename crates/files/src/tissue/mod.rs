@@ -3,26 +3,23 @@
 
 mod builtin;
 mod elasticity;
+mod laws;
 mod lumped;
 mod prony;
 mod source;
 mod write;
 
-use std::ops::Bound::Included;
 use std::path::Path;
 
 pub use builtin::BuiltinTissue;
-pub use elasticity::{Elasticity, LawName, OgdenTerm};
+pub use elasticity::Elasticity;
+pub use laws::{LawName, LawRow};
 pub use lumped::{EffectiveColumn, Kelvin, Lumped, NonlinearSprings};
 pub use prony::PronyTerm;
 pub use source::TissueSource;
 
 use crate::whole_file::{MOST_OF_DOCUMENT, read_text};
 use crate::{Document, Domain, Error, Estimate, Key, Keys};
-
-/// An exponent of Ogden's law [-].
-const EXPONENT_OF_OGDEN: Domain =
-    Domain::number("an exponent", [Included(-1e3), Included(1e3)]).usually(-50.0, 50.0);
 
 /// Density of soft tissue when a tissue does not state its own [kg/m³].
 pub const DEFAULT_DENSITY_KG_M3: f64 = 1060.0;
@@ -48,6 +45,10 @@ pub struct Tissue {
 }
 
 impl Tissue {
+    /// The keys of a tissue's table that do not depend on its law.
+    const SHARED_KEYS: [&'static str; 6] =
+        ["name", "density_kg_m3", "law", "prony", "lumped", "source"];
+
     /// The keys of a tissue's table, in a file or in line in a scene.
     pub const KEYS: &'static [Key] = &[
         Key::text("name", "What people call it.").optional("\"liver\"", "it has no name"),
@@ -62,7 +63,7 @@ impl Tissue {
         .in_template(),
         Key::estimate(
             "poissons_ratio",
-            elasticity::POISSONS_RATIO,
+            laws::POISSONS_RATIO,
             "`linear`: Poisson's ratio.",
         )
         .optional("0.45", "another law")
@@ -89,15 +90,15 @@ impl Tissue {
             .optional("0.5", "another law"),
         Key::estimate("mu_1_pa", Domain::SIGNED_MODULUS, "`ogden`: mu of the first term; all mu together are the shear modulus.")
             .optional("2300.0", "another law"),
-        Key::estimate("alpha_1", EXPONENT_OF_OGDEN, "`ogden`: alpha of the first term.")
+        Key::estimate("alpha_1", laws::SIGNED_EXPONENT, "`ogden`: alpha of the first term.")
             .optional("4.3", "another law"),
         Key::estimate("mu_2_pa", Domain::SIGNED_MODULUS, "`ogden`: mu of the second term.")
             .optional("100.0", "one term"),
-        Key::estimate("alpha_2", EXPONENT_OF_OGDEN, "`ogden`: alpha of the second term.")
+        Key::estimate("alpha_2", laws::SIGNED_EXPONENT, "`ogden`: alpha of the second term.")
             .optional("-2.0", "one term"),
         Key::estimate("mu_3_pa", Domain::SIGNED_MODULUS, "`ogden`: mu of the third term.")
             .optional("10.0", "two terms"),
-        Key::estimate("alpha_3", EXPONENT_OF_OGDEN, "`ogden`: alpha of the third term.")
+        Key::estimate("alpha_3", laws::SIGNED_EXPONENT, "`ogden`: alpha of the third term.")
             .optional("9.0", "two terms"),
         Key::estimate("c20_pa", Domain::SIGNED_MODULUS, "`reduced_polynomial`: C20.")
             .optional("500.0", "one term"),

@@ -211,8 +211,8 @@ fn bad_values_of_a_tissue() {
     assert_eq!(
         tissue("poissons_ratio = 0.5"),
         "t.toml line 5: `tissue.poissons_ratio` is 0.5; give a number above -1 and below 0.5 \
-         (0.5 itself belongs to the incompressible laws neo_hookean, mooney_rivlin and exponential; \
-         0.49 is near enough for most tissues)"
+         (0.5 itself belongs to the incompressible laws, such as neo_hookean; 0.49 is near enough for \
+         most tissues)"
     );
     assert_eq!(
         tissue("youngs_modulus_kpa = -10"),

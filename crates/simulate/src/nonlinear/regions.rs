@@ -12,7 +12,8 @@
 use std::f64::consts::PI;
 
 use palpate_files::scene::InclusionShape;
-use palpate_files::{Elasticity, Scene, Tissue};
+use palpate_files::tissue::LawName;
+use palpate_files::{Scene, Tissue};
 use palpate_geometry::{AabbTree, Surface, TetrahedronMesh, TriangleMesh, Vec3};
 use palpate_mechanics::layered::{LayeredHalfSpace, LoadShape};
 use palpate_mechanics::nonlinear::Moduli;
@@ -263,7 +264,7 @@ impl Regions {
         }
         let factor = 1.0 / self.yields_to_tip(radius)[1];
         let mut tissue = tissue.clone();
-        tissue.elasticity = tissue.elasticity.stiffened(factor);
+        tissue.elasticity = tissue.elasticity.times(factor);
         let material = Material::from_tissue(&tissue)?;
         Ok((tissue, material))
     }
@@ -292,19 +293,18 @@ impl RegionTissue {
                  nonlinear model keeps volume to the percent"
             ));
         }
-        let (c10, c01) = match tissue.elasticity {
-            Elasticity::MooneyRivlin { c10_pa, c01_pa } => (c10_pa.value, c01_pa.value),
-            Elasticity::Exponential { .. }
-            | Elasticity::Ogden { .. }
-            | Elasticity::ReducedPolynomial { .. } => {
+        let law = tissue.elasticity.law();
+        let (c10, c01) = match (law, tissue.elasticity.values().as_slice()) {
+            (LawName::MooneyRivlin, &[c10, c01]) => (c10, c01),
+            (LawName::Linear | LawName::NeoHookean, _) => (0.5 * shear, 0.0),
+            _ => {
                 doubts.push(format!(
                     "the organ around the tips answers as neo-Hookean tissue of the same modulus at rest; the tips \
-                     themselves meet the law {}",
-                    tissue.elasticity.law()
+                     themselves meet the {} law",
+                    law.row().title
                 ));
                 (0.5 * shear, 0.0)
             }
-            Elasticity::Linear { .. } | Elasticity::NeoHookean { .. } => (0.5 * shear, 0.0),
         };
         Ok(Self {
             moduli: Moduli::mooney_rivlin(c10, c01, ratio)?,
