@@ -57,7 +57,7 @@ fn every_refusal_names_the_value_and_the_mend() {
         form: "strong",
         poissons_ratio: 0.3,
     };
-    let refused: [(Result<(), Error>, &[&str]); 25] = [
+    let refused: [(Result<(), Error>, &[&str]); 28] = [
         (enhanced(7), &["7 levels", "at most 6"]),
         (
             LinearElastic::new(0.0, 0.3).map(drop),
