@@ -26,7 +26,7 @@ def judged_depths(scene):
 
 
 def by_felupe(scene, law):
-    """Force, settling [judged time] and their errors."""
+    """Force, settling [judged time], their errors, and the force over depth."""
     wanted = np.unique(judged_depths(scene))
     # Small increments, for convergence, that meet the judged depths.
     stops = np.concatenate([np.linspace(a, b, 11)[1:] for a, b in zip([0, *wanted], wanted)])
@@ -35,10 +35,11 @@ def by_felupe(scene, law):
         force, settled, _ = felupe_axisymmetric.pressed(scene, law, edge, stops)
         at = np.searchsorted(stops, judged_depths(scene) - 1e-12)
         found.append([force[at], settled[at]])
+        curve = [[0.0, 0.0], *np.column_stack([stops, force])[np.isfinite(force)].tolist()]
     coarse, fine = np.array(found)
     if not np.isfinite(fine - coarse).any():
-        return fine, [np.nan, np.nan]
-    return fine, np.nanmax(np.abs(fine - coarse), axis=1) / np.nanmax(np.abs(fine), axis=1)
+        return fine, [np.nan, np.nan], curve
+    return fine, np.nanmax(np.abs(fine - coarse), axis=1) / np.nanmax(np.abs(fine), axis=1), curve
 
 
 def by_palpate(scene, law, prony=False):
@@ -84,7 +85,7 @@ def relaxed(scene):
 
 
 def answer(scene, law):
-    (force, settled), (error, settled_error) = by_felupe(scene, law)
+    (force, settled), (error, settled_error), curve = by_felupe(scene, law)
     if not np.isfinite(error):
         return None
     source = "FElupe on two meshes"
@@ -95,6 +96,7 @@ def answer(scene, law):
         force, source = theirs[0], "palpate solve, its estimate and the difference to FElupe"
     if scene.prony:
         force = force * relaxed(scene)
+        curve = None
         full, _ = by_palpate(scene, law, prony=True)
         error = max(error, float(np.abs(full / force - 1).max()))
         source = "hereditary integral of the elastic force, and palpate solve over time"
@@ -104,6 +106,7 @@ def answer(scene, law):
         "error": float(error),
         "settled_m": clean(settled),
         "settled_error": float(settled_error),
+        "curve_m_n": curve,
         "source": source,
     }
 
@@ -116,7 +119,7 @@ def main():
         found = {law: answer(scene, law) for law in laws}
         found = {law: value for law, value in found.items() if value}
         content = {"judged_s": scene.judged.tolist(), "laws": found}
-        (ANSWERS / f"{name}.json").write_text(json.dumps(content, indent=1, ensure_ascii=False) + "\n")
+        (ANSWERS / f"{name}.json").write_text(json.dumps(content, ensure_ascii=False) + "\n")
         for law, value in found.items():
             forces = " / ".join("–" if force is None else f"{1e3 * force:.2f}" for force in value["force_n"])
             print(f"{name}, {law}: {forces} mN ± {100 * value['error']:.2f} %, {value['source']}", flush=True)

@@ -5,7 +5,7 @@ import gmsh
 import numpy as np
 
 # Length of the edges under the tool, in its radii, and far from it, in extents of the body.
-SIZES = {"coarse": (0.5, 0.25), "fine": (0.25, 0.125)}
+SIZES = {"coarse": (0.3, 0.25), "fine": (0.15, 0.25)}
 
 
 class Tetrahedra:
@@ -17,7 +17,6 @@ class Tetrahedra:
         self.faces = _surface(self.nodes, self.elements)
         self.fixed = np.flatnonzero(self.nodes[:, 2] < -scene.height * (1 - 1e-6))
         self.probe = int(np.argmin(np.linalg.norm(self.nodes - _probe(scene), axis=1)))
-        self.edge = near * scene.radius
 
     def inside(self, scene):
         """Elements whose centroid lies in the inclusion."""

@@ -13,6 +13,7 @@ An engine is a module of `engines` with
 
 import importlib
 import json
+import pathlib
 import sys
 import time
 
@@ -25,7 +26,11 @@ def main():
     engine, name, fineness, path = sys.argv[1:]
     scene = Scene(name)
     began = time.perf_counter()
-    adapter = importlib.import_module(f"engines.{engine}")
+    try:
+        adapter = importlib.import_module(f"engines.{engine}")
+    except ImportError as error:
+        pathlib.Path(path).write_text(json.dumps({"missing": str(error)}))
+        return
     importing = time.perf_counter() - began
     reason = adapter.unfit(scene)
     answer = {"law": adapter.LAW, "version": adapter.version(), "settings": " ".join(adapter.SETTINGS.split())}
@@ -47,8 +52,7 @@ def main():
             answer[key] = np.round(value, 12).tolist() if isinstance(value, np.ndarray) else value
     # NaN is no JSON.
     text = json.dumps(answer).replace("NaN", "null").replace("-Infinity", "null").replace("Infinity", "null")
-    with open(path, "w") as file:
-        file.write(text)
+    pathlib.Path(path).write_text(text)
 
 
 if __name__ == "__main__":
