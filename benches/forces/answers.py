@@ -2,15 +2,15 @@
 """Writes the converged answers of the scenes, `answers/*.json`: force and settling of the surface at the judged times,
 for each law of `laws.py`, with their errors.
 
-Needs palpate, felupe and gmsh (see docs/comparisons/forces.md). Run: benches/forces/answers.py [scene ...]; minutes.
+Needs palpate, felupe and gmsh (see docs/comparisons/forces.md). Run: benches/forces/answers.py [--law LAW] [scene ...]; minutes.
 
 Linear tissue: `palpate solve` with contact on the deformed surface, where it has the body; its error is the largest of
 its own estimate and the difference to FElupe. Other laws, bodies and the settling: FElupe on two meshes, whose
 difference is the error. Relaxation: the hereditary integral of the elastic answer, exact under a flat punch.
 """
 
+import argparse
 import json
-import sys
 
 import numpy as np
 
@@ -112,11 +112,16 @@ def answer(scene, law):
 
 
 def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("scene", nargs="*", help="all without")
+    parser.add_argument("--law", action="append", choices=list(LAWS), help="these laws only; answers of others are kept")
+    chosen = parser.parse_args()
     ANSWERS.mkdir(exist_ok=True)
-    for name in sys.argv[1:] or names():
+    for name in chosen.scene or names():
         scene = Scene(name)
-        laws = ["linear"] if scene.prony else list(LAWS)
-        found = {law: answer(scene, law) for law in laws}
+        laws = [law for law in chosen.law or LAWS if law == "linear" or not scene.prony]
+        found = scene.answers if chosen.law else {}
+        found |= {law: answer(scene, law) for law in laws}
         found = {law: value for law, value in found.items() if value}
         content = {"judged_s": scene.judged.tolist(), "laws": found}
         (ANSWERS / f"{name}.json").write_text(json.dumps(content, ensure_ascii=False) + "\n")

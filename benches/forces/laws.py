@@ -62,6 +62,14 @@ def stable_neo_hookean(f, mu, lam):
     return mu * f + (stiff * (_determinant(f) - 1) - mu) * _cofactor(f)
 
 
+def stable_neo_hookean_logarithm(f, mu, lam):
+    """The law of Smith et al. 2018 with its logarithm, M/2 (I1 - 3 - ln(I1 + 1)) + L/2 (J - 1 - 3 M/(4 L))^2,
+    M = 4/3 mu, L = lambda + 5/6 mu."""
+    shear, stiff = 4 / 3 * mu, lam + 5 / 6 * mu
+    first = _trace(_product(_transpose(f), f))
+    return shear * (1 - 1 / (first + 1)) * f + (stiff * (_determinant(f) - 1) - 0.75 * shear) * _cofactor(f)
+
+
 def corotated(f, mu, lam):
     """Hooke's law in the turned frame of each element: mu |F - R|^2 + lambda/2 tr(R^T F - 1)^2."""
     turned = _rotation(f)
@@ -76,7 +84,15 @@ def saint_venant_kirchhoff(f, mu, lam):
 
 
 LAWS = {
-    law.__name__: law for law in [linear, neo_hookean, stable_neo_hookean, corotated, saint_venant_kirchhoff]
+    law.__name__: law
+    for law in [
+        linear,
+        neo_hookean,
+        stable_neo_hookean,
+        stable_neo_hookean_logarithm,
+        corotated,
+        saint_venant_kirchhoff,
+    ]
 }
 
 

@@ -80,3 +80,12 @@ def _surface(nodes, elements):
     faces = np.concatenate([elements[:, [0, 2, 1]], elements[:, [0, 1, 3]], elements[:, [1, 2, 3]], elements[:, [0, 3, 2]]])
     _, first, count = np.unique(np.sort(faces, axis=1), axis=0, return_index=True, return_counts=True)
     return faces[first[count == 1]]
+
+
+def legacy_vtk(nodes, elements):
+    """A mesh as a VTK file of version 3, as several engines read it."""
+    lines = ["# vtk DataFile Version 3.0", "body", "ASCII", "DATASET UNSTRUCTURED_GRID", f"POINTS {len(nodes)} double"]
+    lines += [" ".join(map(repr, map(float, place))) for place in nodes]
+    lines += [f"CELLS {len(elements)} {5 * len(elements)}"]
+    lines += ["4 " + " ".join(map(str, corners)) for corners in elements]
+    return "\n".join([*lines, f"CELL_TYPES {len(elements)}", *["10"] * len(elements), ""])

@@ -55,7 +55,7 @@ def arguments():
 def ran(engine, scene, mesh, python, fresh):
     """The answer of `run.py`, or why there is none."""
     path = KEPT / f"{engine}-{scene}-{mesh}.json"
-    if fresh or not path.exists():
+    if fresh or not path.exists() or "missing" in json.loads(path.read_text()):
         path.unlink(missing_ok=True)
         command = [python, HERE / "run.py", engine, scene, mesh, path]
         threads = ["OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "RAYON_NUM_THREADS"]
@@ -117,7 +117,7 @@ def milli(values):
 
 def row(scene, engine, mesh, answer):
     title = ENGINES[engine] + ("" if mesh == "own" else f", {answer.get('nodes', mesh)} nodes")
-    for key, words in [("missing", "not installed"), ("unfit", "cannot"), ("failed", "failed")]:
+    for key, words in [("missing", "not installed"), ("skipped", "not run"), ("unfit", "cannot"), ("failed", "failed")]:
         if key in answer:
             return f"| {title} | {words}: {answer[key]} | | | | | | | |"
     force = judged(scene, answer)
@@ -162,7 +162,7 @@ def summary(scenes, results):
             for scene in scenes:
                 answer = results.get((engine, scene.name, mesh), {"missing": ""})
                 if "force" not in answer:
-                    cells.append("" if "missing" in answer else "no")
+                    cells.append("no" if "unfit" in answer else "failed" if "failed" in answer else "")
                     continue
                 own = off(judged(scene, answer), scene.answers.get(answer["law"]), "force_n")
                 cells.append("–" if own is None else signed(own[-1:]))
@@ -252,7 +252,7 @@ def main():
             for mesh in meshes_of(engine, scene):
                 fresh = chosen.fresh and (not chosen.engine or engine in chosen.engine)
                 if chosen.engine and engine not in chosen.engine and not (KEPT / f"{engine}-{scene.name}-{mesh}.json").exists():
-                    results[engine, scene.name, mesh] = {"missing": "not asked for"}
+                    results[engine, scene.name, mesh] = {"skipped": "with this call"}
                     continue
                 python = pythons.get(engine, sys.executable)
                 results[engine, scene.name, mesh] = ran(engine, scene.name, mesh, python, fresh)

@@ -22,6 +22,8 @@ from pydrake.multibody.tree import PdControllerGains, PrismaticJoint, SpatialIne
 from pydrake.systems.framework import DiagramBuilder
 from pydrake.systems.analysis import Simulator
 
+from meshes import legacy_vtk
+
 LAW = "corotated"
 MESHES = ["coarse", "fine"]
 SETTINGS = """SAP, steps of 10 ms; `kLinearCorotated`, which it recommends (its frame is that of the last step); density
@@ -38,14 +40,6 @@ def unfit(scene):
     if scene.inclusion:
         return "a body has one material"
     return "no relaxation" if scene.prony else None
-
-
-def legacy_vtk(mesh):
-    lines = ["# vtk DataFile Version 3.0", "body", "ASCII", "DATASET UNSTRUCTURED_GRID", f"POINTS {len(mesh.nodes)} double"]
-    lines += [" ".join(map(repr, map(float, place))) for place in mesh.nodes]
-    lines += [f"CELLS {len(mesh.elements)} {5 * len(mesh.elements)}"]
-    lines += ["4 " + " ".join(map(str, corners)) for corners in mesh.elements]
-    return "\n".join([*lines, f"CELL_TYPES {len(mesh.elements)}", *["10"] * len(mesh.elements), ""])
 
 
 def run(scene, mesh):
@@ -67,7 +61,7 @@ def run(scene, mesh):
     AddContactMaterial(friction=smooth, properties=properties)
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder) / "body.vtk"
-        path.write_text(legacy_vtk(mesh))
+        path.write_text(legacy_vtk(mesh.nodes, mesh.elements))
         instance = GeometryInstance(RigidTransform(), Mesh(str(path)), "body")
         instance.set_proximity_properties(properties)
         deformables = plant.mutable_deformable_model()
