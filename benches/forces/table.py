@@ -64,7 +64,12 @@ def ran(engine, scene, mesh, python, fresh):
         began = time.perf_counter()
         try:
             done = subprocess.run(
-                ["taskset", "-c", str(core), *command], env=environment, capture_output=True, text=True, timeout=LIMIT
+                ["taskset", "-c", str(core), *command],
+                env=environment,
+                cwd=KEPT,
+                capture_output=True,
+                text=True,
+                timeout=LIMIT,
             )
             if not path.exists():
                 last = (done.stderr.strip().splitlines() or [f"ended with {done.returncode}"])[-1]
