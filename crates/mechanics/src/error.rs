@@ -31,6 +31,24 @@ pub enum Error {
         /// The value given [Pa].
         c01: f64,
     },
+    /// Terms of Ogden's law are too many or none, or their numbers are those of no solid.
+    #[error(
+        "the terms (mu, alpha) are {terms:?}; give one to three, whose mu add up to a positive shear modulus at rest [Pa] \
+         and whose alpha are at least 0.001 in size"
+    )]
+    OgdenOutOfRange {
+        /// μ [Pa] and α [-] of each.
+        terms: Vec<[f64; 2]>,
+    },
+    /// Constants of a reduced polynomial are too many or none, or the first is not positive.
+    #[error(
+        "the constants C10, C20 and C30 are {constants:?} Pa; give one to three, of which C10, half the shear modulus at \
+         rest, is positive"
+    )]
+    ReducedPolynomialOutOfRange {
+        /// The values given [Pa].
+        constants: Vec<f64>,
+    },
     /// γ is not a positive number, or α not above −1.
     #[error(
         "gamma is {gamma} Pa and alpha is {alpha}; give a positive gamma, the shear modulus at rest, and an alpha above -1"

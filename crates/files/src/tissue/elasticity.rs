@@ -49,7 +49,7 @@ pub enum Elasticity {
     },
 }
 
-const POISSONS_RATIO: Domain = Domain::number("a number", [Excluded(-1.0), Excluded(0.5)])
+pub(super) const POISSONS_RATIO: Domain = Domain::number("a number", [Excluded(-1.0), Excluded(0.5)])
     .usually(0.0, 0.5)
     .with_remark(
         "0.5 itself belongs to the incompressible laws neo_hookean, mooney_rivlin and exponential; 0.49 is near \
@@ -96,16 +96,20 @@ impl Elasticity {
         check_parameters(keys, law)?;
         match law {
             LawName::Linear => Ok(Self::Linear {
-                youngs_modulus_pa: keys.required_estimate("youngs_modulus_pa", Domain::MODULUS)?,
-                poissons_ratio: keys.required_estimate("poissons_ratio", POISSONS_RATIO)?,
+                youngs_modulus_pa: keys.required_estimate("youngs_modulus_pa")?,
+                poissons_ratio: keys.required_estimate("poissons_ratio")?,
             }),
-            LawName::NeoHookean => Ok(Self::NeoHookean {
-                c10_pa: keys.required_estimate("c10_pa", Domain::MODULUS)?,
-            }),
+            LawName::NeoHookean => {
+                let c10_pa = keys.estimate_within("c10_pa", Domain::MODULUS)?;
+                Ok(Self::NeoHookean {
+                    c10_pa: c10_pa
+                        .ok_or_else(|| keys.missing("c10_pa", Domain::MODULUS.expected()))?,
+                })
+            }
             LawName::MooneyRivlin => mooney_rivlin(keys),
             LawName::Exponential => Ok(Self::Exponential {
-                gamma_pa: keys.required_estimate("gamma_pa", Domain::MODULUS)?,
-                alpha: keys.required_estimate("alpha", Domain::EXPONENT)?,
+                gamma_pa: keys.required_estimate("gamma_pa")?,
+                alpha: keys.required_estimate("alpha")?,
             }),
         }
     }
@@ -125,8 +129,8 @@ fn check_parameters(keys: &Keys<'_>, law: LawName) -> Result<(), Error> {
 
 fn mooney_rivlin(keys: &Keys<'_>) -> Result<Elasticity, Error> {
     // A fit may put one of the two below zero; only the sum must stay above it.
-    let c10_pa = keys.required_estimate("c10_pa", Domain::SIGNED_MODULUS)?;
-    let c01_pa = keys.required_estimate("c01_pa", Domain::SIGNED_MODULUS)?;
+    let c10_pa = keys.required_estimate("c10_pa")?;
+    let c01_pa = keys.required_estimate("c01_pa")?;
     if c10_pa.value + c01_pa.value > 0.0 {
         return Ok(Elasticity::MooneyRivlin { c10_pa, c01_pa });
     }

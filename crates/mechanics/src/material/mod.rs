@@ -8,6 +8,8 @@ pub(crate) mod linear_elastic;
 pub(crate) mod material;
 pub(crate) mod mooney_rivlin;
 pub(crate) mod neo_hookean;
+pub(crate) mod ogden;
 mod principal;
 pub(crate) mod prony;
+pub(crate) mod reduced_polynomial;
 pub(crate) mod volume;

@@ -2,7 +2,8 @@
 
 use nalgebra::{Matrix3, Rotation3};
 use palpate_mechanics::{
-    Exponential, Law, LinearElastic, MooneyRivlin, NeoHookean, Strain, Tangent,
+    Exponential, Law, LinearElastic, MooneyRivlin, NeoHookean, Ogden, ReducedPolynomial, Strain,
+    Tangent,
 };
 
 use crate::contacts::{MODULUS, Random};
@@ -120,6 +121,46 @@ pub(crate) fn every_law() -> Vec<Candidate> {
             modulus(gamma, 10.0),
             move |p| Exponential::compressible(p[0], p[1], bulk).unwrap(),
         ));
+    }
+    // μ in parts of the shear modulus, and α; the last is unstable beyond some stretch.
+    let ogden: [&[[f64; 2]]; 6] = [
+        &[[1.0, 0.1]],
+        &[[1.0, -4.0]],
+        &[[1.0, 24.0]],
+        &[[0.6, 2.0], [0.4, -2.0]],
+        &[[0.5, 1.3], [0.4, 5.0], [0.1, -2.0]],
+        &[[1.2, 4.0], [-0.2, 9.0]],
+    ];
+    for terms in ogden {
+        let of = |p: &[f64]| {
+            p.chunks(2)
+                .map(|term| [term[0], term[1]])
+                .collect::<Vec<_>>()
+        };
+        let parameters: Vec<f64> = terms
+            .iter()
+            .flat_map(|[mu, alpha]| [gamma * mu, *alpha])
+            .collect();
+        let bulk = 10.0 * gamma;
+        laws.push(Candidate::new(&parameters, 3.0 * gamma, move |p| {
+            Ogden::incompressible(&of(p)).unwrap()
+        }));
+        laws.push(Candidate::new(
+            &parameters,
+            modulus(gamma, 10.0),
+            move |p| Ogden::compressible(&of(p), bulk).unwrap(),
+        ));
+    }
+    // C20 and C30 over C10.
+    for parts in [[1.0, 0.0, 0.0], [1.0, 2.0, 0.0], [1.0, -0.1, 3.0]] {
+        let parameters = parts.map(|part| part * c10);
+        laws.push(Candidate::new(&parameters, 6.0 * c10, |p| {
+            ReducedPolynomial::incompressible(p).unwrap()
+        }));
+        let (youngs, bulk) = (modulus(2.0 * c10, 10.0), 20.0 * c10);
+        laws.push(Candidate::new(&parameters, youngs, move |p| {
+            ReducedPolynomial::compressible(p, bulk).unwrap()
+        }));
     }
     laws
 }

@@ -4,7 +4,7 @@
 //! over undeformed.
 
 use nalgebra::{Matrix3, Vector3};
-use palpate_mechanics::{Exponential, Law, MooneyRivlin, NeoHookean};
+use palpate_mechanics::{Exponential, Law, MooneyRivlin, NeoHookean, Ogden, ReducedPolynomial};
 
 use crate::contacts::{MODULUS, Random};
 use crate::every_law::rotation;
@@ -118,5 +118,76 @@ fn exponential() {
             let exact = (term(l) - l.powi(-2) * term(1.0 / l)) / (1.0 + l.powi(-2));
             compare("shear", amount, found, exact);
         }
+    }
+}
+
+/// Judge: the textbook's stresses of a law of principal stretches and of one of the first invariant [Holzapfel 2000,
+/// sections 6.5 and 6.6].
+#[test]
+fn ogden_and_the_reduced_polynomial() {
+    let mut random = Random(4);
+    let mu = MODULUS / 3.0;
+    let sets: [&[[f64; 2]]; 4] = [
+        &[[mu, 4.28]],
+        &[[mu, -3.0]],
+        &[[0.7 * mu, 1.3], [0.3 * mu, 5.0]],
+        &[[0.6 * mu, 1.3], [0.5 * mu, 5.0], [-0.1 * mu, -2.0]],
+    ];
+    for terms in sets {
+        let law = Ogden::incompressible(terms).unwrap();
+        // λ dW/dλ.
+        let term = |l: f64| -> f64 {
+            let each = terms.iter();
+            each.map(|[mu, alpha]| 2.0 * mu / alpha * l.powf(*alpha))
+                .sum()
+        };
+        for l in stretches() {
+            let found = nominal(&law, uniaxial(l), &mut random);
+            compare("tension", l, found, (term(l) - term(l.sqrt().recip())) / l);
+            let found = nominal(&law, equibiaxial(l), &mut random);
+            compare("two ways", l, found, (term(l) - term(l.powi(-2))) / l);
+            let found = nominal(&law, [l, 1.0, 1.0 / l], &mut random);
+            compare("planar tension", l, found, (term(l) - term(1.0 / l)) / l);
+            let amount = l - 1.0 / l;
+            let found = shear(&law, amount, &mut random);
+            let exact = (term(l) - term(1.0 / l)) / (l + 1.0 / l);
+            compare("shear", amount, found, exact);
+        }
+    }
+    for [c10, c20, c30] in [
+        [1700.0, 0.0, 0.0],
+        [1700.0, 900.0, 0.0],
+        [1700.0, -200.0, 400.0],
+    ] {
+        let law = ReducedPolynomial::incompressible(&[c10, c20, c30]).unwrap();
+        let slope = |x: f64| c10 + 2.0 * c20 * x + 3.0 * c30 * x * x;
+        for l in stretches() {
+            let found = nominal(&law, uniaxial(l), &mut random);
+            let x = l * l + 2.0 / l - 3.0;
+            compare("tension", l, found, 2.0 * (l - l.powi(-2)) * slope(x));
+            let found = nominal(&law, equibiaxial(l), &mut random);
+            let x = 2.0 * l * l + l.powi(-4) - 3.0;
+            compare("two ways", l, found, 2.0 * (l - l.powi(-5)) * slope(x));
+            let found = shear(&law, l, &mut random);
+            compare("shear", l, found, 2.0 * slope(l * l) * l);
+        }
+    }
+}
+
+/// Judge: another law's code.
+#[test]
+fn ogden_holds_neo_hooke_and_mooney_rivlin() {
+    let mut random = Random(5);
+    let (c10, c01) = (1200.0, 500.0);
+    let ogden = Ogden::incompressible(&[[2.0 * c10, 2.0], [2.0 * c01, -2.0]]).unwrap();
+    let mooney = MooneyRivlin::incompressible(c10, c01).unwrap();
+    for _ in 0..100 {
+        let f = crate::every_law::deformation(&mut random);
+        let off = ogden.distortion_tangent(&f) - mooney.distortion_tangent(&f);
+        // The eigenvalues of C in double precision, with what the pressure that both leave out adds.
+        assert!(
+            off.norm() < 1e-11 * mooney.distortion_tangent(&f).norm(),
+            "{off}"
+        );
     }
 }
