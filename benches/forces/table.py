@@ -121,7 +121,9 @@ def milli(values):
 
 
 def row(scene, engine, mesh, answer):
-    title = ENGINES[engine] + ("" if mesh == "own" else f", {answer.get('nodes', mesh)} nodes")
+    title = ENGINES[engine] + (
+        "" if mesh == "own" else f", {answer['nodes']} nodes" if "nodes" in answer else f", {mesh}"
+    )
     for key, words in [("missing", "not installed"), ("skipped", "not run"), ("unfit", "cannot"), ("failed", "failed")]:
         if key in answer:
             return f"| {title} | {words}: {answer[key]} | | | | | | | |"

@@ -46,6 +46,19 @@ def organ(scene, folder):
     return content, top
 
 
+def probed(vertices, triangles, scene):
+    """Corners and weights of the highest point of the surface at the scene's distance from the axis."""
+    a, b, c = vertices[triangles].swapaxes(0, 1)
+    frame = np.stack([b - a, c - a], axis=-1)[:, :2]
+    flat = np.abs(np.linalg.det(frame)) > 1e-15
+    inner = np.full((len(triangles), 2), -1.0)
+    inner[flat] = np.linalg.solve(frame[flat], ([scene.probe, 0.0] - a[flat, :2])[..., None])[..., 0]
+    weights = np.column_stack([1 - inner.sum(axis=1), inner])
+    height = np.where((weights > -1e-9).all(axis=1), (weights * vertices[triangles][..., 2]).sum(axis=1), -np.inf)
+    found = int(height.argmax())
+    return triangles[found], weights[found]
+
+
 def run(scene, _mesh, kind=None):
     began = time.perf_counter()
     with tempfile.TemporaryDirectory() as folder:
@@ -57,7 +70,8 @@ def run(scene, _mesh, kind=None):
     step = simulation.step_length
     times = scene.times(step)
     forces, durations, settled = [], [], []
-    probe = int(np.argmin(np.abs(simulation.surface.vertices - [scene.probe, 0.0, top]).sum(axis=1)))
+    rest = simulation.vertices
+    corners, weights = probed(rest, simulation.triangles, scene)
     first = None
     for now in times:
         before = time.perf_counter()
@@ -66,9 +80,11 @@ def run(scene, _mesh, kind=None):
         durations.append(after - before)
         first = first or after - began
         forces.append(float(np.asarray(force).reshape(-1)[2]))
+        settled.append(weights @ (rest[corners] - simulation.vertices[corners])[:, 2])
     return {
         "time": times,
         "force": np.array(forces),
+        "settled": np.array(settled),
         "steps_s": durations,
         "first_s": first,
         "warnings": list(simulation.warnings),
