@@ -15,8 +15,9 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use palpate_files::Tissue;
 use palpate_files::recording::{IndenterShape, RecordingHeader};
-use palpate_files::{Elasticity, Tissue};
+use palpate_files::tissue::LawName;
 use palpate_mechanics::contact::{Bond, Tip};
 use palpate_mechanics::finite_elements::indentation::{
     self, Base, Block, Grip, IndentationProblem, Indenter, Side,
@@ -99,7 +100,7 @@ impl VirtualSpecimen {
         at_step: &mut dyn FnMut(f64),
     ) -> Result<Self, Error> {
         let material = Material::from_tissue(tissue)?;
-        if !matches!(tissue.elasticity, Elasticity::Linear { .. }) {
+        if tissue.elasticity.law() != LawName::Linear {
             let curve = solved(&material, (radius, deepest), at_step)?;
             return Self::of_solved(tissue, radius, curve);
         }

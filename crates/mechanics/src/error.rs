@@ -31,24 +31,6 @@ pub enum Error {
         /// The value given [Pa].
         c01: f64,
     },
-    /// Terms of Ogden's law are too many or none, or their numbers are those of no solid.
-    #[error(
-        "the terms (mu, alpha) are {terms:?}; give one to three, whose mu add up to a positive shear modulus at rest [Pa] \
-         and whose alpha are at least 0.001 in size"
-    )]
-    OgdenOutOfRange {
-        /// μ [Pa] and α [-] of each.
-        terms: Vec<[f64; 2]>,
-    },
-    /// Constants of a reduced polynomial are too many or none, or the first is not positive.
-    #[error(
-        "the constants C10, C20 and C30 are {constants:?} Pa; give one to three, of which C10, half the shear modulus at \
-         rest, is positive"
-    )]
-    ReducedPolynomialOutOfRange {
-        /// The values given [Pa].
-        constants: Vec<f64>,
-    },
     /// γ is not a positive number, or α not above −1.
     #[error(
         "gamma is {gamma} Pa and alpha is {alpha}; give a positive gamma, the shear modulus at rest, and an alpha above -1"
@@ -58,6 +40,26 @@ pub enum Error {
         gamma: f64,
         /// The value given [-].
         alpha: f64,
+    },
+    /// The terms of Ogden's law are not one to three, or their moduli do not sum to a positive number.
+    #[error(
+        "Ogden's law has {order} terms whose mu sum to {shear} Pa; give one to three terms whose mu, the shear modulus at rest, sum to a positive number"
+    )]
+    OgdenOutOfRange {
+        /// Number of terms.
+        order: usize,
+        /// Sum of the values of μ given [Pa].
+        shear: f64,
+    },
+    /// The coefficients of a reduced polynomial are not one to three, or the first is not positive.
+    #[error(
+        "the reduced polynomial has {order} coefficients and C10 is {c10} Pa; give one to three finite coefficients, and a positive C10, half the shear modulus at rest"
+    )]
+    ReducedPolynomialOutOfRange {
+        /// Number of coefficients.
+        order: usize,
+        /// The value of C10 given [Pa].
+        c10: f64,
     },
     /// The bulk modulus is not a positive number.
     #[error(

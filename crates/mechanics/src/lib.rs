@@ -27,7 +27,7 @@ pub use limits::{Limit, Limits, Reached};
 pub use material::exponential::Exponential;
 pub use material::law::{Distortion, Law, Tangent};
 pub use material::linear_elastic::LinearElastic;
-pub use material::material::Material;
+pub use material::material::{Material, named as law_named};
 pub use material::mooney_rivlin::MooneyRivlin;
 pub use material::neo_hookean::NeoHookean;
 pub use material::ogden::Ogden;

@@ -72,3 +72,15 @@ def test_errors_are_those_of_the_command(command: Command, tmp_path: Path) -> No
     with pytest.raises(palpate.InputError) as raised:
         palpate.Simulation(palpate.Scene.read(scene))
     assert str(raised.value) in said.stderr
+
+
+def test_laws_of_several_terms_keep_their_order(tmp_path: Path) -> None:
+    ogden = palpate.Tissue(law="ogden", mu_1_pa=500.0, alpha_1=2.5, mu_2_pa=-60.0, alpha_2=-4.0)
+    assert list(ogden.parameters) == ["mu_1_pa", "alpha_1", "mu_2_pa", "alpha_2"]
+    ogden.write(tmp_path / "ogden.toml")
+    assert palpate.Tissue.read(tmp_path / "ogden.toml") == ogden
+    assert "OGDEN, N=2" in ogden.to_abaqus() and 'type="Ogden"' in ogden.to_febio()
+    yeoh = palpate.Tissue(law="reduced_polynomial", c10_pa=500.0, c20_pa=-20.0, c30_pa=3.0)
+    assert "REDUCED POLYNOMIAL, N=3" in yeoh.to_abaqus() and 'type="Yeoh"' in yeoh.to_febio()
+    with pytest.raises(palpate.InputError, match="`tissue.alpha_1` is missing"):
+        palpate.Tissue(law="ogden", mu_1_pa=500.0)

@@ -1,5 +1,6 @@
 //! The force of a nonlinear tissue over depth, for the tips of a scene.
 
+use palpate_files::tissue::LawName;
 use palpate_files::{Elasticity, Tissue};
 use palpate_mechanics::contact::{Bond, Tip};
 use palpate_mechanics::finite_elements::indentation::Stiffening;
@@ -18,7 +19,7 @@ pub(crate) fn stiffen(
     let mut found: Vec<(Tip, Bond, Elasticity, Stiffening)> = Vec::new();
     let mut doubts = Vec::new();
     for (tool, (tissue, material)) in tools.iter_mut().zip(touched) {
-        if matches!(tissue.elasticity, Elasticity::Linear { .. }) {
+        if tissue.elasticity.law() == LawName::Linear {
             continue;
         }
         let (tip, bond) = (tool.tip, tool.bond);
@@ -54,8 +55,8 @@ fn of(
     (tip, bond): (Tip, Bond),
     at_step: &mut dyn FnMut(f64),
 ) -> Result<Stiffening, Error> {
-    match tissue.elasticity {
-        Elasticity::NeoHookean { .. } => Ok(Stiffening::neo_hookean(tip, bond)),
+    match tissue.elasticity.law() {
+        LawName::NeoHookean => Ok(Stiffening::neo_hookean(tip, bond)),
         _ => Ok(Stiffening::of(material, (tip, bond), at_step)?),
     }
 }

@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use palpate_files::Estimate;
 use palpate_files::tissue::{Elasticity, LawName};
-use palpate_mechanics::{Exponential, Law, MooneyRivlin, NeoHookean};
+use palpate_mechanics::{Law, law_named};
 
 /// A law that can be sought: a modulus, which all force grows with, and perhaps a number for the shape of
 /// the force. Seen so, the two hardly disturb one another.
@@ -49,14 +49,9 @@ impl SoughtLaw {
     /// # Errors
     /// When they are none of a law.
     pub fn of(self, modulus: f64, shape: f64) -> Result<Arc<dyn Law>, palpate_mechanics::Error> {
-        Ok(match self {
-            Self::NeoHookean => Arc::new(NeoHookean::incompressible(modulus)?),
-            Self::MooneyRivlin => {
-                let [first, second] = [1.0 - shape, shape].map(|part| modulus * part);
-                Arc::new(MooneyRivlin::incompressible(first, second)?)
-            }
-            Self::Exponential => Arc::new(Exponential::incompressible(modulus, shape)?),
-        })
+        let parameters = self.parameters(modulus, shape);
+        let values: Vec<_> = parameters.iter().map(|parameter| parameter.value).collect();
+        law_named(self.name(), &values)
     }
 
     /// The law of unit modulus with a `shape` [-].
@@ -127,20 +122,11 @@ impl SoughtLaw {
     }
 
     /// The law as files hold it, from its parameters in their order.
+    ///
+    /// # Panics
+    /// When there are not as many as [`Self::parameters`] has.
     pub fn elasticity(self, parameters: &[Estimate]) -> Elasticity {
-        match self {
-            Self::NeoHookean => Elasticity::NeoHookean {
-                c10_pa: parameters[0],
-            },
-            Self::MooneyRivlin => Elasticity::MooneyRivlin {
-                c10_pa: parameters[0],
-                c01_pa: parameters[1],
-            },
-            Self::Exponential => Elasticity::Exponential {
-                gamma_pa: parameters[0],
-                alpha: parameters[1],
-            },
-        }
+        Elasticity::new(self.name(), parameters).expect("as many parameters as the law has")
     }
 }
 

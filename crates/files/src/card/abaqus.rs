@@ -1,55 +1,41 @@
 use super::NoCard;
-use crate::{Elasticity, Tissue};
+use crate::Tissue;
+
+/// Most numbers on a line of data.
+const MOST_ON_LINE: usize = 8;
 
 /// Keywords of a material: moduli at time zero, Prony terms relative to them, as here.
 pub(super) fn card(tissue: &Tissue) -> Result<String, NoCard> {
-    let (law, compressible) = match tissue.elasticity {
-        Elasticity::Linear {
-            youngs_modulus_pa: youngs,
-            poissons_ratio: poisson,
-        } => {
-            let numbers = [youngs.value, poisson.value];
-            (lines("*ELASTIC", tissue, &numbers), true)
-        }
-        // The last number is 2/κ: zero for what keeps its volume, which takes hybrid elements.
-        Elasticity::NeoHookean { c10_pa } => {
-            let numbers = [c10_pa.value, 0.0];
-            (lines("*HYPERELASTIC, NEO HOOKE", tissue, &numbers), false)
-        }
-        Elasticity::MooneyRivlin { c10_pa, c01_pa } => {
-            let numbers = [c10_pa.value, c01_pa.value, 0.0];
-            (
-                lines("*HYPERELASTIC, MOONEY-RIVLIN", tissue, &numbers),
-                false,
-            )
-        }
-        Elasticity::Exponential { .. } => {
-            return Err(NoCard::of("Abaqus", tissue.elasticity.law()));
-        }
-    };
-    let mut text = format!(
-        "** {}, written by palpate. Units: N, m, kg, s, Pa.\n*MATERIAL, NAME={}\n*DENSITY\n{:?}\n{law}",
-        tissue.name.as_deref().unwrap_or("tissue"),
-        tissue.card_name(),
-        tissue.density_kg_m3.value,
-    );
-    if !tissue.prony.is_empty() {
-        text += "** g, k, tau: relative to the instantaneous moduli.\n*VISCOELASTIC, TIME=PRONY\n";
-    }
-    for term in &tissue.prony {
-        // One relaxation for the whole body: the bulk modulus falls with the shear modulus.
-        let bulk = if compressible { term.g.value } else { 0.0 };
-        text += &format!("{:?}, {bulk:?}, {:?}\n", term.g.value, term.tau_s.value);
-    }
-    Ok(text)
-}
-
-fn lines(keyword: &str, tissue: &Tissue, numbers: &[f64]) -> String {
+    let law = tissue.elasticity.law();
+    let written = law.row().abaqus.ok_or(NoCard::of("Abaqus", law))?;
+    let written = written(&tissue.elasticity.values());
     let moduli = if tissue.prony.is_empty() {
         ""
     } else {
         ", MODULI=INSTANTANEOUS"
     };
-    let numbers: Vec<_> = numbers.iter().map(|number| format!("{number:?}")).collect();
-    format!("{keyword}{moduli}\n{}\n", numbers.join(", "))
+    let mut text = format!(
+        "** {}, written by palpate. Units: N, m, kg, s, Pa.\n*MATERIAL, NAME={}\n*DENSITY\n{:?}\n{}{moduli}\n",
+        tissue.name.as_deref().unwrap_or("tissue"),
+        tissue.card_name(),
+        tissue.density_kg_m3.value,
+        written.keyword,
+    );
+    for numbers in written.numbers.chunks(MOST_ON_LINE) {
+        let numbers: Vec<_> = numbers.iter().map(|number| format!("{number:?}")).collect();
+        text += &format!("{}\n", numbers.join(", "));
+    }
+    if !tissue.prony.is_empty() {
+        text += "** g, k, tau: relative to the instantaneous moduli.\n*VISCOELASTIC, TIME=PRONY\n";
+    }
+    for term in &tissue.prony {
+        // One relaxation for the whole body: the bulk modulus falls with the shear modulus.
+        let bulk = if written.compressible {
+            term.g.value
+        } else {
+            0.0
+        };
+        text += &format!("{:?}, {bulk:?}, {:?}\n", term.g.value, term.tau_s.value);
+    }
+    Ok(text)
 }

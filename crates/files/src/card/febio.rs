@@ -1,5 +1,5 @@
 use super::NoCard;
-use crate::{Elasticity, Tissue};
+use crate::Tissue;
 
 /// Bulk modulus over shear modulus of what keeps its volume [-]: FEBio takes a number, and this one leaves
 /// Poisson's ratio at 0.4995.
@@ -9,25 +9,18 @@ const STIFF_VOLUME: f64 = 1000.0;
 /// relaxed: moduli are times 1 − Σ g, and γᵢ = gᵢ/(1 − Σ g).
 pub(super) fn card(tissue: &Tissue) -> Result<String, NoCard> {
     let left = 1.0 - tissue.prony.iter().map(|term| term.g.value).sum::<f64>();
-    let (kind, relaxing, numbers) = match tissue.elasticity {
-        Elasticity::Linear {
-            youngs_modulus_pa: youngs,
-            poissons_ratio: poisson,
-        } => {
-            let numbers = vec![("E", left * youngs.value), ("v", poisson.value)];
-            ("isotropic elastic", "viscoelastic", numbers)
+    let law = tissue.elasticity.law();
+    let written = law.row().febio.ok_or(NoCard::of("FEBio", law))?;
+    let written = written(&tissue.elasticity.times(left).values());
+    let (kind, mut numbers) = (written.kind, written.numbers);
+    let relaxing = match written.shear_modulus {
+        Some(shear) => {
+            numbers.push(("k".to_owned(), STIFF_VOLUME * shear));
+            "uncoupled viscoelastic"
         }
-        Elasticity::NeoHookean { c10_pa } => {
-            let numbers = distortion(left * c10_pa.value, 0.0);
-            ("Mooney-Rivlin", "uncoupled viscoelastic", numbers)
-        }
-        Elasticity::MooneyRivlin { c10_pa, c01_pa } => {
-            let numbers = distortion(left * c10_pa.value, left * c01_pa.value);
-            ("Mooney-Rivlin", "uncoupled viscoelastic", numbers)
-        }
-        Elasticity::Exponential { .. } => return Err(NoCard::of("FEBio", tissue.elasticity.law())),
+        None => "viscoelastic",
     };
-    let density = ("density", tissue.density_kg_m3.value);
+    let density = ("density".to_owned(), tissue.density_kg_m3.value);
     let material = if tissue.prony.is_empty() {
         let inner = elements(&[vec![density], numbers].concat(), 3);
         format!(
@@ -56,19 +49,10 @@ pub(super) fn card(tissue: &Tissue) -> Result<String, NoCard> {
     ))
 }
 
-fn distortion(c1: f64, c2: f64) -> Vec<(&'static str, f64)> {
-    vec![
-        ("c1", c1),
-        ("c2", c2),
-        ("k", STIFF_VOLUME * 2.0 * (c1 + c2)),
-    ]
-}
-
-fn elements<N: AsRef<str>>(values: &[(N, f64)], depth: usize) -> String {
+fn elements(values: &[(String, f64)], depth: usize) -> String {
     let indent = "\t".repeat(depth);
-    let each = values.iter().map(|(name, value)| {
-        let name = name.as_ref();
-        format!("{indent}<{name}>{value:?}</{name}>\n")
-    });
+    let each = values
+        .iter()
+        .map(|(name, value)| format!("{indent}<{name}>{value:?}</{name}>\n"));
     each.collect()
 }

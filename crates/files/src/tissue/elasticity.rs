@@ -1,143 +1,113 @@
-use std::ops::Bound::Excluded;
+use std::fmt;
 
-use crate::words::words;
-use crate::{Domain, Error, Estimate, Keys};
+use super::Tissue;
+use super::laws::LawName;
+use crate::words::either;
+use crate::{Error, Estimate, Keys};
 
-words! {
-    /// The name of an elastic law.
-    pub enum LawName {
-        /// Linear elasticity.
-        Linear = "linear",
-        /// Neo-Hookean, incompressible.
-        NeoHookean = "neo_hookean",
-        /// Mooney-Rivlin, incompressible.
-        MooneyRivlin = "mooney_rivlin",
-        /// The exponential law of Blatz, Chu and Wayland, incompressible.
-        Exponential = "exponential" | "blatz",
-    }
+/// Most parameters of a law.
+const MOST: usize = 6;
+
+/// An elastic law with its parameters. All but [`LawName::Linear`] are incompressible.
+#[derive(Clone, Copy, PartialEq)]
+pub struct Elasticity {
+    law: LawName,
+    /// In the order of the law's keys; those beyond `count` are zero.
+    estimates: [Estimate; MOST],
+    count: usize,
 }
-
-/// An elastic law with its parameters. All but [`Elasticity::Linear`] are incompressible.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Elasticity {
-    /// Linear elasticity.
-    Linear {
-        /// Young's modulus [Pa].
-        youngs_modulus_pa: Estimate,
-        /// Poisson's ratio [-], above -1 and below 0.5.
-        poissons_ratio: Estimate,
-    },
-    /// Ψ = C₁₀ (I₁ − 3).
-    NeoHookean {
-        /// C₁₀ [Pa], half the shear modulus.
-        c10_pa: Estimate,
-    },
-    /// Ψ = C₁₀ (I₁ − 3) + C₀₁ (I₂ − 3), with C₁₀ + C₀₁ above zero.
-    MooneyRivlin {
-        /// C₁₀ [Pa].
-        c10_pa: Estimate,
-        /// C₀₁ [Pa].
-        c01_pa: Estimate,
-    },
-    /// The law of Blatz, Chu and Wayland: Ψ = γ / (2 α (α + 1)) Σ (exp(α (λᵢ² − 1)) − 1); with α = 0 it is
-    /// neo-Hookean with C₁₀ = γ/2.
-    Exponential {
-        /// γ [Pa], a third of Young's modulus at small strain.
-        gamma_pa: Estimate,
-        /// α [-].
-        alpha: Estimate,
-    },
-}
-
-pub(super) const POISSONS_RATIO: Domain = Domain::number("a number", [Excluded(-1.0), Excluded(0.5)])
-    .usually(0.0, 0.5)
-    .with_remark(
-        "0.5 itself belongs to the incompressible laws neo_hookean, mooney_rivlin and exponential; 0.49 is near \
-         enough for most tissues",
-    );
-
-const SUM_POSITIVE: &str = "numbers such that c10_pa + c01_pa, half the shear modulus, is above 0";
 
 impl Elasticity {
-    /// The word of the law.
-    pub fn law(&self) -> LawName {
-        match self {
-            Self::Linear { .. } => LawName::Linear,
-            Self::NeoHookean { .. } => LawName::NeoHookean,
-            Self::MooneyRivlin { .. } => LawName::MooneyRivlin,
-            Self::Exponential { .. } => LawName::Exponential,
+    /// A law with its parameters [unit of their keys], in the order of [`super::LawRow::keys`]; none where the law has
+    /// another number of parameters. Whether they are those of a solid is asked where a file is read or written.
+    pub fn new(law: LawName, parameters: &[Estimate]) -> Option<Self> {
+        let (row, count) = (law.row(), parameters.len());
+        let most = row.parameters.len().min(MOST);
+        if count == 0 || count > most || !count.is_multiple_of(row.term) {
+            return None;
         }
+        let mut estimates = [Estimate::exactly(0.0); MOST];
+        estimates[..count].copy_from_slice(parameters);
+        Some(Self {
+            law,
+            estimates,
+            count,
+        })
+    }
+
+    /// The law.
+    pub fn law(&self) -> LawName {
+        self.law
     }
 
     /// The parameters with their keys, in the order of the documentation.
     pub fn parameters(&self) -> Vec<(&'static str, Estimate)> {
-        match *self {
-            Self::Linear {
-                youngs_modulus_pa,
-                poissons_ratio,
-            } => vec![
-                ("youngs_modulus_pa", youngs_modulus_pa),
-                ("poissons_ratio", poissons_ratio),
-            ],
-            Self::NeoHookean { c10_pa } => vec![("c10_pa", c10_pa)],
-            Self::MooneyRivlin { c10_pa, c01_pa } => vec![("c10_pa", c10_pa), ("c01_pa", c01_pa)],
-            Self::Exponential { gamma_pa, alpha } => vec![("gamma_pa", gamma_pa), ("alpha", alpha)],
+        let estimates = self.estimates[..self.count].iter().copied();
+        self.law.row().keys().zip(estimates).collect()
+    }
+
+    /// The values of the parameters [unit of their keys], in the same order.
+    pub fn values(&self) -> Vec<f64> {
+        let estimates = &self.estimates[..self.count];
+        estimates.iter().map(|estimate| estimate.value).collect()
+    }
+
+    /// The law of a tissue that is stiffer by `factor` [-]: every modulus times it, with the standard errors as they are.
+    #[must_use]
+    pub fn times(mut self, factor: f64) -> Self {
+        let parameters = self.law.row().keys().zip(&mut self.estimates);
+        for (_, estimate) in parameters.filter(|(key, _)| key.ends_with("_pa")) {
+            estimate.value *= factor;
         }
+        self
     }
 
     pub(super) fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
         let law = keys.word_or_former("law", LawName::WORDS, LawName::FORMER)?;
         let law = law.ok_or_else(|| {
-            keys.missing(
-                "law",
-                "\"linear\", \"neo_hookean\", \"mooney_rivlin\" or \"exponential\"",
-            )
+            let words = LawName::WORDS.iter().map(|(word, _)| format!("\"{word}\""));
+            keys.missing("law", either(&words.collect::<Vec<_>>()))
         })?;
-        check_parameters(keys, law)?;
-        match law {
-            LawName::Linear => Ok(Self::Linear {
-                youngs_modulus_pa: keys.required_estimate("youngs_modulus_pa")?,
-                poissons_ratio: keys.required_estimate("poissons_ratio")?,
-            }),
-            LawName::NeoHookean => {
-                let c10_pa = keys.estimate_within("c10_pa", Domain::MODULUS)?;
-                Ok(Self::NeoHookean {
-                    c10_pa: c10_pa
-                        .ok_or_else(|| keys.missing("c10_pa", Domain::MODULUS.expected()))?,
-                })
-            }
-            LawName::MooneyRivlin => mooney_rivlin(keys),
-            LawName::Exponential => Ok(Self::Exponential {
-                gamma_pa: keys.required_estimate("gamma_pa")?,
-                alpha: keys.required_estimate("alpha")?,
-            }),
+        // A parameter of another law is a mistake, not something to pass over.
+        let own = law.row().keys();
+        let known: Vec<_> = own.chain(Tissue::SHARED_KEYS).collect();
+        keys.only(&known)?;
+        let estimates = estimates(keys, law)?;
+        let values: Vec<_> = estimates.iter().map(|estimate| estimate.value).collect();
+        if let Some(positive) = &law.row().positive
+            && (positive.of)(&values) <= 0.0
+        {
+            return Err(Error::BadValue {
+                place: keys.place().clone(),
+                key: keys.full_name(positive.what),
+                found: format!("{}", (positive.of)(&values)),
+                expected: positive.expected.into(),
+            });
         }
+        Self::new(law, &estimates).ok_or_else(|| keys.missing("law", "a law with its parameters"))
     }
 }
 
-/// A parameter of another law is a mistake, not something to pass over.
-fn check_parameters(keys: &Keys<'_>, law: LawName) -> Result<(), Error> {
-    let of_law: &[&str] = match law {
-        LawName::Linear => &["youngs_modulus_pa", "poissons_ratio"],
-        LawName::NeoHookean => &["c10_pa"],
-        LawName::MooneyRivlin => &["c10_pa", "c01_pa"],
-        LawName::Exponential => &["gamma_pa", "alpha"],
-    };
-    let shared = &["name", "density_kg_m3", "law", "prony", "lumped", "source"];
-    keys.only(&[of_law, shared].concat())
+/// The first term, and those after it up to the last of which a parameter is given.
+fn estimates(keys: &Keys<'_>, law: LawName) -> Result<Vec<Estimate>, Error> {
+    let row = law.row();
+    let given = row
+        .parameters
+        .iter()
+        .rposition(|(key, _)| keys.contains(key));
+    let terms = given.map_or(0, |last| last / row.term) + 1;
+    let parameters = row.parameters.iter().take(terms * row.term);
+    parameters
+        .map(|&(key, domain)| {
+            let estimate = keys.estimate_within(key, domain)?;
+            estimate.ok_or_else(|| keys.missing(key, domain.expected()))
+        })
+        .collect()
 }
 
-fn mooney_rivlin(keys: &Keys<'_>) -> Result<Elasticity, Error> {
-    // A fit may put one of the two below zero; only the sum must stay above it.
-    let c10_pa = keys.required_estimate("c10_pa")?;
-    let c01_pa = keys.required_estimate("c01_pa")?;
-    if c10_pa.value + c01_pa.value > 0.0 {
-        return Ok(Elasticity::MooneyRivlin { c10_pa, c01_pa });
+impl fmt::Debug for Elasticity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} ", self.law)?;
+        f.debug_map().entries(self.parameters()).finish()
     }
-    Err(Error::BadValue {
-        place: keys.place().clone(),
-        key: keys.full_name("c10_pa + c01_pa"),
-        found: format!("{}", c10_pa.value + c01_pa.value),
-        expected: SUM_POSITIVE.into(),
-    })
 }

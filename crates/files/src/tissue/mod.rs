@@ -3,6 +3,7 @@
 
 mod builtin;
 mod elasticity;
+mod laws;
 mod lumped;
 mod prony;
 mod source;
@@ -11,7 +12,8 @@ mod write;
 use std::path::Path;
 
 pub use builtin::BuiltinTissue;
-pub use elasticity::{Elasticity, LawName};
+pub use elasticity::Elasticity;
+pub use laws::{LawName, LawRow};
 pub use lumped::{EffectiveColumn, Kelvin, Lumped, NonlinearSprings};
 pub use prony::PronyTerm;
 pub use source::TissueSource;
@@ -43,6 +45,10 @@ pub struct Tissue {
 }
 
 impl Tissue {
+    /// The keys of a tissue's table that do not depend on its law.
+    const SHARED_KEYS: [&'static str; 6] =
+        ["name", "density_kg_m3", "law", "prony", "lumped", "source"];
+
     /// The keys of a tissue's table, in a file or in line in a scene.
     pub const KEYS: &'static [Key] = &[
         Key::text("name", "What people call it.").optional("\"liver\"", "it has no name"),
@@ -57,7 +63,7 @@ impl Tissue {
         .in_template(),
         Key::estimate(
             "poissons_ratio",
-            elasticity::POISSONS_RATIO,
+            laws::POISSONS_RATIO,
             "`linear`: Poisson's ratio.",
         )
         .optional("0.45", "another law")
@@ -65,7 +71,7 @@ impl Tissue {
         Key::estimate(
             "c10_pa",
             Domain::SIGNED_MODULUS,
-            "`neo_hookean`: C10, half the shear modulus; `mooney_rivlin`: C10.",
+            "`neo_hookean`, `reduced_polynomial`: C10, half the shear modulus; `mooney_rivlin`: C10.",
         )
         .optional("1333.0", "another law"),
         Key::estimate(
@@ -82,6 +88,22 @@ impl Tissue {
         .optional("2667.0", "another law"),
         Key::estimate("alpha", Domain::EXPONENT, "`exponential`: alpha.")
             .optional("0.5", "another law"),
+        Key::estimate("mu_1_pa", Domain::SIGNED_MODULUS, "`ogden`: mu of the first term; all mu together are the shear modulus.")
+            .optional("2300.0", "another law"),
+        Key::estimate("alpha_1", laws::SIGNED_EXPONENT, "`ogden`: alpha of the first term.")
+            .optional("4.3", "another law"),
+        Key::estimate("mu_2_pa", Domain::SIGNED_MODULUS, "`ogden`: mu of the second term.")
+            .optional("100.0", "one term"),
+        Key::estimate("alpha_2", laws::SIGNED_EXPONENT, "`ogden`: alpha of the second term.")
+            .optional("-2.0", "one term"),
+        Key::estimate("mu_3_pa", Domain::SIGNED_MODULUS, "`ogden`: mu of the third term.")
+            .optional("10.0", "two terms"),
+        Key::estimate("alpha_3", laws::SIGNED_EXPONENT, "`ogden`: alpha of the third term.")
+            .optional("9.0", "two terms"),
+        Key::estimate("c20_pa", Domain::SIGNED_MODULUS, "`reduced_polynomial`: C20.")
+            .optional("500.0", "one term"),
+        Key::estimate("c30_pa", Domain::SIGNED_MODULUS, "`reduced_polynomial`: C30.")
+            .optional("200.0", "two terms"),
         Key::tables(
             "prony",
             prony::KEYS,

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use palpate_files::tissue::LawName;
 use palpate_files::{BuiltinTissue, Elasticity, Tissue};
 
 /// The field `column` of the row of a published table that begins with `row`.
@@ -23,8 +24,9 @@ fn hyperelastic_organs_are_those_of_the_tables() {
     ];
     for (builtin, row) in rows {
         let tissue = Tissue::builtin(builtin);
-        let c10_pa = published("table_6_4_neo_hookean.csv", row, "final_c10_pa").into();
-        assert_eq!(tissue.elasticity, Elasticity::NeoHookean { c10_pa });
+        let c10 = published("table_6_4_neo_hookean.csv", row, "final_c10_pa");
+        let expected = Elasticity::new(LawName::NeoHookean, &[c10.into()]);
+        assert_eq!(Some(tissue.elasticity), expected);
         for (term, number) in tissue.prony.iter().zip(1..) {
             let of = |name: &str| published("table_6_3_prony.csv", row, &format!("{name}{number}"));
             assert_eq!(term.g.value, of("g"));
@@ -37,11 +39,9 @@ fn hyperelastic_organs_are_those_of_the_tables() {
 
 #[test]
 fn linear_organs_are_those_of_the_tables() {
-    let youngs_modulus = |tissue: &Tissue| match tissue.elasticity {
-        Elasticity::Linear {
-            youngs_modulus_pa, ..
-        } => youngs_modulus_pa.value,
-        other => panic!("{other:?}"),
+    let youngs_modulus = |tissue: &Tissue| {
+        assert_eq!(tissue.elasticity.law(), LawName::Linear);
+        tissue.elasticity.values()[0]
     };
     let spleen = Tissue::builtin(BuiltinTissue::PigSpleen);
     let kpa = published(

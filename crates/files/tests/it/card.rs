@@ -1,10 +1,11 @@
 //! Material cards, read again as their package would and compared with the tissue: G(t) at three times.
 
+use palpate_files::tissue::LawName;
 use palpate_files::{Elasticity, PronyTerm, Tissue};
 
 const TERMS: [(f64, f64); 2] = [(0.2866, 1.537), (0.2022, 6.09)];
 
-fn tissue(elasticity: Elasticity) -> Tissue {
+fn tissue(law: LawName, values: &[f64]) -> Tissue {
     let prony = TERMS.map(|(g, tau)| PronyTerm {
         g: g.into(),
         tau_s: tau.into(),
@@ -12,15 +13,17 @@ fn tissue(elasticity: Elasticity) -> Tissue {
     Tissue {
         name: Some("pig's liver".into()),
         prony: prony.to_vec(),
-        ..Tissue::new(elasticity)
+        ..elastic(law, values)
     }
 }
 
+fn elastic(law: LawName, values: &[f64]) -> Tissue {
+    let parameters: Vec<_> = values.iter().map(|&value| value.into()).collect();
+    Tissue::new(Elasticity::new(law, &parameters).unwrap())
+}
+
 fn mooney_rivlin() -> Tissue {
-    tissue(Elasticity::MooneyRivlin {
-        c10_pa: 322.96.into(),
-        c01_pa: 161.47.into(),
-    })
+    tissue(LawName::MooneyRivlin, &[322.96, 161.47])
 }
 
 /// (C₁₀ + C₀₁) G(t)/G₀ [Pa] of the tissue.
@@ -92,10 +95,7 @@ fn febio_reads_the_same_relaxation() {
 
 #[test]
 fn an_elastic_tissue_has_no_relaxation() {
-    let tissue = Tissue::new(Elasticity::Linear {
-        youngs_modulus_pa: 1e4.into(),
-        poissons_ratio: 0.45.into(),
-    });
+    let tissue = elastic(LawName::Linear, &[1e4, 0.45]);
     let abaqus = tissue.to_abaqus().unwrap();
     assert!(abaqus.contains("*ELASTIC\n10000.0, 0.45\n"), "{abaqus}");
     let febio = tissue.to_febio().unwrap();
@@ -108,19 +108,13 @@ fn an_elastic_tissue_has_no_relaxation() {
 /// Compressible tissue relaxes in bulk as well: one relaxation for the whole body.
 #[test]
 fn linear_tissue_relaxes_in_bulk() {
-    let card = tissue(Elasticity::Linear {
-        youngs_modulus_pa: 1e4.into(),
-        poissons_ratio: 0.45.into(),
-    });
+    let card = tissue(LawName::Linear, &[1e4, 0.45]);
     assert!(card.to_abaqus().unwrap().contains("0.2866, 0.2866, 1.537"));
 }
 
 #[test]
 fn a_law_that_a_package_has_not_is_refused() {
-    let tissue = tissue(Elasticity::Exponential {
-        gamma_pa: 500.0.into(),
-        alpha: 1.0.into(),
-    });
+    let tissue = tissue(LawName::Exponential, &[500.0, 1.0]);
     let said = tissue.to_abaqus().unwrap_err().to_string();
     assert_eq!(
         said,
@@ -132,5 +126,44 @@ fn a_law_that_a_package_has_not_is_refused() {
             .unwrap_err()
             .to_string()
             .starts_with("FEBio has no law")
+    );
+}
+
+/// Abaqus' manual: `OGDEN, N` with μ₁, α₁, μ₂, …, D₁, …, eight on a line; FEBio's manual: c = 2 μ, m = α.
+#[test]
+fn ogden_cards_hold_each_package_s_coefficients() {
+    let values = [500.0, 2.5, -60.0, -4.0, 30.0, 9.0];
+    let tissue = elastic(LawName::Ogden, &values);
+    let abaqus = tissue.to_abaqus().unwrap();
+    let own = "*HYPERELASTIC, OGDEN, N=3\n500.0, 2.5, -60.0, -4.0, 30.0, 9.0, 0.0, 0.0\n0.0\n";
+    assert!(abaqus.contains(own), "{abaqus}");
+    let febio = tissue.to_febio().unwrap();
+    assert!(febio.contains("type=\"Ogden\""), "{febio}");
+    for (i, [mu, alpha]) in (1..).zip(values.as_chunks().0) {
+        assert!(
+            febio.contains(&format!("<c{i}>{:?}</c{i}>", 2.0 * mu)),
+            "{febio}"
+        );
+        assert!(
+            febio.contains(&format!("<m{i}>{alpha:?}</m{i}>")),
+            "{febio}"
+        );
+    }
+    // A thousand times the sum of μ.
+    assert!(febio.contains("<k>470000.0</k>"), "{febio}");
+}
+
+/// Abaqus' manual: `REDUCED POLYNOMIAL, N` with C₁₀, …, D₁, …; FEBio's: Yeoh with c₁, … of the same invariant.
+#[test]
+fn reduced_polynomial_cards_hold_each_package_s_coefficients() {
+    let tissue = elastic(LawName::ReducedPolynomial, &[500.0, -20.0]);
+    let abaqus = tissue.to_abaqus().unwrap();
+    let own = "*HYPERELASTIC, REDUCED POLYNOMIAL, N=2\n500.0, -20.0, 0.0, 0.0\n";
+    assert!(abaqus.contains(own), "{abaqus}");
+    let febio = tissue.to_febio().unwrap();
+    let own = "<c1>500.0</c1>\n\t\t\t<c2>-20.0</c2>\n\t\t\t<k>1000000.0</k>";
+    assert!(
+        febio.contains("type=\"Yeoh\"") && febio.contains(own),
+        "{febio}"
     );
 }

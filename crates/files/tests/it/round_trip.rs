@@ -2,6 +2,7 @@
 
 use palpate_files::motion::{MotionRow, ToolMotion};
 use palpate_files::recording::{ExtraColumn, RecordingHeader, Samples};
+use palpate_files::tissue::LawName;
 use palpate_files::tissue::{EffectiveColumn, Kelvin, Lumped, TissueSource};
 use palpate_files::{Elasticity, Estimate, Motion, Pose, PronyTerm, Recording, Tissue};
 use proptest::prelude::*;
@@ -57,16 +58,19 @@ fn estimate(value: impl Strategy<Value = f64>) -> impl Strategy<Value = Estimate
 
 fn elasticity() -> impl Strategy<Value = Elasticity> {
     let pa = || estimate(positive());
+    let law = |law, parameters: &[Estimate]| Elasticity::new(law, parameters).unwrap();
+    let several = prop::collection::vec(pa(), 1..=3);
+    let ogden = prop::collection::vec((pa(), estimate(-20.0..20.0)), 1..=3);
     prop_oneof![
-        (pa(), estimate(-0.999..0.4999)).prop_map(|(youngs_modulus_pa, poissons_ratio)| {
-            Elasticity::Linear {
-                youngs_modulus_pa,
-                poissons_ratio,
-            }
+        (pa(), estimate(-0.999..0.4999)).prop_map(move |(e, nu)| law(LawName::Linear, &[e, nu])),
+        pa().prop_map(move |c10| law(LawName::NeoHookean, &[c10])),
+        (pa(), pa()).prop_map(move |(c10, c01)| law(LawName::MooneyRivlin, &[c10, c01])),
+        (pa(), pa()).prop_map(move |(gamma, alpha)| law(LawName::Exponential, &[gamma, alpha])),
+        several.prop_map(move |c| law(LawName::ReducedPolynomial, &c)),
+        ogden.prop_map(move |terms| {
+            let each: Vec<_> = terms.into_iter().flat_map(|(mu, a)| [mu, a]).collect();
+            law(LawName::Ogden, &each)
         }),
-        pa().prop_map(|c10_pa| Elasticity::NeoHookean { c10_pa }),
-        (pa(), pa()).prop_map(|(c10_pa, c01_pa)| Elasticity::MooneyRivlin { c10_pa, c01_pa }),
-        (pa(), pa()).prop_map(|(gamma_pa, alpha)| Elasticity::Exponential { gamma_pa, alpha }),
     ]
 }
 

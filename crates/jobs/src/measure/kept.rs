@@ -14,7 +14,8 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
-use palpate_files::{Elasticity, MOST_OF_DOCUMENT, Tissue, read_text, write_whole};
+use palpate_files::tissue::LawName;
+use palpate_files::{MOST_OF_DOCUMENT, Tissue, read_text, write_whole};
 use palpate_measure::{Error, VirtualSpecimen};
 use palpate_mechanics::IndentationCurve;
 use sha2::{Digest, Sha256};
@@ -31,7 +32,7 @@ pub(crate) fn of_tissue(
     (radius, deepest): (f64, f64),
     at_step: &mut dyn FnMut(f64),
 ) -> Result<VirtualSpecimen, Error> {
-    let linear = matches!(tissue.elasticity, Elasticity::Linear { .. });
+    let linear = tissue.elasticity.law() == LawName::Linear;
     let Some(folder) = preparation::folder().filter(|_| !linear) else {
         return VirtualSpecimen::of_tissue(tissue, (radius, deepest), at_step);
     };

@@ -2,6 +2,7 @@
 //! that hold, the same bytes for the same seed.
 
 use palpate_files::protocol::{Stimulus, Sweep};
+use palpate_files::tissue::LawName;
 use palpate_files::{Elasticity, Estimate, PronyTerm, Tissue};
 use palpate_measure::phantom::{Imperfections, MECHANICS_STEP, Machine, TwoMass};
 use palpate_measure::{
@@ -15,10 +16,8 @@ pub(crate) const RADIUS: f64 = 1e-3;
 
 /// Linear tissue that relaxes by 0.4 with 2 s.
 pub(crate) fn tissue() -> Tissue {
-    let mut tissue = Tissue::new(Elasticity::Linear {
-        youngs_modulus_pa: Estimate::exactly(YOUNG),
-        poissons_ratio: Estimate::exactly(POISSON),
-    });
+    let parameters = [YOUNG, POISSON].map(Estimate::exactly);
+    let mut tissue = Tissue::new(Elasticity::new(LawName::Linear, &parameters).unwrap());
     tissue.prony = vec![PronyTerm {
         g: Estimate::exactly(0.4),
         tau_s: Estimate::exactly(2.0),

@@ -1,13 +1,16 @@
 use std::sync::Arc;
 
-use palpate_files::{Elasticity, Tissue};
+use palpate_files::Tissue;
+use palpate_files::tissue::LawName;
 
 use super::exponential::Exponential;
 use super::law::Law;
 use super::linear_elastic::LinearElastic;
 use super::mooney_rivlin::MooneyRivlin;
 use super::neo_hookean::NeoHookean;
+use super::ogden::Ogden;
 use super::prony::PronySeries;
+use super::reduced_polynomial::ReducedPolynomial;
 use crate::Error;
 
 /// A tissue as a model takes it: a law, its relaxation, and what deserves doubt.
@@ -29,23 +32,11 @@ impl Material {
     /// # Errors
     /// When its numbers are those of no solid.
     pub fn from_tissue(tissue: &Tissue) -> Result<Self, Error> {
-        let (law, at_rest) = match tissue.elasticity {
-            Elasticity::Linear {
-                youngs_modulus_pa,
-                poissons_ratio,
-            } => {
-                let linear = LinearElastic::new(youngs_modulus_pa.value, poissons_ratio.value)?;
-                (Arc::new(linear) as Arc<dyn Law>, linear)
-            }
-            Elasticity::NeoHookean { c10_pa } => {
-                linearized(NeoHookean::incompressible(c10_pa.value)?)?
-            }
-            Elasticity::MooneyRivlin { c10_pa, c01_pa } => {
-                linearized(MooneyRivlin::incompressible(c10_pa.value, c01_pa.value)?)?
-            }
-            Elasticity::Exponential { gamma_pa, alpha } => {
-                linearized(Exponential::incompressible(gamma_pa.value, alpha.value)?)?
-            }
+        let (name, values) = (tissue.elasticity.law(), tissue.elasticity.values());
+        let law = named(name, &values)?;
+        let at_rest = match (name, values.as_slice()) {
+            (LawName::Linear, &[modulus, ratio]) => LinearElastic::new(modulus, ratio)?,
+            _ => LinearElastic::at_rest(law.as_ref())?,
         };
         let terms: Vec<_> = tissue
             .prony
@@ -61,7 +52,20 @@ impl Material {
     }
 }
 
-fn linearized(law: impl Law + 'static) -> Result<(Arc<dyn Law>, LinearElastic), Error> {
-    let at_rest = LinearElastic::at_rest(&law)?;
-    Ok((Arc::new(law), at_rest))
+/// The law of this name with these values of its parameters [unit of their keys], in the order of files. A new law
+/// joins by a line here and by its row in `palpate_files::tissue`.
+///
+/// # Errors
+/// When they are those of no solid.
+pub fn named(name: LawName, values: &[f64]) -> Result<Arc<dyn Law>, Error> {
+    // A value that is not there is none of a solid.
+    let at = |place: usize| values.get(place).copied().unwrap_or(f64::NAN);
+    Ok(match name {
+        LawName::Linear => Arc::new(LinearElastic::new(at(0), at(1))?),
+        LawName::NeoHookean => Arc::new(NeoHookean::incompressible(at(0))?),
+        LawName::MooneyRivlin => Arc::new(MooneyRivlin::incompressible(at(0), at(1))?),
+        LawName::Exponential => Arc::new(Exponential::incompressible(at(0), at(1))?),
+        LawName::Ogden => Arc::new(Ogden::incompressible(values.as_chunks().0)?),
+        LawName::ReducedPolynomial => Arc::new(ReducedPolynomial::incompressible(values)?),
+    })
 }

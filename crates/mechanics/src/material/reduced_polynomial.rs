@@ -1,92 +1,97 @@
-//! The reduced polynomial W = Σ_i C_i0 (Ī1 − 3)^i with one to three terms, Ī1 the first invariant of C̄ = F̄^T F̄, at
-//! constant volume or with ½ κ (J − 1)². With one term it is neo-Hookean, with three it is Yeoh's law [Yeoh 1993].
+//! The reduced polynomial W = C10 (Ī1 − 3) + C20 (Ī1 − 3)² + C30 (Ī1 − 3)³, with Ī1 the trace of C̄ = F̄^T F̄, at
+//! constant volume or with ½ κ (J − 1)²; with three terms it is Yeoh's law [Yeoh 1993].
 //!
-//! P̄ = 2 W' F̄ and Ā = 2 W' 1 + 4 W'' F̄ ⊗ F̄, which `Isochoric` makes a stress and its derivative; at rest μ = 2 C10,
-//! E = 6 C10 if incompressible.
+//! P̄ = 2 W′ F̄ and Ā = 2 W′ 1 + 4 W″ F̄ ⊗ F̄, which `Isochoric` makes a stress; at rest μ = 2 C10, E = 6 C10 if
+//! incompressible.
 //!
 //! *How we know*: `laws` (the battery), `stretches` (closed forms).
 //!
-//! *Limits*: 0 < C10; with a negative last constant its force falls beyond some stretch.
+//! *Limits*: C20 and C30 may be negative; the force falls then beyond some stretch. It cannot be fitted to tension and
+//! equibiaxial tension that differ as they do in a law with Ī2.
 
 use nalgebra::{Matrix3, SVector};
+use palpate_files::tissue::LawName;
 
 use super::isochoric::Isochoric;
 use super::law::{Law, Tangent};
 use super::volume::Volume;
 use crate::Error;
 
-const NAMES: [&str; 3] = ["c10_pa", "c20_pa", "c30_pa"];
+/// Most coefficients of the law.
+const MAX_ORDER: usize = 3;
 
-/// The reduced polynomial.
-#[derive(Debug, Clone, PartialEq)]
+/// The reduced polynomial of order 1 to 3; of order 3 Yeoh's law.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ReducedPolynomial {
-    constants: Vec<f64>,
+    /// C10, C20 and C30 [Pa]; those beyond the order are zero.
+    coefficients: [f64; MAX_ORDER],
+    order: usize,
     volume: Volume,
 }
 
 impl ReducedPolynomial {
-    /// From C10 and perhaps C20 and C30 [Pa]; the volume cannot change.
+    /// From C10, C20 and C30 [Pa], or the first one or two of them; the volume cannot change.
     ///
     /// # Errors
-    /// Unless there are one to three, 0 < C10, all finite.
-    pub fn incompressible(constants: &[f64]) -> Result<Self, Error> {
-        Self::new(constants, Volume::INCOMPRESSIBLE)
+    /// Unless there are one to three finite numbers and 0 < C10.
+    pub fn incompressible(coefficients: &[f64]) -> Result<Self, Error> {
+        Self::new(coefficients, Volume::INCOMPRESSIBLE)
     }
 
-    /// From C10 and perhaps C20 and C30 [Pa], and the bulk modulus κ [Pa].
+    /// From C10, C20 and C30 [Pa], or the first one or two of them, and the bulk modulus κ [Pa].
     ///
     /// # Errors
-    /// As [`incompressible`](Self::incompressible), and unless 0 < κ.
-    pub fn compressible(constants: &[f64], bulk_modulus: f64) -> Result<Self, Error> {
-        Self::new(constants, Volume::compressible(bulk_modulus)?)
+    /// Unless there are one to three finite numbers, 0 < C10 and 0 < κ.
+    pub fn compressible(coefficients: &[f64], bulk_modulus: f64) -> Result<Self, Error> {
+        Self::new(coefficients, Volume::compressible(bulk_modulus)?)
     }
 
-    fn new(constants: &[f64], volume: Volume) -> Result<Self, Error> {
-        let count = (1..=NAMES.len()).contains(&constants.len());
-        if !(count && constants[0] > 0.0 && constants.iter().all(|constant| constant.is_finite())) {
-            return Err(Error::ReducedPolynomialOutOfRange {
-                constants: constants.to_vec(),
-            });
+    fn new(coefficients: &[f64], volume: Volume) -> Result<Self, Error> {
+        let order = coefficients.len();
+        let c10 = coefficients.first().copied().unwrap_or(0.0);
+        let finite = coefficients.iter().all(|value| value.is_finite());
+        if !(finite && order <= MAX_ORDER && c10 > 0.0) {
+            return Err(Error::ReducedPolynomialOutOfRange { order, c10 });
         }
+        let mut own = [0.0; MAX_ORDER];
+        own[..order].copy_from_slice(coefficients);
         Ok(Self {
-            constants: constants.to_vec(),
+            coefficients: own,
+            order,
             volume,
         })
     }
 
-    /// W, W' and W'' [Pa] where Ī1 − 3 is `x`.
-    fn derivatives(&self, x: f64) -> [f64; 3] {
-        let mut sums = [0.0; 3];
-        // Horner's scheme, with its derivatives.
-        for constant in self.constants.iter().rev() {
-            sums[2] = sums[2] * x + 2.0 * sums[1];
-            sums[1] = sums[1] * x + sums[0];
-            sums[0] = sums[0] * x + constant;
-        }
-        // The polynomial begins with its first power: W = x q(x).
-        let [q, first, second] = sums;
-        [x * q, q + x * first, 2.0 * first + x * second]
+    /// W, W′ and W″ [Pa] by Ī1 − 3, of this deformation without change of volume.
+    fn by_invariant(&self, f: &Matrix3<f64>) -> [f64; 3] {
+        let i = f.norm_squared() - 3.0;
+        let [c10, c20, c30] = self.coefficients;
+        [
+            i * (c10 + i * (c20 + i * c30)),
+            c10 + i * (2.0 * c20 + 3.0 * i * c30),
+            2.0 * c20 + 6.0 * i * c30,
+        ]
     }
 }
 
 impl Law for ReducedPolynomial {
     fn distortion_energy(&self, f: &Matrix3<f64>) -> f64 {
-        self.derivatives(Isochoric::of(f).f.norm_squared() - 3.0)[0]
+        self.by_invariant(&Isochoric::of(f).f)[0]
     }
 
     fn distortion_stress(&self, f: &Matrix3<f64>) -> Matrix3<f64> {
         let isochoric = Isochoric::of(f);
-        let [_, first, _] = self.derivatives(isochoric.f.norm_squared() - 3.0);
-        isochoric.stress(&(2.0 * first * isochoric.f))
+        let [_, slope, _] = self.by_invariant(&isochoric.f);
+        isochoric.stress(&(2.0 * slope * isochoric.f))
     }
 
     fn distortion_tangent(&self, f: &Matrix3<f64>) -> Tangent {
         let isochoric = Isochoric::of(f);
-        let [_, first, second] = self.derivatives(isochoric.f.norm_squared() - 3.0);
-        let along = SVector::<f64, 9>::from_column_slice(isochoric.f.as_slice());
+        let [_, slope, curvature] = self.by_invariant(&isochoric.f);
+        let flat = SVector::<f64, 9>::from_column_slice(isochoric.f.as_slice());
         let inner =
-            Tangent::from_diagonal_element(2.0 * first) + 4.0 * second * along * along.transpose();
-        isochoric.tangent(&(2.0 * first * isochoric.f), &inner)
+            Tangent::from_diagonal_element(2.0 * slope) + 4.0 * curvature * flat * flat.transpose();
+        isochoric.tangent(&(2.0 * slope * isochoric.f), &inner)
     }
 
     fn volume(&self) -> Volume {
@@ -94,16 +99,19 @@ impl Law for ReducedPolynomial {
     }
 
     fn parameters(&self) -> Vec<(&'static str, f64)> {
-        NAMES
-            .into_iter()
-            .zip(self.constants.iter().copied())
-            .collect()
+        let keys = LawName::ReducedPolynomial.row().keys();
+        keys.zip(self.coefficients).take(self.order).collect()
     }
 
     fn by_parameter(&self, index: usize, f: &Matrix3<f64>) -> (Matrix3<f64>, f64) {
         let isochoric = Isochoric::of(f);
-        let x = isochoric.f.norm_squared() - 3.0;
-        let power = (index + 1) as f64 * x.powi(index as i32);
-        (isochoric.stress(&(2.0 * power * isochoric.f)), 0.0)
+        let mut unit = [0.0; MAX_ORDER];
+        unit[index.min(MAX_ORDER - 1)] = 1.0;
+        let unit = Self {
+            coefficients: unit,
+            ..*self
+        };
+        let [_, slope, _] = unit.by_invariant(&isochoric.f);
+        (isochoric.stress(&(2.0 * slope * isochoric.f)), 0.0)
     }
 }

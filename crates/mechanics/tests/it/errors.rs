@@ -14,7 +14,10 @@ use palpate_mechanics::finite_elements::tube::{
 };
 use palpate_mechanics::finite_elements::uniaxial::nominal_stress;
 use palpate_mechanics::finite_spheres::{FiniteSphereModel, FiniteSphereSettings, Form};
-use palpate_mechanics::{Error, Exponential, LinearElastic, MooneyRivlin, NeoHookean, PronySeries};
+use palpate_mechanics::{
+    Error, Exponential, LinearElastic, MooneyRivlin, NeoHookean, Ogden, PronySeries,
+    ReducedPolynomial,
+};
 
 use crate::contacts::{organ, tissue};
 
@@ -54,7 +57,7 @@ fn every_refusal_names_the_value_and_the_mend() {
         form: "strong",
         poissons_ratio: 0.3,
     };
-    let refused: [(Result<(), Error>, &[&str]); 25] = [
+    let refused: [(Result<(), Error>, &[&str]); 28] = [
         (enhanced(7), &["7 levels", "at most 6"]),
         (
             LinearElastic::new(0.0, 0.3).map(drop),
@@ -101,6 +104,18 @@ fn every_refusal_names_the_value_and_the_mend() {
         (
             Exponential::compressible(1e3, -1.0, 1e5).map(drop),
             &["alpha is -1", "above -1"],
+        ),
+        (
+            Ogden::incompressible(&[[3.0, 2.0], [-4.0, 5.0]]).map(drop),
+            &["2 terms", "-1 Pa", "one to three"],
+        ),
+        (
+            Ogden::incompressible(&[]).map(drop),
+            &["0 terms", "one to three"],
+        ),
+        (
+            ReducedPolynomial::incompressible(&[-1.0, 5.0]).map(drop),
+            &["2 coefficients", "C10 is -1 Pa", "positive C10"],
         ),
         (
             PronySeries::new(&[(0.75, 1.0), (0.5, 2.0)]).map(drop),

@@ -122,48 +122,42 @@ pub(crate) fn every_law() -> Vec<Candidate> {
             move |p| Exponential::compressible(p[0], p[1], bulk).unwrap(),
         ));
     }
-    // μ in parts of the shear modulus, and α; the last is unstable beyond some stretch.
-    let ogden: [&[[f64; 2]]; 6] = [
-        &[[1.0, 0.1]],
-        &[[1.0, -4.0]],
-        &[[1.0, 24.0]],
-        &[[0.6, 2.0], [0.4, -2.0]],
-        &[[0.5, 1.3], [0.4, 5.0], [0.1, -2.0]],
-        &[[1.2, 4.0], [-0.2, 9.0]],
-    ];
-    for terms in ogden {
-        let of = |p: &[f64]| {
-            p.chunks(2)
-                .map(|term| [term[0], term[1]])
-                .collect::<Vec<_>>()
-        };
-        let parameters: Vec<f64> = terms
-            .iter()
-            .flat_map(|[mu, alpha]| [gamma * mu, *alpha])
-            .collect();
-        let bulk = 10.0 * gamma;
-        laws.push(Candidate::new(&parameters, 3.0 * gamma, move |p| {
-            Ogden::incompressible(&of(p)).unwrap()
+    // Terms with shares of μ: stiff, soft, of both signs, and nearly or wholly Hencky's.
+    for terms in OGDEN {
+        let shear = MODULUS / 3.0;
+        let parameters = terms.map(|[share, alpha]| [share * shear, alpha]).concat();
+        let order = if parameters[2] == 0.0 { 2 } else { 6 };
+        let (parameters, bulk) = (&parameters[..order], 10.0 * shear);
+        laws.push(Candidate::new(parameters, 3.0 * shear, |p| {
+            Ogden::incompressible(p.as_chunks().0).unwrap()
         }));
-        laws.push(Candidate::new(
-            &parameters,
-            modulus(gamma, 10.0),
-            move |p| Ogden::compressible(&of(p), bulk).unwrap(),
-        ));
+        laws.push(Candidate::new(parameters, modulus(shear, 10.0), move |p| {
+            Ogden::compressible(p.as_chunks().0, bulk).unwrap()
+        }));
     }
-    // C20 and C30 over C10.
-    for parts in [[1.0, 0.0, 0.0], [1.0, 2.0, 0.0], [1.0, -0.1, 3.0]] {
-        let parameters = parts.map(|part| part * c10);
-        laws.push(Candidate::new(&parameters, 6.0 * c10, |p| {
+    for order in 1..=3 {
+        let (parameters, bulk) = (&[c10, -0.3 * c10, 0.5 * c10][..order], 20.0 * c10);
+        laws.push(Candidate::new(parameters, 6.0 * c10, |p| {
             ReducedPolynomial::incompressible(p).unwrap()
         }));
-        let (youngs, bulk) = (modulus(2.0 * c10, 10.0), 20.0 * c10);
-        laws.push(Candidate::new(&parameters, youngs, move |p| {
-            ReducedPolynomial::compressible(p, bulk).unwrap()
-        }));
+        laws.push(Candidate::new(
+            parameters,
+            modulus(2.0 * c10, 10.0),
+            move |p| ReducedPolynomial::compressible(p, bulk).unwrap(),
+        ));
     }
     laws
 }
+
+/// Shares of μ and exponents α of Ogden's law.
+pub(crate) const OGDEN: [[[f64; 2]; 3]; 6] = [
+    [[1.0, 2.0], [0.0; 2], [0.0; 2]],
+    [[1.0, 0.0], [0.0; 2], [0.0; 2]],
+    [[1.0, 1e-9], [0.0; 2], [0.0; 2]],
+    [[1.0, -25.0], [0.0; 2], [0.0; 2]],
+    [[1.0, 25.0], [0.0; 2], [0.0; 2]],
+    [[0.9, 1.3], [0.2, 5.0], [-0.1, -2.0]],
+];
 
 /// A deformation of up to a fifth that does not turn inside out.
 pub(crate) fn deformation(random: &mut Random) -> Matrix3<f64> {

@@ -8,6 +8,7 @@
 
 mod agreement;
 mod analytic;
+mod blood_clot;
 mod bodies;
 mod boundary_elements;
 mod boundary_response;

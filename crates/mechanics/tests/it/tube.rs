@@ -7,7 +7,9 @@ use palpate_mechanics::finite_elements::indentation::Grip;
 use palpate_mechanics::finite_elements::tube::{
     Ends, Inflated, Tube, TubeProblem, TubePunch, indent, inflate,
 };
-use palpate_mechanics::{Exponential, Law, LinearElastic, MooneyRivlin, NeoHookean};
+use palpate_mechanics::{
+    Exponential, Law, LinearElastic, MooneyRivlin, NeoHookean, Ogden, ReducedPolynomial,
+};
 
 use crate::path::closed_form;
 
@@ -58,10 +60,10 @@ fn lame() {
     }
 }
 
-/// The closed form in plane strain: neo-Hooke, Mooney-Rivlin and a stiffening law.
+/// The closed form in plane strain: neo-Hooke, Mooney-Rivlin and stiffening laws.
 #[test]
 fn follows_the_closed_form() {
-    let laws: [(Arc<dyn Law>, &[f64]); 3] = [
+    let laws: [(Arc<dyn Law>, &[f64]); 5] = [
         (
             Arc::new(esophagus()),
             &[0.0, 50.0, 300.0, 500.0, 650.0, 690.0],
@@ -72,6 +74,14 @@ fn follows_the_closed_form() {
         ),
         (
             Arc::new(Exponential::incompressible(1700.0, 1.5).unwrap()),
+            &[100.0, 1000.0, 10_000.0],
+        ),
+        (
+            Arc::new(Ogden::incompressible(&[[1500.0, 1.3], [200.0, 9.0]]).unwrap()),
+            &[100.0, 1000.0, 10_000.0],
+        ),
+        (
+            Arc::new(ReducedPolynomial::incompressible(&[850.0, 50.0, 100.0]).unwrap()),
             &[100.0, 1000.0, 10_000.0],
         ),
     ];

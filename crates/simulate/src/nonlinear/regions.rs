@@ -12,7 +12,8 @@
 use std::f64::consts::PI;
 
 use palpate_files::scene::InclusionShape;
-use palpate_files::{Elasticity, Scene, Tissue};
+use palpate_files::tissue::LawName;
+use palpate_files::{Scene, Tissue};
 use palpate_geometry::{AabbTree, Surface, TetrahedronMesh, TriangleMesh, Vec3};
 use palpate_mechanics::layered::{LayeredHalfSpace, LoadShape};
 use palpate_mechanics::nonlinear::Moduli;
@@ -263,18 +264,7 @@ impl Regions {
         }
         let factor = 1.0 / self.yields_to_tip(radius)[1];
         let mut tissue = tissue.clone();
-        let moduli = match &mut tissue.elasticity {
-            Elasticity::Linear {
-                youngs_modulus_pa, ..
-            } => [Some(youngs_modulus_pa), None],
-            Elasticity::NeoHookean { c10_pa } => [Some(c10_pa), None],
-            Elasticity::MooneyRivlin { c10_pa, c01_pa } => [Some(c10_pa), Some(c01_pa)],
-            Elasticity::Exponential { gamma_pa, .. } => [Some(gamma_pa), None],
-        };
-        moduli
-            .into_iter()
-            .flatten()
-            .for_each(|modulus| modulus.value *= factor);
+        tissue.elasticity = tissue.elasticity.times(factor);
         let material = Material::from_tissue(&tissue)?;
         Ok((tissue, material))
     }
@@ -303,17 +293,18 @@ impl RegionTissue {
                  nonlinear model keeps volume to the percent"
             ));
         }
-        let (c10, c01) = match tissue.elasticity {
-            Elasticity::MooneyRivlin { c10_pa, c01_pa } => (c10_pa.value, c01_pa.value),
-            Elasticity::Exponential { .. } => {
-                doubts.push(
+        let law = tissue.elasticity.law();
+        let (c10, c01) = match (law, tissue.elasticity.values().as_slice()) {
+            (LawName::MooneyRivlin, &[c10, c01]) => (c10, c01),
+            (LawName::Linear | LawName::NeoHookean, _) => (0.5 * shear, 0.0),
+            _ => {
+                doubts.push(format!(
                     "the organ around the tips answers as neo-Hookean tissue of the same modulus at rest; the tips \
-                     themselves meet the exponential law"
-                        .to_owned(),
-                );
+                     themselves meet the {} law",
+                    law.row().title
+                ));
                 (0.5 * shear, 0.0)
             }
-            Elasticity::Linear { .. } | Elasticity::NeoHookean { .. } => (0.5 * shear, 0.0),
         };
         Ok(Self {
             moduli: Moduli::mooney_rivlin(c10, c01, ratio)?,

@@ -1,4 +1,3 @@
-use palpate_files::tissue::LawName;
 use palpate_mechanics::finite_elements::uniaxial::nominal_stress;
 
 use super::super::problem::{Problem, Uniaxial};
@@ -62,7 +61,10 @@ fn over_stretch(problem: &Problem, stretches: &[f64], stresses: &[f64]) -> Plot 
     });
     let asked = stretches.iter().copied().zip(stresses.iter().copied());
     Plot {
-        title: format!("Stretched bar, {} law", in_words(problem)),
+        title: format!(
+            "Stretched bar, {} law",
+            problem.tissue.elasticity.law().row().title
+        ),
         x_label: "Stretch [-]".to_owned(),
         y_label: "Nominal stress [Pa]".to_owned(),
         series: vec![
@@ -73,14 +75,5 @@ fn over_stretch(problem: &Problem, stretches: &[f64], stresses: &[f64]) -> Plot 
             plots::line("in between", between),
         ],
         ..Plot::default()
-    }
-}
-
-fn in_words(problem: &Problem) -> &'static str {
-    match problem.tissue.elasticity.law() {
-        LawName::Linear => "linear",
-        LawName::NeoHookean => "neo-Hookean",
-        LawName::MooneyRivlin => "Mooney-Rivlin",
-        LawName::Exponential => "exponential",
     }
 }

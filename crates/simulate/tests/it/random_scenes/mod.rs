@@ -20,7 +20,8 @@ use std::time::Duration;
 use nalgebra::{Quaternion, UnitQuaternion};
 use palpate_files::scene::{ModelKind, ToolKind};
 use palpate_files::session::Event;
-use palpate_files::{Elasticity, Motion, Scene};
+use palpate_files::tissue::LawName;
+use palpate_files::{Motion, Scene};
 use palpate_geometry::Vec3;
 use palpate_simulate::{Error, Flow, Frame, Resources, Simulation, Summary, play};
 
@@ -214,17 +215,12 @@ impl<'a> Check<'a> {
 /// stiffens with the root of its depth, a nodule by its ratio, nonlinear tissue along the tangent of its force.
 fn largest_force(scene: &Scene, reach: f64) -> f64 {
     let tissue = scene.organ.tissue.read().unwrap();
-    let (modulus, stiffens) = match tissue.elasticity {
-        Elasticity::Linear {
-            youngs_modulus_pa,
-            poissons_ratio,
-        } => (
-            youngs_modulus_pa.value / (1.0 - poissons_ratio.value.powi(2)),
-            1.0,
-        ),
-        Elasticity::NeoHookean { c10_pa } => (8.0 * c10_pa.value, 10.0),
-        Elasticity::MooneyRivlin { c10_pa, c01_pa } => (8.0 * (c10_pa.value + c01_pa.value), 10.0),
-        Elasticity::Exponential { gamma_pa, .. } => (4.0 * gamma_pa.value, 1e3),
+    let values = tissue.elasticity.values();
+    let (modulus, stiffens) = match tissue.elasticity.law() {
+        LawName::Linear => (values[0] / (1.0 - values[1].powi(2)), 1.0),
+        LawName::NeoHookean | LawName::MooneyRivlin => (8.0 * values.iter().sum::<f64>(), 10.0),
+        LawName::Exponential => (4.0 * values[0], 1e3),
+        law => panic!("{law} is in no scene here"),
     };
     let tools = scene.tools.iter().map(|tool| {
         let radius = tool.tip.radius_m;

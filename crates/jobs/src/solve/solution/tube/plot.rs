@@ -1,5 +1,4 @@
 use nalgebra::Matrix3;
-use palpate_files::Elasticity;
 use palpate_mechanics::Law;
 use palpate_mechanics::finite_elements::estimate::Estimated;
 use palpate_mechanics::finite_elements::tube::Inflated;
@@ -80,19 +79,17 @@ pub(crate) fn over_displacement(
 /// The pressure [Pa] at which the inner wall of a tube without ends has moved by `moved` [m].
 fn endless_pressure(problem: &Problem, case: &Tube, moved: f64) -> f64 {
     let (inner, outer) = (case.inner_radius, case.outer_radius);
-    match problem.tissue.elasticity {
+    let at_rest = &problem.material.at_rest;
+    match problem.is_small_strain() {
         // Lamé, plane strain.
-        Elasticity::Linear {
-            youngs_modulus_pa,
-            poissons_ratio,
-        } => {
-            let (young, nu) = (youngs_modulus_pa.value, poissons_ratio.value);
+        true => {
+            let (young, nu) = (at_rest.youngs_modulus(), at_rest.poissons_ratio());
             let squares = (inner * inner, outer * outer);
             let compliance = (1.0 + nu) / young * inner / (squares.1 - squares.0)
                 * ((1.0 - 2.0 * nu) * squares.0 + squares.1);
             moved / compliance
         }
-        _ => incompressible_pressure(problem.material.law.as_ref(), (inner, outer), moved),
+        false => incompressible_pressure(problem.material.law.as_ref(), (inner, outer), moved),
     }
 }
 

@@ -1,15 +1,12 @@
 //! What things are called on a page.
 
+use palpate_files::tissue::LawName;
+
 use crate::report::{Markup, symbol};
 
 /// A law by its name.
 pub(super) fn law(key: &str) -> &str {
-    match key {
-        "neo_hookean" => "neo-Hookean",
-        "mooney_rivlin" => "Mooney-Rivlin",
-        "exponential" => "exponential",
-        other => other,
-    }
+    LawName::from_word(key).map_or(key, |law| law.row().title)
 }
 
 /// What a key of the answer stands for.

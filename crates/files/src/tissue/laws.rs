@@ -1,0 +1,227 @@
+//! The table of elastic laws: what each is called, which parameters it has and how other packages write it. A new law
+//! joins by a word, a row here and a constructor in `palpate_mechanics`.
+
+use std::ops::Bound::{Excluded, Included};
+
+use crate::Domain;
+use crate::words::words;
+
+words! {
+    /// The name of an elastic law.
+    pub enum LawName {
+        /// Linear elasticity.
+        Linear = "linear",
+        /// Neo-Hookean, incompressible.
+        NeoHookean = "neo_hookean",
+        /// Mooney-Rivlin, incompressible.
+        MooneyRivlin = "mooney_rivlin",
+        /// The exponential law of Blatz, Chu and Wayland, incompressible.
+        Exponential = "exponential" | "blatz",
+        /// Ogden's law of one to three terms, incompressible.
+        Ogden = "ogden",
+        /// The reduced polynomial of order 1 to 3 (Yeoh's law), incompressible.
+        ReducedPolynomial = "reduced_polynomial",
+    }
+}
+
+/// What the program knows of a law beside its stress.
+#[derive(Debug)]
+pub struct LawRow {
+    /// Its name for people.
+    pub title: &'static str,
+    /// The keys of its parameters, each with the numbers that may stand there.
+    pub(super) parameters: &'static [(&'static str, Domain)],
+    /// Parameters of a term; a tissue has one term or more, up to all parameters.
+    pub(super) term: usize,
+    /// What several parameters must fulfil together.
+    pub(super) positive: Option<Positive>,
+    /// Abaqus' keyword, its options and its numbers; none where Abaqus has no such law.
+    pub(crate) abaqus: Option<fn(&[f64]) -> AbaqusLaw>,
+    /// FEBio's material; none where FEBio has no such law.
+    pub(crate) febio: Option<fn(&[f64]) -> FebioLaw>,
+}
+
+/// A sum of parameters that must be above zero.
+#[derive(Debug)]
+pub(super) struct Positive {
+    pub(super) what: &'static str,
+    pub(super) of: fn(&[f64]) -> f64,
+    pub(super) expected: &'static str,
+}
+
+/// A law as Abaqus' keywords.
+pub(crate) struct AbaqusLaw {
+    /// The keyword with its options.
+    pub(crate) keyword: String,
+    /// The numbers below it, in Abaqus' order.
+    pub(crate) numbers: Vec<f64>,
+    /// Whether the bulk modulus is finite, so that it relaxes.
+    pub(crate) compressible: bool,
+}
+
+/// A law as a material of FEBio.
+pub(crate) struct FebioLaw {
+    /// The type of the material.
+    pub(crate) kind: &'static str,
+    /// Its parameters, without a bulk modulus.
+    pub(crate) numbers: Vec<(String, f64)>,
+    /// Shear modulus at rest [Pa], of a law that keeps its volume.
+    pub(crate) shear_modulus: Option<f64>,
+}
+
+pub(super) const POISSONS_RATIO: Domain = Domain::number("a number", [Excluded(-1.0), Excluded(0.5)])
+    .usually(0.0, 0.5)
+    .with_remark(
+        "0.5 itself belongs to the incompressible laws, such as neo_hookean; 0.49 is near enough for most tissues",
+    );
+
+pub(super) const SIGNED_EXPONENT: Domain =
+    Domain::number("an exponent", [Included(-1e4), Included(1e4)]).usually(-100.0, 100.0);
+
+const LINEAR: LawRow = LawRow {
+    title: "linear",
+    parameters: &[
+        ("youngs_modulus_pa", Domain::MODULUS),
+        ("poissons_ratio", POISSONS_RATIO),
+    ],
+    term: 2,
+    positive: None,
+    abaqus: Some(|p| AbaqusLaw {
+        keyword: "*ELASTIC".to_owned(),
+        numbers: p.to_vec(),
+        compressible: true,
+    }),
+    febio: Some(|p| FebioLaw {
+        kind: "isotropic elastic",
+        numbers: named(["E", "v"], p),
+        shear_modulus: None,
+    }),
+};
+
+/// Ψ = C₁₀ (I₁ − 3); C₁₀ is half the shear modulus.
+const NEO_HOOKEAN: LawRow = LawRow {
+    title: "neo-Hookean",
+    parameters: &[("c10_pa", Domain::MODULUS)],
+    term: 1,
+    positive: None,
+    abaqus: Some(|p| hyperelastic("NEO HOOKE".to_owned(), p, 1)),
+    febio: Some(|p| mooney_rivlin(p[0], 0.0)),
+};
+
+/// Ψ = C₁₀ (I₁ − 3) + C₀₁ (I₂ − 3). A fit may put one of the two below zero; only the sum must stay above it.
+const MOONEY_RIVLIN: LawRow = LawRow {
+    title: "Mooney-Rivlin",
+    parameters: &[
+        ("c10_pa", Domain::SIGNED_MODULUS),
+        ("c01_pa", Domain::SIGNED_MODULUS),
+    ],
+    term: 2,
+    positive: Some(Positive {
+        what: "c10_pa + c01_pa",
+        of: |p| p.iter().sum(),
+        expected: "numbers such that c10_pa + c01_pa, half the shear modulus, is above 0",
+    }),
+    abaqus: Some(|p| hyperelastic("MOONEY-RIVLIN".to_owned(), p, 1)),
+    febio: Some(|p| mooney_rivlin(p[0], p[1])),
+};
+
+/// The law of Blatz, Chu and Wayland: Ψ = γ / (2 α (α + 1)) Σ (exp(α (λᵢ² − 1)) − 1). γ is the shear modulus; with
+/// α = 0 it is neo-Hookean with C₁₀ = γ/2.
+const EXPONENTIAL: LawRow = LawRow {
+    title: "exponential",
+    parameters: &[("gamma_pa", Domain::MODULUS), ("alpha", Domain::EXPONENT)],
+    term: 2,
+    positive: None,
+    abaqus: None,
+    febio: None,
+};
+
+/// Ψ = Σ_p 2 μ_p/α_p² (λ₁^α_p + λ₂^α_p + λ₃^α_p − 3), Abaqus' scaling; FEBio's c_p is 2 μ_p.
+const OGDEN: LawRow = LawRow {
+    title: "Ogden",
+    parameters: &[
+        ("mu_1_pa", Domain::SIGNED_MODULUS),
+        ("alpha_1", SIGNED_EXPONENT),
+        ("mu_2_pa", Domain::SIGNED_MODULUS),
+        ("alpha_2", SIGNED_EXPONENT),
+        ("mu_3_pa", Domain::SIGNED_MODULUS),
+        ("alpha_3", SIGNED_EXPONENT),
+    ],
+    term: 2,
+    positive: Some(Positive {
+        what: "the sum of mu_1_pa, mu_2_pa and mu_3_pa",
+        of: |p| p.iter().step_by(2).sum(),
+        expected: "numbers such that the sum of all mu, the shear modulus, is above 0",
+    }),
+    abaqus: Some(|p| hyperelastic(format!("OGDEN, N={}", p.len() / 2), p, p.len() / 2)),
+    febio: Some(|p| FebioLaw {
+        kind: "Ogden",
+        numbers: (1..)
+            .zip(p.as_chunks().0)
+            .flat_map(|(i, &[mu, alpha])| [(format!("c{i}"), 2.0 * mu), (format!("m{i}"), alpha)])
+            .collect(),
+        shear_modulus: Some(p.iter().step_by(2).sum()),
+    }),
+};
+
+/// Ψ = C₁₀ (I₁ − 3) + C₂₀ (I₁ − 3)² + C₃₀ (I₁ − 3)³; C₁₀ is half the shear modulus.
+const REDUCED_POLYNOMIAL: LawRow = LawRow {
+    title: "reduced polynomial",
+    parameters: &[
+        ("c10_pa", Domain::MODULUS),
+        ("c20_pa", Domain::SIGNED_MODULUS),
+        ("c30_pa", Domain::SIGNED_MODULUS),
+    ],
+    term: 1,
+    positive: None,
+    abaqus: Some(|p| hyperelastic(format!("REDUCED POLYNOMIAL, N={}", p.len()), p, p.len())),
+    febio: Some(|p| FebioLaw {
+        kind: "Yeoh",
+        numbers: named(["c1", "c2", "c3"], p),
+        shear_modulus: p.first().map(|c10| 2.0 * c10),
+    }),
+};
+
+impl LawName {
+    /// What the program knows of it.
+    pub fn row(self) -> &'static LawRow {
+        match self {
+            Self::Linear => &LINEAR,
+            Self::NeoHookean => &NEO_HOOKEAN,
+            Self::MooneyRivlin => &MOONEY_RIVLIN,
+            Self::Exponential => &EXPONENTIAL,
+            Self::Ogden => &OGDEN,
+            Self::ReducedPolynomial => &REDUCED_POLYNOMIAL,
+        }
+    }
+}
+
+impl LawRow {
+    /// The keys of its parameters, in the order of the documentation.
+    pub fn keys(&self) -> impl Iterator<Item = &'static str> {
+        self.parameters.iter().map(|(key, _)| *key)
+    }
+}
+
+/// `coefficients` of a law, then Abaqus' 2/κ of each of its `terms`: zero for what keeps its volume, which takes hybrid
+/// elements.
+fn hyperelastic(kind: String, coefficients: &[f64], terms: usize) -> AbaqusLaw {
+    AbaqusLaw {
+        keyword: format!("*HYPERELASTIC, {kind}"),
+        numbers: [coefficients, &vec![0.0; terms]].concat(),
+        compressible: false,
+    }
+}
+
+fn mooney_rivlin(c1: f64, c2: f64) -> FebioLaw {
+    FebioLaw {
+        kind: "Mooney-Rivlin",
+        numbers: named(["c1", "c2"], &[c1, c2]),
+        shear_modulus: Some(2.0 * (c1 + c2)),
+    }
+}
+
+fn named<const N: usize>(names: [&str; N], values: &[f64]) -> Vec<(String, f64)> {
+    let names = names.into_iter().map(str::to_owned);
+    names.zip(values.iter().copied()).collect()
+}
