@@ -233,7 +233,7 @@ def drawn(scenes, results):
         axis.axis("off")
     handles = {}
     for axis, scene in zip(axes.flat, scenes):
-        axis.set_title(textwrap.fill(scene.title, 45), fontsize=8)
+        axis.set_title(textwrap.fill(scene.title.replace("ν ", "ν\u00a0"), 45), fontsize=8)
         for law, style in [("linear", ":"), ("neo_hookean", "--")]:
             exact = scene.answers.get(law)
             if exact is None:
