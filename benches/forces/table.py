@@ -9,12 +9,14 @@ An engine that is not installed, and a scene that it cannot do, are rows that sa
 """
 
 import argparse
+import ast
 import json
 import os
 import pathlib
 import re
 import subprocess
 import sys
+import textwrap
 import time
 
 import numpy as np
@@ -130,7 +132,10 @@ def row(scene, engine, mesh, answer):
     force = judged(scene, answer)
     own, linear, finite = [scene.answers.get(law) for law in (answer["law"], "linear", "neo_hookean")]
     motion = over_motion(scene, answer, own)
-    settled = off(judged(scene, answer, "settled"), own, "settled_m") if "settled" in answer else None
+    settled = None
+    if "settled" in answer and own:
+        exact = np.array([np.nan if value is None else value for value in own["settled_m"]])
+        settled = 100 * (judged(scene, answer, "settled") - exact) / scene.depth(scene.judged)
     low, middle, high = answer["step_ms"]
     broken = answer["not_finite"]
     cells = [
@@ -147,7 +152,7 @@ def row(scene, engine, mesh, answer):
     return "| " + " | ".join(cells) + " |"
 
 
-HEADER = """| engine | force, mN | own law, % | over the motion, % | linear, % | neo-Hooke, % | settling, % | ms a step (quartiles) | first step, s |
+HEADER = """| engine | force, mN | own law, % | over the motion, % | linear, % | neo-Hooke, % | settling, % of depth | ms a step (quartiles) | first step, s |
 |---|---|---|---|---|---|---|---|---|"""
 
 
@@ -185,6 +190,14 @@ def meshes_of(engine, scene):
     return ["coarse", "fine"] if scene.name in FINE else ["coarse"]
 
 
+def settings_of(engine):
+    """The settings that an adapter states itself; its engine may be installed for another interpreter."""
+    for node in ast.parse((HERE / "engines" / f"{engine}.py").read_text()).body:
+        if isinstance(node, ast.Assign) and node.targets[0].id == "SETTINGS":
+            return " ".join(ast.literal_eval(node.value).split())
+    return None
+
+
 def text_of(scenes, results):
     parts = ["### Errors against each engine's own law, last depth or time, %\n", summary(scenes, results)]
     parts.append("\n" + "\n".join(f"{k + 1}. {scene.title}" for k, scene in enumerate(scenes)))
@@ -201,7 +214,7 @@ def text_of(scenes, results):
         found = next((answer for answer in answers if "version" in answer), None)
         if found:
             law = found["law"].replace("_", " ")
-            parts.append(f"- **{title}** {found['version']}, {law}. {found['settings']}")
+            parts.append(f"- **{title}** {found['version']}, {law}. {settings_of(engine) or found['settings']}")
         else:
             parts.append(f"- **{title}**: not installed ({answers[0].get('missing') or answers[0].get('failed')})")
     return "\n".join(parts) + "\n"
@@ -220,8 +233,7 @@ def drawn(scenes, results):
         axis.axis("off")
     handles = {}
     for axis, scene in zip(axes.flat, scenes):
-        short, _, rest = scene.title.partition(", ν")
-        axis.set_title(short.replace(" on a", "\non a", 1) + (f", ν{rest}" if rest else ""), fontsize=8)
+        axis.set_title(textwrap.fill(scene.title.replace("ν ", "ν\u00a0"), 45), fontsize=8)
         for law, style in [("linear", ":"), ("neo_hookean", "--")]:
             exact = scene.answers.get(law)
             if exact is None:

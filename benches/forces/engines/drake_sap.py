@@ -103,5 +103,5 @@ def run(scene, mesh):
         found = [results.deformable_contact_info(i).F_Ac_W() for i in range(results.num_deformable_contacts())]
         forces.append(abs(sum(force.translational()[2] for force in found)))
         places = deformables.GetPositions(context, body)
-        settled.append(-places[2, mesh.probe])
+        settled.append(mesh.nodes[mesh.probe, 2] - places[2, mesh.probe])
     return {"time": times, "force": np.array(forces), "settled": np.array(settled), "steps_s": durations, "first_s": first}

@@ -89,5 +89,5 @@ def pressed(scene, mesh, began):
         first = first or after - began
         states.reverse()
         forces.append(abs(float(observed.contact_f.numpy()[:, :3].sum(axis=0)[2])))
-        settled.append(-float(states[0].particle_q.numpy()[mesh.probe, 2]))
+        settled.append(mesh.nodes[mesh.probe, 2] - float(states[0].particle_q.numpy()[mesh.probe, 2]))
     return {"time": times, "force": np.array(forces), "settled": np.array(settled), "steps_s": durations, "first_s": first}
