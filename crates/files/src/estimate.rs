@@ -1,5 +1,5 @@
 use crate::toml_document::{Value, toml_number};
-use crate::{Domain, Error, Keys};
+use crate::{Domain, Error, Key, Keys};
 
 /// A number and how well it is known.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,19 +35,42 @@ impl From<f64> for Estimate {
     }
 }
 
+/// The keys of an estimate that is a table.
+pub(crate) const PARTS: &[Key] = &[
+    Key::number("value", Domain::FINITE, "The number.").required("1.0"),
+    Key::number(
+        "standard_error",
+        Domain::NOT_NEGATIVE,
+        "Its standard error, in the same unit.",
+    )
+    .optional("0.1", "unknown"),
+];
+
 impl Keys<'_> {
     /// A number or a table `{ value, standard_error }`, both in the unit of the key.
     ///
     /// # Errors
     /// When the value is neither or outside its `domain`.
-    pub fn estimate(&self, key: &'static str, domain: Domain) -> Result<Option<Estimate>, Error> {
+    pub fn estimate(&self, key: &'static str) -> Result<Option<Estimate>, Error> {
+        self.estimate_within(key, self.declared(key).domain())
+    }
+
+    /// An estimate in a `domain` that other keys decide.
+    ///
+    /// # Errors
+    /// When the value is neither or outside its `domain`.
+    pub fn estimate_within(
+        &self,
+        key: &'static str,
+        domain: Domain,
+    ) -> Result<Option<Estimate>, Error> {
         let Some(found) = self.find(key)? else {
             return Ok(None);
         };
         if !matches!(found.value, Value::Table(_)) {
             return found.number(domain).map(|value| Some(value.into()));
         }
-        let Some(parts) = self.table(key, &["value", "standard_error"])? else {
+        let Some(parts) = self.table_of(key, PARTS)? else {
             return Ok(None);
         };
         // The domain is that of the key's own unit, so the parts are converted before they are asked.
@@ -69,8 +92,8 @@ impl Keys<'_> {
     ///
     /// # Errors
     /// When it is missing, the value is neither or outside its `domain`.
-    pub fn required_estimate(&self, key: &'static str, domain: Domain) -> Result<Estimate, Error> {
-        self.estimate(key, domain)?
-            .ok_or_else(|| self.missing(key, domain.expected()))
+    pub fn required_estimate(&self, key: &'static str) -> Result<Estimate, Error> {
+        self.estimate(key)?
+            .ok_or_else(|| self.missing(key, self.declared(key).domain().expected()))
     }
 }

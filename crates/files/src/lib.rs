@@ -47,5 +47,5 @@ pub use scene::Scene;
 pub use session::{Event, Events, Session, SessionHeader, SessionRow, SessionWriter};
 pub use table::{Incomplete, unfinished};
 pub use tissue::{BuiltinTissue, Elasticity, PronyTerm, Tissue};
-pub use toml_document::{Document, Keys};
+pub use toml_document::{Document, Holds, Key, Keys, Omitted, Word};
 pub use whole_file::{MOST_OF_DOCUMENT, MOST_OF_TABLE, read_bytes, read_text, write_whole};

@@ -2,18 +2,30 @@
 
 use std::borrow::Cow;
 
+/// An enumeration whose variants are written as words.
+pub(crate) trait Worded: Copy + 'static {
+    /// Every variant with its word.
+    const WORDS: &'static [(&'static str, Self)];
+
+    /// The word that stands for this in a file.
+    fn word(self) -> &'static str;
+}
+
 /// An enumeration whose variants are written as words: `FromStr` without an error type of its own.
 macro_rules! words {
     ($(#[$meta:meta])* pub enum $name:ident {
-        $($(#[$variant_meta:meta])* $variant:ident = $word:literal $(| $former:literal)*,)+
+        $($(#[doc = $meaning:literal])+ $variant:ident = $word:literal $(| $former:literal)*,)+
     }) => {
         $(#[$meta])*
         #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-        pub enum $name { $($(#[$variant_meta])* $variant,)+ }
+        pub enum $name { $($(#[doc = $meaning])+ $variant,)+ }
 
         impl $name {
             /// Every variant with its word, in the order of the documentation.
             pub const WORDS: &'static [(&'static str, Self)] = &[$(($word, Self::$variant),)+];
+
+            /// Every word with its meaning.
+            pub const MEANINGS: &'static [$crate::Word] = &[$(($word, concat!($($meaning),+)),)+];
 
             /// Words of earlier versions, which are still read.
             pub const FORMER: &'static [(&'static str, Self)] = &[$($(($former, Self::$variant),)*)+];
@@ -27,6 +39,14 @@ macro_rules! words {
             pub fn from_word(word: &str) -> Option<Self> {
                 let known = Self::WORDS.iter().chain(Self::FORMER);
                 known.into_iter().find(|(own, _)| *own == word).map(|(_, value)| *value)
+            }
+        }
+
+        impl $crate::words::Worded for $name {
+            const WORDS: &'static [(&'static str, Self)] = Self::WORDS;
+
+            fn word(self) -> &'static str {
+                Self::word(self)
             }
         }
 

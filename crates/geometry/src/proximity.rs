@@ -71,50 +71,36 @@ pub fn closest_on_triangle(corners: &[Vec3; 3], point: &Vec3) -> PointOnTriangle
     PointOnTriangle::at(corners, [1.0 - v - w, v, w])
 }
 
-/// Squared distance [m²] between a segment and a triangle, and the triangle's nearest point.
-pub(crate) fn closest_on_segment_and_triangle(
-    start: &Vec3,
-    end: &Vec3,
-    corners: &[Vec3; 3],
-) -> (f64, PointOnTriangle) {
-    if let Some(on) = crossing(start, end, corners) {
-        return (0.0, on);
+/// Squared distance [m²] between a segment and a triangle.
+pub(crate) fn segment_to_triangle(start: &Vec3, end: &Vec3, corners: &[Vec3; 3]) -> f64 {
+    if is_crossed(start, end, corners) {
+        return 0.0;
     }
-    let ends = [start, end].map(|tip| {
-        let on = closest_on_triangle(corners, tip);
-        ((on.position - tip).norm_squared(), on)
-    });
-    let edges = [0, 1, 2].map(|edge| {
-        let next = (edge + 1) % 3;
-        let (squared, along) = between_segments(start, end, &corners[edge], &corners[next]);
-        let mut barycentric = [0.0; 3];
-        barycentric[edge] = 1.0 - along;
-        barycentric[next] = along;
-        (squared, PointOnTriangle::at(corners, barycentric))
-    });
-    ends.into_iter()
-        .chain(edges)
-        .min_by(|a, b| a.0.total_cmp(&b.0))
-        .expect("five candidates are not empty")
+    let [a, b, c] = corners;
+    let tip = |tip: &Vec3| (closest_on_triangle(corners, tip).position - tip).norm_squared();
+    let edge = |from: &Vec3, to: &Vec3| between_segments(start, end, from, to);
+    tip(start)
+        .min(tip(end))
+        .min(edge(a, b))
+        .min(edge(b, c))
+        .min(edge(c, a))
 }
 
-/// Where a segment passes through the inside of a triangle.
-fn crossing(start: &Vec3, end: &Vec3, corners: &[Vec3; 3]) -> Option<PointOnTriangle> {
+/// Whether a segment passes through the inside of a triangle.
+fn is_crossed(start: &Vec3, end: &Vec3, corners: &[Vec3; 3]) -> bool {
     let [a, b, c] = corners;
     let normal = (b - a).cross(&(c - a));
     let (above, below) = ((start - a).dot(&normal), (end - a).dot(&normal));
     if above * below >= 0.0 {
-        return None;
+        return false;
     }
     let point = start + (end - start) * (above / (above - below));
     let on = closest_on_triangle(corners, &point);
-    let inside = on.barycentric.iter().all(|&weight| weight > 0.0);
-    inside.then_some(on)
+    on.barycentric.iter().all(|&weight| weight > 0.0)
 }
 
-/// Squared distance [m²] between two segments and the fraction along the second
-/// [Ericson 2004, 5.1.9].
-fn between_segments(p1: &Vec3, q1: &Vec3, p2: &Vec3, q2: &Vec3) -> (f64, f64) {
+/// Squared distance [m²] between two segments [Ericson 2004, 5.1.9].
+fn between_segments(p1: &Vec3, q1: &Vec3, p2: &Vec3, q2: &Vec3) -> f64 {
     let (d1, d2, r) = (q1 - p1, q2 - p2, p1 - p2);
     let (a, e, f) = (d1.norm_squared(), d2.norm_squared(), d2.dot(&r));
     let (b, c) = (d1.dot(&d2), d1.dot(&r));
@@ -129,7 +115,7 @@ fn between_segments(p1: &Vec3, q1: &Vec3, p2: &Vec3, q2: &Vec3) -> (f64, f64) {
     let mut t = fraction(b * s + f, e);
     s = fraction(b * t - c, a);
     t = fraction(b * s + f, e);
-    ((r + d1 * s - d2 * t).norm_squared(), t)
+    (r + d1 * s - d2 * t).norm_squared()
 }
 
 impl Surface {

@@ -20,6 +20,7 @@ pub mod analyze;
 pub mod characterize;
 mod cores;
 pub mod design;
+pub mod documents;
 mod error;
 pub mod label;
 mod lossy;

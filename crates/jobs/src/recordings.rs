@@ -204,7 +204,16 @@ impl Recordings {
         match header.extra.first() {
             None => Ok(header),
             Some(unknown) => {
-                let (key, meant) = (&unknown.key, nearest(&unknown.key, RecordingHeader::KEYS));
+                let (key, meant) = (
+                    &unknown.key,
+                    nearest(
+                        &unknown.key,
+                        &RecordingHeader::KEYS
+                            .iter()
+                            .map(|key| key.name)
+                            .collect::<Vec<_>>(),
+                    ),
+                );
                 Err(Error::input(format!(
                     "--set {key}: a recording has no key `{key}`; the nearest is `{meant}`"
                 )))

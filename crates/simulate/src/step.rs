@@ -385,8 +385,8 @@ fn touch_with_shaft(tool: &Tool, number: usize, state: &mut SimulationState) {
     let reach = tool.trocar.map_or(SHAFT, |trocar| (trocar - tip).norm());
     let touches = known && reach > clear && {
         let (start, end) = (tip + along * clear, tip + along * reach);
-        let nearest = state.tree.nearest_to_segment(&state.deformed, &start, &end);
-        nearest.distance < tool.shaft_radius()
+        let (mesh, radius) = (&state.deformed, tool.shaft_radius());
+        state.tree.is_near_segment(mesh, [&start, &end], radius)
     };
     if touches && !own.shaft_touches {
         own.row.events.insert(Event::ShaftContact);

@@ -31,7 +31,7 @@ pub struct SpringsFit {
 }
 
 /// Names of the parameters, in their order.
-const NAMES: [&str; 8] = NonlinearSprings::KEYS;
+const NAMES: [&str; 8] = NonlinearSprings::NAMES;
 /// Exponents that are sought for the static spring and for those that relax [-]: below one, the stiffness of
 /// a spring at rest would have no bound.
 const EXPONENTS: [[f64; 2]; 2] = [[0.5, 6.0], [1.0, 6.0]];

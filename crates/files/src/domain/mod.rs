@@ -61,6 +61,11 @@ impl Domain {
         Self { remark, ..self }
     }
 
+    /// The least and the greatest number [unit of the bounds].
+    pub fn bounds(&self) -> [Bound<f64>; 2] {
+        self.bounds
+    }
+
     /// Whether `value` may be used: finite and inside.
     pub fn contains(&self, value: f64) -> bool {
         let [least, most] = self.bounds;

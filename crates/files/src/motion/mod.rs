@@ -76,7 +76,7 @@ impl Motion {
     pub fn parse(text: &str, path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
         let ended = Ended::of(text);
-        let table = TableText::parse(text, path, &["format"])?;
+        let table = TableText::parse(text, path, &[])?;
         let columns = columns::Columns::find(&table)?;
         let mut tools: Vec<ToolMotion> = Vec::new();
         let mut rows = table.rows();

@@ -17,7 +17,7 @@ pub use specimen::{Measured, MeasuredTissue, PublishedOrgan};
 pub use stimulus::{Stimulus, StimulusPlan, Sweep};
 
 use crate::whole_file::{MOST_OF_DOCUMENT, read_text};
-use crate::{Document, Error};
+use crate::{Document, Error, Key};
 
 /// A protocol: every stimulus on every specimen. What is not stated in the file has its default here.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,9 +34,27 @@ pub struct Protocol {
     pub warnings: Vec<String>,
 }
 
-const KEYS: &[&str] = &["rig", "sensor", "specimen", "stimulus"];
-
 impl Protocol {
+    /// The keys of a protocol, beside `format`.
+    pub const KEYS: &'static [Key] = &[
+        Key::table("rig", RigLimits::KEYS, "How the rig goes about it.")
+            .optional("", "the rig's own settings"),
+        Key::table("sensor", SensorPlan::KEYS, "What measures the force.")
+            .optional("", "the virtual sensor"),
+        Key::tables(
+            "specimen",
+            Measured::KEYS,
+            "What is measured; every stimulus is done to each.",
+        )
+        .required(""),
+        Key::tables(
+            "stimulus",
+            StimulusPlan::KEYS,
+            "What is done to each specimen.",
+        )
+        .required(""),
+    ];
+
     /// Reads a protocol file.
     ///
     /// # Errors
@@ -55,9 +73,9 @@ impl Protocol {
         let path = path.as_ref();
         let folder = path.parent().unwrap_or(Path::new(""));
         let document = Document::parse(text, path)?;
-        let keys = document.keys(KEYS)?;
-        let specimens = keys.tables("specimen", Measured::KEYS)?;
-        let stimuli = keys.tables("stimulus", StimulusPlan::KEYS)?;
+        let keys = document.keys(Self::KEYS)?;
+        let specimens = keys.tables("specimen")?;
+        let stimuli = keys.tables("stimulus")?;
         if specimens.is_empty() {
             return Err(keys.missing("specimen", "a table `[[specimen]]` for each specimen"));
         }
@@ -68,8 +86,8 @@ impl Protocol {
         for keys in &stimuli {
             plans.extend(StimulusPlan::from_keys(keys)?);
         }
-        let rig = RigLimits::from_keys(keys.table("rig", RigLimits::KEYS)?.as_ref())?;
-        let sensor = keys.table("sensor", SensorPlan::KEYS)?;
+        let rig = RigLimits::from_keys(keys.table("rig")?.as_ref())?;
+        let sensor = keys.table("sensor")?;
         let sensor_plan = SensorPlan::from_keys(sensor.as_ref())?;
         let is_virtual = sensor_plan.source == SensorSource::Virtual;
         if let Some(sensor) = sensor.filter(|_| !is_virtual && rig.has_virtual_device()) {

@@ -27,7 +27,7 @@ const UP: [f64; 3] = [0.0, 0.0, 1.0];
 impl MeasuredPlace {
     pub(super) fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
         Ok(Self {
-            place_m: keys.vector("place_m", PLACE)?.unwrap_or_default(),
+            place_m: keys.vector("place_m")?.unwrap_or_default(),
             normal: upward(keys, "normal")?.unwrap_or(UP),
             measure_normal: keys.truth("measure_normal")?.unwrap_or(false),
         })
@@ -38,12 +38,13 @@ impl VirtualSurface {
     pub(super) fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
         Ok(Self {
             normal: upward(keys, "surface_normal")?.unwrap_or(UP),
-            radius_m: keys.number("surface_radius_m", Domain::LENGTH)?,
+            radius_m: keys.number("surface_radius_m")?,
         })
     }
 }
 
-const PLACE: Domain = Domain::POSITION.usually(-0.2, 0.2);
+/// Where on a specimen a place is [m].
+pub(super) const PLACE: Domain = Domain::POSITION.usually(-0.2, 0.2);
 
 /// A direction that leads up.
 pub(super) fn upward(keys: &Keys<'_>, key: &'static str) -> Result<Option<[f64; 3]>, Error> {

@@ -1,6 +1,6 @@
 use super::place::upward;
 use crate::words::words;
-use crate::{Domain, Error, Keys};
+use crate::{Domain, Error, Key, Keys};
 
 words! {
     /// How hard the indenter is driven.
@@ -53,19 +53,68 @@ pub struct RigLimits {
     pub indenter_axis: Option<[f64; 3]>,
 }
 
+/// What the rig takes where a protocol says nothing.
+const OWN: &str = "the rig's own";
+
 impl RigLimits {
-    pub(super) const KEYS: &[&str] = &[
-        "approach_speed_m_per_s",
-        "force_limit_n",
-        "depth_limit_m",
-        "speed_limit_m_per_s",
-        "breath_s",
-        "recovery_s",
-        "gains",
-        "device",
-        "contact_force_n",
-        "lateral_limit_m",
-        "indenter_axis",
+    pub(super) const KEYS: &[Key] = &[
+        Key::number(
+            "approach_speed_m_per_s",
+            Domain::SPEED,
+            "How fast the indenter goes to the tissue.",
+        )
+        .optional("0.005", OWN),
+        Key::number(
+            "force_limit_n",
+            Domain::FORCE,
+            "The largest force on the tissue.",
+        )
+        .optional("2.0", OWN),
+        Key::number(
+            "depth_limit_m",
+            Domain::DEPTH,
+            "The deepest that it may go.",
+        )
+        .optional("0.01", OWN),
+        Key::number(
+            "speed_limit_m_per_s",
+            Domain::SPEED,
+            "The fastest that it may be.",
+        )
+        .optional("0.1", OWN),
+        Key::number(
+            "breath_s",
+            Domain::DURATION,
+            "How long a breath is held at most.",
+        )
+        .optional("30.0", OWN),
+        Key::number(
+            "recovery_s",
+            Domain::DURATION_OR_NONE,
+            "How long tissue rests between two stimuli.",
+        )
+        .optional("10.0", OWN),
+        Key::word("gains", Gains::MEANINGS, "How hard the indenter is driven.")
+            .optional("\"tuned\"", OWN),
+        Key::word("device", RigDevice::MEANINGS, "What carries the indenter.")
+            .optional("\"virtual\"", OWN),
+        Key::number(
+            "contact_force_n",
+            Domain::FORCE,
+            "The rise of the force that is a contact.",
+        )
+        .optional("0.02", OWN),
+        Key::number(
+            "lateral_limit_m",
+            Domain::LENGTH,
+            "How far sideways the indenter may be moved from where the rig began.",
+        )
+        .optional("0.05", OWN),
+        Key::direction(
+            "indenter_axis",
+            "The direction from the tip to the device, in the rig's axes; it leads up.",
+        )
+        .optional("[0.0, 0.0, 1.0]", OWN),
     ];
 
     /// Whether nothing that is there carries the indenter.
@@ -78,16 +127,16 @@ impl RigLimits {
             return Ok(Self::default());
         };
         Ok(Self {
-            approach_speed_m_per_s: keys.number("approach_speed_m_per_s", Domain::SPEED)?,
-            force_limit_n: keys.number("force_limit_n", Domain::FORCE)?,
-            depth_limit_m: keys.number("depth_limit_m", Domain::DEPTH)?,
-            speed_limit_m_per_s: keys.number("speed_limit_m_per_s", Domain::SPEED)?,
-            breath_s: keys.number("breath_s", Domain::DURATION)?,
-            recovery_s: keys.number("recovery_s", Domain::DURATION_OR_NONE)?,
+            approach_speed_m_per_s: keys.number("approach_speed_m_per_s")?,
+            force_limit_n: keys.number("force_limit_n")?,
+            depth_limit_m: keys.number("depth_limit_m")?,
+            speed_limit_m_per_s: keys.number("speed_limit_m_per_s")?,
+            breath_s: keys.number("breath_s")?,
+            recovery_s: keys.number("recovery_s")?,
             gains: keys.word("gains", Gains::WORDS)?,
             device: keys.word("device", RigDevice::WORDS)?,
-            contact_force_n: keys.number("contact_force_n", Domain::FORCE)?,
-            lateral_limit_m: keys.number("lateral_limit_m", Domain::LENGTH)?,
+            contact_force_n: keys.number("contact_force_n")?,
+            lateral_limit_m: keys.number("lateral_limit_m")?,
             indenter_axis: upward(keys, "indenter_axis")?,
         })
     }

@@ -1,8 +1,8 @@
 use std::ops::Bound::Included;
 
-use super::serial_line::SerialLine;
+use super::serial_line::{SerialLine, SerialSeparator};
 use crate::words::words;
-use crate::{Domain, Error, Keys};
+use crate::{Domain, Error, Key, Keys};
 
 words! {
     /// What measures the force.
@@ -94,22 +94,67 @@ const OF_ALL: [&str; 6] = [
 ];
 
 impl SensorPlan {
-    pub(super) const KEYS: &[&str] = &[
-        "kind",
-        "tip_distance_m",
-        "axes",
-        "range_n",
-        "range_n_m",
-        "timeout_s",
-        "channels",
-        "rate_hz",
-        "range_v",
-        "matrix",
-        "counts_per_newton",
-        "counts_per_newton_metre",
-        "baud",
-        "columns",
-        "separator",
+    pub(super) const KEYS: &[Key] = &[
+        Key::word("kind", SensorKind::MEANINGS, "What measures the force.").default("\"virtual\""),
+        Key::number(
+            "tip_distance_m",
+            Domain::LENGTH,
+            "From the sensor's origin, about which torques are, to the tip.",
+        )
+        .optional("0.05", "the rig's own"),
+        Key::texts(
+            "axes",
+            "The indenter's x, y and z among the sensor's axes; of a real sensor.",
+        )
+        .optional("[\"x\", \"y\", \"z\"]", "the same axes"),
+        Key::vector("range_n", Domain::FORCE, "The largest force on each axis; of a real sensor.")
+            .optional("[32.0, 32.0, 100.0]", "the rig's own"),
+        Key::vector(
+            "range_n_m",
+            Domain::TORQUE,
+            "The largest torque about each axis; of a real sensor.",
+        )
+        .optional("[2.5, 2.5, 2.5]", "the rig's own"),
+        Key::number(
+            "timeout_s",
+            TIMEOUT,
+            "How long a reading may be missing; of a real sensor.",
+        )
+        .optional("0.02", "the rig's own"),
+        Key::text("channels", "`ni_daq`: the six channels as NI-DAQmx names them.")
+            .optional("\"Dev1/ai0:5\"", "another kind"),
+        Key::number("rate_hz", SAMPLE_RATE, "`ni_daq`: how often they are sampled.")
+            .optional("10000.0", "10000.0"),
+        Key::number("range_v", VOLTAGE, "`ni_daq`: the largest voltage that is measured.")
+            .optional("10.0", "10.0"),
+        Key::numbers(
+            "matrix",
+            Domain::FINITE,
+            "`ni_daq`: the 36 numbers of the calibration certificate, row by row in N and N m per volt.",
+        )
+        .optional("[]", "another kind"),
+        Key::number("counts_per_newton", COUNTS, "`net_ft`, `serial`: counts per newton.")
+            .optional("1000000.0", "another kind"),
+        Key::number(
+            "counts_per_newton_metre",
+            COUNTS,
+            "`net_ft`, `serial`: counts per newton metre.",
+        )
+        .optional("1000000.0", "another kind, or a line without torques"),
+        Key::integer("baud", 300, 4_000_000, "`serial`: bits per second.")
+            .optional("115200", "115200"),
+        Key::texts(
+            "columns",
+            "`serial`: the fields of a line: \"fz\", or all of \"fx\", \"fy\", \"fz\", \"tx\", \"ty\" and \"tz\", and \"sequence\" \
+             or \"skip\".",
+        )
+        .optional("[\"sequence\", \"fz\"]", "another kind"),
+        Key::word(
+            "separator",
+            SerialSeparator::MEANINGS,
+            "`serial`: what stands between two fields.",
+        )
+        .optional("\",\"", "a comma"),
     ];
 
     pub(super) fn from_keys(keys: Option<&Keys<'_>>) -> Result<Self, Error> {
@@ -127,11 +172,11 @@ impl SensorPlan {
         };
         Ok(Self {
             source,
-            tip_distance_m: keys.number("tip_distance_m", Domain::LENGTH)?,
+            tip_distance_m: keys.number("tip_distance_m")?,
             axes: axes(keys)?,
-            range_n: keys.vector("range_n", Domain::FORCE)?,
-            range_n_m: keys.vector("range_n_m", Domain::TORQUE)?,
-            timeout_s: keys.number("timeout_s", TIMEOUT)?,
+            range_n: keys.vector("range_n")?,
+            range_n_m: keys.vector("range_n_m")?,
+            timeout_s: keys.number("timeout_s")?,
         })
     }
 
@@ -158,8 +203,8 @@ impl SensorPlan {
                 "nothing: a serial line has none",
             ),
         };
-        let is_foreign = |key: &&&str| !own.contains(*key) && !OF_ALL.contains(*key);
-        let mut foreign = Self::KEYS.iter().filter(is_foreign);
+        let is_foreign = |key: &&'static str| !own.contains(key) && !OF_ALL.contains(key);
+        let mut foreign = Self::KEYS.iter().map(|key| key.name).filter(is_foreign);
         foreign.try_for_each(|key| keys.refuse(key, why))?;
         // The virtual sensor is mounted along the indenter and has the ranges of the source's.
         let fixed = ["axes", "range_n", "range_n_m", "timeout_s"];
@@ -179,8 +224,7 @@ const TIMEOUT: Domain = Domain::quantity(
 .usually(0.005, 0.1);
 
 /// Counts of a sensor for a unit; a sensor that sends newtons has one.
-pub(super) const COUNTS: Domain =
-    Domain::number("a number of counts", [Included(1e-6), Included(1e12)]);
+const COUNTS: Domain = Domain::number("a number of counts", [Included(1e-6), Included(1e12)]);
 
 const SAMPLE_RATE: Domain =
     Domain::quantity("a sample rate", "hz", [Included(100.0), Included(1e6)]).usually(1e3, 1e5);
@@ -197,15 +241,15 @@ impl Voltages {
         if !channels.is_ascii() {
             return Err(keys.bad("channels", CHANNELS));
         }
-        let matrix = keys.numbers("matrix", Domain::FINITE)?;
+        let matrix = keys.numbers("matrix")?;
         let matrix = matrix.ok_or_else(|| keys.missing("matrix", MATRIX))?;
         if matrix.len() != 36 {
             return Err(keys.bad("matrix", MATRIX));
         }
         Ok(Self {
             channels,
-            rate_hz: keys.number("rate_hz", SAMPLE_RATE)?.unwrap_or(10_000.0),
-            range_v: keys.number("range_v", VOLTAGE)?.unwrap_or(10.0),
+            rate_hz: keys.number("rate_hz")?.unwrap_or(10_000.0),
+            range_v: keys.number("range_v")?.unwrap_or(10.0),
             matrix: std::array::from_fn(|row| {
                 std::array::from_fn(|column| matrix[6 * row + column])
             }),
@@ -216,8 +260,8 @@ impl Voltages {
 impl Counts {
     fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
         Ok(Self {
-            per_newton: keys.required_number("counts_per_newton", COUNTS)?,
-            per_newton_metre: keys.required_number("counts_per_newton_metre", COUNTS)?,
+            per_newton: keys.required_number("counts_per_newton")?,
+            per_newton_metre: keys.required_number("counts_per_newton_metre")?,
         })
     }
 }

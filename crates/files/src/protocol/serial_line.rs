@@ -1,4 +1,3 @@
-use super::sensor::COUNTS;
 use crate::words::words;
 use crate::{Error, Keys};
 
@@ -74,7 +73,7 @@ impl SerialLine {
             return Err(keys.bad("columns", FIELDS));
         }
         let per_newton_metre = match is_six {
-            true => Some(keys.required_number("counts_per_newton_metre", COUNTS)?),
+            true => Some(keys.required_number("counts_per_newton_metre")?),
             false => {
                 keys.refuse(
                     "counts_per_newton_metre",
@@ -83,13 +82,13 @@ impl SerialLine {
                 None
             }
         };
-        let baud = keys.integer("baud", 300..=4_000_000)?.unwrap_or(115_200);
+        let baud = keys.integer("baud")?.unwrap_or(115_200);
         let separator = keys.word("separator", SerialSeparator::WORDS)?;
         Ok(Self {
             baud: u32::try_from(baud).expect("it is in the range"),
             fields,
             separator: separator.unwrap_or(SerialSeparator::Comma),
-            per_newton: keys.required_number("counts_per_newton", COUNTS)?,
+            per_newton: keys.required_number("counts_per_newton")?,
             per_newton_metre,
         })
     }

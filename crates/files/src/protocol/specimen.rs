@@ -1,10 +1,10 @@
 use std::path::Path;
 
-use super::place::{MeasuredPlace, VirtualSurface};
+use super::place::{self, MeasuredPlace, VirtualSurface};
 use crate::recording::Condition;
 use crate::scene::TissueChoice;
 use crate::words::words;
-use crate::{Domain, Error, Keys};
+use crate::{Domain, Error, Key, Keys};
 
 words! {
     /// An organ whose forces were published.
@@ -59,23 +59,58 @@ pub struct Measured {
 }
 
 impl Measured {
-    pub(super) const KEYS: &[&str] = &[
-        "tissue",
-        "builtin_tissue",
-        "published",
-        "organ",
-        "subject",
-        "weight_kg",
-        "site",
-        "condition",
-        "alive",
-        "factor",
-        "indenter_radius_m",
-        "place_m",
-        "normal",
-        "measure_normal",
-        "surface_normal",
-        "surface_radius_m",
+    pub(super) const KEYS: &[Key] = &[
+        TissueChoice::KEYS[0],
+        TissueChoice::KEYS[1],
+        Key::word(
+            "published",
+            PublishedOrgan::MEANINGS,
+            "The organ of a pig that answers as it was published (tables 5-1 and 6-3), in place of a tissue.",
+        )
+        .optional("\"liver\"", "it is of its tissue"),
+        Key::text("organ", "The organ, for its recordings.").optional("\"liver\"", "not said"),
+        Key::label("subject", "The animal, person or body.").optional("\"pig-1\"", "not said"),
+        Key::number("weight_kg", Domain::WEIGHT, "The subject's weight.")
+            .optional("35.0", "not said"),
+        Key::label("site", "The place on the organ.").optional("\"left lobe\"", "not said"),
+        Key::word("condition", Condition::MEANINGS, "The state of the tissue.")
+            .optional("\"ex_vivo\"", "not said"),
+        Key::truth("alive", "Whether a heart beats in it and breath moves it.").default("false"),
+        Key::number("factor", Domain::FACTOR, "How much stiffer than its tissue it is.")
+            .default("1.0"),
+        Key::number(
+            "indenter_radius_m",
+            Domain::TIP_RADIUS,
+            "The radius, not the diameter, of the indenter.",
+        )
+        .default("0.001"),
+        Key::vector(
+            "place_m",
+            place::PLACE,
+            "Where the indenter is moved before it approaches, from where the rig begins: x right, y away from the user, z up.",
+        )
+        .default("[0.0, 0.0, 0.0]"),
+        Key::direction(
+            "normal",
+            "The direction out of the tissue, along which the indenter approaches, presses and withdraws; it leads up.",
+        )
+        .default("[0.0, 0.0, 1.0]"),
+        Key::truth(
+            "measure_normal",
+            "Whether the surface is touched around the place first, and the normal that is measured there taken.",
+        )
+        .default("false"),
+        Key::direction(
+            "surface_normal",
+            "The normal of a virtual specimen's surface where the rig begins.",
+        )
+        .default("[0.0, 0.0, 1.0]"),
+        Key::number(
+            "surface_radius_m",
+            Domain::LENGTH,
+            "The radius of curvature of a virtual specimen's surface.",
+        )
+        .optional("0.05", "it is plane"),
     ];
 
     /// One under a real sensor, which is made of nothing that a document could say.
@@ -115,14 +150,12 @@ impl Measured {
             tissue,
             organ: keys.text("organ")?,
             subject: keys.text_or_integer("subject")?,
-            weight_kg: keys.number("weight_kg", Domain::WEIGHT)?,
+            weight_kg: keys.number("weight_kg")?,
             site: keys.text_or_integer("site")?,
             condition: keys.word("condition", Condition::WORDS)?,
             alive: keys.truth("alive")?.unwrap_or(false),
-            factor: keys.number("factor", Domain::FACTOR)?.unwrap_or(1.0),
-            indenter_radius_m: keys
-                .number("indenter_radius_m", Domain::TIP_RADIUS)?
-                .unwrap_or(0.001),
+            factor: keys.number("factor")?.unwrap_or(1.0),
+            indenter_radius_m: keys.number("indenter_radius_m")?.unwrap_or(0.001),
             place: MeasuredPlace::from_keys(keys)?,
             surface: VirtualSurface::from_keys(keys)?,
         })

@@ -1,7 +1,7 @@
 use crate::recording::StimulusKind;
 use std::ops::Bound::{Excluded, Included};
 
-use crate::{Domain, Error, Keys};
+use crate::{Domain, Error, Key, Keys};
 
 /// What an indenter does, from first contact (figure 5-8).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -73,20 +73,47 @@ pub struct StimulusPlan {
 }
 
 impl StimulusPlan {
-    pub(super) const KEYS: &[&str] = &[
-        "kind",
-        "repeats",
-        "depth_m",
-        "depths_m",
-        "ramp_s",
-        "hold_s",
-        "amplitude_m",
-        "pre_indentation_m",
-        "frequency_hz",
-        "frequencies_hz",
-        "end_frequency_hz",
-        "duration_s",
-        "cycles",
+    pub(super) const KEYS: &[Key] = &[
+        Key::word(
+            "kind",
+            StimulusKind::MEANINGS,
+            "What the indenter does: `ramp_and_hold`, `sine`, `chirp_linear` or `chirp_exponential`.",
+        )
+        .required("\"ramp_and_hold\""),
+        Key::integer("repeats", 1, 1000, "How often it is done.").default("1"),
+        Key::number("depth_m", Domain::DEPTH, "`ramp_and_hold`: the depth of the hold.")
+            .required_without("depths_m", "0.004"),
+        Key::numbers("depths_m", Domain::DEPTH, "`ramp_and_hold`: a depth for each of several holds.")
+            .optional("[0.002, 0.004]", "one depth"),
+        Key::number("ramp_s", Domain::DURATION, "`ramp_and_hold`: how long the way takes.")
+            .default("0.5"),
+        Key::number("hold_s", Domain::DURATION, "`ramp_and_hold`: how long it stays.")
+            .default("20.0"),
+        Key::number("amplitude_m", Domain::DEPTH, "`sine`, chirps: from the middle to an end.")
+            .optional("0.0005", "another kind"),
+        Key::number("pre_indentation_m", Domain::DEPTH, "`sine`, chirps: the middle.")
+            .optional("0.002", "another kind"),
+        Key::number(
+            "frequency_hz",
+            Domain::FREQUENCY,
+            "`sine`: how often it swings; chirps: with which frequency they begin.",
+        )
+        .optional("1.0", "another kind, or several frequencies"),
+        Key::numbers(
+            "frequencies_hz",
+            Domain::FREQUENCY,
+            "`sine`: a frequency for each of several sines.",
+        )
+        .optional("[1.0, 2.0]", "one frequency"),
+        Key::number(
+            "end_frequency_hz",
+            Domain::FREQUENCY,
+            "Chirps: with which frequency they end.",
+        )
+        .optional("3.0", "another kind"),
+        Key::number("duration_s", Domain::DURATION, "Chirps: how long they swing.")
+            .optional("15.0", "15.0"),
+        Key::number("cycles", CYCLES, "`sine`: how often it swings in all.").optional("10.0", "10.0"),
     ];
 
     /// One for each depth or frequency of a table.
@@ -102,7 +129,7 @@ impl StimulusPlan {
                 return Err(keys.bad("kind", EXPECTED));
             }
         };
-        let repeats = keys.integer("repeats", 1..=1000)?.unwrap_or(1);
+        let repeats = keys.integer("repeats")?.unwrap_or(1);
         let plan = |stimulus| Self { stimulus, repeats };
         Ok(stimuli.into_iter().map(plan).collect())
     }
@@ -114,14 +141,14 @@ const CYCLES: Domain =
 fn holds(keys: &Keys<'_>) -> Result<Vec<Stimulus>, Error> {
     let own = ["depth_m", "depths_m", "ramp_s", "hold_s"];
     only(keys, &own, "nothing: a ramp and hold has none")?;
-    let ramp_s = keys.number("ramp_s", Domain::DURATION)?.unwrap_or(0.5);
-    let hold_s = keys.number("hold_s", Domain::DURATION)?.unwrap_or(20.0);
+    let ramp_s = keys.number("ramp_s")?.unwrap_or(0.5);
+    let hold_s = keys.number("hold_s")?.unwrap_or(20.0);
     let hold = |depth_m| Stimulus::RampAndHold {
         depth_m,
         ramp_s,
         hold_s,
     };
-    let depths = several(keys, ["depth_m", "depths_m"], Domain::DEPTH)?;
+    let depths = several(keys, ["depth_m", "depths_m"])?;
     Ok(depths.into_iter().map(hold).collect())
 }
 
@@ -135,14 +162,14 @@ fn sines(keys: &Keys<'_>) -> Result<Vec<Stimulus>, Error> {
     ];
     only(keys, &own, "nothing: a sine has none")?;
     let [amplitude_m, pre_indentation_m] = swing(keys)?;
-    let cycles = keys.number("cycles", CYCLES)?.unwrap_or(10.0);
+    let cycles = keys.number("cycles")?.unwrap_or(10.0);
     let sine = |frequency| Stimulus::Swing {
         amplitude_m,
         pre_indentation_m,
         sweep: Sweep::Constant(frequency),
         duration_s: cycles / frequency,
     };
-    let frequencies = several(keys, ["frequency_hz", "frequencies_hz"], Domain::FREQUENCY)?;
+    let frequencies = several(keys, ["frequency_hz", "frequencies_hz"])?;
     Ok(frequencies.into_iter().map(sine).collect())
 }
 
@@ -160,36 +187,35 @@ fn chirp(keys: &Keys<'_>, sweep: fn([f64; 2]) -> Sweep) -> Result<Vec<Stimulus>,
         amplitude_m,
         pre_indentation_m,
         sweep: sweep([
-            keys.required_number("frequency_hz", Domain::FREQUENCY)?,
-            keys.required_number("end_frequency_hz", Domain::FREQUENCY)?,
+            keys.required_number("frequency_hz")?,
+            keys.required_number("end_frequency_hz")?,
         ]),
-        duration_s: keys.number("duration_s", Domain::DURATION)?.unwrap_or(15.0),
+        duration_s: keys.number("duration_s")?.unwrap_or(15.0),
     }])
 }
 
 /// Amplitude and middle of a swing [m].
 fn swing(keys: &Keys<'_>) -> Result<[f64; 2], Error> {
     Ok([
-        keys.required_number("amplitude_m", Domain::DEPTH)?,
-        keys.required_number("pre_indentation_m", Domain::DEPTH)?,
+        keys.required_number("amplitude_m")?,
+        keys.required_number("pre_indentation_m")?,
     ])
 }
 
 /// Refuses every key that belongs to another kind.
 fn only(keys: &Keys<'_>, own: &[&str], why: &'static str) -> Result<(), Error> {
     const OF_ALL: [&str; 2] = ["kind", "repeats"];
-    let is_foreign = |key: &&&str| !own.contains(*key) && !OF_ALL.contains(*key);
-    let mut foreign = StimulusPlan::KEYS.iter().filter(is_foreign);
+    let is_foreign = |key: &&'static str| !own.contains(key) && !OF_ALL.contains(key);
+    let mut foreign = StimulusPlan::KEYS
+        .iter()
+        .map(|key| key.name)
+        .filter(is_foreign);
     foreign.try_for_each(|key| keys.refuse(key, why))
 }
 
 /// One number, or a list of them.
-fn several(
-    keys: &Keys<'_>,
-    [one, many]: [&'static str; 2],
-    domain: Domain,
-) -> Result<Vec<f64>, Error> {
-    match (keys.number(one, domain)?, keys.numbers(many, domain)?) {
+fn several(keys: &Keys<'_>, [one, many]: [&'static str; 2]) -> Result<Vec<f64>, Error> {
+    match (keys.number(one)?, keys.numbers(many)?) {
         (Some(_), Some(_)) => Err(keys.given_twice(one, many)),
         (Some(one), None) => Ok(vec![one]),
         (None, Some(many)) if !many.is_empty() => Ok(many),

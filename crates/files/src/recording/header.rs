@@ -1,5 +1,7 @@
+use super::header_keys::header_keys;
 use crate::table::ExtraKey;
 use crate::words::words;
+use crate::{Domain, Error, Holds, Key, Keys};
 
 words! {
     /// The state of the tissue.
@@ -61,87 +63,110 @@ words! {
     }
 }
 
-/// What the comments above a recording say; none where they say nothing. The fields bear the names
-/// of the keys.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct RecordingHeader {
-    /// The organ.
-    pub organ: Option<String>,
-    /// The animal, person or body.
-    pub subject: Option<String>,
-    /// The subject's weight [kg].
-    pub weight_kg: Option<f64>,
-    /// The place on the organ.
-    pub site: Option<String>,
-    /// Which repetition it is.
-    pub repeat: Option<u64>,
-    /// The state of the tissue.
-    pub condition: Option<Condition>,
-    /// Time since death [s].
-    pub post_mortem_s: Option<f64>,
-    /// Whether breath was held.
-    pub breath_held: Option<bool>,
-    /// What the indenter did.
-    pub stimulus: Option<StimulusKind>,
-    /// Duration of the ramp [s].
-    pub ramp_s: Option<f64>,
-    /// Depth of the hold, or amplitude of the swing [m].
-    pub amplitude_m: Option<f64>,
-    /// Depth around which the indenter swings [m].
-    pub pre_indentation_m: Option<f64>,
-    /// Frequency of a sine, or that with which a chirp begins [Hz].
-    pub frequency_hz: Option<f64>,
-    /// Frequency with which a chirp ends [Hz].
-    pub end_frequency_hz: Option<f64>,
-    /// Samples per second [Hz].
-    pub sample_rate_hz: Option<f64>,
-    /// The shape of the indenter.
-    pub indenter_shape: Option<IndenterShape>,
-    /// The radius, not the diameter, of the indenter [m].
-    pub indenter_radius_m: Option<f64>,
-    /// The angle between a cone's axis and its side [degrees].
-    pub indenter_half_angle_deg: Option<f64>,
-    /// What measured the force.
-    pub force_sensor: Option<String>,
-    /// The direction out of the tissue along which the indenter was moved, in the rig's axes [-].
-    pub approach_normal: Option<[f64; 3]>,
-    /// The direction from the indenter's tip to the device, in the rig's axes [-].
-    pub indenter_axis: Option<[f64; 3]>,
-    /// From the sensor's origin, about which torques are, to the tip [m].
-    pub tip_distance_m: Option<f64>,
-    /// Thickness of the specimen under the indenter [m].
-    pub thickness_m: Option<f64>,
-    /// Radius of a round specimen, indented in its middle [m].
-    pub specimen_radius_m: Option<f64>,
-    /// Width of a square specimen, indented in its middle [m].
-    pub specimen_width_m: Option<f64>,
-    /// What the specimen rests on.
-    pub support: Option<Support>,
-    /// Density of the specimen [kg/m³].
-    pub density_kg_per_m3: Option<f64>,
-    /// Cross-section of a piece that is pressed or pulled along one axis [m²].
-    pub area_m2: Option<f64>,
-    /// Height of a piece that is pressed or pulled along one axis [m].
-    pub height_m: Option<f64>,
-    /// The shape of the specimen.
-    pub specimen: Option<Specimen>,
-    /// Inner radius of a tube [m].
-    pub inner_radius_m: Option<f64>,
-    /// Outer radius of a tube [m].
-    pub outer_radius_m: Option<f64>,
-    /// Length of a tube [m].
-    pub length_m: Option<f64>,
-    /// Pressure inside a tube [Pa].
-    pub pressure_pa: Option<f64>,
-    /// Where the recording comes from.
-    pub source: Option<String>,
-    /// How it ended: `whole`, `unfinished` while it is made, or why it was cut short.
-    pub ended: Option<String>,
-    /// Keys that mean nothing here and are kept.
-    pub extra: Vec<ExtraKey>,
+header_keys! {
+    /// What the comments above a recording say; none where they say nothing. The fields bear the names
+    /// of the keys.
+    pub struct RecordingHeader {
+        /// The organ.
+        organ: String = Holds::Text,
+        /// The animal, person or body.
+        subject: String = Holds::Label,
+        /// The subject's weight [kg].
+        weight_kg: f64 = Holds::Number(Domain::WEIGHT),
+        /// The place on the organ.
+        site: String = Holds::Label,
+        /// Which repetition it is.
+        repeat: u64 = Holds::Integer(0, u64::MAX),
+        /// The state of the tissue.
+        condition: Condition = Holds::Word(Condition::MEANINGS),
+        /// Time since death [s].
+        post_mortem_s: f64 = Holds::Number(Domain::POST_MORTEM),
+        /// Whether breath was held.
+        breath_held: bool = Holds::Truth,
+        /// What the indenter did.
+        stimulus: StimulusKind = Holds::Word(StimulusKind::MEANINGS),
+        /// Duration of the ramp [s].
+        ramp_s: f64 = Holds::Number(Domain::DURATION_OR_NONE),
+        /// Depth of the hold, or amplitude of the swing [m].
+        amplitude_m: f64 = Holds::Number(Domain::DEPTH_OR_NONE),
+        /// Depth around which the indenter swings [m].
+        pre_indentation_m: f64 = Holds::Number(Domain::DEPTH_OR_NONE),
+        /// Frequency of a sine, or that with which a chirp begins [Hz].
+        frequency_hz: f64 = Holds::Number(Domain::FREQUENCY),
+        /// Frequency with which a chirp ends [Hz].
+        end_frequency_hz: f64 = Holds::Number(Domain::FREQUENCY),
+        /// Samples per second [Hz].
+        sample_rate_hz: f64 = Holds::Number(Domain::FREQUENCY),
+        /// The shape of the indenter.
+        indenter_shape: IndenterShape = Holds::Word(IndenterShape::MEANINGS),
+        /// The radius, not the diameter, of the indenter [m].
+        indenter_radius_m: f64 = Holds::Number(Domain::TIP_RADIUS),
+        /// The angle between a cone's axis and its side [degrees].
+        indenter_half_angle_deg: f64 = Holds::Number(Domain::HALF_ANGLE),
+        /// What measured the force.
+        force_sensor: String = Holds::Text,
+        /// The direction out of the tissue along which the indenter was moved, in the rig's axes [-].
+        approach_normal: [f64; 3] = Holds::Direction,
+        /// The direction from the indenter's tip to the device, in the rig's axes [-].
+        indenter_axis: [f64; 3] = Holds::Direction,
+        /// From the sensor's origin, about which torques are, to the tip [m].
+        tip_distance_m: f64 = Holds::Number(Domain::LENGTH),
+        /// Thickness of the specimen under the indenter [m].
+        thickness_m: f64 = Holds::Number(Domain::LENGTH),
+        /// Radius of a round specimen, indented in its middle [m].
+        specimen_radius_m: f64 = Holds::Number(Domain::LENGTH),
+        /// Width of a square specimen, indented in its middle [m].
+        specimen_width_m: f64 = Holds::Number(Domain::LENGTH),
+        /// What the specimen rests on.
+        support: Support = Holds::Word(Support::MEANINGS),
+        /// Density of the specimen [kg/m³].
+        density_kg_per_m3: f64 = Holds::Number(Domain::DENSITY),
+        /// Cross-section of a piece that is pressed or pulled along one axis [m²].
+        area_m2: f64 = Holds::Number(Domain::AREA),
+        /// Height of a piece that is pressed or pulled along one axis [m].
+        height_m: f64 = Holds::Number(Domain::LENGTH),
+        /// The shape of the specimen.
+        specimen: Specimen = Holds::Word(Specimen::MEANINGS),
+        /// Inner radius of a tube [m].
+        inner_radius_m: f64 = Holds::Number(Domain::LENGTH),
+        /// Outer radius of a tube [m].
+        outer_radius_m: f64 = Holds::Number(Domain::LENGTH),
+        /// Length of a tube [m].
+        length_m: f64 = Holds::Number(Domain::LENGTH),
+        /// Pressure inside a tube [Pa].
+        pressure_pa: f64 = Holds::Number(Domain::PRESSURE_OR_SUCTION),
+        /// Where the recording comes from.
+        source: String = Holds::Text,
+        /// How it ended: `whole`, `unfinished` while it is made, or why it was cut short.
+        ended: String = Holds::Text,
+    }
 }
 
 impl RecordingHeader {
+    pub(super) fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
+        let header = Self::read(keys)?;
+        header.check_wall(keys)?;
+        header.check_specimen(keys)?;
+        Ok(header)
+    }
+
+    fn check_wall(&self, keys: &Keys<'_>) -> Result<(), Error> {
+        match (self.inner_radius_m, self.outer_radius_m) {
+            (Some(inner), Some(outer)) if outer <= inner => Err(keys.bad(
+                "outer_radius_m",
+                format!("a radius above inner_radius_m, {inner:?} m"),
+            )),
+            _ => Ok(()),
+        }
+    }
+
+    fn check_specimen(&self, keys: &Keys<'_>) -> Result<(), Error> {
+        if self.specimen_radius_m.is_some() && self.specimen_width_m.is_some() {
+            return Err(keys.given_twice("specimen_radius_m", "specimen_width_m"));
+        }
+        Ok(())
+    }
+
     /// [`ended`](Self::ended) of a recording with all its samples.
     pub const WHOLE: &str = "whole";
 

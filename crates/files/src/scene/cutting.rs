@@ -1,5 +1,5 @@
 use crate::words::words;
-use crate::{Domain, Error, Keys};
+use crate::{Domain, Error, Key, Keys};
 
 words! {
     /// How the surface gives way to a blade.
@@ -13,15 +13,6 @@ words! {
 }
 
 /// How the organ is cut. What the scene does not say of the depth follows from its layers.
-///
-/// ```toml
-/// [cutting]
-/// mode = "split"               # split | snap
-/// depth_m = 0.0015             # with layers: no blade goes deeper (default: none); without: the depth of a cut
-/// width_m = 0.0015             # how far an opening gapes
-/// toughness_j_per_m2 = 164.0   # the work of a cut per area of its face; a layer may have its own
-/// force_limit_n = 2.0          # a normal force at which any tool begins to cut; default: none
-/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cutting {
     /// How the surface gives way.
@@ -51,12 +42,28 @@ impl Default for Cutting {
 }
 
 impl Cutting {
-    pub(super) const KEYS: &'static [&'static str] = &[
-        "mode",
-        "depth_m",
-        "width_m",
-        "toughness_j_per_m2",
-        "force_limit_n",
+    pub(super) const KEYS: &'static [Key] = &[
+        Key::word("mode", CutMode::MEANINGS, "How the surface gives way.").default("\"split\""),
+        Key::number(
+            "depth_m",
+            Domain::LENGTH,
+            "How deep a cut goes: at most in an organ with layers, always in one without.",
+        )
+        .optional("0.0015", "with layers, no limit"),
+        Key::number("width_m", Domain::LENGTH, "How far an opening gapes in its middle.")
+            .default("0.0015"),
+        Key::number(
+            "toughness_j_per_m2",
+            Domain::TOUGHNESS,
+            "The work of a cut per area of its face, in layers that have no toughness of their own.",
+        )
+        .default("164.0"),
+        Key::number(
+            "force_limit_n",
+            Domain::FORCE,
+            "The normal force at which any tool begins to cut.",
+        )
+        .optional("2.0", "none does"),
     ];
 
     pub(super) fn from_keys(keys: Option<&Keys<'_>>) -> Result<Self, Error> {
@@ -64,17 +71,13 @@ impl Cutting {
         let Some(keys) = keys else {
             return Ok(default);
         };
-        let or = |key, domain, or: f64| Ok(keys.number(key, domain)?.unwrap_or(or));
+        let or = |key, or: f64| Ok(keys.number(key)?.unwrap_or(or));
         Ok(Self {
             mode: keys.word("mode", CutMode::WORDS)?.unwrap_or(default.mode),
-            depth_m: keys.number("depth_m", Domain::LENGTH)?,
-            width_m: or("width_m", Domain::LENGTH, default.width_m)?,
-            toughness_j_per_m2: or(
-                "toughness_j_per_m2",
-                Domain::TOUGHNESS,
-                default.toughness_j_per_m2,
-            )?,
-            force_limit_n: keys.number("force_limit_n", Domain::FORCE)?,
+            depth_m: keys.number("depth_m")?,
+            width_m: or("width_m", default.width_m)?,
+            toughness_j_per_m2: or("toughness_j_per_m2", default.toughness_j_per_m2)?,
+            force_limit_n: keys.number("force_limit_n")?,
         })
     }
 }

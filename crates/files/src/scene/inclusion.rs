@@ -2,26 +2,9 @@ use std::ops::Bound::Included;
 use std::path::Path;
 
 use super::TissueChoice;
-use crate::{Domain, Error, Keys};
+use crate::{Domain, Error, Key, Keys};
 
 /// A part of an organ with a tissue of its own, such as a tumour or a vessel. The nonlinear model feels it.
-///
-/// ```toml
-/// [[organ.inclusion]]
-/// name = "tumour"
-/// ball = { center_m = [0.02, 0.01, 0.03], radius_m = 0.005 }
-/// tissue = { law = "neo_hookean", c10_pa = 10000.0, prony = [{ g = 0.4, tau_s = 1.0 }] }
-///
-/// [[organ.inclusion]]
-/// name = "cyst"
-/// ellipsoid = { center_m = [0.0, 0.0, 0.03], radii_m = [0.01, 0.005, 0.005], turn_rad = [0.0, 0.0, 0.5] }
-/// tissue = "cyst.toml"
-///
-/// [[organ.inclusion]]
-/// name = "vessel"
-/// capsule = { from_m = [-0.02, 0.0, 0.03], to_m = [0.02, 0.0, 0.03], radius_m = 0.003 }
-/// builtin_tissue = "pig-esophagus"
-/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Inclusion {
     /// Its name, for people.
@@ -63,13 +46,24 @@ pub enum InclusionShape {
 }
 
 impl Inclusion {
-    pub(super) const KEYS: &[&str] = &[
-        "name",
-        "ball",
-        "ellipsoid",
-        "capsule",
-        "tissue",
-        "builtin_tissue",
+    pub(super) const KEYS: &[Key] = &[
+        Key::text("name", "What people call it.").optional("\"tumour\"", "its number"),
+        Key::table(
+            "ball",
+            BALL,
+            "A ball. One of the three shapes has to be there.",
+        )
+        .optional("", "another shape is there")
+        .in_template(),
+        Key::table("ellipsoid", ELLIPSOID, "An ellipsoid.").optional("", "another shape is there"),
+        Key::table(
+            "capsule",
+            CAPSULE,
+            "All points within a distance of a line segment.",
+        )
+        .optional("", "another shape is there"),
+        TissueChoice::KEYS[0],
+        TissueChoice::KEYS[1],
     ];
 
     pub(super) fn from_keys(keys: &Keys<'_>, number: usize, folder: &Path) -> Result<Self, Error> {
@@ -85,25 +79,48 @@ impl Inclusion {
 /// A radius [m].
 const RADIUS: Domain = Domain::quantity("a radius", "m", [Included(1e-6), Included(1e3)]);
 
+const BALL: &[Key] = &[
+    Key::vector("center_m", Domain::POSITION, "Its centre.").required("[0.02, 0.01, 0.03]"),
+    Key::number("radius_m", RADIUS, "Its radius.").required("0.005"),
+];
+
+const ELLIPSOID: &[Key] = &[
+    Key::vector("center_m", Domain::POSITION, "Its centre.").required("[0.0, 0.0, 0.03]"),
+    Key::vector("radii_m", RADIUS, "Its semi-axes.").required("[0.01, 0.005, 0.005]"),
+    Key::vector(
+        "turn_rad",
+        Domain::TURN,
+        "How it is turned about x, then y, then z of the scene, counter-clockwise.",
+    )
+    .default("[0.0, 0.0, 0.0]"),
+];
+
+const CAPSULE: &[Key] = &[
+    Key::vector("from_m", Domain::POSITION, "One end of the segment.")
+        .required("[-0.02, 0.0, 0.03]"),
+    Key::vector("to_m", Domain::POSITION, "The other end.").required("[0.02, 0.0, 0.03]"),
+    Key::number("radius_m", RADIUS, "The distance.").required("0.003"),
+];
+
 impl InclusionShape {
     fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
-        let ball = keys.table("ball", &["center_m", "radius_m"])?;
-        let ellipsoid = keys.table("ellipsoid", &["center_m", "radii_m", "turn_rad"])?;
-        let capsule = keys.table("capsule", &["from_m", "to_m", "radius_m"])?;
+        let ball = keys.table("ball")?;
+        let ellipsoid = keys.table("ellipsoid")?;
+        let capsule = keys.table("capsule")?;
         match (ball, ellipsoid, capsule) {
             (Some(keys), None, None) => Ok(Self::Ball {
-                center_m: keys.required_vector("center_m", Domain::POSITION)?,
-                radius_m: keys.required_number("radius_m", RADIUS)?,
+                center_m: keys.required_vector("center_m")?,
+                radius_m: keys.required_number("radius_m")?,
             }),
             (None, Some(keys), None) => Ok(Self::Ellipsoid {
-                center_m: keys.required_vector("center_m", Domain::POSITION)?,
-                radii_m: keys.required_vector("radii_m", RADIUS)?,
-                turn_rad: keys.vector("turn_rad", Domain::TURN)?.unwrap_or_default(),
+                center_m: keys.required_vector("center_m")?,
+                radii_m: keys.required_vector("radii_m")?,
+                turn_rad: keys.vector("turn_rad")?.unwrap_or_default(),
             }),
             (None, None, Some(keys)) => Ok(Self::Capsule {
-                from_m: keys.required_vector("from_m", Domain::POSITION)?,
-                to_m: keys.required_vector("to_m", Domain::POSITION)?,
-                radius_m: keys.required_number("radius_m", RADIUS)?,
+                from_m: keys.required_vector("from_m")?,
+                to_m: keys.required_vector("to_m")?,
+                radius_m: keys.required_number("radius_m")?,
             }),
             (None, None, None) => Err(keys.missing(
                 "ball",

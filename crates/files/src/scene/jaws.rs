@@ -1,5 +1,5 @@
 use super::ToolKind;
-use crate::{Domain, Error, Keys};
+use crate::{Domain, Error, Key, Keys};
 
 /// The jaws of a grasper, or the blades of scissors. Shut, they end at the tip and run along the shaft; they
 /// open along the tool's x, and their faces lie across it.
@@ -36,35 +36,62 @@ impl Jaws {
         friction: 0.0,
     };
 
-    const OF_GRASPER: &[&str] = &["length_m", "width_m", "opening_m", "force_n", "friction"];
+    pub(super) const KEYS: &[Key] = &[
+        Key::number("length_m", Domain::LENGTH, "From the joint to the end.").default("0.012"),
+        Key::number(
+            "opening_m",
+            Domain::LENGTH,
+            "Between their ends when they are open.",
+        )
+        .default("0.010"),
+        Key::number(
+            "width_m",
+            Domain::LENGTH,
+            "Across, along the tool's y; of a grasper.",
+        )
+        .optional("0.004", "0.004"),
+        Key::number(
+            "force_n",
+            Domain::FORCE,
+            "The most with which each presses on what is between them; of a grasper.",
+        )
+        .optional("4.0", "4.0"),
+        Key::number(
+            "friction",
+            Domain::FRICTION,
+            "Coulomb's coefficient of tissue on their faces; of a grasper.",
+        )
+        .optional("0.4", "0.4"),
+    ];
     const OF_SCISSORS: &[&str] = &["length_m", "opening_m"];
 
     /// Those of a tool of `kind` with `keys`; what is not stated has its default.
     pub(super) fn from_keys(keys: &Keys<'_>, kind: ToolKind) -> Result<Option<Self>, Error> {
-        let (default, known) = match kind {
-            ToolKind::Grasper => (Self::GRASPER, Self::OF_GRASPER),
-            ToolKind::Scissors => (Self::SCISSORS, Self::OF_SCISSORS),
+        let default = match kind {
+            ToolKind::Grasper => Self::GRASPER,
+            ToolKind::Scissors => Self::SCISSORS,
             ToolKind::Probe | ToolKind::Hook => {
                 let mend = "no jaws to a tool that has none, or `kind` \"grasper\" or \"scissors\"";
                 keys.refuse("jaws", mend)?;
                 return Ok(None);
             }
         };
-        let Some(keys) = keys.table("jaws", known)? else {
+        let Some(keys) = keys.table("jaws")? else {
             return Ok(Some(default));
         };
-        let or = |key, domain, default| -> Result<f64, Error> {
-            Ok(keys.number(key, domain)?.unwrap_or(default))
-        };
+        if kind == ToolKind::Scissors {
+            keys.only(Self::OF_SCISSORS)?;
+        }
+        let or = |key, default| -> Result<f64, Error> { Ok(keys.number(key)?.unwrap_or(default)) };
         let mut jaws = Self {
-            length_m: or("length_m", Domain::LENGTH, default.length_m)?,
-            opening_m: or("opening_m", Domain::LENGTH, default.opening_m)?,
+            length_m: or("length_m", default.length_m)?,
+            opening_m: or("opening_m", default.opening_m)?,
             ..default
         };
         if kind == ToolKind::Grasper {
-            jaws.width_m = or("width_m", Domain::LENGTH, default.width_m)?;
-            jaws.force_n = or("force_n", Domain::FORCE, default.force_n)?;
-            let friction = keys.number("friction", Domain::FRICTION)?;
+            jaws.width_m = or("width_m", default.width_m)?;
+            jaws.force_n = or("force_n", default.force_n)?;
+            let friction = keys.number("friction")?;
             jaws.friction = friction.unwrap_or(default.friction);
         }
         Ok(Some(jaws))

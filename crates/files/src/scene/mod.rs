@@ -37,7 +37,7 @@ pub use tool::{DeviceKind, Tip, TipContact, TipShape, Tool, ToolKind, ToolMesh};
 pub use view::{Shading, View};
 
 use crate::whole_file::{MOST_OF_DOCUMENT, read_text};
-use crate::{Document, Error};
+use crate::{Document, Error, Key};
 
 /// A scene. What is not stated in the file has its default here.
 #[derive(Debug, Clone, PartialEq)]
@@ -68,18 +68,43 @@ pub struct Scene {
     pub warnings: Vec<String>,
 }
 
-const KEYS: &[&str] = &[
-    "organ",
-    "neighbour",
-    "model",
-    "cutting",
-    "tool",
-    "view",
-    "task",
-    "variant",
-];
-
 impl Scene {
+    /// The keys of a scene, beside `format`.
+    pub const KEYS: &'static [Key] = &[
+        Key::table("organ", Organ::KEYS, "The organ that is touched.").required(""),
+        Key::tables(
+            "neighbour",
+            Neighbour::KEYS,
+            "Bodies that are shown beside the organ and not deformed.",
+        )
+        .optional("", "none"),
+        Key::table("model", Model::KEYS, "How the organ is moved.").optional("", "the defaults of its keys"),
+        Key::table("cutting", Cutting::KEYS, "How the organ is cut.")
+            .optional("", "the defaults of its keys"),
+        Key::tables("tool", Tool::KEYS, "The tools: one, or one for each hand.")
+            .optional("", "one probe, which the mouse moves"),
+        Key::table(
+            "view",
+            View::KEYS,
+            "How the scene is looked at; what is left out is chosen so that the organ fills the picture.",
+        )
+        .optional("", "the defaults of its keys"),
+        Key::table("task", Task::KEYS, "What there is to do, and how a performance is judged.")
+            .optional("", "nothing"),
+        Key::named(
+            "draw",
+            draw::DRAW,
+            "Values that are drawn anew for each attempt, by name. `{ draw = \"NAME\" }` takes one in place of any value.",
+        )
+        .optional("", "every attempt is the same"),
+        Key::table(
+            "variant",
+            Variant::KEYS,
+            "What was drawn of a scene with `[draw]`. The program writes it.",
+        )
+        .optional("", "nothing"),
+    ];
+
     /// Reads a scene file.
     ///
     /// # Errors
@@ -99,16 +124,16 @@ impl Scene {
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
         let mut document = Document::parse(text, path)?;
         let draws = document.change(Draws::take)?;
-        let keys = document.keys(KEYS)?;
+        let keys = document.keys(Self::KEYS)?;
         let organ = keys
-            .table("organ", Organ::KEYS)?
+            .table("organ")?
             .ok_or_else(|| keys.missing("organ", "a table `[organ]`"))?;
-        let neighbours = keys.tables("neighbour", Neighbour::KEYS)?;
+        let neighbours = keys.tables("neighbour")?;
         let touched = Organ::from_keys(&organ, &folder)?;
         let layers = touched.layers.len();
         let tools = tool::from_keys(&keys, &folder)?;
-        let cutting = keys.table("cutting", Cutting::KEYS)?;
-        let model = keys.table("model", Model::KEYS)?;
+        let cutting = keys.table("cutting")?;
+        let model = keys.table("model")?;
         let model = Model::from_keys(model.as_ref(), &touched, &tools, cutting.is_some())?;
         let mut scene = Self {
             organ: touched,
@@ -119,8 +144,8 @@ impl Scene {
             model,
             cutting: Cutting::from_keys(cutting.as_ref())?,
             tools,
-            view: View::from_keys(keys.table("view", View::KEYS)?.as_ref())?,
-            task: Task::from_keys(keys.table("task", Task::KEYS)?.as_ref(), &folder, layers)?,
+            view: View::from_keys(keys.table("view")?.as_ref())?,
+            task: Task::from_keys(keys.table("task")?.as_ref(), &folder, layers)?,
             folder,
             draws,
             variant: Variant::from_keys(&keys)?,

@@ -5,7 +5,7 @@ use super::model_words::{
     Placement, ResponseMethod, Smoothing, Solver,
 };
 use super::{Organ, Shape, Tool, ToolKind};
-use crate::{Domain, Error, Keys};
+use crate::{Domain, Error, Key, Keys, Word};
 
 /// How the organ is moved, with the settings of every kind of model; those of the other kind are
 /// kept but not used.
@@ -119,6 +119,16 @@ const CHOICES: &[(&str, Option<ModelKind>)] = &[
     ("auto", None),
 ];
 
+const CHOICE_MEANINGS: &[Word] = &[
+    ModelKind::MEANINGS[0],
+    ModelKind::MEANINGS[1],
+    ModelKind::MEANINGS[2],
+    (
+        "auto",
+        "The least model that answers what these tools do; which one, and why, is told.",
+    ),
+];
+
 /// The least model that answers what these tools do, and why.
 fn choose(organ: &Organ, tools: &[Tool], cuts: bool) -> (ModelKind, &'static str) {
     let any = |kinds: &[ToolKind]| tools.iter().any(|tool| kinds.contains(&tool.kind));
@@ -148,23 +158,89 @@ const ACCELERATION: Domain = Domain::quantity(
 );
 
 impl Model {
-    pub(super) const KEYS: &'static [&'static str] = &[
-        "kind",
-        "step_s",
-        "particles",
-        "form",
-        "placement",
-        "solver",
-        "assembly",
-        "integration_points",
-        "calibration",
-        "enhancement",
-        "mechanical_triangles",
-        "nodes",
-        "gravity_m_per_s2",
-        "response",
-        "hand_over",
-        "force_scale",
+    pub(super) const KEYS: &'static [Key] = &[
+        Key::word("kind", CHOICE_MEANINGS, "Which model.").default("\"local\""),
+        Key::number("step_s", Domain::STEP, "The period of the model's steps.").default("0.005"),
+        // Fewer than 12 do not fill two shells; the equations are dense, so that more than a few hundred take far
+        // longer than a step.
+        Key::integer(
+            "particles",
+            12,
+            600,
+            "Local model: how many particles stand around a tool.",
+        )
+        .default("34"),
+        Key::word("form", Form::MEANINGS, "Local model: the form of the equations.")
+            .default("\"weak\""),
+        Key::word("placement", Placement::MEANINGS, "Local model: where the particles stand.")
+            .default("\"template\""),
+        Key::word("solver", Solver::MEANINGS, "Local model: how the equations are solved.")
+            .default("\"direct\""),
+        Key::word(
+            "assembly",
+            Assembly::MEANINGS,
+            "Local model: when the equations are put together.",
+        )
+        .default("\"every_step\""),
+        Key::integer(
+            "integration_points",
+            0,
+            u64::MAX,
+            "Local model: at how many points the equations are integrated: 130, 415 or 957.",
+        )
+        .default("415"),
+        Key::word(
+            "calibration",
+            Calibration::MEANINGS,
+            "Local model: what makes a force of the solution.",
+        )
+        .default("\"fitted\""),
+        Key::table(
+            "enhancement",
+            Enhancement::KEYS,
+            "Hybrid model: how the area around a contact is refined.",
+        )
+        .optional("", "it is not"),
+        // A few dozen triangles are no organ; with twenty thousand the matrices take gigabytes.
+        Key::integer(
+            "mechanical_triangles",
+            48,
+            20_000,
+            "Hybrid model: how many triangles carry the mechanics at most; the shown surface keeps its own.",
+        )
+        .optional("2000", "chosen by the model"),
+        // Fewer resolve nothing; with more the influences of the surface take gigabytes, and a step its period.
+        Key::integer(
+            "nodes",
+            200,
+            6_000,
+            "Nonlinear model: about how many nodes carry the mechanics.",
+        )
+        .optional("1500", "chosen by the model"),
+        Key::vector(
+            "gravity_m_per_s2",
+            ACCELERATION,
+            "Nonlinear model: the acceleration by which the organ hangs under its own weight.",
+        )
+        .optional("[0.0, 0.0, -9.81]", "the mesh is the organ as it hangs"),
+        Key::word(
+            "response",
+            ResponseMethod::MEANINGS,
+            "Hybrid model: how the response of the organ is solved.",
+        )
+        .default("\"automatic\""),
+        Key::word(
+            "hand_over",
+            HandOver::MEANINGS,
+            "What the servo loop gets between two steps.",
+        )
+        .default("\"local_model\""),
+        Key::number(
+            "force_scale",
+            Domain::FACTOR,
+            "Factor on every force that a device displays; forces are recorded without it.",
+        )
+        .default("1.0"),
     ];
 
     /// The model of a scene whose organ, tools and `cuts` decide what `auto` takes.
@@ -178,11 +254,9 @@ impl Model {
         let Some(keys) = keys else {
             return Ok(default);
         };
-        // A few dozen triangles are no organ; with ten thousand the matrices take gigabytes.
-        let triangles = keys.integer("mechanical_triangles", 48..=20_000)?;
-        // Fewer resolve nothing; with more the influences of the surface take gigabytes, and a step its period.
-        let nodes = keys.integer("nodes", 200..=6_000)?;
-        let or = |key, domain, or: f64| Ok(keys.number(key, domain)?.unwrap_or(or));
+        let triangles = keys.integer("mechanical_triangles")?;
+        let nodes = keys.integer("nodes")?;
+        let or = |key, or: f64| Ok(keys.number(key)?.unwrap_or(or));
         let (kind, reason) = match keys.word("kind", CHOICES)? {
             None => (default.kind, None),
             Some(Some(kind)) => (kind, None),
@@ -194,19 +268,19 @@ impl Model {
         Ok(Self {
             kind,
             reason,
-            step_s: or("step_s", Domain::STEP, default.step_s)?,
+            step_s: or("step_s", default.step_s)?,
             local: LocalSettings::from_keys(keys)?,
             enhancement: Enhancement::from_keys(keys)?,
             mechanical_triangles: triangles.map(|number| number as usize),
             nodes: nodes.map(|number| number as usize),
-            gravity_m_per_s2: keys.vector("gravity_m_per_s2", ACCELERATION)?,
+            gravity_m_per_s2: keys.vector("gravity_m_per_s2")?,
             response: keys
                 .word("response", ResponseMethod::WORDS)?
                 .unwrap_or(default.response),
             hand_over: keys
                 .word("hand_over", HandOver::WORDS)?
                 .unwrap_or(default.hand_over),
-            force_scale: or("force_scale", Domain::FACTOR, default.force_scale)?,
+            force_scale: or("force_scale", default.force_scale)?,
         })
     }
 }
@@ -214,9 +288,7 @@ impl Model {
 impl LocalSettings {
     fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
         let default = Self::default();
-        // Fewer than 12 do not fill two shells; the equations are dense, so that
-        // more than a few hundred take far longer than a step.
-        let particles = keys.integer("particles", 12..=600)?;
+        let particles = keys.integer("particles")?;
         let settings = Self {
             particles: particles.map_or(default.particles, |number| number as usize),
             form: keys.word("form", Form::WORDS)?.unwrap_or(default.form),
@@ -245,7 +317,7 @@ impl LocalSettings {
 }
 
 fn integration_points(keys: &Keys<'_>) -> Result<IntegrationPoints, Error> {
-    match keys.integer("integration_points", 0..=u64::MAX)? {
+    match keys.integer("integration_points")? {
         None | Some(415) => Ok(IntegrationPoints::Standard),
         Some(130) => Ok(IntegrationPoints::Few),
         Some(957) => Ok(IntegrationPoints::Many),
@@ -254,13 +326,35 @@ fn integration_points(keys: &Keys<'_>) -> Result<IntegrationPoints, Error> {
 }
 
 impl Enhancement {
+    const KEYS: &[Key] = &[
+        Key::word(
+            "area",
+            EnhancementArea::MEANINGS,
+            "The area that is refined.",
+        )
+        .default("\"none\""),
+        // Each level makes four triangles of one; six make 4096.
+        Key::integer(
+            "levels",
+            0,
+            6,
+            "How often each triangle is divided into four.",
+        )
+        .default("1"),
+        Key::word(
+            "smoothing",
+            Smoothing::MEANINGS,
+            "How displacements are spread over it.",
+        )
+        .default("\"none\""),
+    ];
+
     fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
         let default = Self::default();
-        let Some(keys) = keys.table("enhancement", &["area", "levels", "smoothing"])? else {
+        let Some(keys) = keys.table("enhancement")? else {
             return Ok(default);
         };
-        // Each level makes four triangles of one; six make 4096.
-        let levels = keys.integer("levels", 0..=6)?;
+        let levels = keys.integer("levels")?;
         Ok(Self {
             area: keys
                 .word("area", EnhancementArea::WORDS)?

@@ -2,7 +2,7 @@ use std::ops::Bound::{Excluded, Included};
 use std::path::Path;
 
 use super::{Inclusion, Region, Shape, TissueChoice};
-use crate::{Domain, Error, Event, Keys};
+use crate::{Domain, Error, Event, Key, Keys};
 
 /// The organ that is touched.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,13 +25,6 @@ pub struct Organ {
 }
 
 /// A ball of stiffer tissue in an organ, such as a tumour.
-///
-/// ```toml
-/// [[organ.nodule]]
-/// center_m = [0.02, 0.01, 0.03]
-/// radius_m = 0.005
-/// stiffness_ratio = 6.0        # its modulus over that of the organ
-/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Nodule {
     /// Its middle [m].
@@ -45,15 +38,6 @@ pub struct Nodule {
 /// A layer of an organ. A blade opens it where it goes as deep as the layer's lower face, and any tool where the
 /// layer is bare and the normal force exceeds `perforation_force_n`. The nonlinear model feels its tissue; with the other
 /// models the organ answers as `organ.tissue` does. Below the layers is `organ.tissue`.
-///
-/// ```toml
-/// [[organ.layer]]              # from outside to inside, at most 6
-/// name = "circular muscle"
-/// thickness_m = 0.0008
-/// builtin_tissue = "pig-esophagus"
-/// perforation_force_n = 0.4    # default: it withstands every force
-/// toughness_j_per_m2 = 164.0   # default: that of [cutting]
-/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layer {
     /// Its name, for people.
@@ -81,14 +65,6 @@ pub struct Neighbour {
 
 /// Where a body stands in the scene: each of its points is scaled about the body's own origin, turned about
 /// x, then y, then z, and moved.
-///
-/// ```toml
-/// [[neighbour]]
-/// builtin = "stomach"
-/// at_m = [0.01, 0.0, -0.08]    # where its origin comes to
-/// turn_deg = [0.0, 0.0, 20.0]  # about x, y and z of the scene, in this order
-/// scale = 1.1
-/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Location {
     /// Where its origin comes to [m].
@@ -111,31 +87,54 @@ impl Default for Location {
 }
 
 impl Organ {
-    pub(super) const KEYS: &'static [&'static str] = &[
-        "mesh",
-        "mesh_unit",
-        "builtin",
-        "triangles",
-        "tissue",
-        "builtin_tissue",
-        "anchor",
-        "touchable",
-        "layer",
-        "inclusion",
-        "nodule",
+    pub(super) const KEYS: &'static [Key] = &[
+        Shape::KEYS[0],
+        Shape::KEYS[1],
+        Shape::KEYS[2],
+        Shape::KEYS[3],
+        TissueChoice::KEYS[0],
+        TissueChoice::KEYS[1],
+        Key::table(
+            "anchor",
+            Region::KEYS,
+            "Where it is held: triangles whose centroid lies in one of these regions.",
+        )
+        .optional("", "where a built-in organ grows; a mesh is held nowhere, which only the local model can do"),
+        Key::table("touchable", Region::KEYS, "Where tools may touch it; the hybrid model prepares no more than this.")
+            .optional("", "everywhere"),
+        Key::tables(
+            "layer",
+            Layer::KEYS,
+            "Its layers from outside to inside, at most 6, above `tissue`. A blade opens a layer where it goes as deep as its \
+             lower face, and any tool where it is bare and the normal force exceeds `perforation_force_n`. The nonlinear \
+             model feels its tissue; with the others the organ answers as `tissue` does.",
+        )
+        .optional("", "it is of one tissue"),
+        Key::tables(
+            "inclusion",
+            Inclusion::KEYS,
+            "Parts of another tissue, such as a tumour or a vessel. The nonlinear model feels them.",
+        )
+        .optional("", "none"),
+        Key::tables(
+            "nodule",
+            Nodule::KEYS,
+            "Balls of stiffer tissue, whose answer the local and the hybrid model estimate.",
+        )
+        .optional("", "none"),
     ];
 
     pub(super) fn from_keys(keys: &Keys<'_>, folder: &Path) -> Result<Self, Error> {
         let region = |key| -> Result<Option<Region>, Error> {
-            let table = keys.table(key, Region::KEYS)?;
+            let table = keys.table(key)?;
             table.map(|keys| Region::from_keys(&keys)).transpose()
         };
-        let layers = keys.tables("layer", Layer::KEYS)?;
+        let layers = keys.tables("layer")?;
         if layers.len() > Event::OPENS_LAYER.len() {
             return Err(keys.bad("layer", "at most 6 layers: a session has an event for each"));
         }
-        let nodules = keys.tables("nodule", Nodule::KEYS)?;
-        let inclusions = keys.tables("inclusion", Inclusion::KEYS)?;
+        let nodules = keys.tables("nodule")?;
+        let inclusions = keys.tables("inclusion")?;
         Ok(Self {
             nodules: nodules
                 .iter()
@@ -163,58 +162,92 @@ const STIFFER: Domain =
     Domain::number("a number", [Excluded(1.0), Included(1e9)]).usually(1.0, 1000.0);
 
 impl Nodule {
-    const KEYS: &[&str] = &["center_m", "radius_m", "stiffness_ratio"];
+    const KEYS: &[Key] = &[
+        Key::vector("center_m", Domain::POSITION, "Its middle.").required("[0.02, 0.01, 0.03]"),
+        Key::number("radius_m", Domain::LENGTH, "Its radius.").required("0.005"),
+        Key::number(
+            "stiffness_ratio",
+            STIFFER,
+            "Its modulus over that of the organ.",
+        )
+        .required("6.0"),
+    ];
 
     fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
         Ok(Self {
-            center_m: keys.required_vector("center_m", Domain::POSITION)?,
-            radius_m: keys.required_number("radius_m", Domain::LENGTH)?,
-            stiffness_ratio: keys.required_number("stiffness_ratio", STIFFER)?,
+            center_m: keys.required_vector("center_m")?,
+            radius_m: keys.required_number("radius_m")?,
+            stiffness_ratio: keys.required_number("stiffness_ratio")?,
         })
     }
 }
 
 impl Layer {
-    const KEYS: &[&str] = &[
-        "name",
-        "thickness_m",
-        "tissue",
-        "builtin_tissue",
-        "perforation_force_n",
-        "toughness_j_per_m2",
+    const KEYS: &[Key] = &[
+        Key::text("name", "What people call it.").optional("\"circular muscle\"", "its number"),
+        Key::number("thickness_m", Domain::LENGTH, "Its thickness.").required("0.0008"),
+        TissueChoice::KEYS[0],
+        TissueChoice::KEYS[1],
+        Key::number(
+            "perforation_force_n",
+            Domain::FORCE,
+            "The normal force on a tool at which it gives way where it is bare.",
+        )
+        .optional("0.4", "it withstands every force"),
+        Key::number(
+            "toughness_j_per_m2",
+            Domain::TOUGHNESS,
+            "The work of a cut through it per area of the cut's face.",
+        )
+        .optional("164.0", "that of `[cutting]`"),
     ];
 
     fn from_keys(keys: &Keys<'_>, number: usize, folder: &Path) -> Result<Self, Error> {
         let name = keys.text("name")?;
         Ok(Self {
             name: name.unwrap_or_else(|| format!("layer {}", number + 1)),
-            thickness_m: keys.required_number("thickness_m", Domain::LENGTH)?,
+            thickness_m: keys.required_number("thickness_m")?,
             tissue: TissueChoice::from_keys(keys, folder)?,
-            perforation_force_n: keys.number("perforation_force_n", Domain::FORCE)?,
-            toughness_j_per_m2: keys.number("toughness_j_per_m2", Domain::TOUGHNESS)?,
+            perforation_force_n: keys.number("perforation_force_n")?,
+            toughness_j_per_m2: keys.number("toughness_j_per_m2")?,
         })
     }
 }
 
 impl Neighbour {
-    pub(super) const KEYS: &'static [&'static str] = &[
-        "mesh",
-        "mesh_unit",
-        "builtin",
-        "triangles",
-        "at_m",
-        "turn_rad",
-        "scale",
-        "collides",
+    pub(super) const KEYS: &'static [Key] = &[
+        Shape::KEYS[0],
+        Shape::KEYS[1],
+        Shape::KEYS[2],
+        Shape::KEYS[3],
+        Key::vector(
+            "at_m",
+            Domain::POSITION,
+            "Where its origin comes to, after it is scaled and turned about it.",
+        )
+        .default("[0.0, 0.0, 0.0]"),
+        Key::vector(
+            "turn_rad",
+            Domain::TURN,
+            "How it is turned about x, then y, then z of the scene, counter-clockwise.",
+        )
+        .default("[0.0, 0.0, 0.0]"),
+        Key::number(
+            "scale",
+            Domain::FACTOR,
+            "How much larger it is than its shape.",
+        )
+        .default("1.0"),
+        Key::truth("collides", "Whether the tips of tools stop at it.").default("false"),
     ];
 
     pub(super) fn from_keys(keys: &Keys<'_>, folder: &Path) -> Result<Self, Error> {
         Ok(Self {
             shape: Shape::from_keys(keys, folder)?,
             location: Location {
-                at_m: keys.vector("at_m", Domain::POSITION)?.unwrap_or_default(),
-                turn_rad: keys.vector("turn_rad", Domain::TURN)?.unwrap_or_default(),
-                scale: keys.number("scale", Domain::FACTOR)?.unwrap_or(1.0),
+                at_m: keys.vector("at_m")?.unwrap_or_default(),
+                turn_rad: keys.vector("turn_rad")?.unwrap_or_default(),
+                scale: keys.number("scale")?.unwrap_or(1.0),
             },
             collides: keys.truth("collides")?.unwrap_or(false),
         })

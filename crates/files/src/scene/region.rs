@@ -1,6 +1,6 @@
 use std::ops::Bound::Included;
 
-use crate::{Domain, Error, Keys};
+use crate::{Domain, Error, Key, Keys};
 
 /// A part of space: planes, boxes and spheres together. A triangle of an organ belongs to it when its
 /// centroid lies in one of them.
@@ -49,7 +49,16 @@ const FAR: Domain = Domain::quantity("a coordinate", "m", [Included(-1e6), Inclu
 
 impl Region {
     /// The keys of a region's table.
-    pub const KEYS: &'static [&'static str] = &["planes", "boxes", "spheres"];
+    pub const KEYS: &'static [Key] = &[
+        Key::tables(
+            "planes",
+            RegionPlane::KEYS,
+            "Half-spaces, each of which its normal points away from.",
+        )
+        .optional("", "none"),
+        Key::tables("boxes", RegionBox::KEYS, "Boxes along the axes.").optional("", "none"),
+        Key::tables("spheres", RegionSphere::KEYS, "Balls.").optional("", "none"),
+    ];
 
     /// Whether it is empty.
     pub fn is_empty(&self) -> bool {
@@ -68,9 +77,9 @@ impl Region {
     /// # Errors
     /// When the table does not describe a region.
     pub fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
-        let planes = keys.tables("planes", &["point_m", "normal"])?;
-        let boxes = keys.tables("boxes", &["min_m", "max_m"])?;
-        let spheres = keys.tables("spheres", &["center_m", "radius_m"])?;
+        let planes = keys.tables("planes")?;
+        let boxes = keys.tables("boxes")?;
+        let spheres = keys.tables("spheres")?;
         Ok(Self {
             planes: planes
                 .iter()
@@ -89,6 +98,15 @@ impl Region {
 }
 
 impl RegionPlane {
+    const KEYS: &[Key] = &[
+        Key::vector("point_m", FAR, "A point of its border.").required("[0.0, 0.0, 0.0]"),
+        Key::direction(
+            "normal",
+            "The direction away from it, of any length but zero.",
+        )
+        .required("[0.0, 0.0, 1.0]"),
+    ];
+
     fn holds(&self, point: [f64; 3]) -> bool {
         (0..3)
             .map(|axis| (point[axis] - self.point_m[axis]) * self.normal[axis])
@@ -99,7 +117,7 @@ impl RegionPlane {
     fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
         let expected = "a direction, three numbers such as [0.0, 0.0, 1.0]";
         Ok(Self {
-            point_m: keys.required_vector("point_m", FAR)?,
+            point_m: keys.required_vector("point_m")?,
             normal: keys
                 .direction("normal")?
                 .ok_or_else(|| keys.missing("normal", expected))?,
@@ -108,14 +126,21 @@ impl RegionPlane {
 }
 
 impl RegionBox {
+    const KEYS: &[Key] = &[
+        Key::vector("min_m", FAR, "The corner with the smallest coordinates.")
+            .required("[-0.1, -0.1, -0.1]"),
+        Key::vector("max_m", FAR, "The corner with the largest coordinates.")
+            .required("[0.1, 0.1, 0.0]"),
+    ];
+
     fn holds(&self, point: [f64; 3]) -> bool {
         (0..3).all(|axis| (self.min_m[axis]..=self.max_m[axis]).contains(&point[axis]))
     }
 
     fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
         let region = Self {
-            min_m: keys.required_vector("min_m", FAR)?,
-            max_m: keys.required_vector("max_m", FAR)?,
+            min_m: keys.required_vector("min_m")?,
+            max_m: keys.required_vector("max_m")?,
         };
         if (0..3).all(|axis| region.min_m[axis] <= region.max_m[axis]) {
             return Ok(region);
@@ -134,6 +159,11 @@ impl RegionBox {
 }
 
 impl RegionSphere {
+    const KEYS: &[Key] = &[
+        Key::vector("center_m", FAR, "Its centre.").required("[0.0, 0.0, 0.0]"),
+        Key::number("radius_m", RADIUS, "Its radius.").required("0.02"),
+    ];
+
     fn holds(&self, point: [f64; 3]) -> bool {
         let squares = (0..3).map(|axis| (point[axis] - self.center_m[axis]).powi(2));
         squares.sum::<f64>() <= self.radius_m.powi(2)
@@ -141,8 +171,8 @@ impl RegionSphere {
 
     fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
         Ok(Self {
-            center_m: keys.required_vector("center_m", FAR)?,
-            radius_m: keys.required_number("radius_m", RADIUS)?,
+            center_m: keys.required_vector("center_m")?,
+            radius_m: keys.required_number("radius_m")?,
         })
     }
 }

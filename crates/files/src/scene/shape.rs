@@ -1,7 +1,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::words::words;
-use crate::{Error, Keys};
+use crate::{Error, Key, Keys};
 
 words! {
     /// A shape that comes with the program.
@@ -74,6 +74,35 @@ pub enum Shape {
 }
 
 impl Shape {
+    /// The keys of a shape, among those of a table that has one.
+    pub const KEYS: [Key; 4] = [
+        Key::path("mesh", "A mesh file: STL, OBJ, PLY, OFF or glTF.")
+            .optional("\"liver.stl\"", "`builtin` names a shape"),
+        Key::word(
+            "mesh_unit",
+            LengthUnit::MEANINGS,
+            "The unit of the coordinates in the mesh file.",
+        )
+        .optional(
+            "\"mm\"",
+            "the file's own unit, or a guess from its size, which is told",
+        ),
+        Key::word(
+            "builtin",
+            BuiltinOrgan::MEANINGS,
+            "A shape that comes with the program.",
+        )
+        .required_without("mesh", "\"liver\""),
+        // A closed surface has at least the four triangles of a tetrahedron.
+        Key::integer(
+            "triangles",
+            4,
+            10_000_000,
+            "About how many triangles a built-in shape has.",
+        )
+        .optional("2000", "the shape's own number"),
+    ];
+
     /// The shape of a table with the keys `mesh`, `mesh_unit`, `builtin` and `triangles`; the path of a
     /// mesh begins in `folder`.
     ///
@@ -83,8 +112,7 @@ impl Shape {
         let mesh = keys.text("mesh")?;
         let builtin = keys.word("builtin", BuiltinOrgan::WORDS)?;
         let unit = keys.word("mesh_unit", LengthUnit::WORDS)?;
-        // A closed surface has at least the four triangles of a tetrahedron.
-        let triangles = keys.integer("triangles", 4..=10_000_000)?;
+        let triangles = keys.integer("triangles")?;
         match (mesh, builtin) {
             (Some(mesh), None) => {
                 keys.refuse(

@@ -3,38 +3,9 @@ use std::ops::Bound::{Excluded, Included};
 use std::path::{Path, PathBuf};
 
 use super::standing_alone::plain;
-use crate::{Domain, Error, Keys};
+use crate::{Domain, Error, Key, Keys};
 
 /// What there is to do, and how a performance is judged.
-///
-/// ```toml
-/// [task]
-/// title = "Find the stiff spot"
-/// instructions = "One place under the surface is stiffer. Press on it and say: here."
-/// time_limit_s = 60.0
-/// force_limit_n = 2.0          # forces above it count against the trainee
-/// expert = "expert-session"    # a session's folder to compare with, or a folder of several
-///
-/// # At most one of these; without one, everybody does what they like:
-/// [task.find]
-/// target_m = [0.02, 0.01, 0.05]
-/// tolerance_m = 0.006          # how far beside it still counts
-///
-/// [task.traction]
-/// tool = "left"
-/// force_n = 0.4
-/// tolerance_n = 0.1
-/// hold_s = 10.0                # how long in all, within the tolerance
-/// direction = [0.0, -1.0, 0.0] # where to pull; default: anywhere
-/// direction_tolerance_deg = 30 # how far from it still counts; this is the default
-/// tear_force_n = 0.6           # a pull above it tears the tissue: the attempt is over, and failed
-///
-/// [task.cut]
-/// from_m = [0.0, -0.01, 0.015]
-/// to_m = [0.0, -0.01, -0.015]
-/// tolerance_m = 0.002          # how far beside the line still counts
-/// layers = 2                   # how many layers from outside; default: all but the innermost
-/// ```
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Task {
     /// What it is called.
@@ -119,15 +90,35 @@ impl Goal {
 }
 
 impl Task {
-    pub(super) const KEYS: &'static [&'static str] = &[
-        "title",
-        "instructions",
-        "time_limit_s",
-        "force_limit_n",
-        "expert",
-        "find",
-        "traction",
-        "cut",
+    pub(super) const KEYS: &'static [Key] = &[
+        Key::text("title", "What it is called.").optional("\"Find the stiff spot\"", "it has no title"),
+        Key::text("instructions", "What the trainee reads.").optional(
+            "\"One place under the surface is stiffer. Press on it and say: here.\"",
+            "nothing",
+        ),
+        Key::number("time_limit_s", Domain::DURATION, "How long it may take.")
+            .optional("60.0", "as long as it takes"),
+        Key::number(
+            "force_limit_n",
+            Domain::FORCE,
+            "The force above which tissue would be harmed; forces above it count against the trainee.",
+        )
+        .optional("2.0", "no force counts"),
+        Key::path(
+            "expert",
+            "An expert's session to compare with: its folder, or a folder of several.",
+        )
+        .optional("\"expert-session\"", "none"),
+        Key::table(
+            "find",
+            FIND,
+            "Done when a place is marked. At most one of `find`, `traction` and `cut`.",
+        )
+        .optional("", "everybody does what they like"),
+        Key::table("traction", TRACTION, "Done when a force was held for long enough.")
+            .optional("", "another goal"),
+        Key::table("cut", CUT, "Done when a straight cut is as long as its line.")
+            .optional("", "another goal"),
     ];
 
     /// `layers` is the number of layers that the organ has.
@@ -142,13 +133,77 @@ impl Task {
         Ok(Self {
             title: keys.text("title")?,
             instructions: keys.text("instructions")?,
-            time_limit_s: keys.number("time_limit_s", Domain::DURATION)?,
-            force_limit_n: keys.number("force_limit_n", Domain::FORCE)?,
+            time_limit_s: keys.number("time_limit_s")?,
+            force_limit_n: keys.number("force_limit_n")?,
             expert: expert(keys, folder)?,
             goal: Goal::from_keys(keys, layers)?,
         })
     }
 }
+
+const FIND: &[Key] = &[
+    Key::vector(
+        "target_m",
+        Domain::POSITION,
+        "The place on or under the surface that is meant.",
+    )
+    .required("[0.02, 0.01, 0.05]"),
+    Key::number(
+        "tolerance_m",
+        Domain::LENGTH,
+        "How far from it, along the surface, still counts.",
+    )
+    .required("0.006"),
+];
+
+const TRACTION: &[Key] = &[
+    Key::text("tool", "The tool that pulls.").optional("\"left\"", "any"),
+    Key::number("force_n", Domain::FORCE, "The force that is wanted.").required("0.4"),
+    Key::number(
+        "tolerance_n",
+        Domain::FORCE,
+        "How far beside it still counts.",
+    )
+    .required("0.1"),
+    Key::number(
+        "hold_s",
+        Domain::DURATION,
+        "For how long in all, within the tolerance.",
+    )
+    .required("10.0"),
+    Key::direction("direction", "Where to pull.").optional("[0.0, -1.0, 0.0]", "anywhere"),
+    Key::number(
+        "direction_tolerance_rad",
+        ANGLE,
+        "The largest angle from `direction` that still counts.",
+    )
+    .optional("0.5235987755982988", "30 degrees, with a `direction`"),
+    Key::number(
+        "tear_force_n",
+        Domain::FORCE,
+        "A pull above it tears the tissue: the attempt is over, and failed.",
+    )
+    .optional("0.6", "it never tears"),
+];
+
+const CUT: &[Key] = &[
+    Key::vector("from_m", Domain::POSITION, "Where it should begin.")
+        .required("[0.0, -0.01, 0.015]"),
+    Key::vector("to_m", Domain::POSITION, "Where it should end.").required("[0.0, -0.01, -0.015]"),
+    Key::number(
+        "tolerance_m",
+        Domain::LENGTH,
+        "How far beside the line still counts.",
+    )
+    .required("0.002"),
+    Key::integer(
+        "layers",
+        1,
+        6,
+        "How many layers from outside are cut; at most those of the organ.",
+    )
+    .optional("1", "all but the innermost"),
+];
 
 impl Goal {
     const TABLES: [&'static str; 3] = ["find", "traction", "cut"];
@@ -160,40 +215,30 @@ impl Goal {
         if let (Some(first), Some(second)) = (given.next(), given.next()) {
             return Err(keys.given_twice(first, second));
         }
-        if let Some(find) = keys.table("find", &["target_m", "tolerance_m"])? {
+        if let Some(find) = keys.table("find")? {
             return Ok(Self::Find {
-                target_m: find.required_vector("target_m", Domain::POSITION)?,
-                tolerance_m: find.required_number("tolerance_m", Domain::LENGTH)?,
+                target_m: find.required_vector("target_m")?,
+                tolerance_m: find.required_number("tolerance_m")?,
             });
         }
-        const TRACTION: &[&str] = &[
-            "tool",
-            "force_n",
-            "tolerance_n",
-            "hold_s",
-            "direction",
-            "direction_tolerance_rad",
-            "tear_force_n",
-        ];
-        if let Some(traction) = keys.table("traction", TRACTION)? {
+        if let Some(traction) = keys.table("traction")? {
             return Ok(Self::Traction {
                 tool: traction.text("tool")?,
-                force_n: traction.required_number("force_n", Domain::FORCE)?,
-                tolerance_n: traction.required_number("tolerance_n", Domain::FORCE)?,
-                hold_s: traction.required_number("hold_s", Domain::DURATION)?,
+                force_n: traction.required_number("force_n")?,
+                tolerance_n: traction.required_number("tolerance_n")?,
+                hold_s: traction.required_number("hold_s")?,
                 direction: Self::direction(&traction)?,
                 tear_force_n: Self::tear_force(&traction)?,
             });
         }
-        const CUT: &[&str] = &["from_m", "to_m", "tolerance_m", "layers"];
-        match keys.table("cut", CUT)? {
+        match keys.table("cut")? {
             Some(cut) => Self::cut(&cut, layers),
             None => Ok(Self::Free),
         }
     }
 
     fn direction(traction: &Keys<'_>) -> Result<Option<([f64; 3], f64)>, Error> {
-        let tolerance = traction.number("direction_tolerance_rad", ANGLE)?;
+        let tolerance = traction.number("direction_tolerance_rad")?;
         match traction.direction("direction")? {
             Some(direction) => Ok(Some((direction, tolerance.unwrap_or(PI / 6.0)))),
             None if tolerance.is_some() => {
@@ -204,8 +249,8 @@ impl Goal {
     }
 
     fn tear_force(traction: &Keys<'_>) -> Result<Option<f64>, Error> {
-        let tear = traction.number("tear_force_n", Domain::FORCE)?;
-        let wanted = traction.required_number("force_n", Domain::FORCE)?;
+        let tear = traction.number("tear_force_n")?;
+        let wanted = traction.required_number("force_n")?;
         match tear {
             Some(tear) if tear <= wanted => Err(traction.bad(
                 "tear_force_n",
@@ -216,19 +261,16 @@ impl Goal {
     }
 
     fn cut(cut: &Keys<'_>, layers: usize) -> Result<Self, Error> {
-        let (from_m, to_m) = (
-            cut.required_vector("from_m", Domain::POSITION)?,
-            cut.required_vector("to_m", Domain::POSITION)?,
-        );
+        let (from_m, to_m) = (cut.required_vector("from_m")?, cut.required_vector("to_m")?);
         if from_m == to_m {
             return Err(cut.bad("to_m", "another place than `from_m`"));
         }
-        let wanted = cut.integer("layers", 1..=layers.max(1) as u64)?;
+        let wanted = cut.integer_within("layers", 1..=layers.max(1) as u64)?;
         let wanted = wanted.map_or(layers.saturating_sub(1).max(1), |wanted| wanted as usize);
         Ok(Self::Cut {
             from_m,
             to_m,
-            tolerance_m: cut.required_number("tolerance_m", Domain::LENGTH)?,
+            tolerance_m: cut.required_number("tolerance_m")?,
             layers: (layers > 0).then_some(wanted),
         })
     }

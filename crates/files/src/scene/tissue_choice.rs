@@ -1,6 +1,6 @@
 use std::path::{Path, PathBuf};
 
-use crate::{BuiltinTissue, Error, Keys, Tissue};
+use crate::{BuiltinTissue, Error, Key, Keys, Tissue};
 
 /// The tissue that a scene asks for.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,6 +14,22 @@ pub enum TissueChoice {
 }
 
 impl TissueChoice {
+    /// The keys of a choice, among those of a table that has one.
+    pub const KEYS: [Key; 2] = [
+        Key::path_or_table(
+            "tissue",
+            Tissue::KEYS,
+            "A tissue file, or a table with a tissue's keys.",
+        )
+        .optional("\"tissue.toml\"", "`builtin_tissue` names one"),
+        Key::word(
+            "builtin_tissue",
+            BuiltinTissue::MEANINGS,
+            "A tissue that comes with the program.",
+        )
+        .required_without("tissue", "\"pig-liver\""),
+    ];
+
     /// The tissue itself, read when it is in a file of its own.
     ///
     /// # Errors
@@ -46,7 +62,7 @@ impl TissueChoice {
         {
             return Ok(Self::File(folder.join(path)));
         }
-        match keys.table("tissue", Tissue::keys())? {
+        match keys.table("tissue")? {
             Some(tissue) => Ok(Self::Inline(Box::new(Tissue::from_keys(&tissue)?))),
             None => Err(keys.missing(
                 "tissue",

@@ -2,7 +2,7 @@ use std::path::{Path, PathBuf};
 
 use super::{Jaws, LengthUnit};
 use crate::words::words;
-use crate::{Domain, Error, Keys};
+use crate::{Domain, Error, Key, Keys};
 
 words! {
     /// What a tool can do.
@@ -140,7 +140,7 @@ impl Default for Tool {
 
 /// The tools of a scene, of which `keys` are the keys.
 pub(super) fn from_keys(keys: &Keys<'_>, folder: &Path) -> Result<Vec<Tool>, Error> {
-    let tables = keys.tables("tool", Tool::KEYS)?;
+    let tables = keys.tables("tool")?;
     if let Some(third) = tables.get(2) {
         return Err(Error::BadValue {
             place: third.place().clone(),
@@ -169,29 +169,61 @@ pub(super) fn from_keys(keys: &Keys<'_>, folder: &Path) -> Result<Vec<Tool>, Err
 }
 
 impl Tool {
-    const KEYS: &[&str] = &[
-        "name",
-        "kind",
-        "tip",
-        "trocar_m",
-        "trocar_friction_n",
-        "trocar_stiffness_n_per_m",
-        "jaws",
-        "mesh",
-        "mesh_unit",
-        "device",
+    pub(super) const KEYS: &[Key] = &[
+        Key::text("name", "Its name, which motions and sessions use.")
+            .optional("\"right\"", "the hand that is free, \"right\" first"),
+        Key::word("kind", ToolKind::MEANINGS, "What it can do.").default("\"probe\""),
+        Key::table("tip", Tip::KEYS, "The end that touches.")
+            .optional("", "a flat tip of 1 mm radius that sticks"),
+        Key::vector(
+            "trocar_m",
+            Domain::POSITION,
+            "The point through which its shaft always passes.",
+        )
+        .optional("[0.0, -0.1, 0.2]", "it moves freely"),
+        Key::number(
+            "trocar_friction_n",
+            Domain::FORCE_OR_NONE,
+            "Friction of its shaft in the trocar, which a hand feels along the shaft. Only with `trocar_m`.",
+        )
+        .optional("0.5", "0.0"),
+        Key::number(
+            "trocar_stiffness_n_per_m",
+            Domain::STIFFNESS_OR_NONE,
+            "How the abdominal wall resists a shaft that leans away from the organ: force on the hand per way of the hand \
+             across. Only with `trocar_m`.",
+        )
+        .optional("20.0", "0.0"),
+        Key::table(
+            "jaws",
+            Jaws::KEYS,
+            "The jaws of a grasper, or the blades of scissors. Shut, they end at the tip and run along the shaft.",
+        )
+        .optional("", "those of a short instrument of 5 mm shaft"),
+        Key::path(
+            "mesh",
+            "What it looks like: a mesh file in the tool's frame, the tip at the origin and the shaft along +z.",
+        )
+        .optional("\"hook.stl\"", "as its kind does"),
+        Key::word(
+            "mesh_unit",
+            LengthUnit::MEANINGS,
+            "The unit of the coordinates in the mesh file.",
+        )
+        .optional("\"mm\"", "the file's own unit, or a guess from its size, which is told"),
+        Key::word("device", DeviceKind::MEANINGS, "What moves it.").default("\"mouse\""),
     ];
 
     fn from_keys(keys: &Keys<'_>, default_name: &str, folder: &Path) -> Result<Self, Error> {
         let default = Self::default();
-        let tip = keys.table("tip", Tip::KEYS)?;
+        let tip = keys.table("tip")?;
         let kind = keys.word("kind", ToolKind::WORDS)?.unwrap_or(default.kind);
-        let trocar_m = keys.vector("trocar_m", Domain::POSITION)?;
-        let of_trocar = |key, domain| -> Result<f64, Error> {
+        let trocar_m = keys.vector("trocar_m")?;
+        let of_trocar = |key| -> Result<f64, Error> {
             if trocar_m.is_none() {
                 keys.refuse(key, "`trocar_m` too, for a tool without one has none")?;
             }
-            Ok(keys.number(key, domain)?.unwrap_or(0.0))
+            Ok(keys.number(key)?.unwrap_or(0.0))
         };
         Ok(Self {
             name: keys
@@ -200,11 +232,8 @@ impl Tool {
             kind,
             tip: tip.map_or(Ok(default.tip), |keys| Tip::from_keys(&keys))?,
             trocar_m,
-            trocar_friction_n: of_trocar("trocar_friction_n", Domain::FORCE_OR_NONE)?,
-            trocar_stiffness_n_per_m: of_trocar(
-                "trocar_stiffness_n_per_m",
-                Domain::STIFFNESS_OR_NONE,
-            )?,
+            trocar_friction_n: of_trocar("trocar_friction_n")?,
+            trocar_stiffness_n_per_m: of_trocar("trocar_stiffness_n_per_m")?,
             jaws: Jaws::from_keys(keys, kind)?,
             mesh: ToolMesh::from_keys(keys, folder)?,
             device: keys
@@ -228,11 +257,31 @@ impl ToolMesh {
 }
 
 impl Tip {
-    const KEYS: &[&str] = &["shape", "radius_m", "contact", "friction"];
+    const KEYS: &[Key] = &[
+        Key::word("shape", TipShape::MEANINGS, "Its shape.").required("\"flat\""),
+        Key::number(
+            "radius_m",
+            Domain::TIP_RADIUS,
+            "Its radius, not its diameter.",
+        )
+        .required("0.001"),
+        Key::word(
+            "contact",
+            TipContact::MEANINGS,
+            "How it holds the tissue that it touches.",
+        )
+        .default("\"stick\""),
+        Key::number(
+            "friction",
+            Domain::FRICTION,
+            "Coulomb's coefficient of a tip that sticks, beyond which it slides.",
+        )
+        .optional("0.3", "it never slides"),
+    ];
 
     fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
         let contact = keys.word("contact", TipContact::WORDS)?;
-        let friction = keys.number("friction", Domain::FRICTION)?;
+        let friction = keys.number("friction")?;
         if contact == Some(TipContact::Slip) && friction.is_some() {
             return Err(keys.bad(
                 "friction",
@@ -243,7 +292,7 @@ impl Tip {
             shape: keys
                 .word("shape", TipShape::WORDS)?
                 .ok_or_else(|| keys.missing("shape", "\"flat\" or \"sphere\""))?,
-            radius_m: keys.required_number("radius_m", Domain::TIP_RADIUS)?,
+            radius_m: keys.required_number("radius_m")?,
             contact: contact.unwrap_or(TipContact::Stick),
             friction,
         })

@@ -2,7 +2,7 @@ use std::f64::consts::PI;
 use std::ops::Bound::Excluded;
 
 use crate::words::words;
-use crate::{Domain, Error, Keys};
+use crate::{Domain, Error, Key, Keys};
 
 words! {
     /// How the surface of the organ is drawn.
@@ -20,15 +20,6 @@ words! {
 
 /// How the scene is looked at. What is not stated, the viewer chooses so that the organ fills the
 /// picture.
-///
-/// ```toml
-/// [view]
-/// eye_m = [0.0, -0.3, 0.2]
-/// target_m = [0.0, 0.0, 0.0]
-/// up = [0.0, 0.0, 1.0]
-/// field_of_view_deg = 45.0
-/// shading = "cube_map"         # plain | texture | sphere_map | cube_map
-/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct View {
     /// Where the eye is [m].
@@ -59,8 +50,21 @@ const FIELD_OF_VIEW: Domain = Domain::number("an angle", [Excluded(0.0), Exclude
     .with_remark("pi radians, 180 degrees");
 
 impl View {
-    pub(super) const KEYS: &'static [&'static str] =
-        &["eye_m", "target_m", "up", "field_of_view_rad", "shading"];
+    pub(super) const KEYS: &'static [Key] = &[
+        Key::vector("eye_m", Domain::POSITION, "Where the eye is.")
+            .optional("[0.0, -0.3, 0.2]", "so that the organ fills the picture"),
+        Key::vector("target_m", Domain::POSITION, "What it looks at.")
+            .optional("[0.0, 0.0, 0.0]", "so that the organ fills the picture"),
+        Key::direction("up", "The direction that is up in the picture.")
+            .optional("[0.0, 0.0, 1.0]", "chosen by the viewer"),
+        Key::number(
+            "field_of_view_rad",
+            FIELD_OF_VIEW,
+            "The angle from the lower to the upper edge of the picture.",
+        )
+        .default("0.7853981633974483"),
+        Key::word("shading", Shading::MEANINGS, "How the organ is drawn.").default("\"cube_map\""),
+    ];
 
     pub(super) fn from_keys(keys: Option<&Keys<'_>>) -> Result<Self, Error> {
         let default = Self::default();
@@ -68,11 +72,11 @@ impl View {
             return Ok(default);
         };
         Ok(Self {
-            eye_m: keys.vector("eye_m", Domain::POSITION)?,
-            target_m: keys.vector("target_m", Domain::POSITION)?,
+            eye_m: keys.vector("eye_m")?,
+            target_m: keys.vector("target_m")?,
             up: keys.direction("up")?,
             field_of_view_rad: keys
-                .number("field_of_view_rad", FIELD_OF_VIEW)?
+                .number("field_of_view_rad")?
                 .unwrap_or(default.field_of_view_rad),
             shading: keys
                 .word("shading", Shading::WORDS)?

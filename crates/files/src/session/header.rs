@@ -1,7 +1,7 @@
 use crate::scene::ModelKind;
 use crate::table::header_line;
 use crate::toml_document::{quoted, toml_number};
-use crate::{Domain, Error, Keys};
+use crate::{Domain, Error, Key, Keys};
 
 /// Under which conditions a session was played.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,13 +21,23 @@ pub struct SessionHeader {
 }
 
 impl SessionHeader {
-    pub(super) const KEYS: &'static [&'static str] = &[
-        "version",
-        "scene_digest",
-        "model",
-        "step_s",
-        "seed",
-        "force_scale",
+    pub(super) const KEYS: &'static [Key] = &[
+        Key::text("version", "The version of the program.").required("\"0.1.0\""),
+        Key::text(
+            "scene_digest",
+            "A digest of the scene with all that belongs to it.",
+        )
+        .required("\"\""),
+        Key::word("model", ModelKind::MEANINGS, "The model.").required("\"local\""),
+        Key::number("step_s", Domain::STEP, "The model's period.").required("0.005"),
+        Key::integer(
+            "seed",
+            0,
+            u64::MAX,
+            "The seed of whatever was drawn by chance.",
+        )
+        .required("1"),
+        Key::number("force_scale", Domain::FACTOR, "Factor on every force.").required("1.0"),
     ];
 
     pub(super) fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
@@ -36,14 +46,14 @@ impl SessionHeader {
                 .ok_or_else(|| keys.missing(key, "a text in double quotes"))
         };
         let model = keys.word("model", ModelKind::WORDS)?;
-        let seed = keys.integer("seed", 0..=u64::MAX)?;
+        let seed = keys.integer("seed")?;
         Ok(Self {
             version: text("version")?,
             scene_digest: text("scene_digest")?,
             model: model.ok_or_else(|| keys.missing("model", "\"local\" or \"hybrid\""))?,
-            step_s: keys.required_number("step_s", Domain::STEP)?,
+            step_s: keys.required_number("step_s")?,
             seed: seed.ok_or_else(|| keys.missing("seed", "a whole number"))?,
-            force_scale: keys.required_number("force_scale", Domain::FACTOR)?,
+            force_scale: keys.required_number("force_scale")?,
         })
     }
 

@@ -3,7 +3,7 @@ use std::path::Path;
 use crate::error::Place;
 use crate::toml_document::{Table, Warnings, check_format, parse_toml};
 use crate::words::near_miss;
-use crate::{Error, Keys, units};
+use crate::{Error, Key, Keys, units};
 
 /// Keys that may stand above a table: each is compared with all that are known, and no instrument writes more.
 const MOST_KEYS: usize = 1000;
@@ -43,11 +43,7 @@ pub(super) fn comments_above(text: &str) -> (Vec<&str>, &str) {
 
 impl Header {
     /// The keys in the comments `above` a table, of which the first is line 1.
-    pub(crate) fn parse(
-        above: &[&str],
-        path: &Path,
-        known: &'static [&'static str],
-    ) -> Result<Self, Error> {
+    pub(crate) fn parse(above: &[&str], path: &Path, known: &'static [Key]) -> Result<Self, Error> {
         let mut header = Self::default();
         let mut keys = 0;
         for (line, text) in (1..).zip(above) {
@@ -64,7 +60,7 @@ impl Header {
                     expected: "fewer, or the names of the columns before them".to_owned(),
                 });
             }
-            let is_known = |known: &&str| units::matches(key, known).is_some();
+            let is_known = |known: &Key| units::matches(key, known.name).is_some();
             if key == "format" || known.iter().any(is_known) {
                 header.add(text, place)?;
             } else {
@@ -83,11 +79,12 @@ impl Header {
     pub(crate) fn of_foreign(
         above: &[&str],
         path: &Path,
-        known: &'static [&'static str],
+        known: &'static [Key],
     ) -> Result<Self, Error> {
         let is_known = |line: &str| {
             let comment = line.trim().strip_prefix('#').and_then(key_and_value);
-            comment.is_some_and(|(key, _)| known.iter().any(|k| units::matches(key, k).is_some()))
+            comment
+                .is_some_and(|(key, _)| known.iter().any(|k| units::matches(key, k.name).is_some()))
         };
         let ours: Vec<_> = above
             .iter()
@@ -115,7 +112,7 @@ impl Header {
     }
 
     /// The keys that are known.
-    pub(crate) fn keys(&self, path: &Path, known: &'static [&'static str]) -> Keys<'_> {
+    pub(crate) fn keys(&self, path: &Path, known: &'static [Key]) -> Keys<'_> {
         Keys::of_table(
             Place::file(path),
             String::new(),
@@ -135,11 +132,13 @@ pub(super) fn key_and_value(text: &str) -> Option<(&str, &str)> {
 }
 
 /// Anybody may write more keys above a table, but one that is nearly a known key is a mistake.
-fn check_stranger(key: &str, known: &[&str], place: Place) -> Result<(), Error> {
+fn check_stranger(key: &str, known: &[Key], place: Place) -> Result<(), Error> {
     // `length_unit` is somebody's own key; `length` and `length_kg` are `length_m` gone wrong.
     let is_base = |known: &str| {
         known.starts_with(key) && units::split(known).is_some_and(|(base, _)| base == key)
     };
+    let named = known.iter().map(|known| known.name);
+    let known: Vec<&str> = named.chain(["format"]).collect();
     let has_unit = units::split(key).is_some();
     let accepted = known
         .iter()
@@ -152,7 +151,7 @@ fn check_stranger(key: &str, known: &[&str], place: Place) -> Result<(), Error> 
             accepted,
         });
     }
-    match near_miss(key, known) {
+    match near_miss(key, &known) {
         Some(nearest) => Err(Error::UnknownKey {
             place,
             key: key.to_owned(),

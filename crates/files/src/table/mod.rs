@@ -21,7 +21,7 @@ pub(crate) use writer::TableWriter;
 pub use writer::unfinished;
 
 use crate::error::Place;
-use crate::{Error, cell_text};
+use crate::{Error, Key, cell_text};
 
 /// How the fields of a table are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -58,11 +58,7 @@ pub(crate) struct TableText<'t> {
 impl<'t> TableText<'t> {
     /// Reads the head of one of the project's own tables, whose comments may hold the keys `known`
     /// and must hold `format = 1`.
-    pub(crate) fn parse(
-        text: &'t str,
-        path: &Path,
-        known: &'static [&'static str],
-    ) -> Result<Self, Error> {
+    pub(crate) fn parse(text: &'t str, path: &Path, known: &'static [Key]) -> Result<Self, Error> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let (above, rest) = header::comments_above(text);
         let mut header = Header::parse(&above, path, known)?;

@@ -70,7 +70,7 @@ impl Elasticity {
         })?;
         // A parameter of another law is a mistake, not something to pass over.
         let own = law.row().keys();
-        let known: Vec<_> = own.chain(Tissue::SHARED_KEYS.iter().copied()).collect();
+        let known: Vec<_> = own.chain(Tissue::SHARED_KEYS).collect();
         keys.only(&known)?;
         let estimates = estimates(keys, law)?;
         let values: Vec<_> = estimates.iter().map(|estimate| estimate.value).collect();
@@ -98,7 +98,10 @@ fn estimates(keys: &Keys<'_>, law: LawName) -> Result<Vec<Estimate>, Error> {
     let terms = given.map_or(0, |last| last / row.term) + 1;
     let parameters = row.parameters.iter().take(terms * row.term);
     parameters
-        .map(|&(key, domain)| keys.required_estimate(key, domain))
+        .map(|&(key, domain)| {
+            let estimate = keys.estimate_within(key, domain)?;
+            estimate.ok_or_else(|| keys.missing(key, domain.expected()))
+        })
         .collect()
 }
 

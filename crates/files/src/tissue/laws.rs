@@ -69,13 +69,13 @@ pub(crate) struct FebioLaw {
     pub(crate) shear_modulus: Option<f64>,
 }
 
-const POISSONS_RATIO: Domain = Domain::number("a number", [Excluded(-1.0), Excluded(0.5)])
+pub(super) const POISSONS_RATIO: Domain = Domain::number("a number", [Excluded(-1.0), Excluded(0.5)])
     .usually(0.0, 0.5)
     .with_remark(
         "0.5 itself belongs to the incompressible laws, such as neo_hookean; 0.49 is near enough for most tissues",
     );
 
-const SIGNED_EXPONENT: Domain =
+pub(super) const SIGNED_EXPONENT: Domain =
     Domain::number("an exponent", [Included(-1e4), Included(1e4)]).usually(-100.0, 100.0);
 
 const LINEAR: LawRow = LawRow {

@@ -1,4 +1,4 @@
-use crate::{Domain, Error, Estimate, Keys};
+use crate::{Domain, Error, Estimate, Key, Keys};
 
 /// Parameters of models without geometry. They belong to one indenter on one specimen.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -59,19 +59,40 @@ pub struct NonlinearSprings {
 }
 
 impl Lumped {
-    pub(super) fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
+    pub(super) const KEYS: &[Key] = &[
+        Key::table("kelvin", Kelvin::KEYS, "Two springs and a damper (6.3).").optional("", "none"),
+        Key::table(
+            "column",
+            EffectiveColumn::KEYS,
+            "The exponential law on a column of effective size (6.2).",
+        )
+        .optional("", "none"),
         // The first version called the column `blatz`, as if it were the tissue's law.
-        let known = &["kelvin", "column", "blatz", "nonlinear_springs"];
-        let Some(lumped) = keys.table("lumped", known)? else {
+        Key::table(
+            "blatz",
+            EffectiveColumn::KEYS,
+            "What earlier versions call `column`.",
+        )
+        .optional("", "none"),
+        Key::table(
+            "nonlinear_springs",
+            NonlinearSprings::KEYS,
+            "Three nonlinear springs (6.4), in newtons, millimetres and seconds.",
+        )
+        .optional("", "none"),
+    ];
+
+    pub(super) fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
+        let Some(lumped) = keys.table("lumped")? else {
             return Ok(Self::default());
         };
-        let kelvin = lumped.table("kelvin", Kelvin::KEYS)?;
-        let column = lumped.table("column", EffectiveColumn::KEYS)?;
-        let former = lumped.table("blatz", EffectiveColumn::KEYS)?;
+        let kelvin = lumped.table("kelvin")?;
+        let column = lumped.table("column")?;
+        let former = lumped.table("blatz")?;
         if column.is_some() && former.is_some() {
             return Err(lumped.given_twice("column", "blatz"));
         }
-        let springs = lumped.table("nonlinear_springs", &NonlinearSprings::KEYS)?;
+        let springs = lumped.table("nonlinear_springs")?;
         Ok(Self {
             kelvin: kelvin.map(|keys| Kelvin::from_keys(&keys)).transpose()?,
             column: column
@@ -99,14 +120,29 @@ impl Lumped {
 }
 
 impl Kelvin {
-    const KEYS: &[&str] = &["k1_n_per_m", "k2_n_per_m", "b_n_s_per_m", "tau_s"];
+    const KEYS: &[Key] = &[
+        Key::estimate("k1_n_per_m", Domain::STIFFNESS, "Instantaneous stiffness.").required("50.0"),
+        Key::estimate(
+            "k2_n_per_m",
+            Domain::STIFFNESS_OR_NONE,
+            "Stiffness after relaxation.",
+        )
+        .required("30.0"),
+        Key::estimate("b_n_s_per_m", Domain::DAMPING, "Damping.").required("40.0"),
+        Key::estimate(
+            "tau_s",
+            Domain::TIME_CONSTANT,
+            "Time constant, when it was fitted.",
+        )
+        .optional("0.8", "it was not fitted"),
+    ];
 
     fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
         Ok(Self {
-            k1_n_per_m: keys.required_estimate("k1_n_per_m", Domain::STIFFNESS)?,
-            k2_n_per_m: keys.required_estimate("k2_n_per_m", Domain::STIFFNESS_OR_NONE)?,
-            b_n_s_per_m: keys.required_estimate("b_n_s_per_m", Domain::DAMPING)?,
-            tau_s: keys.estimate("tau_s", Domain::TIME_CONSTANT)?,
+            k1_n_per_m: keys.required_estimate("k1_n_per_m")?,
+            k2_n_per_m: keys.required_estimate("k2_n_per_m")?,
+            b_n_s_per_m: keys.required_estimate("b_n_s_per_m")?,
+            tau_s: keys.estimate("tau_s")?,
         })
     }
 
@@ -122,19 +158,29 @@ impl Kelvin {
 }
 
 impl EffectiveColumn {
-    const KEYS: &[&str] = &[
-        "gamma_pa",
-        "alpha",
-        "effective_area_m2",
-        "effective_length_m",
+    const KEYS: &[Key] = &[
+        Key::estimate("gamma_pa", Domain::MODULUS, "gamma.").required("2667.0"),
+        Key::estimate("alpha", Domain::EXPONENT, "alpha.").required("0.5"),
+        Key::estimate(
+            "effective_area_m2",
+            Domain::AREA,
+            "Cross-section of the column.",
+        )
+        .required("3.0e-5"),
+        Key::estimate(
+            "effective_length_m",
+            Domain::LENGTH,
+            "Length of the column.",
+        )
+        .required("0.01"),
     ];
 
     fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
         Ok(Self {
-            gamma_pa: keys.required_estimate("gamma_pa", Domain::MODULUS)?,
-            alpha: keys.required_estimate("alpha", Domain::EXPONENT)?,
-            effective_area_m2: keys.required_estimate("effective_area_m2", Domain::AREA)?,
-            effective_length_m: keys.required_estimate("effective_length_m", Domain::LENGTH)?,
+            gamma_pa: keys.required_estimate("gamma_pa")?,
+            alpha: keys.required_estimate("alpha")?,
+            effective_area_m2: keys.required_estimate("effective_area_m2")?,
+            effective_length_m: keys.required_estimate("effective_length_m")?,
         })
     }
 
@@ -148,11 +194,29 @@ impl EffectiveColumn {
     }
 }
 
+const fn parameter(name: &'static str, meaning: &'static str) -> Key {
+    Key::estimate(name, Domain::FINITE, meaning).required("1.0")
+}
+
 impl NonlinearSprings {
     /// What the parameters are called, in their order.
-    pub const KEYS: [&str; 8] = ["k01", "k02", "k11", "k12", "k13", "k21", "k22", "k23"];
+    pub const NAMES: [&str; 8] = ["k01", "k02", "k11", "k12", "k13", "k21", "k22", "k23"];
 
-    /// With these parameters [N, mm, s], in the order of [`Self::KEYS`].
+    const KEYS: &[Key] = &[
+        parameter(
+            "k01",
+            "Factor of the spring of the static force, in N/mm^k02.",
+        ),
+        parameter("k02", "Exponent of the spring of the static force."),
+        parameter("k11", "First parameter of the first relaxing spring."),
+        parameter("k12", "Second parameter of the first relaxing spring."),
+        parameter("k13", "Third parameter of the first relaxing spring."),
+        parameter("k21", "First parameter of the second relaxing spring."),
+        parameter("k22", "Second parameter of the second relaxing spring."),
+        parameter("k23", "Third parameter of the second relaxing spring."),
+    ];
+
+    /// With these parameters [N, mm, s], in the order of [`Self::NAMES`].
     pub fn of(values: [Estimate; 8]) -> Self {
         let [k01, k02, k11, k12, k13, k21, k22, k23] = values;
         Self {
@@ -167,7 +231,7 @@ impl NonlinearSprings {
         }
     }
 
-    /// The parameters [N, mm, s], in the order of [`Self::KEYS`].
+    /// The parameters [N, mm, s], in the order of [`Self::NAMES`].
     pub fn values(&self) -> [Estimate; 8] {
         [
             self.k01, self.k02, self.k11, self.k12, self.k13, self.k21, self.k22, self.k23,
@@ -176,13 +240,13 @@ impl NonlinearSprings {
 
     fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
         let mut values = [Estimate::exactly(0.0); 8];
-        for (value, key) in values.iter_mut().zip(Self::KEYS) {
-            *value = keys.required_estimate(key, Domain::FINITE)?;
+        for (value, key) in values.iter_mut().zip(Self::NAMES) {
+            *value = keys.required_estimate(key)?;
         }
         Ok(Self::of(values))
     }
 
     fn parameters(&self) -> Vec<(&'static str, Estimate)> {
-        Self::KEYS.into_iter().zip(self.values()).collect()
+        Self::NAMES.into_iter().zip(self.values()).collect()
     }
 }

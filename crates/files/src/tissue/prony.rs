@@ -1,7 +1,7 @@
 use std::ops::Bound::{Excluded, Included};
 
 use crate::toml_document::toml_number;
-use crate::{Domain, Error, Estimate, Keys};
+use crate::{Domain, Error, Estimate, Key, Keys};
 
 /// One term of a Prony series.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -12,13 +12,38 @@ pub struct PronyTerm {
     pub tau_s: Estimate,
 }
 
-const KEYS: &[&str] = &["g", "g_standard_error", "tau_s", "tau_standard_error_s"];
+pub(super) const KEYS: &[Key] = &[
+    Key::number(
+        "g",
+        PART,
+        "The part of the instantaneous modulus that relaxes; all parts together are less than 1.",
+    )
+    .required("0.4"),
+    Key::number(
+        "g_standard_error",
+        Domain::NOT_NEGATIVE,
+        "Its standard error.",
+    )
+    .optional("0.01", "unknown"),
+    Key::number(
+        "tau_s",
+        Domain::TIME_CONSTANT,
+        "Time constant of the relaxation.",
+    )
+    .required("1.0"),
+    Key::number(
+        "tau_standard_error_s",
+        Domain::NOT_NEGATIVE,
+        "Its standard error.",
+    )
+    .optional("0.05", "unknown"),
+];
 
 const PART: Domain = Domain::number("a number", [Included(0.0), Excluded(1.0)]);
 
 pub(super) fn from_keys(keys: &Keys<'_>) -> Result<Vec<PronyTerm>, Error> {
     let terms: Vec<_> = keys
-        .tables("prony", KEYS)?
+        .tables("prony")?
         .iter()
         .map(term)
         .collect::<Result<_, _>>()?;
@@ -38,12 +63,12 @@ pub(super) fn from_keys(keys: &Keys<'_>) -> Result<Vec<PronyTerm>, Error> {
 fn term(keys: &Keys<'_>) -> Result<PronyTerm, Error> {
     Ok(PronyTerm {
         g: Estimate {
-            value: keys.required_number("g", PART)?,
-            standard_error: keys.number("g_standard_error", Domain::NOT_NEGATIVE)?,
+            value: keys.required_number("g")?,
+            standard_error: keys.number("g_standard_error")?,
         },
         tau_s: Estimate {
-            value: keys.required_number("tau_s", Domain::TIME_CONSTANT)?,
-            standard_error: keys.number("tau_standard_error_s", Domain::NOT_NEGATIVE)?,
+            value: keys.required_number("tau_s")?,
+            standard_error: keys.number("tau_standard_error_s")?,
         },
     })
 }

@@ -1,4 +1,4 @@
-use crate::{Error, Keys};
+use crate::{Error, Key, Keys};
 
 /// Where the numbers of a tissue come from.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -14,10 +14,21 @@ pub struct TissueSource {
 }
 
 impl TissueSource {
-    const KEYS: &[&str] = &["recordings", "method", "version", "warnings"];
+    pub(super) const KEYS: &[Key] = &[
+        Key::texts("recordings", "The recordings that were fitted.").default("[]"),
+        Key::text("method", "How the numbers were found.")
+            .optional("\"relaxation fit\"", "unknown"),
+        Key::text("version", "The version of the program that found them.")
+            .optional("\"0.1.0\"", "unknown"),
+        Key::texts(
+            "warnings",
+            "What deserves doubt, in sentences. Whoever uses the tissue passes them on.",
+        )
+        .default("[]"),
+    ];
 
     pub(super) fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
-        let Some(source) = keys.table("source", Self::KEYS)? else {
+        let Some(source) = keys.table("source")? else {
             return Ok(Self::default());
         };
         Ok(Self {

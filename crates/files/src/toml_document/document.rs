@@ -4,6 +4,7 @@ use crate::error::Place;
 use crate::whole_file::{MOST_OF_DOCUMENT, read_text};
 use crate::{Error, Keys};
 
+use super::key::Key;
 use super::keys::Warnings;
 use super::value::{Entry, Table, Value, parse};
 
@@ -59,15 +60,15 @@ impl Document {
     ///
     /// # Errors
     /// When there is a key that is not known.
-    pub fn keys(&self, known: &'static [&'static str]) -> Result<Keys<'_>, Error> {
+    pub fn keys(&self, known: &'static [Key]) -> Result<Keys<'_>, Error> {
         let keys = self.open_keys(known);
-        keys.only(known)?;
+        keys.only_declared()?;
         Ok(keys)
     }
 
     /// The keys of a document in which one of them decides which others may occur: `known` are those
     /// of all cases, and [`Keys::only`] checks them once the case is known.
-    pub fn open_keys(&self, known: &'static [&'static str]) -> Keys<'_> {
+    pub fn open_keys(&self, known: &'static [Key]) -> Keys<'_> {
         Keys::of_table(
             Place::file(&self.path),
             String::new(),

@@ -6,6 +6,7 @@ use crate::error::Place;
 use crate::units::{self, Match};
 use crate::words::nearest;
 
+use super::key::{Key, names};
 use super::value::{Entry, Table, Value};
 
 /// The keys of one table of a document, being understood.
@@ -16,7 +17,7 @@ pub struct Keys<'d> {
     place: Place,
     name: String,
     table: &'d Table,
-    known: &'static [&'static str],
+    known: &'static [Key],
     warnings: &'d Warnings,
 }
 
@@ -61,7 +62,7 @@ impl<'d> Keys<'d> {
         place: Place,
         name: String,
         table: &'d Table,
-        known: &'static [&'static str],
+        known: &'static [Key],
         warnings: &'d Warnings,
     ) -> Self {
         Self {
@@ -90,6 +91,23 @@ impl<'d> Keys<'d> {
         } else {
             format!("{}.{key}", self.name)
         }
+    }
+
+    /// Checks that the table holds no other keys than those that are declared.
+    ///
+    /// # Errors
+    /// Names the first other key and the declared one that is nearest to it.
+    pub fn only_declared(&self) -> Result<(), Error> {
+        self.only(&names(self.known))
+    }
+
+    /// The declaration of a key.
+    ///
+    /// # Panics
+    /// When it is not declared: a mistake in the program, not in a document.
+    pub(crate) fn declared(&self, key: &str) -> &'static Key {
+        let declared = self.known.iter().find(|known| known.name == key);
+        declared.unwrap_or_else(|| unreachable!("`{key}` is not declared"))
     }
 
     /// Checks that the table holds no other keys than `known`.
@@ -157,8 +175,8 @@ impl<'d> Keys<'d> {
 
     pub(crate) fn find(&self, key: &'static str) -> Result<Option<Found<'d>>, Error> {
         debug_assert!(
-            self.known.contains(&key),
-            "`{key}` is missing from the list of known keys"
+            self.known.iter().any(|known| known.name == key),
+            "`{key}` is not declared"
         );
         let mut all = self
             .table
@@ -194,7 +212,7 @@ impl<'d> Keys<'d> {
         name: &str,
         entry: &Entry,
         table: &'t Table,
-        known: &'static [&'static str],
+        known: &'static [Key],
     ) -> Keys<'t>
     where
         'd: 't,

@@ -1,7 +1,8 @@
-//! TOML documents with line numbers: every value knows its line and every key its tables, so that
+//! TOML documents: every key is declared once ([`Key`]) and read with its line number: every value knows its line and every key its tables, so that
 //! an error can name both.
 
 mod document;
+mod key;
 mod keys;
 mod numbers;
 mod value;
@@ -9,6 +10,7 @@ mod values;
 
 pub use document::Document;
 pub(crate) use document::check_format;
+pub use key::{Holds, Key, Omitted, Word};
 pub use keys::Keys;
 pub(crate) use keys::Warnings;
 pub(crate) use value::{Entry, Table, Value, number as toml_number, parse as parse_toml, quoted};

@@ -3,6 +3,7 @@ use std::ops::RangeInclusive;
 use crate::error::Place;
 use crate::{Domain, Error, Keys};
 
+use super::key::Holds;
 use super::keys::Found;
 use super::value::Value;
 
@@ -11,7 +12,8 @@ impl Keys<'_> {
     ///
     /// # Errors
     /// When the value is no number or outside its `domain`.
-    pub fn number(&self, key: &'static str, domain: Domain) -> Result<Option<f64>, Error> {
+    pub fn number(&self, key: &'static str) -> Result<Option<f64>, Error> {
+        let domain = self.declared(key).domain();
         self.find(key)?
             .map(|found| found.number(domain))
             .transpose()
@@ -21,19 +23,20 @@ impl Keys<'_> {
     ///
     /// # Errors
     /// When it is missing, no number or outside its `domain`.
-    pub fn required_number(&self, key: &'static str, domain: Domain) -> Result<f64, Error> {
-        self.number(key, domain)?
-            .ok_or_else(|| self.missing(key, domain.expected()))
+    pub fn required_number(&self, key: &'static str) -> Result<f64, Error> {
+        self.number(key)?
+            .ok_or_else(|| self.missing(key, self.declared(key).domain().expected()))
     }
 
     /// Three numbers [unit of `key`].
     ///
     /// # Errors
     /// When the value is anything else or a number is outside its `domain`.
-    pub fn vector(&self, key: &'static str, domain: Domain) -> Result<Option<[f64; 3]>, Error> {
+    pub fn vector(&self, key: &'static str) -> Result<Option<[f64; 3]>, Error> {
         let Some(found) = self.find(key)? else {
             return Ok(None);
         };
+        let domain = self.declared(key).domain();
         let numbers = found.numbers(domain, "a list of three numbers [x, y, z]")?;
         match <[f64; 3]>::try_from(numbers) {
             Ok(vector) => Ok(Some(vector)),
@@ -45,8 +48,8 @@ impl Keys<'_> {
     ///
     /// # Errors
     /// When they are missing, the value is anything else or a number is outside its `domain`.
-    pub fn required_vector(&self, key: &'static str, domain: Domain) -> Result<[f64; 3], Error> {
-        self.vector(key, domain)?
+    pub fn required_vector(&self, key: &'static str) -> Result<[f64; 3], Error> {
+        self.vector(key)?
             .ok_or_else(|| self.missing(key, "a list of three numbers [x, y, z]"))
     }
 
@@ -55,7 +58,7 @@ impl Keys<'_> {
     /// # Errors
     /// When the value is anything else.
     pub fn direction(&self, key: &'static str) -> Result<Option<[f64; 3]>, Error> {
-        let direction = self.vector(key, Domain::FINITE)?;
+        let direction = self.vector(key)?;
         // Below this length the square underflows and no unit vector can be made.
         if direction.is_some_and(|v| !(v.iter().map(|c| c * c).sum::<f64>().is_normal()))
             && let Some(found) = self.find(key)?
@@ -69,17 +72,40 @@ impl Keys<'_> {
     ///
     /// # Errors
     /// When the value is anything else or a number is outside its `domain`.
-    pub fn numbers(&self, key: &'static str, domain: Domain) -> Result<Option<Vec<f64>>, Error> {
+    pub fn numbers(&self, key: &'static str) -> Result<Option<Vec<f64>>, Error> {
+        let domain = self.declared(key).domain();
         self.find(key)?
             .map(|found| found.numbers(domain, "a list of numbers"))
             .transpose()
     }
 
-    /// A whole number in a range.
+    /// A list of numbers that must be there [unit of `key`].
+    ///
+    /// # Errors
+    /// When it is missing, the value is anything else or a number is outside its domain.
+    pub fn required_numbers(&self, key: &'static str) -> Result<Vec<f64>, Error> {
+        self.numbers(key)?.ok_or_else(|| {
+            let each = self.declared(key).domain().expected();
+            self.missing(key, format!("a list of numbers, each {each}"))
+        })
+    }
+
+    /// A whole number in the range of its declaration.
     ///
     /// # Errors
     /// When the value is anything else.
-    pub fn integer(
+    pub fn integer(&self, key: &'static str) -> Result<Option<u64>, Error> {
+        let Holds::Integer(least, most) = self.declared(key).holds else {
+            unreachable!("`{key}` is not declared as a whole number");
+        };
+        self.integer_within(key, least..=most)
+    }
+
+    /// A whole number in a range that other keys decide.
+    ///
+    /// # Errors
+    /// When the value is anything else.
+    pub fn integer_within(
         &self,
         key: &'static str,
         range: RangeInclusive<u64>,

@@ -4,6 +4,7 @@ use crate::error::Place;
 use crate::words::either;
 use crate::{Error, Keys};
 
+use super::key::{Holds, Key};
 use super::value::{Entry, Table, Value};
 
 impl<'d> Keys<'d> {
@@ -73,6 +74,10 @@ impl<'d> Keys<'d> {
         key: &'static str,
         words: &[(&'static str, T)],
     ) -> Result<Option<T>, Error> {
+        debug_assert!(
+            self.lists(key, words),
+            "`{key}` is declared with other words than are read"
+        );
         let names: Vec<_> = words.iter().map(|(word, _)| format!("{word:?}")).collect();
         self.read(key, either(&names), |value| match value {
             Value::Text(text) => words.iter().find(|(word, _)| word == text).map(|(_, t)| *t),
@@ -109,14 +114,19 @@ impl<'d> Keys<'d> {
         )
     }
 
-    /// A table of which `known` are the keys that may occur.
+    /// A table with the keys that are declared for it.
     ///
     /// # Errors
-    /// When the value is no table or has a key that is not known.
-    pub fn table(
+    /// When the value is no table or has another key.
+    pub fn table(&self, key: &'static str) -> Result<Option<Keys<'d>>, Error> {
+        self.table_of(key, self.declared(key).keys())
+    }
+
+    /// A table of which `known` are the keys that may occur.
+    pub(crate) fn table_of(
         &self,
         key: &'static str,
-        known: &'static [&'static str],
+        known: &'static [Key],
     ) -> Result<Option<Keys<'d>>, Error> {
         let Some(found) = self.find(key)? else {
             return Ok(None);
@@ -125,7 +135,7 @@ impl<'d> Keys<'d> {
             return Err(found.bad("a table"));
         };
         let keys = Keys::of_table(found.place, found.key, table, known, found.warnings);
-        keys.only(known)?;
+        keys.only_declared()?;
         Ok(Some(keys))
     }
 
@@ -157,15 +167,12 @@ impl<'d> Keys<'d> {
         Ok(list.unwrap_or_default())
     }
 
-    /// A list of tables of which `known` are the keys that may occur; empty when the key is missing.
+    /// A list of tables with the keys that are declared for them; empty when the key is missing.
     ///
     /// # Errors
-    /// When the value is no list of tables or one of them has a key that is not known.
-    pub fn tables(
-        &self,
-        key: &'static str,
-        known: &'static [&'static str],
-    ) -> Result<Vec<Keys<'d>>, Error> {
+    /// When the value is no list of tables or one of them has another key.
+    pub fn tables(&self, key: &'static str) -> Result<Vec<Keys<'d>>, Error> {
+        let known = self.declared(key).keys();
         let Some(found) = self.find(key)? else {
             return Ok(Vec::new());
         };
@@ -186,10 +193,19 @@ impl<'d> Keys<'d> {
                 });
                 let name = format!("{}[{number}]", found.key);
                 let keys = Keys::of_table(place, name, table, known, found.warnings);
-                keys.only(known)?;
+                keys.only_declared()?;
                 Ok(keys)
             })
             .collect()
+    }
+
+    /// Whether a key is declared with these words.
+    fn lists<T>(&self, key: &str, words: &[(&'static str, T)]) -> bool {
+        let own = words.iter().map(|(word, _)| *word);
+        match self.declared(key).holds {
+            Holds::Word(declared) => declared.iter().map(|(word, _)| *word).eq(own),
+            _ => false,
+        }
     }
 
     fn read<T>(

@@ -1,5 +1,5 @@
 use palpate_files::units::{UNITS, Unit, split};
-use palpate_files::{Document, Domain, Recording, Tissue};
+use palpate_files::{Document, Domain, Key, Recording, Tissue};
 
 use crate::{RECORDING, TISSUE};
 
@@ -81,14 +81,17 @@ fn former_names_are_read_and_written_as_the_present_ones() {
 
 #[test]
 fn other_documents_can_be_read_with_the_same_care() {
+    const BLOCK: &[Key] =
+        &[Key::number("radius_m", Domain::POSITIVE, "Its radius.").required("0.05")];
+    const KEYS: &[Key] = &[
+        Key::table("block", BLOCK, "What is pressed.").required(""),
+        Key::numbers("depths_m", Domain::POSITIVE, "How deep.").required("[0.001]"),
+    ];
     let text = "format = 1\nblock = { radius_mm = 2 }\ndepths_mm = [1, 2.5]\n";
     let document = Document::parse(text, "problem.toml").unwrap();
-    let keys = document.keys(&["block", "depths_m"]).unwrap();
-    let depths = keys.numbers("depths_m", Domain::POSITIVE).unwrap();
+    let keys = document.keys(KEYS).unwrap();
+    let depths = keys.numbers("depths_m").unwrap();
     assert_eq!(depths, Some(vec![0.001, 0.0025]));
-    let block = keys.table("block", &["radius_m"]).unwrap().unwrap();
-    assert_eq!(
-        block.required_number("radius_m", Domain::POSITIVE).unwrap(),
-        0.002
-    );
+    let block = keys.table("block").unwrap().unwrap();
+    assert_eq!(block.required_number("radius_m").unwrap(), 0.002);
 }

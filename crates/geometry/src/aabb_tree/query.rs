@@ -1,5 +1,5 @@
 use super::{Aabb, AabbTree, Below, STACK};
-use crate::proximity::{PointOnTriangle, closest_on_segment_and_triangle, closest_on_triangle};
+use crate::proximity::{PointOnTriangle, closest_on_triangle, segment_to_triangle};
 use crate::{TriangleId, TriangleMesh, Vec3};
 
 /// The nearest point of a mesh.
@@ -43,19 +43,42 @@ impl AabbTree {
         )
     }
 
-    /// The point of `mesh` nearest to the segment from `start` to `end` [m]: the shaft of a tool.
-    pub fn nearest_to_segment(&self, mesh: &TriangleMesh, start: &Vec3, end: &Vec3) -> Nearest {
+    /// Whether the segment from `start` to `end` [m], as the shaft of a tool, comes nearer to `mesh` than `distance` [m].
+    pub fn is_near_segment(
+        &self,
+        mesh: &TriangleMesh,
+        [start, end]: [&Vec3; 2],
+        distance: f64,
+    ) -> bool {
         let (start, end) = (within_reach(start), within_reach(end));
-        let (low, high) = (start.inf(&end), start.sup(&end));
-        self.search(
-            |aabb| {
-                (aabb.low - high)
-                    .sup(&(low - aabb.high))
-                    .sup(&Vec3::zeros())
-                    .norm_squared()
-            },
-            |triangle| closest_on_segment_and_triangle(&start, &end, &mesh.positions(triangle)),
-        )
+        let (along, margin) = (end - start, Vec3::repeat(distance));
+        let mut stack = [0u32; STACK];
+        let mut filled = 1;
+        while filled > 0 {
+            filled -= 1;
+            let node = &self.nodes[stack[filled] as usize];
+            let wide = Aabb {
+                low: node.aabb.low - margin,
+                high: node.aabb.high + margin,
+            };
+            if !wide.is_crossed(&start, &along, 1.0) {
+                continue;
+            }
+            match node.below {
+                Below::Boxes(first) => {
+                    stack[filled] = first;
+                    stack[filled + 1] = first + 1;
+                    filled += 2;
+                }
+                Below::Triangle(triangle) => {
+                    let corners = mesh.positions(triangle);
+                    if segment_to_triangle(&start, &end, &corners).sqrt() < distance {
+                        return true;
+                    }
+                }
+            }
+        }
+        false
     }
 
     /// The first triangle that a ray from `origin` [m] along the unit vector `direction` meets

@@ -61,7 +61,7 @@ fn compare_nearest((surface, tree): (&Surface, &AabbTree), judge: &TriMesh, poin
 /// Judge: for each triangle alone the least of parry's point distances along the segment, which is
 /// convex there, by golden section.
 #[test]
-fn nearest_to_segment_is_the_least_along_it() {
+fn segment_is_as_near_as_its_nearest_point() {
     for each in [Organ::Liver, Organ::Esophagus, Organ::Cube] {
         let (surface, tree) = organ(each, 400);
         let mesh = surface.mesh();
@@ -69,18 +69,16 @@ fn nearest_to_segment_is_the_least_along_it() {
         let (mut crossings, all) = (0, tries(300));
         for _ in 0..all {
             let (start, end) = (random.around(mesh), random.around(mesh));
-            let nearest = tree.nearest_to_segment(mesh, &start, &end);
             let expected = mesh
                 .triangle_ids()
                 .map(|t| least_along(&triangle_of(mesh, t), &start, &end))
                 .fold(f64::INFINITY, f64::min);
             // Rounding; golden section stops at 1e-16 of the segment.
             let tolerance = 1e-12 * size(mesh);
-            assert!(
-                (nearest.distance - expected).abs() < tolerance,
-                "{each}: {start} to {end}: {nearest:?} for {expected}"
-            );
-            crossings += usize::from(nearest.distance == 0.0);
+            let [short, far] = [expected - tolerance, expected + tolerance]
+                .map(|reach| tree.is_near_segment(mesh, [&start, &end], reach));
+            assert!(!short && far, "{each}: {start} to {end}: {expected}");
+            crossings += usize::from(expected < tolerance);
         }
         assert!(
             crossings > 0 && crossings < all,
@@ -96,9 +94,11 @@ fn a_segment_without_length_is_a_point() {
     for _ in 0..tries(1_000) {
         let point = random.around(surface.mesh());
         let alone = tree.nearest(surface.mesh(), &point);
-        let segment = tree.nearest_to_segment(surface.mesh(), &point, &point);
         // Rounding.
-        assert!((alone.distance - segment.distance).abs() < 1e-12 * size(surface.mesh()));
+        let tolerance = 1e-12 * size(surface.mesh());
+        let [short, far] = [alone.distance - tolerance, alone.distance + tolerance]
+            .map(|reach| tree.is_near_segment(surface.mesh(), [&point, &point], reach));
+        assert!(!short && far, "{point}: {}", alone.distance);
     }
 }
 

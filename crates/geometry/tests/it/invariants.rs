@@ -40,9 +40,10 @@ fn refit_is_rebuild() {
             for _ in 0..tries(2_000) {
                 let (point, end) = (random.around(&mesh), random.around(&mesh));
                 assert_eq!(tree.nearest(&mesh, &point), fresh.nearest(&mesh, &point));
+                let reach = 0.5 * tree.nearest(&mesh, &point).distance;
                 let [ours, theirs] =
-                    [&tree, &fresh].map(|t| t.nearest_to_segment(&mesh, &point, &end));
-                assert_eq!(ours.distance, theirs.distance);
+                    [&tree, &fresh].map(|t| t.is_near_segment(&mesh, [&point, &end], reach));
+                assert_eq!(ours, theirs);
                 let direction = (end - point).normalize();
                 let [ours, theirs] =
                     [&tree, &fresh].map(|t| t.cast(&mesh, &point, &direction, extent));
@@ -379,8 +380,8 @@ fn what_is_beyond_all_bounds_is_outside() {
         for far in [1e9, 1e20, 1e100, 1e155, 1e300, f64::MAX] {
             let (start, end) = (direction * far, direction * (0.5 * far));
             assert_eq!(surface.signed_distance(&tree, &start), near);
-            let segment = tree.nearest_to_segment(surface.mesh(), &start, &end);
-            assert!(segment.distance > 0.9e6, "{segment:?}");
+            assert!(!tree.is_near_segment(surface.mesh(), [&start, &end], 0.9e6));
+            assert!(tree.is_near_segment(surface.mesh(), [&start, &end], 2e6));
         }
     }
 }

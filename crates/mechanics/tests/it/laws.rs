@@ -25,8 +25,9 @@ fn falls_with_the_square(name: &str, scale: f64, error: impl Fn(f64) -> f64) {
     }
     for pair in errors.windows(2) {
         let order = (pair[0] / pair[1]).log2();
+        // Rounding hides the order of what is hardly more.
         assert!(
-            (order - 2.0).abs() < 0.1,
+            (order - 2.0).abs() < 0.1 + rounding / pair[1],
             "{name}: order {order}: {errors:?}"
         );
     }

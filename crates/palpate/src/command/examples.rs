@@ -1,9 +1,12 @@
 //! `palpate examples`: the example files of the documentation, written into a folder.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use palpate_files::{Claim, write_whole};
+use palpate_files::write_whole;
+use palpate_jobs::documents;
+use palpate_jobs::solve::Problem;
 
 use super::overwrite::OverwriteOption;
 use crate::failure::Failure;
@@ -17,7 +20,8 @@ Examples:
   palpate examples examples --overwrite
       replaces those that were changed
 
-The list that is printed says what each file is. `palpate validate FILE` checks one after you changed it.";
+The list that is printed says what each file is. `schemas/` has what an editor needs to complete and check them. \
+`palpate validate FILE` checks one after you changed it.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
@@ -146,14 +150,27 @@ const ALL: &[Example] = &[
 
 /// Writes them all, or none where one is there.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let path = |example: &Example| arguments.folder.join(example.file);
-    let rule = arguments.overwrite.rule();
+    let mut files = Vec::new();
+    let mut schemas = BTreeMap::new();
     for example in ALL {
-        make_folder(path(example).parent().unwrap_or(&arguments.folder))?;
+        let mut text = example.text.to_owned();
+        if let Some(kind) = example.kind()? {
+            let folders_up = "../".repeat(example.file.matches('/').count());
+            let schema = format!("schemas/{}.schema.json", kind.word);
+            text = format!("#:schema {folders_up}{schema}\n{text}");
+            schemas.insert(schema, documents::schema(&kind));
+        }
+        files.push((example.file.to_owned(), text));
     }
-    let claims = Claim::of_files(ALL.iter().map(path), rule)?;
-    for example in ALL {
-        write_whole(path(example), example.text.as_bytes())?;
+    files.extend(schemas);
+    for (file, _) in &files {
+        let path = arguments.folder.join(file);
+        make_folder(path.parent().unwrap_or(&arguments.folder))?;
+    }
+    let paths = files.iter().map(|(file, _)| arguments.folder.join(file));
+    let claims = arguments.overwrite.claim(paths)?;
+    for (file, text) in &files {
+        write_whole(arguments.folder.join(file), text.as_bytes())?;
     }
     drop(claims);
     let widest = ALL.iter().map(|example| example.file.len()).max();
@@ -162,6 +179,20 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         output::line(format!("{file:widest$}  {what}"))?;
     }
     output::line(format!("written into {}", arguments.folder.display()))
+}
+
+impl Example {
+    /// The kind of document that it is; none for a table.
+    fn kind(&self) -> Result<Option<documents::Kind>, Failure> {
+        if !self.file.ends_with(".toml") {
+            return Ok(None);
+        }
+        let word = match self.file.starts_with("problems/") {
+            true => Problem::parse(self.text, Path::new(self.file))?.kind(),
+            false => "scene",
+        };
+        Ok(documents::kind(word))
+    }
 }
 
 fn make_folder(folder: &Path) -> Result<(), Failure> {

@@ -16,6 +16,7 @@ mod quality;
 mod recordings;
 mod replay;
 mod reproduce;
+mod scene;
 mod score;
 mod shell;
 mod simulate;
@@ -77,6 +78,8 @@ Examples:
       a published table beside ours
   palpate examples .
       writes scenes, motions, tasks, problems and a recording, to begin from
+  palpate scene --template --out scene.toml
+      a scene to begin from, with every key explained
   palpate validate scene.toml
       what a file is, and whether it is right
 
@@ -131,6 +134,8 @@ enum Command {
     /// Look at meshes, make them smaller, convert them, make them from segmented volumes.
     #[command(subcommand)]
     Mesh(mesh::Mesh),
+    /// Write a scene or another document to begin from, with every key explained.
+    Scene(scene::Arguments),
     /// Say what files are, and whether they are right.
     Validate(validate::Arguments),
     /// Write the example files of the documentation into a folder.
@@ -164,6 +169,7 @@ impl CommandLine {
             Some(Command::Quality(arguments)) => quality::run(&arguments),
             Some(Command::Devices(arguments)) => devices::run(&arguments),
             Some(Command::Mesh(command)) => mesh::run(&command),
+            Some(Command::Scene(arguments)) => scene::run(&arguments),
             Some(Command::Validate(arguments)) => validate::run(&arguments),
             Some(Command::Examples(arguments)) => examples::run(&arguments),
             Some(Command::Cache(arguments)) => cache::run(&arguments),

@@ -1,7 +1,7 @@
 use super::{DEPTH, Drawn, SurfacePoint, Uniform};
 use crate::error::Place;
 use crate::toml_document::{Entry, Table, Value};
-use crate::{Domain, Error, Keys};
+use crate::{Domain, Error, Key, Keys};
 
 /// A named random variable.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,15 +46,61 @@ pub struct OnSurface {
     pub facing: Option<[f64; 3]>,
 }
 
-const KEYS: &[&str] = &["uniform", "one_of", "on_surface", "below", "depth_m"];
+/// The keys of a draw, of which one says how.
+pub(crate) const KEYS: &[Key] = &[
+    Key::other(
+        "uniform",
+        "two numbers, or two vectors",
+        "Evenly between the two numbers, or in the box of which the vectors are corners.",
+    )
+    .optional("[0.004, 0.008]", "another key says how")
+    .in_template(),
+    Key::other(
+        "one_of",
+        "a list of numbers, of vectors or of texts",
+        "Each of these as often as the others.",
+    )
+    .optional("[4.0, 8.0]", "another key says how"),
+    Key::table(
+        "on_surface",
+        OnSurface::KEYS,
+        "A place, evenly over a part of the organ's surface.",
+    )
+    .optional("", "another key says how"),
+    Key::text(
+        "below",
+        "A place below that of the draw `on_surface` with this name.",
+    )
+    .optional("\"place\"", "another key says how"),
+    Key::number_or_draw("depth_m", DEPTH, "How far below, against the normal there.")
+        .optional("0.01", "nothing but `below` has it"),
+];
 
 impl OnSurface {
-    const KEYS: &'static [&'static str] = &["min_m", "max_m", "facing"];
+    const KEYS: &'static [Key] = &[
+        Key::vector(
+            "min_m",
+            Domain::POSITION,
+            "The corner of a box with the smallest coordinates.",
+        )
+        .required("[-0.05, -0.05, 0.0]"),
+        Key::vector(
+            "max_m",
+            Domain::POSITION,
+            "The corner with the largest coordinates.",
+        )
+        .required("[0.05, 0.05, 0.05]"),
+        Key::direction(
+            "facing",
+            "The normals there are within 60 degrees of this direction.",
+        )
+        .optional("[0.0, 0.0, 1.0]", "all"),
+    ];
 
     fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
         Ok(Self {
-            min_m: keys.required_vector("min_m", Domain::POSITION)?,
-            max_m: keys.required_vector("max_m", Domain::POSITION)?,
+            min_m: keys.required_vector("min_m")?,
+            max_m: keys.required_vector("max_m")?,
             facing: keys.direction("facing")?,
         })
     }
@@ -104,7 +150,7 @@ impl Distribution {
             return Err(keys.bad_entry(name, entry, expected));
         };
         let own = keys.of_entry(&format!("draw.{name}"), entry, table, KEYS);
-        own.only(KEYS)?;
+        own.only_declared()?;
         let recipe = Recipe::from_keys(&own)?;
         Ok(Self {
             name: name.to_owned(),
@@ -196,14 +242,14 @@ impl Recipe {
                 }
                 Self::OneOf(values)
             }
-            Some("on_surface") => match keys.table("on_surface", OnSurface::KEYS)? {
+            Some("on_surface") => match keys.table("on_surface")? {
                 Some(on) => Self::OnSurface(OnSurface::from_keys(&on)?),
                 None => return Ok(None),
             },
             Some(_) => {
                 let depth = match keys.is_text("depth_m") {
                     true => keys.text("depth_m")?.map(Depth::Drawn),
-                    false => keys.number("depth_m", DEPTH)?.map(Depth::Fixed),
+                    false => keys.number("depth_m")?.map(Depth::Fixed),
                 };
                 let expected = "a length, or the name of a draw of numbers";
                 Self::Below {

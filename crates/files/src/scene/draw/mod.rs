@@ -16,7 +16,8 @@ use sha2::{Digest, Sha256};
 
 use super::Scene;
 use crate::toml_document::{Table, Value};
-use crate::{Domain, Error, Keys};
+use crate::{Domain, Error, Key, Keys};
+pub(super) use distribution::KEYS as DRAW;
 pub use distribution::OnSurface;
 use distribution::{Distribution, Recipe};
 
@@ -175,14 +176,17 @@ impl Scene {
 }
 
 impl Variant {
-    const KEYS: &'static [&'static str] = &["seed", "drawn"];
+    pub(super) const KEYS: &'static [Key] = &[
+        Key::integer("seed", 0, LARGEST_SEED, "The seed that it was drawn with.").required("1"),
+        Key::named("drawn", &[], "What was drawn, by name.").optional("", "nothing"),
+    ];
 
     /// As [`Scene::drawn`] writes it.
     pub(super) fn from_keys(keys: &Keys<'_>) -> Result<Option<Self>, Error> {
-        let Some(own) = keys.table("variant", Self::KEYS)? else {
+        let Some(own) = keys.table("variant")? else {
             return Ok(None);
         };
-        let seed = own.integer("seed", 0..=LARGEST_SEED)?;
+        let seed = own.integer("seed")?;
         let expected = format!("a whole number from 0 to {LARGEST_SEED}");
         let seed = seed.ok_or_else(|| own.missing("seed", expected))?;
         let mut drawn = Vec::new();

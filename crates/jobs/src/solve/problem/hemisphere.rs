@@ -1,9 +1,9 @@
 use std::f64::consts::FRAC_PI_2;
 
-use palpate_files::{Domain, Error, Keys};
+use palpate_files::{Domain, Error, Key, Keys};
 use palpate_mechanics::contact::Bond;
 
-use super::length_below;
+use super::{BOND_MEANINGS, BONDS, length_below};
 
 /// Half a ball on its fixed base, pressed at the pole.
 #[derive(Debug, Clone, Copy)]
@@ -17,25 +17,33 @@ pub(crate) struct Hemisphere {
     pub(crate) depth: f64,
 }
 
-const PATCHES: &[(&str, Bond)] = &[
-    ("slip", Bond::Slip),
-    ("bonded", Bond::Stick),
-    ("stick", Bond::Stick),
-];
-
 impl Hemisphere {
-    pub(crate) const KEYS: &'static [&'static str] =
-        &["radius_m", "patch_radius_m", "patch", "depth_m"];
+    pub(crate) const KEYS: &'static [Key] = &[
+        Key::number("radius_m", Domain::LENGTH, "Its radius.").required("0.05"),
+        Key::number(
+            "patch_radius_m",
+            Domain::LENGTH,
+            "Arc from the pole within which every point of the surface moves.",
+        )
+        .required("0.003"),
+        Key::word("patch", BOND_MEANINGS, "How the patch is held.").required("\"slip\""),
+        Key::number(
+            "depth_m",
+            Domain::DEPTH_OR_NONE,
+            "How far the patch moves towards the base.",
+        )
+        .required("0.001"),
+    ];
 
     pub(crate) fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
-        let radius = keys.required_number("radius_m", Domain::LENGTH)?;
+        let radius = keys.required_number("radius_m")?;
         let quarter = FRAC_PI_2 * radius;
         let what = "the arc from the pole to the base";
-        let depth = keys.required_number("depth_m", Domain::DEPTH_OR_NONE)?;
+        let depth = keys.required_number("depth_m")?;
         if depth >= radius {
             return Err(keys.bad("depth_m", format!("less than the radius, {radius} m")));
         }
-        let patch = keys.word("patch", PATCHES)?;
+        let patch = keys.word("patch", BONDS)?;
         Ok(Self {
             radius,
             patch_radius: length_below(keys, "patch_radius_m", quarter, what)?,

@@ -1,4 +1,4 @@
-use palpate_files::{Domain, Error, Keys};
+use palpate_files::{Domain, Error, Key, Keys};
 use palpate_mechanics::finite_elements::indentation::{
     Base, Block, Grip, Indenter, IndenterShape, Relaxing, Side,
 };
@@ -66,19 +66,107 @@ const METHODS: &[(&str, Relaxing)] = &[
     ("full", Relaxing::Full),
 ];
 
+const BLOCK: &[Key] = &[
+    Key::number("radius_m", Domain::LENGTH, "Its radius: it is a cylinder.").required("0.05"),
+    Key::number("height_m", Domain::LENGTH, "Its height.").required("0.1"),
+    Key::word(
+        "base",
+        &[
+            ("bonded", "Glued to what it rests on."),
+            ("lubricated", "It slides on what it rests on."),
+        ],
+        "What its lower face does.",
+    )
+    .default("\"bonded\""),
+];
+
+const INDENTER: &[Key] = &[
+    Key::word(
+        "shape",
+        &[
+            ("flat", "A round flat face."),
+            ("sphere", "A ball."),
+            ("cone", "A cone."),
+        ],
+        "Its end.",
+    )
+    .default("\"flat\""),
+    Key::number(
+        "radius_m",
+        Domain::LENGTH,
+        "Its radius, not its diameter; of a cone that of its base.",
+    )
+    .required("0.001"),
+    Key::number(
+        "half_angle_deg",
+        Domain::HALF_ANGLE,
+        "The angle between a cone's axis and its side.",
+    )
+    .optional("70.3", "it is no cone"),
+    Key::word(
+        "face",
+        &[
+            ("stick", "Tissue that it touches moves with it."),
+            ("slip", "Tissue slides along it without friction."),
+        ],
+        "How its face holds tissue.",
+    )
+    .default("\"stick\""),
+    Key::word(
+        "side",
+        &[
+            ("stick", "Tissue that touches it moves with it."),
+            ("slide", "Tissue slides along it without friction."),
+            ("none", "Tissue does not meet it."),
+        ],
+        "What the side of a flat punch does.",
+    )
+    .optional("\"stick\"", "`stick`, of a flat punch"),
+];
+
+const RAMP: &[Key] = &[
+    Key::number("depth_m", Domain::LENGTH, "How deep it is pressed.").required("0.005"),
+    Key::number("ramp_s", Domain::DURATION, "How long the way takes.").required("0.5"),
+    Key::number("hold_s", Domain::DURATION_OR_NONE, "How long it stays.").required("40.0"),
+    Key::integer("samples", 2, 100_000, "How many times are answered for, ends included.")
+        .default("200"),
+    Key::word(
+        "method",
+        &[
+            (
+                "convolution",
+                "The instantaneous force's rate, convolved with the relaxation: exact for a linear law.",
+            ),
+            ("full", "Memory at each point, in small steps of time."),
+        ],
+        "How relaxation is taken into account.",
+    )
+    .default("\"convolution\""),
+];
+
 impl Indentation {
-    pub(crate) const KEYS: &'static [&'static str] = &["block", "indenter", "depths_m", "ramp"];
+    pub(crate) const KEYS: &'static [Key] = &[
+        Key::table("block", BLOCK, "The block.").required(""),
+        Key::table("indenter", INDENTER, "The indenter.").required(""),
+        Key::numbers(
+            "depths_m",
+            Domain::DEPTH_OR_NONE,
+            "How deep it is pressed, with instantaneous moduli, for each answer.",
+        )
+        .required_without("ramp", "[0.001, 0.002]"),
+        Key::table(
+            "ramp",
+            RAMP,
+            "It is pressed in time: to a depth, and held there.",
+        )
+        .optional("", "`depths_m` says how deep"),
+    ];
 
     pub(crate) fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
-        let block = required_table(
-            keys,
-            "block",
-            &["radius_m", "height_m", "base"],
-            "block = { radius_m = 0.05, height_m = 0.1 }",
-        )?;
+        let block = required_table(keys, "block", "block = { radius_m = 0.05, height_m = 0.1 }")?;
         let block = Block {
-            radius: block.required_number("radius_m", Domain::LENGTH)?,
-            height: block.required_number("height_m", Domain::LENGTH)?,
+            radius: block.required_number("radius_m")?,
+            height: block.required_number("height_m")?,
             base: block.word("base", BASES)?.unwrap_or_default(),
         };
         Ok(Self {
@@ -90,12 +178,7 @@ impl Indentation {
 }
 
 fn indenter(keys: &Keys<'_>, block: &Block) -> Result<Indenter, Error> {
-    let keys = required_table(
-        keys,
-        "indenter",
-        &["shape", "radius_m", "half_angle_deg", "face", "side"],
-        "indenter = { radius_m = 0.001 }",
-    )?;
+    let keys = required_table(keys, "indenter", "indenter = { radius_m = 0.001 }")?;
     let side = keys.word("side", SIDES)?;
     let end = keys.word("shape", SHAPES)?.unwrap_or(End::Flat);
     if !matches!(end, End::Flat) {
@@ -110,7 +193,7 @@ fn indenter(keys: &Keys<'_>, block: &Block) -> Result<Indenter, Error> {
         },
         End::Sphere => IndenterShape::Sphere,
         End::Cone => {
-            let angle = keys.required_number("half_angle_deg", Domain::HALF_ANGLE)?;
+            let angle = keys.required_number("half_angle_deg")?;
             IndenterShape::Cone {
                 half_angle: angle.to_radians(),
             }
@@ -125,24 +208,19 @@ fn indenter(keys: &Keys<'_>, block: &Block) -> Result<Indenter, Error> {
 
 fn loading(keys: &Keys<'_>, block: &Block) -> Result<Loading, Error> {
     let height = (block.height, "the height of the block");
-    let ramp = keys.table(
-        "ramp",
-        &["depth_m", "ramp_s", "hold_s", "samples", "method"],
-    )?;
+    let ramp = keys.table("ramp")?;
     match (ramp, keys.contains("depths_m")) {
         (Some(_), true) => Err(keys.given_twice("depths_m", "ramp")),
         (Some(ramp), false) => Ok(Loading::Ramp(Ramp {
             depth: length_below(&ramp, "depth_m", height.0, height.1)?,
-            ramp: ramp.required_number("ramp_s", Domain::DURATION)?,
-            hold: ramp.required_number("hold_s", Domain::DURATION_OR_NONE)?,
-            samples: ramp.integer("samples", 2..=100_000)?.unwrap_or(200) as usize,
+            ramp: ramp.required_number("ramp_s")?,
+            hold: ramp.required_number("hold_s")?,
+            samples: ramp.integer("samples")?.unwrap_or(200) as usize,
             method: ramp
                 .word("method", METHODS)?
                 .unwrap_or(Relaxing::Convolution),
         })),
-        (None, true) => {
-            some_numbers(keys, "depths_m", Domain::DEPTH_OR_NONE, Some(height)).map(Loading::Depths)
-        }
+        (None, true) => some_numbers(keys, "depths_m", Some(height)).map(Loading::Depths),
         (None, false) => Err(keys.missing(
             "depths_m",
             "a list such as [0.001, 0.002], or \

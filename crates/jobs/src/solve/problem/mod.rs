@@ -10,11 +10,13 @@ mod uniaxial;
 
 use std::ops::Bound::Included;
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 
 use palpate_files::scene::TissueChoice;
 use palpate_files::tissue::LawName;
-use palpate_files::{Document, Domain, Keys, Tissue};
+use palpate_files::{Document, Domain, Key, Keys, Tissue, Word};
 use palpate_mechanics::Material;
+use palpate_mechanics::contact::Bond;
 
 pub(crate) use hemisphere::Hemisphere;
 pub(crate) use indentation::{Indentation, Loading, Ramp};
@@ -68,35 +70,50 @@ const DEFAULT_ACCURACY: f64 = 0.01;
 
 const ACCURACY: Domain = Domain::number("a relative error", [Included(1e-4), Included(0.2)]);
 
-/// The keys of every kind.
-const SHARED: [&str; 4] = ["kind", "tissue", "builtin_tissue", "accuracy"];
+/// How a part of a surface is held.
+const BONDS: &[(&str, Bond)] = &[
+    ("stick", Bond::Stick),
+    ("slip", Bond::Slip),
+    ("bonded", Bond::Stick),
+];
 
-/// The keys of all kinds together.
-const KEYS: &[&str] = &[
-    "kind",
-    "tissue",
-    "builtin_tissue",
-    "accuracy",
-    "block",
-    "indenter",
-    "depths_m",
-    "ramp",
-    "radius_m",
-    "patch_radius_m",
-    "patch",
-    "depth_m",
-    "length_m",
-    "inner_radius_m",
-    "outer_radius_m",
-    "pressure_pa",
-    "pressures_pa",
-    "indent",
-    "stretches",
-    "mesh",
-    "mesh_unit",
-    "builtin",
-    "triangles",
-    "anchor",
+const BOND_MEANINGS: &[Word] = &[
+    ("stick", "It does not move along the indenter."),
+    ("slip", "It slides along the indenter without friction."),
+    ("bonded", "As `stick`."),
+];
+
+/// The keys of every kind.
+const SHARED: &[Key] = &[
+    Key::word("kind", KIND_MEANINGS, "What is solved.").required("\"indentation\""),
+    TissueChoice::KEYS[0],
+    TissueChoice::KEYS[1],
+    Key::number(
+        "accuracy",
+        ACCURACY,
+        "The relative error that is asked for.",
+    )
+    .default("0.01"),
+];
+
+const KIND_MEANINGS: &[Word] = &[
+    ("indentation", "A rigid indenter is pressed into a block."),
+    (
+        "hemisphere",
+        "A patch at the pole of a hemisphere is pressed towards its fixed base.",
+    ),
+    (
+        "tube",
+        "A tube with fixed ends is under pressure, and perhaps indented.",
+    ),
+    (
+        "uniaxial",
+        "A bar is pulled or pressed along its axis, free to widen.",
+    ),
+    (
+        "solid",
+        "An organ of any shape is held somewhere and moved elsewhere.",
+    ),
 ];
 
 impl Problem {
@@ -117,21 +134,22 @@ impl Problem {
     }
 
     fn understand(document: &Document, path: &Path) -> Result<Self, Error> {
-        let keys = document.open_keys(KEYS);
         let folder = path.parent().unwrap_or(Path::new(""));
+        let keys = document.open_keys(SHARED);
         let kind = match keys.word("kind", KINDS)? {
             Some(kind) => kind,
             None => {
                 // A misspelt `kind` is worth more than the news that it is missing.
-                keys.only(KEYS)?;
+                let of_all = KINDS.iter().flat_map(|(_, kind)| kind.keys());
+                keys.only(&of_all.map(|key| key.name).collect::<Vec<_>>())?;
                 let words: Vec<_> = KINDS.iter().map(|(word, _)| format!("{word:?}")).collect();
                 return Err(keys
                     .missing("kind", format!("one of {}", words.join(", ")))
                     .into());
             }
         };
-        keys.only(&[&SHARED, own_keys(kind)].concat())?;
-        let accuracy = keys.number("accuracy", ACCURACY)?;
+        let keys = document.keys(kind.keys())?;
+        let accuracy = keys.number("accuracy")?;
         let tissue = TissueChoice::from_keys(&keys, folder)?.read()?;
         let case = match kind {
             Kind::Indentation => Case::Indentation(Indentation::from_keys(&keys)?),
@@ -151,6 +169,12 @@ impl Problem {
             accuracy: accuracy.unwrap_or(DEFAULT_ACCURACY),
             warnings: keys.warnings(),
         })
+    }
+
+    /// The kinds of problems: word, meaning and keys, beside `format`, of each.
+    pub fn kinds() -> impl Iterator<Item = (&'static str, &'static str, &'static [Key])> {
+        let each = KINDS.iter().zip(KIND_MEANINGS);
+        each.map(|((word, kind), (_, meaning))| (*word, *meaning, kind.keys()))
     }
 
     /// What the solver says to this problem.
@@ -203,13 +227,33 @@ impl Case {
     }
 }
 
-fn own_keys(kind: Kind) -> &'static [&'static str] {
-    match kind {
-        Kind::Indentation => Indentation::KEYS,
-        Kind::Hemisphere => Hemisphere::KEYS,
-        Kind::Tube => Tube::KEYS,
-        Kind::Uniaxial => Uniaxial::KEYS,
-        Kind::Solid => Solid::KEYS,
+impl Kind {
+    /// The keys that a problem of this kind may have, beside `format`.
+    fn keys(self) -> &'static [Key] {
+        static KEYS: LazyLock<Vec<Vec<Key>>> = LazyLock::new(|| {
+            let of_kind = |(word, kind): &(&'static str, Kind)| {
+                let mut keys = [SHARED, kind.own_keys()].concat();
+                // As all declarations, it lives as long as the program.
+                keys[0].example = format!("{word:?}").leak();
+                if matches!(kind, Kind::Hemisphere) {
+                    // It is solved at small strain.
+                    keys[2].example = "\"pig-spleen\"";
+                }
+                keys
+            };
+            KINDS.iter().map(of_kind).collect()
+        });
+        &KEYS[self as usize]
+    }
+
+    fn own_keys(self) -> &'static [Key] {
+        match self {
+            Self::Indentation => Indentation::KEYS,
+            Self::Hemisphere => Hemisphere::KEYS,
+            Self::Tube => Tube::KEYS,
+            Self::Uniaxial => Uniaxial::KEYS,
+            Self::Solid => Solid::KEYS,
+        }
     }
 }
 
@@ -246,13 +290,9 @@ fn bad_entry(
 fn some_numbers(
     keys: &Keys<'_>,
     key: &'static str,
-    domain: Domain,
     limit: Option<(f64, &str)>,
 ) -> Result<Vec<f64>, palpate_files::Error> {
-    let expected = || format!("a list of numbers, each {}", domain.expected());
-    let numbers = keys
-        .numbers(key, domain)?
-        .ok_or_else(|| keys.missing(key, expected()))?;
+    let numbers = keys.required_numbers(key)?;
     if numbers.is_empty() {
         return Err(keys.bad(key, "at least one number in the list"));
     }
@@ -272,7 +312,7 @@ fn length_below(
     limit: f64,
     what: &str,
 ) -> Result<f64, palpate_files::Error> {
-    let length = keys.required_number(key, Domain::LENGTH)?;
+    let length = keys.required_number(key)?;
     match length < limit {
         true => Ok(length),
         false => Err(keys.bad(key, format!("less than {what}, {limit} m"))),
@@ -283,9 +323,8 @@ fn length_below(
 fn required_table<'d>(
     keys: &Keys<'d>,
     key: &'static str,
-    known: &'static [&'static str],
     example: &'static str,
 ) -> Result<Keys<'d>, palpate_files::Error> {
-    keys.table(key, known)?
+    keys.table(key)?
         .ok_or_else(|| keys.missing(key, format!("a table such as `{example}`")))
 }

@@ -2,11 +2,11 @@ use std::ops::Bound::Included;
 use std::path::Path;
 
 use palpate_files::scene::{Region, Shape};
-use palpate_files::{Domain, Error, Keys};
+use palpate_files::{Domain, Error, Key, Keys};
 use palpate_mechanics::Vec3;
 use palpate_mechanics::contact::Bond;
 
-use super::required_table;
+use super::{BOND_MEANINGS, BONDS, required_table};
 
 /// An organ of any shape, held somewhere and moved elsewhere.
 #[derive(Debug, Clone)]
@@ -23,12 +23,6 @@ pub(crate) struct Solid {
     pub(crate) contact: Bond,
 }
 
-const CONTACTS: &[(&str, Bond)] = &[
-    ("stick", Bond::Stick),
-    ("slip", Bond::Slip),
-    ("bonded", Bond::Stick),
-];
-
 const DISPLACEMENT: Domain =
     Domain::quantity("a displacement", "m", [Included(-1.0), Included(1.0)]).usually(-0.1, 0.1);
 
@@ -36,13 +30,32 @@ const EXAMPLE: &str =
     "anchor = { planes = [{ point_m = [0.0, 0.0, 0.001], normal = [0.0, 0.0, 1.0] }] }";
 
 impl Solid {
-    pub(crate) const KEYS: &'static [&'static str] = &[
-        "mesh",
-        "mesh_unit",
-        "builtin",
-        "triangles",
-        "anchor",
-        "patch",
+    pub(crate) const KEYS: &'static [Key] = &[
+        Shape::KEYS[0],
+        Shape::KEYS[1],
+        Shape::KEYS[2],
+        Shape::KEYS[3],
+        Key::table("anchor", Region::KEYS, "Where it is held.")
+            .optional("", "where a built-in shape grows"),
+        Key::table(
+            "patch",
+            Self::PATCH,
+            "The part of the surface that is moved.",
+        )
+        .required(""),
+    ];
+
+    const PATCH: &[Key] = &[
+        Key::vector("center_m", Domain::POSITION, "Its centre.").required("[0.0, 0.0, 0.05]"),
+        Key::number(
+            "radius_m",
+            Domain::LENGTH,
+            "Points of the surface within this distance of the centre move.",
+        )
+        .required("0.003"),
+        Key::vector("displacement_m", DISPLACEMENT, "How far they move.")
+            .required("[0.0, 0.0, -0.001]"),
+        Key::word("contact", BOND_MEANINGS, "How they are held.").default("\"stick\""),
     ];
 
     pub(crate) fn from_keys(keys: &Keys<'_>, folder: &Path) -> Result<Self, Error> {
@@ -51,24 +64,21 @@ impl Solid {
         let patch = required_table(
             keys,
             "patch",
-            &["center_m", "radius_m", "displacement_m", "contact"],
             "patch = { center_m = [0.0, 0.0, 0.05], radius_m = 0.003, displacement_m = [0.0, 0.0, -0.001] }",
         )?;
         Ok(Self {
             shape,
             anchor,
-            center: patch.required_vector("center_m", Domain::POSITION)?.into(),
-            radius: patch.required_number("radius_m", Domain::LENGTH)?,
-            displacement: patch
-                .required_vector("displacement_m", DISPLACEMENT)?
-                .into(),
-            contact: patch.word("contact", CONTACTS)?.unwrap_or(Bond::Stick),
+            center: patch.required_vector("center_m")?.into(),
+            radius: patch.required_number("radius_m")?,
+            displacement: patch.required_vector("displacement_m")?.into(),
+            contact: patch.word("contact", BONDS)?.unwrap_or(Bond::Stick),
         })
     }
 }
 
 fn anchor(keys: &Keys<'_>, shape: &Shape) -> Result<Option<Region>, Error> {
-    let anchor = keys.table("anchor", Region::KEYS)?;
+    let anchor = keys.table("anchor")?;
     let expected = format!("regions that are held, such as `{EXAMPLE}`");
     match anchor.map(|keys| Region::from_keys(&keys)).transpose()? {
         Some(anchor) if !anchor.is_empty() => Ok(Some(anchor)),

@@ -1,7 +1,7 @@
-use palpate_files::{Domain, Error, Keys};
+use palpate_files::{Domain, Error, Key, Keys};
 use palpate_mechanics::contact::Bond;
 
-use super::{length_below, some_numbers};
+use super::{BOND_MEANINGS, BONDS, length_below, some_numbers};
 
 /// A tube with fixed ends under pressure, and perhaps indented.
 #[derive(Debug, Clone)]
@@ -28,32 +28,60 @@ pub(crate) struct TubeIndent {
     pub(crate) contact: Bond,
 }
 
-const CONTACTS: &[(&str, Bond)] = &[
-    ("stick", Bond::Stick),
-    ("slip", Bond::Slip),
-    ("bonded", Bond::Stick),
-];
+impl TubeIndent {
+    const KEYS: &[Key] = &[
+        Key::number("radius_m", Domain::LENGTH, "The indenter's radius.").required("0.001"),
+        Key::numbers(
+            "depths_m",
+            Domain::DEPTH_OR_NONE,
+            "How deep it is pressed, for each answer.",
+        )
+        .required("[0.001]"),
+        Key::word("contact", BOND_MEANINGS, "How it holds the tissue.").default("\"stick\""),
+    ];
+}
 
 impl Tube {
-    pub(crate) const KEYS: &'static [&'static str] = &[
-        "length_m",
-        "inner_radius_m",
-        "outer_radius_m",
-        "pressure_pa",
-        "pressures_pa",
-        "indent",
+    pub(crate) const KEYS: &'static [Key] = &[
+        Key::number("length_m", Domain::LENGTH, "Its length.").required("0.03"),
+        Key::number(
+            "inner_radius_m",
+            Domain::LENGTH,
+            "Its inner radius at rest.",
+        )
+        .required("0.004"),
+        Key::number(
+            "outer_radius_m",
+            Domain::LENGTH,
+            "Its outer radius at rest.",
+        )
+        .required("0.008"),
+        Key::number("pressure_pa", Domain::PRESSURE, "The pressure inside.")
+            .optional("2000.0", "`pressures_pa`, or 0 with `indent`"),
+        Key::numbers(
+            "pressures_pa",
+            Domain::PRESSURE,
+            "Several pressures inside, one after another.",
+        )
+        .required_without("pressure_pa", "[1000.0, 2000.0]"),
+        Key::table(
+            "indent",
+            TubeIndent::KEYS,
+            "A flat indenter, pressed radially at mid-length after the last pressure.",
+        )
+        .optional("", "it is not indented"),
     ];
 
     pub(crate) fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
-        let outer_radius = keys.required_number("outer_radius_m", Domain::LENGTH)?;
+        let outer_radius = keys.required_number("outer_radius_m")?;
         let tube = Self {
-            length: keys.required_number("length_m", Domain::LENGTH)?,
+            length: keys.required_number("length_m")?,
             inner_radius: length_below(keys, "inner_radius_m", outer_radius, "the outer radius")?,
             outer_radius,
             pressures: Vec::new(),
             indent: None,
         };
-        let indent = keys.table("indent", &["radius_m", "depths_m", "contact"])?;
+        let indent = keys.table("indent")?;
         let indent = indent.map(|keys| tube.indent(&keys)).transpose()?;
         Ok(Self {
             pressures: pressures(keys, indent.is_some())?,
@@ -71,8 +99,8 @@ impl Tube {
         }
         Ok(TubeIndent {
             radius,
-            depths: some_numbers(keys, "depths_m", Domain::DEPTH_OR_NONE, Some(outer))?,
-            contact: keys.word("contact", CONTACTS)?.unwrap_or(Bond::Stick),
+            depths: some_numbers(keys, "depths_m", Some(outer))?,
+            contact: keys.word("contact", BONDS)?.unwrap_or(Bond::Stick),
         })
     }
 }
@@ -80,8 +108,8 @@ impl Tube {
 fn pressures(keys: &Keys<'_>, indented: bool) -> Result<Vec<f64>, Error> {
     match (keys.contains("pressure_pa"), keys.contains("pressures_pa")) {
         (true, true) => Err(keys.given_twice("pressure_pa", "pressures_pa")),
-        (true, false) => Ok(vec![keys.required_number("pressure_pa", Domain::PRESSURE)?]),
-        (false, true) => some_numbers(keys, "pressures_pa", Domain::PRESSURE, None),
+        (true, false) => Ok(vec![keys.required_number("pressure_pa")?]),
+        (false, true) => some_numbers(keys, "pressures_pa", None),
         (false, false) if indented => Ok(vec![0.0]),
         (false, false) => Err(keys.missing(
             "pressures_pa",

@@ -1,6 +1,6 @@
 use std::ops::Bound::{Excluded, Included};
 
-use palpate_files::{Domain, Error, Keys};
+use palpate_files::{Domain, Error, Key, Keys};
 
 use super::some_numbers;
 
@@ -16,11 +16,16 @@ const STRETCH: Domain = Domain::number("a stretch", [Excluded(0.0), Included(1e3
     .with_remark("1 is at rest");
 
 impl Uniaxial {
-    pub(crate) const KEYS: &'static [&'static str] = &["stretches"];
+    pub(crate) const KEYS: &'static [Key] = &[Key::numbers(
+        "stretches",
+        STRETCH,
+        "Length over length at rest, for each answer.",
+    )
+    .required("[0.9, 1.1, 1.5]")];
 
     pub(crate) fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
         Ok(Self {
-            stretches: some_numbers(keys, "stretches", STRETCH, None)?,
+            stretches: some_numbers(keys, "stretches", None)?,
         })
     }
 }

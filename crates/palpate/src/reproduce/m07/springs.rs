@@ -16,7 +16,7 @@ pub(super) const DEPTHS_MM: [u32; 4] = [2, 4, 6, 8];
 /// The printed parameters of `organ`, in their order.
 pub(super) fn printed(organ: &str) -> Option<[f64; 8]> {
     let mut values = [0.0; 8];
-    for (value, name) in values.iter_mut().zip(NonlinearSprings::KEYS) {
+    for (value, name) in values.iter_mut().zip(NonlinearSprings::NAMES) {
         *value = TABLE_6_2.value(organ, name)?;
     }
     Some(values)

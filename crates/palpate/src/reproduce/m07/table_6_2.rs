@@ -76,7 +76,7 @@ fn add(rows: &mut Rows<'_>, (organ, word): (&str, &str), values: &[f64; 8], foun
     let springs = if values[7] > 0.0 { 2.0 } else { 1.0 };
     let count = Value::beside(Some(springs), found.branches as f64, "1");
     rows.add_pipeline_only(&format!("{organ}/{word}springs"), count, note.clone());
-    for (place, name) in NonlinearSprings::KEYS.into_iter().enumerate() {
+    for (place, name) in NonlinearSprings::NAMES.into_iter().enumerate() {
         // A spring that is not there has no numbers.
         if values[place] == 0.0 {
             continue;

@@ -1,0 +1,278 @@
+#!/usr/bin/env python3
+"""The force table: runs every engine that is installed on every scene and writes the table and its plot.
+
+    benches/forces/table.py [--engine NAME]... [--scene NAME]... [--python ENGINE=PATH]... [--fresh] [--write]
+
+Runs are kept in target/forces and not repeated without --fresh. Engines may be installed apart: --python says which
+interpreter runs one. --write renews docs/comparisons/forces.md and its picture; without it the tables are printed.
+An engine that is not installed, and a scene that it cannot do, are rows that say so.
+"""
+
+import argparse
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import time
+
+import numpy as np
+
+from scene import HERE, Scene, names
+
+ROOT = HERE.parents[1]
+KEPT = ROOT / "target" / "forces"
+PAGE = ROOT / "docs" / "comparisons" / "forces.md"
+PICTURE = PAGE.with_suffix(".png")
+ENGINES = {
+    "palpate_local": "palpate local",
+    "palpate_global": "palpate hybrid",
+    "palpate_nonlinear": "palpate nonlinear",
+    "felupe_axisymmetric": "FElupe",
+    "calculix_axisymmetric": "CalculiX",
+    "newton_vbd": "Newton VBD",
+    "drake_sap": "Drake SAP",
+    "mujoco_flex": "MuJoCo flex",
+    "pybullet_soft": "PyBullet",
+}
+OWN = {"palpate_local", "palpate_global", "palpate_nonlinear", "felupe_axisymmetric", "calculix_axisymmetric"}
+FINE = {"sphere_cube_045"}  # scenes that are run on the fine mesh too: minutes with some engines
+LIMIT = 900  # seconds for a run
+HELD = 0.05  # seconds before a judged time whose mean is taken, where the depth does not change
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--engine", action="append", choices=list(ENGINES))
+    parser.add_argument("--scene", action="append", choices=names())
+    parser.add_argument("--python", action="append", default=[], metavar="ENGINE=PATH")
+    parser.add_argument("--fresh", action="store_true", help="run again what was run")
+    parser.add_argument("--write", action="store_true", help="renew the page and its picture")
+    return parser.parse_args()
+
+
+def ran(engine, scene, mesh, python, fresh):
+    """The answer of `run.py`, or why there is none."""
+    path = KEPT / f"{engine}-{scene}-{mesh}.json"
+    if fresh or not path.exists() or "missing" in json.loads(path.read_text()):
+        path.unlink(missing_ok=True)
+        command = [python, HERE / "run.py", engine, scene, mesh, path]
+        threads = ["OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "RAYON_NUM_THREADS"]
+        environment = os.environ | {name: "1" for name in threads}
+        core = min(os.sched_getaffinity(0))
+        began = time.perf_counter()
+        try:
+            done = subprocess.run(
+                ["taskset", "-c", str(core), *command],
+                env=environment,
+                cwd=KEPT,
+                capture_output=True,
+                text=True,
+                timeout=LIMIT,
+            )
+            if not path.exists():
+                last = (done.stderr.strip().splitlines() or [f"ended with {done.returncode}"])[-1]
+                path.write_text(json.dumps({"failed": last}))
+        except subprocess.TimeoutExpired:
+            path.write_text(json.dumps({"failed": f"not done within {LIMIT} s"}))
+        print(f"{engine}, {scene}, {mesh}: {time.perf_counter() - began:.0f} s", file=sys.stderr, flush=True)
+    return json.loads(path.read_text())
+
+
+def judged(scene, answer, key="force"):
+    """The mean over the hold before each judged time, or the value at it; NaN where it is missing."""
+    time_, values = np.array(answer["time"]), np.array(answer[key], dtype=float)
+    means = []
+    for now in scene.judged:
+        held = abs(scene.depth(now - HELD) - scene.depth(now)) < 1e-12 and not scene.prony
+        span = (time_ > now - HELD + 1e-9) & (time_ < now + 1e-9)
+        means.append(values[span].mean() if held else np.interp(now, time_, values))
+    return np.array(means)
+
+
+def off(values, answer, key):
+    """Errors in percent against a converged answer, none where there is no such answer."""
+    if answer is None:
+        return None
+    exact = np.array([np.nan if value is None else value for value in answer[key]])
+    return 100 * (values / exact - 1)
+
+
+def over_motion(scene, answer, exact):
+    """The largest difference to the converged force at the same depth, in percent of the largest force."""
+    if exact is None or not exact.get("curve_m_n"):
+        return None
+    depths, forces = np.array(exact["curve_m_n"]).T
+    if depths[-1] < scene.path.max() * (1 - 1e-9):
+        return None
+    at = np.interp(scene.depth(np.array(answer["time"])), depths, forces)
+    return 100 * np.nanmax(np.abs(np.array(answer["force"], dtype=float) - at)) / forces.max()
+
+
+def signed(values):
+    if values is None:
+        return "–"
+    return " / ".join("–" if not np.isfinite(value) else f"{value:+.1f}" for value in values).replace("-", "−")
+
+
+def milli(values):
+    return " / ".join("–" if not np.isfinite(value) else f"{1e3 * value:.1f}" for value in values)
+
+
+def row(scene, engine, mesh, answer):
+    title = ENGINES[engine] + (
+        "" if mesh == "own" else f", {answer['nodes']} nodes" if "nodes" in answer else f", {mesh}"
+    )
+    for key, words in [("missing", "not installed"), ("skipped", "not run"), ("unfit", "cannot"), ("failed", "failed")]:
+        if key in answer:
+            return f"| {title} | {words}: {answer[key]} | | | | | | | |"
+    force = judged(scene, answer)
+    own, linear, finite = [scene.answers.get(law) for law in (answer["law"], "linear", "neo_hookean")]
+    motion = over_motion(scene, answer, own)
+    settled = off(judged(scene, answer, "settled"), own, "settled_m") if "settled" in answer else None
+    low, middle, high = answer["step_ms"]
+    broken = answer["not_finite"]
+    cells = [
+        title,
+        milli(force),
+        signed(off(force, own, "force_n")),
+        "–" if motion is None else f"{motion:.0f}",
+        signed(off(force, linear, "force_n")),
+        signed(off(force, finite, "force_n")),
+        signed(settled),
+        f"{middle:.3g} ({low:.3g} to {high:.3g})",
+        f"{answer['first_s']:.2g}" + (f"; {broken} not finite" if broken else ""),
+    ]
+    return "| " + " | ".join(cells) + " |"
+
+
+HEADER = """| engine | force, mN | own law, % | over the motion, % | linear, % | neo-Hooke, % | settling, % | ms a step (quartiles) | first step, s |
+|---|---|---|---|---|---|---|---|---|"""
+
+
+def converged(scene):
+    """A line with the converged answers of a scene."""
+    parts = []
+    for law, answer in scene.answers.items():
+        forces = milli([np.nan if value is None else value for value in answer["force_n"]])
+        parts.append(f"{law.replace('_', ' ')} {forces} (±{100 * answer['error']:.2f} %)")
+    return "Converged: " + "; ".join(parts) + "."
+
+
+def summary(scenes, results):
+    """Errors against the own law at the last judged time, engines by scenes."""
+    lines = ["| engine | " + " | ".join(f"{k + 1}" for k in range(len(scenes))) + " |", "|---" * (len(scenes) + 1) + "|"]
+    for engine, title in ENGINES.items():
+        for mesh in ["own", "coarse", "fine"]:
+            cells = []
+            for scene in scenes:
+                answer = results.get((engine, scene.name, mesh), {"missing": ""})
+                if "force" not in answer:
+                    cells.append("no" if "unfit" in answer else "failed" if "failed" in answer else "")
+                    continue
+                own = off(judged(scene, answer), scene.answers.get(answer["law"]), "force_n")
+                cells.append("–" if own is None else signed(own[-1:]))
+            if any(cells):
+                kind = "" if mesh == "own" else f", {mesh}"
+                lines.append(f"| {title}{kind} | " + " | ".join(cells) + " |")
+    return "\n".join(lines)
+
+
+def meshes_of(engine, scene):
+    if engine in OWN:
+        return ["own"]
+    return ["coarse", "fine"] if scene.name in FINE else ["coarse"]
+
+
+def text_of(scenes, results):
+    parts = ["### Errors against each engine's own law, last depth or time, %\n", summary(scenes, results)]
+    parts.append("\n" + "\n".join(f"{k + 1}. {scene.title}" for k, scene in enumerate(scenes)))
+    parts.append("\nno: the engine cannot do the scene; –: its law has no converged answer there.")
+    for number, scene in enumerate(scenes):
+        depths = " / ".join(f"{1e3 * scene.depth(now):g}" for now in scene.judged)
+        at = " / ".join(f"{now:g}" for now in scene.judged)
+        where = f"{depths} mm deep" + (f", at {at} s" if scene.prony else "")
+        parts += [f"\n### {number + 1}. {scene.title}\n", f"{where}. {converged(scene)}\n", HEADER]
+        parts += [row(scene, e, m, results[e, scene.name, m]) for e in ENGINES for m in meshes_of(e, scene)]
+    parts.append("\n### Settings\n")
+    for engine, title in ENGINES.items():
+        answers = [results[engine, scene.name, mesh] for scene in scenes for mesh in meshes_of(engine, scene)]
+        found = next((answer for answer in answers if "version" in answer), None)
+        if found:
+            law = found["law"].replace("_", " ")
+            parts.append(f"- **{title}** {found['version']}, {law}. {found['settings']}")
+        else:
+            parts.append(f"- **{title}**: not installed ({answers[0].get('missing') or answers[0].get('failed')})")
+    return "\n".join(parts) + "\n"
+
+
+def drawn(scenes, results):
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    columns = 3
+    rows = -(-len(scenes) // columns)
+    figure, axes = pyplot.subplots(rows, columns, figsize=(4.2 * columns, 3.0 * rows), squeeze=False)
+    for axis in axes.flat[len(scenes):]:
+        axis.axis("off")
+    handles = {}
+    for axis, scene in zip(axes.flat, scenes):
+        short, _, rest = scene.title.partition(", ν")
+        axis.set_title(short.replace(" on a", "\non a", 1) + (f", ν{rest}" if rest else ""), fontsize=8)
+        for law, style in [("linear", ":"), ("neo_hookean", "--")]:
+            exact = scene.answers.get(law)
+            if exact is None:
+                continue
+            name = f"converged, {law.replace('_', '-')}"
+            if exact.get("curve_m_n"):
+                time_ = np.linspace(0, scene.end, 600)
+                handles[name] = axis.plot(time_, 1e3 * np.interp(scene.depth(time_), *np.array(exact["curve_m_n"]).T), "k" + style, lw=1.6, zorder=5)[0]
+            else:
+                handles[name] = axis.plot(scene.judged, 1e3 * np.array(exact["force_n"]), "ko", ms=4, zorder=5)[0]
+        largest = 1e3 * max(max(v for v in a["force_n"] if v is not None) for a in scene.answers.values())
+        for number, (engine, title) in enumerate(ENGINES.items()):
+            answer = results[engine, scene.name, meshes_of(engine, scene)[-1]]
+            if "force" not in answer:
+                continue
+            force = 1e3 * np.array(answer["force"], dtype=float)
+            handles[title] = axis.plot(answer["time"], force, lw=0.9, color=f"C{number}")[0]
+        axis.set_ylim(0, 1.6 * largest)
+        axis.set_xlabel("time [s]", fontsize=7)
+        axis.set_ylabel("force [mN]", fontsize=7)
+        axis.tick_params(labelsize=7)
+    figure.legend(handles.values(), handles.keys(), loc="lower center", ncol=5, fontsize=8)
+    figure.tight_layout(rect=(0, 0.08, 1, 1))
+    figure.savefig(PICTURE, dpi=110)
+
+
+def main():
+    chosen = arguments()
+    KEPT.mkdir(parents=True, exist_ok=True)
+    pythons = dict(pair.split("=", 1) for pair in chosen.python)
+    scenes = [Scene(name) for name in chosen.scene or names()]
+    results = {}
+    for scene in scenes:
+        for engine in ENGINES:
+            for mesh in meshes_of(engine, scene):
+                fresh = chosen.fresh and (not chosen.engine or engine in chosen.engine)
+                if chosen.engine and engine not in chosen.engine and not (KEPT / f"{engine}-{scene.name}-{mesh}.json").exists():
+                    results[engine, scene.name, mesh] = {"skipped": "with this call"}
+                    continue
+                python = pythons.get(engine, sys.executable)
+                results[engine, scene.name, mesh] = ran(engine, scene.name, mesh, python, fresh)
+    text = text_of(scenes, results)
+    if not chosen.write:
+        print(text)
+        return
+    drawn(scenes, results)
+    page = PAGE.read_text()
+    begin, end = "<!-- written by table.py -->", "<!-- end -->"
+    page = re.sub(f"{begin}.*{end}", lambda _: f"{begin}\n{text}{end}", page, flags=re.DOTALL)
+    PAGE.write_text(page)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,259 @@
+//! The declaration of a key: the one place that says what it holds. From it come the reader's checks, templates, JSON
+//! Schemas and the reference.
+
+use crate::Domain;
+
+/// A key of a document.
+#[derive(Debug, Clone, Copy)]
+pub struct Key {
+    /// Its name, which ends in the unit of what it holds.
+    pub name: &'static str,
+    /// What it holds.
+    pub holds: Holds,
+    /// What that is, as sentences.
+    pub meaning: &'static str,
+    /// What a document means that leaves it out.
+    pub omitted: Omitted,
+    /// A value for a template, as TOML writes it; empty for a table, which has its own keys.
+    pub example: &'static str,
+    /// Whether a template has it, rather than naming it in a comment.
+    pub in_template: bool,
+}
+
+/// What a key holds.
+#[derive(Debug, Clone, Copy)]
+pub enum Holds {
+    /// A number [unit of the key].
+    Number(Domain),
+    /// A number, or a table of a value and its standard error [unit of the key].
+    Estimate(Domain),
+    /// Three numbers [unit of the key].
+    Vector(Domain),
+    /// Three numbers, not all zero [-].
+    Direction,
+    /// A list of numbers [unit of the key].
+    Numbers(Domain),
+    /// A whole number, from the first to the second.
+    Integer(u64, u64),
+    /// `true` or `false`.
+    Truth,
+    /// A text.
+    Text,
+    /// A text or a whole number.
+    Label,
+    /// A list of texts.
+    Texts,
+    /// The path of a file or folder, from the document's own folder.
+    Path,
+    /// One of these words.
+    Word(&'static [Word]),
+    /// A table.
+    Table(&'static [Key]),
+    /// The path of a file, or a table.
+    PathOrTable(&'static [Key]),
+    /// A number [unit of the key], or the name of a draw of numbers.
+    NumberOrDraw(Domain),
+    /// A list of tables.
+    Tables(&'static [Key]),
+    /// A table of tables under names of somebody's choice.
+    Named(&'static [Key]),
+    /// Something else, in words.
+    Other(&'static str),
+}
+
+/// What a document means that leaves a key out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Omitted {
+    /// It is refused.
+    Refused,
+    /// It is refused unless another key is there, which is named.
+    RefusedWithout(&'static str),
+    /// The value of [`Key::example`].
+    Example,
+    /// What the words say.
+    Means(&'static str),
+}
+
+/// A word that a key may hold, and what it means.
+pub type Word = (&'static str, &'static str);
+
+impl Key {
+    const fn new(name: &'static str, holds: Holds, meaning: &'static str) -> Self {
+        Self {
+            name,
+            holds,
+            meaning,
+            omitted: Omitted::Refused,
+            example: "",
+            in_template: true,
+        }
+    }
+
+    /// A number.
+    pub const fn number(name: &'static str, domain: Domain, meaning: &'static str) -> Self {
+        Self::new(name, Holds::Number(domain), meaning)
+    }
+
+    /// A number, or a table of a value and its standard error.
+    pub const fn estimate(name: &'static str, domain: Domain, meaning: &'static str) -> Self {
+        Self::new(name, Holds::Estimate(domain), meaning)
+    }
+
+    /// Three numbers.
+    pub const fn vector(name: &'static str, domain: Domain, meaning: &'static str) -> Self {
+        Self::new(name, Holds::Vector(domain), meaning)
+    }
+
+    /// Three numbers, not all zero.
+    pub const fn direction(name: &'static str, meaning: &'static str) -> Self {
+        Self::new(name, Holds::Direction, meaning)
+    }
+
+    /// A list of numbers.
+    pub const fn numbers(name: &'static str, domain: Domain, meaning: &'static str) -> Self {
+        Self::new(name, Holds::Numbers(domain), meaning)
+    }
+
+    /// A whole number from `least` to `most`.
+    pub const fn integer(name: &'static str, least: u64, most: u64, meaning: &'static str) -> Self {
+        Self::new(name, Holds::Integer(least, most), meaning)
+    }
+
+    /// `true` or `false`.
+    pub const fn truth(name: &'static str, meaning: &'static str) -> Self {
+        Self::new(name, Holds::Truth, meaning)
+    }
+
+    /// A text.
+    pub const fn text(name: &'static str, meaning: &'static str) -> Self {
+        Self::new(name, Holds::Text, meaning)
+    }
+
+    /// A text or a whole number.
+    pub const fn label(name: &'static str, meaning: &'static str) -> Self {
+        Self::new(name, Holds::Label, meaning)
+    }
+
+    /// A list of texts.
+    pub const fn texts(name: &'static str, meaning: &'static str) -> Self {
+        Self::new(name, Holds::Texts, meaning)
+    }
+
+    /// The path of a file or folder.
+    pub const fn path(name: &'static str, meaning: &'static str) -> Self {
+        Self::new(name, Holds::Path, meaning)
+    }
+
+    /// One of `words`.
+    pub const fn word(name: &'static str, words: &'static [Word], meaning: &'static str) -> Self {
+        Self::new(name, Holds::Word(words), meaning)
+    }
+
+    /// A table with these keys.
+    pub const fn table(name: &'static str, keys: &'static [Self], meaning: &'static str) -> Self {
+        Self::new(name, Holds::Table(keys), meaning)
+    }
+
+    /// The path of a file, or a table with these keys.
+    pub const fn path_or_table(
+        name: &'static str,
+        keys: &'static [Self],
+        meaning: &'static str,
+    ) -> Self {
+        Self::new(name, Holds::PathOrTable(keys), meaning)
+    }
+
+    /// A list of tables with these keys.
+    pub const fn tables(name: &'static str, keys: &'static [Self], meaning: &'static str) -> Self {
+        Self::new(name, Holds::Tables(keys), meaning)
+    }
+
+    /// A table of tables with these keys, under names of somebody's choice.
+    pub const fn named(name: &'static str, keys: &'static [Self], meaning: &'static str) -> Self {
+        Self::new(name, Holds::Named(keys), meaning)
+    }
+
+    /// A number, or the name of a draw of numbers.
+    pub const fn number_or_draw(name: &'static str, domain: Domain, meaning: &'static str) -> Self {
+        Self::new(name, Holds::NumberOrDraw(domain), meaning)
+    }
+
+    /// What the words `holds` say.
+    pub const fn other(name: &'static str, holds: &'static str, meaning: &'static str) -> Self {
+        Self::new(name, Holds::Other(holds), meaning)
+    }
+
+    /// The same, which has to be there; such as `example`.
+    pub const fn required(self, example: &'static str) -> Self {
+        Self { example, ..self }
+    }
+
+    /// The same, which has to be there unless `other` is; such as `example`.
+    pub const fn required_without(self, other: &'static str, example: &'static str) -> Self {
+        Self {
+            example,
+            omitted: Omitted::RefusedWithout(other),
+            ..self
+        }
+    }
+
+    /// The same, which is `value` where it is left out.
+    pub const fn default(self, value: &'static str) -> Self {
+        Self {
+            example: value,
+            omitted: Omitted::Example,
+            in_template: false,
+            ..self
+        }
+    }
+
+    /// The same, such as `example`; a document that leaves it out means what `meaning` says.
+    pub const fn optional(self, example: &'static str, meaning: &'static str) -> Self {
+        Self {
+            example,
+            omitted: Omitted::Means(meaning),
+            in_template: false,
+            ..self
+        }
+    }
+
+    /// The same, which a template has.
+    pub const fn in_template(self) -> Self {
+        Self {
+            in_template: true,
+            ..self
+        }
+    }
+
+    /// The domain of the numbers in it.
+    ///
+    /// # Panics
+    /// When it holds none: a mistake in the program, not in a document.
+    pub(crate) fn domain(&self) -> Domain {
+        match self.holds {
+            Holds::Number(domain)
+            | Holds::Estimate(domain)
+            | Holds::Vector(domain)
+            | Holds::NumberOrDraw(domain)
+            | Holds::Numbers(domain) => domain,
+            Holds::Direction => Domain::FINITE,
+            _ => unreachable!("`{}` is declared without a domain", self.name),
+        }
+    }
+
+    /// The keys of the tables in it; empty where there are none.
+    pub fn keys(&self) -> &'static [Self] {
+        match self.holds {
+            Holds::Table(keys)
+            | Holds::PathOrTable(keys)
+            | Holds::Tables(keys)
+            | Holds::Named(keys) => keys,
+            _ => &[],
+        }
+    }
+}
+
+/// The names of keys.
+pub(crate) fn names(keys: &[Key]) -> Vec<&'static str> {
+    keys.iter().map(|key| key.name).collect()
+}

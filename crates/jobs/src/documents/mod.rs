@@ -1,0 +1,114 @@
+//! What a document may say, from the declarations that its reader uses: a template to begin from, a JSON Schema for
+//! editors, and the reference for people.
+
+mod reference;
+mod schema;
+mod template;
+
+use palpate_files::{Holds, Key, Omitted, Protocol, Scene, Tissue};
+
+use crate::solve::Problem;
+
+pub use reference::reference;
+pub use schema::schema;
+pub use template::template;
+
+/// A kind of document that people write.
+#[derive(Debug, Clone, Copy)]
+pub struct Kind {
+    /// Its word.
+    pub word: &'static str,
+    /// What it is, as a sentence.
+    pub meaning: &'static str,
+    /// Its keys, beside `format`.
+    pub keys: &'static [Key],
+    /// Whether `{ draw = "NAME" }` may stand for any value.
+    can_draw: bool,
+}
+
+/// All kinds.
+pub fn kinds() -> Vec<Kind> {
+    let fixed = |word, meaning, keys| Kind {
+        word,
+        meaning,
+        keys,
+        can_draw: false,
+    };
+    let mut kinds = vec![
+        Kind {
+            can_draw: true,
+            ..fixed(
+                "scene",
+                "An organ, what it is made of, what moves it, the tools that touch it, and what there is to do.",
+                Scene::KEYS,
+            )
+        },
+        fixed("tissue", "What an organ is made of.", Tissue::FILE),
+        fixed(
+            "protocol",
+            "What the rig measures: every stimulus on every specimen.",
+            Protocol::KEYS,
+        ),
+    ];
+    let problems = Problem::kinds();
+    kinds.extend(problems.map(|(word, meaning, keys)| fixed(word, meaning, keys)));
+    kinds
+}
+
+/// A kind by its word.
+pub fn kind(word: &str) -> Option<Kind> {
+    kinds().into_iter().find(|kind| kind.word == word)
+}
+
+/// What a key holds, with the units that its name may end in.
+fn holds(key: &Key) -> String {
+    let list =
+        |domain: palpate_files::Domain, what: &str| format!("{what}, each {}", domain.expected());
+    match key.holds {
+        Holds::Number(domain) => domain.expected(),
+        Holds::Estimate(domain) => format!(
+            "{}, or a table `{{ value, standard_error }}`",
+            domain.expected()
+        ),
+        Holds::NumberOrDraw(domain) => format!("{}, or the name of a draw", domain.expected()),
+        Holds::Vector(domain) => list(domain, "three numbers [x, y, z]"),
+        Holds::Numbers(domain) => list(domain, "a list of numbers"),
+        Holds::Direction => "a direction: three numbers, not all 0".to_owned(),
+        Holds::Integer(0, u64::MAX) => "a whole number".to_owned(),
+        Holds::Integer(least, most) => format!("a whole number from {least} to {most}"),
+        Holds::Truth => "`true` or `false`".to_owned(),
+        Holds::Text => "a text".to_owned(),
+        Holds::Label => "a text or a whole number".to_owned(),
+        Holds::Texts => "a list of texts".to_owned(),
+        Holds::Path => "a path, from the document's folder".to_owned(),
+        Holds::Word(_) => "one of the words".to_owned(),
+        Holds::Table(_) => "a table".to_owned(),
+        Holds::PathOrTable(_) => "a path, from the document's folder, or a table".to_owned(),
+        Holds::Tables(_) => "a list of tables".to_owned(),
+        Holds::Named(_) => "tables under names of your choice".to_owned(),
+        Holds::Other(what) => what.to_owned(),
+    }
+}
+
+/// What a document means that leaves a key out.
+fn omitted(key: &Key) -> String {
+    match key.omitted {
+        Omitted::Refused => "required".to_owned(),
+        Omitted::RefusedWithout(other) => format!("required without `{other}`"),
+        Omitted::Example => format!("default {}", key.example),
+        Omitted::Means(meaning) => format!("default: {meaning}"),
+    }
+}
+
+/// The meaning of a key on one line.
+fn meaning(key: &Key) -> String {
+    key.meaning.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// Whether what a key holds is written under a header of its own.
+fn is_table(key: &Key) -> bool {
+    matches!(
+        key.holds,
+        Holds::Table(_) | Holds::Tables(_) | Holds::Named(_)
+    )
+}

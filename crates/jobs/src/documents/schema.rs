@@ -1,0 +1,304 @@
+use std::ops::Bound::{Excluded, Included, Unbounded};
+
+use palpate_files::units::{self, Unit};
+use palpate_files::{Domain, Holds, Key, Omitted};
+use serde_json::{Map, Value, json};
+
+use super::{Kind, is_table, meaning, omitted};
+
+/// The JSON Schema (draft 2020-12) of a kind of document, by which editors complete and check it. What depends on several
+/// keys is checked by the reader alone.
+pub fn schema(kind: &Kind) -> String {
+    let mut writer = Writer {
+        can_draw: kind.can_draw,
+        tables: Vec::new(),
+    };
+    let mut schema = writer.table(kind.keys);
+    let root = schema
+        .as_object_mut()
+        .expect("a table's schema is an object");
+    root["properties"]["format"] =
+        json!({ "const": 1, "description": "The version of the format." });
+    let required = root.entry("required").or_insert_with(|| json!([]));
+    let required = required.as_array_mut().expect("it is a list");
+    required.push(json!("format"));
+    root.insert("title".to_owned(), json!(format!("palpate {}", kind.word)));
+    root.insert("description".to_owned(), json!(kind.meaning));
+    root.insert(
+        "$schema".to_owned(),
+        json!("https://json-schema.org/draft/2020-12/schema"),
+    );
+    let tables = writer.tables.into_iter().enumerate();
+    let tables = tables.map(|(number, (_, table))| (format!("table{number}"), table));
+    let mut definitions: Map<String, Value> = tables.collect();
+    if kind.can_draw {
+        let drawn = json!({
+            "type": "object",
+            "properties": { "draw": { "type": "string", "minLength": 1 } },
+            "required": ["draw"],
+            "additionalProperties": false,
+        });
+        definitions.insert("drawn".to_owned(), drawn);
+    }
+    root.insert("$defs".to_owned(), Value::Object(definitions));
+    let mut text = serde_json::to_string_pretty(&schema).expect("JSON is printed");
+    text.push('\n');
+    text
+}
+
+/// A schema being written.
+struct Writer {
+    can_draw: bool,
+    /// The tables so far, each once, by its declaration.
+    tables: Vec<(*const Key, Value)>,
+}
+
+impl Writer {
+    /// A reference to the schema of a table, which is written where it is met first.
+    fn reference(&mut self, keys: &'static [Key]) -> Value {
+        let own = keys.as_ptr();
+        let number = self.tables.iter().position(|(other, _)| *other == own);
+        let number = number.unwrap_or_else(|| {
+            let number = self.tables.len();
+            self.tables.push((own, Value::Null));
+            self.tables[number].1 = self.table(keys);
+            number
+        });
+        json!({ "$ref": format!("#/$defs/table{number}") })
+    }
+
+    fn table(&mut self, keys: &'static [Key]) -> Value {
+        let mut properties = Map::new();
+        let mut required = Vec::new();
+        let mut conditions = Vec::new();
+        for key in keys {
+            let names = names_of(key);
+            for (name, factor) in &names {
+                properties.insert(name.clone(), self.property(key, *factor));
+            }
+            let any_of = |names: Vec<(String, Option<f64>)>| -> Vec<Value> {
+                let each = names.into_iter();
+                each.map(|(name, _)| json!({ "required": [name] }))
+                    .collect()
+            };
+            match key.omitted {
+                Omitted::Refused if names.len() == 1 => required.push(json!(key.name)),
+                Omitted::Refused => conditions.push(json!({ "anyOf": any_of(names) })),
+                Omitted::RefusedWithout(other) => {
+                    let mut names = names;
+                    let other = keys.iter().find(|key| key.name == other);
+                    names.extend(other.into_iter().flat_map(names_of));
+                    conditions.push(json!({ "anyOf": any_of(names) }));
+                }
+                Omitted::Example | Omitted::Means(_) => {}
+            }
+        }
+        let mut schema = json!({
+            "type": "object",
+            "properties": properties,
+            "additionalProperties": false,
+        });
+        if !required.is_empty() {
+            schema["required"] = json!(required);
+        }
+        if !conditions.is_empty() {
+            schema["allOf"] = json!(conditions);
+        }
+        schema
+    }
+
+    fn property(&mut self, key: &Key, factor: Option<f64>) -> Value {
+        let factor = factor.unwrap_or(1.0);
+        let list = |item: Value| json!({ "type": "array", "items": item });
+        let vector =
+            |item: Value| json!({ "type": "array", "items": item, "minItems": 3, "maxItems": 3 });
+        let text = || json!({ "type": "string", "minLength": 1 });
+        let mut schema = match key.holds {
+            Holds::Number(domain) => number(domain, factor),
+            Holds::Estimate(domain) => json!({ "anyOf": [number(domain, factor), {
+            "type": "object",
+            "properties": {
+                "value": number(domain, factor),
+                "standard_error": { "type": "number", "minimum": 0 },
+            },
+            "required": ["value"],
+            "additionalProperties": false,
+        }] }),
+            Holds::NumberOrDraw(domain) => json!({ "anyOf": [number(domain, factor), text()] }),
+            Holds::Vector(domain) => vector(number(domain, factor)),
+            Holds::Numbers(domain) => list(number(domain, factor)),
+            Holds::Direction => vector(json!({ "type": "number" })),
+            Holds::Integer(least, u64::MAX) => json!({ "type": "integer", "minimum": least }),
+            Holds::Integer(least, most) => {
+                json!({ "type": "integer", "minimum": least, "maximum": most })
+            }
+            Holds::Truth => json!({ "type": "boolean" }),
+            Holds::Text | Holds::Path => text(),
+            Holds::Label => json!({ "type": ["string", "integer"] }),
+            Holds::Texts => list(json!({ "type": "string" })),
+            Holds::Word(words) => {
+                let names: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
+                let docs: Vec<&str> = words.iter().map(|(_, means)| means.trim()).collect();
+                json!({ "enum": names, "x-taplo": { "docs": { "enumValues": docs } } })
+            }
+            Holds::Table(keys) => self.reference(keys),
+            Holds::PathOrTable(keys) => json!({ "anyOf": [text(), self.reference(keys)] }),
+            Holds::Tables(keys) => list(self.reference(keys)),
+            Holds::Named([]) => json!({ "type": "object" }),
+            Holds::Named(keys) => {
+                json!({ "type": "object", "additionalProperties": self.reference(keys) })
+            }
+            Holds::Other(_) => json!({}),
+        };
+        // A value that is drawn anew for each attempt.
+        if self.can_draw && !is_table(key) {
+            let drawn = json!({ "$ref": "#/$defs/drawn" });
+            schema = json!({ "anyOf": [schema, drawn] });
+        }
+        schema["description"] = json!(format!("{} ({})", meaning(key), omitted(key)));
+        if key.omitted == Omitted::Example
+            && factor == 1.0
+            && let Ok(value) = toml::from_str::<Map<String, Value>>(&format!("x = {}", key.example))
+        {
+            schema["default"] = value["x"].clone();
+        }
+        schema
+    }
+}
+
+/// The names of a key, one for each unit, and what one of that unit is in the key's own [unit of the key]; none for a
+/// key without a unit.
+fn names_of(key: &Key) -> Vec<(String, Option<f64>)> {
+    let has_unit = matches!(
+        key.holds,
+        Holds::Number(_)
+            | Holds::Estimate(_)
+            | Holds::Vector(_)
+            | Holds::Numbers(_)
+            | Holds::NumberOrDraw(_)
+    );
+    match units::split(key.name).filter(|_| has_unit) {
+        None => vec![(key.name.to_owned(), None)],
+        Some((base, own)) => {
+            let mut names = vec![(key.name.to_owned(), Some(1.0))];
+            let others = own.alternatives().filter(|unit| *unit != own);
+            names.extend(others.map(|unit: &Unit| {
+                (
+                    format!("{base}_{}", unit.suffix),
+                    Some(unit.convert(1.0, own)),
+                )
+            }));
+            names
+        }
+    }
+}
+
+/// Numbers of a domain, divided by a factor of units; those that a reader would take are never refused for their
+/// rounding.
+fn number(domain: Domain, factor: f64) -> Value {
+    let mut schema = json!({ "type": "number" });
+    let [least, most] = domain.bounds();
+    let outwards = 4.0 * f64::EPSILON;
+    let scaled = |bound: f64, sign: f64| match factor == 1.0 {
+        true => bound,
+        false => bound / factor + sign * outwards * (bound / factor).abs(),
+    };
+    match least {
+        Included(bound) => schema["minimum"] = json!(scaled(bound, -1.0)),
+        Excluded(bound) if factor == 1.0 || bound == 0.0 => {
+            schema["exclusiveMinimum"] = json!(bound);
+        }
+        Excluded(bound) => schema["minimum"] = json!(scaled(bound, -1.0)),
+        Unbounded => {}
+    }
+    match most {
+        Included(bound) => schema["maximum"] = json!(scaled(bound, 1.0)),
+        Excluded(bound) if factor == 1.0 || bound == 0.0 => {
+            schema["exclusiveMaximum"] = json!(bound);
+        }
+        Excluded(bound) => schema["maximum"] = json!(scaled(bound, 1.0)),
+        Unbounded => {}
+    }
+    schema
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+    use std::path::PathBuf;
+
+    use jsonschema::Validator;
+    use palpate_files::Scene;
+
+    use super::super::{kind, kinds, template};
+    use super::*;
+
+    fn validator(word: &str) -> Validator {
+        let schema = schema(&kind(word).unwrap());
+        jsonschema::validator_for(&serde_json::from_str(&schema).unwrap()).unwrap()
+    }
+
+    fn is_valid(validator: &Validator, text: &str) -> bool {
+        validator.is_valid(&toml::from_str::<Value>(text).unwrap())
+    }
+
+    /// Judge: another implementation of JSON Schema.
+    #[test]
+    fn schemas_take_templates_and_the_scenes_that_come_along() {
+        for kind in kinds() {
+            let text = template(&kind, None);
+            assert!(is_valid(&validator(kind.word), &text), "{}", kind.word);
+        }
+        let assets = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../assets");
+        let scene = validator("scene");
+        for file in [
+            "first/scene.toml",
+            "esophagus/trainer.toml",
+            "tasks/palpation.toml",
+        ] {
+            let text = fs::read_to_string(assets.join(file)).unwrap();
+            assert!(is_valid(&scene, &text), "{file}");
+        }
+    }
+
+    #[test]
+    fn a_schema_refuses_what_the_reader_refuses_of_a_single_key() {
+        let scene = validator("scene");
+        let organ = "[organ]\nbuiltin = \"liver\"\nbuiltin_tissue = \"pig-liver\"\n";
+        let cases = [
+            ("", true),
+            (
+                "[[tool]]\ntip = { shape = \"flat\", radius_mm = 1 }\n",
+                true,
+            ),
+            (
+                "[[tool]]\ntip = { shape = \"flat\", radius_mm = 1e9 }\n",
+                false,
+            ),
+            (
+                "[[tool]]\ntip = { shape = \"flat\", radius_kg = 1 }\n",
+                false,
+            ),
+            ("[[tool]]\ntip = { shape = \"flat\" }\n", false),
+            ("[model]\nkind = \"nonlinear\"\n", true),
+            ("[model]\nkind = \"nonlinaer\"\n", false),
+            (
+                "[model]\nstep_s = { draw = \"step\" }\n[draw]\nstep = { one_of = [0.005] }\n",
+                true,
+            ),
+            ("[model]\nstep_s = -1.0\n", false),
+            ("[model]\nparticles = 3\n", false),
+            ("[modle]\nkind = \"local\"\n", false),
+        ];
+        for (more, right) in cases {
+            let text = format!("format = 1\n{organ}{more}");
+            assert_eq!(is_valid(&scene, &text), right, "{text}");
+            assert_eq!(Scene::parse(&text, "scene.toml").is_ok(), right, "{text}");
+        }
+        assert!(!is_valid(&scene, organ));
+        assert!(!is_valid(
+            &scene,
+            "format = 1\n[organ]\nbuiltin = \"liver\"\n"
+        ));
+    }
+}

@@ -1,0 +1,96 @@
+//! `palpate scene`: what a document may say: a template, a schema for editors, the reference.
+
+use std::path::PathBuf;
+
+use clap::{Args, builder::PossibleValuesParser};
+use palpate_files::write_whole;
+use palpate_jobs::documents::{Kind, kind, kinds, reference, schema, template};
+
+use super::overwrite::OverwriteOption;
+use crate::failure::Failure;
+use crate::output;
+
+/// Examples at the end of the help.
+const EXAMPLES: &str = "\
+Examples:
+  palpate scene --template --out scene.toml
+      a scene with every key explained; scene.schema.json is written beside it, by which an editor
+      with a TOML language server (Taplo, Even Better TOML) completes and checks it
+  palpate scene --template tissue
+      prints a tissue to begin from
+  palpate scene --schema protocol --out protocol.schema.json
+      the JSON Schema alone
+  palpate scene --reference
+      every key of every document, as a page of Markdown
+
+KIND is scene (also for a task), tissue, protocol, or the kind of a problem for `palpate solve`: indentation, \
+hemisphere, tube, uniaxial or solid. `palpate validate FILE` checks a file after you changed it.";
+
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+#[group(id = "what", required = true, multiple = false, args = ["template", "schema", "reference"])]
+pub(crate) struct Arguments {
+    /// A document to begin from, with every key explained.
+    #[arg(long, value_name = "KIND", num_args = 0..=1, default_missing_value = "scene", value_parser = words())]
+    template: Option<String>,
+    /// A JSON Schema, by which editors complete and check a document.
+    #[arg(long, value_name = "KIND", num_args = 0..=1, default_missing_value = "scene", value_parser = words())]
+    schema: Option<String>,
+    /// Every key of every document, as Markdown.
+    #[arg(long)]
+    reference: bool,
+    /// The file to write; without it the text is printed.
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    overwrite: OverwriteOption,
+}
+
+fn words() -> PossibleValuesParser {
+    PossibleValuesParser::new(kinds().into_iter().map(|kind| kind.word))
+}
+
+/// The kind with a word of [`words`].
+fn of(word: &str) -> Result<Kind, Failure> {
+    kind(word).ok_or_else(|| Failure::input(format!("there is no kind of document {word:?}")))
+}
+
+/// Prints or writes what is asked for.
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let out = arguments.out.as_deref();
+    if let (Some(word), Some(out)) = (&arguments.template, out) {
+        let kind = of(word)?;
+        let beside = format!("{}.schema.json", kind.word);
+        let files = [
+            (out.with_file_name(&beside), schema(&kind)),
+            (out.to_owned(), template(&kind, Some(&beside))),
+        ];
+        return write(&files, arguments);
+    }
+    let text = match (&arguments.template, &arguments.schema) {
+        (Some(word), _) => template(&of(word)?, None),
+        (_, Some(word)) => schema(&of(word)?),
+        (None, None) => reference(),
+    };
+    match out {
+        Some(out) => write(&[(out.to_owned(), text)], arguments),
+        None => output::text(text),
+    }
+}
+
+/// Writes the files, or none where one of them is there with another text.
+fn write(files: &[(PathBuf, String)], arguments: &Arguments) -> Result<(), Failure> {
+    let is_new = |(path, text): &&(PathBuf, String)| {
+        !std::fs::read_to_string(path).is_ok_and(|own| own == *text)
+    };
+    let files: Vec<_> = files.iter().filter(is_new).collect();
+    let claims = arguments
+        .overwrite
+        .claim(files.iter().map(|(path, _)| path))?;
+    for (path, text) in files {
+        write_whole(path, text.as_bytes())?;
+        output::line(format!("written: {}", path.display()))?;
+    }
+    drop(claims);
+    Ok(())
+}
