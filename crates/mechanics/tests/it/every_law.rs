@@ -135,8 +135,10 @@ pub(crate) fn every_law() -> Vec<Candidate> {
             Ogden::compressible(p.as_chunks().0, bulk).unwrap()
         }));
     }
-    for order in 1..=3 {
-        let (parameters, bulk) = (&[c10, -0.3 * c10, 0.5 * c10][..order], 20.0 * c10);
+    // W′ stays positive: with two terms by their signs, with three by its discriminant.
+    for shares in [&[1.0][..], &[1.0, 0.3], &[1.0, -0.3, 0.5]] {
+        let parameters: Vec<f64> = shares.iter().map(|share| share * c10).collect();
+        let (parameters, bulk) = (&parameters, 20.0 * c10);
         laws.push(Candidate::new(parameters, 6.0 * c10, |p| {
             ReducedPolynomial::incompressible(p).unwrap()
         }));
