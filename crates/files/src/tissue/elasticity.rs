@@ -106,8 +106,12 @@ fn estimates(keys: &Keys<'_>, law: LawName) -> Result<Vec<Estimate>, Error> {
 }
 
 impl fmt::Debug for Elasticity {
+    /// As a variant of an enumeration: digests of sessions of the first version hold this text.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} ", self.law)?;
-        f.debug_map().entries(self.parameters()).finish()
+        let mut text = f.debug_struct(&format!("{:?}", self.law));
+        for (key, estimate) in self.parameters() {
+            text.field(key, &estimate);
+        }
+        text.finish()
     }
 }
