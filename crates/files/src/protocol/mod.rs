@@ -35,7 +35,7 @@ pub struct Protocol {
 }
 
 impl Protocol {
-    /// The keys of a protocol, beside `format`.
+    /// The keys of a protocol, without `format`.
     pub const KEYS: &'static [Key] = &[
         Key::table("rig", RigLimits::KEYS, "How the rig goes about it.")
             .optional("", "the rig's own settings"),

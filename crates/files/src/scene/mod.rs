@@ -69,7 +69,7 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// The keys of a scene, beside `format`.
+    /// The keys of a scene, without `format`.
     pub const KEYS: &'static [Key] = &[
         Key::table("organ", Organ::KEYS, "The organ that is touched.").required(""),
         Key::tables(

@@ -69,9 +69,11 @@ impl Elasticity {
             keys.missing("law", either(&words.collect::<Vec<_>>()))
         })?;
         // A parameter of another law is a mistake, not something to pass over.
-        let own = law.row().keys();
-        let known: Vec<_> = own.chain(Tissue::SHARED_KEYS).collect();
-        keys.only(&known)?;
+        let has = |law: LawName, key: &str| law.row().keys().any(|own| own == key);
+        let is_of_any = |key: &str| LawName::WORDS.iter().any(|(_, other)| has(*other, key));
+        let known = Tissue::KEYS.iter().map(|key| key.name);
+        let known = known.filter(|key| has(law, key) || !is_of_any(key));
+        keys.only(&known.collect::<Vec<_>>())?;
         let estimates = estimates(keys, law)?;
         let values: Vec<_> = estimates.iter().map(|estimate| estimate.value).collect();
         if let Some(positive) = &law.row().positive
@@ -94,13 +96,13 @@ fn estimates(keys: &Keys<'_>, law: LawName) -> Result<Vec<Estimate>, Error> {
     let given = row
         .parameters
         .iter()
-        .rposition(|(key, _)| keys.contains(key));
+        .rposition(|key| keys.contains(key.name));
     let terms = given.map_or(0, |last| last / row.term) + 1;
     let parameters = row.parameters.iter().take(terms * row.term);
     parameters
-        .map(|&(key, domain)| {
-            let estimate = keys.estimate_within(key, domain)?;
-            estimate.ok_or_else(|| keys.missing(key, domain.expected()))
+        .map(|key| {
+            let estimate = keys.estimate_within(key.name, key.domain())?;
+            estimate.ok_or_else(|| keys.missing(key.name, key.domain().expected()))
         })
         .collect()
 }

@@ -1,10 +1,10 @@
 //! The table of elastic laws: what each is called, which parameters it has and how other packages write it. A new law
-//! joins by a word, a row here and a constructor in `palpate_mechanics`.
+//! joins by a word, a row here, its keys in `Tissue::KEYS` and a constructor in `palpate_mechanics`.
 
 use std::ops::Bound::{Excluded, Included};
 
-use crate::Domain;
 use crate::words::words;
+use crate::{Domain, Key};
 
 words! {
     /// The name of an elastic law.
@@ -29,8 +29,8 @@ words! {
 pub struct LawRow {
     /// Its name for people.
     pub title: &'static str,
-    /// The keys of its parameters, each with the numbers that may stand there.
-    pub(super) parameters: &'static [(&'static str, Domain)],
+    /// The keys of its parameters.
+    pub(super) parameters: &'static [Key],
     /// Parameters of a term; a tissue has one term or more, up to all parameters.
     pub(super) term: usize,
     /// What several parameters must fulfil together.
@@ -69,20 +69,43 @@ pub(crate) struct FebioLaw {
     pub(crate) shear_modulus: Option<f64>,
 }
 
-pub(super) const POISSONS_RATIO: Domain = Domain::number("a number", [Excluded(-1.0), Excluded(0.5)])
+const POISSONS_RATIO: Domain = Domain::number("a number", [Excluded(-1.0), Excluded(0.5)])
     .usually(0.0, 0.5)
     .with_remark(
         "0.5 itself belongs to the incompressible laws, such as neo_hookean; 0.49 is near enough for most tissues",
     );
 
-pub(super) const SIGNED_EXPONENT: Domain =
+const SIGNED_EXPONENT: Domain =
     Domain::number("an exponent", [Included(-1e4), Included(1e4)]).usually(-100.0, 100.0);
 
-const LINEAR: LawRow = LawRow {
+/// What a tissue has that leaves a parameter out.
+const OTHER: &str = "another law";
+
+/// The widest domain of the laws that have it.
+const C10: Key = Key::estimate(
+    "c10_pa",
+    Domain::SIGNED_MODULUS,
+    "`neo_hookean`, `reduced_polynomial`: C10, half the shear modulus; `mooney_rivlin`: C10.",
+)
+.optional("1333.0", OTHER);
+
+pub(super) const LINEAR: LawRow = LawRow {
     title: "linear",
     parameters: &[
-        ("youngs_modulus_pa", Domain::MODULUS),
-        ("poissons_ratio", POISSONS_RATIO),
+        Key::estimate(
+            "youngs_modulus_pa",
+            Domain::MODULUS,
+            "`linear`: Young's modulus. All moduli are instantaneous: `prony` says how they fall.",
+        )
+        .optional("8000.0", OTHER)
+        .in_template(),
+        Key::estimate(
+            "poissons_ratio",
+            POISSONS_RATIO,
+            "`linear`: Poisson's ratio.",
+        )
+        .optional("0.45", OTHER)
+        .in_template(),
     ],
     term: 2,
     positive: None,
@@ -101,7 +124,7 @@ const LINEAR: LawRow = LawRow {
 /// Ψ = C₁₀ (I₁ − 3); C₁₀ is half the shear modulus.
 const NEO_HOOKEAN: LawRow = LawRow {
     title: "neo-Hookean",
-    parameters: &[("c10_pa", Domain::MODULUS)],
+    parameters: &[C10.within(Domain::MODULUS)],
     term: 1,
     positive: None,
     abaqus: Some(|p| hyperelastic("NEO HOOKE".to_owned(), p, 1)),
@@ -109,11 +132,16 @@ const NEO_HOOKEAN: LawRow = LawRow {
 };
 
 /// Ψ = C₁₀ (I₁ − 3) + C₀₁ (I₂ − 3). A fit may put one of the two below zero; only the sum must stay above it.
-const MOONEY_RIVLIN: LawRow = LawRow {
+pub(super) const MOONEY_RIVLIN: LawRow = LawRow {
     title: "Mooney-Rivlin",
     parameters: &[
-        ("c10_pa", Domain::SIGNED_MODULUS),
-        ("c01_pa", Domain::SIGNED_MODULUS),
+        C10,
+        Key::estimate(
+            "c01_pa",
+            Domain::SIGNED_MODULUS,
+            "`mooney_rivlin`: C01; c10_pa + c01_pa is half the shear modulus.",
+        )
+        .optional("300.0", OTHER),
     ],
     term: 2,
     positive: Some(Positive {
@@ -127,9 +155,17 @@ const MOONEY_RIVLIN: LawRow = LawRow {
 
 /// The law of Blatz, Chu and Wayland: Ψ = γ / (2 α (α + 1)) Σ (exp(α (λᵢ² − 1)) − 1). γ is the shear modulus; with
 /// α = 0 it is neo-Hookean with C₁₀ = γ/2.
-const EXPONENTIAL: LawRow = LawRow {
+pub(super) const EXPONENTIAL: LawRow = LawRow {
     title: "exponential",
-    parameters: &[("gamma_pa", Domain::MODULUS), ("alpha", Domain::EXPONENT)],
+    parameters: &[
+        Key::estimate(
+            "gamma_pa",
+            Domain::MODULUS,
+            "`exponential`: gamma, a third of Young's modulus at small strain.",
+        )
+        .optional("2667.0", OTHER),
+        Key::estimate("alpha", Domain::EXPONENT, "`exponential`: alpha.").optional("0.5", OTHER),
+    ],
     term: 2,
     positive: None,
     abaqus: None,
@@ -137,15 +173,45 @@ const EXPONENTIAL: LawRow = LawRow {
 };
 
 /// Ψ = Σ_p 2 μ_p/α_p² (λ₁^α_p + λ₂^α_p + λ₃^α_p − 3), Abaqus' scaling; FEBio's c_p is 2 μ_p.
-const OGDEN: LawRow = LawRow {
+pub(super) const OGDEN: LawRow = LawRow {
     title: "Ogden",
     parameters: &[
-        ("mu_1_pa", Domain::SIGNED_MODULUS),
-        ("alpha_1", SIGNED_EXPONENT),
-        ("mu_2_pa", Domain::SIGNED_MODULUS),
-        ("alpha_2", SIGNED_EXPONENT),
-        ("mu_3_pa", Domain::SIGNED_MODULUS),
-        ("alpha_3", SIGNED_EXPONENT),
+        Key::estimate(
+            "mu_1_pa",
+            Domain::SIGNED_MODULUS,
+            "`ogden`: mu of the first term; all mu together are the shear modulus.",
+        )
+        .optional("2300.0", OTHER),
+        Key::estimate(
+            "alpha_1",
+            SIGNED_EXPONENT,
+            "`ogden`: alpha of the first term.",
+        )
+        .optional("4.3", OTHER),
+        Key::estimate(
+            "mu_2_pa",
+            Domain::SIGNED_MODULUS,
+            "`ogden`: mu of the second term.",
+        )
+        .optional("100.0", "one term"),
+        Key::estimate(
+            "alpha_2",
+            SIGNED_EXPONENT,
+            "`ogden`: alpha of the second term.",
+        )
+        .optional("-2.0", "one term"),
+        Key::estimate(
+            "mu_3_pa",
+            Domain::SIGNED_MODULUS,
+            "`ogden`: mu of the third term.",
+        )
+        .optional("10.0", "two terms"),
+        Key::estimate(
+            "alpha_3",
+            SIGNED_EXPONENT,
+            "`ogden`: alpha of the third term.",
+        )
+        .optional("9.0", "two terms"),
     ],
     term: 2,
     positive: Some(Positive {
@@ -165,12 +231,22 @@ const OGDEN: LawRow = LawRow {
 };
 
 /// Ψ = C₁₀ (I₁ − 3) + C₂₀ (I₁ − 3)² + C₃₀ (I₁ − 3)³; C₁₀ is half the shear modulus.
-const REDUCED_POLYNOMIAL: LawRow = LawRow {
+pub(super) const REDUCED_POLYNOMIAL: LawRow = LawRow {
     title: "reduced polynomial",
     parameters: &[
-        ("c10_pa", Domain::MODULUS),
-        ("c20_pa", Domain::SIGNED_MODULUS),
-        ("c30_pa", Domain::SIGNED_MODULUS),
+        C10.within(Domain::MODULUS),
+        Key::estimate(
+            "c20_pa",
+            Domain::SIGNED_MODULUS,
+            "`reduced_polynomial`: C20.",
+        )
+        .optional("500.0", "one term"),
+        Key::estimate(
+            "c30_pa",
+            Domain::SIGNED_MODULUS,
+            "`reduced_polynomial`: C30.",
+        )
+        .optional("200.0", "two terms"),
     ],
     term: 1,
     positive: None,
@@ -199,7 +275,7 @@ impl LawName {
 impl LawRow {
     /// The keys of its parameters, in the order of the documentation.
     pub fn keys(&self) -> impl Iterator<Item = &'static str> {
-        self.parameters.iter().map(|(key, _)| *key)
+        self.parameters.iter().map(|key| key.name)
     }
 }
 

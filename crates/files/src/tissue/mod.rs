@@ -45,65 +45,25 @@ pub struct Tissue {
 }
 
 impl Tissue {
-    /// The keys of a tissue's table that do not depend on its law.
-    const SHARED_KEYS: [&'static str; 6] =
-        ["name", "density_kg_m3", "law", "prony", "lumped", "source"];
-
     /// The keys of a tissue's table, in a file or in line in a scene.
     pub const KEYS: &'static [Key] = &[
         Key::text("name", "What people call it.").optional("\"liver\"", "it has no name"),
         Key::estimate("density_kg_m3", Domain::DENSITY, "Its density.").default("1060.0"),
         Key::word("law", LawName::MEANINGS, "Its elastic law.").required("\"linear\""),
-        Key::estimate(
-            "youngs_modulus_pa",
-            Domain::MODULUS,
-            "`linear`: Young's modulus. All moduli are instantaneous: `prony` says how they fall.",
-        )
-        .optional("8000.0", "another law")
-        .in_template(),
-        Key::estimate(
-            "poissons_ratio",
-            laws::POISSONS_RATIO,
-            "`linear`: Poisson's ratio.",
-        )
-        .optional("0.45", "another law")
-        .in_template(),
-        Key::estimate(
-            "c10_pa",
-            Domain::SIGNED_MODULUS,
-            "`neo_hookean`, `reduced_polynomial`: C10, half the shear modulus; `mooney_rivlin`: C10.",
-        )
-        .optional("1333.0", "another law"),
-        Key::estimate(
-            "c01_pa",
-            Domain::SIGNED_MODULUS,
-            "`mooney_rivlin`: C01; c10_pa + c01_pa is half the shear modulus.",
-        )
-        .optional("300.0", "another law"),
-        Key::estimate(
-            "gamma_pa",
-            Domain::MODULUS,
-            "`exponential`: gamma, a third of Young's modulus at small strain.",
-        )
-        .optional("2667.0", "another law"),
-        Key::estimate("alpha", Domain::EXPONENT, "`exponential`: alpha.")
-            .optional("0.5", "another law"),
-        Key::estimate("mu_1_pa", Domain::SIGNED_MODULUS, "`ogden`: mu of the first term; all mu together are the shear modulus.")
-            .optional("2300.0", "another law"),
-        Key::estimate("alpha_1", laws::SIGNED_EXPONENT, "`ogden`: alpha of the first term.")
-            .optional("4.3", "another law"),
-        Key::estimate("mu_2_pa", Domain::SIGNED_MODULUS, "`ogden`: mu of the second term.")
-            .optional("100.0", "one term"),
-        Key::estimate("alpha_2", laws::SIGNED_EXPONENT, "`ogden`: alpha of the second term.")
-            .optional("-2.0", "one term"),
-        Key::estimate("mu_3_pa", Domain::SIGNED_MODULUS, "`ogden`: mu of the third term.")
-            .optional("10.0", "two terms"),
-        Key::estimate("alpha_3", laws::SIGNED_EXPONENT, "`ogden`: alpha of the third term.")
-            .optional("9.0", "two terms"),
-        Key::estimate("c20_pa", Domain::SIGNED_MODULUS, "`reduced_polynomial`: C20.")
-            .optional("500.0", "one term"),
-        Key::estimate("c30_pa", Domain::SIGNED_MODULUS, "`reduced_polynomial`: C30.")
-            .optional("200.0", "two terms"),
+        laws::LINEAR.parameters[0],
+        laws::LINEAR.parameters[1],
+        laws::MOONEY_RIVLIN.parameters[0],
+        laws::MOONEY_RIVLIN.parameters[1],
+        laws::EXPONENTIAL.parameters[0],
+        laws::EXPONENTIAL.parameters[1],
+        laws::OGDEN.parameters[0],
+        laws::OGDEN.parameters[1],
+        laws::OGDEN.parameters[2],
+        laws::OGDEN.parameters[3],
+        laws::OGDEN.parameters[4],
+        laws::OGDEN.parameters[5],
+        laws::REDUCED_POLYNOMIAL.parameters[1],
+        laws::REDUCED_POLYNOMIAL.parameters[2],
         Key::tables(
             "prony",
             prony::KEYS,
@@ -120,7 +80,7 @@ impl Tissue {
             .optional("", "unknown"),
     ];
 
-    /// The keys of a tissue's file, beside `format`.
+    /// The keys of a tissue's file, without `format`.
     pub const FILE: &'static [Key] =
         &[Key::table("tissue", Self::KEYS, "What an organ is made of.").required("")];
 

@@ -56,7 +56,7 @@ impl Document {
         changed
     }
 
-    /// The keys of the whole document, of which `known` are those beside `format` that may occur.
+    /// The keys of the whole document, of which `known` are those in addition to `format` that may occur.
     ///
     /// # Errors
     /// When there is a key that is not known.

@@ -217,6 +217,14 @@ impl Key {
         }
     }
 
+    /// The same estimate in another domain.
+    pub const fn within(self, domain: Domain) -> Self {
+        Self {
+            holds: Holds::Estimate(domain),
+            ..self
+        }
+    }
+
     /// The same, which a template has.
     pub const fn in_template(self) -> Self {
         Self {

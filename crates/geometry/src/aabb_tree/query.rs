@@ -1,3 +1,6 @@
+use std::cell::Cell;
+use std::ops::ControlFlow;
+
 use super::{Aabb, AabbTree, Below, STACK};
 use crate::proximity::{PointOnTriangle, closest_on_triangle, segment_to_triangle};
 use crate::{TriangleId, TriangleMesh, Vec3};
@@ -52,33 +55,20 @@ impl AabbTree {
     ) -> bool {
         let (start, end) = (within_reach(start), within_reach(end));
         let (along, margin) = (end - start, Vec3::repeat(distance));
-        let mut stack = [0u32; STACK];
-        let mut filled = 1;
-        while filled > 0 {
-            filled -= 1;
-            let node = &self.nodes[stack[filled] as usize];
-            let wide = Aabb {
-                low: node.aabb.low - margin,
-                high: node.aabb.high + margin,
-            };
-            if !wide.is_crossed(&start, &along, 1.0) {
-                continue;
-            }
-            match node.below {
-                Below::Boxes(first) => {
-                    stack[filled] = first;
-                    stack[filled + 1] = first + 1;
-                    filled += 2;
+        let is_near = self.walk(
+            |aabb| {
+                let (low, high) = (aabb.low - margin, aabb.high + margin);
+                Aabb { low, high }.is_crossed(&start, &along, 1.0)
+            },
+            |triangle| {
+                let corners = mesh.positions(triangle);
+                match segment_to_triangle(&start, &end, &corners).sqrt() < distance {
+                    true => ControlFlow::Break(()),
+                    false => ControlFlow::Continue(()),
                 }
-                Below::Triangle(triangle) => {
-                    let corners = mesh.positions(triangle);
-                    if segment_to_triangle(&start, &end, &corners).sqrt() < distance {
-                        return true;
-                    }
-                }
-            }
-        }
-        false
+            },
+        );
+        is_near.is_break()
     }
 
     /// The first triangle that a ray from `origin` [m] along the unit vector `direction` meets
@@ -90,44 +80,47 @@ impl AabbTree {
         direction: &Vec3,
         reach: f64,
     ) -> Option<Hit> {
-        let mut best: Option<Hit> = None;
-        let mut stack = [0u32; STACK];
-        let mut filled = 1;
-        while filled > 0 {
-            filled -= 1;
-            let node = &self.nodes[stack[filled] as usize];
-            let limit = best.map_or(reach, |hit| hit.distance);
-            if !node.aabb.is_crossed(origin, direction, limit) {
-                continue;
-            }
-            match node.below {
-                Below::Boxes(first) => {
-                    stack[filled] = first;
-                    stack[filled + 1] = first + 1;
-                    filled += 2;
+        let best: Cell<Option<Hit>> = Cell::new(None);
+        let limit = || best.get().map_or(reach, |hit| hit.distance);
+        let _ = self.walk(
+            |aabb| aabb.is_crossed(origin, direction, limit()),
+            |triangle| {
+                let corners = mesh.positions(triangle);
+                if let Some(distance) = ray_meets_triangle(origin, direction, &corners)
+                    && distance <= limit()
+                {
+                    best.set(Some(Hit { triangle, distance }));
                 }
-                Below::Triangle(triangle) => {
-                    let corners = mesh.positions(triangle);
-                    if let Some(distance) = ray_meets_triangle(origin, direction, &corners)
-                        && distance <= limit
-                    {
-                        best = Some(Hit { triangle, distance });
-                    }
-                }
-            }
-        }
-        best
+                ControlFlow::Continue(())
+            },
+        );
+        best.get()
     }
 
     /// Calls `visit` for every triangle whose box meets the box `low` to `high` [m].
     pub fn visit_box(&self, low: &Vec3, high: &Vec3, mut visit: impl FnMut(TriangleId)) {
+        let _ = self.walk(
+            |aabb| !(0..3).any(|k| aabb.low[k] > high[k] || aabb.high[k] < low[k]),
+            |triangle| {
+                visit(triangle);
+                ControlFlow::Continue(())
+            },
+        );
+    }
+
+    /// Takes every triangle below the boxes that are entered, until one ends it.
+    #[inline]
+    fn walk(
+        &self,
+        enters: impl Fn(&Aabb) -> bool,
+        mut takes: impl FnMut(TriangleId) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
         let mut stack = [0u32; STACK];
         let mut filled = 1;
         while filled > 0 {
             filled -= 1;
             let node = &self.nodes[stack[filled] as usize];
-            let apart = (0..3).any(|k| node.aabb.low[k] > high[k] || node.aabb.high[k] < low[k]);
-            if apart {
+            if !enters(&node.aabb) {
                 continue;
             }
             match node.below {
@@ -136,9 +129,10 @@ impl AabbTree {
                     stack[filled + 1] = first + 1;
                     filled += 2;
                 }
-                Below::Triangle(triangle) => visit(triangle),
+                Below::Triangle(triangle) => takes(triangle)?,
             }
         }
+        ControlFlow::Continue(())
     }
 
     /// Branch and bound, nearer box first, over squared distances.

@@ -20,7 +20,7 @@ pub struct Kind {
     pub word: &'static str,
     /// What it is, as a sentence.
     pub meaning: &'static str,
-    /// Its keys, beside `format`.
+    /// Its keys, without `format`.
     pub keys: &'static [Key],
     /// Whether `{ draw = "NAME" }` may stand for any value.
     can_draw: bool,

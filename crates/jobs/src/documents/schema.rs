@@ -76,7 +76,7 @@ impl Writer {
             for (name, factor) in &names {
                 properties.insert(name.clone(), self.property(key, *factor));
             }
-            let any_of = |names: Vec<(String, Option<f64>)>| -> Vec<Value> {
+            let any_of = |names: Vec<(String, f64)>| -> Vec<Value> {
                 let each = names.into_iter();
                 each.map(|(name, _)| json!({ "required": [name] }))
                     .collect()
@@ -107,8 +107,7 @@ impl Writer {
         schema
     }
 
-    fn property(&mut self, key: &Key, factor: Option<f64>) -> Value {
-        let factor = factor.unwrap_or(1.0);
+    fn property(&mut self, key: &Key, factor: f64) -> Value {
         let list = |item: Value| json!({ "type": "array", "items": item });
         let vector =
             |item: Value| json!({ "type": "array", "items": item, "minItems": 3, "maxItems": 3 });
@@ -166,9 +165,8 @@ impl Writer {
     }
 }
 
-/// The names of a key, one for each unit, and what one of that unit is in the key's own [unit of the key]; none for a
-/// key without a unit.
-fn names_of(key: &Key) -> Vec<(String, Option<f64>)> {
+/// The names of a key, one for each unit, and what one of that unit is in the key's own [unit of the key].
+fn names_of(key: &Key) -> Vec<(String, f64)> {
     let has_unit = matches!(
         key.holds,
         Holds::Number(_)
@@ -178,16 +176,14 @@ fn names_of(key: &Key) -> Vec<(String, Option<f64>)> {
             | Holds::NumberOrDraw(_)
     );
     match units::split(key.name).filter(|_| has_unit) {
-        None => vec![(key.name.to_owned(), None)],
+        None => vec![(key.name.to_owned(), 1.0)],
         Some((base, own)) => {
-            let mut names = vec![(key.name.to_owned(), Some(1.0))];
+            let mut names = vec![(key.name.to_owned(), 1.0)];
             let others = own.alternatives().filter(|unit| *unit != own);
-            names.extend(others.map(|unit: &Unit| {
-                (
-                    format!("{base}_{}", unit.suffix),
-                    Some(unit.convert(1.0, own)),
-                )
-            }));
+            names
+                .extend(others.map(|unit: &Unit| {
+                    (format!("{base}_{}", unit.suffix), unit.convert(1.0, own))
+                }));
             names
         }
     }

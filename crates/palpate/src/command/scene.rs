@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, builder::PossibleValuesParser};
+use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use palpate_files::write_whole;
 use palpate_jobs::documents::{Kind, kind, kinds, reference, schema, template};
 
@@ -31,11 +32,11 @@ hemisphere, tube, uniaxial or solid. `palpate validate FILE` checks a file after
 #[group(id = "what", required = true, multiple = false, args = ["template", "schema", "reference"])]
 pub(crate) struct Arguments {
     /// A document to begin from, with every key explained.
-    #[arg(long, value_name = "KIND", num_args = 0..=1, default_missing_value = "scene", value_parser = words())]
-    template: Option<String>,
+    #[arg(long, value_name = "KIND", num_args = 0..=1, default_missing_value = "scene", value_parser = one_kind())]
+    template: Option<Kind>,
     /// A JSON Schema, by which editors complete and check a document.
-    #[arg(long, value_name = "KIND", num_args = 0..=1, default_missing_value = "scene", value_parser = words())]
-    schema: Option<String>,
+    #[arg(long, value_name = "KIND", num_args = 0..=1, default_missing_value = "scene", value_parser = one_kind())]
+    schema: Option<Kind>,
     /// Every key of every document, as Markdown.
     #[arg(long)]
     reference: bool,
@@ -46,30 +47,25 @@ pub(crate) struct Arguments {
     overwrite: OverwriteOption,
 }
 
-fn words() -> PossibleValuesParser {
+fn one_kind() -> impl TypedValueParser<Value = Kind> {
     PossibleValuesParser::new(kinds().into_iter().map(|kind| kind.word))
-}
-
-/// The kind with a word of [`words`].
-fn of(word: &str) -> Result<Kind, Failure> {
-    kind(word).ok_or_else(|| Failure::input(format!("there is no kind of document {word:?}")))
+        .map(|word| kind(&word).expect("it is one of the words"))
 }
 
 /// Prints or writes what is asked for.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let out = arguments.out.as_deref();
-    if let (Some(word), Some(out)) = (&arguments.template, out) {
-        let kind = of(word)?;
+    if let (Some(kind), Some(out)) = (&arguments.template, out) {
         let beside = format!("{}.schema.json", kind.word);
         let files = [
-            (out.with_file_name(&beside), schema(&kind)),
-            (out.to_owned(), template(&kind, Some(&beside))),
+            (out.with_file_name(&beside), schema(kind)),
+            (out.to_owned(), template(kind, Some(&beside))),
         ];
         return write(&files, arguments);
     }
     let text = match (&arguments.template, &arguments.schema) {
-        (Some(word), _) => template(&of(word)?, None),
-        (_, Some(word)) => schema(&of(word)?),
+        (Some(kind), _) => template(kind, None),
+        (_, Some(kind)) => schema(kind),
         (None, None) => reference(),
     };
     match out {

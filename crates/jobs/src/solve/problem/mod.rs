@@ -171,7 +171,7 @@ impl Problem {
         })
     }
 
-    /// The kinds of problems: word, meaning and keys, beside `format`, of each.
+    /// The kinds of problems: word, meaning and keys, without `format`, of each.
     pub fn kinds() -> impl Iterator<Item = (&'static str, &'static str, &'static [Key])> {
         let each = KINDS.iter().zip(KIND_MEANINGS);
         each.map(|((word, kind), (_, meaning))| (*word, *meaning, kind.keys()))
@@ -228,7 +228,7 @@ impl Case {
 }
 
 impl Kind {
-    /// The keys that a problem of this kind may have, beside `format`.
+    /// The keys that a problem of this kind may have, without `format`.
     fn keys(self) -> &'static [Key] {
         static KEYS: LazyLock<Vec<Vec<Key>>> = LazyLock::new(|| {
             let of_kind = |(word, kind): &(&'static str, Kind)| {
