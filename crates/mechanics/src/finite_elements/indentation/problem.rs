@@ -88,7 +88,7 @@ pub fn solve(
         let forces = answer.forces();
         Ok(Some((answer, forces)))
     })?;
-    found.warnings.extend(found.answer.fall());
+    found.warnings.extend(found.answer.fall(accuracy));
     Ok(found)
 }
 
@@ -117,15 +117,18 @@ pub fn solve_history(
         let forces = answer.forces();
         Ok(Some((answer, forces)))
     })?;
-    found.warnings.extend(found.answer.fall());
+    found.warnings.extend(found.answer.fall(accuracy));
     Ok(found)
 }
 
 impl IndentationAnswer {
-    /// What a reader has to know where a greater depth has a smaller elastic force.
-    fn fall(&self) -> Option<String> {
+    /// What a reader has to know where a greater depth has a smaller elastic force, by more than the relative `accuracy`
+    /// [-]: by less it falls where tissue at an edge gives way element by element.
+    fn fall(&self, accuracy: f64) -> Option<String> {
         let known: Vec<_> = self.curve.points().collect();
-        let fall = known.windows(2).find(|two| two[1].1 < two[0].1)?;
+        let fall = known
+            .windows(2)
+            .find(|two| two[1].1 < (1.0 - accuracy) * two[0].1)?;
         let [above, below] = [fall[0].0, fall[1].0].map(|depth| 1e3 * depth);
         Some(format!(
             "the elastic force falls between depths of {above:.4} and {below:.4} mm: there the tissue leaves its equilibrium \
@@ -316,9 +319,9 @@ mod tests {
                 curve: IndentationCurve::through(&depths, forces),
                 unknowns: 0,
             }
-            .fall()
+            .fall(0.01)
         };
-        assert_eq!(told(&[1.0, 2.0, 3.0]), None);
+        assert_eq!(told(&[1.0, 2.0, 1.99]), None);
         let fall = told(&[1.0, 2.0, 0.5]).unwrap();
         assert!(
             fall.contains("between depths of 2.0000 and 3.0000 mm"),
