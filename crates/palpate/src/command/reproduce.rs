@@ -19,18 +19,18 @@ Examples:
   palpate reproduce figure-5-1 table-3-1/solution_s
   palpate reproduce chapter-5 table-3 --out figures --json
 
-A name selects that item or row alone; any other word selects what begins with it. An item that fails \
-becomes a row with the reason, and the others go on. Finished rows are printed as they come, and kept in \
-rows.jsonl of the folder, one JSON object per line. A dash stands where there is no number; the note says \
-why. Exit status: 0 when every row has a number, a figure or a reason.";
+A full name selects that item or row; any other word is a prefix. If an item fails, its row states the reason, and \
+the others continue. Rows are printed as they finish, and saved in rows.jsonl in the folder, one JSON object per \
+line. A dash means no number; the note gives the reason. Exit status: 0 if every row has a number, a figure or a \
+reason.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Arguments {
-    /// Tables, figures or rows, by name or by how they begin; without one, everything.
+    /// Tables, figures or rows, by name or prefix; default: all.
     #[arg(value_name = "ROW")]
     rows: Vec<String>,
-    /// List the tables and figures with their titles, and compute nothing.
+    /// List the tables and figures with their titles, without computing.
     #[arg(long)]
     list: bool,
     /// The folder for figures and finished rows.
