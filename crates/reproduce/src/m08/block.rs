@@ -1,0 +1,114 @@
+//! The block under the punch, with the laws that the source found for it.
+
+use std::sync::{Arc, OnceLock};
+
+use palpate_mechanics::finite_elements::estimate::Progress;
+use palpate_mechanics::finite_elements::indentation::{
+    Base, Block, Grip, IndentationProblem, Indenter, IndenterShape, Side, solve,
+};
+use palpate_mechanics::{IndentationCurve, Law, MooneyRivlin, NeoHookean};
+
+use crate::Error;
+use crate::Rows;
+use crate::published::{TABLE_6_4, TABLE_6_5, prony};
+
+/// The source's cube of 100 mm, as a cylinder of the same height and volume.
+const BLOCK: Block = Block {
+    radius: 0.056_418_958_354_775_63,
+    height: 0.1,
+    base: Base::Bonded,
+};
+
+/// The source's probe is 2 mm in diameter.
+const RADIUS: f64 = 1e-3;
+
+/// Depths of table 5-1 [mm].
+pub(super) const DEPTHS_MM: [u32; 6] = [1, 2, 4, 5, 6, 8];
+
+/// Organs of tables 6-4 and 6-5, with their depths [mm].
+pub(super) const ORGANS: [(&str, u32); 2] = [("kidney", 5), ("liver", 6)];
+
+/// Of the whole curve [-]; the readings differ by tens of per cent.
+const ACCURACY: f64 = 0.03;
+
+/// A law that the source published, with the curve it gives.
+pub(super) struct Published {
+    pub(super) organ: &'static str,
+    pub(super) law: &'static str,
+    /// Its parameters [Pa], as printed.
+    pub(super) parameters: Vec<f64>,
+    /// Relaxed part of the instantaneous force [-], from table 6-3.
+    pub(super) relaxed: f64,
+    /// Elastic force [N] over depth [m] with the printed parameters.
+    pub(super) curve: IndentationCurve,
+    /// Relative error of the curve [-].
+    pub(super) error: f64,
+}
+
+/// The four sets of tables 6-4 and 6-5. They take minutes, and are solved once for all figures.
+pub(super) fn published(rows: &Rows<'_>) -> Result<&'static [Published], Error> {
+    static SOLVED: OnceLock<Vec<Published>> = OnceLock::new();
+    match SOLVED.get() {
+        Some(solved) => Ok(solved),
+        None => {
+            let solved = solved(rows)?;
+            Ok(SOLVED.get_or_init(|| solved))
+        }
+    }
+}
+
+fn solved(rows: &Rows<'_>) -> Result<Vec<Published>, Error> {
+    let unit: Arc<dyn Law> = Arc::new(NeoHookean::incompressible(1.0)?);
+    let (unit_curve, error) = curve(rows, "neo-Hookean", unit)?;
+    let mut all = Vec::new();
+    for (organ, depth_mm) in ORGANS {
+        let relaxed = prony(organ, depth_mm)?.relaxation(f64::INFINITY);
+        if let Some(c10) = TABLE_6_4.value(organ, "final_c10_pa") {
+            all.push(Published {
+                organ,
+                law: "neo_hookean",
+                parameters: vec![c10],
+                relaxed,
+                // One modulus: the force is proportional to it.
+                curve: unit_curve.scaled(1.0, c10),
+                error,
+            });
+        }
+        let both = ["final_c10_pa", "final_c01_pa"].map(|name| TABLE_6_5.value(organ, name));
+        if let [Some(c10), Some(c01)] = both {
+            let law: Arc<dyn Law> = Arc::new(MooneyRivlin::incompressible(c10, c01)?);
+            let (curve, error) = curve(rows, "Mooney-Rivlin", law)?;
+            all.push(Published {
+                organ,
+                law: "mooney_rivlin",
+                parameters: vec![c10, c01],
+                relaxed,
+                curve,
+                error,
+            });
+        }
+    }
+    Ok(all)
+}
+
+/// The elastic curve [N over m] of `law` and its relative error [-].
+fn curve(rows: &Rows<'_>, name: &str, law: Arc<dyn Law>) -> Result<(IndentationCurve, f64), Error> {
+    let problem = IndentationProblem {
+        block: BLOCK,
+        indenter: Indenter {
+            shape: IndenterShape::Flat {
+                side: Side::Touches(Grip::Stick),
+            },
+            radius: RADIUS,
+            face: Grip::Stick,
+        },
+        law,
+    };
+    let depths = DEPTHS_MM.map(|depth| 1e-3 * f64::from(depth));
+    let mut say = |progress: Progress| {
+        let (mesh, part) = (progress.mesh + 1, 100.0 * progress.part);
+        rows.say(format!("{name} on mesh {mesh}, {part:.0} %"));
+    };
+    let found = solve(&problem, &depths, ACCURACY, &mut say)?;
+    Ok((found.answer.curve, found.error))
+}
