@@ -13,6 +13,9 @@ pub enum Error {
         /// All names, with commas.
         known: String,
     },
+    /// A place in the tables of the source that has no number.
+    #[error("the source's tables have no number at `{0}`; please report this")]
+    NotPublished(String),
     /// The folder of the figures cannot be used.
     #[error("the folder {folder} cannot be made or written ({source}); give another with --out")]
     Folder {
@@ -73,7 +76,7 @@ impl Error {
             Self::Simulate(error) => error.is_input(),
             Self::Viewer(error) => error.is_input(),
             Self::Job(error) => error.is_input(),
-            Self::Failed(_) => false,
+            Self::NotPublished(_) | Self::Failed(_) => false,
         }
     }
 }

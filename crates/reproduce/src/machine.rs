@@ -1,7 +1,7 @@
 //! What times are measured on, and what is told of many.
 
 /// The processor.
-pub(super) fn processor() -> String {
+pub(crate) fn processor() -> String {
     let build = if cfg!(debug_assertions) {
         ", debug build"
     } else {
@@ -17,7 +17,7 @@ pub(super) fn processor() -> String {
 }
 
 /// The middle one; `times` are sorted.
-pub(super) fn median(times: &mut [f64]) -> f64 {
+pub(crate) fn median(times: &mut [f64]) -> f64 {
     times.sort_by(f64::total_cmp);
     times[times.len() / 2]
 }

@@ -1,9 +1,9 @@
 //! What a row is, when it is not simply our number beside the source's.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// What a reader must know of a row before its numbers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Mark {
     /// The printed number was put in, and came back.

@@ -4,125 +4,131 @@ use palpate_mechanics::PronySeries;
 
 use crate::Error;
 
-/// Table 3-1.
-pub(crate) const TABLE_3_1: Table = Table(include_str!(
-    "../../../published/table_3_1_pcmfs_vs_fem.csv"
-));
+/// Each table under the number that the source gives it, or the place where its numbers stand.
+const TABLES: [(&str, &str); 14] = [
+    (
+        "table-3-1",
+        include_str!("../../../published/table_3_1_pcmfs_vs_fem.csv"),
+    ),
+    (
+        "table-4-1",
+        include_str!("../../../published/table_4_1_bem.csv"),
+    ),
+    (
+        "table-5-1",
+        include_str!("../../../published/table_5_1_static_force.csv"),
+    ),
+    (
+        "table-6-1",
+        include_str!("../../../published/table_6_1_mean_elastic_modulus.csv"),
+    ),
+    (
+        "table-6-2",
+        include_str!("../../../published/table_6_2_nonlinear_springs.csv"),
+    ),
+    (
+        "equation-6-3",
+        include_str!("../../../published/kelvin_liver.csv"),
+    ),
+    (
+        "table-6-3",
+        include_str!("../../../published/table_6_3_prony.csv"),
+    ),
+    (
+        "table-6-4",
+        include_str!("../../../published/table_6_4_neo_hookean.csv"),
+    ),
+    (
+        "table-6-5",
+        include_str!("../../../published/table_6_5_mooney_rivlin.csv"),
+    ),
+    (
+        "section-6-4-5",
+        include_str!("../../../published/esophagus_6_4_5.csv"),
+    ),
+    (
+        "section-7-4",
+        include_str!("../../../published/section_7_4_simplification.csv"),
+    ),
+    (
+        "table-7-1",
+        include_str!("../../../published/table_7_1_environment_mapping.csv"),
+    ),
+    (
+        "equation-7-6",
+        include_str!("../../../published/device_7_6.csv"),
+    ),
+    (
+        "appendix-a",
+        include_str!("../../../published/appendix_a_pigs.csv"),
+    ),
+];
 
-/// Table 4-1.
-pub(crate) const TABLE_4_1: Table = Table(include_str!("../../../published/table_4_1_bem.csv"));
+/// Numbers in the text and the captions of chapters 5 and 7, by place and name.
+const RIG_AND_DEVICE: &str = include_str!("../../../published/rig_and_device.csv");
 
-/// Table 5-1.
-pub(crate) const TABLE_5_1: Table = Table(include_str!(
-    "../../../published/table_5_1_static_force.csv"
-));
-
-/// Table 6-1.
-pub(crate) const TABLE_6_1: Table = Table(include_str!(
-    "../../../published/table_6_1_mean_elastic_modulus.csv"
-));
-
-/// Table 6-2.
-pub(crate) const TABLE_6_2: Table = Table(include_str!(
-    "../../../published/table_6_2_nonlinear_springs.csv"
-));
-
-/// Section 6.3.2.
-pub(crate) const EQUATION_6_3: Table = Table(include_str!("../../../published/kelvin_liver.csv"));
-
-/// Table 6-3.
-pub(crate) const TABLE_6_3: Table = Table(include_str!("../../../published/table_6_3_prony.csv"));
-
-/// Table 6-4.
-pub(crate) const TABLE_6_4: Table =
-    Table(include_str!("../../../published/table_6_4_neo_hookean.csv"));
-
-/// Table 6-5.
-pub(crate) const TABLE_6_5: Table = Table(include_str!(
-    "../../../published/table_6_5_mooney_rivlin.csv"
-));
-
-/// Table 7-1.
-pub(crate) const TABLE_7_1: Table = Table(include_str!(
-    "../../../published/table_7_1_environment_mapping.csv"
-));
-
-/// Section 6.4.5.
-pub(crate) const SECTION_6_4_5: Table =
-    Table(include_str!("../../../published/esophagus_6_4_5.csv"));
-
-/// Section 7.4.
-pub(crate) const SECTION_7_4: Table = Table(include_str!(
-    "../../../published/section_7_4_simplification.csv"
-));
-
-/// (7.6).
-pub(crate) const DEVICE_7_6: Table = Table(include_str!("../../../published/device_7_6.csv"));
-
-/// Numbers in the text and the captions of chapters 5 and 7.
-const RIG_AND_DEVICE: Table = Table(include_str!("../../../published/rig_and_device.csv"));
-
-/// Appendix A.
-pub(crate) const APPENDIX_A: Table = Table(include_str!("../../../published/appendix_a_pigs.csv"));
-
-/// A table of the source: comments, names of columns, rows named by their first cell.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Table(&'static str);
-
-impl Table {
-    /// The number in the first row that begins with `row`, under the name `column`.
-    pub(crate) fn value(self, row: &str, column: &str) -> Option<f64> {
-        self.value_of([row], column)
-    }
-
-    /// The number in the first row that begins with the cells `row`, under the name `column`.
-    pub(crate) fn value_of<const N: usize>(self, row: [&str; N], column: &str) -> Option<f64> {
-        let mut lines = self.0.lines().filter(|line| !line.starts_with('#'));
-        let at = lines.next()?.split(',').position(|name| name == column)?;
-        let found = lines.find(|line| line.split(',').take(N).eq(row))?;
-        found.split(',').nth(at)?.parse().ok()
-    }
-
-    /// The number under the name `column` in the first row, whatever it begins with.
-    pub(crate) fn first(self, column: &str) -> Option<f64> {
-        self.value_of([], column)
-    }
-
-    /// The first cells of the rows that have a number other than zero under the name `column`.
-    pub(crate) fn marked(self, column: &str) -> Vec<&'static str> {
-        let names = self.0.lines().filter(|line| !line.starts_with('#'));
-        let names = names.skip(1).filter_map(|line| line.split(',').next());
-        names
-            .filter(|name| self.value(name, column).is_some_and(|value| value != 0.0))
-            .collect()
-    }
-
-    /// The sum of the numbers under the name `column`.
-    pub(crate) fn sum(self, column: &str) -> Option<f64> {
-        let mut lines = self.0.lines().filter(|line| !line.starts_with('#'));
-        let at = lines.next()?.split(',').position(|name| name == column)?;
-        lines
-            .map(|line| line.split(',').nth(at)?.parse::<f64>().ok())
-            .sum()
-    }
+/// The number of the source at `place`: a table, the first cells of a row, and a column, as in `table-5-1 liver 4
+/// mean_n`; or a place of the text and a name, as in `figure-7-7 share`.
+pub(crate) fn cell(place: &str) -> Result<f64, Error> {
+    let words: Vec<&str> = place.split(' ').collect();
+    let found = match words.as_slice() {
+        [table, row @ .., column] => match lines(table) {
+            Some(lines) => number(lines, row, column),
+            None => number(cells(RIG_AND_DEVICE), &words, "value"),
+        },
+        _ => None,
+    };
+    found.ok_or_else(|| Error::NotPublished(place.to_owned()))
 }
 
-/// What `place` prints of `what`, such as `figure-7-7` of `share`, in its printed unit.
-pub(crate) fn rig_and_device(place: &str, what: &str) -> Option<f64> {
-    RIG_AND_DEVICE.value_of([place, what], "value")
+/// The names of the rows of `table`, with their numbers under the name `column`.
+pub(crate) fn column(table: &str, column: &str) -> Vec<(&'static str, f64)> {
+    let Some(mut lines) = lines(table) else {
+        return Vec::new();
+    };
+    let names = lines.next().unwrap_or_default();
+    let at = names.iter().position(|name| *name == column);
+    let number = |line: Vec<&'static str>| Some((line[0], line.get(at?)?.parse().ok()?));
+    lines.filter_map(number).collect()
+}
+
+/// The animals of appendix A that have a number other than zero of `organ`.
+pub(crate) fn animals(organ: &str) -> Vec<&'static str> {
+    let all = column("appendix-a", organ).into_iter();
+    all.filter(|(_, count)| *count != 0.0)
+        .map(|(name, _)| name)
+        .collect()
+}
+
+fn lines(table: &str) -> Option<impl Iterator<Item = Vec<&'static str>>> {
+    let text = TABLES.iter().find(|(name, _)| *name == table);
+    text.map(|(_, text)| cells(text))
+}
+
+/// Comments are left out.
+fn cells(text: &'static str) -> impl Iterator<Item = Vec<&'static str>> {
+    let lines = text.lines().filter(|line| !line.starts_with('#'));
+    lines.map(|line| line.split(',').collect())
+}
+
+/// The number under the name `column` in the first row that begins with the cells `row`.
+fn number(
+    mut lines: impl Iterator<Item = Vec<&'static str>>,
+    row: &[&str],
+    column: &str,
+) -> Option<f64> {
+    let at = lines.next()?.iter().position(|name| *name == column)?;
+    let found = lines.find(|line| line.starts_with(row))?;
+    found.get(at)?.parse().ok()
 }
 
 /// How `organ` relaxes by the row of table 6-3 at `depth_mm`.
 pub(crate) fn prony(organ: &str, depth_mm: u32) -> Result<PronySeries, Error> {
-    let row = [organ, &depth_mm.to_string()];
-    let terms: Vec<_> = [("g1", "tau1_s"), ("g2", "tau2_s")]
-        .into_iter()
-        .filter_map(|(g, tau)| {
-            let g = TABLE_6_3.value_of(row, g)?;
-            Some((g, TABLE_6_3.value_of(row, tau)?))
-        })
-        .collect();
-    Ok(PronySeries::new(&terms)?)
+    let cell = |column| cell(&format!("table-6-3 {organ} {depth_mm} {column}"));
+    Ok(PronySeries::new(&[
+        (cell("g1")?, cell("tau1_s")?),
+        (cell("g2")?, cell("tau2_s")?),
+    ])?)
 }
 
 #[cfg(test)]
@@ -131,14 +137,18 @@ mod tests {
 
     #[test]
     fn a_cell_is_found_by_its_row_and_column() {
-        assert_eq!(TABLE_3_1.value("nodes", "pcmfs_local"), Some(34.0));
-        assert_eq!(TABLE_3_1.value("total_time", "fe_model_adina"), Some(18.32));
-        assert_eq!(TABLE_3_1.value("nodes", "no such column"), None);
-        assert_eq!(TABLE_3_1.value("no such row", "pcmfs_local"), None);
-        assert_eq!(TABLE_5_1.value_of(["kidney", "8"], "mean_n"), Some(0.4541));
-        assert_eq!(EQUATION_6_3.first("k2_n_per_mm"), Some(0.007));
-        assert_eq!(APPENDIX_A.sum("esophagus"), Some(8.0));
-        assert_eq!(APPENDIX_A.marked("spleen"), ["B3", "B4", "B5", "B6"]);
-        assert_eq!(rig_and_device("section-5-4-2", "settled_after"), Some(40.0));
+        let printed = [
+            ("table-3-1 nodes pcmfs_local", 34.0),
+            ("table-3-1 total_time fe_model_adina", 18.32),
+            ("table-5-1 kidney 8 mean_n", 0.4541),
+            ("equation-6-3 k2_n_per_mm", 0.007),
+            ("section-5-4-2 settled_after", 40.0),
+        ];
+        for (place, value) in printed {
+            assert_eq!(cell(place).ok(), Some(value), "{place}");
+        }
+        assert!(cell("table-3-1 nodes nowhere").is_err() && cell("").is_err());
+        assert_eq!(animals("spleen"), ["B3", "B4", "B5", "B6"]);
+        assert_eq!(animals("esophagus").len(), 8);
     }
 }

@@ -1,14 +1,17 @@
+use std::fmt::Display;
 use std::path::PathBuf;
 use std::time::Instant;
 
 use palpate_files::write_whole;
 use palpate_jobs::Watch;
-use palpate_jobs::plot::Plot;
+use palpate_jobs::plot::Series;
 use serde::Serialize;
 
-use super::figures::{Figures, stem};
-use super::mark::Mark;
 use crate::Error;
+use crate::figures::{Figures, stem};
+use crate::mark::Mark;
+use crate::published::cell;
+use crate::registry::{self, FigureData, Published, RowData, Values, filled};
 
 /// A number or a figure of the source beside ours.
 #[derive(Debug, Clone, Serialize)]
@@ -34,40 +37,8 @@ pub struct Row {
     pub seconds: f64,
 }
 
-/// A number beside its published value.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Value {
-    /// [unit]
-    pub(crate) published: Option<f64>,
-    /// [unit]
-    pub(crate) ours: Option<f64>,
-    pub(crate) unit: &'static str,
-}
-
-impl Value {
-    /// A number that the source does not print.
-    pub(crate) fn own(ours: f64, unit: &'static str) -> Self {
-        Self::beside(None, ours, unit)
-    }
-
-    /// A number beside what the source prints, if it does.
-    pub(crate) fn beside(published: Option<f64>, ours: f64, unit: &'static str) -> Self {
-        Self {
-            published,
-            ours: Some(ours),
-            unit,
-        }
-    }
-}
-
-const NOTHING: Value = Value {
-    published: None,
-    ours: None,
-    unit: "",
-};
-
 /// Where the rows of a table or figure are gathered; each is as long as it took since the last.
-pub struct Rows<'a> {
+pub(crate) struct Rows<'a> {
     item: &'static str,
     figures: &'a Figures,
     watch: &'a dyn Watch,
@@ -76,8 +47,7 @@ pub struct Rows<'a> {
 }
 
 impl<'a> Rows<'a> {
-    /// For the rows of `item`; figures are written among `figures`, and `watch` hears what goes on.
-    pub fn of(item: &'static str, figures: &'a Figures, watch: &'a dyn Watch) -> Self {
+    pub(crate) fn of(item: &'static str, figures: &'a Figures, watch: &'a dyn Watch) -> Self {
         watch.say(item);
         Self {
             item,
@@ -88,145 +58,224 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// Adds the row `item/name`.
-    pub(crate) fn add(&mut self, name: &str, value: Value, note: impl Into<String>) {
-        self.push(format!("{}/{name}", self.item), value, None, note.into());
+    /// What follows the slash in the name of the item.
+    pub(crate) fn part(&self) -> &'static str {
+        self.item.split_once('/').map_or("", |(_, part)| part)
     }
 
-    /// Adds the row `item/name` of a printed number that was put into a virtual recording and found again.
-    pub(crate) fn add_pipeline_only(&mut self, name: &str, value: Value, note: impl Into<String>) {
-        self.add_marked(name, value, Mark::PipelineOnly, note);
+    /// Adds the row `item/name` of the registry with our number.
+    pub(crate) fn add(&mut self, name: &str, ours: impl Into<Option<f64>>) {
+        self.row(name).is(ours);
     }
 
-    /// Adds the row `item/name` of a bound: the last value that could be tried.
-    pub(crate) fn add_at_least(&mut self, name: &str, value: Value, note: impl Into<String>) {
-        self.add_marked(name, value, Mark::AtLeast, note);
+    /// Adds the row `item/name` of the registry without a number; its note says why.
+    pub(crate) fn without(&mut self, name: &str) {
+        self.row(name).is(None::<f64>);
     }
 
-    /// A row without a number keeps its own mark.
-    fn add_marked(&mut self, name: &str, value: Value, mark: Mark, note: impl Into<String>) {
-        self.add(name, value, note);
-        if let Some(row) = self.rows.last_mut() {
-            row.mark = row.mark.or(Some(mark));
+    /// The row `item/name` of the registry, to be filled.
+    pub(crate) fn row(&mut self, name: &str) -> Line<'_, 'a> {
+        let (data, values) = registry::row(self.item, name).unzip();
+        Line {
+            name: self.named(name),
+            rows: self,
+            data,
+            values: values.unwrap_or_default(),
+            published: None,
+            mark: None,
         }
     }
 
-    /// Adds the row `item`, which is not computed for this reason.
-    pub(crate) fn not_computed(&mut self, reason: &str) {
-        self.push(self.item.to_owned(), NOTHING, None, reason.to_owned());
+    /// The figure `item/name` of the registry, or with an empty name `item`, to be drawn.
+    pub(crate) fn figure(&mut self, name: &str) -> Figure<'_, 'a> {
+        let (data, values) = registry::figure(self.item, name).unzip();
+        Figure {
+            name: name.to_owned(),
+            rows: self,
+            data,
+            values: values.unwrap_or_default(),
+        }
     }
 
-    /// Adds the row `item/name` without a number, with the reason.
-    pub(crate) fn add_missing(
-        &mut self,
-        name: &str,
-        unit: &'static str,
-        reason: impl Into<String>,
-    ) {
-        self.add(name, Value { unit, ..NOTHING }, reason);
-    }
-
-    /// Draws `plot` to the file `item.png`, or `item-name.png`, and adds its row.
-    pub(crate) fn add_figure(
-        &mut self,
-        name: Option<&str>,
-        plot: &Plot,
-        note: impl Into<String>,
-    ) -> Result<(), Error> {
-        let (row, path) = self.figure(name, "png")?;
-        let png = self.figures.drawn(plot)?;
-        self.write_figure((row, path), &png, note.into())
-    }
-
-    /// Writes the picture `png` to the file `item.png`, or `item-name.png`, and adds its row.
-    pub(crate) fn add_picture(
-        &mut self,
-        name: Option<&str>,
-        png: &[u8],
-        note: impl Into<String>,
-    ) -> Result<(), Error> {
-        let (row, path) = self.figure(name, "png")?;
-        self.write_figure((row, path), png, note.into())
-    }
-
-    /// Writes `text` to the file `item.extension`, and adds its row.
-    pub(crate) fn add_text(
-        &mut self,
-        extension: &str,
-        text: &str,
-        note: impl Into<String>,
-    ) -> Result<(), Error> {
-        let (row, path) = self.figure(None, extension)?;
-        self.write_figure((row, path), text.as_bytes(), note.into())
-    }
-
-    /// The name of a figure's row, and its file, which may be written.
-    fn figure(&self, name: Option<&str>, ending: &str) -> Result<(String, PathBuf), Error> {
-        let stem = stem(self.item);
-        let (row, file) = match name {
-            None => (self.item.to_owned(), format!("{stem}.{ending}")),
-            Some(name) => (
-                format!("{}/{name}", self.item),
-                format!("{stem}-{name}.{ending}"),
-            ),
-        };
-        Ok((row, self.figures.path(&file)?))
-    }
-
-    fn write_figure(
-        &mut self,
-        (row, path): (String, PathBuf),
-        bytes: &[u8],
-        note: String,
-    ) -> Result<(), Error> {
-        let mut written = Ok(());
-        self.watch
-            .unbroken(&mut || written = write_whole(&path, bytes));
-        written?;
-        self.push(row, NOTHING, Some(path), note);
+    /// Adds the row `item` with the reason why it is not computed.
+    pub(crate) fn not_computed(&mut self) -> Result<(), Error> {
+        let data = registry::items().find(|data| data.name == self.item);
+        let reason = data.and_then(|data| data.not_computed.as_deref());
+        self.row("").missing(reason.unwrap_or_default());
         Ok(())
     }
 
     /// Tells those who wait what goes on within an item.
-    pub(crate) fn say(&self, what: impl std::fmt::Display) {
+    pub(crate) fn say(&self, what: impl Display) {
         self.watch.say(&format!("{}: {what}", self.item));
     }
 
     /// All that were added, and if the item failed a last one that says why.
-    pub fn finished(mut self, outcome: Result<(), Error>) -> Vec<Row> {
-        if let Err(failure) = outcome {
-            self.push(self.item.to_owned(), NOTHING, None, failure.to_string());
-            if let Some(row) = self.rows.last_mut() {
-                row.mark = Some(Mark::Failed);
-            }
+    pub(crate) fn finished(mut self, outcome: Result<(), Error>) -> Vec<Row> {
+        if let Err(error) = outcome {
+            self.push(Row {
+                note: error.to_string(),
+                mark: Some(Mark::Failed),
+                ..empty(self.item.to_owned())
+            });
         }
         self.rows
     }
 
-    fn push(&mut self, row: String, value: Value, file: Option<PathBuf>, note: String) {
-        self.watch.say(&row);
+    fn named(&self, name: &str) -> String {
+        match name {
+            "" => self.item.to_owned(),
+            name => format!("{}/{name}", self.item),
+        }
+    }
+
+    fn push(&mut self, row: Row) {
+        self.watch.say(&row.row);
         // JSON has no other numbers, and a reader no use for them.
-        let value = Value {
-            ours: value.ours.filter(|ours| ours.is_finite()),
-            ..value
-        };
-        let is_missing = value.ours.is_none() && file.is_none();
-        let ratio = value
-            .ours
-            .zip(value.published)
-            .map(|(ours, published)| ours / published);
+        let ours = row.ours.filter(|ours| ours.is_finite());
+        let is_missing = ours.is_none() && row.file.is_none();
         self.rows.push(Row {
-            row,
-            published: value.published,
-            ours: value.ours,
-            unit: value.unit,
-            ratio,
-            file,
-            note,
-            mark: is_missing.then_some(Mark::NotComputed),
+            ours,
+            ratio: ours
+                .zip(row.published)
+                .map(|(ours, published)| ours / published),
+            mark: match (is_missing, row.mark) {
+                (true, mark) if mark != Some(Mark::Failed) => Some(Mark::NotComputed),
+                (_, mark) => mark,
+            },
             seconds: self.since.elapsed().as_secs_f64(),
+            ..row
         });
         self.since = Instant::now();
+    }
+}
+
+/// A row of which nothing is known but its name.
+fn empty(row: String) -> Row {
+    Row {
+        row,
+        published: None,
+        ours: None,
+        unit: "",
+        ratio: None,
+        file: None,
+        note: String::new(),
+        mark: None,
+        seconds: 0.0,
+    }
+}
+
+/// What has no entry in the registry.
+const UNKNOWN: &str = "published/rows has no entry of this name; please report this";
+
+/// A row before its number.
+pub(crate) struct Line<'r, 'a> {
+    rows: &'r mut Rows<'a>,
+    name: String,
+    data: Option<&'static RowData>,
+    values: Values,
+    published: Option<f64>,
+    mark: Option<Mark>,
+}
+
+impl Line<'_, '_> {
+    /// What stands in its note for `{name}`.
+    pub(crate) fn told(mut self, name: &str, value: impl Display) -> Self {
+        self.values.push((name.to_owned(), value.to_string()));
+        self
+    }
+
+    /// A published number that follows from several of the source's.
+    pub(crate) fn published(mut self, value: impl Into<Option<f64>>) -> Self {
+        self.published = value.into();
+        self
+    }
+
+    /// A bound: the last value that could be tried.
+    pub(crate) fn at_least(mut self) -> Self {
+        self.mark = Some(Mark::AtLeast);
+        self
+    }
+
+    /// Adds the row with our number.
+    pub(crate) fn is(self, ours: impl Into<Option<f64>>) {
+        let item = self.rows.item;
+        let Some(data) = self.data else {
+            return self.missing(UNKNOWN);
+        };
+        let printed = data.published.as_ref().and_then(|printed| match printed {
+            Published::Number(value) => Some(*value),
+            Published::Cell(place) => cell(&filled(item, place, &self.values)).ok(),
+        });
+        self.rows.push(Row {
+            published: self.published.or(printed),
+            ours: ours.into(),
+            unit: &data.unit,
+            note: filled(item, &data.note, &self.values),
+            mark: self.mark.or(data.mark),
+            ..empty(self.name)
+        });
+    }
+
+    /// Adds the row without a number, with the reason.
+    pub(crate) fn missing(self, reason: impl Display) {
+        self.rows.push(Row {
+            unit: self.data.map_or("", |data| &data.unit),
+            note: reason.to_string(),
+            ..empty(self.name)
+        });
+    }
+}
+
+/// A figure before it is drawn.
+pub(crate) struct Figure<'r, 'a> {
+    rows: &'r mut Rows<'a>,
+    name: String,
+    data: Option<&'static FigureData>,
+    values: Values,
+}
+
+impl Figure<'_, '_> {
+    /// What stands in its note and its title for `{name}`.
+    pub(crate) fn told(mut self, name: &str, value: impl Display) -> Self {
+        self.values.push((name.to_owned(), value.to_string()));
+        self
+    }
+
+    /// Draws `series` to the file `item.png`, or `item-name.png`, and adds its row.
+    pub(crate) fn draw(self, series: Vec<Series>) -> Result<(), Error> {
+        let Some(data) = self.data else {
+            return Err(Error::failed(UNKNOWN));
+        };
+        let plot = data.plot(|text| filled(self.rows.item, text, &self.values), series);
+        let png = self.rows.figures.drawn(&plot)?;
+        self.file("png", &png)
+    }
+
+    /// Writes the picture `png` to the file `item.png`, or `item-name.png`, and adds its row.
+    pub(crate) fn picture(self, png: &[u8]) -> Result<(), Error> {
+        self.file("png", png)
+    }
+
+    /// Writes `bytes` to the file `item.ending`, or `item-name.ending`, and adds its row.
+    pub(crate) fn file(self, ending: &str, bytes: &[u8]) -> Result<(), Error> {
+        let Some(data) = self.data else {
+            return Err(Error::failed(UNKNOWN));
+        };
+        let item = self.rows.item;
+        let separator = if self.name.is_empty() { "" } else { "-" };
+        let file = format!("{}{separator}{}.{ending}", stem(item), self.name);
+        let path = self.rows.figures.path(&file)?;
+        let mut written = Ok(());
+        let write = &mut || written = write_whole(&path, bytes);
+        self.rows.watch.unbroken(write);
+        written?;
+        self.rows.push(Row {
+            file: Some(path),
+            note: filled(item, &data.note, &self.values),
+            ..empty(self.rows.named(&self.name))
+        });
+        Ok(())
     }
 }
 

@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 
 use super::mark::Mark;
-use super::{ITEMS, Item, Row};
+use super::{Item, Row, items};
 use crate::Error;
 use palpate_jobs::nearest;
 
@@ -19,11 +19,14 @@ pub struct Selection {
 }
 
 /// Reads the words; each must be or begin an item, or begin with one and a slash.
+///
+/// # Errors
+/// When one does not.
 pub fn select(words: &[String]) -> Result<Selection, Error> {
     for word in words {
-        if !ITEMS.iter().any(|item| is_meant(item, word)) {
-            let names = ITEMS.iter().map(|item| item.name);
-            return Err(unknown(word, &names.collect::<Vec<_>>()));
+        if !items().iter().any(|item| is_meant(item, word)) {
+            let names: Vec<&str> = items().iter().map(|item| item.name).collect();
+            return Err(unknown(word, &names));
         }
     }
     Ok(Selection {
@@ -37,9 +40,8 @@ impl Selection {
     /// The items that have to be run.
     pub fn items(&self) -> Vec<Item> {
         let words = &self.words;
-        let meant =
-            |item: &&Item| words.is_empty() || words.iter().any(|word| is_meant(item, word));
-        ITEMS.iter().filter(meant).copied().collect()
+        let meant = |item: &Item| words.is_empty() || words.iter().any(|word| is_meant(item, word));
+        items().into_iter().filter(meant).collect()
     }
 
     /// Those of the `rows` of `item` that were asked for, and the one that says that it failed.
@@ -69,6 +71,9 @@ impl Selection {
     }
 
     /// When all items have run: a word that no row begins with is a mistake.
+    ///
+    /// # Errors
+    /// When there is one.
     pub fn check(&self) -> Result<(), Error> {
         let missed = (0..self.words.len()).find(|place| !self.met.contains(place));
         match missed {
@@ -82,7 +87,7 @@ impl Selection {
 }
 
 fn is_meant(item: &Item, word: &str) -> bool {
-    let is_exact = ITEMS.iter().any(|item| item.name == word);
+    let is_exact = items().iter().any(|item| item.name == word);
     match is_exact {
         true => item.name == word,
         false => item.name.starts_with(word) || row_of(item, word).is_some(),
@@ -113,7 +118,7 @@ mod tests {
 
     #[test]
     fn a_word_selects_by_its_beginning() {
-        assert_eq!(words(&[]).unwrap().len(), ITEMS.len());
+        assert_eq!(words(&[]).unwrap().len(), items().len());
         assert_eq!(words(&["table-3-1/nodes"]).unwrap(), ["table-3-1"]);
         let figures = words(&["figure-3"]).unwrap();
         assert_eq!(figures.len(), 7);

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use palpate_reproduce::{Figures, ITEMS, Item, KEPT, Rows, legend, section, select};
+use palpate_reproduce::{Figures, Item, KEPT, items, legend, section, select};
 use serde::Serialize;
 
 use super::overwrite::OverwriteOption;
@@ -62,9 +62,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let progress = Progress::of_works(Reader::Person, items.iter().map(|item| item.seconds).sum());
     let mut all = Vec::new();
     for item in &items {
-        let mut rows = Rows::of(item.name, &figures, &progress);
-        let outcome = (item.run)(&mut rows);
-        let rows = selection.rows_of(item, rows.finished(outcome));
+        let rows = selection.rows_of(item, item.rows(&figures, &progress));
         kept.keep(&rows, &progress)?;
         if !arguments.json && !rows.is_empty() {
             progress.aside(|| output::text(section(item, &rows)))?;
@@ -89,7 +87,7 @@ fn drawn(plot: &Plot) -> Result<Vec<u8>, palpate_jobs::Error> {
 
 /// What was not selected.
 fn more(selected: usize) -> String {
-    match ITEMS.len() - selected {
+    match items().len() - selected {
         0 => String::new(),
         left => format!("{left} more items: palpate reproduce --list\n"),
     }

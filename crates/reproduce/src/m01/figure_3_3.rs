@@ -7,22 +7,11 @@ use palpate_mechanics::finite_spheres::{
 
 use super::pole::{FORMS, POISSONS_RATIOS, RADIUS, YOUNGS_MODULUS, contact, finite_elements};
 use crate::Error;
-use crate::row::Value;
-use crate::{Item, Rows};
-use palpate_jobs::plot::{Plot, Series, Style};
-
-pub(crate) const FIGURE_3_3: Item = Item {
-    name: "figure-3-3",
-    title: "profile of the indented hemisphere, 34 particles against finite elements",
-    seconds: 1.3,
-    run,
-};
+use crate::row::Rows;
+use palpate_jobs::plot::{Series, Style};
 
 /// The source names no tool; this is its probe's order of size [m].
 const TIP_RADIUS: f64 = 3e-3;
-
-const NOTE: &str = "root mean square over the surface that the model shows, in parts of the depth; the \
-    source's profile has no numbers, and stands beside finite elements that displace one node";
 
 /// Largest distance from finite elements that the weak form may have beyond the tip's edge, in depths [-].
 const PROFILE_BOUND: f64 = 0.05;
@@ -40,7 +29,7 @@ fn kinds() -> Vec<(FiniteSphereSettings, &'static str)> {
     forms.into_iter().chain([(own, "uncalibrated")]).collect()
 }
 
-fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
+pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     for poissons_ratio in POISSONS_RATIOS {
         let law = LinearElastic::new(YOUNGS_MODULUS, poissons_ratio)?;
         let judge = finite_elements(&law, TIP_RADIUS)?.answer.profile;
@@ -53,53 +42,25 @@ fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
                 .take_while(|((arc, _), _)| *arc < shown);
             let squares: Vec<f64> = each.map(|((_, a), (_, b))| (a - b).powi(2)).collect();
             let rms = (squares.iter().sum::<f64>() / squares.len() as f64).sqrt();
-            let value = Value {
-                published: None,
-                ours: Some(rms),
-                unit: "1",
-            };
-            rows.add(
-                &format!("profile_rms/{word}/nu_{poissons_ratio}"),
-                value,
-                NOTE,
-            );
+            rows.add(&format!("profile_rms/{word}/nu_{poissons_ratio}"), rms);
             let beyond = judge.iter().zip(&profile);
             let beyond = beyond.filter(|((arc, _), _)| *arc > TIP_RADIUS && *arc < shown);
             let worst = beyond
                 .map(|((_, a), (_, b))| (a - b).abs())
                 .fold(0.0, f64::max);
-            let value = Value {
-                published: None,
-                ours: Some(worst),
-                unit: "1",
-            };
             let verdict = if worst <= PROFILE_BOUND {
                 "within"
             } else {
                 "misses"
             };
-            let note = format!("{verdict} {PROFILE_BOUND} of the depth beyond the tip's edge");
-            rows.add(
-                &format!("profile_worst/{word}/nu_{poissons_ratio}"),
-                value,
-                note,
-            );
+            rows.row(&format!("profile_worst/{word}/nu_{poissons_ratio}"))
+                .told("verdict", verdict)
+                .told("bound", PROFILE_BOUND)
+                .is(worst);
             let name = format!("34 particles, {}", word.replace('_', " "));
             series.push(self::series(&name, &profile, Style::DashedLine, color + 1));
         }
-        let plot = Plot {
-            title: format!("Surface of a hemisphere indented at the pole, ν = {poissons_ratio}"),
-            x_label: "arc from the pole [mm]".to_owned(),
-            y_label: "outward displacement over depth [-]".to_owned(),
-            series,
-            ..Plot::default()
-        };
-        let name = format!("nu_{poissons_ratio}");
-        rows.add_figure(
-            Some(&name),
-            &plot,
-            "flat tip of 3 mm radius without friction",
-        )?;
+        rows.figure(&format!("nu_{poissons_ratio}")).draw(series)?;
     }
     Ok(())
 }

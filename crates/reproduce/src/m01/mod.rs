@@ -1,13 +1,8 @@
 //! M1, the local model: the hemisphere of chapter 3, indented at the pole.
 
-mod figure_3_3;
-mod figure_3_4;
-mod plots;
+pub(crate) mod figure_3_3;
+pub(crate) mod figure_3_4;
 mod pole;
-mod table_3_1;
+pub(crate) mod table_3_1;
 mod timing;
 mod uncalibrated;
-
-pub(super) use figure_3_3::FIGURE_3_3;
-pub(super) use figure_3_4::FIGURE_3_4;
-pub(super) use table_3_1::TABLE_3_1;

@@ -4,7 +4,7 @@ use palpate_geometry::{
 use palpate_mechanics::boundary_elements::BoundaryProblem;
 
 use crate::Error;
-use crate::published::TABLE_4_1;
+use crate::published::cell;
 use crate::real_mesh::real_mesh;
 
 /// The source names none.
@@ -64,8 +64,7 @@ impl Body {
     /// With as many triangles as published, or one more.
     pub(crate) fn new(model: Model) -> Result<Self, Error> {
         let organ = model.organ;
-        let triangles = TABLE_4_1.value(model.row, "triangles");
-        let triangles = triangles.map_or(organ.default_triangles(), |count| count as usize);
+        let triangles = cell(&format!("table-4-1 {} triangles", model.row))? as usize;
         match model.real_mesh()? {
             Some((mesh, name)) => Self::real(&mesh, &format!("the real mesh {name}")),
             None => Self::built_in(organ, triangles),

@@ -1,21 +1,14 @@
 use super::body::{Body, MODELS};
 use crate::Error;
 use crate::portrait::{Painter, Sitter};
-use crate::{Item, Rows};
+use crate::row::Rows;
 
-pub(crate) const FIGURE_4_2: Item = Item {
-    name: "figure-4-2",
-    title: "the bodies of table 4-1",
-    seconds: 3.6,
-    run,
-};
-
-fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
+pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     let mut painter = match Painter::new() {
         Ok(painter) => painter,
         Err(why) => {
             for model in MODELS {
-                rows.add_missing(model.row, "", why.to_string());
+                rows.row(model.row).missing(&why);
             }
             return Ok(());
         }
@@ -31,12 +24,10 @@ fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
             near: 1.0,
             lines: None,
         })?;
-        let adapter = painter.gpu.adapter();
-        let note = format!(
-            "{}, at rest as in the source; pressed in figure-4-6 and figure-4-7; drawn by {adapter}",
-            body.told
-        );
-        rows.add_picture(Some(model.row), &png, note)?;
+        rows.figure(model.row)
+            .told("body", &body.told)
+            .told("adapter", painter.gpu.adapter())
+            .picture(&png)?;
     }
     Ok(())
 }

@@ -5,15 +5,8 @@ use super::body::Body;
 use super::timing::{OffLine, OnLine, solve, touch};
 use crate::Error;
 use crate::machine::processor;
-use crate::{Item, Rows};
-use palpate_jobs::plot::{Axis, Plot, Series, Style};
-
-pub(crate) const GROWTH: Item = Item {
-    name: "table-4-1/growth",
-    title: "how time and memory grow with the triangles of a kidney; takes minutes",
-    seconds: 200.0,
-    run,
-};
+use crate::row::Rows;
+use palpate_jobs::plot::{Series, Style};
 
 /// Triangles of the kidneys.
 const SIZES: [usize; 4] = [700, 1_500, 3_000, 5_146];
@@ -33,7 +26,7 @@ struct Measured {
     memory: [f64; 2],
 }
 
-fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
+pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     let mut measured = Vec::new();
     let mut left_out = String::new();
     for size in SIZES {
@@ -46,12 +39,14 @@ fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
             Err(error) => return Err(error.into()),
         }
     }
-    for (name, note, plot) in plots(&measured) {
-        let note = format!(
-            "kidneys of one shape, {TOUCHABLE} triangles touchable, ν = 0.45, on {}: {note}{left_out}",
-            processor()
-        );
-        rows.add_figure(Some(name), &plot, note)?;
+    for (name, series) in plots(&measured) {
+        rows.figure(name)
+            .told("touchable", TOUCHABLE)
+            .told("machine", processor())
+            .told("moved", MOVED)
+            .told("powers", powers(&series))
+            .told("left_out", &left_out)
+            .draw(series)?;
     }
     Ok(())
 }
@@ -73,25 +68,11 @@ fn measure(rows: &Rows<'_>, body: &Body) -> Result<Option<Measured>, MechanicsEr
     }))
 }
 
-/// A name, what is told of it, and the picture.
-fn plots(measured: &[Measured]) -> [(&'static str, String, Plot); 3] {
-    let line = |name: &str, color, value: &dyn Fn(&Measured) -> f64| Series {
-        name: name.to_owned(),
-        points: measured
-            .iter()
-            .map(|one| (one.triangles, value(one)))
-            .collect(),
-        style: Style::LineWithDots,
-        color,
-    };
-    let plot = |title: &str, y_label: &str, series: Vec<Series>| Plot {
-        title: title.to_owned(),
-        x_label: "triangles".to_owned(),
-        y_label: y_label.to_owned(),
-        x_axis: Axis::Logarithmic,
-        y_axis: Axis::Logarithmic,
-        series,
-        ..Plot::default()
+/// The curves of each figure.
+fn plots(measured: &[Measured]) -> [(&'static str, Vec<Series>); 3] {
+    let line = |name: &str, color, value: &dyn Fn(&Measured) -> f64| {
+        let points = measured.iter().map(|one| (one.triangles, value(one)));
+        Series::new(name, points.collect(), Style::LineWithDots, color)
     };
     let off_line = vec![
         line("influences", 0, &|one| one.off_line.assembly),
@@ -102,31 +83,15 @@ fn plots(measured: &[Measured]) -> [(&'static str, String, Plot); 3] {
         line("most at a time", 0, &|one| 1e-6 * one.memory[1]),
         line("kept", 1, &|one| 1e-6 * one.memory[0]),
     ];
+    let force_and_field = |one: &Measured| 1e6 * one.on_line.force_and_field;
     let on_line = vec![
-        line("force and field", 0, &|one| {
-            1e6 * one.on_line.force_and_field
-        }),
+        line("force and field", 0, &force_and_field),
         line("force", 1, &|one| 1e6 * one.on_line.force),
     ];
     [
-        (
-            "beforehand",
-            powers(&off_line),
-            plot("Solved beforehand", "time [s]", off_line),
-        ),
-        (
-            "memory",
-            powers(&memory),
-            plot("Memory", "memory [MB]", memory),
-        ),
-        (
-            "on_line",
-            format!(
-                "{MOVED} triangles that are moved and stick; {}",
-                powers(&on_line)
-            ),
-            plot("Each step", "time [µs]", on_line),
-        ),
+        ("beforehand", off_line),
+        ("memory", memory),
+        ("on_line", on_line),
     ]
 }
 

@@ -11,8 +11,8 @@ use palpate_mechanics::surface_response::{
 };
 
 use super::body::Body;
-use crate::Rows;
 use crate::machine::median;
+use crate::row::Rows;
 use palpate_jobs::{Watch, preparation};
 
 /// What is done beforehand [s].

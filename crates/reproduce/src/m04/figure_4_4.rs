@@ -6,15 +6,8 @@ use palpate_mechanics::enhance::{EnhancedPatch, EnhancementModel, Neighborhood};
 
 use crate::Error;
 use crate::m03::{Body, MODELS};
-use crate::{Item, Rows};
-use palpate_jobs::plot::{Plot, Series, Style};
-
-pub(crate) const FIGURE_4_4: Item = Item {
-    name: "figure-4-4",
-    title: "which triangles around the touched one are made finer",
-    seconds: 0.41,
-    run,
-};
+use crate::row::Rows;
+use palpate_jobs::plot::{Series, Style};
 
 /// The source's parts of the figure.
 const AREAS: [(&str, EnhancementArea); 3] = [
@@ -26,23 +19,16 @@ const AREAS: [(&str, EnhancementArea); 3] = [
 /// Each triangle becomes 16.
 const LEVELS: usize = 2;
 
-fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
+pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     let cube = Body::new(MODELS[0])?;
     let touched = cube.opposite()[0];
     for (name, area) in AREAS {
-        let note = "the top of the cube of table 4-1, as the library makes it, dots at centroids, those on \
-                    the rim of the cube's sides; neighbours of finer triangles are cut so that no vertex \
-                    lies inside an edge, which the source does not show";
-        rows.add_figure(Some(name), &plot(&cube, touched, (name, area))?, note)?;
+        rows.figure(name).draw(drawn(&cube, touched, area)?)?;
     }
     Ok(())
 }
 
-fn plot(
-    cube: &Body,
-    touched: TriangleId,
-    (name, area): (&str, EnhancementArea),
-) -> Result<Plot, Error> {
+fn drawn(cube: &Body, touched: TriangleId, area: EnhancementArea) -> Result<Vec<Series>, Error> {
     let coarse = cube.surface.mesh();
     let settings = Enhancement {
         area,
@@ -63,26 +49,14 @@ fn plot(
         ("made finer", around.refined()),
         ("touched", &[touched]),
     ];
-    let edges = Series {
-        name: "edges".to_owned(),
-        points: edges_of_top(&patch.in_mesh(coarse, patch.places())),
-        style: Style::Line,
-        color: 0,
-    };
-    let dots = (1..).zip(dots).map(|(color, (name, ids))| Series {
-        name: name.to_owned(),
-        points: ids.iter().map(middle).collect(),
-        style: Style::Dots,
-        color,
+    let edges = edges_of_top(&patch.in_mesh(coarse, patch.places()));
+    let edges = Series::new("edges", edges, Style::Line, 0);
+    let dots = (1..).zip(dots).map(|(color, (name, ids))| {
+        let points = ids.iter().map(middle).collect();
+        Series::new(name, points, Style::Dots, color)
     });
     let dots = dots.filter(|dots| !dots.points.is_empty());
-    Ok(Plot {
-        title: format!("Subdivision around a triangle: {name}"),
-        x_label: "x [mm]".to_owned(),
-        y_label: "y [mm]".to_owned(),
-        series: std::iter::once(edges).chain(dots).collect(),
-        ..Plot::default()
-    })
+    Ok(std::iter::once(edges).chain(dots).collect())
 }
 
 /// A walk along all edges that lie on the top [mm], which goes back where it cannot go on.

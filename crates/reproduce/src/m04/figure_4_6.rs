@@ -8,14 +8,7 @@ use palpate_mechanics::enhance::{
 use crate::Error;
 use crate::m03::{Body, MODELS, Pressed};
 use crate::portrait::{Painter, Sitter};
-use crate::{Item, Rows};
-
-pub(crate) const FIGURE_4_6: Item = Item {
-    name: "figure-4-6",
-    title: "a cube at rest and pressed: coarse, with finer triangles at the tip, and smoothed",
-    seconds: 4.5,
-    run,
-};
+use crate::row::Rows;
 
 /// A picture of the figure.
 struct Shown {
@@ -79,12 +72,12 @@ const LEVELS: usize = 3;
 /// How deep a triangle is pressed in [m]: two fifths of the cube.
 const DEPTH: f64 = 40e-3;
 
-fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
+pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     let mut painter = match Painter::new() {
         Ok(painter) => painter,
         Err(why) => {
             for shown in PICTURES {
-                rows.add_missing(shown.name, "", why.to_string());
+                rows.row(shown.name).missing(&why);
             }
             return Ok(());
         }
@@ -100,44 +93,16 @@ fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
             near: 0.62,
             lines: Some(1.2e-4),
         })?;
-        let note = format!(
-            "{}, {}; {} triangles are drawn, with their edges; geometry, no mechanics; drawn by {}",
-            cube.told,
-            shown.told(),
-            surface.mesh().triangles().len(),
-            painter.gpu.adapter(),
-        );
-        rows.add_picture(Some(shown.name), &png, note)?;
+        rows.figure(shown.name)
+            .told("body", &cube.told)
+            .told("depth", 1e3 * DEPTH)
+            .told("smoothing", shown.smoothing)
+            .told("dimple", shown.dimple)
+            .told("triangles", surface.mesh().triangles().len())
+            .told("adapter", painter.gpu.adapter())
+            .picture(&png)?;
     }
     Ok(())
-}
-
-impl Shown {
-    fn told(&self) -> String {
-        if !self.pressed {
-            return "as it is at rest".to_owned();
-        }
-        let way = match self.smoothing {
-            Smoothing::None => "linearly between means at the vertices",
-            Smoothing::Shepard => "by Shepard's functions",
-            Smoothing::MovingLeastSquares => "by moving least squares",
-        };
-        let dimple = match self.dimple {
-            false => {
-                "as the source does; the dent is shallower than the tip is deep, since each of these spreads the \
-                      touched triangle's displacement over its neighbours"
-            }
-            true => {
-                "after the closed form of the dimple under a flat tip as large as the triangle was taken from them, \
-                     and added again where they were spread: the dent is as deep as the tip and as narrow, whatever \
-                     the triangles are, which is how organs are shown"
-            }
-        };
-        format!(
-            "a triangle pressed {:.0} mm deep, displacements of the centroids spread {way}, {dimple}",
-            1e3 * DEPTH
-        )
-    }
 }
 
 /// The surface with the patch in it at rest, and where its vertices [m] are when it is pressed.

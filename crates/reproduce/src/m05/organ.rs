@@ -6,15 +6,11 @@ use palpate_mechanics::{IndentationCurve, PronySeries};
 
 use crate::Error;
 use crate::m06::Printed;
-use crate::published::{SECTION_6_4_5, prony};
+use crate::published::{cell, prony};
 use crate::virtual_rig::RADIUS;
 
 /// When the source took a force for steady [s] (section 5.4.2).
 pub(super) const STEADY: f64 = 40.0;
-
-/// What the notes say of them.
-pub(super) const NOTE: &str = "an organ made of the printed means of table 5-1, read as what is left after 40 s, which relaxes by table 6-3 \
-    (the esophagus by section 6.4.5, the spleen, of which none is printed, as the liver)";
 
 /// An organ of whose printed rows each has the force that `force` takes from it [N].
 pub(super) fn specimen(
@@ -41,10 +37,13 @@ pub(super) fn beating(specimen: VirtualSpecimen, seed: u64) -> VirtualSpecimen {
 }
 
 fn relaxation(organ: &str) -> Result<PronySeries, Error> {
-    let esophagus = ["prony_g1", "relaxation_time_s"].map(|column| SECTION_6_4_5.first(column));
-    match (organ, esophagus) {
-        ("esophagus", [Some(g), Some(tau)]) => Ok(PronySeries::new(&[(g, tau)])?),
-        ("kidney", _) => prony("kidney", 5),
+    match organ {
+        "esophagus" => {
+            let term =
+                ["prony_g1", "relaxation_time_s"].map(|name| format!("section-6-4-5 {name}"));
+            Ok(PronySeries::new(&[(cell(&term[0])?, cell(&term[1])?)])?)
+        }
+        "kidney" => prony("kidney", 5),
         _ => prony("liver", 6),
     }
 }

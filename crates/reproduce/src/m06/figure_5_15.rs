@@ -1,60 +1,34 @@
 use palpate_characterize::CleanRecording;
 use palpate_characterize::analyze::Sinusoid;
 
-use super::swing::{NOTE, ORGANS, Organ};
+use super::swing::{ORGANS, Organ};
 use crate::Error;
-use crate::row::Value;
-use crate::{Item, Rows};
-use palpate_jobs::plot::{Plot, Series, Style};
-
-pub(crate) const FIGURE_5_15: Item = Item {
-    name: "figure-5-15",
-    title: "response to a swing of 2 Hz: force over time and over depth",
-    seconds: 2.3,
-    run,
-};
+use crate::row::Rows;
+use palpate_jobs::plot::{Series, Style};
 
 const FREQUENCY: f64 = 2.0;
 
-fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
+pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     let (mut loops, mut widths, mut courses) = (Vec::new(), Vec::new(), Vec::new());
     for (color, name) in ORGANS.into_iter().enumerate() {
-        let Some(organ) = Organ::printed(name)? else {
-            rows.add_missing(name, "N", "no law is printed");
-            continue;
-        };
-        let (recording, found) = organ.swung(FREQUENCY)?;
+        let (recording, found) = Organ::printed(name)?.swung(FREQUENCY)?;
         let Some(found) = found else {
-            rows.add_missing(name, "N", "no swing is seen in the recording");
+            rows.row(&format!("{name}/stiffness"))
+                .missing("no swing is seen in the recording");
             continue;
         };
-        add(rows, name, &found);
-        let drawn = |points| Series {
-            name: name.to_owned(),
-            points,
-            style: Style::Line,
-            color,
-        };
+        rows.add(&format!("{name}/stiffness"), found.stiffness_n_per_m);
+        rows.add(&format!("{name}/phase"), found.phase_rad);
+        rows.add(&format!("{name}/hysteresis"), found.hysteresis_j);
+        let drawn = |points| Series::new(name, points, Style::Line, color);
         let [over_depth, over_time] = one_period(&recording, &found);
         widths.push(drawn(without_line(&over_depth)));
         loops.push(drawn(over_depth));
         courses.push(drawn(over_time));
     }
-    let plot = |[x_label, y_label]: [&str; 2], series| Plot {
-        title: "Response to a swing of 2 Hz about 2 mm".to_owned(),
-        x_label: x_label.to_owned(),
-        y_label: y_label.to_owned(),
-        series,
-        ..Plot::default()
-    };
-    let note = "the last period but one, after the filter; the area is what is lost in it";
-    let labels = ["depth [mm]", "force [mN]"];
-    rows.add_figure(None, &plot(labels, loops), note)?;
-    let wide = "the same less the line through it, which leaves the loops wide enough to be seen";
-    let labels = ["depth [mm]", "force less the line through it [mN]"];
-    rows.add_figure(Some("width"), &plot(labels, widths), wide)?;
-    let labels = ["time [s]", "force [mN]"];
-    rows.add_figure(Some("time"), &plot(labels, courses), note)
+    rows.figure("").draw(loops)?;
+    rows.figure("width").draw(widths)?;
+    rows.figure("time").draw(courses)
 }
 
 /// Points less the line that comes nearest to them.
@@ -67,17 +41,6 @@ fn without_line(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let slope = products.sum::<f64>() / squares.sum::<f64>();
     let less = |point: &(f64, f64)| (point.0, point.1 - y - slope * (point.0 - x));
     points.iter().map(less).collect()
-}
-
-fn add(rows: &mut Rows<'_>, name: &str, found: &Sinusoid) {
-    let numbers = [
-        ("stiffness", found.stiffness_n_per_m, "N/m"),
-        ("phase", found.phase_rad, "rad"),
-        ("hysteresis", found.hysteresis_j, "J"),
-    ];
-    for (word, ours, unit) in numbers {
-        rows.add(&format!("{name}/{word}"), Value::own(ours, unit), NOTE);
-    }
 }
 
 /// Filtered force [mN] over depth [mm] and over time [s] in the last period but one: the filter has no neighbours

@@ -1,6 +1,6 @@
 //! Table 5-1 as numbers.
 
-use crate::published::TABLE_5_1;
+use crate::published::cell;
 
 /// Its organs, in its order.
 pub(super) const ORGANS: [&str; 4] = ["liver", "esophagus", "kidney", "spleen"];
@@ -25,7 +25,7 @@ pub(crate) struct Printed {
 impl Printed {
     /// The row of `organ` at `depth_mm`; none where the table has none.
     pub(crate) fn of(organ: &str, depth_mm: u32) -> Option<Self> {
-        let cell = |column| TABLE_5_1.value_of([organ, &depth_mm.to_string()], column);
+        let cell = |column| cell(&format!("table-5-1 {organ} {depth_mm} {column}")).ok();
         Some(Self {
             depth_mm,
             min: cell("min_n")?,

@@ -9,7 +9,7 @@ use palpate_mechanics::finite_elements::indentation::History;
 use palpate_mechanics::{IndentationCurve, PronySeries};
 
 use crate::Error;
-use crate::published::{SECTION_6_4_5, TABLE_6_4, prony};
+use crate::published::{cell, prony};
 use crate::virtual_rig::{RADIUS, RAMP, elastic, recorded};
 
 /// The organs of figure 5-16.
@@ -25,11 +25,6 @@ const PERIODS: f64 = 10.0;
 /// Samples per second, as the source's [Hz].
 const RATE: f64 = 1000.0;
 
-/// What the notes say of the laws.
-pub(super) const NOTE: &str = "the source draws this without numbers; ours: `analyze` on a virtual recording, 2 mm from peak \
-    to peak about 2 mm at 1 kHz with noise of 0.225 mN, of the printed laws read as instantaneous: neo-Hookean of table 6-4 with table 6-3 for liver and \
-    kidney, (6.1) with the modulus and the term of section 6.4.5 for the esophagus";
-
 /// An organ under the probe.
 pub(super) struct Organ {
     name: &'static str,
@@ -38,17 +33,17 @@ pub(super) struct Organ {
 }
 
 impl Organ {
-    /// With the printed law of the organ of this `name`; none without one.
-    pub(super) fn printed(name: &'static str) -> Result<Option<Self>, Error> {
-        let printed = match name {
+    /// With the printed law of the organ of this `name`.
+    pub(super) fn printed(name: &'static str) -> Result<Self, Error> {
+        let (curve, series) = match name {
             "esophagus" => esophagus()?,
             _ => solid(name)?,
         };
-        Ok(printed.map(|(curve, series)| Self {
+        Ok(Self {
             name,
             curve,
             series,
-        }))
+        })
     }
 
     /// What is recorded at `frequency` [Hz], and what it shows.
@@ -77,24 +72,22 @@ impl Organ {
     }
 }
 
-fn solid(name: &str) -> Result<Option<(IndentationCurve, PronySeries)>, Error> {
-    let cells = ["final_c10_pa", "depth_mm"].map(|column| TABLE_6_4.value(name, column));
-    let [Some(c10), Some(depth_mm)] = cells else {
-        return Ok(None);
-    };
+fn solid(name: &str) -> Result<(IndentationCurve, PronySeries), Error> {
+    let c10 = cell(&format!("table-6-4 {name} final_c10_pa"))?;
+    let depth_mm = cell(&format!("table-6-4 {name} depth_mm"))?;
     let curve = elastic(SoughtLaw::NeoHookean, (c10, 0.0))?;
-    Ok(Some((curve, prony(name, depth_mm as u32)?)))
+    Ok((curve, prony(name, depth_mm as u32)?))
 }
 
-fn esophagus() -> Result<Option<(IndentationCurve, PronySeries)>, Error> {
-    let cells = ["youngs_modulus_kpa", "prony_g1", "relaxation_time_s"];
-    let [Some(modulus), Some(g), Some(tau)] = cells.map(|column| SECTION_6_4_5.first(column))
-    else {
-        return Ok(None);
-    };
+fn esophagus() -> Result<(IndentationCurve, PronySeries), Error> {
+    let modulus = cell("section-6-4-5 youngs_modulus_kpa")?;
+    let term = (
+        cell("section-6-4-5 prony_g1")?,
+        cell("section-6-4-5 relaxation_time_s")?,
+    );
     let depth = DEPTH + AMPLITUDE;
     // (6.1) with ν = ½.
     let force = 1e3 * modulus / 0.75 * 2.0 * RADIUS * depth;
     let curve = IndentationCurve::through(&[depth], &[force]);
-    Ok(Some((curve, PronySeries::new(&[(g, tau)])?)))
+    Ok((curve, PronySeries::new(&[term])?))
 }

@@ -6,30 +6,16 @@ use palpate_mechanics::{IndentationCurve, PronySeries};
 
 use super::equation_6_3::printed;
 use crate::Error;
-use crate::published::{TABLE_6_4, prony};
-use crate::row::Value;
+use crate::published::{cell, prony};
+use crate::row::Rows;
 use crate::virtual_rig::{elastic, ramp_and_hold, recorded};
-use crate::{Item, Rows};
-use palpate_jobs::plot::{Plot, Series, Style};
-
-pub(crate) const FIGURE_6_4: Item = Item {
-    name: "figure-6-4",
-    title: "force on the liver and Kelvin's law",
-    seconds: 0.32,
-    run,
-};
+use palpate_jobs::plot::{Series, Style};
 
 /// Depth of table 6-4 for this organ.
 const DEPTH: f64 = 6e-3;
 
-const NOTE: &str = "published: (6.3); ours: Kelvin's law fitted to a virtual recording of the liver as tables 6-3 and 6-4 print \
-    it, at 6 mm; k1 and k2 show again that the source's two laws of one organ do not agree";
-
-fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
-    let Some(c10) = TABLE_6_4.value("liver", "final_c10_pa") else {
-        rows.add_missing("k1", "N/mm", "table 6-4 cannot be read");
-        return Ok(());
-    };
+pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
+    let c10 = cell("table-6-4 liver final_c10_pa")?;
     let course = ramp_and_hold(DEPTH);
     let curve = elastic(SoughtLaw::NeoHookean, (c10, 0.0))?;
     let felt = curve.relaxed(&prony("liver", 6)?, &course.times, &course.depths);
@@ -43,13 +29,11 @@ fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     ];
     let own = own.map(|each| 1e-3 * each.value);
     let printed = printed()?;
-    let names = [("k1", "N/mm"), ("k2", "N/mm"), ("b", "N s/mm")];
-    for (place, (word, unit)) in names.into_iter().enumerate() {
-        let value = Value::beside(Some(printed[place]), own[place], unit);
-        rows.add(word, value, NOTE);
+    for (word, ours) in ["k1", "k2", "b"].into_iter().zip(own) {
+        rows.add(word, ours);
     }
-    let plot = drawn(&recording, &course, [own, printed])?;
-    rows.add_figure(None, &plot, "one time constant misses the fast part of two")
+    let series = drawn(&recording, &course, [own, printed])?;
+    rows.figure("").draw(series)
 }
 
 /// The recording, and Kelvin's law as found and as printed.
@@ -57,7 +41,7 @@ fn drawn(
     recording: &CleanRecording,
     course: &History,
     [own, printed]: [[f64; 3]; 2],
-) -> Result<Plot, Error> {
+) -> Result<Vec<Series>, Error> {
     let line = |[k1, k2, b]: [f64; 3]| -> Result<Vec<(f64, f64)>, Error> {
         let series = PronySeries::new(&[(1.0 - k2 / k1, b / k1)])?;
         let curve = IndentationCurve::through(&[DEPTH], &[1e3 * k1 * DEPTH]);
@@ -68,20 +52,10 @@ fn drawn(
     let each = recording.time.iter().zip(&recording.force).step_by(50);
     let dots = each.map(|(t, f)| (*t, 1e3 * f)).collect();
     let as_printed = "Kelvin's law as printed, signs mended";
-    Ok(Plot {
-        title: "Force on the pig's liver at 6 mm".to_owned(),
-        x_label: "time [s]".to_owned(),
-        y_label: "force [mN]".to_owned(),
-        series: vec![
-            Series::new(
-                "virtual recording, tables 6-3 and 6-4",
-                dots,
-                Style::Dots,
-                0,
-            ),
-            Series::new("Kelvin's law through it", line(own)?, Style::Line, 1),
-            Series::new(as_printed, line(printed)?, Style::DashedLine, 2),
-        ],
-        ..Plot::default()
-    })
+    let recorded = "virtual recording, tables 6-3 and 6-4";
+    Ok(vec![
+        Series::new(recorded, dots, Style::Dots, 0),
+        Series::new("Kelvin's law through it", line(own)?, Style::Line, 1),
+        Series::new(as_printed, line(printed)?, Style::DashedLine, 2),
+    ])
 }

@@ -2,6 +2,7 @@
 
 use std::sync::{Arc, OnceLock};
 
+use palpate_characterize::inverse::SoughtLaw;
 use palpate_mechanics::finite_elements::estimate::Progress;
 use palpate_mechanics::finite_elements::indentation::{
     Base, Block, Grip, IndentationProblem, Indenter, IndenterShape, Side, solve,
@@ -9,8 +10,8 @@ use palpate_mechanics::finite_elements::indentation::{
 use palpate_mechanics::{IndentationCurve, Law, MooneyRivlin, NeoHookean};
 
 use crate::Error;
-use crate::Rows;
-use crate::published::{TABLE_6_4, TABLE_6_5, prony};
+use crate::published::{cell, prony};
+use crate::row::Rows;
 
 /// The source's cube of 100 mm, as a cylinder of the same height and volume.
 const BLOCK: Block = Block {
@@ -59,29 +60,24 @@ pub(super) fn published(rows: &Rows<'_>) -> Result<&'static [Published], Error> 
 
 fn solved(rows: &Rows<'_>) -> Result<Vec<Published>, Error> {
     let unit: Arc<dyn Law> = Arc::new(NeoHookean::incompressible(1.0)?);
-    let (unit_curve, error) = curve(rows, "neo-Hookean", unit)?;
+    let (unit_curve, unit_error) = curve(rows, "neo-Hookean", unit)?;
     let mut all = Vec::new();
     for (organ, depth_mm) in ORGANS {
         let relaxed = prony(organ, depth_mm)?.relaxation(f64::INFINITY);
-        if let Some(c10) = TABLE_6_4.value(organ, "final_c10_pa") {
-            all.push(Published {
-                organ,
-                law: "neo_hookean",
-                parameters: vec![c10],
-                relaxed,
+        for (law, word) in LAWS {
+            let parameters = printed(law, organ, "final")?;
+            let (curve, error) = match parameters.as_slice() {
                 // One modulus: the force is proportional to it.
-                curve: unit_curve.scaled(1.0, c10),
-                error,
-            });
-        }
-        let both = ["final_c10_pa", "final_c01_pa"].map(|name| TABLE_6_5.value(organ, name));
-        if let [Some(c10), Some(c01)] = both {
-            let law: Arc<dyn Law> = Arc::new(MooneyRivlin::incompressible(c10, c01)?);
-            let (curve, error) = curve(rows, "Mooney-Rivlin", law)?;
+                [c10] => (unit_curve.scaled(1.0, *c10), unit_error),
+                both => {
+                    let law = Arc::new(MooneyRivlin::incompressible(both[0], both[1])?);
+                    curve(rows, "Mooney-Rivlin", law)?
+                }
+            };
             all.push(Published {
                 organ,
-                law: "mooney_rivlin",
-                parameters: vec![c10, c01],
+                law: word,
+                parameters,
                 relaxed,
                 curve,
                 error,
@@ -89,6 +85,34 @@ fn solved(rows: &Rows<'_>) -> Result<Vec<Published>, Error> {
         }
     }
     Ok(all)
+}
+
+/// The laws of tables 6-4 and 6-5, with their words.
+pub(super) const LAWS: [(SoughtLaw, &str); 2] = [
+    (SoughtLaw::NeoHookean, "neo_hookean"),
+    (SoughtLaw::MooneyRivlin, "mooney_rivlin"),
+];
+
+/// The table that a law is in.
+pub(super) fn table(law: SoughtLaw) -> &'static str {
+    match law {
+        SoughtLaw::NeoHookean => "table-6-4",
+        _ => "table-6-5",
+    }
+}
+
+/// The moduli of a law.
+pub(super) fn moduli(law: SoughtLaw) -> &'static [&'static str] {
+    match law {
+        SoughtLaw::NeoHookean => &["c10"],
+        _ => &["c10", "c01"],
+    }
+}
+
+/// The printed moduli [Pa] of `organ`, of those `when`: `initial` or `final`.
+pub(super) fn printed(law: SoughtLaw, organ: &str, when: &str) -> Result<Vec<f64>, Error> {
+    let printed = |modulus| cell(&format!("{} {organ} {when}_{modulus}_pa", table(law)));
+    moduli(law).iter().map(printed).collect()
 }
 
 /// The elastic curve [N over m] of `law` and its relative error [-].

@@ -12,26 +12,11 @@ use palpate_characterize::lumped::{Contact, column_size};
 
 use crate::Error;
 use crate::m06::Printed;
-use crate::published::{TABLE_6_4, TABLE_6_5};
-use crate::row::Value;
+use crate::published::cell;
+use crate::row::{Line, Rows};
 use crate::virtual_rig::RADIUS;
-use crate::{Item, Rows};
 
 use super::block::ORGANS;
-
-pub(crate) const EQUATION_6_17: Item = Item {
-    name: "equation-6-17",
-    title: "starting values of the neo-Hookean law, from a column",
-    seconds: 0.1,
-    run: neo_hookean,
-};
-
-pub(crate) const EQUATION_6_18: Item = Item {
-    name: "equation-6-18",
-    title: "starting values of the Mooney-Rivlin law, from a column",
-    seconds: 0.1,
-    run: mooney_rivlin,
-};
 
 /// The column, and what one unit of each modulus contributes to its stress at the depths of table 5-1.
 pub(super) struct Column {
@@ -74,67 +59,43 @@ impl Column {
         matrix.lu().solve(&right)
     }
 
-    pub(super) fn note(&self) -> String {
-        format!(
-            "by least squares on the means of table 5-1, with the probe's face, {:.2} mm², and a column of {:.0} mm; the source prints \
-             neither the area nor the length that it took",
-            1e6 * self.area,
-            1e3 * self.length
-        )
+    /// `line` with its area and length in the note.
+    pub(super) fn told<'r, 'a>(&self, line: Line<'r, 'a>) -> Line<'r, 'a> {
+        line.told("area", format!("{:.2}", 1e6 * self.area))
+            .told("length", format!("{:.0}", 1e3 * self.length))
     }
 }
 
-fn neo_hookean(rows: &mut Rows<'_>) -> Result<(), Error> {
+pub(crate) fn neo_hookean(rows: &mut Rows<'_>) -> Result<(), Error> {
     for (organ, _) in ORGANS {
         let column = Column::of(organ);
-        let published = TABLE_6_4.value(organ, "initial_c10_pa");
-        let value = Value::beside(published, column.neo_hookean(), "Pa");
-        let note = format!(
-            "published: initial value of table 6-4; {}; no fixed pair returns its C10 for both organs",
-            column.note()
-        );
-        rows.add(&format!("{organ}/c10"), value, note);
-        let needed = published.map(|c10| column.area * column.neo_hookean() / c10);
-        let note = "area of the column with which (6.17) returns the printed value, where the probe's face has 3.14 mm²: moduli go as \
-                    one over the area, so that this is all of the difference for this length; the two organs need different areas, and \
-                    none of them is printed";
-        let needed = Value {
-            published: None,
-            ours: needed.map(|area| 1e6 * area),
-            unit: "mm²",
-        };
-        rows.add(&format!("{organ}/area_needed"), needed, note);
+        let found = column.neo_hookean();
+        column.told(rows.row(&format!("{organ}/c10"))).is(found);
+        let printed = cell(&format!("table-6-4 {organ} initial_c10_pa"))?;
+        let needed = column.area * found / printed;
+        rows.add(&format!("{organ}/area_needed"), 1e6 * needed);
     }
     Ok(())
 }
 
-fn mooney_rivlin(rows: &mut Rows<'_>) -> Result<(), Error> {
+pub(crate) fn mooney_rivlin(rows: &mut Rows<'_>) -> Result<(), Error> {
     for (organ, _) in ORGANS {
         let column = Column::of(organ);
         let Some(found) = column.mooney_rivlin() else {
-            rows.add_missing(organ, "Pa", "the depths do not tell the two moduli apart");
-            continue;
+            return Err(Error::failed("the depths do not tell the two moduli apart"));
         };
-        let printed = ["initial_c10_pa", "initial_c01_pa"].map(|name| TABLE_6_5.value(organ, name));
-        let note = format!("published: initial value of table 6-5; {}", column.note());
-        for (word, published, ours) in [("c10", printed[0], found.x), ("c01", printed[1], found.y)]
-        {
-            let value = Value::beside(published, ours, "Pa");
-            rows.add(&format!("{organ}/{word}"), value, note.clone());
+        for (word, ours) in [("c10", found.x), ("c01", found.y)] {
+            column.told(rows.row(&format!("{organ}/{word}"))).is(ours);
         }
-        let both = printed[0].zip(printed[1]);
-        let note = "C01 over C10, which does not depend on the area; the printed ones are within 3 % of 1, as a rule that splits \
-                    what it cannot tell apart gives them: where the column is hardly compressed only the sum is known";
-        let ratio = Value::beside(both.map(|(c10, c01)| c01 / c10), found.y / found.x, "1");
-        rows.add(&format!("{organ}/c01_over_c10"), ratio, note);
-        let note = "C10 + C01 of (6.18) over C10 of (6.17), which does not depend on the area either; 1 for a column that is hardly \
-                    compressed";
-        let alone = TABLE_6_4.value(organ, "initial_c10_pa");
-        let published = both
-            .zip(alone)
-            .map(|((c10, c01), alone)| (c10 + c01) / alone);
-        let sum = Value::beside(published, found.sum() / column.neo_hookean(), "1");
-        rows.add(&format!("{organ}/sum_over_neo_hookean"), sum, note);
+        let c10 = cell(&format!("table-6-5 {organ} initial_c10_pa"))?;
+        let c01 = cell(&format!("table-6-5 {organ} initial_c01_pa"))?;
+        rows.row(&format!("{organ}/c01_over_c10"))
+            .published(c01 / c10)
+            .is(found.y / found.x);
+        let alone = cell(&format!("table-6-4 {organ} initial_c10_pa"))?;
+        rows.row(&format!("{organ}/sum_over_neo_hookean"))
+            .published((c10 + c01) / alone)
+            .is(found.sum() / column.neo_hookean());
     }
     Ok(())
 }

@@ -1,21 +1,14 @@
 use super::block::published;
-use super::figure_6_8::measured_series;
+use super::figure_6_8::measured;
 use crate::Error;
-use crate::published::TABLE_6_4;
-use crate::{Item, Rows};
-use palpate_jobs::plot::{Plot, Series, Style};
-
-pub(crate) const FIGURE_6_12: Item = Item {
-    name: "figure-6-12",
-    title: "static force of the pig's liver and of the two laws",
-    seconds: 180.0,
-    run,
-};
+use crate::published::cell;
+use crate::row::Rows;
+use palpate_jobs::plot::{Series, Style};
 
 const ORGAN: &str = "liver";
 
-fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
-    let mut series = vec![measured_series(ORGAN, 3)];
+pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
+    let mut series = vec![measured(ORGAN, 3)];
     for (color, set) in published(rows)?.iter().enumerate() {
         if set.organ != ORGAN {
             continue;
@@ -26,31 +19,14 @@ fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
             points.map(|depth| (depth, force(depth))).collect()
         };
         let name = set.law.replace('_', "-");
-        series.push(Series {
-            name: format!("{name}, final parameters"),
-            points: curve(1.0),
-            style: Style::Line,
-            color,
-        });
-        let initial = TABLE_6_4.value(ORGAN, "initial_c10_pa");
-        if let ([c10], Some(initial)) = (set.parameters.as_slice(), initial) {
-            series.push(Series {
-                name: format!("{name}, C10 = {initial} Pa as the figure's caption"),
-                points: curve(initial / c10),
-                style: Style::DashedLine,
-                color,
-            });
+        let last = format!("{name}, final parameters");
+        series.push(Series::new(last, curve(1.0), Style::Line, color));
+        if let [c10] = set.parameters.as_slice() {
+            let initial = cell("table-6-4 liver initial_c10_pa")?;
+            let points = curve(initial / c10);
+            let first = format!("{name}, C10 = {initial} Pa as the figure's caption");
+            series.push(Series::new(first, points, Style::DashedLine, color));
         }
     }
-    let plot = Plot {
-        title: "Static force on the pig's liver".to_owned(),
-        x_label: "depth [mm]".to_owned(),
-        y_label: "force [mN]".to_owned(),
-        series,
-        ..Plot::default()
-    };
-    let note = "the source's figure plots the initial, not the final, neo-Hookean C10 (its caption says \
-                198.23 Pa, table 6-4 ends at 452.92 Pa); both are drawn. Moduli as printed, taken as \
-                those of the steady state";
-    rows.add_figure(None, &plot, note)
+    rows.figure("").draw(series)
 }

@@ -8,7 +8,7 @@ use palpate_mechanics::{Law, MooneyRivlin, NeoHookean, PronySeries};
 use std::sync::Arc;
 
 use crate::Error;
-use crate::Rows;
+use crate::row::Rows;
 use crate::virtual_rig::{END, RADIUS, RAMP};
 
 /// Samples of the ramp and of the hold.

@@ -39,16 +39,6 @@ pub(super) const ALGORITHMS: [(Algorithm, &str); 3] = [
 ];
 
 impl Algorithm {
-    /// What the notes say of it.
-    pub(super) fn told(self) -> String {
-        match self {
-            Self::Own => "this project's fit, of modulus and shape between bounds".to_owned(),
-            Self::Source(damping) => format!(
-                "the source's iteration (6.16), damping {damping} of the mean diagonal of its matrix; the source says no number"
-            ),
-        }
-    }
-
     pub(super) fn style(self) -> Style {
         match self {
             Self::Own => Style::LineWithDots,

@@ -9,7 +9,7 @@ use palpate_mechanics::{IndentationCurve, Law, LinearElastic, NeoHookean};
 
 use super::organ::printed;
 use crate::Error;
-use crate::Rows;
+use crate::row::Rows;
 use crate::virtual_rig::RADIUS;
 
 /// Depths of table 5-1 that are above the tube's axis, and one more [mm].

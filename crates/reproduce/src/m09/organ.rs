@@ -4,7 +4,7 @@ use palpate_mechanics::PronySeries;
 use palpate_mechanics::finite_elements::tube::Tube;
 
 use crate::Error;
-use crate::published::SECTION_6_4_5;
+use crate::published::cell;
 
 /// The source gives a diameter of about 15 mm (section 7.1) and no wall; 2.5 mm is a reading.
 const INNER_RADIUS: f64 = 5e-3;
@@ -16,21 +16,16 @@ pub(super) struct Printed {
     pub(super) g: f64,
     /// [s]
     pub(super) tau: f64,
-    pub(super) pressure_mmhg: f64,
     pub(super) tube: Tube,
 }
 
 /// The printed numbers.
 pub(super) fn printed() -> Result<Printed, Error> {
-    let cell = |column| {
-        let missing = || Error::failed("section 6.4.5 cannot be read; please report this");
-        SECTION_6_4_5.first(column).ok_or_else(missing)
-    };
+    let cell = |column| cell(&format!("section-6-4-5 {column}"));
     Ok(Printed {
         modulus_kpa: cell("youngs_modulus_kpa")?,
         g: cell("prony_g1")?,
         tau: cell("relaxation_time_s")?,
-        pressure_mmhg: cell("internal_pressure_mmhg")?,
         tube: Tube {
             length: 1e-3 * cell("length_mm")?,
             inner_radius: INNER_RADIUS,

@@ -11,27 +11,22 @@ use palpate_mechanics::{IndentationCurve, NeoHookean};
 use super::organ::{Printed, printed};
 
 use crate::Error;
-use crate::published::TABLE_5_1;
-use crate::row::Value;
+use crate::published::cell;
+use crate::row::Rows;
 use crate::virtual_rig::{RADIUS, ramp_and_hold, recorded};
-use crate::{Item, Rows};
-use palpate_jobs::plot::{Plot, Series, Style};
-
-pub(crate) const SECTION_6_4_5: Item = Item {
-    name: "section-6-4-5",
-    title: "the esophagus as a tube under pressure",
-    seconds: 2.9,
-    run,
-};
+use palpate_jobs::plot::{Series, Style};
 
 /// The depth at which (6.1) gives the source's modulus [m].
 const DEPTH: f64 = 8e-3;
 const PASCAL_PER_MMHG: f64 = 133.322_387_415;
 const ACCURACY: f64 = 0.01;
 
-fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
+pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     let printed = printed()?;
-    add_modulus(rows, printed.modulus_kpa);
+    // The source's modulus is that of a half-space, not of a tube.
+    let steady = cell("table-5-1 esophagus 8 mean_n")?;
+    let half_space = mean_modulus(Contact::Flat(RADIUS), false, DEPTH, steady)?;
+    rows.add("youngs_modulus", 1e-3 * half_space);
     add_relaxation(rows, &printed)?;
     let law = NeoHookean::incompressible(1e3 * printed.modulus_kpa / 6.0)?;
     let problem = TubeProblem {
@@ -41,51 +36,26 @@ fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     };
     let found = solve(rows, &problem, &[])?;
     let limit = found.answer.limit_pressure;
-    let value = Value {
-        published: Some(printed.pressure_mmhg),
-        ours: limit.map(|p| p / PASCAL_PER_MMHG),
-        unit: "mmHg",
-    };
-    let note = format!(
-        "published: pressure in the source's model; ours: greatest pressure of a neo-Hookean tube with \
-         the source's modulus, radii of 5 and 7.5 mm and held ends (relative error {:.4}); a linear \
-         solver gives a displacement at 30 mmHg without complaint",
-        found.error
-    );
-    rows.add("limit_pressure", value, note);
+    rows.row("limit_pressure")
+        .told("error", format!("{:.4}", found.error))
+        .is(limit.map(|p| p / PASCAL_PER_MMHG));
     if let Some(limit) = limit {
         let pressures: Vec<f64> = (0..=40)
             .map(|i| 0.999 * limit * f64::from(i) / 40.0)
             .collect();
         let path = solve(rows, &problem, &pressures)?;
-        rows.add_figure(None, &plot(&pressures, &path.answer), "up to the limit")?;
+        rows.figure("")
+            .draw(vec![drawn(&pressures, &path.answer)])?;
     }
     Ok(())
-}
-
-/// The source's modulus is that of a half-space, not of a tube.
-fn add_modulus(rows: &mut Rows<'_>, modulus_kpa: f64) {
-    // As if it were no hollow organ.
-    let half_space = TABLE_5_1
-        .value_of(["esophagus", "8"], "mean_n")
-        .and_then(|force| mean_modulus(Contact::Flat(RADIUS), false, DEPTH, force).ok())
-        .map(|modulus| 1e-3 * modulus);
-    let value = Value {
-        published: Some(modulus_kpa),
-        ours: half_space,
-        unit: "kPa",
-    };
-    let note = "published as the result of inverse finite elements on the tube; ours: the half-space \
-                formula (6.1) with the mean of table 5-1 at 8 mm, which is the same number to four digits; what the tube gives is figure-6-15/tube_modulus";
-    rows.add("youngs_modulus", value, note);
 }
 
 /// The one term, found again.
 fn add_relaxation(rows: &mut Rows<'_>, printed: &Printed) -> Result<(), Error> {
     let course = ramp_and_hold(DEPTH);
-    let force = TABLE_5_1.value_of(["esophagus", "8"], "mean_n");
+    let force = cell("table-5-1 esophagus 8 mean_n")?;
     let series = printed.series()?;
-    let elastic = force.unwrap_or(0.0) / series.relaxation(f64::INFINITY);
+    let elastic = force / series.relaxation(f64::INFINITY);
     let curve = IndentationCurve::through(&[DEPTH], &[elastic]);
     let felt = curve.relaxed(&series, &course.times, &course.depths);
     let recording = recorded(("esophagus", 0), &course, &felt, 1)?;
@@ -99,27 +69,15 @@ fn add_relaxation(rows: &mut Rows<'_>, printed: &Printed) -> Result<(), Error> {
         .into_iter()
         .collect();
     let one = RelaxationSettings { terms: Some(1) };
-    let note = "refitted from a virtual recording with the printed term that ends at the mean of table 5-1 at 8 mm, ramp of 0.5 s, hold \
-                until 40 s, noise of 0.225 mN";
-    for ([g, tau], (prefix, how)) in relaxation(&seen, one)?
-        .terms
-        .into_iter()
-        .zip([("", "the ramp as recorded")])
-        .chain(
-            relaxation_of_steps(&seen, one)?
-                .terms
-                .into_iter()
-                .zip([("step/", "the ramp taken for a step")]),
-        )
-    {
-        let note = format!("{note}; {how}; the source prints the second on g instead of tau");
-        let tau = Value::beside(Some(printed.tau), tau.value, "s");
-        rows.add_pipeline_only(&format!("{prefix}tau"), tau, note.clone());
-        rows.add_pipeline_only(
-            &format!("{prefix}g"),
-            Value::beside(Some(printed.g), g.value, "1"),
-            note,
-        );
+    let found = [
+        ("", relaxation(&seen, one)?),
+        ("step/", relaxation_of_steps(&seen, one)?),
+    ];
+    for (ramp, found) in found {
+        if let Some([g, tau]) = found.terms.first() {
+            rows.row(&format!("{ramp}tau")).is(tau.value);
+            rows.row(&format!("{ramp}g")).is(g.value);
+        }
     }
     Ok(())
 }
@@ -136,19 +94,8 @@ fn solve(
     Ok(inflate(problem, pressures, ACCURACY, &mut say)?)
 }
 
-fn plot(pressures: &[f64], answer: &Inflated) -> Plot {
+fn drawn(pressures: &[f64], answer: &Inflated) -> Series {
     let each = pressures.iter().zip(&answer.inner_displacements);
     let points = each.filter_map(|(p, u)| u.map(|u| (1e3 * u, p / PASCAL_PER_MMHG)));
-    Plot {
-        title: "Esophagus of section 6.4.5 under inner pressure".to_owned(),
-        x_label: "widening of the inner radius at mid-length [mm]".to_owned(),
-        y_label: "pressure [mmHg]".to_owned(),
-        series: vec![Series {
-            name: String::new(),
-            points: points.collect(),
-            style: Style::Line,
-            color: 0,
-        }],
-        ..Plot::default()
-    }
+    Series::new("", points.collect(), Style::Line, 0)
 }

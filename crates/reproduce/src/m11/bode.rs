@@ -3,7 +3,7 @@
 use nalgebra::Complex;
 
 use super::device::Device;
-use palpate_jobs::plot::{Axis, Plot, Series, Style};
+use palpate_jobs::plot::{Series, Style};
 
 /// Frequencies of a plot: the lowest, the highest [Hz], and how many dots are in a decade.
 const LOWEST: f64 = 0.1;
@@ -22,13 +22,8 @@ fn frequencies(in_a_decade: i32) -> impl Iterator<Item = f64> {
 /// What is drawn of a response: a magnitude [dB] or a phase [degrees].
 pub(super) type Shown = fn(Complex<f64>) -> f64;
 
-/// A plot of `shown` of one of the two functions of each device, whose name on the y axis is `y_label`.
-pub(super) fn plot(
-    devices: &[Device; 2],
-    (title, y_label): (&str, &str),
-    of_function: usize,
-    shown: Shown,
-) -> Plot {
+/// The curves of `shown` of one of the two functions of each device.
+pub(super) fn curves(devices: &[Device; 2], of_function: usize, shown: Shown) -> Vec<Series> {
     let mut series = Vec::new();
     for (color, device) in devices.iter().enumerate() {
         let functions = [
@@ -38,23 +33,12 @@ pub(super) fn plot(
         let function = functions[of_function];
         let line = frequencies(FINE).map(|f| (f, shown(function.at(f))));
         let dots = frequencies(DOTS).map(|f| (f, shown(device.injected(f)[of_function])));
-        series.push(Series::new(
-            device.words,
-            line.collect(),
-            Style::Line,
-            color,
-        ));
-        let name = format!("{}, sines injected", device.words);
+        let name = device.words;
+        series.push(Series::new(name, line.collect(), Style::Line, color));
+        let name = format!("{name}, sines injected");
         series.push(Series::new(name, dots.collect(), Style::Dots, color));
     }
-    Plot {
-        title: title.to_owned(),
-        x_label: "frequency [Hz]".to_owned(),
-        y_label: y_label.to_owned(),
-        x_axis: Axis::Logarithmic,
-        series,
-        ..Plot::default()
-    }
+    series
 }
 
 /// Phase of a response that leads [degrees].

@@ -3,26 +3,16 @@ use palpate_geometry::{SimplifySettings, Surface, TriangleMesh, Vec3, simplify};
 use super::section_7_4::esophagus;
 use crate::Error;
 use crate::portrait::{Painter, Sitter};
-use crate::published::SECTION_7_4 as PUBLISHED;
-use crate::{Item, Rows};
+use crate::published::cell;
+use crate::row::Rows;
 
-pub(crate) const FIGURE_7_10: Item = Item {
-    name: "figure-7-10",
-    title: "the esophagus before and after it was simplified",
-    seconds: 2.0,
-    run,
-};
-
-fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
-    let counts = ["original", "simplified"].map(|row| PUBLISHED.value(row, "triangles"));
-    let [Some(before), Some(after)] = counts else {
-        rows.not_computed("the published numbers of triangles cannot be read");
-        return Ok(());
-    };
+pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
+    let before = cell("section-7-4 original triangles")?;
+    let after = cell("section-7-4 simplified triangles")?;
     let mut painter = match Painter::new() {
         Ok(painter) => painter,
         Err(why) => {
-            rows.not_computed(&why.to_string());
+            rows.row("").missing(why);
             return Ok(());
         }
     };
@@ -30,9 +20,12 @@ fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     let settings = SimplifySettings::to(after as usize);
     let simplified = simplify(&mesh, &settings).map_err(Error::failed)?;
     for (name, mesh) in [("before", mesh), ("after", simplified.mesh)] {
-        let note = format!("{whose}, {} triangles", mesh.triangles().len());
+        let triangles = mesh.triangles().len();
         let png = portrait(&mut painter, mesh)?;
-        rows.add_picture(Some(name), &png, note)?;
+        rows.figure(name)
+            .told("body", whose)
+            .told("triangles", triangles)
+            .picture(&png)?;
     }
     Ok(())
 }

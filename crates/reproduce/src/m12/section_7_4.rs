@@ -1,44 +1,44 @@
 use std::time::Instant;
 
-use palpate_geometry::{Organ, Simplified, SimplifySettings, TriangleMesh, inspect, simplify};
+use palpate_geometry::{Organ, SimplifySettings, TriangleMesh, inspect, simplify};
 
 use crate::Error;
 use crate::machine::processor;
-use crate::published::SECTION_7_4 as PUBLISHED;
+use crate::published::cell;
 use crate::real_mesh::real_mesh;
-use crate::row::Value;
-use crate::{Item, Rows};
-
-pub(crate) const SECTION_7_4: Item = Item {
-    name: "section-7-4",
-    title: "an esophagus with fewer triangles",
-    seconds: 0.69,
-    run,
-};
+use crate::row::Rows;
 
 /// The real esophagus with as many triangles as the source's.
 const REAL: &str = "bp3d_esophagus_21146";
 
-fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
-    let counts = ["original", "simplified"].map(|row| PUBLISHED.value(row, "triangles"));
-    let [Some(before), Some(after)] = counts else {
-        rows.add_missing("triangles", "1", "the published values cannot be read");
-        return Ok(());
-    };
+pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
+    let before = cell("section-7-4 original triangles")?;
+    let after = cell("section-7-4 simplified triangles")?;
     let (mesh, whose) = esophagus(before as usize)?;
     let start = Instant::now();
     let simplified =
         simplify(&mesh, &SimplifySettings::to(after as usize)).map_err(Error::failed)?;
     let seconds = start.elapsed().as_secs_f64();
     let body = format!("{whose}, {} triangles", mesh.triangles().len());
-    add_counts(rows, &simplified, &body);
-    add_likeness(rows, &mesh, &simplified, &body);
-    let note = format!(
-        "{body}; with the distances both ways, on {}, one thread; the source does not tell its time in \
-         3D Studio Max",
-        processor()
-    );
-    rows.add("simplify_s", own(seconds, "s"), note);
+    let mut add = |name: &str, ours: f64| {
+        let row = rows.row(name).told("body", &body);
+        let (low, high) = mesh.bounds();
+        row.told("length", format!("{:.0}", 1e3 * (high - low).max()))
+            .told("before", inspect(&mesh).self_intersections)
+            .told("machine", processor())
+            .is(ours);
+    };
+    let simple = &simplified.mesh;
+    add("triangles", simple.triangles().len() as f64);
+    add("vertices", simple.vertices().len() as f64);
+    let (there, back) = (simplified.of_original, simplified.of_result);
+    add("deviation_max", 1e3 * f64::max(there.max, back.max));
+    add("deviation_mean", 1e3 * f64::max(there.mean, back.mean));
+    let change = simple.volume() / mesh.volume() - 1.0;
+    add("volume_change", 100.0 * change);
+    let meeting = simplified.self_intersections;
+    add("self_intersections", meeting as f64);
+    add("simplify_s", seconds);
     Ok(())
 }
 
@@ -51,62 +51,4 @@ pub(super) fn esophagus(triangles: usize) -> Result<(TriangleMesh, &'static str)
             "the built-in esophagus in place of a real one",
         ),
     })
-}
-
-fn add_counts(rows: &mut Rows<'_>, simplified: &Simplified, body: &str) {
-    let ours = [
-        ("triangles", simplified.mesh.triangles().len()),
-        ("vertices", simplified.mesh.vertices().len()),
-    ];
-    let note = format!(
-        "{body}; a closed surface in one piece and without handles has half as many vertices as triangles, \
-         and two: the source's counts are of no such surface"
-    );
-    for ((name, ours), column) in ours.into_iter().zip(["triangles", "points"]) {
-        let value = Value {
-            published: PUBLISHED.value("simplified", column),
-            ours: Some(ours as f64),
-            unit: "1",
-        };
-        rows.add(name, value, note.clone());
-    }
-}
-
-/// How like the original it is; the source shows a picture of it.
-fn add_likeness(
-    rows: &mut Rows<'_>,
-    mesh: &TriangleMesh,
-    Simplified {
-        mesh: simple,
-        of_original,
-        of_result,
-        self_intersections,
-    }: &Simplified,
-    body: &str,
-) {
-    let (low, high) = mesh.bounds();
-    let length = 1e3 * (high - low).max();
-    let note = format!(
-        "{body}, {length:.0} mm long; the farther of original to result and back; the source shows a picture"
-    );
-    let farthest = f64::max(of_original.max, of_result.max);
-    rows.add("deviation_max", own(1e3 * farthest, "mm"), note.clone());
-    let mean = f64::max(of_original.mean, of_result.mean);
-    rows.add("deviation_mean", own(1e3 * mean, "mm"), note);
-    let change = 100.0 * (simple.volume() / mesh.volume() - 1.0);
-    rows.add("volume_change", own(change, "%"), body.to_owned());
-    let note = format!(
-        "{body}; triangles of the result that meet others, {} of the original do",
-        inspect(mesh).self_intersections
-    );
-    let meeting = *self_intersections as f64;
-    rows.add("self_intersections", own(meeting, "1"), note);
-}
-
-fn own(ours: f64, unit: &'static str) -> Value {
-    Value {
-        published: None,
-        ours: Some(ours),
-        unit,
-    }
 }

@@ -6,29 +6,7 @@ use palpate_viewer::{FRAME_SIZE, RgbaImage, Studio, pick, png};
 
 use super::look;
 use crate::Error;
-use crate::row::Value;
-use crate::{Item, Rows};
-
-pub(crate) const FIGURE_7_12: Item = Item {
-    name: "figure-7-12",
-    title: "the esophagus without a texture, with one, and with a sphere map",
-    seconds: 8.5,
-    run: figure_7_12,
-};
-
-pub(crate) const FIGURE_3_7: Item = Item {
-    name: "figure-3-7",
-    title: "palpation of a liver with the local model",
-    seconds: 3.4,
-    run: figure_3_7,
-};
-
-pub(crate) const FIGURE_4_7: Item = Item {
-    name: "figure-4-7",
-    title: "palpation of a kidney with the global model",
-    seconds: 3.7,
-    run: figure_4_7,
-};
+use crate::row::Rows;
 
 const ESOPHAGUS: &str = "format = 1\n[organ]\nbuiltin = \"esophagus\"\ntriangles = 14000\n\
      builtin_tissue = \"pig-esophagus\"\n[[tool]]\nname = \"right\"\n\
@@ -44,28 +22,20 @@ const KIDNEY: &str = "format = 1\n[organ]\nbuiltin = \"kidney\"\ntriangles = 100
      [model.enhancement]\nsmoothing = \"shepard\"\n[[tool]]\nname = \"right\"\n\
      tip = { shape = \"sphere\", radius_m = 0.004, contact = \"stick\" }\n";
 
-fn figure_7_12(rows: &mut Rows<'_>) -> Result<(), Error> {
+pub(crate) fn figure_7_12(rows: &mut Rows<'_>) -> Result<(), Error> {
     let shadings = [
-        (Shading::Plain, "left", "polygons without a texture"),
-        (
-            Shading::Texture,
-            "middle",
-            "a texture that sticks to the tissue: no seams, no stretched places",
-        ),
-        (
-            Shading::SphereMap,
-            "right",
-            "the texture under a film of liquid, which a sphere map and a lamp light; without one the tissue is dull",
-        ),
+        (Shading::Plain, "left"),
+        (Shading::Texture, "middle"),
+        (Shading::SphereMap, "right"),
     ];
     let mut seen = Vec::new();
-    for (shading, name, what) in shadings {
+    for (shading, name) in shadings {
         let made = picture(ESOPHAGUS, 0.002, |studio| {
             studio.view.shading = shading;
             studio.view.looks.relief = shading != Shading::Plain;
         });
         seen.extend(made.as_ref().ok().map(|made| made.pixels.clone()));
-        add(rows, Some(name), what, made)?;
+        add(rows, name, made)?;
     }
     if let [left, middle, right] = seen.as_slice() {
         add_looks(rows, left, [middle, right]);
@@ -76,74 +46,37 @@ fn figure_7_12(rows: &mut Rows<'_>) -> Result<(), Error> {
 /// What the film changes, beside what is printed of photographs.
 fn add_looks(rows: &mut Rows<'_>, plain: &RgbaImage, [middle, right]: [&RgbaImage; 2]) {
     let tissue = look::tissue(plain);
-    let mut add = |name: &str, ours: f64, unit: &'static str, note: &str| {
-        let value = Value {
-            published: None,
-            ours: Some(ours),
-            unit,
-        };
-        rows.add(name, value, note);
-    };
-    add(
-        "wet_unlike_textured",
-        100.0 * look::unlike(&tissue, middle, right),
-        "%",
-        "pixels of tissue that differ between the middle and the right picture by more than 10 of 255 in a channel",
-    );
+    let unlike = look::unlike(&tissue, middle, right);
+    rows.add("wet_unlike_textured", 100.0 * unlike);
     for (name, picture) in [("middle", middle), ("right", right)] {
-        add(
-            &format!("highlights/{name}"),
-            100.0 * look::highlights(&tissue, picture),
-            "%",
-            "pixels of tissue with all channels above 200 of 255; in endoscopic photographs about 0.9 % of the pixels, \
-             which is computed here from the mean precision, accuracy and F1 that [Highlights 2021] prints and is \
-             not printed there",
-        );
-        add(
-            &format!("red_is_strongest/{name}"),
-            100.0 * look::red(&tissue, picture),
-            "%",
-            "pixels of tissue that are no highlights; [Highlights 2021] observes it of endoscopic photographs, \
-             without a number",
-        );
-        add(
-            &format!("hue_spread/{name}"),
-            look::hue_spread(&tissue, picture),
-            "deg",
-            "circular standard deviation over tissue without highlights; no published number of photographs was found",
-        );
+        let highlights = look::highlights(&tissue, picture);
+        rows.add(&format!("highlights/{name}"), 100.0 * highlights);
+        let red = look::red(&tissue, picture);
+        rows.add(&format!("red_is_strongest/{name}"), 100.0 * red);
+        let hues = look::hue_spread(&tissue, picture);
+        rows.add(&format!("hue_spread/{name}"), hues);
     }
 }
 
-fn figure_3_7(rows: &mut Rows<'_>) -> Result<(), Error> {
-    let what = "20,000 triangles, 34 particles around a ball of 5 mm radius that is 10 mm deep";
-    add(rows, None, what, picture(LIVER, 0.010, |_| ()))
+pub(crate) fn figure_3_7(rows: &mut Rows<'_>) -> Result<(), Error> {
+    add(rows, "", picture(LIVER, 0.010, |_| ()))
 }
 
-fn figure_4_7(rows: &mut Rows<'_>) -> Result<(), Error> {
-    let what = "the built-in kidney of 10,000 triangles, which 688 boundary elements carry, under a ball of \
-                4 mm radius that is 6 mm deep; the source's text calls it pulled, its caption palpated";
-    add(rows, None, what, picture(KIDNEY, 0.006, |_| ()))
+pub(crate) fn figure_4_7(rows: &mut Rows<'_>) -> Result<(), Error> {
+    add(rows, "", picture(KIDNEY, 0.006, |_| ()))
 }
 
-/// The picture with what it shows, or the reason why there is none.
-fn add(
-    rows: &mut Rows<'_>,
-    name: Option<&str>,
-    what: &str,
-    made: Result<Picture, Error>,
-) -> Result<(), Error> {
+/// The picture, or the reason why there is none.
+fn add(rows: &mut Rows<'_>, name: &str, made: Result<Picture, Error>) -> Result<(), Error> {
     match made {
-        Ok(made) => rows.add_picture(
-            name,
-            &png(&made.pixels)?,
-            format!(
-                "{what}; force {:.3} N; drawn by {}",
-                made.force, made.adapter
-            ),
-        ),
+        Ok(made) => rows
+            .figure(name)
+            .told("force", format!("{:.3}", made.force))
+            .told("adapter", made.adapter)
+            .picture(&png(&made.pixels)?),
         Err(why) if !why.is_input() => {
-            rows.add_missing(name.unwrap_or("picture"), "", why.to_string());
+            let name = if name.is_empty() { "picture" } else { name };
+            rows.row(name).missing(why);
             Ok(())
         }
         Err(failure) => Err(failure),

@@ -8,16 +8,9 @@ use palpate_viewer::{
 };
 
 use crate::Error;
-use crate::published::TABLE_7_1 as PUBLISHED;
-use crate::row::Value;
-use crate::{Item, Rows};
-
-pub(crate) const TABLE_7_1: Item = Item {
-    name: "table-7-1",
-    title: "triangles drawn per second, plain and with environment maps",
-    seconds: 24.0,
-    run,
-};
+use crate::machine::median;
+use crate::published::cell;
+use crate::row::Rows;
 
 /// The source's organs with the shape that stands for each. Their numbers of triangles are exact.
 const ORGANS: [(&str, Organ); 5] = [
@@ -28,18 +21,12 @@ const ORGANS: [(&str, Organ); 5] = [
     ("intestine", Organ::Stomach),
 ];
 
-/// What is drawn, and the published column of it.
-const SHADINGS: [(Shading, &str, Option<&str>); 3] = [
-    (Shading::Plain, "plain", None),
-    (
-        Shading::SphereMap,
-        "sphere_map",
-        Some("sphere_map_geforce2"),
-    ),
-    (Shading::CubeMap, "cube_map", Some("cube_map_geforce2")),
+/// What is drawn.
+const SHADINGS: [(Shading, &str); 3] = [
+    (Shading::Plain, "plain"),
+    (Shading::SphereMap, "sphere_map"),
+    (Shading::CubeMap, "cube_map"),
 ];
-
-const UNIT: &str = "10^6/s";
 
 /// Pictures that are thrown away, and that are measured: an odd number has a middle.
 const WARM_UP: usize = 2;
@@ -47,17 +34,17 @@ const MOST: usize = 101;
 /// Time that the pictures of a row may take altogether [s]; a slow adapter draws fewer.
 const LONGEST: f64 = 0.6;
 
-fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
+pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     let gpu = match Gpu::open() {
         Ok(gpu) => gpu,
         Err(why) => {
             for (name, _) in ORGANS {
-                for (_, word, _) in SHADINGS {
-                    rows.add_missing(&format!("{name}/{word}"), UNIT, why.to_string());
+                for (_, word) in SHADINGS {
+                    rows.row(&format!("{name}/{word}")).missing(&why);
                 }
             }
             for (name, ..) in FEATURES {
-                rows.add_missing(&format!("cost/{name}"), "ms", why.to_string());
+                rows.row(&format!("cost/{name}")).missing(&why);
             }
             return Ok(());
         }
@@ -65,10 +52,8 @@ fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     let mut renderer = Renderer::new(&gpu);
     let target = Target::new(&gpu, FRAME_SIZE, 1);
     for (name, organ) in ORGANS {
-        let Some(wanted) = PUBLISHED.value(name, "triangles") else {
-            rows.add_missing(name, UNIT, "the published table has no such organ");
-            continue;
-        };
+        let wanted = cell(&format!("table-7-1 {name} triangles"))?;
+        let tornado = cell(&format!("table-7-1 {name} sphere_map_tornado3000"))?;
         let surface = Surface::new(organ.surface_mesh(wanted as usize)?)?;
         let triangles = surface.mesh().triangles().len();
         let shape = Shape::Builtin {
@@ -76,7 +61,7 @@ fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
             triangles: None,
         };
         let body = Body::new(&gpu, &surface, Tint::of(&shape));
-        for (shading, word, column) in SHADINGS {
+        for (shading, word) in SHADINGS {
             let view = View {
                 camera: Orbit::framing(surface.mesh(), 0.785, 1.6).camera(),
                 shading,
@@ -87,22 +72,16 @@ fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
                 renderer.draw(&gpu, &view, (&[&body], &[]), &target);
                 gpu.wait()
             })?;
-            let value = Value {
-                published: column.and_then(|column| PUBLISHED.value(name, column)),
-                ours: Some(1e-6 * triangles as f64 / time.median),
-                unit: UNIT,
-            };
-            let software = PUBLISHED.value(name, "sphere_map_tornado3000");
-            rows.add(
-                &format!("{name}/{word}"),
-                value,
-                note(
-                    organ,
-                    triangles,
-                    &gpu,
-                    (time, software.filter(|_| column.is_some())),
-                ),
-            );
+            rows.row(&format!("{name}/{word}"))
+                .told("triangles", triangles)
+                .told("shape", organ)
+                .told("width", FRAME_SIZE.0)
+                .told("height", FRAME_SIZE.1)
+                .told("pictures", time.pictures)
+                .told("median", format!("{:.2}", 1e3 * time.median))
+                .told("adapter", gpu.adapter())
+                .told("tornado", tornado)
+                .is(1e-6 * triangles as f64 / time.median);
         }
     }
     add_costs(rows, &gpu)
@@ -130,7 +109,6 @@ fn add_costs(rows: &mut Rows<'_>, gpu: &Gpu) -> Result<(), Error> {
     let at = camera.target + 0.5 * (camera.eye - camera.target);
     let tool = ToolPicture::new(&scene.tools[0], (at.into(), [0.0, 0.0, 0.0, 1.0]));
     let mut renderer = Renderer::new(gpu);
-    let (width, height) = FRAME_SIZE;
     for (name, shading, [relief, scattering, shadows], samples) in FEATURES {
         let target = Target::new(gpu, FRAME_SIZE, samples);
         let view = View {
@@ -147,19 +125,14 @@ fn add_costs(rows: &mut Rows<'_>, gpu: &Gpu) -> Result<(), Error> {
             renderer.draw(gpu, &view, (&[&body], std::slice::from_ref(&tool)), &target);
             gpu.wait()
         })?;
-        let value = Value {
-            published: None,
-            ours: Some(1e3 * time.median),
-            unit: "ms",
-        };
-        let note = format!(
-            "a picture of the liver of 20,000 triangles under a tool, {width}x{height} pixels of {samples} samples, \
-             with this and all that the rows above have: {:.0} a second; median of {} on {}",
-            1.0 / time.median,
-            time.pictures,
-            gpu.adapter(),
-        );
-        rows.add(&format!("cost/{name}"), value, note);
+        rows.row(&format!("cost/{name}"))
+            .told("width", FRAME_SIZE.0)
+            .told("height", FRAME_SIZE.1)
+            .told("samples", samples)
+            .told("rate", format!("{:.0}", 1.0 / time.median))
+            .told("pictures", time.pictures)
+            .told("adapter", gpu.adapter())
+            .is(1e3 * time.median);
     }
     Ok(())
 }
@@ -183,30 +156,8 @@ fn measure(mut draw: impl FnMut() -> Result<(), palpate_viewer::Error>) -> Resul
         draw()?;
         times.push(start.elapsed().as_secs_f64());
     }
-    times.sort_by(f64::total_cmp);
     Ok(Timing {
-        median: times[times.len() / 2],
+        median: median(&mut times),
         pictures: times.len(),
     })
-}
-
-fn note(
-    organ: Organ,
-    triangles: usize,
-    gpu: &Gpu,
-    (time, tornado): (Timing, Option<f64>),
-) -> String {
-    let (width, height) = FRAME_SIZE;
-    let tornado = tornado.map_or(String::new(), |published| {
-        format!(
-            "; a Tornado 3000, without environment maps in hardware, drew {published} (sphere map)"
-        )
-    });
-    format!(
-        "{triangles} triangles in the shape of the built-in {organ}, {width}x{height} pixels of one sample, \
-         median of {} pictures of {:.2} ms on {}; published on a GeForce 2{tornado}",
-        time.pictures,
-        1e3 * time.median,
-        gpu.adapter(),
-    )
 }

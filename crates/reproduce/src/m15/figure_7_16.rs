@@ -3,14 +3,7 @@ use palpate_geometry::CutMethod;
 
 use super::top::{Look, Top, or_missing};
 use crate::Error;
-use crate::{Item, Rows};
-
-pub(crate) const FIGURE_7_16: Item = Item {
-    name: "figure-7-16",
-    title: "a cube: uncut, as a wire frame after cutting, and cut with its texture",
-    seconds: 3.1,
-    run,
-};
+use crate::row::Rows;
 
 /// Sixteen squares along an edge of the cube.
 const TRIANGLES: usize = 3_072;
@@ -18,7 +11,7 @@ const TRIANGLES: usize = 3_072;
 /// The blade's way over the top [m].
 const WAY: [(f64, f64); 3] = [(-0.034, -0.010), (0.0, 0.005), (0.034, -0.003)];
 
-fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
+pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     let made = pictures(rows);
     or_missing(rows, made)
 }
@@ -41,12 +34,7 @@ fn pictures(rows: &mut Rows<'_>) -> Result<(), Error> {
         wires: Some(0.0003),
         ..textured
     };
-    let what = "as it was";
-    top.add(rows, ("left", what), &uncut, textured)?;
-    let what =
-        "vertices are snapped and split; held open 12 mm wide without mechanics, as an ellipse";
-    top.add(rows, ("middle", what), &cut, framed)?;
-    let what =
-        "under the opening lies the inner layer, which the source has as a second, coarser model";
-    top.add(rows, ("right", what), &cut, textured)
+    top.add(rows, "left", &uncut, textured)?;
+    top.add(rows, "middle", &cut, framed)?;
+    top.add(rows, "right", &cut, textured)
 }

@@ -5,7 +5,7 @@ use palpate_simulate::{Simulation, SimulationState};
 use palpate_viewer::{Body, FRAME_SIZE, OpenedSurface, Studio, Tint, png, wire_frame};
 
 use crate::Error;
-use crate::Rows;
+use crate::row::Rows;
 
 /// Half of an edge of the cube [m]: its upper side.
 const TOP: f64 = 0.05;
@@ -73,11 +73,11 @@ impl Top {
         Ok((cut, lag))
     }
 
-    /// Adds the picture of `cut`, and what it shows.
+    /// Adds the picture `name` of `cut`.
     pub(super) fn add(
         &mut self,
         rows: &mut Rows<'_>,
-        (name, what): (&str, &str),
+        name: &str,
         cut: &CutSurface,
         look: Look,
     ) -> Result<(), Error> {
@@ -97,11 +97,8 @@ impl Top {
             .studio
             .picture_of(&self.state, is_cut.then_some(open.drawn()))?;
         let adapter = self.studio.gpu.adapter();
-        rows.add_picture(
-            Some(name),
-            &png(&picture)?,
-            format!("{what}; drawn by {adapter}"),
-        )
+        let figure = rows.figure(name).told("adapter", adapter);
+        figure.picture(&png(&picture)?)
     }
 }
 
@@ -109,7 +106,7 @@ impl Top {
 pub(super) fn or_missing(rows: &mut Rows<'_>, made: Result<(), Error>) -> Result<(), Error> {
     match made {
         Err(why) if !why.is_input() => {
-            rows.add_missing("pictures", "", why.to_string());
+            rows.row("pictures").missing(why);
             Ok(())
         }
         other => other,

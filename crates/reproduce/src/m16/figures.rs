@@ -4,22 +4,8 @@ use palpate_simulate::{Flow, Simulation, play};
 use palpate_viewer::{FRAME_SIZE, Studio, png};
 
 use crate::Error;
-use crate::{Item, Rows};
+use crate::row::Rows;
 use palpate_jobs::preparation;
-
-pub(crate) const FIGURE_7_18: Item = Item {
-    name: "figure-7-18",
-    title: "the lower esophagus pulled by a grasper, and palpated; takes minutes",
-    seconds: 35.0,
-    run: figure_7_18,
-};
-
-pub(crate) const FIGURE_7_19: Item = Item {
-    name: "figure-7-19",
-    title: "a cut in the lower esophagus; takes minutes",
-    seconds: 9.0,
-    run: figure_7_19,
-};
 
 /// The scene of the trainer.
 pub(super) const TRAINER: &str = include_str!("../../../../assets/esophagus/trainer.toml");
@@ -37,23 +23,15 @@ const TOUCHED: RegionSphere = RegionSphere {
 /// Where the eye is [m].
 const EYE: [f64; 3] = [0.008, -0.115, 0.012];
 
-fn figure_7_18(rows: &mut Rows<'_>) -> Result<(), Error> {
-    let (scene, simulation) = trainer(rows)?;
-    let pulls = "a grasper takes hold and pulls 9 mm outward; the source's left picture";
-    add(rows, Some("left"), pulls, (&scene, &simulation, PULL))?;
-    let palpates = "shut scissors press 4.5 mm deep; the source's right picture";
-    add(
-        rows,
-        Some("right"),
-        palpates,
-        (&scene, &simulation, PALPATE),
-    )
+pub(crate) fn figure_7_18(rows: &mut Rows<'_>) -> Result<(), Error> {
+    let trainer = trainer(rows)?;
+    add(rows, "left", &trainer, PULL)?;
+    add(rows, "right", &trainer, PALPATE)
 }
 
-fn figure_7_19(rows: &mut Rows<'_>) -> Result<(), Error> {
-    let (scene, simulation) = trainer(rows)?;
-    let cuts = "scissors cut the muscle lengthwise over 28 mm while a grasper holds it; the mucosa lies in the opening";
-    add(rows, None, cuts, (&scene, &simulation, MYOTOMY))
+pub(crate) fn figure_7_19(rows: &mut Rows<'_>) -> Result<(), Error> {
+    let trainer = trainer(rows)?;
+    add(rows, "", &trainer, MYOTOMY)
 }
 
 /// The scene of the trainer, touched in the middle only.
@@ -71,18 +49,19 @@ fn trainer(rows: &Rows<'_>) -> Result<(Scene, Simulation), Error> {
     Ok((scene, simulation))
 }
 
-/// The last picture of a motion, with what it shows, or the reason why there is none.
+/// The last picture of a motion, or the reason why there is none.
 fn add(
     rows: &mut Rows<'_>,
-    name: Option<&str>,
-    what: &str,
-    (scene, simulation, motion): (&Scene, &Simulation, &str),
+    name: &str,
+    (scene, simulation): &(Scene, Simulation),
+    motion: &str,
 ) -> Result<(), Error> {
     let motion = Motion::parse(motion, "built-in motion")?;
     let mut studio = match Studio::new(scene, simulation, FRAME_SIZE) {
         Ok(studio) => studio,
         Err(why) => {
-            rows.add_missing(name.unwrap_or("picture"), "", why.to_string());
+            let name = if name.is_empty() { "picture" } else { name };
+            rows.row(name).missing(why);
             return Ok(());
         }
     };
@@ -102,9 +81,9 @@ fn add(
         true => format!(", {:.1} mm cut", 1e3 * cut),
         false => String::new(),
     };
-    let note = format!(
-        "{what}; force {force:.3} N{cut}; drawn by {}",
-        studio.gpu.adapter()
-    );
-    rows.add_picture(name, &png(&picture)?, note)
+    rows.figure(name)
+        .told("force", format!("{force:.3}"))
+        .told("cut", cut)
+        .told("adapter", studio.gpu.adapter())
+        .picture(&png(&picture)?)
 }

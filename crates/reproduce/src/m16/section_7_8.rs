@@ -4,18 +4,10 @@ use palpate_simulate::{Simulation, SimulationState, SimulationWorkspace, step};
 
 use crate::Error;
 use crate::m06::Printed;
-use crate::published::SECTION_6_4_5;
-use crate::row::Value;
-use crate::{Item, Rows};
-use palpate_jobs::plot::{Plot, Series, Style};
+use crate::published::cell;
+use crate::row::Rows;
+use palpate_jobs::plot::{Series, Style};
 use palpate_jobs::preparation;
-
-pub(crate) const SECTION_7_8: Item = Item {
-    name: "section-7-8",
-    title: "what the simulated esophagus answers, with the printed modulus and with one that fits table 5-1; takes minutes",
-    seconds: 28.0,
-    run,
-};
 
 /// The modulus that forces are computed with, to be scaled [Pa].
 const UNIT: f64 = 10_000.0;
@@ -28,61 +20,33 @@ const ESOPHAGUS: &str = "format = 1\n[organ]\nbuiltin = \"esophagus\"\ntriangles
      [model]\nkind = \"hybrid\"\n[[tool]]\nname = \"right\"\n\
      tip = { shape = \"flat\", radius_m = 0.001, contact = \"stick\" }\n";
 
-fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
-    let missing = || Error::failed("section 6.4.5 cannot be read; please report this");
-    let cell = |column| SECTION_6_4_5.first(column).ok_or_else(missing);
-    let (printed, relaxes) = (1e3 * cell("youngs_modulus_kpa")?, cell("prony_g1")?);
+pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
+    let printed = 1e3 * cell("section-6-4-5 youngs_modulus_kpa")?;
+    let relaxes = cell("section-6-4-5 prony_g1")?;
     let measured = Printed::all("esophagus");
     let depths: Vec<f64> = measured
         .iter()
         .map(|row| 1e-3 * f64::from(row.depth_mm))
         .collect();
-    let unit = unit_forces(&simulated(rows, &scene()?)?, &depths);
-    let note = "the esophagus of 3,726 triangles between its anchors, probe of 1 mm radius bonded to its front, half-way";
-    for (row, unit) in measured.iter().zip(&unit) {
-        let value = Value::beside(Some(row.mean), printed * unit, "N");
-        let remark = format!(
-            "published: mean of table 5-1; ours: with the printed modulus of the simulation, before relaxation; {note}"
-        );
-        rows.add(
-            &format!("printed_modulus/{}_mm", row.depth_mm),
-            value,
-            remark,
-        );
+    let simulation = simulated(rows, &scene()?)?;
+    let unit = unit_forces(&simulation, &depths);
+    let both = || unit.iter().zip(&measured);
+    for (unit, row) in both() {
+        let name = format!("printed_modulus/{}_mm", row.depth_mm);
+        rows.add(&name, printed * unit);
     }
-    let products: f64 = unit
-        .iter()
-        .zip(&measured)
-        .map(|(u, row)| u * row.mean)
-        .sum();
+    let products: f64 = both().map(|(u, row)| u * row.mean).sum();
     let squares: f64 = unit.iter().map(|u| u * u).sum();
     let fitted = products / squares;
-    rows.add(
-        "fitted_modulus",
-        Value::beside(Some(1e-3 * printed), 1e-3 * fitted, "kPa"),
-        "published: the modulus of the simulation, which is (6.1) at 8 mm, the rule for a half-space; ours: the relaxed modulus \
-         with which this organ comes nearest to all means of table 5-1. A tube yields as a whole, so its tissue has to be \
-         several times stiffer",
-    );
-    rows.add(
-        "fitted_modulus/instantaneous",
-        Value::own(1e-3 * fitted / (1.0 - relaxes), "kPa"),
-        "the same before relaxation, with the printed Prony term of section 6.4.5: what a scene's tissue states",
-    );
-    for (row, unit) in measured.iter().zip(&unit) {
-        let value = Value::beside(Some(row.mean), fitted * unit, "N");
-        let remark =
-            format!("published: mean of table 5-1; ours: with the fitted modulus, relaxed; {note}");
-        rows.add(
-            &format!("fitted_modulus/{}_mm", row.depth_mm),
-            value,
-            remark,
-        );
+    rows.add("fitted_modulus", 1e-3 * fitted);
+    let instantaneous = 1e-3 * fitted / (1.0 - relaxes);
+    rows.add("fitted_modulus/instantaneous", instantaneous);
+    for (unit, row) in both() {
+        let name = format!("fitted_modulus/{}_mm", row.depth_mm);
+        rows.add(&name, fitted * unit);
     }
-    let plot = drawn(&depths, (&unit, &measured), [printed, fitted]);
-    let remark =
-        "linear tissue: the measured curve bends a little more than the simulated organ does";
-    rows.add_figure(None, &plot, remark)
+    let drawn = drawn(&depths, (&unit, &measured), [printed, fitted]);
+    rows.figure("").draw(drawn)
 }
 
 pub(super) fn scene() -> Result<Scene, Error> {
@@ -159,35 +123,23 @@ fn pressed(simulation: &Simulation, depths: &[f64]) -> Vec<f64> {
     found
 }
 
-fn drawn(depths: &[f64], (unit, measured): (&[f64], &[Printed]), moduli: [f64; 2]) -> Plot {
-    let line = |modulus: f64, name: &str, color| Series {
-        name: format!("{name}, {:.1} kPa", 1e-3 * modulus),
-        points: depths
-            .iter()
-            .zip(unit)
-            .map(|(depth, unit)| (1e3 * depth, 1e3 * modulus * unit))
-            .collect(),
-        style: Style::Line,
-        color,
+fn drawn(depths: &[f64], (unit, measured): (&[f64], &[Printed]), moduli: [f64; 2]) -> Vec<Series> {
+    let line = |modulus: f64, name: &str, color| {
+        let points = depths.iter().zip(unit);
+        let points = points.map(|(depth, unit)| (1e3 * depth, 1e3 * modulus * unit));
+        let name = format!("{name}, {:.1} kPa", 1e-3 * modulus);
+        Series::new(name, points.collect(), Style::Line, color)
     };
-    let means = measured
-        .iter()
-        .map(|row| (f64::from(row.depth_mm), 1e3 * row.mean))
-        .collect();
-    Plot {
-        title: "The simulated esophagus beside table 5-1".to_owned(),
-        x_label: "depth [mm]".to_owned(),
-        y_label: "force [mN]".to_owned(),
-        series: vec![
-            line(moduli[0], "printed modulus", 0),
-            line(moduli[1], "fitted modulus", 1),
-            Series {
-                name: "mean of table 5-1".to_owned(),
-                points: means,
-                style: Style::Dots,
-                color: 2,
-            },
-        ],
-        ..Plot::default()
-    }
+    vec![
+        line(moduli[0], "printed modulus", 0),
+        line(moduli[1], "fitted modulus", 1),
+        means(measured, "mean of table 5-1", 2),
+    ]
+}
+
+/// The measured means.
+pub(super) fn means(measured: &[Printed], name: &str, color: usize) -> Series {
+    let means = measured.iter();
+    let means = means.map(|row| (f64::from(row.depth_mm), 1e3 * row.mean));
+    Series::new(name, means.collect(), Style::Dots, color)
 }
