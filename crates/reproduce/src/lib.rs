@@ -31,6 +31,7 @@ mod row;
 mod select;
 mod table;
 mod virtual_rig;
+mod wire_frame;
 
 pub use error::Error;
 pub use figures::{DrawPlot, Figures};

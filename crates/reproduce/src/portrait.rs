@@ -4,10 +4,10 @@ use palpate_files::scene::Shading;
 use palpate_geometry::{Surface, Vec3};
 use palpate_viewer::{
     Body, FRAME_SIZE, Gpu, Looks, Orbit, Renderer, Target, Tint, View, png, single_precision,
-    wire_frame,
 };
 
 use crate::Error;
+use crate::wire_frame::wire_frame;
 
 /// A body, and where it is now.
 pub(super) struct Sitter<'a> {

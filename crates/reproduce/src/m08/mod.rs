@@ -13,3 +13,4 @@ pub(crate) mod section_6_4_6;
 mod starts;
 pub(crate) mod table_6_3;
 pub(crate) mod table_6_4;
+mod unbounded;

@@ -1,14 +1,13 @@
 //! From where a fit of a law arrives: its own force is fitted again from other parameters.
 
-use palpate_characterize::fit::{
-    Parameter, Settings, UnboundedWay, least_squares, unbounded_iteration,
-};
+use palpate_characterize::fit::{Parameter, Settings, least_squares};
 use palpate_characterize::inverse::{Body, Curves, SHAPES, SoughtLaw};
 use palpate_characterize::lumped::column_force;
 use palpate_files::tissue::EffectiveColumn;
 use palpate_mechanics::PronySeries;
 use palpate_mechanics::finite_elements::indentation::History;
 
+use super::unbounded::unbounded_iteration;
 use crate::Error;
 use crate::virtual_rig::{RADIUS, ramp_and_hold};
 use palpate_jobs::plot::Style;
@@ -122,11 +121,9 @@ impl Model {
         let way = match algorithm {
             Algorithm::Source(damping) => {
                 let settings = (damping, TOLERANCE, STEPS);
-                let UnboundedWay { values, .. } =
-                    unbounded_iteration(start, measured.len(), settings, |p, residuals| {
-                        self.residuals(p, &measured, residuals)
-                    });
-                values
+                let residuals =
+                    |p: &[f64], residuals: &mut [f64]| self.residuals(p, &measured, residuals);
+                unbounded_iteration(start, measured.len(), settings, residuals)
             }
             Algorithm::Own => self.own_way(start, &measured)?,
         };

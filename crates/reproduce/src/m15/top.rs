@@ -2,10 +2,11 @@ use palpate_files::Scene;
 use palpate_files::scene::Shading;
 use palpate_geometry::{AabbTree, CutError, CutMethod, CutSurface, Vec3};
 use palpate_simulate::{Simulation, SimulationState};
-use palpate_viewer::{Body, FRAME_SIZE, OpenedSurface, Studio, Tint, png, wire_frame};
+use palpate_viewer::{Body, FRAME_SIZE, OpenedSurface, Studio, Tint, png};
 
 use crate::Error;
 use crate::row::Rows;
+use crate::wire_frame::wire_frame;
 
 /// Half of an edge of the cube [m]: its upper side.
 const TOP: f64 = 0.05;

@@ -5,7 +5,7 @@ use palpate_geometry::{MeshError, NodeId, TriangleMesh, Vec3};
 ///
 /// # Errors
 /// When a place is not finite.
-pub fn wire_frame(
+pub(crate) fn wire_frame(
     mesh: &TriangleMesh,
     places: &[Vec3],
     width: f64,
