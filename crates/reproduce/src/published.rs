@@ -4,64 +4,28 @@ use palpate_mechanics::PronySeries;
 
 use crate::Error;
 
+macro_rules! tables {
+    ($($name:literal in $file:literal,)*) => {
+        &[$(($name, include_str!(concat!("../../../published/", $file))),)*]
+    };
+}
+
 /// Each table under the number that the source gives it, or the place where its numbers stand.
-const TABLES: [(&str, &str); 14] = [
-    (
-        "table-3-1",
-        include_str!("../../../published/table_3_1_pcmfs_vs_fem.csv"),
-    ),
-    (
-        "table-4-1",
-        include_str!("../../../published/table_4_1_bem.csv"),
-    ),
-    (
-        "table-5-1",
-        include_str!("../../../published/table_5_1_static_force.csv"),
-    ),
-    (
-        "table-6-1",
-        include_str!("../../../published/table_6_1_mean_elastic_modulus.csv"),
-    ),
-    (
-        "table-6-2",
-        include_str!("../../../published/table_6_2_nonlinear_springs.csv"),
-    ),
-    (
-        "equation-6-3",
-        include_str!("../../../published/kelvin_liver.csv"),
-    ),
-    (
-        "table-6-3",
-        include_str!("../../../published/table_6_3_prony.csv"),
-    ),
-    (
-        "table-6-4",
-        include_str!("../../../published/table_6_4_neo_hookean.csv"),
-    ),
-    (
-        "table-6-5",
-        include_str!("../../../published/table_6_5_mooney_rivlin.csv"),
-    ),
-    (
-        "section-6-4-5",
-        include_str!("../../../published/esophagus_6_4_5.csv"),
-    ),
-    (
-        "section-7-4",
-        include_str!("../../../published/section_7_4_simplification.csv"),
-    ),
-    (
-        "table-7-1",
-        include_str!("../../../published/table_7_1_environment_mapping.csv"),
-    ),
-    (
-        "equation-7-6",
-        include_str!("../../../published/device_7_6.csv"),
-    ),
-    (
-        "appendix-a",
-        include_str!("../../../published/appendix_a_pigs.csv"),
-    ),
+const TABLES: &[(&str, &str)] = tables![
+    "table-3-1" in "table_3_1_pcmfs_vs_fem.csv",
+    "table-4-1" in "table_4_1_bem.csv",
+    "table-5-1" in "table_5_1_static_force.csv",
+    "table-6-1" in "table_6_1_mean_elastic_modulus.csv",
+    "table-6-2" in "table_6_2_nonlinear_springs.csv",
+    "equation-6-3" in "kelvin_liver.csv",
+    "table-6-3" in "table_6_3_prony.csv",
+    "table-6-4" in "table_6_4_neo_hookean.csv",
+    "table-6-5" in "table_6_5_mooney_rivlin.csv",
+    "section-6-4-5" in "esophagus_6_4_5.csv",
+    "section-7-4" in "section_7_4_simplification.csv",
+    "table-7-1" in "table_7_1_environment_mapping.csv",
+    "equation-7-6" in "device_7_6.csv",
+    "appendix-a" in "appendix_a_pigs.csv",
 ];
 
 /// Numbers in the text and the captions of chapters 5 and 7, by place and name.

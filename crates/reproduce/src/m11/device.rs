@@ -4,8 +4,9 @@ use nalgebra::Complex;
 use palpate_measure::phantom::{MECHANICS_STEP, Machine, TwoMass};
 
 use super::frequency_response::{Port, inject};
-use super::printed_machine::printed_machine;
+use super::printed::Printed;
 use super::two_port::TwoPort;
+use crate::Error;
 
 /// A device by its formulas and as a machine that moves.
 pub(super) struct Device {
@@ -20,12 +21,12 @@ pub(super) struct Device {
 
 impl Device {
     /// (7.6), its G₁ in N/mm.
-    pub(super) fn printed() -> Self {
+    pub(super) fn printed(printed: &Printed) -> Self {
         Self {
             name: "printed",
             words: "(7.6) as printed",
-            port: TwoPort::as_printed(),
-            machine: printed_machine(MECHANICS_STEP),
+            port: printed.port(),
+            machine: printed.machine(),
         }
     }
 
@@ -41,8 +42,8 @@ impl Device {
     }
 
     /// Both.
-    pub(super) fn both() -> [Self; 2] {
-        [Self::printed(), Self::consistent()]
+    pub(super) fn both() -> Result<[Self; 2], Error> {
+        Ok([Self::printed(&Printed::read()?), Self::consistent()])
     }
 
     /// G₁ [N/m] and G₂ [-] at `frequency` [Hz] from what the moving machine answers to sines of its two forces.

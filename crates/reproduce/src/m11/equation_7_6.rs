@@ -4,8 +4,8 @@ use nalgebra::Complex;
 use palpate_measure::phantom::TwoMass;
 
 use super::device::Device;
+use super::printed::Printed;
 use crate::Error;
-use crate::published::cell;
 use crate::row::Rows;
 
 /// Where the source's claims are looked at: name, and frequency [Hz].
@@ -17,11 +17,10 @@ pub(super) const PLACES: [(&str, f64); 4] = [
 ];
 
 pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
-    let printed = |name| cell(&format!("equation-7-6 {name}"));
-    let (m, b, k) = (printed("m")?, printed("b")?, printed("k")?);
-    let (c4, c2, c0) = (printed("g2_c4")?, printed("g2_c2")?, printed("g2_c0")?);
-    let above = printed("g2_num")?;
-    let device = Device::printed();
+    let printed = Printed::read()?;
+    let [m, b, k] = printed.g1;
+    let [c4, c2, c0] = printed.below;
+    let device = Device::printed(&printed);
     add_coefficients(rows, &device);
     for (name, frequency) in PLACES {
         let s = Complex::new(0.0, TAU * frequency);
@@ -29,15 +28,12 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
         rows.row(&format!("g1/{name}"))
             .published((s * s * m + s * b + k).norm())
             .is(1e-3 * g1.norm());
-        let printed = Complex::from(above) / (s * s * s * s * c4 + s * s * c2 + c0);
+        let whole = Complex::from(printed.above) / (s * s * s * s * c4 + s * s * c2 + c0);
         rows.row(&format!("g2/{name}"))
-            .published(printed.norm())
+            .published(whole.norm())
             .is(g2.norm());
     }
-    // Where c₄ s⁴ + c₂ s² + c₀ is zero.
-    let root = (c2 * c2 - 4.0 * c4 * c0).sqrt();
-    let fast = (c2 + root) / (2.0 * c4);
-    let slow = c0 / (c4 * fast);
+    let [slow, fast] = printed.modes();
     rows.add("g2/first_mode", slow.sqrt() / TAU);
     rows.add("g2/second_mode", fast.sqrt() / TAU);
     let mode = TwoMass::consistent().structural_frequency();

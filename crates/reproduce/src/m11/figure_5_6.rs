@@ -5,7 +5,7 @@ use crate::published::cell;
 use crate::row::Rows;
 
 pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
-    let devices = Device::both();
+    let devices = Device::both()?;
     for device in &devices {
         let response = |f: f64| device.port.force_transmission.at(f).norm();
         let name = format!("{}/unaffected_below", device.name);

@@ -5,18 +5,16 @@ use palpate_jobs::plot::{Series, Style};
 use super::bode;
 use super::device::{Device, decibels, first_off};
 use super::equation_7_6::PLACES;
+use super::printed::PER_MM;
 use crate::Error;
 use crate::published::cell;
 use crate::row::Rows;
-
-/// The unit of the printed function [N/m].
-const PER_MM: f64 = 1e3;
 
 /// A response that is so far off is another [dB].
 const OFF: f64 = 1.0;
 
 pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
-    let devices = Device::both();
+    let devices = Device::both()?;
     let corner = cell("figure-7-7 low_frequency")? / TAU;
     rows.add("low_frequency", corner);
     let share = 1e-2 * cell("figure-7-7 share")?;

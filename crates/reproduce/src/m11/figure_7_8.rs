@@ -5,7 +5,7 @@ use crate::Error;
 use crate::row::Rows;
 
 pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
-    let devices = Device::both();
+    let devices = Device::both()?;
     for device in &devices {
         for (place, frequency) in PLACES {
             let found = device.injected(frequency)[1].norm();

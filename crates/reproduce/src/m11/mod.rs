@@ -8,7 +8,7 @@ pub(crate) mod figure_5_6;
 pub(crate) mod figure_7_7;
 pub(crate) mod figure_7_8;
 mod frequency_response;
-mod printed_machine;
+mod printed;
 pub(crate) mod section_7_3;
 mod transfer;
 mod two_port;

@@ -12,7 +12,7 @@ const ORGANS: [&str; 2] = ["liver", "kidney"];
 const PLACES: [(&str, f64); 3] = [("rest", 0.0), ("1_hz", 1.0), ("8_hz", 8.0)];
 
 pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
-    let devices = Device::both();
+    let devices = Device::both()?;
     let mut series = Vec::new();
     for (at, organ) in ORGANS.into_iter().enumerate() {
         let Some(stiffness) = secant(organ) else {

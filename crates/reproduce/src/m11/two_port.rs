@@ -17,37 +17,13 @@ pub(super) struct TwoPort {
     pub(super) force_transmission: Transfer,
 }
 
-/// Newtons per metre in a newton per millimetre, the unit of the printed G₁.
-const PER_MM: f64 = 1e3;
-
 impl TwoPort {
-    /// (7.6) as it is printed. G₁ is taken in N/mm, in which its mass is 96 g; with any other unit the device
-    /// would be a toy or a truck.
-    pub(super) fn as_printed() -> Self {
-        let g1 = [0.032, 0.0026, 9.641e-5];
-        Self {
-            input_impedance: Transfer {
-                above: g1.map(|c| PER_MM * c).into(),
-                below: vec![1.0],
-            },
-            force_transmission: Transfer {
-                above: vec![3.9e5],
-                below: vec![3.9e5, 0.0, 13.71, 0.0, 3.97e-9],
-            },
-        }
-    }
-
     /// G₁, the hand's force over its position without the motor, and G₂, the force on a hand that keeps still over the
     /// motor's, of two masses.
     pub(super) fn of(machine: &TwoMass) -> Self {
-        let TwoMass {
-            link_mass: ml,
-            rotor_mass: mm,
-            structure_stiffness: ks,
-            structure_damping: bs,
-            stiffness: k,
-            damping: b,
-        } = *machine;
+        let [ml, mm] = [machine.link_mass, machine.rotor_mass];
+        let [ks, bs] = [machine.structure_stiffness, machine.structure_damping];
+        let [k, b] = [machine.stiffness, machine.damping];
         // (m_l s² + b_s s + k_s) − (b_s s + k_s)²/(m_m s² + (b + b_s) s + k + k_s).
         let rotor = vec![k + ks, b + bs, mm];
         Self {
@@ -80,7 +56,7 @@ impl TwoPort {
 #[cfg(test)]
 mod tests {
     use super::super::frequency_response::{Port, inject};
-    use super::super::printed_machine::printed_machine;
+    use super::super::printed::Printed;
     use super::*;
     use palpate_measure::phantom::{MECHANICS_STEP, Machine};
     use std::f64::consts::TAU;
@@ -102,13 +78,10 @@ mod tests {
     /// handle answers is read as from a recording.
     #[test]
     fn sine_injection_meets_the_closed_form() {
+        let printed = Printed::read().unwrap();
         let two_masses = TwoMass::consistent();
         let machines = [
-            (
-                "as printed",
-                TwoPort::as_printed(),
-                printed_machine(MECHANICS_STEP),
-            ),
+            ("as printed", printed.port(), printed.machine()),
             (
                 "two masses",
                 TwoPort::of(&two_masses),
@@ -134,7 +107,7 @@ mod tests {
     /// What the printed numbers come to, computed by hand from (7.6): magnitudes at 1, 8 and 15 Hz, in N/mm for G₁.
     #[test]
     fn the_printed_numbers_are_read_as_they_stand() {
-        let port = TwoPort::as_printed();
+        let port = Printed::read().unwrap().port();
         for (frequency, g1, g2) in [
             (1.0, 0.03258, 1.00139),
             (8.0, 0.24870, 1.09748),
