@@ -38,7 +38,7 @@ fn run(rows: &mut Rows<'_>, law: SoughtLaw) -> Result<(), Error> {
         let mut curves = Curves::new(Body::under_punch(RADIUS), law, depth);
         let found = law_fit(&mut curves, &[indentation], &relaxing.series)?;
         let found = LawDescription::of(found, &[indentation]);
-        add(rows, organ, truth.len(), &found);
+        add(rows, organ, &truth, &found);
         add_in_loop(rows, (organ, law), (&course, &forces))?;
         rows.row(&format!("{organ}/steady"))
             .told("depth", depth_mm)
@@ -102,17 +102,18 @@ fn add_initial(rows: &mut Rows<'_>, organ: &str, law: SoughtLaw) {
     }
 }
 
-fn add(rows: &mut Rows<'_>, organ: &str, moduli: usize, found: &LawDescription) {
+fn add(rows: &mut Rows<'_>, organ: &str, truth: &[f64], found: &LawDescription) {
     for (name, estimate) in &found.parameters {
         let word = name.trim_end_matches("_pa");
         add_modulus(rows, &format!("{organ}/{word}"), estimate);
     }
-    if moduli > 1 {
+    if truth.len() > 1 {
         let each = found.parameters.iter().map(|(_, estimate)| estimate.value);
         let sum: f64 = each.sum();
         let correlation = found.correlation.unwrap_or(0.0);
         rows.row(&format!("{organ}/sum"))
             .told("correlation", format!("{correlation:.4}"))
+            .published(truth.iter().sum::<f64>())
             .is(sum);
     }
     let steps = found.found.fit.iterations.len().saturating_sub(1);
