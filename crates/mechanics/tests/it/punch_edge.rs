@@ -70,7 +70,7 @@ fn laws() -> [Arc<dyn Law>; 3] {
 /// halved grids do not go on to there under every law. Tolerance: what is asked for; the halved grid is off by less, as it
 /// and the one before it extrapolate, and the other by as much.
 #[test]
-#[ignore = "by hand: eight minutes; not run in this form yet"]
+#[ignore = "slow: eight minutes"]
 fn punches_go_on_to_eight_radii() {
     const ASKED: f64 = 0.015;
     let depths = [1.0, 2.0, 4.0, 5.0, 6.0, 8.0].map(|depth| depth * RADIUS);
