@@ -7,6 +7,7 @@ use palpate_viewer::{
 };
 
 use crate::Error;
+use crate::row::Rows;
 use crate::wire_frame::wire_frame;
 
 /// A body, and where it is now.
@@ -32,13 +33,22 @@ pub(super) struct Painter {
 
 impl Painter {
     /// Fails when there is no adapter.
-    pub(super) fn new() -> Result<Self, palpate_viewer::Error> {
+    fn new() -> Result<Self, palpate_viewer::Error> {
         let gpu = Gpu::open()?;
         Ok(Self {
             renderer: Renderer::new(&gpu),
             target: Target::new(&gpu, FRAME_SIZE, 4),
             gpu,
         })
+    }
+
+    /// Or, where there is no adapter, rows `names` that say so.
+    pub(super) fn or_missing(rows: &mut Rows<'_>, names: &[&str]) -> Option<Self> {
+        let made = Self::new();
+        if let Err(why) = &made {
+            names.iter().for_each(|name| rows.row(name).missing(why));
+        }
+        made.ok()
     }
 
     /// As a PNG file.

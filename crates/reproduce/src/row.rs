@@ -5,6 +5,7 @@ use std::time::Instant;
 use palpate_files::write_whole;
 use palpate_jobs::Watch;
 use palpate_jobs::plot::Series;
+use palpate_mechanics::finite_elements::estimate::Progress;
 use serde::Serialize;
 
 use crate::Error;
@@ -108,6 +109,17 @@ impl<'a> Rows<'a> {
     /// Tells those who wait what goes on within an item.
     pub(crate) fn say(&self, what: impl Display) {
         self.watch.say(&format!("{}: {what}", self.item));
+    }
+
+    /// The same of a solution on finer and finer meshes.
+    pub(crate) fn meshes(&self, what: &str) -> impl FnMut(Progress) {
+        move |Progress { mesh, part, .. }| {
+            self.say(format_args!(
+                "{what}mesh {}, {:.0} %",
+                mesh + 1,
+                100.0 * part
+            ));
+        }
     }
 
     /// All that were added, and if the item failed a last one that says why.

@@ -88,10 +88,6 @@ fn profile(
 }
 
 fn series(name: &str, profile: &[(f64, f64)], style: Style, color: usize) -> Series {
-    Series {
-        name: name.to_owned(),
-        points: profile.iter().map(|(arc, u)| (1e3 * arc, *u)).collect(),
-        style,
-        color,
-    }
+    let points = profile.iter().map(|(arc, u)| (1e3 * arc, *u)).collect();
+    Series::new(name, points, style, color)
 }

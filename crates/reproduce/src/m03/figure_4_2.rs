@@ -4,14 +4,8 @@ use crate::portrait::{Painter, Sitter};
 use crate::row::Rows;
 
 pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
-    let mut painter = match Painter::new() {
-        Ok(painter) => painter,
-        Err(why) => {
-            for model in MODELS {
-                rows.row(model.row).missing(&why);
-            }
-            return Ok(());
-        }
+    let Some(mut painter) = Painter::or_missing(rows, &MODELS.map(|model| model.row)) else {
+        return Ok(());
     };
     for model in MODELS {
         let body = Body::new(model)?;

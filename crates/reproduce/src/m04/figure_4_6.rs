@@ -73,14 +73,8 @@ const LEVELS: usize = 3;
 const DEPTH: f64 = 40e-3;
 
 pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
-    let mut painter = match Painter::new() {
-        Ok(painter) => painter,
-        Err(why) => {
-            for shown in PICTURES {
-                rows.row(shown.name).missing(&why);
-            }
-            return Ok(());
-        }
+    let Some(mut painter) = Painter::or_missing(rows, &PICTURES.map(|shown| shown.name)) else {
+        return Ok(());
     };
     let cube = Body::new(MODELS[0])?;
     let pressed = Pressed::new(&cube, DEPTH)?;

@@ -190,9 +190,7 @@ fn curves(drawn: &[(Printed, StaticRow)]) -> Vec<Series> {
     // Bars must not lie on one another.
     const ASIDE: f64 = 0.06;
     let mut series = Vec::new();
-    let printed = drawn
-        .iter()
-        .map(|(row, _)| (f64::from(row.depth_mm), 1e3 * row.mean));
+    let printed = drawn.iter().map(|(row, _)| row.drawn());
     let printed = printed.collect();
     series.push(Series::new("table 5-1", printed, Style::LineWithDots, 0));
     let own = drawn

@@ -18,7 +18,7 @@ pub(super) fn specimen(
     force: impl Fn(&Printed) -> f64,
 ) -> Result<VirtualSpecimen, Error> {
     let printed = Printed::all(organ);
-    let depths = printed.iter().map(|row| 1e-3 * f64::from(row.depth_mm));
+    let depths = printed.iter().map(Printed::depth);
     let depths: Vec<f64> = depths.collect();
     let forces: Vec<f64> = printed.iter().map(force).collect();
     let response = IndentationCurve::through(&depths, &forces);

@@ -35,6 +35,22 @@ impl Printed {
         })
     }
 
+    /// Its depth [m].
+    pub(crate) fn depth(&self) -> f64 {
+        1e-3 * f64::from(self.depth_mm)
+    }
+
+    /// Its mean as it is drawn, in [mN] over [mm].
+    pub(crate) fn drawn(&self) -> (f64, f64) {
+        (f64::from(self.depth_mm), 1e3 * self.mean)
+    }
+
+    /// All depths [m] and means [N] of `rows`.
+    pub(crate) fn columns(rows: &[Self]) -> [Vec<f64>; 2] {
+        let means = rows.iter().map(|row| row.mean).collect();
+        [rows.iter().map(Self::depth).collect(), means]
+    }
+
     /// All rows of `organ`.
     pub(crate) fn all(organ: &str) -> Vec<Self> {
         DEPTHS_MM

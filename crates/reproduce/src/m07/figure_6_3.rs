@@ -12,11 +12,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     let mut series = Vec::new();
     for (color, organ) in ORGANS.into_iter().enumerate() {
         let printed = Printed::all(organ);
-        let depths: Vec<f64> = printed
-            .iter()
-            .map(|row| 1e-3 * f64::from(row.depth_mm))
-            .collect();
-        let means: Vec<f64> = printed.iter().map(|row| row.mean).collect();
+        let [depths, means] = Printed::columns(&printed);
         let found = fit_column(Contact::Flat(RADIUS), &depths, &means)?;
         let column = &found.column;
         for (word, ours) in [

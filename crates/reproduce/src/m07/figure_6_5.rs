@@ -15,7 +15,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
         let own = Printed::all(organ);
         let depths = own.iter().filter(|row| DEPTHS_MM.contains(&row.depth_mm));
         for (color, row) in depths.enumerate() {
-            let course = ramp_and_hold(1e-3 * f64::from(row.depth_mm));
+            let course = ramp_and_hold(row.depth());
             let forces = forces(values, &course)?;
             let last = course.times.len() - 1;
             rows.add(&format!("{organ}/{}_mm", row.depth_mm), forces[last]);

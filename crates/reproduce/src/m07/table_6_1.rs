@@ -30,7 +30,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
 
 /// Mean and standard deviation of three moduli [kPa].
 fn by_the_rule(row: &Printed) -> Result<[f64; 2], Error> {
-    let depth = 1e-3 * f64::from(row.depth_mm);
+    let depth = row.depth();
     let modulus = |force| mean_modulus(Contact::Flat(RADIUS), false, depth, force);
     let moduli = [modulus(row.min)?, modulus(row.mean)?, modulus(row.max)?];
     let mean = moduli.iter().sum::<f64>() / 3.0;

@@ -3,7 +3,6 @@
 use std::sync::{Arc, OnceLock};
 
 use palpate_characterize::inverse::SoughtLaw;
-use palpate_mechanics::finite_elements::estimate::Progress;
 use palpate_mechanics::finite_elements::indentation::{
     Base, Block, Grip, IndentationProblem, Indenter, IndenterShape, Side, solve,
 };
@@ -129,10 +128,8 @@ fn curve(rows: &Rows<'_>, name: &str, law: Arc<dyn Law>) -> Result<(IndentationC
         law,
     };
     let depths = DEPTHS_MM.map(|depth| 1e-3 * f64::from(depth));
-    let mut say = |progress: Progress| {
-        let (mesh, part) = (progress.mesh + 1, 100.0 * progress.part);
-        rows.say(format!("{name} on mesh {mesh}, {part:.0} %"));
-    };
+    let what = format!("{name} on ");
+    let mut say = rows.meshes(&what);
     let found = solve(&problem, &depths, ACCURACY, &mut say)?;
     Ok((found.answer.curve, found.error))
 }

@@ -34,7 +34,7 @@ impl Column {
         let deepest = printed.last().map_or(0.0, |row| f64::from(row.depth_mm));
         let [area, length] = column_size(Contact::Flat(RADIUS), 1e-3 * deepest);
         let sample = |row: &Printed| {
-            let stretch = 1.0 - 1e-3 * f64::from(row.depth_mm) / length;
+            let stretch = 1.0 - row.depth() / length;
             let first = 2.0 * (1.0 / (stretch * stretch) - stretch); // (6.17)
             (row.mean / area, Vector2::new(first, first / stretch)) // (6.18)
         };

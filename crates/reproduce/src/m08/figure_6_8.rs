@@ -60,8 +60,8 @@ fn curves(organ: &str, sets: &[Published]) -> Vec<Series> {
 
 /// The measured means.
 pub(super) fn measured(organ: &str, color: usize) -> Series {
-    let points = Printed::all(organ).into_iter();
-    let points = points.map(|row| (f64::from(row.depth_mm), 1e3 * row.mean));
+    let printed = Printed::all(organ);
+    let points = printed.iter().map(Printed::drawn);
     let name = "measured mean (table 5-1)";
     Series::new(name, points.collect(), Style::Dots, color)
 }

@@ -79,11 +79,7 @@ fn cases() -> Result<Vec<Case>, Error> {
         }
     }
     let measured = Printed::all("liver");
-    let depths: Vec<f64> = measured
-        .iter()
-        .map(|row| 1e-3 * f64::from(row.depth_mm))
-        .collect();
-    let means: Vec<f64> = measured.iter().map(|row| row.mean).collect();
+    let [depths, means] = Printed::columns(&measured);
     let column = fit_column(Contact::Flat(RADIUS), &depths, &means)?.column;
     cases.push(Case {
         name: "liver/blatz".to_owned(),

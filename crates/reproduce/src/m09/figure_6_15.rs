@@ -19,7 +19,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     let series = organ.series()?;
     let error = format!("{error:.3}");
     for row in &measured {
-        let elastic = 1e3 * organ.modulus_kpa * curve.force(1e-3 * f64::from(row.depth_mm));
+        let elastic = 1e3 * organ.modulus_kpa * curve.force(row.depth());
         rows.row(&format!("{}_mm", row.depth_mm))
             .told("how", "pressed")
             .told("error", &error)
@@ -48,7 +48,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
 pub(crate) fn nearest_modulus(curve: &IndentationCurve, measured: &[Printed]) -> f64 {
     let (mut products, mut squares) = (0.0, 0.0);
     for row in measured {
-        let unit = curve.force(1e-3 * f64::from(row.depth_mm));
+        let unit = curve.force(row.depth());
         products += unit * row.mean;
         squares += unit * unit;
     }

@@ -14,7 +14,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     let stiffness = modulus / 0.75 * 2.0 * RADIUS;
     let measured = Printed::all("esophagus");
     for row in &measured {
-        let force = stiffness * 1e-3 * f64::from(row.depth_mm);
+        let force = stiffness * row.depth();
         rows.add(&format!("{}_mm", row.depth_mm), force);
     }
     let of = |number: fn(&Printed) -> f64, all: bool| {

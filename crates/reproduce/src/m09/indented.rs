@@ -2,7 +2,6 @@
 
 use std::sync::{Arc, OnceLock};
 
-use palpate_mechanics::finite_elements::estimate::Progress;
 use palpate_mechanics::finite_elements::indentation::Grip;
 use palpate_mechanics::finite_elements::tube::{Ends, TubeProblem, TubePunch, indent};
 use palpate_mechanics::{IndentationCurve, Law, LinearElastic, NeoHookean};
@@ -64,10 +63,7 @@ fn indented(
         pressure: 0.0,
         depths: DEPTHS_MM.map(|depth| 1e-3 * f64::from(depth)).to_vec(),
     };
-    let found = indent(&problem, &punch, ACCURACY, &mut |progress: Progress| {
-        let (mesh, part) = (progress.mesh + 1, 100.0 * progress.part);
-        rows.say(format!("tube, mesh {mesh}, {part:.0} %"));
-    })?;
+    let found = indent(&problem, &punch, ACCURACY, &mut rows.meshes("tube, "))?;
     Ok(IndentedTube {
         unit: IndentationCurve::through(&punch.depths, &found.answer.forces),
         error: found.error,

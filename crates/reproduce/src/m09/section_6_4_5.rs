@@ -4,7 +4,7 @@ use palpate_characterize::lumped::{Contact, mean_modulus};
 use palpate_characterize::viscoelastic::{
     Course, RelaxationSettings, relaxation, relaxation_of_steps,
 };
-use palpate_mechanics::finite_elements::estimate::{Estimated, Progress};
+use palpate_mechanics::finite_elements::estimate::Estimated;
 use palpate_mechanics::finite_elements::tube::{Ends, Inflated, TubeProblem, inflate};
 use palpate_mechanics::{IndentationCurve, NeoHookean};
 
@@ -87,10 +87,7 @@ fn solve(
     problem: &TubeProblem,
     pressures: &[f64],
 ) -> Result<Estimated<Inflated>, Error> {
-    let mut say = |progress: Progress| {
-        let (mesh, part) = (progress.mesh + 1, 100.0 * progress.part);
-        rows.say(format!("mesh {mesh}, {part:.0} %"));
-    };
+    let mut say = rows.meshes("");
     Ok(inflate(problem, pressures, ACCURACY, &mut say)?)
 }
 

@@ -37,5 +37,5 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
 fn secant(organ: &str) -> Option<f64> {
     let printed = Printed::all(organ);
     let deepest = printed.last()?;
-    Some(deepest.mean / (1e-3 * f64::from(deepest.depth_mm)))
+    Some(deepest.mean / deepest.depth())
 }

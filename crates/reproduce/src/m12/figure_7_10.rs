@@ -9,12 +9,8 @@ use crate::row::Rows;
 pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     let before = cell("section-7-4 original triangles")?;
     let after = cell("section-7-4 simplified triangles")?;
-    let mut painter = match Painter::new() {
-        Ok(painter) => painter,
-        Err(why) => {
-            rows.row("").missing(why);
-            return Ok(());
-        }
+    let Some(mut painter) = Painter::or_missing(rows, &[""]) else {
+        return Ok(());
     };
     let (mesh, whose) = esophagus(before as usize)?;
     let settings = SimplifySettings::to(after as usize);

@@ -20,11 +20,14 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
         simplify(&mesh, &SimplifySettings::to(after as usize)).map_err(Error::failed)?;
     let seconds = start.elapsed().as_secs_f64();
     let body = format!("{whose}, {} triangles", mesh.triangles().len());
+    let (low, high) = mesh.bounds();
+    let length = format!("{:.0}", 1e3 * (high - low).max());
+    let meeting_before = inspect(&mesh).self_intersections;
     let mut add = |name: &str, ours: f64| {
-        let row = rows.row(name).told("body", &body);
-        let (low, high) = mesh.bounds();
-        row.told("length", format!("{:.0}", 1e3 * (high - low).max()))
-            .told("before", inspect(&mesh).self_intersections)
+        rows.row(name)
+            .told("body", &body)
+            .told("length", &length)
+            .told("before", meeting_before)
             .told("machine", processor())
             .is(ours);
     };

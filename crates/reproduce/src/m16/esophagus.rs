@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use palpate_files::Scene;
-use palpate_mechanics::finite_elements::estimate::Progress;
 use palpate_mechanics::finite_elements::indentation::Grip;
 use palpate_mechanics::finite_elements::solid::{Body, MovedPatch, SolidProblem, solve};
 use palpate_mechanics::{IndentationCurve, LinearElastic, Material};
@@ -172,10 +171,7 @@ fn organ(rows: &Rows<'_>, simulation: &Simulation) -> Result<SolidOrgan, Error> 
         },
         law: Arc::new(LinearElastic::new(1.0, POISSONS_RATIO)?),
     };
-    let found = solve(&problem, ACCURACY, &mut |progress: Progress| {
-        let (mesh, part) = (progress.mesh + 1, 100.0 * progress.part);
-        rows.say(format!("organ, mesh {mesh}, {part:.0} %"));
-    })?;
+    let found = solve(&problem, ACCURACY, &mut rows.meshes("organ, "))?;
     Ok(SolidOrgan {
         stiffness: 1e3 * found.answer.force_along,
         error: found.error,

@@ -24,10 +24,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     let printed = 1e3 * cell("section-6-4-5 youngs_modulus_kpa")?;
     let relaxes = cell("section-6-4-5 prony_g1")?;
     let measured = Printed::all("esophagus");
-    let depths: Vec<f64> = measured
-        .iter()
-        .map(|row| 1e-3 * f64::from(row.depth_mm))
-        .collect();
+    let [depths, _] = Printed::columns(&measured);
     let simulation = simulated(rows, &scene()?)?;
     let unit = unit_forces(&simulation, &depths);
     let both = || unit.iter().zip(&measured);
@@ -140,6 +137,6 @@ fn drawn(depths: &[f64], (unit, measured): (&[f64], &[Printed]), moduli: [f64; 2
 /// The measured means.
 pub(super) fn means(measured: &[Printed], name: &str, color: usize) -> Series {
     let means = measured.iter();
-    let means = means.map(|row| (f64::from(row.depth_mm), 1e3 * row.mean));
+    let means = means.map(Printed::drawn);
     Series::new(name, means.collect(), Style::Dots, color)
 }
