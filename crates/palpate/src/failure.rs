@@ -139,6 +139,15 @@ impl From<palpate_record::Error> for Failure {
     }
 }
 
+impl From<palpate_reproduce::Error> for Failure {
+    fn from(error: palpate_reproduce::Error) -> Self {
+        match error.is_input() {
+            true => Self::input(error),
+            false => Self::failed(error),
+        }
+    }
+}
+
 impl From<palpate_simulate::Error> for Failure {
     fn from(error: palpate_simulate::Error) -> Self {
         match error.is_input() {

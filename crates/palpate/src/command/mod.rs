@@ -30,12 +30,6 @@ use clap::{Parser, Subcommand};
 use crate::failure::Failure;
 use crate::output;
 
-/// The lower esophagus where it lies, for two hands.
-pub(crate) const TRAINER: &str = include_str!("../../../../assets/esophagus/trainer.toml");
-
-/// A cut on it that goes down to the mucosa.
-pub(crate) const MYOTOMY: &str = include_str!("../../../../assets/esophagus/myotomy.csv");
-
 /// The licences of what this program is built of; `.ci/notices` writes them.
 const NOTICES: &str = include_str!("../../../../THIRD-PARTY.txt");
 

@@ -3,14 +3,15 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use palpate_reproduce::{Figures, Item, KEPT, items, legend, section, select};
 use serde::Serialize;
 
 use super::overwrite::OverwriteOption;
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::output;
+use crate::plot::{Draw, Plot};
 use crate::progress::{Progress, Reader};
-use crate::reproduce::{Figures, ITEMS, Item, KEPT, Rows, legend, section, select};
 
 /// Examples at the end of the help.
 const EXAMPLES: &str = "\
@@ -51,7 +52,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         return list(&items, arguments.json);
     }
     refuse_file(&arguments.out)?;
-    let figures = Figures::claimed(&arguments.out, arguments.overwrite.rule(), &items)?;
+    let figures = Figures::claimed(&arguments.out, arguments.overwrite.rule(), &items, drawn)?;
     let mut kept = figures.rows();
     interrupt::ends_between_files(format!(
         "interrupted; finished rows are in {}, and the figures that were written are whole",
@@ -61,10 +62,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let progress = Progress::of_works(Reader::Person, items.iter().map(|item| item.seconds).sum());
     let mut all = Vec::new();
     for item in &items {
-        let mut rows = Rows::of(item.name, &figures, &progress);
-        let outcome = (item.run)(&mut rows);
-        let rows = selection.rows_of(item, rows.finished(outcome));
-        kept.keep(&rows)?;
+        let rows = selection.rows_of(item, item.rows(&figures, &progress));
+        kept.keep(&rows, &progress)?;
         if !arguments.json && !rows.is_empty() {
             progress.aside(|| output::text(section(item, &rows)))?;
         }
@@ -78,12 +77,17 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
             false => output::text(legend(&all) + &more(items.len()))?,
         }
     }
-    selection.check()
+    Ok(selection.check()?)
+}
+
+/// The picture of a plot.
+fn drawn(plot: &Plot) -> Result<Vec<u8>, palpate_jobs::Error> {
+    plot.png().map_err(palpate_jobs::Error::failed)
 }
 
 /// What was not selected.
 fn more(selected: usize) -> String {
-    match ITEMS.len() - selected {
+    match items().len() - selected {
         0 => String::new(),
         left => format!("{left} more items: palpate reproduce --list\n"),
     }
