@@ -289,10 +289,29 @@ impl Error {
     pub fn is_input(&self) -> bool {
         match self {
             Self::Read { source, .. } | Self::Write { source, .. } => names_wrong_path(source),
-            Self::BadContent { .. } | Self::InUse { .. } | Self::NoMemoryForResponse { .. } => {
+            Self::InUse { .. } | Self::NoMemoryForResponse { .. } | Self::BadContent { .. } => {
                 false
             }
-            _ => true,
+            Self::NotAFile { .. }
+            | Self::TooLarge { .. }
+            | Self::Exists { .. }
+            | Self::NamedTwice { .. }
+            | Self::NotText { .. }
+            | Self::Syntax { .. }
+            | Self::MissingFormat { .. }
+            | Self::UnsupportedFormat { .. }
+            | Self::UnknownKey { .. }
+            | Self::UnknownUnit { .. }
+            | Self::GivenTwice { .. }
+            | Self::MissingKey { .. }
+            | Self::BadValue { .. }
+            | Self::MissingColumn { .. }
+            | Self::UnrecognizedColumn { .. }
+            | Self::AmbiguousColumn { .. }
+            | Self::BadRow { .. }
+            | Self::NoRows { .. }
+            | Self::TimeNotIncreasing { .. }
+            | Self::DamagedResponse { .. } => true,
         }
     }
 

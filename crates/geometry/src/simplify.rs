@@ -98,6 +98,16 @@ pub enum SimplifyError {
     Cancelled,
 }
 
+impl SimplifyError {
+    /// Whether the input is invalid (exit status 2), rather than something else at fault (1).
+    pub fn is_input(&self) -> bool {
+        match self {
+            Self::Cancelled => false,
+            Self::TooFew { .. } | Self::NotASizeEach { .. } | Self::NotASize { .. } => true,
+        }
+    }
+}
+
 /// The surface of `mesh` with fewer triangles, at most as many as asked for. A mesh that has so few
 /// already stays as it is.
 ///

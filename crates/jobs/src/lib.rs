@@ -37,7 +37,7 @@ pub mod validate;
 mod watch;
 
 pub use cores::on_all_cores;
-pub use error::Error;
+pub use error::{Error, exit_status};
 pub use lossy::{LossyPath, lossy};
 pub use nearest::nearest;
 pub use quantity::{Scale, quantity, rounded, unit, without_unit};

@@ -46,15 +46,6 @@ fn break_off_if_asked(told: &Told) {
     }
 }
 
-impl From<palpate_jobs::Error> for Failure {
-    fn from(error: palpate_jobs::Error) -> Self {
-        match error {
-            palpate_jobs::Error::Input(message) => Self::Input(message),
-            palpate_jobs::Error::Failed(message) => Self::Failed(message),
-        }
-    }
-}
-
 /// A document: a file, or a text whose files are looked for beside the path it is called by.
 type Given = (PathBuf, Option<String>);
 
@@ -113,7 +104,7 @@ pub(crate) fn _analyze(
     let recordings = asked(recordings)?;
     waiting(py, progress, move |told| {
         let analyzed = palpate_jobs::analyze::analyze(&recordings, told)?;
-        Ok(json_text(&palpate_jobs::analyze::Answer::new(&analyzed))?)
+        Ok(json_text(&analyzed)?)
     })
 }
 

@@ -5,15 +5,15 @@ use std::path::PathBuf;
 use numpy::{PyArray1, PyArray2};
 use palpate_files::write_whole;
 use palpate_geometry::{
-    AabbTree, LengthUnit, MeshReport, NodeId, Organ, ProblemKind, ReadError, ReadFault,
-    SimplifySettings, Surface, TriangleMesh, WriteFormat, inspect, read_mesh, repair, simplify,
+    AabbTree, LengthUnit, MeshReport, NodeId, Organ, ReadError, ReadFault, SimplifySettings,
+    Surface, TriangleMesh, WriteFormat, inspect, read_mesh, repair, simplify,
 };
-use palpate_jobs::nearest;
+use palpate_jobs::{json_text, nearest};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList, PyTuple, PyType};
+use pyo3::types::{PyTuple, PyType};
 
 use crate::failure::Failure;
-use crate::{numbers, written};
+use crate::{documents, numbers, written};
 
 /// Triangles over shared vertices.
 ///
@@ -149,16 +149,9 @@ impl Mesh {
     /// What is wrong, as `palpate mesh info` tells it: dicts with `kind`, `count` and `mend`; empty when the mesh
     /// bounds a solid of even triangles. It is searched for each time: a second for 100,000 triangles.
     #[getter]
-    fn problems<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
-        let problems = PyList::empty(py);
-        for problem in self.report(py).problems {
-            let told = PyDict::new(py);
-            told.set_item("kind", kind_word(problem.kind))?;
-            told.set_item("count", problem.count)?;
-            told.set_item("mend", in_words_of_python(problem.mend))?;
-            problems.append(told)?;
-        }
-        Ok(problems)
+    fn problems<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let text = json_text(&self.report(py).problems).map_err(Failure::from)?;
+        documents::json(py, &in_words_of_python(&text))
     }
 
     /// Whether no edge has one triangle only.
@@ -286,20 +279,4 @@ fn about_unit(error: ReadError) -> Failure {
 
 fn in_words_of_python(message: &str) -> String {
     message.replace("mesh_unit", "unit")
-}
-
-fn kind_word(kind: ProblemKind) -> &'static str {
-    use ProblemKind as Kind;
-    match kind {
-        Kind::NotClosed => "not_closed",
-        Kind::NotManifold => "not_manifold",
-        Kind::NotOriented => "not_oriented",
-        Kind::SeveralPieces => "several_pieces",
-        Kind::SelfIntersecting => "self_intersecting",
-        Kind::DoubleWall => "double_wall",
-        Kind::DegenerateTriangles => "degenerate_triangles",
-        Kind::SliverTriangles => "sliver_triangles",
-        Kind::UnusedVertices => "unused_vertices",
-        Kind::ImplausibleSize => "implausible_size",
-    }
 }

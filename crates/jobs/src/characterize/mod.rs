@@ -178,7 +178,7 @@ pub fn characterize(
             (finished.specimen, finished.portrait)
         })
         .unzip();
-    let answer = Answer::new(specimens, &unusable);
+    let answer = Answer::new(specimens, unusable);
     if let Some(folder) = folder {
         summary::write(&answer, folder)?;
     }

@@ -28,13 +28,12 @@ pub(super) fn of_recordings(
         )));
     };
     let text = found.tissues[0].as_ref().map_err(Error::input)?;
-    let tissue = Tissue::parse(text, "the tissue that was found").map_err(Error::input)?;
+    let tissue = Tissue::parse(text, "the tissue that was found")?;
     let (read, _) = recordings.read(|_| ())?;
     let cleaned: Vec<&CleanRecording> = read.iter().map(|own| &own.clean).collect();
     let before = presses(&cleaned)?;
     let guess = guess(&tissue)?;
-    let own = Expecting::new(guess.clone(), DEEPEST.max(before.deepest() / before.radius));
-    let own = own.map_err(Error::input)?;
+    let own = Expecting::new(guess.clone(), DEEPEST.max(before.deepest() / before.radius))?;
     let instrument = noise_as_found((&own, specimen), &before, instrument(&cleaned))?;
     Ok(Start {
         factors: factors(specimen),
@@ -139,7 +138,7 @@ fn noise_as_found(
     let [mut low, mut high] = [1e-2_f64, 1e3];
     for _ in 0..30 {
         let middle = (low * high).sqrt();
-        let (expected, ..) = own.expected(presses, &of(middle)).map_err(Error::input)?;
+        let (expected, ..) = own.expected(presses, &of(middle))?;
         let each = expected.iter().filter_map(|one| {
             let (_, found) = found.iter().find(|(name, _)| *name == one.name)?;
             Some((one.reach() / found).ln())

@@ -39,7 +39,7 @@ pub struct Answer {
 }
 
 impl Answer {
-    pub(crate) fn new(specimens: Vec<Specimen>, unusable: &[Unusable]) -> Self {
+    pub(crate) fn new(specimens: Vec<Specimen>, unusable: Vec<Unusable>) -> Self {
         let several = specimens.len() > 1;
         let of = |specimen: &Specimen, doubt: &String| match several {
             true => format!("{}: {doubt}", specimen.title),
@@ -58,7 +58,7 @@ impl Answer {
                 .chain(unusable.iter().map(Unusable::sentence))
                 .collect(),
             specimens,
-            unusable: unusable.to_vec(),
+            unusable,
         }
     }
 }

@@ -191,7 +191,7 @@ impl Arguments {
         let card = |to_card: fn(&Tissue) -> Result<String, palpate_files::card::NoCard>,
                     path: &PathBuf| {
             let tissue = Tissue::parse(text, path)?;
-            let card = to_card(&tissue).map_err(Failure::input)?;
+            let card = to_card(&tissue)?;
             write_whole(path, card.as_bytes()).map_err(Failure::from)
         };
         if let Some(path) = &self.abaqus {

@@ -142,8 +142,8 @@ fn add(
                 made.force, made.adapter
             ),
         ),
-        Err(Failure::Failed(why)) => {
-            rows.add_missing(name.unwrap_or("picture"), "", why);
+        Err(failure) if failure.exit_status() == 1 => {
+            rows.add_missing(name.unwrap_or("picture"), "", failure.to_string());
             Ok(())
         }
         Err(failure) => Err(failure),

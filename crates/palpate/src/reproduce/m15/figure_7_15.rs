@@ -52,7 +52,7 @@ fn pictures(rows: &mut Rows<'_>) -> Result<(), Failure> {
     };
     for (until, name, what) in STAGES {
         let cut = top.cut(CutMethod::SnapVertices, &WAY[..until]);
-        let (cut, lag) = cut.map_err(|error| Failure::Failed(error.to_string()))?;
+        let (cut, lag) = cut.map_err(Failure::failed)?;
         top.add(rows, (name, what), &cut, look)?;
         let mesh = cut.mesh();
         let added = mesh.triangles().len() - TRIANGLES;

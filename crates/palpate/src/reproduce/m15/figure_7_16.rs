@@ -25,7 +25,7 @@ fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
 
 fn pictures(rows: &mut Rows<'_>) -> Result<(), Failure> {
     let mut top = Top::new(TRIANGLES, [0.05, -0.13, 0.165])?;
-    let fault = |error: palpate_geometry::CutError| Failure::Failed(error.to_string());
+    let fault = |error: palpate_geometry::CutError| Failure::failed(error);
     let (uncut, _) = top.cut(CutMethod::SnapVertices, &WAY[..1]).map_err(fault)?;
     let (cut, _) = top.cut(CutMethod::SnapVertices, &WAY).map_err(fault)?;
     let textured = Look {

@@ -89,7 +89,7 @@ impl Top {
         self.studio.beside.clear();
         if let Some(width) = look.wires {
             let wires = wire_frame(open.mesh(), open.places(), width)
-                .map_err(|error| Failure::Failed(error.to_string()))?;
+                .map_err(Failure::failed)?;
             let body = Body::of_mesh(&self.studio.gpu, &wires, Tint::WIRE);
             self.studio.beside.push(body);
         }
@@ -109,8 +109,8 @@ impl Top {
 /// Without an adapter a figure's row says so.
 pub(super) fn or_missing(rows: &mut Rows<'_>, made: Result<(), Failure>) -> Result<(), Failure> {
     match made {
-        Err(Failure::Failed(why)) => {
-            rows.add_missing("pictures", "", why);
+        Err(failure) if failure.exit_status() == 1 => {
+            rows.add_missing("pictures", "", failure.to_string());
             Ok(())
         }
         other => other,
