@@ -77,17 +77,12 @@ pub(crate) fn _solve(
             (path, None) => Problem::read(&path)?,
             (path, Some(text)) => Problem::parse(&text, &path)?,
         };
-        let begin = std::time::Instant::now();
-        let solution = palpate_jobs::solve::solve(&problem, Wanted { plot, vtu }, told)?;
-        let answer = palpate_jobs::solve::Answer::new(&problem, &solution, begin.elapsed());
+        let answer = palpate_jobs::solve::solve(&problem, Wanted { plot, vtu }, told)?;
+        let (json, words) = (json_text(&answer)?, in_words(&problem, &answer));
+        let solution = answer.solution;
         let recording = solution.recording.as_ref().map(|own| own.to_csv());
-        Ok((
-            json_text(&answer)?,
-            in_words(&problem, &solution, &answer),
-            json_text(&solution.plot)?,
-            solution.vtu,
-            recording,
-        ))
+        let plot = json_text(&solution.plot)?;
+        Ok((json, words, plot, solution.vtu, recording))
     })?;
     let vtu = vtu.map(|bytes| PyBytes::new(py, &bytes));
     Ok((answer, words, plot, vtu, recording))

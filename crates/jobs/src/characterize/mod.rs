@@ -18,7 +18,7 @@ use palpate_characterize::viscoelastic::RelaxationSettings;
 
 pub use answer::{
     Answer, CovarianceAnswer, ElasticAnswer, FitAnswer, Identified, Known, LawAnswer, LumpedAnswer,
-    Modulus, Named, Noise, Partner, RelaxationAnswer, Specimen, Steps, Tried,
+    Named, Noise, Partner, RelaxationAnswer, Specimen, Steps, Tried,
 };
 pub use evaluation::FoundLaw;
 pub use folder::StudyFolder;

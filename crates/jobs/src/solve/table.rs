@@ -2,7 +2,6 @@
 
 use super::answer::Answer;
 use super::problem::Problem;
-use super::solution::Solution;
 
 /// Columns of numbers under their names.
 #[derive(Debug, Default)]
@@ -85,9 +84,10 @@ pub(crate) fn digits(value: f64) -> String {
 }
 
 /// The whole answer as text.
-pub fn in_words(problem: &Problem, solution: &Solution, answer: &Answer) -> String {
-    let error = format!("{:.2}", 100.0 * answer.estimated_error);
-    let order = answer.observed_order;
+pub fn in_words(problem: &Problem, answer: &Answer) -> String {
+    let solution = &answer.solution;
+    let error = format!("{:.2}", 100.0 * solution.estimated_error);
+    let order = solution.observed_order;
     let order = order.map_or(String::new(), |order| {
         format!("; observed order {order:.1}")
     });
@@ -102,7 +102,7 @@ pub fn in_words(problem: &Problem, solution: &Solution, answer: &Answer) -> Stri
             .collect::<Vec<_>>()
             .join("\n"),
         100.0 * problem.accuracy,
-        answer.unknowns,
+        solution.unknowns,
         answer.seconds,
     )
 }

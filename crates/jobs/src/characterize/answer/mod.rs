@@ -15,9 +15,8 @@ use crate::{Unusable, VERSION};
 
 pub use self::fit::{CovarianceAnswer, ElasticAnswer, FitAnswer};
 pub use self::specimen::Specimen;
-pub(crate) use self::values::correlations_of_piece;
 pub use self::values::{
-    Known, LawAnswer, LumpedAnswer, Modulus, Named, Noise, RelaxationAnswer, Steps, Tried,
+    Known, LawAnswer, LumpedAnswer, Named, Noise, RelaxationAnswer, Steps, Tried,
 };
 pub use self::verdicts::{Identified, Partner};
 

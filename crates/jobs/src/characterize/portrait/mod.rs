@@ -115,16 +115,6 @@ pub struct DrawnLaw {
     pub iterations: Vec<Vec<f64>>,
     /// Σ ε² there.
     pub sums_of_squares: Vec<f64>,
-    /// The information criterion [-].
-    pub criterion: f64,
-    /// How many.
-    pub samples: usize,
-    /// How many independent samples would tell as much [-].
-    pub effective_samples: f64,
-    /// What is correlated, and how [-].
-    pub correlated: Vec<String>,
-    /// Row by row [-].
-    pub correlations: Vec<Vec<f64>>,
 }
 
 impl Portrait {

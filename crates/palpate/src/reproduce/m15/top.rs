@@ -88,8 +88,7 @@ impl Top {
         self.studio.view.looks.relief = look.shading != Shading::Plain;
         self.studio.beside.clear();
         if let Some(width) = look.wires {
-            let wires = wire_frame(open.mesh(), open.places(), width)
-                .map_err(Failure::failed)?;
+            let wires = wire_frame(open.mesh(), open.places(), width).map_err(Failure::failed)?;
             let body = Body::of_mesh(&self.studio.gpu, &wires, Tint::WIRE);
             self.studio.beside.push(body);
         }
