@@ -349,8 +349,8 @@ impl Error {
     }
 }
 
-/// Whether the operating system refuses because of the name that was given.
-fn names_wrong_path(source: &io::Error) -> bool {
+/// Whether the operating system refuses because of the name that was given, which is invalid input.
+pub fn names_wrong_path(source: &io::Error) -> bool {
     use io::ErrorKind;
     matches!(
         source.kind(),

@@ -1,7 +1,9 @@
 use std::fmt::Display;
+use std::io;
 use std::path::{Path, PathBuf};
 
 use palpate_files::card::NoCard;
+use palpate_files::names_wrong_path;
 use palpate_geometry::{
     IsosurfaceError, MeshError, OrganError, ReadError, SimplifyError, UnknownUnit, WrapError,
 };
@@ -63,6 +65,16 @@ pub enum Error {
         #[source]
         error: Box<Error>,
     },
+    /// The folder for what a job makes.
+    #[error("the folder {} cannot be made or written ({source}); give another with {option}", folder.display())]
+    Folder {
+        /// The folder.
+        folder: PathBuf,
+        /// The option that names another.
+        option: &'static str,
+        /// What the operating system says.
+        source: io::Error,
+    },
     /// None of several recordings can be used.
     #[error("none of the {count} recordings can be used; the first: {first}")]
     NoRecording {
@@ -108,6 +120,7 @@ impl Error {
             Self::Open(error) => error.is_input(),
             Self::Device(error) => error.is_input(),
             Self::About { error, .. } | Self::NoRecording { first: error, .. } => error.is_input(),
+            Self::Folder { source, .. } => names_wrong_path(source),
             Self::Unit(_) | Self::Card(_) | Self::Input(_) => true,
             Self::Failed(_) => false,
         }
@@ -116,6 +129,18 @@ impl Error {
     /// The exit status of a command that ends with this error: 2 when the input is invalid, else 1.
     pub fn exit_status(&self) -> u8 {
         exit_status(self.is_input())
+    }
+
+    /// What is said of a folder that is given with `option`.
+    pub(crate) fn of_folder(option: &'static str, error: palpate_files::Error) -> Self {
+        match error {
+            palpate_files::Error::Write { path, source } => Self::Folder {
+                folder: path,
+                option,
+                source,
+            },
+            other => other.into(),
+        }
     }
 
     /// The same, with the file that it is about.

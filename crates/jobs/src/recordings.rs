@@ -242,11 +242,9 @@ pub fn hexadecimal(bytes: &[u8]) -> String {
 
 /// The tables in a folder, in alphabetical order.
 fn tables(folder: &Path) -> Result<Vec<PathBuf>, Error> {
-    let unreadable = |error| {
-        Error::input(format!(
-            "{} cannot be read: {error}; check that you may read it",
-            folder.display()
-        ))
+    let unreadable = |source| palpate_files::Error::Read {
+        path: folder.to_owned(),
+        source,
     };
     let mut files = Vec::new();
     for entry in fs::read_dir(folder).map_err(unreadable)? {

@@ -134,7 +134,7 @@ pub(crate) fn _characterize<'py>(
             palpate_jobs::characterize::characterize(&recordings, choice, folder.as_ref(), told)?;
         let tissues = found.tissues.into_iter().map(|tissue| match tissue {
             Ok(text) => (Some(text), None),
-            Err(why) => (None, Some(why)),
+            Err(why) => (None, Some(why.to_string())),
         });
         let tissues: Vec<FoundTissue> = tissues.collect();
         Ok((json_text(&found.answer)?, tissues, found.samples))

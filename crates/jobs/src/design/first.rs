@@ -20,15 +20,15 @@ pub(super) fn of_recordings(
         draws: 0,
         ..Choice::default()
     };
-    let found = characterize(recordings, choice, None, watch)?;
+    let mut found = characterize(recordings, choice, None, watch)?;
     let [specimen] = found.answer.specimens.as_slice() else {
         return Err(Error::input(format!(
             "there are {} specimens, and a protocol is designed for one; name the recordings of one",
             found.answer.specimens.len()
         )));
     };
-    let text = found.tissues[0].as_ref().map_err(Error::input)?;
-    let tissue = Tissue::parse(text, "the tissue that was found")?;
+    let text = found.tissues.swap_remove(0)?;
+    let tissue = Tissue::parse(&text, "the tissue that was found")?;
     let (read, _) = recordings.read(|_| ())?;
     let cleaned: Vec<&CleanRecording> = read.iter().map(|own| &own.clean).collect();
     let before = presses(&cleaned)?;

@@ -7,11 +7,11 @@ mod of_recordings;
 pub(crate) use of_recordings::all_samples;
 
 use palpate_characterize::inverse::SoughtLaw;
+use palpate_files::quantity::quantity;
 use palpate_files::recording::RecordingHeader;
 use serde::{Deserialize, Serialize};
 
 use super::finished::Studied;
-use crate::quantity;
 
 /// Probability of the bands [-].
 pub const LEVEL: f64 = 0.95;
