@@ -70,6 +70,15 @@ pub struct Simplified {
     pub self_intersections: usize,
 }
 
+impl Simplified {
+    /// A sentence where triangles of the result meet.
+    pub fn warning(&self) -> Option<String> {
+        let meet = self.self_intersections;
+        let said = || format!("{meet} triangles of the result meet others; ask for more triangles");
+        (meet > 0).then(said)
+    }
+}
+
 /// Why a mesh is not simplified.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SimplifyError {

@@ -38,7 +38,7 @@ mod watch;
 pub use cores::on_all_cores;
 pub use error::{Error, exit_status};
 pub use lossy::{LossyPath, lossy};
-pub use nearest::nearest;
+pub use nearest::{builtin_organ, nearest};
 pub use recordings::{ReadRecording, Recordings, Unusable, hexadecimal};
 pub use sideways::Sideways;
 pub use watch::{Nobody, Watch};

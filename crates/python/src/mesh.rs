@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use numpy::{PyArray1, PyArray2};
 use palpate_files::write_whole;
 use palpate_geometry::{
-    AabbTree, LengthUnit, MeshReport, NodeId, Organ, ReadError, ReadFault, SimplifySettings,
-    Surface, TriangleMesh, WriteFormat, inspect, read_mesh, repair, simplify,
+    AabbTree, LengthUnit, MeshReport, NodeId, ReadError, ReadFault, SimplifySettings, Surface,
+    TriangleMesh, WriteFormat, inspect, read_mesh, repair, simplify,
 };
-use palpate_jobs::{json_text, nearest};
+use palpate_jobs::{builtin_organ, json_text};
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
 
@@ -97,7 +97,7 @@ impl Mesh {
         name: &str,
         triangles: Option<usize>,
     ) -> Result<Self, Failure> {
-        let organ: Organ = name.parse().map_err(|_| unknown_builtin(name))?;
+        let organ = builtin_organ(name)?;
         let triangles = triangles.unwrap_or(organ.default_triangles());
         let mesh = py.detach(|| organ.surface_mesh(triangles))?;
         Ok(Self::with_warnings(mesh, Vec::new()))
@@ -204,10 +204,7 @@ impl Mesh {
             let (mesh, _) = repair(&self.mesh)?;
             Ok::<_, Failure>(simplify(&mesh, &SimplifySettings::to(triangles))?)
         })?;
-        let meet = simplified.self_intersections;
-        let doubt =
-            || format!("{meet} triangles of the result meet others; ask for more triangles");
-        let warnings = (meet > 0).then(doubt).into_iter().collect();
+        let warnings = simplified.warning().into_iter().collect();
         Ok(Self::with_warnings(simplified.mesh, warnings))
     }
 
@@ -258,15 +255,6 @@ pub(crate) fn corners<'py>(py: Python<'py>, mesh: &TriangleMesh) -> Bound<'py, P
     let triangles = mesh.triangles();
     let flat = triangles.iter().flatten().map(|node| node.0).collect();
     numbers::array(py, [triangles.len(), 3], flat)
-}
-
-fn unknown_builtin(name: &str) -> Failure {
-    let names = Organ::ALL.map(Organ::name);
-    Failure::input(format!(
-        "there is no built-in organ `{name}`; the nearest is `{}`, and there are {}",
-        nearest(name, &names),
-        names.join(", ")
-    ))
 }
 
 /// The reader speaks of the scene's key, here it is an argument.

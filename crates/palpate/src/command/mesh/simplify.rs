@@ -84,12 +84,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     });
     let simplified = simplified?;
     let seconds = begin.elapsed().as_secs_f64();
-    if simplified.self_intersections > 0 {
-        warnings.push(format!(
-            "{} triangles of the result meet others; ask for more triangles",
-            simplified.self_intersections
-        ));
-    }
+    warnings.extend(simplified.warning());
     let answer = Answer {
         palpate: output::VERSION,
         written: out.write(&simplified.mesh)?,
