@@ -110,6 +110,27 @@
 #define PALPATE_EVENT_OPENS_LAYER_6 (1 << 20)
 
 /**
+ * The version of this header.
+ */
+#define PALPATE_VERSION_MAJOR 0
+
+/**
+ * The version of this header.
+ */
+#define PALPATE_VERSION_MINOR 1
+
+/**
+ * The version of this header.
+ */
+#define PALPATE_VERSION_PATCH 0
+
+/**
+ * The layout of structures and the signatures of functions in this header. It is another whenever a program has to be
+ * compiled anew; a program that loads the library at run time compares it with palpate_abi() first.
+ */
+#define PALPATE_ABI 1
+
+/**
  * How a call ended: the exit statuses of the command `palpate`.
  */
 typedef enum palpate_status {
@@ -289,11 +310,6 @@ extern "C" {
 const char *palpate_error_message(void);
 
 /**
- * The version of the library, as "0.1.0".
- */
-const char *palpate_version(void);
-
-/**
  * Reads the scene file `path` and prepares it: `*simulation` has to be freed. `how` may be null. Where it is refused,
  * `*simulation` is null.
  */
@@ -420,6 +436,16 @@ const double *palpate_simulation_normals(const struct palpate_simulation *simula
  */
 enum palpate_status palpate_state_surface(const struct palpate_state *state,
                                           struct palpate_surface *surface);
+
+/**
+ * The PALPATE_ABI of the library.
+ */
+uint32_t palpate_abi(void);
+
+/**
+ * The version of the library, as "0.1.0".
+ */
+const char *palpate_version(void);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -36,6 +36,7 @@ mod state;
 mod status;
 mod step;
 mod surface;
+mod version;
 
 pub use events::*;
 pub use message::palpate_error_message;
@@ -45,3 +46,4 @@ pub use state::*;
 pub use status::Status;
 pub use step::{ToolPose, ToolTouch, palpate_step};
 pub use surface::*;
+pub use version::*;

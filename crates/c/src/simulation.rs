@@ -23,13 +23,6 @@ const _: fn() = || {
     shared::<SimulationHandle>();
 };
 
-/// The version of the library, as "0.1.0".
-#[unsafe(no_mangle)]
-pub extern "C" fn palpate_version() -> *const c_char {
-    const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), "\0");
-    VERSION.as_ptr().cast()
-}
-
 /// Reads the scene file `path` and prepares it: `*simulation` has to be freed. `how` may be null. Where it is refused,
 /// `*simulation` is null.
 #[unsafe(no_mangle)]

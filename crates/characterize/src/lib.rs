@@ -6,6 +6,20 @@
 //! ```
 //!
 //! The crate reads and writes no file and prints nothing; it starts no thread that outlives a call.
+//!
+//! ```
+//! use palpate_characterize::clean::{CleanSettings, clean};
+//! use palpate_characterize::{CharacterizeSettings, characterize, inverse::SoughtLaw};
+//! use palpate_files::{Recording, recording::ForeignColumns};
+//!
+//! let recording = Recording::read_foreign("../../assets/first/liver-4mm.csv", &ForeignColumns::default())?;
+//! let cleaned = clean(&recording, &CleanSettings::default())?;
+//! let settings = CharacterizeSettings { laws: vec![SoughtLaw::NeoHookean], ..Default::default() };
+//! let found = characterize(&[cleaned], &settings, &mut |_| ());
+//! let tissue = found.tissue(None)?; // law, Prony series and the standard error of each number
+//! println!("{}", tissue.to_toml());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 pub mod analyze;
 pub mod clean;

@@ -14,6 +14,22 @@
 //!
 //! The documents hold plain numbers. They know nothing of meshes, mechanics or devices, so that
 //! each verb (measure, characterize, simulate) can be used without the others.
+//!
+//! ```
+//! use palpate_files::{Scene, Tissue};
+//!
+//! let text = r#"
+//! format = 1
+//! tissue = { law = "neo_hookean", c10_pa = 452.9 }
+//! "#;
+//! let tissue = Tissue::parse(text, "liver.toml")?;
+//! assert_eq!(tissue.elasticity.values()[0], 452.9); // [Pa]
+//!
+//! let refused = Scene::parse("format = 1\norgan = { builtin = \"lver\" }", "scene.toml").unwrap_err();
+//! println!("{refused}"); // names the file, the line, and the word that was meant
+//! assert!(refused.to_string().starts_with("scene.toml line 2"));
+//! # Ok::<(), palpate_files::Error>(())
+//! ```
 
 pub mod card;
 mod claim;

@@ -3,6 +3,21 @@
 //! A [`TriangleMesh`] is any list of triangles; a [`Surface`] is one that has been checked: closed,
 //! manifold, oriented outward, in one piece. Everything that touches an organ asks for a `Surface`.
 //! A [`TetrahedronMesh`] fills one, for finite elements.
+//!
+//! ```
+//! use palpate_geometry::{AabbTree, Organ, Surface, Vec3};
+//!
+//! // Watertight, manifold, oriented outward, or an error with the place.
+//! let liver = Surface::new(Organ::Liver.surface_mesh(5000)?)?;
+//! let tree = AabbTree::new(liver.mesh());
+//!
+//! // A point 2 mm outside the first vertex.
+//! let vertex = liver.mesh().vertices()[0];
+//! let point = vertex + 2e-3 * liver.vertex_normals()[0];
+//! let nearest = tree.nearest(liver.mesh(), &point);
+//! assert!((point - nearest.on.position).norm() <= 2e-3 * (1.0 + 1e-12)); // [m]
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod aabb_tree;
 mod check;

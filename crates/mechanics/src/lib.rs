@@ -3,6 +3,29 @@
 //! The crate does no input and output, starts no thread that outlives a call and does not know what a
 //! tool, a device or a frame rate is. A method is three types: a model, built once and immutable; where
 //! needed a state, all that must be kept to go on; and a workspace, scratch whose loss changes no result.
+//!
+//! ```
+//! use std::sync::Arc;
+//!
+//! use palpate_mechanics::NeoHookean;
+//! use palpate_mechanics::finite_elements::indentation::{
+//!     Base, Block, Grip, IndentationProblem, Indenter, IndenterShape, solve,
+//! };
+//!
+//! // A sphere of 5 mm radius is pressed 1 mm into a block of 50 mm, without friction.
+//! let problem = IndentationProblem {
+//!     block: Block { radius: 0.05, height: 0.05, base: Base::Bonded },
+//!     indenter: Indenter { shape: IndenterShape::Sphere, radius: 5e-3, face: Grip::Slide },
+//!     law: Arc::new(NeoHookean::incompressible(1000.0)?), // C10 [Pa]
+//! };
+//! let found = solve(&problem, &[1e-3], 0.02, &mut |_| {})?;
+//! println!("{:.3} mN, within {:.1} %", 1e3 * found.answer.points[0].force, 100.0 * found.error);
+//!
+//! // Hertz's closed form at small strain: 16/9 E √(R d³), E = 6 C10.
+//! let hertz = 16.0 / 9.0 * 6000.0 * (5e-3_f64 * 1e-3_f64.powi(3)).sqrt();
+//! assert!((found.answer.points[0].force / hertz - 1.0).abs() < 0.12);
+//! # Ok::<(), palpate_mechanics::Error>(())
+//! ```
 
 pub mod boundary_elements;
 pub mod contact;

@@ -12,6 +12,24 @@
 //! The crate knows nothing of tissue, scenes or files. A [`ServoLoop`] owns its [`Device`]; nothing else
 //! calls it, and it waits for nobody. The same loop runs on a real [`Clock`] and on a virtual one, on a thread of ours
 //! ([`ServoThread`]) and in the scheduler of a device that has one ([`Scheduler`]). A tick allocates nothing.
+//!
+//! ```
+//! use palpate_servo::{Clock, DeviceState, ServoLoop, ServoSettings, Trajectory, Vec3, VirtualDevice};
+//!
+//! // A hand that moves 2 mm up and down at 2 Hz, held by a spring of 100 N/m.
+//! let hand = VirtualDevice::new(Trajectory::Sine {
+//!     center: Vec3::zeros(),
+//!     amplitude: Vec3::z() * 2e-3,
+//!     frequency: 2.0,
+//! });
+//! let spring = |state: &DeviceState, _dt: f64| -100.0 * state.position;
+//! let (mut servo, mut reader) =
+//!     ServoLoop::new(Box::new(hand), Box::new(spring), ServoSettings { log: 2000, ..Default::default() })?;
+//! servo.run(&mut Clock::virtual_time(), |tick| tick < 1000);
+//! let largest = reader.log.drain().map(|sample| sample.sent.norm()).fold(0.0, f64::max);
+//! assert!((largest - 0.2).abs() < 1e-3); // [N]
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod affine_force;
 mod clock;

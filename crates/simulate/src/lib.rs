@@ -10,6 +10,28 @@
 //! a [`SimulationWorkspace`] is scratch. [`play`] runs a whole motion on a virtual clock: nothing there
 //! waits, and the same motion gives the same bytes. [`interactive`] runs the same steps beside a servo loop
 //! and a display, for a hand.
+//!
+//! ```
+//! use palpate_files::{Pose, Scene};
+//! use palpate_simulate::{Simulation, SimulationState, SimulationWorkspace, step};
+//!
+//! let scene = r#"
+//! format = 1
+//! organ = { builtin = "liver", builtin_tissue = "pig-liver" }
+//! tool = [{ name = "right", tip = { shape = "flat", radius_m = 0.001 } }]
+//! "#;
+//! let simulation = Simulation::new(&Scene::parse(scene, "liver.toml")?)?;
+//! let mut state = SimulationState::new(&simulation);
+//! let mut workspace = SimulationWorkspace::new(&simulation);
+//!
+//! // 4 mm below the first vertex, along its inward normal.
+//! let surface = simulation.surface();
+//! let tip = surface.mesh().vertices()[0] - 0.004 * surface.vertex_normals()[0];
+//! let pose = Pose { position_m: tip.into(), orientation: None, grip: 0.0, cut: false };
+//! step(&simulation, (0.0, 0.0), &[Some(pose)], &mut state, &mut workspace);
+//! assert!(state.tools[0].force.norm() > 0.02); // [N]
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod contact;
 mod cutting;

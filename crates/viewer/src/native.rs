@@ -7,6 +7,8 @@ use crate::{Error, Gpu, style};
 
 /// Name of the window.
 const TITLE: &str = "palpate";
+/// Picture of the window where the desktop has no other: assets/palpate.svg, 128 pixels wide.
+const ICON: &[u8] = include_bytes!("../assets/palpate.png");
 
 /// Opens a window of a size and a least size in which what `make` gives is shown, and waits until it is closed.
 ///
@@ -19,12 +21,14 @@ pub(crate) fn open<App: eframe::App + 'static>(
     check_display()?;
     // Opened once without a window: its error has a name that a window's has not.
     drop(Gpu::open()?);
+    let mut viewport = egui::ViewportBuilder::default()
+        .with_title(TITLE)
+        .with_app_id("palpate")
+        .with_inner_size(size)
+        .with_min_inner_size(least);
+    viewport.icon = eframe::icon_data::from_png_bytes(ICON).ok().map(Arc::new);
     let options = eframe::NativeOptions {
-        viewport: egui::ViewportBuilder::default()
-            .with_title(TITLE)
-            .with_app_id("palpate")
-            .with_inner_size(size)
-            .with_min_inner_size(least),
+        viewport,
         renderer: eframe::Renderer::Wgpu,
         ..eframe::NativeOptions::default()
     };
@@ -53,5 +57,16 @@ pub(crate) fn open<App: eframe::App + 'static>(
             cause: cause.to_string(),
         }),
         (None, Ok(())) => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_icon_is_a_picture() {
+        let icon = eframe::icon_data::from_png_bytes(ICON).unwrap();
+        assert_eq!((icon.width, icon.height), (128, 128));
     }
 }

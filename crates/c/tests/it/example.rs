@@ -10,12 +10,12 @@ use palpate_simulate::{Simulation, SimulationState, SimulationWorkspace, step};
 const SYSTEM: &[&str] = &["-lpthread", "-ldl", "-lm"];
 
 /// The folder with the library that Cargo has built for this test.
-fn libraries() -> PathBuf {
+pub(super) fn libraries() -> PathBuf {
     let own = std::env::current_exe().unwrap();
     own.parent().unwrap().to_owned()
 }
 
-fn root() -> PathBuf {
+pub(super) fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
@@ -41,7 +41,7 @@ fn said(name: &str, how: &[&str]) -> String {
 }
 
 /// The same press in Rust.
-fn expected() -> String {
+pub(super) fn expected() -> String {
     let example = std::fs::read_to_string(root().join("examples/palpate_a_liver.c")).unwrap();
     let lines = example.lines().map(str::trim);
     let quoted = lines.filter_map(|line| {

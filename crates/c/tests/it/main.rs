@@ -9,6 +9,8 @@
 
 mod agreement;
 mod calling;
+mod cmake;
+mod csharp;
 mod example;
 mod header;
 mod no_allocation;

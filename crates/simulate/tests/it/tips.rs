@@ -266,7 +266,7 @@ fn tabled(body: Body, promised: impl Fn(&str, &Case<'_>, f64) -> Option<f64>) {
 /// Judge: full runs, each on a mesh made for its depth. Tolerance: what is asked, to 10 mm deep, beyond which a scene
 /// warns; of the local model under wide flat tips a tenth, as on other organs.
 #[test]
-#[ignore = "by hand: minutes, prints the table of docs/theory/tips.md; not run in this form yet"]
+#[ignore = "slow: minutes; prints the table of docs/theory/tips.md"]
 fn tips_on_a_cube() {
     tabled(Body::Cube, |kind, case, depth| {
         let is_wide = kind == "local" && case.shape == "flat" && case.radius > 0.005;
@@ -277,7 +277,7 @@ fn tips_on_a_cube() {
 /// Judge: full runs, each on a mesh made for its depth. Tolerance: what is asked of the whole organ, to an eighth of the
 /// thickness deep and under tips that are no wider than it is thick; beyond, its own stiffening is left out.
 #[test]
-#[ignore = "by hand: minutes, prints the table of docs/theory/tips.md; not run in this form yet"]
+#[ignore = "slow: minutes; prints the table of docs/theory/tips.md"]
 fn tips_on_a_slab() {
     tabled(Body::Slab, |kind, case, depth| {
         let is_small = case.radius <= 0.01 && depth <= 0.002_5;
@@ -288,7 +288,7 @@ fn tips_on_a_slab() {
 /// Judge: full runs, each on a mesh made for its depth. Tolerance: what is asked of spheres, to a tenth of the radius
 /// deep; deeper, at ν = 0.3, the whole organ has up to 4.3 % more.
 #[test]
-#[ignore = "by hand: minutes, prints the table of docs/theory/tips.md; not run in this form yet"]
+#[ignore = "slow: minutes; prints the table of docs/theory/tips.md"]
 fn tips_on_a_hemisphere() {
     tabled(Body::Hemisphere, |_, case, depth| {
         (case.shape == "sphere" && depth <= 0.005).then_some(PROMISED)

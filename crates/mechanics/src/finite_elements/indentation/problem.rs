@@ -80,14 +80,16 @@ pub fn solve(
     progress: &mut dyn FnMut(Progress),
 ) -> Result<Estimated<IndentationAnswer>, Error> {
     problem.check_depths(depths)?;
-    refine(problem.meshes(), accuracy, |mesh| {
+    let mut found = refine(problem.meshes(), accuracy, |mesh| {
         if !problem.is_in_reach(depths, mesh) {
             return Ok(None);
         }
         let answer = problem.elastic(depths, mesh, progress)?;
         let forces = answer.forces();
         Ok(Some((answer, forces)))
-    })
+    })?;
+    found.warnings.extend(found.answer.fall(accuracy));
+    Ok(found)
 }
 
 /// Forces over the times of `history` of a tissue that relaxes by `prony`, to the relative `accuracy`
@@ -104,7 +106,7 @@ pub fn solve_history(
 ) -> Result<Estimated<IndentationAnswer>, Error> {
     history.check()?;
     problem.check_depths(&history.depths)?;
-    refine(problem.meshes(), accuracy, |mesh| {
+    let mut found = refine(problem.meshes(), accuracy, |mesh| {
         if !problem.is_in_reach(&history.depths, mesh) {
             return Ok(None);
         }
@@ -114,10 +116,27 @@ pub fn solve_history(
         };
         let forces = answer.forces();
         Ok(Some((answer, forces)))
-    })
+    })?;
+    found.warnings.extend(found.answer.fall(accuracy));
+    Ok(found)
 }
 
 impl IndentationAnswer {
+    /// What a reader has to know where a greater depth has a smaller elastic force, by more than the relative `accuracy`
+    /// [-]: by less it falls where tissue at an edge gives way element by element.
+    fn fall(&self, accuracy: f64) -> Option<String> {
+        let known: Vec<_> = self.curve.points().collect();
+        let fall = known
+            .windows(2)
+            .find(|two| two[1].1 < (1.0 - accuracy) * two[0].1)?;
+        let [above, below] = [fall[0].0, fall[1].0].map(|depth| 1e3 * depth);
+        Some(format!(
+            "the elastic force falls between depths of {above:.4} and {below:.4} mm: there the tissue leaves its equilibrium \
+             for another, as where it closes over a sphere without friction; a shaft prevents that, so do not use the \
+             forces beyond"
+        ))
+    }
+
     fn forces(&self) -> Vec<Quantity> {
         let forces = self.points.iter().map(|point| point.force);
         vec![Quantity::new("force", forces.collect())]
@@ -284,4 +303,29 @@ impl IndentationProblem {
 /// Depths [m] at which a curve is solved up to `deepest`.
 fn curve_depths(deepest: f64) -> Vec<f64> {
     (1..=24).map(|i| deepest * f64::from(i) / 24.0).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Judge: the numbers.
+    #[test]
+    fn a_fall_of_the_force_is_told_where_it_is() {
+        let told = |forces: &[f64]| {
+            let depths = [1e-3, 2e-3, 3e-3];
+            IndentationAnswer {
+                points: Vec::new(),
+                curve: IndentationCurve::through(&depths, forces),
+                unknowns: 0,
+            }
+            .fall(0.01)
+        };
+        assert_eq!(told(&[1.0, 2.0, 1.99]), None);
+        let fall = told(&[1.0, 2.0, 0.5]).unwrap();
+        assert!(
+            fall.contains("between depths of 2.0000 and 3.0000 mm"),
+            "{fall}"
+        );
+    }
 }

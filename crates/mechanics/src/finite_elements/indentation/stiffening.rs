@@ -39,7 +39,8 @@ impl Stiffening {
     }
 
     /// Of `tissue` under `tip`, from finite elements on the coarsest mesh (seconds); `at_step` hears the
-    /// part that is done [-]. It ends where no equilibrium is found.
+    /// part that is done [-]. It ends where no equilibrium is found, and where the force falls: tissue that slides has
+    /// closed over a sphere then, which a tip on a shaft prevents.
     ///
     /// # Errors
     /// When the tissue cannot be indented at all.
@@ -60,10 +61,13 @@ impl Stiffening {
         let mut run = press(&tissue.law, (tip, bond))?;
         let mut equivalent = IndentationCurve::through(&[FIRST], &[FIRST]);
         let deepest = DEPTHS[DEPTHS.len() - 1];
+        let mut before = 0.0;
         for depth in DEPTHS {
-            let Ok(point) = run.press(0.0, depth, |_| ()) else {
-                break;
+            let point = match run.press(0.0, depth, |_| ()) {
+                Ok(point) if point.force > before => point,
+                _ => break,
             };
+            before = point.force;
             let s = depth - further * point.force;
             equivalent.extend(
                 s,
