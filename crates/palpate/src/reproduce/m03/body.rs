@@ -78,7 +78,7 @@ impl Body {
             return Self::built_in(MODELS[2].organ, triangles);
         };
         let settings = SimplifySettings::to(triangles);
-        let coarse = simplify(&mesh, &settings)?;
+        let coarse = simplify(&mesh, &settings).map_err(Failure::input)?;
         Self::real(&coarse.mesh, &format!("the real mesh {name} made coarser"))
     }
 

@@ -28,7 +28,7 @@ fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
     };
     let (mesh, whose) = esophagus(before as usize)?;
     let settings = SimplifySettings::to(after as usize);
-    let simplified = simplify(&mesh, &settings)?;
+    let simplified = simplify(&mesh, &settings).map_err(Failure::input)?;
     for (name, mesh) in [("before", mesh), ("after", simplified.mesh)] {
         let note = format!("{whose}, {} triangles", mesh.triangles().len());
         let png = portrait(&mut painter, mesh)?;

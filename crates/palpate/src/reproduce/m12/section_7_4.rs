@@ -27,7 +27,8 @@ fn run(rows: &mut Rows<'_>) -> Result<(), Failure> {
     };
     let (mesh, whose) = esophagus(before as usize)?;
     let start = Instant::now();
-    let simplified = simplify(&mesh, &SimplifySettings::to(after as usize))?;
+    let simplified =
+        simplify(&mesh, &SimplifySettings::to(after as usize)).map_err(Failure::input)?;
     let seconds = start.elapsed().as_secs_f64();
     let body = format!("{whose}, {} triangles", mesh.triangles().len());
     add_counts(rows, &simplified, &body);
