@@ -305,7 +305,7 @@ pub enum Error {
     },
     /// No triangle of the boundary lies in the patch.
     #[error(
-        "the patch of radius {radius} m holds no triangle of the tetrahedra's boundary; give a larger radius, or mend the mesh there"
+        "the patch of radius {radius} m holds no triangle of the tetrahedra's boundary; give a larger radius, or fix the mesh there"
     )]
     EmptyPatch {
         /// Its radius [m].

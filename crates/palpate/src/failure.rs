@@ -14,6 +14,9 @@ pub(crate) enum Failure {
     /// Of a job, or of what the command itself does with documents, meshes and devices.
     #[error(transparent)]
     Job(#[from] Error),
+    /// Of a table or figure that is computed anew.
+    #[error(transparent)]
+    Reproduce(Box<palpate_reproduce::Error>),
     /// Of the training record.
     #[error(transparent)]
     Record(#[from] palpate_record::Error),
@@ -65,6 +68,7 @@ impl Failure {
     pub(crate) fn exit_status(&self) -> u8 {
         let is_input = match self {
             Self::Job(error) => return error.exit_status(),
+            Self::Reproduce(error) => error.is_input(),
             Self::Record(error) => error.is_input(),
             Self::Viewer(error) => error.is_input(),
             Self::CommandLine { .. } => true,
@@ -97,10 +101,15 @@ of_job!(
     palpate_mechanics::Error,
     palpate_characterize::Error,
     palpate_simulate::Error,
-    palpate_measure::Error,
     palpate_devices::OpenError,
     palpate_servo::Fault
 );
+
+impl From<palpate_reproduce::Error> for Failure {
+    fn from(error: palpate_reproduce::Error) -> Self {
+        Self::Reproduce(Box::new(error))
+    }
+}
 
 /// Of writing to standard output.
 impl From<io::Error> for Failure {

@@ -13,7 +13,6 @@ mod preparation;
 mod progress;
 mod recorded;
 mod report;
-mod reproduce;
 mod training;
 
 use std::process::ExitCode;

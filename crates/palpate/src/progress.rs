@@ -138,10 +138,7 @@ impl Progress {
 
     /// Says what is being done now.
     pub(crate) fn say(&self, doing: impl Into<String>) {
-        if let Some(pace) = &self.pace {
-            self.bar.set_prefix(HumanDuration(pace.left()).to_string());
-        }
-        self.bar.set_message(printable(&doing.into()).into_owned());
+        Watch::say(self, &doing.into());
     }
 
     /// Sets how many steps of the bar are done.
@@ -169,6 +166,9 @@ fn turning(bar: &ProgressBar) -> Option<Sender<()>> {
 /// Ctrl-C asks a job to stop; a job whose command ends between files by itself asks nobody.
 impl Watch for Progress {
     fn say(&self, doing: &str) {
+        if let Some(pace) = &self.pace {
+            self.bar.set_prefix(HumanDuration(pace.left()).to_string());
+        }
         self.bar.set_message(printable(doing).into_owned());
     }
 

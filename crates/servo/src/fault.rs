@@ -3,7 +3,7 @@
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum Fault {
     /// The controller gave a force that is no number.
-    #[error("the force to be sent was no finite number; mend the controller and arm again")]
+    #[error("the commanded force is not finite; fix the controller and arm again")]
     NonFiniteForce,
     /// The device gave a state that is no number.
     #[error("the device answered with a number that is not finite; restart it and arm again")]

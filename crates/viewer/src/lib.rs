@@ -29,7 +29,5 @@ pub use opened_surface::OpenedSurface;
 pub use orbit::{Orbit, scene_camera};
 pub use pick::{Picked, pick};
 pub use render::user_map::TissuePicture;
-pub use render::{
-    Body, Looks, Renderer, Target, Tint, ToolPicture, View, single_precision, wire_frame,
-};
+pub use render::{Body, Looks, Renderer, Target, Tint, ToolPicture, View, single_precision};
 pub use window::{Start, check_display, gesture, hands, open_window, training};

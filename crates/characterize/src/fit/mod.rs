@@ -33,7 +33,6 @@ mod random;
 mod resample;
 mod student;
 mod triangle;
-mod unbounded;
 mod uncertainty;
 mod verdict;
 
@@ -52,7 +51,6 @@ pub use profile::{Profile, profile};
 pub use random::Random;
 pub use resample::{Draws, Spread, block_bootstrap, noise_study};
 pub(crate) use student::student_quantile;
-pub use unbounded::{UnboundedWay, unbounded_iteration};
 pub use uncertainty::{Uncertainty, correlated_uncertainty, uncertainty, with_systematic};
 pub use verdict::{CORRELATED, HARDLY_KNOWN, Verdict, correlated_pairs, verdicts};
 

@@ -125,7 +125,7 @@ const CHOICE_MEANINGS: &[Word] = &[
     ModelKind::MEANINGS[2],
     (
         "auto",
-        "The least model that answers what these tools do; which one, and why, is told.",
+        "The fastest model that supports these tools; a message states which, and why.",
     ),
 ];
 

@@ -85,7 +85,7 @@ impl Shape {
         )
         .optional(
             "\"mm\"",
-            "the file's own unit, or a guess from its size, which is told",
+            "the file's own unit, or a guess from its size, with a warning",
         ),
         Key::word(
             "builtin",

@@ -210,7 +210,7 @@ impl Tool {
             LengthUnit::MEANINGS,
             "The unit of the coordinates in the mesh file.",
         )
-        .optional("\"mm\"", "the file's own unit, or a guess from its size, which is told"),
+        .optional("\"mm\"", "the file's own unit, or a guess from its size, with a warning"),
         Key::word("device", DeviceKind::MEANINGS, "What moves it.").default("\"mouse\""),
     ];
 

@@ -22,7 +22,7 @@ impl TissueSource {
             .optional("\"0.1.0\"", "unknown"),
         Key::texts(
             "warnings",
-            "What deserves doubt, in sentences. Whoever uses the tissue passes them on.",
+            "Warnings, in sentences. Programs that use the tissue pass them on.",
         )
         .default("[]"),
     ];

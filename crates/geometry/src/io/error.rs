@@ -107,7 +107,7 @@ pub enum ReadFault {
     },
     /// Something else than the format asks for.
     #[error(
-        "line {line}: found `{found}` where {expected} was expected; mend the line or export the mesh again"
+        "line {line}: found `{found}` where {expected} was expected; fix the line or export the mesh again"
     )]
     Unexpected {
         /// The line, from one.

@@ -6,7 +6,7 @@
 //!
 //! *How we know*: `phantom_dynamics::…`: energy is conserved, masses at rest are those published; `phantom::…`: tracking,
 //! the largest stable stiffness of a rendered wall, sticking friction; sine injection against the closed forms (7.6):
-//! the tests of `reproduce::m11` of the crate `palpate`.
+//! the tests of `m11` of the crate `reproduce`.
 //!
 //! *Limits*: the numbers are those of publications, not of a machine that was measured here; a joint has one spring, and
 //! the links themselves are rigid.

@@ -14,16 +14,16 @@ use crate::output;
 const EXAMPLES: &str = "\
 Examples:
   palpate cache
-      where it is, how many prepared organs and specimens it holds, and how large it is
+      shows its folder, the number of cached organs and specimens, and its size
   palpate cache --clear
-      removes them; each is made again when it is needed
+      removes them; each is computed again when needed
 
-It is in the system's folder for what can be made again, or where PALPATE_CACHE says.";
+The cache is in the system's cache folder, or in the folder that PALPATE_CACHE names.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Arguments {
-    /// Remove what is kept.
+    /// Remove the cached files.
     #[arg(long)]
     clear: bool,
     /// Print one JSON object.

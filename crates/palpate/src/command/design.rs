@@ -19,16 +19,16 @@ use crate::progress::{Progress, Reader};
 const EXAMPLES: &str = "\
 Examples:
   palpate design liver.toml --out protocol.toml
-      from a guess of the tissue; `palpate measure protocol.toml` carries it out
+      from a guess of the tissue; `palpate measure protocol.toml` runs it
   palpate design first.csv --law mooney_rivlin --out protocol.toml
-      from a first recording, with its noise, at equal depth and time
+      from a first recording and its noise, at equal depth and time
   palpate design first.csv --parameters tau_1_s,tau_2_s --press-time 20 --radii-mm 1,2,3 --out next.toml
-      for the relaxation alone, within a held breath, with the indenters that there are
+      for relaxation only, within a held breath, with the available indenters
   palpate design liver.toml --depth-mm 4 --force-n 0.5 --total-time 60 --json
       within other limits; prints the expected intervals before and after as JSON
 
-Compares some thousand protocols of ramps and holds under flat punches by the intervals of 95 % that `palpate characterize` \
-is expected to state, at the guess and at stiffer, softer, slower and quicker tissue.";
+Compares thousands of ramp-and-hold protocols with flat punches by the 95 % intervals that `palpate characterize` is \
+expected to find, for the guess and for stiffer, softer, slower and faster tissue.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
@@ -42,34 +42,34 @@ pub(crate) struct Arguments {
     /// Print one JSON object.
     #[arg(long)]
     json: bool,
-    /// The law that is sought in recordings: neo_hookean, mooney_rivlin or exponential; by default the preferred one.
+    /// The law to fit to recordings: neo_hookean, mooney_rivlin or exponential; default: the preferred law.
     #[arg(long)]
     law: Option<String>,
-    /// The parameters that count, such as c10_pa,tau_1_s; by default those of the law and the times of the relaxation.
+    /// The parameters to determine, such as c10_pa,tau_1_s; default: those of the law and the relaxation times.
     #[arg(long, value_delimiter = ',')]
     parameters: Vec<String>,
-    /// What is made best.
+    /// The criterion to optimize.
     #[arg(long, value_enum, default_value = "minimax")]
     criterion: CriterionWord,
-    /// The deepest press [mm]; by default as deep as recorded, or 6.
+    /// The largest depth [mm]; default: the largest recorded depth, or 6.
     #[arg(long, value_name = "MM")]
     depth_mm: Option<f64>,
-    /// The largest force [N]; by default 1.5.
+    /// The largest force [N]; default: 1.5.
     #[arg(long, value_name = "N")]
     force_n: Option<f64>,
-    /// Time of all presses together, without the rest between them [s]; by default as recorded, or 61.5.
+    /// Total time of all presses, without pauses [s]; default: as recorded, or 61.5.
     #[arg(long, value_name = "SECONDS")]
     total_time: Option<f64>,
-    /// Time of one press, such as a held breath [s].
+    /// Longest time of one press, such as a held breath [s].
     #[arg(long, value_name = "SECONDS")]
     press_time: Option<f64>,
-    /// The fastest ramp [mm/s]; by default 45.
+    /// The fastest ramp [mm/s]; default: 45.
     #[arg(long, value_name = "MM_PER_S")]
     speed_mm_per_s: Option<f64>,
-    /// The most presses; by default 3.
+    /// The largest number of presses; default: 3.
     #[arg(long)]
     presses: Option<usize>,
-    /// Radii of the flat punches that there are [mm]; by default half, once, twice and three times the one of before.
+    /// Radii of the available flat punches [mm]; default: 0.5, 1, 2 and 3 times the recorded radius.
     #[arg(long, value_name = "MM", value_delimiter = ',')]
     radii_mm: Vec<f64>,
     #[command(flatten)]
@@ -79,9 +79,9 @@ pub(crate) struct Arguments {
 /// A criterion, by its word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 enum CriterionWord {
-    /// The interval of the worst parameter, at the worst guess.
+    /// Minimize the widest relative interval, over all guesses.
     Minimax,
-    /// The determinant of the covariance.
+    /// Minimize the determinant of the covariance.
     DOptimal,
 }
 

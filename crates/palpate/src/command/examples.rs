@@ -16,17 +16,17 @@ use crate::output;
 const EXAMPLES: &str = "\
 Examples:
   palpate examples .
-      writes all of them into this folder; the commands of the documentation then run here
+      writes all examples to this folder, in which the commands of the documentation then run
   palpate examples examples --overwrite
-      replaces those that were changed
+      restores the original files
 
-The list that is printed says what each file is. `schemas/` has what an editor needs to complete and check them. \
-`palpate validate FILE` checks one after you changed it.";
+Prints a list of the files. `schemas/` contains JSON Schemas for completion and checks in editors. \
+`palpate validate FILE` checks a file after editing.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Arguments {
-    /// The folder; it is made where there is none.
+    /// The folder; it is created if missing.
     #[arg(value_name = "DIR")]
     folder: PathBuf,
     #[command(flatten)]

@@ -30,12 +30,6 @@ use clap::{Parser, Subcommand};
 use crate::failure::Failure;
 use crate::output;
 
-/// The lower esophagus where it lies, for two hands.
-pub(crate) const TRAINER: &str = include_str!("../../../../assets/esophagus/trainer.toml");
-
-/// A cut on it that goes down to the mucosa.
-pub(crate) const MYOTOMY: &str = include_str!("../../../../assets/esophagus/myotomy.csv");
-
 /// The licences of what this program is built of; `.ci/notices` writes them.
 const NOTICES: &str = include_str!("../../../../THIRD-PARTY.txt");
 
@@ -43,53 +37,53 @@ const NOTICES: &str = include_str!("../../../../THIRD-PARTY.txt");
 const EXAMPLES: &str = "\
 Examples:
   palpate
-      opens a window with tasks to practise and organs to touch. Without a display it plays a
-      first touch instead and writes ./palpate-demo
+      opens a window with tasks to practise and organs to touch; without a display it plays a
+      demonstration and writes ./palpate-demo
   palpate simulate scene.toml
       opens a window with your scene
   palpate simulate scene.toml --headless --motion motion.csv --out session
       plays the tool motions on the scene and writes session/session.csv
   palpate score session --expert expert
-      how well it was done: time, ways, forces, errors, beside an expert's
+      measures the session: time, path lengths, forces and errors, compared with an expert's
   palpate replay session
-      the session again, from any side
+      replays the session, from any angle
   palpate precompute scene.toml
-      prepares the whole organ of the hybrid model once; then the scene opens at once
+      prepares the hybrid model of the whole organ once; afterwards the scene opens immediately
   palpate solve problem.toml --plot force.png
-      the force of an indenter, the swelling of a tube and more, by finite elements
+      forces under an indenter, the inflation of a tube and more, by finite elements
   palpate measure
-      opens the rig's window over a specimen that is not there; with --headless --out recordings
-      a protocol is carried out without one
+      opens the rig's window with a virtual specimen; with --headless --out recordings it runs a
+      protocol without a window
   palpate characterize liver-2mm.csv liver-4mm.csv --out liver.toml
-      the tissue behind recordings, with its uncertainty
+      finds the material parameters behind recordings, with their uncertainty
   palpate design liver-2mm.csv --out protocol.toml
-      how to press next, so that its parameters are known best
+      designs the protocol that determines these parameters best
   palpate progress --report progress.html
-      learning curves of all trainees beside the experts
+      learning curves of all trainees, compared with the experts
   palpate quality
-      how late a 1 kHz loop is on this machine, and how far its forces are off
+      servo jitter, missed ticks and force errors at 1 to 4 kHz on this machine
   palpate devices
-      which haptic devices are there
+      lists the connected haptic devices
   palpate mesh info kidney.stl --unit mm
-      what is wrong with a mesh, and whether it can be simulated
+      checks a mesh and reports whether it can be simulated
   palpate mesh isosurface segmentation.nii.gz --label liver --out liver.ply
-      an organ from a segmented volume
+      extracts an organ's surface from a segmented volume
   palpate reproduce table-3-1
-      a published table beside ours
+      compares a published table with our results
   palpate examples .
-      writes scenes, motions, tasks, problems and a recording, to begin from
+      writes example scenes, motions, tasks, problems and a recording
   palpate scene --template --out scene.toml
-      a scene to begin from, with every key explained
+      writes a scene with every key explained
   palpate validate scene.toml
-      what a file is, and whether it is right
+      identifies a file and checks it
 
 Every command has its own --help. With --json a command prints one machine-readable document on standard output. No \
-command replaces a file that exists without --overwrite. Exit status: 0 done, 2 the input has to be mended, 1 a \
+command replaces an existing file without --overwrite. Exit status: 0 success, 2 invalid input, 1 any other \
 failure.";
 
 /// Soft-tissue touch, from the first indentation to the trained hand.
 ///
-/// Without a command, the window opens; where there is no display, a demonstration runs.
+/// Without a command it opens a window; without a display it runs a demonstration.
 #[derive(Debug, Parser)]
 #[command(name = "palpate", version, long_version = output::LONG_VERSION, after_help = EXAMPLES, disable_help_subcommand = true)]
 #[command(args_conflicts_with_subcommands = true)]
@@ -103,48 +97,48 @@ pub(crate) struct CommandLine {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Touch an organ in a window, or play tool motions on it and record what the hand would feel.
+    /// Touch an organ in a window, or play back tool motions and record the forces on the hand.
     Simulate(simulate::Arguments),
-    /// Prepare the whole organ of a scene, once, so that it can be touched at haptic rates.
+    /// Run the slow preparation of a scene's global model once, so that it runs at haptic rates.
     Precompute(precompute::Arguments),
-    /// Solve a described problem with finite elements, the reference for everything else.
+    /// Solve a problem with finite elements: the reference for all other models.
     Solve(solve::Arguments),
     /// Press an indenter into specimens, in a window or by a protocol, and record depth and force.
     Measure(measure::Arguments),
-    /// What recordings show without a model: static force, relaxation, answers to sines and chirps.
+    /// Analyze recordings without a material model: static force, relaxation, response to sines and chirps.
     Analyze(analyze::Arguments),
-    /// Look at a session again, from any side, or take pictures of it.
+    /// Replay a session in a window, from any angle, or write pictures of it.
     Replay(replay::Arguments),
-    /// Measure a session: time, ways, forces, errors, the task, and all that beside an expert's.
+    /// Score a session: time, path lengths, forces, errors and the task, compared with an expert's.
     Score(score::Arguments),
-    /// Find the tissue behind recordings: relaxation and laws, with how well they are known.
+    /// Fit material laws and relaxation to recordings, with the uncertainty of every parameter.
     Characterize(characterize::Arguments),
-    /// Find how to press, so that the parameters of a tissue are known best.
+    /// Design the protocol that determines the parameters of a tissue best.
     Design(design::Arguments),
-    /// How trainees come along: attempts, learning curves, and who is as good as the experts.
+    /// Show trainees' progress: attempts, learning curves, and who reaches the experts' level.
     Progress(progress::Arguments),
-    /// Cohorts, assignments and experts: a teacher's commands.
+    /// Manage cohorts, assignments and experts.
     Teacher(teacher::Arguments),
-    /// Recompute the tables and figures of the source, published values beside ours.
+    /// Recompute the tables and figures of the source and compare them with the published values.
     Reproduce(reproduce::Arguments),
-    /// Measure how good touch is on this machine: rates, lateness, errors.
+    /// Measure the quality of haptic rendering on this machine: jitter, missed ticks, force errors.
     Quality(quality::Arguments),
-    /// List the haptic devices that are there, with their limits, and test them.
+    /// List connected haptic devices with their limits, and test them.
     Devices(devices::Arguments),
-    /// Look at meshes, make them smaller, convert them, make them from segmented volumes.
+    /// Check, simplify, convert and wrap meshes, and extract them from segmented volumes.
     #[command(subcommand)]
     Mesh(mesh::Mesh),
-    /// Write a scene or another document to begin from, with every key explained.
+    /// Write a template, JSON Schema or reference of a document, with every key explained.
     Scene(scene::Arguments),
-    /// Say what files are, and whether they are right.
+    /// Identify files and check them.
     Validate(validate::Arguments),
-    /// Write the example files of the documentation into a folder.
+    /// Write the example files of the documentation to a folder.
     Examples(examples::Arguments),
-    /// Tell or clear what is kept because it took long, and can be made again.
+    /// Show or clear the cache of prepared organs and specimens.
     Cache(cache::Arguments),
-    /// Print the script by which a shell completes the command line.
+    /// Print a shell completion script.
     Completions(shell::Completions),
-    /// Write manual pages into a folder.
+    /// Write manual pages to a folder.
     Manual(shell::Manual),
 }
 

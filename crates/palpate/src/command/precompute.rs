@@ -14,18 +14,18 @@ use crate::{output, preparation};
 const EXAMPLES: &str = "\
 Examples:
   palpate precompute scene.toml
-      solves for a force on each triangle that can be touched, and keeps the answers
+      solves the response to a force on each touchable triangle, and caches it
   palpate precompute scene.toml --memory-gb 4 --json
-      refuses what takes more than 4 GB; tells as one JSON object
+      refuses to use more than 4 GB; prints one JSON object
 
 The hybrid model (`model.kind = \"hybrid\"`) needs this once per organ, Poisson's ratio and anchor; the \
-stiffness of the tissue, tips and tools can change without it. `palpate simulate` does it by itself when it \
-has not been done. What takes too long or too much memory becomes less with
+stiffness of the tissue, tips and tools can change without it. `palpate simulate` runs it when needed. To reduce time \
+and memory, set
   [model]
-  mechanical_triangles = 2000         the shown surface keeps its own
+  mechanical_triangles = 2000         the displayed surface keeps its own triangles
   [organ.touchable]
   spheres = [{ center_m = [0.0, 0.0, 0.05], radius_m = 0.03 }]
-The answers are kept in the system's folder for what can be made again, or where PALPATE_CACHE says.";
+The responses are cached in the system's cache folder, or in the folder that PALPATE_CACHE names.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
@@ -33,7 +33,7 @@ pub(crate) struct Arguments {
     /// The scene.
     #[arg(value_name = "SCENE.toml")]
     scene: PathBuf,
-    /// Memory that may be used [GB]; by default four fifths of what is free and limits leave (ulimit, control groups).
+    /// Memory limit [GB]; default: four fifths of the free memory, within ulimit and control groups.
     #[arg(long, value_name = "GB", value_parser = positive)]
     memory_gb: Option<f64>,
     /// Print one JSON object.

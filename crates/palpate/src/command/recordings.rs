@@ -7,25 +7,25 @@ use clap::Args;
 /// Which recordings, and what they do not say themselves.
 #[derive(Debug, Args)]
 pub(crate) struct Recordings {
-    /// Recordings, or folders of them; tables of other programs are read too.
+    /// Recordings, or folders of recordings; tables written by other programs are read too.
     #[arg(required = true, value_name = "RECORDING.csv")]
     paths: Vec<PathBuf>,
-    /// The column of the time, in a table of another program; found by its name if not given.
+    /// The time column in another program's table; default: found by its name.
     #[arg(long, value_name = "COLUMN")]
     time: Option<String>,
-    /// The column of the depth.
+    /// The depth column.
     #[arg(long, value_name = "COLUMN")]
     depth: Option<String>,
-    /// The column of the force.
+    /// The force column.
     #[arg(long, value_name = "COLUMN")]
     force: Option<String>,
-    /// The unit of the depth, where its name does not say it: m, mm, um, nm.
+    /// The unit of the depth, if the column name does not state it: m, mm, um, nm.
     #[arg(long, value_name = "UNIT")]
     depth_unit: Option<String>,
-    /// The unit of the force, where its name does not say it: N, mN, uN, nN.
+    /// The unit of the force, if the column name does not state it: N, mN, uN, nN.
     #[arg(long, value_name = "UNIT")]
     force_unit: Option<String>,
-    /// What the files do not say, by the keys of a recording: --set indenter_radius_m=0.001
+    /// A header key that the files do not state: --set indenter_radius_m=0.001
     #[arg(long = "set", value_name = "KEY=VALUE")]
     said: Vec<String>,
 }

@@ -19,11 +19,11 @@ use crate::{interrupt, preparation};
 const EXAMPLES: &str = "\
 Examples:
   palpate replay session
-      opens a window: play, stop, go back, look from any side
+      opens a window: play, pause, rewind, view from any angle
   palpate replay session --frames 20 --out pictures
-      without a window: 20 pictures, and whether every force is the recorded one
+      without a window: 20 pictures, and a check of every force against the recorded one
 
-The folder holds session.csv and scene.toml, as `palpate simulate` and the window write them.";
+The folder contains session.csv and scene.toml, as written by `palpate simulate` and the window.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
@@ -31,19 +31,19 @@ pub(crate) struct Arguments {
     /// The session's folder.
     #[arg(value_name = "SESSION_DIR")]
     session: PathBuf,
-    /// The scene, when it is not beside the session.
+    /// The scene, if it is not in the session's folder.
     #[arg(long, value_name = "SCENE.toml")]
     scene: Option<PathBuf>,
-    /// Write this many pictures, evenly over the session, instead of opening a window.
+    /// Write this many pictures, evenly spaced in time, instead of opening a window.
     #[arg(long, value_name = "N", requires = "out", value_parser = clap::value_parser!(u64).range(0..=100_000))]
     frames: Option<u64>,
-    /// The folder for pictures; it is made when it is not there.
+    /// The folder for pictures; it is created if missing.
     #[arg(long, value_name = "DIR", requires = "frames")]
     out: Option<PathBuf>,
-    /// Replace pictures that are in the folder already.
+    /// Replace existing pictures in the folder.
     #[arg(long, requires = "out")]
     overwrite: bool,
-    /// Print what came of it as one JSON object; opens no window.
+    /// Print the result as one JSON object, without a window.
     #[arg(long)]
     json: bool,
 }

@@ -3,14 +3,15 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use palpate_reproduce::{Figures, Item, KEPT, items, legend, section, select};
 use serde::Serialize;
 
 use super::overwrite::OverwriteOption;
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::output;
+use crate::plot::{Draw, Plot};
 use crate::progress::{Progress, Reader};
-use crate::reproduce::{Figures, ITEMS, Item, KEPT, Rows, legend, section, select};
 
 /// Examples at the end of the help.
 const EXAMPLES: &str = "\
@@ -19,18 +20,18 @@ Examples:
   palpate reproduce figure-5-1 table-3-1/solution_s
   palpate reproduce chapter-5 table-3 --out figures --json
 
-A name selects that item or row alone; any other word selects what begins with it. An item that fails \
-becomes a row with the reason, and the others go on. Finished rows are printed as they come, and kept in \
-rows.jsonl of the folder, one JSON object per line. A dash stands where there is no number; the note says \
-why. Exit status: 0 when every row has a number, a figure or a reason.";
+A full name selects that item or row; any other word is a prefix. If an item fails, its row states the reason, and \
+the others continue. Rows are printed as they finish, and saved in rows.jsonl in the folder, one JSON object per \
+line. A dash means no number; the note gives the reason. Exit status: 0 if every row has a number, a figure or a \
+reason.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Arguments {
-    /// Tables, figures or rows, by name or by how they begin; without one, everything.
+    /// Tables, figures or rows, by name or prefix; default: all.
     #[arg(value_name = "ROW")]
     rows: Vec<String>,
-    /// List the tables and figures with their titles, and compute nothing.
+    /// List the tables and figures with their titles, without computing.
     #[arg(long)]
     list: bool,
     /// The folder for figures and finished rows.
@@ -51,7 +52,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         return list(&items, arguments.json);
     }
     refuse_file(&arguments.out)?;
-    let figures = Figures::claimed(&arguments.out, arguments.overwrite.rule(), &items)?;
+    let figures = Figures::claimed(&arguments.out, arguments.overwrite.rule(), &items, drawn)?;
     let mut kept = figures.rows();
     interrupt::ends_between_files(format!(
         "interrupted; finished rows are in {}, and the figures that were written are whole",
@@ -61,10 +62,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let progress = Progress::of_works(Reader::Person, items.iter().map(|item| item.seconds).sum());
     let mut all = Vec::new();
     for item in &items {
-        let mut rows = Rows::of(item.name, &figures, &progress);
-        let outcome = (item.run)(&mut rows);
-        let rows = selection.rows_of(item, rows.finished(outcome));
-        kept.keep(&rows)?;
+        let rows = selection.rows_of(item, item.rows(&figures, &progress));
+        kept.keep(&rows, &progress)?;
         if !arguments.json && !rows.is_empty() {
             progress.aside(|| output::text(section(item, &rows)))?;
         }
@@ -78,12 +77,17 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
             false => output::text(legend(&all) + &more(items.len()))?,
         }
     }
-    selection.check()
+    Ok(selection.check()?)
+}
+
+/// The picture of a plot.
+fn drawn(plot: &Plot) -> Result<Vec<u8>, palpate_jobs::Error> {
+    plot.png().map_err(palpate_jobs::Error::failed)
 }
 
 /// What was not selected.
 fn more(selected: usize) -> String {
-    match ITEMS.len() - selected {
+    match items().len() - selected {
         0 => String::new(),
         left => format!("{left} more items: palpate reproduce --list\n"),
     }

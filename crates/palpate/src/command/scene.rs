@@ -15,32 +15,32 @@ use crate::output;
 const EXAMPLES: &str = "\
 Examples:
   palpate scene --template --out scene.toml
-      a scene with every key explained; scene.schema.json is written beside it, by which an editor
-      with a TOML language server (Taplo, Even Better TOML) completes and checks it
+      writes a scene with every key explained, and scene.schema.json, with which an editor with a
+      TOML language server (Taplo, Even Better TOML) completes and checks it
   palpate scene --template tissue
-      prints a tissue to begin from
+      prints a tissue template
   palpate scene --schema protocol --out protocol.schema.json
-      the JSON Schema alone
+      only the JSON Schema
   palpate scene --reference
-      every key of every document, as a page of Markdown
+      all keys of all documents, as Markdown
 
 KIND is scene (also for a task), tissue, protocol, or the kind of a problem for `palpate solve`: indentation, \
-hemisphere, tube, uniaxial or solid. `palpate validate FILE` checks a file after you changed it.";
+hemisphere, tube, uniaxial or solid. `palpate validate FILE` checks a file after editing.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 #[group(id = "what", required = true, multiple = false, args = ["template", "schema", "reference"])]
 pub(crate) struct Arguments {
-    /// A document to begin from, with every key explained.
+    /// A template with every key explained.
     #[arg(long, value_name = "KIND", num_args = 0..=1, default_missing_value = "scene", value_parser = one_kind())]
     template: Option<Kind>,
-    /// A JSON Schema, by which editors complete and check a document.
+    /// A JSON Schema, for completion and checks in editors.
     #[arg(long, value_name = "KIND", num_args = 0..=1, default_missing_value = "scene", value_parser = one_kind())]
     schema: Option<Kind>,
-    /// Every key of every document, as Markdown.
+    /// All keys of all documents, as Markdown.
     #[arg(long)]
     reference: bool,
-    /// The file to write; without it the text is printed.
+    /// The file to write; default: print.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     #[command(flatten)]

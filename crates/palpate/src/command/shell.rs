@@ -36,7 +36,7 @@ pub(crate) struct Completions {
 #[derive(Debug, Args)]
 #[command(after_help = MANUAL)]
 pub(crate) struct Manual {
-    /// The folder; it is made where there is none.
+    /// The folder; it is created if missing.
     #[arg(value_name = "DIR")]
     folder: PathBuf,
     #[command(flatten)]

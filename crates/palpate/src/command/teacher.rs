@@ -18,33 +18,32 @@ Examples:
   palpate teacher cohort spring --add Anna --add Carla
       Anna and Carla belong to the cohort spring
   palpate teacher assign spring Palpation --due 2026-12-24 --passes 2
-      both shall pass the task twice by the end of that day, in universal time
+      both must pass the task twice by the end of that day (UTC)
   palpate teacher show
-      how far everybody is
+      shows everybody's standing
   palpate teacher expert sessions/2026-11-25-myotomy --trainee Carla
-      others are judged by this passed attempt, which stays Carla's
+      compares others with this passed attempt, which stays Carla's
   palpate teacher pin 4711
-      from now on these commands ask for --pin 4711
+      these commands then require --pin 4711
 
-The PIN keeps trainees from these commands by mistake. It protects nothing: whoever may write the record's file may \
-change all of it.";
+The PIN prevents mistakes only. It does not protect the data: anyone who can write the record's file can change it.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Arguments {
     #[command(subcommand)]
     what: What,
-    /// The training record; without it, the one in the folder of your data.
+    /// The training record; default: the one in your data folder.
     #[arg(long, value_name = "FILE.sqlite", global = true)]
     record: Option<PathBuf>,
-    /// The teacher's PIN, where the record has one.
+    /// The teacher's PIN, if the record has one.
     #[arg(long, global = true)]
     pin: Option<String>,
 }
 
 #[derive(Debug, Subcommand)]
 enum What {
-    /// Show assignments, and how far each trainee is.
+    /// Show assignments and each trainee's standing.
     Show {
         /// Print one JSON object.
         #[arg(long)]
@@ -54,10 +53,10 @@ enum What {
     Cohort {
         /// The cohort.
         name: String,
-        /// A trainee who joins it.
+        /// A trainee to add.
         #[arg(long, value_name = "TRAINEE")]
         add: Vec<String>,
-        /// A trainee who leaves it; their attempts stay.
+        /// A trainee to remove; their attempts stay.
         #[arg(long, value_name = "TRAINEE")]
         remove: Vec<String>,
     },
@@ -67,14 +66,14 @@ enum What {
         cohort: String,
         /// The title of the task.
         task: String,
-        /// The last day, as 2026-12-24.
+        /// The due date, such as 2026-12-24.
         #[arg(long, value_name = "DATE")]
         due: String,
-        /// Passed attempts that are needed.
+        /// Number of passed attempts required.
         #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1000))]
         passes: u32,
     },
-    /// Make a passed attempt one that others are judged by.
+    /// Mark a passed attempt as an expert's, for comparison.
     Expert {
         /// The session's folder.
         session: PathBuf,
@@ -82,7 +81,7 @@ enum What {
         #[arg(long, value_name = "NAME")]
         trainee: String,
     },
-    /// Set the teacher's PIN, or another one.
+    /// Set or change the teacher's PIN.
     Pin {
         /// The new PIN.
         new: String,

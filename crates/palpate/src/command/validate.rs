@@ -13,13 +13,13 @@ use crate::output;
 const EXAMPLES: &str = "\
 Examples:
   palpate validate scene.toml motion.csv
-      says what each file is and what is in it, or the line that has to be mended
+      identifies each file and lists its contents, or names the line with the error
   palpate validate tasks/*.toml --json
       one JSON object for a program
 
-Read are scenes, tasks, tissues, protocols and problems (.toml), motions, recordings and sessions (.csv), and meshes \
-(.stl, .obj, .ply, .gltf, .glb), each with every file that it names. Nothing is computed. Exit status: 0 when all \
-are right, 2 when one is not.";
+Checks scenes, tasks, tissues, protocols and problems (.toml), motions, recordings and sessions (.csv), and meshes \
+(.stl, .obj, .ply, .gltf, .glb), with all files that they name, without computing. Exit status: 0 if all are valid, 2 \
+otherwise.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]

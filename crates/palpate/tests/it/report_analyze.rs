@@ -69,7 +69,7 @@ fn a_page_shows_what_is_seen() {
         "Static response",
         "Relaxation",
         "Swings",
-        "What deserves doubt",
+        "Warnings",
         "Provenance",
     ] {
         assert!(parts.iter().any(|own| own == part), "{part}: {parts:?}");

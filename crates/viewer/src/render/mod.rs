@@ -31,7 +31,6 @@ mod tissue_map;
 mod tool;
 mod uniforms;
 pub(crate) mod user_map;
-mod wire;
 
 use palpate_files::scene::Shading;
 use wgpu::util::DeviceExt;
@@ -41,7 +40,6 @@ pub(crate) use body::{FibreRun, Fibres};
 pub use target::Target;
 pub use tint::Tint;
 pub use tool::ToolPicture;
-pub use wire::wire_frame;
 
 use crate::{Camera, Gpu, TissuePicture};
 use maps::Maps;

@@ -393,7 +393,7 @@ fn doubts(window: &SimulatorWindow, ui: &mut Ui) {
     }
     match &doubts[..] {
         [] => {
-            ui.colored_label(QUIET, "nothing deserves doubt");
+            ui.colored_label(QUIET, "no warnings");
         }
         [first, more @ ..] => {
             let text = match more.len() {

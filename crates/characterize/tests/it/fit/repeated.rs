@@ -4,7 +4,7 @@
 use palpate_characterize::Error;
 use palpate_characterize::fit::{
     Draws, Fit, Parameter, Random, Settings, block_bootstrap, information_criterion, least_squares,
-    multi_start, noise_study, profile, unbounded_iteration, uncertainty,
+    multi_start, noise_study, profile, uncertainty,
 };
 
 use super::parameters;
@@ -170,25 +170,4 @@ fn minima_of_equal_sums_are_told_apart() {
         (values[0] + 1.0).abs() < 1e-6 && (values[1] - 1.0).abs() < 1e-6,
         "{values:?}"
     );
-}
-
-/// The source's iteration finds the exact answer from near by, and ends when a run fails.
-#[test]
-fn the_unbounded_iteration_converges_from_near() {
-    let decay = |p: &[f64], residuals: &mut [f64]| {
-        for (i, residual) in residuals.iter_mut().enumerate() {
-            let x = 0.5 * i as f64;
-            *residual = p[0] * (-x / p[1]).exp() - 2.0 * (-x / 3.0).exp();
-        }
-        Some(())
-    };
-    let near = unbounded_iteration(&[2.5, 2.5], 20, (1e-3, 1e-6, 100), decay);
-    assert!(near.converged);
-    let last = &near.values[near.values.len() - 1];
-    assert!(
-        (last[0] - 2.0).abs() < 1e-5 && (last[1] - 3.0).abs() < 1e-5,
-        "{last:?}"
-    );
-    let failed = unbounded_iteration(&[2.5, 2.5], 20, (1e-3, 1e-6, 100), |_, _| None);
-    assert_eq!((failed.values.len(), failed.converged), (1, false));
 }

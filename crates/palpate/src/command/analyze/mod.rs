@@ -20,13 +20,13 @@ use crate::progress::{Progress, Reader};
 const EXAMPLES: &str = "\
 Examples:
   palpate analyze liver-2mm.csv
-      static force, relaxation, and the answer to sines and chirps
+      static force, relaxation, and the response to sines and chirps
   palpate analyze recordings/ --json > analysis.json
-      every recording of a folder, and each organ over its subjects
+      every recording of a folder, and each organ across subjects
   palpate analyze recordings/ --report analysis.html
-      the same as a page with plots, to look at and to print
+      the same as an HTML report with plots
   palpate analyze test.txt --depth 'Extension' --depth-unit mm --force 'Load' --force-unit N
-      a table of another program
+      a table written by another program
 
 Steady force is the mean of the last tenth of a hold. The phase is positive when force leads depth, \
 the hysteresis when energy is lost.";
@@ -42,7 +42,7 @@ pub(crate) struct Arguments {
     /// Write the JSON object to a file as well.
     #[arg(long, value_name = "FILE.json")]
     out: Option<PathBuf>,
-    /// Write a page with plots of all that is seen, for a browser or a printer.
+    /// Write an HTML report with plots.
     #[arg(long, value_name = "FILE.html")]
     report: Option<PathBuf>,
     #[command(flatten)]

@@ -26,7 +26,7 @@ pub(super) fn for_people(answer: &Answer) -> Vec<String> {
     if !single.is_empty() {
         let more = single.len();
         lines.push(format!(
-            "{more} more doubts are about single specimens; see them with --json, or in the files of --study"
+            "{more} more warnings concern single specimens; see them with --json, or in the files of --study"
         ));
     }
     lines.extend(answer.unusable.iter().map(Unusable::sentence));

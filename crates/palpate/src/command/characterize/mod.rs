@@ -23,24 +23,24 @@ use crate::progress::{Progress, Reader};
 const EXAMPLES: &str = "\
 Examples:
   palpate characterize liver-2mm.csv liver-4mm.csv --out liver.toml
-      one tissue from two depths, for a scene or `palpate solve`
+      fits one tissue to two depths, for a scene or `palpate solve`
   palpate characterize recordings/ --json > parameters.json
       every specimen of a folder; one bad file does not stop the others
   palpate characterize recordings/ --study livers/
-      the same, kept: livers/summary.csv, pooled.csv and a tissue for each specimen; the same command
-      goes on where it was stopped, and finds again with --overwrite what has changed
+      the same, saved: livers/summary.csv, pooled.csv and a tissue for each specimen. The same
+      command resumes an interrupted study; with --overwrite it refits changed specimens
   palpate characterize recordings/ --report livers.html
-      a page with plots, to look at and to print
+      writes an HTML report with plots
   palpate characterize meat.csv --set indenter_radius_m=0.004 --set indenter_shape=sphere
-      what a file does not say itself
+      states what the file does not
   palpate characterize liver.csv --law neo_hookean --abaqus liver.inp --febio liver.feb
       material cards for finite element packages
   palpate characterize liver.csv --law neo_hookean --in-loop
-      with full viscoelastic runs of finite elements in the loop, for deep and fast presses
+      with full viscoelastic finite elements inside the fit, for deep and fast presses
 
-Recordings that name the same organ, subject, site and indenter are one specimen and are fitted \
-together. Tables of other programs are read by the names of their columns, or as --time, --depth
-and --force say. All moduli are instantaneous; g is relative to them:
+Recordings with the same organ, subject, site and indenter are one specimen and are fitted together. Columns of other \
+programs' tables are found by their names, or given by --time, --depth and --force. All moduli are instantaneous; g \
+is relative to them:
 G(t) = G0 (1 - sum g (1 - exp(-t/tau))).";
 
 #[derive(Debug, Args)]
@@ -51,10 +51,10 @@ pub(crate) struct Arguments {
     /// Print one JSON object.
     #[arg(long)]
     json: bool,
-    /// Keep every finished specimen in this folder, with tables of all; a study that was stopped goes on.
+    /// Save each finished specimen and summary tables in this folder; an interrupted study resumes.
     #[arg(long, value_name = "FOLDER")]
     study: Option<PathBuf>,
-    /// Write the tissue of the only specimen, for scenes and problems.
+    /// Write the tissue of a single specimen, for scenes and problems.
     #[arg(long, value_name = "TISSUE.toml")]
     out: Option<PathBuf>,
     /// Write its material card for Abaqus (and CalculiX, without relaxation).
@@ -63,21 +63,21 @@ pub(crate) struct Arguments {
     /// Write its material card for FEBio.
     #[arg(long, value_name = "FILE.feb")]
     febio: Option<PathBuf>,
-    /// Write a page with plots of all that was found, for a browser or a printer.
+    /// Write an HTML report with plots of all results.
     #[arg(long, value_name = "FILE.html")]
     report: Option<PathBuf>,
-    /// Seek this law alone; by default all are, and the simplest that no other beats is preferred.
+    /// Fit this law only; default: all laws, of which the simplest that no other beats is preferred.
     #[arg(long, value_enum)]
     law: Option<Law>,
-    /// Solve full viscoelastic runs of finite elements in the loop of the fit, for one specimen and one law: takes
-    /// seconds for each run, and returns what the product of an elastic force and G(t) misses.
+    /// Run full viscoelastic finite elements inside the fit, for one specimen and one law: takes seconds per run, and
+    /// corrects the error of the product of elastic force and G(t).
     #[arg(long, requires = "law")]
     in_loop: bool,
-    /// How often fits are made again, with residuals in other blocks and with noise, to see how well
-    /// parameters are known; 0 for never, else 10 or more.
+    /// Bootstrap samples (block-resampled residuals) for the uncertainty of parameters; 0 for none, otherwise at least
+    /// 10.
     #[arg(long, value_name = "TIMES", default_value_t = 100, value_parser = clap::value_parser!(u64).range(..=10_000))]
     draws: u64,
-    /// Terms of the relaxation, 1 to 4; by default as many as the recordings can tell.
+    /// Number of relaxation terms, 1 to 4; default: as many as the recordings can resolve.
     #[arg(long, value_parser = clap::value_parser!(u64).range(1..=4))]
     terms: Option<u64>,
     #[command(flatten)]

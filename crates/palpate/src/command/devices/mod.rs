@@ -1,4 +1,4 @@
-//! `palpate devices`: which haptic devices are there, and whether they do what they should.
+//! `palpate devices`: the connected haptic devices, and their self-test.
 
 mod answer;
 
@@ -16,21 +16,22 @@ use crate::progress::{Progress, Reader};
 const EXAMPLES: &str = "\
 Examples:
   palpate devices
-      what is found of every kind, with its limits
+      lists all kinds of devices with their limits
   palpate devices haply --self-test
-      every Haply device answers, and pushes a hand with 0.2 N right, up and toward it: hold the handle
+      tests each Haply device, which pushes with 0.2 N to the right, up and towards you: hold
+      the handle
 
-The variable PALPATE_HAPLY says where the Haply Inverse Service is (HOST:PORT, or HOST:PORT,PORT with \
-that of its events), PALPATE_OPENHAPTICS and PALPATE_FORCE_DIMENSION where libHD and libdhd are, if not \
-where the system looks for them. None of the drivers was tried on hardware yet: docs/devices.md.";
+Environment variables: PALPATE_HAPLY is the address of the Haply Inverse Service (HOST:PORT, or HOST:PORT,PORT with \
+its event port); PALPATE_OPENHAPTICS and PALPATE_FORCE_DIMENSION are the paths of libHD and libdhd, if they are not \
+in the system's search path. No driver has been tested on hardware yet: docs/devices.md.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Arguments {
-    /// Only this kind, which then has to be there.
+    /// Only this kind; an error if it is not connected.
     #[arg(value_enum, value_name = "KIND")]
     kind: Option<Word>,
-    /// Push a hand with 0.2 N on every device that is found, for three seconds each.
+    /// Push with 0.2 N on every device found, for three seconds each.
     #[arg(long)]
     self_test: bool,
     /// Print one JSON object.
@@ -42,12 +43,12 @@ pub(crate) struct Arguments {
 #[derive(Debug, Clone, Copy, ValueEnum)]
 #[value(rename_all = "snake_case")]
 enum Word {
-    /// By the Haply Inverse Service
+    /// Haply, through the Haply Inverse Service
     Haply,
-    /// Touch and PHANTOM, by libHD
+    /// Touch and PHANTOM, through libHD
     #[value(name = "openhaptics")]
     OpenHaptics,
-    /// By libdhd
+    /// Force Dimension, through libdhd
     ForceDimension,
 }
 

@@ -17,22 +17,22 @@ use crate::{interrupt, output};
 const EXAMPLES: &str = "\
 Examples:
   palpate measure
-      a window in which the rig is operated: jog, approach, a button for each stimulus, what is felt;
-      the space bar is the emergency stop, and recordings/ fills with what was pressed
+      a window that operates the rig: jog, approach, one button for each stimulus, live force;
+      the space bar is the emergency stop, and recordings are written to recordings/
   palpate measure --headless --out recordings
-      three depths on a pig's liver that is not there: recordings/liver-virtual-....csv
+      three depths on a virtual pig liver: recordings/liver-virtual-....csv
   palpate measure --print-protocol > protocol.toml
-      that protocol with every key explained, to be changed
+      the default protocol with every key explained, for editing
   palpate measure protocol.toml
       a window with your stimuli and specimens
   palpate measure protocol.toml --headless --out recordings --seed 7 --json
-      the same without one; the same seed gives the same bytes
+      the same without a window; the same seed gives the same bytes
   palpate characterize recordings/
-      the tissue behind them
+      fits the tissue
 
-Each stimulus is approached until first contact, pressed, withdrawn and recorded at 1 kHz. Ctrl-C withdraws \
-the indenter and keeps what was recorded. A recording that is being made has the ending .part; one that was \
-cut short says why at its top. A window never writes over a recording, it counts on.";
+Each stimulus approaches until first contact, presses, withdraws, and is recorded at 1 kHz. Ctrl-C withdraws the \
+indenter and saves the recording so far. An unfinished recording has the extension .part; a truncated one states the \
+reason in its header. A window never overwrites a recording; it numbers them.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
@@ -40,26 +40,26 @@ pub(crate) struct Arguments {
     /// The protocol; without one, three depths on a virtual liver.
     #[arg(value_name = "PROTOCOL.toml")]
     protocol: Option<PathBuf>,
-    /// Measure without a window, as fast as the machine can.
+    /// Run without a window, as fast as possible.
     #[arg(long)]
     headless: bool,
-    /// The recording of an only stimulus, or the folder for several.
+    /// The recording of a single stimulus, or the folder for several.
     #[arg(
         long,
         value_name = "RECORDING.csv | FOLDER",
         default_value = "recordings"
     )]
     out: PathBuf,
-    /// The seed of noise, heart and breath.
+    /// The random seed of noise, heartbeat and breathing.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Replace recordings that are there already.
+    /// Replace existing recordings.
     #[arg(long, requires = "headless")]
     overwrite: bool,
     /// Print one JSON object.
     #[arg(long, requires = "headless")]
     json: bool,
-    /// Print the protocol that is used without one, and nothing else.
+    /// Print the default protocol and exit.
     #[arg(long)]
     print_protocol: bool,
 }

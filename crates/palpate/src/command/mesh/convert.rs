@@ -20,9 +20,8 @@ Examples:
   palpate mesh convert organ.glb organ.stl --to-unit mm
       for a program that wants millimetres
 
-Formats are named by the extensions: STL, OBJ, PLY, glTF and GLB are read; STL, OBJ, PLY and VTP (ParaView) \
-are written. Corners that were written once per triangle are joined, and triangles are turned outward; what \
-was mended is told.";
+The extension states the format: reads STL, OBJ, PLY, glTF and GLB; writes STL, OBJ, PLY and VTP (ParaView). Merges \
+repeated vertices and orients triangles outward; reports each repair.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]

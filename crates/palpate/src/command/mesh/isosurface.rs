@@ -22,16 +22,16 @@ use crate::{interrupt, output};
 const EXAMPLES: &str = "\
 Examples:
   palpate mesh isosurface segmentation.nii.gz
-      the labels that there are, with their volumes
+      lists the labels with their volumes
   palpate mesh isosurface segmentation.nii.gz --label liver --out liver.ply
   palpate mesh isosurface segmentation.nrrd --label all --out organs
-      a file for each label in the folder organs
+      writes one file per label to the folder organs
 
-The surface is closed and in one piece, also where the border of the volume cuts the organ; the steps of the \
-voxels are smoothed away without loss of volume. Metres; x to the patient's left, y to the back, z to the head, \
-as all organs of one volume share it. Names come from the file (TotalSegmentator, 3D Slicer) or from a file \
-beside it, segmentation.json, with {\"labels\": {\"5\": \"liver\"}}. A volume has at most 400 million voxels, which take \
-1 GB, and a label at most 4 million triangles before they are simplified, which take 2.5 GB and minutes.";
+The surface is closed and connected, even where the volume's border cuts the organ; smoothing removes voxel steps \
+without loss of volume. Coordinates in metres, shared by all organs of a volume: x to the patient's left, y to the \
+back, z to the head. Names come from the file (TotalSegmentator, 3D Slicer) or from a file \
+beside it, segmentation.json, with {\"labels\": {\"5\": \"liver\"}}. Limits: 400 million voxels (1 GB of memory) per \
+volume, and 4 million triangles per label before simplification (2.5 GB, minutes).";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
@@ -39,7 +39,7 @@ pub(crate) struct Arguments {
     /// The label map: .nii, .nii.gz or .nrrd.
     #[arg(value_name = "LABELS")]
     file: PathBuf,
-    /// A label's name or number, or all; without it the labels are listed.
+    /// A label's name or number, or all; default: list the labels.
     #[arg(long, requires = "out")]
     label: Option<String>,
     /// The file to write (.stl, .obj, .ply, .vtp); with --label all a folder, for .ply files.
@@ -48,10 +48,10 @@ pub(crate) struct Arguments {
     /// Replace surfaces that exist.
     #[arg(long, requires = "out")]
     overwrite: bool,
-    /// How many triangles each surface has at most.
+    /// Maximum number of triangles of each surface.
     #[arg(long, value_name = "N", default_value_t = IsosurfaceSettings::default().triangles)]
     triangles: usize,
-    /// Rounds of smoothing; 0 leaves the steps of the voxels.
+    /// Smoothing iterations; 0 keeps the voxel steps.
     #[arg(long, value_name = "ROUNDS", default_value_t = IsosurfaceSettings::default().smoothing)]
     smooth: usize,
     /// Print one JSON object.

@@ -16,15 +16,15 @@ use crate::failure::Failure;
 
 #[derive(Debug, Subcommand)]
 pub(super) enum Mesh {
-    /// Say what a mesh is, what is wrong with it, and whether it can be simulated.
+    /// Check a mesh and report whether it can be simulated.
     Info(info::Arguments),
-    /// Write the same surface with fewer, even triangles, and tell how far it is from the original.
+    /// Write the surface with fewer triangles, and report the deviation from the original.
     Simplify(simplify::Arguments),
-    /// Write a mesh in another format or unit, repaired.
+    /// Repair a mesh and write it in another format or unit.
     Convert(convert::Arguments),
-    /// Make the surface of an organ from a segmented volume: NIfTI or NRRD.
+    /// Extract the surface of an organ from a segmented volume (NIfTI, NRRD).
     Isosurface(isosurface::Arguments),
-    /// Make a closed surface around any triangles: open, crossing, doubled or in many pieces.
+    /// Wrap a closed surface around any triangles: open, intersecting, duplicated or in many pieces.
     Wrap(wrap::Arguments),
 }
 

@@ -21,8 +21,8 @@ Examples:
   palpate mesh simplify esophagus.ply esophagus-3726.ply --triangles 3726
   palpate mesh simplify scan.stl small.stl --unit mm --triangles 5000 --json
 
-Sharp edges, borders, handles and the volume stay, and triangles become even, as mechanics wants them. The \
-distances are those between the two surfaces: from the original to the result and back.";
+Preserves sharp edges, borders, handles and volume, and makes triangles even in size, as mechanical models need them. \
+The deviation is measured in both directions between the two surfaces.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
@@ -33,7 +33,7 @@ pub(crate) struct Arguments {
     /// The file to write, in metres: .stl, .obj, .ply or .vtp.
     #[arg(value_name = "OUT")]
     out: PathBuf,
-    /// How many triangles it shall have; a closed mesh has an even number.
+    /// Number of triangles; a closed mesh has an even number.
     #[arg(long, value_name = "N")]
     triangles: usize,
     /// The unit of the file: m, cm, mm or um.

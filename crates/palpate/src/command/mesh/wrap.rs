@@ -21,9 +21,9 @@ Examples:
   palpate mesh wrap atlas-kidney.glb kidney.ply
   palpate mesh wrap scan.stl organ.ply --unit mm --distance 0.001 --close-gaps 0.004 --triangles 20000
 
-Holes with a rim are capped at any width. A gap without a rim, such as one between two pieces, is closed up to \
---close-gaps; so is a fissure of the organ that is as narrow. Inner walls and cavities vanish. The envelope is closed, \
-manifold, oriented outward, in one piece and crosses nothing.";
+Caps holes with a boundary loop at any width. Closes gaps without one, such as gaps between pieces or narrow fissures \
+of the organ, up to --close-gaps. Removes inner walls and cavities. The result is closed, manifold, oriented outward, \
+connected and free of self-intersections.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
@@ -34,16 +34,16 @@ pub(crate) struct Arguments {
     /// The file to write, in metres: .stl, .obj, .ply or .vtp.
     #[arg(value_name = "OUT", required_unless_present = "named")]
     out: Option<PathBuf>,
-    /// The same, by name.
+    /// The same as OUT.
     #[arg(long = "out", value_name = "OUT", conflicts_with = "out")]
     named: Option<PathBuf>,
-    /// How far the envelope may be from the triangles [m].
+    /// Largest distance of the surface from the triangles [m].
     #[arg(long, value_name = "M", default_value_t = WrapSettings::default().distance)]
     distance: f64,
-    /// Width of gaps without a rim that are closed [m].
+    /// Width of gaps to close [m].
     #[arg(long, value_name = "M", default_value_t = WrapSettings::default().close_gaps)]
     close_gaps: f64,
-    /// How many triangles the envelope has at most.
+    /// Maximum number of triangles.
     #[arg(long, value_name = "N", default_value_t = WrapSettings::default().triangles)]
     triangles: usize,
     /// The unit of the file: m, cm, mm or um.

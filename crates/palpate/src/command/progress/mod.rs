@@ -33,15 +33,15 @@ Examples:
   palpate progress --trainee Anna --task 'Find the stiff spot'
       one trainee at one task
   palpate progress --report progress.html
-      the same as a page with learning curves
+      the same as an HTML report with learning curves
   palpate progress --cohort spring --anonymous --xapi statements.json
       a cohort without names, as statements for a learning record store
   palpate progress --csv attempts.csv
-      every measure of every attempt in a row of its own, for a program of statistics
+      one row per measure and attempt, for statistics software
 
-A measure is proficient when it is not worse than the mean of the experts' sessions by more than one \
-standard deviation. A trainee is, after two attempts in a row that did not fail and are proficient in as \
-many measures as the experts themselves on average. Dates are in universal time.";
+A measure is proficient if it is at most one standard deviation worse than the experts' mean. A trainee is proficient \
+after two consecutive attempts without failure that are proficient in as many measures as the experts themselves on \
+average. Dates are in UTC.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
@@ -52,13 +52,13 @@ pub(crate) struct Arguments {
     /// Only this task.
     #[arg(long, value_name = "TITLE")]
     task: Option<String>,
-    /// The training record; without it, the one in the folder of your data.
+    /// The training record; default: the one in your data folder.
     #[arg(long, value_name = "FILE.sqlite")]
     record: Option<PathBuf>,
     /// Print one JSON object.
     #[arg(long)]
     json: bool,
-    /// Write a table with a row for each measure of each attempt.
+    /// Write a CSV table with one row per measure and attempt.
     #[arg(long, value_name = "FILE.csv")]
     csv: Option<PathBuf>,
     /// Write statements of the Experience API (xAPI), for a learning record store.
@@ -67,10 +67,10 @@ pub(crate) struct Arguments {
     /// Only the trainees of this cohort (`palpate teacher cohort`).
     #[arg(long, value_name = "NAME")]
     cohort: Option<String>,
-    /// Numbers instead of names, times since each trainee's first attempt, and no sessions.
+    /// Replace names by numbers and dates by times since each trainee's first attempt; leave out sessions.
     #[arg(long, conflicts_with = "trainee")]
     anonymous: bool,
-    /// Write a page with learning curves, for a browser or a printer.
+    /// Write an HTML report with learning curves.
     #[arg(long, value_name = "FILE.html")]
     report: Option<PathBuf>,
     #[command(flatten)]

@@ -31,7 +31,7 @@ pub(super) fn html(
     Page {
         title,
         lead: Markup::of_class("p", "lead", lead),
-        body: doubts("What deserves doubt", warnings).and(each.collect::<Markup>()),
+        body: doubts("Warnings", warnings).and(each.collect::<Markup>()),
         foot: nothing.and(Markup::plain("p", super::rule() + CONVENTIONS)),
     }
     .html()

@@ -25,14 +25,14 @@ use crate::progress::{Progress, Reader};
 const EXAMPLES: &str = "\
 Examples:
   palpate quality
-      the built-in esophagus under scripted hands, at 1, 2 and 4 kHz
+      scripted hands on the built-in esophagus, at 1, 2 and 4 kHz
   palpate quality scene.toml --rates 1000 4000 --seconds 60 --json
       your scene for a minute, as one JSON object
 
-Scripted hands palpate the organ in real time, once in two seconds and 4 mm deep, on the threads that a \
-device and a window would use. Lateness: how long after its time a tick began. Extrapolation: how far \
-the force between the model's answers was from the one that the model then finds. Energy: work that the \
-loop did on the hands; an organ only takes some.";
+Scripted hands palpate the organ in real time, every two seconds and 4 mm deep, on the same threads as a device and a \
+window. Jitter: how late each tick starts. Extrapolation error: the difference between the force extrapolated between \
+model steps and the model's next force. Energy: work that the loop does on the hands; a passive organ only absorbs \
+energy.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
@@ -40,10 +40,10 @@ pub(crate) struct Arguments {
     /// The scene; without one, the built-in esophagus.
     #[arg(value_name = "SCENE.toml")]
     scene: Option<PathBuf>,
-    /// Ticks per second of the servo loop, one run for each.
+    /// Rates of the servo loop [Hz], one run each.
     #[arg(long, value_name = "HZ", num_args = 1.., value_delimiter = ',', default_values_t = [1000, 2000, 4000], value_parser = clap::value_parser!(u32).range(100..=10_000))]
     rates: Vec<u32>,
-    /// How long each run takes [s].
+    /// Duration of each run [s].
     #[arg(long, value_name = "S", default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..=3600))]
     seconds: u32,
     /// Print one JSON object.

@@ -21,13 +21,14 @@ use answer::Answer;
 const EXAMPLES: &str = "\
 Examples:
   palpate score session
-      time, ways, turns, economy, smoothness, forces, errors, and what became of the task
+      time, path length, rotation, economy of motion, smoothness, forces, errors, and the task's result
   palpate score session --expert expert --json
-      the same beside the session of an expert, or beside the mean and deviation of those in a folder
+      the same, compared with an expert's session, or with mean and standard deviation of a folder
+      of sessions
   palpate score session --trainee Anna
-      keeps the score, too; `palpate progress` shows how Anna comes along
+      also saves the score; `palpate progress` shows Anna's progress
 
-The folder holds session.csv, and scene.toml where there was a task. Each measure is defined, with its formula \
+The folder contains session.csv, and scene.toml if there was a task. Each measure is defined, with its formula \
 and its reference, in docs/theory/performance.md.";
 
 #[derive(Debug, Args)]
@@ -36,25 +37,25 @@ pub(crate) struct Arguments {
     /// The session's folder, or its file.
     #[arg(value_name = "SESSION_DIR")]
     session: PathBuf,
-    /// An expert's session, or a folder of several; without it, that of the task.
+    /// An expert's session, or a folder of several; default: the task's.
     #[arg(long, value_name = "DIR")]
     expert: Option<PathBuf>,
-    /// The scene whose task counts, when it is not beside the session.
+    /// The scene with the task, if it is not in the session's folder.
     #[arg(long, value_name = "SCENE.toml")]
     scene: Option<PathBuf>,
-    /// Keep the score in the training record, as this trainee's.
+    /// Save the score in the training record, for this trainee.
     #[arg(long, value_name = "NAME")]
     trainee: Option<String>,
-    /// With --trainee: others are judged by this session, which has to be passed; a teacher's to say.
+    /// With --trainee: mark this session, which must be passed, as an expert's; a teacher's option.
     #[arg(long, requires = "trainee")]
     as_expert: bool,
-    /// With --as-expert: the teacher's PIN, where the record has one.
+    /// With --as-expert: the teacher's PIN, if the record has one.
     #[arg(long, requires = "as_expert")]
     pin: Option<String>,
-    /// With --trainee: keep a session that is incomplete, too.
+    /// With --trainee: also save an incomplete session.
     #[arg(long, requires = "trainee")]
     incomplete: bool,
-    /// With --trainee: the training record; without it, the one in the folder of your data.
+    /// With --trainee: the training record; default: the one in your data folder.
     #[arg(long, value_name = "FILE.sqlite", requires = "trainee")]
     record: Option<PathBuf>,
     /// Print one JSON object.
@@ -161,7 +162,7 @@ fn standards(
     let scores: Vec<_> = experts.iter().map(|expert| expert.score(task)).collect();
     if let [_] = scores.as_slice() {
         warnings.push(
-            "a single session of an expert has no deviation; who is proficient is told from two on"
+            "a single expert session has no standard deviation; proficiency needs two or more"
                 .to_owned(),
         );
     }

@@ -44,20 +44,21 @@ Examples:
   palpate simulate scene.toml
       opens a window in which the mouse moves the tool
   palpate simulate liver.ply
-      the same with an organ of yours, as if it were pig liver
+      opens your own organ; assumes pig liver unless a scene says otherwise
   palpate simulate scene.toml --headless --motion motion.csv --out session
       writes session/session.csv (forces on the tool at every step), plots and summary.json; --overwrite
-      replaces a session that is there
+      replaces an existing session
   palpate simulate scene.toml --headless --indentation recording.csv --out session
-      presses as deep as was recorded, in the middle of the organ's top or --at another place, and
-      tells how far the force is from the recorded one (session/beside.png)
+      presses as deep as recorded, at the organ's top centre or --at another location, and
+      compares the simulated force with the recorded one (session/beside.png)
   palpate simulate --headless --motion motion.csv --out session --fields 60 --frames 60
       on the built-in esophagus, with 60 surfaces for ParaView (open session/surfaces.pvd) and
       60 pictures (session/frame-0001.png and so on)
   palpate simulate scene.toml --openigtlink
-      a window, and 3D Slicer on this machine sees what is touched (docs/slicer.md)
+      opens a window and serves the simulation to 3D Slicer on this machine (docs/slicer.md)
   palpate simulate scene.toml --headless --openigtlink=0.0.0.0:18944
-      no window: a haptic device moves the tools, and every machine that reaches this one may look on
+      no window: a haptic device moves the tools, and any machine that can reach this one can
+      watch
 
 A scene names an organ, its tissue, the model and the tools; a motion says where the tips are:
   # format = 1
@@ -80,28 +81,30 @@ pub(crate) struct Arguments {
     /// The recording of `palpate measure`, or of another rig, whose indentation the first tool repeats.
     #[arg(long, value_name = "RECORDING.csv", group = "played")]
     indentation: Option<PathBuf>,
-    /// Where: the place of the organ nearest to this point [m]; else to the middle of the top of its box.
+    /// The location: the point of the organ nearest to this one [m]; default: nearest to the top centre of its bounding
+    /// box.
     #[arg(long, value_name = "X,Y,Z", requires = "indentation", allow_hyphen_values = true, value_parser = repeated::point)]
     at: Option<[f64; 3]>,
-    /// Which variant of a scene that draws its numbers; a window draws another for each attempt.
+    /// The random variant of a scene with [draw]; a window draws a new one for each attempt.
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=LARGEST_SEED))]
     seed: u64,
-    /// The folder to write the session into; it is made when it is not there.
+    /// The folder for the session; it is created if missing.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Replace a session that is in the folder already.
+    /// Replace an existing session in the folder.
     #[arg(long, requires = "out")]
     overwrite: bool,
-    /// Write this many deformed surfaces, evenly over the motion, for ParaView.
+    /// Write this many deformed surfaces, evenly spaced in time, for ParaView.
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=100_000))]
     fields: u64,
-    /// Write this many pictures, evenly over the motion: frame-0001.png and so on.
+    /// Write this many pictures, evenly spaced in time: frame-0001.png and so on.
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=100_000))]
     frames: u64,
     /// Print the summary as one JSON object.
     #[arg(long)]
     json: bool,
-    /// Show the touch to 3D Slicer and others, on this machine, or where the address says.
+    /// Serve the simulation to 3D Slicer and others over OpenIGTLink; on this machine only, unless ADDRESS says
+    /// otherwise.
     #[arg(long, value_name = "[ADDRESS:]PORT", num_args = 0..=1, require_equals = true, default_missing_value = "18944", value_parser = room_address)]
     openigtlink: Option<SocketAddr>,
 }

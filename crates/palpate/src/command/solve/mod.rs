@@ -19,15 +19,15 @@ const EXAMPLES: &str = concat!(
     "\
 Examples:
   palpate solve punch.toml
-      depth, force and its estimated error, as a table
+      prints depth, force and estimated error as a table
   palpate solve punch.toml --json --plot punch.png
-      the same as one JSON object, and as a picture
+      the same as one JSON object, and as a plot
   palpate solve kidney.toml --vtu kidney.vtu
-      with the deformed body, for ParaView
+      also writes the deformed body, for ParaView
   palpate solve ramp.toml --recording ramp.csv
-      as an indenter would have recorded it
+      writes a recording, as an indenter would record it
 
-A problem names a body, its tissue and what is done to it. This is punch.toml:
+A problem names a body, its tissue and its loads. This is punch.toml:
 
 ",
     include_str!("../../../../../assets/problems/punch.toml"),
@@ -52,19 +52,19 @@ Moduli are instantaneous; only a ramp relaxes. `palpate examples DIR` writes a p
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Arguments {
-    /// The problem: a body, its tissue, and what is done to it.
+    /// The problem: a body, its tissue and its loads.
     #[arg(value_name = "PROBLEM.toml")]
     problem: PathBuf,
     /// Print one JSON object.
     #[arg(long)]
     json: bool,
-    /// Draw force against depth, or what the problem asks for instead.
+    /// Plot force against depth, or the problem's own result.
     #[arg(long, value_name = "FILE.png")]
     plot: Option<PathBuf>,
     /// Write the body with its displacement, for ParaView.
     #[arg(long, value_name = "FILE.vtu")]
     vtu: Option<PathBuf>,
-    /// Write the forces over a `ramp` as a recording, as an indenter would have made it.
+    /// Write the forces of a `ramp` as a recording.
     #[arg(long, value_name = "FILE.csv")]
     recording: Option<PathBuf>,
     /// Write the JSON object to a file as well.

@@ -93,7 +93,7 @@ fn section(analyzed: &Analyzed, response: &OrganResponse, several: bool) -> Mark
 
 /// What deserves doubt, recording by recording.
 fn doubted(analyzed: &Analyzed) -> Markup {
-    let mut table = Table::new(["recording", "what deserves doubt"]).of_class("text");
+    let mut table = Table::new(["recording", "warning"]).of_class("text");
     for (read, analysis) in &analyzed.recordings {
         let said: Vec<&str> = doubts_of(read, analysis).map(String::as_str).collect();
         if !said.is_empty() {
@@ -103,7 +103,7 @@ fn doubted(analyzed: &Analyzed) -> Markup {
     }
     match table.is_empty() {
         true => Markup::default(),
-        false => Markup::plain("h3", "What deserves doubt").and(table),
+        false => Markup::plain("h3", "Warnings").and(table),
     }
 }
 

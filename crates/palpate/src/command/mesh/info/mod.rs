@@ -20,9 +20,9 @@ Examples:
   palpate mesh info scan.glb --json
   palpate mesh info --builtin kidney --triangles 8000
 
-The report is of the mesh as it is in the file (only STL and glTF, which write a corner \
-once per triangle, are welded first); what a repair would do is said in addition. \
-A faulty mesh is no error of this command: the exit status is 0 unless it cannot be read.";
+The report describes the mesh as it is in the file (only STL and glTF, which repeat vertices, are welded first), and \
+what a repair would change. An invalid mesh is no error of this command: the exit status is 0 unless the file cannot \
+be read.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, group(ArgGroup::new("mesh").required(true)))]
@@ -36,7 +36,7 @@ pub(crate) struct Arguments {
     /// The unit of the file: m, cm, mm or um.
     #[arg(long, conflicts_with = "builtin")]
     unit: Option<String>,
-    /// How many triangles the built-in organ shall have.
+    /// Number of triangles of the built-in organ.
     #[arg(long, value_name = "N", conflicts_with = "file")]
     triangles: Option<usize>,
     /// Print one JSON object.
