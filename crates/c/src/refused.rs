@@ -115,7 +115,17 @@ impl Refused {
             Self::File(error) => error.is_input(),
             Self::Simulation(error) => error.is_input(),
             Self::Broken | Self::Panicked { .. } => false,
-            _ => true,
+            Self::Null { .. }
+            | Self::Crooked { .. }
+            | Self::NotText { .. }
+            | Self::OtherTools { .. }
+            | Self::NoPosition { .. }
+            | Self::NoOrientation { .. }
+            | Self::NoGrip { .. }
+            | Self::NoTime { .. }
+            | Self::TimeGoesBack { .. }
+            | Self::OtherSimulation
+            | Self::Busy => true,
         };
         match is_input {
             true => Status::PalpateBadInput,

@@ -207,6 +207,38 @@ pub enum Error {
 }
 
 impl Error {
+    /// Whether the input is invalid (exit status 2), rather than something else at fault (1).
+    pub fn is_input(&self) -> bool {
+        match self {
+            Self::Mechanics(error) => error.is_input(),
+            Self::NoShape { .. }
+            | Self::LoopDoesNotSettle { .. }
+            | Self::NotSolved { .. }
+            | Self::NotInflated { .. } => false,
+            Self::TooShort { .. }
+            | Self::ConstantForce { .. }
+            | Self::NoContact { .. }
+            | Self::ContactOutside { .. }
+            | Self::NotInGuess { .. }
+            | Self::NoDesign
+            | Self::BadCutoff { .. }
+            | Self::BadParameter { .. }
+            | Self::HollowOrgan
+            | Self::NoHold
+            | Self::NoStart { .. }
+            | Self::NothingFelt
+            | Self::Unknown { .. }
+            | Self::ColumnUnknown
+            | Self::TubeLaw { .. }
+            | Self::NoLoop
+            | Self::LoopMovesTooLong { .. }
+            | Self::CostlyToRepeat { .. }
+            | Self::TubeIndenter
+            | Self::DeeperThanThick { .. }
+            | Self::Narrow { .. } => true,
+        }
+    }
+
     /// What the mechanics say of a `law` that is pressed as deep as `asked` [m], for who asked for the law and not
     /// for a mesh.
     pub(crate) fn of_law(law: LawName, asked: f64, error: palpate_mechanics::Error) -> Self {

@@ -160,3 +160,27 @@ pub enum OpenError {
         what: String,
     },
 }
+
+impl OpenError {
+    /// Whether the input is invalid (exit status 2), rather than something else at fault (1).
+    pub fn is_input(&self) -> bool {
+        match self {
+            Self::NoService { .. }
+            | Self::NotTheService { .. }
+            | Self::NoDevice { .. }
+            | Self::NoDeadMan { .. }
+            | Self::NoLibrary { .. }
+            | Self::NoFunction { .. }
+            | Self::NotOpened { .. }
+            | Self::NoSuchDevice { .. }
+            | Self::NoSensor { .. }
+            | Self::NoSensorLibrary { .. }
+            | Self::NoSensorFunction { .. }
+            | Self::SensorLibrary { .. } => false,
+            Self::NoAddress { .. }
+            | Self::NoSwitch { .. }
+            | Self::NoSensorPlace { .. }
+            | Self::NoSensorAddress { .. } => true,
+        }
+    }
+}

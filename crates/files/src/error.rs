@@ -289,10 +289,29 @@ impl Error {
     pub fn is_input(&self) -> bool {
         match self {
             Self::Read { source, .. } | Self::Write { source, .. } => names_wrong_path(source),
-            Self::BadContent { .. } | Self::InUse { .. } | Self::NoMemoryForResponse { .. } => {
+            Self::InUse { .. } | Self::NoMemoryForResponse { .. } | Self::BadContent { .. } => {
                 false
             }
-            _ => true,
+            Self::NotAFile { .. }
+            | Self::TooLarge { .. }
+            | Self::Exists { .. }
+            | Self::NamedTwice { .. }
+            | Self::NotText { .. }
+            | Self::Syntax { .. }
+            | Self::MissingFormat { .. }
+            | Self::UnsupportedFormat { .. }
+            | Self::UnknownKey { .. }
+            | Self::UnknownUnit { .. }
+            | Self::GivenTwice { .. }
+            | Self::MissingKey { .. }
+            | Self::BadValue { .. }
+            | Self::MissingColumn { .. }
+            | Self::UnrecognizedColumn { .. }
+            | Self::AmbiguousColumn { .. }
+            | Self::BadRow { .. }
+            | Self::NoRows { .. }
+            | Self::TimeNotIncreasing { .. }
+            | Self::DamagedResponse { .. } => true,
         }
     }
 
@@ -330,8 +349,8 @@ impl Error {
     }
 }
 
-/// Whether the operating system refuses because of the name that was given.
-fn names_wrong_path(source: &io::Error) -> bool {
+/// Whether the operating system refuses because of the name that was given, which is invalid input.
+pub fn names_wrong_path(source: &io::Error) -> bool {
     use io::ErrorKind;
     matches!(
         source.kind(),

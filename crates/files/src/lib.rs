@@ -9,7 +9,8 @@
 //! Beside them stands [`StoredResponse`], which is not for people: what a model has prepared of an organ,
 //! kept because it takes minutes.
 //!
-//! Text from elsewhere is shown by [`printable`], and put into cells of tables by [`text_cell`].
+//! Text from elsewhere is shown by [`printable`], and put into cells of tables by [`text_cell`]; numbers are written by
+//! [`quantity`].
 //!
 //! The documents hold plain numbers. They know nothing of meshes, mechanics or devices, so that
 //! each verb (measure, characterize, simulate) can be used without the others.
@@ -39,6 +40,7 @@ pub mod motion;
 mod partial;
 mod printable;
 pub mod protocol;
+pub mod quantity;
 pub mod recording;
 mod response;
 pub mod scene;
@@ -52,7 +54,7 @@ mod words;
 
 pub use claim::{Claim, Overwrite, remove_claims};
 pub use domain::Domain;
-pub use error::{Error, Place};
+pub use error::{Error, Place, names_wrong_path};
 pub use estimate::Estimate;
 pub use motion::{Motion, Pose};
 pub use printable::{cell_text, is_hidden, printable, printable_lines, text_cell};

@@ -1,3 +1,5 @@
+use std::fmt;
+
 use crate::{AabbTree, TriangleId, TriangleMesh, Vec3};
 
 /// About how many points of a mesh are looked at, and in how many rows at most on a triangle.
@@ -5,12 +7,21 @@ const SAMPLES: f64 = 40_000.0;
 const ROWS: f64 = 24.0;
 
 /// How far the points of one mesh are from another.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Deviation {
     /// Of the farthest point that was looked at [m].
+    #[serde(rename = "max_m")]
     pub max: f64,
     /// Over the area [m].
+    #[serde(rename = "mean_m")]
     pub mean: f64,
+}
+
+impl fmt::Display for Deviation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [max, mean] = [self.max, self.mean].map(|metres| 1e3 * metres);
+        write!(f, "at most {max:.3} mm, {mean:.3} mm on the mean")
+    }
 }
 
 /// How far the surface `from` is from the surface `to`: one side of the distance of Hausdorff. Its

@@ -90,6 +90,16 @@ pub enum IsosurfaceError {
     Simplify(#[from] SimplifyError),
 }
 
+impl IsosurfaceError {
+    /// Whether the input is invalid (exit status 2), rather than something else at fault (1).
+    pub fn is_input(&self) -> bool {
+        match self {
+            Self::Simplify(error) => error.is_input(),
+            Self::Absent { .. } | Self::TooLarge { .. } => true,
+        }
+    }
+}
+
 /// Part of the work that is done when the surface of the voxels is found [-].
 const FOUND: f64 = 0.1;
 

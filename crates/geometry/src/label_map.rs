@@ -22,7 +22,7 @@ pub struct LabelMap {
 }
 
 /// One label of a [`LabelMap`].
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Label {
     /// As it stands in the voxels, never zero.
     pub number: u16,
@@ -31,6 +31,7 @@ pub struct Label {
     /// How many voxels have it.
     pub voxels: usize,
     /// Volume of these [m³].
+    #[serde(rename = "volume_m3")]
     pub volume: f64,
 }
 

@@ -70,6 +70,15 @@ pub struct Simplified {
     pub self_intersections: usize,
 }
 
+impl Simplified {
+    /// A sentence where triangles of the result meet.
+    pub fn warning(&self) -> Option<String> {
+        let meet = self.self_intersections;
+        let said = || format!("{meet} triangles of the result meet others; ask for more triangles");
+        (meet > 0).then(said)
+    }
+}
+
 /// Why a mesh is not simplified.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SimplifyError {
@@ -96,6 +105,16 @@ pub enum SimplifyError {
     /// The caller asked for it.
     #[error("the simplification was cancelled; start it again")]
     Cancelled,
+}
+
+impl SimplifyError {
+    /// Whether the input is invalid (exit status 2), rather than something else at fault (1).
+    pub fn is_input(&self) -> bool {
+        match self {
+            Self::Cancelled => false,
+            Self::TooFew { .. } | Self::NotASizeEach { .. } | Self::NotASize { .. } => true,
+        }
+    }
 }
 
 /// The surface of `mesh` with fewer triangles, at most as many as asked for. A mesh that has so few

@@ -8,7 +8,7 @@ use crate::{MeshError, NodeId, TriangleMesh, Vec3};
 const TOLERANCE: f64 = 1e-6;
 
 /// What [`repair`] did to a mesh.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, serde::Serialize)]
 pub struct Repairs {
     /// Vertices that were joined to another in the same place.
     pub welded_vertices: usize,

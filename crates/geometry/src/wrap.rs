@@ -117,6 +117,20 @@ pub enum WrapError {
     Surface(#[from] IsosurfaceError),
 }
 
+impl WrapError {
+    /// Whether the input is invalid (exit status 2), rather than something else at fault (1).
+    pub fn is_input(&self) -> bool {
+        match self {
+            Self::Mesh(error) => error.is_input(),
+            Self::Surface(error) => error.is_input(),
+            Self::Distance { .. }
+            | Self::Gaps { .. }
+            | Self::TooFine { .. }
+            | Self::Open { .. } => true,
+        }
+    }
+}
+
 fn fix_of_open(closing: Option<f64>, widest: f64) -> String {
     match closing {
         Some(width) => format!("close gaps of {width:.1e} m, which encloses it"),

@@ -19,6 +19,14 @@ impl LossyPath for PathBuf {
     }
 }
 
+impl<P: LossyPath> LossyPath for &P {
+    type Text = P::Text;
+
+    fn text(&self) -> P::Text {
+        (*self).text()
+    }
+}
+
 impl LossyPath for Option<PathBuf> {
     type Text = Option<String>;
 

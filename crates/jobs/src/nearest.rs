@@ -1,5 +1,24 @@
 //! The name that was probably meant.
 
+use palpate_geometry::Organ;
+
+use crate::Error;
+
+/// The built-in organ of a name.
+///
+/// # Errors
+/// When there is none, with the nearest.
+pub fn builtin_organ(name: &str) -> Result<Organ, Error> {
+    name.parse().map_err(|_| {
+        let names = Organ::ALL.map(Organ::name);
+        Error::input(format!(
+            "there is no built-in organ `{name}`; the nearest is `{}`, and there are {}",
+            nearest(name, &names),
+            names.join(", ")
+        ))
+    })
+}
+
 /// The one of `known` that takes the fewest changed letters to become `name`, those that hold all of it first;
 /// the first of equals.
 pub fn nearest<'k>(name: &str, known: &[&'k str]) -> &'k str {

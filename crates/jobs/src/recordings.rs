@@ -48,13 +48,14 @@ pub struct ReadRecording {
 }
 
 /// A recording that could not be used, and why.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Serialize)]
 pub struct Unusable {
     /// As it was named.
     #[serde(serialize_with = "crate::lossy")]
     pub file: PathBuf,
     /// Why; it names the file or not.
-    pub reason: String,
+    #[serde(serialize_with = "in_words")]
+    pub reason: Error,
 }
 
 impl Recordings {
@@ -88,15 +89,18 @@ impl Recordings {
                 Err(reason) => bad.push(Unusable { file: path, reason }),
             }
         }
-        match (good.is_empty(), bad.as_slice()) {
-            (true, [only]) => Err(Error::input(&only.reason)),
-            (true, [first, ..]) => Err(Error::input(format!(
-                "none of the {} recordings can be used; the first: {}",
-                bad.len(),
-                first.reason
-            ))),
-            _ => Ok((good, bad)),
+        if !good.is_empty() || bad.is_empty() {
+            return Ok((good, bad));
         }
+        let count = bad.len();
+        let first = bad.swap_remove(0).reason;
+        Err(match count {
+            1 => first,
+            _ => Error::NoRecording {
+                count,
+                first: Box::new(first),
+            },
+        })
     }
 
     /// What was said about the recordings, by name and value.
@@ -142,7 +146,7 @@ impl Recordings {
         &self,
         (path, text): (&Path, Option<&str>),
         said: &RecordingHeader,
-    ) -> Result<(CleanRecording, Option<Sideways>), String> {
+    ) -> Result<(CleanRecording, Option<Sideways>), Error> {
         let columns = self.columns();
         let recording = match (self.is_of_this_project(path, text), text) {
             (true, None) => Recording::read(path),
@@ -150,10 +154,10 @@ impl Recordings {
             (false, None) => Recording::read_foreign(path, &columns),
             (false, Some(text)) => Recording::parse_foreign(text, path, &columns),
         };
-        let mut recording = recording.map_err(|error| error.to_string())?;
+        let mut recording = recording?;
         recording.header = recording.header.completed_by(said);
         let mut clean = clean(&recording, &CleanSettings::default())
-            .map_err(|error| format!("{}: {error}", path.display()))?;
+            .map_err(|error| Error::from(error).about(path))?;
         let sideways = Sideways::of(&recording);
         clean
             .doubts
@@ -238,11 +242,9 @@ pub fn hexadecimal(bytes: &[u8]) -> String {
 
 /// The tables in a folder, in alphabetical order.
 fn tables(folder: &Path) -> Result<Vec<PathBuf>, Error> {
-    let unreadable = |error| {
-        Error::input(format!(
-            "{} cannot be read: {error}; check that you may read it",
-            folder.display()
-        ))
+    let unreadable = |source| palpate_files::Error::Read {
+        path: folder.to_owned(),
+        source,
     };
     let mut files = Vec::new();
     for entry in fs::read_dir(folder).map_err(unreadable)? {
@@ -267,10 +269,14 @@ fn tables(folder: &Path) -> Result<Vec<PathBuf>, Error> {
 impl Unusable {
     /// The reason, which names the file.
     pub fn sentence(&self) -> String {
-        let file = self.file.display().to_string();
-        match self.reason.contains(&file) {
-            true => self.reason.clone(),
-            false => format!("{file}: {}", self.reason),
+        let (file, reason) = (self.file.display().to_string(), self.reason.to_string());
+        match reason.contains(&file) {
+            true => reason,
+            false => format!("{file}: {reason}"),
         }
     }
+}
+
+fn in_words<S: serde::Serializer>(reason: &Error, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_str(reason)
 }

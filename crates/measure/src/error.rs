@@ -123,3 +123,27 @@ pub enum Error {
     #[error(transparent)]
     Mechanics(#[from] palpate_mechanics::Error),
 }
+
+impl Error {
+    /// Whether the input is invalid (exit status 2), rather than something else at fault (1).
+    pub fn is_input(&self) -> bool {
+        match self {
+            Self::Device(error) => error.is_input(),
+            Self::Sensor(error) => error.is_input(),
+            Self::Mechanics(error) => error.is_input(),
+            Self::BreathIsOver { .. }
+            | Self::NotApproached
+            | Self::InTissue { .. }
+            | Self::NoContact { .. }
+            | Self::TooMuchForce { .. } => false,
+            Self::Stimulus { .. }
+            | Self::TooDeep { .. }
+            | Self::TooFast { .. }
+            | Self::OutOfBreath { .. }
+            | Self::TooLong { .. }
+            | Self::OutOfReach { .. }
+            | Self::NotUpward
+            | Self::TooSteep { .. } => true,
+        }
+    }
+}

@@ -1,3 +1,5 @@
+mod is_input;
+
 /// What a model cannot be made of.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Error {

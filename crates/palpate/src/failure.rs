@@ -3,39 +3,46 @@
 use std::fmt;
 use std::io;
 
-use palpate_geometry::{MeshError, OrganError, ReadError, UnknownUnit};
+use palpate_geometry::{
+    IsosurfaceError, MeshError, OrganError, ReadError, SimplifyError, UnknownUnit,
+};
+use palpate_jobs::Error;
 
-/// Exit status when the input has to be mended.
-const BAD_INPUT: u8 = 2;
-
-/// Exit status when the input is not at fault.
-const FAILED: u8 = 1;
-
-/// Why a command ends early. The message is one sentence: cause, then mend.
-#[derive(Debug)]
+/// Why a command ends early. The message is one sentence: the cause, then how to fix it.
+#[derive(Debug, thiserror::Error)]
 pub(crate) enum Failure {
-    /// What was given has to be mended.
-    Input(String),
+    /// Of a job, or of what the command itself does with documents, meshes and devices.
+    #[error(transparent)]
+    Job(#[from] Error),
+    /// Of a table or figure that is computed anew.
+    #[error(transparent)]
+    Reproduce(Box<palpate_reproduce::Error>),
+    /// Of the training record.
+    #[error(transparent)]
+    Record(#[from] palpate_record::Error),
+    /// Of a window or picture.
+    #[error(transparent)]
+    Viewer(#[from] palpate_viewer::Error),
     /// The command line names no command; the help shows them.
+    #[error("{message}")]
     CommandLine {
         /// The message.
         message: &'static str,
         /// Several lines.
         help: String,
     },
-    /// Something else went wrong.
-    Failed(String),
     /// Whoever read standard output has gone (`palpate … | head`); nothing to complain about.
+    #[error("nobody reads the output")]
     NobodyReads,
 }
 
 impl Failure {
     pub(crate) fn input(message: impl fmt::Display) -> Self {
-        Self::Input(message.to_string())
+        Error::input(message).into()
     }
 
     pub(crate) fn failed(message: impl fmt::Display) -> Self {
-        Self::Failed(message.to_string())
+        Error::failed(message).into()
     }
 
     /// A command line that is not understood; the parser's paragraphs become one sentence.
@@ -59,110 +66,48 @@ impl Failure {
     }
 
     pub(crate) fn exit_status(&self) -> u8 {
-        match self {
-            Self::Input(_) | Self::CommandLine { .. } => BAD_INPUT,
-            Self::Failed(_) | Self::NobodyReads => FAILED,
-        }
+        let is_input = match self {
+            Self::Job(error) => return error.exit_status(),
+            Self::Reproduce(error) => error.is_input(),
+            Self::Record(error) => error.is_input(),
+            Self::Viewer(error) => error.is_input(),
+            Self::CommandLine { .. } => true,
+            Self::NobodyReads => false,
+        };
+        palpate_jobs::exit_status(is_input)
     }
 }
 
-impl fmt::Display for Failure {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Input(message) | Self::Failed(message) => f.write_str(message),
-            Self::CommandLine { message, .. } => f.write_str(message),
-            Self::NobodyReads => f.write_str("nobody reads the output"),
-        }
-    }
+/// Errors that a job ends with, too.
+macro_rules! of_job {
+    ($($error:ty),+) => {
+        $(impl From<$error> for Failure {
+            fn from(error: $error) -> Self {
+                Self::Job(error.into())
+            }
+        })+
+    };
 }
 
-impl From<palpate_files::Error> for Failure {
-    fn from(error: palpate_files::Error) -> Self {
-        match error.is_input() {
-            true => Self::input(error),
-            false => Self::failed(error),
-        }
-    }
-}
-
-impl From<palpate_jobs::Error> for Failure {
-    fn from(error: palpate_jobs::Error) -> Self {
-        match error {
-            palpate_jobs::Error::Input(message) => Self::Input(message),
-            palpate_jobs::Error::Failed(message) => Self::Failed(message),
-        }
-    }
-}
-
-impl From<ReadError> for Failure {
-    fn from(error: ReadError) -> Self {
-        Self::input(error)
-    }
-}
-
-impl From<MeshError> for Failure {
-    fn from(error: MeshError) -> Self {
-        Self::input(error)
-    }
-}
-
-impl From<OrganError> for Failure {
-    fn from(error: OrganError) -> Self {
-        Self::input(error)
-    }
-}
-
-impl From<UnknownUnit> for Failure {
-    fn from(error: UnknownUnit) -> Self {
-        Self::input(error)
-    }
-}
-
-impl From<palpate_mechanics::Error> for Failure {
-    fn from(error: palpate_mechanics::Error) -> Self {
-        Self::input(error)
-    }
-}
-
-impl From<palpate_characterize::Error> for Failure {
-    fn from(error: palpate_characterize::Error) -> Self {
-        Self::input(error)
-    }
-}
-
-impl From<palpate_record::Error> for Failure {
-    fn from(error: palpate_record::Error) -> Self {
-        match error.is_input() {
-            true => Self::input(error),
-            false => Self::failed(error),
-        }
-    }
-}
+of_job!(
+    palpate_files::Error,
+    palpate_files::card::NoCard,
+    ReadError,
+    MeshError,
+    OrganError,
+    UnknownUnit,
+    SimplifyError,
+    IsosurfaceError,
+    palpate_mechanics::Error,
+    palpate_characterize::Error,
+    palpate_simulate::Error,
+    palpate_devices::OpenError,
+    palpate_servo::Fault
+);
 
 impl From<palpate_reproduce::Error> for Failure {
     fn from(error: palpate_reproduce::Error) -> Self {
-        match error.is_input() {
-            true => Self::input(error),
-            false => Self::failed(error),
-        }
-    }
-}
-
-impl From<palpate_simulate::Error> for Failure {
-    fn from(error: palpate_simulate::Error) -> Self {
-        match error.is_input() {
-            true => Self::input(error),
-            false => Self::failed(error),
-        }
-    }
-}
-
-impl From<palpate_viewer::Error> for Failure {
-    fn from(error: palpate_viewer::Error) -> Self {
-        match error.is_input() {
-            true => Self::input(error),
-            false => Self::failed(error),
-        }
+        Self::Reproduce(Box::new(error))
     }
 }
 

@@ -18,7 +18,6 @@ use crate::output::VERSION;
 use crate::progress::{Progress, Reader};
 pub(crate) use beside::Beside;
 use beside::BesideAnswer;
-use cuts::CutsAnswer;
 use surfaces::Surfaces;
 use trace::Traces;
 
@@ -41,31 +40,15 @@ pub(crate) struct Recording<'a> {
 #[derive(Debug, Serialize)]
 pub(crate) struct Report {
     palpate: &'static str,
-    steps: u64,
-    step_times_s: Times,
-    contacts: u64,
-    peak_force_n: f64,
-    largest_depth_m: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    cuts: Option<CutsAnswer>,
+    #[serde(flatten)]
+    summary: Summary,
     #[serde(skip_serializing_if = "Option::is_none")]
     beside: Option<BesideAnswer>,
-    interrupted: bool,
     /// Why the motion may lack rows.
     #[serde(skip_serializing_if = "Option::is_none")]
     incomplete: Option<String>,
-    warnings: Vec<String>,
     #[serde(serialize_with = "palpate_jobs::lossy")]
     files: Vec<PathBuf>,
-}
-
-#[derive(Debug, Serialize)]
-struct Times {
-    p50: f64,
-    p99: f64,
-    #[serde(rename = "p99.9")]
-    p99_9: f64,
-    max: f64,
 }
 
 /// The file of a summary, beside that of a session.
@@ -158,7 +141,12 @@ pub(crate) fn record(
 }
 
 impl Report {
-    fn new(summary: Summary, motion: &Motion, files: Vec<PathBuf>, beside: Option<Beside>) -> Self {
+    fn new(
+        mut summary: Summary,
+        motion: &Motion,
+        files: Vec<PathBuf>,
+        beside: Option<Beside>,
+    ) -> Self {
         let (beside, doubts) = beside.map(Beside::finish).unzip();
         let incomplete = motion
             .incomplete()
@@ -168,49 +156,39 @@ impl Report {
             .iter()
             .filter(|(why, _)| **why != Incomplete::Unmarked);
         let doubted: Vec<String> = doubted.map(|(_, said)| said.clone()).collect();
-        let unusual = motion.warnings().iter().cloned();
-        let warnings = summary.warnings.into_iter().chain(unusual).chain(doubted);
+        let unusual = motion.warnings().iter().cloned().chain(doubted);
+        let doubts = doubts.into_iter().flatten();
+        summary.warnings.extend(unusual.chain(doubts));
         Self {
             palpate: VERSION,
-            steps: summary.steps,
-            step_times_s: Times {
-                p50: summary.step_times.p50,
-                p99: summary.step_times.p99,
-                p99_9: summary.step_times.p99_9,
-                max: summary.step_times.max,
-            },
-            contacts: summary.contacts,
-            peak_force_n: summary.peak_force,
-            largest_depth_m: summary.deepest,
-            cuts: summary.cuts.map(CutsAnswer::of),
-            interrupted: summary.interrupted,
+            summary,
             beside,
             incomplete: incomplete.map(|(_, said)| said),
-            warnings: warnings.chain(doubts.into_iter().flatten()).collect(),
             files,
         }
     }
 
     pub(crate) fn warnings(&self) -> &[String] {
-        &self.warnings
+        &self.summary.warnings
     }
 
     /// For a person.
     pub(crate) fn text(&self) -> String {
-        let times = &self.step_times_s;
+        let summary = &self.summary;
+        let times = &summary.step_times;
         format!(
             "{} steps, {} contact{}, peak force {:.4} N, largest depth {:.2} mm\n\
              a step took {:.0} µs (median), {:.0} µs (99 %), {:.0} µs (99.9 %), {:.0} µs at most{}{}{}",
-            self.steps,
-            self.contacts,
-            if self.contacts == 1 { "" } else { "s" },
-            self.peak_force_n,
-            1e3 * self.largest_depth_m,
+            summary.steps,
+            summary.contacts,
+            if summary.contacts == 1 { "" } else { "s" },
+            summary.peak_force,
+            1e3 * summary.deepest,
             1e6 * times.p50,
             1e6 * times.p99,
             1e6 * times.p99_9,
             1e6 * times.max,
-            self.cuts.as_ref().map_or(String::new(), CutsAnswer::line),
+            summary.cuts.as_ref().map_or(String::new(), cuts::line),
             self.beside
                 .as_ref()
                 .map_or(String::new(), BesideAnswer::line),
@@ -222,10 +200,10 @@ impl Report {
 
     /// An interrupted motion is no success.
     pub(crate) fn outcome(&self) -> Result<(), Failure> {
-        match self.interrupted {
+        match self.summary.interrupted {
             true => Err(Failure::failed(format!(
                 "interrupted after {} steps; what was played is recorded whole",
-                self.steps
+                self.summary.steps
             ))),
             false => Ok(()),
         }

@@ -17,7 +17,7 @@ pub(crate) fn table(given: &Bound<'_, PyDict>, name: &str) -> Result<Table, Fail
                 "" => String::new(),
                 _ => format!(" of `{name}`"),
             };
-            return Err(Failure::Input(format!(
+            return Err(Failure::input(format!(
                 "a key{place} is {found}; give the keys as texts"
             )));
         };
@@ -63,7 +63,7 @@ pub(crate) fn value(given: &Bound<'_, PyAny>, name: &str) -> Result<Value, Failu
         true => "None".to_owned(),
         false => format!("of the type {}", given.get_type().name()?),
     };
-    Err(Failure::Input(format!(
+    Err(Failure::input(format!(
         "`{name}` is {found}; give a number, a text, true or false, or a list or a dict of these, or leave it out"
     )))
 }
@@ -71,6 +71,11 @@ pub(crate) fn value(given: &Bound<'_, PyAny>, name: &str) -> Result<Value, Failu
 /// The text of a table.
 pub(crate) fn text(table: &Table) -> Result<String, Failure> {
     toml::to_string(table).map_err(Failure::input)
+}
+
+/// What a JSON text holds.
+pub(crate) fn json<'py>(py: Python<'py>, text: &str) -> PyResult<Bound<'py, PyAny>> {
+    py.import("json")?.call_method1("loads", (text,))
 }
 
 /// What a text holds, as a dict.

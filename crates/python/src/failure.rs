@@ -1,6 +1,6 @@
-//! What the libraries refuse, as Python's exceptions: the sentences of the command, which ends with status 2 where
-//! [`Failure::Input`] is raised and with 1 where [`Failure::Failed`] is. Python prints them to a terminal, so that
-//! characters which a terminal obeys are escapes in them.
+//! What the libraries refuse, as Python's exceptions: the sentences of the command, as `palpate.InputError` where the
+//! command ends with status 2 and as `palpate.PalpateError` where it ends with 1. Python prints them to a terminal, so
+//! that characters which a terminal obeys are escapes in them.
 
 use std::fmt;
 
@@ -8,72 +8,61 @@ use palpate_files::printable;
 use palpate_geometry::{
     IsosurfaceError, MeshError, OrganError, ReadError, SimplifyError, UnknownUnit,
 };
-use pyo3::exceptions::PyKeyboardInterrupt;
+use palpate_jobs::Error;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyType;
 
-/// Why something cannot be done. The message is one sentence: cause, then mend.
+/// Why something cannot be done. The message is one sentence: the cause, then how to fix it.
 #[derive(Debug)]
 pub(crate) enum Failure {
-    /// What was given has to be mended: `palpate.InputError`.
-    Input(String),
-    /// Something else went wrong: `palpate.PalpateError`.
-    Failed(String),
-    /// Somebody pressed Ctrl-C: `KeyboardInterrupt`.
-    BrokenOff,
+    /// `palpate.InputError` or `palpate.PalpateError`.
+    Job(Error),
     /// What Python itself refuses.
     Python(PyErr),
 }
 
 impl Failure {
     pub(crate) fn input(message: impl fmt::Display) -> Self {
-        Self::Input(message.to_string())
+        Self::Job(Error::input(message))
     }
 
     pub(crate) fn failed(message: impl fmt::Display) -> Self {
-        Self::Failed(message.to_string())
+        Self::Job(Error::failed(message))
     }
+}
 
-    fn by_fault(is_input: bool, message: impl fmt::Display) -> Self {
-        match is_input {
-            true => Self::input(message),
-            false => Self::failed(message),
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        use palpate_files::Error::BadContent;
+        use palpate_simulate::Error::File;
+        let is_content = match &error {
+            Error::File(error) => matches!(**error, BadContent { .. }),
+            Error::Simulate(error) => matches!(**error, File(BadContent { .. })),
+            _ => false,
+        };
+        match is_content {
+            // Values that no document can hold come from the caller here.
+            true => Self::input(error),
+            false => Self::Job(error),
         }
     }
 }
 
-impl From<palpate_files::Error> for Failure {
-    fn from(error: palpate_files::Error) -> Self {
-        // Values that no document can hold come from the caller here.
-        let is_content = matches!(error, palpate_files::Error::BadContent { .. });
-        Self::by_fault(is_content || error.is_input(), error)
-    }
-}
-
-impl From<palpate_simulate::Error> for Failure {
-    fn from(error: palpate_simulate::Error) -> Self {
-        use palpate_mechanics::Error::BrokenOff;
-        match error {
-            palpate_simulate::Error::File(error) => error.into(),
-            palpate_simulate::Error::Model(BrokenOff) => Self::BrokenOff,
-            error => Self::by_fault(error.is_input(), error),
-        }
-    }
-}
-
-/// Whatever these say is about what was given.
-macro_rules! of_input {
-    ($($error:ty),*) => {$(
-        impl From<$error> for Failure {
+/// Errors that a job ends with, too.
+macro_rules! of_job {
+    ($($error:ty),+) => {
+        $(impl From<$error> for Failure {
             fn from(error: $error) -> Self {
-                Self::input(error)
+                Error::from(error).into()
             }
-        }
-    )*};
+        })+
+    };
 }
 
-of_input!(
+of_job!(
+    palpate_files::Error,
+    palpate_files::card::NoCard,
     ReadError,
     MeshError,
     OrganError,
@@ -81,7 +70,7 @@ of_input!(
     SimplifyError,
     IsosurfaceError,
     palpate_mechanics::Error,
-    palpate_files::card::NoCard
+    palpate_simulate::Error
 );
 
 impl From<PyErr> for Failure {
@@ -94,16 +83,17 @@ impl From<Failure> for PyErr {
     fn from(failure: Failure) -> Self {
         static INPUT: PyOnceLock<Py<PyType>> = PyOnceLock::new();
         static FAILED: PyOnceLock<Py<PyType>> = PyOnceLock::new();
-        let raised = |class: &PyOnceLock<Py<PyType>>, name: &str, message: String| {
+        let raised = |class: &PyOnceLock<Py<PyType>>, name: &str, error: Error| {
             Python::attach(|py| match class.import(py, "palpate.errors", name) {
-                Ok(class) => Self::from_type(class.clone(), (printable(&message).into_owned(),)),
+                Ok(class) => {
+                    Self::from_type(class.clone(), (printable(&error.to_string()).into_owned(),))
+                }
                 Err(error) => error,
             })
         };
         match failure {
-            Failure::Input(message) => raised(&INPUT, "InputError", message),
-            Failure::Failed(message) => raised(&FAILED, "PalpateError", message),
-            Failure::BrokenOff => PyKeyboardInterrupt::new_err(()),
+            Failure::Job(error) if error.is_input() => raised(&INPUT, "InputError", error),
+            Failure::Job(error) => raised(&FAILED, "PalpateError", error),
             Failure::Python(error) => error,
         }
     }

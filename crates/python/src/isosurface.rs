@@ -95,9 +95,6 @@ fn surfaces(
 ) -> Result<Vec<(String, Mesh)>, Failure> {
     let mut made = Vec::new();
     for (number, label) in labels.iter().enumerate() {
-        if told.is_asked_to_stop() {
-            return Err(Failure::BrokenOff);
-        }
         told.say(format!("the surface of {}", label::in_words(label)));
         told.at(number as f64 / labels.len() as f64);
         let found = surface_of(map, label.number, settings, &mut |part| {
@@ -107,10 +104,7 @@ fn surfaces(
                 false => ControlFlow::Continue(()),
             }
         });
-        let found = match found {
-            Err(_) if told.is_asked_to_stop() => return Err(Failure::BrokenOff),
-            found => found?,
-        };
+        let found = found?;
         let mut warnings = map.warnings().to_vec();
         warnings.extend(label::doubts(label, &found));
         let is_alone = labels

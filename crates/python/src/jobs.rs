@@ -46,15 +46,6 @@ fn break_off_if_asked(told: &Told) {
     }
 }
 
-impl From<palpate_jobs::Error> for Failure {
-    fn from(error: palpate_jobs::Error) -> Self {
-        match error {
-            palpate_jobs::Error::Input(message) => Self::Input(message),
-            palpate_jobs::Error::Failed(message) => Self::Failed(message),
-        }
-    }
-}
-
 /// A document: a file, or a text whose files are looked for beside the path it is called by.
 type Given = (PathBuf, Option<String>);
 
@@ -86,17 +77,12 @@ pub(crate) fn _solve(
             (path, None) => Problem::read(&path)?,
             (path, Some(text)) => Problem::parse(&text, &path)?,
         };
-        let begin = std::time::Instant::now();
-        let solution = palpate_jobs::solve::solve(&problem, Wanted { plot, vtu }, told)?;
-        let answer = palpate_jobs::solve::Answer::new(&problem, &solution, begin.elapsed());
+        let answer = palpate_jobs::solve::solve(&problem, Wanted { plot, vtu }, told)?;
+        let (json, words) = (json_text(&answer)?, in_words(&problem, &answer));
+        let solution = answer.solution;
         let recording = solution.recording.as_ref().map(|own| own.to_csv());
-        Ok((
-            json_text(&answer)?,
-            in_words(&problem, &solution, &answer),
-            json_text(&solution.plot)?,
-            solution.vtu,
-            recording,
-        ))
+        let plot = json_text(&solution.plot)?;
+        Ok((json, words, plot, solution.vtu, recording))
     })?;
     let vtu = vtu.map(|bytes| PyBytes::new(py, &bytes));
     Ok((answer, words, plot, vtu, recording))
@@ -113,7 +99,7 @@ pub(crate) fn _analyze(
     let recordings = asked(recordings)?;
     waiting(py, progress, move |told| {
         let analyzed = palpate_jobs::analyze::analyze(&recordings, told)?;
-        Ok(json_text(&palpate_jobs::analyze::Answer::new(&analyzed))?)
+        Ok(json_text(&analyzed)?)
     })
 }
 
@@ -148,7 +134,7 @@ pub(crate) fn _characterize<'py>(
             palpate_jobs::characterize::characterize(&recordings, choice, folder.as_ref(), told)?;
         let tissues = found.tissues.into_iter().map(|tissue| match tissue {
             Ok(text) => (Some(text), None),
-            Err(why) => (None, Some(why)),
+            Err(why) => (None, Some(why.to_string())),
         });
         let tissues: Vec<FoundTissue> = tissues.collect();
         Ok((json_text(&found.answer)?, tissues, found.samples))

@@ -5,15 +5,15 @@ use std::path::PathBuf;
 use numpy::{PyArray1, PyArray2};
 use palpate_files::write_whole;
 use palpate_geometry::{
-    AabbTree, LengthUnit, MeshReport, NodeId, Organ, ProblemKind, ReadError, ReadFault,
-    SimplifySettings, Surface, TriangleMesh, WriteFormat, inspect, read_mesh, repair, simplify,
+    AabbTree, LengthUnit, MeshReport, NodeId, ReadError, ReadFault, SimplifySettings, Surface,
+    TriangleMesh, WriteFormat, inspect, read_mesh, repair, simplify,
 };
-use palpate_jobs::nearest;
+use palpate_jobs::{builtin_organ, json_text};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList, PyTuple, PyType};
+use pyo3::types::{PyTuple, PyType};
 
 use crate::failure::Failure;
-use crate::{numbers, written};
+use crate::{documents, numbers, written};
 
 /// Triangles over shared vertices.
 ///
@@ -97,7 +97,7 @@ impl Mesh {
         name: &str,
         triangles: Option<usize>,
     ) -> Result<Self, Failure> {
-        let organ: Organ = name.parse().map_err(|_| unknown_builtin(name))?;
+        let organ = builtin_organ(name)?;
         let triangles = triangles.unwrap_or(organ.default_triangles());
         let mesh = py.detach(|| organ.surface_mesh(triangles))?;
         Ok(Self::with_warnings(mesh, Vec::new()))
@@ -149,16 +149,9 @@ impl Mesh {
     /// What is wrong, as `palpate mesh info` tells it: dicts with `kind`, `count` and `mend`; empty when the mesh
     /// bounds a solid of even triangles. It is searched for each time: a second for 100,000 triangles.
     #[getter]
-    fn problems<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
-        let problems = PyList::empty(py);
-        for problem in self.report(py).problems {
-            let told = PyDict::new(py);
-            told.set_item("kind", kind_word(problem.kind))?;
-            told.set_item("count", problem.count)?;
-            told.set_item("mend", in_words_of_python(problem.mend))?;
-            problems.append(told)?;
-        }
-        Ok(problems)
+    fn problems<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let text = json_text(&self.report(py).problems).map_err(Failure::from)?;
+        documents::json(py, &in_words_of_python(&text))
     }
 
     /// Whether no edge has one triangle only.
@@ -211,10 +204,7 @@ impl Mesh {
             let (mesh, _) = repair(&self.mesh)?;
             Ok::<_, Failure>(simplify(&mesh, &SimplifySettings::to(triangles))?)
         })?;
-        let meet = simplified.self_intersections;
-        let doubt =
-            || format!("{meet} triangles of the result meet others; ask for more triangles");
-        let warnings = (meet > 0).then(doubt).into_iter().collect();
+        let warnings = simplified.warning().into_iter().collect();
         Ok(Self::with_warnings(simplified.mesh, warnings))
     }
 
@@ -267,15 +257,6 @@ pub(crate) fn corners<'py>(py: Python<'py>, mesh: &TriangleMesh) -> Bound<'py, P
     numbers::array(py, [triangles.len(), 3], flat)
 }
 
-fn unknown_builtin(name: &str) -> Failure {
-    let names = Organ::ALL.map(Organ::name);
-    Failure::input(format!(
-        "there is no built-in organ `{name}`; the nearest is `{}`, and there are {}",
-        nearest(name, &names),
-        names.join(", ")
-    ))
-}
-
 /// The reader speaks of the scene's key, here it is an argument.
 fn about_unit(error: ReadError) -> Failure {
     match error.fault {
@@ -286,20 +267,4 @@ fn about_unit(error: ReadError) -> Failure {
 
 fn in_words_of_python(message: &str) -> String {
     message.replace("mesh_unit", "unit")
-}
-
-fn kind_word(kind: ProblemKind) -> &'static str {
-    use ProblemKind as Kind;
-    match kind {
-        Kind::NotClosed => "not_closed",
-        Kind::NotManifold => "not_manifold",
-        Kind::NotOriented => "not_oriented",
-        Kind::SeveralPieces => "several_pieces",
-        Kind::SelfIntersecting => "self_intersecting",
-        Kind::DoubleWall => "double_wall",
-        Kind::DegenerateTriangles => "degenerate_triangles",
-        Kind::SliverTriangles => "sliver_triangles",
-        Kind::UnusedVertices => "unused_vertices",
-        Kind::ImplausibleSize => "implausible_size",
-    }
 }

@@ -186,7 +186,7 @@ fn rows(time: &Bound<'_, PyAny>, given: &Bound<'_, PyAny>) -> Result<Vec<MotionR
     let rows = times.iter().zip(there).enumerate();
     rows.map(|(row, (&time_s, pose))| match pose {
         Some(pose) => Ok(MotionRow { time_s, pose }),
-        None => Err(Failure::Input(format!(
+        None => Err(Failure::input(format!(
             "row {row} of `poses` is no place; give numbers, or leave the row out"
         ))),
     })

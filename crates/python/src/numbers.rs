@@ -28,7 +28,7 @@ pub(crate) fn floats<'py>(
 
 fn no_numbers(given: &Bound<'_, PyAny>, name: &str, error: &PyErr) -> Failure {
     let said = error.value(given.py()).to_string();
-    Failure::Input(format!(
+    Failure::input(format!(
         "`{name}` is no array of numbers ({said}); give numbers in rows of one length"
     ))
 }
@@ -46,7 +46,7 @@ pub(crate) fn shape_words(shape: &[usize]) -> String {
 
 fn misshapen(name: &str, shape: &[usize], expected: &str) -> Failure {
     let found = shape_words(shape);
-    Failure::Input(format!("`{name}` has the shape {found}; give {expected}"))
+    Failure::input(format!("`{name}` has the shape {found}; give {expected}"))
 }
 
 /// A list of numbers.
@@ -92,7 +92,7 @@ pub(crate) fn triples(given: &Bound<'_, PyAny>, name: &str) -> Result<Vec<[u32; 
     let (&[_, 3], "i" | "u") = (shape.as_slice(), kind.as_str()) else {
         let expected = "rows of three whole numbers, with the shape (n, 3)";
         return Err(match shape.as_slice() {
-            [_, 3] => Failure::Input(format!(
+            [_, 3] => Failure::input(format!(
                 "`{name}` holds numbers of the type {}; give {expected}",
                 array.getattr("dtype")?
             )),
@@ -111,7 +111,7 @@ pub(crate) fn triples(given: &Bound<'_, PyAny>, name: &str) -> Result<Vec<[u32; 
         .map(|&number| u32::try_from(number))
         .collect();
     let small = small.map_err(|_| {
-        Failure::Input(format!(
+        Failure::input(format!(
             "`{name}` holds a number that numbers nothing; give numbers from 0 to 4294967295"
         ))
     })?;

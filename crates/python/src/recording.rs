@@ -221,7 +221,7 @@ fn in_words_of_python(error: palpate_files::Error) -> Failure {
                 said = said.replace(&format!("--{name}-unit "), &format!("{name}_unit="));
                 said = said.replace(&format!("--{name} "), &format!("{name}="));
             }
-            Failure::Input(said)
+            Failure::input(said)
         }
         error => error.into(),
     }

@@ -73,7 +73,7 @@ impl Scene {
     fn builtin(_class: &Bound<'_, PyType>, name: &str, seed: u64) -> Result<Self, Failure> {
         let Some((name, text)) = BUILT_IN.iter().find(|(known, _)| *known == name) else {
             let names = BUILT_IN.map(|(name, _)| name);
-            return Err(Failure::Input(format!(
+            return Err(Failure::input(format!(
                 "there is no built-in scene `{name}`; the nearest is `{}`, and there are {}",
                 nearest(name, &names),
                 names.join(", ")

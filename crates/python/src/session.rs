@@ -6,6 +6,7 @@ use numpy::PyArray1;
 use palpate_files::{
     Claim, MOST_OF_DOCUMENT, Overwrite, Session as Document, SessionRow, read_text,
 };
+use palpate_jobs::json_text;
 use palpate_simulate::performance;
 use palpate_simulate::{SessionFolder, SessionFolderWriter, Summary};
 use pyo3::prelude::*;
@@ -15,7 +16,7 @@ use crate::failure::Failure;
 use crate::motion::Motion;
 use crate::scene::Scene;
 use crate::simulator::Model;
-use crate::{frames, numbers};
+use crate::{documents, frames, numbers};
 
 /// The file of a summary, beside that of a session.
 const SUMMARY: &str = "summary.json";
@@ -25,14 +26,8 @@ const SUMMARY: &str = "summary.json";
 pub(crate) struct Session {
     session: Document,
     scene: Option<palpate_files::Scene>,
-    summary: Told,
-}
-
-/// A summary: as a file has it, or as it was played.
-enum Told {
-    Nothing,
-    Json(String),
-    Played(Summary),
+    /// JSON, as `palpate simulate` writes it.
+    summary: Option<String>,
 }
 
 impl Session {
@@ -47,7 +42,7 @@ impl Session {
                 incomplete: None,
             },
             scene: Some(model.scene.clone()),
-            summary: Told::Played(summary.clone()),
+            summary: json_text(summary).ok(),
         }
     }
 
@@ -69,7 +64,7 @@ impl Session {
         Ok(Self {
             session: folder.session,
             scene: folder.scene,
-            summary: read_text(beside, MOST_OF_DOCUMENT).map_or(Told::Nothing, Told::Json),
+            summary: read_text(beside, MOST_OF_DOCUMENT).ok(),
         })
     }
 
@@ -111,17 +106,8 @@ impl Session {
     #[getter]
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         match &self.summary {
-            Told::Json(text) => py.import("json")?.call_method1("loads", (text,)),
-            Told::Nothing => Ok(PyDict::new(py).into_any()),
-            Told::Played(summary) => {
-                let dict = PyDict::new(py);
-                dict.set_item("steps", summary.steps)?;
-                dict.set_item("contacts", summary.contacts)?;
-                dict.set_item("peak_force_n", summary.peak_force)?;
-                dict.set_item("deepest_m", summary.deepest)?;
-                dict.set_item("warnings", &summary.warnings)?;
-                Ok(dict.into_any())
-            }
+            Some(text) => documents::json(py, text),
+            None => Ok(PyDict::new(py).into_any()),
         }
     }
 

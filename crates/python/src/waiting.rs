@@ -215,7 +215,8 @@ pub(crate) fn _wait(py: Python<'_>, seconds: f64, progress: Option<Py<PyAny>>) -
         told.say("waiting");
         while begin.elapsed() < seconds {
             if told.is_asked_to_stop() {
-                return Err(Failure::BrokenOff);
+                // Whatever is returned is dropped.
+                break;
             }
             told.at(begin.elapsed().as_secs_f64() / seconds.as_secs_f64());
             thread::sleep(Duration::from_millis(5));

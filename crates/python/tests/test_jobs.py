@@ -198,3 +198,30 @@ def test_a_design_is_the_commands(tmp_path: Path) -> None:
     assert found.protocol == (tmp_path / "protocol.toml").read_text()
     with pytest.raises(palpate.InputError, match="no criterion"):
         palpate.design(tissue, criterion="best", progress=False)  # type: ignore[arg-type]
+
+
+#: A law that softens so soon that Newton's method finds no equilibrium under the punch.
+WITHOUT_EQUILIBRIUM: dict[str, Any] = {
+    "kind": "indentation",
+    "block": {"radius_m": 0.01, "height_m": 0.01},
+    "tissue": {"law": "mooney_rivlin", "c10_pa": 1000.0, "c01_pa": -950.0},
+    "indenter": {"radius_m": 0.001},
+    "depths_m": [0.004],
+    "accuracy": 0.2,
+}
+
+
+def test_a_failure_is_no_input_error(tmp_path: Path) -> None:
+    """What ends the command with status 1 is a PalpateError, and an InputError what ends it with 2."""
+    with pytest.raises(palpate.PalpateError, match="no equilibrium") as raised:
+        palpate.solve(WITHOUT_EQUILIBRIUM, progress=False)
+    assert not isinstance(raised.value, palpate.InputError)
+    scene = Path(__file__).parents[3] / "assets" / "esophagus" / "scene.toml"
+    with pytest.raises(palpate.PalpateError, match="of memory") as raised:
+        palpate.precompute(scene, memory=1000, progress=False)
+    assert not isinstance(raised.value, palpate.InputError)
+    wrong = {**WITHOUT_EQUILIBRIUM, "tissue": {"law": "mooney_rivlin", "c10_pa": 1000.0, "c01_pa": -1050.0}}
+    with pytest.raises(palpate.InputError, match="c01"):
+        palpate.solve(wrong, progress=False)
+    with pytest.raises(palpate.InputError, match="none.toml"):
+        palpate.solve(tmp_path / "none.toml", progress=False)

@@ -267,5 +267,6 @@ def test_a_preparation_is_told_and_kept(tmp_path: Path) -> None:
 
 
 def test_memory_that_is_not_there_is_told() -> None:
-    with pytest.raises(palpate.InputError, match="memory|GiB|GB|MB"):
+    with pytest.raises(palpate.PalpateError, match="memory|GiB|GB|MB") as raised:
         palpate.Simulation(hybrid(600), memory=1000, cache=False)
+    assert not isinstance(raised.value, palpate.InputError)

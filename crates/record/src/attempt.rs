@@ -43,9 +43,10 @@ pub enum Added {
 }
 
 /// A number of an attempt.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Measure {
     /// Its key, with its unit at the end where it has one: `left.path_m`.
+    #[serde(rename = "measure")]
     pub key: String,
     /// In SI.
     pub value: f64,
@@ -54,7 +55,8 @@ pub struct Measure {
 }
 
 /// Which of two values is better.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Better {
     /// The smaller one.
     Less,

@@ -8,9 +8,10 @@ use rusqlite::{Connection, OptionalExtension, params};
 use crate::{Error, Record, schema};
 
 /// Trainees that belong together.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, serde::Serialize)]
 pub struct Cohort {
     /// What they are called together.
+    #[serde(rename = "cohort")]
     pub name: String,
     /// Their names, in alphabetical order.
     pub trainees: Vec<String>,

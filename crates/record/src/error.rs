@@ -117,10 +117,20 @@ pub enum Error {
 impl Error {
     /// Whether the input is invalid (exit status 2), and not the disk or another program at fault (1).
     pub fn is_input(&self) -> bool {
-        !matches!(
-            self,
-            Self::Locked { .. } | Self::Disk { .. } | Self::Failed { .. }
-        )
+        match self {
+            Self::Locked { .. } | Self::Disk { .. } | Self::Failed { .. } => false,
+            Self::Missing { .. }
+            | Self::Damaged { .. }
+            | Self::Foreign { .. }
+            | Self::Newer { .. }
+            | Self::Unusable { .. }
+            | Self::Unnamed { .. }
+            | Self::NoNumber { .. }
+            | Self::Twice { .. }
+            | Self::WrongPin { .. }
+            | Self::NoExpert { .. }
+            | Self::FolderName { .. } => true,
+        }
     }
 
     /// What the operating system says of a file.

@@ -1,11 +1,12 @@
 use crate::Spread;
 
 /// What trainees reach in their attempt of one number.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct CurvePoint {
     /// Which attempt, counted from one.
     pub attempt: usize,
     /// Over the trainees who made that many.
+    #[serde(flatten)]
     pub spread: Spread,
 }
 

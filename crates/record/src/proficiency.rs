@@ -9,13 +9,15 @@ use crate::{Attempt, Better, Spread};
 pub const IN_A_ROW: usize = 2;
 
 /// What experts reach in one measure.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Standard {
     /// The measure.
+    #[serde(rename = "measure")]
     pub key: String,
     /// Which is better.
     pub better: Better,
     /// Over the experts' attempts.
+    #[serde(flatten)]
     pub spread: Spread,
 }
 

@@ -1,11 +1,12 @@
 /// A number over several attempts.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Spread {
     /// In the number's unit.
     pub mean: f64,
     /// Of one attempt, in the number's unit; none for a single one.
     pub standard_deviation: Option<f64>,
     /// How many.
+    #[serde(rename = "n")]
     pub count: usize,
 }
 

@@ -65,13 +65,13 @@ impl Error {
     /// Whether what was given has to be mended.
     pub fn is_input(&self) -> bool {
         match self {
-            Self::UnknownRow { .. }
-            | Self::Folder { .. }
-            | Self::Mesh(_)
-            | Self::Organ(_)
-            | Self::MeshFile(_)
-            | Self::Mechanics(_)
-            | Self::Characterize(_) => true,
+            Self::UnknownRow { .. } => true,
+            Self::Folder { source, .. } => palpate_files::names_wrong_path(source),
+            Self::Mesh(error) => error.is_input(),
+            Self::Organ(error) => error.is_input(),
+            Self::MeshFile(error) => error.is_input(),
+            Self::Mechanics(error) => error.is_input(),
+            Self::Characterize(error) => error.is_input(),
             Self::File(error) => error.is_input(),
             Self::Simulate(error) => error.is_input(),
             Self::Viewer(error) => error.is_input(),

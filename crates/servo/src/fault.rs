@@ -145,6 +145,39 @@ pub enum Fault {
 }
 
 impl Fault {
+    /// Whether the input is invalid (exit status 2), rather than something else at fault (1).
+    pub fn is_input(&self) -> bool {
+        match self {
+            Self::NonFiniteForce
+            | Self::NonFiniteState
+            | Self::TooFast { .. }
+            | Self::StaleModel { .. }
+            | Self::Late { .. }
+            | Self::Silent
+            | Self::Device { .. }
+            | Self::Disconnected
+            | Self::BadMessage { .. }
+            | Self::Vanished
+            | Self::Unpowered
+            | Self::Uncalibrated
+            | Self::Safety { .. }
+            | Self::Ignored
+            | Self::Library { .. }
+            | Self::EmergencyStop
+            | Self::OtherDevice
+            | Self::ProgramSilent { .. }
+            | Self::DeviceButton
+            | Self::Interrupted
+            | Self::Unrecorded
+            | Self::Unwatched { .. }
+            | Self::Panicked
+            | Self::Hung { .. }
+            | Self::OutsideScheduler
+            | Self::NoThread => false,
+            Self::Setting { .. } => true,
+        }
+    }
+
     /// An error unless `found` is a number above zero; it may be infinite where a limit can be none.
     pub(crate) fn unless_positive(what: &'static str, found: f64) -> Result<(), Self> {
         if found > 0.0 {
@@ -167,5 +200,12 @@ impl Fault {
             found,
             expected: "a finite number above zero",
         })
+    }
+}
+
+/// As its message.
+impl serde::Serialize for Fault {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
     }
 }

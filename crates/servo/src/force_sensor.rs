@@ -176,3 +176,18 @@ pub enum SensorFault {
     #[error("the connection to the force sensor is gone; plug it in and start again")]
     Disconnected,
 }
+
+impl SensorFault {
+    /// Whether the input is invalid (exit status 2), rather than something else at fault (1).
+    pub fn is_input(&self) -> bool {
+        match self {
+            Self::Silent { .. }
+            | Self::BadReading { .. }
+            | Self::Saturated { .. }
+            | Self::Lost { .. }
+            | Self::Status { .. }
+            | Self::Library { .. }
+            | Self::Disconnected => false,
+        }
+    }
+}

@@ -13,7 +13,7 @@ pub struct Histogram {
 }
 
 /// Times of which so many percent were at most as long [s].
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
 pub struct Percentiles {
     /// Half of them [s].
     pub p50: f64,

@@ -13,9 +13,11 @@
 use thread_priority::{ThreadPriority, ThreadPriorityValue};
 
 /// What the operating system gave a thread.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Priority {
     /// Real time: it runs before every ordinary thread.
+    #[serde(rename = "real time")]
     RealTime,
     /// That of every thread; lateness is then up to the others.
     #[default]

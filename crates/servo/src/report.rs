@@ -7,36 +7,46 @@ use crate::{
 };
 
 /// What a servo loop measured of itself. Lateness and work say nothing on a virtual clock.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
 pub struct LoopReport {
     /// What the operating system gave its thread.
     pub priority: Priority,
+    /// Ticks per second [Hz].
+    #[serde(rename = "rate_hz")]
+    pub rate: f64,
     /// Ticks that were done.
     pub ticks: u64,
     /// Ticks that were left out, because the one before took longer than its period.
     pub missed: u64,
-    /// How long the loop has run [s].
-    pub elapsed: f64,
-    /// Ticks per second [Hz].
-    pub rate: f64,
     /// How late ticks began [s].
+    #[serde(rename = "lateness_s")]
     pub lateness: Percentiles,
     /// How long ticks took [s].
+    #[serde(rename = "work_s")]
     pub work: Percentiles,
     /// How old the model's answers were when they were used [s]; zeros without a model.
+    #[serde(rename = "age_s")]
     pub age: Percentiles,
     /// Work that the device did on the hand [J]; positive over a whole contact means that the loop
     /// generated energy, which no tissue does.
+    #[serde(rename = "energy_j")]
     pub energy: f64,
     /// Largest force sent [N].
+    #[serde(rename = "peak_force_n")]
     pub peak_force: f64,
-    /// How often the stages changed a force.
-    pub interventions: Interventions,
     /// Faults.
     pub faults: u64,
     /// Why forces are off, if they are.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub fault: Option<Fault>,
+    /// How often the stages changed a force.
+    #[serde(rename = "limited_ticks")]
+    pub interventions: Interventions,
+    /// How long the loop has run [s].
+    #[serde(skip)]
+    pub elapsed: f64,
     /// What the device said when its forces were last disabled; none before.
+    #[serde(skip)]
     pub disabled: Option<Disabled>,
 }
 

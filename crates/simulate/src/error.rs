@@ -216,14 +216,32 @@ impl Error {
     /// Whether the user's input is wrong, rather than the machine's disk.
     pub fn is_input(&self) -> bool {
         match self {
+            Self::NoSolid { fault, .. }
+            | Self::Misplaced { fault }
+            | Self::MechanicalMesh(fault) => fault.is_input(),
+            Self::NoDevice { why, .. } => why.is_input(),
             Self::File(error) => error.is_input(),
-            Self::Servo(_)
-            | Self::NoDevice { .. }
-            | Self::ModelPanicked
-            | Self::NoTakeOver { .. }
-            | Self::Unrecorded { .. }
-            | Self::Model(palpate_mechanics::Error::BrokenOff) => false,
-            _ => true,
+            Self::Mesh(error) => error.is_input(),
+            Self::Organ(error) => error.is_input(),
+            Self::Model(error) => error.is_input(),
+            Self::Simplify(error) => error.is_input(),
+            Self::Servo(error) => error.is_input(),
+            Self::Unrecorded { .. } | Self::ModelPanicked | Self::NoTakeOver { .. } => false,
+            Self::NotDrawn
+            | Self::NothingTouchable
+            | Self::LayersTooThick { .. }
+            | Self::CutTooDeep { .. }
+            | Self::OtherResponse { .. }
+            | Self::OtherDevices { .. }
+            | Self::NoduleOutside { .. }
+            | Self::InclusionOutside { .. }
+            | Self::InclusionsOverlap { .. }
+            | Self::OtherSession { .. }
+            | Self::NoExpert { .. }
+            | Self::EmptySession
+            | Self::TrocarInOrgan { .. }
+            | Self::UnknownTool { .. }
+            | Self::TooLong { .. } => true,
         }
     }
 }

@@ -1,23 +1,28 @@
 use std::time::Duration;
 
 use palpate_files::session::Event;
+use serde::Serialize;
 
 use crate::{Simulation, SimulationState, SimulationWorkspace, TRUSTED_DEPTH};
 
 /// What a played motion came to.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Summary {
     /// Steps played.
     pub steps: u64,
     /// How long they took.
+    #[serde(rename = "step_times_s")]
     pub step_times: StepTimes,
     /// Contacts begun, over all tools.
     pub contacts: u64,
     /// Largest magnitude of force on a tool [N].
+    #[serde(rename = "peak_force_n")]
     pub peak_force: f64,
     /// Largest depth [m].
+    #[serde(rename = "largest_depth_m")]
     pub deepest: f64,
     /// What was cut, if anything could be.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub cuts: Option<CutSummary>,
     /// Whether it was stopped before its end.
     pub interrupted: bool,
@@ -26,16 +31,20 @@ pub struct Summary {
 }
 
 /// What became of the surface.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct CutSummary {
     /// Cuts that opened something.
     pub count: usize,
     /// Length over the resting surface [m].
+    #[serde(rename = "length_m")]
     pub length: f64,
     /// Triangles from the end of an opening to the blade, at most.
+    #[serde(rename = "largest_lag_triangles")]
     pub largest_lag: usize,
-    /// Triangles before the first cut, and after the last.
-    pub triangles: [usize; 2],
+    /// Triangles before the first cut.
+    pub triangles_before: usize,
+    /// Triangles after the last.
+    pub triangles_after: usize,
     /// Times that the innermost layer was opened.
     pub perforations: u64,
     /// The cuts through each layer, from outside; empty for an organ without layers.
@@ -43,22 +52,24 @@ pub struct CutSummary {
 }
 
 /// The cuts through a layer.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LayerCut {
     /// Its name in the scene.
     pub name: String,
     /// Their length over the resting surface [m].
+    #[serde(rename = "length_m")]
     pub length: f64,
 }
 
 /// Times that steps took [s].
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct StepTimes {
     /// Half of the steps took at most this [s].
     pub p50: f64,
     /// 99 of 100 took at most this [s].
     pub p99: f64,
     /// 999 of 1000 took at most this [s].
+    #[serde(rename = "p99.9")]
     pub p99_9: f64,
     /// The longest [s].
     pub max: f64,
@@ -179,8 +190,8 @@ impl Tally {
                 count: cuts.count(),
                 length: cuts.length(),
                 largest_lag: cuts.largest_lag(),
-                triangles: [simulation.surface().mesh(), cuts.mesh()]
-                    .map(|mesh| mesh.triangles().len()),
+                triangles_before: simulation.surface().mesh().triangles().len(),
+                triangles_after: cuts.mesh().triangles().len(),
                 perforations: self.perforations,
                 layers: (1..)
                     .zip(simulation.layer_names())

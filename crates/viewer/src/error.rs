@@ -75,10 +75,15 @@ impl Error {
     /// Whether the user's input is wrong, rather than the machine.
     pub fn is_input(&self) -> bool {
         match self {
-            Self::Picture { .. } | Self::TooSmall { .. } => true,
             Self::File(error) => error.is_input(),
             Self::Scene(error) => error.is_input(),
-            _ => false,
+            Self::NoAdapter { .. }
+            | Self::NoDevice { .. }
+            | Self::NoDisplay
+            | Self::NoWindowLibrary { .. }
+            | Self::Window { .. }
+            | Self::Lost { .. } => false,
+            Self::Picture { .. } | Self::TooSmall { .. } => true,
         }
     }
 }

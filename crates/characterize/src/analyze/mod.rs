@@ -37,6 +37,14 @@ pub struct Analysis {
     pub doubts: Vec<String>,
 }
 
+impl Analysis {
+    /// The answer to the longest sine.
+    pub fn longest_sine(&self) -> Option<&Sinusoid> {
+        let sines = self.sinusoids.iter();
+        sines.max_by_key(|sine| sine.end - sine.first)
+    }
+}
+
 /// Analyzes a recording.
 pub fn analyze(recording: &CleanRecording) -> Analysis {
     let mut doubts = Vec::new();

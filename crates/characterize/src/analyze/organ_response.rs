@@ -8,7 +8,7 @@ use super::{Analysis, Sinusoid};
 const ALIKE: f64 = 0.05;
 
 /// Mean and range of a number over recordings, in the number's unit.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Spread {
     /// The mean.
     pub mean: f64,
@@ -34,7 +34,7 @@ pub struct OrganResponse {
 }
 
 /// The answers to sines of one frequency.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct FrequencyRow {
     /// Mean frequency [Hz].
     pub frequency_hz: f64,

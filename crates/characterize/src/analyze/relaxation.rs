@@ -37,7 +37,7 @@ pub struct Hold {
 }
 
 /// Relaxation in a hold.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Relaxation {
     /// The largest force of the hold and the ramp before it [N].
     pub peak_n: f64,
@@ -48,6 +48,7 @@ pub struct Relaxation {
     /// The first time after which force stays within 10 % of steady [s], from first contact.
     pub settle_s: f64,
     /// When the hold began [s], from first contact.
+    #[serde(skip)]
     pub hold_start_s: f64,
     /// How long it lasted [s].
     pub hold_s: f64,

@@ -38,33 +38,39 @@ const FEWEST_SAMPLES: f64 = 8.0;
 const DISTORTED: f64 = 0.1;
 
 /// The answer to a sine.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Sinusoid {
     /// Frequency [Hz].
     pub frequency_hz: f64,
-    /// Depth around which the indenter swung [m].
-    pub depth_m: f64,
-    /// Amplitude of the depth [m], half from peak to peak.
-    pub amplitude_m: f64,
     /// Amplitude of the force over that of the depth [N/m].
     pub stiffness_n_per_m: f64,
     /// Its standard error [N/m].
+    #[serde(rename = "stiffness_standard_error")]
     pub stiffness_error_n_per_m: f64,
     /// Phase of the force before that of the depth [rad], positive when the force leads.
     pub phase_rad: f64,
     /// Its standard error [rad].
+    #[serde(rename = "phase_standard_error")]
     pub phase_error_rad: f64,
     /// Energy lost in a period [J], the area of the loop; positive when lost.
     pub hysteresis_j: f64,
+    /// Amplitude of the depth [m], half from peak to peak.
+    pub amplitude_m: f64,
+    /// Depth around which the indenter swung [m].
+    #[serde(rename = "pre_indentation_m")]
+    pub depth_m: f64,
     /// Second and third harmonic of the force over the first [-]: zero for a linear answer.
     pub distortion: f64,
     /// The same of the depth [-]: what the device adds.
+    #[serde(skip)]
     pub depth_distortion: f64,
     /// Periods that were fitted.
     pub periods: usize,
     /// First sample fitted.
+    #[serde(skip)]
     pub first: usize,
     /// One past the last sample fitted.
+    #[serde(skip)]
     pub end: usize,
 }
 

@@ -68,7 +68,7 @@ pub struct StaticGroup {
 }
 
 /// The forces at one depth.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct StaticRow {
     /// Mean depth [m].
     pub depth_m: f64,
@@ -83,8 +83,10 @@ pub struct StaticRow {
     /// How many subjects they are from; a recording without a subject counts as one of its own.
     pub subjects: usize,
     /// Standard deviation within one subject [N]; none when no subject was touched twice.
+    #[serde(rename = "within_subject_n", skip_serializing_if = "Option::is_none")]
     pub within_n: Option<f64>,
     /// Standard deviation of the subjects' means [N]; none with one subject.
+    #[serde(rename = "between_subjects_n", skip_serializing_if = "Option::is_none")]
     pub between_n: Option<f64>,
 }
 

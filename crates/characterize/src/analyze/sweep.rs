@@ -26,14 +26,15 @@ const TOGETHER: usize = 9;
 pub const COHERENT: f64 = 0.9;
 
 /// The answer to a chirp.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+#[serde(transparent)]
 pub struct Sweep {
     /// By ascending frequency.
     pub points: Vec<SweepPoint>,
 }
 
 /// The answer at one frequency.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct SweepPoint {
     /// Frequency [Hz].
     pub frequency_hz: f64,

@@ -6,6 +6,7 @@
 //! known is named with its value. What counts as hardly known is decided in `verdict.rs`.
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use palpate_files::quantity::{plain_quantity, without_unit};
 
 use super::{Fit, HARDLY_KNOWN, Stop, Uncertainty, Verdict, verdicts};
 
@@ -33,12 +34,9 @@ pub fn doubts(fit: &Fit, uncertainty: &Uncertainty, duration: Option<f64>) -> Ve
             sentences.push(format!(
                 "{name} ended on its bound {value}, which is no estimate"
             ));
-        } else if let Some(duration) = duration.filter(|d| unit(name) == "s" && value > *d) {
-            let shown = format!(
-                "{} s in a recording of {} s",
-                digits(value, 3),
-                digits(duration, 3)
-            );
+        } else if let Some(duration) = duration.filter(|d| ending(name) == "_s" && value > *d) {
+            let [value, duration] = [value, duration].map(|time| plain_quantity("_s", time, None));
+            let shown = format!("{value} in a recording of {duration}");
             sentences.push(format!(
                 "{name} is longer than the recording shows: {shown}"
             ));
@@ -134,7 +132,7 @@ impl<'a> Member<'a> {
 
 /// The best known of the simple combinations, if it is known and much better than the members are.
 fn best_combination(members: &[Member], covariance: &DMatrix<f64>, worst: f64) -> Option<String> {
-    let units: Vec<&str> = members.iter().map(|member| unit(member.name)).collect();
+    let units: Vec<&str> = members.iter().map(|member| ending(member.name)).collect();
     // A name without a unit may have any, and no two of those can be added.
     let alike = !units[0].is_empty() && units.iter().all(|unit| *unit == units[0]);
     let gradient_error = |gradient: &[f64]| {
@@ -165,13 +163,13 @@ fn best_combination(members: &[Member], covariance: &DMatrix<f64>, worst: f64) -
     });
     let (what, value, error, unit) = best.map(|(_, best)| *best)?;
     let known = error / value.abs() <= HARDLY_KNOWN.min(0.25 * worst);
-    known.then(|| format!("{what} is {}", stated(value, error, unit)))
+    known.then(|| format!("{what} is {}", plain_quantity(unit, value, Some(error))))
 }
 
 fn alone(members: &[Member], covariance: &DMatrix<f64>) -> String {
     let each = members.iter().enumerate().map(|(i, member)| {
         let error = covariance[(i, i)].sqrt();
-        let value = stated(member.value, error, unit(member.name));
+        let value = plain_quantity(member.name, member.value, Some(error));
         format!(
             "{} is hardly known from this recording: {value}",
             member.name
@@ -188,48 +186,7 @@ fn joined(members: &[Member]) -> String {
     }
 }
 
-/// The unit in which a name ends, for people.
-fn unit(name: &str) -> &'static str {
-    const UNITS: [(&str, &str); 6] = [
-        ("_n_s_per_m", "N s/m"),
-        ("_n_per_m", "N/m"),
-        ("_pa", "Pa"),
-        ("_m2", "m²"),
-        ("_m", "m"),
-        ("_s", "s"),
-    ];
-    let found = UNITS.iter().find(|(ending, _)| name.ends_with(ending));
-    found.map_or("", |(_, unit)| unit)
-}
-
-/// A value and its standard error, to the digits that the error allows.
-pub(super) fn stated(value: f64, error: f64, unit: &str) -> String {
-    let space = if unit.is_empty() { "" } else { " " };
-    if !(error > 0.0 && error.is_finite()) {
-        return format!("{}{space}{unit}", digits(value, 4));
-    }
-    let leading = error.log10().floor();
-    // Two digits of an error that begins with a one, which one digit would round by half.
-    let last = leading - f64::from(u8::from(error / 10_f64.powf(leading) < 2.0));
-    if last < -6.0 || leading > 6.0 {
-        return format!("{value:.3e} ± {error:.1e}{space}{unit}");
-    }
-    let unit_of_last = 10_f64.powf(last);
-    let [value, error] = [value, error].map(|x| (x / unit_of_last).round() * unit_of_last);
-    let decimals = (-last).max(0.0) as usize;
-    format!("{value:.decimals$} ± {error:.decimals$}{space}{unit}")
-}
-
-/// A number to so many digits, without those that say nothing.
-fn digits(value: f64, count: i32) -> String {
-    if value == 0.0 || !value.is_finite() {
-        return format!("{value}");
-    }
-    let last = 10_f64.powf(value.abs().log10().floor() + 1.0 - f64::from(count));
-    let decimals = (-last.log10().round()).max(0.0) as usize;
-    let shown = format!("{:.decimals$}", (value / last).round() * last);
-    match shown.contains('.') {
-        true => shown.trim_end_matches('0').trim_end_matches('.').to_owned(),
-        false => shown,
-    }
+/// The unit in which a name ends: `_pa`.
+fn ending(name: &str) -> &str {
+    &name[without_unit(name).len()..]
 }

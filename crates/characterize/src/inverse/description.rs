@@ -1,5 +1,6 @@
 use nalgebra::{DMatrix, Matrix2};
 use palpate_files::Estimate;
+use palpate_files::quantity::plain_quantity;
 
 use super::forces::Indentation;
 use super::law::{LawParameter, SoughtLaw};
@@ -96,10 +97,9 @@ impl LawFit {
         let error = known.covariance.sum().max(0.0).sqrt();
         Some(format!(
             "c10_pa and c01_pa are not identified: the fit ended at the edge of what is sought, where c01_pa is {} of \
-             their sum, which is {:.4} ± {:.2} Pa",
+             their sum, which is {}",
             self.shape(),
-            self.modulus(),
-            error
+            plain_quantity("_pa", self.modulus(), Some(error))
         ))
     }
 }

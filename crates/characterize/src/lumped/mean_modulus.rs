@@ -73,7 +73,7 @@ pub fn mean_modulus(contact: Contact, hollow: bool, depth: f64, force: f64) -> R
 }
 
 /// The mean elastic modulus of a specimen (6.1), as table 6-1 has it.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct MeanModulus {
     /// The mean over the holds at the largest depth [Pa].
     pub value: f64,

@@ -1,5 +1,6 @@
 use nalgebra::DMatrix;
 use palpate_files::Estimate;
+use palpate_files::quantity::plain_quantity;
 use palpate_mechanics::PronySeries;
 
 use super::model::{Course, Model, terms};
@@ -112,16 +113,15 @@ impl Relaxation {
             };
             if tau.value > duration {
                 said.push(format!(
-                    "tau_{place} is longer than the recording shows: {:.3} s in a recording of {duration:.3} s",
-                    tau.value
+                    "tau_{place} is longer than the recording shows: {} in a recording of {}",
+                    plain_quantity("_s", tau.value, None),
+                    plain_quantity("_s", duration, None)
                 ));
             } else if unsure(g) || unsure(tau) {
                 said.push(format!(
-                    "term {place} of the relaxation is hardly known: g {:.3} ± {:.3}, tau {:.3} ± {:.3} s",
-                    g.value,
-                    g.standard_error.unwrap_or(0.0),
-                    tau.value,
-                    tau.standard_error.unwrap_or(0.0)
+                    "term {place} of the relaxation is hardly known: g {}, tau {}",
+                    plain_quantity("", g.value, g.standard_error),
+                    plain_quantity("_s", tau.value, tau.standard_error)
                 ));
             }
         }

@@ -15,6 +15,13 @@ pub struct ReadError {
     pub fault: ReadFault,
 }
 
+impl ReadError {
+    /// Whether the input is invalid (exit status 2), rather than something else at fault (1).
+    pub fn is_input(&self) -> bool {
+        self.fault.is_input()
+    }
+}
+
 /// What is wrong with a mesh file. Each message says what was found, what was expected and the mend.
 #[derive(Debug, thiserror::Error)]
 pub enum ReadFault {
@@ -300,6 +307,47 @@ pub struct UnknownUnit {
 }
 
 impl ReadFault {
+    /// Whether the input is invalid (exit status 2), rather than something else at fault (1).
+    pub fn is_input(&self) -> bool {
+        match self {
+            Self::Unreadable(cause) => cause.kind() == std::io::ErrorKind::PermissionDenied,
+            Self::Tetrahedra(error) => error.is_input(),
+            Self::Mesh(error) => error.is_input(),
+            Self::NoMemory { .. } => false,
+            Self::Missing
+            | Self::NotAFile
+            | Self::Empty
+            | Self::TooLarge { .. }
+            | Self::UnknownExtension { .. }
+            | Self::WrongContent { .. }
+            | Self::WrongLength { .. }
+            | Self::Truncated { .. }
+            | Self::EndsEarly { .. }
+            | Self::Unexpected { .. }
+            | Self::BadCoordinate { .. }
+            | Self::BadIndex { .. }
+            | Self::BadListLength { .. }
+            | Self::TooFewCorners { .. }
+            | Self::NoTriangles
+            | Self::MissingPart { .. }
+            | Self::Unsupported { .. }
+            | Self::Gltf { .. }
+            | Self::BufferElsewhere { .. }
+            | Self::UnitNeeded { .. }
+            | Self::UnknownVolumeExtension { .. }
+            | Self::UnreadEncoding { .. }
+            | Self::NotATetrahedron { .. }
+            | Self::BadCorner { .. }
+            | Self::Mismatch { .. }
+            | Self::NoTetrahedra
+            | Self::UnwrittenExtension { .. }
+            | Self::UnknownMapExtension { .. }
+            | Self::BadHeader { .. }
+            | Self::BadCompression(_)
+            | Self::NotALabel { .. } => true,
+        }
+    }
+
     /// The cause is shortened: a damaged document is quoted in it.
     pub(crate) fn invalid_gltf(cause: impl ToString) -> Self {
         let cause = shortened(&cause.to_string()).into_owned();

@@ -79,3 +79,21 @@ pub enum MeshError {
         pieces: usize,
     },
 }
+
+impl MeshError {
+    /// Whether the input is invalid (exit status 2), rather than something else at fault (1).
+    pub fn is_input(&self) -> bool {
+        match self {
+            Self::Empty
+            | Self::NotFinite { .. }
+            | Self::IndexOutOfRange { .. }
+            | Self::DegenerateTriangles { .. }
+            | Self::UnusedVertices { .. }
+            | Self::NotManifold { .. }
+            | Self::NotClosed { .. }
+            | Self::NotOriented { .. }
+            | Self::InsideOut { .. }
+            | Self::SeveralPieces { .. } => true,
+        }
+    }
+}

@@ -27,6 +27,16 @@ pub enum OrganError {
     Mesh(#[from] MeshError),
 }
 
+impl OrganError {
+    /// Whether the input is invalid (exit status 2), rather than something else at fault (1).
+    pub fn is_input(&self) -> bool {
+        match self {
+            Self::Mesh(error) => error.is_input(),
+            Self::UnknownName { .. } | Self::TriangleCount { .. } => true,
+        }
+    }
+}
+
 fn names() -> String {
     Organ::ALL.map(Organ::name).join(", ")
 }

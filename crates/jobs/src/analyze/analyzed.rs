@@ -5,7 +5,7 @@ use palpate_characterize::analyze::{
 
 use crate::{ReadRecording, Unusable};
 
-/// What recordings show, one by one and together.
+/// What recordings show, one by one and together; serialized as what `--json` prints.
 #[derive(Debug)]
 pub struct Analyzed {
     /// Each with what it shows.
@@ -49,6 +49,27 @@ impl Analyzed {
             unusable,
             recordings,
         }
+    }
+
+    /// Each organ with its steady forces in each state; an organ without a hold has none.
+    pub fn organs(&self) -> Vec<(Option<&StaticGroup>, &OrganResponse)> {
+        let mut organs = Vec::new();
+        for response in &self.responses {
+            let groups = self.groups.iter();
+            let own = groups.filter(|group| group.organ == response.organ);
+            let before = organs.len();
+            organs.extend(own.map(|group| (Some(group), response)));
+            if organs.len() == before {
+                organs.push((None, response));
+            }
+        }
+        organs
+    }
+
+    /// What deserves doubt, with what could not be read.
+    pub fn warnings(&self) -> Vec<String> {
+        let unusable = self.unusable.iter().map(Unusable::sentence);
+        self.doubts.iter().cloned().chain(unusable).collect()
     }
 }
 

@@ -6,7 +6,6 @@ mod answer;
 use palpate_characterize::Analysis;
 
 pub use analyzed::{Analyzed, doubts_of};
-pub use answer::{Answer, FileAnswer, OrganAnswer, RelaxationAnswer, SinusoidAnswer, StaticAnswer};
 
 use crate::{Error, ReadRecording, Recordings, Watch};
 

@@ -54,7 +54,7 @@ impl FoundLaw {
             force: through(&elastic.force_n),
             by_parameter: by.map(|(name, own)| (name.clone(), through(own))).collect(),
         };
-        let series = PronySeries::new(&self.series).map_err(Error::input)?;
+        let series = PronySeries::new(&self.series)?;
         let known = self.covariance.correlations();
         Ok(force.evaluate(time, course, (&series, &known)))
     }
@@ -94,7 +94,7 @@ impl FoundLaw {
         let at = |values: &[f64]| -> Result<Vec<f64>, Error> {
             let each = stretches.iter();
             let each = each.map(|stretch| uniaxial_stress(law, values, *stretch));
-            each.collect::<Result<_, _>>().map_err(Error::input)
+            Ok(each.collect::<Result<_, _>>()?)
         };
         let known = self.covariance.correlations();
         let mut derivatives = DMatrix::zeros(stretches.len(), known.names.len());

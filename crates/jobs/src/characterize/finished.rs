@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::answer::{Specimen, former};
 use super::portrait::{DrawnFit, Portrait, all_samples};
-use crate::VERSION;
+use crate::{Error, VERSION};
 
 /// One specimen with its recordings and all that was found.
 pub(crate) struct Studied {
@@ -24,6 +24,9 @@ pub(crate) struct Finished {
     pub(crate) specimen: Specimen,
     /// The text of its tissue file, or why there is none.
     pub(crate) tissue: Result<String, String>,
+    /// Whether there is none because of a failure, and not of the recordings.
+    #[serde(default)]
+    pub(crate) has_failed: bool,
     /// What a report draws of it.
     pub(crate) portrait: Portrait,
     /// What was fitted of each recording, with its file, at every sample: not in a study's folder, which would grow
@@ -39,10 +42,19 @@ impl Finished {
             specimen: Specimen::new(studied),
             portrait: Portrait::of(studied),
             samples: all_samples(studied),
+            has_failed: tissue.as_ref().is_err_and(|why| !why.is_input()),
             tissue: tissue
                 .map(|tissue| tissue.to_toml())
                 .map_err(|why| why.to_string()),
         }
+    }
+
+    /// The text of its tissue file.
+    pub(crate) fn tissue(&self) -> Result<String, Error> {
+        self.tissue.clone().map_err(|why| match self.has_failed {
+            true => Error::Failed(why),
+            false => Error::Input(why),
+        })
     }
 }
 

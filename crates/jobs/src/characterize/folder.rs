@@ -51,13 +51,8 @@ impl StudyFolder {
     /// # Errors
     /// When it cannot be made, or another program writes there.
     pub fn open(path: &Path, overwrite: Overwrite) -> Result<Self, Error> {
-        let claim = Claim::of_folder(path, overwrite).map_err(|error| match error {
-            palpate_files::Error::Write { path, source } => Error::input(format!(
-                "the folder {} cannot be made or written ({source}); give another with --study",
-                path.display()
-            )),
-            other => other.into(),
-        })?;
+        let claim = Claim::of_folder(path, overwrite);
+        let claim = claim.map_err(|error| Error::of_folder("--study", error))?;
         Ok(Self {
             path: path.to_owned(),
             overwrite,

@@ -18,7 +18,7 @@ use palpate_characterize::viscoelastic::RelaxationSettings;
 
 pub use answer::{
     Answer, CovarianceAnswer, ElasticAnswer, FitAnswer, Identified, Known, LawAnswer, LumpedAnswer,
-    Modulus, Named, Noise, Partner, RelaxationAnswer, Specimen, Steps, Tried,
+    Named, Noise, Partner, RelaxationAnswer, Specimen, Steps, Tried,
 };
 pub use evaluation::FoundLaw;
 pub use folder::StudyFolder;
@@ -123,7 +123,7 @@ pub struct Characterized {
     /// folder keeps.
     pub samples: Vec<Vec<(String, DrawnFit)>>,
     /// The text of the tissue file of each specimen, or why there is none.
-    pub tissues: Vec<Result<String, String>>,
+    pub tissues: Vec<Result<String, Error>>,
 }
 
 /// The specimens among `recordings` that can be used: what each is called, and its recordings; and what cannot be
@@ -166,19 +166,18 @@ pub fn characterize(
     let headers: Vec<_> = read.iter().map(|read| &read.clean.header).collect();
     choice.check_loop(palpate_characterize::specimens(&headers).len())?;
     let finished = study::of(read, &choice.settings(), folder, watch)?;
+    let (mut specimens, mut portraits) = (Vec::new(), Vec::new());
     let (mut tissues, mut samples) = (Vec::new(), Vec::new());
-    let (specimens, portraits): (Vec<_>, Vec<_>) = finished
-        .into_iter()
-        .map(|finished| {
-            samples.push(match folder {
-                Some(_) => finished.portrait.fitted(),
-                None => finished.samples,
-            });
-            tissues.push(finished.tissue);
-            (finished.specimen, finished.portrait)
-        })
-        .unzip();
-    let answer = Answer::new(specimens, &unusable);
+    for mut finished in finished {
+        samples.push(match folder {
+            Some(_) => finished.portrait.fitted(),
+            None => std::mem::take(&mut finished.samples),
+        });
+        tissues.push(finished.tissue());
+        specimens.push(finished.specimen);
+        portraits.push(finished.portrait);
+    }
+    let answer = Answer::new(specimens, unusable);
     if let Some(folder) = folder {
         summary::write(&answer, folder)?;
     }

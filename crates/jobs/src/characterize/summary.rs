@@ -55,7 +55,7 @@ fn specimens(answer: &Answer) -> impl Iterator<Item = Vec<String>> {
         row[0] = unusable.file.display().to_string();
         row[4] = row[0].clone();
         if let Some(problem) = row.last_mut() {
-            problem.clone_from(&unusable.reason);
+            *problem = unusable.reason.to_string();
         }
         row
     });

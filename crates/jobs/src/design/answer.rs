@@ -2,9 +2,10 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use palpate_characterize::design::{Criterion, Designed, ExpectedParameter, Presses};
+use palpate_files::quantity::{quantity, without_unit};
 use serde::Serialize;
 
-use crate::{VERSION, quantity, without_unit};
+use crate::VERSION;
 
 /// The machine-readable answer.
 #[derive(Debug, Serialize)]

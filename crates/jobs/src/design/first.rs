@@ -20,21 +20,20 @@ pub(super) fn of_recordings(
         draws: 0,
         ..Choice::default()
     };
-    let found = characterize(recordings, choice, None, watch)?;
+    let mut found = characterize(recordings, choice, None, watch)?;
     let [specimen] = found.answer.specimens.as_slice() else {
         return Err(Error::input(format!(
             "there are {} specimens, and a protocol is designed for one; name the recordings of one",
             found.answer.specimens.len()
         )));
     };
-    let text = found.tissues[0].as_ref().map_err(Error::input)?;
-    let tissue = Tissue::parse(text, "the tissue that was found").map_err(Error::input)?;
+    let text = found.tissues.swap_remove(0)?;
+    let tissue = Tissue::parse(&text, "the tissue that was found")?;
     let (read, _) = recordings.read(|_| ())?;
     let cleaned: Vec<&CleanRecording> = read.iter().map(|own| &own.clean).collect();
     let before = presses(&cleaned)?;
     let guess = guess(&tissue)?;
-    let own = Expecting::new(guess.clone(), DEEPEST.max(before.deepest() / before.radius));
-    let own = own.map_err(Error::input)?;
+    let own = Expecting::new(guess.clone(), DEEPEST.max(before.deepest() / before.radius))?;
     let instrument = noise_as_found((&own, specimen), &before, instrument(&cleaned))?;
     Ok(Start {
         factors: factors(specimen),
@@ -139,7 +138,7 @@ fn noise_as_found(
     let [mut low, mut high] = [1e-2_f64, 1e3];
     for _ in 0..30 {
         let middle = (low * high).sqrt();
-        let (expected, ..) = own.expected(presses, &of(middle)).map_err(Error::input)?;
+        let (expected, ..) = own.expected(presses, &of(middle))?;
         let each = expected.iter().filter_map(|one| {
             let (_, found) = found.iter().find(|(name, _)| *name == one.name)?;
             Some((one.reach() / found).ln())

@@ -98,12 +98,12 @@ const DEEPEST: f64 = 6.0;
 /// When the guess or a limit cannot be used, or no protocol keeps within the limits.
 pub fn design(wish: &Wish, watch: &dyn Watch) -> Result<Designed, Error> {
     let start = match &wish.known {
-        Known::Tissue(path) => of_tissue(Tissue::read(path).map_err(Error::input)?)?,
+        Known::Tissue(path) => of_tissue(Tissue::read(path)?)?,
         Known::Recordings(recordings, law) => first::of_recordings(recordings, *law, watch)?,
     };
     let limits = limits(&wish.within, &start)?;
     watch.say("comparing protocols");
-    let first = Expecting::new(start.guess.clone(), DEEPEST).map_err(Error::input)?;
+    let first = Expecting::new(start.guess.clone(), DEEPEST)?;
     let guesses = guesses(&first, start.factors)?;
     let wanted = match wish.parameters.as_slice() {
         [] => usual(&start.guess),
@@ -114,11 +114,8 @@ pub fn design(wish: &Wish, watch: &dyn Watch) -> Result<Designed, Error> {
         (&start.instrument, &limits),
         (&wanted, wish.criterion),
         &mut |part| watch.at(part),
-    );
-    let found = found.map_err(Error::input)?;
-    let (before, ..) = first
-        .expected(&start.before, &start.instrument)
-        .map_err(Error::input)?;
+    )?;
+    let (before, ..) = first.expected(&start.before, &start.instrument)?;
     let answer = Answer::new((&start.before, &before), &found, (wish.criterion, &wanted));
     Ok(Designed {
         protocol: protocol(&start.tissue, &found.presses, &limits, &answer),
@@ -141,8 +138,7 @@ fn guesses(first: &Expecting, [modulus, time]: [f64; 2]) -> Result<Vec<Expecting
         (1.0, time),
         (1.0, time.recip()),
     ] {
-        let changed = first.guess().changed(stiffer, slower);
-        all.push(first.with(changed.map_err(Error::input)?));
+        all.push(first.with(first.guess().changed(stiffer, slower)?));
     }
     Ok(all)
 }
@@ -198,7 +194,7 @@ fn guess(tissue: &Tissue) -> Result<Guess, Error> {
         .prony
         .iter()
         .map(|term| (term.g.value, term.tau_s.value));
-    let series = PronySeries::new(&terms.collect::<Vec<_>>()).map_err(Error::input)?;
+    let series = PronySeries::new(&terms.collect::<Vec<_>>())?;
     Ok(Guess {
         law,
         modulus,

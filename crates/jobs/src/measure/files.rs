@@ -41,7 +41,11 @@ pub fn files(measuring: &Measuring, out: Out<'_>) -> Result<Files, Error> {
         true => {
             let folder = out.path.parent().unwrap_or(Path::new(""));
             if !folder.as_os_str().is_empty() {
-                std::fs::create_dir_all(folder).map_err(|source| no_folder(folder, &source))?;
+                std::fs::create_dir_all(folder).map_err(|source| Error::Folder {
+                    folder: folder.to_owned(),
+                    option: "--out",
+                    source,
+                })?;
             }
             let claim = Claim::of_file(out.path, out.overwrite)?;
             (claim, vec![out.path.to_owned()])
@@ -63,15 +67,5 @@ pub fn files(measuring: &Measuring, out: Out<'_>) -> Result<Files, Error> {
 /// # Errors
 /// When it cannot be made, or another program writes there.
 pub fn folder(path: &Path, overwrite: Overwrite) -> Result<Claim, Error> {
-    Claim::of_folder(path, overwrite).map_err(|error| match error {
-        palpate_files::Error::Write { source, .. } => no_folder(path, &source),
-        other => other.into(),
-    })
-}
-
-fn no_folder(folder: &Path, why: &std::io::Error) -> Error {
-    Error::input(format!(
-        "the folder {} cannot be made or written ({why}); give another with --out",
-        folder.display()
-    ))
+    Claim::of_folder(path, overwrite).map_err(|error| Error::of_folder("--out", error))
 }

@@ -30,7 +30,7 @@ struct Done {
 impl LiveMeasuring {
     pub(super) fn start(rig: Rig) -> Result<Self, Error> {
         let header = rig.header().clone();
-        let live = LiveRig::start(rig).map_err(Error::failed)?;
+        let live = LiveRig::start(rig)?;
         Ok(Self {
             live,
             header,
@@ -100,7 +100,7 @@ impl LiveMeasuring {
                 }
                 News::Unwritten(unwritten) => return Err(unwritten.error.into()),
                 News::Ended(_, Err(error)) | News::Disturbed(error) if !is_stopped => {
-                    return Err(Error::failed(error));
+                    return Err(error.into());
                 }
                 News::Ended(done, how) if done == order => how.unwrap_or(Ended::Stopped),
                 News::Dropped(dropped) if dropped == order => Ended::Stopped,

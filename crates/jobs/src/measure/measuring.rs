@@ -133,7 +133,7 @@ impl Measured {
     fn go_to(&mut self, place: &Vec3, watch: &dyn Watch) -> Result<Ended, Error> {
         let go_on = &mut |_: &RigSample| !watch.is_asked_to_stop();
         match self {
-            Self::Virtual(rig) => rig.go_to(place, go_on).map_err(Error::failed),
+            Self::Virtual(rig) => Ok(rig.go_to(place, go_on)?),
             Self::Live(live) => live.carry_out(Order::GoTo(*place), watch),
         }
     }
@@ -141,7 +141,7 @@ impl Measured {
     fn measure_normal(&mut self, watch: &dyn Watch) -> Result<Ended, Error> {
         let go_on = &mut |_: &RigSample| !watch.is_asked_to_stop();
         match self {
-            Self::Virtual(rig) => rig.measure_normal(go_on).map_err(Error::failed),
+            Self::Virtual(rig) => Ok(rig.measure_normal(go_on)?),
             Self::Live(live) => live.carry_out(Order::MeasureNormal, watch),
         }
     }
@@ -165,10 +165,8 @@ fn record(
     let go_on = &mut |_: &RigSample| !watch.is_asked_to_stop();
     // The tissue rests from what was done to it, then from being looked for.
     for rests in [true, false] {
-        let rested = rig.recover(go_on).map_err(Error::failed)?;
-        if rested == Ended::Stopped
-            || rests && rig.approach(go_on).map_err(Error::failed)? == Ended::Stopped
-        {
+        let rested = rig.recover(go_on)?;
+        if rested == Ended::Stopped || rests && rig.approach(go_on)? == Ended::Stopped {
             return Ok(None);
         }
     }
@@ -187,7 +185,7 @@ fn record(
     }
     // What was recorded is kept, however it ended.
     let recorded = recorder.finish(&ended)?;
-    ended.map_err(Error::failed)?;
+    ended?;
     Ok(Some(recorded))
 }
 

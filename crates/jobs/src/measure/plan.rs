@@ -81,7 +81,7 @@ impl Plan {
         let mut doubts = protocol.warnings.clone();
         let device = match protocol.rig.device.and_then(kind) {
             None => None,
-            Some(kind) => Some((kind, Places::from_environment().map_err(Error::input)?)),
+            Some(kind) => Some((kind, Places::from_environment()?)),
         };
         let sensor = RealSensor::of(&protocol.sensor)?;
         if sensor.is_some() {
@@ -95,7 +95,7 @@ impl Plan {
         let mut stimuli = Vec::new();
         for plan in &protocol.stimuli {
             let name = stimulus_name(&plan.stimulus);
-            let course = Course::of(plan.stimulus).map_err(Error::input)?;
+            let course = Course::of(plan.stimulus)?;
             if course.deepest() > TRUSTED[0] {
                 doubts.push(format!(
                     "{name}: deeper than 10 mm, where no tissue here was measured"
@@ -131,12 +131,11 @@ impl Plan {
                 true => NormalFrom::ByTouch,
                 false => NormalFrom::Stated,
             };
-            let checked = self.settings.check_place(&to, &normal, from);
-            checked.map_err(Error::input)?;
+            self.settings.check_place(&to, &normal, from)?;
         }
         let courses = self.stimuli.iter();
         let mut checked = courses.map(|(course, _)| self.settings.check(course));
-        checked.try_for_each(|one| one.map_err(Error::input))
+        Ok(checked.try_for_each(|one| one)?)
     }
 
     /// The specimen at `place` of the protocol, and what deserves doubt about it. A nonlinear law is solved
@@ -171,7 +170,7 @@ impl Plan {
     pub fn open_device(&self) -> Result<Option<Box<dyn Device>>, Error> {
         let device = self.device.as_ref();
         let opened = device.map(|(kind, places)| kind.open(0, places));
-        opened.transpose().map_err(Error::failed)
+        Ok(opened.transpose()?)
     }
 
     /// Where a rig without a window has its time from: a device that is there lives in the machine's.
@@ -186,7 +185,7 @@ impl Plan {
     pub fn rig(&self, (specimen, place): (OnRig, usize), clock: Clock) -> Result<Rig, Error> {
         let mut rig = self.made(specimen, place, clock)?;
         let normal = Vec3::from(self.specimens[place].place.normal);
-        rig.face(&normal).map_err(Error::input)?;
+        rig.face(&normal)?;
         Ok(rig)
     }
 
@@ -210,7 +209,7 @@ impl Plan {
                 ));
             }
         };
-        rig.map_err(Error::failed)
+        Ok(rig?)
     }
 }
 

@@ -47,7 +47,7 @@ impl RealSensor {
                 range: ForceTorque::from_components([fx, fy, fz, tx, ty, tz]),
                 timeout: plan.timeout_s.unwrap_or(usual.timeout),
             },
-            places: SensorPlaces::from_environment().map_err(Error::input)?,
+            places: SensorPlaces::from_environment()?,
             plan: plan.clone(),
         }))
     }
@@ -56,7 +56,7 @@ impl RealSensor {
     pub(super) fn open(&self) -> Result<MountedSensor, Error> {
         let sensor = open_force_sensor(&self.format, self.limits, &self.places);
         Ok(MountedSensor {
-            sensor: sensor.map_err(Error::failed)?,
+            sensor: sensor?,
             indenter_from_sensor: Matrix3::from_fn(|row, column| self.plan.axes[row][column]),
             tip_distance: self.plan.tip_distance_m,
         })

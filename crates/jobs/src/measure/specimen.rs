@@ -23,7 +23,7 @@ pub(crate) fn of(
         MeasuredTissue::Tissue(choice) => {
             let tissue = choice.read()?;
             let under = (measured.indenter_radius_m, deepest);
-            let specimen = kept::of_tissue(&tissue, under, at_step).map_err(Error::input)?;
+            let specimen = kept::of_tissue(&tissue, under, at_step)?;
             (specimen, [tissue.source.warnings, tissue.warnings].concat())
         }
         MeasuredTissue::Published(organ) => published(*organ, measured.indenter_radius_m)?,
@@ -76,7 +76,7 @@ fn published(organ: PublishedOrgan, radius: f64) -> Result<(VirtualSpecimen, Vec
         ),
         PublishedOrgan::Esophagus => (BuiltinTissue::PigEsophagus, "that of section 6.4.5"),
     };
-    let material = Material::from_tissue(&Tissue::builtin(builtin)).map_err(Error::failed)?;
+    let material = Material::from_tissue(&Tissue::builtin(builtin))?;
     let name = organ.to_string();
     let (depths, forces): (Vec<f64>, Vec<f64>) = mean_forces(&name).unzip();
     let response = IndentationCurve::through(&depths, &forces);

@@ -41,7 +41,7 @@ pub fn resources() -> Resources {
 /// When the environment names no place.
 pub fn resources_with_devices() -> Result<Resources, Error> {
     Ok(Resources {
-        devices: Places::from_environment().map_err(Error::input)?,
+        devices: Places::from_environment()?,
         ..resources()
     })
 }

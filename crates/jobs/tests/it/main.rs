@@ -6,6 +6,7 @@
 )]
 
 mod broken_off;
+mod exit_status;
 mod fuzz;
 mod readers;
 mod recordings;

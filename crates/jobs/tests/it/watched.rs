@@ -1,8 +1,7 @@
 use std::path::Path;
 use std::sync::Mutex;
-use std::time::Duration;
 
-use palpate_jobs::solve::{Answer, Problem, Wanted, solve};
+use palpate_jobs::solve::{Problem, Wanted, solve};
 use palpate_jobs::{Nobody, Watch, json_text};
 
 const PUNCH: &str = r#"
@@ -37,8 +36,9 @@ fn what_is_answered_does_not_depend_on_who_waits() {
     let problem = Problem::parse(PUNCH, Path::new("punch.toml")).unwrap();
     let listener = Listener::default();
     let of = |watch: &dyn Watch| {
-        let solution = solve(&problem, Wanted::default(), watch).unwrap();
-        json_text(&Answer::new(&problem, &solution, Duration::ZERO)).unwrap()
+        let mut answer = solve(&problem, Wanted::default(), watch).unwrap();
+        answer.seconds = 0.0;
+        json_text(&answer).unwrap()
     };
     assert_eq!(of(&Nobody), of(&listener));
     let parts = listener.parts.into_inner().unwrap();

@@ -113,3 +113,23 @@ pub enum Mismatch {
         line: &'static str,
     },
 }
+
+impl Mismatch {
+    /// Whether the input is invalid (exit status 2), rather than something else at fault (1).
+    pub fn is_input(&self) -> bool {
+        match self {
+            Self::NodeBeyondMesh { .. }
+            | Self::ComponentOutOfRange { .. }
+            | Self::CavityOfElements { .. }
+            | Self::CavitySide { .. }
+            | Self::CannotSlide { .. }
+            | Self::SurfaceOutOfRange { .. }
+            | Self::SlidesAndIsFixed { .. }
+            | Self::WrongLength { .. }
+            | Self::FirstStepOutOfRange { .. }
+            | Self::ElementSizeOutOfRange { .. }
+            | Self::HalfBallTooSmall { .. }
+            | Self::PunchedLinesOutOfOrder { .. } => true,
+        }
+    }
+}

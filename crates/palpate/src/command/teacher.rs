@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
 use palpate_files::printable;
-use palpate_record::{Assignment, Filter, Record};
+use palpate_record::{Assignment, Cohort, Filter, Record};
 use palpate_simulate::SessionFolder;
 use serde::Serialize;
 
@@ -94,14 +94,8 @@ struct Answer {
     palpate: &'static str,
     #[serde(serialize_with = "palpate_jobs::lossy")]
     record: PathBuf,
-    cohorts: Vec<CohortAnswer>,
+    cohorts: Vec<Cohort>,
     assignments: Vec<AssignmentAnswer>,
-}
-
-#[derive(Debug, Serialize)]
-struct CohortAnswer {
-    cohort: String,
-    trainees: Vec<String>,
 }
 
 #[derive(Debug, Serialize)]
@@ -219,14 +213,10 @@ fn answer(record: &Record) -> Result<Answer, Failure> {
         }
     });
     let assignments = assignments.collect();
-    let cohorts = cohorts.into_iter().map(|own| CohortAnswer {
-        cohort: own.name,
-        trainees: own.trainees,
-    });
     Ok(Answer {
         palpate: VERSION,
         record: record.path().to_owned(),
-        cohorts: cohorts.collect(),
+        cohorts,
         assignments,
     })
 }
@@ -235,11 +225,7 @@ fn text(answer: &Answer) -> String {
     let mut lines = Vec::new();
     for cohort in &answer.cohorts {
         let names: Vec<_> = cohort.trainees.iter().map(|own| printable(own)).collect();
-        lines.push(format!(
-            "{}: {}",
-            printable(&cohort.cohort),
-            names.join(", ")
-        ));
+        lines.push(format!("{}: {}", printable(&cohort.name), names.join(", ")));
     }
     if answer.cohorts.is_empty() {
         lines.push(

@@ -11,7 +11,7 @@ mod words;
 
 pub(crate) use markup::Markup;
 pub(crate) use page::{Page, figure};
-pub(crate) use palpate_jobs::{Scale, quantity, rounded, unit};
+pub(crate) use palpate_files::quantity::{Scale, quantity, rounded, unit};
 pub(crate) use provenance::{Provenance, provenance};
 pub(crate) use symbol::symbol;
 pub(crate) use table::Table;

@@ -1,4 +1,4 @@
-use palpate_jobs::without_unit;
+use palpate_files::quantity::without_unit;
 
 use super::Markup;
 

@@ -13,6 +13,7 @@ mod design;
 mod devices;
 mod errors;
 mod esophagus;
+mod exit_status;
 mod first_steps;
 mod foreign_text;
 mod hazards;

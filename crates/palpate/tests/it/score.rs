@@ -144,7 +144,7 @@ fn an_expert_is_beside_it_and_the_record_keeps_it() {
     assert!(force["ratio"].as_f64().unwrap() > 1.5);
     assert_eq!(force["proficient"], Value::Null);
     let warnings = beside["warnings"].to_string();
-    assert!(warnings.contains("a single session"), "{warnings}");
+    assert!(warnings.contains("a single expert session"), "{warnings}");
     for (session, more) in [("gentle", &["--as-expert"][..]), ("hard", &[])] {
         let mut arguments = vec![session, "--trainee", "Anna", "--record", "r.sqlite"];
         arguments.extend(more);

@@ -291,7 +291,7 @@ impl SimulationBatch {
             {
                 Ok(width)
             }
-            _ => Err(Failure::Input(format!(
+            _ => Err(Failure::input(format!(
                 "`poses` has the shape {}; give {}({count}, {tools}, n), with n = 3, 5, 7 or 9",
                 numbers::shape_words(shape),
                 if before == 2 {
@@ -315,7 +315,7 @@ impl SimulationBatch {
         };
         if let Ok(mask) = which.extract::<Vec<bool>>() {
             if mask.len() != self.steppers.len() {
-                return Err(Failure::Input(format!(
+                return Err(Failure::input(format!(
                     "`which` is a list of {} truths; give one for each of the {} states",
                     mask.len(),
                     self.steppers.len()
@@ -344,7 +344,7 @@ impl SimulationBatch {
             false => Some(index.unsigned_abs()),
         };
         from_begin.filter(|index| *index < count).ok_or_else(|| {
-            Failure::Input(format!(
+            Failure::input(format!(
                 "there is no state {index}; give a number from 0 to {}",
                 count - 1
             ))
@@ -382,7 +382,7 @@ impl SimulationBatch {
         };
         let array = numbers::floats(given, "marks")?;
         if array.shape() != [count, tools] {
-            return Err(Failure::Input(format!(
+            return Err(Failure::input(format!(
                 "`marks` has the shape {}; give a truth for each tool of each state, ({count}, {tools})",
                 numbers::shape_words(array.shape())
             )));

@@ -73,7 +73,7 @@ fn read_array(
 }
 
 fn misshapen(shape: &[usize], count: usize, thing: &str) -> Failure {
-    Failure::Input(format!(
+    Failure::input(format!(
         "`poses` has the shape {}; give {}, a row for each {thing}, of {WIDTHS}",
         numbers::shape_words(shape),
         numbers::shape_words(&[count, 3])
@@ -104,7 +104,7 @@ fn pose(row: &[f64], (thing, number): (&str, usize)) -> Result<Option<Pose>, Fai
         [x, y, z, i, j, k, w] => ([x, y, z], Some([i, j, k, w]), None),
         [x, y, z, i, j, k, w, grip, cut] => ([x, y, z], Some([i, j, k, w]), Some([grip, cut])),
         _ => {
-            return Err(Failure::Input(format!(
+            return Err(Failure::input(format!(
                 "the pose of {thing} {number} has {} numbers; give {WIDTHS}",
                 row.len()
             )));
@@ -114,7 +114,7 @@ fn pose(row: &[f64], (thing, number): (&str, usize)) -> Result<Option<Pose>, Fai
         return Ok(None);
     }
     let wrong = |expected: &str| {
-        Failure::Input(format!(
+        Failure::input(format!(
             "the pose of {thing} {number} is {row:?}; give {expected}"
         ))
     };

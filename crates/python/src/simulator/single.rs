@@ -177,7 +177,7 @@ impl Simulation {
         let (steps, width) = match *given.shape() {
             [steps, count, width] if count == tools => (steps, width),
             ref shape => {
-                return Err(Failure::Input(format!(
+                return Err(Failure::input(format!(
                     "`poses` has the shape {}; give (steps, tools, n) for {tools} tools, with n = 3, 5, 7 or 9",
                     numbers::shape_words(shape)
                 )));
@@ -330,7 +330,7 @@ impl Mark {
                     .iter()
                     .map(|tool| format!("{:?}", tool.name))
                     .collect();
-                return Err(Failure::Input(format!(
+                return Err(Failure::input(format!(
                     "`mark` names no tool, but the scene has {}; name one of these",
                     known.join(" and ")
                 )));
@@ -344,7 +344,7 @@ impl Mark {
 fn checked_duration(time: f64, name: &str) -> Result<f64, Failure> {
     match time.is_finite() && time >= 0.0 {
         true => Ok(time),
-        false => Err(Failure::Input(format!(
+        false => Err(Failure::input(format!(
             "`{name}` is {time}; give a number from 0 on, in seconds"
         ))),
     }

@@ -1,5 +1,5 @@
 /// How often the stages changed a force.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize)]
 pub struct Interventions {
     /// Times that a hand let go of its dead-man's switch.
     pub let_go: u64,

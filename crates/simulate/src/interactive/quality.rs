@@ -11,22 +11,26 @@ pub struct Quality {
 }
 
 /// What the model measured of itself.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
 pub struct ModelReport {
+    /// What the operating system gave the model's thread.
+    pub priority: Priority,
+    /// Steps per second [Hz].
+    #[serde(rename = "rate_hz")]
+    pub rate: f64,
     /// Steps that were done.
     pub steps: u64,
     /// Steps that were left out, because the one before took longer than its period.
     pub missed: u64,
-    /// Steps per second [Hz].
-    pub rate: f64,
     /// How long steps took to find their forces, from reading the hands on [s].
+    #[serde(rename = "touch_s")]
     pub touch_times: Percentiles,
     /// How long whole steps took, with what is seen and recorded of them [s].
+    #[serde(rename = "step_s")]
     pub step_times: Percentiles,
     /// How far the forces between steps were off.
+    #[serde(flatten)]
     pub extrapolation: ExtrapolationError,
-    /// What the operating system gave the model's thread.
-    pub priority: Priority,
 }
 
 impl Quality {
@@ -46,15 +50,19 @@ impl Quality {
 /// How far the force that the servo loop made of older answers was from the one that the model then found
 /// for the same place of the hand: at every step in contact, where the last answer is oldest, or at every
 /// tick ([`super::judge_samples`]).
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
 pub struct ExtrapolationError {
     /// Forces that were compared.
+    #[serde(skip)]
     pub compared: u64,
     /// Root of the mean square [N].
+    #[serde(rename = "extrapolation_rms_n")]
     pub rms: f64,
     /// The largest [N].
+    #[serde(rename = "extrapolation_max_n")]
     pub max: f64,
     /// The largest force of the model [N], to compare with.
+    #[serde(rename = "extrapolation_peak_n")]
     pub peak: f64,
 }
 

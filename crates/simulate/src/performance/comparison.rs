@@ -3,24 +3,28 @@
 use super::{Better, Measure, Score};
 
 /// What experts reach in one measure.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Standard {
     /// The measure.
+    #[serde(skip)]
     pub key: String,
     /// Over the experts' sessions.
     pub mean: f64,
     /// Of a session [the measure's unit]; none for a single one.
     pub standard_deviation: Option<f64>,
     /// How many sessions.
+    #[serde(rename = "sessions")]
     pub count: usize,
 }
 
 /// A measure beside its standard.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Comparison {
     /// What was reached.
+    #[serde(skip)]
     pub measure: Measure,
     /// What experts reach.
+    #[serde(flatten)]
     pub standard: Standard,
     /// Value over the experts' mean [-]; none where that is zero.
     pub ratio: Option<f64>,

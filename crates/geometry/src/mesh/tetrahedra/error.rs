@@ -89,3 +89,21 @@ pub enum TetrahedronError {
         lost_percent: f64,
     },
 }
+
+impl TetrahedronError {
+    /// Whether the input is invalid (exit status 2), rather than something else at fault (1).
+    pub fn is_input(&self) -> bool {
+        match self {
+            Self::Empty
+            | Self::NotFinite { .. }
+            | Self::IndexOutOfRange { .. }
+            | Self::Inverted { .. }
+            | Self::Flat { .. }
+            | Self::CrowdedFace { .. }
+            | Self::NotALength { .. }
+            | Self::TooMany { .. }
+            | Self::NotRefined { .. }
+            | Self::TooCoarse { .. } => true,
+        }
+    }
+}

@@ -55,7 +55,7 @@ impl CovarianceAnswer {
     }
 
     /// As a matrix with its names.
-    pub(crate) fn correlations(&self) -> Correlations {
+    pub fn correlations(&self) -> Correlations {
         let count = self.parameters.len();
         let covariance = DMatrix::from_fn(count, count, |row, column| self.matrix[row][column]);
         Correlations::of(self.parameters.clone(), &covariance)

@@ -1,15 +1,16 @@
 //! The keys of the first version, for one release beside those that replace them: laws and lumped models at the
 //! top of a specimen. They are written and never read.
 
+use palpate_characterize::lumped::MeanModulus;
 use serde::{Serialize, Serializer};
 
-use super::{LawAnswer, Modulus, Named, Specimen};
+use super::{LawAnswer, Named, Specimen};
 
 #[derive(Serialize)]
 struct WithFormerKeys<'a> {
     #[serde(flatten)]
     specimen: &'a Specimen,
-    mean_elastic_modulus: Option<&'a Modulus>,
+    mean_elastic_modulus: Option<&'a MeanModulus>,
     /// Why the mean modulus is null.
     #[serde(skip_serializing_if = "Option::is_none")]
     reason: Option<&'a String>,

@@ -15,9 +15,8 @@ use crate::{Unusable, VERSION};
 
 pub use self::fit::{CovarianceAnswer, ElasticAnswer, FitAnswer};
 pub use self::specimen::Specimen;
-pub(crate) use self::values::correlations_of_piece;
 pub use self::values::{
-    Known, LawAnswer, LumpedAnswer, Modulus, Named, Noise, RelaxationAnswer, Steps, Tried,
+    Known, LawAnswer, LumpedAnswer, Named, Noise, RelaxationAnswer, Steps, Tried,
 };
 pub use self::verdicts::{Identified, Partner};
 
@@ -39,7 +38,7 @@ pub struct Answer {
 }
 
 impl Answer {
-    pub(crate) fn new(specimens: Vec<Specimen>, unusable: &[Unusable]) -> Self {
+    pub(crate) fn new(specimens: Vec<Specimen>, unusable: Vec<Unusable>) -> Self {
         let several = specimens.len() > 1;
         let of = |specimen: &Specimen, doubt: &String| match several {
             true => format!("{}: {doubt}", specimen.title),
@@ -58,7 +57,7 @@ impl Answer {
                 .chain(unusable.iter().map(Unusable::sentence))
                 .collect(),
             specimens,
-            unusable: unusable.to_vec(),
+            unusable,
         }
     }
 }

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::fit::{FitAnswer, fits};
 use super::values::{
-    Known, LawAnswer, LumpedAnswer, Modulus, Named, RelaxationAnswer, correlations_of_piece,
+    Known, LawAnswer, LumpedAnswer, Named, RelaxationAnswer, correlations_of_piece,
 };
 use super::verdicts::judge_relaxation;
 use crate::characterize::finished::Studied;
@@ -157,14 +157,8 @@ fn lumped(bare: &WithoutGeometry, reasons: &mut BTreeMap<String, String>) -> Lum
         .into_iter()
         .filter_map(|(key, why)| Some((key.to_owned(), why?.to_string())));
     reasons.extend(why);
-    let modulus = bare.mean_modulus.as_ref().ok();
     LumpedAnswer {
-        mean_elastic_modulus: modulus.map(|found| Modulus {
-            value: found.value,
-            standard_deviation: found.standard_deviation,
-            depth_m: found.depth_m,
-            holds: found.holds,
-        }),
+        mean_elastic_modulus: bare.mean_modulus.as_ref().ok().copied(),
         kelvin: named("kelvin"),
         column: named("column"),
         nonlinear_springs: named("nonlinear_springs"),

@@ -1,7 +1,7 @@
 use std::collections::BTreeMap;
 
 use palpate_characterize::inverse::{Correlations, LawDescription};
-use palpate_characterize::lumped::UniaxialFit;
+use palpate_characterize::lumped::{MeanModulus, UniaxialFit};
 use palpate_characterize::viscoelastic::Relaxation;
 use palpate_files::Estimate;
 use serde::{Deserialize, Serialize};
@@ -10,19 +10,6 @@ use super::verdicts::{Identified, Partner, judge_law};
 
 /// Parameters by their names.
 pub type Named = BTreeMap<String, Known>;
-
-/// The mean elastic modulus (6.1).
-#[derive(Debug, Serialize, Deserialize)]
-pub struct Modulus {
-    /// In the unit of its key.
-    pub value: f64,
-    /// Over the holds at that depth; null for one.
-    pub standard_deviation: Option<f64>,
-    /// [m]
-    pub depth_m: f64,
-    /// How many were averaged.
-    pub holds: usize,
-}
 
 /// A number with its error.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -57,7 +44,7 @@ pub struct Known {
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub struct LumpedAnswer {
     /// (6.1).
-    pub mean_elastic_modulus: Option<Modulus>,
+    pub mean_elastic_modulus: Option<MeanModulus>,
     /// Two springs and a damper, (6.3).
     pub kelvin: Option<Named>,
     /// The exponential law on a column of effective size, section 6.3.

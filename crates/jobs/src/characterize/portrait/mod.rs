@@ -7,11 +7,11 @@ mod of_recordings;
 pub(crate) use of_recordings::all_samples;
 
 use palpate_characterize::inverse::SoughtLaw;
+use palpate_files::quantity::quantity;
 use palpate_files::recording::RecordingHeader;
 use serde::{Deserialize, Serialize};
 
 use super::finished::Studied;
-use crate::quantity;
 
 /// Probability of the bands [-].
 pub const LEVEL: f64 = 0.95;
@@ -115,16 +115,6 @@ pub struct DrawnLaw {
     pub iterations: Vec<Vec<f64>>,
     /// Σ ε² there.
     pub sums_of_squares: Vec<f64>,
-    /// The information criterion [-].
-    pub criterion: f64,
-    /// How many.
-    pub samples: usize,
-    /// How many independent samples would tell as much [-].
-    pub effective_samples: f64,
-    /// What is correlated, and how [-].
-    pub correlated: Vec<String>,
-    /// Row by row [-].
-    pub correlations: Vec<Vec<f64>>,
 }
 
 impl Portrait {

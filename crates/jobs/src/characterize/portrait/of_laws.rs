@@ -1,9 +1,8 @@
 use palpate_characterize::Characterization;
 use palpate_characterize::fit::Fit;
-use palpate_characterize::inverse::{Correlations, LawDescription, SoughtLaw};
+use palpate_characterize::inverse::{LawDescription, SoughtLaw};
 use palpate_characterize::lumped::UniaxialFit;
 
-use super::super::answer::correlations_of_piece;
 use super::{DrawnLaw, key};
 
 /// The laws that were found, with the way of each fit.
@@ -14,15 +13,7 @@ pub(crate) fn drawn(found: &Characterization) -> Vec<DrawnLaw> {
         .iter()
         .filter_map(|(_, law)| law.as_ref().ok());
     let all = pressed.map(of_indentation).chain(pulled.map(of_piece));
-    let criteria = found.criteria();
-    let compared = all.map(|law| {
-        let own = criteria.iter().find(|(of, _)| key(*of) == law.law);
-        DrawnLaw {
-            criterion: own.map_or(0.0, |(_, criterion)| *criterion),
-            ..law
-        }
-    });
-    compared.collect()
+    all.collect()
 }
 
 fn of_indentation(law: &LawDescription) -> DrawnLaw {
@@ -33,47 +24,21 @@ fn of_indentation(law: &LawDescription) -> DrawnLaw {
         each.iter().map(|parameter| parameter.value).collect()
     };
     let way = fit.iterations.iter().map(|step| own(&step.values));
-    described(
-        law.found.law,
-        fit,
-        way.collect(),
-        (law.uncertainty.effective_samples, law.correlations()),
-    )
+    described(law.found.law, fit, way.collect())
 }
 
 fn of_piece(law: &UniaxialFit) -> DrawnLaw {
     let way = law.fit.iterations.iter().map(|step| step.values.clone());
-    let known = (
-        law.uncertainty.effective_samples,
-        correlations_of_piece(law),
-    );
-    described(law.law, &law.fit, way.collect(), known)
+    described(law.law, &law.fit, way.collect())
 }
 
-fn described(
-    law: SoughtLaw,
-    fit: &Fit,
-    iterations: Vec<Vec<f64>>,
-    (effective_samples, correlations): (f64, Correlations),
-) -> DrawnLaw {
+fn described(law: SoughtLaw, fit: &Fit, iterations: Vec<Vec<f64>>) -> DrawnLaw {
     let names = law.parameters(1.0, 0.0);
-    let rows = correlations.matrix.row_iter();
+    let steps = fit.iterations.iter();
     DrawnLaw {
         law: key(law),
-        names: names
-            .iter()
-            .map(|parameter| parameter.name.to_owned())
-            .collect(),
+        names: names.iter().map(|own| own.name.to_owned()).collect(),
         iterations,
-        sums_of_squares: fit
-            .iterations
-            .iter()
-            .map(|step| step.sum_of_squares)
-            .collect(),
-        criterion: 0.0,
-        samples: fit.residuals.len(),
-        effective_samples,
-        correlations: rows.map(|row| row.iter().copied().collect()).collect(),
-        correlated: correlations.names,
+        sums_of_squares: steps.map(|step| step.sum_of_squares).collect(),
     }
 }

@@ -179,7 +179,7 @@ impl Problem {
 
     /// What the solver says to this problem.
     pub(crate) fn refused(&self, error: palpate_mechanics::Error) -> Error {
-        Error::input(format!("{}: {error}", self.path.display()))
+        Error::from(error).about(&self.path)
     }
 
     /// The word of its kind.

@@ -13,18 +13,25 @@ mod uniaxial;
 
 pub use figures::{Figures, Profile, TubeFigures};
 
-use palpate_files::Recording;
+use std::time::Instant;
 
+use palpate_files::Recording;
+use serde::Serialize;
+
+use super::answer::Answer;
 use super::problem::{Case, Problem};
 use super::table::Table;
 use super::telling::Telling;
 use crate::plot::Plot;
-use crate::{Error, Watch};
+use crate::{Error, VERSION, Watch};
 
 /// An answer in all its forms.
-#[derive(Debug)]
+#[derive(Debug, Serialize)]
 pub struct Solution {
+    /// What deserves doubt.
+    pub warnings: Vec<String>,
     /// The figures of the JSON object.
+    #[serde(flatten)]
     pub figures: Figures,
     /// Of the finest mesh.
     pub unknowns: usize,
@@ -32,16 +39,19 @@ pub struct Solution {
     pub estimated_error: f64,
     /// Order of convergence of the value with the largest error, where the meshes show it [-].
     pub observed_order: Option<f64>,
-    /// What deserves doubt.
-    pub warnings: Vec<String>,
     /// Body and load on one line.
+    #[serde(skip)]
     pub heading: String,
+    #[serde(skip)]
     pub(crate) tables: Vec<Table>,
     /// Force against depth, or what the problem asks for instead.
+    #[serde(skip)]
     pub plot: Plot,
     /// The bytes of a `.vtu` file.
+    #[serde(skip)]
     pub vtu: Option<Vec<u8>>,
     /// What the same indenter would record on such a tissue.
+    #[serde(skip)]
     pub recording: Option<Recording>,
 }
 
@@ -58,7 +68,8 @@ pub struct Wanted {
 ///
 /// # Errors
 /// When the solver refuses it, or finds no equilibrium.
-pub fn solve(problem: &Problem, wanted: Wanted, watch: &dyn Watch) -> Result<Solution, Error> {
+pub fn solve(problem: &Problem, wanted: Wanted, watch: &dyn Watch) -> Result<Answer, Error> {
+    let begun = Instant::now();
     let telling = &Telling::to(watch);
     let mut solution = match &problem.case {
         Case::Indentation(case) => indentation::solution(problem, case, wanted, telling),
@@ -75,7 +86,12 @@ pub fn solve(problem: &Problem, wanted: Wanted, watch: &dyn Watch) -> Result<Sol
     let mut warnings = doubts::shared(problem, solution.estimated_error);
     warnings.append(&mut solution.warnings);
     solution.warnings = warnings;
-    Ok(solution)
+    Ok(Answer {
+        palpate: VERSION,
+        kind: problem.kind(),
+        solution,
+        seconds: begun.elapsed().as_secs_f64(),
+    })
 }
 
 /// Millimetres, of lengths [m].

@@ -5,7 +5,7 @@ mod table;
 
 use clap::Args;
 use palpate_files::write_whole;
-use palpate_jobs::analyze::{Answer, analyze};
+use palpate_jobs::analyze::analyze;
 use palpate_jobs::json_text;
 use std::path::PathBuf;
 
@@ -58,10 +58,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let recordings = arguments.recordings.asked();
     let analyzed = analyze(&recordings, &progress)?;
     drop(progress);
-    let answer = Answer::new(&analyzed);
     let unbroken = Unbroken::begin();
     if let Some(out) = &arguments.out {
-        write_whole(out, json_text(&answer)?.as_bytes())?;
+        write_whole(out, json_text(&analyzed)?.as_bytes())?;
     }
     if let Some(page) = &arguments.report {
         let html = report::html(&analyzed, &recordings.said());
@@ -69,12 +68,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     drop(unbroken);
     if arguments.json {
-        return output::json(&answer);
+        return output::json(&analyzed);
     }
-    output::text(table::of(&answer))?;
+    output::text(table::of(&analyzed))?;
     for written in arguments.out.iter().chain(&arguments.report) {
         output::line(format!("written: {}", written.display()))?;
     }
-    output::warnings(&answer.warnings);
+    output::warnings(&analyzed.warnings());
     Ok(())
 }

@@ -1,35 +1,43 @@
 use std::fmt::Write;
 
+use palpate_characterize::Analysis;
 use palpate_files::printable;
-use palpate_jobs::analyze::{Answer, FileAnswer, StaticAnswer};
+use palpate_jobs::ReadRecording;
+use palpate_jobs::analyze::Analyzed;
 
 /// What was found, for people: forces in millinewtons, depths in millimetres.
-pub(super) fn of(answer: &Answer) -> String {
+pub(super) fn of(analyzed: &Analyzed) -> String {
     let mut text = String::new();
-    for file in &answer.files {
+    for (read, found) in &analyzed.recordings {
         // Writing to a string does not fail.
-        let _ = of_file(&mut text, file);
+        let _ = of_file(&mut text, read, found);
     }
-    let several = answer.files.len() > 1;
-    for organ in answer.organs.iter().filter(|_| several) {
-        let name = organ
-            .organ
-            .as_deref()
-            .unwrap_or("recordings without an organ");
+    if analyzed.recordings.len() < 2 {
+        return text;
+    }
+    for (group, response) in analyzed.organs() {
+        let name = response.organ.as_deref();
+        let name = name.unwrap_or("recordings without an organ");
         let _ = writeln!(text, "{}, all recordings", printable(name));
-        for row in &organ.static_response {
-            let _ = of_row(&mut text, row);
+        for row in group.iter().flat_map(|group| &group.rows) {
+            let _ = of_row(&mut text, (row.depth_m, row.mean_n));
+            if row.n > 1 {
+                let (least, most) = (1e3 * row.min_n, 1e3 * row.max_n);
+                let _ = write!(text, " ({least:.2} to {most:.2}, {} holds)", row.n);
+            }
+            text.push('\n');
         }
     }
     text
 }
 
-fn of_file(text: &mut String, file: &FileAnswer) -> std::fmt::Result {
-    writeln!(text, "{}", printable(&file.file.display().to_string()))?;
-    for row in &file.static_response {
-        of_row(text, row)?;
+fn of_file(text: &mut String, read: &ReadRecording, found: &Analysis) -> std::fmt::Result {
+    writeln!(text, "{}", printable(&read.path.display().to_string()))?;
+    for hold in &found.holds {
+        of_row(text, (hold.depth_m, hold.steady_n))?;
+        writeln!(text)?;
     }
-    if let Some(found) = &file.relaxation {
+    if let Some(found) = &found.relaxation {
         let (peak, steady) = (1e3 * found.peak_n, 1e3 * found.steady_n);
         writeln!(
             text,
@@ -38,7 +46,7 @@ fn of_file(text: &mut String, file: &FileAnswer) -> std::fmt::Result {
             found.settle_s
         )?;
     }
-    if let Some(found) = &file.sideways {
+    if let Some(found) = &read.sideways {
         writeln!(
             text,
             "  all axes    {:.2} mN along the approach, {:.2} mN sideways ({:.1} %), {:.3} mN m at the sensor",
@@ -48,7 +56,7 @@ fn of_file(text: &mut String, file: &FileAnswer) -> std::fmt::Result {
             1e3 * found.torque_n_m
         )?;
     }
-    if let Some(found) = &file.sinusoid {
+    if let Some(found) = found.longest_sine() {
         writeln!(
             text,
             "  sine        {:.2} Hz: {:.2} N/m, phase {:.1}°, {:.2e} J lost in a cycle",
@@ -61,12 +69,8 @@ fn of_file(text: &mut String, file: &FileAnswer) -> std::fmt::Result {
     Ok(())
 }
 
-fn of_row(text: &mut String, row: &StaticAnswer) -> std::fmt::Result {
-    let (depth, mean) = (1e3 * row.depth_m, 1e3 * row.mean_n);
-    write!(text, "  steady      {depth:.2} mm: {mean:.2} mN")?;
-    if row.n > 1 {
-        let (least, most) = (1e3 * row.min_n, 1e3 * row.max_n);
-        write!(text, " ({least:.2} to {most:.2}, {} holds)", row.n)?;
-    }
-    writeln!(text)
+/// A steady force [N] at a depth [m].
+fn of_row(text: &mut String, (depth, force): (f64, f64)) -> std::fmt::Result {
+    let (depth, force) = (1e3 * depth, 1e3 * force);
+    write!(text, "  steady      {depth:.2} mm: {force:.2} mN")
 }

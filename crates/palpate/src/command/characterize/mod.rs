@@ -9,6 +9,7 @@ use std::path::PathBuf;
 use clap::Args;
 use palpate_characterize::inverse::SoughtLaw;
 use palpate_files::{Tissue, write_whole};
+use palpate_jobs::Error;
 use palpate_jobs::characterize::{Choice, StudyFolder, characterize};
 
 use super::overwrite::OverwriteOption;
@@ -121,7 +122,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let found = characterize(&recordings, arguments.choice(), folder.as_ref(), &progress)?;
     drop(progress);
     let unbroken = Unbroken::begin();
-    arguments.write(&found.tissues)?;
+    arguments.write(found.tissues)?;
     let answer = found.answer;
     if let Some(path) = &arguments.report {
         let page = report::html(&answer, &found.portraits, &arguments.said());
@@ -174,24 +175,24 @@ impl Arguments {
         [&self.out, &self.abaqus, &self.febio].into_iter().flatten()
     }
 
-    fn write(&self, tissues: &[Result<String, String>]) -> Result<(), Failure> {
+    fn write(&self, tissues: Vec<Result<String, Error>>) -> Result<(), Failure> {
         if self.files().next().is_none() {
             return Ok(());
         }
-        let [only] = tissues else {
-            return Err(Failure::input(format!(
+        let [only] = <[_; 1]>::try_from(tissues).map_err(|several| {
+            Failure::input(format!(
                 "there are {} specimens, and a tissue is of one; name the recordings of one, or use --study for a tissue of each",
-                tissues.len()
-            )));
-        };
-        let text = only.as_ref().map_err(Failure::input)?;
+                several.len()
+            ))
+        })?;
+        let text = only?;
         if let Some(path) = &self.out {
             write_whole(path, text.as_bytes())?;
         }
         let card = |to_card: fn(&Tissue) -> Result<String, palpate_files::card::NoCard>,
                     path: &PathBuf| {
-            let tissue = Tissue::parse(text, path)?;
-            let card = to_card(&tissue).map_err(Failure::input)?;
+            let tissue = Tissue::parse(&text, path)?;
+            let card = to_card(&tissue)?;
             write_whole(path, card.as_bytes()).map_err(Failure::from)
         };
         if let Some(path) = &self.abaqus {

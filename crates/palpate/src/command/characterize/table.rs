@@ -1,8 +1,8 @@
 use std::fmt::Write;
 
 use palpate_files::printable;
+use palpate_files::quantity::{plain_quantity, without_unit};
 use palpate_jobs::characterize::{Answer, Identified, Known, LawAnswer, Specimen};
-use palpate_jobs::{quantity, without_unit};
 
 /// What was found, for people.
 pub(super) fn of(answer: &Answer) -> String {
@@ -30,8 +30,8 @@ fn write(text: &mut String, specimen: &Specimen) -> std::fmt::Result {
         printable(&specimen.title)
     )?;
     if let Some(modulus) = &specimen.lumped.mean_elastic_modulus {
-        let value = plain("_pa", modulus.value, modulus.standard_deviation);
-        let depth = plain("_m", modulus.depth_m, None);
+        let value = plain_quantity("_pa", modulus.value, modulus.standard_deviation);
+        let depth = plain_quantity("_m", modulus.depth_m, None);
         writeln!(text, "  mean modulus     {value} at {depth}, relaxed")?;
     }
     if let Some(relaxation) = &specimen.relaxation {
@@ -72,7 +72,7 @@ fn of_law(law: &LawAnswer) -> String {
 
 /// A parameter with its error, and why it is not known by itself.
 fn shown(key: &str, known: &Known) -> String {
-    let value = plain(key, known.value, known.standard_error);
+    let value = plain_quantity(key, known.value, known.standard_error);
     let remark = match (known.verdict, &known.correlated_with) {
         (Some(Identified::OnBound), _) => "on its bound".to_owned(),
         (Some(Identified::HardlyKnown), _) => "hardly known".to_owned(),
@@ -84,9 +84,4 @@ fn shown(key: &str, known: &Known) -> String {
         _ => return value,
     };
     format!("{value} ({remark})")
-}
-
-/// As in a report, with spaces that every terminal has.
-fn plain(key: &str, value: f64, error: Option<f64>) -> String {
-    quantity(key, value, error).replace('\u{202f}', " ")
 }

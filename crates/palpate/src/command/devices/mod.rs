@@ -64,7 +64,7 @@ impl Word {
 
 /// Lists, tests and prints.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let places = Places::from_environment().map_err(Failure::input)?;
+    let places = Places::from_environment()?;
     let mut answer = Answer::default();
     let kinds = match arguments.kind {
         Some(word) => vec![word.kind()],
@@ -119,8 +119,6 @@ fn tested(
         "{}: hold the handle for three seconds",
         found.capabilities.name
     ));
-    let device = kind.open(found.number, places).map_err(Failure::failed)?;
-    let test = self_test(device, Clock::real()).map_err(Failure::failed);
-    drop(progress);
-    test
+    let device = kind.open(found.number, places)?;
+    Ok(self_test(device, Clock::real())?)
 }

@@ -64,17 +64,9 @@ struct Answer {
     palpate: &'static str,
     size: [usize; 3],
     spacing_m: [f64; 3],
-    labels: Vec<Listed>,
+    labels: Vec<Label>,
     surfaces: Vec<Surfaced>,
     warnings: Vec<String>,
-}
-
-#[derive(Debug, Serialize)]
-struct Listed {
-    number: u16,
-    name: Option<String>,
-    voxels: usize,
-    volume_m3: f64,
 }
 
 #[derive(Debug, Serialize)]
@@ -113,7 +105,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         palpate: output::VERSION,
         size: map.size(),
         spacing_m: map.spacing(),
-        labels: labels.into_iter().map(Listed::from).collect(),
+        labels,
         surfaces,
         warnings,
     };
@@ -169,7 +161,7 @@ fn surface(
         at(part);
         ControlFlow::Continue(())
     });
-    let found = found.map_err(Failure::input)?;
+    let found = found?;
     let surfaced = Surfaced {
         label: label.number,
         name: label.name.clone(),
@@ -199,17 +191,6 @@ fn file_name(label: &Label) -> String {
     }
 }
 
-impl From<Label> for Listed {
-    fn from(label: Label) -> Self {
-        Self {
-            number: label.number,
-            name: label.name,
-            voxels: label.voxels,
-            volume_m3: label.volume,
-        }
-    }
-}
-
 impl Answer {
     fn text(&self) -> String {
         if self.surfaces.is_empty() {
@@ -219,7 +200,7 @@ impl Answer {
                     label.number,
                     printable(label.name.as_deref().unwrap_or("(no name)")),
                     label.voxels,
-                    1e6 * label.volume_m3
+                    1e6 * label.volume
                 )
             });
             return rows.collect();

@@ -5,11 +5,11 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::Args;
-use palpate_geometry::{LengthUnit, SimplifySettings, repair, simplify_with_progress};
+use palpate_geometry::{Deviation, LengthUnit, SimplifySettings, repair, simplify_with_progress};
 use palpate_jobs::Watch;
 use serde::Serialize;
 
-use super::written::{Distance, Output, Written, told};
+use super::written::{Output, Written, told};
 use crate::command::overwrite::OverwriteOption;
 use crate::failure::Failure;
 use crate::progress::{Progress, Reader};
@@ -54,8 +54,8 @@ struct Answer {
     triangles_before: usize,
     /// Part of the volume before.
     volume_change: f64,
-    original_to_result: Distance,
-    result_to_original: Distance,
+    original_to_result: Deviation,
+    result_to_original: Deviation,
     seconds: f64,
     warnings: Vec<String>,
 }
@@ -82,21 +82,16 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         Watch::at(&progress, part);
         ControlFlow::Continue(())
     });
-    let simplified = simplified.map_err(Failure::input)?;
+    let simplified = simplified?;
     let seconds = begin.elapsed().as_secs_f64();
-    if simplified.self_intersections > 0 {
-        warnings.push(format!(
-            "{} triangles of the result meet others; ask for more triangles",
-            simplified.self_intersections
-        ));
-    }
+    warnings.extend(simplified.warning());
     let answer = Answer {
         palpate: output::VERSION,
         written: out.write(&simplified.mesh)?,
         triangles_before: mesh.triangles().len(),
         volume_change: simplified.mesh.volume() / mesh.volume() - 1.0,
-        original_to_result: simplified.of_original.into(),
-        result_to_original: simplified.of_result.into(),
+        original_to_result: simplified.of_original,
+        result_to_original: simplified.of_result,
         seconds,
         warnings: imported.warnings,
     };

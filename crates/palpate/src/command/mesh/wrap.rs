@@ -5,11 +5,11 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::Args;
-use palpate_geometry::{LengthUnit, WrapSettings, wrap_with_progress};
-use palpate_jobs::Watch;
+use palpate_geometry::{Deviation, LengthUnit, WrapSettings, wrap_with_progress};
+use palpate_jobs::{Error, Watch};
 use serde::Serialize;
 
-use super::written::{Distance, Output, Written};
+use super::written::{Output, Written};
 use crate::command::overwrite::OverwriteOption;
 use crate::failure::Failure;
 use crate::progress::{Progress, Reader};
@@ -65,8 +65,8 @@ struct Answer {
     #[serde(flatten)]
     written: Written,
     triangles_before: usize,
-    envelope_to_input: Distance,
-    input_to_envelope: Distance,
+    envelope_to_input: Deviation,
+    input_to_envelope: Deviation,
     holes_capped: usize,
     widest_rim_m: f64,
     pieces_left_out: usize,
@@ -96,8 +96,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         Watch::at(&progress, part);
         ControlFlow::Continue(())
     });
-    let wrapped = wrapped
-        .map_err(|error| Failure::input(format!("{}: {error}", arguments.file.display())))?;
+    let wrapped = wrapped.map_err(|error| Error::from(error).about(&arguments.file))?;
     let mut warnings = imported.warnings;
     if wrapped.to_input.max > settings.distance {
         warnings.push(format!(
@@ -124,8 +123,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         palpate: output::VERSION,
         written: out.write(wrapped.surface.mesh())?,
         triangles_before: imported.mesh.triangles().len(),
-        envelope_to_input: wrapped.to_input.into(),
-        input_to_envelope: wrapped.of_input.into(),
+        envelope_to_input: wrapped.to_input,
+        input_to_envelope: wrapped.of_input,
         holes_capped: wrapped.holes,
         widest_rim_m: wrapped.widest_rim,
         pieces_left_out: wrapped.other_pieces,

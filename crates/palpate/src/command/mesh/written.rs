@@ -1,8 +1,7 @@
-use std::fmt;
 use std::path::{Path, PathBuf};
 
 use palpate_files::write_whole;
-use palpate_geometry::{Deviation, LengthUnit, ReadError, Repairs, TriangleMesh, WriteFormat};
+use palpate_geometry::{LengthUnit, ReadError, Repairs, TriangleMesh, WriteFormat};
 use serde::Serialize;
 
 use crate::failure::Failure;
@@ -24,13 +23,6 @@ pub(super) struct Written {
     pub(super) vertices: usize,
     pub(super) triangles: usize,
     pub(super) volume_m3: f64,
-}
-
-/// How far one surface is from another.
-#[derive(Debug, Clone, Copy, Serialize)]
-pub(super) struct Distance {
-    pub(super) max_m: f64,
-    pub(super) mean_m: f64,
 }
 
 impl Output {
@@ -59,22 +51,6 @@ impl Output {
             triangles: mesh.triangles().len(),
             volume_m3: mesh.volume(),
         })
-    }
-}
-
-impl fmt::Display for Distance {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [max, mean] = [self.max_m, self.mean_m].map(|metres| 1e3 * metres);
-        write!(f, "at most {max:.3} mm, {mean:.3} mm on the mean")
-    }
-}
-
-impl From<Deviation> for Distance {
-    fn from(deviation: Deviation) -> Self {
-        Self {
-            max_m: deviation.max,
-            mean_m: deviation.mean,
-        }
     }
 }
 

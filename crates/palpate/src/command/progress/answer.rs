@@ -1,6 +1,6 @@
 use std::path::{Path, PathBuf};
 
-use palpate_record::{CurvePoint, Spread};
+use palpate_record::{CurvePoint, Measure, Spread, Standard};
 use serde::Serialize;
 
 use super::course::{Course, Learnt, Made, Trainee};
@@ -26,24 +26,9 @@ struct TaskAnswer {
     scenes: usize,
     /// How many sessions of experts.
     experts: usize,
-    standards: Vec<StandardAnswer>,
+    standards: Vec<Standard>,
     trainees: Vec<TraineeAnswer>,
     learning_curve: CurvesAnswer,
-}
-
-#[derive(Debug, Serialize)]
-struct StandardAnswer {
-    measure: String,
-    better: &'static str,
-    #[serde(flatten)]
-    spread: SpreadAnswer,
-}
-
-#[derive(Debug, Serialize)]
-struct SpreadAnswer {
-    mean: f64,
-    standard_deviation: Option<f64>,
-    n: usize,
 }
 
 #[derive(Debug, Serialize)]
@@ -71,9 +56,8 @@ struct AttemptAnswer {
 
 #[derive(Debug, Serialize)]
 struct MeasureAnswer {
-    measure: String,
-    value: f64,
-    better: &'static str,
+    #[serde(flatten)]
+    measure: Measure,
     proficient: Option<bool>,
 }
 
@@ -86,15 +70,8 @@ struct CurvesAnswer {
 
 #[derive(Debug, Serialize)]
 struct CurveAnswer {
-    experts: Option<SpreadAnswer>,
-    trainees: Vec<PointAnswer>,
-}
-
-#[derive(Debug, Serialize)]
-struct PointAnswer {
-    attempt: usize,
-    #[serde(flatten)]
-    spread: SpreadAnswer,
+    experts: Option<Spread>,
+    trainees: Vec<CurvePoint>,
 }
 
 impl Answer {
@@ -111,22 +88,16 @@ impl Answer {
 
 impl TaskAnswer {
     fn new(course: &Course<'_>) -> Self {
-        let standards = course.standards.each.iter();
-        let standards = standards.map(|own| StandardAnswer {
-            measure: own.key.clone(),
-            better: own.better.word(),
-            spread: own.spread.into(),
-        });
         let trainees = course.trainees.iter();
         let curve = |of: Learnt| CurveAnswer {
-            experts: course.of_experts(of).map(SpreadAnswer::from),
-            trainees: course.curve(of).into_iter().map(Into::into).collect(),
+            experts: course.of_experts(of),
+            trainees: course.curve(of),
         };
         Self {
             task: course.task.to_owned(),
             scenes: course.scenes,
             experts: course.experts.len(),
-            standards: standards.collect(),
+            standards: course.standards.each.clone(),
             trainees: trainees.map(|own| trainee(course, own)).collect(),
             learning_curve: CurvesAnswer {
                 time_s: curve(Learnt::Time),
@@ -151,9 +122,7 @@ fn trainee(course: &Course<'_>, trainee: &Trainee<'_>) -> TraineeAnswer {
 fn attempt(course: &Course<'_>, number: usize, made: &Made<'_>) -> AttemptAnswer {
     let own = made.attempt;
     let measures = own.measures.iter().map(|measure| MeasureAnswer {
-        measure: measure.key.clone(),
-        value: measure.value,
-        better: measure.better.word(),
+        measure: measure.clone(),
         proficient: made.judged(course, &measure.key),
     });
     AttemptAnswer {
@@ -167,24 +136,5 @@ fn attempt(course: &Course<'_>, number: usize, made: &Made<'_>) -> AttemptAnswer
         passed: own.passed,
         proficient: made.judgement.proficient,
         measures: measures.collect(),
-    }
-}
-
-impl From<Spread> for SpreadAnswer {
-    fn from(spread: Spread) -> Self {
-        Self {
-            mean: spread.mean,
-            standard_deviation: spread.standard_deviation,
-            n: spread.count,
-        }
-    }
-}
-
-impl From<CurvePoint> for PointAnswer {
-    fn from(point: CurvePoint) -> Self {
-        Self {
-            attempt: point.attempt,
-            spread: point.spread.into(),
-        }
     }
 }

@@ -3,10 +3,11 @@
 use std::path::Path;
 
 use palpate_files::printable;
+use palpate_files::quantity::number;
 
 use super::course::{Course, Learnt, Made, Trainee};
 use crate::date;
-use crate::report::{count, quantity, rounded, unit};
+use crate::report::{count, quantity, unit};
 
 /// Where there is nothing to say.
 pub(super) const NONE: &str = "–";
@@ -139,11 +140,7 @@ fn beside(course: &Course<'_>, trainee: &Trainee<'_>) -> String {
 
 /// A number without its unit.
 pub(super) fn shown(value: Option<f64>) -> String {
-    match value {
-        None => NONE.to_owned(),
-        Some(count) if count.fract() == 0.0 && count.abs() < 1e4 => format!("{count}"),
-        Some(value) => rounded(value, 4),
-    }
+    value.map_or(NONE.to_owned(), number)
 }
 
 /// The value of a measure, with its unit; counts are whole.

@@ -18,7 +18,7 @@ pub(super) struct Answer {
     measures: BTreeMap<String, f64>,
     /// By key; empty without an expert.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
-    expert: BTreeMap<String, Beside>,
+    expert: BTreeMap<String, Comparison>,
     pub(super) warnings: Vec<String>,
 }
 
@@ -32,15 +32,6 @@ struct TaskAnswer {
     part: Option<f64>,
 }
 
-#[derive(Debug, Serialize)]
-struct Beside {
-    mean: f64,
-    standard_deviation: Option<f64>,
-    sessions: usize,
-    ratio: Option<f64>,
-    proficient: Option<bool>,
-}
-
 impl Answer {
     pub(super) fn new(
         (session, task): (&Path, &Task),
@@ -48,13 +39,6 @@ impl Answer {
         warnings: Vec<String>,
     ) -> Self {
         let measures = score.measures().into_iter();
-        let beside = |compared: &Comparison| Beside {
-            mean: compared.standard.mean,
-            standard_deviation: compared.standard.standard_deviation,
-            sessions: compared.standard.count,
-            ratio: compared.ratio,
-            proficient: compared.proficient,
-        };
         Self {
             palpate: VERSION,
             session: session.to_owned(),
@@ -72,7 +56,7 @@ impl Answer {
                 .collect(),
             expert: compared
                 .iter()
-                .map(|compared| (compared.measure.key.clone(), beside(compared)))
+                .map(|compared| (compared.measure.key.clone(), compared.clone()))
                 .collect(),
             warnings,
         }

@@ -1,4 +1,5 @@
 use palpate_files::printable;
+use palpate_files::quantity::number;
 use palpate_files::scene::Task;
 use palpate_simulate::performance::{Comparison, Outcome, Score, outcome_words};
 
@@ -41,16 +42,4 @@ pub(super) fn text(task: &Task, (score, compared): (&Score, &[Comparison])) -> S
         lines.push(line);
     }
     lines.join("\n")
-}
-
-/// Four digits.
-fn number(value: f64) -> String {
-    match value.abs() {
-        0.0 => "0".to_owned(),
-        size if (1e-3..1e5).contains(&size) => {
-            let decimals = (3 - size.log10().floor() as i32).clamp(0, 6) as usize;
-            format!("{value:.decimals$}")
-        }
-        _ => format!("{value:.3e}"),
-    }
 }

@@ -1,12 +1,11 @@
 //! `palpate solve`: the finite element reference on a described problem.
 
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 use clap::Args;
 use palpate_files::Claim;
 use palpate_jobs::json_text;
-use palpate_jobs::solve::{Answer, Problem, Solution, Wanted, in_words, solve};
+use palpate_jobs::solve::{Answer, Problem, Wanted, in_words, solve};
 
 use super::overwrite::OverwriteOption;
 use crate::failure::Failure;
@@ -79,25 +78,23 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let problem = Problem::read(&arguments.problem)?;
     let _claims = claimed(arguments, &problem)?;
-    let begun = Instant::now();
     interrupt::ends_between_files("interrupted; no answer was found");
     let progress = Progress::of_job(Reader::of_json(arguments.json));
     let wanted = Wanted {
         plot: arguments.plot.is_some(),
         vtu: arguments.vtu.is_some(),
     };
-    let solution = solve(&problem, wanted, &progress)?;
-    let answer = Answer::new(&problem, &solution, begun.elapsed());
-    write(arguments, &solution, &answer)?;
+    let answer = solve(&problem, wanted, &progress)?;
+    write(arguments, &answer)?;
     drop(progress);
     if arguments.json {
         return output::json(&answer);
     }
-    output::text(in_words(&problem, &solution, &answer))?;
+    output::text(in_words(&problem, &answer))?;
     for path in arguments.files() {
         output::line(format!("written: {}", path.display()))?;
     }
-    output::warnings(&answer.warnings);
+    output::warnings(&answer.solution.warnings);
     Ok(())
 }
 
@@ -118,7 +115,8 @@ fn claimed(arguments: &Arguments, problem: &Problem) -> Result<Vec<Claim>, Failu
     arguments.overwrite.claim(arguments.files())
 }
 
-fn write(arguments: &Arguments, solution: &Solution, answer: &Answer) -> Result<(), Failure> {
+fn write(arguments: &Arguments, answer: &Answer) -> Result<(), Failure> {
+    let solution = &answer.solution;
     // Ctrl-C waits until the files are whole.
     let _unbroken = Unbroken::begin();
     if let Some(path) = &arguments.plot {

@@ -1,12 +1,13 @@
 mod indented;
 mod plot;
 
+use palpate_files::quantity::{plain_quantity, rounded};
 use palpate_mechanics::finite_elements::tube::{
     Ends, Inflated, Tube as Shape, TubeProblem, inflate,
 };
 
 use super::super::problem::{Problem, Tube};
-use super::super::table::{Table, digits};
+use super::super::table::Table;
 use super::figures::TubeFigures;
 use super::{Figures, Solution, Wanted, plots};
 use crate::Error;
@@ -41,7 +42,7 @@ pub(crate) fn solution(
     warnings.extend(doubts(problem, case, &inflated));
     let moved = &inflated.inner_displacements;
     let in_words = |moved: &Option<f64>| match moved {
-        Some(moved) => digits(1e3 * moved),
+        Some(moved) => rounded(1e3 * moved, 4),
         None => "past the limit".to_owned(),
     };
     let table = Table::default()
@@ -86,7 +87,10 @@ fn heading(case: &Tube, inflated: &Inflated) -> String {
         plots::short(1e3 * case.outer_radius),
     );
     match inflated.limit_pressure {
-        Some(limit) => format!("{tube}; it balloons at {} Pa", digits(limit)),
+        Some(limit) => format!(
+            "{tube}; it balloons at {}",
+            plain_quantity("_pa", limit, None)
+        ),
         None => tube,
     }
 }
@@ -100,9 +104,9 @@ fn doubts(problem: &Problem, case: &Tube, inflated: &Inflated) -> Vec<String> {
         .map(|(pressure, _)| format!("{pressure} Pa"))
         .collect();
     if !past.is_empty() {
-        let limit = inflated
-            .limit_pressure
-            .map_or(String::new(), |limit| format!(", {} Pa", digits(limit)));
+        let limit = inflated.limit_pressure.map_or(String::new(), |limit| {
+            format!(", {}", plain_quantity("_pa", limit, None))
+        });
         doubts.push(format!(
             "{}: past the limit{limit}; a tube of this law has no equilibrium there, for it \
              balloons",
@@ -121,9 +125,9 @@ fn doubts(problem: &Problem, case: &Tube, inflated: &Inflated) -> Vec<String> {
         && case.pressures.iter().any(|pressure| *pressure >= from)
     {
         doubts.push(format!(
-            "from {} Pa on the tube could wrinkle along its length; the answers are those of a \
+            "from {} on the tube could wrinkle along its length; the answers are those of a \
              smooth one",
-            digits(from)
+            plain_quantity("_pa", from, None)
         ));
     }
     doubts

@@ -1,4 +1,5 @@
 use palpate_characterize::fit::CORRELATED;
+use palpate_characterize::inverse::Correlations;
 
 use super::curves::line;
 use super::words;
@@ -14,13 +15,11 @@ pub(super) fn figures(portrait: &Portrait) -> Markup {
 }
 
 /// How the errors of the preferred law go together.
-pub(super) fn correlations(own: &Specimen, portrait: &Portrait) -> Markup {
+pub(super) fn correlations(own: &Specimen) -> Markup {
     let preferred = own.preferred.as_deref();
-    let chosen = portrait
-        .laws
-        .iter()
-        .filter(|law| Some(law.law.as_str()) == preferred);
-    chosen.map(heat).collect()
+    let fit = preferred.and_then(|law| Some((law, own.fits.get(law)?)));
+    let heat = fit.map(|(law, fit)| heat(law, &fit.covariance.correlations()));
+    heat.unwrap_or_default()
 }
 
 /// Parameters relative to where they ended, step by step.
@@ -78,26 +77,22 @@ fn plain(name: &str) -> String {
 }
 
 /// The largest correlation of two parameters, up or down [-].
-pub(super) fn largest(law: &DrawnLaw) -> f64 {
-    let rows = law.correlations.iter().enumerate();
-    let others = rows.flat_map(|(row, values)| {
-        let others = values
-            .iter()
-            .enumerate()
-            .filter(move |(column, _)| *column != row);
-        others.map(|(_, value)| value.abs())
-    });
-    others.fold(0.0, f64::max)
+pub(super) fn largest(correlations: &Correlations) -> f64 {
+    let matrix = &correlations.matrix;
+    let others =
+        (0..matrix.nrows()).flat_map(|row| (0..row).map(move |column| matrix[(row, column)]));
+    others.fold(0.0, |largest, value| largest.max(value.abs()))
 }
 
 /// Correlations as a table of colors with numbers.
-fn heat(law: &DrawnLaw) -> Markup {
-    if law.correlated.len() < 2 {
+fn heat(law: &str, correlations: &Correlations) -> Markup {
+    let Correlations { names, matrix, .. } = correlations;
+    if names.len() < 2 {
         return Markup::default();
     }
-    let names = law.correlated.iter().map(|name| symbol(name));
-    let mut table = Table::new([Markup::default()].into_iter().chain(names)).of_class("heat");
-    for (name, row) in law.correlated.iter().zip(&law.correlations) {
+    let head = names.iter().map(|name| symbol(name));
+    let mut table = Table::new([Markup::default()].into_iter().chain(head)).of_class("heat");
+    for (name, row) in names.iter().zip(matrix.row_iter()) {
         let cells = row.iter().map(|value| {
             // Blue for together, orange for against.
             let color = if *value < 0.0 { 1 } else { 0 };
@@ -114,8 +109,8 @@ fn heat(law: &DrawnLaw) -> Markup {
         });
         table.row([symbol(name)].into_iter().chain(cells).collect());
     }
-    let title = format!("Correlation of errors: {}", words::law(&law.law));
-    let most = largest(law);
+    let title = format!("Correlation of errors: {}", words::law(law));
+    let most = largest(correlations);
     let note = match most >= CORRELATED {
         true => format!(
             "The largest is {most:.2}, up or down: from {CORRELATED:.2} on two parameters are known together and not each by itself, for what one gains \

@@ -2,19 +2,18 @@ use palpate_characterize::fit::WORTH;
 
 use super::words;
 use crate::report::{Markup, Table, quantity, rounded, symbol, unit};
-use palpate_jobs::characterize::Portrait;
-use palpate_jobs::characterize::{Identified, Known, Specimen};
+use palpate_jobs::characterize::{FitAnswer, Identified, Known, Specimen};
 
 /// The laws side by side, and which is to be preferred.
-pub(super) fn comparison(own: &Specimen, portrait: &Portrait) -> Markup {
-    if portrait.laws.is_empty() {
+pub(super) fn comparison(own: &Specimen) -> Markup {
+    if own.fits.is_empty() {
         return Markup::default();
     }
     let preferred = own.preferred.as_deref();
-    let least = portrait
-        .laws
-        .iter()
-        .map(|law| law.criterion)
+    let least = own
+        .fits
+        .values()
+        .map(criterion)
         .fold(f64::INFINITY, f64::min);
     let mut table = Table::new([
         "law",
@@ -26,7 +25,7 @@ pub(super) fn comparison(own: &Specimen, portrait: &Portrait) -> Markup {
         "runs of finite elements",
     ]);
     for (key, law) in own.laws() {
-        let Some(drawn) = portrait.laws.iter().find(|drawn| drawn.law == key) else {
+        let Some(fit) = own.fits.get(key) else {
             continue;
         };
         let name = Markup::from(words::law(key));
@@ -36,8 +35,8 @@ pub(super) fn comparison(own: &Specimen, portrait: &Portrait) -> Markup {
             name,
             law.parameters.len().to_string().into(),
             format!("{:.2} %", 100.0 * law.misfit).into(),
-            rounded(drawn.criterion, 5).into(),
-            format!("{:.1}", drawn.criterion - least).into(),
+            rounded(criterion(fit), 5).into(),
+            format!("{:.1}", criterion(fit) - least).into(),
             law.iterations.to_string().into(),
             law.solves.to_string().into(),
         ];
@@ -46,24 +45,29 @@ pub(super) fn comparison(own: &Specimen, portrait: &Portrait) -> Markup {
             false => table.row(cells),
         }
     }
-    let verdict = preferred.map_or_else(Markup::default, |key| verdict(key, portrait, least));
+    let verdict = preferred.map_or_else(Markup::default, |key| verdict(key, own, least));
     Markup::plain("h3", "Which law").and(verdict).and(table)
 }
 
+/// By which laws are compared [-].
+fn criterion(fit: &FitAnswer) -> f64 {
+    fit.information_criterion.unwrap_or(0.0)
+}
+
 /// Why a law is preferred.
-fn verdict(preferred: &str, portrait: &Portrait, least: f64) -> Markup {
-    let Some(own) = portrait.laws.iter().find(|law| law.law == preferred) else {
+fn verdict(preferred: &str, specimen: &Specimen, least: f64) -> Markup {
+    let Some(own) = specimen.fits.get(preferred) else {
         return Markup::default();
     };
     let name = words::law(preferred);
-    let why = match portrait.laws.as_slice() {
-        [_] => format!("The {name} law is the only one that was found."),
-        _ if own.criterion <= least => {
+    let why = match specimen.fits.len() {
+        1 => format!("The {name} law is the only one that was found."),
+        _ if criterion(own) <= least => {
             format!("The {name} law is preferred: no other is better by the information criterion.")
         }
         _ => format!(
             "The {name} law is preferred: it is the simplest that no other beats by more than {WORTH}, and the best is ahead by {:.1} only.",
-            own.criterion - least
+            criterion(own) - least
         ),
     };
     let how = format!(

@@ -28,12 +28,12 @@ pub(super) fn section(
     let inside = title
         .and(files)
         .and(headline(own, portrait))
-        .and(told(own, portrait))
+        .and(told(own))
         .and(Markup::of_class("div", "figures", figures))
-        .and(laws::comparison(own, portrait))
+        .and(laws::comparison(own))
         .and(laws::parameters(own))
         .and(laws::noise(own))
-        .and(convergence::correlations(own, portrait))
+        .and(convergence::correlations(own))
         .and(lumped::tables(own))
         .and(missing(own));
     let id = format!("specimen-{}", place + 1);
@@ -115,14 +115,14 @@ fn known_card(name: Markup, key: &str, known: &Known) -> Markup {
 }
 
 /// What can be told apart, by the verdicts on each parameter, and what else deserves doubt.
-fn told(own: &Specimen, portrait: &Portrait) -> Markup {
+fn told(own: &Specimen) -> Markup {
     let others = own
         .warnings
         .iter()
         .filter(|said| !own.identifiability.contains(said));
     let others: Vec<String> = others.cloned().collect();
     let apart = match own.identifiability.is_empty() {
-        true => Markup::plain("p", known_by_itself(own, portrait).unwrap_or_default()),
+        true => Markup::plain("p", known_by_itself(own).unwrap_or_default()),
         false => doubts("What these recordings cannot tell", &own.identifiability),
     };
     apart.and(doubts("Warnings", &others))
@@ -130,7 +130,7 @@ fn told(own: &Specimen, portrait: &Portrait) -> Markup {
 
 /// The sentence on a preferred law and a relaxation whose parameters are all known by themselves, with the numbers
 /// that say so; none where one is not.
-fn known_by_itself(own: &Specimen, portrait: &Portrait) -> Option<String> {
+fn known_by_itself(own: &Specimen) -> Option<String> {
     let (name, law) = own.preferred()?;
     let terms = own.relaxation.iter();
     let terms = terms.flat_map(|found| found.g.iter().chain(&found.tau_s));
@@ -142,11 +142,11 @@ fn known_by_itself(own: &Specimen, portrait: &Portrait) -> Option<String> {
         .iter()
         .filter_map(|own| Some((own.standard_error? / own.value).abs()));
     let largest = errors.fold(0.0, f64::max);
-    let drawn = portrait.laws.iter().find(|drawn| drawn.law == name)?;
+    let correlations = own.fits.get(name)?.covariance.correlations();
     Some(format!(
         "Every parameter is known by itself from these recordings: standard errors are {} % at most, correlations {:.2} at most, up or down.",
         rounded(100.0 * largest, 2),
-        convergence::largest(drawn)
+        convergence::largest(&correlations)
     ))
 }
 

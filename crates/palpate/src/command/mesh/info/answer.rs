@@ -16,7 +16,8 @@ pub(super) struct Answer {
     pub(super) origin: Origin,
     #[serde(flatten)]
     pub(super) report: MeshReport,
-    pub(super) repair: Repair,
+    /// What a repair would do.
+    pub(super) repair: Repairs,
     /// As it is, or after the repair.
     pub(super) can_be_simulated: bool,
     /// Why, or why not, as half a sentence.
@@ -38,23 +39,14 @@ pub(super) enum Origin {
     Builtin(Organ),
 }
 
-/// What a repair would do.
-#[derive(Debug, Default, Serialize)]
-pub(super) struct Repair {
-    pub(super) welded_vertices: usize,
-    pub(super) degenerate_triangles: usize,
-    pub(super) unused_vertices: usize,
-    pub(super) flipped_triangles: usize,
-}
-
 impl Answer {
     pub(super) fn new(origin: Origin, mesh: &TriangleMesh, warnings: Vec<String>) -> Self {
         let report = inspect(mesh);
         let (repaired, repair) = match repair(mesh) {
-            Ok((repaired, repairs)) => (Some(repaired), Repair::from(repairs)),
-            Err(_) => (None, Repair::default()),
+            Ok((repaired, repairs)) => (Some(repaired), repairs),
+            Err(_) => (None, Repairs::default()),
         };
-        let repaired = repaired.filter(|_| repair.is_needed());
+        let repaired = repaired.filter(|_| repair != Repairs::default());
         let (can_be_simulated, because) = verdict(mesh, repaired, &report);
         Self {
             palpate: VERSION,
@@ -64,27 +56,6 @@ impl Answer {
             repair,
             can_be_simulated,
             because,
-        }
-    }
-}
-
-impl Repair {
-    pub(super) fn is_needed(&self) -> bool {
-        self.welded_vertices
-            + self.degenerate_triangles
-            + self.unused_vertices
-            + self.flipped_triangles
-            > 0
-    }
-}
-
-impl From<Repairs> for Repair {
-    fn from(repairs: Repairs) -> Self {
-        Self {
-            welded_vertices: repairs.welded_vertices,
-            degenerate_triangles: repairs.degenerate_triangles,
-            unused_vertices: repairs.unused_vertices,
-            flipped_triangles: repairs.flipped_triangles,
         }
     }
 }

@@ -6,7 +6,7 @@ mod table;
 use std::path::{Path, PathBuf};
 
 use clap::{ArgGroup, Args};
-use palpate_geometry::Organ;
+use palpate_jobs::builtin_organ;
 
 use self::answer::{Answer, Origin};
 use crate::failure::Failure;
@@ -72,18 +72,9 @@ fn of_file(file: &Path, unit: Option<&str>, progress: &Progress) -> Result<Answe
 }
 
 fn of_builtin(name: &str, arguments: &Arguments, progress: &Progress) -> Result<Answer, Failure> {
-    let organ: Organ = name.parse().map_err(|_| unknown_builtin(name))?;
+    let organ = builtin_organ(name)?;
     let triangles = arguments.triangles;
     let mesh = organ.surface_mesh(triangles.unwrap_or(organ.default_triangles()))?;
     progress.say("looking for holes, crossings and slivers");
     Ok(Answer::new(Origin::Builtin(organ), &mesh, Vec::new()))
-}
-
-fn unknown_builtin(name: &str) -> Failure {
-    let names = Organ::ALL.map(Organ::name);
-    Failure::input(format!(
-        "there is no built-in organ `{name}`; the nearest is `{}`, and there are {}",
-        palpate_jobs::nearest(name, &names),
-        names.join(", ")
-    ))
 }

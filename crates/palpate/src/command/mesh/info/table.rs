@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
-use palpate_geometry::MeshReport;
+use palpate_geometry::{MeshReport, Repairs};
 
-use super::answer::{Answer, Origin, Repair};
+use super::answer::{Answer, Origin};
 
 /// The whole report as text.
 pub(super) fn of(answer: &Answer) -> String {
@@ -76,8 +76,8 @@ fn problems(report: &MeshReport) -> String {
     text
 }
 
-fn repairs(repair: &Repair) -> String {
-    if !repair.is_needed() {
+fn repairs(repair: &Repairs) -> String {
+    if *repair == Repairs::default() {
         return "\na repair would change nothing\n".to_owned();
     }
     let mut text = "\na repair would\n".to_owned();

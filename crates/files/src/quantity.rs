@@ -58,6 +58,11 @@ pub fn quantity(key: &str, value: f64, error: Option<f64>) -> String {
     }
 }
 
+/// The same with a space that every terminal has, for sentences and tables of plain text.
+pub fn plain_quantity(key: &str, value: f64, error: Option<f64>) -> String {
+    quantity(key, value, error).replace(SPACE, " ")
+}
+
 fn with_error(value: f64, error: Option<f64>) -> String {
     let Some(error) = error.filter(|error| error.is_finite() && *error > 0.0) else {
         return rounded(value, 4);
@@ -87,6 +92,14 @@ pub fn rounded(value: f64, digits: i32) -> String {
     }
     let value = to_place(value / 10_f64.powi(power), 1 - digits);
     format!("{value} × 10{}", superscript(power))
+}
+
+/// A number without a unit: a whole one as it is, else to four digits.
+pub fn number(value: f64) -> String {
+    match value.fract() == 0.0 && value.abs() < 1e4 {
+        true => format!("{value}"),
+        false => rounded(value, 4),
+    }
 }
 
 /// A number rounded to the given power of ten, with a real minus sign.
