@@ -79,5 +79,5 @@ fn too_little_memory_is_refused() {
         memory: 1000,
     };
     let status = Model::open(KIDNEY, &how).unwrap_err();
-    assert_eq!(status, Status::PalpateBadInput, "{}", message());
+    assert_eq!(status, Status::PalpateFailed, "{}", message());
 }
