@@ -53,6 +53,8 @@ struct Recording {
     in_memory: Vec<SessionRow>,
     /// Of these rows.
     most: usize,
+    /// A row of a new beginning that is not copied yet.
+    beginning: Option<SessionRow>,
     /// Why rows can no longer be written.
     failed: Option<String>,
     unwritten: Arc<Mutex<Option<Unwritten>>>,
@@ -97,6 +99,7 @@ impl SessionRecorder {
             stage: Stage::Ended,
             in_memory: Vec::new(),
             most,
+            beginning: None,
             failed: None,
             unwritten: unwritten.clone(),
             stops,
@@ -164,8 +167,12 @@ impl Drop for SessionRecorder {
 impl Recording {
     fn run(mut self, requested: &Receiver<Request>) {
         loop {
-            match requested.recv_timeout(PERIOD) {
-                // Before the rows that have come since: the new beginning may be among them.
+            // A beginning belongs to a request that was made before it, which may have come while rows were copied.
+            let request = match self.beginning {
+                Some(_) => requested.recv_timeout(Duration::ZERO),
+                None => requested.recv_timeout(PERIOD),
+            };
+            match request {
                 Ok(Request::Record(writer)) => {
                     self.writer = Some(*writer);
                     self.stage = Stage::Awaited;
@@ -186,28 +193,60 @@ impl Recording {
                     self.show_failure();
                     let _ = reply.send(ended);
                 }
-                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Timeout) => self.copy_beginning(),
                 Err(RecvTimeoutError::Disconnected) => return self.copy(),
             }
-            self.copy();
+            if self.stage == Stage::Awaited {
+                self.copy_beginning();
+            }
+            self.copy_to_beginning();
         }
     }
 
+    /// Copies all rows.
     fn copy(&mut self) {
+        self.copy_beginning();
         while let Some(row) = self.from.next_value() {
-            if self.stage == Stage::Awaited && row.events.contains(Event::BeginAnew) {
-                self.stage = Stage::Begun;
-            }
-            if self.stage == Stage::Begun {
-                // One more than can be kept: so it shows that they are not all.
-                if self.in_memory.len() <= self.most {
-                    self.in_memory.push(row);
-                }
-                let written = self.writer.as_mut().map(|writer| writer.write(&row));
-                self.fail_on(written);
-            }
-            self.to.add(row);
+            self.copy_row(row);
         }
+        self.flush();
+    }
+
+    /// Copies the rows before the next new beginning.
+    fn copy_to_beginning(&mut self) {
+        while self.beginning.is_none()
+            && let Some(row) = self.from.next_value()
+        {
+            match row.events.contains(Event::BeginAnew) {
+                true => self.beginning = Some(row),
+                false => self.copy_row(row),
+            }
+        }
+        self.flush();
+    }
+
+    fn copy_beginning(&mut self) {
+        if let Some(row) = self.beginning.take() {
+            self.copy_row(row);
+        }
+    }
+
+    fn copy_row(&mut self, row: SessionRow) {
+        if self.stage == Stage::Awaited && row.events.contains(Event::BeginAnew) {
+            self.stage = Stage::Begun;
+        }
+        if self.stage == Stage::Begun {
+            // One more than can be kept: so it shows that they are not all.
+            if self.in_memory.len() <= self.most {
+                self.in_memory.push(row);
+            }
+            let written = self.writer.as_mut().map(|writer| writer.write(&row));
+            self.fail_on(written);
+        }
+        self.to.add(row);
+    }
+
+    fn flush(&mut self) {
         let written = self.writer.as_mut().map(SessionFolderWriter::flush);
         self.fail_on(written);
         if self.failed.is_some() {
