@@ -20,7 +20,7 @@ tool = [{ name = ""right"", tip = { shape = ""flat"", radius_m = 0.001 } }]
             using (State state = simulation.NewState())
             {
                 // 4 mm below the first vertex, along its inward normal.
-                double[] at = simulation.Surface.Vertices, outward = simulation.Normals;
+                double[] at = simulation.CopySurface().Vertices, outward = simulation.CopyNormals();
                 var poses = new Pose[1];
                 poses[0].IsThere = true;
                 poses[0].Position = new Vector(

@@ -12,11 +12,11 @@ namespace Palpate
     /// <summary>How a call ended.</summary>
     public enum Status
     {
-        /// <summary>It was done.</summary>
+        /// <summary>Success.</summary>
         Ok = 0,
-        /// <summary>It was not, and what was given is not at fault.</summary>
+        /// <summary>A failure that is not the fault of the input.</summary>
         Failed = 1,
-        /// <summary>It was not: what was given has to be mended.</summary>
+        /// <summary>The input is invalid.</summary>
         BadInput = 2,
     }
 
@@ -159,10 +159,10 @@ namespace Palpate
         }
     }
 
-    /// <summary>A call that could not be done: cause, then mend.</summary>
+    /// <summary>A call failed. The message is one sentence: the cause, then how to fix it.</summary>
     public sealed class PalpateException : Exception
     {
-        /// <summary>What kind of reason there is.</summary>
+        /// <summary>Whether the input is invalid, or something else failed.</summary>
         public Status Status { get; private set; }
 
         internal PalpateException(Status status, string message) : base(message)
@@ -183,7 +183,7 @@ namespace Palpate
 
         /// <summary>Reads a scene file and prepares it. A whole organ takes from seconds to minutes, unless the folder
         /// <paramref name="responses"/> keeps its answer; null keeps nothing.</summary>
-        /// <exception cref="PalpateException">When the scene has to be mended.</exception>
+        /// <exception cref="PalpateException">The scene is invalid, or its preparation failed.</exception>
         public static Simulation Open(string path, string responses = null)
         {
             return Opened(responses, (ref Native.Preparation how, out SimulationHandle handle) =>
@@ -192,7 +192,7 @@ namespace Palpate
 
         /// <summary>The same for the text of a scene; relative paths in it begin in the folder of
         /// <paramref name="name"/>, its name in errors.</summary>
-        /// <exception cref="PalpateException">When the scene has to be mended.</exception>
+        /// <exception cref="PalpateException">The scene is invalid, or its preparation failed.</exception>
         public static Simulation Parse(string text, string name, string responses = null)
         {
             return Opened(responses, (ref Native.Preparation how, out SimulationHandle handle) =>
@@ -232,15 +232,15 @@ namespace Palpate
             return Native.Text(Native.palpate_tool_name(Handle, (UIntPtr)(uint)tool));
         }
 
-        /// <summary>The sentences on what deserves doubt in this scene.</summary>
+        /// <summary>Warnings about this scene.</summary>
         public string[] Warnings
         {
             get
             {
-                var warnings = new string[(int)Native.palpate_doubt_count(Handle)];
+                var warnings = new string[(int)Native.palpate_warning_count(Handle)];
                 for (int i = 0; i < warnings.Length; i++)
                 {
-                    warnings[i] = Native.Text(Native.palpate_doubt(Handle, (UIntPtr)(uint)i));
+                    warnings[i] = Native.Text(Native.palpate_warning(Handle, (UIntPtr)(uint)i));
                 }
                 return warnings;
             }
@@ -258,28 +258,24 @@ namespace Palpate
             get { return Native.palpate_force_scale(Handle); }
         }
 
-        /// <summary>The organ at rest.</summary>
-        public Surface Surface
+        /// <summary>A copy of the organ at rest.</summary>
+        public Surface CopySurface()
         {
-            get
-            {
-                Native.SurfaceView view;
-                Native.Check(Native.palpate_simulation_surface(Handle, out view));
-                var surface = new Surface();
-                surface.Take(view);
-                return surface;
-            }
+            Native.SurfaceView view;
+            Native.Check(Native.palpate_simulation_surface(Handle, out view));
+            var surface = new Surface();
+            surface.Take(view);
+            return surface;
         }
 
-        /// <summary>x, y, z of the unit outward normal at each vertex of the organ at rest [-].</summary>
-        public double[] Normals
+        /// <summary>A copy of x, y, z of the unit outward normal at each vertex of the organ at rest [-].</summary>
+        public double[] CopyNormals()
         {
-            get
-            {
-                var normals = new double[Surface.Vertices.Length];
-                Marshal.Copy(Native.palpate_simulation_normals(Handle), normals, 0, normals.Length);
-                return normals;
-            }
+            Native.SurfaceView view;
+            Native.Check(Native.palpate_simulation_surface(Handle, out view));
+            var normals = new double[3 * (int)view.VertexCount];
+            Marshal.Copy(Native.palpate_simulation_normals(Handle), normals, 0, normals.Length);
+            return normals;
         }
 
         /// <summary>A state in which nothing was touched yet.</summary>
@@ -309,7 +305,7 @@ namespace Palpate
 
         /// <summary>Takes one step to <paramref name="time"/> [s] with the tools at <paramref name="poses"/>, in the
         /// scene's order, and writes what they feel to <paramref name="touches"/>. Allocates nothing.</summary>
-        /// <exception cref="PalpateException">When a pose or the time is refused.</exception>
+        /// <exception cref="PalpateException">A pose or the time is invalid.</exception>
         public void Step(double time, Pose[] poses, Touch[] touches)
         {
             if (touches.Length < poses.Length)
@@ -522,10 +518,10 @@ namespace Palpate
         internal static extern IntPtr palpate_tool_name(SimulationHandle simulation, UIntPtr tool);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
-        internal static extern UIntPtr palpate_doubt_count(SimulationHandle simulation);
+        internal static extern UIntPtr palpate_warning_count(SimulationHandle simulation);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
-        internal static extern IntPtr palpate_doubt(SimulationHandle simulation, UIntPtr number);
+        internal static extern IntPtr palpate_warning(SimulationHandle simulation, UIntPtr number);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         internal static extern double palpate_step_length(SimulationHandle simulation);

@@ -125,8 +125,8 @@
 #define PALPATE_VERSION_PATCH 0
 
 /**
- * The layout of structures and the signatures of functions in this header. It is another whenever a program has to be
- * compiled anew; a program that loads the library at run time compares it with palpate_abi() first.
+ * The layout of structures and the signatures of functions in this header. It changes whenever programs have to be
+ * recompiled; a program that loads the library at run time compares it with palpate_abi() first.
  */
 #define PALPATE_ABI 1
 
@@ -343,14 +343,15 @@ const char *palpate_tool_name(const struct palpate_simulation *simulation,
                               size_t tool);
 
 /**
- * How many sentences there are on what deserves doubt in this scene; 0 for a null pointer.
+ * The number of warnings about this scene; 0 for a null pointer.
  */
-size_t palpate_doubt_count(const struct palpate_simulation *simulation);
+size_t palpate_warning_count(const struct palpate_simulation *simulation);
 
 /**
- * One of these sentences, for as long as the simulation lives; null where there is none.
+ * A warning, counted from 0, one sentence; valid for as long as the simulation lives; null where there is none.
  */
-const char *palpate_doubt(const struct palpate_simulation *simulation, size_t number);
+const char *palpate_warning(const struct palpate_simulation *simulation,
+                            size_t number);
 
 /**
  * The step [s] that the scene asks for, `model.step_s`; 0 for a null pointer. Steps of other lengths are as good.

@@ -114,16 +114,16 @@ pub unsafe extern "C" fn palpate_tool_name(
     unsafe { told(simulation, ptr::null(), |own| text_of(&own.tools, tool)) }
 }
 
-/// How many sentences there are on what deserves doubt in this scene; 0 for a null pointer.
+/// The number of warnings about this scene; 0 for a null pointer.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn palpate_doubt_count(simulation: *const SimulationHandle) -> usize {
+pub unsafe extern "C" fn palpate_warning_count(simulation: *const SimulationHandle) -> usize {
     // SAFETY: the header demands it of who calls.
     unsafe { told(simulation, 0, |own| own.doubts.len()) }
 }
 
-/// One of these sentences, for as long as the simulation lives; null where there is none.
+/// A warning, counted from 0, one sentence; valid for as long as the simulation lives; null where there is none.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn palpate_doubt(
+pub unsafe extern "C" fn palpate_warning(
     simulation: *const SimulationHandle,
     number: usize,
 ) -> *const c_char {

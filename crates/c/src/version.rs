@@ -1,4 +1,4 @@
-//! Which library a program has met, beside the header that it was compiled with.
+//! Versions of the header and of the loaded library.
 
 use std::ffi::c_char;
 
@@ -9,8 +9,8 @@ pub const PALPATE_VERSION_MINOR: u32 = 1;
 /// The version of this header.
 pub const PALPATE_VERSION_PATCH: u32 = 0;
 
-/// The layout of structures and the signatures of functions in this header. It is another whenever a program has to be
-/// compiled anew; a program that loads the library at run time compares it with palpate_abi() first.
+/// The layout of structures and the signatures of functions in this header. It changes whenever programs have to be
+/// recompiled; a program that loads the library at run time compares it with palpate_abi() first.
 pub const PALPATE_ABI: u32 = 1;
 
 /// The PALPATE_ABI of the library.

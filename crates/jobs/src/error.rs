@@ -131,8 +131,8 @@ impl Error {
         exit_status(self.is_input())
     }
 
-    /// What is said of a folder that is given with `option`.
-    pub(crate) fn of_folder(option: &'static str, error: palpate_files::Error) -> Self {
+    /// A folder that cannot be written, with the option that names another; other errors stay as they are.
+    pub fn of_folder(option: &'static str, error: palpate_files::Error) -> Self {
         match error {
             palpate_files::Error::Write { path, source } => Self::Folder {
                 folder: path,
@@ -173,4 +173,38 @@ pub fn exit_status(is_input: bool) -> u8 {
         true => 2,
         false => 1,
     }
+}
+
+/// Implements `From` of every error that [`Error`] carries for a type that has `From<Error>`.
+#[macro_export]
+macro_rules! from_carried_errors {
+    ($own:ty) => {
+        $crate::from_carried_errors!(
+            $own: FileError, NoCard, ReadError, MeshError, OrganError, UnknownUnit, SimplifyError, IsosurfaceError,
+            WrapError, MechanicsError, CharacterizeError, SimulateError, MeasureError, OpenError, Fault
+        );
+    };
+    ($own:ty: $($error:ident),+) => {
+        $(impl From<$crate::carried::$error> for $own {
+            fn from(error: $crate::carried::$error) -> Self {
+                Self::from($crate::Error::from(error))
+            }
+        })+
+    };
+}
+
+/// For [`from_carried_errors`].
+#[doc(hidden)]
+pub mod carried {
+    pub use palpate_characterize::Error as CharacterizeError;
+    pub use palpate_devices::OpenError;
+    pub use palpate_files::Error as FileError;
+    pub use palpate_files::card::NoCard;
+    pub use palpate_geometry::{
+        IsosurfaceError, MeshError, OrganError, ReadError, SimplifyError, UnknownUnit, WrapError,
+    };
+    pub use palpate_measure::Error as MeasureError;
+    pub use palpate_mechanics::Error as MechanicsError;
+    pub use palpate_servo::Fault;
+    pub use palpate_simulate::Error as SimulateError;
 }

@@ -36,6 +36,8 @@ pub mod validate;
 mod watch;
 
 pub use cores::on_all_cores;
+#[doc(hidden)]
+pub use error::carried;
 pub use error::{Error, exit_status};
 pub use lossy::{LossyPath, lossy};
 pub use nearest::{builtin_organ, nearest};

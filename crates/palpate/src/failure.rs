@@ -3,9 +3,6 @@
 use std::fmt;
 use std::io;
 
-use palpate_geometry::{
-    IsosurfaceError, MeshError, OrganError, ReadError, SimplifyError, UnknownUnit,
-};
 use palpate_jobs::Error;
 
 /// Why a command ends early. The message is one sentence: the cause, then how to fix it.
@@ -16,7 +13,7 @@ pub(crate) enum Failure {
     Job(#[from] Error),
     /// Of a table or figure that is computed anew.
     #[error(transparent)]
-    Reproduce(Box<palpate_reproduce::Error>),
+    Reproduce(#[from] palpate_reproduce::Error),
     /// Of the training record.
     #[error(transparent)]
     Record(#[from] palpate_record::Error),
@@ -78,38 +75,7 @@ impl Failure {
     }
 }
 
-/// Errors that a job ends with, too.
-macro_rules! of_job {
-    ($($error:ty),+) => {
-        $(impl From<$error> for Failure {
-            fn from(error: $error) -> Self {
-                Self::Job(error.into())
-            }
-        })+
-    };
-}
-
-of_job!(
-    palpate_files::Error,
-    palpate_files::card::NoCard,
-    ReadError,
-    MeshError,
-    OrganError,
-    UnknownUnit,
-    SimplifyError,
-    IsosurfaceError,
-    palpate_mechanics::Error,
-    palpate_characterize::Error,
-    palpate_simulate::Error,
-    palpate_devices::OpenError,
-    palpate_servo::Fault
-);
-
-impl From<palpate_reproduce::Error> for Failure {
-    fn from(error: palpate_reproduce::Error) -> Self {
-        Self::Reproduce(Box::new(error))
-    }
-}
+palpate_jobs::from_carried_errors!(Failure);
 
 /// Of writing to standard output.
 impl From<io::Error> for Failure {

@@ -5,9 +5,6 @@
 use std::fmt;
 
 use palpate_files::printable;
-use palpate_geometry::{
-    IsosurfaceError, MeshError, OrganError, ReadError, SimplifyError, UnknownUnit,
-};
 use palpate_jobs::Error;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
@@ -49,29 +46,7 @@ impl From<Error> for Failure {
     }
 }
 
-/// Errors that a job ends with, too.
-macro_rules! of_job {
-    ($($error:ty),+) => {
-        $(impl From<$error> for Failure {
-            fn from(error: $error) -> Self {
-                Error::from(error).into()
-            }
-        })+
-    };
-}
-
-of_job!(
-    palpate_files::Error,
-    palpate_files::card::NoCard,
-    ReadError,
-    MeshError,
-    OrganError,
-    UnknownUnit,
-    SimplifyError,
-    IsosurfaceError,
-    palpate_mechanics::Error,
-    palpate_simulate::Error
-);
+palpate_jobs::from_carried_errors!(Failure);
 
 impl From<PyErr> for Failure {
     fn from(error: PyErr) -> Self {

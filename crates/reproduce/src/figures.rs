@@ -34,7 +34,8 @@ impl Figures {
         }
         Ok(Self {
             folder: folder.to_owned(),
-            claim: Claim::of_folder(folder, overwrite).map_err(cannot_be_made)?,
+            claim: Claim::of_folder(folder, overwrite)
+                .map_err(|error| palpate_jobs::Error::of_folder("--out", error))?,
             draw,
         })
     }
@@ -70,14 +71,4 @@ fn existing(folder: &Path, items: &[Item]) -> Option<PathBuf> {
 /// How the files of an item begin: a part of a table has no folder of its own.
 pub(super) fn stem(item: &str) -> String {
     item.replace('/', "-")
-}
-
-fn cannot_be_made(error: palpate_files::Error) -> Error {
-    match error {
-        palpate_files::Error::Write { path, source } => Error::Folder {
-            folder: path.display().to_string(),
-            source,
-        },
-        other => other.into(),
-    }
 }

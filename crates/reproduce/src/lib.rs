@@ -1,8 +1,8 @@
 //! The tables and figures of the source, computed again: one module per system of the specification, and the rows as
 //! data in `published/rows` (`registry`), beside the source's tables in `published`, whose numbers are never typed again.
 //!
-//! Nothing is printed here: who runs an item draws its plots ([`Figures`]), hears how far it is
-//! ([`palpate_jobs::Watch`]) and shows its rows.
+//! Prints nothing: the caller draws the plots ([`Figures`]), receives progress
+//! ([`palpate_jobs::Watch`]) and shows the rows.
 
 mod error;
 mod figures;

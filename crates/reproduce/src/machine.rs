@@ -1,4 +1,4 @@
-//! What times are measured on, and what is told of many.
+//! What times are measured on, and how repeated times are reported.
 
 /// The processor.
 pub(crate) fn processor() -> String {
@@ -7,8 +7,8 @@ pub(crate) fn processor() -> String {
     } else {
         ""
     };
-    let told = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let model = told.lines().find_map(|line| {
+    let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let model = info.lines().find_map(|line| {
         let (key, value) = line.split_once(':')?;
         (key.trim() == "model name").then(|| value.trim().to_owned())
     });

@@ -5,7 +5,7 @@
 //! the cell of a table, see [`cell`](crate::published::cell). A figure has axes `x` and `y`, a `title` and a `note`;
 //! one without a title is a picture. What stands in braces in a name matches any text without a slash, or one of the
 //! texts after a colon, as in `{organ:liver|kidney}/{depth}_mm`; of several rows that match, the first is meant.
-//! Elsewhere it stands for what was matched, for what the computation tells, for the `item` or its `part` after the
+//! Elsewhere it stands for what was matched, for a value that the computation passes (`with`), for the `item` or its `part` after the
 //! slash, or for one of the `words`: a text, or a text for each value.
 
 use std::collections::BTreeMap;
@@ -139,7 +139,7 @@ fn chapters() -> &'static [Chapter] {
     })
 }
 
-/// What is matched and told, by names in braces.
+/// Values of the names in braces.
 pub(crate) type Values = Vec<(String, String)>;
 
 /// An entry for a name, and what its braces matched.

@@ -192,7 +192,7 @@ pub(crate) struct Line<'r, 'a> {
 
 impl Line<'_, '_> {
     /// What stands in its note for `{name}`.
-    pub(crate) fn told(mut self, name: &str, value: impl Display) -> Self {
+    pub(crate) fn with(mut self, name: &str, value: impl Display) -> Self {
         self.values.push((name.to_owned(), value.to_string()));
         self
     }
@@ -249,7 +249,7 @@ pub(crate) struct Figure<'r, 'a> {
 
 impl Figure<'_, '_> {
     /// What stands in its note and its title for `{name}`.
-    pub(crate) fn told(mut self, name: &str, value: impl Display) -> Self {
+    pub(crate) fn with(mut self, name: &str, value: impl Display) -> Self {
         self.values.push((name.to_owned(), value.to_string()));
         self
     }

@@ -46,8 +46,8 @@ tool = [{ name = ""right"", tip = { shape = ""flat"", radius_m = 0.001 } }]
         {
             Must(warning.Length > 0, "warnings");
         }
-        Surface rest = simulation.Surface;
-        double[] normals = simulation.Normals;
+        Surface rest = simulation.CopySurface();
+        double[] normals = simulation.CopyNormals();
         Must(rest.Vertices.Length == normals.Length && rest.Version == 0, "the surface at rest");
 
         State state = simulation.NewState();

@@ -137,9 +137,9 @@ fn null_is_refused_everywhere() {
         }
         assert!(simulation.is_null() && state.is_null());
         assert_eq!(palpate_tool_count(ptr::null()), 0);
-        assert_eq!(palpate_doubt_count(ptr::null()), 0);
+        assert_eq!(palpate_warning_count(ptr::null()), 0);
         assert!(palpate_tool_name(ptr::null(), 0).is_null());
-        assert!(palpate_doubt(ptr::null(), 0).is_null());
+        assert!(palpate_warning(ptr::null(), 0).is_null());
         assert!(palpate_simulation_normals(ptr::null()).is_null());
         assert_eq!(palpate_step_length(ptr::null()), 0.0);
         assert_eq!(palpate_force_scale(ptr::null()), 0.0);

@@ -45,7 +45,13 @@ fn a_run_per_rate_with_every_tool() {
 fn a_person_reads_it_and_bad_input_is_answered() {
     let output = palpate(&["quality", "--rates", "1000", "--seconds", "1"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    for word in ["1000 Hz asked", "late", "energy", "limits", "extrapolation"] {
+    for word in [
+        "1000 Hz requested",
+        "jitter",
+        "energy",
+        "limits",
+        "extrapolation error",
+    ] {
         assert!(stdout(&output).contains(word), "{}", stdout(&output));
     }
     for wrong in [["--rates", "5"], ["--rates", "fast"], ["--seconds", "0"]] {

@@ -49,7 +49,7 @@ fn run_through(items: &[String]) {
     assert_complete(&folder, &rows);
     let failed: Vec<&Value> = rows.iter().filter(|row| row["mark"] == "failed").collect();
     assert!(failed.is_empty(), "{failed:?}");
-    // A brace is a place in a note of `published/rows` that nothing was told for.
+    // A brace left in a note has no value.
     let unfilled = rows
         .iter()
         .filter(|row| row["note"].as_str().unwrap().contains('{'));

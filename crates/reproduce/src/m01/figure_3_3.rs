@@ -54,8 +54,8 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
                 "misses"
             };
             rows.row(&format!("profile_worst/{word}/nu_{poissons_ratio}"))
-                .told("verdict", verdict)
-                .told("bound", PROFILE_BOUND)
+                .with("verdict", verdict)
+                .with("bound", PROFILE_BOUND)
                 .is(worst);
             let name = format!("34 particles, {}", word.replace('_', " "));
             series.push(self::series(&name, &profile, Style::DashedLine, color + 1));

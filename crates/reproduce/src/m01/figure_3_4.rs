@@ -56,8 +56,8 @@ fn judge(rows: &mut Rows<'_>, law: &LinearElastic) -> Result<[f64; 2], Error> {
         let (nu, millimetres) = (law.poissons_ratio(), 1e3 * radius);
         let name = format!("force_per_depth/finite_elements/nu_{nu}/radius_{millimetres}_mm");
         rows.row(&name)
-            .told("unknowns", found.answer.unknowns)
-            .told("error", format!("{:.1e}", found.error))
+            .with("unknowns", found.answer.unknowns)
+            .with("error", format!("{:.1e}", found.error))
             .is(found.answer.force);
     }
     Ok(stiffness)
@@ -115,7 +115,7 @@ fn times(rows: &mut Rows<'_>) -> Result<Vec<Series>, Error> {
                 Ok(model) => {
                     let total = measure(&model, &contact).total;
                     points.push((particles as f64, 1e3 * total));
-                    row.told("machine", &machine).is(total);
+                    row.with("machine", &machine).is(total);
                 }
                 Err(reason) => row.missing(reason),
             }
@@ -124,7 +124,7 @@ fn times(rows: &mut Rows<'_>) -> Result<Vec<Series>, Error> {
     }
     let (model, particles) = uncalibrated::of_source(&law)?;
     rows.row(&format!("time/uncalibrated/{particles}"))
-        .told("machine", &machine)
+        .with("machine", &machine)
         .is(measure(&model, &contact).total);
     Ok(series)
 }

@@ -57,13 +57,13 @@ fn add_local(
             _ => format!("{quantity}/{word}_{way}"),
         };
         rows.row(&name)
-            .told("form", word)
-            .told("way", way)
-            .told("iterations", way)
-            .told("count", timing.iterations.unwrap_or(0))
-            .told("tolerance", format!("{TOLERANCE:e}"))
-            .told("steps", timing.steps)
-            .told("machine", processor())
+            .with("form", word)
+            .with("way", way)
+            .with("iterations", way)
+            .with("count", timing.iterations.unwrap_or(0))
+            .with("tolerance", format!("{TOLERANCE:e}"))
+            .with("steps", timing.steps)
+            .with("machine", processor())
             .is(ours);
     }
     Ok(())
@@ -84,8 +84,8 @@ fn finite_elements(rows: &mut Rows<'_>) -> Result<(), Error> {
             ("total_s", Some(total)),
         ] {
             rows.row(&format!("finite_elements{which}/{quantity}"))
-                .told("force", answer.force)
-                .told("machine", processor())
+                .with("force", answer.force)
+                .with("machine", processor())
                 .is(ours);
         }
     }

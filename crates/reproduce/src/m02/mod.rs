@@ -59,7 +59,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
         }
     }
     let (model, hand) = DRAWN;
-    let figure = rows.figure("").told("model", model).told("hand", hand);
+    let figure = rows.figure("").with("model", model).with("hand", hand);
     figure.draw(drawn)
 }
 

@@ -19,7 +19,7 @@ pub(crate) struct Body {
     held: Vec<TriangleId>,
     pub(super) free: Vec<TriangleId>,
     /// What it is.
-    pub(crate) told: String,
+    pub(crate) description: String,
 }
 
 /// A model of table 4-1.
@@ -77,7 +77,7 @@ impl Body {
             return Self::built_in(MODELS[2].organ, triangles);
         };
         let settings = SimplifySettings::to(triangles);
-        let coarse = simplify(&mesh, &settings).map_err(Error::failed)?;
+        let coarse = simplify(&mesh, &settings)?;
         Self::real(&coarse.mesh, &format!("the real mesh {name} made coarser"))
     }
 
@@ -105,7 +105,7 @@ impl Body {
             let centroid = centroid(&surface, triangle);
             anchor.iter().any(|plane| plane.holds(&centroid))
         });
-        let told = format!(
+        let description = format!(
             "{whose}: {} vertices, {} triangles",
             mesh.vertices().len(),
             mesh.triangles().len()
@@ -114,7 +114,7 @@ impl Body {
             surface,
             held,
             free,
-            told,
+            description,
         })
     }
 

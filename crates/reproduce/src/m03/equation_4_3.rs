@@ -51,8 +51,8 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     for (name, reading) in READINGS {
         let error = cube.error(reading).map(|error| 100.0 * error);
         rows.row(name)
-            .told("triangles", cube.panels.len())
-            .told("nu", POISSONS_RATIO)
+            .with("triangles", cube.panels.len())
+            .with("nu", POISSONS_RATIO)
             .is(error);
     }
     Ok(())

@@ -19,8 +19,8 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
             lines: None,
         })?;
         rows.figure(model.row)
-            .told("body", &body.told)
-            .told("adapter", painter.gpu.adapter())
+            .with("body", &body.description)
+            .with("adapter", painter.gpu.adapter())
             .picture(&png)?;
     }
     Ok(())

@@ -41,11 +41,11 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     }
     for (name, series) in plots(&measured) {
         rows.figure(name)
-            .told("touchable", TOUCHABLE)
-            .told("machine", processor())
-            .told("moved", MOVED)
-            .told("powers", powers(&series))
-            .told("left_out", &left_out)
+            .with("touchable", TOUCHABLE)
+            .with("machine", processor())
+            .with("moved", MOVED)
+            .with("powers", powers(&series))
+            .with("left_out", &left_out)
             .draw(series)?;
     }
     Ok(())
@@ -97,12 +97,12 @@ fn plots(measured: &[Measured]) -> [(&'static str, Vec<Series>); 3] {
 
 /// With which power of the number of triangles each line ends.
 fn powers(series: &[Series]) -> String {
-    let told = series.iter().filter_map(|line| {
+    let left = series.iter().filter_map(|line| {
         let [.., before, last] = line.points.as_slice() else {
             return None;
         };
         let power = (last.1 / before.1).ln() / (last.0 / before.0).ln();
         Some(format!("{} with the power {power:.1}", line.name))
     });
-    told.collect::<Vec<_>>().join(", ")
+    left.collect::<Vec<_>>().join(", ")
 }

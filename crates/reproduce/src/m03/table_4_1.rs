@@ -22,7 +22,9 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
         ("triangles", mesh.triangles().len()),
     ];
     for (name, count) in counts {
-        rows.row(name).told("body", &body.told).is(count as f64);
+        rows.row(name)
+            .with("body", &body.description)
+            .is(count as f64);
     }
     let (response, times) = match solve(rows, &body.problem()) {
         Ok(solved) => solved,
@@ -50,24 +52,24 @@ fn add_off_line(rows: &mut Rows<'_>, row: &str, body: &Body, times: &OffLine) ->
     let cores = std::thread::available_parallelism().map_or(1, |cores| cores.get());
     let machine = processor();
     rows.row("modelling_s")
-        .told("body", &body.told)
-        .told("equations", size)
-        .told("machine", &machine)
-        .told("cores", cores)
+        .with("body", &body.description)
+        .with("equations", size)
+        .with("machine", &machine)
+        .with("cores", cores)
         .is(times.assembly);
     // Products and sums: of the inverse, of the factors, then of two triangles per column.
     let inverse = 2.0 * size.powi(3);
     let theirs = inverse / cell(&format!("table-4-1 {row} solution_s"))?;
     rows.row("solution_s")
-        .told("free", body.free.len())
-        .told("columns", columns)
-        .told("equations", size)
-        .told("share", format!("{:.0}", 100.0 * columns / size))
-        .told("operations", format!("{inverse:.2e}"))
-        .told("their_rate", format!("{:.0}", 1e-6 * theirs))
-        .told("megabytes", format!("{:.1}", 8e-6 * size * size))
-        .told("machine", &machine)
-        .told("cores", cores)
+        .with("free", body.free.len())
+        .with("columns", columns)
+        .with("equations", size)
+        .with("share", format!("{:.0}", 100.0 * columns / size))
+        .with("operations", format!("{inverse:.2e}"))
+        .with("their_rate", format!("{:.0}", 1e-6 * theirs))
+        .with("megabytes", format!("{:.1}", 8e-6 * size * size))
+        .with("machine", &machine)
+        .with("cores", cores)
         .is(times.factors + times.columns);
     for (name, seconds, operations) in [
         ("solution_s/factors", times.factors, size.powi(3) / 1.5),
@@ -78,9 +80,9 @@ fn add_off_line(rows: &mut Rows<'_>, row: &str, body: &Body, times: &OffLine) ->
         ),
     ] {
         rows.row(name)
-            .told("our_rate", format!("{:.0}", 1e-6 * operations / seconds))
-            .told("machine", &machine)
-            .told("cores", cores)
+            .with("our_rate", format!("{:.0}", 1e-6 * operations / seconds))
+            .with("machine", &machine)
+            .with("cores", cores)
             .is(seconds);
     }
     Ok(())
@@ -93,12 +95,12 @@ fn add_on_line(rows: &mut Rows<'_>, name: &str, (body, touched): (&Body, usize),
         (format!("{name}/force"), "force", times.force),
     ] {
         rows.row(&name)
-            .told("what", what)
-            .told("touched", touched)
-            .told("triangles", triangles)
-            .told("equations", 3 * touched)
-            .told("steps", times.steps)
-            .told("machine", processor())
+            .with("what", what)
+            .with("touched", touched)
+            .with("triangles", triangles)
+            .with("equations", 3 * touched)
+            .with("steps", times.steps)
+            .with("machine", processor())
             .is(ours);
     }
 }

@@ -88,12 +88,12 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
             lines: Some(1.2e-4),
         })?;
         rows.figure(shown.name)
-            .told("body", &cube.told)
-            .told("depth", 1e3 * DEPTH)
-            .told("smoothing", shown.smoothing)
-            .told("dimple", shown.dimple)
-            .told("triangles", surface.mesh().triangles().len())
-            .told("adapter", painter.gpu.adapter())
+            .with("body", &cube.description)
+            .with("depth", 1e3 * DEPTH)
+            .with("smoothing", shown.smoothing)
+            .with("dimple", shown.dimple)
+            .with("triangles", surface.mesh().triangles().len())
+            .with("adapter", painter.gpu.adapter())
             .picture(&png)?;
     }
     Ok(())

@@ -164,9 +164,9 @@ fn add_static(rows: &mut Rows<'_>, (printed, spread): (&Printed, &Spread), row: 
         ("max", spread.force(row.subjects - 1), row.max_n),
     ] {
         rows.row(&format!("{depth}_mm/{word}"))
-            .told("animals", row.subjects)
-            .told("put_in", format!("{:.1}", 1e3 * put_in))
-            .told("misprint", printed.suspect)
+            .with("animals", row.subjects)
+            .with("put_in", format!("{:.1}", 1e3 * put_in))
+            .with("misprint", printed.suspect)
             .is(ours);
     }
     rows.add(&format!("{depth}_mm/within"), row.within_n);

@@ -42,7 +42,7 @@ fn run(rows: &mut Rows<'_>, organ: &str, depths: &[u32]) -> Result<(), Error> {
             steady.missing("no hold is seen in the recording");
             continue;
         };
-        steady.told("organ", organ).is(relaxation.steady_n);
+        steady.with("organ", organ).is(relaxation.steady_n);
         rows.add(&format!("settled_after/{depth_mm}_mm"), relaxation.settle_s);
         let row = rows.row(&format!("ripple/{depth_mm}_mm"));
         match clean.handling.ripple {
@@ -50,7 +50,7 @@ fn run(rows: &mut Rows<'_>, organ: &str, depths: &[u32]) -> Result<(), Error> {
             None => row.missing("no ripple is seen in the recording"),
         }
     }
-    rows.figure("").told("organ", organ).draw(series)
+    rows.figure("").with("organ", organ).draw(series)
 }
 
 /// Forces over time from first contact.

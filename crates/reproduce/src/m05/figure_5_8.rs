@@ -12,7 +12,7 @@ const AMPLITUDE: f64 = 1e-3;
 const MIDDLE: f64 = 2e-3;
 /// From the slowest to the fastest that the source swung [Hz].
 const ENDS: [f64; 2] = [0.5, 5.0];
-/// Sines whose tracking is told [Hz]: the source's working range.
+/// Sines whose tracking is reported [Hz]: the source's working range.
 const TRACKED: [f64; 5] = [0.5, 1.0, 2.0, 4.0, 8.0];
 
 pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
@@ -40,7 +40,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
         add_errors(rows, &name, &found);
         let words = name.replace('_', " ");
         rows.figure(&name)
-            .told("words", words)
+            .with("words", words)
             .draw(drawn(&found))?;
     }
     for frequency in TRACKED {

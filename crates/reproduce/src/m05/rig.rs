@@ -33,16 +33,16 @@ pub(super) fn measured(
     let settings = RigSettings::default();
     let clock = (Clock::virtual_time(), seed);
     let rig = Rig::over(specimen.clone(), device, settings, clock);
-    let mut rig = rig.map_err(Error::failed)?;
-    let course = Course::of(stimulus).map_err(Error::failed)?;
-    rig.approach(&mut |_| true).map_err(Error::failed)?;
-    rig.wait(REST, &mut |_| true).map_err(Error::failed)?;
+    let mut rig = rig?;
+    let course = Course::of(stimulus)?;
+    rig.approach(&mut |_| true)?;
+    rig.wait(REST, &mut |_| true)?;
     let mut heard: Vec<RigSample> = Vec::new();
     let listener = &mut |sample: &RigSample| {
         heard.push(*sample);
         true
     };
-    rig.press(&course, listener).map_err(Error::failed)?;
+    rig.press(&course, listener)?;
     let begun = heard.first().map_or(0.0, |first| first.time);
     let samples = Samples {
         time_s: heard.iter().map(|sample| sample.time - begun).collect(),

@@ -77,11 +77,11 @@ fn add(
         ("max", measured.map(|row| row.max_n)),
     ] {
         rows.row(&format!("{name}/{word}"))
-            .told("how", how)
-            .told("min", printed.min)
-            .told("mean", printed.mean)
-            .told("max", printed.max)
-            .told("responses", responses)
+            .with("how", how)
+            .with("min", printed.min)
+            .with("mean", printed.mean)
+            .with("max", printed.max)
+            .with("responses", responses)
             .is(ours);
     }
 }

@@ -39,8 +39,8 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
             ("b", found.b_n_s_per_m.value),
         ] {
             rows.row(&format!("{prefix}{word}"))
-                .told("ramp", prefix)
-                .told("error", format!("{:.4}", 1e-3 * error))
+                .with("ramp", prefix)
+                .with("error", format!("{:.4}", 1e-3 * error))
                 .is(1e-3 * ours);
         }
     }

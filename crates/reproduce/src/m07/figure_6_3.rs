@@ -21,7 +21,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
             ("misfit", found.misfit),
         ] {
             rows.row(&format!("{organ}/{word}"))
-                .told("doubts", listed(&found.doubts))
+                .with("doubts", listed(&found.doubts))
                 .is(ours);
         }
         let dots = depths.iter().zip(&means).map(|(d, f)| (1e3 * d, 1e3 * f));

@@ -19,8 +19,8 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
             .zip(by_the_rule(deepest)?)
         {
             rows.row(&format!("{organ}/{word}"))
-                .told("depth", deepest.depth_mm)
-                .told("remark", organ)
+                .with("depth", deepest.depth_mm)
+                .with("remark", organ)
                 .is(ours);
         }
     }

@@ -50,8 +50,8 @@ fn refitted(organ: &str, felt: &[(History, Vec<f64>)], noisy: bool) -> Result<Sp
 fn add(rows: &mut Rows<'_>, (organ, word): (&str, &str), values: &[f64; 8], found: &SpringsFit) {
     let mut add = |name: &str, ours: Option<f64>| {
         rows.row(&format!("{organ}/{word}{name}"))
-            .told("noise", word)
-            .told("doubts", listed(&found.doubts))
+            .with("noise", word)
+            .with("doubts", listed(&found.doubts))
             .is(ours);
     };
     add("springs", Some(found.branches as f64));

@@ -60,9 +60,9 @@ impl Column {
     }
 
     /// `line` with its area and length in the note.
-    pub(super) fn told<'r, 'a>(&self, line: Line<'r, 'a>) -> Line<'r, 'a> {
-        line.told("area", format!("{:.2}", 1e6 * self.area))
-            .told("length", format!("{:.0}", 1e3 * self.length))
+    pub(super) fn in_note_of<'r, 'a>(&self, line: Line<'r, 'a>) -> Line<'r, 'a> {
+        line.with("area", format!("{:.2}", 1e6 * self.area))
+            .with("length", format!("{:.0}", 1e3 * self.length))
     }
 }
 
@@ -70,7 +70,9 @@ pub(crate) fn neo_hookean(rows: &mut Rows<'_>) -> Result<(), Error> {
     for (organ, _) in ORGANS {
         let column = Column::of(organ);
         let found = column.neo_hookean();
-        column.told(rows.row(&format!("{organ}/c10"))).is(found);
+        column
+            .in_note_of(rows.row(&format!("{organ}/c10")))
+            .is(found);
         let printed = cell(&format!("table-6-4 {organ} initial_c10_pa"))?;
         let needed = column.area * found / printed;
         rows.add(&format!("{organ}/area_needed"), 1e6 * needed);
@@ -85,7 +87,9 @@ pub(crate) fn mooney_rivlin(rows: &mut Rows<'_>) -> Result<(), Error> {
             return Err(Error::failed("the depths do not tell the two moduli apart"));
         };
         for (word, ours) in [("c10", found.x), ("c01", found.y)] {
-            column.told(rows.row(&format!("{organ}/{word}"))).is(ours);
+            column
+                .in_note_of(rows.row(&format!("{organ}/{word}")))
+                .is(ours);
         }
         let c10 = cell(&format!("table-6-5 {organ} initial_c10_pa"))?;
         let c01 = cell(&format!("table-6-5 {organ} initial_c01_pa"))?;

@@ -19,7 +19,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
             ("Mooney-Rivlin", elastic(SoughtLaw::MooneyRivlin, both)?),
         ];
         let series = add(rows, (organ, depth_mm), mean, &laws)?;
-        rows.figure(organ).told("depth", depth_mm).draw(series)?;
+        rows.figure(organ).with("depth", depth_mm).draw(series)?;
     }
     Ok(())
 }
@@ -46,7 +46,7 @@ fn add(
         drawn.push(Series::new(*name, line, Style::Line, color));
         let word = name.to_lowercase().replace('-', "_");
         rows.row(&format!("{organ}/{word}/steady"))
-            .told("depth", depth_mm)
+            .with("depth", depth_mm)
             .is(forces.last().copied());
     }
     let level = vec![(0.0, 1e3 * mean), (END, 1e3 * mean)];

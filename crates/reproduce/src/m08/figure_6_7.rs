@@ -6,6 +6,6 @@ use crate::row::Rows;
 
 pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     let tissue = Tissue::builtin(BuiltinTissue::PigLiver);
-    let card = tissue.to_abaqus().map_err(Error::failed)?;
+    let card = tissue.to_abaqus()?;
     rows.figure("").file("inp", card.as_bytes())
 }

@@ -19,9 +19,9 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
         for (reading, _) in READINGS {
             for depth in DEPTHS_MM {
                 rows.row(&format!("{}/{}/{reading}/{depth}_mm", set.organ, set.law))
-                    .told("parameters", parameters.join(" and "))
-                    .told("error", format!("{:.3}", set.error))
-                    .told("relaxed", format!("{:.3}", set.relaxed))
+                    .with("parameters", parameters.join(" and "))
+                    .with("error", format!("{:.3}", set.error))
+                    .with("relaxed", format!("{:.3}", set.relaxed))
                     .is(steady(set, reading, f64::from(depth)));
             }
         }

@@ -40,8 +40,8 @@ fn run(
         for (algorithm, word) in ALGORITHMS {
             let (way, ended) = model.way(algorithm, &truth, &start)?;
             rows.row(&format!("{organ}/{word}/steps"))
-                .told("table", table(law))
-                .told("remark", law_name)
+                .with("table", table(law))
+                .with("remark", law_name)
                 .is(ended.then(|| steps(&way, &truth) as f64));
             for (number, name) in moduli(law).iter().enumerate() {
                 let each = way.iter().enumerate().take(SHOWN);
@@ -53,5 +53,5 @@ fn run(
             }
         }
     }
-    rows.figure("").told("law", law_name).draw(series)
+    rows.figure("").with("law", law_name).draw(series)
 }

@@ -59,7 +59,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
             }
         }
         rows.figure(&case.name.replace('/', "-"))
-            .told("words", case.words())
+            .with("words", case.words())
             .draw(series)?;
     }
     Ok(())

@@ -51,7 +51,7 @@ fn add_starts(rows: &mut Rows<'_>, case: &str, model: &Model, truth: &[f64]) -> 
             ("elsewhere", elsewhere),
         ] {
             rows.row(&format!("{case}/{word}/{what}"))
-                .told("starts", starts.len())
+                .with("starts", starts.len())
                 .is(100.0 * count as f64 / starts.len() as f64);
         }
     }
@@ -90,8 +90,8 @@ fn add_noise(rows: &mut Rows<'_>, case: &str, model: &Model, truth: &[f64]) -> R
         }
         let mut add = |name: &str, values: &[f64], printed: f64| {
             rows.row(&format!("{case}/noise_{percent}_percent/{name}"))
-                .told("draws", DRAWS)
-                .told("samples", forces.len())
+                .with("draws", DRAWS)
+                .with("samples", forces.len())
                 .published(f64::from(percent))
                 .is(100.0 * spread(values) / printed);
         };

@@ -51,7 +51,7 @@ fn add(rows: &mut Rows<'_>, (name, ramp): (&str, &str), found: &Relaxation) {
     for (number, [g, tau]) in (1..).zip(&found.terms) {
         for (word, estimate) in [("tau", tau), ("g", g)] {
             rows.row(&format!("{name}/{ramp}{word}{number}"))
-                .told("error", format!("{error:.1}"))
+                .with("error", format!("{error:.1}"))
                 .is(estimate.value);
         }
     }

@@ -41,7 +41,7 @@ fn run(rows: &mut Rows<'_>, law: SoughtLaw) -> Result<(), Error> {
         add(rows, organ, &truth, &found);
         add_in_loop(rows, (organ, law), (&course, &forces))?;
         rows.row(&format!("{organ}/steady"))
-            .told("depth", depth_mm)
+            .with("depth", depth_mm)
             .is(forces.last().copied());
         add_initial(rows, organ, law);
     }
@@ -52,8 +52,8 @@ fn run(rows: &mut Rows<'_>, law: SoughtLaw) -> Result<(), Error> {
 fn add_modulus(rows: &mut Rows<'_>, name: &str, estimate: &Estimate) {
     let error = estimate.standard_error;
     rows.row(name)
-        .told("stated", error.is_some())
-        .told("error", format!("{:.1}", error.unwrap_or(0.0)))
+        .with("stated", error.is_some())
+        .with("error", format!("{:.1}", error.unwrap_or(0.0)))
         .is(estimate.value);
 }
 
@@ -97,7 +97,7 @@ fn add_initial(rows: &mut Rows<'_>, organ: &str, law: SoughtLaw) {
     for (place, word) in moduli(law).iter().enumerate() {
         let ours = own.as_ref().map(|own| own[place]);
         column
-            .told(rows.row(&format!("{organ}/initial_{word}")))
+            .in_note_of(rows.row(&format!("{organ}/initial_{word}")))
             .is(ours);
     }
 }
@@ -112,13 +112,13 @@ fn add(rows: &mut Rows<'_>, organ: &str, truth: &[f64], found: &LawDescription) 
         let sum: f64 = each.sum();
         let correlation = found.correlation.unwrap_or(0.0);
         rows.row(&format!("{organ}/sum"))
-            .told("correlation", format!("{correlation:.4}"))
+            .with("correlation", format!("{correlation:.4}"))
             .published(truth.iter().sum::<f64>())
             .is(sum);
     }
     let steps = found.found.fit.iterations.len().saturating_sub(1);
     rows.row(&format!("{organ}/iterations"))
-        .told("solves", found.found.solves)
+        .with("solves", found.found.solves)
         .is(steps as f64);
     rows.add(&format!("{organ}/misfit"), found.misfit);
     let squares = found.sum_of_squares;

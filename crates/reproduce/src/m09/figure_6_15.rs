@@ -21,26 +21,26 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     for row in &measured {
         let elastic = 1e3 * organ.modulus_kpa * curve.force(row.depth());
         rows.row(&format!("{}_mm", row.depth_mm))
-            .told("how", "pressed")
-            .told("error", &error)
+            .with("how", "pressed")
+            .with("error", &error)
             .is(series.relaxation(f64::INFINITY) * elastic);
     }
     for row in too_deep {
         rows.row(&format!("{}_mm", row.depth_mm))
-            .told("how", "too_deep")
-            .told("outer", outer_mm)
+            .with("how", "too_deep")
+            .with("outer", outer_mm)
             .is(None::<f64>);
     }
     let modulus = nearest_modulus(curve, &measured);
-    let row = rows.row("tube_modulus").told("error", &error);
+    let row = rows.row("tube_modulus").with("error", &error);
     row.is(modulus);
     let Some(last) = measured.last() else {
         return Ok(());
     };
     let drawn = drawn(curve, (organ.modulus_kpa, modulus), &series, last);
     rows.figure("")
-        .told("depth", last.depth_mm)
-        .told("error", &error)
+        .with("depth", last.depth_mm)
+        .with("error", &error)
         .draw(drawn)
 }
 

@@ -37,7 +37,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     let found = solve(rows, &problem, &[])?;
     let limit = found.answer.limit_pressure;
     rows.row("limit_pressure")
-        .told("error", format!("{:.4}", found.error))
+        .with("error", format!("{:.4}", found.error))
         .is(limit.map(|p| p / PASCAL_PER_MMHG));
     if let Some(limit) = limit {
         let pressures: Vec<f64> = (0..=40)

@@ -14,13 +14,13 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     };
     let (mesh, whose) = esophagus(before as usize)?;
     let settings = SimplifySettings::to(after as usize);
-    let simplified = simplify(&mesh, &settings).map_err(Error::failed)?;
+    let simplified = simplify(&mesh, &settings)?;
     for (name, mesh) in [("before", mesh), ("after", simplified.mesh)] {
         let triangles = mesh.triangles().len();
         let png = portrait(&mut painter, mesh)?;
         rows.figure(name)
-            .told("body", whose)
-            .told("triangles", triangles)
+            .with("body", whose)
+            .with("triangles", triangles)
             .picture(&png)?;
     }
     Ok(())

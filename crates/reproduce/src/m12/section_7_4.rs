@@ -16,8 +16,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     let after = cell("section-7-4 simplified triangles")?;
     let (mesh, whose) = esophagus(before as usize)?;
     let start = Instant::now();
-    let simplified =
-        simplify(&mesh, &SimplifySettings::to(after as usize)).map_err(Error::failed)?;
+    let simplified = simplify(&mesh, &SimplifySettings::to(after as usize))?;
     let seconds = start.elapsed().as_secs_f64();
     let body = format!("{whose}, {} triangles", mesh.triangles().len());
     let (low, high) = mesh.bounds();
@@ -25,10 +24,10 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     let meeting_before = inspect(&mesh).self_intersections;
     let mut add = |name: &str, ours: f64| {
         rows.row(name)
-            .told("body", &body)
-            .told("length", &length)
-            .told("before", meeting_before)
-            .told("machine", processor())
+            .with("body", &body)
+            .with("length", &length)
+            .with("before", meeting_before)
+            .with("machine", processor())
             .is(ours);
     };
     let simple = &simplified.mesh;

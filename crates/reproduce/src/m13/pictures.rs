@@ -71,8 +71,8 @@ fn add(rows: &mut Rows<'_>, name: &str, made: Result<Picture, Error>) -> Result<
     match made {
         Ok(made) => rows
             .figure(name)
-            .told("force", format!("{:.3}", made.force))
-            .told("adapter", made.adapter)
+            .with("force", format!("{:.3}", made.force))
+            .with("adapter", made.adapter)
             .picture(&png(&made.pixels)?),
         Err(why) if !why.is_input() => {
             let name = if name.is_empty() { "picture" } else { name };

@@ -73,14 +73,14 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
                 gpu.wait()
             })?;
             rows.row(&format!("{name}/{word}"))
-                .told("triangles", triangles)
-                .told("shape", organ)
-                .told("width", FRAME_SIZE.0)
-                .told("height", FRAME_SIZE.1)
-                .told("pictures", time.pictures)
-                .told("median", format!("{:.2}", 1e3 * time.median))
-                .told("adapter", gpu.adapter())
-                .told("tornado", tornado)
+                .with("triangles", triangles)
+                .with("shape", organ)
+                .with("width", FRAME_SIZE.0)
+                .with("height", FRAME_SIZE.1)
+                .with("pictures", time.pictures)
+                .with("median", format!("{:.2}", 1e3 * time.median))
+                .with("adapter", gpu.adapter())
+                .with("tornado", tornado)
                 .is(1e-6 * triangles as f64 / time.median);
         }
     }
@@ -126,12 +126,12 @@ fn add_costs(rows: &mut Rows<'_>, gpu: &Gpu) -> Result<(), Error> {
             gpu.wait()
         })?;
         rows.row(&format!("cost/{name}"))
-            .told("width", FRAME_SIZE.0)
-            .told("height", FRAME_SIZE.1)
-            .told("samples", samples)
-            .told("rate", format!("{:.0}", 1.0 / time.median))
-            .told("pictures", time.pictures)
-            .told("adapter", gpu.adapter())
+            .with("width", FRAME_SIZE.0)
+            .with("height", FRAME_SIZE.1)
+            .with("samples", samples)
+            .with("rate", format!("{:.0}", 1.0 / time.median))
+            .with("pictures", time.pictures)
+            .with("adapter", gpu.adapter())
             .is(1e3 * time.median);
     }
     Ok(())

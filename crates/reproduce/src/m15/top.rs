@@ -98,7 +98,7 @@ impl Top {
             .studio
             .picture_of(&self.state, is_cut.then_some(open.drawn()))?;
         let adapter = self.studio.gpu.adapter();
-        let figure = rows.figure(name).told("adapter", adapter);
+        let figure = rows.figure(name).with("adapter", adapter);
         figure.picture(&png(&picture)?)
     }
 }

@@ -53,9 +53,9 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     for method in &methods {
         let mut add = |name: &str, ours: f64| {
             rows.row(&format!("{}/{name}", method.word))
-                .told("nu", POISSONS_RATIO)
-                .told("error", format!("{:.3}", method.error))
-                .told("deepest", DEEPEST_MM)
+                .with("nu", POISSONS_RATIO)
+                .with("error", format!("{:.3}", method.error))
+                .with("deepest", DEEPEST_MM)
                 .is(ours);
         };
         for depth_mm in DEPTHS_MM {
@@ -67,7 +67,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
         add("fitted_modulus/instantaneous", modulus / trainer.left);
     }
     rows.figure("")
-        .told("modulus", format!("{:.1}", 1e-3 * relaxed))
+        .with("modulus", format!("{:.1}", 1e-3 * relaxed))
         .draw(drawn(&methods, relaxed, &measured))
 }
 

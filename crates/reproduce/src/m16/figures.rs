@@ -82,8 +82,8 @@ fn add(
         false => String::new(),
     };
     rows.figure(name)
-        .told("force", format!("{force:.3}"))
-        .told("cut", cut)
-        .told("adapter", studio.gpu.adapter())
+        .with("force", format!("{force:.3}"))
+        .with("cut", cut)
+        .with("adapter", studio.gpu.adapter())
         .picture(&png(&picture)?)
 }

@@ -43,19 +43,19 @@ impl Run {
 /// The stages that changed a force.
 fn words(did: &Interventions) -> String {
     let all = [
-        ("let go", did.let_go),
-        ("late", did.late),
-        ("faded", did.faded),
-        ("damped", did.damped),
-        ("walls", did.walls),
-        ("shortened", did.shortened),
-        ("cooled", did.cooled),
-        ("slowed", did.slowed),
+        ("dead-man released", did.let_go),
+        ("missed deadline", did.late),
+        ("stale model force faded", did.faded),
+        ("passivity damping", did.damped),
+        ("workspace walls", did.walls),
+        ("saturated", did.shortened),
+        ("thermal limit", did.cooled),
+        ("rate limit", did.slowed),
     ];
     let all = all.into_iter().filter(|(_, count)| *count > 0);
     let words: Vec<_> = all.map(|(name, count)| format!("{name} {count}")).collect();
     if words.is_empty() {
-        return "no force changed".to_owned();
+        return "none acted".to_owned();
     }
     format!("{} ticks", words.join(", "))
 }
@@ -75,22 +75,22 @@ impl Answer {
 
 impl Run {
     fn lines(&self) -> Vec<String> {
-        let mut lines = vec![format!("{} Hz asked", self.asked_hz)];
+        let mut lines = vec![format!("{} Hz requested", self.asked_hz)];
         for Touch { tool, report } in &self.tools {
             lines.extend([
                 format!(
-                    "  {}: {:.1} Hz ({} priority), {} of {} ticks left out",
+                    "  {}: {:.1} Hz ({} priority), {} of {} ticks missed",
                     tool,
                     report.rate,
                     report.priority.word(),
                     report.missed,
                     report.ticks + report.missed
                 ),
-                format!("    late    {}", microseconds(&report.lateness)),
+                format!("    jitter  {}", microseconds(&report.lateness)),
                 format!("    work    {}", microseconds(&report.work)),
                 format!("    age     {}", microseconds(&report.age)),
                 format!(
-                    "    energy  {:.4} mJ given to the hand, peak force {:.1} mN",
+                    "    energy  {:.4} mJ delivered to the hand, peak force {:.1} mN",
                     1e3 * report.energy,
                     1e3 * report.peak_force
                 ),
@@ -110,7 +110,7 @@ impl Run {
         let model = &self.model;
         lines.extend([
             format!(
-                "  model: {:.1} Hz ({} priority), {} of {} steps left out",
+                "  model: {:.1} Hz ({} priority), {} of {} steps missed",
                 model.rate,
                 model.priority.word(),
                 model.missed,
@@ -119,7 +119,7 @@ impl Run {
             format!("    force   {}", microseconds(&model.touch_times)),
             format!("    step    {}", microseconds(&model.step_times)),
             format!(
-                "    extrapolation  off by {:.3} mN (rms), {:.3} mN at most, of {:.1} mN",
+                "    extrapolation error  {:.3} mN (rms), {:.3} mN (max), peak force {:.1} mN",
                 1e3 * model.extrapolation.rms,
                 1e3 * model.extrapolation.max,
                 1e3 * model.extrapolation.peak
