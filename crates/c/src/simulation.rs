@@ -14,7 +14,7 @@ use crate::status::{Status, answer, or_else};
 pub struct SimulationHandle {
     pub(crate) simulation: Arc<Simulation>,
     tools: Vec<CString>,
-    doubts: Vec<CString>,
+    warnings: Vec<CString>,
 }
 
 /// Any number of threads may use it.
@@ -78,7 +78,7 @@ unsafe fn open(
     };
     let handle = SimulationHandle {
         tools: texts(&mut simulation.tools().iter().map(|tool| &tool.name)),
-        doubts: texts(&mut simulation.doubts().iter()),
+        warnings: texts(&mut simulation.warnings().iter()),
         simulation: Arc::new(simulation),
     };
     // SAFETY: the caller vouches.
@@ -118,7 +118,7 @@ pub unsafe extern "C" fn palpate_tool_name(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn palpate_warning_count(simulation: *const SimulationHandle) -> usize {
     // SAFETY: the header demands it of who calls.
-    unsafe { told(simulation, 0, |own| own.doubts.len()) }
+    unsafe { told(simulation, 0, |own| own.warnings.len()) }
 }
 
 /// A warning, counted from 0, one sentence; valid for as long as the simulation lives; null where there is none.
@@ -128,7 +128,11 @@ pub unsafe extern "C" fn palpate_warning(
     number: usize,
 ) -> *const c_char {
     // SAFETY: the header demands it of who calls.
-    unsafe { told(simulation, ptr::null(), |own| text_of(&own.doubts, number)) }
+    unsafe {
+        told(simulation, ptr::null(), |own| {
+            text_of(&own.warnings, number)
+        })
+    }
 }
 
 /// The step [s] that the scene asks for, `model.step_s`; 0 for a null pointer. Steps of other lengths are as good.

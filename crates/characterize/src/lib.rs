@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! Recording ──clean──▶ CleanRecording ──▶ analyze   (what was measured: statistics, no model)
-//!                                     └─▶ models ── fit ──▶ parameters, their uncertainty, doubts ──▶ Tissue
+//!                                     └─▶ models ── fit ──▶ parameters, their uncertainty, warnings ──▶ Tissue
 //! ```
 //!
 //! The crate reads and writes no file and prints nothing; it starts no thread that outlives a call.

@@ -67,12 +67,12 @@ pub struct Characterization {
     pub laws: Vec<(SoughtLaw, Result<LawDescription, Error>)>,
     /// The same from pieces that were pressed or pulled along one axis; empty without any.
     pub uniaxial: Vec<(SoughtLaw, Result<UniaxialFit, Error>)>,
-    /// What deserves doubt in the relaxation.
-    pub relaxation_doubts: Vec<String>,
+    /// What deserves warning in the relaxation.
+    pub relaxation_warnings: Vec<String>,
     /// What can be told apart and what cannot, in plain sentences, of relaxation and laws.
     pub identifiability: Vec<String>,
-    /// What else deserves doubt, in plain sentences.
-    pub doubts: Vec<String>,
+    /// What else deserves warning, in plain sentences.
+    pub warnings: Vec<String>,
 }
 
 /// Characterizes one specimen from all its `recordings`; `at_step` hears what is being done.
@@ -102,15 +102,17 @@ pub fn characterize(
         without_geometry: WithoutGeometry::of(recordings, &indentations),
         laws: Vec::new(),
         uniaxial: Vec::new(),
-        relaxation_doubts: Vec::new(),
+        relaxation_warnings: Vec::new(),
         identifiability: Vec::new(),
-        doubts: Vec::new(),
+        warnings: Vec::new(),
     };
-    found.doubts = found.without_geometry.doubts();
-    found.doubts.extend(about_size(recordings, &body, deepest));
+    found.warnings = found.without_geometry.warnings();
+    found
+        .warnings
+        .extend(about_size(recordings, &body, deepest));
     let half_space = curves.as_mut().ok();
     let half_space = half_space.and_then(|own| half_space_factor(own, recordings, deepest));
-    found.doubts.extend(half_space);
+    found.warnings.extend(half_space);
     let pieces: Vec<CleanRecording> = recordings
         .iter()
         .filter(|own| is_piece(own))
@@ -322,7 +324,7 @@ impl Characterization {
         } else {
             self.uniaxial_tissue(law)?
         };
-        tissue.source.warnings.extend(self.doubts.iter().cloned());
+        tissue.source.warnings.extend(self.warnings.iter().cloned());
         Ok(tissue)
     }
 
@@ -344,7 +346,7 @@ impl Characterization {
         tissue.lumped = self.without_geometry.lumped();
         tissue.prony = relaxation.terms.iter().map(term).collect();
         tissue.source.method = Some(METHOD.to_owned());
-        tissue.source.warnings = [&self.relaxation_doubts[..], &found.doubts].concat();
+        tissue.source.warnings = [&self.relaxation_warnings[..], &found.warnings].concat();
         Ok(tissue)
     }
 
@@ -354,7 +356,7 @@ impl Characterization {
         let found = found.as_ref().map_err(Clone::clone)?;
         let mut tissue = Tissue::new(found.elasticity);
         tissue.source.method = Some(UNIAXIAL.to_owned());
-        tissue.source.warnings.clone_from(&found.doubts);
+        tissue.source.warnings.clone_from(&found.warnings);
         Ok(tissue)
     }
 
@@ -376,19 +378,23 @@ impl Characterization {
         let longest = pressed.iter().filter_map(|each| each.time.last().copied());
         let duration = longest.fold(0.0, f64::max);
         if let Ok(relaxation) = &self.relaxation {
-            self.relaxation_doubts = relaxation.doubts(duration);
+            self.relaxation_warnings = relaxation.warnings(duration);
         }
-        self.identifiability.clone_from(&self.relaxation_doubts);
+        self.identifiability.clone_from(&self.relaxation_warnings);
         let of_laws = self.laws.iter();
-        let pressed = of_laws.filter_map(|(law, found)| Some((law, &found.as_ref().ok()?.doubts)));
+        let pressed =
+            of_laws.filter_map(|(law, found)| Some((law, &found.as_ref().ok()?.warnings)));
         let of_pieces = self.uniaxial.iter();
-        let pulled = of_pieces.filter_map(|(law, found)| Some((law, &found.as_ref().ok()?.doubts)));
-        for (law, doubts) in pressed.chain(pulled) {
+        let pulled =
+            of_pieces.filter_map(|(law, found)| Some((law, &found.as_ref().ok()?.warnings)));
+        for (law, warnings) in pressed.chain(pulled) {
             let name = law.name().word();
-            let named = doubts.iter().map(|doubt| match doubt.starts_with(name) {
-                true => doubt.clone(),
-                false => format!("{name}: {doubt}"),
-            });
+            let named = warnings
+                .iter()
+                .map(|warning| match warning.starts_with(name) {
+                    true => warning.clone(),
+                    false => format!("{name}: {warning}"),
+                });
             self.identifiability.extend(named);
         }
     }

@@ -46,12 +46,12 @@ impl WithoutGeometry {
         }
     }
 
-    /// What deserves doubt in the fits, each by the name of its law in files.
-    pub fn doubts(&self) -> Vec<String> {
-        let column = self.column.iter().flat_map(|found| &found.doubts);
-        let springs = self.springs.iter().flat_map(|found| &found.doubts);
-        let column = column.map(|doubt| format!("column: {doubt}"));
-        let springs = springs.map(|doubt| format!("nonlinear_springs: {doubt}"));
+    /// What deserves warning in the fits, each by the name of its law in files.
+    pub fn warnings(&self) -> Vec<String> {
+        let column = self.column.iter().flat_map(|found| &found.warnings);
+        let springs = self.springs.iter().flat_map(|found| &found.warnings);
+        let column = column.map(|warning| format!("column: {warning}"));
+        let springs = springs.map(|warning| format!("nonlinear_springs: {warning}"));
         column.chain(springs).collect()
     }
 

@@ -46,7 +46,7 @@ impl LabelMap {
         [0, 1, 2].map(|k| self.steps.column(k).norm())
     }
 
-    /// What deserves doubt, as sentences.
+    /// Warnings.
     pub fn warnings(&self) -> &[String] {
         &self.warnings
     }

@@ -52,7 +52,7 @@ pub use fill::{FillSettings, fill, fill_graded};
 pub use io::error::{ReadError, ReadFault, UnknownUnit};
 pub use io::format::MeshFormat;
 pub use io::label_map::read_label_map;
-pub use io::unit::{LengthUnit, doubt_about_extent, is_plausible_extent, unit_by_extent};
+pub use io::unit::{LengthUnit, extent_warning, is_plausible_extent, unit_by_extent};
 pub use io::volume::{ImportedTetrahedra, VolumeFormat, read_tetrahedra};
 pub use io::vtk;
 pub use io::write::WriteFormat;

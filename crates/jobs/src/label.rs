@@ -1,4 +1,4 @@
-//! Labels of a segmented volume, as people name them, and what their surfaces leave in doubt.
+//! Labels of a segmented volume, as people name them, and what their surfaces leave in warning.
 
 use palpate_geometry::{Isosurface, Label};
 
@@ -51,8 +51,8 @@ fn absent(labels: &[Label], wanted: &str) -> Error {
     }
 }
 
-/// What deserves doubt in a label's surface, as sentences.
-pub fn doubts(label: &Label, found: &Isosurface) -> Vec<String> {
+/// What deserves warning in a label's surface, as sentences.
+pub fn warnings(label: &Label, found: &Isosurface) -> Vec<String> {
     let name = in_words(label);
     let all = [
         (

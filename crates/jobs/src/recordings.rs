@@ -160,8 +160,8 @@ impl Recordings {
             .map_err(|error| Error::from(error).about(path))?;
         let sideways = Sideways::of(&recording);
         clean
-            .doubts
-            .extend(sideways.and_then(|found| found.doubt()));
+            .warnings
+            .extend(sideways.and_then(|found| found.warning()));
         Ok((clean, sideways))
     }
 

@@ -19,8 +19,8 @@ pub struct Sideways {
 const AROUND: usize = 10;
 /// Samples of the sensor's zero, which a recording of the rig has before first contact.
 const BEFORE: usize = 100;
-/// A part of the force that goes sideways beyond which the approach deserves doubt [-]: a bonded punch at 18 degrees.
-const DOUBTFUL: f64 = 0.1;
+/// A part of the force that goes sideways beyond which the approach gets a warning [-]: a bonded punch at 18 degrees.
+const LARGE_PART: f64 = 0.1;
 
 impl Sideways {
     /// Of a recording; none for a sensor of one axis.
@@ -49,9 +49,9 @@ impl Sideways {
         })
     }
 
-    /// What deserves doubt about it.
-    pub(crate) fn doubt(&self) -> Option<String> {
-        (self.part > DOUBTFUL).then(|| {
+    /// Warnings about it.
+    pub(crate) fn warning(&self) -> Option<String> {
+        (self.part > LARGE_PART).then(|| {
             format!(
                 "{:.0} % of the force acts sideways; approach along the surface's normal (measure_normal = true in the \
                  protocol), for all models take the indenter for perpendicular",
@@ -100,6 +100,6 @@ mod tests {
             near(found.force_n, 1.0) && near(found.lateral_n, 0.5) && near(found.torque_n_m, 2e-3),
             "{found:?}"
         );
-        assert!(found.doubt().unwrap().starts_with("50 %"));
+        assert!(found.warning().unwrap().starts_with("50 %"));
     }
 }

@@ -147,18 +147,18 @@ impl Report {
         files: Vec<PathBuf>,
         beside: Option<Beside>,
     ) -> Self {
-        let (beside, doubts) = beside.map(Beside::finish).unzip();
+        let (beside, warnings) = beside.map(Beside::finish).unzip();
         let incomplete = motion
             .incomplete()
             .map(|why| (why, format!("the motion is {why}")));
-        // A motion that is written by hand rarely has an end mark, which alone is no doubt.
-        let doubted = incomplete
+        // A motion that is written by hand rarely has an end mark, which alone is no warning.
+        let warned = incomplete
             .iter()
             .filter(|(why, _)| **why != Incomplete::Unmarked);
-        let doubted: Vec<String> = doubted.map(|(_, said)| said.clone()).collect();
-        let unusual = motion.warnings().iter().cloned().chain(doubted);
-        let doubts = doubts.into_iter().flatten();
-        summary.warnings.extend(unusual.chain(doubts));
+        let warned: Vec<String> = warned.map(|(_, said)| said.clone()).collect();
+        let unusual = motion.warnings().iter().cloned().chain(warned);
+        let warnings = warnings.into_iter().flatten();
+        summary.warnings.extend(unusual.chain(warnings));
         Self {
             palpate: VERSION,
             summary,

@@ -106,7 +106,7 @@ fn surfaces(
         });
         let found = found?;
         let mut warnings = map.warnings().to_vec();
-        warnings.extend(label::doubts(label, &found));
+        warnings.extend(label::warnings(label, &found));
         let is_alone = labels
             .iter()
             .filter(|other| other.name == label.name)

@@ -187,7 +187,7 @@ impl Mesh {
         Ok(PyArray1::from_vec(py, distances))
     }
 
-    /// Plain sentences on what deserves doubt.
+    /// Plain sentences on warnings.
     #[getter]
     fn warnings(&self) -> Vec<String> {
         self.warnings.clone()

@@ -156,7 +156,7 @@ impl Tissue {
         terms.map(|term| (term.g.value, term.tau_s.value)).collect()
     }
 
-    /// Plain sentences on what deserves doubt.
+    /// Plain sentences on warnings.
     #[getter]
     fn warnings<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
         PyList::new(py, &self.tissue.source.warnings)

@@ -25,7 +25,7 @@ def test_a_tissue_of_words_is_that_of_a_file() -> None:
     assert palpate.Tissue.parse(made.to_toml()) == made == pickle.loads(pickle.dumps(made))
 
 
-def test_builtin_tissues_bring_their_doubts(tmp_path: Path) -> None:
+def test_builtin_tissues_bring_their_warnings(tmp_path: Path) -> None:
     liver = palpate.Tissue.builtin("pig-liver")
     assert liver.law == "neo_hookean" and liver.warnings
     liver.write(tmp_path / "liver.toml")

@@ -19,7 +19,7 @@ const LOOKS: usize = 3;
 pub struct Record {
     path: PathBuf,
     connection: Connection,
-    doubts: Vec<String>,
+    warnings: Vec<String>,
 }
 
 /// Which attempts; without anything, all.
@@ -34,7 +34,7 @@ pub struct Filter {
 impl Record {
     /// The record in a file, for adding to it. Where there is none it is begun, with its folder. A damaged one is
     /// kept aside as `NAME.damaged-1` and a new one begun at once, so that the attempt of somebody who has just
-    /// finished is not lost; that is told by [`Record::doubts`].
+    /// finished is not lost; that is told by [`Record::warnings`].
     ///
     /// # Errors
     /// Another program holds it for longer than two seconds, it is another kind of file or of a later version, or
@@ -44,7 +44,7 @@ impl Record {
         let path = absolute(path).map_err(|error| Error::of_system(path, &error))?;
         let folder = path.parent().unwrap_or(&path);
         fs::create_dir_all(folder).map_err(|error| Error::of_system(&path, &error))?;
-        let mut doubts = Vec::new();
+        let mut warnings = Vec::new();
         let mut looks = 0;
         loop {
             let stamp = aside::stamp(&path);
@@ -55,7 +55,7 @@ impl Record {
                     return Ok(Self {
                         path,
                         connection,
-                        doubts,
+                        warnings,
                     });
                 }
             };
@@ -73,7 +73,7 @@ impl Record {
                 Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
                 other => other.map_err(|error| Error::of_system(&path, &error))?,
             };
-            doubts.push(format!(
+            warnings.push(format!(
                 "the training record {} was damaged ({reason}); it is kept as {}, and a new one is begun",
                 path.display(),
                 kept.display()
@@ -96,7 +96,7 @@ impl Record {
         Ok(Self {
             path,
             connection,
-            doubts: Vec::new(),
+            warnings: Vec::new(),
         })
     }
 
@@ -110,8 +110,8 @@ impl Record {
     }
 
     /// What was found when it was opened.
-    pub fn doubts(&self) -> &[String] {
-        &self.doubts
+    pub fn warnings(&self) -> &[String] {
+        &self.warnings
     }
 
     /// Keeps an attempt: on the disk when this returns, or not at all. No other attempt is changed; one that is in

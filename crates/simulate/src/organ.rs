@@ -8,7 +8,7 @@ use palpate_geometry::{
 
 use crate::Error;
 
-/// The surface of `shape`, read and mended or made, and what deserves doubt.
+/// The surface of `shape`, read and mended or made, and warnings.
 ///
 /// # Errors
 /// When the file cannot be read or what it holds bounds no solid.
@@ -28,9 +28,9 @@ pub fn read_organ(shape: &Shape) -> Result<(Surface, Vec<String>), Error> {
             };
             let imported = read_mesh(path, unit.map(length_unit))?;
             let (mesh, repairs) = repair(&imported.mesh).map_err(no_solid)?;
-            let mut doubts = imported.warnings;
+            let mut warnings = imported.warnings;
             if repairs.flipped_triangles > 0 {
-                doubts.push(format!(
+                warnings.push(format!(
                     "{}: {} triangles faced inward or against their neighbours and were turned",
                     path.display(),
                     repairs.flipped_triangles
@@ -41,23 +41,23 @@ pub fn read_organ(shape: &Shape) -> Result<(Surface, Vec<String>), Error> {
                 let fault = match problem.kind {
                     ProblemKind::DoubleWall => "the solid is a thin sheet with two sides",
                     ProblemKind::SelfIntersecting => "the surface passes through itself",
-                    // Slivers are felt no worse than other triangles; the size was doubted on reading,
+                    // Slivers are felt no worse than other triangles; the size got a warning on reading,
                     // and the rest is not there any more.
                     _ => continue,
                 };
-                doubts.push(format!("{}: {fault}. {}", path.display(), problem.mend));
+                warnings.push(format!("{}: {fault}. {}", path.display(), problem.mend));
             }
-            Ok((surface, doubts))
+            Ok((surface, warnings))
         }
     }
 }
 
-/// The surface of `neighbour` where it stands, and what deserves doubt.
+/// The surface of `neighbour` where it stands, and warnings.
 ///
 /// # Errors
 /// When its file cannot be read, what it holds bounds no solid, or it stands too far away for numbers.
 pub fn read_neighbour(neighbour: &Neighbour) -> Result<(Surface, Vec<String>), Error> {
-    let (surface, doubts) = read_organ(&neighbour.shape)?;
+    let (surface, warnings) = read_organ(&neighbour.shape)?;
     let Location {
         at_m,
         turn_rad: [x, y, z],
@@ -68,7 +68,7 @@ pub fn read_neighbour(neighbour: &Neighbour) -> Result<(Surface, Vec<String>), E
     let place = |vertex: &Vec3| turn * (scale * vertex) + Vec3::from(at_m);
     let misplaced = |fault| Error::Misplaced { fault };
     let mesh = surface.mesh().map_vertices(place).map_err(misplaced)?;
-    Ok((Surface::new(mesh).map_err(misplaced)?, doubts))
+    Ok((Surface::new(mesh).map_err(misplaced)?, warnings))
 }
 
 /// Where an organ of `shape` is held: as `stated`, or else where a built-in one grows.

@@ -42,7 +42,7 @@ pub struct Simulation {
     pub(crate) scene_digest: SceneDigest,
     /// That of the variant; 0 for a scene of fixed numbers.
     seed: u64,
-    doubts: Vec<String>,
+    warnings: Vec<String>,
 }
 
 impl Simulation {
@@ -68,11 +68,11 @@ impl Simulation {
         if scene.draws.is_some() {
             return Err(Error::NotDrawn);
         }
-        let (surface, mut doubts) = organ::read_organ(&scene.organ.shape)?;
+        let (surface, mut warnings) = organ::read_organ(&scene.organ.shape)?;
         let tissue = scene.organ.tissue.read()?;
         let material = Material::from_tissue(&tissue)?;
-        doubts.extend_from_slice(&scene.warnings);
-        doubts.extend(material.doubts.iter().cloned());
+        warnings.extend_from_slice(&scene.warnings);
+        warnings.extend(material.warnings.iter().cloned());
         let tree = AabbTree::new(surface.mesh());
         for tool in &scene.tools {
             trocar::check(tool, (&surface, &tree))?;
@@ -104,7 +104,7 @@ impl Simulation {
             ModelKind::Hybrid => {
                 let problem = GlobalProblem::new(scene, &surface, &material.at_rest)?;
                 let (global, more) = problem.solve((scene, &surface), resources, watch)?;
-                doubts.extend(more);
+                warnings.extend(more);
                 tools
                     .iter_mut()
                     .try_for_each(|tool| global.lie_under(tool))?;
@@ -120,53 +120,53 @@ impl Simulation {
             Some(regions) => {
                 tell(watch, Work::Tetrahedra)?;
                 let (organ, more) = NonlinearOrgan::new(scene, &surface, regions)?;
-                doubts.extend(more);
+                warnings.extend(more);
                 Some(organ)
             }
         };
         if scene.model.kind == ModelKind::Local {
             let organ = (scene, &surface);
             if let Err(error) = surround(&mut tools, organ, &material.at_rest, resources.memory) {
-                doubts.push(format!(
+                warnings.push(format!(
                     "the organ's size is felt as that of a hemisphere of its volume, for boundary elements have no \
                      answer: {error}"
                 ));
             }
         }
-        doubts.extend(tip_laws::stiffen(&mut tools, &touched, &mut |part| {
+        warnings.extend(tip_laws::stiffen(&mut tools, &touched, &mut |part| {
             let work = Work::ForceOverDepth;
             // It cannot be broken off, and takes seconds.
             let _ = watch(Progress { work, part });
         })?);
         let neighbours = Neighbour::all(scene, &tools)?;
         if !neighbours.is_empty() {
-            doubts.push(
+            warnings.push(
                 "neighbours that collide are rigid to the tips of tools; shafts and the organ pass through them"
                     .to_owned(),
             );
         }
         let cutting = CuttingModel::new(scene, &surface)?;
         if nonlinear.is_some() && cutting.as_ref().is_some_and(|model| model.changes_force) {
-            doubts.push(
+            warnings.push(
                 "cuts are seen, and do not change the force of the nonlinear model".to_owned(),
             );
         }
-        doubts.extend(cutting.iter().filter_map(CuttingModel::doubt));
+        warnings.extend(cutting.iter().filter_map(CuttingModel::warning));
         if !scene.organ.layers.is_empty() && nonlinear.is_none() {
-            doubts.push(
+            warnings.push(
                 "layers are cut, seen and perforated each by itself; to a touch the organ answers as its own \
                  tissue"
                     .to_owned(),
             );
         }
         if scene.model.gravity_m_per_s2.is_some() && nonlinear.is_none() {
-            doubts.push(
+            warnings.push(
                 "only the nonlinear model has weight; `model.gravity_m_per_s2` changes nothing here"
                     .to_owned(),
             );
         }
         if !scene.organ.inclusions.is_empty() && nonlinear.is_none() {
-            doubts.push(
+            warnings.push(
                 "only the nonlinear model feels inclusions; this one answers as if there were none"
                     .to_owned(),
             );
@@ -194,7 +194,7 @@ impl Simulation {
             tools,
             global,
             nonlinear,
-            doubts,
+            warnings,
         })
     }
 
@@ -277,9 +277,9 @@ impl Simulation {
         self.force_scale
     }
 
-    /// Plain sentences on what deserves doubt in this scene.
-    pub fn doubts(&self) -> &[String] {
-        &self.doubts
+    /// Plain sentences on warnings in this scene.
+    pub fn warnings(&self) -> &[String] {
+        &self.warnings
     }
 
     /// What stands at the head of a session of this scene.

@@ -26,7 +26,7 @@ pub struct Summary {
     pub cuts: Option<CutSummary>,
     /// Whether it was stopped before its end.
     pub interrupted: bool,
-    /// Plain sentences on what deserves doubt.
+    /// Plain sentences on warnings.
     pub warnings: Vec<String>,
 }
 
@@ -124,7 +124,7 @@ impl Tally {
         (simulation, state, workspace): (&Simulation, &SimulationState, &SimulationWorkspace),
         interrupted: bool,
     ) -> Summary {
-        let mut warnings = simulation.doubts().to_vec();
+        let mut warnings = simulation.warnings().to_vec();
         warnings.extend(workspace.warnings());
         let mut warn = |condition: bool, text: String| {
             if condition {

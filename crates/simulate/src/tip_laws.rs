@@ -9,7 +9,7 @@ use palpate_mechanics::{Material, TipLaw};
 use crate::Error;
 use crate::tool::Tool;
 
-/// Gives each tool the force over depth of the tissue that it meets, one for each; what deserves doubt about it. Tools with
+/// Gives each tool the force over depth of the tissue that it meets, one for each; warnings about it. Tools with
 /// the same tip and tissue share the work.
 pub(crate) fn stiffen(
     tools: &mut [Tool],
@@ -17,7 +17,7 @@ pub(crate) fn stiffen(
     at_step: &mut dyn FnMut(f64),
 ) -> Result<Vec<String>, Error> {
     let mut found: Vec<(Tip, Bond, Elasticity, Stiffening)> = Vec::new();
-    let mut doubts = Vec::new();
+    let mut warnings = Vec::new();
     for (tool, (tissue, material)) in tools.iter_mut().zip(touched) {
         if tissue.elasticity.law() == LawName::Linear {
             continue;
@@ -38,14 +38,14 @@ pub(crate) fn stiffen(
             }
         };
         tool.law = TipLaw::stiffening(tip, bond, material, stiffening);
-        doubts.push(format!(
+        warnings.push(format!(
             "the tissue's law {} stiffens with depth under the tip; what surrounds it, and a sideways force, \
              answer as at small strain, incompressible",
             tissue.elasticity.law(),
         ));
     }
-    doubts.dedup();
-    Ok(doubts)
+    warnings.dedup();
+    Ok(warnings)
 }
 
 /// That of neo-Hookean tissue is the same for every modulus, and known.

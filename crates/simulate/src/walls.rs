@@ -54,8 +54,8 @@ impl Walls {
         size.min(OF_A_WALL * thickness)
     }
 
-    /// What deserves doubt when boundary elements are taken.
-    pub(crate) fn doubt(&self) -> Option<String> {
+    /// Warning when boundary elements are taken.
+    pub(crate) fn warning(&self) -> Option<String> {
         self.are_thin().then(|| {
             format!(
                 "{:.0} % of what can be touched are walls of {:.1} mm under triangles of {:.1} mm: more than 10 % too \
@@ -112,19 +112,19 @@ mod tests {
     use palpate_geometry::Organ;
 
     #[test]
-    fn a_thin_wall_is_doubted_and_a_solid_is_not() {
+    fn a_thin_wall_gets_a_warning_and_a_solid_none() {
         let walls = |organ: Organ, triangles| {
             let surface = Surface::new(organ.surface_mesh(triangles).unwrap()).unwrap();
             let all: Vec<_> = surface.mesh().triangle_ids().collect();
             Walls::new(&surface, &all)
         };
-        assert_eq!(walls(Organ::Kidney, 1000).doubt(), None);
+        assert_eq!(walls(Organ::Kidney, 1000).warning(), None);
         let thin = walls(Organ::Esophagus, 1000);
-        let words = thin.doubt().unwrap();
+        let words = thin.warning().unwrap();
         assert!(words.contains("mechanical_triangles` above"), "{words}");
         // A wall of 2.5 mm, which chords make thinner.
         let edge = thin.edge_of_tetrahedra();
         assert!(edge > 0.6 * OF_A_WALL * 2.5e-3 && edge < OF_A_WALL * 2.5e-3);
-        assert_eq!(walls(Organ::Esophagus, 20_000).doubt(), None);
+        assert_eq!(walls(Organ::Esophagus, 20_000).warning(), None);
     }
 }

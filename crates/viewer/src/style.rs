@@ -2,8 +2,8 @@ use eframe::egui::{self, Color32, Visuals};
 
 /// What went wrong.
 pub(crate) const FAULT: Color32 = Color32::from_rgb(242, 122, 106);
-/// What deserves doubt.
-pub(crate) const DOUBT: Color32 = Color32::from_rgb(226, 182, 92);
+/// What deserves warning.
+pub(crate) const WARNING: Color32 = Color32::from_rgb(226, 182, 92);
 /// The force.
 pub(crate) const FORCE: Color32 = Color32::from_rgb(236, 126, 92);
 /// The depth, and the mark on the organ.
@@ -62,7 +62,7 @@ mod tests {
         // Panels, and entries of the start screen.
         for ground in [(22, 25, 30), (30, 34, 41)] {
             let ground = Color32::from_rgb(ground.0, ground.1, ground.2);
-            for text in [WHITE, QUIET, FAULT, DOUBT, FORCE, DEPTH] {
+            for text in [WHITE, QUIET, FAULT, WARNING, FORCE, DEPTH] {
                 let found = contrast(text, ground);
                 assert!(found >= 4.5, "{text:?}: {found}");
             }

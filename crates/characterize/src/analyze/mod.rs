@@ -33,8 +33,8 @@ pub struct Analysis {
     pub sinusoids: Vec<Sinusoid>,
     /// The answer to each chirp, in the order of time.
     pub sweeps: Vec<Sweep>,
-    /// What deserves doubt, in plain sentences, beside the doubts of the recording.
-    pub doubts: Vec<String>,
+    /// Warnings, in plain sentences, beside the warnings of the recording.
+    pub warnings: Vec<String>,
 }
 
 impl Analysis {
@@ -47,26 +47,26 @@ impl Analysis {
 
 /// Analyzes a recording.
 pub fn analyze(recording: &CleanRecording) -> Analysis {
-    let mut doubts = Vec::new();
-    let holds = holds(recording, &mut doubts);
+    let mut warnings = Vec::new();
+    let holds = holds(recording, &mut warnings);
     let mut sinusoids = Vec::new();
     let mut sweeps = Vec::new();
     for segment in &recording.segments {
         match segment.kind {
             SegmentKind::Sine(frequency) => {
-                sinusoids.extend(Sinusoid::of(recording, segment, frequency, &mut doubts));
+                sinusoids.extend(Sinusoid::of(recording, segment, frequency, &mut warnings));
             }
             SegmentKind::Chirp(first, last) => {
-                sweeps.extend(Sweep::of(recording, segment, [first, last], &mut doubts));
+                sweeps.extend(Sweep::of(recording, segment, [first, last], &mut warnings));
             }
             SegmentKind::Ramp | SegmentKind::Hold | SegmentKind::Retreat => {}
         }
     }
     Analysis {
-        relaxation: relaxation::longest(recording, &mut doubts),
+        relaxation: relaxation::longest(recording, &mut warnings),
         holds,
         sinusoids,
         sweeps,
-        doubts,
+        warnings,
     }
 }

@@ -1,7 +1,7 @@
 //! How the force falls while the indenter stays.
 //!
 //! *Steady* is the mean of the last tenth of the hold, whatever its length; no curve is drawn beyond
-//! the end. When the hold is too short for that to be steady the force still falls, and a doubt says
+//! the end. When the hold is too short for that to be steady the force still falls, and a warning says
 //! by how much. *Peak* is the largest force of the ramp before the hold and of the hold. The force
 //! has *settled* at the first time after which it stays within 10 % of steady; that is read from the
 //! filtered force, all else from the force as measured.
@@ -55,7 +55,7 @@ pub struct Relaxation {
 }
 
 /// Every hold of a recording.
-pub(crate) fn holds(recording: &CleanRecording, doubts: &mut Vec<String>) -> Vec<Hold> {
+pub(crate) fn holds(recording: &CleanRecording, warnings: &mut Vec<String>) -> Vec<Hold> {
     let segments = recording.segments.iter();
     let holds: Vec<_> = segments
         .filter(|own| own.kind == SegmentKind::Hold)
@@ -63,7 +63,7 @@ pub(crate) fn holds(recording: &CleanRecording, doubts: &mut Vec<String>) -> Vec
         .collect();
     for hold in &holds {
         if hold.still_falling > STILL {
-            doubts.push(format!(
+            warnings.push(format!(
                 "the hold at {:.2} mm ends before the force is steady: it still fell by {:.0} % over its last third, \
                  so the steady force is an upper bound; hold for longer",
                 1e3 * hold.depth_m,
@@ -75,14 +75,17 @@ pub(crate) fn holds(recording: &CleanRecording, doubts: &mut Vec<String>) -> Vec
 }
 
 /// Relaxation in the longest hold.
-pub(super) fn longest(recording: &CleanRecording, doubts: &mut Vec<String>) -> Option<Relaxation> {
+pub(super) fn longest(
+    recording: &CleanRecording,
+    warnings: &mut Vec<String>,
+) -> Option<Relaxation> {
     let segments = &recording.segments;
     let held = |own: &usize| recording.duration(&segments[*own]);
     let Some(place) = (0..segments.len())
         .filter(|own| segments[*own].kind == SegmentKind::Hold)
         .max_by(|a, b| held(a).total_cmp(&held(b)))
     else {
-        doubts.push("the indenter never stays, so there is no relaxation to tell".to_owned());
+        warnings.push("the indenter never stays, so there is no relaxation to tell".to_owned());
         return None;
     };
     let own = segments[place];
@@ -98,7 +101,7 @@ pub(super) fn longest(recording: &CleanRecording, doubts: &mut Vec<String>) -> O
     let forces = &recording.force[first..own.end];
     let peak_n = forces.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     if peak_n <= 0.0 || steady_n <= 0.0 {
-        doubts.push("the force of the hold is not above that before contact, so there is no relaxation to tell".to_owned());
+        warnings.push("the force of the hold is not above that before contact, so there is no relaxation to tell".to_owned());
         return None;
     }
     let is_off = |force: &f64| (force - steady_n).abs() > SETTLED * steady_n.abs();

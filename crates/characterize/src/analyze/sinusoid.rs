@@ -79,7 +79,7 @@ impl Sinusoid {
         recording: &CleanRecording,
         segment: &Segment,
         frequency: f64,
-        doubts: &mut Vec<String>,
+        warnings: &mut Vec<String>,
     ) -> Option<Self> {
         let time = &recording.time;
         let end_time = time[segment.end - 1];
@@ -97,7 +97,7 @@ impl Sinusoid {
             time[segment.first..segment.end].partition_point(|t| *t <= from + 1e-9 / frequency);
         let samples = segment.first + skipped..segment.end;
         if (samples.len() as f64) < FEWEST_SAMPLES * periods {
-            doubts.push(format!(
+            warnings.push(format!(
                 "the sine of {frequency:.2} Hz has fewer than 8 samples in a period and is passed over; measure faster"
             ));
             return None;
@@ -138,12 +138,12 @@ impl Sinusoid {
             end: samples.end,
         };
         if answer.distortion > DISTORTED + answer.depth_distortion {
-            doubts.push(format!(
+            warnings.push(format!(
                 "the force at {frequency:.2} Hz has harmonics of {:.0} % of its swing: stiffness and phase are those of its first harmonic alone",
                 1e2 * answer.distortion
             ));
         }
-        doubts.extend(answer.gain());
+        warnings.extend(answer.gain());
         Some(answer)
     }
 

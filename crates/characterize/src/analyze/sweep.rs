@@ -53,7 +53,7 @@ impl Sweep {
         recording: &CleanRecording,
         segment: &Segment,
         [first, last]: [f64; 2],
-        doubts: &mut Vec<String>,
+        warnings: &mut Vec<String>,
     ) -> Option<Self> {
         let (low, high) = (first.min(last), first.max(last));
         let samples = segment.first..segment.end;
@@ -64,7 +64,7 @@ impl Sweep {
             .map(|multiple| multiple as f64 / length)
             .collect();
         if multiples.len() < TOGETHER {
-            doubts.push(format!(
+            warnings.push(format!(
                 "the chirp from {first:.2} to {last:.2} Hz is too short to be analyzed; sweep for {:.0} s or more",
                 TOGETHER as f64 / (high - low)
             ));
@@ -78,7 +78,7 @@ impl Sweep {
             .collect();
         let poor = points.iter().filter(|point| !point.is_coherent).count();
         if poor > 0 {
-            doubts.push(format!(
+            warnings.push(format!(
                 "at {poor} of {} frequencies of the chirp the force goes with the depth by less than {COHERENT}; they are marked",
                 points.len()
             ));

@@ -223,9 +223,9 @@ pub(super) fn at(samples: &Oriented, time: f64) -> Result<Contact, Error> {
 }
 
 /// Says how the contact was found.
-pub(super) fn tell(contact: &Contact, clean: &CleanRecording, doubts: &mut Vec<String>) {
+pub(super) fn tell(contact: &Contact, clean: &CleanRecording, warnings: &mut Vec<String>) {
     if let Some(error) = contact.depth_error_m {
-        doubts.push(format!(
+        warnings.push(format!(
             "the first contact was found at {:.4} s, at {:.3e} +- {error:.1e} m",
             contact.time_s, contact.depth_m
         ));
@@ -233,19 +233,19 @@ pub(super) fn tell(contact: &Contact, clean: &CleanRecording, doubts: &mut Vec<S
     if clean.is_uniaxial() {
         // Nothing touches: the piece is held.
     } else if contact.sample == 0 {
-        doubts.push(
+        warnings.push(
             "the recording begins in contact: nothing shows the sensor's zero, and the indenter may have touched before"
                 .to_owned(),
         );
     } else if contact.offset_error_n.is_none() {
-        doubts.push(format!(
+        warnings.push(format!(
             "only {} samples lie before contact, too few to tell the sensor's zero well",
             contact.sample + 1
         ));
     }
     if let Some(drift) = contact.drift_n_per_s {
         let left = clean.time.last().copied().unwrap_or(0.0);
-        doubts.push(format!(
+        warnings.push(format!(
             "the sensor's zero moved by {drift:.2e} N/s before contact; if it goes on so, it is off by {:.2e} N at the end",
             drift * left
         ));

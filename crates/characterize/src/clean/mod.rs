@@ -5,7 +5,7 @@
 //! ```
 //!
 //! The force that is fitted is what was measured, less the sensor's zero; ripple and filter touch only
-//! the force that is drawn. Whatever was done or deserves doubt stands in [`CleanRecording::doubts`].
+//! the force that is drawn. What was done and warnings stand in [`CleanRecording::warnings`].
 
 mod contact;
 mod contact_search;
@@ -69,8 +69,8 @@ pub struct CleanRecording {
     pub segments: Vec<Segment>,
     /// What was found and done on the way.
     pub handling: Handling,
-    /// What was done to it and what deserves doubt, in plain sentences.
-    pub doubts: Vec<String>,
+    /// What was done to it and warnings, in plain sentences.
+    pub warnings: Vec<String>,
 }
 
 /// What was found and done on the way to a clean recording.
@@ -119,19 +119,19 @@ pub enum SegmentKind {
 /// # Errors
 /// When it is too short, its force never changes, no contact is found, or the settings do not fit it.
 pub fn clean(recording: &Recording, settings: &CleanSettings) -> Result<CleanRecording, Error> {
-    let mut doubts = recording.remarks().to_vec();
+    let mut warnings = recording.remarks().to_vec();
     if let Some(why) = recording.header.cut_short() {
-        doubts.push(format!(
+        warnings.push(format!(
             "it was cut short ({why}), so a part of its stimulus is missing"
         ));
     }
     if let Some(why) = recording.incomplete() {
-        doubts.push(format!("it is {why}"));
+        warnings.push(format!("it is {why}"));
     }
-    let samples = Oriented::new(recording, &mut doubts);
+    let samples = Oriented::new(recording, &mut warnings);
     check(&samples)?;
     let sampling = Sampling::of(&samples.time);
-    sampling.tell(&mut doubts);
+    sampling.tell(&mut warnings);
     let contact = find_contact(recording, &samples, settings)?;
     let shifted = |values: &[f64], by: f64| values.iter().map(|value| value - by).collect();
     let mut clean = CleanRecording {
@@ -147,7 +147,7 @@ pub fn clean(recording: &Recording, settings: &CleanSettings) -> Result<CleanRec
             signs: samples.signs,
             ..Handling::default()
         },
-        doubts,
+        warnings,
     };
     clean.segments = segments::find(&clean.time, &clean.depth, contact.sample);
     clean.handling.ripple = Ripple::find(&clean.time, &clean.force, &clean.segments);
@@ -238,21 +238,21 @@ impl CleanRecording {
     }
 
     fn tell(&mut self, recording: &Recording, settings: &CleanSettings) {
-        let mut doubts = std::mem::take(&mut self.doubts);
-        contact::tell(&self.handling.contact, self, &mut doubts);
-        stimulus::tell(self, &mut doubts);
-        plausible::tell(self, recording, &mut doubts);
+        let mut warnings = std::mem::take(&mut self.warnings);
+        contact::tell(&self.handling.contact, self, &mut warnings);
+        stimulus::tell(self, &mut warnings);
+        plausible::tell(self, recording, &mut warnings);
         if let Some(ripple) = &self.handling.ripple {
             let done = if settings.removes_ripple {
                 "it was taken out of the filtered force"
             } else {
                 "it was left in"
             };
-            doubts.push(format!(
+            warnings.push(format!(
                 "the force of the hold swings by {:.2e} N at {:.2} Hz, as a heart does; {done}",
                 ripple.amplitude_n, ripple.frequency_hz
             ));
         }
-        self.doubts = doubts;
+        self.warnings = warnings;
     }
 }

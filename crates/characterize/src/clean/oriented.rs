@@ -17,7 +17,7 @@ const THERE: f64 = 0.8;
 
 impl Oriented {
     /// Turns the signs of another program's depth and force where they are the other way round.
-    pub(super) fn new(recording: &Recording, doubts: &mut Vec<String>) -> Self {
+    pub(super) fn new(recording: &Recording, warnings: &mut Vec<String>) -> Self {
         let (depth, force) = (recording.depth_m(), recording.force_n());
         let signs = if recording.is_foreign() {
             signs(depth, force)
@@ -26,7 +26,7 @@ impl Oriented {
         };
         for (sign, what) in signs.iter().zip(["depth", "force"]) {
             if *sign < 0.0 {
-                doubts.push(format!(
+                warnings.push(format!(
                     "the {what} fell as the indenter pressed, so its sign was turned"
                 ));
             }

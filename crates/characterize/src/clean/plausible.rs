@@ -26,16 +26,16 @@ const FEW: usize = 20;
 /// Least noise, over the largest force, that shows a sensor to be awake [-].
 const AWAKE: f64 = 1e-4;
 
-pub(super) fn tell(clean: &CleanRecording, recording: &Recording, doubts: &mut Vec<String>) {
+pub(super) fn tell(clean: &CleanRecording, recording: &Recording, warnings: &mut Vec<String>) {
     let deepest = clean.depth.iter().copied().fold(0.0, f64::max);
     let strongest = clean.force.iter().copied().fold(0.0, f64::max);
     if let Some(wrong) = wrong_unit(clean, deepest, strongest) {
-        doubts.push(format!("{wrong}; check the units"));
+        warnings.push(format!("{wrong}; check the units"));
     }
     let told = steps(recording.depth_m()).filter(|_| deepest > 0.0);
-    doubts.extend(told.and_then(|step| of_steps(step, deepest)));
+    warnings.extend(told.and_then(|step| of_steps(step, deepest)));
     if let Some((from, to)) = stuck(recording) {
-        doubts.push(format!(
+        warnings.push(format!(
             "the force stays at exactly {} N from {from} to {to} s, as a sensor does at its end; \
              measure with a larger range",
             clean.handling.signs[1] * largest(recording)

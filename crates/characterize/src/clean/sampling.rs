@@ -41,14 +41,14 @@ impl Sampling {
         }
     }
 
-    pub(super) fn tell(&self, doubts: &mut Vec<String>) {
+    pub(super) fn tell(&self, warnings: &mut Vec<String>) {
         if self.gaps > 0 {
-            doubts.push(format!(
+            warnings.push(format!(
                 "samples are missing in {} places, for up to {:.3} s; the curve is taken as straight there",
                 self.gaps, self.longest_s
             ));
         } else if !self.is_even {
-            doubts.push(format!(
+            warnings.push(format!(
                 "samples do not come evenly, from {:.4} to {:.4} s apart; for the filter they were laid on even times",
                 self.shortest, self.longest_s
             ));

@@ -11,14 +11,14 @@ const ALIKE: f64 = 0.1;
 const DEEPEST: f64 = 0.01;
 const FASTEST: f64 = 8.0;
 
-pub(super) fn tell(clean: &CleanRecording, doubts: &mut Vec<String>) {
-    tell_kind(clean, doubts);
+pub(super) fn tell(clean: &CleanRecording, warnings: &mut Vec<String>) {
+    tell_kind(clean, warnings);
     let mut compare = |what: &str, said: Option<f64>, seen: Option<f64>, slack: f64| {
         let (Some(said), Some(seen)) = (said, seen) else {
             return;
         };
         if (said - seen).abs() > (ALIKE * said.abs()).max(slack) {
-            doubts.push(format!(
+            warnings.push(format!(
                 "`{what}` is {said}, but the samples show {seen:.4}"
             ));
         }
@@ -62,10 +62,10 @@ pub(super) fn tell(clean: &CleanRecording, doubts: &mut Vec<String>) {
         let mean = depths.iter().sum::<f64>() / depths.len() as f64;
         compare("amplitude_m", header.amplitude_m, Some(mean), 0.0);
     }
-    tell_beyond(clean, doubts);
+    tell_beyond(clean, warnings);
 }
 
-fn tell_kind(clean: &CleanRecording, doubts: &mut Vec<String>) {
+fn tell_kind(clean: &CleanRecording, warnings: &mut Vec<String>) {
     let shows =
         |wanted: fn(&SegmentKind) -> bool| clean.segments.iter().any(|own| wanted(&own.kind));
     let swings = shows(|kind| matches!(kind, SegmentKind::Sine(_)));
@@ -82,17 +82,17 @@ fn tell_kind(clean: &CleanRecording, doubts: &mut Vec<String>) {
         _ => return,
     };
     if let Some(stimulus) = clean.header.stimulus.filter(|_| !is_so) {
-        doubts.push(format!(
+        warnings.push(format!(
             "`stimulus` is {stimulus}, but the depth shows {looks}"
         ));
     }
 }
 
 /// Depths and frequencies for which the source has nothing to compare with.
-fn tell_beyond(clean: &CleanRecording, doubts: &mut Vec<String>) {
+fn tell_beyond(clean: &CleanRecording, warnings: &mut Vec<String>) {
     let deepest = clean.depth.iter().copied().fold(0.0, f64::max);
     if deepest > DEEPEST && !clean.is_uniaxial() {
-        doubts.push(format!(
+        warnings.push(format!(
             "the depth goes to {:.1} mm, beyond 10 mm",
             1e3 * deepest
         ));
@@ -104,7 +104,7 @@ fn tell_beyond(clean: &CleanRecording, doubts: &mut Vec<String>) {
     });
     let fastest = fastest.fold(0.0, f64::max);
     if fastest > FASTEST {
-        doubts.push(format!("the stimulus goes to {fastest:.1} Hz, beyond 8 Hz"));
+        warnings.push(format!("the stimulus goes to {fastest:.1} Hz, beyond 8 Hz"));
     }
 }
 

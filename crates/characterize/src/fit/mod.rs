@@ -10,7 +10,7 @@
 //! by reflections, never by JᵀJ. What leaves its bounds is put on them [Kanzow, Yamashita and Fukushima
 //! 2004]; μ follows the ratio of gained to promised reduction [Nielsen 1999]. Where the residuals cannot be
 //! found the step is shortened. [`uncertainty`] and [`correlated_uncertainty`] then say how well the
-//! parameters are known, [`doubts`] in words.
+//! parameters are known, [`warnings`] in words.
 //!
 //! *How we know*: `fit::certified` (the certified problems of NIST, with their standard deviations),
 //! `fit::agreement` (another library), `fit::bounds` (closed forms), `fit::coverage` (intervals that hold the
@@ -21,7 +21,6 @@
 mod correlated;
 mod criterion;
 mod derivatives;
-mod doubts;
 mod expected;
 mod least_squares;
 mod misfit;
@@ -35,12 +34,12 @@ mod student;
 mod triangle;
 mod uncertainty;
 mod verdict;
+mod warnings;
 
 use nalgebra::DMatrix;
 
 pub use criterion::{WORTH, information_criterion, simplest};
 pub use derivatives::Differences;
-pub use doubts::doubts;
 pub(crate) use expected::Expected;
 pub use least_squares::{Settings, least_squares, least_squares_with_jacobian};
 pub(crate) use misfit::{misfit, missed};
@@ -53,6 +52,7 @@ pub use resample::{Draws, Spread, block_bootstrap, noise_study};
 pub(crate) use student::student_quantile;
 pub use uncertainty::{Uncertainty, correlated_uncertainty, uncertainty, with_systematic};
 pub use verdict::{CORRELATED, HARDLY_KNOWN, Verdict, correlated_pairs, verdicts};
+pub use warnings::warnings;
 
 /// What a fit came to.
 #[derive(Debug, Clone, PartialEq)]

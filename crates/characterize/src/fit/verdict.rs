@@ -8,7 +8,7 @@
 //! *How we know*: `fit::words::…`.
 //!
 //! *Limits*: correlations two by two; three parameters that go together only as three are seen by
-//! [`doubts`](super::doubts) alone.
+//! [`warnings`](super::warnings) alone.
 
 use nalgebra::DMatrix;
 

@@ -305,7 +305,7 @@ impl MeshError {
             .iter()
             .map(|right| (right - 1.0).abs())
             .fold(0.0, f64::max);
-        // The order is not seen from two meshes, so half of what is corrected stays in doubt.
+        // The order is not seen from two meshes, so half of what is corrected stays in warning.
         let left = (0.5 * largest).max(LEAST_LEFT);
         Self { correction, left }
     }

@@ -8,7 +8,7 @@ use super::law_fit::LawFit;
 use super::repeated::Repeated;
 use crate::Error;
 use crate::fit::{
-    Fit, Parameter, Uncertainty, correlated_uncertainty, doubts, misfit, missed, with_systematic,
+    Fit, Parameter, Uncertainty, correlated_uncertainty, misfit, missed, warnings, with_systematic,
 };
 
 /// A law that was found, in its own parameters, and how well they are known.
@@ -30,8 +30,8 @@ pub struct LawDescription {
     pub misfit: f64,
     /// How well its own parameters are known, and those of the relaxation that it was found with.
     pub uncertainty: Uncertainty,
-    /// What deserves doubt.
-    pub doubts: Vec<String>,
+    /// What deserves warning.
+    pub warnings: Vec<String>,
     /// What fits say that are made again, where they were asked for.
     pub repeated: Option<Result<Repeated, Error>>,
 }
@@ -63,7 +63,7 @@ impl LawDescription {
         let of_law = among(&uncertainty, each.len());
         let mut said = match found.at_edge(&of_law) {
             Some(edge) => vec![edge],
-            None => doubts(&own, &of_law, None),
+            None => warnings(&own, &of_law, None),
         };
         said.extend(missed(found.law.name().word(), "force", misfit));
         said.extend(found.not_alone());
@@ -75,7 +75,7 @@ impl LawDescription {
             sum_of_squares,
             misfit,
             uncertainty,
-            doubts: said,
+            warnings: said,
             repeated: None,
             found,
         }

@@ -14,7 +14,7 @@ pub struct LawFit {
     /// Which.
     pub law: SoughtLaw,
     /// The modulus [Pa] and the shape [-], and after them the relaxation that was given, as ratios and
-    /// logarithms of times: free, so that its doubt is part of theirs.
+    /// logarithms of times: free, so that its uncertainty is part of theirs.
     pub fit: Fit,
     /// Forces of the law in each recording [N].
     pub forces: Vec<Vec<f64>>,

@@ -5,7 +5,7 @@ use palpate_mechanics::finite_elements::uniaxial::nominal_stress;
 
 use super::Contact;
 use crate::Error;
-use crate::fit::{Fit, Parameter, Settings, doubts, least_squares, uncertainty};
+use crate::fit::{Fit, Parameter, Settings, least_squares, uncertainty, warnings};
 use crate::fit::{misfit, missed};
 
 /// The exponential law on a column (6.2), and the fit that found it.
@@ -17,8 +17,8 @@ pub struct ColumnFit {
     pub fit: Fit,
     /// The part of the force that the law does not follow: its root mean square over the largest [-].
     pub misfit: f64,
-    /// What deserves doubt, in plain sentences.
-    pub doubts: Vec<String>,
+    /// Warnings, in plain sentences.
+    pub warnings: Vec<String>,
 }
 
 /// The least length of a column over the largest depth [-]. Pressed to less than three quarters of its
@@ -82,7 +82,7 @@ pub fn fit_column(contact: Contact, depths: &[f64], forces: &[f64]) -> Result<Co
     })?;
     let known = uncertainty(&fit);
     let misfit = misfit(&fit, largest);
-    let mut said = doubts(&fit, &known, None);
+    let mut said = warnings(&fit, &known, None);
     said.extend(missed("exponential on a column", "force", misfit));
     let [gamma_pa, alpha] = [0, 1].map(|place| Estimate {
         value: fit.parameters[place].value,
@@ -95,7 +95,7 @@ pub fn fit_column(contact: Contact, depths: &[f64], forces: &[f64]) -> Result<Co
             ..column(1.0, start)
         },
         misfit,
-        doubts: said,
+        warnings: said,
         fit,
     })
 }

@@ -5,8 +5,8 @@ use palpate_files::tissue::NonlinearSprings;
 use super::springs::{OF_BRANCH, STATIC, respond};
 use crate::Error;
 use crate::fit::{
-    Fit, Parameter, Settings, Uncertainty, correlated_uncertainty, doubts,
-    least_squares_with_jacobian, simplest,
+    Fit, Parameter, Settings, Uncertainty, correlated_uncertainty, least_squares_with_jacobian,
+    simplest, warnings,
 };
 use crate::fit::{misfit, missed};
 use crate::inverse::Indentation;
@@ -26,8 +26,8 @@ pub struct SpringsFit {
     pub uncertainty: Uncertainty,
     /// The part of the force that the springs do not follow: its root mean square over the largest [-].
     pub misfit: f64,
-    /// What deserves doubt, in plain sentences.
-    pub doubts: Vec<String>,
+    /// Warnings, in plain sentences.
+    pub warnings: Vec<String>,
 }
 
 /// Names of the parameters, in their order.
@@ -63,7 +63,7 @@ pub fn fit_springs(indentations: &[Indentation<'_>]) -> Result<SpringsFit, Error
     stronger_first(&mut fit, felt.depth);
     let uncertainty = correlated_uncertainty(&fit, &lengths);
     let misfit = misfit(&fit, felt.peak);
-    let mut said = doubts(&fit, &uncertainty, None);
+    let mut said = warnings(&fit, &uncertainty, None);
     said.extend(missed("the system of nonlinear springs", "force", misfit));
     Ok(SpringsFit {
         springs: described(&fit, &uncertainty),
@@ -71,7 +71,7 @@ pub fn fit_springs(indentations: &[Indentation<'_>]) -> Result<SpringsFit, Error
         tried,
         uncertainty,
         misfit,
-        doubts: said,
+        warnings: said,
         fit,
     })
 }

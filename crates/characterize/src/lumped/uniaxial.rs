@@ -7,7 +7,7 @@ use palpate_mechanics::{Exponential, Law, MooneyRivlin, NeoHookean};
 
 use super::column::ALPHAS;
 use crate::fit::{
-    Fit, Parameter, Settings, Uncertainty, correlated_uncertainty, doubts, least_squares,
+    Fit, Parameter, Settings, Uncertainty, correlated_uncertainty, least_squares, warnings,
 };
 use crate::fit::{misfit, missed};
 use crate::inverse::SoughtLaw;
@@ -28,8 +28,8 @@ pub struct UniaxialFit {
     pub uncertainty: Uncertainty,
     /// The part of the stress that the law does not follow: its root mean square over the largest [-].
     pub misfit: f64,
-    /// What deserves doubt, in plain sentences.
-    pub doubts: Vec<String>,
+    /// Warnings, in plain sentences.
+    pub warnings: Vec<String>,
 }
 
 /// What of a recording of a piece is fitted: from first contact to its largest strain.
@@ -138,7 +138,7 @@ fn fitted(
     let uncertainty = correlated_uncertainty(&fit, lengths);
     let largest = stresses.iter().fold(0.0, |most: f64, s| most.max(s.abs()));
     let misfit = misfit(&fit, largest);
-    said.extend(doubts(&fit, &uncertainty, None));
+    said.extend(warnings(&fit, &uncertainty, None));
     said.extend(missed(law.name().word(), "stress", misfit));
     let estimates: Vec<Estimate> = (0..fit.parameters.len())
         .map(|place| Estimate {
@@ -153,7 +153,7 @@ fn fitted(
         parameters: names.zip(estimates).collect(),
         uncertainty,
         misfit,
-        doubts: said,
+        warnings: said,
         fit,
     })
 }

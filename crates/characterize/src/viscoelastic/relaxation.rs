@@ -102,8 +102,8 @@ impl Relaxation {
         Correlations::of(names.collect(), &covariance)
     }
 
-    /// What deserves doubt in it, after recordings of `duration` [s].
-    pub fn doubts(&self, duration: f64) -> Vec<String> {
+    /// What deserves warning in it, after recordings of `duration` [s].
+    pub fn warnings(&self, duration: f64) -> Vec<String> {
         let mut said = Vec::new();
         for (place, [g, tau]) in (1..).zip(&self.terms) {
             let unsure = |estimate: &Estimate| {

@@ -66,9 +66,9 @@ fn signs_are_turned_and_told() {
     }
     assert_eq!(turned.force, straight.force);
     let told = turned
-        .doubts
+        .warnings
         .iter()
-        .filter(|doubt| doubt.contains("its sign was turned"));
+        .filter(|warning| warning.contains("its sign was turned"));
     assert_eq!(told.count(), 2);
 }
 
@@ -100,9 +100,9 @@ fn drift_is_told() {
     assert!((contact.offset_n - 0.01).abs() < 4.0 * contact.offset_error_n.unwrap() + 2e-4);
     assert!(
         clean
-            .doubts
+            .warnings
             .iter()
-            .any(|doubt| doubt.contains("zero moved"))
+            .any(|warning| warning.contains("zero moved"))
     );
 }
 

@@ -279,7 +279,13 @@ fn a_stated_thickness_gives_the_tissue() {
     let assumed = pressed(header);
     let (c10, _) = modulus(&assumed);
     assert!(c10.value > 1500.0, "{c10:?}");
-    let said = |doubt: &String| doubt.contains("`thickness_m`") && doubt.contains("49, 22 or 11 %");
-    assert!(assumed.doubts.iter().any(said), "{:?}", assumed.doubts);
-    assert!(!stated.doubts.iter().any(|doubt| doubt.contains("lower")));
+    let said =
+        |warning: &String| warning.contains("`thickness_m`") && warning.contains("49, 22 or 11 %");
+    assert!(assumed.warnings.iter().any(said), "{:?}", assumed.warnings);
+    assert!(
+        !stated
+            .warnings
+            .iter()
+            .any(|warning| warning.contains("lower"))
+    );
 }

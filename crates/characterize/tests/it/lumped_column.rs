@@ -67,7 +67,7 @@ fn a_column_returns() {
         assert!(error < 0.1 * truth, "{estimate:?}");
         assert!((estimate.value - truth).abs() < 4.0 * error, "{estimate:?}");
     }
-    assert!(found.doubts.is_empty(), "{:?}", found.doubts);
+    assert!(found.warnings.is_empty(), "{:?}", found.warnings);
 }
 
 /// Judge: the mean forces of table 5-1, with which figure 6-3 shows this law to agree: within a tenth of the
@@ -86,7 +86,7 @@ fn the_law_follows_the_measured_organs() {
         let found = fit_column(FLAT, &depths, &forces).unwrap();
         println!(
             "{organ}: {:?} {} {:?}",
-            found.column, found.misfit, found.doubts
+            found.column, found.misfit, found.warnings
         );
         for (&depth, mean) in depths.iter().zip(&forces) {
             let off = (column_force(&found.column, depth).unwrap() - mean).abs();

@@ -166,7 +166,7 @@ fn springs_return() {
 #[test]
 fn one_hold_does_not_know_all() {
     let found = fitted(&recordings(&printed("liver"), 1e-3, &[(8e-3, 0.1)]));
-    let said = found.doubts.join("\n");
+    let said = found.warnings.join("\n");
     println!("{said}");
     assert!(said.contains("k01"), "{said}");
     for (place, parameter) in found.fit.parameters.iter().enumerate() {

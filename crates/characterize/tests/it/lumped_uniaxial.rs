@@ -42,7 +42,7 @@ fn laws_return_from_their_closed_forms() {
             let off = (estimate.value / truth - 1.0).abs();
             assert!(off < 1e-7, "{name}: {off}");
         }
-        assert!(found.doubts.is_empty(), "{:?}", found.doubts);
+        assert!(found.warnings.is_empty(), "{:?}", found.warnings);
     }
 }
 
@@ -114,7 +114,7 @@ fn rubber_is_missed_by_two_laws() {
     )];
     let found = SoughtLaw::ALL.map(|law| fit_uniaxial_recordings(law, &rubber).unwrap());
     for fit in &found {
-        println!("{:?} {:.3} {:#?}", fit.parameters, fit.misfit, fit.doubts);
+        println!("{:?} {:.3} {:#?}", fit.parameters, fit.misfit, fit.warnings);
     }
     let (mut products, mut squares) = (0.0, 0.0);
     for (depth, force) in rubber[0].depth.iter().zip(&rubber[0].force) {
@@ -126,7 +126,7 @@ fn rubber_is_missed_by_two_laws() {
     assert!(off.abs() < 1e-9, "{off}");
     let misses = |fit: &UniaxialFit| {
         let said = "misses the shape of the stress";
-        fit.doubts.iter().any(|doubt| doubt.contains(said))
+        fit.warnings.iter().any(|warning| warning.contains(said))
     };
     assert_eq!(
         [0, 1, 2].map(|law: usize| misses(&found[law])),

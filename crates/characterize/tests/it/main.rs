@@ -9,7 +9,6 @@
 mod contact;
 mod data;
 mod design;
-mod doubts;
 mod errors;
 mod family;
 mod filter;
@@ -34,3 +33,4 @@ mod static_response;
 mod tables;
 mod thickness;
 mod viscoelastic;
+mod warnings;

@@ -78,7 +78,7 @@ proptest! {
             }
             let analysis = format!("{:?}", analyze(&clean));
             prop_assert!(!analysis.contains("NaN") && !analysis.contains("inf"), "{}", analysis);
-            prop_assert!(clean.doubts.iter().all(|doubt| !doubt.contains("NaN")));
+            prop_assert!(clean.warnings.iter().all(|warning| !warning.contains("NaN")));
         }
     }
 }

@@ -139,7 +139,7 @@ fn real_rubber_is_read_as_a_cube() {
     ] {
         let clean = cleaned(&folder.join("rubber").join(file), &columns);
         assert_eq!(clean.time.len(), rows, "{file}");
-        assert_eq!(clean.doubts.len(), 1, "{file}: {:?}", clean.doubts);
+        assert_eq!(clean.warnings.len(), 1, "{file}: {:?}", clean.warnings);
         let pulled = -clean.depth[rows - 1];
         let stress = -clean.force[rows - 1];
         assert!(

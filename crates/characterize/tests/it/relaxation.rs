@@ -34,7 +34,7 @@ fn seen(hold: f64, noise: f64) -> (Relaxation, Vec<String>) {
     });
     let clean = clean(&recording, &CleanSettings::default()).unwrap();
     let analysis = analyze(&clean);
-    (analysis.relaxation.unwrap(), analysis.doubts)
+    (analysis.relaxation.unwrap(), analysis.warnings)
 }
 
 /// Judge: the closed integral of the Prony series over the ramp. Tolerances: peak and steady, rounding
@@ -42,7 +42,7 @@ fn seen(hold: f64, noise: f64) -> (Relaxation, Vec<String>) {
 /// changes; settling, two samples.
 #[test]
 fn prony_series() {
-    let (seen, doubts) = seen(60.0, 0.0);
+    let (seen, warnings) = seen(60.0, 0.0);
     let (start, end) = (DEPTH / SPEED, DEPTH / SPEED + 60.0);
     let peak = force(start);
     assert!(
@@ -76,7 +76,7 @@ fn prony_series() {
         seen.settle_s
     );
     assert!((seen.hold_s - 60.0).abs() < 0.02 && (seen.hold_start_s - start).abs() < 0.02);
-    assert!(doubts.is_empty(), "{doubts:?}");
+    assert!(warnings.is_empty(), "{warnings:?}");
 }
 
 /// Judge: the same without noise. Tolerances: four standard errors of a mean of 1200 samples, less one of
@@ -100,14 +100,14 @@ fn noise_moves_little() {
 /// Judge: the force of a hold of 4 s, which then still falls.
 #[test]
 fn a_short_hold_is_told() {
-    let (short, doubts) = seen(4.0, 0.0);
+    let (short, warnings) = seen(4.0, 0.0);
     let (long, _) = seen(60.0, 0.0);
     assert!(short.steady_n > 1.05 * long.steady_n);
     assert!(
-        doubts
+        warnings
             .iter()
-            .any(|doubt| doubt.contains("an upper bound; hold for longer")),
-        "{doubts:?}"
+            .any(|warning| warning.contains("an upper bound; hold for longer")),
+        "{warnings:?}"
     );
 }
 

@@ -39,9 +39,9 @@ fn a_heart_is_recognised_at_every_rate() {
         );
         assert!(
             clean
-                .doubts
+                .warnings
                 .iter()
-                .any(|doubt| doubt.contains("as a heart does; it was left in"))
+                .any(|warning| warning.contains("as a heart does; it was left in"))
         );
     }
 }

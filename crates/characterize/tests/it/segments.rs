@@ -130,13 +130,13 @@ fn contradictions_are_told() {
     recording.header.amplitude_m = Some(0.006);
     recording.header.sample_rate_hz = Some(500.0);
     let settings = CleanSettings::default();
-    let agreed = clean(&recording, &settings).unwrap().doubts;
+    let agreed = clean(&recording, &settings).unwrap().warnings;
     assert!(agreed.is_empty(), "{agreed:?}");
     recording.header.stimulus = Some(StimulusKind::Sine);
     recording.header.ramp_s = Some(2.0);
     recording.header.amplitude_m = Some(0.008);
     recording.header.sample_rate_hz = Some(1000.0);
-    let told = clean(&recording, &settings).unwrap().doubts;
+    let told = clean(&recording, &settings).unwrap().warnings;
     for key in [
         "`stimulus` is sine",
         "`ramp_s` is 2",
@@ -144,7 +144,7 @@ fn contradictions_are_told() {
         "`sample_rate_hz` is 1000",
     ] {
         assert!(
-            told.iter().any(|doubt| doubt.starts_with(key)),
+            told.iter().any(|warning| warning.starts_with(key)),
             "{key}: {told:?}"
         );
     }
@@ -183,7 +183,7 @@ fn the_steps_of_an_encoder_are_no_segments() {
         "{:?}",
         clean.segments
     );
-    let said = clean.doubts.join("; ");
+    let said = clean.warnings.join("; ");
     assert!(
         !said.contains("as a sensor does at its end") && !said.contains("zero moved"),
         "{said}"

@@ -83,10 +83,10 @@ fn a_delayed_force_is_a_warning() {
         let force = move |t: f64| spring * depth(t - sign * delay);
         let analysis = analyzed(500.0, 10.0, depth, force);
         let warning = analysis
-            .doubts
+            .warnings
             .iter()
-            .find(|doubt| doubt.contains("passive"));
-        assert_eq!(warning.is_some(), is_late, "{:?}", analysis.doubts);
+            .find(|warning| warning.contains("passive"));
+        assert_eq!(warning.is_some(), is_late, "{:?}", analysis.warnings);
         assert!(
             warning.is_none_or(|text| text.contains("2.0 ms later")),
             "{warning:?}"
@@ -166,9 +166,9 @@ fn area_is_the_integral() {
     let analysis = analyzed(500.0, 10.0, depth, force);
     assert!(
         analysis
-            .doubts
+            .warnings
             .iter()
-            .any(|doubt| doubt.contains("harmonics of"))
+            .any(|warning| warning.contains("harmonics of"))
     );
     let seen = only(analysis);
     let steps = 20_000;
@@ -312,14 +312,14 @@ fn swept(noise: f64) -> (Sweep, Vec<String>) {
     let mut force = relaxing(&series, 20.0, 500.0, depth);
     let analysis = analyzed(500.0, 32.0, depth, |t| force(t) + noise * dice.normal());
     assert_eq!(analysis.sweeps.len(), 1, "{analysis:?}");
-    (analysis.sweeps[0].clone(), analysis.doubts)
+    (analysis.sweeps[0].clone(), analysis.warnings)
 }
 
 /// Judge: the complex stiffness of the Prony series. Tolerance: over the 0.3 Hz that are put together the
 /// stiffness changes by less than 1 %.
 #[test]
 fn chirps_give_the_same_stiffness() {
-    let (sweep, doubts) = swept(0.0);
+    let (sweep, warnings) = swept(0.0);
     let series = liver();
     assert!(sweep.points.len() > 15);
     for point in &sweep.points {
@@ -332,15 +332,15 @@ fn chirps_give_the_same_stiffness() {
         assert!(point.is_coherent, "{point:?}");
     }
     assert!(
-        doubts.iter().all(|doubt| !doubt.contains("chirp")),
-        "{doubts:?}"
+        warnings.iter().all(|warning| !warning.contains("chirp")),
+        "{warnings:?}"
     );
 }
 
 /// Judge: noise as large as the force, which leaves little coherence.
 #[test]
 fn noise_is_marked() {
-    let (sweep, doubts) = swept(0.5);
+    let (sweep, warnings) = swept(0.5);
     let marked = sweep
         .points
         .iter()
@@ -348,10 +348,10 @@ fn noise_is_marked() {
         .count();
     assert!(marked > 0);
     assert!(
-        doubts
+        warnings
             .iter()
-            .any(|doubt| doubt.starts_with(&format!("at {marked} of"))),
-        "{doubts:?}"
+            .any(|warning| warning.starts_with(&format!("at {marked} of"))),
+        "{warnings:?}"
     );
     assert!(
         sweep

@@ -37,7 +37,7 @@ pub struct Tissue {
     pub prony: Vec<PronyTerm>,
     /// Parameters of models without geometry.
     pub lumped: Lumped,
-    /// Where the numbers come from, with what deserves doubt.
+    /// Where the numbers come from, with warnings.
     pub source: TissueSource,
     /// What deserves a warning among the numbers of its file, as sentences. Those of a table in another document are
     /// that document's.

@@ -9,7 +9,7 @@ pub struct TissueSource {
     pub method: Option<String>,
     /// The version of the program that found them.
     pub version: Option<String>,
-    /// What deserves doubt, in plain sentences. Whoever uses the tissue passes them on.
+    /// Warnings, in plain sentences. Whoever uses the tissue passes them on.
     pub warnings: Vec<String>,
 }
 

@@ -3,7 +3,7 @@ use crate::proximity::{PointOnTriangle, closest_on_triangle};
 use crate::{Surface, TriangleId, Vec3};
 
 /// A blade inside a triangle keeps this weight of each corner at least [-], so that its way out is
-/// never in doubt.
+/// never in warning.
 const INSIDE: f64 = 1e-6;
 
 /// A blade and the last vertex of its cut. While the blade is inside a triangle, that is one of those

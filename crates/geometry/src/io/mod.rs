@@ -21,7 +21,7 @@ use std::io::{ErrorKind, Read};
 use std::path::Path;
 
 use self::raw::RawMesh;
-use self::unit::{doubt_about_extent, unit_by_extent};
+use self::unit::{extent_warning, unit_by_extent};
 use crate::weld::weld_exactly;
 use crate::{LengthUnit, MeshFormat, NodeId, ReadError, ReadFault, TriangleMesh, Vec3};
 
@@ -39,7 +39,7 @@ pub struct ImportedMesh {
     pub format: MeshFormat,
     /// The unit that the coordinates were in.
     pub unit: LengthUnit,
-    /// What deserves doubt, as sentences.
+    /// Warnings.
     pub warnings: Vec<String>,
 }
 
@@ -73,7 +73,7 @@ fn read_here(path: &Path, unit: Option<LengthUnit>) -> Result<ImportedMesh, Read
         (None, _) => unit_by_extent(extent)?,
     };
     let mesh = in_metres(raw, unit)?;
-    let mut warnings: Vec<_> = doubt_about_extent(extent * unit.in_metres())
+    let mut warnings: Vec<_> = extent_warning(extent * unit.in_metres())
         .into_iter()
         .collect();
     if format == MeshFormat::Gltf && unit != LengthUnit::Metre {

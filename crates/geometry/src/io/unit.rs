@@ -66,8 +66,8 @@ pub fn is_plausible_extent(extent_m: f64) -> bool {
     PLAUSIBLE_M.contains(&extent_m)
 }
 
-/// What is doubtful about an organ of this largest extent [m], as a sentence.
-pub fn doubt_about_extent(extent_m: f64) -> Option<String> {
+/// A warning about an organ of this largest extent [m].
+pub fn extent_warning(extent_m: f64) -> Option<String> {
     (!is_plausible_extent(extent_m)).then(|| {
         format!(
             "the largest extent is {} m, where an organ has {} to {} m; check mesh_unit",
@@ -114,7 +114,7 @@ mod tests {
         assert_eq!(unit_by_extent(0.12).unwrap(), LengthUnit::Metre);
         let message = unit_by_extent(120.0).unwrap_err().to_string();
         assert!(message.contains("0.12 m in millimetres") && message.contains("mesh_unit"));
-        assert!(doubt_about_extent(75.0).unwrap().contains("75 m"));
-        assert_eq!(doubt_about_extent(0.1), None);
+        assert!(extent_warning(75.0).unwrap().contains("75 m"));
+        assert_eq!(extent_warning(0.1), None);
     }
 }

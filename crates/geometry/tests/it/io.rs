@@ -50,7 +50,7 @@ fn every_format_gives_the_mesh_back() {
 }
 
 #[test]
-fn an_explicit_unit_is_taken_and_doubted_when_it_cannot_be() {
+fn an_explicit_unit_is_taken_with_a_warning_when_it_cannot_be() {
     for (name, bytes) in files::all(&files::tetrahedron()) {
         let imported = read(name, &bytes, Some(LengthUnit::Millimetre)).unwrap();
         let (low, high) = imported.mesh.bounds();

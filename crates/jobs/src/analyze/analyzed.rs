@@ -18,8 +18,8 @@ pub struct Analyzed {
     pub groups: Vec<StaticGroup>,
     /// Relaxation and sines by organ.
     pub responses: Vec<OrganResponse>,
-    /// What deserves doubt, each with its file.
-    pub doubts: Vec<String>,
+    /// Warnings, each with its file.
+    pub warnings: Vec<String>,
 }
 
 impl Analyzed {
@@ -37,12 +37,12 @@ impl Analyzed {
             .map(|(read, analysis)| (&read.clean.header, analysis))
             .collect();
         let responses = organ_responses(&own);
-        let doubts = recordings.iter().flat_map(|(read, analysis)| {
-            let each = doubts_of(read, analysis);
-            each.map(|doubt| format!("{}: {doubt}", read.path.display()))
+        let warnings = recordings.iter().flat_map(|(read, analysis)| {
+            let each = warnings_of(read, analysis);
+            each.map(|warning| format!("{}: {warning}", read.path.display()))
         });
         Self {
-            doubts: doubts.collect(),
+            warnings: warnings.collect(),
             groups: static_response(&points),
             responses,
             points,
@@ -66,17 +66,17 @@ impl Analyzed {
         organs
     }
 
-    /// What deserves doubt, with what could not be read.
+    /// Warnings, with what could not be read.
     pub fn warnings(&self) -> Vec<String> {
         let unusable = self.unusable.iter().map(Unusable::sentence);
-        self.doubts.iter().cloned().chain(unusable).collect()
+        self.warnings.iter().cloned().chain(unusable).collect()
     }
 }
 
-/// What deserves doubt about a recording, and about what it shows.
-pub fn doubts_of<'a>(
+/// Warnings about a recording, and about what it shows.
+pub fn warnings_of<'a>(
     read: &'a ReadRecording,
     analysis: &'a Analysis,
 ) -> impl Iterator<Item = &'a String> {
-    read.clean.doubts.iter().chain(&analysis.doubts)
+    read.clean.warnings.iter().chain(&analysis.warnings)
 }

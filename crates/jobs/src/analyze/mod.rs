@@ -5,7 +5,7 @@ mod answer;
 
 use palpate_characterize::Analysis;
 
-pub use analyzed::{Analyzed, doubts_of};
+pub use analyzed::{Analyzed, warnings_of};
 
 use crate::{Error, ReadRecording, Recordings, Watch};
 

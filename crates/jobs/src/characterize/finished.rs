@@ -63,8 +63,8 @@ impl Studied {
     fn tissue(&self) -> Result<Tissue, palpate_characterize::Error> {
         let mut tissue = self.found.tissue(None)?;
         tissue.name.clone_from(&self.recordings[0].header.organ);
-        let doubts = self.recordings.iter().flat_map(|own| &own.doubts);
-        tissue.source.warnings.extend(doubts.cloned());
+        let warnings = self.recordings.iter().flat_map(|own| &own.warnings);
+        tissue.source.warnings.extend(warnings.cloned());
         let named = self.files.iter().map(|path| path.display().to_string());
         tissue.source.recordings = named.collect();
         tissue.source.version = Some(format!("palpate {}", VERSION));

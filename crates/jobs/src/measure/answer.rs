@@ -14,7 +14,7 @@ pub struct Answer {
     recordings: Vec<Recording>,
     /// Whether Ctrl-C came before the end.
     pub stopped: bool,
-    /// What deserves doubt.
+    /// What deserves warning.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<String>,
 }
@@ -46,7 +46,7 @@ impl Answer {
             stopped: recordings.len() < measuring.names().len()
                 || recordings.iter().any(|recording| recording.stopped),
             recordings,
-            warnings: measuring.doubts.clone(),
+            warnings: measuring.warnings.clone(),
         }
     }
 }

@@ -17,24 +17,24 @@ pub struct Measuring {
     specimens: Vec<OnRig>,
     /// Each with what it is called and which repetition it is.
     stimuli: Vec<(String, u64, Course)>,
-    /// What deserves doubt.
-    pub doubts: Vec<String>,
+    /// What deserves warning.
+    pub warnings: Vec<String>,
 }
 
 impl Measuring {
     /// Refuses, before anything moves, what goes beyond a limit.
     pub fn of(plan: Plan, watch: &dyn Watch) -> Result<Self, Error> {
         plan.check()?;
-        let mut doubts = plan.doubts.clone();
+        let mut warnings = plan.warnings.clone();
         if plan.has_device() {
-            doubts.extend(lock_memory().warning());
+            warnings.extend(lock_memory().warning());
         }
         let mut specimens = Vec::new();
         for place in 0..plan.specimens.len() {
             let (found, said) = plan.specimen(place, &mut |part| {
                 watch.say(&format!("solving the specimen, {:.0} %", 100.0 * part));
             })?;
-            doubts.extend(said);
+            warnings.extend(said);
             specimens.push(found);
         }
         let repeated = plan.stimuli.iter().flat_map(|(course, repeats)| {
@@ -45,7 +45,7 @@ impl Measuring {
             stimuli: repeated.collect(),
             plan,
             specimens,
-            doubts,
+            warnings,
         })
     }
 

@@ -12,7 +12,7 @@ use super::sensor::RealSensor;
 use super::specimen;
 use crate::Error;
 
-/// Beyond this depth [m] and this frequency [Hz] an answer deserves doubt.
+/// Beyond this depth [m] and this frequency [Hz] an answer deserves warning.
 const TRUSTED: [f64; 2] = [0.010, 8.0];
 
 /// How much deeper than asked for a tip can come [m]: the contact is not met exactly, and a heart moves it.
@@ -28,8 +28,8 @@ pub struct Plan {
     pub specimens: Vec<Measured>,
     /// Each with how often it is repeated.
     pub stimuli: Vec<(Course, u64)>,
-    /// What deserves doubt.
-    pub doubts: Vec<String>,
+    /// What deserves warning.
+    pub warnings: Vec<String>,
     /// A device that is there; none for one that is not.
     device: Option<(Kind, Places)>,
     /// A force sensor that is there; none for a virtual one.
@@ -78,16 +78,16 @@ impl Plan {
                 .unwrap_or(RigSettings::default().tip_distance),
             ..settings(&protocol.rig)
         };
-        let mut doubts = protocol.warnings.clone();
+        let mut warnings = protocol.warnings.clone();
         let device = match protocol.rig.device.and_then(kind) {
             None => None,
             Some(kind) => Some((kind, Places::from_environment()?)),
         };
         let sensor = RealSensor::of(&protocol.sensor)?;
         if sensor.is_some() {
-            doubts.push("the drivers of force sensors were not tried on hardware".to_owned());
+            warnings.push("the drivers of force sensors were not tried on hardware".to_owned());
         } else if let Some((kind, _)) = &device {
-            doubts.push(format!(
+            warnings.push(format!(
                 "the tissue is not there and its force is displayed by `{kind}`, without a force sensor in [sensor]; \
                  it was not tried on hardware"
             ));
@@ -97,14 +97,14 @@ impl Plan {
             let name = stimulus_name(&plan.stimulus);
             let course = Course::of(plan.stimulus)?;
             if course.deepest() > TRUSTED[0] {
-                doubts.push(format!(
+                warnings.push(format!(
                     "{name}: deeper than 10 mm, where no tissue here was measured"
                 ));
             }
             if let Stimulus::Swing { sweep, .. } = plan.stimulus
                 && sweep.ends().iter().any(|frequency| *frequency > TRUSTED[1])
             {
-                doubts.push(format!(
+                warnings.push(format!(
                     "{name}: beyond 8 Hz, where the device itself is felt"
                 ));
             }
@@ -114,7 +114,7 @@ impl Plan {
             settings,
             specimens: protocol.specimens,
             stimuli,
-            doubts,
+            warnings,
             device,
             sensor,
             seed,
@@ -138,7 +138,7 @@ impl Plan {
         Ok(checked.try_for_each(|one| one)?)
     }
 
-    /// The specimen at `place` of the protocol, and what deserves doubt about it. A nonlinear law is solved
+    /// The specimen at `place` of the protocol, and warnings about it. A nonlinear law is solved
     /// before, which takes a minute the first time; `at_step` hears the part that is done [-].
     pub fn specimen(
         &self,
@@ -153,12 +153,12 @@ impl Plan {
         let deepest = self.stimuli.iter().map(|(course, _)| course.deepest());
         let deepest = deepest.fold(0.0, f64::max);
         let further = if measured.alive { BEATING } else { MISSED };
-        let (found, doubts) = specimen::of(measured, deepest + further, at_step)?;
+        let (found, warnings) = specimen::of(measured, deepest + further, at_step)?;
         let found = match measured.alive {
             true => found.alive(self.seed.wrapping_add(place as u64)),
             false => found,
         };
-        Ok((OnRig::Virtual(Box::new(found)), doubts))
+        Ok((OnRig::Virtual(Box::new(found)), warnings))
     }
 
     /// Whether a device that is there carries the indenter.

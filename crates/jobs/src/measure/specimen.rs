@@ -13,13 +13,13 @@ const TABLE_5_1: &str = include_str!("../../../../published/table_5_1_static_for
 /// How long the source held before it took a force for steady (section 5.4.2) [s].
 const STEADY: f64 = 40.0;
 
-/// The specimen of a protocol, pressed down to `deepest` [m], and what deserves doubt about it.
+/// The specimen of a protocol, pressed down to `deepest` [m], and warnings about it.
 pub(crate) fn of(
     measured: &Measured,
     deepest: f64,
     at_step: &mut dyn FnMut(f64),
 ) -> Result<(VirtualSpecimen, Vec<String>), Error> {
-    let (mut specimen, doubts) = match &measured.tissue {
+    let (mut specimen, warnings) = match &measured.tissue {
         MeasuredTissue::Tissue(choice) => {
             let tissue = choice.read()?;
             let under = (measured.indenter_radius_m, deepest);
@@ -40,7 +40,7 @@ pub(crate) fn of(
     };
     describe(measured, &mut specimen.header);
     specimen.header.source = Some("a virtual specimen of palpate".to_owned());
-    Ok((specimen, doubts))
+    Ok((specimen, warnings))
 }
 
 /// What recordings say of a real specimen of a protocol.
@@ -82,11 +82,11 @@ fn published(organ: PublishedOrgan, radius: f64) -> Result<(VirtualSpecimen, Vec
     let response = IndentationCurve::through(&depths, &forces);
     let mut specimen = VirtualSpecimen::of_response(&response, (material.prony, STEADY), radius);
     specimen.header.organ = Some(name.clone());
-    let doubts = vec![format!(
+    let warnings = vec![format!(
         "{name}: the mean forces of table 5-1 are taken for what is left after {STEADY} s, and the relaxation is \
          {relaxation}; the laws of tables 6-4 and 6-5 do not give these forces back"
     )];
-    Ok((specimen, doubts))
+    Ok((specimen, warnings))
 }
 
 /// Depths [m] and mean forces [N] of `organ` in table 5-1.

@@ -28,7 +28,7 @@ pub struct Precomputed {
     pub file: Option<PathBuf>,
     /// That it took [s].
     pub seconds: f64,
-    /// What deserves doubt.
+    /// What deserves warning.
     pub warnings: Vec<String>,
 }
 
@@ -64,6 +64,6 @@ pub fn precompute(
         was_kept: response.was_kept,
         file: response.file.clone(),
         seconds: begin.elapsed().as_secs_f64(),
-        warnings: simulation.doubts().to_vec(),
+        warnings: simulation.warnings().to_vec(),
     })
 }

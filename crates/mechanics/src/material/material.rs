@@ -13,7 +13,7 @@ use super::prony::PronySeries;
 use super::reduced_polynomial::ReducedPolynomial;
 use crate::Error;
 
-/// A tissue as a model takes it: a law, its relaxation, and what deserves doubt.
+/// A tissue as a model takes it: a law, its relaxation, and warnings.
 #[derive(Debug, Clone)]
 pub struct Material {
     /// The instantaneous law; the hyperelastic ones are incompressible.
@@ -23,7 +23,7 @@ pub struct Material {
     /// How the force relaxes.
     pub prony: PronySeries,
     /// Plain sentences to pass on to the user.
-    pub doubts: Vec<String>,
+    pub warnings: Vec<String>,
 }
 
 impl Material {
@@ -47,7 +47,7 @@ impl Material {
             law,
             at_rest,
             prony: PronySeries::new(&terms)?,
-            doubts: [&tissue.source.warnings[..], &tissue.warnings].concat(),
+            warnings: [&tissue.source.warnings[..], &tissue.warnings].concat(),
         })
     }
 }

@@ -114,7 +114,7 @@ fn a_patch_on_a_cube_is_a_punch() {
         // The first mesh, 2 %, and corners that a cylinder does not have.
         assert!((by_cylinder - 1.0).abs() < 0.03, "{by_cylinder}");
         assert!((0.97..1.09).contains(&by_half_space), "{by_half_space}");
-        assert!(answer.doubts.is_empty(), "{:?}", answer.doubts);
+        assert!(answer.warnings.is_empty(), "{:?}", answer.warnings);
     }
 }
 
@@ -383,7 +383,7 @@ fn real_kidney_under_a_patch() {
         answer.unknowns,
         8e-6 * answer.factor_entries as f64,
         started.elapsed().as_secs_f64(),
-        answer.doubts
+        answer.warnings
     );
     assert!((0.8..1.5).contains(&ratio));
     assert!((answer.force + answer.reaction).norm() < 1e-6 * answer.force.norm());

@@ -19,7 +19,7 @@ fn material(law: impl Law + 'static) -> Material {
         at_rest: LinearElastic::at_rest(&law).unwrap(),
         law: Arc::new(law),
         prony: PronySeries::default(),
-        doubts: Vec::new(),
+        warnings: Vec::new(),
     }
 }
 

@@ -63,6 +63,9 @@ fn a_patch_on_a_thin_edge_has_its_area() {
         "{}",
         answer.patch_area / counted
     );
-    let thin = answer.doubts.iter().find(|doubt| doubt.contains("thin"));
+    let thin = answer
+        .warnings
+        .iter()
+        .find(|warning| warning.contains("thin"));
     assert_eq!(thin, None);
 }

@@ -153,7 +153,7 @@ fn punch(radius: f64, pressure: f64, depths: &[f64]) -> TubePunch {
     }
 }
 
-/// Depths in any order, forces that grow with them, doubts, and an error that a finer mesh confirms.
+/// Depths in any order, forces that grow with them, warnings, and an error that a finer mesh confirms.
 #[test]
 fn a_punch_on_a_short_tube() {
     let law = LinearElastic::new(5200.0, 0.49).unwrap();
@@ -163,7 +163,7 @@ fn a_punch_on_a_short_tube() {
     println!("{result:?}");
     let forces = &result.answer.forces;
     assert!(forces[1] == 0.0 && 0.0 < forces[2] && forces[2] < forces[0]);
-    assert!(result.answer.doubts.len() == 1 && result.answer.doubts[0].contains("its side"));
+    assert!(result.answer.warnings.len() == 1 && result.answer.warnings[0].contains("its side"));
     // Two meshes, whose change is below 5 %, with the safety factor of an assumed order.
     assert!(result.error < 3.0 * 0.05 && result.observed_order.is_none());
     assert!(

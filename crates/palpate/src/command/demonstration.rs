@@ -86,7 +86,7 @@ fn play(why: &palpate_viewer::Error) -> Result<(), Failure> {
          \x20 force.png         force against time\n\
          \x20 force-depth.png   force against depth\n\
          \x20 surfaces.pvd      {SURFACES} deformed surfaces, for ParaView\n\
-         \x20 summary.json      times, peak force and what deserves doubt\n\
+         \x20 summary.json      times, peak force and warnings\n\
          \x20 scene.toml and motion.csv, to change and play again:\n\
          \x20   palpate simulate {name}/scene.toml --headless --motion {name}/motion.csv --out mine",
         name = folder.display()

@@ -162,7 +162,7 @@ fn play(
             ));
         }
     }
-    let mut warnings = simulation.doubts().to_vec();
+    let mut warnings = simulation.warnings().to_vec();
     warnings.extend(replay.state().warnings(simulation));
     if largest > 0.0 {
         warnings.push(

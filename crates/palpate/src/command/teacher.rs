@@ -134,7 +134,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 fn change(what: &What, file: &Path, pin: Option<&str>) -> Result<String, Failure> {
     let mut record = Record::open(file)?;
     record.check_pin(pin)?;
-    output::warnings(record.doubts());
+    output::warnings(record.warnings());
     Ok(match what {
         What::Show { .. } => String::new(),
         What::Cohort { name, add, remove } => {

@@ -19,7 +19,7 @@ pub(crate) struct Beside {
     site: Site,
     /// Times [s], depths [m] and forces [N].
     recorded: [Vec<f64>; 3],
-    doubts: Vec<String>,
+    warnings: Vec<String>,
     /// The sample after the last step.
     next: usize,
     steps: usize,
@@ -45,17 +45,17 @@ pub(super) struct BesideAnswer {
 }
 
 impl Beside {
-    /// Beside times [s], depths [m] and forces [N] of a recording, at a place, with what deserves doubt already.
+    /// Beside times [s], depths [m] and forces [N] of a recording, at a place, with earlier warnings.
     pub(crate) fn new(
         file: PathBuf,
         recorded: [Vec<f64>; 3],
-        (site, doubts): (Site, Vec<String>),
+        (site, warnings): (Site, Vec<String>),
     ) -> Self {
         Self {
             file,
             site,
             recorded,
-            doubts,
+            warnings,
             next: 0,
             steps: 0,
             squares: 0.0,
@@ -114,13 +114,13 @@ impl Beside {
         Series::new("recorded", points, Style::BroadLine, 0)
     }
 
-    /// What came out, and what deserves doubt.
+    /// What came out, and warnings.
     pub(super) fn finish(mut self) -> (BesideAnswer, Vec<String>) {
         let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
         let [_, depths, forces] = &self.recorded;
         let deepest = largest(depths);
         if self.worst_depth.abs() > SAME_DEPTH * deepest {
-            self.doubts.push(format!(
+            self.warnings.push(format!(
                 "the organ is felt {:.2} mm {} than was recorded, for its surface turns or its wall is thin there; \
                  choose another place with --at",
                 1e3 * self.worst_depth.abs(),
@@ -136,7 +136,7 @@ impl Beside {
             largest_depth_deviation_m: self.worst_depth,
             recording: self.file,
         };
-        (answer, self.doubts)
+        (answer, self.warnings)
     }
 }
 

@@ -15,4 +15,4 @@ pub(crate) use palpate_files::quantity::{Scale, quantity, rounded, unit};
 pub(crate) use provenance::{Provenance, provenance};
 pub(crate) use symbol::symbol;
 pub(crate) use table::Table;
-pub(crate) use words::{count, doubts};
+pub(crate) use words::{count, warning_list};

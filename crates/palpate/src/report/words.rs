@@ -8,8 +8,8 @@ pub(crate) fn count(number: usize, what: &str) -> String {
     }
 }
 
-/// Sentences that deserve doubt, as a list; nothing of none.
-pub(crate) fn doubts(title: &str, sentences: &[String]) -> Markup {
+/// Warnings as a list; nothing of none.
+pub(crate) fn warning_list(title: &str, sentences: &[String]) -> Markup {
     if sentences.is_empty() {
         return Markup::default();
     }
@@ -17,7 +17,7 @@ pub(crate) fn doubts(title: &str, sentences: &[String]) -> Markup {
         .iter()
         .map(|said| Markup::plain("li", capital(said)));
     let list = Markup::plain("ul", each.collect::<Markup>());
-    Markup::of_class("div", "doubts", Markup::plain("strong", title).and(list))
+    Markup::of_class("div", "warnings", Markup::plain("strong", title).and(list))
 }
 
 /// A sentence with a capital, unless it begins with a name of a file or a key.

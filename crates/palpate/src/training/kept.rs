@@ -63,7 +63,7 @@ pub(crate) fn keep(
         is_expert: who.is_expert,
         measures: measures(score),
     })?;
-    let mut warnings = record.doubts().to_vec();
+    let mut warnings = record.warnings().to_vec();
     let session = session.display();
     match added {
         Added::New => {}
@@ -136,7 +136,7 @@ impl TrainingRecord for Kept {
         let kept = keep(&self.file, who, &folder, (&result.scene.task, result.score));
         match kept.map_err(|error| error.to_string())?.as_slice() {
             [] => Ok(()),
-            doubts => Err(doubts.join(" ")),
+            warnings => Err(warnings.join(" ")),
         }
     }
 

@@ -251,7 +251,7 @@ fn three_tissues_come_back_on_both_models() {
 
 /// What cannot be repeated is refused before anything is prepared; what can, but not to be compared, is told.
 #[test]
-fn an_indentation_that_makes_no_sense_is_refused_or_doubted() {
+fn an_indentation_that_makes_no_sense_is_refused_or_warned_about() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     let table = "time_s,depth_m,force_n\n0,0,0\n0.1,0.0005,0.01\n0.2,0.001,0.02\n0.3,0.001,0.019\n0.4,0.001,0.018\n";

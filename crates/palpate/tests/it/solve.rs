@@ -269,10 +269,10 @@ fn a_person_gets_a_table_and_a_plot() {
     assert_whole(&written, "uniaxial");
 }
 
-/// What deserves doubt is said: a tissue that contradicts its source, a depth beyond 10 mm, a linear
+/// Warnings are given: a tissue that contradicts its source, a depth beyond 10 mm, a linear
 /// law at large strain.
 #[test]
-fn doubts_are_passed_on() {
+fn warnings_are_passed_on() {
     let problem = punch(0.2, "depths_m = [0.012]")
         .replace("radius_m = 0.001", "radius_m = 0.01")
         .replace(

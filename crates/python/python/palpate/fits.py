@@ -414,7 +414,7 @@ class Specimen(dict[str, Any]):
 
     @property
     def warnings(self) -> list[str]:
-        """What deserves doubt, in recordings and in what was found."""
+        """Warnings, in recordings and in what was found."""
         said: list[str] = self["warnings"]
         return said
 

@@ -100,11 +100,11 @@ impl Simulation {
         self.model.prepared.step()
     }
 
-    /// Plain sentences on what deserves doubt: of the scene, then bounds of the models that acted in the steps so far.
+    /// Plain sentences on warnings: of the scene, then bounds of the models that acted in the steps so far.
     #[getter]
     fn warnings(&self) -> Vec<String> {
         let prepared = &self.model.prepared;
-        let mut warnings = prepared.doubts().to_vec();
+        let mut warnings = prepared.warnings().to_vec();
         warnings.extend(self.stepper.course.state.warnings(prepared));
         warnings
     }

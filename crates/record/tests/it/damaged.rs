@@ -49,13 +49,16 @@ fn a_damaged_record_is_kept_aside_and_a_new_one_begun() {
             .path()
             .join(format!("training.sqlite.damaged-{number}"));
         assert_eq!(fs::read(&aside).unwrap(), bytes, "{number}: kept");
-        let doubts = begun.doubts().join(" ");
-        assert!(doubts.contains(&format!("damaged-{number}")), "{doubts}");
+        let warnings = begun.warnings().join(" ");
+        assert!(
+            warnings.contains(&format!("damaged-{number}")),
+            "{warnings}"
+        );
         begun.add(&attempt("Anna", "Cut", 99)).unwrap();
         drop(begun);
         // From then on all is well.
         let again = Record::open(&path).unwrap();
-        assert!(again.doubts().is_empty());
+        assert!(again.warnings().is_empty());
         assert_eq!(again.attempts(&Filter::default()).unwrap().len(), 1);
     }
 }
@@ -89,7 +92,7 @@ fn random_damage_is_noticed_or_harmless() {
         }
         fs::write(&path, &bytes).unwrap();
         let mut record = Record::open(&path).unwrap_or_else(|error| panic!("{trial}: {error}"));
-        if record.doubts().is_empty() {
+        if record.warnings().is_empty() {
             assert_eq!(fs::read(&path).unwrap(), bytes, "{trial}");
             let found = record.attempts(&Filter::default()).unwrap();
             assert!(found.iter().all(|own| whole.contains(own)), "{trial}");

@@ -30,7 +30,7 @@ fn what_was_added_is_read_again_to_the_last_bit() {
     let mut record = Record::open(&path).unwrap();
     record.add(&bare).unwrap();
     added.push(bare);
-    assert!(record.doubts().is_empty());
+    assert!(record.warnings().is_empty());
     assert_eq!(record.attempts(&Filter::default()).unwrap(), added);
     let read = Record::read(&path).unwrap();
     assert_eq!(read.attempts(&Filter::default()).unwrap(), added);
@@ -148,7 +148,7 @@ fn a_record_of_version_1_goes_on() {
     let measures: Vec<_> = before.iter().map(|own| own.measures.len()).collect();
     assert_eq!(measures, [1, 2]);
     let mut record = Record::open(&path).unwrap();
-    assert!(record.doubts().is_empty());
+    assert!(record.warnings().is_empty());
     assert_eq!(record.attempts(&Filter::default()).unwrap(), before);
     let new = attempt("Anna", "Cut", 9);
     assert_eq!(record.add(&new).unwrap(), Added::New);

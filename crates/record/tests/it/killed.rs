@@ -68,7 +68,11 @@ fn trials(count: usize, seed: u64) -> String {
         journal.push("-journal");
         interrupted += usize::from(Path::new(&journal).exists());
         let record = Record::open(&path).unwrap();
-        assert!(record.doubts().is_empty(), "{trial}: {:?}", record.doubts());
+        assert!(
+            record.warnings().is_empty(),
+            "{trial}: {:?}",
+            record.warnings()
+        );
         let found = record.attempts(&Filter::default()).unwrap();
         let all = found.len() as i64;
         // The last may have been kept and not yet told.

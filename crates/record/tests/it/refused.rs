@@ -53,7 +53,7 @@ fn reading_begins_no_record() {
     // For somebody who adds, an empty file is a record that has not begun.
     let mut record = Record::open(&path).unwrap();
     record.add(&attempt("Anna", "Cut", 1)).unwrap();
-    assert!(record.doubts().is_empty());
+    assert!(record.warnings().is_empty());
 }
 
 /// A mistyped name must not cost anybody a file.

@@ -21,7 +21,7 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
             ("misfit", found.misfit),
         ] {
             rows.row(&format!("{organ}/{word}"))
-                .with("doubts", listed(&found.doubts))
+                .with("warnings", listed(&found.warnings))
                 .is(ours);
         }
         let dots = depths.iter().zip(&means).map(|(d, f)| (1e3 * d, 1e3 * f));
@@ -38,7 +38,10 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
     rows.figure("").draw(series)
 }
 
-/// The doubts of a fit at the end of a note.
-pub(super) fn listed(doubts: &[String]) -> String {
-    doubts.iter().map(|doubt| format!("; {doubt}")).collect()
+/// The warnings of a fit at the end of a note.
+pub(super) fn listed(warnings: &[String]) -> String {
+    warnings
+        .iter()
+        .map(|warning| format!("; {warning}"))
+        .collect()
 }

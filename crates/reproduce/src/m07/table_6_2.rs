@@ -51,7 +51,7 @@ fn add(rows: &mut Rows<'_>, (organ, word): (&str, &str), values: &[f64; 8], foun
     let mut add = |name: &str, ours: Option<f64>| {
         rows.row(&format!("{organ}/{word}{name}"))
             .with("noise", word)
-            .with("doubts", listed(&found.doubts))
+            .with("warnings", listed(&found.warnings))
             .is(ours);
     };
     add("springs", Some(found.branches as f64));

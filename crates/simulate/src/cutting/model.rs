@@ -129,7 +129,7 @@ impl CuttingModel {
     }
 
     /// Said to whoever prepares the simulation: a blade that can open nothing.
-    pub(crate) fn doubt(&self) -> Option<String> {
+    pub(crate) fn warning(&self) -> Option<String> {
         let outer = self.layers[0].bottom;
         (self.is_layered && self.reached(f64::INFINITY) == 0).then(|| {
             format!(

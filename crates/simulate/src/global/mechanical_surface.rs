@@ -20,7 +20,7 @@ const FINEST: f64 = 0.25;
 const GROWTH: f64 = 0.25;
 
 /// The surface that carries the mechanics of `shown`: itself, or one of at most `wanted` triangles; with
-/// what deserves doubt.
+/// warnings.
 pub(super) fn mechanical_surface(
     shown: &Surface,
     wanted: Option<usize>,
@@ -35,15 +35,15 @@ pub(super) fn mechanical_surface(
         &SimplifySettings::to(wanted),
         &sizes(shown, wanted),
     )?;
-    let mut doubts = Vec::new();
+    let mut warnings = Vec::new();
     if coarse.self_intersections > 0 {
-        doubts.push(format!(
+        warnings.push(format!(
             "{} triangles of the mechanical mesh meet others; raise `model.mechanical_triangles` above {wanted}",
             coarse.self_intersections
         ));
     }
     let surface = Surface::new(coarse.mesh).map_err(Error::MechanicalMesh)?;
-    Ok((surface, doubts))
+    Ok((surface, warnings))
 }
 
 /// The edges that are wanted at each vertex of `shown` for about `triangles` [m]: where the organ is thin they are as

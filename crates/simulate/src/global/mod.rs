@@ -139,14 +139,14 @@ pub(crate) struct GlobalProblem {
     walls: Walls,
     /// Finite elements to try, the best first; without any, boundary elements are meant.
     finite: Vec<Method>,
-    pub(crate) doubts: Vec<String>,
+    pub(crate) warnings: Vec<String>,
 }
 
 impl GlobalProblem {
     /// That of the organ of `scene`, which is seen as `shown`.
     pub(crate) fn new(scene: &Scene, shown: &Surface, law: &LinearElastic) -> Result<Self, Error> {
         let wanted = scene.model.mechanical_triangles;
-        let (surface, doubts) = mechanical_surface::mechanical_surface(shown, wanted)?;
+        let (surface, warnings) = mechanical_surface::mechanical_surface(shown, wanted)?;
         let (held, touchable) = sort(&scene.organ, &surface);
         if touchable.is_empty() {
             return Err(Error::NothingTouchable);
@@ -159,11 +159,11 @@ impl GlobalProblem {
             poissons_ratio: law.poissons_ratio(),
             held,
             touchable,
-            doubts,
+            warnings,
         })
     }
 
-    /// The model, with what deserves doubt.
+    /// The model, with warnings.
     pub(crate) fn solve(
         self,
         (scene, shown): (&Scene, &Surface),
@@ -198,7 +198,7 @@ impl GlobalProblem {
             enhancement,
             tree,
         };
-        Ok((model, [self.doubts, found.doubts].concat()))
+        Ok((model, [self.warnings, found.warnings].concat()))
     }
 
     /// By finite elements where they are wanted and can be, else by boundary elements.
@@ -219,12 +219,12 @@ impl GlobalProblem {
         }
         let method = Method::BoundaryElements;
         let mut found = solve::response(&self.ingredients(method), resources, watch)?;
-        found.doubts.extend(missed.map(|error| {
+        found.warnings.extend(missed.map(|error| {
             format!(
                 "the organ is solved by boundary elements, for finite elements have none: {error}"
             )
         }));
-        found.doubts.extend(self.walls.doubt());
+        found.warnings.extend(self.walls.warning());
         Ok((method, found))
     }
 

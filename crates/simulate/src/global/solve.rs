@@ -20,14 +20,14 @@ fn place(ingredients: &Ingredients<'_>, resources: &Resources) -> Option<PathBuf
     Some(folder.join(format!("{}.response", &ingredients.key()[..16])))
 }
 
-/// A response, where it came from, and what deserves doubt.
+/// A response, where it came from, and warnings.
 pub(super) struct Found {
     pub(super) response: SurfaceResponse,
     /// The file that holds it.
     pub(super) file: Option<PathBuf>,
     /// Whether it was read.
     pub(super) was_kept: bool,
-    pub(super) doubts: Vec<String>,
+    pub(super) warnings: Vec<String>,
 }
 
 /// The response of a surface, read if it is stored, or else solved and stored.
@@ -37,7 +37,7 @@ pub(super) fn response(
     watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<Found, Error> {
     let mut file = place(ingredients, resources);
-    let mut doubts = Vec::new();
+    let mut warnings = Vec::new();
     if let Some(place) = file.as_ref().filter(|place| place.exists()) {
         tell(watch, Work::Reading)?;
         match read(ingredients, place, resources.memory) {
@@ -46,18 +46,18 @@ pub(super) fn response(
                     response,
                     file,
                     was_kept: true,
-                    doubts,
+                    warnings,
                 });
             }
             // It is made again, in its place.
-            Err(error) => doubts.push(format!("{error} (done just now)")),
+            Err(error) => warnings.push(format!("{error} (done just now)")),
         }
     }
     let response = solve(ingredients, resources.memory, watch)?;
     if let Some(place) = &file {
         tell(watch, Work::Storing)?;
         if let Err(error) = store(ingredients, &response, place) {
-            doubts.push(format!("the organ's response is not kept: {error}"));
+            warnings.push(format!("the organ's response is not kept: {error}"));
             file = None;
         }
     }
@@ -65,7 +65,7 @@ pub(super) fn response(
         response,
         file,
         was_kept: false,
-        doubts,
+        warnings,
     })
 }
 

@@ -108,7 +108,7 @@ pub(crate) struct NonlinearWorkspace {
 }
 
 impl NonlinearOrgan {
-    /// That of the organ of `scene` and its tissues, which is seen as `shown`; with what deserves doubt.
+    /// That of the organ of `scene` and its tissues, which is seen as `shown`; with warnings.
     pub(crate) fn new(
         scene: &Scene,
         shown: &Surface,
@@ -119,9 +119,9 @@ impl NonlinearOrgan {
             moduli,
             numbers,
             densities,
-            mut doubts,
+            mut warnings,
         } = regions.of_elements(&mesh);
-        doubts.extend(regions.doubts.iter().cloned());
+        warnings.extend(regions.warnings.iter().cloned());
         let anchor = held_region(&scene.organ.shape, scene.organ.anchor.as_ref());
         let mut model =
             NonlinearModel::on_boundary(&mesh, &moduli, |place| anchor.holds((*place).into()))?
@@ -153,7 +153,7 @@ impl NonlinearOrgan {
             regions,
             model,
         };
-        Ok((organ, doubts))
+        Ok((organ, warnings))
     }
 
     /// The shown surface and its boxes as the organ hangs under its weight, if it has any.

@@ -65,7 +65,7 @@ pub(crate) struct Regions {
     /// How much more than their outermost tissue the layers yield to a flat tip and to a load of each radius [-].
     punch: Vec<[f64; 2]>,
     load: Vec<[f64; 2]>,
-    pub(crate) doubts: Vec<String>,
+    pub(crate) warnings: Vec<String>,
 }
 
 /// What the elements are made of.
@@ -76,8 +76,8 @@ pub(super) struct Elements {
     pub(super) numbers: Vec<usize>,
     /// [kg/m³]
     pub(super) densities: Vec<f64>,
-    /// What deserves doubt.
-    pub(super) doubts: Vec<String>,
+    /// What deserves warning.
+    pub(super) warnings: Vec<String>,
 }
 
 impl Regions {
@@ -88,19 +88,23 @@ impl Regions {
         (tissue, material): (&Tissue, &Material),
     ) -> Result<Self, Error> {
         let organ = &scene.organ;
-        let mut doubts = Vec::new();
+        let mut warnings = Vec::new();
         let mut tissues = Vec::new();
         for layer in &organ.layers {
-            tissues.push(RegionTissue::new(layer.tissue.read()?, None, &mut doubts)?);
+            tissues.push(RegionTissue::new(
+                layer.tissue.read()?,
+                None,
+                &mut warnings,
+            )?);
         }
         let own = Some(material.clone());
-        tissues.push(RegionTissue::new(tissue.clone(), own, &mut doubts)?);
+        tissues.push(RegionTissue::new(tissue.clone(), own, &mut warnings)?);
         for inclusion in &organ.inclusions {
             let own = inclusion.tissue.read()?;
-            tissues.push(RegionTissue::new(own, None, &mut doubts)?);
+            tissues.push(RegionTissue::new(own, None, &mut warnings)?);
         }
-        doubts.sort();
-        doubts.dedup();
+        warnings.sort();
+        warnings.dedup();
         let mut bottom = 0.0;
         let bottoms = organ.layers.iter().map(|layer| {
             bottom += layer.thickness_m;
@@ -134,7 +138,7 @@ impl Regions {
             punch: yields(LoadShape::Punch),
             load: yields(LoadShape::Bump),
             tissues,
-            doubts,
+            warnings,
         })
     }
 
@@ -180,7 +184,7 @@ impl Regions {
                 moduli: vec![only.moduli; count],
                 numbers: vec![0; count],
                 densities: vec![density(only); count],
-                doubts: Vec::new(),
+                warnings: Vec::new(),
             };
         }
         let places = parts();
@@ -207,7 +211,7 @@ impl Regions {
         }
         found.remove(self.bottoms.len());
         let missing = self.names.iter().zip(found).filter(|(_, found)| !found);
-        elements.doubts.extend(missing.map(|(name, _)| {
+        elements.warnings.extend(missing.map(|(name, _)| {
             format!(
                 "{name:?} is in no element of the nonlinear model: the organ has no place as deep, or `model.nodes` is too \
                  small for it"
@@ -274,13 +278,13 @@ impl RegionTissue {
     fn new(
         tissue: Tissue,
         material: Option<Material>,
-        doubts: &mut Vec<String>,
+        warnings: &mut Vec<String>,
     ) -> Result<Self, Error> {
         let material = match material {
             Some(material) => material,
             None => {
                 let own = Material::from_tissue(&tissue)?;
-                doubts.extend(own.doubts.iter().cloned());
+                warnings.extend(own.warnings.iter().cloned());
                 own
             }
         };
@@ -288,7 +292,7 @@ impl RegionTissue {
         let ratio = given.min(LARGEST_RATIO);
         let shear = material.at_rest.shear_modulus();
         if ratio < given {
-            doubts.push(format!(
+            warnings.push(format!(
                 "Poisson's ratio {given:.4} is taken as {LARGEST_RATIO} around the tips, with the same shear modulus: the \
                  nonlinear model keeps volume to the percent"
             ));
@@ -298,7 +302,7 @@ impl RegionTissue {
             (LawName::MooneyRivlin, &[c10, c01]) => (c10, c01),
             (LawName::Linear | LawName::NeoHookean, _) => (0.5 * shear, 0.0),
             _ => {
-                doubts.push(format!(
+                warnings.push(format!(
                     "the organ around the tips answers as neo-Hookean tissue of the same modulus at rest; the tips \
                      themselves meet the {} law",
                     law.row().title

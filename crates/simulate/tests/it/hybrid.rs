@@ -145,8 +145,11 @@ fn a_damaged_file_is_made_again() {
         fs::write(&file, &bytes).unwrap();
         let (again, works) = prepare(&KIDNEY.scene(), &resources).unwrap();
         assert!(works.contains(&Work::Responses));
-        let told = again.doubts().iter().any(|doubt| doubt.contains(words));
-        assert!(told, "{words}: {:?}", again.doubts());
+        let told = again
+            .warnings()
+            .iter()
+            .any(|warning| warning.contains(words));
+        assert!(told, "{words}: {:?}", again.warnings());
         assert!(fs::read(&file).unwrap() == whole);
     }
     // A folder that cannot be made is told too, and nothing else changes.
@@ -156,7 +159,7 @@ fn a_damaged_file_is_made_again() {
     };
     let (kept_nowhere, _) = prepare(&KIDNEY.scene(), &blocked).unwrap();
     assert_eq!(kept_nowhere.response().unwrap().file, None);
-    assert!(kept_nowhere.doubts()[0].contains("is not kept"));
+    assert!(kept_nowhere.warnings()[0].contains("is not kept"));
 }
 
 #[test]

@@ -216,11 +216,11 @@ fn a_tube_is_layered_from_outside() {
         let simulation = cube(&organ, "nodes = 1500").simulation();
         assert!(
             !simulation
-                .doubts()
+                .warnings()
                 .iter()
-                .any(|doubt| doubt.contains("in no element")),
+                .any(|warning| warning.contains("in no element")),
             "{:?}",
-            simulation.doubts()
+            simulation.warnings()
         );
         let mut hand = Hand::new(&simulation);
         let mut force = Vec3::zeros();

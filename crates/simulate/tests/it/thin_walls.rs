@@ -98,10 +98,10 @@ fn without_tetrahedra_boundary_elements_are_taken() {
     assert_eq!(simulation.response().unwrap().method, "boundary elements");
     for words in ["finite elements have none", "too stiff where they bend"] {
         let told = simulation
-            .doubts()
+            .warnings()
             .iter()
-            .any(|doubt| doubt.contains(words));
-        assert!(told, "{words}: {:?}", simulation.doubts());
+            .any(|warning| warning.contains(words));
+        assert!(told, "{words}: {:?}", simulation.warnings());
     }
 }
 
@@ -122,7 +122,11 @@ fn the_esophagus_is_that_of_finite_elements() {
     let simulation = Simulation::new(&scene).unwrap();
     let origin = simulation.response().unwrap();
     assert_eq!(origin.method, "condensed finite elements");
-    assert!(simulation.doubts().is_empty(), "{:?}", simulation.doubts());
+    assert!(
+        simulation.warnings().is_empty(),
+        "{:?}",
+        simulation.warnings()
+    );
     let tree = AabbTree::new(simulation.surface().mesh());
     let (point, normal) = nearest(&simulation, &tree, &Vec3::new(0.0, 0.02, 0.0));
     let law = Arc::new(LinearElastic::new(YOUNGS_MODULUS, 0.45).unwrap());

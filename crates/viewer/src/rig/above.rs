@@ -5,7 +5,7 @@ use eframe::egui::{
 use palpate_measure::live::Order;
 
 use super::{Behind, RigWindow};
-use crate::style::{DEPTH, DOUBT, FAULT, FORCE, ON_STOP, QUIET, STOP, STOP_HINT};
+use crate::style::{DEPTH, FAULT, FORCE, ON_STOP, QUIET, STOP, STOP_HINT, WARNING};
 
 /// Size of the button of the emergency stop.
 const STOP_SIZE: [f32; 2] = [176.0, 62.0];
@@ -188,7 +188,7 @@ fn breath(window: &mut RigWindow, ui: &mut Ui) {
         ),
         (None, None) => ("breath", "drawn".to_owned(), 0.0, "no budget".to_owned()),
     };
-    quantity(ui, (name, number, DOUBT), (part, of));
+    quantity(ui, (name, number, WARNING), (part, of));
 }
 
 /// A fault, until forces are on again.
@@ -268,7 +268,7 @@ fn notice(window: &mut RigWindow, ui: &mut Ui) {
     egui::Sides::new().shrink_left().show(
         ui,
         |ui| {
-            let label = egui::Label::new(RichText::new(&notice).color(DOUBT)).truncate();
+            let label = egui::Label::new(RichText::new(&notice).color(WARNING)).truncate();
             ui.add(label).on_hover_text(&notice);
         },
         |ui| {

@@ -48,8 +48,8 @@ pub struct Bench {
     pub places: Vec<Place>,
     /// Where recordings go.
     pub folder: PathBuf,
-    /// What deserves doubt before anything is measured.
-    pub doubts: Vec<String>,
+    /// Warnings before anything is measured.
+    pub warnings: Vec<String>,
     /// Whether the window shall close, as if somebody had closed it: asked at every picture.
     pub is_ended: fn() -> bool,
 }
@@ -80,8 +80,8 @@ pub type Make = dyn Fn(&mut dyn FnMut(f64)) -> Result<MadeRig, String> + Send + 
 pub struct MadeRig {
     /// The rig.
     pub rig: Rig,
-    /// What deserves doubt about it.
-    pub doubts: Vec<String>,
+    /// Warnings about it.
+    pub warnings: Vec<String>,
 }
 
 /// Between two pictures.
@@ -111,8 +111,8 @@ struct RigWindow {
     step: f64,
     /// The tilt of the normal toward x and y, as it is typed [degrees].
     tilt: [f64; 2],
-    /// Doubts about the protocol, and about the specimen.
-    doubts: [Vec<String>; 2],
+    /// Warnings about the protocol, and about the specimen.
+    warnings: [Vec<String>; 2],
     is_ended: fn() -> bool,
 }
 
@@ -144,7 +144,7 @@ impl RigWindow {
             journal: Journal::new(bench.folder),
             step: 1e-3,
             tilt: [0.0; 2],
-            doubts: [bench.doubts, Vec::new()],
+            warnings: [bench.warnings, Vec::new()],
             is_ended: bench.is_ended,
         }
     }
@@ -168,7 +168,7 @@ impl RigWindow {
         if let Some(outcome) = outcome {
             let live = outcome.and_then(|made| {
                 self.header = made.rig.header().clone();
-                self.doubts[1] = made.doubts;
+                self.warnings[1] = made.warnings;
                 self.watch.sensor_range = made.rig.sensor_range();
                 LiveRig::start_until(made.rig, self.is_ended).map_err(|error| error.to_string())
             });

@@ -1,7 +1,7 @@
 use eframe::egui::{Button, DragValue, Grid, RichText, Ui, vec2};
 
 use super::RigWindow;
-use crate::style::{DOUBT, QUIET};
+use crate::style::{QUIET, WARNING};
 
 /// A button for each stimulus, and one for all.
 pub(super) fn show(window: &mut RigWindow, ui: &mut Ui) {
@@ -77,7 +77,7 @@ fn one(window: &mut RigWindow, number: usize, ui: &mut Ui) {
         Ok(course) if pressed => window.press(&course),
         Ok(_) => {}
         Err(sentence) => {
-            ui.label(RichText::new(sentence).small().color(DOUBT));
+            ui.label(RichText::new(sentence).small().color(WARNING));
         }
     }
     ui.add_space(3.0);

@@ -1,9 +1,9 @@
 use eframe::egui::{Align, Grid, Label, Layout, RichText, ScrollArea, Ui};
 
 use super::RigWindow;
-use crate::style::{DOUBT, QUIET};
+use crate::style::{QUIET, WARNING};
 
-/// The recordings that were made, and what deserves doubt.
+/// The recordings that were made, and warnings.
 pub(super) fn show(window: &mut RigWindow, ui: &mut Ui) {
     ui.add_space(2.0);
     head(window, ui);
@@ -43,7 +43,7 @@ pub(super) fn show(window: &mut RigWindow, ui: &mut Ui) {
                         ui.label(recorded.samples.to_string());
                         match &recorded.cut_short {
                             None => ui.label("whole"),
-                            Some(why) => ui.colored_label(DOUBT, why),
+                            Some(why) => ui.colored_label(WARNING, why),
                         };
                         ui.end_row();
                     }
@@ -54,7 +54,7 @@ pub(super) fn show(window: &mut RigWindow, ui: &mut Ui) {
         });
 }
 
-/// Where recordings go, what deserves doubt, and how punctual the rig is.
+/// Where recordings go, warnings, and how punctual the rig is.
 fn head(window: &RigWindow, ui: &mut Ui) {
     ui.horizontal(|ui| {
         ui.label(RichText::new("recordings").strong());
@@ -67,20 +67,20 @@ fn head(window: &RigWindow, ui: &mut Ui) {
             let rate = format!("1 kHz, waited {waited:.1} s for the processor");
             ui.label(RichText::new(rate).small().color(QUIET))
                 .on_hover_text(hint);
-            doubts(window, ui);
+            warnings(window, ui);
         });
     });
 }
 
-fn doubts(window: &RigWindow, ui: &mut Ui) {
-    let doubts = window.doubts.concat();
-    if let Some(first) = doubts.first() {
-        let text = match doubts.len() {
+fn warnings(window: &RigWindow, ui: &mut Ui) {
+    let warnings = window.warnings.concat();
+    if let Some(first) = warnings.first() {
+        let text = match warnings.len() {
             1 => first.clone(),
             n => format!("{first} (and {} more)", n - 1),
         };
-        let label = Label::new(RichText::new(text).small().color(DOUBT)).truncate();
+        let label = Label::new(RichText::new(text).small().color(WARNING)).truncate();
         ui.add_space(16.0);
-        ui.add(label).on_hover_text(doubts.join("\n\n"));
+        ui.add(label).on_hover_text(warnings.join("\n\n"));
     }
 }

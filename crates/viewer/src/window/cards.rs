@@ -6,7 +6,7 @@ use palpate_simulate::performance::{PullCue, Status};
 
 use super::attempt::{Attempt, Phase, Unsaved};
 use super::results::over;
-use crate::style::{DEPTH, DOUBT, FAULT, QUIET, WHITE};
+use crate::style::{DEPTH, FAULT, QUIET, WARNING, WHITE};
 
 /// What somebody wants of an attempt.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -189,7 +189,7 @@ fn goes_on(ui: &mut Ui, attempt: &Attempt, badge: Option<RichText>, asked: &mut 
             None => format!("{:.0} s", attempt.elapsed()),
         };
         let hurry = left.is_some_and(|left| left < 10.0);
-        let color = if hurry { DOUBT } else { QUIET };
+        let color = if hurry { WARNING } else { QUIET };
         ui.label(RichText::new(time).monospace().color(color));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             if ui.small_button("End").on_hover_text("or Enter").clicked() {
@@ -256,9 +256,9 @@ fn gauge(ui: &mut Ui, attempt: &Attempt) {
             let (force, cue) = pull.map_or((0.0, PullCue::More), |own| (own.force, own.cue));
             let words = match cue {
                 PullCue::Hold => ("hold", DEPTH),
-                PullCue::More => ("pull harder", DOUBT),
+                PullCue::More => ("pull harder", WARNING),
                 PullCue::Less => ("pull less", FAULT),
-                PullCue::Turn => ("pull along the arrow", DOUBT),
+                PullCue::Turn => ("pull along the arrow", WARNING),
             };
             let band = [force_n - tolerance_n, force_n + tolerance_n, 2.0 * force_n];
             (band, force, words)

@@ -5,7 +5,7 @@ use egui_plot::{Line, Plot, PlotPoints, Points};
 use palpate_files::Scene;
 
 use super::training::{Assigned, PastResult, Training};
-use crate::style::{DEPTH, DOUBT, FAULT, QUIET, WHITE};
+use crate::style::{DEPTH, FAULT, QUIET, WARNING, WHITE};
 
 /// What was chosen on the start screen.
 #[derive(Debug, Clone, PartialEq)]
@@ -141,7 +141,7 @@ fn title(scene: &Scene) -> &str {
 fn assigned(ui: &mut Ui, own: &Assigned) {
     let (words, color) = match (own.passed >= own.passes, own.is_over) {
         (true, _) => ("done", DEPTH),
-        (false, false) => ("assigned", DOUBT),
+        (false, false) => ("assigned", WARNING),
         (false, true) => ("late", FAULT),
     };
     ui.horizontal(|ui| {
@@ -190,7 +190,7 @@ fn entry(ui: &mut Ui, title: &str, words: &str, standing: &Option<(String, bool)
             ui.label(RichText::new(words).color(QUIET));
         });
         if let Some((standing, passed)) = standing {
-            let color = if *passed { DEPTH } else { DOUBT };
+            let color = if *passed { DEPTH } else { WARNING };
             ui.label(RichText::new(standing).small().color(color));
         }
     });
@@ -242,7 +242,7 @@ fn past(ui: &mut Ui, results: &[PastResult], chosen: &mut Option<Chosen>) {
                 ui.label(&result.task);
                 let (words, color) = match result.passed {
                     Some(true) => ("passed", DEPTH),
-                    Some(false) => ("not passed", DOUBT),
+                    Some(false) => ("not passed", WARNING),
                     None => ("", QUIET),
                 };
                 ui.colored_label(color, words);

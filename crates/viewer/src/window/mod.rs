@@ -1,5 +1,5 @@
 //! The window in which an organ is touched: the picture on the left, what can be chosen and what is felt on
-//! the right, what deserves doubt below.
+//! the right, warnings below.
 //!
 //! The window owns no model: it moves a hand, and shows what an [`Interaction`] tells of the touch, which
 //! goes on in threads of its own however slow the picture is.

@@ -5,7 +5,7 @@ use eframe::egui::{self, Align2, Color32, FontId, Pos2, Rect, Stroke, Vec2};
 use super::list;
 use super::picture::Picture;
 use super::play::Play;
-use crate::style::{DEPTH, DOUBT, FORCE, QUIET};
+use crate::style::{DEPTH, FORCE, QUIET, WARNING};
 
 /// Depth that fills the gauge [m].
 const FULL: f64 = 0.015;
@@ -47,8 +47,8 @@ pub(super) fn show(ui: &egui::Ui, rect: Rect, picture: &Picture, play: &mut Play
     if snapshot.paused && !again {
         let font = FontId::proportional(16.0);
         let words = "paused · P: go on".to_owned();
-        let text = ui.painter().layout(words, font, DOUBT, wide);
-        plate(&painter, text, at - Vec2::new(0.0, 44.0), DOUBT);
+        let text = ui.painter().layout(words, font, WARNING, wide);
+        plate(&painter, text, at - Vec2::new(0.0, 44.0), WARNING);
     }
     let Some(seen) = snapshot.tools.get(tool) else {
         return;

@@ -10,7 +10,7 @@ use super::enhancement;
 use super::preparation::Preparation;
 use super::rates::Rates;
 use crate::history::SPAN;
-use crate::style::{DEPTH, DOUBT, FAULT, FORCE, ON_STOP, QUIET, STOP, STOP_HINT};
+use crate::style::{DEPTH, FAULT, FORCE, ON_STOP, QUIET, STOP, STOP_HINT, WARNING};
 
 /// What can be chosen, and what is felt.
 pub(super) fn side(window: &mut SimulatorWindow, ui: &mut Ui) {
@@ -307,7 +307,7 @@ fn limits(touch: &LoopReport, ui: &mut Ui) {
     ui.end_row();
 }
 
-/// What went wrong, and what deserves doubt.
+/// What went wrong, and warnings.
 pub(super) fn status(window: &SimulatorWindow, ui: &mut Ui) {
     ui.horizontal_wrapped(|ui| {
         emergency_stop(window, ui);
@@ -326,11 +326,11 @@ pub(super) fn status(window: &SimulatorWindow, ui: &mut Ui) {
             waiting(preparation, ui);
         } else if depth > TRUSTED_DEPTH {
             ui.colored_label(
-                DOUBT,
+                WARNING,
                 "deeper than 10 mm no model here has been compared with tissue",
             );
         } else {
-            doubts(window, ui);
+            warnings(window, ui);
         }
     });
 }
@@ -382,16 +382,16 @@ fn conditions(rates: &Rates) -> impl Iterator<Item = String> {
         .flatten()
 }
 
-fn doubts(window: &SimulatorWindow, ui: &mut Ui) {
+fn warnings(window: &SimulatorWindow, ui: &mut Ui) {
     // What changes the force that is felt now comes first.
     let play = window.play.iter();
-    let mut doubts: Vec<_> = play
-        .flat_map(|play| play.limits.iter().chain(&play.doubts).cloned())
+    let mut warnings: Vec<_> = play
+        .flat_map(|play| play.limits.iter().chain(&play.warnings).cloned())
         .collect();
     if window.play.as_ref().is_some_and(super::Play::has_devices) {
-        doubts.extend(conditions(&window.rates));
+        warnings.extend(conditions(&window.rates));
     }
-    match &doubts[..] {
+    match &warnings[..] {
         [] => {
             ui.colored_label(QUIET, "no warnings");
         }
@@ -400,8 +400,8 @@ fn doubts(window: &SimulatorWindow, ui: &mut Ui) {
                 0 => first.clone(),
                 n => format!("{first} (and {n} more)"),
             };
-            let label = egui::Label::new(RichText::new(text).small().color(DOUBT)).truncate();
-            ui.add(label).on_hover_text(doubts.join("\n\n"));
+            let label = egui::Label::new(RichText::new(text).small().color(WARNING)).truncate();
+            ui.add(label).on_hover_text(warnings.join("\n\n"));
         }
     }
 }

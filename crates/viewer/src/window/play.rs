@@ -35,7 +35,7 @@ pub(super) struct Prepared {
     tree: AabbTree,
     organ: SeenOrgan,
     neighbours: Vec<Body>,
-    doubts: Vec<String>,
+    warnings: Vec<String>,
     resources: Resources,
     /// None for a session that is played again.
     model: Option<PreparedModel>,
@@ -50,8 +50,8 @@ pub(super) struct Play {
     pub(super) source: Source,
     pub(super) organ: SeenOrgan,
     pub(super) neighbours: Vec<Body>,
-    /// What deserves doubt.
-    pub(super) doubts: Vec<String>,
+    /// What deserves warning.
+    pub(super) warnings: Vec<String>,
     /// Bounds of the models that acted since the start.
     pub(super) limits: Vec<String>,
     pointers: Vec<Option<PointerHand>>,
@@ -84,11 +84,11 @@ impl Prepared {
         resources: Resources,
         gpu: &Gpu,
     ) -> Result<Self, Error> {
-        let mut doubts = simulation.doubts().to_vec();
+        let mut warnings = simulation.warnings().to_vec();
         let mut neighbours = Vec::new();
         for neighbour in &scene.neighbours {
             let (surface, more) = read_neighbour(neighbour)?;
-            doubts.extend(more);
+            warnings.extend(more);
             let tint = Tint::of(&neighbour.shape).receding();
             neighbours.push(Body::new(gpu, &surface, tint));
         }
@@ -96,7 +96,7 @@ impl Prepared {
             tree: AabbTree::new(simulation.surface().mesh()),
             organ: SeenOrgan::new(gpu, &simulation, Tint::of(&scene.organ.shape))?,
             neighbours,
-            doubts,
+            warnings,
             simulation,
             scene,
             resources,
@@ -178,7 +178,7 @@ impl Play {
             source,
             organ: prepared.organ,
             neighbours: prepared.neighbours,
-            doubts: prepared.doubts,
+            warnings: prepared.warnings,
             limits: Vec::new(),
             pointers,
         }

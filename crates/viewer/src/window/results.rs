@@ -7,7 +7,7 @@ use palpate_simulate::performance::{Measure, feedback};
 
 use super::attempt::{Attempt, Done};
 use super::cards::{Around, Asked, button, title, trouble};
-use crate::style::{DEPTH, DOUBT, FORCE, QUIET, WHITE};
+use crate::style::{DEPTH, FORCE, QUIET, WARNING, WHITE};
 
 /// How it was done.
 pub(super) fn over(
@@ -19,7 +19,7 @@ pub(super) fn over(
     let told = feedback(&attempt.task, &done.score, done.late);
     let color = match done.score.outcome.passed() {
         Some(true) => DEPTH,
-        Some(false) => DOUBT,
+        Some(false) => WARNING,
         None => QUIET,
     };
     ui.label(RichText::new(title(attempt)).color(QUIET));
@@ -105,7 +105,7 @@ fn earlier(ui: &mut Ui, done: &Done) {
     }
     let word = |passed: Option<bool>| match passed {
         Some(true) => ("passed", DEPTH),
-        Some(false) => ("not passed", DOUBT),
+        Some(false) => ("not passed", WARNING),
         None => ("", QUIET),
     };
     ui.label(RichText::new("Your attempts").small().color(QUIET));
@@ -173,7 +173,7 @@ fn measures(ui: &mut Ui, done: &Done) {
                     ui.label(RichText::new(mean).monospace().color(QUIET));
                     match own.proficient {
                         Some(true) => ui.label(RichText::new("proficient").color(DEPTH)),
-                        Some(false) => ui.label(RichText::new("not yet").color(DOUBT)),
+                        Some(false) => ui.label(RichText::new("not yet").color(WARNING)),
                         None => ui.label(""),
                     };
                 }

@@ -2,8 +2,8 @@
 
 use nalgebra::DMatrix;
 use palpate_characterize::fit::{
-    CORRELATED, Parameter, Random, Settings, Verdict, correlated_pairs, doubts, least_squares,
-    uncertainty, verdicts,
+    CORRELATED, Parameter, Random, Settings, Verdict, correlated_pairs, least_squares, uncertainty,
+    verdicts, warnings,
 };
 
 const MODULI: [&str; 2] = ["c10_pa", "c01_pa"];
@@ -22,7 +22,7 @@ fn sentences(names: [&str; 2], apart: f64) -> Vec<String> {
     };
     let fit =
         least_squares(&parameters, 100, &Settings::default(), residuals).expect("the curve starts");
-    doubts(&fit, &uncertainty(&fit), None)
+    warnings(&fit, &uncertainty(&fit), None)
 }
 
 /// With nearly the same effect only the sum of two moduli is known, and it is named; with their own, nothing
@@ -61,7 +61,7 @@ fn what_a_recording_does_not_show_is_said() {
         Some(())
     };
     let fit = least_squares(&parameters, 100, &Settings::default(), residuals).unwrap();
-    let found = doubts(&fit, &uncertainty(&fit), Some(20.0));
+    let found = warnings(&fit, &uncertainty(&fit), Some(20.0));
     assert!(
         found[0].starts_with("tau_2_s is longer than the recording shows: "),
         "{found:?}"

@@ -122,10 +122,10 @@ impl Header {
             let origin = Vec3::from_fn(|k, _| self.float(268 + 4 * k));
             return (steps, origin, Vec::new());
         }
-        let doubt = "the file does not say how the picture lies in the body; right, front and head \
+        let warning = "the file does not say how the picture lies in the body; right, front and head \
                      are taken for its axes";
         let steps = Matrix3::from_diagonal(&spacing);
-        (steps, Vec3::zeros(), vec![doubt.to_owned()])
+        (steps, Vec3::zeros(), vec![warning.to_owned()])
     }
 
     /// Of the quaternion of the qform.

@@ -153,9 +153,9 @@ impl Header {
     /// What the axes of the space are multiplied by to point to the left, the back and the head.
     fn signs(&self) -> Result<(Vec3, Vec<String>), ReadFault> {
         let Some(entry) = self.find("space") else {
-            let doubt = "the file does not say how the picture lies in the body; left, back and head \
+            let warning = "the file does not say how the picture lies in the body; left, back and head \
                          are taken for its axes";
-            return Ok((Vec3::repeat(1.0), vec![doubt.to_owned()]));
+            return Ok((Vec3::repeat(1.0), vec![warning.to_owned()]));
         };
         let signs = match entry.value.to_ascii_lowercase().as_str() {
             "left-posterior-superior" | "lps" => Vec3::new(1.0, 1.0, 1.0),

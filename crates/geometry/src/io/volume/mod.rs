@@ -19,7 +19,7 @@ use std::fmt;
 use std::path::Path;
 
 use super::raw::RawMesh;
-use super::unit::{doubt_about_extent, unit_by_extent};
+use super::unit::{extent_warning, unit_by_extent};
 use super::{MOST_BYTES, in_unit, read_whole};
 use crate::mesh::tetrahedra::six_fold_volume;
 use crate::{LengthUnit, NodeId, ReadError, ReadFault, TetrahedronMesh, Vec3};
@@ -46,7 +46,7 @@ pub struct ImportedTetrahedra {
     pub unit: LengthUnit,
     /// Tetrahedra that were inverted, and have been turned.
     pub turned: usize,
-    /// What deserves doubt, as sentences.
+    /// Warnings.
     pub warnings: Vec<String>,
 }
 
@@ -113,7 +113,7 @@ fn read_here(path: &Path, unit: Option<LengthUnit>) -> Result<ImportedTetrahedra
         format,
         unit,
         turned,
-        warnings: doubt_about_extent(extent * unit.in_metres())
+        warnings: extent_warning(extent * unit.in_metres())
             .into_iter()
             .collect(),
     })

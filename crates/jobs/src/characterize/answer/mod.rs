@@ -32,7 +32,7 @@ pub struct Answer {
     /// What could not be read, and why.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub unusable: Vec<Unusable>,
-    /// What deserves doubt.
+    /// What deserves warning.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<String>,
 }
@@ -40,15 +40,15 @@ pub struct Answer {
 impl Answer {
     pub(crate) fn new(specimens: Vec<Specimen>, unusable: Vec<Unusable>) -> Self {
         let several = specimens.len() > 1;
-        let of = |specimen: &Specimen, doubt: &String| match several {
-            true => format!("{}: {doubt}", specimen.title),
-            false => doubt.clone(),
+        let of = |specimen: &Specimen, warning: &String| match several {
+            true => format!("{}: {warning}", specimen.title),
+            false => warning.clone(),
         };
         let each = specimens.iter().flat_map(|specimen| {
             specimen
                 .warnings
                 .iter()
-                .map(move |doubt| of(specimen, doubt))
+                .map(move |warning| of(specimen, warning))
         });
         Self {
             palpate: VERSION,

@@ -42,7 +42,7 @@ pub struct Specimen {
     pub preferred: Option<String>,
     /// What can be told apart and what cannot, in plain sentences.
     pub identifiability: Vec<String>,
-    /// What deserves doubt, in recordings and in what was found.
+    /// Warnings, in recordings and in what was found.
     pub warnings: Vec<String>,
     /// Why something was not found, by its key in `laws` or `lumped`, or `relaxation`.
     pub reasons: BTreeMap<String, String>,
@@ -192,11 +192,11 @@ fn identifiability(found: &Characterization) -> Vec<String> {
     found.identifiability.iter().cloned().chain(pairs).collect()
 }
 
-/// What deserves doubt in recordings and in what was found; `no_law` is why there is no law.
+/// What deserves warning in recordings and in what was found; `no_law` is why there is no law.
 fn warnings(studied: &Studied, no_law: Option<&String>) -> Vec<String> {
     let of_file = |(recording, file): (&CleanRecording, &PathBuf)| {
-        let doubts = recording.doubts.iter();
-        let named = doubts.map(|doubt| format!("{}: {doubt}", file.display()));
+        let warnings = recording.warnings.iter();
+        let named = warnings.map(|warning| format!("{}: {warning}", file.display()));
         named.collect::<Vec<_>>()
     };
     let recordings = studied.recordings.iter().zip(&studied.files);
@@ -204,7 +204,7 @@ fn warnings(studied: &Studied, no_law: Option<&String>) -> Vec<String> {
         .found
         .identifiability
         .iter()
-        .chain(&studied.found.doubts);
+        .chain(&studied.found.warnings);
     recordings
         .flat_map(of_file)
         .chain(found.chain(no_law).cloned())

@@ -35,7 +35,7 @@ pub struct Known {
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub bootstrap_error: Option<f64>,
     /// Between which the objective stays below its 95 % bound while the relaxation is held at what was found, so that
-    /// the doubt about the relaxation is not in it; a side without a bound is null.
+    /// the uncertainty of the relaxation is not in it; a side without a bound is null.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub profile_95: Option<[Option<f64>; 2]>,
 }

@@ -6,7 +6,7 @@ use palpate_mechanics::finite_elements::hemisphere::{HemisphereProblem, Patch, s
 use super::super::problem::{Hemisphere, Problem};
 use super::super::table::Table;
 use super::figures::Profile;
-use super::{Figures, Solution, doubts, plots};
+use super::{Figures, Solution, plots, warnings};
 use crate::Error;
 use crate::plot::Plot;
 use crate::solve::telling::Telling;
@@ -33,7 +33,11 @@ pub(crate) fn solution(
     .map_err(|error| problem.refused(error))?;
     let answer = found.answer;
     let mut warnings = found.warnings;
-    warnings.extend(doubts::of_depths(problem, case.patch_radius, &[case.depth]));
+    warnings.extend(warnings::of_depths(
+        problem,
+        case.patch_radius,
+        &[case.depth],
+    ));
     let law = &problem.material.at_rest;
     let closed = case.depth * half_space_stiffness(law, case.patch_radius, case.patch);
     let (arcs, moved): (Vec<f64>, Vec<f64>) = answer.profile.into_iter().unzip();

@@ -7,7 +7,7 @@ use palpate_mechanics::finite_elements::indentation::{
 
 use super::super::problem::{Indentation, Loading, Problem, Ramp};
 use super::super::table::Table;
-use super::{Figures, Solution, Wanted, doubts, field, millimetres, millinewtons, plots};
+use super::{Figures, Solution, Wanted, field, millimetres, millinewtons, plots, warnings};
 use crate::Error;
 use crate::VERSION;
 use crate::plot::Plot;
@@ -46,7 +46,7 @@ fn at_depths(
     .map_err(|error| problem.refused(error))?;
     let forces: Vec<f64> = found.answer.points.iter().map(|p| p.force).collect();
     let mut warnings = found.warnings;
-    warnings.extend(doubts::of_depths(
+    warnings.extend(warnings::of_depths(
         problem,
         contact_radius(case, depths),
         depths,
@@ -101,12 +101,12 @@ fn in_time(
         .with("force [mN]", millinewtons(&forces))
         .keeping_the_peak(&forces);
     let mut warnings = found.warnings;
-    warnings.extend(doubts::of_depths(
+    warnings.extend(warnings::of_depths(
         problem,
         contact_radius(case, &depths),
         &depths,
     ));
-    warnings.extend(doubts::of_ramp(problem, ramp.ramp));
+    warnings.extend(warnings::of_ramp(problem, ramp.ramp));
     Ok(Solution {
         heading: heading(case),
         tables: vec![table],

@@ -1,7 +1,6 @@
 //! What comes of a problem, one file per kind: the figures of the JSON object, a table for people, a
 //! plot, and the deformed body.
 
-mod doubts;
 mod field;
 mod figures;
 mod hemisphere;
@@ -10,6 +9,7 @@ mod plots;
 mod solid;
 mod tube;
 mod uniaxial;
+mod warnings;
 
 pub use figures::{Figures, Profile, TubeFigures};
 
@@ -28,7 +28,7 @@ use crate::{Error, VERSION, Watch};
 /// An answer in all its forms.
 #[derive(Debug, Serialize)]
 pub struct Solution {
-    /// What deserves doubt.
+    /// What deserves warning.
     pub warnings: Vec<String>,
     /// The figures of the JSON object.
     #[serde(flatten)]
@@ -83,7 +83,7 @@ pub fn solve(problem: &Problem, wanted: Wanted, watch: &dyn Watch) -> Result<Ans
             "the answer is no number, which should not happen; please report the problem",
         ));
     }
-    let mut warnings = doubts::shared(problem, solution.estimated_error);
+    let mut warnings = warnings::shared(problem, solution.estimated_error);
     warnings.append(&mut solution.warnings);
     solution.warnings = warnings;
     Ok(Answer {

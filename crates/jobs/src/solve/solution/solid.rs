@@ -13,7 +13,7 @@ use palpate_simulate::{held_region, read_organ};
 
 use super::super::problem::{Problem, Solid};
 use super::super::table::Table;
-use super::{Figures, Solution, Wanted, doubts, plots};
+use super::{Figures, Solution, Wanted, plots, warnings};
 use crate::Error;
 use crate::plot::{Plot, Series, Style};
 use crate::solve::telling::Telling;
@@ -52,9 +52,9 @@ pub(crate) fn solution(
     .map_err(|error| problem.refused(error))?;
     let answer = found.answer;
     warnings.extend(found.warnings);
-    warnings.extend(answer.doubts);
+    warnings.extend(answer.warnings);
     let length = case.displacement.norm();
-    warnings.extend(doubts::of_depths(problem, case.radius, &[length]));
+    warnings.extend(warnings::of_depths(problem, case.radius, &[length]));
     let on_tool = -answer.force;
     let table = Table::default()
         .with("displacement [mm]", [1e3 * length])
@@ -80,7 +80,7 @@ pub(crate) fn solution(
     })
 }
 
-/// What is to be filled, and what deserves doubt about it.
+/// What is to be filled, and warnings about it.
 fn body(shape: &Shape) -> Result<(Body, Vec<String>), Error> {
     if let Shape::Mesh { path, unit } = shape
         && holds_tetrahedra(path)
@@ -88,8 +88,8 @@ fn body(shape: &Shape) -> Result<(Body, Vec<String>), Error> {
         let imported = read_tetrahedra(path, unit.map(in_words).transpose()?)?;
         return Ok((Body::Volume(imported.mesh), imported.warnings));
     }
-    let (surface, doubts) = read_organ(shape)?;
-    Ok((Body::Surface(surface), doubts))
+    let (surface, warnings) = read_organ(shape)?;
+    Ok((Body::Surface(surface), warnings))
 }
 
 fn holds_tetrahedra(path: &Path) -> bool {

@@ -26,8 +26,8 @@ pub struct SolidAnswer {
     pub factor_entries: usize,
     /// What is to be seen of it.
     pub fields: SolidFields,
-    /// What deserves doubt, as sentences.
-    pub doubts: Vec<String>,
+    /// Warnings.
+    pub warnings: Vec<String>,
 }
 
 /// What a grid of quadratic tetrahedra has at its nodes and in its cells.
@@ -67,7 +67,7 @@ impl SolidAnswer {
             unknowns: model.size(),
             factor_entries: workspace.factor_entries(),
             fields: SolidFields::new(model, state, frame),
-            doubts: Vec::new(),
+            warnings: Vec::new(),
         }
     }
 }

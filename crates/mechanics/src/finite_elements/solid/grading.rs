@@ -71,7 +71,7 @@ pub(super) struct Ground<'a> {
     edge: Vec<Vec3>,
     /// Points where the anchor ends [m].
     rim: Vec<Vec3>,
-    pub(super) doubts: Vec<String>,
+    pub(super) warnings: Vec<String>,
 }
 
 impl<'a> Ground<'a> {
@@ -90,9 +90,9 @@ impl<'a> Ground<'a> {
         if distance > radius {
             return Err(Error::PatchOffSurface { distance, radius });
         }
-        let mut doubts = Vec::new();
+        let mut warnings = Vec::new();
         if distance > OFF * radius {
-            doubts.push(format!(
+            warnings.push(format!(
                 "the centre of the patch lies {distance:.3e} m off the boundary; its nearest point is taken"
             ));
         }
@@ -114,7 +114,7 @@ impl<'a> Ground<'a> {
                 center,
                 radius,
                 edge: edge.clone(),
-                doubts: doubts.clone(),
+                warnings: warnings.clone(),
             }
         };
         let surface = match body {
@@ -145,7 +145,7 @@ impl<'a> Ground<'a> {
             }
         }
         if missed(found) > MISSED {
-            closest.doubts.push(format!(
+            closest.warnings.push(format!(
                 "the body is thin at the patch, whose area on the first mesh is {found:.3e} m² and on the surface \
                  {wanted:.3e} m²"
             ));

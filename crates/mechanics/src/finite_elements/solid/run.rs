@@ -93,9 +93,9 @@ impl SolidProblem {
         })?;
         let supports = (&frame, &held, &self.patch.displacement);
         let mut answer = SolidAnswer::new(&model, &state, &workspace, supports);
-        answer.doubts.clone_from(&ground.doubts);
+        answer.warnings.clone_from(&ground.warnings);
         if crossing > 0 {
-            answer.doubts.push(format!(
+            answer.warnings.push(format!(
                 "{crossing} edges of the mesh cross the edge of the patch, whose area is {:.3e} m²",
                 answer.patch_area
             ));

@@ -1,7 +1,7 @@
 //! A flat round punch on the side of a tube, at mid-length and along a radius, after the pressure.
 //!
 //! *Limits*: of the punch only the face is there. Deeper than its radius, tissue beside it may be where
-//! its side is; the answer then carries a doubt. The tube is held at its ends only.
+//! its side is; the answer then carries a warning. The tube is held at its ends only.
 
 use super::super::estimate::{Estimated, Meshes, Progress, Quantity, refine};
 use super::super::indentation::Grip;
@@ -32,7 +32,7 @@ pub struct Indented {
     /// Number of unknowns of the finest mesh.
     pub unknowns: usize,
     /// What to be careful about, in sentences.
-    pub doubts: Vec<String>,
+    pub warnings: Vec<String>,
 }
 
 /// Parts of the coarse elements' edges on the meshes that are tried, in turn.
@@ -74,32 +74,32 @@ pub fn indent(
         let answer = Indented {
             outer_displacement: run.rise(problem.tube.outer_radius),
             unknowns: run.unknowns(),
-            doubts: doubts(punch, deepest, &run),
+            warnings: warnings(punch, deepest, &run),
             forces: forces.clone(),
         };
         Ok(Some((answer, vec![Quantity::new("force", forces)])))
     })
 }
 
-fn doubts(punch: &TubePunch, deepest: f64, run: &Punching<'_>) -> Vec<String> {
-    let mut doubts = Vec::new();
+fn warnings(punch: &TubePunch, deepest: f64, run: &Punching<'_>) -> Vec<String> {
+    let mut warnings = Vec::new();
     if deepest > punch.radius {
-        doubts.push(format!(
+        warnings.push(format!(
             "only the face of the punch is modelled, and at {deepest} m, deeper than its radius of {} m, its side may touch as well",
             punch.radius
         ));
     }
     if deepest > FOLDS * punch.radius && punch.face == Grip::Slide {
-        doubts.push(format!(
+        warnings.push(format!(
             "a face without friction folds the tissue under it near {FOLDS} of its radius, and {deepest} m is more"
         ));
     }
     if run.is_shut() {
-        doubts.push(format!(
+        warnings.push(format!(
             "at {deepest} m the walls of the tube meet under the punch, and their contact is left out"
         ));
     }
-    doubts
+    warnings
 }
 
 fn check(problem: &TubeProblem, punch: &TubePunch) -> Result<(), Error> {

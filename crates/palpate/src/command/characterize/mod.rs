@@ -1,8 +1,8 @@
 //! `palpate characterize`: the tissue behind recordings, with how well it is known.
 
-mod doubts;
 mod report;
 mod table;
+mod warnings;
 
 use std::path::PathBuf;
 
@@ -137,7 +137,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     for path in arguments.files().chain(written) {
         output::line(format!("written: {}", path.display()))?;
     }
-    output::warnings(&doubts::for_people(&answer));
+    output::warnings(&warnings::for_people(&answer));
     Ok(())
 }
 

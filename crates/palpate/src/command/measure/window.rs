@@ -34,7 +34,7 @@ pub(super) fn open(plan: Plan, folder: &Path) -> Result<(), Failure> {
             .map(|place| self::place(&plan, place))
             .collect(),
         folder: folder.to_owned(),
-        doubts: plan.doubts,
+        warnings: plan.warnings,
         // Ctrl-C withdraws the indenter, as closing the window does.
         is_ended: interrupt::is_asked,
     };
@@ -64,11 +64,11 @@ fn place(plan: &Plan, place: usize) -> Place {
     let known: Vec<String> = known.into_iter().flatten().collect();
     let plan = plan.clone();
     let make = move |at_step: &mut dyn FnMut(f64)| -> Result<MadeRig, String> {
-        let (specimen, doubts) = plan.specimen(place, at_step).map_err(|e| e.to_string())?;
+        let (specimen, warnings) = plan.specimen(place, at_step).map_err(|e| e.to_string())?;
         let rig = plan.rig((specimen, place), Clock::real());
         Ok(MadeRig {
             rig: rig.map_err(|error| error.to_string())?,
-            doubts,
+            warnings,
         })
     };
     Place {

@@ -96,7 +96,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
             progress.say(format!("the surface of {}", label::in_words(label)));
             let at = |part| Watch::at(&progress, (number as f64 + part) / count);
             let made = surface(&map, (label, &out), arguments, &at)?;
-            warnings.extend(label::doubts(label, &made.0));
+            warnings.extend(label::warnings(label, &made.0));
             surfaces.push(made.1);
         }
     }

@@ -39,7 +39,7 @@ pub(super) fn run(mesh: &Mesh) -> Result<(), Failure> {
     }
 }
 
-/// Reads a mesh; what deserves doubt about it speaks of the option `--unit`.
+/// Reads a mesh; warnings about it speaks of the option `--unit`.
 fn read(file: &Path, unit: Option<&str>) -> Result<ImportedMesh, Failure> {
     let unit: Option<LengthUnit> = unit.map(str::parse).transpose()?;
     let mut imported = read_mesh(file, unit).map_err(about_unit)?;

@@ -81,7 +81,7 @@ impl Answer {
             record: record.to_owned(),
             rule: super::rule(),
             tasks: courses.iter().map(TaskAnswer::new).collect(),
-            warnings: courses.iter().flat_map(Course::doubts).collect(),
+            warnings: courses.iter().flat_map(Course::warnings).collect(),
         }
     }
 }

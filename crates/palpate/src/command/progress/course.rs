@@ -130,26 +130,26 @@ impl<'r> Course<'r> {
         Spread::of(&judged.filter_map(|own| own.learnt(of)).collect::<Vec<_>>())
     }
 
-    /// What deserves doubt.
-    pub(super) fn doubts(&self) -> Vec<String> {
+    /// What deserves warning.
+    pub(super) fn warnings(&self) -> Vec<String> {
         let task = self.task;
-        let mut doubts = Vec::new();
+        let mut warnings = Vec::new();
         match self.experts.len() {
-            0 => doubts.push(format!(
+            0 => warnings.push(format!(
                 "no session of an expert at `{task}` is recorded, so nobody can be proficient; record two or more"
             )),
-            1 => doubts.push(format!(
+            1 => warnings.push(format!(
                 "one session of an expert at `{task}` gives no deviation, so nobody can be proficient; record another"
             )),
             _ => {}
         }
         if self.scenes > 1 {
-            doubts.push(format!(
+            warnings.push(format!(
                 "`{task}` was attempted in {} different scenes; their numbers may not compare",
                 self.scenes
             ));
         }
-        doubts
+        warnings
     }
 }
 

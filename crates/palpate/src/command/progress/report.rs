@@ -4,7 +4,7 @@ use super::course::{Course, Made, Trainee};
 use super::curves::{self, TRAINEES};
 use super::table::{NONE, proficient, shown, standing, truth, valued};
 use crate::date;
-use crate::report::{Markup, Page, Table, count, doubts, figure, provenance, quantity};
+use crate::report::{Markup, Page, Table, count, figure, provenance, quantity, warning_list};
 
 /// Trainees whose latest attempts stand beside one another in a table, at most.
 const COLUMNS: usize = 8;
@@ -31,7 +31,7 @@ pub(super) fn html(
     Page {
         title,
         lead: Markup::of_class("p", "lead", lead),
-        body: doubts("Warnings", warnings).and(each.collect::<Markup>()),
+        body: warning_list("Warnings", warnings).and(each.collect::<Markup>()),
         foot: nothing.and(Markup::plain("p", super::rule() + CONVENTIONS)),
     }
     .html()

@@ -62,7 +62,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let simulation = Arc::new(simulation);
     let progress = Progress::new(reader, None);
     let memory = lock_memory();
-    let mut warnings = simulation.doubts().to_vec();
+    let mut warnings = simulation.warnings().to_vec();
     let mut runs = Vec::new();
     for &rate in &arguments.rates {
         progress.say(format!("{rate} Hz for {} s", arguments.seconds));

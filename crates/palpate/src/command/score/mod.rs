@@ -71,7 +71,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         None => folder.task(),
     };
     let score = folder.score(&task);
-    let mut warnings = doubts(&folder);
+    let mut warnings = warnings(&folder);
     let standards = match arguments.expert.as_deref().or(task.expert.as_deref()) {
         Some(path) => {
             let experts = experts(path, &folder, arguments.expert.is_some(), &mut warnings)?;
@@ -169,17 +169,17 @@ fn standards(
     Standard::of(&scores)
 }
 
-fn doubts(folder: &SessionFolder) -> Vec<String> {
-    let mut doubts = folder.warnings();
+fn warnings(folder: &SessionFolder) -> Vec<String> {
+    let mut warnings = folder.warnings();
     if folder.session.rows.is_empty() {
-        doubts.push("the session has no row: nothing was done".to_owned());
+        warnings.push("the session has no row: nothing was done".to_owned());
     }
     if folder.scene.is_none() {
-        doubts.push(
+        warnings.push(
             "there is no scene.toml beside the session: its task and its force limit are not known; \
              name them with --scene"
                 .to_owned(),
         );
     }
-    doubts
+    warnings
 }

@@ -63,9 +63,11 @@ impl Repeated {
         let tool = &simulation.tools()[0];
         let site = simulation.site(tool, at.map(Vec3::from));
         let file = self.file.display().to_string();
-        let doubts = self.recording.doubts.iter();
-        let mut doubts: Vec<String> = doubts.map(|doubt| format!("{file}: {doubt}")).collect();
-        doubts.extend(self.other_tip(&scene.tools[0].tip));
+        let warnings = self.recording.warnings.iter();
+        let mut warnings: Vec<String> = warnings
+            .map(|warning| format!("{file}: {warning}"))
+            .collect();
+        warnings.extend(self.other_tip(&scene.tools[0].tip));
         let CleanRecording {
             time,
             depth,
@@ -77,7 +79,7 @@ impl Repeated {
         let time: Vec<f64> = time.iter().map(|t| t + handling.contact.time_s).collect();
         let motion = site.indented(tool, (&time, &depth))?;
         let recorded = [time, depth, filtered_force];
-        Ok((motion, Beside::new(self.file, recorded, (site, doubts))))
+        Ok((motion, Beside::new(self.file, recorded, (site, warnings))))
     }
 
     /// What is said when the indenter was not the tip.

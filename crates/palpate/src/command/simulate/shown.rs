@@ -27,7 +27,7 @@ pub(super) fn run(scene: Scene, resources: Resources) -> Result<(), Failure> {
     }
     SceneDevices::check(&scene, &resources.devices)?;
     let simulation = Arc::new(preparation::simulation(&scene, &resources, Reader::Person)?);
-    output::warnings(simulation.doubts());
+    output::warnings(simulation.warnings());
     let names = simulation.clone();
     let devices = SceneDevices::open(&scene, &simulation, &resources.devices)?;
     let environment = Environment {

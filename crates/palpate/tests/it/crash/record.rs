@@ -61,7 +61,11 @@ pub(super) fn crash(kills: u32, disks: u32) -> String {
             acknowledged.push(trial);
         }
         let record = Record::open(folder.join("record.sqlite")).unwrap();
-        assert!(record.doubts().is_empty(), "{trial}: {:?}", record.doubts());
+        assert!(
+            record.warnings().is_empty(),
+            "{trial}: {:?}",
+            record.warnings()
+        );
         let kept = record.attempts(&Filter::default()).unwrap();
         for trainee in &acknowledged {
             let name = format!("T{trainee}");

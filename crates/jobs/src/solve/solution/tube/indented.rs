@@ -5,7 +5,7 @@ use palpate_mechanics::finite_elements::tube::{TubeProblem, TubePunch, indent};
 use super::super::super::problem::{Problem, Tube, TubeIndent};
 use super::super::super::table::Table;
 use super::super::figures::Figures;
-use super::super::{Solution, doubts, millimetres, millinewtons, plots};
+use super::super::{Solution, millimetres, millinewtons, plots, warnings};
 use crate::Error;
 use crate::plot::Plot;
 use crate::solve::telling::Telling;
@@ -56,9 +56,9 @@ pub(crate) fn with_forces(
             .with("force [mN]", millinewtons(&forces)),
     );
     let mut warnings = inflated.warnings;
-    warnings.extend(doubts::of_depths(problem, punch.radius, depths));
+    warnings.extend(warnings::of_depths(problem, punch.radius, depths));
     warnings.extend(found.warnings);
-    warnings.extend(found.answer.doubts);
+    warnings.extend(found.answer.warnings);
     // Of the one that errs more.
     let (estimated_error, observed_order) = if found.error > inflated.estimated_error {
         (found.error, found.observed_order)

@@ -39,7 +39,7 @@ pub(crate) fn solution(
     let inflated = found.answer;
     let mut warnings = found.warnings;
     warnings.extend(inflated.warnings.iter().cloned());
-    warnings.extend(doubts(problem, case, &inflated));
+    warnings.extend(warnings_of_tube(problem, case, &inflated));
     let moved = &inflated.inner_displacements;
     let in_words = |moved: &Option<f64>| match moved {
         Some(moved) => rounded(1e3 * moved, 4),
@@ -95,8 +95,8 @@ fn heading(case: &Tube, inflated: &Inflated) -> String {
     }
 }
 
-fn doubts(problem: &Problem, case: &Tube, inflated: &Inflated) -> Vec<String> {
-    let mut doubts = Vec::new();
+fn warnings_of_tube(problem: &Problem, case: &Tube, inflated: &Inflated) -> Vec<String> {
+    let mut warnings = Vec::new();
     let asked = case.pressures.iter().zip(&inflated.inner_displacements);
     let past: Vec<String> = asked
         .clone()
@@ -107,7 +107,7 @@ fn doubts(problem: &Problem, case: &Tube, inflated: &Inflated) -> Vec<String> {
         let limit = inflated.limit_pressure.map_or(String::new(), |limit| {
             format!(", {}", plain_quantity("_pa", limit, None))
         });
-        doubts.push(format!(
+        warnings.push(format!(
             "{}: past the limit{limit}; a tube of this law has no equilibrium there, for it \
              balloons",
             past.join(", ")
@@ -115,7 +115,7 @@ fn doubts(problem: &Problem, case: &Tube, inflated: &Inflated) -> Vec<String> {
     }
     let widest = asked.filter_map(|(_, moved)| *moved).fold(0.0, f64::max);
     if problem.is_small_strain() && widest > 0.1 * case.inner_radius {
-        doubts.push(format!(
+        warnings.push(format!(
             "the linear law is for small strain, but the inner wall moves by {:.2} of its radius; \
              a hyperelastic law follows large strain",
             widest / case.inner_radius
@@ -124,11 +124,11 @@ fn doubts(problem: &Problem, case: &Tube, inflated: &Inflated) -> Vec<String> {
     if let Some(from) = inflated.wrinkles_from
         && case.pressures.iter().any(|pressure| *pressure >= from)
     {
-        doubts.push(format!(
+        warnings.push(format!(
             "from {} on the tube could wrinkle along its length; the answers are those of a \
              smooth one",
             plain_quantity("_pa", from, None)
         ));
     }
-    doubts
+    warnings
 }

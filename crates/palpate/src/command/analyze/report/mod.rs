@@ -8,8 +8,8 @@ mod swings;
 
 use palpate_characterize::analyze::{OrganResponse, StaticGroup};
 
-use crate::report::{Markup, Page, Provenance, Table, count, doubts, provenance};
-use palpate_jobs::analyze::{Analyzed, doubts_of};
+use crate::report::{Markup, Page, Provenance, Table, count, provenance, warning_list};
+use palpate_jobs::analyze::{Analyzed, warnings_of};
 use palpate_jobs::{ReadRecording, Unusable};
 
 /// Curves that are drawn in one plot, at most.
@@ -31,12 +31,12 @@ pub(super) fn html(analyzed: &Analyzed, settings: &[(String, String)]) -> String
         .map(|response| section(analyzed, response, several))
         .collect();
     let unusable: Vec<_> = analyzed.unusable.iter().map(Unusable::sentence).collect();
-    let unusable = doubts("Files that could not be used", &unusable);
+    let unusable = warning_list("Files that could not be used", &unusable);
     let recordings = analyzed.recordings.iter().map(|(read, _)| source(read));
     Page {
         title,
         lead: Markup::of_class("p", "lead", lead(analyzed)),
-        body: overview.and(organs).and(unusable).and(doubted(analyzed)),
+        body: overview.and(organs).and(unusable).and(warned(analyzed)),
         foot: provenance(settings, recordings).and(Markup::plain("p", CONVENTIONS)),
     }
     .html()
@@ -91,11 +91,11 @@ fn section(analyzed: &Analyzed, response: &OrganResponse, several: bool) -> Mark
     Markup::plain("section", inside)
 }
 
-/// What deserves doubt, recording by recording.
-fn doubted(analyzed: &Analyzed) -> Markup {
+/// Warnings, recording by recording.
+fn warned(analyzed: &Analyzed) -> Markup {
     let mut table = Table::new(["recording", "warning"]).of_class("text");
     for (read, analysis) in &analyzed.recordings {
-        let said: Vec<&str> = doubts_of(read, analysis).map(String::as_str).collect();
+        let said: Vec<&str> = warnings_of(read, analysis).map(String::as_str).collect();
         if !said.is_empty() {
             let file = Markup::plain("code", read.path.display().to_string());
             table.row(vec![file, said.join("; ").into()]);

@@ -136,8 +136,8 @@ pub(super) fn parameters(own: &Specimen) -> Markup {
 }
 
 /// What the columns of intervals and verdicts mean.
-const INTERVALS: &str = "The interval is the standard error times the quantile of Student's distribution, with the doubt about the \
-relaxation. The profile holds the relaxation at what was found and so leaves that doubt out: it shows how far the objective is from a parabola, and \
+const INTERVALS: &str = "The interval is the standard error times the quantile of Student's distribution, with the warning about the \
+relaxation. The profile holds the relaxation at what was found and so leaves that uncertainty out: it shows how far the objective is from a parabola, and \
 may be narrower than the interval. The verdict follows from the standard error (hardly known: more than a quarter of the value), the \
 largest correlation (tied: 0.95 or more, up or down) and the bounds.";
 

@@ -1,5 +1,5 @@
 use super::{strips, words};
-use crate::report::{Markup, Table, doubts, quantity, symbol};
+use crate::report::{Markup, Table, quantity, symbol, warning_list};
 use palpate_jobs::characterize::Pooled;
 use palpate_jobs::characterize::{Answer, Specimen};
 
@@ -107,5 +107,5 @@ fn unusable(answer: &Answer) -> Markup {
         return Markup::default();
     }
     let sentences: Vec<String> = answer.unusable.iter().map(|own| own.sentence()).collect();
-    doubts("Files that could not be used", &sentences)
+    warning_list("Files that could not be used", &sentences)
 }

@@ -1,5 +1,5 @@
 use super::{convergence, curves, laws, lumped, relaxation, words};
-use crate::report::{Markup, count, doubts, quantity, rounded, symbol};
+use crate::report::{Markup, count, quantity, rounded, symbol, warning_list};
 use palpate_jobs::characterize::Portrait;
 use palpate_jobs::characterize::{Identified, Known, Specimen};
 
@@ -114,7 +114,7 @@ fn known_card(name: Markup, key: &str, known: &Known) -> Markup {
     card(name, quantity(key, known.value, known.standard_error), note)
 }
 
-/// What can be told apart, by the verdicts on each parameter, and what else deserves doubt.
+/// What can be told apart, by the verdicts on each parameter, and what else deserves warning.
 fn told(own: &Specimen) -> Markup {
     let others = own
         .warnings
@@ -123,9 +123,9 @@ fn told(own: &Specimen) -> Markup {
     let others: Vec<String> = others.cloned().collect();
     let apart = match own.identifiability.is_empty() {
         true => Markup::plain("p", known_by_itself(own).unwrap_or_default()),
-        false => doubts("What these recordings cannot tell", &own.identifiability),
+        false => warning_list("What these recordings cannot tell", &own.identifiability),
     };
-    apart.and(doubts("Warnings", &others))
+    apart.and(warning_list("Warnings", &others))
 }
 
 /// The sentence on a preferred law and a relaxation whose parameters are all known by themselves, with the numbers

@@ -67,15 +67,20 @@ fn verdict(
     report: &MeshReport,
 ) -> (bool, String) {
     let refusal = match Surface::new(mesh.clone()) {
-        Ok(_) => return (true, format!("it bounds one solid{}", doubts(report))),
+        Ok(_) => {
+            return (
+                true,
+                format!("it bounds one solid{}", expected_errors(report)),
+            );
+        }
         Err(refusal) => refusal,
     };
     match repaired.map(Surface::new) {
         Some(Ok(surface)) => {
-            let doubts = doubts(&inspect(surface.mesh()));
+            let spoiled = expected_errors(&inspect(surface.mesh()));
             (
                 true,
-                format!("after the repair it bounds one solid{doubts}"),
+                format!("after the repair it bounds one solid{spoiled}"),
             )
         }
         Some(Err(refusal)) => (false, format!("even after the repair {refusal}")),
@@ -83,8 +88,8 @@ fn verdict(
     }
 }
 
-/// What does not forbid a simulation, but spoils it.
-fn doubts(report: &MeshReport) -> String {
+/// Defects that allow a simulation but make its forces wrong.
+fn expected_errors(report: &MeshReport) -> String {
     let spoils = report
         .problems
         .iter()

@@ -3,10 +3,10 @@ use std::collections::BTreeMap;
 use palpate_jobs::Unusable;
 use palpate_jobs::characterize::Answer;
 
-/// Specimens whose doubts are all said one by one.
+/// Specimens whose warnings are all said one by one.
 const FEW: usize = 4;
 
-/// The doubts of `answer` as lines on a screen: all of a few specimens; of many, what is said of several of
+/// The warnings of `answer` as lines on a screen: all of a few specimens; of many, what is said of several of
 /// them once, and how much else there is.
 pub(super) fn for_people(answer: &Answer) -> Vec<String> {
     let count = answer.specimens.len();
@@ -14,14 +14,14 @@ pub(super) fn for_people(answer: &Answer) -> Vec<String> {
         return answer.warnings.clone();
     }
     let mut said: BTreeMap<&str, usize> = BTreeMap::new();
-    let doubts = answer.specimens.iter().flat_map(|own| &own.warnings);
-    for doubt in doubts {
-        *said.entry(doubt).or_default() += 1;
+    let warnings = answer.specimens.iter().flat_map(|own| &own.warnings);
+    for warning in warnings {
+        *said.entry(warning).or_default() += 1;
     }
     let (common, single): (Vec<_>, Vec<_>) = said.into_iter().partition(|(_, times)| *times > 1);
     let mut lines: Vec<String> = common
         .iter()
-        .map(|(doubt, times)| format!("{times} of {count} specimens: {doubt}"))
+        .map(|(warning, times)| format!("{times} of {count} specimens: {warning}"))
         .collect();
     if !single.is_empty() {
         let more = single.len();

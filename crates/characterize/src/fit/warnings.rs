@@ -15,9 +15,9 @@ const TAKES_PART: f64 = 0.3;
 /// Rounding of a model's values [-].
 const ROUNDING: f64 = 1e-12;
 
-/// Sentences on what deserves doubt in a fit; none when there is nothing. `duration` [s] is that of the
+/// Sentences on warnings in a fit; none when there is nothing. `duration` [s] is that of the
 /// recording, to which time constants (parameters in seconds) are compared.
-pub fn doubts(fit: &Fit, uncertainty: &Uncertainty, duration: Option<f64>) -> Vec<String> {
+pub fn warnings(fit: &Fit, uncertainty: &Uncertainty, duration: Option<f64>) -> Vec<String> {
     let mut sentences = Vec::new();
     let early = match fit.stop {
         Stop::Converged => None,

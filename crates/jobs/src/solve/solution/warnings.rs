@@ -1,4 +1,4 @@
-//! What deserves doubt, as sentences.
+//! Warnings.
 
 use palpate_simulate::TRUSTED_DEPTH;
 
@@ -12,53 +12,53 @@ const FAST: f64 = 8.0;
 
 /// Of every kind of problem.
 pub(crate) fn shared(problem: &Problem, estimated_error: f64) -> Vec<String> {
-    let mut doubts = [&problem.warnings[..], &problem.material.doubts].concat();
+    let mut warnings = [&problem.warnings[..], &problem.material.warnings].concat();
     // An error that is no number is not within what was asked for.
     if estimated_error.is_nan() || estimated_error > problem.accuracy {
-        doubts.push(format!(
+        warnings.push(format!(
             "the accuracy was not reached: the estimated error is {:.2} %, {} % were asked for; \
              the mesh is as fine as it is made",
             100.0 * estimated_error,
             100.0 * problem.accuracy,
         ));
     }
-    doubts
+    warnings
 }
 
 /// Of pressing something of a contact `radius` [m] to `depths` [m].
 pub(crate) fn of_depths(problem: &Problem, radius: f64, depths: &[f64]) -> Vec<String> {
     let deepest = depths.iter().copied().fold(0.0, f64::max);
-    let mut doubts = Vec::new();
+    let mut warnings = Vec::new();
     if deepest > TRUSTED_DEPTH {
-        doubts.push(format!(
+        warnings.push(format!(
             "the depth reaches {:.1} mm; beyond 10 mm no model here has been compared with tissue",
             1e3 * deepest
         ));
     }
     if problem.is_small_strain() && deepest > LARGE_STRAIN * radius {
-        doubts.push(format!(
+        warnings.push(format!(
             "the linear law is for small strain, but the depth is {:.2} of the contact's radius; \
              a hyperelastic law follows large strain",
             deepest / radius
         ));
     }
-    doubts
+    warnings
 }
 
 /// Of a ramp that takes `ramp` [s], which is a quarter of a sine's period.
 pub(crate) fn of_ramp(problem: &Problem, ramp: f64) -> Vec<String> {
-    let mut doubts = Vec::new();
+    let mut warnings = Vec::new();
     let frequency = 0.25 / ramp;
     if frequency > FAST {
-        doubts.push(format!(
+        warnings.push(format!(
             "the ramp is as fast as a sine of {frequency:.0} Hz; beyond 8 Hz no measurement \
              stands behind the relaxation, and inertia is left out"
         ));
     }
     if problem.tissue.prony.is_empty() {
-        doubts.push(
+        warnings.push(
             "the tissue has no `prony` terms, so that nothing relaxes while it is held".to_owned(),
         );
     }
-    doubts
+    warnings
 }

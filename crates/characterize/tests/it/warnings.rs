@@ -1,16 +1,20 @@
-//! What deserves doubt is told.
+//! Warnings.
 
 use palpate_characterize::{CleanSettings, clean};
 use palpate_files::Recording;
 
 use crate::made_up::{Dice, own, ramp_and_hold, times};
 
-fn doubts(recording: &Recording) -> Vec<String> {
-    clean(recording, &CleanSettings::default()).unwrap().doubts
+fn warnings(recording: &Recording) -> Vec<String> {
+    clean(recording, &CleanSettings::default())
+        .unwrap()
+        .warnings
 }
 
 fn tells(recording: &Recording, words: &str) -> bool {
-    doubts(recording).iter().any(|doubt| doubt.contains(words))
+    warnings(recording)
+        .iter()
+        .any(|warning| warning.contains(words))
 }
 
 /// Depth in metres and force of a 6 mm touch, in other sizes.
@@ -25,7 +29,7 @@ fn touch(depth_size: f64, force_size: f64) -> Recording {
 
 #[test]
 fn nothing_is_told_of_a_good_recording() {
-    assert_eq!(doubts(&touch(1.0, 1.0)), Vec::<String>::new());
+    assert_eq!(warnings(&touch(1.0, 1.0)), Vec::<String>::new());
 }
 
 #[test]
