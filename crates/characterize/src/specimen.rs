@@ -67,11 +67,11 @@ pub struct Characterization {
     pub laws: Vec<(SoughtLaw, Result<LawDescription, Error>)>,
     /// The same from pieces that were pressed or pulled along one axis; empty without any.
     pub uniaxial: Vec<(SoughtLaw, Result<UniaxialFit, Error>)>,
-    /// What deserves warning in the relaxation.
+    /// Warnings about the relaxation.
     pub relaxation_warnings: Vec<String>,
     /// What can be told apart and what cannot, in plain sentences, of relaxation and laws.
     pub identifiability: Vec<String>,
-    /// What else deserves warning, in plain sentences.
+    /// Warnings about plain sentences.
     pub warnings: Vec<String>,
 }
 

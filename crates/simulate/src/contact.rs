@@ -13,7 +13,7 @@
 
 use nalgebra::{Matrix3, Rotation3};
 use palpate_geometry::{AabbTree, Footing, PatchField, Surface, Vec3, follow, settle};
-use palpate_mechanics::contact::Bond;
+use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_spheres::{LocalContact, Placement, Surroundings, first_direction};
 
 use crate::simulation::Simulation;
@@ -160,14 +160,14 @@ pub(crate) fn detect(
         contact.place = place(ground, tool, (&footing, depth), Some(&last.place.frame));
     }
     match tool.bond {
-        Bond::Slip => {}
-        Bond::Stick if tool.slides() => {
+        Friction::Frictionless => {}
+        Friction::Bonded if tool.slides() => {
             let normal = contact.rest_normal();
             let moved = last.sheared + (tip - last.tip);
             contact.sheared = moved - normal * normal.dot(&moved);
         }
-        Bond::Stick if contact.displacement(tool, tip).z >= 0.0 => return None,
-        Bond::Stick => {
+        Friction::Bonded if contact.displacement(tool, tip).z >= 0.0 => return None,
+        Friction::Bonded => {
             let tip = tool.tip.beside(contact.place.mean_curvature());
             contact.place.radius = tip.contact_radius(depth);
         }

@@ -12,7 +12,7 @@ use nalgebra::Matrix3;
 use palpate_files::Scene;
 use palpate_files::scene::Shape;
 use palpate_geometry::{AabbTree, PatchField, Surface, Vec3};
-use palpate_mechanics::contact::Bond;
+use palpate_mechanics::contact::Friction;
 
 use crate::contact::{self, Contact, Ground};
 use crate::simulation::{Simulation, radius_of_hemisphere};
@@ -117,8 +117,8 @@ impl ToolState {
         let mut force = frame * (-RIGID_STIFFNESS * contact.displacement(tool, tip));
         contact.slide(tool, &mut force);
         let along = match tool.bond {
-            Bond::Stick if !contact.slides => RIGID_STIFFNESS,
-            Bond::Stick | Bond::Slip => 0.0,
+            Friction::Bonded if !contact.slides => RIGID_STIFFNESS,
+            Friction::Bonded | Friction::Frictionless => 0.0,
         };
         let stiffness = Matrix3::from_diagonal(&Vec3::new(along, along, RIGID_STIFFNESS));
         self.stopped.force += force;

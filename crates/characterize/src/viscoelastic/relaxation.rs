@@ -102,7 +102,7 @@ impl Relaxation {
         Correlations::of(names.collect(), &covariance)
     }
 
-    /// What deserves warning in it, after recordings of `duration` [s].
+    /// Warnings about it, after recordings of `duration` [s].
     pub fn warnings(&self, duration: f64) -> Vec<String> {
         let mut said = Vec::new();
         for (place, [g, tau]) in (1..).zip(&self.terms) {

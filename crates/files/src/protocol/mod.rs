@@ -30,7 +30,7 @@ pub struct Protocol {
     pub specimens: Vec<Measured>,
     /// What is done to each: one or more.
     pub stimuli: Vec<StimulusPlan>,
-    /// What deserves a warning among its numbers, as sentences.
+    /// Warnings about its numbers, as sentences.
     pub warnings: Vec<String>,
 }
 

@@ -64,7 +64,7 @@ pub struct Scene {
     pub variant: Option<Variant>,
     /// Its text, which means the same in any folder ([`standing_alone`]); none once something was changed.
     pub written: Option<String>,
-    /// What deserves a warning among its numbers, as sentences; none once something was changed.
+    /// Warnings about its numbers, as sentences; none once something was changed.
     pub warnings: Vec<String>,
 }
 

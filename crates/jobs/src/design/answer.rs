@@ -23,7 +23,7 @@ pub struct Answer {
     pub worst: f64,
     /// Protocols that were compared.
     pub compared: usize,
-    /// What deserves warning.
+    /// Warnings.
     pub warnings: Vec<String>,
 }
 

@@ -17,7 +17,7 @@ pub struct Measuring {
     specimens: Vec<OnRig>,
     /// Each with what it is called and which repetition it is.
     stimuli: Vec<(String, u64, Course)>,
-    /// What deserves warning.
+    /// Warnings.
     pub warnings: Vec<String>,
 }
 

@@ -28,7 +28,7 @@ pub struct Plan {
     pub specimens: Vec<Measured>,
     /// Each with how often it is repeated.
     pub stimuli: Vec<(Course, u64)>,
-    /// What deserves warning.
+    /// Warnings.
     pub warnings: Vec<String>,
     /// A device that is there; none for one that is not.
     device: Option<(Kind, Places)>,

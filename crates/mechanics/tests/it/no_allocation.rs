@@ -3,7 +3,7 @@
 use assert_no_alloc::{AllocDisabler, assert_no_alloc, reset_violation_count, violation_count};
 use palpate_geometry::Organ;
 use palpate_mechanics::Vec3;
-use palpate_mechanics::contact::Bond;
+use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_spheres::{Assembly, FiniteSphereSettings, Form, Solver};
 use palpate_mechanics::surface_response::{
     MovedTriangle, PatchContact, PatchWorkspace, Reciprocity, TipField, TouchId,
@@ -59,7 +59,7 @@ fn a_step_allocates_nothing() {
             },
         ),
     ] {
-        let model = model(settings, 0.45, Bond::Stick);
+        let model = model(settings, 0.45, Friction::Bonded);
         let mut workspace = model.workspace();
         let mut random = Random(1);
         let tip = 1e-3 * random.vector();
@@ -107,7 +107,7 @@ fn contact_on_a_response_allocates_nothing() {
     let response = solid.response::<f32>(&solid.free);
     let field = TipField::new(&response, &solid.surface, 2e-3).unwrap();
     let contact = PatchContact {
-        bond: Bond::Stick,
+        bond: Friction::Bonded,
         reciprocity: Reciprocity::Imposed,
         youngs_modulus: 1e4,
     };

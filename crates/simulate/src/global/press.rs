@@ -16,7 +16,7 @@
 
 use nalgebra::Matrix3;
 use palpate_geometry::{Footing, Vec3, closest_on_triangle, settle};
-use palpate_mechanics::contact::Bond;
+use palpate_mechanics::contact::Friction;
 use palpate_mechanics::enhance::SurfacePoint;
 use palpate_mechanics::surface_response::TipLoad;
 use palpate_mechanics::{Limit, Limits, Reached};
@@ -212,7 +212,7 @@ impl GlobalModel {
         let law = tool.law.beside(contact.place.mean_curvature());
         let answer = law.force_in_series(&moved, &compliance);
         let mut own = moved + compliance * answer.force;
-        if tool.bond == Bond::Slip {
+        if tool.bond == Friction::Frictionless {
             own = Vec3::new(0.0, 0.0, own.z);
         }
         state.moves = moved.norm();

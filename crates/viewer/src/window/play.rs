@@ -50,7 +50,7 @@ pub(super) struct Play {
     pub(super) source: Source,
     pub(super) organ: SeenOrgan,
     pub(super) neighbours: Vec<Body>,
-    /// What deserves warning.
+    /// Warnings.
     pub(super) warnings: Vec<String>,
     /// Bounds of the models that acted since the start.
     pub(super) limits: Vec<String>,

@@ -4,7 +4,7 @@ use std::path::Path;
 use palpate_files::scene::{Region, Shape};
 use palpate_files::{Domain, Error, Key, Keys};
 use palpate_mechanics::Vec3;
-use palpate_mechanics::contact::Bond;
+use palpate_mechanics::contact::Friction;
 
 use super::{BOND_MEANINGS, BONDS, required_table};
 
@@ -20,7 +20,7 @@ pub(crate) struct Solid {
     pub(crate) radius: f64,
     /// [m]
     pub(crate) displacement: Vec3,
-    pub(crate) contact: Bond,
+    pub(crate) contact: Friction,
 }
 
 const DISPLACEMENT: Domain =
@@ -72,7 +72,7 @@ impl Solid {
             center: patch.required_vector("center_m")?.into(),
             radius: patch.required_number("radius_m")?,
             displacement: patch.required_vector("displacement_m")?.into(),
-            contact: patch.word("contact", BONDS)?.unwrap_or(Bond::Stick),
+            contact: patch.word("contact", BONDS)?.unwrap_or(Friction::Bonded),
         })
     }
 }

@@ -4,8 +4,7 @@ use std::path::Path;
 use palpate_files::scene::{LengthUnit, Shape};
 use palpate_geometry::read_tetrahedra;
 use palpate_geometry::vtk::{CellKind, Cells, FieldValues, PointField, unstructured_grid};
-use palpate_mechanics::contact::Bond;
-use palpate_mechanics::finite_elements::indentation::Grip;
+use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_elements::solid::{
     Body, MovedPatch, SolidFields, SolidProblem, solve,
 };
@@ -39,10 +38,7 @@ pub(crate) fn solution(
             center: case.center,
             radius: case.radius,
             displacement: case.displacement,
-            grip: match case.contact {
-                Bond::Stick => Grip::Stick,
-                Bond::Slip => Grip::Slide,
-            },
+            grip: case.contact,
         },
         law: problem.material.law.clone(),
     };
@@ -107,8 +103,8 @@ fn heading(case: &Solid) -> String {
         Shape::Mesh { path, .. } => path.display().to_string(),
     };
     let how = match case.contact {
-        Bond::Stick => "sticks",
-        Bond::Slip => "slips",
+        Friction::Bonded => "sticks",
+        Friction::Frictionless => "slips",
     };
     let radius = plots::short(1e3 * case.radius);
     format!("{name}, moved by a patch of radius {radius} mm that {how}")

@@ -5,7 +5,8 @@
 //! face that sticks.
 
 use super::super::supports::RigidSurface;
-use super::indenter::{Grip, Indenter, IndenterShape, Side};
+use super::indenter::{Indenter, IndenterShape, Side};
+use crate::contact::Friction;
 
 /// Contact of a node.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,8 +53,8 @@ impl Indenter {
         // Rounding of the mesh's own lines.
         let under = radius <= self.radius * (1.0 + 1e-9);
         match (self.shape, self.face) {
-            (IndenterShape::Flat { .. }, Grip::Stick) if under => Touch::Bonded { radius },
-            (IndenterShape::Flat { .. }, Grip::Slide) if under => Touch::OnFace,
+            (IndenterShape::Flat { .. }, Friction::Bonded) if under => Touch::Bonded { radius },
+            (IndenterShape::Flat { .. }, Friction::Frictionless) if under => Touch::OnFace,
             _ => Touch::Free,
         }
     }
@@ -78,7 +79,7 @@ impl Indenter {
             IndenterShape::Sphere | IndenterShape::Cone { .. } => self.face,
         };
         match (grip, self.shape) {
-            (Grip::Stick, _) => {
+            (Friction::Bonded, _) => {
                 let (outside, inside) = (-self.inside(then), self.inside(now));
                 let part = if outside > 0.0 && outside.is_finite() {
                     outside / (outside + inside)
@@ -92,8 +93,8 @@ impl Indenter {
                 };
                 (touch, part)
             }
-            (Grip::Slide, IndenterShape::Flat { .. }) => (Touch::OnSide, 1.0),
-            (Grip::Slide, IndenterShape::Sphere | IndenterShape::Cone { .. }) => {
+            (Friction::Frictionless, IndenterShape::Flat { .. }) => (Touch::OnSide, 1.0),
+            (Friction::Frictionless, IndenterShape::Sphere | IndenterShape::Cone { .. }) => {
                 (Touch::OnSurface, 1.0)
             }
         }

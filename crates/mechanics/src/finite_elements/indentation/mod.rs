@@ -18,7 +18,7 @@ mod run;
 mod slopes;
 mod stiffening;
 
-pub use indenter::{Grip, Indenter, IndenterShape, Side};
+pub use indenter::{Indenter, IndenterShape, Side};
 pub use mesh::{Base, Block};
 pub use problem::{History, IndentationAnswer, IndentationProblem, Relaxing, solve, solve_history};
 pub use run::{IndentationPoint, IndentationRun, IndentationSettings};

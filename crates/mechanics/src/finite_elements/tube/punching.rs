@@ -5,10 +5,10 @@
 //! then has the plane's x, and where it sticks also the y and z at which it was caught. A sliding node
 //! that would pull is let go. Force on the tissue: four times the reactions' sum.
 
+use crate::contact::Friction;
 use std::sync::Arc;
 
 use super::super::cavity::Cavity;
-use super::super::indentation::Grip;
 use super::super::model::{
     FiniteElementModel, FiniteElementState, FiniteElementWorkspace, Formulation,
 };
@@ -218,7 +218,7 @@ impl<'a> Punching<'a> {
             if let Some([y, z]) = caught {
                 let rest = self.model.mesh().nodes[node];
                 held[3 * node] = Some(self.top - depth - rest.x);
-                if self.punch.face == Grip::Stick {
+                if self.punch.face == Friction::Bonded {
                     // A plane of symmetry holds at zero already.
                     held[3 * node + 1].get_or_insert(y - rest.y);
                     held[3 * node + 2].get_or_insert(z - rest.z);
@@ -286,7 +286,7 @@ impl<'a> Punching<'a> {
                 changed = true;
             } else if caught.is_some()
                 && may
-                && self.punch.face == Grip::Slide
+                && self.punch.face == Friction::Frictionless
                 && self.workspace.reaction(&self.model, node).x > 0.0
             {
                 *caught = None;
@@ -315,7 +315,7 @@ mod tests {
         }
     }
 
-    fn punch(radius: f64, face: Grip, pressure: f64) -> TubePunch {
+    fn punch(radius: f64, face: Friction, pressure: f64) -> TubePunch {
         TubePunch {
             radius,
             face,
@@ -330,8 +330,8 @@ mod tests {
         let law = LinearElastic::new(1e3, 0.3).unwrap();
         let problem = problem([0.16, 0.02, 0.08], law);
         for (face, exact) in [
-            (Grip::Slide, 2e3 / (1.0 - 0.09)),
-            (Grip::Stick, 2e3 / 1.3 * 1.8_f64.ln() / 0.4),
+            (Friction::Frictionless, 2e3 / (1.0 - 0.09)),
+            (Friction::Bonded, 2e3 / 1.3 * 1.8_f64.ln() / 0.4),
         ] {
             let punch = punch(1e-3, face, 0.0);
             let mut run = Punching::new(&problem, &punch, 1).unwrap();
@@ -350,7 +350,7 @@ mod tests {
     fn pressure_alone_widens_the_axisymmetric_tube() {
         let law = NeoHookean::incompressible(5200.0 / 6.0).unwrap();
         let problem = problem([0.03, 0.005, 0.0075], law);
-        let punch = punch(0.002, Grip::Stick, 400.0);
+        let punch = punch(0.002, Friction::Bonded, 400.0);
         let mut run = Punching::new(&problem, &punch, 1).unwrap();
         run.pressurise().unwrap();
         let far = |x: &Vec3| (x.xy() - nalgebra::Vector2::new(-0.005, 0.0)).norm() < 1e-9;
@@ -368,7 +368,7 @@ mod tests {
     fn force_is_the_derivative_of_the_energy() {
         let law = NeoHookean::incompressible(5200.0 / 6.0).unwrap();
         let problem = problem([0.02, 0.005, 0.0075], law);
-        let punch = punch(0.002, Grip::Stick, 300.0);
+        let punch = punch(0.002, Friction::Bonded, 300.0);
         let mut run = Punching::new(&problem, &punch, 1).unwrap();
         run.pressurise().unwrap();
         let mut at = |depth: f64| {

@@ -130,7 +130,7 @@ impl<'r> Course<'r> {
         Spread::of(&judged.filter_map(|own| own.learnt(of)).collect::<Vec<_>>())
     }
 
-    /// What deserves warning.
+    /// Warnings.
     pub(super) fn warnings(&self) -> Vec<String> {
         let task = self.task;
         let mut warnings = Vec::new();

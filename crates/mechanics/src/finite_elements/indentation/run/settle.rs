@@ -1,10 +1,11 @@
 //! Which nodes touch the indenter at an equilibrium, and where that is known.
 
 use super::super::contact::{Place, Touch};
-use super::super::indenter::{Grip, IndenterShape, Side};
+use super::super::indenter::{IndenterShape, Side};
 use super::super::slopes::{Entry, Slopes};
 use super::{Failure, FiniteElementState, IndentationRun};
 use crate::Error;
+use crate::contact::Friction;
 
 /// A node that is deeper than this inside after a step has come in too fast [-].
 const DEEPEST_CATCH: f64 = 0.1;
@@ -65,8 +66,10 @@ impl IndentationRun {
     /// Whether nodes come and go that touch without friction.
     pub(super) fn slides(&self) -> bool {
         match self.indenter.shape {
-            IndenterShape::Flat { side } => side == Side::Touches(Grip::Slide),
-            IndenterShape::Sphere | IndenterShape::Cone { .. } => self.indenter.face == Grip::Slide,
+            IndenterShape::Flat { side } => side == Side::Touches(Friction::Frictionless),
+            IndenterShape::Sphere | IndenterShape::Cone { .. } => {
+                self.indenter.face == Friction::Frictionless
+            }
         }
     }
 
