@@ -1,7 +1,7 @@
 //! The Python package `palpate`: meshes, tissues, scenes, recordings and the simulator, in the words of Rust.
 //!
 //! ```text
-//! palpate/*.py ──▶ _palpate (this crate) ──▶ files, geometry, simulate
+//! palpate/*.py ──▶ _palpate (this crate) ──▶ files, geometry, simulate, viewer
 //!                     │ waiting: long work on a thread of its own, the interpreter free, Ctrl-C heard
 //! ```
 //!
@@ -37,9 +37,11 @@ use pyo3::prelude::*;
 #[pymodule]
 fn _palpate(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add_class::<simulator::Camera>()?;
     module.add_class::<mesh::Mesh>()?;
     module.add_class::<motion::Motion>()?;
     module.add_class::<recording::Recording>()?;
+    module.add_class::<simulator::Renderer>()?;
     module.add_class::<scene::Scene>()?;
     module.add_class::<session::Session>()?;
     module.add_class::<simulator::Simulation>()?;

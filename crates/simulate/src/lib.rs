@@ -83,7 +83,7 @@ pub use replay::Replay;
 pub use session_folder::{SessionFolder, SessionFolderWriter, read_experts};
 pub use simulation::Simulation;
 pub use state::{SimulationState, SimulationWorkspace, ToolState};
-pub use step::{TRUSTED_DEPTH, shape, step, touch};
+pub use step::{TRUSTED_DEPTH, shape, show, step, touch};
 pub use summary::{CutSummary, LayerCut, StepTimes, Summary};
 pub use tool::Tool;
 pub use trocar::{ShaftFriction, Trocar};

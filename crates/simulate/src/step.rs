@@ -89,6 +89,32 @@ pub fn shape(
             cutting::advance(simulation, model, number, state);
         }
     }
+    move_surface(simulation, time, state, workspace);
+    show_cuts(simulation, time, state);
+    for (number, tool) in simulation.tools.iter().enumerate() {
+        touch_with_shaft(tool, number, state);
+    }
+}
+
+/// Moves the visible surface of `state` to its last step, however seldom [`SimulationState::show_every`] asks for it. A
+/// picture of a clone leaves the simulation as it is: the surface decides when a shaft touches.
+pub fn show(
+    simulation: &Simulation,
+    state: &mut SimulationState,
+    workspace: &mut SimulationWorkspace,
+) {
+    (state.shown_at, state.cuts_shown_at) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
+    move_surface(simulation, 0.0, state, workspace);
+    show_cuts(simulation, 0.0, state);
+}
+
+/// Moves the visible surface to where the organ is at `time` [s], if it is time.
+fn move_surface(
+    simulation: &Simulation,
+    time: f64,
+    state: &mut SimulationState,
+    workspace: &mut SimulationWorkspace,
+) {
     if let (Some(global), Some(workspace)) = (&simulation.global, &mut workspace.global) {
         global.deform((simulation, time), state, workspace);
     } else if let (Some(organ), Some(workspace)) = (&simulation.nonlinear, &mut workspace.nonlinear)
@@ -96,10 +122,6 @@ pub fn shape(
         organ.deform((simulation, time), state, workspace);
     } else {
         deform::deform(simulation, state, workspace);
-    }
-    show_cuts(simulation, time, state);
-    for (number, tool) in simulation.tools.iter().enumerate() {
-        touch_with_shaft(tool, number, state);
     }
 }
 

@@ -25,6 +25,8 @@ pub struct Camera {
 pub struct Lamp {
     /// The distance that it is set for [m]: what is nearer is brighter.
     pub distance: f64,
+    /// Its brightness over the usual one [-].
+    pub brightness: f64,
 }
 
 impl Camera {

@@ -11,7 +11,10 @@ use palpate_geometry::{Surface, TriangleMesh, Vec3};
 use palpate_simulate::interactive::OpenedSnapshot;
 use palpate_simulate::{Frame, Simulation, SimulationState, read_neighbour};
 
-use crate::render::{Body, Looks, Renderer, Target, Tint, ToolPicture, View, single_precision};
+use crate::render::{
+    Body, Label, LabelTarget, Labels, Looks, Renderer, Target, Tint, ToolPicture, View,
+    single_precision,
+};
 use crate::seen_organ::SeenOrgan;
 use crate::{Error, Gpu, TissuePicture, scene_camera};
 
@@ -29,6 +32,8 @@ pub struct Studio {
     neighbours: Vec<Body>,
     tools: Vec<SeenTool>,
     target: Target,
+    /// Once labels were asked for.
+    labels: Option<LabelTarget>,
     surface: Surface,
     opened: OpenedSnapshot,
     /// What is drawn beside the organ, such as its wire frame.
@@ -42,7 +47,19 @@ impl Studio {
     /// # Errors
     /// When there is no adapter or a neighbour cannot be read.
     pub fn new(scene: &Scene, simulation: &Simulation, size: (u32, u32)) -> Result<Self, Error> {
-        let gpu = Gpu::open()?;
+        Self::with_gpu(Gpu::open()?, scene, simulation, size)
+    }
+
+    /// The same on an adapter that is open.
+    ///
+    /// # Errors
+    /// When a neighbour cannot be read.
+    pub fn with_gpu(
+        gpu: Gpu,
+        scene: &Scene,
+        simulation: &Simulation,
+        size: (u32, u32),
+    ) -> Result<Self, Error> {
         let mesh = simulation.surface().mesh();
         let aspect = f64::from(size.0) / f64::from(size.1);
         let neighbours = scene
@@ -51,7 +68,7 @@ impl Studio {
             .map(|neighbour| {
                 let (surface, _) = read_neighbour(neighbour)?;
                 let tint = Tint::of(&neighbour.shape).receding();
-                Ok(Body::new(&gpu, &surface, tint))
+                Ok(Body::new(&gpu, &surface, tint).labelled(Label::Neighbour))
             })
             .collect::<Result<_, Error>>()?;
         let (low, high) = mesh.bounds();
@@ -61,6 +78,7 @@ impl Studio {
             neighbours,
             tools: seen_tools(scene, simulation),
             target: Target::new(&gpu, size, 4),
+            labels: None,
             surface: simulation.surface().clone(),
             opened: OpenedSnapshot::default(),
             beside: Vec::new(),
@@ -84,14 +102,42 @@ impl Studio {
     /// # Errors
     /// When the adapter was lost.
     pub fn picture(&mut self, state: &SimulationState) -> Result<RgbaImage, Error> {
+        self.take(state);
+        self.draw(state)
+    }
+
+    /// How far everything in the picture of `state` is, and what it is.
+    ///
+    /// # Errors
+    /// When the adapter was lost.
+    pub fn labels(&mut self, state: &SimulationState) -> Result<Labels, Error> {
+        self.take(state);
+        let size = self.target.size();
+        let target = self
+            .labels
+            .get_or_insert_with(|| LabelTarget::new(&self.gpu, size));
+        let bodies: Vec<&Body> = self.organ.bodies().chain(&self.neighbours).collect();
+        let tools = tool_pictures(&self.tools, state);
+        self.renderer
+            .measure(&self.gpu, &self.view, (&bodies, &tools), target);
+        target.read(&self.gpu)
+    }
+
+    /// Forgets the openings of the last picture: the next one is of another organ, whose cuts are counted anew.
+    pub fn forget_cuts(&mut self) {
+        self.opened = OpenedSnapshot::default();
+        self.organ.close();
+    }
+
+    /// Moves the organ to where `state` has it, with its openings.
+    fn take(&mut self, state: &SimulationState) {
         let mut opened = std::mem::take(&mut self.opened);
         if let Some(cuts) = &state.cuts {
             opened.fill(cuts);
         }
         let is_cut = opened.version > 0;
-        let picture = self.picture_of(state, is_cut.then_some(&opened));
+        self.shape(state, is_cut.then_some(&opened));
         self.opened = opened;
-        picture
     }
 
     /// A picture of `state` with these openings in place of those that it has.
@@ -103,6 +149,11 @@ impl Studio {
         state: &SimulationState,
         opening: Option<&OpenedSnapshot>,
     ) -> Result<RgbaImage, Error> {
+        self.shape(state, opening);
+        self.draw(state)
+    }
+
+    fn shape(&mut self, state: &SimulationState, opening: Option<&OpenedSnapshot>) {
         let vertices = single_precision(state.deformed.vertices());
         match opening {
             Some(opening) => {
@@ -113,6 +164,9 @@ impl Studio {
                 .organ
                 .deform(&self.gpu, &vertices, state.whole.as_ref()),
         }
+    }
+
+    fn draw(&mut self, state: &SimulationState) -> Result<RgbaImage, Error> {
         let bodies: Vec<&Body> = self
             .organ
             .bodies()
@@ -139,13 +193,15 @@ pub fn tool_pictures(tools: &[SeenTool], state: &SimulationState) -> Vec<ToolPic
     tools
         .iter()
         .zip(&state.tools)
-        .filter(|(_, own)| own.pose.is_some())
-        .map(|((tool, look), own)| {
+        .zip(0..)
+        .filter(|((_, own), _)| own.pose.is_some())
+        .map(|(((tool, look), own), number)| {
             let row = &own.row;
             let at = (row.position_m, row.orientation);
             let picture = ToolPicture::new(tool, at)
                 .looking_like(look.as_ref())
-                .gripping(row.grip);
+                .gripping(row.grip)
+                .labelled(Label::Tool(number));
             match &own.contact {
                 Some(contact) => picture.touching(contact.point()),
                 None => picture,

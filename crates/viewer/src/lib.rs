@@ -26,8 +26,11 @@ pub use error::Error;
 pub use frame::{FRAME_SIZE, FrameWriter, SeenTool, Studio, png, tool_pictures};
 pub use gpu::Gpu;
 pub use opened_surface::OpenedSurface;
-pub use orbit::{Orbit, scene_camera};
+pub use orbit::{Orbit, scene_camera, scene_endoscope};
 pub use pick::{Picked, pick};
 pub use render::user_map::TissuePicture;
-pub use render::{Body, Looks, Renderer, Target, Tint, ToolPicture, View, single_precision};
+pub use render::{
+    Body, Label, LabelTarget, Labels, Looks, Renderer, Target, Tint, ToolPicture, View,
+    single_precision,
+};
 pub use window::{Start, check_display, gesture, hands, open_window, training};

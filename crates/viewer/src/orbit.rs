@@ -134,7 +134,10 @@ impl Orbit {
         Camera {
             eye: self.target + (before + distance) * back,
             field_of_view: WIDE,
-            lamp: Some(Lamp { distance }),
+            lamp: Some(Lamp {
+                distance,
+                brightness: 1.0,
+            }),
             ..narrow
         }
     }
@@ -161,6 +164,26 @@ pub fn scene_camera(
         up: view.up.map_or(framing.up, Vec3::from),
         ..framing
     }
+}
+
+/// The endoscope that a scene asks for: from its eye if it says where that is, else before the organ.
+pub fn scene_endoscope(view: &scene::View, mesh: &TriangleMesh, aspect: f64) -> Camera {
+    let camera = scene_camera(view, (mesh, None), aspect);
+    if view.eye_m.is_some() {
+        let distance = camera.distance();
+        return Camera {
+            lamp: Some(Lamp {
+                distance,
+                brightness: 1.0,
+            }),
+            ..camera
+        };
+    }
+    let orbit = Orbit {
+        target: camera.target,
+        ..Orbit::framing(mesh, view.field_of_view_rad, aspect)
+    };
+    orbit.endoscope(orbit.before((mesh, &AabbTree::new(mesh))))
 }
 
 #[cfg(test)]

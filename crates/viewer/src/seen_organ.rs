@@ -89,6 +89,12 @@ impl SeenOrgan {
         self.is_open = true;
     }
 
+    /// Forgets what was cut.
+    pub(crate) fn close(&mut self) {
+        self.cut = None;
+        self.is_open = false;
+    }
+
     /// Moves it to `vertices` [m], or to where `whole` has what takes their place; nothing is cut.
     pub(crate) fn deform(&mut self, gpu: &Gpu, vertices: &[[f32; 3]], whole: Option<&OrganField>) {
         self.is_open = false;

@@ -5,9 +5,11 @@ mend, or another `PalpateError`.
 """
 
 from palpate._palpate import (
+    Camera,
     Mesh,
     Motion,
     Recording,
+    Renderer,
     Scene,
     Session,
     Simulation,
@@ -36,6 +38,7 @@ from palpate.jobs import (
 
 __all__ = [
     "Analysis",
+    "Camera",
     "Characterization",
     "Design",
     "FittedRecording",
@@ -48,6 +51,7 @@ __all__ = [
     "Parameter",
     "Recording",
     "Relaxation",
+    "Renderer",
     "Scene",
     "Session",
     "Simulation",

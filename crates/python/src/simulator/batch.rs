@@ -29,9 +29,10 @@ use crate::scene::Scene;
 ///     At most so many; without, as many as there are cores.
 #[pyclass(module = "palpate")]
 pub(crate) struct SimulationBatch {
-    model: Arc<Model>,
+    /// Of each state.
+    pub(super) models: Vec<Arc<Model>>,
     show_every: f64,
-    steppers: Vec<Stepper>,
+    pub(super) steppers: Vec<Stepper>,
     threads: usize,
 }
 
@@ -55,7 +56,7 @@ impl SimulationBatch {
         });
         Ok(Self {
             steppers: made.collect(),
-            model,
+            models: vec![model; count],
             show_every: simulation.show_every,
             threads,
         })
@@ -159,28 +160,55 @@ impl SimulationBatch {
         scene: Option<&Scene>,
     ) -> Result<(), Failure> {
         let chosen = self.chosen(which)?;
-        let (model, scene) = (&*self.model, scene.map(|scene| &scene.scene));
+        let (models, scene) = (&self.models, scene.map(|scene| &scene.scene));
         let (steppers, period) = (&mut self.steppers, self.show_every);
         py.detach(|| {
             for number in chosen {
-                steppers[number].reset(model, (scene, period))?;
+                steppers[number].reset(&models[number], (scene, period))?;
             }
             Ok(())
         })
     }
 
+    /// Puts another simulation in the place of a state, at rest and whole: each state may have its own tissue.
+    ///
+    /// Parameters
+    /// ----------
+    /// index : int
+    ///     Which state.
+    /// simulation : Simulation
+    ///     What was prepared, with tools of the same names.
+    fn replace(&mut self, index: isize, simulation: &Simulation) -> Result<(), Failure> {
+        let index = self.index(index)?;
+        let names = |model: &Model| -> Vec<String> {
+            let tools = model.prepared.tools().iter();
+            tools.map(|tool| tool.name.clone()).collect()
+        };
+        let (own, new) = (names(&self.models[0]), names(&simulation.model));
+        if own != new {
+            return Err(Failure::input(format!(
+                "the simulation has the tools {}, the batch has {}; give it the same ones",
+                new.join(", "),
+                own.join(", ")
+            )));
+        }
+        let mut stepper = Stepper::new(&simulation.model);
+        stepper.show_every(self.show_every);
+        self.steppers[index] = stepper;
+        self.models[index] = simulation.model.clone();
+        Ok(())
+    }
+
     /// Keeps a state; it may be taken back to any of the batch, or to the simulation.
     fn snapshot(&self, index: isize) -> Result<Snapshot, Failure> {
-        Ok(Snapshot::of(
-            &self.model,
-            &self.steppers[self.index(index)?],
-        ))
+        let index = self.index(index)?;
+        Ok(Snapshot::of(&self.models[index], &self.steppers[index]))
     }
 
     /// Takes a state back to one that was kept, to the same bit.
     fn restore(&mut self, index: isize, snapshot: &Snapshot) -> Result<(), Failure> {
         let index = self.index(index)?;
-        snapshot.restore(&self.model, &mut self.steppers[index])
+        snapshot.restore(&self.models[index], &mut self.steppers[index])
     }
 
     /// What there is to know of a state after its last step.
@@ -209,6 +237,19 @@ impl SimulationBatch {
     #[getter]
     fn depths<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
         self.of_tools(py, |tool| tool.pose.map_or(0.0, |_| tool.row.depth_m))
+    }
+
+    /// Quaternions (qx, qy, qz, qw) that map tool to scene [-]; NaN for a tool that is not there: shape
+    /// (count, tools, 4).
+    #[getter]
+    fn orientations<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray3<f64>> {
+        let tools = self.steppers.iter();
+        let tools = tools.flat_map(|stepper| &stepper.course.state.tools);
+        let flat = tools.flat_map(|tool| match tool.pose {
+            Some(_) => tool.row.orientation,
+            None => [f64::NAN; 4],
+        });
+        numbers::array(py, [self.steppers.len(), self.tools(), 4], flat.collect())
     }
 
     /// Which tools touch the organ: bool, shape (count, tools).
@@ -279,7 +320,7 @@ impl SimulationBatch {
 
 impl SimulationBatch {
     fn tools(&self) -> usize {
-        self.model.prepared.tools().len()
+        self.models[0].prepared.tools().len()
     }
 
     /// How many numbers a pose has, in an array with `before` lengths before those of a pose.
@@ -337,7 +378,7 @@ impl SimulationBatch {
     }
 
     /// The number of a state, counted from the end where it is below zero.
-    fn index(&self, index: isize) -> Result<usize, Failure> {
+    pub(super) fn index(&self, index: isize) -> Result<usize, Failure> {
         let count = self.steppers.len();
         let from_begin = match index < 0 {
             true => count.checked_add_signed(index),
@@ -370,8 +411,8 @@ impl SimulationBatch {
             goes_on: self.goes_on(which)?,
         };
         let mut forces = vec![0.0; count * steps * 3 * tools];
-        let (model, steppers, threads) = (&*self.model, &mut self.steppers, self.threads);
-        py.detach(|| all.run((model, threads), steppers, &mut forces))?;
+        let (models, steppers, threads) = (&*self.models, &mut *self.steppers, self.threads);
+        py.detach(|| all.run((models, steppers), threads, &mut forces))?;
         Ok(forces)
     }
 

@@ -13,7 +13,9 @@
 //! Python's `RuntimeError`.
 
 mod batch;
+pub(crate) mod camera;
 pub(crate) mod poses;
+mod renderer;
 mod resources;
 pub(crate) mod score;
 mod single;
@@ -33,6 +35,8 @@ use crate::failure::Failure;
 use crate::waiting::waiting;
 
 pub(crate) use batch::SimulationBatch;
+pub(crate) use camera::Camera;
+pub(crate) use renderer::Renderer;
 pub(crate) use single::Simulation;
 pub(crate) use snapshot::Snapshot;
 pub(crate) use state::State;

@@ -9,7 +9,7 @@ use pyo3::types::PyDict;
 
 use super::resources::Cache;
 use super::stepper::Stepper;
-use super::{Model, Snapshot, State, poses, resources, score};
+use super::{Camera, Model, Snapshot, State, poses, resources, score};
 use crate::failure::Failure;
 use crate::mesh::{self, Mesh};
 use crate::motion::Motion;
@@ -40,7 +40,7 @@ use crate::waiting::waiting;
 pub(crate) struct Simulation {
     pub(super) model: Arc<Model>,
     pub(super) show_every: f64,
-    stepper: Stepper,
+    pub(super) stepper: Stepper,
     marks: Vec<bool>,
 }
 
@@ -277,6 +277,19 @@ impl Simulation {
     fn reset(&mut self, scene: Option<&Scene>) -> Result<(), Failure> {
         let scene = scene.map(|scene| &scene.scene);
         self.stepper.reset(&self.model, (scene, self.show_every))
+    }
+
+    /// The camera that the scene asks for; what it does not say frames the organ.
+    ///
+    /// Parameters
+    /// ----------
+    /// aspect : float
+    ///     Width of the picture over its height [-].
+    /// endoscope : bool
+    ///     Whether it is an endoscope, near the organ and lit by its own lamp, or a camera in the room.
+    #[pyo3(signature = (aspect=4.0 / 3.0, endoscope=true), text_signature = "($self, aspect=1.3333333333333333, endoscope=True)")]
+    fn camera(&self, aspect: f64, endoscope: bool) -> Result<Camera, Failure> {
+        Camera::of(&self.model, aspect, endoscope)
     }
 
     /// Keeps the state.

@@ -1,6 +1,6 @@
 //! Steps of many states, shared out to threads.
 
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 
 use super::stepper::Stepper;
@@ -24,11 +24,11 @@ impl Steps<'_> {
     /// All of them; whoever is idle takes the next state. The forces [N] are written state by state.
     pub(super) fn run(
         &self,
-        (model, threads): (&Model, usize),
-        steppers: &mut [Stepper],
+        (models, steppers): (&[Arc<Model>], &mut [Stepper]),
+        threads: usize,
         forces: &mut [f64],
     ) -> Result<(), Failure> {
-        let (count, tools) = (steppers.len(), model.prepared.tools().len());
+        let (count, tools) = (steppers.len(), models[0].prepared.tools().len());
         let each = (self.steps * 3 * tools).max(1);
         let states = steppers.iter_mut().zip(forces.chunks_mut(each));
         let queue = Mutex::new(states.enumerate());
@@ -39,7 +39,9 @@ impl Steps<'_> {
                 let Some((number, (stepper, forces))) = next else {
                     return;
                 };
-                if let Err(failure) = self.run_one(model, (number, count), stepper, forces) {
+                if let Err(failure) =
+                    self.run_one(&models[number], (number, count), stepper, forces)
+                {
                     *failed.lock().unwrap_or_else(PoisonError::into_inner) = Some(failure);
                 }
             }

@@ -3,6 +3,7 @@ use palpate_geometry::{NodeId, Surface, TriangleMesh, Vec3};
 
 use super::Tint;
 use super::crease::crease;
+use super::labels::Label;
 use super::openings::Opening;
 use super::openness::openness;
 use crate::Gpu;
@@ -23,6 +24,8 @@ pub struct Body {
     pub(super) tint: Tint,
     pub(super) fibres: Option<Fibres>,
     pub(super) openings: Vec<Opening>,
+    /// What it is in a picture of labels.
+    pub(super) label: Label,
 }
 
 /// Which way the fibres of a muscular tube run: along an axis outside, around it inside.
@@ -101,7 +104,15 @@ impl Body {
             tint,
             fibres: None,
             openings: Vec::new(),
+            label: Label::Organ,
         }
+    }
+
+    /// The same as another label.
+    #[must_use]
+    pub fn labelled(mut self, label: Label) -> Self {
+        self.label = label;
+        self
     }
 
     /// The same with fibres that run so.

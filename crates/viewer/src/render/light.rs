@@ -40,7 +40,12 @@ impl Light {
             Some(lamp) => Self {
                 key: camera.eye + lamp.distance * (0.07 * up - 0.05 * right),
                 is_place: 1.0,
-                color: [2.3, 2.2, 2.05, (lamp.distance * lamp.distance) as f32],
+                color: [
+                    2.3,
+                    2.2,
+                    2.05,
+                    (lamp.brightness * lamp.distance * lamp.distance) as f32,
+                ],
                 up: back,
                 sky: [0.16, 0.11, 0.10, 0.0],
                 ground: [0.05, 0.020, 0.018, 0.0],

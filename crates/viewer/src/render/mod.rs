@@ -19,6 +19,7 @@ mod crease;
 pub(crate) mod environment;
 #[cfg(test)]
 mod film_tests;
+pub(crate) mod labels;
 mod light;
 mod maps;
 mod noise;
@@ -37,6 +38,7 @@ use wgpu::util::DeviceExt;
 
 pub use body::{Body, single_precision};
 pub(crate) use body::{FibreRun, Fibres};
+pub use labels::{Label, LabelTarget, Labels};
 pub use target::Target;
 pub use tint::Tint;
 pub use tool::ToolPicture;
@@ -139,37 +141,21 @@ impl Renderer {
         (bodies, tools): (&[&Body], &[ToolPicture]),
         target: &Target,
     ) {
-        self.write(gpu, view, (bodies, tools), target);
+        self.write(gpu, view, (bodies, tools), target.size());
         let mut encoder = gpu
             .device
             .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         {
-            let mut pass = begin(&mut encoder, target);
+            let mut pass = begin(&mut encoder, &target.attachments());
             pass.set_bind_group(0, &self.globals.group, &[]);
             let pipeline = |subject| self.pipelines.of(gpu, subject, target.samples());
             pass.set_pipeline(&pipeline(Subject::Tissue {
                 shading: number(view.shading),
                 looks: view.looks,
             }));
-            let bodies = bodies.iter().zip(&self.bodies);
-            for (body, bound) in bodies.filter(|(body, _)| body.triangles() > 0) {
-                pass.set_bind_group(1, self.maps.of(body.tint.has_vessels), &[]);
-                pass.set_bind_group(2, &bound.group, &[]);
-                pass.set_vertex_buffer(0, body.moving_buffer.slice(..));
-                pass.set_vertex_buffer(1, body.resting_buffer.slice(..));
-                pass.set_index_buffer(body.index_buffer.slice(..), wgpu::IndexFormat::Uint32);
-                pass.draw_indexed(0..3 * body.triangles() as u32, 0, 0..1);
-            }
+            self.draw_bodies(&mut pass, bodies);
             pass.set_pipeline(&pipeline(Subject::Instrument));
-            let shapes = self.shapes.iter().zip(self.instruments.chunks(PARTS));
-            for (shape, bounds) in shapes.take(tools.len()) {
-                let parts = shape.iter().flat_map(|(_, parts)| parts);
-                for (kept, bound) in parts.zip(bounds) {
-                    pass.set_bind_group(1, &bound.group, &[]);
-                    pass.set_vertex_buffer(0, kept.buffer.slice(..));
-                    pass.draw(0..kept.part.corners.len() as u32, 0..1);
-                }
-            }
+            self.draw_tools(&mut pass, tools.len());
             // Last, where nothing is: a slow machine does not draw it twice.
             pass.set_pipeline(&pipeline(Subject::Backdrop));
             pass.draw(0..3, 0..1);
@@ -177,14 +163,62 @@ impl Renderer {
         gpu.queue.submit([encoder.finish()]);
     }
 
+    /// Draws how far ahead of the eye `bodies` and `tools` are, and what they are, into `target`; it is handed in, not
+    /// waited for.
+    pub fn measure(
+        &mut self,
+        gpu: &Gpu,
+        view: &View,
+        (bodies, tools): (&[&Body], &[ToolPicture]),
+        target: &LabelTarget,
+    ) {
+        self.write(gpu, view, (bodies, tools), target.size());
+        let mut encoder = gpu
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        {
+            let mut pass = begin(&mut encoder, &target.attachments());
+            pass.set_bind_group(0, &self.globals.group, &[]);
+            pass.set_pipeline(&self.pipelines.of(gpu, Subject::TissueLabel, 1));
+            self.draw_bodies(&mut pass, bodies);
+            pass.set_pipeline(&self.pipelines.of(gpu, Subject::InstrumentLabel, 1));
+            self.draw_tools(&mut pass, tools.len());
+        }
+        gpu.queue.submit([encoder.finish()]);
+    }
+
+    fn draw_bodies(&self, pass: &mut wgpu::RenderPass<'_>, bodies: &[&Body]) {
+        let bodies = bodies.iter().zip(&self.bodies);
+        for (body, bound) in bodies.filter(|(body, _)| body.triangles() > 0) {
+            pass.set_bind_group(1, self.maps.of(body.tint.has_vessels), &[]);
+            pass.set_bind_group(2, &bound.group, &[]);
+            pass.set_vertex_buffer(0, body.moving_buffer.slice(..));
+            pass.set_vertex_buffer(1, body.resting_buffer.slice(..));
+            pass.set_index_buffer(body.index_buffer.slice(..), wgpu::IndexFormat::Uint32);
+            pass.draw_indexed(0..3 * body.triangles() as u32, 0, 0..1);
+        }
+    }
+
+    fn draw_tools(&self, pass: &mut wgpu::RenderPass<'_>, count: usize) {
+        let shapes = self.shapes.iter().zip(self.instruments.chunks(PARTS));
+        for (shape, bounds) in shapes.take(count) {
+            let parts = shape.iter().flat_map(|(_, parts)| parts);
+            for (kept, bound) in parts.zip(bounds) {
+                pass.set_bind_group(1, &bound.group, &[]);
+                pass.set_vertex_buffer(0, kept.buffer.slice(..));
+                pass.draw(0..kept.part.corners.len() as u32, 0..1);
+            }
+        }
+    }
+
     fn write(
         &mut self,
         gpu: &Gpu,
         view: &View,
         (bodies, tools): (&[&Body], &[ToolPicture]),
-        target: &Target,
+        size: (u32, u32),
     ) {
-        let globals = Globals::new(&view.camera, tools, target.size(), view.reach);
+        let globals = Globals::new(&view.camera, tools, size, view.reach);
         self.globals.write(gpu, bytemuck::bytes_of(&globals));
         while self.bodies.len() < bodies.len() {
             let bound = Bound::new(gpu, &self.pipelines.own, size_of::<BodyUniform>());
@@ -197,6 +231,7 @@ impl Renderer {
                 uniform.fibre_center = vector(&fibres.center, fibres.run as u8 as f32);
             }
             uniform.open(&body.openings);
+            uniform.label(body.label);
             bound.write(gpu, bytemuck::bytes_of(&uniform));
         }
         for (number, tool) in tools.iter().take(TOOLS).enumerate() {
@@ -206,6 +241,7 @@ impl Renderer {
                 let uniform = InstrumentUniform {
                     placed: columns(&tool.placed(&kept.part)),
                     color: kept.part.look(),
+                    label: [f32::from(tool.label.number()), 0.0, 0.0, 0.0],
                 };
                 bound.write(gpu, bytemuck::bytes_of(&uniform));
             }
@@ -256,25 +292,36 @@ impl Bound {
     }
 }
 
-fn begin<'e>(encoder: &'e mut wgpu::CommandEncoder, target: &Target) -> wgpu::RenderPass<'e> {
-    let (view, resolve_target, store) = match &target.sampled {
-        Some(sampled) => (sampled, Some(&target.shown), wgpu::StoreOp::Discard),
-        None => (&target.shown, None, wgpu::StoreOp::Store),
+/// Where a pass draws.
+struct Attachments<'t> {
+    drawn: &'t wgpu::TextureView,
+    /// Where several samples per pixel become one.
+    resolved: Option<&'t wgpu::TextureView>,
+    depth: &'t wgpu::TextureView,
+}
+
+fn begin<'e>(
+    encoder: &'e mut wgpu::CommandEncoder,
+    attachments: &Attachments<'_>,
+) -> wgpu::RenderPass<'e> {
+    let store = match attachments.resolved {
+        Some(_) => wgpu::StoreOp::Discard,
+        None => wgpu::StoreOp::Store,
     };
     encoder
         .begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("picture"),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view,
+                view: attachments.drawn,
                 depth_slice: None,
-                resolve_target,
+                resolve_target: attachments.resolved,
                 ops: wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(wgpu::Color::BLACK),
+                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
                     store,
                 },
             })],
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: &target.depth,
+                view: attachments.depth,
                 depth_ops: Some(wgpu::Operations {
                     load: wgpu::LoadOp::Clear(1.0),
                     store: wgpu::StoreOp::Discard,

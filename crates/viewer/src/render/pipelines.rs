@@ -5,7 +5,7 @@ use palpate_files::scene::Shading;
 
 use super::Looks;
 use super::maps::Maps;
-use super::target::{COLOR, DEPTH};
+use super::target::{COLOR, DEPTH, DEPTH_AND_LABEL};
 use crate::Gpu;
 
 /// What one pipeline draws.
@@ -18,6 +18,16 @@ pub(super) enum Subject {
         looks: Looks,
     },
     Instrument,
+    /// Depth and label of tissue.
+    TissueLabel,
+    /// Depth and label of a tool.
+    InstrumentLabel,
+}
+
+impl Subject {
+    fn is_tissue(self) -> bool {
+        matches!(self, Self::Tissue { .. } | Self::TissueLabel)
+    }
 }
 
 /// The pipelines; each is made when it is first needed, for that costs a slow machine a moment.
@@ -70,11 +80,17 @@ impl Pipelines {
             Subject::Backdrop => (0, ["backdrop_vertex", "backdrop_fragment"]),
             Subject::Tissue { .. } => (1, ["tissue_vertex", "tissue_fragment"]),
             Subject::Instrument => (2, ["instrument_vertex", "instrument_fragment"]),
+            Subject::TissueLabel => (1, ["tissue_vertex", "tissue_label"]),
+            Subject::InstrumentLabel => (2, ["instrument_vertex", "instrument_label"]),
         };
         let groups = match subject {
             Subject::Backdrop => vec![Some(&self.globals)],
-            Subject::Tissue { .. } => vec![Some(&self.globals), Some(&self.maps), Some(&self.own)],
-            Subject::Instrument => vec![Some(&self.globals), Some(&self.own)],
+            Subject::Tissue { .. } | Subject::TissueLabel => {
+                vec![Some(&self.globals), Some(&self.maps), Some(&self.own)]
+            }
+            Subject::Instrument | Subject::InstrumentLabel => {
+                vec![Some(&self.globals), Some(&self.own)]
+            }
         };
         let layout = gpu
             .device
@@ -96,7 +112,10 @@ impl Pipelines {
             constants: &constants,
             ..wgpu::PipelineCompilationOptions::default()
         };
-        let target = Some(wgpu::ColorTargetState::from(COLOR));
+        let target = Some(wgpu::ColorTargetState::from(match subject {
+            Subject::TissueLabel | Subject::InstrumentLabel => DEPTH_AND_LABEL,
+            _ => COLOR,
+        }));
         let descriptor = wgpu::RenderPipelineDescriptor {
             label: Some(entries[0]),
             layout: Some(&layout),
@@ -107,10 +126,7 @@ impl Pipelines {
                 buffers: buffers(subject),
             },
             primitive: wgpu::PrimitiveState {
-                cull_mode: match subject {
-                    Subject::Tissue { .. } => Some(wgpu::Face::Back),
-                    _ => None,
-                },
+                cull_mode: subject.is_tissue().then_some(wgpu::Face::Back),
                 ..wgpu::PrimitiveState::default()
             },
             depth_stencil: Some(depth(subject)),
@@ -159,8 +175,8 @@ fn buffers(subject: Subject) -> &'static [Option<wgpu::VertexBufferLayout<'stati
     const BOTH: &[Option<wgpu::VertexBufferLayout<'static>>] = &[layout(6, TURNS), layout(4, REST)];
     match subject {
         Subject::Backdrop => &[],
-        Subject::Tissue { .. } => BOTH,
-        Subject::Instrument => BOTH.split_at(1).0,
+        Subject::Tissue { .. } | Subject::TissueLabel => BOTH,
+        Subject::Instrument | Subject::InstrumentLabel => BOTH.split_at(1).0,
     }
 }
 

@@ -1,9 +1,11 @@
 use image::RgbaImage;
 
+use super::Attachments;
 use crate::{Error, Gpu};
 
 /// Bytes of light that the shader has already bent to the display's gamma; windows take them as they are.
 pub(super) const COLOR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+pub(super) const DEPTH_AND_LABEL: wgpu::TextureFormat = wgpu::TextureFormat::Rg32Float;
 pub(super) const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
 /// What copies between textures and buffers demand.
@@ -14,10 +16,10 @@ pub struct Target {
     size: (u32, u32),
     samples: u32,
     picture: wgpu::Texture,
-    pub(super) shown: wgpu::TextureView,
+    shown: wgpu::TextureView,
     /// Where several samples per pixel are drawn; none when one is.
-    pub(super) sampled: Option<wgpu::TextureView>,
-    pub(super) depth: wgpu::TextureView,
+    sampled: Option<wgpu::TextureView>,
+    depth: wgpu::TextureView,
 }
 
 impl Target {
@@ -69,48 +71,73 @@ impl Target {
         &self.shown
     }
 
+    pub(super) fn attachments(&self) -> Attachments<'_> {
+        match &self.sampled {
+            Some(sampled) => Attachments {
+                drawn: sampled,
+                resolved: Some(&self.shown),
+                depth: &self.depth,
+            },
+            None => Attachments {
+                drawn: &self.shown,
+                resolved: None,
+                depth: &self.depth,
+            },
+        }
+    }
+
     /// The picture, brought back from the adapter once everything handed in is drawn.
     ///
     /// # Errors
     /// When the adapter was lost.
     pub fn read(&self, gpu: &Gpu) -> Result<RgbaImage, Error> {
         let (width, height) = self.size;
-        let row = (4 * width).next_multiple_of(ROW_ALIGNMENT);
-        let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("picture"),
-            size: u64::from(row) * u64::from(height),
-            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
-            mapped_at_creation: false,
-        });
-        let mut encoder = gpu
-            .device
-            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        let into = wgpu::TexelCopyBufferInfo {
-            buffer: &buffer,
-            layout: wgpu::TexelCopyBufferLayout {
-                offset: 0,
-                bytes_per_row: Some(row),
-                rows_per_image: None,
-            },
-        };
-        encoder.copy_texture_to_buffer(self.picture.as_image_copy(), into, extent(self.size));
-        gpu.queue.submit([encoder.finish()]);
-        let (told, answer) = std::sync::mpsc::channel();
-        let tell = move |outcome| {
-            // The receiver lives until the answer is there.
-            let _ = told.send(outcome);
-        };
-        buffer.slice(..).map_async(wgpu::MapMode::Read, tell);
-        gpu.device
-            .poll(wgpu::PollType::wait_indefinitely())
-            .map_err(lost)?;
-        answer.recv().map_err(lost)?.map_err(lost)?;
-        let mapped = buffer.slice(..).get_mapped_range().map_err(lost)?;
-        let rows = mapped.chunks_exact(row as usize);
-        let bytes = rows.flat_map(|r| &r[..4 * width as usize]).copied();
-        RgbaImage::from_raw(width, height, bytes.collect())
-            .ok_or_else(|| lost("it came back too short"))
+        let bytes = read_texture(gpu, &self.picture, (self.size, 4))?;
+        RgbaImage::from_raw(width, height, bytes).ok_or_else(|| lost("it came back too short"))
     }
+}
+
+/// The bytes of a texture of `size` [pixels] with so many bytes for each, once everything handed in is drawn.
+pub(super) fn read_texture(
+    gpu: &Gpu,
+    texture: &wgpu::Texture,
+    (size, each): ((u32, u32), u32),
+) -> Result<Vec<u8>, Error> {
+    let (width, height) = size;
+    let row = (each * width).next_multiple_of(ROW_ALIGNMENT);
+    let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("picture"),
+        size: u64::from(row) * u64::from(height),
+        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+        mapped_at_creation: false,
+    });
+    let mut encoder = gpu
+        .device
+        .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    let into = wgpu::TexelCopyBufferInfo {
+        buffer: &buffer,
+        layout: wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(row),
+            rows_per_image: None,
+        },
+    };
+    encoder.copy_texture_to_buffer(texture.as_image_copy(), into, extent(size));
+    gpu.queue.submit([encoder.finish()]);
+    let (told, answer) = std::sync::mpsc::channel();
+    let tell = move |outcome| {
+        // The receiver lives until the answer is there.
+        let _ = told.send(outcome);
+    };
+    buffer.slice(..).map_async(wgpu::MapMode::Read, tell);
+    gpu.device
+        .poll(wgpu::PollType::wait_indefinitely())
+        .map_err(lost)?;
+    answer.recv().map_err(lost)?.map_err(lost)?;
+    let mapped = buffer.slice(..).get_mapped_range().map_err(lost)?;
+    let rows = mapped.chunks_exact(row as usize);
+    let used = (each * width) as usize;
+    Ok(rows.flat_map(|r| &r[..used]).copied().collect())
 }
 
 fn lost(cause: impl std::fmt::Display) -> Error {
@@ -119,7 +146,7 @@ fn lost(cause: impl std::fmt::Display) -> Error {
     }
 }
 
-fn extent((width, height): (u32, u32)) -> wgpu::Extent3d {
+pub(super) fn extent((width, height): (u32, u32)) -> wgpu::Extent3d {
     wgpu::Extent3d {
         width,
         height,

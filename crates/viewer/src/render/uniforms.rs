@@ -4,6 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use nalgebra::Matrix4;
 use palpate_geometry::Vec3;
 
+use super::labels::Label;
 use super::light::Light;
 use super::openings::{MOST, Opening};
 use super::tool::ToolPicture;
@@ -40,7 +41,7 @@ pub(super) struct BodyUniform {
     pub(super) detail: [f32; 4],
     pub(super) fibres: [f32; 4],
     pub(super) fibre_center: [f32; 4],
-    /// How many openings there are.
+    /// How many openings there are, and the label.
     opened: [f32; 4],
     openings: [Opening; MOST],
 }
@@ -61,6 +62,11 @@ impl BodyUniform {
         }
     }
 
+    /// Has this label.
+    pub(super) fn label(&mut self, label: Label) {
+        self.opened[1] = f32::from(label.number());
+    }
+
     /// Has `openings`, of which there are at most as many as fit.
     pub(super) fn open(&mut self, openings: &[Opening]) {
         let count = openings.len().min(MOST);
@@ -74,6 +80,8 @@ impl BodyUniform {
 pub(super) struct InstrumentUniform {
     pub(super) placed: [[f32; 4]; 4],
     pub(super) color: [f32; 4],
+    /// The label in the first.
+    pub(super) label: [f32; 4],
 }
 
 impl Globals {

@@ -47,7 +47,10 @@ fn the_light_of_an_endoscope_falls_with_the_squared_distance() {
             target,
             up: Vec3::y(),
             field_of_view: 0.8,
-            lamp: Some(Lamp { distance: 0.24 }),
+            lamp: Some(Lamp {
+                distance: 0.24,
+                brightness: 1.0,
+            }),
         };
         // Blue is the darkest and does not saturate.
         light(studio.picture(&state).unwrap().get_pixel(32, 32).0[2])

@@ -5,6 +5,8 @@ struct Instrument {
     placed: mat4x4f,
     // Its colour, with the polish in w: 1 for steel.
     color: vec4f,
+    // The label in x.
+    label: vec4f,
 };
 
 @group(1) @binding(0) var<uniform> instrument: Instrument;
@@ -20,6 +22,12 @@ fn instrument_vertex(@location(0) position: vec3f, @location(1) normal: vec3f) -
     let placed = instrument.placed * vec4f(position, 1.0);
     let turned = (instrument.placed * vec4f(normal, 0.0)).xyz;
     return Varyings(globals.view_projection * placed, placed.xyz, turned);
+}
+
+// How far ahead of the eye [m], and the label.
+@fragment
+fn instrument_label(in: Varyings) -> @location(0) vec4f {
+    return vec4f(ahead(in.position), instrument.label.x, 0.0, 0.0);
 }
 
 @fragment

@@ -35,6 +35,11 @@ struct Globals {
 
 @group(0) @binding(0) var<uniform> globals: Globals;
 
+// How far ahead of the eye a point is, along the line of sight to the middle of the picture [m].
+fn ahead(position: vec3f) -> f32 {
+    return -(globals.to_eye * vec4f(position - globals.eye.xyz, 0.0)).z;
+}
+
 // Filmic curve [Narkowicz 2016], then the display's gamma.
 fn developed(light: vec3f) -> vec3f {
     let x = light * globals.picture.z;

@@ -27,7 +27,7 @@ struct Body {
     fibres: vec4f,
     // With w: 0 by depth, 1 along the axis, 2 around it.
     fibre_center: vec4f,
-    // How many openings there are in x.
+    // How many openings there are in x, the label in y.
     opened: vec4f,
     openings: array<Opening, 128>,
 };
@@ -156,6 +156,15 @@ fn outside(rest: vec3f) -> f32 {
         nearest = min(nearest, length(offset - part * along) - half_width);
     }
     return nearest;
+}
+
+// How far ahead of the eye [m], and the label.
+@fragment
+fn tissue_label(in: Varyings) -> @location(0) vec4f {
+    if (outside(in.rest.xyz) < 0.0) {
+        discard;
+    }
+    return vec4f(ahead(in.position), body.opened.y, 0.0, 0.0);
 }
 
 @fragment

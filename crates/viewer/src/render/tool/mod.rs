@@ -24,6 +24,8 @@ use nalgebra::{Matrix4, UnitQuaternion};
 use palpate_files::scene::{self, Jaws, Tip, TipShape, ToolKind};
 use palpate_geometry::{TriangleMesh, Vec3};
 
+use super::labels::Label;
+
 /// Radius of a laparoscopic shaft [m].
 const SHAFT: f64 = 0.0025;
 
@@ -51,6 +53,8 @@ pub struct ToolPicture {
     trocar: Option<Vec3>,
     /// The place of the resting surface that it touches [m] and the radius of the mark there [m].
     pub(super) mark: Option<(Vec3, f64)>,
+    /// What it is in a picture of labels.
+    pub(super) label: Label,
 }
 
 /// What a tool looks like.
@@ -138,7 +142,15 @@ impl ToolPicture {
             grip: 0.0,
             trocar,
             mark: None,
+            label: Label::Tool(0),
         }
+    }
+
+    /// The same as another label.
+    #[must_use]
+    pub fn labelled(mut self, label: Label) -> Self {
+        self.label = label;
+        self
     }
 
     /// The same, with a mark where it touches the resting surface [m].

@@ -1,0 +1,118 @@
+//! Pictures of measures: how far everything is, and what it is. One sample per pixel: no mean of two distances or of two
+//! labels stands at an edge.
+//!
+//! *How we know*: `labels::…`.
+//!
+//! *Limits*: the whole rectangle, also outside of an endoscope's disc; the skin of a cut's walls is the organ's.
+
+use super::Attachments;
+use super::target::{DEPTH, DEPTH_AND_LABEL, extent, read_texture};
+use crate::{Error, Gpu};
+
+/// What is seen at a pixel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Label {
+    /// Nothing of the scene.
+    Background,
+    /// The organ that is touched, with its openings.
+    Organ,
+    /// A body beside it.
+    Neighbour,
+    /// The tool of this number in the scene.
+    Tool(u8),
+}
+
+impl Label {
+    /// As in a picture: 0 background, 1 organ, 2 neighbour, 3 the first tool, and so on.
+    pub const fn number(self) -> u8 {
+        match self {
+            Self::Background => 0,
+            Self::Organ => 1,
+            Self::Neighbour => 2,
+            Self::Tool(number) => number.saturating_add(3),
+        }
+    }
+}
+
+/// How far everything is and what it is, row by row from the top.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Labels {
+    /// Width and height [pixels].
+    pub size: (u32, u32),
+    /// Distance ahead of the eye, along the line of sight to the middle of the picture [m]; 0 where nothing is.
+    pub depths: Vec<f32>,
+    /// [`Label::number`]s.
+    pub labels: Vec<u8>,
+}
+
+/// What [`Labels`] are drawn into.
+pub struct LabelTarget {
+    size: (u32, u32),
+    measured: wgpu::Texture,
+    drawn: wgpu::TextureView,
+    depth: wgpu::TextureView,
+}
+
+impl LabelTarget {
+    /// Of `size` [pixels]. No side is shorter than one pixel or longer than the adapter allows.
+    pub fn new(gpu: &Gpu, size: (u32, u32)) -> Self {
+        let most = gpu.device.limits().max_texture_dimension_2d;
+        let size = (size.0.clamp(1, most), size.1.clamp(1, most));
+        let texture = |format, usage| {
+            gpu.device.create_texture(&wgpu::TextureDescriptor {
+                label: Some("labels"),
+                size: extent(size),
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension: wgpu::TextureDimension::D2,
+                format,
+                usage: wgpu::TextureUsages::RENDER_ATTACHMENT | usage,
+                view_formats: &[],
+            })
+        };
+        let view =
+            |texture: &wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
+        let measured = texture(DEPTH_AND_LABEL, wgpu::TextureUsages::COPY_SRC);
+        Self {
+            size,
+            drawn: view(&measured),
+            measured,
+            depth: view(&texture(DEPTH, wgpu::TextureUsages::empty())),
+        }
+    }
+
+    /// Width and height [pixels].
+    pub fn size(&self) -> (u32, u32) {
+        self.size
+    }
+
+    pub(super) fn attachments(&self) -> Attachments<'_> {
+        Attachments {
+            drawn: &self.drawn,
+            resolved: None,
+            depth: &self.depth,
+        }
+    }
+
+    /// The measures, brought back from the adapter once everything handed in is drawn.
+    ///
+    /// # Errors
+    /// When the adapter was lost.
+    pub fn read(&self, gpu: &Gpu) -> Result<Labels, Error> {
+        let bytes = read_texture(gpu, &self.measured, (self.size, 8))?;
+        // By bytes, for a vector of them need not lie as floats do.
+        let float = |bytes: &[u8]| {
+            bytes
+                .first_chunk()
+                .map_or(0.0, |own| f32::from_le_bytes(*own))
+        };
+        Ok(Labels {
+            size: self.size,
+            depths: bytes.chunks_exact(8).map(float).collect(),
+            labels: bytes
+                .chunks_exact(8)
+                .map(|pixel| float(&pixel[4..]) as u8)
+                .collect(),
+        })
+    }
+}
