@@ -21,14 +21,18 @@ if importlib.util.find_spec("gymnasium") is None:
     raise ImportError("palpate.gym needs gymnasium, which is not installed; `pip install palpate[gym]`")
 
 from palpate.gym.environment import CuttingEnv, PalpationEnv, TouchEnv, TractionEnv
+from palpate.gym.randomization import Randomization
 from palpate.gym.registration import register
+from palpate.gym.touch import EpisodeState
 from palpate.gym.vector import CuttingVectorEnv, PalpationVectorEnv, TouchVectorEnv, TractionVectorEnv
 
 __all__ = [
     "CuttingEnv",
     "CuttingVectorEnv",
+    "EpisodeState",
     "PalpationEnv",
     "PalpationVectorEnv",
+    "Randomization",
     "TouchEnv",
     "TouchVectorEnv",
     "TractionEnv",

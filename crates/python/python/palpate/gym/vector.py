@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any, ClassVar
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 from gymnasium.utils import seeding
@@ -11,8 +12,9 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 import palpate
+from palpate.gym.randomization import Distribution
 from palpate.gym.tasks import Cutting, Floats, Palpation, Task, Traction, Truths
-from palpate.gym.touch import Seen, Touch
+from palpate.gym.touch import EpisodeState, Seen, Touch, row
 
 
 class TouchVectorEnv(VectorEnv[Seen, NDArray[np.float32], Any]):
@@ -23,7 +25,7 @@ class TouchVectorEnv(VectorEnv[Seen, NDArray[np.float32], Any]):
     ----------
     num_envs : int
         How many.
-    scene, simulation, model, substeps, speed
+    scene, simulation, model, substeps, speed, observation, images, image_size, action, randomization, render_mode
         As for `TouchEnv`.
     threads : int, optional
         At most so many; without, as many as there are cores.
@@ -31,7 +33,7 @@ class TouchVectorEnv(VectorEnv[Seen, NDArray[np.float32], Any]):
         When an episode that has ended begins anew; by its next action without.
     """
 
-    metadata: dict[str, Any] = {"render_modes": []}
+    metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 20}
     kind: ClassVar[type[Task]]
 
     def __init__(
@@ -45,7 +47,12 @@ class TouchVectorEnv(VectorEnv[Seen, NDArray[np.float32], Any]):
         speed: float = 0.05,
         threads: int | None = None,
         autoreset_mode: str | AutoresetMode = AutoresetMode.NEXT_STEP,
-        render_mode: None = None,
+        observation: Literal["vector", "dict"] = "vector",
+        images: Sequence[Literal["rgb", "depth", "segmentation"]] = (),
+        image_size: tuple[int, int] = (128, 128),
+        action: Literal["cartesian", "remote_center"] = "cartesian",
+        randomization: Mapping[str, Distribution] | None = None,
+        render_mode: str | None = None,
     ) -> None:
         self.num_envs, self.render_mode = num_envs, render_mode
         self.autoreset_mode = AutoresetMode(autoreset_mode)
@@ -59,6 +66,12 @@ class TouchVectorEnv(VectorEnv[Seen, NDArray[np.float32], Any]):
             substeps=substeps,
             speed=speed,
             threads=threads,
+            observation=observation,
+            images=images,
+            image_size=image_size,
+            action=action,
+            randomization=randomization,
+            render_mode=render_mode,
         )
         self.single_action_space = self.touch.action_space()
         self.single_observation_space = self.touch.observation_space()
@@ -70,7 +83,8 @@ class TouchVectorEnv(VectorEnv[Seen, NDArray[np.float32], Any]):
     def reset(
         self, *, seed: int | list[int | None] | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Seen, dict[str, Any]]:
-        """New episodes: all, or those of `options["reset_mask"]`. A seed is that of the first, the next ones follow."""
+        """New episodes: all, or those of `options["reset_mask"]`. A seed is that of the first, the next ones follow.
+        `options={"state": [state, …]}` goes on from a `state()` for each environment; None there begins anew."""
         if seed is None:
             seeds: list[int | None] = [None] * self.num_envs
         elif isinstance(seed, int):
@@ -81,6 +95,13 @@ class TouchVectorEnv(VectorEnv[Seen, NDArray[np.float32], Any]):
             raise palpate.InputError(
                 f"there are {len(seeds)} seeds for {self.num_envs} environments; give one for each"
             )
+        states: Sequence[EpisodeState | None] = [None] * self.num_envs
+        if options is not None and "state" in options:
+            states = options["state"]
+            if not isinstance(states, Sequence) or len(states) != self.num_envs:
+                raise palpate.InputError(
+                    f"`state` is no list of {self.num_envs} states; give one for each environment, or None"
+                )
         chosen = np.ones(self.num_envs, dtype=bool)
         if options is not None and "reset_mask" in options:
             chosen = np.asarray(options["reset_mask"])
@@ -88,12 +109,30 @@ class TouchVectorEnv(VectorEnv[Seen, NDArray[np.float32], Any]):
                 raise palpate.InputError(
                     "`reset_mask` chooses none; give a truth for each environment, one of them true"
                 )
+        told: dict[str, Any] = {}
         for number in np.flatnonzero(chosen):
             if seeds[number] is not None:
                 self._draws[number] = seeding.np_random(seeds[number])[0]
-            self._begin(number)
+            state = states[int(number)]
+            if state is None:
+                self._begin(number)
+            else:
+                self.touch.restore(int(number), state, self._draws[number])
+            told = self._add_info(told, self.touch.began(int(number)), int(number))
         self._ended[chosen] = False
-        return self.touch.seen(), {}
+        return self.touch.seen(), told
+
+    def state(self, number: int) -> EpisodeState:
+        """The episode of one environment as it is, to `reset` to."""
+        if not 0 <= number < self.num_envs:
+            raise palpate.InputError(f"there is no environment {number}; give a number from 0 to {self.num_envs - 1}")
+        return self.touch.state(number, self._draws[number])
+
+    def render(self) -> tuple[NDArray[np.uint8], ...] | None:
+        """What each endoscope shows: uint8, shape (480, 640, 3) each; None without a `render_mode`."""
+        if self.render_mode is None:
+            return None
+        return tuple(self.touch.picture(number) for number in range(self.num_envs))
 
     def _begin(self, number: np.intp) -> None:
         self.touch.begin(int(number), self._draws[number])
@@ -104,17 +143,21 @@ class TouchVectorEnv(VectorEnv[Seen, NDArray[np.float32], Any]):
             raise palpate.InputError("an episode has ended; reset it before its next action")
         begins = self._ended.copy()
         worth, terminated, truncated = self.touch.step(actions, ~begins)
+        told: dict[str, Any] = {}
         for number in np.flatnonzero(begins):
             self._begin(number)
+            told = self._add_info(told, self.touch.began(int(number)), int(number))
         self._ended = terminated | truncated
-        told: dict[str, Any] = {}
         last = self.touch.seen()
         at_once = self.autoreset_mode == AutoresetMode.SAME_STEP
         for number in np.flatnonzero(self._ended):
             own = self.touch.told(int(number))
-            told = self._add_info(told, {"final_obs": last[number], "final_info": own} if at_once else own, int(number))
+            told = self._add_info(
+                told, {"final_obs": row(last, int(number)), "final_info": own} if at_once else own, int(number)
+            )
             if at_once:
                 self._begin(number)
+                told = self._add_info(told, self.touch.began(int(number)), int(number))
         if at_once and self._ended.any():
             self._ended[:] = False
             last = self.touch.seen()
