@@ -12,6 +12,7 @@ mod errors;
 mod golden;
 mod hands;
 mod invariants;
+mod labels;
 mod layers;
 mod wet;
 
