@@ -19,12 +19,12 @@ use toml::Value;
 use crate::documents;
 use crate::failure::Failure;
 use crate::fits;
-use crate::waiting::{Told, waiting};
+use crate::waiting::{ProgressMessage, waiting};
 
 /// Why a thread unwinds.
 struct BrokenOff;
 
-impl Watch for Told {
+impl Watch for ProgressMessage {
     fn say(&self, doing: &str) {
         break_off_if_asked(self);
         Self::say(self, doing);
@@ -40,7 +40,7 @@ impl Watch for Told {
     }
 }
 
-fn break_off_if_asked(told: &Told) {
+fn break_off_if_asked(told: &ProgressMessage) {
     if told.is_asked_to_stop() {
         std::panic::resume_unwind(Box::new(BrokenOff));
     }

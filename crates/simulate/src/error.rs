@@ -89,13 +89,13 @@ pub enum Error {
     Servo(#[from] palpate_servo::Fault),
     /// There is not one place for a device for each tool.
     #[error(
-        "the scene has {tools} tools, but {stations} devices were given; give one, or none, for each"
+        "the scene has {tools} tools, but {devices} devices were given; give one, or none, for each"
     )]
     OtherDevices {
         /// Tools of the scene.
         tools: usize,
         /// Devices, and nones, that were given.
-        stations: usize,
+        devices: usize,
     },
     /// A stiff ball has its middle outside of the organ.
     #[error(

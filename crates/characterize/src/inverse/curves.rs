@@ -231,7 +231,7 @@ impl Curves {
         let press = |depth: f64| {
             let point = run.press(depth, depth, |_| ());
             let point = point.map_err(|why| Error::of_law(name, deepest, why))?;
-            Ok((point.force, point.by_parameter))
+            Ok((point.force, point.sensitivities))
         };
         self.depths().into_iter().map(press).collect()
     }

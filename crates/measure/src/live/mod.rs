@@ -1,8 +1,8 @@
 //! A rig that is operated by a person, on a thread of its own.
 //!
 //! ```text
-//!            ──ring(Order)──────────▶ rig, 1 kHz ──ring(Told)──▶ clerk ──ring(RigSample)──▶ window
-//!  Console   ──stop, emergency stop,▶                             │   ──channel(News)─────▶
+//!            ──ring(RigCommand)──────────▶ rig, 1 kHz ──ring(RigEvent)──▶ clerk ──ring(RigSample)──▶ window
+//!  Console   ──stop, emergency stop,▶                             │   ──channel(ConsoleEvent)─────▶
 //!              arm (atomic)                                       └──▶ *.csv
 //! ```
 //!
@@ -15,12 +15,12 @@
 //! *Limits*: the thread is as punctual as the operating system lets it be. Over tissue that is not there the rig's
 //! time waits with it.
 
-mod clerk;
 mod console;
 mod live_rig;
+mod log_writer;
 mod operated;
 
-pub use clerk::{Commission, News, Unwritten};
-pub use console::{Console, Order};
+pub use console::{Console, RigCommand};
 pub use live_rig::LiveRig;
-pub use operated::{Operated, Told};
+pub use log_writer::{Commission, ConsoleEvent, Unwritten};
+pub use operated::{Operated, RigEvent};

@@ -19,7 +19,7 @@ pub(crate) const ERRORS: [&str; 5] = [
 
 /// A task, and all attempts at it.
 #[derive(Debug)]
-pub(super) struct Course<'r> {
+pub(super) struct LearningCurve<'r> {
     pub(super) task: &'r str,
     /// By name.
     pub(super) trainees: Vec<Trainee<'r>>,
@@ -56,7 +56,7 @@ pub(super) enum Learnt {
     ProficientPart,
 }
 
-impl<'r> Course<'r> {
+impl<'r> LearningCurve<'r> {
     /// Of all tasks in alphabetical order, with one trainee alone if `only` names them. A task that nobody of
     /// these attempted is left out, unless all are wanted and experts did.
     pub(super) fn all(attempts: &'r [Attempt], only: Option<&str>) -> Vec<Self> {
@@ -189,7 +189,7 @@ impl Made<'_> {
     }
 
     /// Whether a measure of it is proficient; none where that cannot be told.
-    pub(super) fn judged(&self, course: &Course<'_>, key: &str) -> Option<bool> {
+    pub(super) fn judged(&self, course: &LearningCurve<'_>, key: &str) -> Option<bool> {
         let mut standards = course.standards.each.iter();
         let place = standards.position(|own| own.key == key)?;
         self.judgement.measures.get(place)?.proficient

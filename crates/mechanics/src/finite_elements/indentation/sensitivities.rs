@@ -27,11 +27,11 @@ pub(super) struct Entry {
 
 /// ∂u/∂q of all unknowns, one column for each parameter of the law.
 #[derive(Debug, Clone)]
-pub(super) struct Slopes {
+pub(super) struct Sensitivities {
     columns: Vec<Vec<f64>>,
 }
 
-impl Slopes {
+impl Sensitivities {
     pub(super) fn at_rest(model: &FiniteElementModel) -> Self {
         let parameters = model.law.parameters().len();
         Self {
@@ -48,7 +48,7 @@ impl Slopes {
         workspace: &mut FiniteElementWorkspace,
     ) -> Result<(), Failure> {
         for (parameter, column) in self.columns.iter_mut().enumerate() {
-            let force = sensitivity::residual_by_parameter(model, state, parameter);
+            let force = sensitivity::residual_sensitivity(model, state, parameter);
             sensitivity::solve(model, supports, (state, &force), column, workspace)?;
         }
         Ok(())
@@ -56,7 +56,7 @@ impl Slopes {
 
     /// The node `entry.node` is caught: its held place moves with the parameters as the point where it
     /// came in does.
-    pub(super) fn catch(&mut self, entry: &Entry, old: &Self) {
+    pub(super) fn activate(&mut self, entry: &Entry, old: &Self) {
         let Entry {
             node,
             ways,
@@ -85,7 +85,7 @@ impl Slopes {
     ) -> Vec<f64> {
         let mut product = vec![0.0; model.size()];
         let each = |(parameter, column): (usize, &Vec<f64>)| {
-            let direct = sensitivity::residual_by_parameter(model, state, parameter);
+            let direct = sensitivity::residual_sensitivity(model, state, parameter);
             model
                 .pattern
                 .multiply(&workspace.tangent, column, &mut product);
