@@ -12,7 +12,7 @@ pub enum RigCommand {
     Jog(Vec3),
     /// To go to a place in the rig's axes [m].
     GoTo(Vec3),
-    /// To go along a direction in the rig's axes for as long as the order comes again within a sixth of a second.
+    /// To go along a direction in the rig's axes for as long as the command is repeated within a sixth of a second.
     Drive(Vec3),
     /// To approach along a direction out of the tissue from now on.
     Face(Vec3),
@@ -37,7 +37,7 @@ pub struct Console {
     is_real: bool,
 }
 
-/// An order, and how often everything was stopped before it.
+/// A command, and how often everything was stopped before it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Given {
     pub(super) stops: u64,
@@ -71,18 +71,18 @@ impl Console {
         (console, reader, switches)
     }
 
-    /// Gives an order, which is carried out after those before it.
+    /// Queues a command.
     pub fn send(&mut self, command: RigCommand) {
         let stops = self.switches.stops();
         self.commands.add(Given { stops, command });
     }
 
-    /// Ends what is being done, out of the tissue, and drops the orders that wait.
+    /// Ends what is being done, out of the tissue, and drops the queued commands.
     pub fn stop(&self) {
         self.switches.stop();
     }
 
-    /// No force at once, until somebody arms again; the orders that wait are dropped.
+    /// No force at once, until somebody arms again; the queued commands are dropped.
     pub fn emergency_stop(&self) {
         self.supervisor.trip();
         self.switches.stop();

@@ -22,11 +22,11 @@ pub struct Commission {
 /// What happened.
 #[derive(Debug)]
 pub enum ConsoleEvent {
-    /// The rig begins with an order.
+    /// The rig begins a command.
     Begun(RigCommand),
-    /// It is done with an order.
+    /// It has ended a command.
     Ended(RigCommand, Result<Ended, Error>),
-    /// It did not begin with an order that had become stale.
+    /// It dropped a stale command.
     Dropped(RigCommand),
     /// Something happened while it waited.
     Disturbed(Error),

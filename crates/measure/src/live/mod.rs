@@ -1,14 +1,14 @@
 //! A rig that is operated by a person, on a thread of its own.
 //!
 //! ```text
-//!            ──ring(RigCommand)──────────▶ rig, 1 kHz ──ring(RigEvent)──▶ clerk ──ring(RigSample)──▶ window
-//!  Console   ──stop, emergency stop,▶                             │   ──channel(ConsoleEvent)─────▶
-//!              arm (atomic)                                       └──▶ *.csv
+//!            ──ring(RigCommand)──▶ rig, 1 kHz ──ring(RigEvent)──▶ log writer ──ring(RigSample)─────▶ window
+//!  Console   ──stop, emergency stop,▶                                │        ──channel(ConsoleEvent)▶
+//!              arm (atomic)                                          └──▶ *.csv
 //! ```
 //!
-//! Nobody keeps the rig waiting: what finds no room in a ring is counted. Recordings are written by the clerk,
-//! so that they are whole however slow the window is. An order that was given before somebody pressed stop, or
-//! before a motion failed, is stale: it is dropped and said to be.
+//! Nothing blocks the rig: values that find a ring full are counted as lost. The log writer writes the recordings, so
+//! that a slow window loses no row. A command from before a stop or a failed motion is stale: the rig drops it and
+//! reports that.
 //!
 //! *How we know*: `live::…` on a virtual clock, with [`Operated`] in the thread of the test.
 //!

@@ -9,11 +9,11 @@ use crate::{Ended, Error, Rig, RigSample};
 pub enum RigEvent {
     /// What is seen, at every tick.
     Sample(RigSample),
-    /// It begins with an order.
+    /// It begins a command.
     Begun(RigCommand),
-    /// It is done with an order.
+    /// It has ended a command.
     Ended(RigCommand, Result<Ended, Error>),
-    /// It did not begin with an order, for everything was stopped since that was given.
+    /// It dropped a command from before a stop.
     Dropped(RigCommand),
     /// Something happened while it waited.
     Disturbed(Error),
@@ -23,11 +23,11 @@ pub enum RigEvent {
     Armed,
 }
 
-/// A rig that carries out orders.
+/// A rig that carries out commands.
 pub struct Operated {
     rig: Rig,
     commands: log::Reader<Given>,
-    /// An order that was read while another was carried out.
+    /// A command that was read while another was carried out.
     next: Option<Given>,
     told: log::Writer<RigEvent>,
     switches: Switches,
@@ -63,7 +63,7 @@ impl Operated {
         &mut self.rig
     }
 
-    /// Carries out the next order, or waits for a tick; false when that was the last. `watch` hears every sample
+    /// Carries out the next command, or waits for a tick; false when that was the last. `watch` hears every sample
     /// before anybody else.
     pub fn turn(&mut self, watch: &mut dyn FnMut(&RigSample)) -> bool {
         if self.switches.is_ending() {

@@ -29,7 +29,7 @@ impl ModelCommand {
 /// Orders that have room until the model's next step.
 const ROOM: usize = 64;
 
-/// Ends of the way that orders take.
+/// The two ends of the channel of commands.
 pub(super) fn commands() -> (log::Writer<ModelCommand>, log::Reader<ModelCommand>) {
     log::ring(ROOM)
 }

@@ -27,20 +27,20 @@ impl PlacedDevice {
     }
 }
 
-/// What the model has of a station: its end of both channels.
+/// The model's ends of a device's channels.
 pub(super) struct ModelEndpoint {
     pub(super) samples: Receiver<Option<Sample>>,
     pub(super) answers: Sender<AffineForce>,
     pub(super) placement: DevicePlacement,
 }
 
-/// What is watched of a station.
+/// Readings of a device's loop.
 pub(super) struct Watch {
     pub(super) samples: log::Reader<Sample>,
     pub(super) report: Receiver<LoopReport>,
 }
 
-/// A station with its loop, taken apart for those who run it.
+/// A device with its loop, split into its ends for the threads that run it.
 pub(super) struct DeviceEndpoints {
     pub(super) servo: ServoLoop,
     pub(super) line: ModelEndpoint,
@@ -51,7 +51,7 @@ pub(super) struct DeviceEndpoints {
     pub(super) displays_force: bool,
 }
 
-/// The parts of every station, none for a tool without a device.
+/// The ends of every device, none for a tool without a device.
 pub(super) fn device_endpoints(
     simulation: &Simulation,
     devices: Vec<Option<PlacedDevice>>,

@@ -158,7 +158,7 @@ impl Interaction {
         self.snapshots.latest()
     }
 
-    /// Gives an order to the model, which obeys before its next step; in a pause no device has a force from its next
+    /// Sends a command to the model, which processes it before its next step; in a pause no device has a force from its next
     /// tick on.
     pub fn send(&mut self, command: ModelCommand) {
         command.supervise(&self.supervisor);

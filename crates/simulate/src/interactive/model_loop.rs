@@ -51,7 +51,7 @@ pub(super) struct ModelLoop {
     pub(super) priority: Priority,
 }
 
-/// Where a model gets its orders from, and where its rows go.
+/// Where a model gets its commands from, and where its rows go.
 pub(super) struct Channels {
     pub(super) commands: log::Reader<ModelCommand>,
     pub(super) rows: log::Writer<SessionRow>,

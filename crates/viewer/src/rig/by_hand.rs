@@ -135,7 +135,7 @@ fn drive(window: &mut RigWindow, (up, key): (bool, &str), size: eframe::egui::Ve
     let free = window.watch.is_free();
     let word = if up { "up" } else { "down" };
     let held = Button::new(format!("Hold to go {word}")).min_size(size);
-    // Enabled while it is held, when its own order is being carried out.
+    // Enabled while it is held, when its own command is being carried out.
     let driving = matches!(window.watch.doing, Some((RigCommand::Drive(_), _)));
     let speed = 1e3 * window.settings.jog_speed;
     let hint = format!("at {speed} mm/s for as long as it is held ({key} key)");

@@ -1,7 +1,7 @@
 //! The window in which a rig is operated: what it does and its limits above, what it can be asked on the left,
 //! what is felt and what was recorded in the middle.
 //!
-//! The window owns no rig: it gives orders, and shows what a [`LiveRig`] tells, which goes on in threads of its
+//! The window owns no rig: it sends commands, and shows what a [`LiveRig`] tells, which goes on in threads of its
 //! own however slow the picture is.
 //!
 //! *How we know*: `rig::journal::…`, `rig::curves::…`, `rig::prepared::…`; the rig by the tests of its crate; the
@@ -199,7 +199,7 @@ impl RigWindow {
         }
     }
 
-    /// Gives an order that is heard of again.
+    /// Sends a command whose end is reported.
     fn send(&mut self, order: RigCommand) {
         if let Behind::Live(live) = &mut self.behind {
             live.console.send(order);

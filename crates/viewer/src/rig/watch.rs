@@ -129,7 +129,7 @@ impl Watch {
         }
     }
 
-    /// Whether an order that moves the indenter would be carried out at once.
+    /// Whether a command that moves the indenter would be carried out at once.
     pub(super) fn is_free(&self) -> bool {
         self.fault.is_none() && self.waiting == 0 && self.now.is_some()
     }

@@ -1,6 +1,6 @@
 //! Where tissue touches the indenter, node by node.
 //!
-//! A node of the surface that would enter the indenter is caught: at the place where it came in (stick)
+//! A node of the surface that would enter the indenter is activated: at the place where it came in (stick)
 //! or on the surface that it came through (slide). One that is pulled is let go, unless it belongs to a
 //! face that sticks.
 
@@ -102,7 +102,7 @@ impl Indenter {
         }
     }
 
-    /// Whether a caught node is to be let go: it is at `place` and the tissue presses on the indenter
+    /// Whether an active node is to be released: it is at `place` and the tissue presses on the indenter
     /// with `force` [N], (r, z).
     pub(super) fn lets_go(&self, touch: ContactStatus, place: Place, force: [f64; 2]) -> bool {
         let push = match (touch, self.surface(0.0)) {

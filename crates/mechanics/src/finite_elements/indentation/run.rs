@@ -330,7 +330,7 @@ impl IndentationRun {
         let mut slopes = self.now.slopes.clone();
         let mut state = self.predict(depth, relaxing.as_ref())?;
         let mut taken = 0;
-        // A node that sticks stays where it was caught, so that place must be exact.
+        // A node that sticks stays where it was activated, so that place must be exact.
         let first = if self.slides() {
             ROUGH
         } else {

@@ -2,11 +2,11 @@
 //!
 //! At an equilibrium r(u, q) = 0, so K ∂u/∂q = −∂r/∂q: one more solution with the factors that Newton's
 //! method has made. What is held does not change with q, except where a node sticks, which remembers the
-//! change of the place at which it was caught.
+//! change of the place at which it was activated.
 //!
 //! *How we know*: `sensitivities::…` against runs with moved parameters.
 //!
-//! *Limits*: elastic tissue; the moment at which a sliding node is caught does not change with q.
+//! *Limits*: elastic tissue; the moment at which a sliding node is activated does not change with q.
 
 use super::super::model::{FiniteElementModel, FiniteElementState, FiniteElementWorkspace};
 use super::super::newton::Failure;
@@ -54,7 +54,7 @@ impl Sensitivities {
         Ok(())
     }
 
-    /// The node `entry.node` is caught: its held place moves with the parameters as the point where it
+    /// The node `entry.node` is activated: its prescribed place moves with the parameters as the point where it
     /// came in does.
     pub(super) fn activate(&mut self, entry: &Entry, old: &Self) {
         let Entry {

@@ -1,8 +1,8 @@
 //! One mesh of a tube on its way: pressure first, then the punch, step by step.
 //!
 //! The face is a plane across the punch's axis that moves inward from the outermost point of the
-//! pressurised tube. A node that began within the punch's radius is caught when the plane passes it; it
-//! then has the plane's x, and where it sticks also the y and z at which it was caught. A sliding node
+//! pressurised tube. A node that began within the punch's radius is activated when the plane passes it; it
+//! then has the plane's x, and where it sticks also the y and z at which it was activated. A sliding node
 //! that would pull is let go. Force on the tissue: four times the reactions' sum.
 
 use crate::contact::Friction;
@@ -45,7 +45,7 @@ pub(super) struct Punching<'a> {
 struct ConvergedIncrement {
     depth: f64,
     state: FiniteElementState,
-    /// Where each node of the face was caught [m], (y, z).
+    /// Where each node of the face was activated [m], (y, z).
     caught: Vec<Option<[f64; 2]>>,
 }
 

@@ -9,7 +9,7 @@ use crate::contact::Friction;
 
 /// A node that is deeper than this inside after a step has come in too fast [-].
 const DEEPEST_CATCH: f64 = 0.1;
-/// How far a node that pulled on a sphere or a cone may be inside without being caught again at the same depth, in
+/// How far a node that pulled on a sphere or a cone may be inside without being activated again at the same depth, in
 /// radii of the contact [-]: a hundredth of the smallest elements.
 const HAIR: f64 = 1e-3;
 
