@@ -1,7 +1,7 @@
 //! Jobs, as `palpate.jobs` asks for them: documents and choices come in as text, answers go out as JSON, which is
 //! what the command prints.
 //!
-//! A job that cannot end in good order is broken off by Ctrl-C where it tells how far it is: its thread unwinds,
+//! A job that cannot end in good order is cancelled by Ctrl-C where it tells how far it is: its thread unwinds,
 //! as no file is half written there.
 
 use std::path::PathBuf;

@@ -22,7 +22,7 @@ pub enum Error {
     },
     /// A scene whose numbers have not been drawn.
     #[error(
-        "the scene draws its numbers anew for each attempt; draw a variant of it first (`draw_variant`)"
+        "the scene draws its numbers for each attempt; draw a variant of it first (`draw_variant`)"
     )]
     NotDrawn,
     /// A neighbour cannot stand where the scene has it.
@@ -178,7 +178,7 @@ pub enum Error {
     #[error("the model thread panicked, and the devices were stopped; report it as a defect")]
     ModelPanicked,
     /// Another model cannot take over in a touch that goes on.
-    #[error("the touch cannot go on with this model: {why}; start anew")]
+    #[error("the simulation cannot continue with this model: {why}; restart")]
     NoTakeOver {
         /// Why.
         why: &'static str,

@@ -213,7 +213,7 @@ fn fault(window: &mut RigWindow, ui: &mut Ui) {
                 }
             } else if fault.arming {
                 ui.spinner();
-                ui.label("forces come back");
+                ui.label("forces return");
             } else {
                 if ui.button("Arm again").clicked() {
                     window.arm();

@@ -187,7 +187,7 @@ impl RigWindow {
         }
         if !live.is_running() {
             let sentence =
-                "a thread of the rig has ended, and its device was stopped; open the window anew";
+                "a thread of the rig has ended, and its device was stopped; open the window again";
             self.behind = Behind::Failed(sentence.to_owned());
         }
     }

@@ -289,7 +289,7 @@ impl SimulatorWindow {
                 || "one of its threads ended".to_owned(),
                 |fault| fault.to_string(),
             );
-            self.fault = Some(format!("the touch has stopped: {why}; press Start anew"));
+            self.fault = Some(format!("the simulation has stopped: {why}; press Restart"));
         }
     }
 

@@ -38,7 +38,7 @@ pub(super) fn side(window: &mut SimulatorWindow, ui: &mut Ui) {
             scene(window, ui);
             // Which tool the mouse moves is no matter of the scene.
             let other = window.choice != before && window.choice.scene() != before.scene();
-            if ui.button("Start anew").clicked() || other {
+            if ui.button("Restart").clicked() || other {
                 let context = ui.ctx().clone();
                 window.begin_anew(&context);
             }
@@ -353,7 +353,7 @@ fn arm(window: &SimulatorWindow, is_latched: bool, ui: &mut Ui) {
         return;
     };
     let button = ui.button("Arm forces");
-    let hint = "forces come back over half a second, once the hand is slow and the force small";
+    let hint = "forces return over half a second, once the hand is slow and the force small";
     if button.on_hover_text(hint).clicked() {
         play.source.arm();
     }

@@ -136,10 +136,10 @@ impl<'r> LearningCurve<'r> {
         let mut warnings = Vec::new();
         match self.experts.len() {
             0 => warnings.push(format!(
-                "no session of an expert at `{task}` is recorded, so nobody can be proficient; record two or more"
+                "no session of an expert at `{task}` is recorded, so proficiency cannot be judged; record two or more"
             )),
             1 => warnings.push(format!(
-                "one session of an expert at `{task}` gives no deviation, so nobody can be proficient; record another"
+                "one session of an expert at `{task}` gives no deviation, so proficiency cannot be judged; record another"
             )),
             _ => {}
         }
