@@ -168,7 +168,7 @@ fn tips(
     let places = [touchable[3], touchable[touchable.len() / 2]];
     let loads = || places.map(|id| field.at(surface, id, &[0.2, 0.3, 0.5]));
     group.bench_function("what the organ adds to a tip", |b| {
-        b.iter(|| loads()[0].further_compliance());
+        b.iter(|| loads()[0].structural_compliance());
     });
     group.bench_function("compliance between two tips", |b| {
         b.iter(|| {

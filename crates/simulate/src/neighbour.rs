@@ -14,7 +14,7 @@ use palpate_files::scene::Shape;
 use palpate_geometry::{AabbTree, PatchField, Surface, Vec3};
 use palpate_mechanics::contact::Friction;
 
-use crate::contact::{self, Contact, Ground};
+use crate::contact::{self, Contact, RestSurface};
 use crate::simulation::{Simulation, radius_of_hemisphere};
 use crate::state::{SimulationState, ToolState};
 use crate::tool::Tool;
@@ -70,8 +70,8 @@ impl Neighbour {
         Ok(all)
     }
 
-    fn ground(&self, tool: usize) -> Ground<'_> {
-        Ground {
+    fn surface(&self, tool: usize) -> RestSurface<'_> {
+        RestSurface {
             surface: &self.surface,
             tree: &self.tree,
             patches: &self.patches[tool],
@@ -99,8 +99,8 @@ pub(crate) fn press(simulation: &Simulation, number: usize, state: &mut Simulati
     for (neighbour, contact) in neighbours.iter().zip(touched) {
         let last = contact.take();
         let Some(tip) = tip else { continue };
-        let ground = neighbour.ground(number);
-        let found = contact::detect(&ground, tool, last.as_ref(), &tip);
+        let surface = neighbour.surface(number);
+        let found = contact::detect(&surface, tool, last.as_ref(), &tip);
         let travel = before.map_or(0.0, |before| (tip - before).norm());
         let Some(mut found) = found.filter(|found| last.is_some() || found.depth <= travel) else {
             continue;

@@ -50,7 +50,7 @@ impl Protocol {
         Key::tables(
             "stimulus",
             StimulusPlan::KEYS,
-            "What is done to each specimen.",
+            "The stimuli of each specimen.",
         )
         .required(""),
     ];

@@ -360,7 +360,7 @@ fn what_cannot_be_solved_is_refused() {
 }
 
 #[test]
-fn a_solution_tells_how_far_it_is_and_can_be_broken_off() {
+fn a_solution_tells_how_far_it_is_and_can_be_cancelled() {
     let solid = Held::organ(Organ::Kidney, 400, 0.45);
     let problem = solid.problem(&solid.free);
     let mut told = vec![0.0];

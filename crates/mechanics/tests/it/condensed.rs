@@ -158,7 +158,7 @@ fn what_cannot_be_solved_is_refused() {
 }
 
 #[test]
-fn a_solution_tells_how_far_it_is_and_can_be_broken_off() {
+fn a_solution_tells_how_far_it_is_and_can_be_cancelled() {
     let solid = hemisphere(0.45, 200);
     let touchable = solid.near_point(&(RADIUS * Vec3::z()), 40);
     let problem = problem(&solid, &touchable, 0.02);

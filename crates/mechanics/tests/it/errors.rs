@@ -1,4 +1,4 @@
-//! What cannot be a model is refused, with the value and a mend.
+//! What cannot be a model is refused, with the value and a remedy.
 
 use std::sync::Arc;
 
@@ -157,7 +157,7 @@ fn every_refusal_names_the_value_and_the_mend() {
         for word in words {
             assert!(message.contains(word), "{message:?} lacks {word:?}");
         }
-        // Cause, then mend.
+        // Cause, then remedy.
         assert!(message.contains("; "), "{message}");
     }
 }

@@ -341,7 +341,7 @@ fn sensitivities_are_those_of_moved_parameters() {
             press(&mut run(bonded(), make(values[0], values[1]), 0), DEPTH).force
         };
         let mut sensitive = run(bonded(), make(values[0], values[1]), 0).with_sensitivities();
-        let found = press(&mut sensitive, DEPTH).by_parameter;
+        let found = press(&mut sensitive, DEPTH).sensitivities;
         for parameter in 0..2 {
             let step = 0.002 * values[parameter];
             let moved = |by: f64| {

@@ -94,7 +94,7 @@ fn a_law_allocates_nothing() {
             law.energy(&f)
                 + law.stress(&f).norm()
                 + law.tangent(&f).norm()
-                + law.law.by_parameter(0, &f).1
+                + law.law.sensitivities(0, &f).1
         });
         assert!(sum.is_finite());
         assert_eq!(violation_count(), before, "{}", law.name);
@@ -123,7 +123,7 @@ fn contact_on_a_response_allocates_nothing() {
         response.add_field(moved[0].triangle, &forces[0], &mut moves);
         let tips = [solid.free[0], solid.free[90]]
             .map(|id| field.at(&solid.surface, id, &[0.2, 0.3, 0.5]));
-        let between = response.between(&tips[0], &tips[1]) + tips[0].further_compliance();
+        let between = response.between(&tips[0], &tips[1]) + tips[0].structural_compliance();
         response.add_field_of_tip(&tips[0], &forces[1], &mut moves);
         between.norm() + f64::from(moves[0])
     });

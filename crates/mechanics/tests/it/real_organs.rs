@@ -110,7 +110,7 @@ impl Kidney {
         let press = Press {
             at,
             tip: tip.tip,
-            displacement: tip.own + load.further_compliance() * tip.force,
+            displacement: tip.own + load.structural_compliance() * tip.force,
             own: tip.own,
         };
         field.update(&interpolation, &moved, &[press]);
@@ -205,7 +205,7 @@ fn pressed_tip(load: &TipLoad<'_>, (place, normal): (Vec3, Vec3), bond: Friction
         radius: RADIUS,
         place,
         normal,
-        own: (compliance - load.further_compliance()) * force,
+        own: (compliance - load.structural_compliance()) * force,
         force,
     }
 }

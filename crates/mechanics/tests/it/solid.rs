@@ -398,7 +398,7 @@ fn nearest_top(path: &std::path::Path, middle: &Vec3) -> Vec3 {
     *near.max_by(|a, b| a.y.total_cmp(&b.y)).unwrap()
 }
 
-/// What is no problem is refused, with the value and a mend.
+/// What is no problem is refused, with the value and a remedy.
 #[test]
 fn what_cannot_be_solved_is_refused() {
     let changed = |change: &dyn Fn(&mut SolidProblem)| {

@@ -59,7 +59,7 @@ pub(crate) fn compliance(
 ) -> Matrix3<f64> {
     let normals = normal * normal.transpose();
     let across = half_space_tangential_stiffness(&law(nu), a);
-    load.further_compliance()
+    load.structural_compliance()
         + normals / half_space_stiffness(&law(nu), a, bond)
         + (Matrix3::identity() - normals) / across
 }
@@ -382,7 +382,7 @@ fn an_anchor_yields_nothing() {
     assert!(response.holds(middle));
     let load = field.at(&solid.surface, middle, &place);
     assert_eq!(load.shares().count(), 0);
-    let along = load.further_compliance()[(2, 2)];
+    let along = load.structural_compliance()[(2, 2)];
     let own = 2.408 * (1.0 - nu * nu) / (std::f64::consts::PI * 1.7 * a);
     assert!((along / -own - 1.0).abs() < 0.03, "{along} {own}");
 }

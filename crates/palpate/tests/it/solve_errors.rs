@@ -1,4 +1,4 @@
-//! Problems that have to be mended: exit status 2 and one sentence that says what, where and how.
+//! Invalid problems: exit status 2 and one sentence that says what, where and how.
 
 use std::fs;
 use std::path::Path;

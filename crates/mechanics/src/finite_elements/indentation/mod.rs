@@ -15,7 +15,7 @@ mod indenter;
 mod mesh;
 mod problem;
 mod run;
-mod slopes;
+mod sensitivities;
 mod stiffening;
 
 pub use indenter::{Indenter, IndenterShape, Side};

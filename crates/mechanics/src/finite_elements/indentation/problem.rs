@@ -270,7 +270,7 @@ impl IndentationProblem {
             depth,
             force,
             energy: 0.0,
-            by_parameter: Vec::new(),
+            sensitivities: Vec::new(),
         });
         Ok(IndentationAnswer {
             points: points.collect(),

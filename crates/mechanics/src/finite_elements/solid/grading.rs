@@ -61,7 +61,7 @@ const AROUND: usize = 96;
 const OFF: f64 = 0.01;
 
 /// What all meshes of a problem have in common.
-pub(super) struct Ground<'a> {
+pub(super) struct MeshContext<'a> {
     body: &'a Body,
     filling: TetrahedronMesh,
     /// Centre of the patch, on the boundary [m].
@@ -74,7 +74,7 @@ pub(super) struct Ground<'a> {
     pub(super) warnings: Vec<String>,
 }
 
-impl<'a> Ground<'a> {
+impl<'a> MeshContext<'a> {
     pub(super) fn new(problem: &'a SolidProblem) -> Result<Self, Error> {
         let SolidProblem { body, patch, .. } = problem;
         let triangles = triangles(body);
@@ -103,7 +103,7 @@ impl<'a> Ground<'a> {
         if edge.is_empty() {
             return Err(Error::PatchCoversBody { radius });
         }
-        let ground = |filling: TetrahedronMesh| {
+        let context = |filling: TetrahedronMesh| {
             let spacing = AT_ANCHOR * filling.quality().longest_edge;
             let rim = triangles.iter();
             let rim = rim.flat_map(|triangle| rim_in(triangle, &problem.anchor, spacing));
@@ -119,7 +119,7 @@ impl<'a> Ground<'a> {
         };
         let surface = match body {
             Body::Surface(surface) => surface,
-            Body::Volume(mesh) => return Ok(ground(mesh.clone())),
+            Body::Volume(mesh) => return Ok(context(mesh.clone())),
         };
         let wanted = area_within(radius, &center, surface);
         let (coarse, edge) = filling(surface)?;
@@ -128,7 +128,7 @@ impl<'a> Ground<'a> {
                 near + SPREAD * ((point - center).norm() - 1.5 * radius).max(0.0)
             })
         };
-        let mut closest = ground(coarse);
+        let mut closest = context(coarse);
         let mut found = closest.area_of_patch()?;
         let missed = |found: f64| (found / wanted - 1.0).abs();
         for halvings in 0..FINER_FILLINGS {
@@ -138,7 +138,7 @@ impl<'a> Ground<'a> {
             let Ok(tetrahedra) = finer(radius * 2.0_f64.powi(-halvings)) else {
                 break;
             };
-            let next = ground(tetrahedra);
+            let next = context(tetrahedra);
             let area = next.area_of_patch()?;
             if missed(area) < missed(found) {
                 (closest, found) = (next, area);

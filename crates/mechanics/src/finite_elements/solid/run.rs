@@ -3,7 +3,7 @@ use super::super::mesh::ElementMesh;
 use super::super::model::{FiniteElementModel, FiniteElementWorkspace, Formulation};
 use super::answer::SolidAnswer;
 use super::frame::Frame;
-use super::grading::Ground;
+use super::grading::MeshContext;
 use super::problem::{Body, SolidProblem};
 use super::solve::equilibrium;
 use super::supports::Held;
@@ -35,13 +35,13 @@ pub fn solve(
     progress: &mut dyn FnMut(Progress),
 ) -> Result<Estimated<SolidAnswer>, Error> {
     problem.check()?;
-    let ground = Ground::new(problem)?;
+    let context = MeshContext::new(problem)?;
     let mut unknowns = 0;
     refine(&MESHES, accuracy, |mesh| {
         if unknowns > MOST_BEFORE_THE_LAST {
             return Ok(None);
         }
-        let answer = problem.solve_on(&ground, mesh, progress)?;
+        let answer = problem.solve_on(&context, mesh, progress)?;
         unknowns = answer.unknowns;
         let quantities = vec![
             Quantity::new("force", vec![answer.force_along]),
@@ -62,19 +62,19 @@ pub fn solve_at(
     progress: &mut dyn FnMut(Progress),
 ) -> Result<SolidAnswer, Error> {
     problem.check()?;
-    let ground = Ground::new(problem)?;
-    problem.solve_on(&ground, (halvings + 1).max(0) as usize, progress)
+    let context = MeshContext::new(problem)?;
+    problem.solve_on(&context, (halvings + 1).max(0) as usize, progress)
 }
 
 impl SolidProblem {
     fn solve_on(
         &self,
-        ground: &Ground<'_>,
+        context: &MeshContext<'_>,
         mesh: usize,
         progress: &mut dyn FnMut(Progress),
     ) -> Result<SolidAnswer, Error> {
         progress(Progress { part: 0.0, mesh });
-        let (tetrahedra, crossing) = ground.mesh(mesh as i32 - 1)?;
+        let (tetrahedra, crossing) = context.mesh(mesh as i32 - 1)?;
         let corners = tetrahedra.vertices().len();
         let unknowns = 4 * corners + 3 * tetrahedra.edges().len();
         if unknowns > MOST_UNKNOWNS {
@@ -83,7 +83,7 @@ impl SolidProblem {
                 most: MOST_UNKNOWNS,
             });
         }
-        let held = Held::new(self, &tetrahedra, &ground.center)?;
+        let held = Held::new(self, &tetrahedra, &context.center)?;
         let frame = Frame::new(&self.patch);
         let elements = frame.put(ElementMesh::from_tetrahedra(&tetrahedra));
         let model = FiniteElementModel::new(elements, self.law.clone(), Formulation::Mixed)?;
@@ -93,7 +93,7 @@ impl SolidProblem {
         })?;
         let supports = (&frame, &held, &self.patch.displacement);
         let mut answer = SolidAnswer::new(&model, &state, &workspace, supports);
-        answer.warnings.clone_from(&ground.warnings);
+        answer.warnings.clone_from(&context.warnings);
         if crossing > 0 {
             answer.warnings.push(format!(
                 "{crossing} edges of the mesh cross the edge of the patch, whose area is {:.3e} m²",
