@@ -47,8 +47,17 @@ def tissue() -> palpate.Simulation:
     return palpate.Simulation(
         palpate.Scene(
             {
-                "organ": {"builtin": "liver", "triangles": 4000, "builtin_tissue": "pig-liver"},
-                "tool": [{"name": "right", "tip": {"shape": "sphere", "radius_m": TIP_RADIUS}}],
+                "organ": {
+                    "builtin": "liver",
+                    "triangles": 4000,
+                    "builtin_tissue": "pig-liver",
+                },
+                "tool": [
+                    {
+                        "name": "right",
+                        "tip": {"shape": "sphere", "radius_m": TIP_RADIUS},
+                    }
+                ],
                 "model": {"kind": "local", "step_s": STEP},
             }
         )
@@ -104,7 +113,10 @@ def main() -> None:
     # At rest the actuators carry exactly what the tissue does to the joints.
     carried = coupling.data.actuator_force
     assert np.linalg.norm(coupling.force) > 0.05
-    assert np.allclose(carried, -coupling.joint_torques(), rtol=0.02, atol=1e-4), (carried, coupling.joint_torques())
+    assert np.allclose(carried, -coupling.joint_torques(), rtol=0.02, atol=1e-4), (
+        carried,
+        coupling.joint_torques(),
+    )
 
 
 if __name__ == "__main__":

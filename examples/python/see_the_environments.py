@@ -15,7 +15,10 @@ from PIL import Image
 
 SIZE = (360, 270)
 #: Of the background, the organ, its neighbours and the tools.
-COLORS = np.array([[20, 20, 24], [205, 92, 92], [120, 100, 140], [240, 200, 60], [90, 180, 220]], dtype=np.uint8)
+COLORS = np.array(
+    [[20, 20, 24], [205, 92, 92], [120, 100, 140], [240, 200, 60], [90, 180, 220]],
+    dtype=np.uint8,
+)
 
 
 def seen(name: str, seed: int, depth: float) -> np.ndarray:
@@ -45,7 +48,14 @@ def seen(name: str, seed: int, depth: float) -> np.ndarray:
 
 
 def main(path: str) -> None:
-    rows = [seen(*row) for row in (("Palpation", 9, 0.006), ("Traction", 1, 0.001), ("Cutting", 3, 0.002))]
+    rows = [
+        seen(*row)
+        for row in (
+            ("Palpation", 9, 0.006),
+            ("Traction", 1, 0.001),
+            ("Cutting", 3, 0.002),
+        )
+    ]
     Image.fromarray(np.vstack(rows)).save(path, optimize=True)
 
 

@@ -75,10 +75,14 @@ def actions(environment: touch.TouchEnv, steps: int, seed: int = 0) -> list[Any]
 
 
 @pytest.mark.parametrize("images", [(), ("rgb", "depth", "segmentation")])
-def test_gymnasium_finds_nothing_wrong_with_pictures(kind: str, adapter: str, images: tuple[str, ...]) -> None:
+def test_gymnasium_finds_nothing_wrong_with_pictures(
+    kind: str, simulation: palpate.Simulation, adapter: str, images: tuple[str, ...]
+) -> None:
     """Of every form, with its picture; infinite bounds of forces are meant."""
     for form in FORMS:
-        environment = made(kind, model="local", render_mode="rgb_array", images=images, image_size=(32, 24), **form)
+        environment = made(
+            kind, simulation=simulation, render_mode="rgb_array", images=images, image_size=(32, 24), **form
+        )
         with warnings.catch_warnings(record=True) as told:
             warnings.simplefilter("always")
             check_env(environment)
@@ -155,9 +159,13 @@ def test_forces_are_turned_into_the_frame_of_the_camera() -> None:
             action="remote_center",
             randomization={"tissue.stiffness": (factor, factor)},
         )
-        environment.reset(seed=1)
-        for _ in range(40):
-            seen = environment.step(np.array([0.0, 0.0, 1.0, 0.0, -1.0], dtype=np.float32))[0]
+        # The first episode whose tool stands where the shaft leads to the organ.
+        for seed in range(10):
+            seen, _ = environment.reset(seed=seed)
+            for _ in range(20):
+                seen = environment.step(np.array([0.0, 0.0, 1.0, 0.0, -1.0], dtype=np.float32))[0]
+                if seen["state"][6] > 0.002:
+                    break
             if seen["state"][6] > 0.002:
                 break
         assert np.linalg.norm(seen["force"]) > 0.01

@@ -11,6 +11,7 @@ the Parquet files; there are no videos.
 
 from __future__ import annotations
 
+import importlib
 import json
 import struct
 import zlib
@@ -26,7 +27,6 @@ import palpate
 from palpate.errors import InputError
 
 if TYPE_CHECKING:
-    import pyarrow
     from typing_extensions import Self
 
 #: Of the format.
@@ -336,13 +336,11 @@ def png(image: NDArray[np.uint8]) -> bytes:
 
 def _pyarrow() -> tuple[Any, Any]:
     try:
-        import pyarrow
-        import pyarrow.parquet
+        return importlib.import_module("pyarrow"), importlib.import_module("pyarrow.parquet")
     except ImportError:
         raise ImportError(
             "palpate.lerobot needs pyarrow, which is not installed; `pip install palpate[lerobot]`"
         ) from None
-    return pyarrow, pyarrow.parquet
 
 
 def _rows(rows: NDArray[Any]) -> list[Any]:
@@ -356,7 +354,7 @@ def _for_statistics(rows: NDArray[Any], is_image: bool) -> NDArray[np.float64]:
     return numbers.astype(np.float64)
 
 
-def _type(arrow: Any, feature: Mapping[str, Any]) -> pyarrow.DataType:
+def _type(arrow: Any, feature: Mapping[str, Any]) -> Any:
     if feature["dtype"] == "image":
         return arrow.struct([("bytes", arrow.binary()), ("path", arrow.string())])
     own = {"float32": arrow.float32(), "int64": arrow.int64(), "bool": arrow.bool_()}[feature["dtype"]]

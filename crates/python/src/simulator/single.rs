@@ -315,6 +315,18 @@ impl Simulation {
         score.transpose()
     }
 
+    /// Another simulation of the same model, in the same state.
+    fn __deepcopy__(&self, _memo: &Bound<'_, PyAny>) -> Self {
+        let mut stepper = Stepper::new(&self.model);
+        stepper.restore(&self.model, self.stepper.course.clone());
+        Self {
+            model: self.model.clone(),
+            show_every: self.show_every,
+            stepper,
+            marks: self.marks.clone(),
+        }
+    }
+
     fn __repr__(&self) -> String {
         let (tools, time) = (self.tools().join(", "), self.time());
         format!("<palpate.Simulation with the tools {tools} at {time:?} s>")
