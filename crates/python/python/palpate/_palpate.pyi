@@ -98,7 +98,7 @@ class Renderer:
         index: int = 0,
         *,
         camera: Camera | None = None,
-        images: Sequence[str] = ("rgb",),
+        images: Sequence[str] = ...,
     ) -> dict[str, NDArray[Any]]: ...
 
 @final
