@@ -1,6 +1,7 @@
 mod is_input;
 
 /// What a model cannot be made of.
+#[non_exhaustive]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Error {
     /// Young's modulus is not a positive number.
