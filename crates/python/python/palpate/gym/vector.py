@@ -84,7 +84,7 @@ class TouchVectorEnv(VectorEnv[Seen, NDArray[np.float32], Any]):
         self, *, seed: int | list[int | None] | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Seen, dict[str, Any]]:
         """New episodes: all, or those of `options["reset_mask"]`. A seed is that of the first, the next ones follow.
-        `options={"state": [state, …]}` goes on from a `state()` for each environment; None there begins anew."""
+        `options={"state": [state, …]}` goes on from a `state()` for each environment; None there starts a new episode."""
         if seed is None:
             seeds: list[int | None] = [None] * self.num_envs
         elif isinstance(seed, int):
