@@ -112,7 +112,7 @@ const KIND_MEANINGS: &[Word] = &[
     ),
     (
         "solid",
-        "An organ of any shape is held somewhere and moved elsewhere.",
+        "An organ of any shape, fixed at one part and moved at another.",
     ),
 ];
 
