@@ -348,7 +348,7 @@ fn what_cannot_be_solved_is_refused() {
     problem.poissons_ratio = 0.5;
     refused(&problem, most, ["0.5", "below 0.5"]);
     problem = solid.problem(&solid.held);
-    refused(&problem, most, ["held by the anchor", "touch others"]);
+    refused(&problem, most, ["lie in the anchor", "touch others"]);
     problem = solid.problem(&[]);
     refused(
         &problem,

@@ -154,7 +154,7 @@ fn what_cannot_be_solved_is_refused() {
         held: &touchable,
         ..good
     };
-    refused(&both, usize::MAX, "held by the anchor");
+    refused(&both, usize::MAX, "lie in the anchor");
 }
 
 #[test]

@@ -70,7 +70,7 @@ fn one_that_is_asked_for_and_missing_is_one_sentence() {
 }
 
 #[test]
-fn an_address_that_is_none_has_to_be_mended() {
+fn an_address_that_is_none_is_refused() {
     let output = devices(&[], "somewhere");
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("\"somewhere\" is no address"));
@@ -189,7 +189,7 @@ fn a_touch_without_a_window_is_shown() {
 }
 
 #[test]
-fn what_cannot_be_shown_has_to_be_mended() {
+fn what_cannot_be_shown_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let refused = |arguments: &[&str], word: &str| {
         crate::errors::assert_refused(folder.path(), arguments, &[word]);
@@ -209,5 +209,5 @@ fn what_cannot_be_shown_has_to_be_mended() {
         "--out",
         "o",
     ];
-    refused(&motion, "which nobody could see");
+    refused(&motion, "faster than it can be displayed");
 }
