@@ -115,7 +115,7 @@ impl Solid {
         let gravity = keys.vector("gravity_m_per_s2")?.map(Vec3::from);
         if gravity == Some(Vec3::zeros()) {
             let expected =
-                "an acceleration that is not zero; leave the key out for a body without weight";
+                "an acceleration that is not zero, or leave the key out for a body without weight";
             return Err(keys.bad("gravity_m_per_s2", expected));
         }
         let loads = keys.tables("load")?;

@@ -72,11 +72,7 @@ pub(crate) fn solution(
             break;
         }
         // Displacements are nearly as the reciprocal of the stiffness.
-        let change = stiffness_ratio(case, &found.answer.points).ok_or_else(|| {
-            Error::failed(
-                "the points move against the measured displacements; turn `along`, gravity or the loads round",
-            )
-        })?;
+        let change = stiffness_ratio(case, &found.answer.points).ok_or_else(|| against(case))?;
         if (change - 1.0).abs() <= FITTED_TO * problem.accuracy {
             break;
         }
@@ -196,6 +192,23 @@ fn stiffness_ratio(case: &Solid, moved: &[Vec3]) -> Option<f64> {
     (ratio > 0.0 && ratio.is_finite()).then_some(ratio)
 }
 
+/// The error where the points move the other way.
+fn against(case: &Solid) -> Error {
+    let measured = case.points.iter().find(|point| point.measured.is_some());
+    let way = measured.and_then(|point| point.measured);
+    let Some((point, (_, way))) = measured.zip(way) else {
+        return Error::failed("no point has a measured displacement");
+    };
+    let error = palpate_files::Error::BadValue {
+        place: point.place.clone(),
+        key: point.key.replace("at_m", "measured_m"),
+        found: format!("{way}"),
+        expected: "a displacement to the side to which gravity and the loads move the points"
+            .into(),
+    };
+    error.into()
+}
+
 fn figures(point: &Point, moved: &Vec3) -> PointFigures {
     PointFigures {
         name: point.name.clone(),
@@ -259,12 +272,12 @@ fn refused(problem: &Problem, case: &Solid, error: palpate_mechanics::Error) -> 
             load: number,
             distance,
         }) => load(*number).map(|load| {
-            let found = format!("{distance:.3e} m off the surface");
+            let found = format!("{} m off the surface", rounded(*distance, 3));
             bad(&load.place, &load.key, found, "a line on the surface")
         }),
         palpate_mechanics::Error::Solid(SolidError::PointOutside { point, distance }) => {
             case.points.get(*point).map(|point| {
-                let found = format!("{distance:.3e} m outside the body");
+                let found = format!("{} m outside the body", rounded(*distance, 3));
                 bad(
                     &point.place,
                     &point.key,
