@@ -6,7 +6,7 @@ use palpate_characterize::clean::{CleanSettings, clean};
 use palpate_characterize::{CharacterizeSettings, characterize, inverse::SoughtLaw};
 use palpate_files::{BuiltinTissue, Recording, Scene, Tissue, protocol, recording::Samples, scene};
 use palpate_measure::phantom::{Imperfections, MECHANICS_STEP, Machine, TwoMass};
-use palpate_measure::{Course, Rig, RigSettings, VirtualSpecimen};
+use palpate_measure::{DepthTrajectory, Rig, RigSettings, VirtualSpecimen};
 use palpate_servo::Clock;
 use palpate_simulate::{Error, Flow, Simulation, play};
 
@@ -22,17 +22,17 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let machine = Machine::of_two_masses(&TwoMass::consistent(), MECHANICS_STEP);
     let (device, clock) = ((machine, Imperfections::premium()), Clock::virtual_time());
     let mut rig = Rig::over(specimen, device, RigSettings::default(), (clock, 1))?;
-    let course = Course::of(RAMP)?;
+    let trajectory = DepthTrajectory::of(RAMP)?;
     rig.approach(&mut |_| true)?;
     rig.recover(&mut |_| true)?;
     let mut seen = Samples::default();
-    rig.press(&course, &mut |sample| {
+    rig.press(&trajectory, &mut |sample| {
         seen.time_s.push(sample.time);
         seen.depth_m.push(sample.depth.unwrap_or_default());
         seen.force_n.push(sample.force);
         true
     })?;
-    let recording = Recording::new(rig.describe(&course, 1), seen)?;
+    let recording = Recording::new(rig.describe(&trajectory, 1), seen)?;
     let recorded = clean(&recording, &CleanSettings::default())?;
 
     // The specimen is linear, and what is sought is not.
@@ -44,8 +44,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     block.organ.tissue = scene::TissueChoice::Inline(Box::new(found.tissue(None)?));
     let simulation = Simulation::new(&block)?;
     let tool = &simulation.tools()[0];
-    let course = (&recorded.time[..], &recorded.depth[..]);
-    let motion = simulation.site(tool, None).indented(tool, course)?;
+    let trajectory = (&recorded.time[..], &recorded.depth[..]);
+    let motion = simulation.site(tool, None).indented(tool, trajectory)?;
     let (mut off, mut largest) = (0.0_f64, 0.0_f64);
     play(&simulation, &motion, |frame| -> Result<Flow, Error> {
         let sample = recorded.time.partition_point(|time| *time < frame.time);

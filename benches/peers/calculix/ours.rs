@@ -13,8 +13,9 @@
 
 use std::sync::Arc;
 
+use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_elements::indentation::{
-    Base, Block, Grip, IndentationRun, IndentationSettings, Indenter, IndenterShape, Side,
+    Base, Block, IndentationRun, IndentationSettings, Indenter, IndenterShape, Side,
 };
 use palpate_mechanics::finite_elements::tube::{Ends, Tube, TubeProblem, inflate};
 use palpate_mechanics::finite_elements::{
@@ -104,7 +105,7 @@ fn punch(law: Arc<dyn Law>, halvings: i32, depth: f64) {
         indenter: Indenter {
             shape: IndenterShape::Flat { side: Side::Absent },
             radius,
-            face: Grip::Stick,
+            face: Friction::Bonded,
         },
         law,
         prony: Default::default(),

@@ -16,8 +16,9 @@
 use std::io::Write;
 use std::sync::Arc;
 
+use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_elements::indentation::{
-    Base, Block, Grip, IndentationRun, IndentationSettings, Indenter, IndenterShape, Side,
+    Base, Block, IndentationRun, IndentationSettings, Indenter, IndenterShape, Side,
 };
 use palpate_mechanics::finite_elements::{
     ElementKind, ElementMesh, FiniteElementModel, FiniteElementState, FiniteElementWorkspace,
@@ -93,7 +94,7 @@ fn punch(halvings: i32) -> ElementMesh {
         indenter: Indenter {
             shape: IndenterShape::Flat { side: Side::Absent },
             radius: 1e-3,
-            face: Grip::Stick,
+            face: Friction::Bonded,
         },
         law: Arc::new(NeoHookean::incompressible(1000.0).unwrap()),
         prony: Default::default(),

@@ -140,11 +140,11 @@ typedef enum palpate_status {
     PALPATE_OK = 0,
     /**
      * It was not, and what was given is not at fault: a file that may not be read, a defect, a preparation that was
-     * broken off.
+     * cancelled.
      */
     PALPATE_FAILED = 1,
     /**
-     * It was not: what was given has to be mended.
+     * It was not: what was given is invalid.
      */
     PALPATE_BAD_INPUT = 2,
 } palpate_status;
@@ -304,7 +304,7 @@ extern "C" {
 #endif // __cplusplus
 
 /**
- * The sentence that says why a call of this thread was refused the last time: cause, then mend; UTF-8; empty before
+ * The sentence that says why a call of this thread was refused the last time: cause, then remedy; UTF-8; empty before
  * that. It stays until the next refused call of this thread. A call that succeeds leaves it as it is.
  */
 const char *palpate_error_message(void);

@@ -60,7 +60,7 @@ pub(crate) fn keep(what: &impl Display) {
     });
 }
 
-/// The sentence that says why a call of this thread was refused the last time: cause, then mend; UTF-8; empty before
+/// The sentence that says why a call of this thread was refused the last time: cause, then remedy; UTF-8; empty before
 /// that. It stays until the next refused call of this thread. A call that succeeds leaves it as it is.
 #[unsafe(no_mangle)]
 pub extern "C" fn palpate_error_message() -> *const c_char {

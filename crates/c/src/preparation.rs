@@ -52,21 +52,21 @@ pub(crate) unsafe fn prepare(
     if how.memory != 0 {
         resources.memory = usize::try_from(how.memory).unwrap_or(usize::MAX);
     }
-    let mut broken_off = false;
+    let mut cancelled = false;
     let simulation = Simulation::prepare(scene, &resources, &mut |Progress { work, part }| {
         let Some(watch) = how.watch else {
             return ControlFlow::Continue(());
         };
         let words = pointers::text_for_c(work.words());
         // SAFETY: the caller vouches for the function; the words live until it returns.
-        broken_off |= unsafe { watch(words.as_ptr(), part, how.data) } != 0;
-        match broken_off {
+        cancelled |= unsafe { watch(words.as_ptr(), part, how.data) } != 0;
+        match cancelled {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
         }
     })?;
-    // Some work cannot be broken off, and ends all the same.
-    match broken_off {
+    // Some work cannot be cancelled, and ends all the same.
+    match cancelled {
         true => Err(Error::Model(palpate_mechanics::Error::BrokenOff).into()),
         false => Ok(simulation),
     }

@@ -23,7 +23,7 @@ const _: fn() = || {
 
 /// What one thread has while it uses a state.
 pub(crate) struct Own {
-    pub(crate) course: Course,
+    pub(crate) course: SavedState,
     pub(crate) workspace: SimulationWorkspace,
     /// Room for those of the next step.
     pub(crate) poses: Vec<Option<Pose>>,
@@ -33,7 +33,7 @@ pub(crate) struct Own {
 
 /// What is kept and restored.
 #[derive(Clone)]
-pub(crate) struct Course {
+pub(crate) struct SavedState {
     pub(crate) state: SimulationState,
     /// Of the last step [s].
     pub(crate) time: Option<f64>,
@@ -41,7 +41,7 @@ pub(crate) struct Course {
     pub(crate) undo: bool,
 }
 
-impl Course {
+impl SavedState {
     fn new(simulation: &Simulation) -> Self {
         Self {
             state: SimulationState::new(simulation),
@@ -52,7 +52,7 @@ impl Course {
 }
 
 impl StateHandle {
-    fn new(simulation: Arc<Simulation>, course: Course) -> Self {
+    fn new(simulation: Arc<Simulation>, course: SavedState) -> Self {
         let own = Own {
             course,
             workspace: SimulationWorkspace::new(&simulation),
@@ -88,7 +88,7 @@ pub unsafe extern "C" fn palpate_state_new(
         // SAFETY: the header demands it of who calls.
         let simulation = unsafe { pointers::borrowed(simulation, "simulation") }?;
         let simulation = Arc::clone(&simulation.simulation);
-        let course = Course::new(&simulation);
+        let course = SavedState::new(&simulation);
         let made = pointers::handle(StateHandle::new(simulation, course));
         // SAFETY: the header demands it of who calls.
         unsafe { place.put(0, made) };
@@ -218,7 +218,7 @@ mod tests {
                     tool = [{ name = \"right\", tip = { shape = \"flat\", radius_m = 0.001 } }]";
         let simulation = Simulation::new(&Scene::parse(text, "scene.toml").unwrap()).unwrap();
         let simulation = Arc::new(simulation);
-        let course = Course::new(&simulation);
+        let course = SavedState::new(&simulation);
         StateHandle::new(simulation, course)
     }
 

@@ -15,9 +15,9 @@ pub enum Status {
     /// It was done.
     PalpateOk = 0,
     /// It was not, and what was given is not at fault: a file that may not be read, a defect, a preparation that was
-    /// broken off.
+    /// cancelled.
     PalpateFailed = 1,
-    /// It was not: what was given has to be mended.
+    /// It was not: what was given is invalid.
     PalpateBadInput = 2,
 }
 

@@ -16,7 +16,7 @@ use std::time::Duration;
 use criterion::{Criterion, criterion_group, criterion_main};
 use palpate_characterize::fit::Random;
 use palpate_characterize::inverse::{Body, Curves, Indentation, PUNCH, SoughtLaw, law_fit};
-use palpate_characterize::viscoelastic::{Course, RelaxationSettings, relaxation};
+use palpate_characterize::viscoelastic::{RelaxationRecord, RelaxationSettings, relaxation};
 use palpate_files::recording::Samples;
 use palpate_mechanics::{IndentationCurve, PronySeries};
 
@@ -48,7 +48,8 @@ fn of_relaxation(criterion: &mut Criterion) {
         force_n,
     } = samples();
     let largest = force_n.iter().copied().fold(0.0, f64::max);
-    let course = Course::new((&time_s, &depth_m, &force_n), largest, |depth| depth).unwrap();
+    let course =
+        RelaxationRecord::new((&time_s, &depth_m, &force_n), largest, |depth| depth).unwrap();
     let settings = RelaxationSettings { terms: Some(2) };
     criterion.bench_function("relaxation of two terms (budget 50 ms)", |b| {
         b.iter(|| relaxation(black_box(std::slice::from_ref(&course)), settings).unwrap());

@@ -21,7 +21,7 @@ use crate::inverse::{
 };
 use crate::lumped::{Contact, UniaxialFit, fit_uniaxial_recordings, mean_modulus};
 use crate::viscoelastic::{
-    Course, Relaxation, RelaxationSettings, relaxation, relaxation_of_steps,
+    Relaxation, RelaxationRecord, RelaxationSettings, relaxation, relaxation_of_steps,
 };
 use crate::{CleanRecording, Error, WithoutGeometry};
 
@@ -67,11 +67,11 @@ pub struct Characterization {
     pub laws: Vec<(SoughtLaw, Result<LawDescription, Error>)>,
     /// The same from pieces that were pressed or pulled along one axis; empty without any.
     pub uniaxial: Vec<(SoughtLaw, Result<UniaxialFit, Error>)>,
-    /// What deserves warning in the relaxation.
+    /// Warnings about the relaxation.
     pub relaxation_warnings: Vec<String>,
     /// What can be told apart and what cannot, in plain sentences, of relaxation and laws.
     pub identifiability: Vec<String>,
-    /// What else deserves warning, in plain sentences.
+    /// Warnings about plain sentences.
     pub warnings: Vec<String>,
 }
 
@@ -91,9 +91,9 @@ pub fn characterize(
     let of_block = curves.as_mut().ok();
     let of_block = of_block.filter(|curves| matches!(curves.body(), Body::Block { .. }));
     let neo_hookean = of_block.and_then(|curves| curves.of(f64::INFINITY, 0.0).ok());
-    let courses = courses(&pressed, neo_hookean.as_ref());
-    let relaxing = relaxation(&courses, settings.relaxation);
-    let of_steps = relaxation_of_steps(&courses, settings.relaxation);
+    let records = records(&pressed, neo_hookean.as_ref());
+    let relaxing = relaxation(&records, settings.relaxation);
+    let of_steps = relaxation_of_steps(&records, settings.relaxation);
     at_step("springs and dampers");
     let indentations: Vec<Indentation<'_>> = pressed.iter().map(Pressed::indentation).collect();
     let mut found = Characterization {
@@ -228,7 +228,7 @@ impl Pressed {
 }
 
 /// The courses of relaxation; the elastic force is taken for that of `curve`, and for a linear one without it.
-fn courses(pressed: &[Pressed], curve: Option<&UnitCurve>) -> Vec<Course> {
+fn records(pressed: &[Pressed], curve: Option<&UnitCurve>) -> Vec<RelaxationRecord> {
     let shape = |depth: f64| match curve {
         Some(curve) => curve.force.force(depth),
         None => depth,
@@ -237,7 +237,7 @@ fn courses(pressed: &[Pressed], curve: Option<&UnitCurve>) -> Vec<Course> {
     let largest = pressed.iter().map(|each| each.largest).fold(0.0, f64::max);
     let felt = pressed.iter().filter(|each| each.is_felt());
     let each = felt.filter_map(|each| {
-        let course = Course::new((&each.time, &each.depth, &each.force), largest, shape)?;
+        let course = RelaxationRecord::new((&each.time, &each.depth, &each.force), largest, shape)?;
         Some(course.with_zeros((&each.depth, each.zeros), largest, shape))
     });
     each.collect()

@@ -46,7 +46,7 @@ impl WithoutGeometry {
         }
     }
 
-    /// What deserves warning in the fits, each by the name of its law in files.
+    /// Warnings about the fits, each by the name of its law in files.
     pub fn warnings(&self) -> Vec<String> {
         let column = self.column.iter().flat_map(|found| &found.warnings);
         let springs = self.springs.iter().flat_map(|found| &found.warnings);

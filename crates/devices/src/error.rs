@@ -104,7 +104,7 @@ pub enum OpenError {
         wanted: usize,
     },
     /// Nobody said where a force sensor is.
-    #[error("nobody said where the force sensor is; set {variable}, as in {variable}={example}")]
+    #[error("the place of the force sensor is not set; set {variable}, as in {variable}={example}")]
     NoSensorPlace {
         /// The variable of the environment that says it.
         variable: &'static str,

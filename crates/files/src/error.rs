@@ -42,7 +42,7 @@ impl fmt::Display for Place {
 }
 
 /// Why a document cannot be read or written. Each message is one sentence with the place, what was
-/// found, what is expected and the mend.
+/// found, what is expected and the remedy.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -114,12 +114,12 @@ pub enum Error {
         message: String,
     },
     /// The document does not say which format it is in.
-    #[error("{path}: `format` is missing; add the line `{mend}` at the top", path = path.display())]
+    #[error("{path}: `format` is missing; add the line `{remedy}` at the top", path = path.display())]
     MissingFormat {
         /// The file.
         path: PathBuf,
         /// The line to add.
-        mend: &'static str,
+        remedy: &'static str,
     },
     /// The document is in a format that this version does not read.
     #[error(
@@ -284,7 +284,7 @@ fn gigabytes(bytes: u64) -> String {
 }
 
 impl Error {
-    /// Whether the input is at fault: true for a file that must be mended or a name that must be
+    /// Whether the input is at fault: true for a file that must be corrected or a name that must be
     /// corrected (exit status 2), false for a failure such as a full disk (exit status 1).
     pub fn is_input(&self) -> bool {
         match self {

@@ -14,7 +14,7 @@ use std::hint::black_box;
 use criterion::{Criterion, criterion_group, criterion_main};
 use palpate_geometry::{AabbTree, CutMethod, CutSurface, Organ, Surface, Vec3};
 
-fn stroke(c: &mut Criterion) {
+fn cut_path(c: &mut Criterion) {
     let surface = Surface::new(Organ::Stomach.surface_mesh(4_000).unwrap()).unwrap();
     let mesh = surface.mesh();
     let tree = AabbTree::new(mesh);
@@ -46,5 +46,5 @@ fn stroke(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, stroke);
+criterion_group!(benches, cut_path);
 criterion_main!(benches);

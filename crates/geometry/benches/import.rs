@@ -35,8 +35,8 @@ fn import(c: &mut Criterion) {
         b.iter(|| {
             let read = read_mesh(black_box(&path), Some(LengthUnit::Metre)).unwrap();
             let report = inspect(&read.mesh);
-            let (mended, _) = repair(&read.mesh).unwrap();
-            (report, Surface::new(mended).unwrap())
+            let (repaired, _) = repair(&read.mesh).unwrap();
+            (report, Surface::new(repaired).unwrap())
         });
     });
     group.finish();

@@ -23,17 +23,17 @@
 //! beyond the triangles along an opening folds them over. Walk and pull are those of the surface at
 //! rest: whoever deforms it takes the blade back there, and lifts a blade that has left it.
 
+mod cut_path;
 pub(crate) mod error;
 pub(crate) mod net;
 mod snap;
 mod split;
-mod stroke;
 mod walk;
 
+use cut_path::CutPath;
 use error::CutError;
 use net::{Mark, Net, Origin, Side};
 use split::Limits;
-use stroke::Stroke;
 
 use crate::{NodeId, Surface, TriangleId, TriangleMesh, Vec3};
 
@@ -88,7 +88,7 @@ pub struct CutSurface {
     method: CutMethod,
     limits: Limits,
     net: Net,
-    stroke: Option<Stroke>,
+    cut_path: Option<CutPath>,
     cuts: Vec<Mark>,
     /// Before the first cut.
     uncut: Mark,
@@ -115,7 +115,7 @@ impl CutSurface {
             },
             uncut: net.mark(),
             net,
-            stroke: None,
+            cut_path: None,
             cuts: Vec::with_capacity(LEAST_ROOM),
         }
     }
@@ -195,7 +195,7 @@ impl CutSurface {
         near: TriangleId,
         at: &Vec3,
     ) -> Result<(), CutError> {
-        if self.stroke.is_some() {
+        if self.cut_path.is_some() {
             return Err(CutError::UnderWay);
         }
         CutError::of_place(at)?;
@@ -215,7 +215,7 @@ impl CutSurface {
         }
         let before = self.net.mark();
         let blade = self.first_vertex(surface, triangle, &on.position);
-        self.stroke = Some(Stroke {
+        self.cut_path = Some(CutPath {
             blade,
             held: None,
             opened: 0,
@@ -230,19 +230,19 @@ impl CutSurface {
     /// When no cut is under way or `to` is not finite; the blade then stays where it is.
     pub fn advance(&mut self, surface: &Surface, to: &Vec3) -> Result<CutProgress, CutError> {
         CutError::of_place(to)?;
-        let mut stroke = self.stroke.ok_or(CutError::NotBegun)?;
-        let before = stroke.opened;
-        self.turn(surface, &mut stroke, to);
+        let mut cut_path = self.cut_path.ok_or(CutError::NotBegun)?;
+        let before = cut_path.opened;
+        self.turn(surface, &mut cut_path, to);
         for _ in 0..LONGEST_WALK {
-            if !self.pass(surface, &mut stroke, to) {
+            if !self.pass(surface, &mut cut_path, to) {
                 break;
             }
         }
-        self.stroke = Some(stroke);
+        self.cut_path = Some(cut_path);
         Ok(CutProgress {
-            opened: stroke.opened - before,
-            lag: stroke.lag(),
-            away: (to - stroke.blade.position(&self.net)).norm(),
+            opened: cut_path.opened - before,
+            lag: cut_path.lag(),
+            away: (to - cut_path.blade.position(&self.net)).norm(),
         })
     }
 
@@ -252,14 +252,14 @@ impl CutSurface {
     /// # Errors
     /// When no cut is under way.
     pub fn end(&mut self, surface: &Surface) -> Result<usize, CutError> {
-        let mut stroke = self.stroke.take().ok_or(CutError::NotBegun)?;
-        self.finish(surface, &mut stroke);
-        if stroke.opened == 0 {
-            self.net.go_back(stroke.before);
+        let mut cut_path = self.cut_path.take().ok_or(CutError::NotBegun)?;
+        self.finish(surface, &mut cut_path);
+        if cut_path.opened == 0 {
+            self.net.go_back(cut_path.before);
         } else {
-            self.cuts.push(stroke.before);
+            self.cuts.push(cut_path.before);
         }
-        Ok(stroke.opened)
+        Ok(cut_path.opened)
     }
 
     /// Closes the last cut again, as if it had never been. Whether there was one.
@@ -267,7 +267,7 @@ impl CutSurface {
     /// # Errors
     /// When a cut is under way.
     pub fn undo(&mut self) -> Result<bool, CutError> {
-        if self.stroke.is_some() {
+        if self.cut_path.is_some() {
             return Err(CutError::UnderWay);
         }
         let last = self.cuts.pop();
@@ -279,7 +279,7 @@ impl CutSurface {
 
     /// Closes all cuts, and one that is under way, as if they had never been. It allocates nothing.
     pub fn close_all(&mut self) {
-        self.stroke = None;
+        self.cut_path = None;
         self.cuts.clear();
         self.net.go_back(self.uncut);
     }

@@ -17,7 +17,7 @@
 mod background;
 mod graded;
 mod lattice;
-mod mend;
+mod repair;
 mod stencil;
 
 use self::background::Background;
@@ -141,9 +141,9 @@ fn stuffed(
     if tetrahedra.len() > settings.most() {
         return Err(settings.too_many(tetrahedra.len() as f64));
     }
-    let (tetrahedra, lost) = mend::one_sound_piece(&vertices, tetrahedra);
+    let (tetrahedra, lost) = repair::largest_component(&vertices, tetrahedra);
     if tetrahedra.is_empty() || lost > MOST_LOST * volume {
-        let filled: f64 = mend::volume(&vertices, &tetrahedra);
+        let filled: f64 = repair::volume(&vertices, &tetrahedra);
         return Err(TetrahedronError::TooCoarse {
             edge_m: settings.edge,
             lost_percent: 100.0 * (1.0 - filled / volume),

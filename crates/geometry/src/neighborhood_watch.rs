@@ -19,7 +19,7 @@ use crate::{PatchField, Surface, TriangleId, Vec3};
 
 /// A point of a surface, and how deep a tip lies below it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Footing {
+pub struct ContactPoint {
     /// The triangle of the contact point.
     pub triangle: TriangleId,
     /// Weights of its corners [-].
@@ -47,9 +47,9 @@ const FASTEST_TRAVEL: f64 = 2.0;
 pub fn follow(
     surface: &Surface,
     field: &PatchField,
-    from: &Footing,
+    from: &ContactPoint,
     (before, tip): (&Vec3, &Vec3),
-) -> Option<Footing> {
+) -> Option<ContactPoint> {
     let (moved, normal) = ((tip - before).norm(), from.normal);
     let aim = settle(surface, field.vertex_normals(), from, tip).map_or_else(
         || {
@@ -65,7 +65,7 @@ pub fn follow(
         Some,
     )?;
     let reached = approach(surface, field, from, (&aim, moved))?;
-    Some(Footing {
+    Some(ContactPoint {
         depth: reached.normal.dot(&(reached.point - tip)),
         ..reached
     })
@@ -75,9 +75,9 @@ pub fn follow(
 fn approach(
     surface: &Surface,
     field: &PatchField,
-    from: &Footing,
-    (aim, moved): (&Footing, f64),
-) -> Option<Footing> {
+    from: &ContactPoint,
+    (aim, moved): (&ContactPoint, f64),
+) -> Option<ContactPoint> {
     let way = aim.point - from.point;
     let mut part = FASTEST_TRAVEL * moved / way.norm();
     let mut reached = *aim;
@@ -98,7 +98,12 @@ fn approach(
 
 /// The point whose normal, between unit `normals` at the vertices, passes through `tip` [m], if there is one
 /// near `from`.
-pub fn settle(surface: &Surface, normals: &[Vec3], from: &Footing, tip: &Vec3) -> Option<Footing> {
+pub fn settle(
+    surface: &Surface,
+    normals: &[Vec3],
+    from: &ContactPoint,
+    tip: &Vec3,
+) -> Option<ContactPoint> {
     let mut at = Trial {
         triangle: from.triangle,
         barycentric: from.barycentric,
@@ -109,7 +114,7 @@ pub fn settle(surface: &Surface, normals: &[Vec3], from: &Footing, tip: &Vec3) -
         let solved = solve_in_triangle(surface, normals, &at, tip)?;
         let (lowest, weight) = lowest(&solved.barycentric);
         if weight >= -1e-10 {
-            return Some(footing(surface, normals, &solved));
+            return Some(contact_point(surface, normals, &solved));
         }
         let opposite_edge = (lowest + 1) % 3;
         let neighbor = surface.adjacency().across(solved.triangle)[opposite_edge]?;
@@ -187,7 +192,7 @@ fn lowest(weights: &[f64; 3]) -> (usize, f64) {
     (lowest, weights[lowest])
 }
 
-fn footing(surface: &Surface, normals: &[Vec3], trial: &Trial) -> Footing {
+fn contact_point(surface: &Surface, normals: &[Vec3], trial: &Trial) -> ContactPoint {
     let x = surface.mesh().positions(trial.triangle);
     let corners = surface.mesh().corners(trial.triangle);
     let mut point = Vec3::zeros();
@@ -196,7 +201,7 @@ fn footing(surface: &Surface, normals: &[Vec3], trial: &Trial) -> Footing {
         point += trial.barycentric[k] * x[k];
         normal += trial.barycentric[k] * normals[corners[k].index()];
     }
-    Footing {
+    ContactPoint {
         triangle: trial.triangle,
         barycentric: trial.barycentric,
         point,
@@ -211,7 +216,7 @@ fn nearest_among_neighbors(
     field: &PatchField,
     start: TriangleId,
     tip: &Vec3,
-) -> Option<Footing> {
+) -> Option<ContactPoint> {
     let mesh = surface.mesh();
     let mut triangle = start;
     let mut on = closest_on_triangle(&mesh.positions(triangle), tip);
@@ -231,7 +236,7 @@ fn nearest_among_neighbors(
         let Some((other, candidate)) = better else {
             let patch = field.at(surface, triangle, &on.barycentric);
             let below = patch.normal.dot(&(on.position - tip)) >= 0.0;
-            return Some(Footing {
+            return Some(ContactPoint {
                 triangle,
                 barycentric: on.barycentric,
                 point: on.position,

@@ -21,7 +21,7 @@ impl Surface {
     /// The surface that `mesh` is.
     ///
     /// # Errors
-    /// When it is not one; the error names the first reason, with a count and a mend.
+    /// When it is not one; the error names the first reason, with a count and a remedy.
     pub fn new(mesh: TriangleMesh) -> Result<Self, MeshError> {
         let adjacency = Adjacency::new(&mesh);
         check(&mesh, &adjacency)?;

@@ -51,7 +51,7 @@ fn absent(labels: &[Label], wanted: &str) -> Error {
     }
 }
 
-/// What deserves warning in a label's surface, as sentences.
+/// Warnings about a label's surface, as sentences.
 pub fn warnings(label: &Label, found: &Isosurface) -> Vec<String> {
     let name = in_words(label);
     let all = [

@@ -10,7 +10,7 @@
 //! | [`preparation`] | a scene | a simulation, from what was prepared before where there is such |
 //! | [`mod@validate`] | a file | what it is, and whether it is right |
 //!
-//! *How we know*: the tests of the command, which runs every job, and those here: a study that is broken off at any of
+//! *How we know*: the tests of the command, which runs every job, and those here: a study that is cancelled at any of
 //! its words leaves no half file and goes on, and what is answered does not depend on who waits.
 //!
 //! *Limits*: jobs read and write the files that they are asked to, start threads that end with them, and never print

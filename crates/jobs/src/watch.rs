@@ -14,7 +14,7 @@ pub trait Watch: Sync {
         false
     }
 
-    /// Calls `write`, which writes a file and is not to be broken off.
+    /// Calls `write`, which writes a file and must not be cancelled.
     fn unbroken(&self, write: &mut dyn FnMut()) {
         write();
     }

@@ -2,18 +2,18 @@
 //! 5).
 //!
 //! ```text
-//!  Course ───▶ Rig ──latest(Reference)──▶ Indenter (PID) ─▶ servo loop ─▶ device ─▶ tip on a specimen
+//!  DepthTrajectory ───▶ Rig ──latest(Reference)──▶ Indenter (PID) ─▶ servo loop ─▶ device ─▶ tip on a specimen
 //!               ▲                                                            │            │
 //!               └──── RigSample ◀── encoders ────────────────────────────────┘   sensor ──┘
 //! ```
 //!
-//! [`Rig`] approaches along the surface's normal until first contact, presses one [`Course`] of a stimulus at a time and withdraws. It runs on a real
+//! [`Rig`] approaches along the surface's normal until first contact, presses one [`DepthTrajectory`] of a stimulus at a time and withdraws. It runs on a real
 //! clock and on a virtual one. Where there is no device, a [`VirtualSpecimen`] under a virtual PHANTOM stands
 //! for both; what is recorded of it has the sensor's steps, the encoder's steps, a heart that beats and a
 //! breath that is held. A [`live`] rig runs on a thread of its own and carries out the orders of a person.
 
 mod approach;
-mod course;
+mod depth_trajectory;
 mod error;
 mod indenter;
 pub mod live;
@@ -27,7 +27,7 @@ mod sensing;
 mod sensor;
 mod specimen;
 
-pub use course::Course;
+pub use depth_trajectory::DepthTrajectory;
 pub use error::Error;
 pub use indenter::{Indenter, Reference};
 pub use naming::{recording_name, stimulus_name};

@@ -103,7 +103,7 @@ impl Recorder {
         let cut_short = match ended {
             Ok(Ended::Whole) => None,
             Ok(Ended::Stopped) => Some("stopped by hand".to_owned()),
-            // The cause without its mend.
+            // The cause without its remedy.
             Err(error) => {
                 let said = error.to_string();
                 Some(said.split("; ").next().unwrap_or_default().to_owned())

@@ -21,7 +21,9 @@ use line::Line;
 
 use crate::phantom::{Imperfections, MECHANICS_STEP, Machine, VirtualPhantom};
 use crate::sensing::{Sensing, Source};
-use crate::{Course, Error, Indenter, Reference, RigSettings, VirtualForceSensor, VirtualSpecimen};
+use crate::{
+    DepthTrajectory, Error, Indenter, Reference, RigSettings, VirtualForceSensor, VirtualSpecimen,
+};
 
 /// Samples that a device with a scheduler may be ahead of the rig.
 const LOG: usize = 64;
@@ -155,10 +157,10 @@ impl Rig {
     }
 
     /// What a recording of `course` says at its top.
-    pub fn describe(&self, course: &Course, repeat: u64) -> RecordingHeader {
+    pub fn describe(&self, trajectory: &DepthTrajectory, repeat: u64) -> RecordingHeader {
         RecordingHeader {
             approach_normal: Some(self.line.normal.into()),
-            ..self.settings.describe(&self.header, (course, repeat))
+            ..self.settings.describe(&self.header, (trajectory, repeat))
         }
     }
 

@@ -1,6 +1,6 @@
 use palpate_servo::{PidGains, Vec3};
 
-use crate::{Course, Error};
+use crate::{DepthTrajectory, Error};
 
 /// How the normal of a surface is known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -88,11 +88,11 @@ const LONGEST: f64 = 4.0 * 3600.0;
 
 impl RigSettings {
     /// How long `course` takes from where the indenter waits [s], for which a breath is held.
-    pub fn time_of(&self, course: &Course) -> f64 {
-        let [_, speed] = course.at(0.0);
+    pub fn time_of(&self, trajectory: &DepthTrajectory) -> f64 {
+        let [_, speed] = trajectory.at(0.0);
         let down = self.breath_motion / self.withdrawal_speed;
         let way = (self.clearance - STANDOFF).abs() / self.approach_speed;
-        self.calm() + down + way + LEAD + STANDOFF / speed + course.duration()
+        self.calm() + down + way + LEAD + STANDOFF / speed + trajectory.duration()
     }
 
     /// Whether the indenter hangs from its device.
@@ -157,20 +157,20 @@ impl RigSettings {
     ///
     /// # Errors
     /// When it does not: too deep, too fast, too long for a breath.
-    pub fn check(&self, course: &Course) -> Result<(), Error> {
-        if course.deepest() > self.depth_limit {
+    pub fn check(&self, trajectory: &DepthTrajectory) -> Result<(), Error> {
+        if trajectory.deepest() > self.depth_limit {
             return Err(Error::TooDeep {
-                depth_mm: 1e3 * course.deepest(),
+                depth_mm: 1e3 * trajectory.deepest(),
                 limit_mm: 1e3 * self.depth_limit,
             });
         }
-        if course.fastest() > self.speed_limit {
+        if trajectory.fastest() > self.speed_limit {
             return Err(Error::TooFast {
-                speed_mm_s: 1e3 * course.fastest(),
+                speed_mm_s: 1e3 * trajectory.fastest(),
                 limit_mm_s: 1e3 * self.speed_limit,
             });
         }
-        let duration = self.time_of(course);
+        let duration = self.time_of(trajectory);
         if duration.is_nan() || duration > LONGEST {
             return Err(Error::TooLong {
                 duration,

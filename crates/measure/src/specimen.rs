@@ -18,9 +18,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use palpate_files::Tissue;
 use palpate_files::recording::{IndenterShape, RecordingHeader};
 use palpate_files::tissue::LawName;
-use palpate_mechanics::contact::{Bond, Tip};
+use palpate_mechanics::contact::{Friction, Tip};
 use palpate_mechanics::finite_elements::indentation::{
-    self, Base, Block, Grip, IndentationProblem, Indenter, Side,
+    self, Base, Block, IndentationProblem, Indenter, Side,
 };
 use palpate_mechanics::{
     ForceHistory, IndentationCurve, Material, PronySeries, TipLaw, Vec3, contact,
@@ -104,7 +104,7 @@ impl VirtualSpecimen {
             let curve = solved(&material, (radius, deepest), at_step)?;
             return Self::of_solved(tissue, radius, curve);
         }
-        let (tip, bond) = (Tip::Flat { radius }, Bond::Stick);
+        let (tip, bond) = (Tip::Flat { radius }, Friction::Bonded);
         let elastic = Elastic::Law {
             law: Box::new(TipLaw::linear(tip, bond, material.at_rest)),
             stiffness: contact::half_space_stiffness(&material.at_rest, radius, bond),
@@ -134,7 +134,7 @@ impl VirtualSpecimen {
         let mut specimen = Self::new(elastic, material.prony.clone(), radius);
         let law = &material.at_rest;
         specimen.tangential = contact::half_space_tangential_stiffness(law, radius)
-            / contact::half_space_stiffness(law, radius, Bond::Stick);
+            / contact::half_space_stiffness(law, radius, Friction::Bonded);
         specimen.header.organ.clone_from(&tissue.name);
         specimen
     }
@@ -240,10 +240,10 @@ fn solved(
         },
         indenter: Indenter {
             shape: indentation::IndenterShape::Flat {
-                side: Side::Touches(Grip::Stick),
+                side: Side::Touches(Friction::Bonded),
             },
             radius,
-            face: Grip::Stick,
+            face: Friction::Bonded,
         },
         law: material.law.clone(),
     };

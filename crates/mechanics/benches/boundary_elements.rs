@@ -19,7 +19,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use palpate_geometry::{Organ, Surface, TriangleId};
 use palpate_mechanics::Vec3;
 use palpate_mechanics::boundary_elements::{BoundaryProblem, Stage};
-use palpate_mechanics::contact::Bond;
+use palpate_mechanics::contact::Friction;
 use palpate_mechanics::surface_response::{
     MovedTriangle, PatchContact, PatchWorkspace, Reciprocity, SurfaceResponse, TipField, TouchId,
 };
@@ -118,7 +118,10 @@ fn on_line(
         })
         .collect();
     let mut workspace = PatchWorkspace::new(TOUCHED as usize);
-    for (name, bond) in [("stick", Bond::Stick), ("slip", Bond::Slip)] {
+    for (name, bond) in [
+        ("stick", Friction::Bonded),
+        ("slip", Friction::Frictionless),
+    ] {
         let contact = PatchContact {
             bond,
             reciprocity: Reciprocity::Imposed,
@@ -165,7 +168,7 @@ fn tips(
     let places = [touchable[3], touchable[touchable.len() / 2]];
     let loads = || places.map(|id| field.at(surface, id, &[0.2, 0.3, 0.5]));
     group.bench_function("what the organ adds to a tip", |b| {
-        b.iter(|| loads()[0].further_compliance());
+        b.iter(|| loads()[0].structural_compliance());
     });
     group.bench_function("compliance between two tips", |b| {
         b.iter(|| {

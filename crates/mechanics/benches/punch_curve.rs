@@ -11,6 +11,7 @@
     reason = "a bench that fails to unwrap has failed, and tells more than times"
 )]
 
+use palpate_mechanics::contact::Friction;
 use std::hint::black_box;
 use std::sync::Arc;
 use std::time::Instant;
@@ -18,7 +19,7 @@ use std::time::Instant;
 use criterion::{Criterion, criterion_group, criterion_main};
 use palpate_mechanics::NeoHookean;
 use palpate_mechanics::finite_elements::indentation::{
-    Base, Block, Grip, IndentationRun, IndentationSettings, Indenter, IndenterShape, Side,
+    Base, Block, IndentationRun, IndentationSettings, Indenter, IndenterShape, Side,
 };
 use palpate_mechanics::finite_elements::{FiniteElementWorkspace, LinearSystem, Supports};
 
@@ -38,10 +39,10 @@ fn punch(halvings: i32) -> IndentationRun {
         },
         indenter: Indenter {
             shape: IndenterShape::Flat {
-                side: Side::Touches(Grip::Stick),
+                side: Side::Touches(Friction::Bonded),
             },
             radius: RADIUS,
-            face: Grip::Stick,
+            face: Friction::Bonded,
         },
         law: Arc::new(NeoHookean::incompressible(C10).unwrap()),
         prony: Default::default(),

@@ -29,21 +29,21 @@ pub enum Tip {
     },
 }
 
-/// Whether the surface under a tip can run along it.
+/// The tangential boundary condition of a rigid surface that touches tissue.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Bond {
-    /// Bonded: the tip carries the surface with it.
-    Stick,
-    /// Without friction: no tangential force.
-    Slip,
+pub enum Friction {
+    /// Tissue stays where it was first touched: the surface carries it along.
+    Bonded,
+    /// Tissue slides: no tangential force.
+    Frictionless,
 }
 
 /// Force per depth of a flat tip on a half-space [N/m].
-pub fn half_space_stiffness(law: &LinearElastic, radius: f64, bond: Bond) -> f64 {
+pub fn half_space_stiffness(law: &LinearElastic, radius: f64, bond: Friction) -> f64 {
     let nu = law.poissons_ratio();
     match bond {
-        Bond::Slip => 2.0 * radius * law.youngs_modulus() / (1.0 - nu * nu), // (6.1)
-        Bond::Stick => 4.0 * law.shear_modulus() * radius * bonded_factor(nu),
+        Friction::Frictionless => 2.0 * radius * law.youngs_modulus() / (1.0 - nu * nu), // (6.1)
+        Friction::Bonded => 4.0 * law.shear_modulus() * radius * bonded_factor(nu),
     }
 }
 
@@ -116,8 +116,8 @@ mod tests {
     #[test]
     fn bonded_meets_slipping_when_incompressible() {
         let law = LinearElastic::new(1e4, 0.499_999_99).unwrap();
-        let stick = half_space_stiffness(&law, 1e-3, Bond::Stick);
-        let slip = half_space_stiffness(&law, 1e-3, Bond::Slip);
+        let stick = half_space_stiffness(&law, 1e-3, Friction::Bonded);
+        let slip = half_space_stiffness(&law, 1e-3, Friction::Frictionless);
         // Both tend to 8 G a; the difference is of the order of 1 − 2ν.
         assert!((stick / slip - 1.0).abs() < 1e-7);
     }

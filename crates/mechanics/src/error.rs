@@ -156,7 +156,7 @@ pub enum Error {
         /// Why.
         failure: crate::finite_elements::Failure,
     },
-    /// A path of equilibria breaks off.
+    /// A path of equilibria cancels.
     #[error(
         "no equilibrium was found beyond {factor} of the full load ({failure}); use a finer mesh or a smaller load"
     )]
@@ -405,7 +405,7 @@ pub enum Error {
         triangle: usize,
     },
     /// Whoever asked wants no answer any more.
-    #[error("the solution was broken off; ask again for an answer")]
+    #[error("the solution was cancelled; run it again")]
     BrokenOff,
     /// Numbers that are no response of a solid.
     #[error("the response of the surface is none, for {fault}; make it again from the mesh")]

@@ -31,7 +31,7 @@ use std::sync::Arc;
 use nalgebra::{Matrix2, Matrix3, Vector2};
 
 use crate::contact::{
-    Bond, Tip, half_space_stiffness, half_space_tangential_stiffness, hertz_force,
+    Friction, Tip, half_space_stiffness, half_space_tangential_stiffness, hertz_force,
 };
 use crate::finite_elements::indentation::Stiffening;
 use crate::{Limit, Limits, LinearElastic, Material, Reached, Vec3};
@@ -40,7 +40,7 @@ use crate::{Limit, Limits, LinearElastic, Material, Reached, Vec3};
 #[derive(Debug, Clone, PartialEq)]
 pub struct TipLaw {
     tip: Tip,
-    bond: Bond,
+    bond: Friction,
     at_rest: LinearElastic,
     stiffening: Arc<Stiffening>,
     /// Radius of the tool, which the stiffening counts depths in [m]; the tip's own beside a plane.
@@ -103,17 +103,17 @@ const STIFFEST: f64 = 20.0;
 
 impl TipLaw {
     /// A tissue that is linear at every depth.
-    pub fn linear(tip: Tip, bond: Bond, at_rest: LinearElastic) -> Self {
+    pub fn linear(tip: Tip, bond: Friction, at_rest: LinearElastic) -> Self {
         let stiffening = Stiffening::linear((tip, bond), at_rest.poissons_ratio());
         Self::of(tip, bond, at_rest, stiffening)
     }
 
     /// A tissue with the stiffening that was found for this tip and bond.
-    pub fn stiffening(tip: Tip, bond: Bond, tissue: &Material, stiffening: Stiffening) -> Self {
+    pub fn stiffening(tip: Tip, bond: Friction, tissue: &Material, stiffening: Stiffening) -> Self {
         Self::of(tip, bond, tissue.at_rest, stiffening)
     }
 
-    fn of(tip: Tip, bond: Bond, at_rest: LinearElastic, stiffening: Stiffening) -> Self {
+    fn of(tip: Tip, bond: Friction, at_rest: LinearElastic, stiffening: Stiffening) -> Self {
         let (Tip::Flat { radius } | Tip::Sphere { radius }) = tip;
         Self {
             tip,
@@ -196,7 +196,7 @@ impl TipLaw {
         let normal = self.normal_force(depth, stiffness[(2, 2)]);
         let mut tip = TipForce::along_normal(&normal);
         let radius = self.tip.contact_radius(depth);
-        if self.bond == Bond::Stick && radius > 0.0 {
+        if self.bond == Friction::Bonded && radius > 0.0 {
             let along = stiffness.fixed_view::<2, 2>(0, 0).into_owned();
             let own = half_space_tangential_stiffness(&self.at_rest, radius);
             let growth = self.tip.contact_radius_growth(depth);
@@ -253,7 +253,7 @@ impl TipLaw {
     /// which do not turn with depth.
     fn shear(&self, inward: f64, compliance: &Matrix3<f64>) -> Shear {
         let radius = self.tip.contact_radius(inward);
-        if self.bond == Bond::Slip || radius == 0.0 {
+        if self.bond == Friction::Frictionless || radius == 0.0 {
             return Shear::NONE;
         }
         let own = half_space_tangential_stiffness(&self.at_rest, radius);
@@ -437,8 +437,9 @@ mod tests {
         let law = LinearElastic::new(1e4, 0.3).unwrap();
         let tip = Tip::Sphere { radius: 5e-3 };
         let depth = 1e-3;
-        let half_space = half_space_stiffness(&law, tip.contact_radius(depth), Bond::Slip);
-        let sphere = TipLaw::linear(tip, Bond::Slip, law);
+        let half_space =
+            half_space_stiffness(&law, tip.contact_radius(depth), Friction::Frictionless);
+        let sphere = TipLaw::linear(tip, Friction::Frictionless, law);
         let same = sphere.normal_force(depth, half_space).force;
         let on_half_space = |depth: f64| sphere.on_half_space(depth).0;
         assert!((same / on_half_space(depth) - 1.0).abs() < 1e-12);
@@ -453,8 +454,8 @@ mod tests {
     #[test]
     fn a_linear_tip_is_in_series_with_the_organ() {
         let law = LinearElastic::new(1e4, 0.3).unwrap();
-        let flat = TipLaw::linear(Tip::Flat { radius: 1e-3 }, Bond::Stick, law);
-        let normal = half_space_stiffness(&law, 1e-3, Bond::Stick);
+        let flat = TipLaw::linear(Tip::Flat { radius: 1e-3 }, Friction::Bonded, law);
+        let normal = half_space_stiffness(&law, 1e-3, Friction::Bonded);
         let tangential = half_space_tangential_stiffness(&law, 1e-3);
         let own = Vec3::new(1.0 / tangential, 1.0 / tangential, 1.0 / normal);
         let compliance = Matrix3::new(8.0, 0.3, 1.0, 0.3, 9.0, -2.0, 1.0, -2.0, 5.0) * 1e-3;

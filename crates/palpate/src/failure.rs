@@ -29,7 +29,7 @@ pub(crate) enum Failure {
         help: String,
     },
     /// Whoever read standard output has gone (`palpate … | head`); nothing to complain about.
-    #[error("nobody reads the output")]
+    #[error("the output was closed")]
     NobodyReads,
 }
 

@@ -11,7 +11,7 @@ use pyo3::types::PyDict;
 
 use crate::failure::Failure;
 use crate::mesh::Mesh;
-use crate::waiting::{Told, waiting};
+use crate::waiting::{ProgressMessage, waiting};
 use palpate_jobs::label;
 
 /// The surfaces of organs from a segmented volume: NIfTI or NRRD.
@@ -91,7 +91,7 @@ impl Wanted {
 fn surfaces(
     map: &LabelMap,
     labels: &[&Label],
-    (settings, told): (&IsosurfaceSettings, &Told),
+    (settings, told): (&IsosurfaceSettings, &ProgressMessage),
 ) -> Result<Vec<(String, Mesh)>, Failure> {
     let mut made = Vec::new();
     for (number, label) in labels.iter().enumerate() {

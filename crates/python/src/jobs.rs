@@ -1,7 +1,7 @@
 //! Jobs, as `palpate.jobs` asks for them: documents and choices come in as text, answers go out as JSON, which is
 //! what the command prints.
 //!
-//! A job that cannot end in good order is broken off by Ctrl-C where it tells how far it is: its thread unwinds,
+//! A job that cannot end in good order is cancelled by Ctrl-C where it tells how far it is: its thread unwinds,
 //! as no file is half written there.
 
 use std::path::PathBuf;
@@ -19,12 +19,12 @@ use toml::Value;
 use crate::documents;
 use crate::failure::Failure;
 use crate::fits;
-use crate::waiting::{Told, waiting};
+use crate::waiting::{ProgressMessage, waiting};
 
 /// Why a thread unwinds.
 struct BrokenOff;
 
-impl Watch for Told {
+impl Watch for ProgressMessage {
     fn say(&self, doing: &str) {
         break_off_if_asked(self);
         Self::say(self, doing);
@@ -40,7 +40,7 @@ impl Watch for Told {
     }
 }
 
-fn break_off_if_asked(told: &Told) {
+fn break_off_if_asked(told: &ProgressMessage) {
     if told.is_asked_to_stop() {
         std::panic::resume_unwind(Box::new(BrokenOff));
     }

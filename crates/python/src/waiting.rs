@@ -4,7 +4,7 @@
 //! ```text
 //! thread of the caller ── every 50 ms: signals, progress ──▶ Python
 //!        │  ▲
-//!        │  └── Told (part, words) ── job on a thread of its own
+//!        │  └── ProgressMessage (part, words) ── job on a thread of its own
 //!        └──── asked to stop ───────▶
 //! ```
 //!
@@ -36,7 +36,7 @@ const SHORT: Duration = Duration::from_secs(1);
 
 /// What a job tells of itself, and hears.
 #[derive(Debug, Default)]
-pub(crate) struct Told {
+pub(crate) struct ProgressMessage {
     asked_to_stop: AtomicBool,
     /// Bits of a part [-].
     part: AtomicU64,
@@ -45,7 +45,7 @@ pub(crate) struct Told {
     ended: Condvar,
 }
 
-impl Told {
+impl ProgressMessage {
     /// Says what is being done now.
     pub(crate) fn say(&self, words: impl Into<String>) {
         // Whatever shows it may be a terminal.
@@ -86,7 +86,7 @@ fn held<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 }
 
 /// Tells the end also when the job panics.
-struct Ends<'t>(&'t Told);
+struct Ends<'t>(&'t ProgressMessage);
 
 impl Drop for Ends<'_> {
     fn drop(&mut self) {
@@ -118,7 +118,7 @@ impl Listener {
     }
 
     /// Signals, then news.
-    fn look(&mut self, py: Python<'_>, told: &Told) -> PyResult<()> {
+    fn look(&mut self, py: Python<'_>, told: &ProgressMessage) -> PyResult<()> {
         py.check_signals()?;
         if self.wants_bar && self.told.is_none() && self.began.elapsed() >= SHORT {
             let bar = py.import("palpate.progress")?.getattr("Bar")?.call0()?;
@@ -152,9 +152,9 @@ impl Listener {
 pub(crate) fn waiting<T: Send>(
     py: Python<'_>,
     progress: Option<Py<PyAny>>,
-    job: impl FnOnce(&Told) -> Result<T, Failure> + Send,
+    job: impl FnOnce(&ProgressMessage) -> Result<T, Failure> + Send,
 ) -> PyResult<T> {
-    let told = Told::default();
+    let told = ProgressMessage::default();
     told.say("beginning");
     let mut listener = Listener::new(py, progress);
     listener.look(py, &told)?;

@@ -158,7 +158,7 @@ def test_ctrl_c_ends_a_solution_soon() -> None:
     threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
     with pytest.raises(KeyboardInterrupt):
         palpate.solve({**palpate_problem("ramp.toml"), "accuracy": 1e-4}, progress=False)
-    # Half a minute's work; it is broken off at its next step.
+    # Half a minute's work; it is cancelled at its next step.
     assert time.monotonic() - begin < 10.0
 
 

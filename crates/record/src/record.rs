@@ -202,7 +202,7 @@ fn looked_at(path: &Path, begins: bool) -> rusqlite::Result<(Connection, Found)>
     connection.pragma_update(None, "synchronous", "EXTRA")?;
     let mut found = schema::look_once(&mut connection)?;
     // A file of a few bytes passes for an empty database, and would be written over. The remains of a record whose
-    // beginning was broken off are long before and empty afterwards.
+    // beginning was cancelled are long before and empty afterwards.
     if found == Found::Nothing && was_long && is_long() {
         found = Found::Damaged("it is no database".to_owned());
     }

@@ -24,7 +24,7 @@ impl KeptRows {
         Self { path, file: None }
     }
 
-    /// Appends `rows`, whole lines at once, which `watch` does not break off.
+    /// Appends `rows`, whole lines at once, which `watch` does not cancel.
     ///
     /// # Errors
     /// When the operating system refuses.

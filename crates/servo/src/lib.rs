@@ -4,7 +4,7 @@
 //! ```text
 //!                                  Supervisor (a person, a fault, a silent program)
 //!                                             │
-//!  model thread ──latest(AffineForce)──▶ Controller ─wanted▶ Guard ─CommandedForce▶ Device ──▶ hand
+//!  model thread ──latest(AffineForce)──▶ Controller ─wanted▶ Guard ─OutputForce▶ Device ──▶ hand
 //!       ▲                                     ▲                                        │
 //!       └────────── latest(Sample) ───────────┴───────────────── DeviceState ──────────┘
 //! ```
@@ -68,7 +68,7 @@ pub use extrapolate::{Extrapolator, HandOver};
 pub use fault::Fault;
 pub use force_sensor::{AXIS_NAMES, ForceSensor, ForceSensorSpec, ForceTorque, SensorFault};
 pub use histogram::{Histogram, Percentiles};
-pub use limits::{CommandedForce, DeadMan, Guard, Interventions, Limits, Stage};
+pub use limits::{DeadMan, Guard, Interventions, Limits, OutputForce, Stage};
 pub use memory::{MemoryLock, lock_memory};
 pub use pid::{Pid, PidGains};
 pub use priority::{Priority, lower_priority, raise_model_priority, raise_priority};

@@ -60,16 +60,18 @@ impl Pid {
     }
 
     /// The force [N] at `place` [m], `dt` [s] after the last, where place [m] and velocity [m/s] are `wanted`.
-    pub fn force(&mut self, place: f64, wanted: [f64; 2], dt: f64) -> f64 {
+    pub fn force(&mut self, place: f64, commanded: [f64; 2], dt: f64) -> f64 {
         let gains = self.gains;
         if dt > 0.0 {
             let moved = self.last.map_or(0.0, |last| (place - last) / dt);
             self.velocity += (moved - self.velocity) * (1.0 - (-TAU * gains.cutoff * dt).exp());
         }
         self.last = Some(place);
-        let error = wanted[0] - place;
+        let error = commanded[0] - place;
         let most = gains.integral_force;
         self.integral = (self.integral + gains.integral * error * dt).clamp(-most, most);
-        gains.proportional * error + gains.derivative * (wanted[1] - self.velocity) + self.integral
+        gains.proportional * error
+            + gains.derivative * (commanded[1] - self.velocity)
+            + self.integral
     }
 }

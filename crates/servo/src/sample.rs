@@ -10,7 +10,7 @@ pub struct Sample {
     /// The force that the device got at this tick and has until the next [N].
     pub held: Vec3,
     /// The force that the controller wants for this state [N].
-    pub wanted: Vec3,
+    pub commanded: Vec3,
     /// The part of it that the controller adds to what others answer [N].
     pub added: Vec3,
     /// What the limits leave of it, which is sent with the next tick [N].

@@ -10,7 +10,7 @@
 //! *Limits*: on an ordinary operating system the longest lateness is that of the scheduler, milliseconds.
 
 use crate::dynamics::Compensator;
-use crate::limits::{CommandedForce, Guard, Limits, Stage, Wish};
+use crate::limits::{CommandedForce, Guard, Limits, OutputForce, Stage};
 use crate::priority::{Priority, raise_priority};
 use crate::report::Meter;
 use crate::supervisor::{Permission, StopReason};
@@ -49,7 +49,7 @@ pub struct ServoLoop {
     /// When a scheduler called first [s].
     called_first: Option<f64>,
     /// What the device gets at the next tick.
-    force: CommandedForce,
+    force: OutputForce,
     compensator: Option<Compensator>,
     /// Whether the device may display forces, and what it said when it last might not any more.
     enabled: bool,
@@ -115,7 +115,7 @@ impl ServoLoop {
             number: 0,
             last_time: None,
             called_first: None,
-            force: CommandedForce::default(),
+            force: OutputForce::default(),
             compensator: settings.compensation.map(Compensator::new),
             enabled: false,
             disabled: None,
@@ -226,7 +226,7 @@ impl ServoLoop {
         let goes_on = permission.state.allows_force() && permission.armings == self.armings;
         let (held, force) = match goes_on {
             true => (self.guard.rendered(), std::mem::take(&mut self.force)),
-            false => (Vec3::zeros(), CommandedForce::default()),
+            false => (Vec3::zeros(), OutputForce::default()),
         };
         let answer = self.device.exchange(&Command::new(time, force));
         self.pulse.beat(time);
@@ -273,9 +273,9 @@ impl ServoLoop {
         let measured = self.velocity.update(time, &state.position);
         let velocity = state.velocity.unwrap_or(measured);
         state.velocity = Some(velocity);
-        let wanted = self.controller.update(&state, gap);
-        let wish = Wish {
-            force: wanted,
+        let force = self.controller.update(&state, gap);
+        let commanded = CommandedForce {
+            force,
             compensation: self.compensation(&state, gap),
             velocity,
             overdue: self.controller.overdue(),
@@ -288,7 +288,7 @@ impl ServoLoop {
             self.guard.trip(fault);
         }
         let was = self.guard.stage();
-        self.force = self.guard.pass(&wish, &state, gap);
+        self.force = self.guard.pass(&commanded, &state, gap);
         self.tell_session(was);
         if self.is_off() {
             // The same tick, not the next one.
@@ -298,7 +298,7 @@ impl ServoLoop {
             tick: self.number,
             state,
             held: Vec3::zeros(),
-            wanted,
+            commanded: force,
             added: self.controller.added(),
             sent: self.guard.rendered(),
             compensation: self.guard.compensation(),
@@ -346,7 +346,7 @@ impl ServoLoop {
 
     /// No force from now on, until the device is enabled again.
     fn disable(&mut self) {
-        self.force = CommandedForce::default();
+        self.force = OutputForce::default();
         if std::mem::take(&mut self.enabled) {
             self.disabled = Some(self.device.disable());
         }
@@ -393,7 +393,7 @@ impl ServoLoop {
             sample.tick = self.number;
             sample.state.present = false;
             let none = Vec3::zeros();
-            (sample.held, sample.wanted, sample.sent) = (none, none, none);
+            (sample.held, sample.commanded, sample.sent) = (none, none, none);
             (sample.added, sample.compensation) = (none, none);
             sample.stage = Stage::Faulted(fault);
             self.tell(sample);

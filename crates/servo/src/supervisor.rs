@@ -47,7 +47,7 @@ pub enum ForceState {
 
 /// What leads from one state to another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Order {
+enum Transition {
     Arm,
     Run,
     Pause,
@@ -104,16 +104,16 @@ impl ForceState {
         matches!(self, Self::Armed | Self::Running)
     }
 
-    fn after(self, order: Order) -> Self {
-        match (order, self) {
-            (Order::Arm, Self::Running) => Self::Running,
-            (Order::Arm, _) => Self::Armed,
-            (Order::Run, Self::Armed) => Self::Running,
-            (Order::Pause, Self::Armed | Self::Running) => Self::Paused,
-            (Order::Resume, Self::Paused) => Self::Armed,
-            (Order::Run | Order::Pause | Order::Resume, _) => self,
-            (Order::Trip, _) => Self::Tripped,
-            (Order::SwitchOff, _) => Self::Off,
+    fn after(self, transition: Transition) -> Self {
+        match (transition, self) {
+            (Transition::Arm, Self::Running) => Self::Running,
+            (Transition::Arm, _) => Self::Armed,
+            (Transition::Run, Self::Armed) => Self::Running,
+            (Transition::Pause, Self::Armed | Self::Running) => Self::Paused,
+            (Transition::Resume, Self::Paused) => Self::Armed,
+            (Transition::Run | Transition::Pause | Transition::Resume, _) => self,
+            (Transition::Trip, _) => Self::Tripped,
+            (Transition::SwitchOff, _) => Self::Off,
         }
     }
 }
@@ -198,17 +198,17 @@ impl Supervisor {
 
     /// A person wants forces, for the first time or again.
     pub fn arm(&self) {
-        self.obey(Order::Arm, None);
+        self.apply(Transition::Arm, None);
     }
 
     /// No force until [`resume`](Self::resume).
     pub fn pause(&self) {
-        self.obey(Order::Pause, None);
+        self.apply(Transition::Pause, None);
     }
 
     /// Ends a pause.
     pub fn resume(&self) {
-        self.obey(Order::Resume, None);
+        self.apply(Transition::Resume, None);
     }
 
     /// The emergency stop: no force until a person arms again.
@@ -218,12 +218,12 @@ impl Supervisor {
 
     /// The same for another `reason`.
     pub fn trip_because(&self, reason: StopReason) {
-        self.obey(Order::Trip, Some(reason));
+        self.apply(Transition::Trip, Some(reason));
     }
 
     /// The session is over.
     pub fn switch_off(&self) {
-        self.obey(Order::SwitchOff, None);
+        self.apply(Transition::SwitchOff, None);
     }
 
     /// The program that shows what is touched is alive at `time` [s] of the loops' clock. From the first time on forces
@@ -258,7 +258,7 @@ impl Supervisor {
 
     /// A loop raises its force.
     pub(crate) fn run(&self) {
-        self.obey(Order::Run, None);
+        self.apply(Transition::Run, None);
     }
 
     /// A loop took its force off; all others do.
@@ -266,13 +266,15 @@ impl Supervisor {
         self.trip_because(StopReason::OtherDevice);
     }
 
-    fn obey(&self, order: Order, why: Option<StopReason>) {
+    fn apply(&self, transition: Transition, why: Option<StopReason>) {
         let next = |word| {
             let (state, reason, armings) = unpacked(word);
-            let next = state.after(order);
+            let next = state.after(transition);
             // A loop that sees another number begins anew, also when it was between two ticks that forces were off.
-            let armed = next == ForceState::Armed && matches!(order, Order::Arm | Order::Resume);
-            let armed = u64::from(armed && (order == Order::Arm || state == ForceState::Paused));
+            let armed = next == ForceState::Armed
+                && matches!(transition, Transition::Arm | Transition::Resume);
+            let armed =
+                u64::from(armed && (transition == Transition::Arm || state == ForceState::Paused));
             // Who stopped first is told.
             let reason = match state {
                 ForceState::Tripped => reason,
@@ -296,16 +298,20 @@ mod tests {
     fn every_order_in_every_state_leads_where_the_table_says() {
         use ForceState::{Armed, Off, Paused, Running, Tripped};
         let table = [
-            (Order::Arm, [Armed, Armed, Running, Armed, Armed]),
-            (Order::Run, [Off, Running, Running, Paused, Tripped]),
-            (Order::Pause, [Off, Paused, Paused, Paused, Tripped]),
-            (Order::Resume, [Off, Armed, Running, Armed, Tripped]),
-            (Order::Trip, [Tripped; 5]),
-            (Order::SwitchOff, [Off; 5]),
+            (Transition::Arm, [Armed, Armed, Running, Armed, Armed]),
+            (Transition::Run, [Off, Running, Running, Paused, Tripped]),
+            (Transition::Pause, [Off, Paused, Paused, Paused, Tripped]),
+            (Transition::Resume, [Off, Armed, Running, Armed, Tripped]),
+            (Transition::Trip, [Tripped; 5]),
+            (Transition::SwitchOff, [Off; 5]),
         ];
-        for (order, expected) in table {
+        for (transition, expected) in table {
             for (state, expected) in STATES.into_iter().zip(expected) {
-                assert_eq!(state.after(order), expected, "{order:?} in {state:?}");
+                assert_eq!(
+                    state.after(transition),
+                    expected,
+                    "{transition:?} in {state:?}"
+                );
             }
         }
     }

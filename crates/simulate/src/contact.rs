@@ -12,8 +12,8 @@
 //! behind the nearest point of the surface.
 
 use nalgebra::{Matrix3, Rotation3};
-use palpate_geometry::{AabbTree, Footing, PatchField, Surface, Vec3, follow, settle};
-use palpate_mechanics::contact::Bond;
+use palpate_geometry::{AabbTree, ContactPoint, PatchField, Surface, Vec3, follow, settle};
+use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_spheres::{LocalContact, Placement, Surroundings, first_direction};
 
 use crate::simulation::Simulation;
@@ -24,7 +24,7 @@ const PASSED_THROUGH: f64 = 0.025;
 
 /// A surface at rest as a tip feels it.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Ground<'a> {
+pub(crate) struct RestSurface<'a> {
     pub(crate) surface: &'a Surface,
     pub(crate) tree: &'a AabbTree,
     /// Its normals and curvatures over the tip.
@@ -37,8 +37,8 @@ pub(crate) struct Ground<'a> {
 
 impl Simulation {
     /// The organ as `tool` feels it.
-    pub(crate) fn ground<'a>(&'a self, tool: &'a Tool) -> Ground<'a> {
-        Ground {
+    pub(crate) fn ground<'a>(&'a self, tool: &'a Tool) -> RestSurface<'a> {
+        RestSurface {
             surface: &self.surface,
             tree: &self.tree,
             patches: &tool.patches,
@@ -52,8 +52,8 @@ impl Simulation {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contact {
     /// Where the tip is over the rest surface now.
-    pub(crate) footing: Footing,
-    /// The place that answers: that of the footing, or of the first contact of a tip that sticks.
+    pub(crate) contact_point: ContactPoint,
+    /// The place that answers: that of the contact_point, or of the first contact of a tip that sticks.
     pub(crate) place: LocalContact,
     /// Where the tool is [m].
     pub(crate) tip: Vec3,
@@ -124,7 +124,7 @@ impl Contact {
 
 /// The contact of `tool` at `tip` [m], given its last one.
 pub(crate) fn detect(
-    ground: &Ground<'_>,
+    ground: &RestSurface<'_>,
     tool: &Tool,
     last: Option<&Contact>,
     tip: &Vec3,
@@ -133,11 +133,12 @@ pub(crate) fn detect(
         return begin(ground, tool, tip);
     };
     let way = (&last.tip, tip);
-    let Some(footing) = follow(ground.surface, ground.patches, &last.footing, way) else {
+    let Some(contact_point) = follow(ground.surface, ground.patches, &last.contact_point, way)
+    else {
         return begin(ground, tool, tip);
     };
-    let (below, signed) = depth_of_tip(ground, &footing, tip);
-    let run = (footing.point - last.footing.point).norm();
+    let (below, signed) = depth_of_tip(ground, &contact_point, tip);
+    let run = (contact_point.point - last.contact_point.point).norm();
     let depth = creep(last, (tool.overhang() + below, signed), (tip, run));
     if depth > PASSED_THROUGH && signed > tool.overhang() {
         return None;
@@ -146,7 +147,7 @@ pub(crate) fn detect(
         return go_on_elsewhere(ground, tool, last, tip);
     }
     let mut contact = Contact {
-        footing,
+        contact_point,
         place: last.place,
         tip: *tip,
         signed,
@@ -157,17 +158,22 @@ pub(crate) fn detect(
         slides: last.slides,
     };
     if tool.slides() || !last.is_pressed {
-        contact.place = place(ground, tool, (&footing, depth), Some(&last.place.frame));
+        contact.place = place(
+            ground,
+            tool,
+            (&contact_point, depth),
+            Some(&last.place.frame),
+        );
     }
     match tool.bond {
-        Bond::Slip => {}
-        Bond::Stick if tool.slides() => {
+        Friction::Frictionless => {}
+        Friction::Bonded if tool.slides() => {
             let normal = contact.rest_normal();
             let moved = last.sheared + (tip - last.tip);
             contact.sheared = moved - normal * normal.dot(&moved);
         }
-        Bond::Stick if contact.displacement(tool, tip).z >= 0.0 => return None,
-        Bond::Stick => {
+        Friction::Bonded if contact.displacement(tool, tip).z >= 0.0 => return None,
+        Friction::Bonded => {
             let tip = tool.tip.beside(contact.place.mean_curvature());
             contact.place.radius = tip.contact_radius(depth);
         }
@@ -178,7 +184,7 @@ pub(crate) fn detect(
 /// A tip that has left the side that it touched and is below another one touches that, and its depth
 /// grows from nothing.
 fn go_on_elsewhere(
-    ground: &Ground<'_>,
+    ground: &RestSurface<'_>,
     tool: &Tool,
     last: &Contact,
     tip: &Vec3,
@@ -207,34 +213,34 @@ fn creep(last: &Contact, (measured, signed): (f64, f64), (tip, run): (&Vec3, f64
 
 /// Depth of the tool's reference point below the rest surface [m]: its distance, where the nearest
 /// point of the surface is the one that is touched. Where it is another one (below a thin wall, or
-/// behind a ridge) it is the depth below the footing, with a continuous passage between the two. With
+/// behind a ridge) it is the depth below the contact_point, with a continuous passage between the two. With
 /// it the signed distance.
-fn depth_of_tip(ground: &Ground<'_>, footing: &Footing, tip: &Vec3) -> (f64, f64) {
+fn depth_of_tip(ground: &RestSurface<'_>, contact_point: &ContactPoint, tip: &Vec3) -> (f64, f64) {
     let surface = ground.surface;
     let (nearest, signed) = surface.signed_distance(ground.tree, tip);
     let outward = (tip - nearest.on.position) * signed.signum();
-    let cosine = outward.dot(&footing.normal) / nearest.distance.max(f64::MIN_POSITIVE);
-    let apart = (signed + footing.depth).abs() / signed.abs().max(footing.depth.abs());
+    let cosine = outward.dot(&contact_point.normal) / nearest.distance.max(f64::MIN_POSITIVE);
+    let apart = (signed + contact_point.depth).abs() / signed.abs().max(contact_point.depth.abs());
     // Full trust within 60 degrees and half the depth, none at 90 degrees or nine tenths.
     let same_side = (2.0 * cosine).clamp(0.0, 1.0);
     let same_depth = ((0.9 - apart) / 0.4).clamp(0.0, 1.0);
     let trust = same_side * same_depth;
     let below = if trust > 0.0 {
-        trust * -signed + (1.0 - trust) * footing.depth
+        trust * -signed + (1.0 - trust) * contact_point.depth
     } else {
-        footing.depth
+        contact_point.depth
     };
     (below, signed)
 }
 
 /// The first contact: at the nearest point of the rest surface, when the tip is below it.
-fn begin(ground: &Ground<'_>, tool: &Tool, tip: &Vec3) -> Option<Contact> {
+fn begin(ground: &RestSurface<'_>, tool: &Tool, tip: &Vec3) -> Option<Contact> {
     let (nearest, signed) = ground.surface.signed_distance(ground.tree, tip);
     let depth = tool.overhang() - signed;
     if depth <= 0.0 {
         return None;
     }
-    let found = Footing {
+    let found = ContactPoint {
         triangle: nearest.triangle,
         barycentric: nearest.on.barycentric,
         point: nearest.on.position,
@@ -246,10 +252,10 @@ fn begin(ground: &Ground<'_>, tool: &Tool, tip: &Vec3) -> Option<Contact> {
     };
     // The nearest point of a mesh leaps at its edges; the point under the averaged normal does not.
     let normals = ground.patches.vertex_normals();
-    let footing = settle(ground.surface, normals, &found, tip).unwrap_or(found);
+    let contact_point = settle(ground.surface, normals, &found, tip).unwrap_or(found);
     Some(Contact {
-        footing,
-        place: place(ground, tool, (&footing, depth), None),
+        contact_point,
+        place: place(ground, tool, (&contact_point, depth), None),
         tip: *tip,
         signed,
         depth,
@@ -260,24 +266,26 @@ fn begin(ground: &Ground<'_>, tool: &Tool, tip: &Vec3) -> Option<Contact> {
     })
 }
 
-/// The place at `footing`, with tangents carried along from `last`, so that the particles do not turn
+/// The place at `contact_point`, with tangents carried along from `last`, so that the particles do not turn
 /// under a sliding tip; at first along an edge of the triangle, so that they turn with the organ.
 pub(crate) fn place(
-    ground: &Ground<'_>,
+    ground: &RestSurface<'_>,
     tool: &Tool,
-    (footing, depth): (&Footing, f64),
+    (contact_point, depth): (&ContactPoint, f64),
     last: Option<&Matrix3<f64>>,
 ) -> LocalContact {
-    let patch = ground
-        .patches
-        .at(ground.surface, footing.triangle, &footing.barycentric);
+    let patch = ground.patches.at(
+        ground.surface,
+        contact_point.triangle,
+        &contact_point.barycentric,
+    );
     let along = match (tool.placement, last) {
         (Placement::Template, Some(frame)) => frame.column(0).into_owned(),
         (Placement::Template, None) => {
-            let [a, b, _] = ground.surface.mesh().positions(footing.triangle);
+            let [a, b, _] = ground.surface.mesh().positions(contact_point.triangle);
             b - a
         }
-        (Placement::Source, _) => first_direction(ground.surface, footing.triangle),
+        (Placement::Source, _) => first_direction(ground.surface, contact_point.triangle),
     };
     let flat = |v: &Vec3| (v - patch.normal * patch.normal.dot(v)).try_normalize(1e-9 * v.norm());
     // A tangent that has become the normal says nothing any more; any other will do.
@@ -295,12 +303,12 @@ pub(crate) fn place(
     );
     let mean = 0.5 * (curvature.x + curvature.z);
     LocalContact {
-        point: footing.point,
+        point: contact_point.point,
         frame,
         curvature,
-        triangle: footing.triangle,
+        triangle: contact_point.triangle,
         radius: tool.tip.beside(mean).contact_radius(depth),
-        surroundings: surroundings(ground, tool, (footing, &frame)),
+        surroundings: surroundings(ground, tool, (contact_point, &frame)),
         // As the calibrated model has it: held as a hemisphere of its volume is.
         thickness: ground.radius,
     }
@@ -308,17 +316,17 @@ pub(crate) fn place(
 
 /// What the organ is around a place, in its frame.
 fn surroundings(
-    ground: &Ground<'_>,
+    ground: &RestSurface<'_>,
     tool: &Tool,
-    (footing, frame): (&Footing, &Matrix3<f64>),
+    (contact_point, frame): (&ContactPoint, &Matrix3<f64>),
 ) -> Surroundings {
     let Some(at) = ground.further else {
         return tool.model.by_volume(ground.radius);
     };
-    let nodes = ground.surface.mesh().corners(footing.triangle);
+    let nodes = ground.surface.mesh().corners(contact_point.triangle);
     let further: Matrix3<f64> = nodes
         .iter()
-        .zip(footing.barycentric)
+        .zip(contact_point.barycentric)
         .map(|(node, weight)| at[node.index()] * weight)
         .sum();
     Surroundings::Known(frame.tr_mul(&further) * frame)

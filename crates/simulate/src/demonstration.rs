@@ -79,9 +79,9 @@ enum Step {
 }
 
 /// The surface at rest, as a script looks at it.
-struct Ground<'s>(&'s Simulation);
+struct RestSurface<'s>(&'s Simulation);
 
-impl Ground<'_> {
+impl RestSurface<'_> {
     /// The nearest point of the surface [m], and the outward normal there.
     fn at(&self, place: &Vec3) -> (Vec3, Vec3) {
         let mesh = self.0.surface().mesh();
@@ -111,7 +111,7 @@ impl Demonstration {
     /// Of the task of `scene`, which `simulation` was made of; none where there is nothing to do, or no tool to do it
     /// with.
     pub fn new(scene: &Scene, simulation: &Simulation) -> Option<Self> {
-        let ground = Ground(simulation);
+        let ground = RestSurface(simulation);
         let steps = match &scene.task.goal {
             Goal::Free => return None,
             Goal::Find { target_m, .. } => found(&ground, &Vec3::from(*target_m)),
@@ -232,7 +232,7 @@ impl Demonstration {
 }
 
 /// Presses beside a place, and on it.
-fn found(ground: &Ground<'_>, target: &Vec3) -> Vec<Step> {
+fn found(ground: &RestSurface<'_>, target: &Vec3) -> Vec<Step> {
     let (_, normal) = ground.at(target);
     let across = normal.cross(&Vec3::z()).try_normalize(1e-6);
     let across = across.unwrap_or(Vec3::x());
@@ -263,14 +263,14 @@ fn found(ground: &Ground<'_>, target: &Vec3) -> Vec<Step> {
 }
 
 /// Grasps where the surface faces the pull, and pulls.
-fn pulled(ground: &Ground<'_>, tool: usize, wanted: Vec3) -> Vec<Step> {
+fn pulled(ground: &RestSurface<'_>, tool: usize, wanted: Vec3) -> Vec<Step> {
     let place = ground.facing(&wanted.normalize());
     let mut steps = grasped(ground, tool, &place);
     steps.push(Step::Pull { tool, wanted });
     steps
 }
 
-fn grasped(ground: &Ground<'_>, tool: usize, place: &Vec3) -> Vec<Step> {
+fn grasped(ground: &RestSurface<'_>, tool: usize, place: &Vec3) -> Vec<Step> {
     let to = |height: f64, speed: f64| Step::Move {
         tool,
         to: ground.over(place, height),
@@ -302,7 +302,7 @@ fn depths(simulation: &Simulation, layers: usize) -> Vec<f64> {
 
 /// Holds beside a line, if something can hold, and cuts along it, once for each depth.
 fn cut(
-    ground: &Ground<'_>,
+    ground: &RestSurface<'_>,
     [from, to]: [Vec3; 2],
     depths: &[f64],
     (blade, grasper): (usize, Option<usize>),

@@ -23,7 +23,7 @@
 
 use palpate_files::session::Event;
 use palpate_geometry::Vec3;
-use palpate_mechanics::contact::{Bond, Tip};
+use palpate_mechanics::contact::{Friction, Tip};
 
 use crate::grip::Hold;
 use crate::simulation::Simulation;
@@ -129,7 +129,7 @@ fn has_energy(tool: &Tool, state: &ToolState) -> bool {
     match &state.grip.hold {
         Some(hold) => hold.has_turned() <= MOST_TURNED,
         None => {
-            matches!((tool.tip, tool.bond), (Tip::Flat { .. }, Bond::Stick))
+            matches!((tool.tip, tool.bond), (Tip::Flat { .. }, Friction::Bonded))
                 && tool.friction.is_none()
         }
     }

@@ -22,7 +22,7 @@ pub enum Error {
     },
     /// A scene whose numbers have not been drawn.
     #[error(
-        "the scene draws its numbers anew for each attempt; draw a variant of it first (`draw_variant`)"
+        "the scene draws its numbers for each attempt; draw a variant of it first (`draw_variant`)"
     )]
     NotDrawn,
     /// A neighbour cannot stand where the scene has it.
@@ -89,13 +89,13 @@ pub enum Error {
     Servo(#[from] palpate_servo::Fault),
     /// There is not one place for a device for each tool.
     #[error(
-        "the scene has {tools} tools, but {stations} devices were given; give one, or none, for each"
+        "the scene has {tools} tools, but {devices} devices were given; give one, or none, for each"
     )]
     OtherDevices {
         /// Tools of the scene.
         tools: usize,
         /// Devices, and nones, that were given.
-        stations: usize,
+        devices: usize,
     },
     /// A stiff ball has its middle outside of the organ.
     #[error(
@@ -178,7 +178,7 @@ pub enum Error {
     #[error("the model thread panicked, and the devices were stopped; report it as a defect")]
     ModelPanicked,
     /// Another model cannot take over in a touch that goes on.
-    #[error("the touch cannot go on with this model: {why}; start anew")]
+    #[error("the simulation cannot continue with this model: {why}; restart")]
     NoTakeOver {
         /// Why.
         why: &'static str,

@@ -12,9 +12,9 @@ use nalgebra::Matrix3;
 use palpate_files::Scene;
 use palpate_files::scene::Shape;
 use palpate_geometry::{AabbTree, PatchField, Surface, Vec3};
-use palpate_mechanics::contact::Bond;
+use palpate_mechanics::contact::Friction;
 
-use crate::contact::{self, Contact, Ground};
+use crate::contact::{self, Contact, RestSurface};
 use crate::simulation::{Simulation, radius_of_hemisphere};
 use crate::state::{SimulationState, ToolState};
 use crate::tool::Tool;
@@ -70,8 +70,8 @@ impl Neighbour {
         Ok(all)
     }
 
-    fn ground(&self, tool: usize) -> Ground<'_> {
-        Ground {
+    fn surface(&self, tool: usize) -> RestSurface<'_> {
+        RestSurface {
             surface: &self.surface,
             tree: &self.tree,
             patches: &self.patches[tool],
@@ -99,8 +99,8 @@ pub(crate) fn press(simulation: &Simulation, number: usize, state: &mut Simulati
     for (neighbour, contact) in neighbours.iter().zip(touched) {
         let last = contact.take();
         let Some(tip) = tip else { continue };
-        let ground = neighbour.ground(number);
-        let found = contact::detect(&ground, tool, last.as_ref(), &tip);
+        let surface = neighbour.surface(number);
+        let found = contact::detect(&surface, tool, last.as_ref(), &tip);
         let travel = before.map_or(0.0, |before| (tip - before).norm());
         let Some(mut found) = found.filter(|found| last.is_some() || found.depth <= travel) else {
             continue;
@@ -117,8 +117,8 @@ impl ToolState {
         let mut force = frame * (-RIGID_STIFFNESS * contact.displacement(tool, tip));
         contact.slide(tool, &mut force);
         let along = match tool.bond {
-            Bond::Stick if !contact.slides => RIGID_STIFFNESS,
-            Bond::Stick | Bond::Slip => 0.0,
+            Friction::Bonded if !contact.slides => RIGID_STIFFNESS,
+            Friction::Bonded | Friction::Frictionless => 0.0,
         };
         let stiffness = Matrix3::from_diagonal(&Vec3::new(along, along, RIGID_STIFFNESS));
         self.stopped.force += force;

@@ -8,7 +8,7 @@ use palpate_geometry::{
 
 use crate::Error;
 
-/// The surface of `shape`, read and mended or made, and warnings.
+/// The surface of `shape`, read and repaired or made, and warnings.
 ///
 /// # Errors
 /// When the file cannot be read or what it holds bounds no solid.
@@ -45,7 +45,7 @@ pub fn read_organ(shape: &Shape) -> Result<(Surface, Vec<String>), Error> {
                     // and the rest is not there any more.
                     _ => continue,
                 };
-                warnings.push(format!("{}: {fault}. {}", path.display(), problem.mend));
+                warnings.push(format!("{}: {fault}. {}", path.display(), problem.remedy));
             }
             Ok((surface, warnings))
         }

@@ -59,7 +59,7 @@ impl Simulation {
     /// As [`Self::new`], with `resources`; `watch` hears how far long work is, and may break it off.
     ///
     /// # Errors
-    /// As [`Self::new`], and when it is broken off.
+    /// As [`Self::new`], and when it is cancelled.
     pub fn prepare(
         scene: &Scene,
         resources: &Resources,
@@ -135,7 +135,7 @@ impl Simulation {
         }
         warnings.extend(tip_laws::stiffen(&mut tools, &touched, &mut |part| {
             let work = Work::ForceOverDepth;
-            // It cannot be broken off, and takes seconds.
+            // It cannot be cancelled, and takes seconds.
             let _ = watch(Progress { work, part });
         })?);
         let neighbours = Neighbour::all(scene, &tools)?;

@@ -4,7 +4,7 @@
 use palpate_files::Pose;
 use palpate_files::session::{Event, Events};
 use palpate_geometry::Vec3;
-use palpate_mechanics::contact::Bond;
+use palpate_mechanics::contact::Friction;
 use palpate_mechanics::{ForceHistory, Limits};
 
 use crate::contact;
@@ -283,9 +283,9 @@ fn feel(
     contact.slide(tool, &mut relaxed);
     contact.slides |= slides;
     state.with_pull = match tool.bond {
-        Bond::Stick => relaxed,
+        Friction::Bonded => relaxed,
         // The history of a slide has other normals in it; there is no friction all the same.
-        Bond::Slip => normal * outward,
+        Friction::Frictionless => normal * outward,
     };
     if contact.is_pressed {
         state.force = state.with_pull;

@@ -2,7 +2,7 @@
 
 use palpate_files::tissue::LawName;
 use palpate_files::{Elasticity, Tissue};
-use palpate_mechanics::contact::{Bond, Tip};
+use palpate_mechanics::contact::{Friction, Tip};
 use palpate_mechanics::finite_elements::indentation::Stiffening;
 use palpate_mechanics::{Material, TipLaw};
 
@@ -16,14 +16,14 @@ pub(crate) fn stiffen(
     touched: &[(Tissue, Material)],
     at_step: &mut dyn FnMut(f64),
 ) -> Result<Vec<String>, Error> {
-    let mut found: Vec<(Tip, Bond, Elasticity, Stiffening)> = Vec::new();
+    let mut found: Vec<(Tip, Friction, Elasticity, Stiffening)> = Vec::new();
     let mut warnings = Vec::new();
     for (tool, (tissue, material)) in tools.iter_mut().zip(touched) {
         if tissue.elasticity.law() == LawName::Linear {
             continue;
         }
         let (tip, bond) = (tool.tip, tool.bond);
-        let alike = |(other, bonded, elasticity, _): &&(Tip, Bond, Elasticity, Stiffening)| {
+        let alike = |(other, bonded, elasticity, _): &&(Tip, Friction, Elasticity, Stiffening)| {
             std::mem::discriminant(other) == std::mem::discriminant(&tip)
                 && *bonded == bond
                 && *elasticity == tissue.elasticity
@@ -52,7 +52,7 @@ pub(crate) fn stiffen(
 fn of(
     tissue: &Tissue,
     material: &Material,
-    (tip, bond): (Tip, Bond),
+    (tip, bond): (Tip, Friction),
     at_step: &mut dyn FnMut(f64),
 ) -> Result<Stiffening, Error> {
     match tissue.elasticity.law() {

@@ -3,7 +3,7 @@ use std::sync::Arc;
 use nalgebra::Matrix3;
 use palpate_files::scene::{self, ToolKind};
 use palpate_geometry::{AabbTree, PatchField, Surface, TriangleMesh, Vec3, read_mesh};
-use palpate_mechanics::contact::{Bond, Tip};
+use palpate_mechanics::contact::{Friction, Tip};
 use palpate_mechanics::finite_spheres::{
     Assembly, Calibration, FiniteSphereModel, FiniteSphereSettings, Form, Integration, Placement,
     Solver,
@@ -26,7 +26,7 @@ pub struct Tool {
     /// The end that touches.
     pub tip: Tip,
     /// Whether the surface can run along the tip.
-    pub bond: Bond,
+    pub bond: Friction,
     /// Coulomb's coefficient of a tip that sticks [-]; none where it never slides.
     pub friction: Option<f64>,
     /// What it looks like in its own frame [m], if not as its kind does.
@@ -63,8 +63,8 @@ impl Tool {
         (surface, tree): (&Surface, &AabbTree),
     ) -> Result<Self, Error> {
         let bond = match tool.tip.contact {
-            scene::TipContact::Stick => Bond::Stick,
-            scene::TipContact::Slip => Bond::Slip,
+            scene::TipContact::Stick => Friction::Bonded,
+            scene::TipContact::Slip => Friction::Frictionless,
         };
         let (radius, typical) = (tool.tip.radius_m, typical_radius(&tool.tip));
         let tip = match tool.tip.shape {
@@ -111,7 +111,7 @@ impl Tool {
 
     /// Whether its tip can move along the surface.
     pub(crate) fn slides(&self) -> bool {
-        self.bond == Bond::Slip || self.friction.is_some()
+        self.bond == Friction::Frictionless || self.friction.is_some()
     }
 
     /// Radius of the shaft [m]: that of the tip.

@@ -3,7 +3,7 @@ use palpate_geometry::{Surface, Vec3};
 use palpate_simulate::interactive::OpenedSnapshot;
 use palpate_simulate::{EnhancedSurface, OrganField, Simulation};
 
-use crate::render::openness::openness;
+use crate::render::ambient_light::ambient_light;
 use crate::render::{Body, Tint, single_precision};
 use crate::seen_cut::{CutLayers, SeenCut};
 use crate::{Error, Gpu};
@@ -34,9 +34,9 @@ impl SeenOrgan {
     /// When the scene wants too many levels.
     pub(crate) fn new(gpu: &Gpu, simulation: &Simulation, tint: Tint) -> Result<Self, Error> {
         let surface = simulation.surface();
-        let open = openness(surface);
+        let open = ambient_light(surface);
         let mut organ = Self {
-            body: Body::with_openness(gpu, surface.mesh(), &open, tint),
+            body: Body::with_ambient_light(gpu, surface.mesh(), &open, tint),
             cut: None,
             layers: CutLayers::of(simulation, CUT),
             is_open: false,
@@ -62,7 +62,7 @@ impl SeenOrgan {
     ) -> Result<(), Error> {
         self.enhanced = EnhancedSurface::new(simulation, wanted)?;
         let mesh = simulation.surface().mesh();
-        self.body = Body::with_openness(gpu, mesh, &self.open, self.tint);
+        self.body = Body::with_ambient_light(gpu, mesh, &self.open, self.tint);
         Ok(())
     }
 
@@ -101,7 +101,7 @@ impl SeenOrgan {
                 Vec3::from(open).dot(&Vec3::from(shares)) as f32
             });
             let open: Vec<f32> = self.open.iter().copied().chain(new).collect();
-            self.body = Body::with_openness(gpu, enhanced.mesh(), &open, self.tint);
+            self.body = Body::with_ambient_light(gpu, enhanced.mesh(), &open, self.tint);
         }
         self.body.deform(gpu, &single_precision(enhanced.places()));
     }

@@ -2,7 +2,7 @@ use eframe::egui::{self, Color32, Visuals};
 
 /// What went wrong.
 pub(crate) const FAULT: Color32 = Color32::from_rgb(242, 122, 106);
-/// What deserves warning.
+/// Warnings.
 pub(crate) const WARNING: Color32 = Color32::from_rgb(226, 182, 92);
 /// The force.
 pub(crate) const FORCE: Color32 = Color32::from_rgb(236, 126, 92);

@@ -1,4 +1,4 @@
-//! A long preparation is heard of, broken off and kept.
+//! A long preparation is heard of, cancelled and kept.
 
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::ptr;
@@ -11,7 +11,7 @@ use crate::calling::{KIDNEY, Model, message};
 struct Heard {
     works: Vec<String>,
     parts: Vec<f64>,
-    /// After so many times it is broken off.
+    /// After so many times it is cancelled.
     patience: Option<usize>,
 }
 
@@ -59,7 +59,7 @@ fn it_is_heard_of_and_kept() {
 }
 
 #[test]
-fn it_is_broken_off() {
+fn it_is_cancelled() {
     let mut heard = Heard {
         patience: Some(1),
         ..Heard::default()

@@ -246,7 +246,7 @@ pub(super) fn tell(contact: &Contact, clean: &CleanRecording, warnings: &mut Vec
     if let Some(drift) = contact.drift_n_per_s {
         let left = clean.time.last().copied().unwrap_or(0.0);
         warnings.push(format!(
-            "the sensor's zero moved by {drift:.2e} N/s before contact; if it goes on so, it is off by {:.2e} N at the end",
+            "the sensor's zero moved by {drift:.2e} N/s before contact; if the drift continues, it is off by {:.2e} N at the end",
             drift * left
         ));
     }

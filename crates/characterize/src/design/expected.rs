@@ -1,7 +1,7 @@
 use super::{Guess, Instrument, Presses};
 use crate::Error;
 use crate::inverse::{Body, Correlations, Curves, Indentation, UnitCurve, expected_law};
-use crate::viscoelastic::{Course, expected_relaxation};
+use crate::viscoelastic::{RelaxationRecord, expected_relaxation};
 
 /// A parameter as a characterization is expected to state it.
 #[derive(Debug, Clone, PartialEq)]
@@ -130,15 +130,16 @@ impl Expecting {
         if !series.terms().is_empty() {
             let largest = forces.iter().flatten().copied().fold(0.0, f64::max);
             let shape = |depth: f64| curve.force.force(depth);
-            let courses = indentations.iter().filter_map(|each| {
-                let course = Course::new((each.time, each.depth, each.force), largest, shape)?;
+            let records = indentations.iter().filter_map(|each| {
+                let course =
+                    RelaxationRecord::new((each.time, each.depth, each.force), largest, shape)?;
                 Some(course.with_zeros((each.depth, each.zeros), largest, shape))
             });
-            let courses: Vec<Course> = courses.collect();
+            let records: Vec<RelaxationRecord> = records.collect();
             let size = |depth: &f64| modulus * curve.force.force(*depth) / largest;
             let sizes: Vec<f64> = presses.depths.iter().map(size).collect();
             let weights = of_noise(instrument.noise / largest);
-            let found = expected_relaxation(&courses, (series, &sizes), &weights)?;
+            let found = expected_relaxation(&records, (series, &sizes), &weights)?;
             for (place, (terms, quantiles)) in (1..).zip(found.terms.iter().zip(&found.quantiles)) {
                 let names = [format!("g_{place}"), format!("tau_{place}_s")];
                 for ((name, known), quantile) in names.into_iter().zip(terms).zip(quantiles) {

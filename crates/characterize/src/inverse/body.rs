@@ -1,9 +1,8 @@
 use palpate_files::recording::{
     IndenterShape as RecordedShape, RecordingHeader, Specimen, Support,
 };
-use palpate_mechanics::finite_elements::indentation::{
-    Base, Block, Grip, Indenter, IndenterShape, Side,
-};
+use palpate_mechanics::contact::Friction;
+use palpate_mechanics::finite_elements::indentation::{Base, Block, Indenter, IndenterShape, Side};
 use palpate_mechanics::finite_elements::tube::Tube;
 
 use crate::Error;
@@ -25,7 +24,7 @@ pub enum Body {
         /// Radius of the indenter [m].
         radius: f64,
         /// Whether tissue sticks to it.
-        face: Grip,
+        face: Friction,
         /// Pressure inside [Pa].
         pressure: f64,
     },
@@ -43,9 +42,9 @@ impl Body {
     /// A large piece of a solid organ under a flat punch that tissue sticks to, on its face and its side.
     pub fn under_punch(radius: f64) -> Self {
         let shape = IndenterShape::Flat {
-            side: Side::Touches(Grip::Stick),
+            side: Side::Touches(Friction::Bonded),
         };
-        let face = Grip::Stick;
+        let face = Friction::Bonded;
         Self::large(Indenter {
             shape,
             radius,
@@ -58,7 +57,7 @@ impl Body {
         Self::large(Indenter {
             shape: IndenterShape::Sphere,
             radius,
-            face: Grip::Slide,
+            face: Friction::Frictionless,
         })
     }
 
@@ -68,7 +67,7 @@ impl Body {
         Self::large(Indenter {
             shape: IndenterShape::Cone { half_angle },
             radius: deepest * half_angle.tan(),
-            face: Grip::Slide,
+            face: Friction::Frictionless,
         })
     }
 
@@ -171,7 +170,7 @@ fn tube(header: &RecordingHeader, radius: f64) -> Result<Body, Error> {
             outer_radius: known(header.outer_radius_m, "outer_radius_m")?,
         },
         radius,
-        face: Grip::Stick,
+        face: Friction::Bonded,
         pressure: header.pressure_pa.unwrap_or(0.0),
     })
 }

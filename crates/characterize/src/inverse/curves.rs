@@ -115,7 +115,7 @@ impl Curves {
     /// # Errors
     /// When no equilibrium is found down to the deepest depth.
     pub fn of(&mut self, modulus: f64, shape: f64) -> Result<UnitCurve, Error> {
-        let known = self.foreseen(modulus, shape);
+        let known = self.predicted(modulus, shape);
         if let Some(known) = known.filter(|_| self.nearest(modulus, shape) == Some(shape)) {
             return Ok(known);
         }
@@ -145,7 +145,7 @@ impl Curves {
 
     /// The curve of `shape` [-] at a `modulus` [Pa], as far as it follows from what was tabulated or solved; none
     /// where nothing was.
-    pub(super) fn foreseen(&self, modulus: f64, shape: f64) -> Option<UnitCurve> {
+    pub(super) fn predicted(&self, modulus: f64, shape: f64) -> Option<UnitCurve> {
         tables::curve(&self.body, self.law, shape, self.deepest).or_else(|| {
             let place = self.family(modulus)?;
             Some(self.solved[place].1.at(shape))
@@ -231,7 +231,7 @@ impl Curves {
         let press = |depth: f64| {
             let point = run.press(depth, depth, |_| ());
             let point = point.map_err(|why| Error::of_law(name, deepest, why))?;
-            Ok((point.force, point.by_parameter))
+            Ok((point.force, point.sensitivities))
         };
         self.depths().into_iter().map(press).collect()
     }

@@ -30,7 +30,7 @@ pub struct LawDescription {
     pub misfit: f64,
     /// How well its own parameters are known, and those of the relaxation that it was found with.
     pub uncertainty: Uncertainty,
-    /// What deserves warning.
+    /// Warnings.
     pub warnings: Vec<String>,
     /// What fits say that are made again, where they were asked for.
     pub repeated: Option<Result<Repeated, Error>>,

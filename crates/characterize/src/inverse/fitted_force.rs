@@ -22,7 +22,7 @@ pub struct ElasticForce {
     /// The force [N] over depth [m].
     pub force: IndentationCurve,
     /// The change of the force with each parameter [N over its unit], by its name.
-    pub by_parameter: Vec<(String, IndentationCurve)>,
+    pub sensitivities: Vec<(String, IndentationCurve)>,
 }
 
 impl LawDescription {
@@ -52,7 +52,7 @@ impl LawDescription {
         let named = own.iter().enumerate();
         ElasticForce {
             force: curve.force.scaled(1.0, modulus),
-            by_parameter: named
+            sensitivities: named
                 .map(|(place, parameter)| (parameter.name.to_owned(), by(place)))
                 .collect(),
         }
@@ -96,7 +96,7 @@ impl ElasticForce {
                     .for_each(|(into, value)| *into = value);
             }
         };
-        for (name, curve) in &self.by_parameter {
+        for (name, curve) in &self.sensitivities {
             let change: Vec<f64> = depth.iter().map(|d| curve.force(*d)).collect();
             set(name, &mut relaxed(&change).into_iter());
         }

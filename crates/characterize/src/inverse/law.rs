@@ -60,11 +60,11 @@ impl SoughtLaw {
     }
 
     /// Change of a force with the shape [N], from its changes with the parameters of the law.
-    pub(super) fn by_shape(self, by_parameter: &[f64]) -> f64 {
+    pub(super) fn by_shape(self, sensitivities: &[f64]) -> f64 {
         match self {
             Self::NeoHookean => 0.0,
-            Self::MooneyRivlin => by_parameter[1] - by_parameter[0],
-            Self::Exponential => by_parameter[1],
+            Self::MooneyRivlin => sensitivities[1] - sensitivities[0],
+            Self::Exponential => sensitivities[1],
         }
     }
 

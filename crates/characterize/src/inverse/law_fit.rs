@@ -81,7 +81,7 @@ pub(super) const SETTINGS: Settings = Settings {
     differences: Differences::Forward,
     precision: f64::EPSILON,
 };
-/// How well a solved curve has to be foreseen for a fit to end [-]: far less than the elements are off.
+/// How well a solved curve has to be predicted for a fit to end [-]: far less than the elements are off.
 const FORESEEN: f64 = 3e-4;
 /// Rounds in which the modulus under pressure is found, and the change at which they end [-].
 const ROUNDS: usize = 6;
@@ -138,7 +138,7 @@ fn start(
 const SHAPES_SOLVED: usize = 12;
 const HALVINGS: usize = 4;
 
-/// With curves between those that were solved, until one that is solved at the fit's own shape is as it was foreseen.
+/// With curves between those that were solved, until one that is solved at the fit's own shape is as it was predicted.
 fn from(
     curves: &mut Curves,
     indentations: &[Indentation<'_>],
@@ -154,10 +154,10 @@ fn from(
         let again = usize::from(!iterations.is_empty());
         iterations.extend(fit.iterations.drain(again..));
         let shape = fit.parameters[1].value;
-        let foreseen = curves.foreseen(modulus, shape);
+        let predicted = curves.predicted(modulus, shape);
         let solved = solved_toward(curves, modulus, shape)?;
         let is_like = |own: UnitCurve| own.force.is_like(&solved.force, FORESEEN);
-        if solved.shape == shape && foreseen.is_some_and(is_like) {
+        if solved.shape == shape && predicted.is_some_and(is_like) {
             fit.iterations = iterations;
             return Ok(LawFit {
                 others,
@@ -183,7 +183,7 @@ fn least_minimum(
     start: &[Parameter],
     felt: (&[Indentation<'_>], &PronySeries),
 ) -> Result<(Fit, Vec<[f64; 2]>), Error> {
-    let of = |shape| curves.foreseen(modulus, shape);
+    let of = |shape| curves.predicted(modulus, shape);
     let one = |start: &[Parameter]| fitted(start, felt, of);
     if start[1].fixed {
         return Ok((one(start)?, Vec::new()));

@@ -160,7 +160,7 @@ impl OwnModel<'_> {
         jacobian: &mut DMatrix<f64>,
     ) -> Option<()> {
         let own = self.law.seen_as_shape([values[0], values[1]])?;
-        let curve = self.curves.foreseen(f64::INFINITY, own.shape)?;
+        let curve = self.curves.predicted(f64::INFINITY, own.shape)?;
         let pairs = terms(&values[1..], (values.len() - 2) / 2);
         let series = PronySeries::new(&pairs).ok()?;
         let mut start = 0;

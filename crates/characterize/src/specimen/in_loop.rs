@@ -13,7 +13,7 @@
 use palpate_mechanics::finite_elements::indentation::{IndentationRun, IndentationSettings};
 use palpate_mechanics::{IndentationCurve, PronySeries};
 
-use super::{Characterization, CharacterizeSettings, Pressed, courses, sought};
+use super::{Characterization, CharacterizeSettings, Pressed, records, sought};
 use crate::Error;
 use crate::fit::Draws;
 use crate::inverse::{Body, Curves, LawDescription, SoughtLaw};
@@ -120,8 +120,8 @@ impl Specimen<'_> {
             }
             // The law's own elastic force, where a first fit takes that of neo-Hookean tissue.
             let elastic = curves.of(f64::INFINITY, of.shape)?;
-            let courses = courses(&divided, Some(&elastic));
-            let mut relaxing = relaxation(&courses, settings.relaxation)?;
+            let records = records(&divided, Some(&elastic));
+            let mut relaxing = relaxation(&records, settings.relaxation)?;
             let mut law = |draws: Option<Draws>| sought(&mut curves, &divided, (&relaxing, draws));
             let description = law(None)?;
             let next = Tissue::of(&relaxing, &description);

@@ -17,7 +17,7 @@ mod model;
 mod product_form;
 mod relaxation;
 
-pub use model::Course;
+pub use model::RelaxationRecord;
 pub(crate) use model::terms;
 pub use product_form::ProductForm;
 pub(crate) use relaxation::{QUASI_LINEAR, even, expected_relaxation, quasi_linear};

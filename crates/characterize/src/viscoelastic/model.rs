@@ -5,7 +5,7 @@ use crate::inverse::ZeroErrors;
 
 /// One recording as its relaxation is seen.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Course {
+pub struct RelaxationRecord {
     /// Times [s], ascending.
     pub time: Vec<f64>,
     /// Elastic force of the depths relative to that of the largest, as far as it is known [-].
@@ -25,7 +25,7 @@ const THINNED: usize = 200;
 /// A thinned hold keeps one of so many samples of those before it [-].
 const SCALE: f64 = 50.0;
 
-impl Course {
+impl RelaxationRecord {
     /// Of `force` [N] at `depth` [m], where an elastic force of `shape` [any unit] is felt; none when
     /// nothing is pressed or felt. `largest_force` [N] is one for all courses of a fit: a sensor's noise is
     /// as many newtons in each.
@@ -165,13 +165,13 @@ impl Course {
 /// ρᵢ = gᵢ/(1 − Σ g) and ln τᵢ, then the size of each course. With ρ ≥ 0 every series is one that relaxes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Model<'a> {
-    pub(super) courses: &'a [Course],
+    pub(super) records: &'a [RelaxationRecord],
     pub(super) terms: usize,
 }
 
 impl Model<'_> {
     pub(super) fn samples(&self) -> usize {
-        self.courses.iter().map(|course| course.force.len()).sum()
+        self.records.iter().map(|course| course.force.len()).sum()
     }
 
     /// Residuals [-] and their derivatives; none where a number is out of hand.
@@ -183,7 +183,7 @@ impl Model<'_> {
     ) -> Option<()> {
         let series = terms(parameters, self.terms);
         let mut start = 0;
-        for (number, course) in self.courses.iter().enumerate() {
+        for (number, course) in self.records.iter().enumerate() {
             let size = parameters[1 + 2 * self.terms + number];
             let (elastic, by_mu) = course.elastic(parameters[0]);
             let (force, columns) = relaxed(&course.time, (&elastic, &by_mu), &series);
@@ -196,7 +196,7 @@ impl Model<'_> {
                     jacobian[(start + row, place)] = size * column[row];
                 }
             }
-            for other in 0..self.courses.len() {
+            for other in 0..self.records.len() {
                 let place = 1 + 2 * self.terms + other;
                 let own = other == number;
                 for row in 0..rows {
@@ -214,7 +214,7 @@ impl Model<'_> {
     pub(super) fn systematic(&self, parameters: &[f64]) -> Vec<Vec<f64>> {
         let series = terms(parameters, self.terms);
         let (samples, mut start, mut columns) = (self.samples(), 0, Vec::new());
-        for (number, course) in self.courses.iter().enumerate() {
+        for (number, course) in self.records.iter().enumerate() {
             let size = parameters[1 + 2 * self.terms + number];
             let rows = start..start + course.force.len();
             let mut own = |change: Vec<f64>| {

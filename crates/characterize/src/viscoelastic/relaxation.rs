@@ -3,7 +3,7 @@ use palpate_files::Estimate;
 use palpate_files::quantity::plain_quantity;
 use palpate_mechanics::PronySeries;
 
-use super::model::{Course, Model, terms};
+use super::model::{Model, RelaxationRecord, terms};
 use super::product_form::ProductForm;
 use crate::Error;
 use crate::fit::{
@@ -102,7 +102,7 @@ impl Relaxation {
         Correlations::of(names.collect(), &covariance)
     }
 
-    /// What deserves warning in it, after recordings of `duration` [s].
+    /// Warnings about it, after recordings of `duration` [s].
     pub fn warnings(&self, duration: f64) -> Vec<String> {
         let mut said = Vec::new();
         for (place, [g, tau]) in (1..).zip(&self.terms) {
@@ -143,13 +143,16 @@ pub(crate) fn quasi_linear(total: f64) -> f64 {
 ///
 /// # Errors
 /// When there is nothing to fit, or too little of it.
-pub fn relaxation(courses: &[Course], settings: RelaxationSettings) -> Result<Relaxation, Error> {
-    if courses.is_empty() {
+pub fn relaxation(
+    records: &[RelaxationRecord],
+    settings: RelaxationSettings,
+) -> Result<Relaxation, Error> {
+    if records.is_empty() {
         return Err(Error::NothingFelt);
     }
     let mut fits: Vec<Fit> = Vec::new();
     for count in settings.terms.map_or(1..=MOST_TERMS, |terms| terms..=terms) {
-        let fit = with_terms(courses, count, fits.last())?;
+        let fit = with_terms(records, count, fits.last())?;
         let gained = fits.last().is_none_or(|before| {
             fit.sum_of_squares() < (1.0 - NOTHING_GAINED) * before.sum_of_squares()
         });
@@ -160,14 +163,14 @@ pub fn relaxation(courses: &[Course], settings: RelaxationSettings) -> Result<Re
         }
     }
     // What the richest leaves is noise, so all are compared as if that noise had been seen.
-    let lengths: Vec<usize> = courses.iter().map(|course| course.time.len()).collect();
+    let lengths: Vec<usize> = records.iter().map(|course| course.time.len()).collect();
     let richest = fits.last().ok_or(Error::NothingFelt)?;
     let of_richest = correlated_uncertainty(richest, &lengths);
     let samples = of_richest.effective_samples;
     let (chosen, criteria) = simplest(&fits.iter().collect::<Vec<_>>(), samples);
     let tried = fits.iter().zip(criteria);
     let tried =
-        tried.map(|(fit, criterion)| (terms_of(fit, courses), fit.sum_of_squares(), criterion));
+        tried.map(|(fit, criterion)| (terms_of(fit, records), fit.sum_of_squares(), criterion));
     let tried: Vec<_> = tried.collect();
     let uncertainty = match chosen + 1 == fits.len() {
         true => of_richest,
@@ -175,12 +178,12 @@ pub fn relaxation(courses: &[Course], settings: RelaxationSettings) -> Result<Re
     };
     let fit = fits.swap_remove(chosen);
     let systematic = Model {
-        courses,
-        terms: terms_of(&fit, courses),
+        records,
+        terms: terms_of(&fit, records),
     };
     let systematic = systematic.systematic(&values_of(&fit));
     let uncertainty = with_systematic(uncertainty, &fit, &systematic);
-    described(courses, fit, uncertainty, tried)
+    described(records, fit, uncertainty, tried)
 }
 
 fn values_of(fit: &Fit) -> Vec<f64> {
@@ -194,7 +197,7 @@ fn values_of(fit: &Fit) -> Vec<f64> {
 /// # Errors
 /// When the series is none.
 pub(crate) fn expected_relaxation(
-    courses: &[Course],
+    records: &[RelaxationRecord],
     (series, sizes): (&PronySeries, &[f64]),
     weights: &[f64],
 ) -> Result<Relaxation, Error> {
@@ -209,7 +212,7 @@ pub(crate) fn expected_relaxation(
     let parameters = [exponent].into_iter().chain(of_terms).chain(of_sizes);
     let mut fit = Fit::at(parameters.collect(), weights.len());
     let model = Model {
-        courses,
+        records,
         terms: count,
     };
     let values = values_of(&fit);
@@ -218,12 +221,12 @@ pub(crate) fn expected_relaxation(
         .ok_or(Error::NothingFelt)?;
     let systematic = model.systematic(&values);
     let expected = Expected::of(fit, &systematic, weights);
-    let known = expected.known(&expected.fit, systematic.len(), courses.len());
-    described(courses, expected.fit, known, Vec::new())
+    let known = expected.known(&expected.fit, systematic.len(), records.len());
+    described(records, expected.fit, known, Vec::new())
 }
 
-fn terms_of(fit: &Fit, courses: &[Course]) -> usize {
-    (fit.parameters.len() - 1 - courses.len()) / 2
+fn terms_of(fit: &Fit, records: &[RelaxationRecord]) -> usize {
+    (fit.parameters.len() - 1 - records.len()) / 2
 }
 
 /// The same as if the hold had begun with a step: only what follows the largest force is seen.
@@ -231,17 +234,24 @@ fn terms_of(fit: &Fit, courses: &[Course]) -> usize {
 /// # Errors
 /// As [`relaxation`].
 pub fn relaxation_of_steps(
-    courses: &[Course],
+    records: &[RelaxationRecord],
     settings: RelaxationSettings,
 ) -> Result<Relaxation, Error> {
-    let steps: Vec<Course> = courses.iter().map(Course::after_the_peak).collect();
+    let steps: Vec<RelaxationRecord> = records
+        .iter()
+        .map(RelaxationRecord::after_the_peak)
+        .collect();
     relaxation(&steps, settings)
 }
 
-fn with_terms(courses: &[Course], count: usize, before: Option<&Fit>) -> Result<Fit, Error> {
-    let thinned: Vec<Course> = courses.iter().map(Course::thinned).collect();
+fn with_terms(
+    records: &[RelaxationRecord],
+    count: usize,
+    before: Option<&Fit>,
+) -> Result<Fit, Error> {
+    let thinned: Vec<RelaxationRecord> = records.iter().map(RelaxationRecord::thinned).collect();
     let mut best: Option<Fit> = None;
-    for parameters in starts(courses, count, before) {
+    for parameters in starts(records, count, before) {
         let fit = fitted(&thinned, count, &parameters)?;
         if best
             .as_ref()
@@ -251,11 +261,15 @@ fn with_terms(courses: &[Course], count: usize, before: Option<&Fit>) -> Result<
         }
     }
     let best = best.ok_or(Error::NothingFelt)?;
-    fitted(courses, count, &best.parameters)
+    fitted(records, count, &best.parameters)
 }
 
-fn fitted(courses: &[Course], terms: usize, parameters: &[Parameter]) -> Result<Fit, Error> {
-    let model = Model { courses, terms };
+fn fitted(
+    records: &[RelaxationRecord],
+    terms: usize,
+    parameters: &[Parameter],
+) -> Result<Fit, Error> {
+    let model = Model { records, terms };
     let settings = Settings {
         tolerance: TOLERANCE,
         ..Settings::default()
@@ -270,10 +284,10 @@ fn fitted(courses: &[Course], terms: usize, parameters: &[Parameter]) -> Result<
 
 /// Where the fit starts: times spread evenly over what the recordings show, and the terms of one fewer
 /// with one more before or after.
-fn starts(courses: &[Course], count: usize, before: Option<&Fit>) -> Vec<Vec<Parameter>> {
-    let [shortest, longest] = visible_times(courses);
+fn starts(records: &[RelaxationRecord], count: usize, before: Option<&Fit>) -> Vec<Vec<Parameter>> {
+    let [shortest, longest] = visible_times(records);
     let at = |part: f64| shortest * (longest / shortest).powf(part);
-    let drop = courses.iter().map(Course::drop).sum::<f64>() / courses.len() as f64;
+    let drop = records.iter().map(RelaxationRecord::drop).sum::<f64>() / records.len() as f64;
     let spread = |from: f64, to: f64| {
         let times = (0..count).map(|i| at(from + (to - from) * (i as f64 + 0.5) / count as f64));
         times
@@ -291,7 +305,7 @@ fn starts(courses: &[Course], count: usize, before: Option<&Fit>) -> Vec<Vec<Par
     let exponent = Parameter::new("exponent", 0.0)
         .within(EXPONENTS[0], EXPONENTS[1])
         .scaled(1.0);
-    let exponent = if courses.iter().any(|course| course.ramp() >= RAMP) {
+    let exponent = if records.iter().any(|course| course.ramp() >= RAMP) {
         exponent
     } else {
         exponent.fixed()
@@ -314,7 +328,7 @@ fn starts(courses: &[Course], count: usize, before: Option<&Fit>) -> Vec<Vec<Par
                     .scaled(1.0),
                 ]
             });
-        let sizes = courses.iter().zip(1..).map(|(course, number)| {
+        let sizes = records.iter().zip(1..).map(|(course, number)| {
             Parameter::new(format!("size_{number}"), course.peak()).within(0.0, 1e3)
         });
         [exponent.clone()]
@@ -327,22 +341,25 @@ fn starts(courses: &[Course], count: usize, before: Option<&Fit>) -> Vec<Vec<Par
 }
 
 /// The shortest and the longest time [s] that can be seen: of two samples, and of the longest course.
-fn visible_times(courses: &[Course]) -> [f64; 2] {
-    let steps = courses.iter().flat_map(|course| course.time.windows(2));
+fn visible_times(records: &[RelaxationRecord]) -> [f64; 2] {
+    let steps = records.iter().flat_map(|course| course.time.windows(2));
     let shortest = steps
         .map(|pair| pair[1] - pair[0])
         .fold(f64::INFINITY, f64::min);
-    let longest = courses.iter().map(Course::length).fold(0.0, f64::max);
+    let longest = records
+        .iter()
+        .map(RelaxationRecord::length)
+        .fold(0.0, f64::max);
     [(2.0 * shortest).min(0.1 * longest), longest]
 }
 
 fn described(
-    courses: &[Course],
+    records: &[RelaxationRecord],
     fit: Fit,
     uncertainty: Uncertainty,
     tried: Vec<(usize, f64, f64)>,
 ) -> Result<Relaxation, Error> {
-    let count = terms_of(&fit, courses);
+    let count = terms_of(&fit, records);
     let values: Vec<f64> = fit.parameters.iter().map(|p| p.value).collect();
     let [covariance, of_noise] = uncertainty.of_all(fit.parameters.len());
     let pairs = terms(&values, count);
@@ -380,7 +397,7 @@ fn described(
     let of_terms: Vec<_> = described.iter().map(each).collect();
     let series = PronySeries::new(&of_terms)?;
     let mut start = 0;
-    let forces = courses.iter().map(|course| {
+    let forces = records.iter().map(|course| {
         let rows = start..start + course.force.len();
         start = rows.end;
         let each = fit.residuals[rows].iter().zip(&course.force);

@@ -1,4 +1,4 @@
-//! Every error is one sentence: cause, then mend.
+//! Every error is one sentence: cause, then remedy.
 
 use palpate_characterize::Error;
 use palpate_characterize::fit::Parameter;

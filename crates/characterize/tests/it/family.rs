@@ -2,7 +2,7 @@
 
 use palpate_characterize::inverse::{Body, Curves, Indentation, SoughtLaw, law_fit};
 use palpate_mechanics::PronySeries;
-use palpate_mechanics::finite_elements::indentation::Grip;
+use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_elements::tube::Tube;
 
 /// Judge: finite elements at a shape that the fit does not know; forces of a curve solved at the found shape and
@@ -44,7 +44,7 @@ fn a_tube_under_pressure_gives_its_modulus() {
                 outer_radius: 7.5e-3,
             },
             radius: 2e-3,
-            face: Grip::Slide,
+            face: Friction::Frictionless,
             pressure,
         };
         Curves::new(body, SoughtLaw::NeoHookean, 1.5e-3)

@@ -158,17 +158,17 @@ fn forces_of_a_found_law_and_their_errors_are_those_of_its_parameters() {
     };
     // Of the law: the elastic force is that of moved parameters.
     let shape = law.found.shape();
-    for (name, curve) in &elastic.by_parameter {
+    for (name, curve) in &elastic.sensitivities {
         let size = 1e-4 * law.found.modulus() * (1.0 - shape);
         let moved = |sign: f64| {
             let points = elastic.force.points();
             let points = points.map(|(d, force)| (d, force + sign * size * curve.force(d)));
             let (depths, forces): (Vec<f64>, Vec<f64>) = points.unzip();
             let force = IndentationCurve::through(&depths, &forces);
-            let by_parameter = Vec::new();
+            let sensitivities = Vec::new();
             let moved = ElasticForce {
                 force,
-                by_parameter,
+                sensitivities,
             };
             evaluated(&moved, series, &known)
         };

@@ -50,7 +50,7 @@ fn assert_slopes(shape: f64, deepest: f64) {
     let tabulated = curves.of(f64::INFINITY, shape).unwrap().by_shape;
     let mut run = run(shape, 0).with_sensitivities();
     for depth in PUNCH.iter().map(|row| row.0).take_while(|x| *x <= deepest) {
-        let by = run.press(depth, depth, |_| ()).unwrap().by_parameter;
+        let by = run.press(depth, depth, |_| ()).unwrap().sensitivities;
         let (slope, found) = (by[1] - by[0], tabulated.force(depth));
         assert!(
             (found / slope - 1.0).abs() < 0.03,

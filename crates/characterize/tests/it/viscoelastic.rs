@@ -2,7 +2,7 @@
 
 use palpate_characterize::fit::Random;
 use palpate_characterize::viscoelastic::{
-    Course, ProductForm, RelaxationSettings, relaxation, relaxation_of_steps,
+    ProductForm, RelaxationRecord, RelaxationSettings, relaxation, relaxation_of_steps,
 };
 use palpate_mechanics::{IndentationCurve, PronySeries};
 
@@ -11,7 +11,7 @@ const LIVER: [(f64, f64); 2] = [(0.2866, 1.537), (0.2022, 6.090)];
 
 /// A ramp of `ramp` [s] to 6 mm and a hold, 40 s at `rate` [Hz], of a tissue whose force grows with the
 /// power `exponent` of depth; the force is relative to its largest, with white noise.
-fn course(exponent: f64, ramp: f64, rate: f64, noise: f64, seed: u64) -> Course {
+fn course(exponent: f64, ramp: f64, rate: f64, noise: f64, seed: u64) -> RelaxationRecord {
     let times: Vec<f64> = (0..=(40.0 * rate) as usize)
         .map(|i| i as f64 / rate)
         .collect();
@@ -25,7 +25,7 @@ fn course(exponent: f64, ramp: f64, rate: f64, noise: f64, seed: u64) -> Course 
     for force in &mut forces {
         *force += noise * largest * random.normal();
     }
-    Course::new((&times, &depths, &forces), largest, |d| d).unwrap()
+    RelaxationRecord::new((&times, &depths, &forces), largest, |d| d).unwrap()
 }
 
 /// Judge: multiplied out, with G at 30 times. Rounding, which grows as times come close.
@@ -86,8 +86,8 @@ fn a_recording_without_noise_gives_its_series() {
 /// fails by chance once in 25 seeds.
 #[test]
 fn several_depths_share_one_relaxation() {
-    let courses = [11, 12, 13].map(|seed| course(1.3, 0.5, 100.0, 0.01, seed));
-    let found = relaxation(&courses, RelaxationSettings::default()).unwrap();
+    let records = [11, 12, 13].map(|seed| course(1.3, 0.5, 100.0, 0.01, seed));
+    let found = relaxation(&records, RelaxationSettings::default()).unwrap();
     assert_eq!(found.terms.len(), 2);
     for ([g, tau], truth) in found.terms.iter().zip(LIVER) {
         assert!(
@@ -107,10 +107,10 @@ fn several_depths_share_one_relaxation() {
 fn a_slow_ramp_is_no_step() {
     let settings = RelaxationSettings { terms: Some(2) };
     let total = |ramp: f64, as_step: bool| -> f64 {
-        let courses = [course(1.0, ramp, 100.0, 1e-4, 5)];
+        let records = [course(1.0, ramp, 100.0, 1e-4, 5)];
         let found = match as_step {
-            true => relaxation_of_steps(&courses, settings),
-            false => relaxation(&courses, settings),
+            true => relaxation_of_steps(&records, settings),
+            false => relaxation(&records, settings),
         };
         found.unwrap().terms.iter().map(|[g, _]| g.value).sum()
     };
@@ -136,7 +136,7 @@ fn a_ramp_that_is_no_power_is_no_relaxation() {
         let forces = IndentationCurve::through(&known, &elastic).relaxed(&series, &times, &depths);
         let mut random = Random::new(4);
         let forces: Vec<f64> = forces.iter().map(|f| f + 3e-4 * random.normal()).collect();
-        let course = Course::new((&times, &depths, &forces), 1.0, |d| d).unwrap();
+        let course = RelaxationRecord::new((&times, &depths, &forces), 1.0, |d| d).unwrap();
         let found = relaxation(&[course], RelaxationSettings::default()).unwrap();
         println!(
             "{ramp}: {:?} {:?} {:?}",

@@ -179,7 +179,7 @@ impl<'l> Commanded<'l> {
             arming_force: f64::INFINITY,
             ramp: 1e-9,
             without_dead_man: 1.0,
-            allowance: f64::INFINITY,
+            energy_budget: f64::INFINITY,
             ..Limits::of(device.capabilities())
         };
         let settings = ServoSettings {

@@ -130,7 +130,7 @@ impl Motion {
         self.incomplete.as_ref()
     }
 
-    /// What deserves a warning among its numbers, as sentences.
+    /// Warnings about its numbers, as sentences.
     pub fn warnings(&self) -> &[String] {
         &self.warnings
     }

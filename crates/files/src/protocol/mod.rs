@@ -30,7 +30,7 @@ pub struct Protocol {
     pub specimens: Vec<Measured>,
     /// What is done to each: one or more.
     pub stimuli: Vec<StimulusPlan>,
-    /// What deserves a warning among its numbers, as sentences.
+    /// Warnings about its numbers, as sentences.
     pub warnings: Vec<String>,
 }
 
@@ -50,7 +50,7 @@ impl Protocol {
         Key::tables(
             "stimulus",
             StimulusPlan::KEYS,
-            "What is done to each specimen.",
+            "The stimuli of each specimen.",
         )
         .required(""),
     ];

@@ -165,7 +165,7 @@ impl Recording {
         self.is_foreign
     }
 
-    /// What was done to read the table of another program, and what deserves a warning among the numbers above it,
+    /// What was done to read the table of another program, and Warnings about the numbers above it,
     /// in plain sentences.
     pub fn remarks(&self) -> &[String] {
         &self.remarks

@@ -71,8 +71,9 @@ impl Jaws {
             ToolKind::Grasper => Self::GRASPER,
             ToolKind::Scissors => Self::SCISSORS,
             ToolKind::Probe | ToolKind::Hook => {
-                let mend = "no jaws to a tool that has none, or `kind` \"grasper\" or \"scissors\"";
-                keys.refuse("jaws", mend)?;
+                let remedy =
+                    "no jaws to a tool that has none, or `kind` \"grasper\" or \"scissors\"";
+                keys.refuse("jaws", remedy)?;
                 return Ok(None);
             }
         };

@@ -64,7 +64,7 @@ pub struct Scene {
     pub variant: Option<Variant>,
     /// Its text, which means the same in any folder ([`standing_alone`]); none once something was changed.
     pub written: Option<String>,
-    /// What deserves a warning among its numbers, as sentences; none once something was changed.
+    /// Warnings about its numbers, as sentences; none once something was changed.
     pub warnings: Vec<String>,
 }
 
@@ -86,7 +86,7 @@ impl Scene {
         Key::table(
             "view",
             View::KEYS,
-            "How the scene is looked at; what is left out is chosen so that the organ fills the picture.",
+            "The camera; without these keys it is placed so that the organ fills the picture.",
         )
         .optional("", "the defaults of its keys"),
         Key::table("task", Task::KEYS, "What there is to do, and how a performance is judged.")
@@ -94,7 +94,7 @@ impl Scene {
         Key::named(
             "draw",
             draw::DRAW,
-            "Values that are drawn anew for each attempt, by name. `{ draw = \"NAME\" }` takes one in place of any value.",
+            "Values that are drawn for each attempt, by name. `{ draw = \"NAME\" }` takes one in place of any value.",
         )
         .optional("", "every attempt is the same"),
         Key::table(

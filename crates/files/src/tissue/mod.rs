@@ -39,7 +39,7 @@ pub struct Tissue {
     pub lumped: Lumped,
     /// Where the numbers come from, with warnings.
     pub source: TissueSource,
-    /// What deserves a warning among the numbers of its file, as sentences. Those of a table in another document are
+    /// Warnings about the numbers of its file, as sentences. Those of a table in another document are
     /// that document's.
     pub warnings: Vec<String>,
 }

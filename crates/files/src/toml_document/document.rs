@@ -79,16 +79,16 @@ impl Document {
     }
 }
 
-/// Checks the value of `format`; `mend` is the line to add when there is none.
+/// Checks the value of `format`; `remedy` is the line to add when there is none.
 pub(crate) fn check_format(
     format: Option<Entry>,
     path: &Path,
-    mend: &'static str,
+    remedy: &'static str,
 ) -> Result<(), Error> {
     match format {
         None => Err(Error::MissingFormat {
             path: path.to_owned(),
-            mend,
+            remedy,
         }),
         Some(Entry {
             value: Value::Integer(1, _),

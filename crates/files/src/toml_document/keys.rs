@@ -31,7 +31,7 @@ pub(crate) struct Found<'d> {
     pub(crate) warnings: &'d Warnings,
 }
 
-/// What deserves a warning in a document, gathered while it is being understood.
+/// Warnings about a document, gathered while it is being understood.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Warnings(RefCell<Vec<String>>);
 
@@ -74,7 +74,7 @@ impl<'d> Keys<'d> {
         }
     }
 
-    /// What deserves a warning among the numbers that were read so far, in the whole document.
+    /// Warnings about the numbers that were read so far, in the whole document.
     pub fn warnings(&self) -> Vec<String> {
         self.warnings.0.borrow().clone()
     }

@@ -1,4 +1,4 @@
-//! Every error names the place, the key, what was found, what is expected and the mend.
+//! Every error names the place, the key, what was found, what is expected and the remedy.
 
 use palpate_files::recording::{ExtraColumn, RecordingHeader, Samples};
 use palpate_files::{BuiltinTissue, Error, Motion, Recording, Scene, Session, Tissue, write_whole};

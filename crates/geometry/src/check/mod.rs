@@ -1,4 +1,4 @@
-//! What is wrong with a mesh, and how to mend it.
+//! What is wrong with a mesh, and how to repair it.
 
 mod contact;
 pub(crate) mod problem;
@@ -47,7 +47,7 @@ pub struct MeshReport {
     pub low_m: [f64; 3],
     /// Its largest coordinates [m].
     pub high_m: [f64; 3],
-    /// What is wrong, with the mend; nothing when the mesh bounds a solid of even triangles.
+    /// What is wrong, with the remedy; nothing when the mesh bounds a solid of even triangles.
     pub problems: Vec<MeshProblem>,
 }
 

@@ -8,7 +8,8 @@ pub struct MeshProblem {
     /// How many edges, vertices, triangles or pieces have it.
     pub count: usize,
     /// What to do about it, as a sentence.
-    pub mend: &'static str,
+    #[serde(rename = "mend")]
+    pub remedy: &'static str,
 }
 
 /// The problems that a mesh can have.
@@ -38,16 +39,16 @@ pub enum ProblemKind {
 }
 
 impl ProblemKind {
-    /// The problem with its mend, unless it does not occur.
+    /// The problem with its remedy, unless it does not occur.
     pub(super) fn times(self, count: usize) -> Option<MeshProblem> {
         (count > 0).then(|| MeshProblem {
             kind: self,
             count,
-            mend: self.mend(),
+            remedy: self.remedy(),
         })
     }
 
-    fn mend(self) -> &'static str {
+    fn remedy(self) -> &'static str {
         match self {
             Self::NotClosed => {
                 "Weld coincident vertices; if borders remain, wrap the mesh (`palpate mesh wrap`) or fill the holes."
@@ -66,10 +67,10 @@ impl ProblemKind {
                 "The mesh is a thin sheet with an inner and an outer side; keep the outer side and close it to a solid."
             }
             Self::DegenerateTriangles => {
-                "Weld coincident vertices, then mesh the surface anew where triangles have no area."
+                "Weld coincident vertices, then remesh the surface where triangles have no area."
             }
             Self::SliverTriangles => {
-                "Mesh the surface anew with even triangles if results are uneven there."
+                "Remesh the surface with even triangles if results are uneven there."
             }
             Self::UnusedVertices => "Drop the vertices that no triangle uses.",
             Self::ImplausibleSize => {

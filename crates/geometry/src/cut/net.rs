@@ -265,7 +265,7 @@ impl Net {
         }
         for turn in 0..count {
             let taken = turn > 0 && self.is_taken(start, turn);
-            start = self.settle_fan(start, taken, count > 1);
+            start = self.assign_fan(start, taken, count > 1);
         }
     }
 
@@ -286,7 +286,7 @@ impl Net {
     }
 
     /// Sets the vertex of the fan that begins at `start`. The beginning of the next fan.
-    fn settle_fan(&mut self, start: Corner, taken: bool, opens: bool) -> Corner {
+    fn assign_fan(&mut self, start: Corner, taken: bool, opens: bool) -> Corner {
         let here = self.position(start);
         let towards = |net: &Self, corner: Corner, step: usize| {
             let end = net.mesh.positions(corner.triangle)[(corner.place + step) % 3];

@@ -22,7 +22,7 @@ impl ReadError {
     }
 }
 
-/// What is wrong with a mesh file. Each message says what was found, what was expected and the mend.
+/// What is wrong with a mesh file. Each message says what was found, what was expected and the remedy.
 #[derive(Debug, thiserror::Error)]
 pub enum ReadFault {
     /// No file of that name.
@@ -207,12 +207,12 @@ pub enum ReadFault {
         found: String,
     },
     /// A way of writing the numbers that is not read here.
-    #[error("{what} is not read here; {mend}")]
+    #[error("{what} is not read here; {remedy}")]
     UnreadEncoding {
         /// How the file is written.
         what: &'static str,
         /// How to write one that can be read.
-        mend: &'static str,
+        remedy: &'static str,
     },
     /// A volume element that is no tetrahedron.
     #[error(

@@ -48,7 +48,7 @@ pub struct ImportedMesh {
 ///
 /// # Errors
 /// When the file cannot be read, is damaged, holds no triangles, or is of unknown unit; the error
-/// names the path, the cause and the mend.
+/// names the path, the cause and the remedy.
 pub fn read_mesh(path: &Path, unit: Option<LengthUnit>) -> Result<ImportedMesh, ReadError> {
     read_here(path, unit).map_err(|fault| ReadError {
         path: path.to_owned(),

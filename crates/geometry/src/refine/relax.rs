@@ -5,7 +5,7 @@
 //! the worst angle around the vertex grows.
 
 use super::bisection::Bisection;
-use super::shell::{Shell, openness};
+use super::shell::{Shell, dihedral_quality};
 use crate::Vec3;
 
 /// Tetrahedra less open than this are worked on [rad].
@@ -22,7 +22,7 @@ pub(super) fn relax(bisection: &mut Bisection, shell: Option<&Shell<'_>>) {
     let on_boundary = bisection.on_boundary();
     for _ in 0..SWEEPS {
         let mut nodes: Vec<u32> = (0..bisection.len() as u32)
-            .filter(|&t| openness(&bisection.positions(t)) < FLAT)
+            .filter(|&t| dihedral_quality(&bisection.positions(t)) < FLAT)
             .flat_map(|t| bisection.nodes(t))
             .filter(|&node| shell.is_some() || !on_boundary[node as usize])
             .collect();
@@ -49,7 +49,7 @@ fn open(bisection: &mut Bisection, node: u32, shell: Option<&Shell<'_>>) -> bool
     let start = vertices[node as usize];
     let worst = |vertices: &[Vec3]| {
         star.iter()
-            .map(|nodes| openness(&nodes.map(|n| vertices[n as usize])))
+            .map(|nodes| dihedral_quality(&nodes.map(|n| vertices[n as usize])))
             .fold(f64::INFINITY, f64::min)
     };
     let others = star.iter().flatten().filter(|&&other| other != node);

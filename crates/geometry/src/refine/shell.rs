@@ -23,7 +23,7 @@ impl<'a> Shell<'a> {
 
 /// How far its angles are from flat: the smallest of all angles between faces and of their
 /// supplements [rad]; negative when it is inverted.
-pub(super) fn openness(positions: &[Vec3; 4]) -> f64 {
+pub(super) fn dihedral_quality(positions: &[Vec3; 4]) -> f64 {
     if six_fold_volume(positions) <= 0.0 {
         return -1.0;
     }
@@ -44,7 +44,7 @@ pub(super) fn move_if_sound<'a>(
 ) -> bool {
     let worst = |vertices: &[Vec3]| {
         star.clone()
-            .map(|nodes| openness(&nodes.map(|n| vertices[n as usize])))
+            .map(|nodes| dihedral_quality(&nodes.map(|n| vertices[n as usize])))
             .fold(f64::INFINITY, f64::min)
     };
     let before = worst(vertices);

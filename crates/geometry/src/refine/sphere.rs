@@ -1,4 +1,4 @@
-use super::shell::{Shell, move_if_sound, openness};
+use super::shell::{Shell, dihedral_quality, move_if_sound};
 use super::uniform::around;
 use crate::mesh::edges::{by_edge, sides};
 use crate::{NodeId, Surface, TetrahedronError, TetrahedronMesh, Vec3};
@@ -212,7 +212,7 @@ impl Resolving<'_> {
             halves
                 .iter()
                 .flat_map(|(one, other)| [one, other])
-                .all(|corners| openness(&corners.map(position)) >= CUT_FLOOR)
+                .all(|corners| dihedral_quality(&corners.map(position)) >= CUT_FLOOR)
         });
         let Some(position) = sound else { return false };
         self.vertices.push(position);

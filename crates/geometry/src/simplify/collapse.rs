@@ -29,7 +29,7 @@ const BETWEEN_CALLS: usize = 1000;
 
 /// Collapses edges, cheapest first, until no more triangles are left than asked for or nothing can
 /// go; the sooner the larger the `sizes` at their ends, if there are some. Returns which vertices stand on borders and
-/// sharp edges. `progress` hears the part of the triangles to go that are gone [-], and may break off.
+/// sharp edges. `progress` hears the part of the triangles to go that are gone [-], and may cancel.
 pub(super) fn collapse(
     net: &mut Net,
     settings: &SimplifySettings,

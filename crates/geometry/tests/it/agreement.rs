@@ -203,7 +203,7 @@ pub(crate) fn real_surfaces() -> Vec<(String, Surface)> {
     for path in paths {
         let name = path.file_stem().unwrap().to_string_lossy().into_owned();
         let mesh = read_mesh(&path, None).unwrap().mesh;
-        match repair(&mesh).and_then(|(mended, _)| Surface::new(mended)) {
+        match repair(&mesh).and_then(|(repaired, _)| Surface::new(repaired)) {
             Ok(surface) => surfaces.push((name, surface)),
             Err(error) => println!("{name}: passed over, {error}"),
         }

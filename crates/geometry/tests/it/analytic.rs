@@ -1,6 +1,6 @@
 //! Distances, curvatures and contact points of bodies whose closed forms are known.
 
-use palpate_geometry::{Footing, Organ, PatchField, Surface, Vec3, follow};
+use palpate_geometry::{ContactPoint, Organ, PatchField, Surface, Vec3, follow};
 
 use crate::shapes::{Random, cylinder, organ, tries};
 
@@ -142,7 +142,7 @@ fn contact_point_on_sphere_is_radial() {
             let near = (direction + 0.05 * random.direction()).normalize() * RADIUS;
             let depth = 0.004 * random.unit() - 0.001;
             let nearest = tree.nearest(surface.mesh(), &near);
-            let from = Footing {
+            let from = ContactPoint {
                 triangle: nearest.triangle,
                 barycentric: nearest.on.barycentric,
                 point: nearest.on.position,
@@ -152,12 +152,12 @@ fn contact_point_on_sphere_is_radial() {
                 depth: 0.0,
             };
             let tip = direction * (RADIUS - depth);
-            let footing = follow(&surface, &field, &from, (&near, &tip)).unwrap();
-            let aside = footing.point - direction * footing.point.dot(&direction);
+            let contact_point = follow(&surface, &field, &from, (&near, &tip)).unwrap();
+            let aside = contact_point.point - direction * contact_point.point.dot(&direction);
             worst = worst.max(aside.norm());
             // A mesh of n triangles lies below the sphere by up to its sagitta, 5 R/n on this grid.
             let sagitta = 8.0 * RADIUS / triangles as f64;
-            let off = footing.depth - depth;
+            let off = contact_point.depth - depth;
             assert!(off.abs() < sagitta, "{off} of {sagitta}");
         }
         println!("{triangles} triangles: contact point off the radius by {worst} m");

@@ -187,8 +187,8 @@ fn real_dirty_meshes_have_the_faults_of_their_table() {
     let before = inspect(&spleen);
     println!("{before:?}");
     assert_eq!((before.boundary_edges, before.components), (1148, 5));
-    let (mended, repairs) = repair(&spleen).unwrap();
-    let after = inspect(&mended);
+    let (repaired, repairs) = repair(&spleen).unwrap();
+    let after = inspect(&repaired);
     println!("{repairs:?} {after:?}");
     assert!(after.closed && after.manifold && after.oriented);
     assert_eq!((after.vertices, after.components), (8438, 1));

@@ -29,7 +29,7 @@ fn top(x: f64, y: f64) -> Vec3 {
 }
 
 /// A cut through `way` [m]; the edges that it opened.
-fn stroke(cut: &mut CutSurface, surface: &Surface, tree: &AabbTree, way: &[Vec3]) -> usize {
+fn cut_path(cut: &mut CutSurface, surface: &Surface, tree: &AabbTree, way: &[Vec3]) -> usize {
     let near = tree.nearest(surface.mesh(), &way[0]).triangle;
     cut.begin(surface, near, &way[0]).unwrap();
     let steps = way[1..].iter();
@@ -77,7 +77,7 @@ fn slit_opens_one_border() {
             };
             let way: Vec<Vec3> = (0..=40).map(|k| above(k as f64 / 20.0 - 1.0)).collect();
             let mut cut = CutSurface::new(&surface, method);
-            let opened = stroke(&mut cut, &surface, &tree, &way);
+            let opened = cut_path(&mut cut, &surface, &tree, &way);
             sound(&surface, &cut);
             assert!(opened > 4, "{each} {method:?}: {opened}");
             assert_eq!(border_loops(&cut), 1, "{each} {method:?}");
@@ -102,7 +102,7 @@ fn closed_loop_frees_a_flap() {
             .map(|turn| top(0.0013 + radius * turn.cos(), 0.0007 + radius * turn.sin()))
             .collect();
         let mut cut = CutSurface::new(&surface, method);
-        stroke(&mut cut, &surface, &tree, &way);
+        cut_path(&mut cut, &surface, &tree, &way);
         sound(&surface, &cut);
         assert_eq!((pieces(&cut), euler(&cut)), (2, 2), "{method:?}");
         assert_eq!(border_loops(&cut), 2, "{method:?}");
@@ -138,7 +138,7 @@ fn source_keeps_triangles_and_area() {
             .collect();
         let run = || {
             let mut cut = CutSurface::new(&surface, CutMethod::SnapVertices);
-            let opened = stroke(&mut cut, &surface, &tree, &way);
+            let opened = cut_path(&mut cut, &surface, &tree, &way);
             (cut, opened)
         };
         let (cut, opened) = run();
@@ -169,7 +169,7 @@ fn split_parts_follow_the_blade() {
             continue;
         }
         let mut cut = CutSurface::new(&surface, CutMethod::SplitTriangles);
-        stroke(
+        cut_path(
             &mut cut,
             &surface,
             &tree,
@@ -204,7 +204,7 @@ fn split_parts_know_their_origin() {
         .map(|point| tree.nearest(surface.mesh(), &point).on.position)
         .collect();
     let mut cut = CutSurface::new(&surface, CutMethod::SplitTriangles);
-    stroke(&mut cut, &surface, &tree, &way);
+    cut_path(&mut cut, &surface, &tree, &way);
     sound(&surface, &cut);
     assert!(cut.mesh().triangles().len() > surface.mesh().triangles().len() + 20);
     let (before, after) = (surface.mesh().area(), cut.mesh().area());
@@ -236,7 +236,7 @@ fn sides_are_pulled_apart() {
     let rest = surface.mesh().vertices();
     for method in BOTH {
         let mut cut = CutSurface::new(&surface, method);
-        stroke(&mut cut, &surface, &tree, &line(from, to, 500));
+        cut_path(&mut cut, &surface, &tree, &line(from, to, 500));
         let mut borders = right_borders(&cut);
         borders.sort_by(|one, other| one[0].x.total_cmp(&other[0].x));
         let lengths: Vec<f64> = borders.iter().map(|[a, b]| (b - a).norm()).collect();
@@ -277,7 +277,7 @@ fn cuts_cross_and_go_on() {
         ];
         let opened: Vec<usize> = ways
             .iter()
-            .map(|way| stroke(&mut cut, &surface, &tree, way))
+            .map(|way| cut_path(&mut cut, &surface, &tree, way))
             .collect();
         sound(&surface, &cut);
         assert!(opened[0] > 5 && opened[1] > 5, "{method:?}: {opened:?}");
@@ -286,13 +286,13 @@ fn cuts_cross_and_go_on() {
 
         let mut cut = CutSurface::new(&surface, method);
         let (from, middle, to) = (top(-0.02, 0.001), top(0.001, 0.0013), top(0.02, 0.013));
-        stroke(&mut cut, &surface, &tree, &line(from, middle, 9));
+        cut_path(&mut cut, &surface, &tree, &line(from, middle, 9));
         let tip = right_borders(&cut)
             .into_iter()
             .flatten()
             .max_by(|a, b| a.x.total_cmp(&b.x))
             .unwrap();
-        stroke(&mut cut, &surface, &tree, &line(tip, to, 9));
+        cut_path(&mut cut, &surface, &tree, &line(tip, to, 9));
         sound(&surface, &cut);
         assert_eq!((border_loops(&cut), euler(&cut)), (1, 1), "{method:?}");
         assert_eq!(cut.cuts(), 2);

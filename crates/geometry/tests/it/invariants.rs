@@ -2,7 +2,7 @@
 
 use nalgebra::Matrix3;
 use palpate_geometry::{
-    AabbTree, Footing, Organ, PatchField, SimplifySettings, Surface, TriangleId, Vec3, follow,
+    AabbTree, ContactPoint, Organ, PatchField, SimplifySettings, Surface, TriangleId, Vec3, follow,
     settle, simplify,
 };
 
@@ -143,42 +143,42 @@ fn slide(
 ) -> Slide {
     let triangle = TriangleId(random.below(surface.mesh().triangles().len()) as u32);
     let corners = surface.mesh().positions(triangle);
-    let mut footing = Footing {
+    let mut contact_point = ContactPoint {
         triangle,
         barycentric: [1.0 / 3.0; 3],
         point: corners.iter().sum::<Vec3>() / 3.0,
         normal: field.at(surface, triangle, &[1.0 / 3.0; 3]).normal,
         depth,
     };
-    let patch = |f: &Footing| field.at(surface, f.triangle, &f.barycentric);
+    let patch = |f: &ContactPoint| field.at(surface, f.triangle, &f.barycentric);
     let mut direction = random.direction();
-    let mut tip = footing.point - depth * patch(&footing).normal;
+    let mut tip = contact_point.point - depth * patch(&contact_point).normal;
     let mut slide = Slide {
         ratio: 0.0,
         after_shrinking: 0.0,
         steps: 0,
     };
     for _ in 0..300 {
-        let here = patch(&footing);
+        let here = patch(&contact_point);
         let sharpest = here.curvature.symmetric_eigenvalues().max();
         if depth * sharpest > deepest {
             break;
         }
         direction = (direction - here.normal * here.normal.dot(&direction)).normalize();
         let next = tip + 1e-4 * direction;
-        let Some(found) = follow(surface, field, &footing, (&tip, &next)) else {
+        let Some(found) = follow(surface, field, &contact_point, (&tip, &next)) else {
             panic!("lost the contact at {tip}");
         };
-        let ratio = (found.point - footing.point).norm() / (next - tip).norm();
+        let ratio = (found.point - contact_point.point).norm() / (next - tip).norm();
         slide.ratio = slide.ratio.max(ratio);
         slide.after_shrinking = slide
             .after_shrinking
             .max(ratio * (1.0 - depth * sharpest.max(0.0)));
         slide.steps += 1;
-        footing = found;
+        contact_point = found;
         // Back to the same depth.
-        tip = next + patch(&footing).normal * (footing.depth - depth);
-        footing.depth = depth;
+        tip = next + patch(&contact_point).normal * (contact_point.depth - depth);
+        contact_point.depth = depth;
     }
     slide
 }
@@ -229,7 +229,7 @@ fn a_place_on_a_coarser_mesh_does_not_leap() {
     let below = AabbTree::new(coarse.mesh());
     let place = |point: &Vec3| {
         let near = below.nearest(coarse.mesh(), point);
-        let from = Footing {
+        let from = ContactPoint {
             triangle: near.triangle,
             barycentric: near.on.barycentric,
             point: near.on.position,

@@ -49,10 +49,10 @@ impl FoundLaw {
             return self.stresses(course);
         };
         let through = |forces: &[f64]| IndentationCurve::through(&elastic.depth_m, forces);
-        let by = elastic.by_parameter.iter();
+        let by = elastic.sensitivities.iter();
         let force = ElasticForce {
             force: through(&elastic.force_n),
-            by_parameter: by.map(|(name, own)| (name.clone(), through(own))).collect(),
+            sensitivities: by.map(|(name, own)| (name.clone(), through(own))).collect(),
         };
         let series = PronySeries::new(&self.series)?;
         let known = self.covariance.correlations();

@@ -18,12 +18,12 @@ pub struct Answer {
     /// How to press.
     pub designed: PressesAnswer,
     /// What is expected of each parameter.
-    pub parameters: BTreeMap<String, Told>,
+    pub parameters: BTreeMap<String, ParameterEstimate>,
     /// The interval of the worst parameter at the worst guess: half of it over the value [-].
     pub worst: f64,
     /// Protocols that were compared.
     pub compared: usize,
-    /// What deserves warning.
+    /// Warnings.
     pub warnings: Vec<String>,
 }
 
@@ -44,7 +44,7 @@ pub struct PressesAnswer {
 
 /// A parameter, in the unit of its name.
 #[derive(Debug, Serialize)]
-pub struct Told {
+pub struct ParameterEstimate {
     /// As guessed.
     pub value: f64,
     /// Whether the protocol was made for it.
@@ -75,7 +75,7 @@ impl Answer {
     ) -> Self {
         let told = |own: &ExpectedParameter| {
             let earlier = before.iter().find(|earlier| earlier.name == own.name);
-            let told = Told {
+            let told = ParameterEstimate {
                 value: own.value,
                 wanted: wanted.contains(&own.name),
                 interval_95_before: earlier.and_then(interval),

@@ -3,7 +3,7 @@ use std::path::PathBuf;
 use palpate_characterize::design::Criterion;
 use serde::Deserialize;
 
-use super::{Known, Wish, Within};
+use super::{Known, Request, Within};
 use crate::characterize::Choice;
 use crate::{Error, Recordings};
 
@@ -19,7 +19,7 @@ struct Asked {
     within: Within,
 }
 
-impl Wish {
+impl Request {
     /// What other programs ask for, as JSON.
     ///
     /// # Errors

@@ -14,13 +14,13 @@ use palpate_characterize::inverse::{SoughtLaw, ZeroErrors};
 use palpate_files::{Estimate, PronyTerm, Tissue};
 use palpate_mechanics::PronySeries;
 
-pub use answer::{Answer, PressesAnswer, Told};
+pub use answer::{Answer, ParameterEstimate, PressesAnswer};
 
 use crate::{Error, Recordings, VERSION, Watch};
 
 /// What is asked for.
 #[derive(Debug, Clone)]
-pub struct Wish {
+pub struct Request {
     /// What is known of the tissue.
     pub known: Known,
     /// The parameters that count, by their keys; empty: those of the law, and the times of the relaxation.
@@ -96,27 +96,31 @@ const DEEPEST: f64 = 6.0;
 ///
 /// # Errors
 /// When the guess or a limit cannot be used, or no protocol keeps within the limits.
-pub fn design(wish: &Wish, watch: &dyn Watch) -> Result<Designed, Error> {
-    let start = match &wish.known {
+pub fn design(request: &Request, watch: &dyn Watch) -> Result<Designed, Error> {
+    let start = match &request.known {
         Known::Tissue(path) => of_tissue(Tissue::read(path)?)?,
         Known::Recordings(recordings, law) => first::of_recordings(recordings, *law, watch)?,
     };
-    let limits = limits(&wish.within, &start)?;
+    let limits = limits(&request.within, &start)?;
     watch.say("comparing protocols");
     let first = Expecting::new(start.guess.clone(), DEEPEST)?;
     let guesses = guesses(&first, start.factors)?;
-    let wanted = match wish.parameters.as_slice() {
+    let wanted = match request.parameters.as_slice() {
         [] => usual(&start.guess),
         chosen => chosen.to_vec(),
     };
     let found = best(
         &guesses,
         (&start.instrument, &limits),
-        (&wanted, wish.criterion),
+        (&wanted, request.criterion),
         &mut |part| watch.at(part),
     )?;
     let (before, ..) = first.expected(&start.before, &start.instrument)?;
-    let answer = Answer::new((&start.before, &before), &found, (wish.criterion, &wanted));
+    let answer = Answer::new(
+        (&start.before, &before),
+        &found,
+        (request.criterion, &wanted),
+    );
     Ok(Designed {
         protocol: protocol(&start.tissue, &found.presses, &limits, &answer),
         answer,

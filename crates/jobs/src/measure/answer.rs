@@ -14,7 +14,7 @@ pub struct Answer {
     recordings: Vec<Recording>,
     /// Whether Ctrl-C came before the end.
     pub stopped: bool,
-    /// What deserves warning.
+    /// Warnings.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<String>,
 }

@@ -6,8 +6,8 @@ use std::sync::mpsc::RecvTimeoutError;
 use std::time::Duration;
 
 use palpate_files::recording::RecordingHeader;
-use palpate_measure::live::{Commission, LiveRig, News, Order};
-use palpate_measure::{Course, Ended, Recorded, Rig};
+use palpate_measure::live::{Commission, ConsoleEvent, LiveRig, RigCommand};
+use palpate_measure::{DepthTrajectory, Ended, Recorded, Rig};
 
 use crate::{Error, Watch};
 
@@ -44,21 +44,25 @@ impl LiveMeasuring {
     }
 
     /// One order. To stop takes all forces off at once, for a hand may be on the device.
-    pub(super) fn carry_out(&mut self, order: Order, watch: &dyn Watch) -> Result<Ended, Error> {
-        self.live.console.order(order);
+    pub(super) fn carry_out(
+        &mut self,
+        order: RigCommand,
+        watch: &dyn Watch,
+    ) -> Result<Ended, Error> {
+        self.live.console.send(order);
         self.wait_for(order, watch).map(|done| done.ended)
     }
 
     /// One stimulus; none when it was stopped before anything was recorded.
     pub(super) fn record(
         &mut self,
-        (course, header): (&Course, RecordingHeader),
+        (trajectory, header): (&DepthTrajectory, RecordingHeader),
         file: &Path,
         watch: &dyn Watch,
     ) -> Result<Option<Recorded>, Error> {
         self.number += 1;
         // The tissue rests from what was done to it, then from being looked for.
-        for order in [Order::Rest, Order::Approach, Order::Rest] {
+        for order in [RigCommand::Rest, RigCommand::Approach, RigCommand::Rest] {
             if self.carry_out(order, watch)? == Ended::Stopped {
                 return Ok(None);
             }
@@ -68,12 +72,12 @@ impl LiveMeasuring {
             file: file.to_owned(),
             header,
         };
-        self.live.press(*course, commission);
-        let pressed = self.wait_for(Order::Press(*course, self.number), watch);
+        self.live.press(*trajectory, commission);
+        let pressed = self.wait_for(RigCommand::Press(*trajectory, self.number), watch);
         pressed.map(|done| done.recorded)
     }
 
-    fn wait_for(&mut self, order: Order, watch: &dyn Watch) -> Result<Done, Error> {
+    fn wait_for(&mut self, order: RigCommand, watch: &dyn Watch) -> Result<Done, Error> {
         let (mut recorded, mut is_stopped) = (None, false);
         loop {
             self.live.report_alive();
@@ -94,16 +98,18 @@ impl LiveMeasuring {
                 }
             };
             let ended = match news {
-                News::Recorded(_, done, _) => {
+                ConsoleEvent::Recorded(_, done, _) => {
                     recorded = Some(done);
                     continue;
                 }
-                News::Unwritten(unwritten) => return Err(unwritten.error.into()),
-                News::Ended(_, Err(error)) | News::Disturbed(error) if !is_stopped => {
+                ConsoleEvent::Unwritten(unwritten) => return Err(unwritten.error.into()),
+                ConsoleEvent::Ended(_, Err(error)) | ConsoleEvent::Disturbed(error)
+                    if !is_stopped =>
+                {
                     return Err(error.into());
                 }
-                News::Ended(done, how) if done == order => how.unwrap_or(Ended::Stopped),
-                News::Dropped(dropped) if dropped == order => Ended::Stopped,
+                ConsoleEvent::Ended(done, how) if done == order => how.unwrap_or(Ended::Stopped),
+                ConsoleEvent::Dropped(dropped) if dropped == order => Ended::Stopped,
                 _ => continue,
             };
             // What was asked for while the last tick of an order was made counts for the order, too.

@@ -1,8 +1,8 @@
 use std::path::Path;
 
-use palpate_measure::live::Order;
+use palpate_measure::live::RigCommand;
 use palpate_measure::{
-    Axes, Course, Ended, Recorded, Recorder, Rig, RigSample, recording_name, stimulus_name,
+    Axes, DepthTrajectory, Ended, Recorded, Recorder, Rig, RigSample, recording_name, stimulus_name,
 };
 use palpate_servo::{Vec3, lock_memory};
 
@@ -16,8 +16,8 @@ pub struct Measuring {
     plan: Plan,
     specimens: Vec<OnRig>,
     /// Each with what it is called and which repetition it is.
-    stimuli: Vec<(String, u64, Course)>,
-    /// What deserves warning.
+    stimuli: Vec<(String, u64, DepthTrajectory)>,
+    /// Warnings.
     pub warnings: Vec<String>,
 }
 
@@ -37,9 +37,9 @@ impl Measuring {
             warnings.extend(said);
             specimens.push(found);
         }
-        let repeated = plan.stimuli.iter().flat_map(|(course, repeats)| {
-            let name = stimulus_name(&course.stimulus());
-            (1..=*repeats).map(move |repeat| (name.clone(), repeat, *course))
+        let repeated = plan.stimuli.iter().flat_map(|(trajectory, repeats)| {
+            let name = stimulus_name(&trajectory.stimulus());
+            (1..=*repeats).map(move |repeat| (name.clone(), repeat, *trajectory))
         });
         Ok(Self {
             stimuli: repeated.collect(),
@@ -73,17 +73,17 @@ impl Measuring {
             if self.go_to_place(&mut rig, place, watch)? == Ended::Stopped {
                 return Ok(recorded);
             }
-            for ((name, repeat, course), file) in self.stimuli.iter().zip(files.by_ref()) {
+            for ((name, repeat, trajectory), file) in self.stimuli.iter().zip(files.by_ref()) {
                 watch.say(&file.display().to_string());
                 if watch.is_asked_to_stop() {
                     return Ok(recorded);
                 }
                 let done = match &mut rig {
-                    Measured::Virtual(rig) => record(rig, (course, *repeat), file, watch),
+                    Measured::Virtual(rig) => record(rig, (trajectory, *repeat), file, watch),
                     Measured::Live(live) => {
                         let settings = &self.plan.settings;
-                        let header = settings.describe(live.header(), (course, *repeat));
-                        live.record((course, header), file, watch)
+                        let header = settings.describe(live.header(), (trajectory, *repeat));
+                        live.record((trajectory, header), file, watch)
                     }
                 };
                 let done = done.map_err(|failure| failure.about(file))?;
@@ -134,7 +134,7 @@ impl Measured {
         let go_on = &mut |_: &RigSample| !watch.is_asked_to_stop();
         match self {
             Self::Virtual(rig) => Ok(rig.go_to(place, go_on)?),
-            Self::Live(live) => live.carry_out(Order::GoTo(*place), watch),
+            Self::Live(live) => live.carry_out(RigCommand::GoTo(*place), watch),
         }
     }
 
@@ -142,7 +142,7 @@ impl Measured {
         let go_on = &mut |_: &RigSample| !watch.is_asked_to_stop();
         match self {
             Self::Virtual(rig) => Ok(rig.measure_normal(go_on)?),
-            Self::Live(live) => live.carry_out(Order::MeasureNormal, watch),
+            Self::Live(live) => live.carry_out(RigCommand::MeasureNormal, watch),
         }
     }
 }
@@ -158,7 +158,7 @@ fn unique(name: String, taken: &[String]) -> String {
 /// One stimulus; none when Ctrl-C came before it.
 fn record(
     rig: &mut Rig,
-    (course, repeat): (&Course, u64),
+    (trajectory, repeat): (&DepthTrajectory, u64),
     file: &Path,
     watch: &dyn Watch,
 ) -> Result<Option<Recorded>, Error> {
@@ -174,9 +174,9 @@ fn record(
         true => Axes::Six,
         false => Axes::One,
     };
-    let mut recorder = Recorder::begin(file, &rig.describe(course, repeat), axes)?;
+    let mut recorder = Recorder::begin(file, &rig.describe(trajectory, repeat), axes)?;
     let mut unwritten = None;
-    let ended = rig.press(course, &mut |sample| {
+    let ended = rig.press(trajectory, &mut |sample| {
         unwritten = recorder.take(sample).err();
         unwritten.is_none() && !watch.is_asked_to_stop()
     });

@@ -4,7 +4,7 @@ use palpate_files::protocol::{Gains, Measured, RigDevice, RigLimits, Stimulus};
 use palpate_files::recording::RecordingHeader;
 use palpate_measure::phantom::{Imperfections, MECHANICS_STEP, Machine, TwoMass};
 use palpate_measure::{
-    BREATH_MOTION, Course, NormalFrom, Rig, RigSettings, VirtualSpecimen, stimulus_name,
+    BREATH_MOTION, DepthTrajectory, NormalFrom, Rig, RigSettings, VirtualSpecimen, stimulus_name,
 };
 use palpate_servo::{Clock, Device, PidGains, Vec3};
 
@@ -27,8 +27,8 @@ pub struct Plan {
     /// In the order of the protocol.
     pub specimens: Vec<Measured>,
     /// Each with how often it is repeated.
-    pub stimuli: Vec<(Course, u64)>,
-    /// What deserves warning.
+    pub stimuli: Vec<(DepthTrajectory, u64)>,
+    /// Warnings.
     pub warnings: Vec<String>,
     /// A device that is there; none for one that is not.
     device: Option<(Kind, Places)>,
@@ -95,8 +95,8 @@ impl Plan {
         let mut stimuli = Vec::new();
         for plan in &protocol.stimuli {
             let name = stimulus_name(&plan.stimulus);
-            let course = Course::of(plan.stimulus)?;
-            if course.deepest() > TRUSTED[0] {
+            let trajectory = DepthTrajectory::of(plan.stimulus)?;
+            if trajectory.deepest() > TRUSTED[0] {
                 warnings.push(format!(
                     "{name}: deeper than 10 mm, where no tissue here was measured"
                 ));
@@ -108,7 +108,7 @@ impl Plan {
                     "{name}: beyond 8 Hz, where the device itself is felt"
                 ));
             }
-            stimuli.push((course, plan.repeats));
+            stimuli.push((trajectory, plan.repeats));
         }
         Ok(Self {
             settings,
@@ -134,7 +134,7 @@ impl Plan {
             self.settings.check_place(&to, &normal, from)?;
         }
         let courses = self.stimuli.iter();
-        let mut checked = courses.map(|(course, _)| self.settings.check(course));
+        let mut checked = courses.map(|(trajectory, _)| self.settings.check(trajectory));
         Ok(checked.try_for_each(|one| one)?)
     }
 
@@ -150,7 +150,10 @@ impl Plan {
             let header = specimen::real(measured);
             return Ok((OnRig::Real(Box::new(header)), Vec::new()));
         }
-        let deepest = self.stimuli.iter().map(|(course, _)| course.deepest());
+        let deepest = self
+            .stimuli
+            .iter()
+            .map(|(trajectory, _)| trajectory.deepest());
         let deepest = deepest.fold(0.0, f64::max);
         let further = if measured.alive { BEATING } else { MISSED };
         let (found, warnings) = specimen::of(measured, deepest + further, at_step)?;

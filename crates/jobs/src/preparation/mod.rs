@@ -49,7 +49,7 @@ pub fn resources_with_devices() -> Result<Resources, Error> {
 /// Makes the simulation of `scene`, and tells `watch` how far it is, which may break it off.
 ///
 /// # Errors
-/// When the scene describes none, memory does not suffice, or it was broken off.
+/// When the scene describes none, memory does not suffice, or it was cancelled.
 pub fn simulation(
     scene: &Scene,
     resources: &Resources,

@@ -28,7 +28,7 @@ pub struct Precomputed {
     pub file: Option<PathBuf>,
     /// That it took [s].
     pub seconds: f64,
-    /// What deserves warning.
+    /// Warnings.
     pub warnings: Vec<String>,
 }
 

@@ -5,7 +5,7 @@
     reason = "a test that cannot do its job has failed"
 )]
 
-mod broken_off;
+mod cancelled;
 mod exit_status;
 mod fuzz;
 mod readers;

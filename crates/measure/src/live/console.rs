@@ -3,16 +3,16 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use palpate_servo::{Supervisor, Vec3, log};
 
-use crate::Course;
+use crate::DepthTrajectory;
 
 /// What a rig is asked to do.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Order {
+pub enum RigCommand {
     /// To go by so much in the rig's axes [m].
     Jog(Vec3),
     /// To go to a place in the rig's axes [m].
     GoTo(Vec3),
-    /// To go along a direction in the rig's axes for as long as the order comes again within a sixth of a second.
+    /// To go along a direction in the rig's axes for as long as the command is repeated within a sixth of a second.
     Drive(Vec3),
     /// To approach along a direction out of the tissue from now on.
     Face(Vec3),
@@ -21,7 +21,7 @@ pub enum Order {
     /// To find where the tissue begins.
     Approach,
     /// To press a course, and what number its recording has.
-    Press(Course, u64),
+    Press(DepthTrajectory, u64),
     /// To leave the tissue.
     Withdraw,
     /// To let the tissue rest.
@@ -30,18 +30,18 @@ pub enum Order {
 
 /// The end from which a rig is operated.
 pub struct Console {
-    orders: log::Writer<Given>,
+    commands: log::Writer<Given>,
     switches: Switches,
     supervisor: Supervisor,
     /// Whether its end takes all forces off at once: a hand may be on the device.
     is_real: bool,
 }
 
-/// An order, and how often everything was stopped before it.
+/// A command, and how often everything was stopped before it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Given {
     pub(super) stops: u64,
-    pub(super) order: Order,
+    pub(super) command: RigCommand,
 }
 
 /// What both ends see at once.
@@ -60,10 +60,10 @@ impl Console {
         supervisor: Supervisor,
         is_real: bool,
     ) -> (Self, log::Reader<Given>, Switches) {
-        let (orders, reader) = log::ring(ORDERS);
+        let (commands, reader) = log::ring(ORDERS);
         let switches = Switches::default();
         let console = Self {
-            orders,
+            commands,
             switches: switches.clone(),
             supervisor,
             is_real,
@@ -71,18 +71,18 @@ impl Console {
         (console, reader, switches)
     }
 
-    /// Gives an order, which is carried out after those before it.
-    pub fn order(&mut self, order: Order) {
+    /// Queues a command.
+    pub fn send(&mut self, command: RigCommand) {
         let stops = self.switches.stops();
-        self.orders.add(Given { stops, order });
+        self.commands.add(Given { stops, command });
     }
 
-    /// Ends what is being done, out of the tissue, and drops the orders that wait.
+    /// Ends what is being done, out of the tissue, and drops the queued commands.
     pub fn stop(&self) {
         self.switches.stop();
     }
 
-    /// No force at once, until somebody arms again; the orders that wait are dropped.
+    /// No force at once, until somebody arms again; the queued commands are dropped.
     pub fn emergency_stop(&self) {
         self.supervisor.trip();
         self.switches.stop();

@@ -7,9 +7,9 @@ use std::time::Duration;
 use palpate_servo::watch::{Watch, WatchThread};
 use palpate_servo::{Clock, Fault, Supervisor, log};
 
-use super::clerk::Clerk;
-use super::{Commission, Console, News, Operated, Order};
-use crate::{Course, Error, Rig, RigSample};
+use super::log_writer::LogWriter;
+use super::{Commission, Console, ConsoleEvent, Operated, RigCommand};
+use crate::{DepthTrajectory, Error, Rig, RigSample};
 
 /// A rig that runs, and what is seen of it. Dropping it withdraws the indenter and ends its threads.
 pub struct LiveRig {
@@ -18,7 +18,7 @@ pub struct LiveRig {
     /// Every sample, for as long as somebody reads.
     pub samples: log::Reader<RigSample>,
     /// What happened.
-    pub news: Receiver<News>,
+    pub news: Receiver<ConsoleEvent>,
     commissions: Sender<Commission>,
     threads: Vec<JoinHandle<()>>,
     watch: WatchThread,
@@ -57,7 +57,7 @@ impl LiveRig {
         let (samples, samples_reader) = log::ring(SAMPLES);
         let (news, news_reader) = mpsc::channel();
         let (commissions, commissioned) = mpsc::channel();
-        let clerk = Clerk {
+        let log_writer = LogWriter {
             told,
             commissions: commissioned,
             samples,
@@ -78,16 +78,16 @@ impl LiveRig {
         let ended = Arc::new(AtomicBool::new(false));
         let seen = ended.clone();
         live.spawn("rig", move || run(operated, &ended))?;
-        live.spawn("clerk", move || write(clerk, &seen))?;
+        live.spawn("clerk", move || write(log_writer, &seen))?;
         Ok(live)
     }
 
     /// Has a course pressed and recorded.
-    pub fn press(&mut self, course: Course, commission: Commission) {
+    pub fn press(&mut self, trajectory: DepthTrajectory, commission: Commission) {
         let number = commission.number;
         // A clerk that has gone says so by `is_running`.
         let _ = self.commissions.send(commission);
-        self.console.order(Order::Press(course, number));
+        self.console.send(RigCommand::Press(trajectory, number));
     }
 
     /// Says that who operates it is alive. A device that is there has no force any more when that is not said again within
@@ -136,11 +136,11 @@ fn run(mut operated: Operated, ended: &AtomicBool) {
     ended.store(true, Ordering::Release);
 }
 
-fn write(mut clerk: Clerk, ended: &AtomicBool) {
+fn write(mut log_writer: LogWriter, ended: &AtomicBool) {
     loop {
         // Asked first, so that nothing is told after the last reading.
         let last = ended.load(Ordering::Acquire);
-        clerk.read();
+        log_writer.read();
         if last {
             return;
         }

@@ -1,26 +1,26 @@
 //! A rig that is operated by a person, on a thread of its own.
 //!
 //! ```text
-//!            ──ring(Order)──────────▶ rig, 1 kHz ──ring(Told)──▶ clerk ──ring(RigSample)──▶ window
-//!  Console   ──stop, emergency stop,▶                             │   ──channel(News)─────▶
-//!              arm (atomic)                                       └──▶ *.csv
+//!            ──ring(RigCommand)──▶ rig, 1 kHz ──ring(RigEvent)──▶ log writer ──ring(RigSample)─────▶ window
+//!  Console   ──stop, emergency stop,▶                                │        ──channel(ConsoleEvent)▶
+//!              arm (atomic)                                          └──▶ *.csv
 //! ```
 //!
-//! Nobody keeps the rig waiting: what finds no room in a ring is counted. Recordings are written by the clerk,
-//! so that they are whole however slow the window is. An order that was given before somebody pressed stop, or
-//! before a motion failed, is stale: it is dropped and said to be.
+//! Nothing blocks the rig: values that find a ring full are counted as lost. The log writer writes the recordings, so
+//! that a slow window loses no row. A command from before a stop or a failed motion is stale: the rig drops it and
+//! reports that.
 //!
 //! *How we know*: `live::…` on a virtual clock, with [`Operated`] in the thread of the test.
 //!
 //! *Limits*: the thread is as punctual as the operating system lets it be. Over tissue that is not there the rig's
 //! time waits with it.
 
-mod clerk;
 mod console;
 mod live_rig;
+mod log_writer;
 mod operated;
 
-pub use clerk::{Commission, News, Unwritten};
-pub use console::{Console, Order};
+pub use console::{Console, RigCommand};
 pub use live_rig::LiveRig;
-pub use operated::{Operated, Told};
+pub use log_writer::{Commission, ConsoleEvent, Unwritten};
+pub use operated::{Operated, RigEvent};

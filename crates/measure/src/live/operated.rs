@@ -1,20 +1,20 @@
 use palpate_servo::{Fault, Vec3, log};
 
 use super::console::{Given, Switches};
-use super::{Console, Order};
+use super::{Console, RigCommand};
 use crate::{Ended, Error, Rig, RigSample};
 
 /// What a rig says.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Told {
+pub enum RigEvent {
     /// What is seen, at every tick.
     Sample(RigSample),
-    /// It begins with an order.
-    Begun(Order),
-    /// It is done with an order.
-    Ended(Order, Result<Ended, Error>),
-    /// It did not begin with an order, for everything was stopped since that was given.
-    Dropped(Order),
+    /// It begins a command.
+    Begun(RigCommand),
+    /// It has ended a command.
+    Ended(RigCommand, Result<Ended, Error>),
+    /// It dropped a command from before a stop.
+    Dropped(RigCommand),
     /// Something happened while it waited.
     Disturbed(Error),
     /// Forces are off.
@@ -23,13 +23,13 @@ pub enum Told {
     Armed,
 }
 
-/// A rig that carries out orders.
+/// A rig that carries out commands.
 pub struct Operated {
     rig: Rig,
-    orders: log::Reader<Given>,
-    /// An order that was read while another was carried out.
+    commands: log::Reader<Given>,
+    /// A command that was read while another was carried out.
     next: Option<Given>,
-    told: log::Writer<Told>,
+    told: log::Writer<RigEvent>,
     switches: Switches,
     fault: Option<Fault>,
     limp: bool,
@@ -43,12 +43,12 @@ const DRIVEN: f64 = 0.16;
 
 impl Operated {
     /// `rig`, from where it is operated, and what it says.
-    pub fn new(rig: Rig) -> (Self, Console, log::Reader<Told>) {
-        let (console, orders, switches) = Console::new(rig.supervisor(), rig.is_real());
+    pub fn new(rig: Rig) -> (Self, Console, log::Reader<RigEvent>) {
+        let (console, commands, switches) = Console::new(rig.supervisor(), rig.is_real());
         let (told, reader) = log::ring(TOLD);
         let operated = Self {
             rig,
-            orders,
+            commands,
             next: None,
             told,
             switches,
@@ -63,7 +63,7 @@ impl Operated {
         &mut self.rig
     }
 
-    /// Carries out the next order, or waits for a tick; false when that was the last. `watch` hears every sample
+    /// Carries out the next command, or waits for a tick; false when that was the last. `watch` hears every sample
     /// before anybody else.
     pub fn turn(&mut self, watch: &mut dyn FnMut(&RigSample)) -> bool {
         if self.switches.is_ending() {
@@ -86,44 +86,44 @@ impl Operated {
 
     fn next_order(&mut self) -> Option<Given> {
         loop {
-            let given = self.next.take().or_else(|| self.orders.next_value())?;
+            let given = self.next.take().or_else(|| self.commands.next_value())?;
             if given.stops == self.switches.stops() {
                 return Some(given);
             }
-            self.told.add(Told::Dropped(given.order));
+            self.told.add(RigEvent::Dropped(given.command));
         }
     }
 
     fn carry_out(&mut self, given: Given, watch: &mut dyn FnMut(&RigSample)) {
-        let order = given.order;
-        self.told.add(Told::Begun(order));
+        let command = given.command;
+        self.told.add(RigEvent::Begun(command));
         let Self {
             rig,
             told,
             switches,
-            orders,
+            commands,
             next,
             ..
         } = self;
         let mut heard = |sample: &RigSample| {
-            told.add(Told::Sample(*sample));
+            told.add(RigEvent::Sample(*sample));
             watch(sample);
             switches.stops() == given.stops && !switches.is_ending()
         };
-        let ended = match order {
-            Order::Jog(way) => rig.jog(&way, &mut heard),
-            Order::GoTo(place) => rig.go_to(&place, &mut heard),
-            Order::Face(normal) => rig.face(&normal).map(|()| Ended::Whole),
-            Order::MeasureNormal => rig.measure_normal(&mut heard),
-            Order::Drive(direction) => {
+        let ended = match command {
+            RigCommand::Jog(way) => rig.jog(&way, &mut heard),
+            RigCommand::GoTo(place) => rig.go_to(&place, &mut heard),
+            RigCommand::Face(normal) => rig.face(&normal).map(|()| Ended::Whole),
+            RigCommand::MeasureNormal => rig.measure_normal(&mut heard),
+            RigCommand::Drive(direction) => {
                 let mut told_at = None;
                 rig.drive(&mut |sample| {
                     let goes_on = heard(sample);
                     let mut since = *told_at.get_or_insert(sample.time);
                     if next.is_none()
-                        && let Some(more) = orders.next_value()
+                        && let Some(more) = commands.next_value()
                     {
-                        match more.order == order && more.stops == given.stops {
+                        match more.command == command && more.stops == given.stops {
                             true => since = sample.time,
                             false => *next = Some(more),
                         }
@@ -136,13 +136,13 @@ impl Operated {
                     }
                 })
             }
-            Order::Approach => rig.approach(&mut heard),
-            Order::Press(course, _) => rig.press_and_tell(&course, &mut heard),
-            Order::Withdraw => rig.withdraw(&mut heard),
-            Order::Rest => rig.recover(&mut heard),
+            RigCommand::Approach => rig.approach(&mut heard),
+            RigCommand::Press(trajectory, _) => rig.press_and_tell(&trajectory, &mut heard),
+            RigCommand::Withdraw => rig.withdraw(&mut heard),
+            RigCommand::Rest => rig.recover(&mut heard),
         };
         let failed = ended.is_err();
-        self.told.add(Told::Ended(order, ended));
+        self.told.add(RigEvent::Ended(command, ended));
         if failed {
             self.fail();
         }
@@ -151,12 +151,12 @@ impl Operated {
     fn wait(&mut self, watch: &mut dyn FnMut(&RigSample)) {
         let Self { rig, told, .. } = self;
         let waited = rig.wait_one_tick(&mut |sample| {
-            told.add(Told::Sample(*sample));
+            told.add(RigEvent::Sample(*sample));
             watch(sample);
             true
         });
         if let Err(error) = waited {
-            self.told.add(Told::Disturbed(error));
+            self.told.add(RigEvent::Disturbed(error));
             self.fail();
         }
     }
@@ -173,7 +173,7 @@ impl Operated {
         if let Some(fault) = fault.filter(|_| fault != self.fault) {
             // Whoever asked to arm did not know of this one.
             self.switches.take_arming();
-            self.told.add(Told::Faulted(fault));
+            self.told.add(RigEvent::Faulted(fault));
         }
         self.fault = fault;
     }
@@ -184,17 +184,17 @@ impl Operated {
         }
         let Self { rig, told, .. } = self;
         let live = rig.limp(&mut |sample| {
-            told.add(Told::Sample(*sample));
+            told.add(RigEvent::Sample(*sample));
             watch(sample);
             true
         });
         if live == Ok(true) {
             self.limp = false;
-            self.told.add(Told::Armed);
+            self.told.add(RigEvent::Armed);
         }
         self.notice_fault();
-        while let Some(given) = self.orders.next_value() {
-            self.told.add(Told::Dropped(given.order));
+        while let Some(given) = self.commands.next_value() {
+            self.told.add(RigEvent::Dropped(given.command));
         }
     }
 }

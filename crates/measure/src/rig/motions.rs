@@ -3,7 +3,7 @@ use palpate_files::recording::RecordingHeader;
 use super::{Ended, Listener, Phase, Rig, ZEROING};
 use crate::approach::contact_height;
 use crate::rig_settings::{CALM, LEAD, STANDOFF};
-use crate::{Course, Error, RigSettings};
+use crate::{DepthTrajectory, Error, RigSettings};
 
 /// Ticks of an approach that room is made for at once: an hour and more at 1 kHz, 64 MB.
 const MOST_ROOM: usize = 4_000_000;
@@ -74,8 +74,12 @@ impl Rig {
     ///
     /// # Errors
     /// When it goes beyond a limit, which is known before it begins, or the force does.
-    pub fn press(&mut self, course: &Course, listener: Listener<'_>) -> Result<Ended, Error> {
-        self.press_and_tell(course, &mut |sample| {
+    pub fn press(
+        &mut self,
+        trajectory: &DepthTrajectory,
+        listener: Listener<'_>,
+    ) -> Result<Ended, Error> {
+        self.press_and_tell(trajectory, &mut |sample| {
             sample.phase != Phase::Pressing || listener(sample)
         })
     }
@@ -87,13 +91,13 @@ impl Rig {
     /// As for [`press`](Self::press).
     pub fn press_and_tell(
         &mut self,
-        course: &Course,
+        trajectory: &DepthTrajectory,
         listener: Listener<'_>,
     ) -> Result<Ended, Error> {
-        self.settings.check(course)?;
+        self.settings.check(trajectory)?;
         let contact = self.contact.ok_or(Error::NotApproached)?;
         self.hold_breath(true);
-        let pressed = self.press_from(contact, course, listener);
+        let pressed = self.press_from(contact, trajectory, listener);
         let withdrawn = self.withdraw(listener);
         self.hold_breath(false);
         let ended = pressed?;
@@ -103,7 +107,7 @@ impl Rig {
     fn press_from(
         &mut self,
         contact: f64,
-        course: &Course,
+        trajectory: &DepthTrajectory,
         listener: Listener<'_>,
     ) -> Result<Ended, Error> {
         let RigSettings {
@@ -122,14 +126,14 @@ impl Rig {
         if ended == Ended::Stopped {
             return Ok(ended);
         }
-        let [_, speed] = course.at(0.0);
+        let [_, speed] = trajectory.at(0.0);
         let lead = LEAD + STANDOFF / speed;
-        let ticks = ((lead + course.duration()) / period).round() as usize;
+        let ticks = ((lead + trajectory.duration()) / period).round() as usize;
         for tick in 0..=ticks {
             // What is asked for now is where the device is at the next tick.
             let time = (tick + 1) as f64 * period - lead;
             let [depth, speed] = if time >= 0.0 {
-                course.at(time)
+                trajectory.at(time)
             } else if speed * time > -STANDOFF {
                 [speed * time, speed]
             } else {
@@ -237,10 +241,10 @@ impl RigSettings {
     pub fn describe(
         &self,
         specimen: &RecordingHeader,
-        (course, repeat): (&Course, u64),
+        (trajectory, repeat): (&DepthTrajectory, u64),
     ) -> RecordingHeader {
         let mut header = specimen.clone();
-        course.describe(&mut header);
+        trajectory.describe(&mut header);
         header.repeat = Some(repeat);
         header.sample_rate_hz = Some(1.0 / self.period);
         header.breath_held = self.breath.map(|_| true);

@@ -1,7 +1,7 @@
 //! A rig that is operated, on a virtual clock. Judges: the order in which orders were given, limits, and the
 //! time from a stop to no force.
 
-use palpate_measure::live::{Console, Operated, Order, Told};
+use palpate_measure::live::{Console, Operated, RigCommand, RigEvent};
 use palpate_measure::{Ended, Error, Phase, RigSample, RigSettings};
 use palpate_servo::{Fault, Vec3, log};
 
@@ -11,7 +11,7 @@ use crate::rig::{rig, soft, usual};
 struct Bench {
     operated: Operated,
     console: Console,
-    told: log::Reader<Told>,
+    told: log::Reader<RigEvent>,
 }
 
 impl Bench {
@@ -37,19 +37,28 @@ impl Bench {
     }
 
     /// Carries out `orders`, and tells what was said but for samples.
-    fn carry_out(&mut self, orders: &[Order]) -> Vec<Told> {
-        orders.iter().for_each(|order| self.console.order(*order));
+    fn carry_out(&mut self, commands: &[RigCommand]) -> Vec<RigEvent> {
+        commands
+            .iter()
+            .for_each(|command| self.console.send(*command));
         let mut said = Vec::new();
-        for _ in 0..=orders.len() {
+        for _ in 0..=commands.len() {
             self.operated.turn(&mut |_| ());
-            said.extend(self.told.drain().filter(|t| !matches!(t, Told::Sample(_))));
+            said.extend(
+                self.told
+                    .drain()
+                    .filter(|t| !matches!(t, RigEvent::Sample(_))),
+            );
         }
         said
     }
 }
 
-fn ended(order: Order) -> [Told; 2] {
-    [Told::Begun(order), Told::Ended(order, Ok(Ended::Whole))]
+fn ended(command: RigCommand) -> [RigEvent; 2] {
+    [
+        RigEvent::Begun(command),
+        RigEvent::Ended(command, Ok(Ended::Whole)),
+    ]
 }
 
 #[test]
@@ -58,28 +67,32 @@ fn orders_are_carried_out_in_their_order() {
         recovery: 1.0,
         ..RigSettings::default()
     });
-    let orders = [
-        Order::Jog(-1e-3 * Vec3::z()),
-        Order::Jog(5e-4 * Vec3::z()),
-        Order::Approach,
-        Order::Rest,
-        Order::Press(usual(), 7),
-        Order::Withdraw,
+    let commands = [
+        RigCommand::Jog(-1e-3 * Vec3::z()),
+        RigCommand::Jog(5e-4 * Vec3::z()),
+        RigCommand::Approach,
+        RigCommand::Rest,
+        RigCommand::Press(usual(), 7),
+        RigCommand::Withdraw,
     ];
-    let said = bench.carry_out(&orders);
-    assert_eq!(said, orders.map(ended).concat());
+    let said = bench.carry_out(&commands);
+    assert_eq!(said, commands.map(ended).concat());
 }
 
 /// What is pressed without an approach is refused, and what was planned after it is dropped.
 #[test]
 fn what_waits_behind_a_failure_is_dropped() {
     let mut bench = Bench::new(RigSettings::default());
-    let orders = [Order::Press(usual(), 1), Order::Approach];
-    let said = bench.carry_out(&orders);
-    let refused = Told::Ended(orders[0], Err(Error::NotApproached));
+    let commands = [RigCommand::Press(usual(), 1), RigCommand::Approach];
+    let said = bench.carry_out(&commands);
+    let refused = RigEvent::Ended(commands[0], Err(Error::NotApproached));
     assert_eq!(
         said,
-        [Told::Begun(orders[0]), refused, Told::Dropped(orders[1])]
+        [
+            RigEvent::Begun(commands[0]),
+            refused,
+            RigEvent::Dropped(commands[1])
+        ]
     );
 }
 
@@ -87,10 +100,10 @@ fn what_waits_behind_a_failure_is_dropped() {
 #[test]
 fn a_stop_withdraws_and_makes_orders_stale() {
     let mut bench = Bench::new(RigSettings::default());
-    bench.carry_out(&[Order::Approach]);
-    let press = Order::Press(usual(), 1);
-    bench.console.order(press);
-    bench.console.order(Order::Rest);
+    bench.carry_out(&[RigCommand::Approach]);
+    let press = RigCommand::Press(usual(), 1);
+    bench.console.send(press);
+    bench.console.send(RigCommand::Rest);
     let (console, mut after) = (&bench.console, Vec::new());
     bench.operated.turn(&mut |sample| {
         if sample.phase == Phase::Pressing && sample.depth.unwrap() > 3.9e-3 {
@@ -99,11 +112,14 @@ fn a_stop_withdraws_and_makes_orders_stale() {
         after.push(*sample);
     });
     bench.operated.turn(&mut |_| ());
-    let said = bench.told.drain().filter(|t| !matches!(t, Told::Sample(_)));
+    let said = bench
+        .told
+        .drain()
+        .filter(|t| !matches!(t, RigEvent::Sample(_)));
     let expected = [
-        Told::Begun(press),
-        Told::Ended(press, Ok(Ended::Stopped)),
-        Told::Dropped(Order::Rest),
+        RigEvent::Begun(press),
+        RigEvent::Ended(press, Ok(Ended::Stopped)),
+        RigEvent::Dropped(RigCommand::Rest),
     ];
     assert_eq!(said.collect::<Vec<_>>(), expected);
     let stopped =
@@ -117,10 +133,10 @@ fn a_stop_withdraws_and_makes_orders_stale() {
 #[test]
 fn an_emergency_stop_is_latched_until_somebody_arms() {
     let mut bench = Bench::new(RigSettings::default());
-    bench.carry_out(&[Order::Approach]);
-    let press = Order::Press(usual(), 1);
-    bench.console.order(press);
-    bench.console.order(Order::Rest);
+    bench.carry_out(&[RigCommand::Approach]);
+    let press = RigCommand::Press(usual(), 1);
+    bench.console.send(press);
+    bench.console.send(RigCommand::Rest);
     let (console, mut pressed, mut last) = (&bench.console, None, 0.0);
     bench.operated.turn(&mut |sample| {
         last = sample.time;
@@ -133,24 +149,27 @@ fn an_emergency_stop_is_latched_until_somebody_arms() {
     assert_eq!(pressed, Some(last));
     let fault = Fault::EmergencyStop;
     let said = |bench: &mut Bench| {
-        let said = bench.told.drain().filter(|t| !matches!(t, Told::Sample(_)));
+        let said = bench
+            .told
+            .drain()
+            .filter(|t| !matches!(t, RigEvent::Sample(_)));
         said.collect::<Vec<_>>()
     };
     let faulted = [
-        Told::Begun(press),
-        Told::Ended(press, Err(Error::Device(fault))),
-        Told::Faulted(fault),
+        RigEvent::Begun(press),
+        RigEvent::Ended(press, Err(Error::Device(fault))),
+        RigEvent::Faulted(fault),
     ];
     assert_eq!(said(&mut bench), faulted);
     bench.operated.turn(&mut |_| ());
-    assert_eq!(said(&mut bench), [Told::Dropped(Order::Rest)]);
+    assert_eq!(said(&mut bench), [RigEvent::Dropped(RigCommand::Rest)]);
     let free = bench.idle(3000);
     assert!(free.iter().all(|sample| sample.phase == Phase::Limp));
     // Tissue pushes the tip out of it: what is left is the friction of the device (0.04 N) at most.
     assert!(free[2999].force < 0.05, "{:?}", free[2999]);
     assert_eq!(
-        bench.carry_out(&[Order::Withdraw]),
-        [Told::Dropped(Order::Withdraw)]
+        bench.carry_out(&[RigCommand::Withdraw]),
+        [RigEvent::Dropped(RigCommand::Withdraw)]
     );
     bench.console.arm();
     let arming = bench.idle(1500);
@@ -158,8 +177,8 @@ fn an_emergency_stop_is_latched_until_somebody_arms() {
     assert_eq!(after.phase, Phase::Waiting);
     // Two steps of the encoder.
     assert!((after.height - before.height).abs() < 6e-5, "{after:?}");
-    let out = bench.carry_out(&[Order::Withdraw]);
-    assert_eq!(out, ended(Order::Withdraw));
+    let out = bench.carry_out(&[RigCommand::Withdraw]);
+    assert_eq!(out, ended(RigCommand::Withdraw));
 }
 
 /// A step beyond a limit is refused before anything moves; held down it goes no deeper than a stimulus may, and up no
@@ -167,7 +186,7 @@ fn an_emergency_stop_is_latched_until_somebody_arms() {
 #[test]
 fn a_jog_ends_at_the_limits() {
     let mut bench = Bench::new(RigSettings::default());
-    bench.carry_out(&[Order::Approach]);
+    bench.carry_out(&[RigCommand::Approach]);
     let before = bench.idle(10).last().unwrap().height;
     for way in [
         -Vec3::z(),
@@ -175,9 +194,9 @@ fn a_jog_ends_at_the_limits() {
         Vec3::y() * -0.031,
         Vec3::z() * f64::NAN,
     ] {
-        let said = bench.carry_out(&[Order::Jog(way)]);
+        let said = bench.carry_out(&[RigCommand::Jog(way)]);
         assert!(
-            matches!(said[1], Told::Ended(_, Err(Error::OutOfReach { .. }))),
+            matches!(said[1], RigEvent::Ended(_, Err(Error::OutOfReach { .. }))),
             "{way:?}: {said:?}"
         );
     }
@@ -185,14 +204,14 @@ fn a_jog_ends_at_the_limits() {
     // Two steps of the encoder.
     assert!((after - before).abs() < 6e-5, "{before} {after}");
     for (direction, end) in [(-1.0, 0.012), (1.0, -0.030)] {
-        let drive = Order::Drive(direction * Vec3::z());
+        let drive = RigCommand::Drive(direction * Vec3::z());
         let (console, mut depth) = (&mut bench.console, 0.0);
-        console.order(drive);
+        console.send(drive);
         let (mut ticks, mut farthest) = (0, 0.0_f64);
         bench.operated.turn(&mut |sample| {
             ticks += 1;
             if ticks % 100 == 0 {
-                console.order(drive);
+                console.send(drive);
             }
             depth = match direction > 0.0 {
                 true => -sample.height,
@@ -204,13 +223,13 @@ fn a_jog_ends_at_the_limits() {
                 farthest.min(depth)
             };
         });
-        let said: Vec<Told> = bench
+        let said: Vec<RigEvent> = bench
             .told
             .drain()
-            .filter(|t| !matches!(t, Told::Sample(_)))
+            .filter(|t| !matches!(t, RigEvent::Sample(_)))
             .collect();
         assert!(
-            matches!(said[1], Told::Ended(_, Err(Error::OutOfReach { .. }))),
+            matches!(said[1], RigEvent::Ended(_, Err(Error::OutOfReach { .. }))),
             "{said:?}"
         );
         // What the drive is off by at most when it comes to rest (0.034 mm), and two steps of the encoder.
@@ -225,23 +244,23 @@ fn a_jog_goes_along_all_three_axes() {
     let mut bench = Bench::new(RigSettings::default());
     for axis in [Vec3::x(), Vec3::y(), Vec3::z()] {
         let before = bench.idle(200).last().unwrap().position;
-        let out = Order::Jog(3e-3 * axis);
+        let out = RigCommand::Jog(3e-3 * axis);
         assert_eq!(bench.carry_out(&[out]), ended(out));
         let there = bench.idle(300).last().unwrap().position;
         // Dry friction holds the PID a step of the encoder or two away.
         assert!((there - before - 3e-3 * axis).norm() < 1.2e-4, "{there:?}");
-        let back = Order::Jog(-3e-3 * axis);
+        let back = RigCommand::Jog(-3e-3 * axis);
         assert_eq!(bench.carry_out(&[back]), ended(back));
     }
-    bench.carry_out(&[Order::Approach]);
+    bench.carry_out(&[RigCommand::Approach]);
     assert!(bench.idle(1)[0].depth.is_some());
-    bench.carry_out(&[Order::Jog(-5e-3 * Vec3::z())]);
-    let said = bench.carry_out(&[Order::Jog(1e-3 * Vec3::x())]);
+    bench.carry_out(&[RigCommand::Jog(-5e-3 * Vec3::z())]);
+    let said = bench.carry_out(&[RigCommand::Jog(1e-3 * Vec3::x())]);
     assert!(
-        matches!(said[1], Told::Ended(_, Err(Error::InTissue { .. }))),
+        matches!(said[1], RigEvent::Ended(_, Err(Error::InTissue { .. }))),
         "{said:?}"
     );
-    bench.carry_out(&[Order::Withdraw, Order::Jog(1e-3 * Vec3::x())]);
+    bench.carry_out(&[RigCommand::Withdraw, RigCommand::Jog(1e-3 * Vec3::x())]);
     assert_eq!(bench.idle(1)[0].depth, None);
 }
 
@@ -250,14 +269,14 @@ fn a_jog_goes_along_all_three_axes() {
 fn a_held_jog_ends_when_nobody_holds_it() {
     let mut bench = Bench::new(RigSettings::default());
     let (console, mut moved) = (&mut bench.console, 0);
-    let drive = Order::Drive(Vec3::z());
-    console.order(drive);
+    let drive = RigCommand::Drive(Vec3::z());
+    console.send(drive);
     let mut next = 0.1;
     let mut began = None;
     bench.operated.turn(&mut |sample| {
         let begun = *began.get_or_insert(sample.time);
         if sample.time - begun > next && next < 0.95 {
-            console.order(drive);
+            console.send(drive);
             next += 0.1;
         }
         moved += 1;
@@ -275,9 +294,9 @@ fn a_jog_into_too_much_force_is_withdrawn() {
         force_limit: 0.05,
         ..RigSettings::default()
     });
-    let said = bench.carry_out(&[Order::Jog(-0.02 * Vec3::z())]);
+    let said = bench.carry_out(&[RigCommand::Jog(-0.02 * Vec3::z())]);
     assert!(
-        matches!(said[1], Told::Ended(_, Err(Error::TooMuchForce { .. }))),
+        matches!(said[1], RigEvent::Ended(_, Err(Error::TooMuchForce { .. }))),
         "{said:?}"
     );
     let height = bench.idle(200).last().unwrap().height;

@@ -16,7 +16,7 @@ fn a_tick_of_the_rig_allocates_nothing() {
     let specimen = VirtualSpecimen::of_tissue(&tissue(), (RADIUS, 8e-3), &mut |_| ()).unwrap();
     let settings = RigSettings::default();
     let mut rig = rig_on(Imperfections::premium(), specimen.alive(3), settings, 1);
-    let course = usual();
+    let trajectory = usual();
     let (mut ticks, mut approached) = (0, Ok(Ended::Stopped));
     reset_violation_count();
     assert_no_alloc(|| approached = rig.approach(&mut |_| true));
@@ -28,7 +28,7 @@ fn a_tick_of_the_rig_allocates_nothing() {
     let mut pressed = Ok(Ended::Stopped);
     assert_no_alloc(|| {
         rig.wait(1.0, &mut |_| true).unwrap();
-        pressed = rig.press(&course, &mut |_| {
+        pressed = rig.press(&trajectory, &mut |_| {
             ticks += 1;
             true
         });

@@ -6,7 +6,7 @@ use palpate_files::tissue::LawName;
 use palpate_files::{Elasticity, Estimate, PronyTerm, Tissue};
 use palpate_measure::phantom::{Imperfections, MECHANICS_STEP, Machine, TwoMass};
 use palpate_measure::{
-    BREATH_MOTION, Course, Ended, Error, Rig, RigSample, RigSettings, VirtualSpecimen,
+    BREATH_MOTION, DepthTrajectory, Ended, Error, Rig, RigSample, RigSettings, VirtualSpecimen,
 };
 use palpate_servo::Clock;
 
@@ -47,17 +47,17 @@ pub(crate) fn rig_on(
     Rig::over(specimen, device, settings, (Clock::virtual_time(), seed)).unwrap()
 }
 
-fn ramp(depth_m: f64, ramp_s: f64, hold_s: f64) -> Course {
+fn ramp(depth_m: f64, ramp_s: f64, hold_s: f64) -> DepthTrajectory {
     let ramp = Stimulus::RampAndHold {
         depth_m,
         ramp_s,
         hold_s,
     };
-    Course::of(ramp).unwrap()
+    DepthTrajectory::of(ramp).unwrap()
 }
 
 /// Four millimetres, for eight seconds.
-pub(crate) fn usual() -> Course {
+pub(crate) fn usual() -> DepthTrajectory {
     ramp(4e-3, 0.5, 8.0)
 }
 
@@ -247,23 +247,23 @@ fn sines_are_where_they_were_asked_for() {
             sweep: Sweep::Constant(frequency),
             duration_s,
         };
-        let course = Course::of(swing).unwrap();
+        let trajectory = DepthTrajectory::of(swing).unwrap();
         let mut samples = Vec::new();
-        rig.press(&course, &mut |sample| {
+        rig.press(&trajectory, &mut |sample| {
             samples.push(*sample);
             true
         })
         .unwrap();
         // A recording ends with its stimulus.
-        let begun = samples.last().unwrap().time - course.duration();
+        let begun = samples.last().unwrap().time - trajectory.duration();
         let mut sums = [[0.0; 2]; 2];
         for sample in &samples {
             let time = sample.time - begun;
-            if time < course.duration() - duration_s + 5e-4 {
+            if time < trajectory.duration() - duration_s + 5e-4 {
                 continue;
             }
             let (sin, cos) = (std::f64::consts::TAU * frequency * time).sin_cos();
-            let pair = [sample.depth.unwrap(), course.at(time)[0]];
+            let pair = [sample.depth.unwrap(), trajectory.at(time)[0]];
             for (sum, depth) in sums.iter_mut().zip(pair) {
                 sum[0] += (depth - 2e-3) * sin;
                 sum[1] += (depth - 2e-3) * cos;

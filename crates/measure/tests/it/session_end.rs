@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-use palpate_measure::live::{LiveRig, News};
+use palpate_measure::live::{ConsoleEvent, LiveRig};
 use palpate_measure::phantom::{Imperfections, MECHANICS_STEP, Machine, TwoMass, VirtualPhantom};
 use palpate_measure::{Rig, RigSettings};
 use palpate_servo::supervisor::SILENCE;
@@ -143,9 +143,9 @@ fn a_silent_window_of_the_rig_leaves_no_force() {
     }
 }
 
-fn fault_of(news: News) -> Option<Fault> {
+fn fault_of(news: ConsoleEvent) -> Option<Fault> {
     match news {
-        News::Faulted(fault) => Some(fault),
+        ConsoleEvent::Faulted(fault) => Some(fault),
         _ => None,
     }
 }

@@ -26,7 +26,7 @@ pub(super) struct Factors<T> {
 
 impl<T: Precision> Factors<T> {
     /// Of `matrix`, column by column, on all cores. `progress` hears the part that is done [-] and may
-    /// break off.
+    /// cancel.
     pub(super) fn new(
         size: usize,
         mut matrix: Vec<T>,
@@ -140,7 +140,7 @@ mod tests {
         let right: Vec<f64> = (0..2 * size).map(|_| random()).collect();
         let factors = Factors::new(size, matrix.clone(), &mut |_| ControlFlow::Continue(()));
         let ControlFlow::Continue(factors) = factors else {
-            panic!("nobody broke off");
+            panic!("nobody cancelled");
         };
         let mut found = right.clone();
         factors.solve(&mut found);

@@ -73,7 +73,7 @@ impl BoundaryProblem<'_> {
     ///
     /// # Errors
     /// Before the first large matrix: when the memory does not suffice, nothing is fixed or touchable, a triangle is
-    /// none of the surface, or the touchable ones do not ascend or are fixed. Later when `progress` breaks off.
+    /// none of the surface, or the touchable ones do not ascend or are fixed. Later when `progress` cancels.
     pub fn solve<T: Precision>(
         &self,
         memory: usize,

@@ -13,12 +13,12 @@
 use nalgebra::Matrix3;
 
 use super::model::{ElementSums, FiniteElementModel, FiniteElementWorkspace};
-use super::relaxation::{Past, RelaxationStep};
+use super::relaxation::{PointHistory, RelaxationStep};
 use crate::Strain;
 use crate::material::law::{Distortion, Law, Tangent};
 
 /// ε of the pressure block [-].
-pub(super) const PROXIMAL: f64 = 1e-7;
+pub(super) const PRESSURE_REGULARIZATION: f64 = 1e-7;
 
 /// Places of F_ij in a column of nine that an axisymmetric motion (r, z, hoop) moves, and a solid's.
 const AXISYMMETRIC: [usize; 5] = [0, 1, 3, 4, 8];
@@ -78,7 +78,7 @@ pub(super) fn assemble(
 }
 
 /// Adds what a unit of the law's `parameter` adds to the residual of an elastic body.
-pub(super) fn add_by_parameter(
+pub(super) fn add_sensitivity(
     model: &FiniteElementModel,
     unknowns: &[f64],
     parameter: usize,
@@ -100,7 +100,7 @@ pub(super) fn add_by_parameter(
             } else {
                 point.gradient::<2>(&values)
             };
-            let (stress, compressibility) = law.by_parameter(parameter, &f);
+            let (stress, compressibility) = law.sensitivities(parameter, &f);
             if solid {
                 point.add_stress::<3>(&stress, &mut force);
             } else {
@@ -165,7 +165,7 @@ struct Point<'a> {
     law: &'a dyn Law,
     weight: f64,
     gradients: &'a [f64],
-    hoops: &'a [f64],
+    hoop_terms: &'a [f64],
     pressures: &'a [f64],
 }
 
@@ -180,7 +180,7 @@ impl<'a> Point<'a> {
             law: model.law_of(element),
             weight: mapping.weights[index],
             gradients: part(&mapping.gradients, nodes * model.dimension()),
-            hoops: part(&mapping.hoops, nodes),
+            hoop_terms: part(&mapping.hoop_terms, nodes),
             pressures: part(&mapping.pressures, mapping.pressures_per_element),
         }
     }
@@ -195,7 +195,7 @@ impl<'a> Point<'a> {
                 }
             }
         }
-        for (u, hoop) in values.chunks_exact(D).zip(self.hoops) {
+        for (u, hoop) in values.chunks_exact(D).zip(self.hoop_terms) {
             f[(2, 2)] += u[0] * hoop;
         }
         f
@@ -205,7 +205,7 @@ impl<'a> Point<'a> {
     fn integrate<const D: usize>(
         &self,
         model: &FiniteElementModel,
-        past: Option<Past<'_>>,
+        past: Option<PointHistory<'_>>,
         values: &[f64],
         sums: &mut ElementSums,
     ) -> Result<f64, Inverted> {
@@ -245,7 +245,8 @@ impl<'a> Point<'a> {
         let constraint = Constraint {
             gradient: dilation,
             excess: volume.dilation(&f) - elastic_pressure * compressibility,
-            compressibility: compressibility / follows + PROXIMAL / model.shear_modulus,
+            compressibility: compressibility / follows
+                + PRESSURE_REGULARIZATION / model.shear_modulus,
         };
         self.add_pressure::<D>(&constraint, sums);
         let energy = energy + 0.5 * compressibility * elastic_pressure.powi(2);
@@ -267,7 +268,7 @@ impl<'a> Point<'a> {
                 }
             }
         }
-        for (out, hoop) in force.chunks_exact_mut(D).zip(self.hoops) {
+        for (out, hoop) in force.chunks_exact_mut(D).zip(self.hoop_terms) {
             out[0] += self.weight * stress[(2, 2)] * hoop;
         }
     }
@@ -296,13 +297,13 @@ impl<'a> Point<'a> {
                     add(3 * l + k, self.weight * g);
                 }
                 if D == 2 && k == 0 {
-                    add(8, self.weight * self.hoops[b]);
+                    add(8, self.weight * self.hoop_terms[b]);
                 }
                 let column = &mut matrix[(b * D + k) * local..][..nodes * D];
                 let (rows, _) = column[b * D..].as_chunks_mut::<D>();
                 let (gradients, _) = self.gradients[b * D..].as_chunks::<D>();
                 if D == 2 {
-                    let each = rows.iter_mut().zip(gradients).zip(&self.hoops[b..]);
+                    let each = rows.iter_mut().zip(gradients).zip(&self.hoop_terms[b..]);
                     for ((row, g), hoop) in each {
                         row[0] = row[0] + change[0] * g[0] + change[3] * g[1] + change[8] * hoop;
                         row[1] = row[1] + change[1] * g[0] + change[4] * g[1];
@@ -332,7 +333,7 @@ impl<'a> Point<'a> {
                     along += constraint.gradient[(i, j)] * g;
                 }
                 if D == 2 && i == 0 {
-                    along += constraint.gradient[(2, 2)] * self.hoops[a];
+                    along += constraint.gradient[(2, 2)] * self.hoop_terms[a];
                 }
                 let column = &mut matrix[(a * D + i) * local..][..local];
                 for (entry, q) in column[count..].iter_mut().zip(self.pressures) {

@@ -17,7 +17,7 @@ pub(crate) struct Mapping {
     /// ∂N/∂X [1/m]; points × nodes × dimension.
     pub(crate) gradients: Vec<f64>,
     /// N/R [1/m], in an axisymmetric body; points × nodes.
-    pub(crate) hoops: Vec<f64>,
+    pub(crate) hoop_terms: Vec<f64>,
     /// Pressure functions [-]; points × pressures of an element.
     pub(crate) pressures: Vec<f64>,
     /// Pressures of an element: 0 without a pressure field.
@@ -39,7 +39,7 @@ impl Mapping {
             at: rule.iter().map(|point| point.at).collect(),
             weights: Vec::with_capacity(all),
             gradients: Vec::with_capacity(all * nodes * dimension),
-            hoops: Vec::new(),
+            hoop_terms: Vec::new(),
             pressures: Vec::with_capacity(all * pressures_per_element),
             pressures_per_element,
         };
@@ -81,7 +81,7 @@ impl Mapping {
                     mapping.gradients.extend(gradient.iter().take(dimension));
                 }
                 if dimension == 2 {
-                    mapping.hoops.extend(shape.iter().map(|n| n / at.x));
+                    mapping.hoop_terms.extend(shape.iter().map(|n| n / at.x));
                 }
                 if with_pressure {
                     kind.corner_shape(point.at, &mut corner);

@@ -4,7 +4,7 @@
 //! stiffness: η² = Σ rᵤ²/Kᵤᵤ + Σ rₚ² μ/Mₚₚ. It is compared with the same sum over the reactions, so
 //! that the tolerance is relative and has no unit.
 
-use super::assembly::{self, PROXIMAL};
+use super::assembly::{self, PRESSURE_REGULARIZATION};
 use super::model::{FiniteElementModel, FiniteElementState, FiniteElementWorkspace};
 use super::supports::{Beside, Sliding, Supports};
 
@@ -31,7 +31,7 @@ pub struct Equilibrium {
 
 /// How much is done for an equilibrium.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Effort {
+pub(super) struct SolverControls {
     /// Fewest solutions of the linear system.
     pub(super) least: usize,
     /// Most solutions of the linear system.
@@ -41,23 +41,23 @@ pub(super) struct Effort {
     /// Shortest part of a step that is tried when the residual does not fall [-].
     pub(super) shortest: f64,
     /// Whether that part is gone all the same. It is then often in vain, and rarely the only way.
-    pub(super) stubborn: bool,
+    pub(super) accept_larger_residual: bool,
 }
 
-impl Effort {
+impl SolverControls {
     /// The most.
     pub(super) const FULL: Self = Self {
         least: 1,
         iterations: 25,
         tolerance: 1e-7,
         shortest: 1.0 / 16.0,
-        stubborn: true,
+        accept_larger_residual: true,
     };
     /// What an attempt is worth that a shorter one may follow.
     pub(super) const TRY: Self = Self {
         iterations: 10,
         shortest: 1.0 / 4.0,
-        stubborn: false,
+        accept_larger_residual: false,
         ..Self::FULL
     };
 }
@@ -78,12 +78,12 @@ pub(super) fn equilibrate(
     workspace: &mut FiniteElementWorkspace,
 ) -> Result<Equilibrium, Failure> {
     assemble(model, supports, &state.unknowns, workspace)?;
-    correct(Effort::FULL, model, supports, (state, workspace))
+    correct(SolverControls::FULL, model, supports, (state, workspace))
 }
 
 /// [`equilibrate`] with this `effort`, from a `state` whose residual and tangent are assembled.
 pub(super) fn correct(
-    effort: Effort,
+    controls: SolverControls,
     model: &FiniteElementModel,
     supports: &Supports<'_>,
     (state, workspace): (&mut FiniteElementState, &mut FiniteElementWorkspace),
@@ -95,10 +95,10 @@ pub(super) fn correct(
     loop {
         let gap = prescribe(model, supports, &state.unknowns, workspace);
         let size = size_of_residual(model, supports, workspace);
-        if gap == 0.0 && iterations >= effort.least && size.is_small(effort.tolerance) {
+        if gap == 0.0 && iterations >= controls.least && size.is_small(controls.tolerance) {
             return Ok(Equilibrium { iterations });
         }
-        if iterations == effort.iterations {
+        if iterations == controls.iterations {
             return Err(Failure::NotConverged);
         }
         solve(model, supports, workspace)?;
@@ -108,7 +108,7 @@ pub(super) fn correct(
             supports,
             state,
             workspace,
-            (effort, (gap == 0.0).then_some(size.free)),
+            (controls, (gap == 0.0).then_some(size.free)),
         )?;
     }
 }
@@ -191,7 +191,8 @@ pub(super) fn size_of_residual(
             .map(|i| load[i].powi(2) / diagonal(i).abs())
             .sum::<f64>();
     }
-    let softest = 1.0 / model.law.volume().bulk_modulus + PROXIMAL / model.shear_modulus;
+    let softest =
+        1.0 / model.law.volume().bulk_modulus + PRESSURE_REGULARIZATION / model.shear_modulus;
     for i in model.displacements()..model.size() {
         // M = diagonal / compressibility.
         let mass = diagonal(i).abs() / softest;
@@ -340,7 +341,7 @@ fn advance(
     supports: &Supports<'_>,
     state: &mut FiniteElementState,
     workspace: &mut FiniteElementWorkspace,
-    (effort, before): (Effort, Option<f64>),
+    (controls, before): (SolverControls, Option<f64>),
 ) -> Result<(), Failure> {
     let mut length = 1.0;
     loop {
@@ -359,16 +360,16 @@ fn advance(
             let size = size_of_residual(model, supports, workspace);
             // A body that already rests has a residual of rounding, which no step makes smaller.
             let falls = before.is_none_or(|before| size.free <= before);
-            size.free.is_finite() && (falls || size.is_small(effort.tolerance))
+            size.free.is_finite() && (falls || size.is_small(controls.tolerance))
         };
         // A step that turns an element inside out is too long, which does not make it a bad one.
         let shortest = if assembled.is_ok() {
-            effort.shortest
+            controls.shortest
         } else {
-            effort.shortest.min(SHORTEST_BEFORE_INVERSION)
+            controls.shortest.min(SHORTEST_BEFORE_INVERSION)
         };
         let last = length <= shortest;
-        if good || (last && effort.stubborn && assembled.is_ok()) {
+        if good || (last && controls.accept_larger_residual && assembled.is_ok()) {
             state.unknowns = trial;
             return Ok(());
         }

@@ -291,7 +291,9 @@ impl<'a> Path<'a> {
                 .map(|(x, old)| x - old)
                 .collect();
             let gap = 0.5 * (dot(&along, &along, count) - arc * arc);
-            if size.is_small(newton::Effort::FULL.tolerance) && gap.abs() <= 1e-8 * arc * arc {
+            if size.is_small(newton::SolverControls::FULL.tolerance)
+                && gap.abs() <= 1e-8 * arc * arc
+            {
                 return Ok((self.point(factor, state, ahead)?, iteration));
             }
             let [relax, push] = self.solve(&loads, &state)?;

@@ -46,7 +46,7 @@ pub struct RelaxationStep {
 
 /// The history at one point of integration.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Past<'a> {
+pub(super) struct PointHistory<'a> {
     pub(super) step: &'a RelaxationStep,
     stress: &'a Matrix3<f64>,
     /// Number of the first pressure, and the numbers of the element's.
@@ -66,8 +66,8 @@ impl RelaxationStep {
         model: &FiniteElementModel,
         place: usize,
         pressures: &'a [u32],
-    ) -> Past<'a> {
-        Past {
+    ) -> PointHistory<'a> {
+        PointHistory {
             step: self,
             stress: &self.stress[place],
             first: model.displacements(),
@@ -76,7 +76,7 @@ impl RelaxationStep {
     }
 }
 
-impl Past<'_> {
+impl PointHistory<'_> {
     /// P ← γ Pₑ − F Sₕ, and its tangent.
     pub(super) fn relax(
         &self,

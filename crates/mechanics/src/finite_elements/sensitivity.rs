@@ -6,13 +6,13 @@ use super::newton::{self, Failure};
 use super::supports::Supports;
 
 /// ∂r/∂q: change of the residual [N per unit; m³ per unit] with a parameter at fixed unknowns.
-pub(super) fn residual_by_parameter(
+pub(super) fn residual_sensitivity(
     model: &FiniteElementModel,
     state: &FiniteElementState,
     parameter: usize,
 ) -> Vec<f64> {
     let mut residual = vec![0.0; model.size()];
-    assembly::add_by_parameter(model, &state.unknowns, parameter, &mut residual);
+    assembly::add_sensitivity(model, &state.unknowns, parameter, &mut residual);
     residual
 }
 

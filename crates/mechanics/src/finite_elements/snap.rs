@@ -15,9 +15,9 @@
 //! *Limits*: a minimum, not necessarily the least. The energy of a body that relaxes is not known: there the
 //! residual must not grow more than [`GROWTH`] times in an iteration.
 
-use super::assembly::PROXIMAL;
+use super::assembly::PRESSURE_REGULARIZATION;
 use super::model::{FiniteElementModel, FiniteElementState, FiniteElementWorkspace};
-use super::newton::{self, Effort, Equilibrium, Failure};
+use super::newton::{self, Equilibrium, Failure, SolverControls};
 use super::supports::Supports;
 
 /// c [-]: the first, that at which to stop, and that below which there is none.
@@ -57,7 +57,7 @@ pub(super) fn equilibrate_downhill(
     loop {
         let gap = newton::prescribe(model, supports, &state.unknowns, workspace);
         let before = newton::size_of_residual(model, supports, workspace);
-        if gap == 0.0 && iterations > 0 && before.is_small(Effort::FULL.tolerance) {
+        if gap == 0.0 && iterations > 0 && before.is_small(SolverControls::FULL.tolerance) {
             return Ok(Equilibrium { iterations });
         }
         // The damping in the tangent.
@@ -119,7 +119,8 @@ fn follow(
     };
     let step = workspace.step.clone();
     let energy = |workspace: &FiniteElementWorkspace, pressures: &[f64]| {
-        let soft = 1.0 / model.law.volume().bulk_modulus + PROXIMAL / model.shear_modulus;
+        let soft =
+            1.0 / model.law.volume().bulk_modulus + PRESSURE_REGULARIZATION / model.shear_modulus;
         let mut sum = workspace.energy;
         for (i, pressure) in (displacements..).zip(pressures) {
             let residual = workspace.residual[i];
@@ -145,7 +146,7 @@ fn follow(
         workspace.trial.copy_from_slice(&trial);
         let size = newton::size_of_residual(model, supports, workspace);
         let after = size.free;
-        let good = if size.is_small(Effort::FULL.tolerance) {
+        let good = if size.is_small(SolverControls::FULL.tolerance) {
             true
         } else if known {
             energy(workspace, &trial[displacements..]) < most || after <= 0.25 * before

@@ -16,7 +16,7 @@ use nalgebra::{Matrix2, Matrix3, Vector3};
 use super::layout::CapShape;
 use super::model::Surroundings;
 use super::settings::Form;
-use crate::contact::{Bond, half_space_stiffness, half_space_tangential_stiffness};
+use crate::contact::{Friction, half_space_stiffness, half_space_tangential_stiffness};
 use crate::{Limit, Limits, LinearElastic, Reached};
 
 /// A row of the table of constants.
@@ -77,7 +77,7 @@ pub(super) struct Calibration {
     half_space_tangential: f64,
     youngs_modulus: f64,
     shells: f64,
-    bond: Bond,
+    bond: Friction,
     form: Form,
 }
 
@@ -118,7 +118,7 @@ pub(super) fn constants(poissons_ratio: f64) -> ExteriorConstants {
 impl Calibration {
     /// `solve` gives the stiffness [E h] of the shells under a cap; `shells` is their number.
     pub(super) fn new(
-        (law, bond, form): (LinearElastic, Bond, Form),
+        (law, bond, form): (LinearElastic, Friction, Form),
         shells: usize,
         mut solve: impl FnMut(CapShape) -> Matrix3<f64>,
     ) -> Self {
@@ -188,7 +188,7 @@ impl Calibration {
         let mut stiffness = Matrix3::zeros();
         stiffness[(2, 2)] = 1.0 / normal;
         let mut share = [0.0, (1.0 - inside / normal).clamp(0.0, 1.0)];
-        if self.bond == Bond::Stick {
+        if self.bond == Friction::Bonded {
             let own = 1.0 / (self.half_space_tangential * radius);
             let along = further.fixed_view::<2, 2>(0, 0) / self.youngs_modulus
                 + Matrix2::from_diagonal_element(own);
@@ -230,12 +230,12 @@ impl Calibration {
         stiffness[(2, 2)] = 1.0 / normal;
         let mut share = [0.0, (1.0 - inside / normal).clamp(0.0, 1.0)];
         match (self.bond, self.form) {
-            (Bond::Slip, _) => {}
-            (Bond::Stick, Form::Strong) => {
+            (Friction::Frictionless, _) => {}
+            (Friction::Bonded, Form::Strong) => {
                 stiffness[(0, 0)] = self.half_space_tangential * radius;
                 stiffness[(1, 1)] = stiffness[(0, 0)];
             }
-            (Bond::Stick, Form::Weak) => {
+            (Friction::Bonded, Form::Weak) => {
                 let along = shells.fixed_view::<2, 2>(0, 0) * unit;
                 let mut beyond = (self.beyond_shells_tangential / held_at
                     - self.organ_size_tangential / organ_radius)

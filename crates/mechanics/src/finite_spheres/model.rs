@@ -13,14 +13,14 @@ use super::solution::Solution;
 use super::source_placement::SourcePlacement;
 use super::uncalibrated::Uncalibrated;
 use super::workspace::FiniteSphereWorkspace;
-use crate::contact::{Bond, half_space_stiffness, half_space_tangential_stiffness};
+use crate::contact::{Friction, half_space_stiffness, half_space_tangential_stiffness};
 use crate::{Error, Limit, Limits, LinearElastic, Reached, Vec3};
 
 /// The local model of one tissue under one kind of tip. Built once, never changed.
 #[derive(Debug, Clone)]
 pub struct FiniteSphereModel {
     settings: FiniteSphereSettings,
-    bond: Bond,
+    bond: Friction,
     /// The law that is solved for: the tissue's, at a Poisson's ratio that is calibrated.
     law: LinearElastic,
     /// What the answer is multiplied by for the tissue's own ratio [-], tangential and normal.
@@ -100,7 +100,7 @@ impl FiniteSphereModel {
     pub fn new(
         settings: FiniteSphereSettings,
         law: &LinearElastic,
-        bond: Bond,
+        bond: Friction,
     ) -> Result<Self, Error> {
         check_uncalibrated(&settings, bond)?;
         let layout = Layout::new(settings.particles)?;
@@ -283,7 +283,7 @@ impl FiniteSphereModel {
         x: &Vec3,
     ) -> Vec3 {
         let mut tip = contact.frame.tr_mul(tip);
-        if self.bond == Bond::Slip {
+        if self.bond == Friction::Frictionless {
             (tip.x, tip.y) = (0.0, 0.0);
         }
         if let (Some(own), Some(scratch)) = (&self.uncalibrated, &mut workspace.uncalibrated) {
@@ -369,13 +369,13 @@ impl FiniteSphereModel {
 }
 
 /// What the model without calibration does not have.
-fn check_uncalibrated(settings: &FiniteSphereSettings, bond: Bond) -> Result<(), Error> {
+fn check_uncalibrated(settings: &FiniteSphereSettings, bond: Friction) -> Result<(), Error> {
     let asked = match settings {
         FiniteSphereSettings {
             calibration: Fit::Fitted,
             ..
         } => return Ok(()),
-        _ if bond == Bond::Stick => "a tip that sticks",
+        _ if bond == Friction::Bonded => "a tip that sticks",
         FiniteSphereSettings {
             form: Form::Strong, ..
         } => "the strong form",

@@ -129,7 +129,7 @@ impl Law for Exponential {
         vec![("gamma_pa", self.gamma), ("alpha", self.alpha)]
     }
 
-    fn by_parameter(&self, index: usize, f: &Matrix3<f64>) -> (Matrix3<f64>, f64) {
+    fn sensitivities(&self, index: usize, f: &Matrix3<f64>) -> (Matrix3<f64>, f64) {
         if index == 0 {
             return (self.distortion_stress(f) / self.gamma, 0.0);
         }

@@ -51,7 +51,7 @@ pub trait Law: Debug + Send + Sync {
 
     /// What a unit of the parameter `index` of [`Law::parameters`] adds: to the stress of distortion,
     /// and to the compressibility 1/κ [1/Pa].
-    fn by_parameter(&self, index: usize, f: &Matrix3<f64>) -> (Matrix3<f64>, f64);
+    fn sensitivities(&self, index: usize, f: &Matrix3<f64>) -> (Matrix3<f64>, f64);
 
     /// Strain energy per undeformed volume Ψ(F) [Pa].
     fn energy(&self, f: &Matrix3<f64>) -> f64 {

@@ -117,7 +117,7 @@ impl Law for LinearElastic {
         ]
     }
 
-    fn by_parameter(&self, index: usize, f: &Matrix3<f64>) -> (Matrix3<f64>, f64) {
+    fn sensitivities(&self, index: usize, f: &Matrix3<f64>) -> (Matrix3<f64>, f64) {
         // 2 μ = E / (1 + ν), 1/κ = 3 (1 − 2 ν) / E.
         let (modulus, nu) = (self.youngs_modulus, self.poissons_ratio);
         let stress = self.distortion_stress(f);

@@ -103,7 +103,7 @@ impl Law for MooneyRivlin {
         vec![("c10_pa", self.c10), ("c01_pa", self.c01)]
     }
 
-    fn by_parameter(&self, index: usize, f: &Matrix3<f64>) -> (Matrix3<f64>, f64) {
+    fn sensitivities(&self, index: usize, f: &Matrix3<f64>) -> (Matrix3<f64>, f64) {
         let isochoric = Isochoric::of(f);
         let gradients = gradients(&isochoric.f);
         (isochoric.stress(&gradients[index.min(1)]), 0.0)

@@ -79,7 +79,7 @@ impl Law for NeoHookean {
         vec![("c10_pa", self.c10)]
     }
 
-    fn by_parameter(&self, _index: usize, f: &Matrix3<f64>) -> (Matrix3<f64>, f64) {
+    fn sensitivities(&self, _index: usize, f: &Matrix3<f64>) -> (Matrix3<f64>, f64) {
         (self.distortion_stress(f) / self.c10, 0.0)
     }
 }

@@ -163,7 +163,7 @@ impl Law for Ogden {
             .collect()
     }
 
-    fn by_parameter(&self, index: usize, f: &Matrix3<f64>) -> (Matrix3<f64>, f64) {
+    fn sensitivities(&self, index: usize, f: &Matrix3<f64>) -> (Matrix3<f64>, f64) {
         let isochoric = Isochoric::of(f);
         let principal = Principal::of(&isochoric.f);
         let [mu, alpha] = self.terms[(index / 2).min(MAX_TERMS - 1)];

@@ -103,7 +103,7 @@ impl Law for ReducedPolynomial {
         keys.zip(self.coefficients).take(self.order).collect()
     }
 
-    fn by_parameter(&self, index: usize, f: &Matrix3<f64>) -> (Matrix3<f64>, f64) {
+    fn sensitivities(&self, index: usize, f: &Matrix3<f64>) -> (Matrix3<f64>, f64) {
         let isochoric = Isochoric::of(f);
         let mut unit = [0.0; MAX_ORDER];
         unit[index.min(MAX_ORDER - 1)] = 1.0;

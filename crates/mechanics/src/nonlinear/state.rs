@@ -37,7 +37,7 @@ pub(super) struct ToolMemory {
     /// Its forces on the nodes [N].
     pub(super) load: Vec<f32>,
     pub(super) force: Vec3,
-    pub(super) force_before: Vec3,
+    pub(super) force_in_series: Vec3,
 }
 
 impl NonlinearState {
@@ -49,7 +49,7 @@ impl NonlinearState {
             is_coupled: false,
             load: vec![0.0; size],
             force: Vec3::zeros(),
-            force_before: Vec3::zeros(),
+            force_in_series: Vec3::zeros(),
         };
         let mut state = Self {
             displacements: vec![0.0; size],
@@ -90,7 +90,7 @@ impl NonlinearState {
         for tool in &mut self.tools {
             tool.load.fill(0.0);
             tool.is_coupled = false;
-            (tool.force, tool.force_before) = (Vec3::zeros(), Vec3::zeros());
+            (tool.force, tool.force_in_series) = (Vec3::zeros(), Vec3::zeros());
         }
     }
 

@@ -176,10 +176,10 @@ fn guess(
     }
     for (coupling, memory) in couplings.iter().zip(&mut state.tools) {
         let force = match coupling {
-            Some(_) => memory.force + part * (memory.force - memory.force_before),
+            Some(_) => memory.force + part * (memory.force - memory.force_in_series),
             None => Vec3::zeros(),
         };
-        memory.force_before = memory.force;
+        memory.force_in_series = memory.force;
         memory.force = force;
     }
 }

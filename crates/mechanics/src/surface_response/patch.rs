@@ -3,7 +3,7 @@ use nalgebra::Matrix3;
 use super::response::{SurfaceResponse, TouchId};
 use crate::Vec3;
 use crate::boundary_elements::Precision;
-use crate::contact::Bond;
+use crate::contact::Friction;
 
 /// A touchable triangle whose displacement is prescribed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,7 +27,7 @@ pub enum Reciprocity {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PatchContact {
     /// Whether they may run along the surface.
-    pub bond: Bond,
+    pub bond: Friction,
     /// Whether forces are reciprocal.
     pub reciprocity: Reciprocity,
     /// Young's modulus [Pa].
@@ -70,8 +70,8 @@ impl<T: Precision> SurfaceResponse<T> {
             return None;
         }
         let axes = match contact.bond {
-            Bond::Stick => 3,
-            Bond::Slip => 1,
+            Friction::Bonded => 3,
+            Friction::Frictionless => 1,
         };
         let size = axes * moved.len();
         let matrix = &mut workspace.matrix[..size * size];
@@ -84,16 +84,18 @@ impl<T: Precision> SurfaceResponse<T> {
                     Reciprocity::AsSolved => self.influence(row.triangle, column.triangle),
                 };
                 match contact.bond {
-                    Bond::Stick => put(matrix, size, (i, j), &block),
-                    Bond::Slip => {
+                    Friction::Bonded => put(matrix, size, (i, j), &block),
+                    Friction::Frictionless => {
                         let along = self.touchable()[column.triangle.index()].normal;
                         matrix[size * i + j] = normal.dot(&(block * along));
                     }
                 }
             }
             match contact.bond {
-                Bond::Stick => right[3 * i..3 * i + 3].copy_from_slice(row.displacement.as_slice()),
-                Bond::Slip => right[i] = normal.dot(&row.displacement),
+                Friction::Bonded => {
+                    right[3 * i..3 * i + 3].copy_from_slice(row.displacement.as_slice())
+                }
+                Friction::Frictionless => right[i] = normal.dot(&row.displacement),
             }
         }
         eliminate(matrix, right)?;
@@ -101,8 +103,10 @@ impl<T: Precision> SurfaceResponse<T> {
         for (i, (force, row)) in forces.iter_mut().zip(moved).enumerate() {
             *force = contact.youngs_modulus
                 * match contact.bond {
-                    Bond::Stick => Vec3::from_column_slice(&right[3 * i..3 * i + 3]),
-                    Bond::Slip => self.touchable()[row.triangle.index()].normal * right[i],
+                    Friction::Bonded => Vec3::from_column_slice(&right[3 * i..3 * i + 3]),
+                    Friction::Frictionless => {
+                        self.touchable()[row.triangle.index()].normal * right[i]
+                    }
                 };
         }
         Some(forces)

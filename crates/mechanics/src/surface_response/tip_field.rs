@@ -150,7 +150,7 @@ impl TipField {
 impl TipLoad<'_> {
     /// c_ext [1/m], over E a compliance: what the organ yields to a force on the tip beyond what a
     /// half-space would; symmetric.
-    pub fn further_compliance(&self) -> Matrix3<f64> {
+    pub fn structural_compliance(&self) -> Matrix3<f64> {
         self.corners
             .iter()
             .map(|(load, weight)| load.further * *weight)

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use palpate_geometry::{AabbTree, Organ, Surface};
 use palpate_mechanics::Vec3;
-use palpate_mechanics::contact::{Bond, half_space_stiffness, half_space_tangential_stiffness};
+use palpate_mechanics::contact::{Friction, half_space_stiffness, half_space_tangential_stiffness};
 use palpate_mechanics::finite_spheres::{
     Assembly, EXTERIOR_CONSTANTS, FiniteSphereModel, FiniteSphereSettings, Form, Integration,
     LocalContact, Placement, Solver, Surroundings, first_direction,
@@ -36,7 +36,7 @@ fn hemisphere_meets_its_closed_form() {
     ];
     let mut worst: f64 = 0.0;
     for row in EXTERIOR_CONSTANTS {
-        for bond in [Bond::Slip, Bond::Stick] {
+        for bond in [Friction::Frictionless, Friction::Bonded] {
             let model = model(DEFAULT(), row.poissons_ratio, bond);
             for radius in [2e-3, 3e-3] {
                 let half_space = half_space_stiffness(&tissue(row.poissons_ratio), radius, bond);
@@ -67,7 +67,7 @@ fn hemisphere_meets_its_closed_form() {
 fn flat_contact_is_the_half_space() {
     for form in [Form::Weak, Form::Strong] {
         for nu in [0.0, 0.3, 0.4, 0.45, 0.49] {
-            for bond in [Bond::Slip, Bond::Stick] {
+            for bond in [Friction::Frictionless, Friction::Bonded] {
                 let model = model(FiniteSphereSettings { form, ..DEFAULT() }, nu, bond);
                 let contact = bare_contact(Vector3::zeros(), 2e-3, f64::INFINITY);
                 let found = model.respond(&contact, &mut model.workspace()).stiffness;
@@ -75,7 +75,7 @@ fn flat_contact_is_the_half_space() {
                 let off = found[(2, 2)] / normal - 1.0;
                 // Rounding through two small systems.
                 assert!(off.abs() < 1e-12, "{form:?} {nu} {bond:?}: {off}");
-                if bond == Bond::Slip {
+                if bond == Friction::Frictionless {
                     assert_eq!(found[(0, 0)], 0.0);
                     continue;
                 }
@@ -100,11 +100,11 @@ fn gmres_meets_the_factors() {
                 solver,
                 ..DEFAULT()
             };
-            let direct = model(settings(Solver::Direct), nu, Bond::Stick);
+            let direct = model(settings(Solver::Direct), nu, Friction::Bonded);
             let iterated = model(
                 settings(Solver::Gmres { tolerance: 1e-12 }),
                 nu,
-                Bond::Stick,
+                Friction::Bonded,
             );
             let (mut one, mut other) = (direct.workspace(), iterated.workspace());
             let mut worst: f64 = 0.0;
@@ -134,8 +134,13 @@ fn gmres_meets_the_factors() {
 fn weak_meets_strong() {
     let mut random = Random(2);
     for nu in [0.3, 0.45] {
-        let [weak, strong] = [Form::Weak, Form::Strong]
-            .map(|form| model(FiniteSphereSettings { form, ..DEFAULT() }, nu, Bond::Slip));
+        let [weak, strong] = [Form::Weak, Form::Strong].map(|form| {
+            model(
+                FiniteSphereSettings { form, ..DEFAULT() },
+                nu,
+                Friction::Frictionless,
+            )
+        });
         let off = |curvature: Vector3<f64>| {
             let contact = bare_contact(curvature, 2e-3, RADIUS);
             normal_stiffness(&strong, &contact) / normal_stiffness(&weak, &contact) - 1.0
@@ -166,7 +171,7 @@ fn reused_solutions_meet_assembled_ones() {
                     ..DEFAULT()
                 },
                 nu,
-                Bond::Stick,
+                Friction::Bonded,
             )
         });
         let (mut one, mut other) = (every.workspace(), reused.workspace());
@@ -195,14 +200,14 @@ fn source_placement_meets_the_template() {
     let tree = AabbTree::new(surface.mesh());
     let radius = 2e-3;
     for nu in [0.3, 0.45] {
-        let template = model(DEFAULT(), nu, Bond::Slip);
+        let template = model(DEFAULT(), nu, Friction::Frictionless);
         let mut source = model(
             FiniteSphereSettings {
                 placement: Placement::Source,
                 ..DEFAULT()
             },
             nu,
-            Bond::Slip,
+            Friction::Frictionless,
         );
         source.precompute_placement(&surface, &tree, radius);
         let mut ratios = ratios_over(&surface, &template, &source, radius);
@@ -273,10 +278,10 @@ fn other_particle_numbers_meet_the_closed_form() {
                     integration,
                     ..DEFAULT()
                 };
-                let model = model(settings, row.poissons_ratio, Bond::Slip);
+                let model = model(settings, row.poissons_ratio, Friction::Frictionless);
                 let contact = bare_contact(Vector3::new(1.0, 0.0, 1.0) / RADIUS, 2e-3, RADIUS);
                 let half_space =
-                    half_space_stiffness(&tissue(row.poissons_ratio), 2e-3, Bond::Slip);
+                    half_space_stiffness(&tissue(row.poissons_ratio), 2e-3, Friction::Frictionless);
                 let exact = half_space / (1.0 - row.organ_size * 2e-3 / RADIUS);
                 let off = normal_stiffness(&model, &contact) / exact - 1.0;
                 println!(

@@ -1,6 +1,6 @@
 //! Closed forms of contact and of relaxation.
 
-use palpate_mechanics::contact::{Bond, Tip, half_space_stiffness, hertz_force};
+use palpate_mechanics::contact::{Friction, Tip, half_space_stiffness, hertz_force};
 use palpate_mechanics::{ForceHistory, PronySeries, TipLaw, Vec3};
 
 use crate::contacts::tissue;
@@ -9,7 +9,7 @@ use crate::contacts::tissue;
 fn flat_tip_is_linear_in_depth() {
     let law = tissue(0.3);
     let tip = Tip::Flat { radius: 2e-3 };
-    for bond in [Bond::Slip, Bond::Stick] {
+    for bond in [Friction::Frictionless, Friction::Bonded] {
         let stiffness = half_space_stiffness(&law, 2e-3, bond);
         let tissue = TipLaw::linear(tip, bond, law);
         for depth in [0.0, 1e-4, 1e-3, 8e-3] {
@@ -20,10 +20,10 @@ fn flat_tip_is_linear_in_depth() {
         assert_eq!(tip.contact_radius(1e-3), 2e-3);
     }
     // (6.1) by hand: 2 × 2 mm × 10 kPa / 0.91.
-    let slip = half_space_stiffness(&law, 2e-3, Bond::Slip);
+    let slip = half_space_stiffness(&law, 2e-3, Friction::Frictionless);
     assert!((slip - 40.0 / 0.91).abs() < 1e-12);
     // 4 G a ln(3 − 4ν)/(1 − 2ν) by hand, G = 10 kPa / 2.6.
-    let stick = half_space_stiffness(&law, 2e-3, Bond::Stick);
+    let stick = half_space_stiffness(&law, 2e-3, Friction::Bonded);
     assert!((stick - 80.0 / 2.6 * 1.8f64.ln() / 0.4).abs() < 1e-12);
 }
 
@@ -41,16 +41,17 @@ fn sphere_is_hertz() {
     let integral: f64 = (0..steps)
         .map(|k| {
             let here = depth * (f64::from(k) + 0.5) / f64::from(steps);
-            half_space_stiffness(&law, tip.contact_radius(here), Bond::Slip)
+            half_space_stiffness(&law, tip.contact_radius(here), Friction::Frictionless)
         })
         .sum::<f64>()
         * depth
         / f64::from(steps);
     // The midpoint rule for a square root that starts at zero: 0.08 n^-1.5.
     assert!((integral / hertz - 1.0).abs() < 1e-5, "{integral} {hertz}");
-    let tissue = TipLaw::linear(tip, Bond::Slip, law);
+    let tissue = TipLaw::linear(tip, Friction::Frictionless, law);
     let shallow = 1e-5;
-    let half_space = half_space_stiffness(&law, tip.contact_radius(shallow), Bond::Slip);
+    let half_space =
+        half_space_stiffness(&law, tip.contact_radius(shallow), Friction::Frictionless);
     let met = tissue.normal_force(shallow, half_space).force;
     // A five-hundredth of the radius deep: points of the surface are carried inward, 0.3 (1 − 2ν) a/ρ.
     assert!((met / hertz_force(&law, 5e-3, shallow) - 1.0).abs() < 0.003);

@@ -57,7 +57,7 @@ fn fitted(samples: &[[f64; 2]]) -> [f64; 2] {
         let (mut normal, mut gradient) = (Matrix2::zeros(), Vector2::zeros());
         for &[stretch, measured] in samples {
             let f = deformation(stretch);
-            let row = Vector2::from_fn(|i, _| force(&law.by_parameter(i, &f).0, stretch));
+            let row = Vector2::from_fn(|i, _| force(&law.sensitivities(i, &f).0, stretch));
             let residual = measured - force(&law.distortion_stress(&f), stretch);
             normal += row * row.transpose();
             gradient += residual * row;

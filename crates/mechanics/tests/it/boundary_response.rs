@@ -8,7 +8,7 @@ use palpate_geometry::{Organ, Surface, TriangleId};
 use palpate_mechanics::boundary_elements::{
     BoundaryProblem, InfluenceMatrices, Influences, Kelvin, Panel, Precision,
 };
-use palpate_mechanics::contact::Bond;
+use palpate_mechanics::contact::Friction;
 use palpate_mechanics::surface_response::{
     MovedTriangle, PatchContact, PatchWorkspace, Reciprocity, ResponseParts, SurfaceResponse,
     TouchId,
@@ -126,7 +126,7 @@ fn solve_again(
 fn pressed<T: Precision>(
     response: &SurfaceResponse<T>,
     moved: &[(TriangleId, Vec3)],
-    (bond, reciprocity): (Bond, Reciprocity),
+    (bond, reciprocity): (Friction, Reciprocity),
 ) -> Vec<Vec3> {
     let moved: Vec<_> = moved
         .iter()
@@ -187,7 +187,7 @@ fn an_update_is_a_new_solution() {
             .zip(&moved)
             .map(|(traction, (id, _))| traction * panels[id.index()].area)
             .collect();
-        let how = (Bond::Stick, Reciprocity::AsSolved);
+        let how = (Friction::Bonded, Reciprocity::AsSolved);
         let off = difference(&pressed(&double, &moved, how), &expected);
         let rounded = difference(&pressed(&single, &moved, how), &expected);
         println!("{} triangles: {off:.1e}, single {rounded:.1e}", moved.len());
@@ -223,7 +223,7 @@ fn reciprocity_changes_the_force_little() {
             let normal = response.touchable()[response.find(center).unwrap().index()].normal;
             let patch = solid.near(center, 12);
             let moved: Vec<_> = patch.iter().map(|&id| (id, -1e-3 * normal)).collect();
-            for bond in [Bond::Stick, Bond::Slip] {
+            for bond in [Friction::Bonded, Friction::Frictionless] {
                 let along = |reciprocity| -> f64 {
                     let forces = pressed(&response, &moved, (bond, reciprocity));
                     forces.iter().sum::<Vec3>().dot(&normal)
@@ -245,7 +245,7 @@ fn the_field_goes_through_the_patch() {
     let depth = Vec3::new(0.0, 0.0, -1e-3);
     let patch = solid.near(solid.free[100], 40);
     let moved: Vec<_> = patch.iter().map(|&id| (id, depth)).collect();
-    let forces = pressed(&response, &moved, (Bond::Stick, Reciprocity::AsSolved));
+    let forces = pressed(&response, &moved, (Friction::Bonded, Reciprocity::AsSolved));
     let mut field = vec![0.0; 3 * response.parts().triangles];
     let touched = moved
         .iter()
@@ -300,7 +300,7 @@ fn cube_force(triangles: usize, nu: f64) -> f64 {
     patch.retain(|&id| inside(&solid.centroid(id)));
     let response = solid.response::<f32>(&patch);
     let moved: Vec<_> = patch.iter().map(|&id| (id, -Vec3::z())).collect();
-    let forces = pressed(&response, &moved, (Bond::Stick, Reciprocity::Imposed));
+    let forces = pressed(&response, &moved, (Friction::Bonded, Reciprocity::Imposed));
     let force = -forces.iter().sum::<Vec3>().z;
     println!(
         "nu {nu}, {triangles} triangles, {} in contact: {force:.4}",
@@ -360,7 +360,7 @@ fn what_cannot_be_solved_is_refused() {
 }
 
 #[test]
-fn a_solution_tells_how_far_it_is_and_can_be_broken_off() {
+fn a_solution_tells_how_far_it_is_and_can_be_cancelled() {
     let solid = Held::organ(Organ::Kidney, 400, 0.45);
     let problem = solid.problem(&solid.free);
     let mut told = vec![0.0];
@@ -418,7 +418,7 @@ fn a_patch_that_has_no_answer_has_none() {
     let solid = Held::organ(Organ::Kidney, 200, 0.45);
     let response = solid.response::<f32>(&solid.free[..3]);
     let contact = PatchContact {
-        bond: Bond::Stick,
+        bond: Friction::Bonded,
         reciprocity: Reciprocity::Imposed,
         youngs_modulus: 1e4,
     };

@@ -4,8 +4,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use palpate_geometry::{NodeId, Surface, TriangleMesh};
-use palpate_mechanics::contact::Bond;
-use palpate_mechanics::finite_elements::indentation::Grip;
+use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_elements::tube::{Ends, Tube, TubeProblem, TubePunch, indent};
 use palpate_mechanics::surface_response::TipField;
 use palpate_mechanics::{LinearElastic, Vec3};
@@ -64,7 +63,7 @@ pub(crate) fn by_finite_elements(inner_radius: f64, outer_radius: f64) -> f64 {
     };
     let punch = TubePunch {
         radius: PUNCH,
-        face: Grip::Slide,
+        face: Friction::Frictionless,
         pressure: 0.0,
         depths: vec![1e-3, 1.2e-3],
     };
@@ -82,7 +81,7 @@ fn by_boundary_elements(inner: f64, outer: f64, parts: [usize; 3]) -> f64 {
     let field = TipField::new(&response, &solid.surface, PUNCH).unwrap();
     let (triangle, at) = under(&solid.surface, &place);
     let load = field.at(&solid.surface, triangle, &at);
-    let found = stiffness(&load, &Vec3::x(), (PUNCH, NU, Bond::Slip));
+    let found = stiffness(&load, &Vec3::x(), (PUNCH, NU, Friction::Frictionless));
     println!(
         "{} triangles: {found:.3e}",
         solid.surface.mesh().triangles().len()

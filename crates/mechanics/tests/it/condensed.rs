@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use nalgebra::DMatrix;
 use palpate_geometry::{Organ, TriangleId};
 use palpate_mechanics::boundary_elements::{Precision, Stage};
-use palpate_mechanics::contact::Bond;
+use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_elements::condensed::CondensedProblem;
 use palpate_mechanics::finite_elements::hemisphere::{HemisphereProblem, Patch};
 use palpate_mechanics::surface_response::{Sampling, SurfaceResponse, TipField, TouchId};
@@ -41,7 +41,7 @@ fn hemisphere(nu: f64, triangles: usize) -> Held {
 fn felt<T: Precision>(
     (solid, response): (&Held, &SurfaceResponse<T>),
     (place, normal): (&Vec3, &Vec3),
-    (a, bond): (f64, Bond),
+    (a, bond): (f64, Friction),
 ) -> f64 {
     let field = TipField::new(response, &solid.surface, a).unwrap();
     let (triangle, at) = under(&solid.surface, place);
@@ -61,8 +61,8 @@ fn a_tip_on_a_thick_body_feels_the_same() {
         let by_tetrahedra = response::<f32>(&problem(&solid, &touchable, 0.0125));
         let by_boundary = solid.response::<f32>(&touchable);
         for (a, patch, bond) in [
-            (2e-3, Patch::Slip, Bond::Slip),
-            (5e-3, Patch::Bonded, Bond::Stick),
+            (2e-3, Patch::Slip, Friction::Frictionless),
+            (5e-3, Patch::Bonded, Friction::Bonded),
         ] {
             let judge = HemisphereProblem {
                 radius: RADIUS,
@@ -126,7 +126,7 @@ fn a_turned_solid_feels_the_same() {
         felt(
             (&solid, &response),
             (&place, &place.normalize()),
-            (5e-3, Bond::Slip),
+            (5e-3, Friction::Frictionless),
         )
     };
     let [still, turned] = [nalgebra::Rotation3::identity(), about].map(felt_when);
@@ -158,7 +158,7 @@ fn what_cannot_be_solved_is_refused() {
 }
 
 #[test]
-fn a_solution_tells_how_far_it_is_and_can_be_broken_off() {
+fn a_solution_tells_how_far_it_is_and_can_be_cancelled() {
     let solid = hemisphere(0.45, 200);
     let touchable = solid.near_point(&(RADIUS * Vec3::z()), 40);
     let problem = problem(&solid, &touchable, 0.02);
@@ -191,7 +191,7 @@ fn tube_error([inner, outer]: [f64; 2], expected: f64, (parts, edge): ([usize; 3
     let touchable = solid.near_point(&place, 100);
     let response = response::<f32>(&problem(&solid, &touchable, edge));
     let at = (&place, &Vec3::x());
-    let found = felt((&solid, &response), at, (PUNCH, Bond::Slip));
+    let found = felt((&solid, &response), at, (PUNCH, Friction::Frictionless));
     let error = found / expected - 1.0;
     println!(
         "{inner} {outer}, {} triangles, edge {edge}: {:+.1} %",

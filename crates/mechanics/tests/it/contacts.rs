@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use nalgebra::{Matrix3, Vector3};
 use palpate_geometry::{AabbTree, NodeId, Organ, PatchField, Surface, TriangleId, TriangleMesh};
-use palpate_mechanics::contact::Bond;
+use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_spheres::{
     FiniteSphereModel, FiniteSphereSettings, LocalContact, Surroundings,
 };
@@ -32,7 +32,7 @@ pub(crate) fn tissue(poissons_ratio: f64) -> LinearElastic {
 pub(crate) fn model(
     settings: FiniteSphereSettings,
     poissons_ratio: f64,
-    bond: Bond,
+    bond: Friction,
 ) -> FiniteSphereModel {
     FiniteSphereModel::new(settings, &tissue(poissons_ratio), bond).unwrap()
 }

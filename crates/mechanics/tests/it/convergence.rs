@@ -1,6 +1,6 @@
 //! Finer integration and a stricter iteration give what the finest gives.
 
-use palpate_mechanics::contact::Bond;
+use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_spheres::{FiniteSphereSettings, Form, Integration, Solver};
 
 use crate::contacts::{RADIUS, Random, bare_contact, model, tries};
@@ -20,7 +20,7 @@ fn finer_integration_changes_the_force_less() {
                 integration,
                 ..FiniteSphereSettings::default()
             };
-            model(settings, nu, Bond::Slip)
+            model(settings, nu, Friction::Frictionless)
         });
         let counts = [0, 1, 2].map(|k| models[k].integration_points());
         assert_eq!(counts, [128, 414, 960]);
@@ -57,7 +57,7 @@ fn a_smaller_residual_gives_a_better_force() {
                 ..FiniteSphereSettings::default()
             };
             // What is calibrated is solved by the same iteration; only the contact shall differ.
-            let model = model(settings, 0.45, Bond::Slip);
+            let model = model(settings, 0.45, Friction::Frictionless);
             let mut workspace = model.workspace();
             let response = model.respond(&contact, &mut workspace);
             (response.stiffness[(2, 2)], workspace.iterations())

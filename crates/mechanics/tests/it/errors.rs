@@ -1,14 +1,13 @@
-//! What cannot be a model is refused, with the value and a mend.
+//! What cannot be a model is refused, with the value and a remedy.
 
 use std::sync::Arc;
 
 use palpate_files::scene::{Enhancement, EnhancementArea, Smoothing};
 use palpate_geometry::Organ;
-use palpate_mechanics::contact::Bond;
+use palpate_mechanics::contact::Friction;
 use palpate_mechanics::enhance::EnhancementModel;
 use palpate_mechanics::finite_elements::Failure;
 use palpate_mechanics::finite_elements::hemisphere::{HemisphereProblem, Patch};
-use palpate_mechanics::finite_elements::indentation::Grip;
 use palpate_mechanics::finite_elements::tube::{
     Ends, Tube, TubeProblem, TubePunch, indent, inflate,
 };
@@ -27,7 +26,7 @@ fn spheres(particles: usize, form: Form, nu: f64) -> Result<(), Error> {
         form,
         ..FiniteSphereSettings::default()
     };
-    FiniteSphereModel::new(settings, &tissue(nu), Bond::Slip).map(drop)
+    FiniteSphereModel::new(settings, &tissue(nu), Friction::Frictionless).map(drop)
 }
 
 fn hemisphere(radius: f64, patch_radius: f64, depth: f64) -> Result<(), Error> {
@@ -158,7 +157,7 @@ fn every_refusal_names_the_value_and_the_mend() {
         for word in words {
             assert!(message.contains(word), "{message:?} lacks {word:?}");
         }
-        // Cause, then mend.
+        // Cause, then remedy.
         assert!(message.contains("; "), "{message}");
     }
 }
@@ -229,7 +228,7 @@ fn indented(ends: Ends, punch: TubePunch) -> Result<(), Error> {
 fn punches_that_meet_no_tube_are_refused() {
     let good = TubePunch {
         radius: 0.001,
-        face: Grip::Stick,
+        face: Friction::Bonded,
         pressure: 0.0,
         depths: vec![0.001],
     };

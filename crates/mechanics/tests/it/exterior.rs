@@ -1,7 +1,7 @@
 //! The constants of the local model, and the model itself, against finite elements.
 
 use nalgebra::Vector3;
-use palpate_mechanics::contact::{Bond, half_space_stiffness};
+use palpate_mechanics::contact::{Friction, half_space_stiffness};
 use palpate_mechanics::finite_elements::hemisphere::{HalfBall, HemisphereProblem, Patch};
 use palpate_mechanics::finite_spheres::{EXTERIOR_CONSTANTS, FiniteSphereSettings};
 
@@ -21,7 +21,7 @@ fn limit(answer: impl Fn(u32) -> f64) -> f64 {
 fn beyond_the_shells_is_what_half_a_ball_lacks() {
     for row in EXTERIOR_CONSTANTS {
         let law = tissue(row.poissons_ratio);
-        let half_space = half_space_stiffness(&law, 1.0, Bond::Slip);
+        let half_space = half_space_stiffness(&law, 1.0, Friction::Frictionless);
         let ball = HalfBall {
             radius: 30.0,
             patch: Patch::Slip,
@@ -37,7 +37,7 @@ fn beyond_the_shells_is_what_half_a_ball_lacks() {
     }
 }
 
-fn ratio(a: f64, nu: f64, (patch, bond): (Patch, Bond), (edge, halvings): (f64, u32)) -> f64 {
+fn ratio(a: f64, nu: f64, (patch, bond): (Patch, Friction), (edge, halvings): (f64, u32)) -> f64 {
     let law = tissue(nu);
     let problem = HemisphereProblem {
         radius: 1.0,
@@ -57,7 +57,7 @@ fn ratio(a: f64, nu: f64, (patch, bond): (Patch, Bond), (edge, halvings): (f64, 
 /// force.
 #[test]
 fn the_organs_size_is_what_a_hemisphere_takes_away() {
-    let slip = (Patch::Slip, Bond::Slip);
+    let slip = (Patch::Slip, Friction::Frictionless);
     for row in EXTERIOR_CONSTANTS {
         let nu = row.poissons_ratio;
         let found = limit(|halvings| 20.0 * (1.0 - 1.0 / ratio(0.05, nu, slip, (EDGE, halvings))));
@@ -72,7 +72,10 @@ fn the_organs_size_is_what_a_hemisphere_takes_away() {
 fn one_constant_serves_all_tips() {
     for (place, row) in EXTERIOR_CONSTANTS.iter().enumerate() {
         let mut worst: f64 = 0.0;
-        for kind in [(Patch::Slip, Bond::Slip), (Patch::Bonded, Bond::Stick)] {
+        for kind in [
+            (Patch::Slip, Friction::Frictionless),
+            (Patch::Bonded, Friction::Bonded),
+        ] {
             for a in [0.02, 0.1] {
                 let found = ratio(a, row.poissons_ratio, kind, (0.01, 0));
                 worst = worst.max((found * (1.0 - row.organ_size * a) - 1.0).abs());
@@ -89,7 +92,10 @@ fn one_constant_serves_all_tips() {
 fn the_local_model_has_the_force_of_finite_elements() {
     let mut worst: f64 = 0.0;
     for nu in [0.0, 0.2, 0.3, 0.35, 0.45] {
-        for kind in [(Patch::Slip, Bond::Slip), (Patch::Bonded, Bond::Stick)] {
+        for kind in [
+            (Patch::Slip, Friction::Frictionless),
+            (Patch::Bonded, Friction::Bonded),
+        ] {
             let model = model(FiniteSphereSettings::default(), nu, kind.1);
             for a in [2e-3, 5e-3] {
                 let exact = ratio(a / RADIUS, nu, kind, (0.01, 0))

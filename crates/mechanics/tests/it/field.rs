@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 use palpate_mechanics::Vec3;
-use palpate_mechanics::contact::Bond;
+use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_spheres::{
     Assembly, FiniteSphereModel, FiniteSphereSettings, FiniteSphereWorkspace, Form, LocalContact,
     Response,
@@ -20,7 +20,7 @@ struct Shown {
 }
 
 impl Shown {
-    fn new(settings: FiniteSphereSettings, nu: f64, bond: Bond, curvature: f64) -> Self {
+    fn new(settings: FiniteSphereSettings, nu: f64, bond: Friction, curvature: f64) -> Self {
         let model = model(settings, nu, bond);
         let contact = bare_contact(Vector3::new(curvature, 0.0, curvature), TIP, RADIUS);
         let mut workspace = model.workspace();
@@ -69,13 +69,13 @@ fn every_kind() -> Vec<FiniteSphereSettings> {
 fn at_the_contact_it_is_the_displacement_of_the_tip() {
     let mut random = Random(1);
     for settings in every_kind() {
-        for bond in [Bond::Slip, Bond::Stick] {
+        for bond in [Friction::Frictionless, Friction::Bonded] {
             let mut shown = Shown::new(settings, 0.45, bond, 15.0);
             for _ in 0..tries(50) {
                 let tip = 1e-3 * random.vector();
                 let carried = match bond {
-                    Bond::Stick => tip,
-                    Bond::Slip => Vec3::z() * tip.z,
+                    Friction::Bonded => tip,
+                    Friction::Frictionless => Vec3::z() * tip.z,
                 };
                 let found = shown.at(&tip, &Vec3::zeros());
                 // Rounding.
@@ -91,7 +91,7 @@ fn at_the_contact_it_is_the_displacement_of_the_tip() {
 fn it_falls_along_the_surface_and_ends() {
     for settings in every_kind() {
         for nu in [0.3, 0.45] {
-            let mut shown = Shown::new(settings, nu, Bond::Slip, 1.0 / RADIUS);
+            let mut shown = Shown::new(settings, nu, Friction::Frictionless, 1.0 / RADIUS);
             let end = shown.model.shown_radius(TIP);
             let tip = -1e-3 * Vec3::z();
             let mut profile = Vec::new();
@@ -147,7 +147,7 @@ fn it_falls_along_the_surface_and_ends() {
 fn it_goes_over_the_held_shell_without_a_visible_leap() {
     for settings in every_kind() {
         for nu in [0.3, 0.45] {
-            let mut shown = Shown::new(settings, nu, Bond::Slip, 1.0 / RADIUS);
+            let mut shown = Shown::new(settings, nu, Friction::Frictionless, 1.0 / RADIUS);
             let held = shown.model.held_radius(TIP);
             let tip = -1e-3 * Vec3::z();
             let mut leap: f64 = 0.0;
@@ -184,7 +184,7 @@ fn nothing_is_shown_much_farther_than_its_tip() {
             form,
             ..FiniteSphereSettings::default()
         };
-        let model = model(settings, 0.45, Bond::Stick);
+        let model = model(settings, 0.45, Friction::Bonded);
         let mut workspace = model.workspace();
         let mut farthest = (0.0_f64, String::new());
         for _ in 0..50 {
@@ -208,7 +208,12 @@ fn nothing_is_shown_much_farther_than_its_tip() {
 /// Inside, neighbouring points move alike: halving the distance halves the difference.
 #[test]
 fn it_is_continuous_inside() {
-    let mut shown = Shown::new(FiniteSphereSettings::default(), 0.45, Bond::Stick, 10.0);
+    let mut shown = Shown::new(
+        FiniteSphereSettings::default(),
+        0.45,
+        Friction::Bonded,
+        10.0,
+    );
     let held = shown.model.held_radius(TIP);
     let tip = Vec3::new(3e-4, -2e-4, -1e-3);
     let mut random = Random(2);

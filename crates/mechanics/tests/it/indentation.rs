@@ -1,9 +1,10 @@
 //! Indentation of a block by punch and sphere.
 
+use palpate_mechanics::contact::Friction;
 use std::sync::Arc;
 
 use palpate_mechanics::finite_elements::indentation::{
-    Base, Block, Grip, History, IndentationPoint, IndentationProblem, IndentationRun,
+    Base, Block, History, IndentationPoint, IndentationProblem, IndentationRun,
     IndentationSettings, Indenter, IndenterShape, Relaxing, Side, solve, solve_history,
 };
 use palpate_mechanics::{
@@ -21,7 +22,7 @@ const BLOCK: Block = Block {
     base: Base::Bonded,
 };
 
-fn punch(side: Side, face: Grip) -> Indenter {
+fn punch(side: Side, face: Friction) -> Indenter {
     Indenter {
         shape: IndenterShape::Flat { side },
         radius: RADIUS,
@@ -30,7 +31,7 @@ fn punch(side: Side, face: Grip) -> Indenter {
 }
 
 fn bonded() -> Indenter {
-    punch(Side::Touches(Grip::Stick), Grip::Stick)
+    punch(Side::Touches(Friction::Bonded), Friction::Bonded)
 }
 
 fn neo_hookean() -> Arc<dyn Law> {
@@ -61,8 +62,8 @@ fn small_strain_meets_the_half_space() {
     for nu in [0.0, 0.3, 0.45, 0.4999] {
         let law = LinearElastic::new(6.0 * C10, nu).unwrap();
         for (face, bond) in [
-            (Grip::Slide, contact::Bond::Slip),
-            (Grip::Stick, contact::Bond::Stick),
+            (Friction::Frictionless, contact::Friction::Frictionless),
+            (Friction::Bonded, contact::Friction::Bonded),
         ] {
             let mut run = run(punch(Side::Absent, face), Arc::new(law), 0);
             let found = press(&mut run, 1.0).force;
@@ -77,7 +78,7 @@ fn sphere() -> Indenter {
     Indenter {
         shape: IndenterShape::Sphere,
         radius: RADIUS,
-        face: Grip::Slide,
+        face: Friction::Frictionless,
     }
 }
 
@@ -118,7 +119,7 @@ fn a_cone_meets_sneddon() {
     let cone = Indenter {
         shape: IndenterShape::Cone { half_angle },
         radius: RADIUS,
-        face: Grip::Slide,
+        face: Friction::Frictionless,
     };
     let found = linear_force(cone, BLOCK, (0.4999, depth), 0);
     let modulus = 6.0 * C10 / (1.0 - 0.4999 * 0.4999);
@@ -136,7 +137,7 @@ fn a_thin_layer_under_a_punch_is_that_of_hayes() {
             height: RADIUS / ratio,
             ..BLOCK
         };
-        let slip = punch(Side::Absent, Grip::Slide);
+        let slip = punch(Side::Absent, Friction::Frictionless);
         let depth = 1e-3 * RADIUS;
         let found = linear_force(slip, block, (0.4999, depth), 0);
         let half_space = 2.0 * RADIUS * 6.0 * C10 / (1.0 - 0.4999 * 0.4999) * depth;
@@ -162,7 +163,7 @@ fn a_lubricated_layer_is_softer_than_a_bonded_one() {
             ..BLOCK
         };
         let depth = 1e-3 * RADIUS;
-        let slip = punch(Side::Absent, Grip::Slide);
+        let slip = punch(Side::Absent, Friction::Frictionless);
         let found = linear_force(slip, block, (nu, depth), 0);
         let half_space = 2.0 * RADIUS * 6.0 * C10 / (1.0 - nu * nu) * depth;
         let off = found / half_space / (1.0 + x + x * x) - 1.0;
@@ -242,7 +243,7 @@ fn goes_on_to_eight_radii() {
 #[ignore = "slow: a quarter of a minute"]
 fn a_sliding_side_goes_on_to_seven_radii() {
     let mut run = run(
-        punch(Side::Touches(Grip::Slide), Grip::Stick),
+        punch(Side::Touches(Friction::Frictionless), Friction::Bonded),
         neo_hookean(),
         0,
     );
@@ -260,7 +261,7 @@ fn a_sliding_side_goes_on_to_seven_radii() {
 fn a_sliding_side_forgets_its_path() {
     let slide = || {
         run(
-            punch(Side::Touches(Grip::Slide), Grip::Stick),
+            punch(Side::Touches(Friction::Frictionless), Friction::Bonded),
             neo_hookean(),
             0,
         )
@@ -290,8 +291,11 @@ fn a_held_depth_keeps_its_force() {
 /// Tolerance: the secant over a step of 0.05 a, against F at its middle.
 #[test]
 fn force_is_the_slope_of_energy() {
-    for side in [Side::Touches(Grip::Stick), Side::Touches(Grip::Slide)] {
-        let mut run = run(punch(side, Grip::Stick), neo_hookean(), 0);
+    for side in [
+        Side::Touches(Friction::Bonded),
+        Side::Touches(Friction::Frictionless),
+    ] {
+        let mut run = run(punch(side, Friction::Bonded), neo_hookean(), 0);
         let mut before: Option<IndentationPoint> = None;
         for step in 1..=20 {
             let point = press(&mut run, 0.05 * f64::from(step));
@@ -337,7 +341,7 @@ fn sensitivities_are_those_of_moved_parameters() {
             press(&mut run(bonded(), make(values[0], values[1]), 0), DEPTH).force
         };
         let mut sensitive = run(bonded(), make(values[0], values[1]), 0).with_sensitivities();
-        let found = press(&mut sensitive, DEPTH).by_parameter;
+        let found = press(&mut sensitive, DEPTH).sensitivities;
         for parameter in 0..2 {
             let step = 0.002 * values[parameter];
             let moved = |by: f64| {
@@ -358,7 +362,7 @@ fn sensitivities_are_those_of_moved_parameters() {
 fn convolution_is_the_full_run_at_small_depth() {
     let problem = IndentationProblem {
         block: BLOCK,
-        indenter: punch(Side::Absent, Grip::Stick),
+        indenter: punch(Side::Absent, Friction::Bonded),
         law: neo_hookean(),
     };
     let prony = PronySeries::new(&[(0.3, 0.2), (0.2, 2.0)]).unwrap();
@@ -378,10 +382,10 @@ fn convolution_is_the_full_run_at_small_depth() {
 /// The tissue under a punch reaches its side soon, and a face without friction folds it.
 #[test]
 fn refuses_what_lies_beyond_its_domain() {
-    let mut without_side = run(punch(Side::Absent, Grip::Stick), neo_hookean(), 0);
+    let mut without_side = run(punch(Side::Absent, Friction::Bonded), neo_hookean(), 0);
     let beyond = without_side.press(1.0, 2.0 * RADIUS, |_| {});
     assert!(matches!(beyond, Err(Error::TissueEntersPunch { depth }) if depth < RADIUS));
-    let smooth = punch(Side::Touches(Grip::Stick), Grip::Slide);
+    let smooth = punch(Side::Touches(Friction::Bonded), Friction::Frictionless);
     let beyond = run(smooth, neo_hookean(), 0).press(1.0, 3.0 * RADIUS, |_| {});
     assert!(matches!(beyond, Err(Error::SurfaceFolds { .. })));
 }

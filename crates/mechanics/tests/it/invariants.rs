@@ -2,7 +2,7 @@
 
 use nalgebra::{Rotation3, Vector3};
 use palpate_geometry::{Organ, Surface};
-use palpate_mechanics::contact::Bond;
+use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_spheres::{
     Assembly, FiniteSphereModel, FiniteSphereSettings, Form, Solver,
 };
@@ -17,7 +17,7 @@ const DEFAULT: fn() -> FiniteSphereSettings = FiniteSphereSettings::default;
 /// Organ and tip turned together: the same stiffness in the contact's frame.
 #[test]
 fn turning_organ_and_tip_changes_nothing() {
-    let model = model(DEFAULT(), 0.45, Bond::Stick);
+    let model = model(DEFAULT(), 0.45, Friction::Bonded);
     let mut random = Random(1);
     for surface in [organ(Organ::Kidney, 2_000), shaken_hemisphere(23, 61)] {
         for _ in 0..tries(60) {
@@ -44,9 +44,9 @@ fn turning_organ_and_tip_changes_nothing() {
 #[test]
 fn stiffness_scales_with_length_and_modulus() {
     let nu = 0.45;
-    let model = model(DEFAULT(), nu, Bond::Stick);
+    let model = model(DEFAULT(), nu, Friction::Bonded);
     let doubled = LinearElastic::new(2.0 * MODULUS, nu).unwrap();
-    let stiffer = FiniteSphereModel::new(DEFAULT(), &doubled, Bond::Stick).unwrap();
+    let stiffer = FiniteSphereModel::new(DEFAULT(), &doubled, Friction::Bonded).unwrap();
     let surface = organ(Organ::Liver, 2_000);
     let mut random = Random(2);
     for _ in 0..tries(60) {
@@ -90,7 +90,7 @@ fn the_same_contacts_give_the_same_bits() {
         },
     ] {
         let run = |lose_at: usize| {
-            let model = model(settings, 0.45, Bond::Stick);
+            let model = model(settings, 0.45, Friction::Bonded);
             let mut workspace = model.workspace();
             let mut random = Random(3);
             let mut bits = Vec::new();
@@ -122,7 +122,7 @@ fn stiffness_is_symmetric_and_positive() {
         let nu = 0.499 * random.unit();
         for form in [Form::Weak, Form::Strong] {
             let settings = FiniteSphereSettings { form, ..DEFAULT() };
-            let model = model(settings, nu, Bond::Stick);
+            let model = model(settings, nu, Friction::Bonded);
             let mut workspace = model.workspace();
             for _ in 0..10 {
                 // From flat to far beyond what a cap can be, on small and large organs.
@@ -154,7 +154,7 @@ fn stiffness_is_continuous_in_curvature() {
             ..DEFAULT()
         },
     ] {
-        let model = model(settings, 0.45, Bond::Stick);
+        let model = model(settings, 0.45, Friction::Bonded);
         let mut workspace = model.workspace();
         let spacing = model.spacing(2e-3);
         let mut largest_change = |steps: usize| {
@@ -189,7 +189,7 @@ fn stiffness_is_continuous_in_curvature() {
 /// The same for a contact that slides over a mesh.
 #[test]
 fn force_has_no_leaps_on_a_slide() {
-    let model = model(DEFAULT(), 0.45, Bond::Slip);
+    let model = model(DEFAULT(), 0.45, Friction::Frictionless);
     let surface = organ(Organ::Liver, 2_000);
     let tree = palpate_geometry::AabbTree::new(surface.mesh());
     let radius = 2e-3;
@@ -237,7 +237,7 @@ fn force_has_no_leaps_on_a_slide() {
 /// Bounds of the local model say that they acted, and by how much; without reason they do not.
 #[test]
 fn bounds_of_the_local_model_are_told() {
-    let model = model(FiniteSphereSettings::default(), 0.45, Bond::Stick);
+    let model = model(FiniteSphereSettings::default(), 0.45, Friction::Bonded);
     let mut workspace = model.workspace();
     let mut limits = |curvature: f64, radius: f64, organ: f64| {
         let curvature = Vector3::new(curvature, 0.0, 0.0);
@@ -275,7 +275,7 @@ fn iterations_without_convergence_are_told_and_replaced() {
             ..direct
         };
         let [direct, iterated] = [direct, iterated].map(|settings| {
-            let model = model(settings, 0.3, Bond::Slip);
+            let model = model(settings, 0.3, Friction::Frictionless);
             let contact = bare_contact(Vector3::new(10.0, 0.0, 10.0), 1e-3, 0.05);
             model.respond(&contact, &mut model.workspace())
         });

@@ -269,7 +269,7 @@ fn parameters_have_their_derivatives() {
                 values[index] += change * unit;
                 (law.rebuilt)(&values)
             };
-            let (stress, compressibility) = law.law.by_parameter(index, &f);
+            let (stress, compressibility) = law.law.sensitivities(index, &f);
             let scale = law.law.distortion_stress(&f).norm() + (stress * unit).norm();
             falls_with_the_square(&name, scale, |step| {
                 let [up, down] = [step, -step].map(|s| at(s).distortion_stress(&f));

@@ -3,7 +3,7 @@
 use assert_no_alloc::{AllocDisabler, assert_no_alloc, reset_violation_count, violation_count};
 use palpate_geometry::Organ;
 use palpate_mechanics::Vec3;
-use palpate_mechanics::contact::Bond;
+use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_spheres::{Assembly, FiniteSphereSettings, Form, Solver};
 use palpate_mechanics::surface_response::{
     MovedTriangle, PatchContact, PatchWorkspace, Reciprocity, TipField, TouchId,
@@ -59,7 +59,7 @@ fn a_step_allocates_nothing() {
             },
         ),
     ] {
-        let model = model(settings, 0.45, Bond::Stick);
+        let model = model(settings, 0.45, Friction::Bonded);
         let mut workspace = model.workspace();
         let mut random = Random(1);
         let tip = 1e-3 * random.vector();
@@ -94,7 +94,7 @@ fn a_law_allocates_nothing() {
             law.energy(&f)
                 + law.stress(&f).norm()
                 + law.tangent(&f).norm()
-                + law.law.by_parameter(0, &f).1
+                + law.law.sensitivities(0, &f).1
         });
         assert!(sum.is_finite());
         assert_eq!(violation_count(), before, "{}", law.name);
@@ -107,7 +107,7 @@ fn contact_on_a_response_allocates_nothing() {
     let response = solid.response::<f32>(&solid.free);
     let field = TipField::new(&response, &solid.surface, 2e-3).unwrap();
     let contact = PatchContact {
-        bond: Bond::Stick,
+        bond: Friction::Bonded,
         reciprocity: Reciprocity::Imposed,
         youngs_modulus: 1e4,
     };
@@ -123,7 +123,7 @@ fn contact_on_a_response_allocates_nothing() {
         response.add_field(moved[0].triangle, &forces[0], &mut moves);
         let tips = [solid.free[0], solid.free[90]]
             .map(|id| field.at(&solid.surface, id, &[0.2, 0.3, 0.5]));
-        let between = response.between(&tips[0], &tips[1]) + tips[0].further_compliance();
+        let between = response.between(&tips[0], &tips[1]) + tips[0].structural_compliance();
         response.add_field_of_tip(&tips[0], &forces[1], &mut moves);
         between.norm() + f64::from(moves[0])
     });

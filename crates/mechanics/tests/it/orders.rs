@@ -1,11 +1,12 @@
 //! The estimated error of every kind of problem against the true one; `patch_on_hemisphere` has that of the
 //! hemisphere.
 
+use palpate_mechanics::contact::Friction;
 use std::sync::Arc;
 
 use palpate_mechanics::finite_elements::estimate::Estimated;
 use palpate_mechanics::finite_elements::indentation::{
-    self, Base, Block, Grip, IndentationProblem, Indenter, IndenterShape, Side,
+    self, Base, Block, IndentationProblem, Indenter, IndenterShape, Side,
 };
 use palpate_mechanics::finite_elements::solid::SolidAnswer;
 use palpate_mechanics::finite_elements::tube::{Ends, Tube, TubeProblem, inflate};
@@ -76,7 +77,7 @@ fn the_error_of_an_endless_tube_is_honest() {
 #[test]
 fn the_error_of_a_punch_is_honest() {
     let (radius, depth, young) = (1e-3, 1e-4, 6000.0);
-    for (face, nu) in [(Grip::Stick, 0.3), (Grip::Slide, 0.4999)] {
+    for (face, nu) in [(Friction::Bonded, 0.3), (Friction::Frictionless, 0.4999)] {
         let problem = IndentationProblem {
             block: Block {
                 radius: 50000.0 * radius,
@@ -93,8 +94,8 @@ fn the_error_of_a_punch_is_honest() {
         let found = indentation::solve(&problem, &[depth], 0.01, &mut |_| {}).unwrap();
         let force = found.answer.points[0].force;
         let exact = match face {
-            Grip::Slide => 2.0 * young * radius * depth / (1.0 - nu * nu),
-            Grip::Stick => {
+            Friction::Frictionless => 2.0 * young * radius * depth / (1.0 - nu * nu),
+            Friction::Bonded => {
                 let shear = young / (2.0 + 2.0 * nu);
                 4.0 * shear * radius * depth * (3.0 - 4.0 * nu).ln() / (1.0 - 2.0 * nu)
             }
@@ -111,11 +112,7 @@ fn the_error_of_a_punch_is_honest() {
 /// mesh too, or its error is not in the change. Judge: where the tetrahedra are.
 #[test]
 fn the_end_of_the_anchor_is_refined_like_the_patch() {
-    let problem = cube(
-        0.02,
-        0.3,
-        palpate_mechanics::finite_elements::indentation::Grip::Stick,
-    );
+    let problem = cube(0.02, 0.3, Friction::Bonded);
     let [coarse, fine] = [0, 1].map(|halvings| longest_at_anchor(&at(&problem, halvings)));
     println!("{coarse} m, halved {fine} m");
     // The filling's longest edges are diagonals of cells of 25 mm.

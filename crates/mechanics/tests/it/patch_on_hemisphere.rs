@@ -6,12 +6,15 @@
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 
 use palpate_mechanics::LinearElastic;
-use palpate_mechanics::contact::{Bond, half_space_stiffness};
+use palpate_mechanics::contact::{Friction, half_space_stiffness};
 use palpate_mechanics::finite_elements::hemisphere::{HemisphereProblem, Patch, solve};
 
 use crate::contacts::{MODULUS, RADIUS, tissue};
 
-const PATCHES: [(Patch, Bond); 2] = [(Patch::Slip, Bond::Slip), (Patch::Bonded, Bond::Stick)];
+const PATCHES: [(Patch, Friction); 2] = [
+    (Patch::Slip, Friction::Frictionless),
+    (Patch::Bonded, Friction::Bonded),
+];
 
 /// Length of the smallest elements of a mesh to judge by, in radii of the patch.
 const FINE: f64 = 3e-3;
@@ -27,7 +30,7 @@ fn problem(patch_radius: f64, patch: Patch, law: LinearElastic) -> HemispherePro
 }
 
 /// Force over that of the half-space, on the finest mesh.
-fn ratio(patch_radius: f64, (patch, bond): (Patch, Bond), nu: f64) -> f64 {
+fn ratio(patch_radius: f64, (patch, bond): (Patch, Friction), nu: f64) -> f64 {
     let law = tissue(nu);
     let found = problem(patch_radius, patch, law).solve_on(FINE, 0).unwrap();
     found.force / (1e-3 * half_space_stiffness(&law, patch_radius, bond))

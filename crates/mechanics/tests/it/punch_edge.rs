@@ -1,10 +1,11 @@
 //! Flat punches whose side touches, pressed to eight radii on meshes that shrink towards the edge.
 
+use palpate_mechanics::contact::Friction;
 use std::sync::Arc;
 
 use palpate_mechanics::finite_elements::indentation::{
-    Base, Block, Grip, IndentationProblem, IndentationRun, IndentationSettings, Indenter,
-    IndenterShape, Side, solve,
+    Base, Block, IndentationProblem, IndentationRun, IndentationSettings, Indenter, IndenterShape,
+    Side, solve,
 };
 use palpate_mechanics::{Exponential, Law, LinearElastic, MooneyRivlin, NeoHookean, PronySeries};
 
@@ -17,7 +18,7 @@ fn neo_hookean() -> Arc<dyn Law> {
     Arc::new(NeoHookean::incompressible(C10).unwrap())
 }
 
-fn punch(side: Grip, law: Arc<dyn Law>) -> IndentationProblem {
+fn punch(side: Friction, law: Arc<dyn Law>) -> IndentationProblem {
     IndentationProblem {
         block: Block {
             radius: 0.05642,
@@ -29,7 +30,7 @@ fn punch(side: Grip, law: Arc<dyn Law>) -> IndentationProblem {
                 side: Side::Touches(side),
             },
             radius: RADIUS,
-            face: Grip::Stick,
+            face: Friction::Bonded,
         },
         law,
     }
@@ -54,7 +55,7 @@ fn stored(problem: &IndentationProblem, mesh: usize, deepest: f64) -> (f64, f64)
 /// for what gives way.
 #[test]
 fn a_sliding_side_stores_the_work_to_six_radii() {
-    let (_, part) = stored(&punch(Grip::Slide, neo_hookean()), 0, 6.0);
+    let (_, part) = stored(&punch(Friction::Frictionless, neo_hookean()), 0, 6.0);
     assert!((0.989..1.001).contains(&part), "{part}");
 }
 
@@ -74,10 +75,12 @@ fn laws() -> [Arc<dyn Law>; 3] {
 fn punches_go_on_to_eight_radii() {
     const ASKED: f64 = 0.015;
     let depths = [1.0, 2.0, 4.0, 5.0, 6.0, 8.0].map(|depth| depth * RADIUS);
-    for (law, side) in laws()
-        .into_iter()
-        .flat_map(|law| [(law.clone(), Grip::Slide), (law, Grip::Stick)])
-    {
+    for (law, side) in laws().into_iter().flat_map(|law| {
+        [
+            (law.clone(), Friction::Frictionless),
+            (law, Friction::Bonded),
+        ]
+    }) {
         let problem = punch(side, law);
         let found = solve(&problem, &depths, ASKED, &mut |_| {}).unwrap();
         let what = format!("{:?} {side:?}", problem.law);
@@ -122,7 +125,7 @@ fn on_grid(problem: &IndentationProblem, deepest: f64, halvings: i32) -> Indenta
 #[ignore = "slow: a minute"]
 fn other_laws_store_the_work_to_eight_radii() {
     for law in laws().into_iter().skip(1) {
-        for side in [Grip::Slide, Grip::Stick] {
+        for side in [Friction::Frictionless, Friction::Bonded] {
             let problem = punch(side, law.clone());
             let [coarse, fine] = [1, 2].map(|mesh| stored(&problem, mesh, 8.0));
             println!("{side:?}: {coarse:?}, {fine:?}");
@@ -148,7 +151,7 @@ fn a_small_block_is_that_of_a_grid() {
     let indenter = Indenter {
         shape: IndenterShape::Flat { side: Side::Absent },
         radius: RADIUS,
-        face: Grip::Slide,
+        face: Friction::Frictionless,
     };
     let problem = IndentationProblem {
         block,

@@ -7,9 +7,8 @@ use std::sync::Arc;
 use palpate_files::scene::Smoothing;
 use palpate_geometry::{AabbTree, Surface, TriangleId, closest_on_triangle, read_mesh};
 use palpate_mechanics::Vec3;
-use palpate_mechanics::contact::{Bond, Tip, half_space_stiffness};
+use palpate_mechanics::contact::{Friction, Tip, half_space_stiffness};
 use palpate_mechanics::enhance::{Interpolation, Press, SurfaceField, SurfacePoint, profile};
-use palpate_mechanics::finite_elements::indentation::Grip;
 use palpate_mechanics::finite_elements::solid::{
     Body, Loads, MovedPatch, SolidAnswer, SolidProblem, solve,
 };
@@ -83,7 +82,7 @@ impl Kidney {
         }
     }
 
-    fn problem(&self, place: TriangleId, grip: Grip) -> SolidProblem {
+    fn problem(&self, place: TriangleId, grip: Friction) -> SolidProblem {
         let normal = self.solid.surface.mesh().area_vector(place).normalize();
         SolidProblem {
             body: Body::Surface(self.solid.surface.clone()),
@@ -113,7 +112,7 @@ impl Kidney {
         let press = Press {
             at,
             tip: tip.tip,
-            displacement: tip.own + load.further_compliance() * tip.force,
+            displacement: tip.own + load.structural_compliance() * tip.force,
             own: tip.own,
         };
         field.update(&interpolation, &moved, &[press]);
@@ -196,19 +195,19 @@ impl Shown {
 }
 
 /// A tip at `place` that has been moved inward.
-fn pressed_tip(load: &TipLoad<'_>, (place, normal): (Vec3, Vec3), bond: Bond) -> PressedTip {
+fn pressed_tip(load: &TipLoad<'_>, (place, normal): (Vec3, Vec3), bond: Friction) -> PressedTip {
     let compliance = compliance(load, &normal, (RADIUS, NU, bond));
     let moved = -DEPTH * normal;
     let force = match bond {
-        Bond::Slip => moved / normal.dot(&(compliance * normal)),
-        Bond::Stick => compliance.try_inverse().unwrap() * moved,
+        Friction::Frictionless => moved / normal.dot(&(compliance * normal)),
+        Friction::Bonded => compliance.try_inverse().unwrap() * moved,
     };
     PressedTip {
         tip: Tip::Flat { radius: RADIUS },
         radius: RADIUS,
         place,
         normal,
-        own: (compliance - load.further_compliance()) * force,
+        own: (compliance - load.structural_compliance()) * force,
         force,
     }
 }
@@ -228,7 +227,10 @@ fn real_kidney_at_ten_places() {
     let field = TipField::new(&kidney.response, surface, RADIUS).unwrap();
     let (mut worst, mut close) = ([0.0_f64; 3], 0);
     for (number, &place) in kidney.places.iter().enumerate() {
-        let bonds = [(Grip::Slide, Bond::Slip), (Grip::Stick, Bond::Stick)];
+        let bonds = [
+            (Friction::Frictionless, Friction::Frictionless),
+            (Friction::Bonded, Friction::Bonded),
+        ];
         let (grip, bond) = bonds[number % 2];
         let problem = kidney.problem(place, grip);
         let normal = -problem.patch.unwrap().displacement.normalize();

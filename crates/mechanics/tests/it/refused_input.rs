@@ -5,11 +5,11 @@ use std::sync::Arc;
 
 use palpate_geometry::{Organ, TriangleId};
 use palpate_mechanics::boundary_elements::{BoundaryProblem, Progress};
-use palpate_mechanics::contact::Bond;
+use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_elements::condensed::CondensedProblem;
 use palpate_mechanics::finite_elements::hemisphere::{HalfBall, HemisphereProblem, Patch};
 use palpate_mechanics::finite_elements::indentation::{
-    Base, Block, Grip, IndentationRun, IndentationSettings, Indenter, IndenterShape,
+    Base, Block, IndentationRun, IndentationSettings, Indenter, IndenterShape,
 };
 use palpate_mechanics::finite_elements::{
     Cavity, ElementKind, ElementMesh, FiniteElementModel, FiniteElementState,
@@ -329,7 +329,7 @@ fn sizes_that_no_mesh_has_are_refused() {
         indenter: Indenter {
             shape: IndenterShape::Sphere,
             radius: 1e-3,
-            face: Grip::Stick,
+            face: Friction::Bonded,
         },
         law: Arc::new(law),
         prony: PronySeries::default(),
@@ -416,7 +416,7 @@ fn a_tip_is_put_on_the_surface_of_its_response() {
         displacement: Vec3::z(),
     }];
     let contact = PatchContact {
-        bond: Bond::Stick,
+        bond: Friction::Bonded,
         reciprocity: Reciprocity::Imposed,
         youngs_modulus: 1e4,
     };

@@ -3,7 +3,9 @@
 use assert_no_alloc::{assert_no_alloc, violation_count};
 use nalgebra::Matrix3;
 use palpate_geometry::{AabbTree, Organ};
-use palpate_mechanics::surface_response::slit::{CutBody, OF_RIM, Slit, SlitFacet, SlitLoad, Spot};
+use palpate_mechanics::surface_response::slit::{
+    CutBody, RIM_COMPLIANCE, Slit, SlitFacet, SlitLoad, Spot,
+};
 use palpate_mechanics::surface_response::{Share, SurfaceResponse, TouchId};
 use palpate_mechanics::{Error, Vec3};
 
@@ -125,7 +127,7 @@ fn a_rim_yields_with_the_reciprocal_of_the_distance() {
         let found = body.compliances(&squares);
         let more = [0, 1].map(|k| [1, 2, 0].map(|axis| found[1][k][axis] - found[0][k][axis]));
         let [near, far] = squares.each_ref().map(|square| 1.0 / square.middle()[0]);
-        for ((axis, expected), name) in OF_RIM
+        for ((axis, expected), name) in RIM_COMPLIANCE
             .iter()
             .enumerate()
             .zip(["across", "along", "outward"])

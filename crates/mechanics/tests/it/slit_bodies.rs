@@ -172,7 +172,7 @@ impl Table {
             .at(&self.solid.surface, found.triangle, &found.on.barycentric);
         let (a, nu) = (square.radius(), self.grid.poissons_ratio);
         let mean = 16.0 / (3.0 * PI * PI * a) * (1.0 + nu);
-        let further = tip.further_compliance();
+        let further = tip.structural_compliance();
         let aside = mean * (1.0 - 0.5 * nu);
         let own = [mean * (1.0 - nu), aside, aside];
         let spot = Spot {

@@ -1,5 +1,6 @@
 //! Solids of any shape under a patch.
 
+use palpate_mechanics::contact::Friction;
 use std::f64::consts::PI;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -9,7 +10,7 @@ use palpate_files::scene::{Region, RegionPlane};
 use palpate_geometry::{Organ, Surface, TetrahedronMesh, read_mesh, read_tetrahedra};
 use palpate_mechanics::finite_elements::hemisphere::{HemisphereProblem, Patch};
 use palpate_mechanics::finite_elements::indentation::{
-    self, Base, Block, Grip, IndentationProblem, Indenter, IndenterShape, Side,
+    self, Base, Block, IndentationProblem, Indenter, IndenterShape, Side,
 };
 use palpate_mechanics::finite_elements::solid::{
     Body, Loads, MovedPatch, SolidAnswer, SolidProblem, solve, solve_at,
@@ -42,7 +43,7 @@ fn block(cells: usize) -> TetrahedronMesh {
 
 /// A cube of 0.1 m with its bottom held, and a patch of `radius` [m] in the middle of its top that
 /// moves down by a hundredth of it.
-pub(crate) fn cube(radius: f64, nu: f64, grip: Grip) -> SolidProblem {
+pub(crate) fn cube(radius: f64, nu: f64, grip: Friction) -> SolidProblem {
     SolidProblem {
         body: Body::Volume(block(4)),
         anchor: plane(-0.999 * HALF * Vec3::z(), Vec3::z()),
@@ -66,8 +67,8 @@ pub(crate) fn at(problem: &SolidProblem, halvings: i32) -> SolidAnswer {
 fn half_space(patch: &MovedPatch, nu: f64) -> f64 {
     let (a, d) = (patch.radius, patch.displacement.norm());
     match patch.grip {
-        Grip::Slide => 2.0 * a * MODULUS * d / (1.0 - nu * nu),
-        Grip::Stick => {
+        Friction::Frictionless => 2.0 * a * MODULUS * d / (1.0 - nu * nu),
+        Friction::Bonded => {
             let shear = MODULUS / (2.0 * (1.0 + nu));
             4.0 * shear * a * d * (3.0 - 4.0 * nu).ln() / (1.0 - 2.0 * nu)
         }
@@ -100,9 +101,9 @@ fn cylinder(problem: &SolidProblem) -> f64 {
 #[test]
 fn a_patch_on_a_cube_is_a_punch() {
     for (nu, grip) in [
-        (0.3, Grip::Slide),
-        (0.3, Grip::Stick),
-        (0.4999, Grip::Slide),
+        (0.3, Friction::Frictionless),
+        (0.3, Friction::Bonded),
+        (0.4999, Friction::Frictionless),
     ] {
         let problem = cube(0.005, nu, grip);
         let answer = at(&problem, 0);
@@ -124,7 +125,7 @@ fn a_patch_on_a_cube_is_a_punch() {
 /// oblique and its slip needs a frame of its own.
 #[test]
 fn a_turned_body_feels_the_same_force() {
-    for grip in [Grip::Slide, Grip::Stick] {
+    for grip in [Friction::Frictionless, Friction::Bonded] {
         let straight = cube(0.02, 0.3, grip);
         let turn = Rotation3::from_euler_angles(0.4, -0.7, 1.1);
         let (vertices, tetrahedra) = block(4).into_parts();
@@ -161,7 +162,7 @@ fn a_turned_body_feels_the_same_force() {
 /// Judge: the same numbers after their way through a file.
 #[test]
 fn a_body_from_a_file_is_the_body_in_memory() {
-    let mut problem = cube(0.02, 0.45, Grip::Stick);
+    let mut problem = cube(0.02, 0.45, Friction::Bonded);
     let expected = at(&problem, 0);
     let mesh = block(4);
     let mut text = format!(
@@ -188,7 +189,7 @@ fn a_body_from_a_file_is_the_body_in_memory() {
 /// A mesh whose factors would not fit is refused before they are made.
 #[test]
 fn a_mesh_too_large_is_refused() {
-    let mut problem = cube(0.02, 0.3, Grip::Stick);
+    let mut problem = cube(0.02, 0.3, Friction::Bonded);
     problem.body = Body::Volume(block(30));
     let refused = solve_at(&problem, 0, &mut |_| ());
     assert!(matches!(refused, Err(Error::TooManyUnknowns { unknowns, .. }) if unknowns > 600_000));
@@ -227,7 +228,7 @@ fn pressures_change_nothing_where_nothing_locks() {
 /// Quick form of the two tests below, at a tenth of the patch's radius. Judges and tolerances: the same.
 #[test]
 fn a_hyperelastic_solid_begins_with_the_slope_of_its_energy() {
-    for grip in [Grip::Stick, Grip::Slide] {
+    for grip in [Friction::Bonded, Friction::Frictionless] {
         hyperelastic(cube(0.02, 0.49, grip), 0.002);
     }
 }
@@ -237,7 +238,7 @@ fn a_hyperelastic_solid_begins_with_the_slope_of_its_energy() {
 #[test]
 #[ignore = "slow: a minute"]
 fn a_hyperelastic_solid_pushes_with_the_slope_of_its_energy() {
-    hyperelastic(cube(0.02, 0.49, Grip::Stick), 0.01);
+    hyperelastic(cube(0.02, 0.49, Friction::Bonded), 0.01);
 }
 
 /// Judges: the linear law, and the force as the slope of the energy. Near 0.44 radii the tissue under a face without friction finds no equilibrium on
@@ -245,7 +246,7 @@ fn a_hyperelastic_solid_pushes_with_the_slope_of_its_energy() {
 #[test]
 #[ignore = "slow: a minute"]
 fn a_hyperelastic_solid_slips_with_the_slope_of_its_energy() {
-    hyperelastic(cube(0.02, 0.49, Grip::Slide), 0.006);
+    hyperelastic(cube(0.02, 0.49, Friction::Frictionless), 0.006);
 }
 
 fn hyperelastic(mut problem: SolidProblem, depth: f64) {
@@ -281,7 +282,7 @@ fn a_patch_on_a_hemisphere_is_3_percent_stiffer_than_on_a_half_space() {
             center: HALF * Vec3::z(),
             radius: 0.002,
             displacement: -1e-4 * Vec3::z(),
-            grip: Grip::Slide,
+            grip: Friction::Frictionless,
         }),
         law: Arc::new(LinearElastic::new(MODULUS, 0.3).unwrap()),
         loads: Loads::default(),
@@ -323,7 +324,7 @@ fn a_patch_on_a_hemisphere_is_3_percent_stiffer_than_on_a_half_space() {
 #[test]
 #[ignore = "slow: a minute"]
 fn the_force_converges_with_the_edge_of_the_patch() {
-    for (nu, grip) in [(0.3, Grip::Slide), (0.45, Grip::Stick)] {
+    for (nu, grip) in [(0.3, Friction::Frictionless), (0.45, Friction::Bonded)] {
         let problem = cube(0.005, nu, grip);
         let forces = [0, 1, 2].map(|halvings| {
             let answer = at(&problem, halvings);
@@ -375,7 +376,7 @@ fn real_kidney_under_a_patch() {
             center,
             radius: 0.005,
             displacement: -5e-4 * Vec3::y(),
-            grip: Grip::Stick,
+            grip: Friction::Bonded,
         }),
         law: Arc::new(LinearElastic::new(MODULUS, 0.45).unwrap()),
         loads: Loads::default(),
@@ -405,11 +406,11 @@ fn nearest_top(path: &std::path::Path, middle: &Vec3) -> Vec3 {
     *near.max_by(|a, b| a.y.total_cmp(&b.y)).unwrap()
 }
 
-/// What is no problem is refused, with the value and a mend.
+/// What is no problem is refused, with the value and a remedy.
 #[test]
 fn what_cannot_be_solved_is_refused() {
     let changed = |change: &dyn Fn(&mut SolidProblem)| {
-        let mut problem = cube(0.02, 0.3, Grip::Stick);
+        let mut problem = cube(0.02, 0.3, Friction::Bonded);
         change(&mut problem);
         solve_at(&problem, 0, &mut |_| ()).map(drop).unwrap_err()
     };

@@ -3,14 +3,14 @@
 use nalgebra::Matrix3;
 use palpate_files::scene::{Region, RegionBox, RegionSphere};
 use palpate_mechanics::Vec3;
-use palpate_mechanics::finite_elements::indentation::Grip;
+use palpate_mechanics::contact::Friction;
 
 use crate::solid::{HALF, MODULUS, at, cube};
 
 /// Judge: the plane that holds the same triangles.
 #[test]
 fn boxes_and_balls_hold_as_planes_do() {
-    let mut problem = cube(0.02, 0.3, Grip::Stick);
+    let mut problem = cube(0.02, 0.3, Friction::Bonded);
     let expected = at(&problem, 0);
     let bottom = Region {
         boxes: vec![RegionBox {
@@ -37,7 +37,7 @@ fn boxes_and_balls_hold_as_planes_do() {
 #[test]
 fn the_fields_are_those_of_the_body() {
     let nu = 0.3;
-    let problem = cube(0.02, nu, Grip::Stick);
+    let problem = cube(0.02, nu, Friction::Bonded);
     let fields = at(&problem, 0).fields;
     let each = || fields.positions.iter().zip(&fields.displacements);
     assert_eq!(fields.pressures.len(), fields.positions.len());

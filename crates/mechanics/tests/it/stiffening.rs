@@ -3,10 +3,9 @@
 
 use std::sync::Arc;
 
-use palpate_mechanics::contact::{Bond, Tip, half_space_stiffness};
+use palpate_mechanics::contact::{Friction, Tip, half_space_stiffness};
 use palpate_mechanics::finite_elements::indentation::{
-    Base, Block, Grip, IndentationRun, IndentationSettings, Indenter, IndenterShape, Side,
-    Stiffening,
+    Base, Block, IndentationRun, IndentationSettings, Indenter, IndenterShape, Side, Stiffening,
 };
 use palpate_mechanics::{
     Exponential, Law, LinearElastic, Material, NeoHookean, PronySeries, TipLaw,
@@ -36,11 +35,11 @@ fn run(tissue: &Material, tip: Tip, block: Block) -> IndentationRun {
     let (shape, face) = match tip {
         Tip::Flat { .. } => (
             IndenterShape::Flat {
-                side: Side::Touches(Grip::Stick),
+                side: Side::Touches(Friction::Bonded),
             },
-            Grip::Stick,
+            Friction::Bonded,
         ),
-        Tip::Sphere { .. } => (IndenterShape::Sphere, Grip::Slide),
+        Tip::Sphere { .. } => (IndenterShape::Sphere, Friction::Frictionless),
     };
     IndentationRun::new(&IndentationSettings {
         block,
@@ -58,10 +57,10 @@ fn run(tissue: &Material, tip: Tip, block: Block) -> IndentationRun {
 }
 
 /// How the face of `tip` holds in these tests.
-fn bond_of(tip: Tip) -> Bond {
+fn bond_of(tip: Tip) -> Friction {
     match tip {
-        Tip::Flat { .. } => Bond::Stick,
-        Tip::Sphere { .. } => Bond::Slip,
+        Tip::Flat { .. } => Friction::Bonded,
+        Tip::Sphere { .. } => Friction::Frictionless,
     }
 }
 
@@ -84,8 +83,8 @@ fn farthest_of(
     let small = 0.01 * RADIUS;
     let flat = Tip::Flat { radius: RADIUS };
     let at_rest = run(tissue, flat, block).press(0.0, small, |_| ()).unwrap();
-    let further =
-        small / at_rest.force - 1.0 / half_space_stiffness(&tissue.at_rest, RADIUS, Bond::Stick);
+    let further = small / at_rest.force
+        - 1.0 / half_space_stiffness(&tissue.at_rest, RADIUS, Friction::Bonded);
     let mut full = run(tissue, tip, block);
     let mut farthest: f64 = 0.0;
     for depth in depths {
@@ -141,7 +140,7 @@ fn a_sphere_in_linear_tissue_is_less_than_hertz() {
     let tip = Tip::Sphere { radius: RADIUS };
     for poissons_ratio in [0.35, 0.47] {
         let tissue = material(LinearElastic::new(1e4, poissons_ratio).unwrap());
-        let known = Stiffening::linear((tip, Bond::Slip), poissons_ratio);
+        let known = Stiffening::linear((tip, Friction::Frictionless), poissons_ratio);
         let off = farthest_of(&tissue, (tip, known.clone()), LARGE, &[0.2, 0.5, 1.0]);
         assert!(off < 0.0075, "{poissons_ratio}: {off}");
         // Hertz's force is not that: it misses by a quarter at one radius.
@@ -180,9 +179,13 @@ fn the_stored_spheres_are_those_of_finite_elements() {
         };
         let flat = IndenterShape::Flat { side: Side::Absent };
         let small = 0.01 * RADIUS;
-        let flat_stiffness = pressed(flat, Grip::Slide, small, 2) / small;
-        let further = 1.0 / flat_stiffness - 1.0 / half_space_stiffness(&law, RADIUS, Bond::Slip);
-        for (bond, face) in [(Bond::Slip, Grip::Slide), (Bond::Stick, Grip::Stick)] {
+        let flat_stiffness = pressed(flat, Friction::Frictionless, small, 2) / small;
+        let further =
+            1.0 / flat_stiffness - 1.0 / half_space_stiffness(&law, RADIUS, Friction::Frictionless);
+        for (bond, face) in [
+            (Friction::Frictionless, Friction::Frictionless),
+            (Friction::Bonded, Friction::Bonded),
+        ] {
             let tip_law = TipLaw::linear(tip, bond, law);
             for part in [0.05, 0.25, 0.55, 0.85] {
                 let depth = part * RADIUS;
@@ -201,9 +204,9 @@ fn the_stored_spheres_are_those_of_finite_elements() {
 fn the_stored_curve_meets_the_known_punch() {
     let tissue = neo_hookean();
     let tip = Tip::Flat { radius: RADIUS };
-    let found = Stiffening::neo_hookean(tip, Bond::Stick);
-    let law = TipLaw::stiffening(tip, Bond::Stick, &tissue, found);
-    let half_space = half_space_stiffness(&tissue.at_rest, RADIUS, Bond::Stick);
+    let found = Stiffening::neo_hookean(tip, Friction::Bonded);
+    let law = TipLaw::stiffening(tip, Friction::Bonded, &tissue, found);
+    let half_space = half_space_stiffness(&tissue.at_rest, RADIUS, Friction::Bonded);
     for (depth, known) in [(2.0, 29.8), (5.0, 79.8)] {
         let force = law.normal_force(depth * RADIUS, half_space).force;
         let off = force / (1000.0 * RADIUS * RADIUS) / known - 1.0;
@@ -229,7 +232,7 @@ fn the_stored_curves_begin_as_full_runs() {
 fn the_stored_curves_are_those_of_finite_elements() {
     let tissue = neo_hookean();
     for tip in [Tip::Flat { radius: RADIUS }, Tip::Sphere { radius: RADIUS }] {
-        for bond in [Bond::Stick, Bond::Slip] {
+        for bond in [Friction::Bonded, Friction::Frictionless] {
             let made = Stiffening::of(&tissue, (tip, bond), &mut |_| ()).unwrap();
             let stored = Stiffening::neo_hookean(tip, bond);
             assert!((made.deepest() / stored.deepest() - 1.0).abs() < 1e-3);
@@ -250,7 +253,7 @@ fn the_stored_curves_are_those_of_finite_elements() {
 #[test]
 fn a_curve_ends_where_tissue_closes_over_the_sphere() {
     let tip = Tip::Sphere { radius: RADIUS };
-    let made = Stiffening::of(&neo_hookean(), (tip, Bond::Slip), &mut |_| ()).unwrap();
+    let made = Stiffening::of(&neo_hookean(), (tip, Friction::Frictionless), &mut |_| ()).unwrap();
     let forces: Vec<f64> = (1..=100)
         .map(|part| f64::from(part) / 100.0 * made.deepest())
         .map(|depth| made.ratio(depth).0 * depth.powf(1.5))

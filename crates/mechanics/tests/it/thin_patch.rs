@@ -1,9 +1,9 @@
 //! A patch on a solid that is thin there.
 
+use palpate_mechanics::contact::Friction;
 use std::sync::Arc;
 
 use palpate_geometry::{Organ, Surface, TriangleMesh};
-use palpate_mechanics::finite_elements::indentation::Grip;
 use palpate_mechanics::finite_elements::solid::{Body, Loads, MovedPatch, SolidProblem};
 use palpate_mechanics::{LinearElastic, Vec3};
 
@@ -49,7 +49,7 @@ fn a_patch_on_a_thin_edge_has_its_area() {
             center,
             radius,
             displacement: -1e-4 * Vec3::x(),
-            grip: Grip::Slide,
+            grip: Friction::Frictionless,
         }),
         law: Arc::new(LinearElastic::new(MODULUS, 0.45).unwrap()),
         loads: Loads::default(),

@@ -7,11 +7,10 @@ use nalgebra::{DMatrix, Matrix3};
 use palpate_files::scene::Smoothing;
 use palpate_geometry::{Organ, Surface, TriangleId, read_mesh};
 use palpate_mechanics::contact::{
-    Bond, Tip, half_space_stiffness, half_space_tangential_stiffness,
+    Friction, Tip, half_space_stiffness, half_space_tangential_stiffness,
 };
 use palpate_mechanics::enhance::{Interpolation, Press, SurfaceField, SurfacePoint};
 use palpate_mechanics::finite_elements::hemisphere::{HemisphereProblem, Patch};
-use palpate_mechanics::finite_elements::indentation::Grip;
 use palpate_mechanics::finite_elements::solid::{Body, Loads, MovedPatch, SolidProblem, solve};
 use palpate_mechanics::surface_response::{PressedTip, SurfaceResponse, TipField, TipLoad};
 use palpate_mechanics::{LinearElastic, Vec3};
@@ -56,21 +55,21 @@ fn top(solid: &Held, count: usize) -> Vec<TriangleId> {
 pub(crate) fn compliance(
     load: &TipLoad<'_>,
     normal: &Vec3,
-    (a, nu, bond): (f64, f64, Bond),
+    (a, nu, bond): (f64, f64, Friction),
 ) -> Matrix3<f64> {
     let normals = normal * normal.transpose();
     let across = half_space_tangential_stiffness(&law(nu), a);
-    load.further_compliance()
+    load.structural_compliance()
         + normals / half_space_stiffness(&law(nu), a, bond)
         + (Matrix3::identity() - normals) / across
 }
 
 /// Force per depth of a flat tip, over E [m]; one that sticks does not go aside.
-pub(crate) fn stiffness(load: &TipLoad<'_>, normal: &Vec3, tip: (f64, f64, Bond)) -> f64 {
+pub(crate) fn stiffness(load: &TipLoad<'_>, normal: &Vec3, tip: (f64, f64, Friction)) -> f64 {
     let compliance = compliance(load, normal, tip);
     match tip.2 {
-        Bond::Slip => 1.0 / normal.dot(&(compliance * normal)),
-        Bond::Stick => normal.dot(&(compliance.try_inverse().unwrap() * normal)),
+        Friction::Frictionless => 1.0 / normal.dot(&(compliance * normal)),
+        Friction::Bonded => normal.dot(&(compliance.try_inverse().unwrap() * normal)),
     }
 }
 
@@ -93,7 +92,10 @@ fn force_error(nu: f64, triangles: usize) -> f64 {
         (name, solid, response)
     });
     for a in [2e-3, 3e-3, 5e-3] {
-        for (patch, bond) in [(Patch::Slip, Bond::Slip), (Patch::Bonded, Bond::Stick)] {
+        for (patch, bond) in [
+            (Patch::Slip, Friction::Frictionless),
+            (Patch::Bonded, Friction::Bonded),
+        ] {
             let judge = HemisphereProblem {
                 radius: RADIUS,
                 patch_radius: a,
@@ -166,7 +168,7 @@ fn the_field_of_a_tip_is_that_of_finite_elements() {
         let field = TipField::new(&response, &solid.surface, a).unwrap();
         let (triangle, place) = under(&solid.surface, &(RADIUS * Vec3::z()));
         let load = field.at(&solid.surface, triangle, &place);
-        let force = stiffness(&load, &Vec3::z(), (a, nu, Bond::Slip));
+        let force = stiffness(&load, &Vec3::z(), (a, nu, Friction::Frictionless));
         let mut moved = vec![0.0_f32; 3 * response.parts().triangles];
         response.add_field_of_tip(&load, &(-force * Vec3::z()), &mut moved);
         let mut worst: f64 = 0.0;
@@ -186,7 +188,10 @@ fn the_field_of_a_tip_is_that_of_finite_elements() {
 }
 
 /// A flat tip of radius a at the pole of a hemisphere, moved by one: what it leaves of the surface.
-fn pressed_pole(solid: &Held, (a, nu, bond): (f64, f64, Bond)) -> (Interpolation, SurfaceField) {
+fn pressed_pole(
+    solid: &Held,
+    (a, nu, bond): (f64, f64, Friction),
+) -> (Interpolation, SurfaceField) {
     let response = solid.response::<f32>(&top(solid, solid.free.len() / 3));
     let tips = TipField::new(&response, &solid.surface, a).unwrap();
     let (triangle, barycentric) = under(&solid.surface, &(RADIUS * Vec3::z()));
@@ -244,7 +249,7 @@ fn the_dimple_of_a_tip_is_that_of_finite_elements() {
     for triangles in [200, 800] {
         let mut worst = 0.0_f64;
         for (_, solid) in hemispheres(nu, triangles) {
-            let (interpolation, field) = pressed_pole(&solid, (a, nu, Bond::Slip));
+            let (interpolation, field) = pressed_pole(&solid, (a, nu, Friction::Frictionless));
             for (number, (arc, expected)) in profile.iter().filter(clear).enumerate() {
                 let (sine, cosine) = (arc / RADIUS).sin_cos();
                 let (east, north) = (number as f64).sin_cos();
@@ -282,7 +287,7 @@ fn a_slide_has_no_steps() {
 }
 
 fn no_steps(solid: &Held, response: &SurfaceResponse) {
-    let tip = (2e-3, solid.nu, Bond::Slip);
+    let tip = (2e-3, solid.nu, Friction::Frictionless);
     let field = TipField::new(response, &solid.surface, tip.0).unwrap();
     let (mesh, normals) = (solid.surface.mesh(), solid.surface.vertex_normals());
     let mut worst: f64 = 0.0;
@@ -330,7 +335,7 @@ fn several_tips_take_work() {
             for (i, (moved, normal)) in loads.iter().enumerate() {
                 for (j, (loaded, _)) in loads.iter().enumerate() {
                     let block = if i == j {
-                        compliance(moved, normal, (a, nu, Bond::Stick))
+                        compliance(moved, normal, (a, nu, Friction::Bonded))
                     } else {
                         let block = response.between(moved, loaded);
                         let back = response.between(loaded, moved);
@@ -377,7 +382,7 @@ fn an_anchor_yields_nothing() {
     assert!(response.holds(middle));
     let load = field.at(&solid.surface, middle, &place);
     assert_eq!(load.shares().count(), 0);
-    let along = load.further_compliance()[(2, 2)];
+    let along = load.structural_compliance()[(2, 2)];
     let own = 2.408 * (1.0 - nu * nu) / (std::f64::consts::PI * 1.7 * a);
     assert!((along / -own - 1.0).abs() < 0.03, "{along} {own}");
 }
@@ -414,9 +419,9 @@ fn real_kidney_error(triangles: usize) -> Option<f64> {
     let field = TipField::new(&response, &solid.surface, a).unwrap();
     let mut worst: f64 = 0.0;
     for (id, (grip, bond)) in places.into_iter().zip([
-        (Grip::Slide, Bond::Slip),
-        (Grip::Stick, Bond::Stick),
-        (Grip::Slide, Bond::Slip),
+        (Friction::Frictionless, Friction::Frictionless),
+        (Friction::Bonded, Friction::Bonded),
+        (Friction::Frictionless, Friction::Frictionless),
     ]) {
         let normal = surface.mesh().area_vector(id).normalize();
         let load = field.at(&solid.surface, id, &[1.0 / 3.0; 3]);

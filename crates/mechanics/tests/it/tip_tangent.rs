@@ -3,7 +3,7 @@
 
 use nalgebra::Matrix3;
 use palpate_mechanics::contact::{
-    Bond, Tip, half_space_stiffness, half_space_tangential_stiffness,
+    Friction, Tip, half_space_stiffness, half_space_tangential_stiffness,
 };
 use palpate_mechanics::finite_elements::indentation::Stiffening;
 use palpate_mechanics::{Limit, Material, TipLaw, Vec3};
@@ -15,7 +15,7 @@ use crate::contacts::tissue;
 const DEPTH: f64 = 0.32 * RADIUS;
 const RADIUS: f64 = 5e-3;
 const TIPS: [Tip; 2] = [Tip::Flat { radius: RADIUS }, Tip::Sphere { radius: RADIUS }];
-const BONDS: [Bond; 2] = [Bond::Stick, Bond::Slip];
+const BONDS: [Friction; 2] = [Friction::Bonded, Friction::Frictionless];
 
 fn neo_hookean() -> Material {
     let text =
@@ -25,7 +25,7 @@ fn neo_hookean() -> Material {
 }
 
 /// Linear and neo-Hookean tissue under every kind of tip.
-fn laws() -> impl Iterator<Item = (TipLaw, Tip, Bond)> {
+fn laws() -> impl Iterator<Item = (TipLaw, Tip, Friction)> {
     let soft = neo_hookean();
     TIPS.into_iter()
         .flat_map(|tip| BONDS.map(|bond| (tip, bond)))
@@ -40,7 +40,7 @@ fn laws() -> impl Iterator<Item = (TipLaw, Tip, Bond)> {
 }
 
 /// Stiffness of the half-space at `depth` [m], normal and tangential [N/m].
-fn half_space((tip, bond): (Tip, Bond), depth: f64) -> [f64; 2] {
+fn half_space((tip, bond): (Tip, Friction), depth: f64) -> [f64; 2] {
     let law = neo_hookean().at_rest;
     let radius = tip.contact_radius(depth);
     [
@@ -97,7 +97,7 @@ fn normal_stiffness_is_the_slope_of_the_force() {
 }
 
 /// Symmetric, and coupled as at a place that is not like a half-space; in units of its compliances.
-fn compliance(of: (Tip, Bond), scale: f64) -> Matrix3<f64> {
+fn compliance(of: (Tip, Friction), scale: f64) -> Matrix3<f64> {
     let [normal, tangential] = half_space(of, DEPTH);
     let unit = 1.0 / normal.min(tangential);
     Matrix3::new(0.8, 0.15, 0.1, 0.15, 0.5, -0.2, 0.1, -0.2, 0.7) * (scale * unit)
@@ -139,7 +139,7 @@ fn stiffness_with_a_local_model_is_the_slope_of_the_force() {
                     all[(2, along)] = 0.0;
                 }
                 let mut stiffness = all.try_inverse().unwrap();
-                if bond == Bond::Slip {
+                if bond == Friction::Frictionless {
                     stiffness.fixed_view_mut::<2, 2>(0, 0).fill(0.0);
                 }
                 stiffness
@@ -196,7 +196,7 @@ fn slope_at_depth(law: &TipLaw, tip: Tip) -> f64 {
 fn sphere_in_a_stiffer_organ_stiffens_with_its_touching_area() {
     let law = tissue(0.45);
     let tip = Tip::Sphere { radius: RADIUS };
-    let sphere = TipLaw::linear(tip, Bond::Slip, law);
+    let sphere = TipLaw::linear(tip, Friction::Frictionless, law);
     let half_space = slope_at_depth(&sphere, tip);
     let exponent_at = |compliance: f64| {
         let found = sphere.normal_force_in_series(DEPTH, compliance);
@@ -227,7 +227,7 @@ fn a_bounded_stiffness_is_told() {
             assert!(told.asked == asked || (told.asked / asked - 1.0).abs() < 1e-12);
             assert_eq!(told.used, 20.0);
             let along = found.limits.reached(Limit::TipShearStiffness);
-            assert_eq!(along.is_some(), bond == Bond::Stick);
+            assert_eq!(along.is_some(), bond == Friction::Bonded);
             assert!(found.force.z > 0.0 && found.stiffness[(2, 2)] > 0.0);
         }
         let unknown = law.force_in_series(&inward, &Matrix3::repeat(f64::NAN));

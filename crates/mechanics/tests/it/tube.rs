@@ -1,9 +1,9 @@
 //! Tubes under pressure.
 
+use palpate_mechanics::contact::Friction;
 use std::sync::Arc;
 
 use palpate_mechanics::finite_elements::estimate::Estimated;
-use palpate_mechanics::finite_elements::indentation::Grip;
 use palpate_mechanics::finite_elements::tube::{
     Ends, Inflated, Tube, TubeProblem, TubePunch, indent, inflate,
 };
@@ -147,7 +147,7 @@ fn a_stiffening_tube_does_not_balloon() {
 fn punch(radius: f64, pressure: f64, depths: &[f64]) -> TubePunch {
     TubePunch {
         radius,
-        face: Grip::Stick,
+        face: Friction::Bonded,
         pressure,
         depths: depths.to_vec(),
     }

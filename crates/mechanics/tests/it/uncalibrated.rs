@@ -7,10 +7,10 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector, Vector3};
 use palpate_files::scene::{Region, RegionPlane};
 use palpate_geometry::{NodeId, Surface, TriangleMesh};
-use palpate_mechanics::contact::{Bond, Tip, half_space_stiffness};
+use palpate_mechanics::contact::{Friction, Tip, half_space_stiffness};
 use palpate_mechanics::finite_elements::hemisphere::{self, HemisphereProblem, Patch};
 use palpate_mechanics::finite_elements::indentation::{
-    Base, Block, Grip, IndentationRun, IndentationSettings, Indenter, IndenterShape,
+    Base, Block, IndentationRun, IndentationSettings, Indenter, IndenterShape,
 };
 use palpate_mechanics::finite_elements::solid::{self, Body, Loads, MovedPatch, SolidProblem};
 use palpate_mechanics::finite_spheres::{
@@ -102,7 +102,7 @@ fn hemisphere_in_half_spaces(nu: f64) -> f64 {
         depth: 1.0,
     };
     let found = hemisphere::solve(&problem, 3e-3, |_| {}).unwrap();
-    found.answer.force / half_space_stiffness(&law, TIP, Bond::Slip)
+    found.answer.force / half_space_stiffness(&law, TIP, Friction::Frictionless)
 }
 
 struct Shape {
@@ -144,9 +144,9 @@ fn errors(particles: &[usize], calibration: Calibration) -> Vec<(String, Vec<f64
     for nu in RATIOS {
         let models: Vec<_> = particles
             .iter()
-            .map(|&count| model(settings(count, calibration), nu, Bond::Slip))
+            .map(|&count| model(settings(count, calibration), nu, Friction::Frictionless))
             .collect();
-        let half_space = half_space_stiffness(&tissue(nu), TIP, Bond::Slip);
+        let half_space = half_space_stiffness(&tissue(nu), TIP, Friction::Frictionless);
         for shape in &shapes {
             let exact = half_space * (shape.in_half_spaces)(nu);
             let off = |model| stiffness(model, &shape.contact) / exact - 1.0;
@@ -268,7 +268,7 @@ fn solid_in_half_spaces(contact: &LocalContact, nu: f64) -> (f64, f64) {
             center: Vec3::zeros(),
             radius: TIP,
             displacement: Vec3::new(0.0, 0.0, -1e-3 * TIP),
-            grip: Grip::Slide,
+            grip: Friction::Frictionless,
         }),
         law: Arc::new(law),
         loads: Loads::default(),
@@ -276,7 +276,7 @@ fn solid_in_half_spaces(contact: &LocalContact, nu: f64) -> (f64, f64) {
     };
     let found = solid::solve(&problem, 0.02, &mut |_| ()).unwrap();
     let stiffness = found.answer.force_along / (1e-3 * TIP);
-    let half_space = half_space_stiffness(&law, TIP, Bond::Slip);
+    let half_space = half_space_stiffness(&law, TIP, Friction::Frictionless);
     (stiffness / half_space, found.error)
 }
 
@@ -297,8 +297,9 @@ fn nearly_incompressible_cylinder_and_saddle_are_those_of_finite_elements() {
 
 fn assert_cylinder_and_saddle(ratios: &[f64]) {
     for &nu in ratios {
-        let models = [34, 93, 300].map(|n| model(settings(n, Calibration::None), nu, Bond::Slip));
-        let half_space = half_space_stiffness(&tissue(nu), TIP, Bond::Slip);
+        let models = [34, 93, 300]
+            .map(|n| model(settings(n, Calibration::None), nu, Friction::Frictionless));
+        let half_space = half_space_stiffness(&tissue(nu), TIP, Friction::Frictionless);
         for (name, curvature) in [
             ("slab", [0.0; 3]),
             ("cylinder", [0.1, 0.0, 0.0]),
@@ -335,7 +336,7 @@ fn a_saddle_is_no_stiffer_with_finer_integration() {
                 integration,
                 ..settings(particles, Calibration::None)
             };
-            stiffness(&model(settings, 0.3, Bond::Slip), &contact)
+            stiffness(&model(settings, 0.3, Friction::Frictionless), &contact)
         });
         println!("{curvature:?}: {found:?}");
         for other in &found[1..] {
@@ -355,9 +356,13 @@ fn sphere_on_slab(particles: usize, nu: f64, thickness: f64) -> f64 {
         thickness: thickness * touching,
         ..bare_contact(Vector3::zeros(), touching, f64::INFINITY)
     };
-    let model = model(settings(particles, Calibration::None), nu, Bond::Slip);
-    let ours =
-        TipLaw::linear(tip, Bond::Slip, law).normal_force(depth, stiffness(&model, &contact));
+    let model = model(
+        settings(particles, Calibration::None),
+        nu,
+        Friction::Frictionless,
+    );
+    let ours = TipLaw::linear(tip, Friction::Frictionless, law)
+        .normal_force(depth, stiffness(&model, &contact));
     let mut run = IndentationRun::new(&IndentationSettings {
         block: Block {
             radius: (6.0 * thickness * touching).max(1.2 * sphere),
@@ -367,7 +372,7 @@ fn sphere_on_slab(particles: usize, nu: f64, thickness: f64) -> f64 {
         indenter: Indenter {
             shape: IndenterShape::Sphere,
             radius: sphere,
-            face: Grip::Slide,
+            face: Friction::Frictionless,
         },
         law: Arc::new(law),
         prony: PronySeries::default(),
@@ -399,7 +404,7 @@ fn uncalibrated_spheres_on_slabs_are_those_of_finite_elements() {
 #[test]
 fn uncalibrated_profile_is_the_punch_on_a_half_space() {
     for nu in [0.3, 0.49] {
-        let model = model(settings(34, Calibration::None), nu, Bond::Slip);
+        let model = model(settings(34, Calibration::None), nu, Friction::Frictionless);
         let contact = contact([0.0; 3], f64::INFINITY);
         let mut workspace = model.workspace();
         let response = model.respond(&contact, &mut workspace);
@@ -422,7 +427,7 @@ fn uncalibrated_profile_is_the_punch_on_a_half_space() {
 /// the particles, whose rings are not round.
 #[test]
 fn uncalibrated_stiffness_does_not_know_the_frame() {
-    let model = model(settings(34, Calibration::None), 0.3, Bond::Slip);
+    let model = model(settings(34, Calibration::None), 0.3, Friction::Frictionless);
     let one = stiffness(&model, &contact([0.1, 0.0, 0.0], 10.0));
     let other = stiffness(&model, &contact([0.0, 0.0, 0.1], 10.0));
     println!("turned cylinder {:+.4}", other / one - 1.0);
@@ -438,9 +443,9 @@ fn uncalibrated_integration_is_fine_enough() {
             ..settings(34, Calibration::None)
         };
         let contact = contact([0.0; 3], 6.0);
-        let standard = model(settings(34, Calibration::None), nu, Bond::Slip);
-        let off =
-            stiffness(&standard, &contact) / stiffness(&model(fine, nu, Bond::Slip), &contact);
+        let standard = model(settings(34, Calibration::None), nu, Friction::Frictionless);
+        let off = stiffness(&standard, &contact)
+            / stiffness(&model(fine, nu, Friction::Frictionless), &contact);
         println!("nu {nu}: standard over fine {off:.5}");
         assert!((off - 1.0).abs() < 0.01, "{nu}: {off}");
     }

@@ -6,7 +6,7 @@ use clap::Args;
 use palpate_characterize::design::Criterion;
 use palpate_characterize::inverse::SoughtLaw;
 use palpate_files::write_whole;
-use palpate_jobs::design::{Answer, Known, PressesAnswer, Wish, Within, design};
+use palpate_jobs::design::{Answer, Known, PressesAnswer, Request, Within, design};
 
 use super::overwrite::OverwriteOption;
 use super::recordings::Recordings;
@@ -89,9 +89,9 @@ enum CriterionWord {
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let _claims = arguments.overwrite.claim(arguments.out.iter())?;
     interrupt::ends_between_files("interrupted; no protocol was found");
-    let wish = arguments.wish()?;
+    let request = arguments.request()?;
     let progress = Progress::of_job(Reader::of_json(arguments.json));
-    let found = design(&wish, &progress)?;
+    let found = design(&request, &progress)?;
     drop(progress);
     if let Some(path) = &arguments.out {
         let _unbroken = Unbroken::begin();
@@ -135,7 +135,7 @@ fn table(answer: &Answer) -> String {
 }
 
 impl Arguments {
-    fn wish(&self) -> Result<Wish, Failure> {
+    fn request(&self) -> Result<Request, Failure> {
         let recordings = self.known.asked();
         let law = self
             .law
@@ -156,7 +156,7 @@ impl Arguments {
                 }
             },
         };
-        Ok(Wish {
+        Ok(Request {
             known,
             parameters: self.parameters.clone(),
             criterion: match self.criterion {

@@ -176,7 +176,7 @@ fn paths_in_the_documents_exist() {
             for path in paths_of(line) {
                 assert!(
                     root().join(path).exists() || line.contains("planned"),
-                    "{document}, line {}: there is no {path}; mend the path or say that it is \
+                    "{document}, line {}: there is no {path}; correct the path or say that it is \
                      planned",
                     number + 1
                 );

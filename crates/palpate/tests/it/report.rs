@@ -72,7 +72,7 @@ fn a_page_has_all_its_parts() {
     }
     let figures = texts(&document, "h4");
     let expected = [
-        "What was recorded",
+        "Recordings",
         "Force over time",
         "Force over depth",
         "What the Mooney-Rivlin law leaves",

@@ -1,7 +1,7 @@
 """Soft-tissue touch: measure it, fit it, simulate it.
 
 Lengths are in metres, forces in newtons, times in seconds. What cannot be done raises `InputError`, which says what to
-mend, or another `PalpateError`.
+remedy, or another `PalpateError`.
 """
 
 from palpate._palpate import (

@@ -5,14 +5,14 @@ use std::sync::Arc;
 use pyo3::prelude::*;
 
 use super::Model;
-use super::stepper::{Course, Stepper};
+use super::stepper::{SavedState, Stepper};
 use crate::failure::Failure;
 
 /// A state of a simulation that was kept, to go on from there to the same bit.
 #[pyclass(frozen, module = "palpate")]
 pub(crate) struct Snapshot {
     model: Arc<Model>,
-    course: Course,
+    course: SavedState,
 }
 
 impl Snapshot {

@@ -5,7 +5,7 @@ use palpate_geometry::Vec3;
 use palpate_simulate::ToolState;
 use pyo3::prelude::*;
 
-use super::stepper::Course;
+use super::stepper::SavedState;
 use crate::numbers;
 
 /// What a simulation was after a step. Arrays have a row for each tool, in the order of the scene.
@@ -33,7 +33,7 @@ struct Tool {
 }
 
 impl State {
-    pub(super) fn of(course: &Course) -> Self {
+    pub(super) fn of(course: &SavedState) -> Self {
         let state = &course.state;
         Self {
             tools: state.tools.iter().map(Tool::of).collect(),

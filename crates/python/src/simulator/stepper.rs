@@ -14,7 +14,7 @@ use crate::scene;
 
 /// All that changes while one organ is touched.
 pub(super) struct Stepper {
-    pub(super) course: Course,
+    pub(super) course: SavedState,
     workspace: SimulationWorkspace,
     /// Where the tools go next.
     pub(super) poses: Vec<Option<Pose>>,
@@ -22,7 +22,7 @@ pub(super) struct Stepper {
 
 /// What has to be kept to go on.
 #[derive(Clone)]
-pub(super) struct Course {
+pub(super) struct SavedState {
     pub(super) state: SimulationState,
     pub(super) clock: Clock,
     /// None where there is no task.
@@ -81,7 +81,7 @@ impl Judge {
 impl Stepper {
     pub(super) fn new(model: &Model) -> Self {
         Self {
-            course: Course {
+            course: SavedState {
                 state: SimulationState::new(&model.prepared),
                 clock: Clock::default(),
                 judge: Judge::new(&model.scene),
@@ -109,7 +109,7 @@ impl Stepper {
         }
         self.restore(
             model,
-            Course {
+            SavedState {
                 state,
                 clock: Clock::default(),
                 judge: Judge::new(scene.unwrap_or(&model.scene)),
@@ -119,7 +119,7 @@ impl Stepper {
     }
 
     /// As it was.
-    pub(super) fn restore(&mut self, model: &Model, course: Course) {
+    pub(super) fn restore(&mut self, model: &Model, course: SavedState) {
         self.course = course;
         // Scratch follows cuts by their number, which begins anew with a state that was kept.
         if self.course.state.cuts.is_some() {
@@ -129,7 +129,7 @@ impl Stepper {
 
     /// One step to [`Self::poses`]. The tools that `marks` names say: here.
     pub(super) fn step(&mut self, model: &Model, elapsed: Option<f64>, marks: &[bool]) {
-        let Course {
+        let SavedState {
             state,
             clock,
             judge,

@@ -1,6 +1,6 @@
 use palpate_mechanics::LinearElastic;
 use palpate_mechanics::Vec3;
-use palpate_mechanics::contact::Bond;
+use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_spheres::{
     Calibration, FiniteSphereModel, FiniteSphereSettings, Form,
 };
@@ -72,7 +72,7 @@ fn profile(
     law: &LinearElastic,
     judge: &[(f64, f64)],
 ) -> Result<(Vec<(f64, f64)>, f64), Error> {
-    let model = FiniteSphereModel::new(settings, law, Bond::Slip)?;
+    let model = FiniteSphereModel::new(settings, law, Friction::Frictionless)?;
     let contact = contact(TIP_RADIUS)?;
     let mut workspace = model.workspace();
     let response = model.respond(&contact, &mut workspace);

@@ -1,6 +1,6 @@
 use palpate_jobs::plot::{Series, Style};
 use palpate_mechanics::LinearElastic;
-use palpate_mechanics::contact::Bond;
+use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_spheres::{FiniteSphereModel, FiniteSphereSettings, Form};
 
 use super::pole::{FORMS, POISSONS_RATIOS, YOUNGS_MODULUS, contact, finite_elements};
@@ -152,5 +152,5 @@ fn model(
         form,
         ..FiniteSphereSettings::default()
     };
-    FiniteSphereModel::new(settings, law, Bond::Slip)
+    FiniteSphereModel::new(settings, law, Friction::Frictionless)
 }

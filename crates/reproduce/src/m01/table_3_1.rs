@@ -1,7 +1,7 @@
 use std::time::Instant;
 
 use palpate_mechanics::LinearElastic;
-use palpate_mechanics::contact::Bond;
+use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_spheres::{FiniteSphereModel, FiniteSphereSettings, Form, Solver};
 
 use super::pole::{FORMS, YOUNGS_MODULUS, contact, hemisphere_problem};
@@ -48,7 +48,7 @@ fn add_local(
         ..FiniteSphereSettings::default()
     };
     let law = LinearElastic::new(YOUNGS_MODULUS, POISSONS_RATIO)?;
-    let model = FiniteSphereModel::new(settings, &law, Bond::Slip)?;
+    let model = FiniteSphereModel::new(settings, &law, Friction::Frictionless)?;
     let timing = measure(&model, &contact(TIP_RADIUS)?);
     for (quantity, ours) in [("solution_s", timing.solution), ("total_s", timing.total)] {
         // The default has the plain name.

@@ -2,7 +2,7 @@
 
 use palpate_jobs::plot::{Series, Style};
 use palpate_mechanics::LinearElastic;
-use palpate_mechanics::contact::Bond;
+use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_spheres::{Calibration, FiniteSphereModel, FiniteSphereSettings};
 
 use super::figure_3_4::PARTICLES;
@@ -75,5 +75,9 @@ fn model(
         calibration,
         ..FiniteSphereSettings::default()
     };
-    Ok(FiniteSphereModel::new(settings, law, Bond::Slip)?)
+    Ok(FiniteSphereModel::new(
+        settings,
+        law,
+        Friction::Frictionless,
+    )?)
 }

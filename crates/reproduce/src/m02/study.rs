@@ -79,7 +79,7 @@ impl HandOverStudy {
             .iter()
             .map(|sample| {
                 let depth = -sample.state.position.z;
-                [sample.state.time, depth, sample.wanted.z, law(depth).0]
+                [sample.state.time, depth, sample.commanded.z, law(depth).0]
             })
             .collect();
         let errors = course.iter().map(|[_, _, made, exact]| made - exact);
@@ -88,7 +88,7 @@ impl HandOverStudy {
             let at = |tick: usize| samples[tick].state.position.z;
             let work = counted
                 .clone()
-                .map(|tick| samples[tick].wanted.z * (at(tick + lag + 1) - at(tick + lag)));
+                .map(|tick| samples[tick].commanded.z * (at(tick + lag + 1) - at(tick + lag)));
             work.sum::<f64>() / f64::from(self.cycles)
         };
         Ok(HandOverCost {

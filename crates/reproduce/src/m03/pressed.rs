@@ -2,7 +2,7 @@ use std::ops::ControlFlow;
 
 use palpate_geometry::{TriangleId, Vec3};
 use palpate_mechanics::boundary_elements::BoundaryProblem;
-use palpate_mechanics::contact::Bond;
+use palpate_mechanics::contact::Friction;
 use palpate_mechanics::surface_response::{
     MovedTriangle, PatchContact, PatchWorkspace, Reciprocity, SurfaceResponse, TouchId,
 };
@@ -41,7 +41,7 @@ impl Pressed {
             displacement: -depth * normal,
         };
         let contact = PatchContact {
-            bond: Bond::Stick,
+            bond: Friction::Bonded,
             reciprocity: Reciprocity::Imposed,
             youngs_modulus: YOUNGS_MODULUS,
         };

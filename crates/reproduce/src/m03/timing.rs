@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use palpate_mechanics::Error;
 use palpate_mechanics::boundary_elements::{BoundaryProblem, Stage};
-use palpate_mechanics::contact::Bond;
+use palpate_mechanics::contact::Friction;
 use palpate_mechanics::surface_response::{
     MovedTriangle, PatchContact, PatchWorkspace, Reciprocity, SurfaceResponse, TouchId,
 };
@@ -88,7 +88,7 @@ pub(super) fn touch(body: &Body, response: &SurfaceResponse, triangles: usize) -
         })
         .collect();
     let contact = PatchContact {
-        bond: Bond::Stick,
+        bond: Friction::Bonded,
         reciprocity: Reciprocity::Imposed,
         youngs_modulus: YOUNGS_MODULUS,
     };

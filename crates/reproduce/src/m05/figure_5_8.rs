@@ -68,7 +68,7 @@ fn add_errors(rows: &mut Rows<'_>, name: &str, found: &Measured) {
 
 /// Amplitude [-] and phase of the depth over the wanted one, over the last whole periods of `duration` [s].
 fn tracking(found: &Measured, frequency: f64, duration: f64) -> Complex<f64> {
-    let begun = found.course.duration() - duration;
+    let begun = found.trajectory.duration() - duration;
     let mut sums = [Complex::new(0.0, 0.0); 2];
     let swinging = found.tracked().filter(|[time, ..]| *time > begun + 1e-6);
     for [time, depth, wanted] in swinging {

@@ -5,7 +5,7 @@ use palpate_files::Recording;
 use palpate_files::protocol::Stimulus;
 use palpate_files::recording::Samples;
 use palpate_measure::phantom::{Imperfections, MECHANICS_STEP, Machine, TwoMass};
-use palpate_measure::{Course, Rig, RigSample, RigSettings, VirtualSpecimen};
+use palpate_measure::{DepthTrajectory, Rig, RigSample, RigSettings, VirtualSpecimen};
 use palpate_servo::Clock;
 
 use crate::Error;
@@ -17,7 +17,7 @@ const REST: f64 = 10.0;
 pub(super) struct Measured {
     pub(super) recording: Recording,
     /// What was pressed.
-    pub(super) course: Course,
+    pub(super) trajectory: DepthTrajectory,
     /// Height at which the rig says that tissue begins [m].
     pub(super) contact: f64,
 }
@@ -34,7 +34,7 @@ pub(super) fn measured(
     let clock = (Clock::virtual_time(), seed);
     let rig = Rig::over(specimen.clone(), device, settings, clock);
     let mut rig = rig?;
-    let course = Course::of(stimulus)?;
+    let trajectory = DepthTrajectory::of(stimulus)?;
     rig.approach(&mut |_| true)?;
     rig.wait(REST, &mut |_| true)?;
     let mut heard: Vec<RigSample> = Vec::new();
@@ -42,7 +42,7 @@ pub(super) fn measured(
         heard.push(*sample);
         true
     };
-    rig.press(&course, listener)?;
+    rig.press(&trajectory, listener)?;
     let begun = heard.first().map_or(0.0, |first| first.time);
     let samples = Samples {
         time_s: heard.iter().map(|sample| sample.time - begun).collect(),
@@ -56,8 +56,8 @@ pub(super) fn measured(
         .last()
         .map_or(0.0, |last| last.height + last.depth.unwrap_or_default());
     Ok(Measured {
-        recording: Recording::new(rig.describe(&course, repeat), samples)?,
-        course,
+        recording: Recording::new(rig.describe(&trajectory, repeat), samples)?,
+        trajectory,
         contact,
     })
 }
@@ -67,7 +67,7 @@ impl Measured {
     pub(super) fn tracked(&self) -> impl Iterator<Item = [f64; 3]> + '_ {
         let depths = self.recording.depth_m().iter();
         let touching = self.times().zip(depths).filter(|(time, _)| *time >= 0.0);
-        touching.map(|(time, depth)| [time, *depth, self.course.at(time)[0]])
+        touching.map(|(time, depth)| [time, *depth, self.trajectory.at(time)[0]])
     }
 
     /// Times from first contact [s].
@@ -75,7 +75,7 @@ impl Measured {
         let times = self.recording.time_s();
         // A recording ends with its stimulus.
         let last = times.last().copied().unwrap_or_default();
-        let contact = last - self.course.duration();
+        let contact = last - self.trajectory.duration();
         times.iter().map(move |time| time - contact)
     }
 }

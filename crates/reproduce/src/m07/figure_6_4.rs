@@ -51,7 +51,7 @@ fn drawn(
     };
     let each = recording.time.iter().zip(&recording.force).step_by(50);
     let dots = each.map(|(t, f)| (*t, 1e3 * f)).collect();
-    let as_printed = "Kelvin's law as printed, signs mended";
+    let as_printed = "Kelvin's law as printed, signs corrected";
     let recorded = "virtual recording, tables 6-3 and 6-4";
     Ok(vec![
         Series::new(recorded, dots, Style::Dots, 0),

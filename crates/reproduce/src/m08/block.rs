@@ -1,10 +1,11 @@
 //! The block under the punch, with the laws that the source found for it.
 
+use palpate_mechanics::contact::Friction;
 use std::sync::{Arc, OnceLock};
 
 use palpate_characterize::inverse::SoughtLaw;
 use palpate_mechanics::finite_elements::indentation::{
-    Base, Block, Grip, IndentationProblem, Indenter, IndenterShape, Side, solve,
+    Base, Block, IndentationProblem, Indenter, IndenterShape, Side, solve,
 };
 use palpate_mechanics::{IndentationCurve, Law, MooneyRivlin, NeoHookean};
 
@@ -120,10 +121,10 @@ fn curve(rows: &Rows<'_>, name: &str, law: Arc<dyn Law>) -> Result<(IndentationC
         block: BLOCK,
         indenter: Indenter {
             shape: IndenterShape::Flat {
-                side: Side::Touches(Grip::Stick),
+                side: Side::Touches(Friction::Bonded),
             },
             radius: RADIUS,
-            face: Grip::Stick,
+            face: Friction::Bonded,
         },
         law,
     };

@@ -1,7 +1,7 @@
 use palpate_characterize::CleanRecording;
 use palpate_characterize::inverse::SoughtLaw;
 use palpate_characterize::viscoelastic::{
-    Course, Relaxation, RelaxationSettings, relaxation, relaxation_of_steps,
+    Relaxation, RelaxationRecord, RelaxationSettings, relaxation, relaxation_of_steps,
 };
 use palpate_files::Estimate;
 use palpate_mechanics::IndentationCurve;
@@ -21,27 +21,27 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
         let course = ramp_and_hold(1e-3 * f64::from(depth_mm));
         let felt = curve.relaxed(&prony(organ, depth_mm)?, &course.times, &course.depths);
         let recording = recorded((organ, 0), &course, &felt, u64::from(depth_mm))?;
-        let courses: Vec<Course> = seen(&recording, &curve).into_iter().collect();
+        let records: Vec<RelaxationRecord> = seen(&recording, &curve).into_iter().collect();
         let two = RelaxationSettings { terms: Some(2) };
         let name = format!("{organ}_{depth_mm}_mm");
-        let with_ramp = relaxation(&courses, two)?;
-        let free = relaxation(&courses, RelaxationSettings::default())?;
+        let with_ramp = relaxation(&records, two)?;
+        let free = relaxation(&records, RelaxationSettings::default())?;
         rows.add(&format!("{name}/terms"), free.terms.len() as f64);
         add(rows, (&name, ""), &with_ramp);
-        let steps = relaxation_of_steps(&courses, two)?;
+        let steps = relaxation_of_steps(&records, two)?;
         add(rows, (&name, "step/"), &steps);
     }
     Ok(())
 }
 
-fn seen(recording: &CleanRecording, curve: &IndentationCurve) -> Option<Course> {
+fn seen(recording: &CleanRecording, curve: &IndentationCurve) -> Option<RelaxationRecord> {
     let columns = (
         &recording.time[..],
         &recording.depth[..],
         &recording.force[..],
     );
     let largest = recording.filtered_force.iter().copied().fold(0.0, f64::max);
-    Course::new(columns, largest, |depth| curve.force(depth))
+    RelaxationRecord::new(columns, largest, |depth| curve.force(depth))
 }
 
 fn add(rows: &mut Rows<'_>, (name, ramp): (&str, &str), found: &Relaxation) {

@@ -1,7 +1,7 @@
 use palpate_characterize::inverse::{
     Body, Curves, Indentation, LawDescription, SoughtLaw, law_fit,
 };
-use palpate_characterize::viscoelastic::{Course, RelaxationSettings, relaxation};
+use palpate_characterize::viscoelastic::{RelaxationRecord, RelaxationSettings, relaxation};
 use palpate_characterize::{CharacterizeSettings, characterize};
 use palpate_files::Estimate;
 use palpate_mechanics::finite_elements::indentation::History;
@@ -31,8 +31,8 @@ fn run(rows: &mut Rows<'_>, law: SoughtLaw) -> Result<(), Error> {
         let assumed = elastic(SoughtLaw::NeoHookean, (1.0, 0.0))?;
         let largest = forces.iter().copied().fold(0.0, f64::max);
         let columns = (&course.times[..], &course.depths[..], &forces[..]);
-        let seen = Course::new(columns, largest, |depth| assumed.force(depth));
-        let seen: Vec<Course> = seen.into_iter().collect();
+        let seen = RelaxationRecord::new(columns, largest, |depth| assumed.force(depth));
+        let seen: Vec<RelaxationRecord> = seen.into_iter().collect();
         let relaxing = relaxation(&seen, RelaxationSettings { terms: Some(2) })?;
         let indentation = Indentation::new(&course.times, &course.depths, &forces);
         let mut curves = Curves::new(Body::under_punch(RADIUS), law, depth);

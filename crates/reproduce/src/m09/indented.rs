@@ -1,8 +1,8 @@
 //! The probe on the side of the esophagus as a straight tube: at finite strain, and at small strain.
 
+use palpate_mechanics::contact::Friction;
 use std::sync::{Arc, OnceLock};
 
-use palpate_mechanics::finite_elements::indentation::Grip;
 use palpate_mechanics::finite_elements::tube::{Ends, TubeProblem, TubePunch, indent};
 use palpate_mechanics::{IndentationCurve, Law, LinearElastic, NeoHookean};
 
@@ -59,7 +59,7 @@ fn indented(
     };
     let punch = TubePunch {
         radius: RADIUS,
-        face: Grip::Stick,
+        face: Friction::Bonded,
         pressure: 0.0,
         depths: DEPTHS_MM.map(|depth| 1e-3 * f64::from(depth)).to_vec(),
     };

@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use palpate_characterize::lumped::{Contact, mean_modulus};
 use palpate_characterize::viscoelastic::{
-    Course, RelaxationSettings, relaxation, relaxation_of_steps,
+    RelaxationRecord, RelaxationSettings, relaxation, relaxation_of_steps,
 };
 use palpate_mechanics::finite_elements::estimate::Estimated;
 use palpate_mechanics::finite_elements::tube::{Ends, Inflated, TubeProblem, inflate};
@@ -65,7 +65,7 @@ fn add_relaxation(rows: &mut Rows<'_>, printed: &Printed) -> Result<(), Error> {
         &recording.depth[..],
         &recording.force[..],
     );
-    let seen: Vec<Course> = Course::new(columns, largest, |depth| depth)
+    let seen: Vec<RelaxationRecord> = RelaxationRecord::new(columns, largest, |depth| depth)
         .into_iter()
         .collect();
     let one = RelaxationSettings { terms: Some(1) };

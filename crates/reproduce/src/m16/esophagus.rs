@@ -1,9 +1,9 @@
 //! What each method says of the esophagus: the table of `docs/theory/esophagus.md`.
 
+use palpate_mechanics::contact::Friction;
 use std::sync::Arc;
 
 use palpate_files::Scene;
-use palpate_mechanics::finite_elements::indentation::Grip;
 use palpate_mechanics::finite_elements::solid::{Body, Loads, MovedPatch, SolidProblem, solve};
 use palpate_mechanics::{IndentationCurve, LinearElastic, Material};
 use palpate_simulate::{Simulation, held_region};
@@ -167,7 +167,7 @@ fn organ(rows: &Rows<'_>, simulation: &Simulation) -> Result<SolidOrgan, Error> 
             radius: RADIUS,
             // Small strain: any will do.
             displacement: -1e-3 * normal,
-            grip: Grip::Stick,
+            grip: Friction::Bonded,
         }),
         law: Arc::new(LinearElastic::new(1.0, POISSONS_RATIO)?),
         loads: Loads::default(),

@@ -49,12 +49,12 @@ impl Hand {
         state: &mut HandState,
         force: &Vec3,
         elapsed: f64,
-        wanted: impl Fn(f64) -> (Vec3, Vec3),
+        commanded: impl Fn(f64) -> (Vec3, Vec3),
     ) {
         let steps = (elapsed / LONGEST).ceil().clamp(1.0, 20_000.0);
         let step = elapsed / steps;
         for number in 1..=steps as u32 {
-            let (place, velocity) = wanted(f64::from(number) / steps);
+            let (place, velocity) = commanded(f64::from(number) / steps);
             let pulled = (place - state.position) * self.stiffness
                 + (velocity - state.velocity) * self.damping
                 + force;

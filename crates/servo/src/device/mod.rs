@@ -1,7 +1,7 @@
 //! The seam to devices. The virtual ones and the real ones are the same to everybody above it.
 //!
 //! A device is commanded by a [`ServoLoop`](crate::ServoLoop) alone, for nobody else can make a [`Command`] with a
-//! force: its force is a [`CommandedForce`], which the guard makes, and the loop gives it to the device whose
+//! force: its force is a [`OutputForce`], which the guard makes, and the loop gives it to the device whose
 //! [`Capabilities`] the guard was made for.
 //!
 //! ```compile_fail,E0624
@@ -11,15 +11,15 @@
 //! ```
 //!
 //! ```compile_fail,E0451
-//! use palpate_servo::{CommandedForce, Vec3};
+//! use palpate_servo::{OutputForce, Vec3};
 //! // Its field is private.
-//! let force = CommandedForce { force: Vec3::x() };
+//! let force = OutputForce { force: Vec3::x() };
 //! ```
 //!
 //! ```compile_fail,E0451
-//! use palpate_servo::{Command, CommandedForce};
+//! use palpate_servo::{Command, OutputForce};
 //! // Nor can the force of a guard with other limits be sent.
-//! fn sent(force: CommandedForce) -> Command {
+//! fn sent(force: OutputForce) -> Command {
 //!     Command { time: 0.0, force }
 //! }
 //! ```
@@ -58,25 +58,25 @@ pub use scheduler::{Next, Scheduler, Tick};
 pub use trajectory::{Trajectory, Waypoint};
 pub use virtual_device::VirtualDevice;
 
-use crate::{CommandedForce, Fault, Vec3};
+use crate::{Fault, OutputForce, Vec3};
 
 /// What a device is told at a tick.
 #[derive(Debug, PartialEq)]
 pub struct Command {
     /// The time on the loop's clock [s].
     pub time: f64,
-    force: CommandedForce,
+    force: OutputForce,
 }
 
 impl Command {
     /// `force` from `time` [s] on.
-    pub(crate) fn new(time: f64, force: CommandedForce) -> Self {
+    pub(crate) fn new(time: f64, force: OutputForce) -> Self {
         Self { time, force }
     }
 
     /// No force from `time` [s] on.
     pub fn without_force(time: f64) -> Self {
-        Self::new(time, CommandedForce::default())
+        Self::new(time, OutputForce::default())
     }
 
     /// The force on the hand until the next command [N], within the limits of the device's loop.

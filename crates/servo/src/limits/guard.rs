@@ -1,9 +1,9 @@
 use super::arming::{Conditions, Stage};
 use super::dead_man::Hold;
-use super::heat::Heat;
-use super::magnitude::shorten;
+use super::magnitude::saturate;
 use super::passivity::Passivity;
 use super::slew::limit_rise;
+use super::thermal::ThermalModel;
 use super::walls::wall_force;
 use super::watchdog::{Verdict, judge_gap, judge_silence};
 use super::{Interventions, Limits};
@@ -11,11 +11,11 @@ use crate::{Capabilities, DeviceState, Fault, Vec3};
 
 /// The force of a tick, within every limit. The guard makes it, and nobody else; all may make one that is zero.
 #[derive(Debug, PartialEq)]
-pub struct CommandedForce {
+pub struct OutputForce {
     force: Vec3,
 }
 
-impl Default for CommandedForce {
+impl Default for OutputForce {
     /// No force.
     fn default() -> Self {
         Self {
@@ -24,7 +24,7 @@ impl Default for CommandedForce {
     }
 }
 
-impl CommandedForce {
+impl OutputForce {
     /// The force [N].
     pub fn newtons(&self) -> Vec3 {
         self.force
@@ -33,7 +33,7 @@ impl CommandedForce {
 
 /// A force that a controller wants, and what is known at the tick.
 #[derive(Debug, Clone, Copy)]
-pub struct Wish {
+pub struct CommandedForce {
     /// The force [N]; any number, or none.
     pub force: Vec3,
     /// What is wanted besides against the device's own weight, spring and mass [N].
@@ -58,7 +58,7 @@ pub struct Guard {
     period: f64,
     stage: Stage,
     hold: Hold,
-    heat: Heat,
+    thermal: ThermalModel,
     passivity: Passivity,
     /// Where the hand was at the last tick [m].
     position: Option<Vec3>,
@@ -122,7 +122,7 @@ impl Guard {
             limits,
             stage: Stage::Off,
             hold: Hold::Free,
-            heat: Heat::default(),
+            thermal: ThermalModel::default(),
             passivity: Passivity::default(),
             position: None,
             last: Sent::default(),
@@ -144,7 +144,7 @@ impl Guard {
 
     /// The largest force that may be sent now [N].
     pub fn most(&self) -> f64 {
-        self.heat.most(self.device.most, self.device.continuous)
+        self.thermal.most(self.device.most, self.device.continuous)
     }
 
     /// Whether a fault keeps forces off until somebody arms them.
@@ -188,18 +188,23 @@ impl Guard {
     }
 
     /// The force that may be sent for `wish` at `state`, `dt` [s] after the last.
-    pub fn pass(&mut self, wish: &Wish, state: &DeviceState, dt: f64) -> CommandedForce {
+    pub fn pass(
+        &mut self,
+        commanded: &CommandedForce,
+        state: &DeviceState,
+        dt: f64,
+    ) -> OutputForce {
         self.observe(state, dt);
         self.follow_hold(state, dt);
-        let fault = self.fault_of(wish, state);
+        let fault = self.fault_of(commanded, state);
         self.last = match fault {
             Some(fault) => {
                 self.trip(fault);
                 Sent::default()
             }
-            None => self.limited(wish, state, dt),
+            None => self.limited(commanded, state, dt),
         };
-        CommandedForce {
+        OutputForce {
             force: self.last.whole,
         }
     }
@@ -214,7 +219,7 @@ impl Guard {
         }
         self.position = place;
         let force = self.before.whole.norm();
-        self.heat.add(force, dt, self.limits.heat_time);
+        self.thermal.add(force, dt, self.limits.heat_time);
         self.before = self.last;
     }
 
@@ -226,54 +231,54 @@ impl Guard {
             .is_none_or(|switch| switch.is_held(state));
         let hold = self.hold.next(held, dt, self.limits.release);
         let lets_go = self.hold == Hold::Held && hold != Hold::Held;
-        self.interventions.let_go += u64::from(lets_go && self.part() > 0.0);
+        self.interventions.dead_man_released += u64::from(lets_go && self.part() > 0.0);
         self.hold = hold;
     }
 
-    fn limited(&mut self, wish: &Wish, state: &DeviceState, dt: f64) -> Sent {
-        self.arm(wish, state, dt);
+    fn limited(&mut self, commanded: &CommandedForce, state: &DeviceState, dt: f64) -> Sent {
+        self.arm(commanded, state, dt);
         let part = self.part();
-        let late = self.judge_gap(wish) == Verdict::NoForce;
+        let late = self.judge_gap(commanded) == Verdict::NoForce;
         let (on, counted) = (part > 0.0, &mut self.interventions);
-        counted.late += u64::from(on && late);
+        counted.deadline_missed += u64::from(on && late);
         let is_overdue = |overdue: f64| overdue > 0.0 && overdue.is_finite();
-        counted.faded += u64::from(on && wish.overdue.is_some_and(is_overdue));
+        counted.faded += u64::from(on && commanded.overdue.is_some_and(is_overdue));
         if late || !on {
             return Sent::default();
         }
-        let rendered = self.render(wish, state, dt);
-        if wish.compensation == Vec3::zeros() && self.last.whole == self.last.rendered {
+        let rendered = self.render(commanded, state, dt);
+        if commanded.compensation == Vec3::zeros() && self.last.whole == self.last.rendered {
             return Sent {
                 rendered,
                 whole: rendered,
             };
         }
-        let whole = rendered + wish.compensation * part;
-        let most = self.heat.most(self.device.peak, self.device.continuous);
-        let risen = limit_rise(&self.last.whole, &shorten(&whole, most), self.rise(dt));
+        let whole = rendered + commanded.compensation * part;
+        let most = self.thermal.most(self.device.peak, self.device.continuous);
+        let risen = limit_rise(&self.last.whole, &saturate(&whole, most), self.rise(dt));
         Sent {
             rendered,
-            whole: shorten(&risen, most),
+            whole: saturate(&risen, most),
         }
     }
 
     /// What is sent of what the controller wants [N].
-    fn render(&mut self, wish: &Wish, state: &DeviceState, dt: f64) -> Vec3 {
-        // Shortened before and after: a rise towards a long force would else turn it.
-        let cold = shorten(&wish.force, self.device.most);
-        let damped = self.passivity.control(&cold, self.limits.allowance);
+    fn render(&mut self, commanded: &CommandedForce, state: &DeviceState, dt: f64) -> Vec3 {
+        // Saturated before and after: a rise towards a long force would else turn it.
+        let cold = saturate(&commanded.force, self.device.most);
+        let damped = self.passivity.control(&cold, self.limits.energy_budget);
         let walls = self.walls(state);
         let most = self.most();
-        let wanted = shorten(&(damped + walls), most) * self.part();
-        let risen = limit_rise(&self.last.rendered, &wanted, self.rise(dt));
+        let bounded = saturate(&(damped + walls), most) * self.part();
+        let risen = limit_rise(&self.last.rendered, &bounded, self.rise(dt));
         let counted = &mut self.interventions;
         counted.damped += u64::from(damped != cold);
         counted.walls += u64::from(walls != Vec3::zeros());
         let size = (damped + walls).norm();
-        counted.cooled += u64::from(size > most && most < self.device.most);
-        counted.shortened += u64::from(cold != wish.force || size > self.device.most);
-        counted.slowed += u64::from(risen != wanted);
-        shorten(&risen, most)
+        counted.thermally_limited += u64::from(size > most && most < self.device.most);
+        counted.saturated += u64::from(cold != commanded.force || size > self.device.most);
+        counted.rate_limited += u64::from(risen != bounded);
+        saturate(&risen, most)
     }
 
     /// The most that a force may rise in `dt` [s] [N].
@@ -282,36 +287,38 @@ impl Guard {
     }
 
     /// How far forces are on after `dt` [s] more.
-    fn arm(&mut self, wish: &Wish, state: &DeviceState, dt: f64) {
+    fn arm(&mut self, commanded: &CommandedForce, state: &DeviceState, dt: f64) {
         let conditions = Conditions {
-            ready: wish.allowed && state.ready && state.present && self.hold != Hold::Free,
-            allowed: wish.allowed,
-            speed: wish.velocity.norm(),
-            force: wish.force.norm(),
-            asked: wish.asked,
+            ready: commanded.allowed && state.ready && state.present && self.hold != Hold::Free,
+            allowed: commanded.allowed,
+            speed: commanded.velocity.norm(),
+            force: commanded.force.norm(),
+            asked: commanded.asked,
         };
         self.stage = self.stage.next(&conditions, &self.limits, dt);
     }
 
-    fn fault_of(&self, wish: &Wish, state: &DeviceState) -> Option<Fault> {
+    fn fault_of(&self, commanded: &CommandedForce, state: &DeviceState) -> Option<Fault> {
         if state.fault.is_some() {
             return state.fault;
         }
-        if !is_finite(&state.position) || !is_finite(&wish.velocity) {
+        if !is_finite(&state.position) || !is_finite(&commanded.velocity) {
             return Some(Fault::NonFiniteState);
         }
-        if !is_finite(&wish.force) || !is_finite(&wish.compensation) {
+        if !is_finite(&commanded.force) || !is_finite(&commanded.compensation) {
             return Some(Fault::NonFiniteForce);
         }
-        let (speed, limit) = (wish.velocity.norm(), self.limits.speed);
+        let (speed, limit) = (commanded.velocity.norm(), self.limits.speed);
         let on = self.stage.part(&self.limits) > 0.0;
         if on && speed > limit {
             return Some(Fault::TooFast { speed, limit });
         }
         // Before the first answer there is no force that could be too old.
-        let overdue = wish.overdue.filter(|overdue| on && overdue.is_finite());
+        let overdue = commanded
+            .overdue
+            .filter(|overdue| on && overdue.is_finite());
         let judged = [
-            self.judge_gap(wish),
+            self.judge_gap(commanded),
             overdue.map_or(Verdict::InTime, |overdue| {
                 judge_silence(overdue, self.limits.silence)
             }),
@@ -322,9 +329,9 @@ impl Guard {
         })
     }
 
-    fn judge_gap(&self, wish: &Wish) -> Verdict {
+    fn judge_gap(&self, commanded: &CommandedForce) -> Verdict {
         let limits = (self.limits.late, self.limits.much_too_late);
-        judge_gap(wish.gap, self.period, limits)
+        judge_gap(commanded.gap, self.period, limits)
     }
 
     fn walls(&self, state: &DeviceState) -> Vec3 {

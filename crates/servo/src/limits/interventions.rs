@@ -2,9 +2,9 @@
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize)]
 pub struct Interventions {
     /// Times that a hand let go of its dead-man's switch.
-    pub let_go: u64,
+    pub dead_man_released: u64,
     /// Ticks without force, after one that was too late.
-    pub late: u64,
+    pub deadline_missed: u64,
     /// Ticks with an answer of the model beyond its time, which fades.
     pub faded: u64,
     /// Ticks in which energy was kept from the hand.
@@ -12,26 +12,33 @@ pub struct Interventions {
     /// Ticks in a wall of the workspace.
     pub walls: u64,
     /// Ticks in which a force was shortened to the largest that is allowed.
-    pub shortened: u64,
+    pub saturated: u64,
     /// Ticks in which motors that were warm had less than that.
-    pub cooled: u64,
+    pub thermally_limited: u64,
     /// Ticks in which a force rose as fast as it may.
-    pub slowed: u64,
+    pub rate_limited: u64,
 }
 
 impl Interventions {
     /// All of them, whichever stage it was.
     pub fn count(&self) -> u64 {
         let Self {
-            let_go,
-            late,
+            dead_man_released,
+            deadline_missed,
             faded,
             damped,
             walls,
-            shortened,
-            cooled,
-            slowed,
+            saturated,
+            thermally_limited,
+            rate_limited,
         } = *self;
-        let_go + late + faded + damped + walls + shortened + cooled + slowed
+        dead_man_released
+            + deadline_missed
+            + faded
+            + damped
+            + walls
+            + saturated
+            + thermally_limited
+            + rate_limited
     }
 }

@@ -4,7 +4,7 @@ use crate::Vec3;
 
 /// `force` [N], shortened to `most` [N] where it is longer. Its direction stays, which limits on each axis
 /// would turn.
-pub fn shorten(force: &Vec3, most: f64) -> Vec3 {
+pub fn saturate(force: &Vec3, most: f64) -> Vec3 {
     // Squares of a force beyond 1e154 N would be infinite.
     let largest = force.amax();
     let scaled = if largest > 1e100 {
@@ -29,9 +29,9 @@ mod tests {
     fn a_long_force_keeps_its_direction() {
         let force = Vec3::new(30.0, -40.0, 0.0);
         // A 3-4-5 triangle.
-        assert!((shorten(&force, 5.0) - Vec3::new(3.0, -4.0, 0.0)).norm() < 1e-15);
-        assert_eq!(shorten(&force, 50.0), force);
-        assert_eq!(shorten(&Vec3::zeros(), 1.0), Vec3::zeros());
-        assert_eq!(shorten(&(Vec3::x() * f64::MAX), 1.0), Vec3::x());
+        assert!((saturate(&force, 5.0) - Vec3::new(3.0, -4.0, 0.0)).norm() < 1e-15);
+        assert_eq!(saturate(&force, 50.0), force);
+        assert_eq!(saturate(&Vec3::zeros(), 1.0), Vec3::zeros());
+        assert_eq!(saturate(&(Vec3::x() * f64::MAX), 1.0), Vec3::x());
     }
 }

@@ -16,7 +16,7 @@
 //! 9. [`slew`]: a force rises by at most 400 N/s and falls at once.
 //!
 //! What is added against the device's own weight, spring and mass passes stages 1 to 5, 8 (what the device displays, and
-//! its motors bear) and 9 with the rest: what is sent is one force, a [`CommandedForce`].
+//! its motors bear) and 9 with the rest: what is sent is one force, a [`OutputForce`].
 //!
 //! A fault keeps forces off until somebody arms them again. What the stages did is counted
 //! ([`Interventions`]).
@@ -29,17 +29,17 @@
 pub mod arming;
 pub mod dead_man;
 mod guard;
-pub mod heat;
 mod interventions;
 pub mod magnitude;
 pub mod passivity;
 pub mod slew;
+pub mod thermal;
 pub mod walls;
 pub mod watchdog;
 
 pub use arming::Stage;
 pub use dead_man::DeadMan;
-pub use guard::{CommandedForce, Guard, Wish};
+pub use guard::{CommandedForce, Guard, OutputForce};
 pub use interventions::Interventions;
 
 use crate::extrapolate::FADE;
@@ -73,7 +73,7 @@ pub struct Limits {
     /// The part of the largest force that is displayed without such a switch [-].
     pub without_dead_man: f64,
     /// The energy that may come out of a contact beyond what a hand put in [J]; infinite to leave it alone.
-    pub allowance: f64,
+    pub energy_budget: f64,
     /// τ, in which motors cool [s].
     pub heat_time: f64,
     /// Whether a fault keeps forces off until somebody arms them; else they are armed when it is over.
@@ -95,7 +95,7 @@ impl Default for Limits {
             silence: FADE,
             release: 0.050,
             without_dead_man: 0.5,
-            allowance: 0.25e-3,
+            energy_budget: 0.25e-3,
             heat_time: 30.0,
             latched: true,
         }
@@ -116,7 +116,7 @@ impl Limits {
             arming_force: f64::INFINITY,
             much_too_late: f64::INFINITY,
             silence: f64::INFINITY,
-            allowance: f64::INFINITY,
+            energy_budget: f64::INFINITY,
             latched: false,
             ..default
         }
@@ -127,7 +127,7 @@ impl Limits {
     pub fn without_hand() -> Self {
         Self {
             without_dead_man: 1.0,
-            allowance: f64::INFINITY,
+            energy_budget: f64::INFINITY,
             ..Self::default()
         }
     }
@@ -146,7 +146,7 @@ impl Limits {
             silence,
             release,
             without_dead_man,
-            allowance,
+            energy_budget,
             heat_time,
             latched: _,
         } = *self;
@@ -165,7 +165,7 @@ impl Limits {
             "the part without a dead-man's switch [-]",
             without_dead_man,
         )?;
-        Fault::unless_positive("the energy that may come out [J]", allowance)?;
+        Fault::unless_positive("the energy that may come out [J]", energy_budget)?;
         Fault::unless_finite_and_positive("the time in which motors cool [s]", heat_time)
     }
 }

@@ -55,14 +55,14 @@ impl Passivity {
     }
 
     /// What of a `force` [N] may be sent, with an `allowance` W₀ [J].
-    pub fn control(&self, force: &Vec3, allowance: f64) -> Vec3 {
-        let debt = -self.stored - allowance;
+    pub fn control(&self, force: &Vec3, energy_budget: f64) -> Vec3 {
+        let debt = -self.stored - energy_budget;
         if debt <= 0.0 {
             return *force;
         }
         let along = self.moved.try_normalize(0.0).unwrap_or_default();
         let giving = force.dot(&along).max(0.0);
-        (force - along * giving) * (1.0 - debt / allowance).max(0.0)
+        (force - along * giving) * (1.0 - debt / energy_budget).max(0.0)
     }
 }
 
@@ -73,18 +73,18 @@ mod tests {
     /// By hand: 1 N over 1.5 mm out is 1.5 mJ, half an allowance beyond it.
     #[test]
     fn only_what_gives_energy_is_taken_away() {
-        let allowance = 1e-3;
+        let energy_budget = 1e-3;
         let mut passivity = Passivity::default();
         let force = Vec3::new(1.0, 0.5, 0.0);
-        assert_eq!(passivity.control(&force, allowance), force);
+        assert_eq!(passivity.control(&force, energy_budget), force);
         passivity.observe(&Vec3::x(), &(Vec3::x() * 1.5e-3), 1e-3);
-        let sent = passivity.control(&force, allowance);
+        let sent = passivity.control(&force, energy_budget);
         assert!((sent - Vec3::y() * 0.25).norm() < 1e-12, "{sent}");
         // What holds the hand back already goes on doing so, in part.
-        let back = passivity.control(&-force, allowance);
+        let back = passivity.control(&-force, energy_budget);
         assert!((back + force * 0.5).norm() < 1e-12, "{back}");
         passivity.observe(&Vec3::x(), &(Vec3::x() * 0.5e-3), 1e-3);
-        assert!(passivity.control(&-force, allowance).norm() < 1e-12);
+        assert!(passivity.control(&-force, energy_budget).norm() < 1e-12);
         assert_eq!(passivity.control(&force, f64::INFINITY), force);
     }
 

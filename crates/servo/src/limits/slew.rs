@@ -5,23 +5,23 @@ use crate::Vec3;
 /// The force [N] nearest to `wanted` that rises by at most `rise` [N] over the last one: it is within
 /// `rise` of some force along `last` that is not larger than it. So it falls at once, and a force that
 /// turns about falls to zero and rises from there.
-pub fn limit_rise(last: &Vec3, wanted: &Vec3, rise: f64) -> Vec3 {
-    let fallen = fallen_towards(last, wanted);
-    let risen = wanted - fallen;
+pub fn limit_rise(last: &Vec3, commanded: &Vec3, rise: f64) -> Vec3 {
+    let fallen = fallen_towards(last, commanded);
+    let risen = commanded - fallen;
     let size = risen.norm();
     if size <= rise {
-        return *wanted;
+        return *commanded;
     }
     fallen + risen * (rise / size)
 }
 
 /// The force between zero and `last` that is nearest to `wanted`.
-pub fn fallen_towards(last: &Vec3, wanted: &Vec3) -> Vec3 {
+pub fn fallen_towards(last: &Vec3, commanded: &Vec3) -> Vec3 {
     let square = last.norm_squared();
     if square == 0.0 {
         return Vec3::zeros();
     }
-    last * (wanted.dot(last) / square).clamp(0.0, 1.0)
+    last * (commanded.dot(last) / square).clamp(0.0, 1.0)
 }
 
 #[cfg(test)]

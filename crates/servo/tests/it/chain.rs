@@ -129,7 +129,10 @@ fn let_go_at(time: f64) -> (Vec<Sample>, u64) {
         ServoLoop::new(Box::new(handle(way)), Box::new(law), settings).unwrap();
     let report = servo.run(&mut Clock::virtual_time(), |tick| tick < 2000);
     assert_eq!(report.fault, None);
-    (reader.log.drain().collect(), report.interventions.let_go)
+    (
+        reader.log.drain().collect(),
+        report.interventions.dead_man_released,
+    )
 }
 
 /// Judge: a line from the force to zero in 50 ms.
@@ -187,7 +190,7 @@ fn a_device_without_a_switch_has_half_the_force() {
     assert_eq!(report.peak_force, 1.5);
     let did = report.interventions;
     // 400 N/s: 1.5 N take three ticks and a part of one.
-    assert_eq!((did.slowed, did.shortened), (3, 199));
+    assert_eq!((did.rate_limited, did.saturated), (3, 199));
 }
 
 /// The samples of a hand on a spring whose model dies at a time [s], on `clock`.

@@ -1,4 +1,4 @@
-//! Faults say their cause, then how to mend it; settings out of range are none.
+//! Faults say their cause, then how to repair it; settings out of range are none.
 
 use palpate_servo::{
     DeviceState, Fault, Hand, Limits, NoDevice, ServoLoop, ServoSettings, Trajectory, Vec3,

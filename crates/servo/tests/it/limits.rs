@@ -1,8 +1,8 @@
 //! Nothing but a bounded, slowly rising force reaches a hand.
 
 use palpate_servo::limits::slew::fallen_towards;
-use palpate_servo::limits::{Guard, Limits, Wish};
-use palpate_servo::{Capabilities, CommandedForce, DeadMan, DeviceState, Fault, Stage, Vec3};
+use palpate_servo::limits::{CommandedForce, Guard, Limits};
+use palpate_servo::{Capabilities, DeadMan, DeviceState, Fault, OutputForce, Stage, Vec3};
 use proptest::prelude::*;
 
 const PERIOD: f64 = 1e-3;
@@ -15,8 +15,8 @@ fn capabilities() -> Capabilities {
     }
 }
 
-fn wish(force: Vec3) -> Wish {
-    Wish {
+fn commanded(force: Vec3) -> CommandedForce {
+    CommandedForce {
         force,
         compensation: Vec3::zeros(),
         velocity: Vec3::zeros(),
@@ -37,7 +37,7 @@ fn live() -> (Guard, DeviceState) {
     let mut state = DeviceState::at(0.0, Vec3::zeros());
     state.buttons = 1;
     for _ in 0..600 {
-        guard.pass(&wish(Vec3::zeros()), &state, PERIOD);
+        guard.pass(&commanded(Vec3::zeros()), &state, PERIOD);
     }
     assert_eq!(guard.stage(), Stage::Live);
     (guard, state)
@@ -67,11 +67,11 @@ pub(crate) fn tries(full: u32) -> ProptestConfig {
 proptest! {
     #![proptest_config(tries(2000))]
 
-    /// Judge: the two inequalities themselves, over whole courses of wishes, places and requests to arm. What is added
+    /// Judge: the two inequalities themselves, over whole courses of commanded_forces, places and requests to arm. What is added
     /// for the device itself is in the force that is bounded: by what the device displays, and in its rise.
     #[test]
     fn nothing_passes_the_limits_with_compensation(
-        wishes in prop::collection::vec(
+        commanded_forces in prop::collection::vec(
             (vector(component().boxed()), vector(component().boxed()), vector((-0.2..0.2f64).boxed())),
             1..200,
         ),
@@ -80,10 +80,10 @@ proptest! {
         let limits = Limits::default();
         let peak = capabilities().peak_force;
         let mut last = Vec3::zeros();
-        for (force, compensation, position) in wishes {
+        for (force, compensation, position) in commanded_forces {
             state.position = position;
-            let wish = Wish { compensation, ..wish(force) };
-            let sent = guard.pass(&wish, &state, PERIOD).newtons();
+            let commanded = CommandedForce { compensation, ..commanded(force) };
+            let sent = guard.pass(&commanded, &state, PERIOD).newtons();
             prop_assert!(sent.norm() <= peak, "{sent}");
             prop_assert!(guard.rendered().norm() <= limits.force, "{sent}");
             let rise = (sent - fallen_towards(&last, &sent)).norm();
@@ -96,10 +96,10 @@ proptest! {
         }
     }
 
-    /// Judge: the two inequalities themselves, over whole courses of wishes, places and requests to arm.
+    /// Judge: the two inequalities themselves, over whole courses of commanded_forces, places and requests to arm.
     #[test]
     fn nothing_passes_the_limits(
-        wishes in prop::collection::vec(
+        commanded_forces in prop::collection::vec(
             (vector(component().boxed()), vector((-0.2..0.2f64).boxed()), any::<bool>(), 0.5..30.0f64),
             1..200,
         ),
@@ -108,10 +108,10 @@ proptest! {
         let (mut guard, mut state) = if begins_live { live() } else { (guard(), live().1) };
         let limits = Limits::default();
         let mut last = Vec3::zeros();
-        for (force, position, asked, gap) in wishes {
+        for (force, position, asked, gap) in commanded_forces {
             state.position = position;
-            let wish = Wish { gap: gap * PERIOD, asked, ..wish(force) };
-            let sent = guard.pass(&wish, &state, wish.gap).newtons();
+            let commanded = CommandedForce { gap: gap * PERIOD, asked, ..commanded(force) };
+            let sent = guard.pass(&commanded, &state, commanded.gap).newtons();
             prop_assert!(sent.iter().all(|c| c.is_finite()), "{sent}");
             prop_assert!(sent.norm() <= limits.force, "{sent}");
             let rise = (sent - fallen_towards(&last, &sent)).norm();
@@ -131,7 +131,7 @@ fn a_step_of_force_rises_at_its_rate() {
     let mut last = 0.0;
     for tick in 1..=20 {
         let sent = guard
-            .pass(&wish(Vec3::x() * 100.0), &state, PERIOD)
+            .pass(&commanded(Vec3::x() * 100.0), &state, PERIOD)
             .newtons()
             .x;
         // 400 N/s, until 3 N.
@@ -141,8 +141,8 @@ fn a_step_of_force_rises_at_its_rate() {
     }
     assert_eq!(last, 3.0);
     assert_eq!(
-        guard.pass(&wish(Vec3::zeros()), &state, PERIOD),
-        CommandedForce::default()
+        guard.pass(&commanded(Vec3::zeros()), &state, PERIOD),
+        OutputForce::default()
     );
 }
 
@@ -150,22 +150,22 @@ fn a_step_of_force_rises_at_its_rate() {
 fn what_is_no_number_latches_until_somebody_arms() {
     for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let (mut guard, state) = live();
-        let nothing = guard.pass(&wish(Vec3::y() * value), &state, PERIOD);
-        assert_eq!(nothing, CommandedForce::default());
+        let nothing = guard.pass(&commanded(Vec3::y() * value), &state, PERIOD);
+        assert_eq!(nothing, OutputForce::default());
         for _ in 0..1000 {
             assert_eq!(
-                guard.pass(&wish(Vec3::x() * 0.1), &state, PERIOD),
-                CommandedForce::default()
+                guard.pass(&commanded(Vec3::x() * 0.1), &state, PERIOD),
+                OutputForce::default()
             );
         }
         assert_eq!(guard.stage(), Stage::Faulted(Fault::NonFiniteForce));
-        let asked = Wish {
+        let asked = CommandedForce {
             asked: true,
-            ..wish(Vec3::x() * 0.1)
+            ..commanded(Vec3::x() * 0.1)
         };
         guard.pass(&asked, &state, PERIOD);
         for _ in 0..600 {
-            guard.pass(&wish(Vec3::x() * 0.1), &state, PERIOD);
+            guard.pass(&commanded(Vec3::x() * 0.1), &state, PERIOD);
         }
         assert_eq!((guard.stage(), guard.faults()), (Stage::Live, 1));
     }
@@ -173,19 +173,22 @@ fn what_is_no_number_latches_until_somebody_arms() {
 
 #[test]
 fn each_fault_has_its_cause() {
-    let still = wish(Vec3::x() * 0.1);
-    let fast = Wish {
+    let still = commanded(Vec3::x() * 0.1);
+    let fast = CommandedForce {
         velocity: Vec3::y() * 1.5,
         ..still
     };
-    let stale = Wish {
+    let stale = CommandedForce {
         overdue: Some(0.02),
         ..still
     };
-    let late = Wish { gap: 0.05, ..still };
-    let causes = [fast, stale, late].map(|wish| {
+    let late = CommandedForce { gap: 0.05, ..still };
+    let causes = [fast, stale, late].map(|commanded| {
         let (mut guard, state) = live();
-        assert_eq!(guard.pass(&wish, &state, PERIOD), CommandedForce::default());
+        assert_eq!(
+            guard.pass(&commanded, &state, PERIOD),
+            OutputForce::default()
+        );
         guard.stage()
     });
     let [
@@ -206,13 +209,13 @@ fn each_fault_has_its_cause() {
 #[test]
 fn a_late_tick_has_no_force() {
     let (mut guard, state) = live();
-    let pressed = wish(Vec3::x() * 0.3);
+    let pressed = commanded(Vec3::x() * 0.3);
     assert!(guard.pass(&pressed, &state, PERIOD).newtons().x > 0.0);
-    let late = Wish {
+    let late = CommandedForce {
         gap: 7e-3,
         ..pressed
     };
-    assert_eq!(guard.pass(&late, &state, 7e-3), CommandedForce::default());
+    assert_eq!(guard.pass(&late, &state, 7e-3), OutputForce::default());
     assert!(guard.pass(&pressed, &state, PERIOD).newtons().x > 0.0);
     assert_eq!(guard.stage(), Stage::Live);
 }
@@ -223,7 +226,9 @@ fn a_wall_keeps_the_hand_inside() {
     state.position.x = 0.095;
     let mut sent = Vec3::zeros();
     for _ in 0..20 {
-        sent = guard.pass(&wish(Vec3::zeros()), &state, PERIOD).newtons();
+        sent = guard
+            .pass(&commanded(Vec3::zeros()), &state, PERIOD)
+            .newtons();
     }
     // Half of the wall's 3 N.
     assert!((sent - Vec3::x() * -1.5).norm() < 1e-12, "{sent}");
@@ -235,15 +240,15 @@ fn a_device_without_force_recovers_by_itself() {
     let mouse = Capabilities::without_force("mouse");
     let mut guard = Guard::new(Limits::of(&mouse), &mouse, PERIOD).unwrap();
     let state = DeviceState::at(0.0, Vec3::zeros());
-    let fast = Wish {
+    let fast = CommandedForce {
         velocity: Vec3::x() * 50.0,
-        ..wish(Vec3::x() * 0.1)
+        ..commanded(Vec3::x() * 0.1)
     };
     for _ in 0..600 {
         guard.pass(&fast, &state, PERIOD);
     }
     assert_eq!(guard.stage(), Stage::Live);
-    guard.pass(&wish(Vec3::x() * f64::NAN), &state, PERIOD);
+    guard.pass(&commanded(Vec3::x() * f64::NAN), &state, PERIOD);
     assert!(matches!(guard.stage(), Stage::Faulted(_)));
     for _ in 0..600 {
         guard.pass(&fast, &state, PERIOD);
@@ -256,9 +261,9 @@ fn a_device_without_force_recovers_by_itself() {
 #[test]
 fn compensation_warms_the_motors() {
     let (mut guard, state) = live();
-    let borne = Wish {
+    let borne = CommandedForce {
         compensation: Vec3::y() * 100.0,
-        ..wish(Vec3::zeros())
+        ..commanded(Vec3::zeros())
     };
     let mut sent = 0.0;
     for _ in 0..200_000 {

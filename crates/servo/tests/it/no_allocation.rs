@@ -61,7 +61,7 @@ fn a_tick_allocates_nothing() {
         };
         // No energy at all may come out, so that the stage that sees to it has to work.
         let limits = Limits {
-            allowance: 1e-12,
+            energy_budget: 1e-12,
             ..Limits::default()
         };
         let settings = ServoSettings {

@@ -31,7 +31,7 @@ fn run(
     let ticks = (seconds * 1e3) as u64;
     let mut limits = Limits::default();
     if !watched {
-        limits.allowance = f64::INFINITY;
+        limits.energy_budget = f64::INFINITY;
     }
     let settings = ServoSettings {
         limits: Some(limits),

@@ -50,7 +50,7 @@ fn every_tick_is_in_the_log() {
         assert_eq!(pair[0].tick, number as u64);
         assert_eq!(pair[1].held, pair[0].sent);
         let expected = spring(&pair[0].state, 0.0);
-        assert_eq!(pair[0].wanted, expected);
+        assert_eq!(pair[0].commanded, expected);
     }
 }
 

@@ -2,9 +2,9 @@ use palpate_files::session::Event;
 use palpate_geometry::{CutSurface, TriangleMesh, Vec3};
 
 use super::CuttingModel;
+use super::cut_path::LEAVES;
 use super::gape::Gape;
 use super::parts::{CutPart, nearest, opening_at};
-use super::stroke::LEAVES;
 use crate::Simulation;
 
 /// Parts and cuts for which there is room from the beginning: beyond, a step may allocate.
@@ -15,7 +15,7 @@ const ROOM: usize = 1024;
 pub struct Cuts {
     pub(super) surface: CutSurface,
     /// The cut that is being made.
-    pub(super) stroke: Option<Stroke>,
+    pub(super) cut_path: Option<CutPath>,
     /// The path of all cuts over the resting surface.
     pub(super) parts: Vec<CutPart>,
     /// Parts that were opened to more layers, in the order in which that happened.
@@ -33,7 +33,7 @@ pub struct Cuts {
 
 /// A cut that is being made.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Stroke {
+pub(super) struct CutPath {
     /// By which tool.
     pub(super) tool: usize,
     /// Where the opening has come to [m].
@@ -73,7 +73,7 @@ impl Cuts {
         Self {
             places,
             surface,
-            stroke: None,
+            cut_path: None,
             gape: Gape::with_room(vertices, triangles),
             gapes: 0,
             parts: Vec::with_capacity(ROOM),
@@ -90,7 +90,7 @@ impl Cuts {
         self.places.clear();
         self.places
             .extend_from_slice(self.surface.mesh().vertices());
-        self.stroke = None;
+        self.cut_path = None;
         self.parts.clear();
         self.deepened.clear();
         self.before.clear();
@@ -123,7 +123,7 @@ impl Cuts {
 
     /// Whether there is an opening, or one begins.
     pub fn are_there(&self) -> bool {
-        self.stroke.is_some() || !self.before.is_empty()
+        self.cut_path.is_some() || !self.before.is_empty()
     }
 
     /// How many cuts there are that can be undone.
@@ -138,7 +138,7 @@ impl Cuts {
 
     /// Whether the surface is being opened.
     pub(crate) fn goes_on(&self) -> bool {
-        self.stroke.is_some_and(|stroke| stroke.opens)
+        self.cut_path.is_some_and(|cut_path| cut_path.opens)
     }
 
     /// Length of all cuts over the resting surface [m].
@@ -160,7 +160,7 @@ impl Cuts {
 
     /// Closes the last cut again. Whether there was one; while one is being made there is none.
     pub(crate) fn undo(&mut self) -> bool {
-        if self.stroke.is_some() {
+        if self.cut_path.is_some() {
             return false;
         }
         let Some(mark) = self.before.pop() else {
@@ -204,14 +204,14 @@ impl Cuts {
 
     /// How many layers were open at a blade before its tool began to cut there.
     pub(super) fn open_before(&self, model: &CuttingModel, tool: usize, place: &Vec3) -> usize {
-        let own = self.stroke.filter(|stroke| stroke.tool == tool);
-        if !model.is_layered || own.is_some_and(|stroke| stroke.opens) {
+        let own = self.cut_path.filter(|cut_path| cut_path.tool == tool);
+        if !model.is_layered || own.is_some_and(|cut_path| cut_path.opens) {
             return 0;
         }
         let Some(part) = opening_at(&self.parts, place, LEAVES * model.width) else {
             return 0;
         };
-        let since = own.map_or(self.deepened.len(), |stroke| stroke.before.deepened);
+        let since = own.map_or(self.deepened.len(), |cut_path| cut_path.before.deepened);
         let mut own = self.deepened[since..].iter();
         own.find(|deepened| deepened.part == part)
             .map_or(self.parts[part].layers, |deepened| deepened.before)

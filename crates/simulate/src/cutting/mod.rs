@@ -30,16 +30,16 @@
 //! layer below the outermost opens part by part of the cut above it, which are as long as the surface's edges. What
 //! a deepened cut yields is known when the blade is lifted. A blade follows the surface at rest, as contacts do.
 
+mod blade_tracking;
+mod cut_path;
 mod cuts;
 mod gape;
-mod lead;
 mod model;
 mod parts;
-mod stroke;
 
+pub(crate) use blade_tracking::{Blade, lead};
+pub(crate) use cut_path::advance;
 pub use cuts::Cuts;
 pub use gape::gape;
-pub(crate) use lead::{Blade, lead};
 pub(crate) use model::CuttingModel;
 pub use parts::CutPart;
-pub(crate) use stroke::advance;

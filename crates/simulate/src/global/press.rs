@@ -15,8 +15,8 @@
 //! *How we know*: `hybrid::…`, `grip::jumps::…`, `random_scenes::…`.
 
 use nalgebra::Matrix3;
-use palpate_geometry::{Footing, Vec3, closest_on_triangle, settle};
-use palpate_mechanics::contact::Bond;
+use palpate_geometry::{ContactPoint, Vec3, closest_on_triangle, settle};
+use palpate_mechanics::contact::Friction;
 use palpate_mechanics::enhance::SurfacePoint;
 use palpate_mechanics::surface_response::TipLoad;
 use palpate_mechanics::{Limit, Limits, Reached};
@@ -55,7 +55,7 @@ impl GlobalModel {
         let interpolation = self.enhancement.interpolation();
         let near = interpolation.nearest_facing(&self.tree, (&place.point, &contact.rest_normal()));
         // The nearest point of a mesh leaps at its edges; the point under the averaged normal does not.
-        let from = Footing {
+        let from = ContactPoint {
             triangle: near.triangle,
             barycentric: near.barycentric,
             point: interpolation.place(&near),
@@ -201,7 +201,7 @@ impl GlobalModel {
         let compliance = load.map_or(Matrix3::zeros(), |load| {
             let slit = workspace.slit.as_ref();
             let more = slit.map_or(Matrix3::zeros(), |slit| slit.further(number));
-            let free = (load.further_compliance() + more) * softness;
+            let free = (load.structural_compliance() + more) * softness;
             frame.tr_mul(&(free - held.fixes(number, number, tools.len()))) * frame
         });
         let state = &mut tools[number];
@@ -212,7 +212,7 @@ impl GlobalModel {
         let law = tool.law.beside(contact.place.mean_curvature());
         let answer = law.force_in_series(&moved, &compliance);
         let mut own = moved + compliance * answer.force;
-        if tool.bond == Bond::Slip {
+        if tool.bond == Friction::Frictionless {
             own = Vec3::new(0.0, 0.0, own.z);
         }
         state.moves = moved.norm();

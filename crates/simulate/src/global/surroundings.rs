@@ -62,7 +62,7 @@ pub(crate) fn surround(
             let field = TipField::new(&response, &surface, radius)?;
             let at = places.iter().map(|at| {
                 let load = field.at(&surface, at.triangle, &at.barycentric);
-                load.further_compliance()
+                load.structural_compliance()
             });
             let further: Arc<[_]> = at.collect();
             known.push((radius, further.clone()));

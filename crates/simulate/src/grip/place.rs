@@ -8,7 +8,7 @@
 
 use nalgebra::Matrix3;
 use palpate_geometry::Vec3;
-use palpate_mechanics::contact::{Bond, half_space_stiffness, half_space_tangential_stiffness};
+use palpate_mechanics::contact::{Friction, half_space_stiffness, half_space_tangential_stiffness};
 use palpate_mechanics::finite_spheres::{FiniteSphereWorkspace, LocalContact, Response};
 
 use super::hold::SeenHold;
@@ -94,9 +94,9 @@ fn stiffness(
     let law = &simulation.material.at_rest;
     let normal = response.stiffness[(2, 2)];
     let along = match tool.bond {
-        Bond::Stick => 0.5 * (response.stiffness[(0, 0)] + response.stiffness[(1, 1)]),
-        Bond::Slip => {
-            let ratio = normal / half_space_stiffness(law, place.radius, Bond::Slip);
+        Friction::Bonded => 0.5 * (response.stiffness[(0, 0)] + response.stiffness[(1, 1)]),
+        Friction::Frictionless => {
+            let ratio = normal / half_space_stiffness(law, place.radius, Friction::Frictionless);
             ratio * half_space_tangential_stiffness(law, place.radius)
         }
     };

@@ -3,14 +3,14 @@ use palpate_geometry::Vec3;
 use palpate_servo::latest::Receiver;
 use palpate_servo::{AffineForce, Controller, DeviceState, Extrapolator, HandOver};
 
-use super::Mount;
+use super::DevicePlacement;
 use crate::ShaftFriction;
 
 /// What makes a force of the model's answers at every tick of the servo loop.
 pub struct ForceRenderer {
     answers: Receiver<AffineForce>,
     extrapolator: Extrapolator,
-    mount: Mount,
+    placement: DevicePlacement,
     force_scale: f64,
     friction: ShaftFriction,
     /// What the abdominal wall did last, in the device's frame [N].
@@ -23,13 +23,13 @@ impl ForceRenderer {
     pub fn new(
         answers: Receiver<AffineForce>,
         extrapolator: Extrapolator,
-        mount: Mount,
+        placement: DevicePlacement,
         force_scale: f64,
     ) -> Self {
         Self {
             answers,
             extrapolator,
-            mount,
+            placement,
             force_scale,
             friction: ShaftFriction::default(),
             of_wall: Vec3::zeros(),
@@ -47,13 +47,13 @@ impl Controller for ForceRenderer {
             self.of_wall = Vec3::zeros();
             return Vec3::zeros();
         }
-        let tip = self.mount.tip(&state.position);
+        let tip = self.placement.tip(&state.position);
         let force = self.extrapolator.force(state.time, &tip);
         let wall = self
-            .mount
+            .placement
             .wall_force(&state.position, &mut self.friction, dt);
         self.of_wall = wall * self.force_scale;
-        self.mount.force_on_handle(&state.position, &force) * self.force_scale + self.of_wall
+        self.placement.force_on_handle(&state.position, &force) * self.force_scale + self.of_wall
     }
 
     fn added(&self) -> Vec3 {

@@ -1,5 +1,5 @@
 use palpate_geometry::Vec3;
-use palpate_mechanics::contact::Bond;
+use palpate_mechanics::contact::Friction;
 use palpate_servo::AffineForce;
 
 use crate::state::ToolState;
@@ -43,7 +43,7 @@ fn of_organ(tool: &Tool, state: &ToolState, time: f64) -> AffineForce {
     };
     let frame = contact.frame();
     let mut stiffness = state.stiffness;
-    if tool.bond == Bond::Slip || contact.slides {
+    if tool.bond == Friction::Frictionless || contact.slides {
         // Along the surface nothing holds the tip.
         let normal = stiffness[(2, 2)];
         stiffness.fill(0.0);

@@ -10,12 +10,12 @@ use palpate_servo::{
     raise_model_priority,
 };
 
+use super::command::commands;
+use super::endpoints::{DeviceEndpoints, PlacedDevice, Watch, device_endpoints};
 use super::model::{PreparedModel, Replacing, take_over};
 use super::model_loop::{Channels, ModelLoop};
-use super::order::orders;
 use super::recorder::{SessionRecorder, Unwritten};
-use super::stations::{Parts, Station, Watch, take_apart};
-use super::{ModelReport, Order, Quality, ROWS, Snapshot};
+use super::{ModelCommand, ModelReport, Quality, ROWS, Snapshot};
 use crate::{Error, SessionFolderWriter, Simulation};
 
 /// The model on a thread and a servo loop per device on others, on the machine's clock. Dropping it takes all forces off,
@@ -29,7 +29,7 @@ pub struct Interaction {
     watch: WatchThread,
     recorder: SessionRecorder,
     rows: log::Reader<SessionRow>,
-    orders: log::Writer<Order>,
+    commands: log::Writer<ModelCommand>,
     snapshots: latest::Receiver<Snapshot>,
     replacing: Replacing,
     supervisor: Supervisor,
@@ -59,7 +59,7 @@ impl Default for Environment<'_> {
 #[derive(Default)]
 struct Running {
     servos: Vec<Option<ServoThread>>,
-    lines: Vec<Option<super::stations::Line>>,
+    lines: Vec<Option<super::endpoints::ModelEndpoint>>,
     watches: Vec<Option<Watch>>,
 }
 
@@ -70,11 +70,11 @@ impl Interaction {
     /// When the stations are not those of the tools, a setting is out of range, or there is no thread.
     pub fn start(
         simulation: Arc<Simulation>,
-        stations: Vec<Option<Station>>,
+        devices: Vec<Option<PlacedDevice>>,
         settings: ServoSettings,
     ) -> Result<Self, Error> {
         let prepared = PreparedModel::new(simulation);
-        Self::start_in(&Environment::default(), prepared, stations, settings)
+        Self::start_in(&Environment::default(), prepared, devices, settings)
     }
 
     /// The same with a model that was prepared beside the caller, in an `environment`.
@@ -84,19 +84,19 @@ impl Interaction {
     pub fn start_in(
         environment: &Environment<'_>,
         prepared: PreparedModel,
-        stations: Vec<Option<Station>>,
+        devices: Vec<Option<PlacedDevice>>,
         settings: ServoSettings,
     ) -> Result<Self, Error> {
         let supervisor = Supervisor::armed();
         let PreparedModel { model, seen } = prepared.shown_in(environment.operating_room);
         let simulation = model.simulation.clone();
-        let parts = take_apart(&simulation, stations, settings, &supervisor)?;
+        let parts = device_endpoints(&simulation, devices, settings, &supervisor)?;
         let displays = parts.iter().flatten().any(|parts| parts.displays_force);
         let (rows, read_rows) = log::ring(ROWS);
         let stops = displays.then(|| supervisor.clone());
         let recorder = SessionRecorder::start(read_rows, stops);
         let (recorder, read_rows) = recorder.ok_or(Fault::NoThread)?;
-        let (give, orders) = orders();
+        let (give, commands) = commands();
         let (replacing, taking_over) = take_over(&simulation, &supervisor);
         let clock = Clock::real();
         let watched = parts.iter().flatten().map(|parts| parts.watched.clone());
@@ -108,7 +108,7 @@ impl Interaction {
             watches,
         } = Running::start(parts, clock)?;
         let channels = Channels {
-            orders,
+            commands,
             rows,
             taking_over,
         };
@@ -125,7 +125,7 @@ impl Interaction {
             watch,
             recorder,
             rows: read_rows,
-            orders: give,
+            commands: give,
             snapshots: seen,
             replacing,
             supervisor,
@@ -158,11 +158,11 @@ impl Interaction {
         self.snapshots.latest()
     }
 
-    /// Gives an order to the model, which obeys before its next step; in a pause no device has a force from its next
+    /// Sends a command to the model, which processes it before its next step; in a pause no device has a force from its next
     /// tick on.
-    pub fn order(&mut self, order: Order) {
-        order.supervise(&self.supervisor);
-        self.orders.add(order);
+    pub fn send(&mut self, command: ModelCommand) {
+        command.supervise(&self.supervisor);
+        self.commands.add(command);
     }
 
     /// Takes the forces of all devices off at their next tick, until [`arm`](Self::arm).
@@ -184,7 +184,7 @@ impl Interaction {
     /// Records a session: everything begins anew, and every row from then on is written.
     pub fn record(&mut self, writer: SessionFolderWriter) {
         self.recorder.record(writer);
-        self.order(Order::Reset);
+        self.send(ModelCommand::Reset);
     }
 
     /// Ends the recording; what was recorded is on the disk then. Rows that are a twentieth of a second old may
@@ -289,7 +289,7 @@ impl Drop for Interaction {
 
 impl Running {
     /// Starts the loops; each is watched from here on.
-    fn start(parts: Vec<Option<Parts>>, clock: Clock) -> Result<Self, Fault> {
+    fn start(parts: Vec<Option<DeviceEndpoints>>, clock: Clock) -> Result<Self, Fault> {
         let mut running = Self::default();
         for parts in parts {
             let (servo, line, watch) = match parts {

@@ -2,7 +2,7 @@ use palpate_geometry::Vec3;
 use palpate_servo::Sample;
 
 use super::model_loop::pose;
-use super::{ExtrapolationError, Mount};
+use super::{DevicePlacement, ExtrapolationError};
 use crate::{Simulation, SimulationState, SimulationWorkspace, step};
 
 /// How far the forces of a tool's servo loop were off at every tick: `samples` of the device of tool
@@ -11,7 +11,7 @@ use crate::{Simulation, SimulationState, SimulationWorkspace, step};
 pub fn judge_samples(
     simulation: &Simulation,
     number: usize,
-    mount: &Mount,
+    placement: &DevicePlacement,
     samples: &[Sample],
 ) -> ExtrapolationError {
     let mut error = ExtrapolationError::default();
@@ -21,21 +21,24 @@ pub fn judge_samples(
     let mut before = None;
     for sample in samples {
         let time = sample.state.time;
-        poses[number] = pose(mount, sample);
+        poses[number] = pose(placement, sample);
         let elapsed = before.map_or(simulation.step(), |before| time - before);
         let moment = (time, elapsed);
         step(simulation, moment, &poses, &mut state, &mut workspace);
         before = Some(time);
         // Before the first answer nothing was handed over.
         if sample.age.is_some_and(f64::is_finite) {
-            error.add(&made(simulation, mount, sample), &state.tools[number].force);
+            error.add(
+                &made(simulation, placement, sample),
+                &state.tools[number].force,
+            );
         }
     }
     error
 }
 
 /// The force on the tool [N] that a loop made at `sample`, in the scene's frame and not scaled.
-pub(super) fn made(simulation: &Simulation, mount: &Mount, sample: &Sample) -> Vec3 {
-    let of_model = (sample.wanted - sample.added) / simulation.force_scale();
-    mount.force_on_tip(&sample.state.position, &of_model)
+pub(super) fn made(simulation: &Simulation, placement: &DevicePlacement, sample: &Sample) -> Vec3 {
+    let of_model = (sample.commanded - sample.added) / simulation.force_scale();
+    placement.force_on_tip(&sample.state.position, &of_model)
 }

@@ -5,7 +5,7 @@
 //!  recorder      ◀─every SessionRow─      step           ◀───latest(Sample)────  extrapolate, limit
 //! ```
 //!
-//! An [`Order`] (pause, undo, anew) goes to the model by a ring of its own. The recorder writes a session that is
+//! An [`ModelCommand`] (pause, undo, anew) goes to the model by a ring of its own. The recorder writes a session that is
 //! recorded, and hands its rows on to who shows them. A watch thread notices a loop that hangs and a program that shall end
 //! ([`palpate_servo::watch`]). Another model takes over while the devices stay open ([`PreparedModel`]).
 //!
@@ -17,41 +17,41 @@
 //!
 //! *Limits*: one device moves one tool; forces only, no torques.
 
+mod command;
+mod device_placement;
+mod endpoints;
 mod force_renderer;
 mod hand_over;
-mod happenings;
 mod interaction;
 mod judge;
 mod model;
 mod model_loop;
-mod mount;
 mod operating_room;
-mod order;
+mod placement;
 mod quality;
+mod recent_events;
 mod recorder;
 mod scene_devices;
 mod scripted;
 mod snapshot;
-mod standing;
-mod stations;
 mod virtual_interaction;
 
 /// Rows that have room until somebody reads them: a minute of two tools at 200 Hz.
 const ROWS: usize = 24_000;
 
+pub use command::ModelCommand;
+pub use device_placement::DevicePlacement;
+pub use endpoints::PlacedDevice;
 pub use force_renderer::ForceRenderer;
 pub use hand_over::affine_force;
-pub use happenings::{Happening, Happenings};
 pub use interaction::{Environment, Interaction};
 pub use judge::judge_samples;
 pub use model::PreparedModel;
 pub use model_loop::CUTS;
 pub(crate) use model_loop::DISPLAY;
-pub use mount::Mount;
-pub use order::Order;
 pub use quality::{ExtrapolationError, ModelReport, Quality};
+pub use recent_events::{RecentEvents, TimedEvent};
 pub use recorder::{MOST_ROWS_IN_MEMORY, Unwritten};
 pub use scene_devices::SceneDevices;
 pub use snapshot::{ContactSnapshot, OpenedPart, OpenedSnapshot, Snapshot, ToolSnapshot};
-pub use stations::Station;
 pub use virtual_interaction::VirtualInteraction;

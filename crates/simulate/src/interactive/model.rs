@@ -152,7 +152,7 @@ impl TakingOver {
         self.waiting.take()
     }
 
-    /// Sends `old` to where it is freed, and lets forces come back, unless a person has `paused` meanwhile.
+    /// Sends `old` to where it is freed, and lets forces return, unless a person has `paused` meanwhile.
     pub(super) fn finish(&mut self, old: Box<Model>, paused: bool) {
         // There is room: what was replaced before was taken when this one was sent.
         let _ = self.replaced.try_send(old);

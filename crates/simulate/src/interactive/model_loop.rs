@@ -3,13 +3,13 @@ use std::time::Instant;
 use palpate_files::{Event, Events, Pose, SessionRow};
 use palpate_servo::{AffineForce, Histogram, Priority, Sample, Stage, log};
 
+use super::endpoints::ModelEndpoint;
 use super::hand_over::affine_force;
 use super::judge::made;
 use super::model::{Model, TakingOver};
 use super::quality::ExtrapolationError;
-use super::snapshot::Felt;
-use super::stations::Line;
-use super::{Happenings, ModelReport, Mount, Order};
+use super::snapshot::RenderedForce;
+use super::{DevicePlacement, ModelCommand, ModelReport, RecentEvents};
 use crate::{shape, touch};
 
 /// The period of a display [s], with some room: a step that is a little early counts.
@@ -22,12 +22,12 @@ pub const CUTS: u32 = 1;
 pub(super) struct ModelLoop {
     model: Box<Model>,
     taking_over: TakingOver,
-    lines: Vec<Option<Line>>,
+    lines: Vec<Option<ModelEndpoint>>,
     samples: Vec<Option<Sample>>,
     poses: Vec<Option<Pose>>,
-    felt: Vec<Felt>,
+    felt: Vec<RenderedForce>,
     rows: log::Writer<SessionRow>,
-    orders: log::Reader<Order>,
+    commands: log::Reader<ModelCommand>,
     paused: bool,
     /// What was ordered since the last row.
     ordered: Events,
@@ -36,7 +36,7 @@ pub(super) struct ModelLoop {
     /// When it was asked last [s], and how long it stood still in all [s].
     asked: f64,
     stood: f64,
-    happenings: Happenings,
+    recent_events: RecentEvents,
     steps: u64,
     /// When the step began.
     start: Instant,
@@ -51,17 +51,21 @@ pub(super) struct ModelLoop {
     pub(super) priority: Priority,
 }
 
-/// Where a model gets its orders from, and where its rows go.
+/// Where a model gets its commands from, and where its rows go.
 pub(super) struct Channels {
-    pub(super) orders: log::Reader<Order>,
+    pub(super) commands: log::Reader<ModelCommand>,
     pub(super) rows: log::Writer<SessionRow>,
     pub(super) taking_over: TakingOver,
 }
 
 impl ModelLoop {
-    pub(super) fn new(model: Box<Model>, lines: Vec<Option<Line>>, channels: Channels) -> Self {
+    pub(super) fn new(
+        model: Box<Model>,
+        lines: Vec<Option<ModelEndpoint>>,
+        channels: Channels,
+    ) -> Self {
         let Channels {
-            orders,
+            commands,
             rows,
             taking_over,
         } = channels;
@@ -72,15 +76,15 @@ impl ModelLoop {
             lines,
             samples: vec![None; tools],
             poses: vec![None; tools],
-            felt: vec![Felt::NOTHING; tools],
+            felt: vec![RenderedForce::NOTHING; tools],
             rows,
-            orders,
+            commands,
             paused: false,
             ordered: Events::NONE,
             were_there: vec![false; tools],
             asked: 0.0,
             stood: 0.0,
-            happenings: Happenings::default(),
+            recent_events: RecentEvents::default(),
             start: Instant::now(),
             touch_times: Histogram::default(),
             step_times: Histogram::default(),
@@ -99,7 +103,7 @@ impl ModelLoop {
         self.start = Instant::now();
         self.read_hands();
         self.let_another_take_over();
-        self.obey();
+        self.process_commands();
         if self.paused {
             self.stood += time - self.asked;
         }
@@ -167,7 +171,7 @@ impl ModelLoop {
         let Self {
             model,
             felt,
-            happenings,
+            recent_events,
             now,
             paused,
             ..
@@ -178,7 +182,7 @@ impl ModelLoop {
         for snapshots in snapshots {
             snapshots.send_with(|snapshot| {
                 snapshot.fill(*now, state, felt);
-                snapshot.happenings = *happenings;
+                snapshot.recent_events = *recent_events;
                 snapshot.report = report;
                 snapshot.paused = *paused;
             });
@@ -226,26 +230,26 @@ impl ModelLoop {
     }
 
     /// Does what was ordered. What changes the organ is told by the next row, one thing at a time.
-    fn obey(&mut self) {
+    fn process_commands(&mut self) {
         while self.ordered.is_empty()
-            && let Some(order) = self.orders.next_value()
+            && let Some(command) = self.commands.next_value()
         {
-            match order {
-                Order::Pause => self.paused = true,
-                Order::Resume => self.paused = false,
-                Order::Reset => {
+            match command {
+                ModelCommand::Pause => self.paused = true,
+                ModelCommand::Resume => self.paused = false,
+                ModelCommand::Reset => {
                     let Model {
                         simulation, state, ..
                     } = &mut *self.model;
                     state.begin_anew(simulation);
                     self.note_new_beginning();
                 }
-                Order::UndoCut => {
+                ModelCommand::UndoCut => {
                     if self.model.state.undo_cut() {
                         self.ordered.insert(Event::UndoCut);
                     }
                 }
-                Order::Mark => self.ordered.insert(Event::Mark),
+                ModelCommand::Mark => self.ordered.insert(Event::Mark),
             }
         }
     }
@@ -255,9 +259,9 @@ impl ModelLoop {
             let Some(line) = line else { continue };
             let sample = *line.samples.latest();
             self.samples[number] = sample;
-            self.poses[number] = sample.and_then(|sample| pose(&line.mount, &sample));
-            self.felt[number] = sample.map_or(Felt::NOTHING, |sample| Felt {
-                force: line.mount.force_in_scene(&sample.sent),
+            self.poses[number] = sample.and_then(|sample| pose(&line.placement, &sample));
+            self.felt[number] = sample.map_or(RenderedForce::NOTHING, |sample| RenderedForce {
+                force: line.placement.force_in_scene(&sample.sent),
                 fault: match sample.stage {
                     Stage::Faulted(fault) => Some(fault),
                     _ => None,
@@ -277,7 +281,7 @@ impl ModelLoop {
             };
             // Before the first answer nothing was handed over.
             let answered = sample.age.is_some_and(f64::is_finite);
-            let made = made(simulation, &line.mount, sample);
+            let made = made(simulation, &line.placement, sample);
             if answered && made.iter().all(|component| component.is_finite()) {
                 self.error.add(&made, &tool.force);
             }
@@ -303,7 +307,7 @@ impl ModelLoop {
             self.last = Some(time);
             self.rows.add(row);
             for event in row.events.iter() {
-                self.happenings.add(time, number, event);
+                self.recent_events.add(time, number, event);
             }
         }
     }
@@ -323,14 +327,14 @@ fn lifted(last: SessionRow, time: f64) -> SessionRow {
 }
 
 /// Where a sample's hand is in the scene; none where nobody is.
-pub(super) fn pose(mount: &Mount, sample: &Sample) -> Option<Pose> {
+pub(super) fn pose(placement: &DevicePlacement, sample: &Sample) -> Option<Pose> {
     let state = sample.state;
-    let place = mount.tip(&state.position);
+    let place = placement.tip(&state.position);
     let there = state.present && place.iter().all(|coordinate| coordinate.is_finite());
     there.then(|| Pose {
         position_m: place.into(),
         orientation: state.orientation.map(|turned| {
-            let turned = mount.rotation * turned;
+            let turned = placement.rotation * turned;
             [turned.i, turned.j, turned.k, turned.w]
         }),
         grip: state.grip,

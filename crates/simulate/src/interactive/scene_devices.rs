@@ -4,14 +4,14 @@ use palpate_files::scene::DeviceKind;
 use palpate_geometry::Vec3;
 use palpate_servo::{Device, Pointer, PointerHand, Trajectory, VirtualDevice};
 
-use super::Station;
-use super::standing::standing;
+use super::PlacedDevice;
+use super::placement::placement_of;
 use crate::{Error, Simulation, Tool};
 
 /// What the tools of a scene are moved by, each in the scene's order.
 pub struct SceneDevices {
     /// The devices; none for a tool that nothing moves.
-    pub stations: Vec<Option<Station>>,
+    pub devices: Vec<Option<PlacedDevice>>,
     /// The hands of the tools that a mouse moves.
     pub pointers: Vec<Option<PointerHand>>,
 }
@@ -32,7 +32,7 @@ fn driver(device: DeviceKind) -> Option<Kind> {
 }
 
 /// The real device of each tool.
-fn devices(scene: &Scene, places: &Places) -> Result<Vec<Option<Box<dyn Device>>>, Error> {
+fn real_devices(scene: &Scene, places: &Places) -> Result<Vec<Option<Box<dyn Device>>>, Error> {
     let mut opened: Vec<Kind> = Vec::new();
     let tools = scene.tools.iter().map(|tool| {
         let Some(kind) = driver(tool.device) else {
@@ -57,26 +57,28 @@ impl SceneDevices {
     /// # Errors
     /// When one of them is not there.
     pub fn open(scene: &Scene, simulation: &Simulation, places: &Places) -> Result<Self, Error> {
-        let (mut stations, mut pointers) = (Vec::new(), Vec::new());
-        let mut real = devices(scene, places)?.into_iter();
+        let (mut devices, mut pointers) = (Vec::new(), Vec::new());
+        let mut real = real_devices(scene, places)?.into_iter();
         for (tool, model) in scene.tools.iter().zip(simulation.tools()) {
             let device = real.next().flatten();
-            let (station, pointer) = match (tool.device, device) {
+            let (device, pointer) = match (tool.device, device) {
                 (DeviceKind::Mouse, _) => {
                     let (pointer, hand) = Pointer::new();
-                    (Some(Station::new(pointer)), Some(hand))
+                    (Some(PlacedDevice::new(pointer)), Some(hand))
                 }
-                (DeviceKind::Virtual, _) => (Some(Station::palpating(simulation, model)), None),
+                (DeviceKind::Virtual, _) => {
+                    (Some(PlacedDevice::palpating(simulation, model)), None)
+                }
                 (_, Some(device)) => {
-                    let mount = standing((scene, simulation), model);
-                    (Some(Station { device, mount }), None)
+                    let placement = placement_of((scene, simulation), model);
+                    (Some(PlacedDevice { device, placement }), None)
                 }
                 (_, None) => (None, None),
             };
-            stations.push(station);
+            devices.push(device);
             pointers.push(pointer);
         }
-        Ok(Self { stations, pointers })
+        Ok(Self { devices, pointers })
     }
 
     /// Whether the real devices that `scene` names are there; none stays open.
@@ -84,7 +86,7 @@ impl SceneDevices {
     /// # Errors
     /// When one is not.
     pub fn check(scene: &Scene, places: &Places) -> Result<(), Error> {
-        devices(scene, places).map(|_| ())
+        real_devices(scene, places).map(|_| ())
     }
 
     /// Whether a tool of `scene` is moved by a real device.
@@ -93,7 +95,7 @@ impl SceneDevices {
     }
 }
 
-impl Station {
+impl PlacedDevice {
     /// A scripted hand that moves `tool` on the organ where it is highest: from the surface to 4 mm below
     /// it, out to 4 mm above it, and so on, twice in four seconds. Through a trocar the hand goes straight, and
     /// the tip nearly.
@@ -111,12 +113,12 @@ impl Station {
             center = 0.5 * (ends[0] + ends[1]);
             amplitude = ends[1] - center;
         }
-        let mut station = Self::new(VirtualDevice::new(Trajectory::Sine {
+        let mut device = Self::new(VirtualDevice::new(Trajectory::Sine {
             center,
             amplitude,
             frequency: SCRIPTED_RATE,
         }));
-        station.mount.trocar = tool.fulcrum;
-        station
+        device.placement.trocar = tool.fulcrum;
+        device
     }
 }

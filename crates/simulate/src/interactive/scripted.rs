@@ -3,10 +3,10 @@ use palpate_files::motion::ToolMotion;
 use palpate_geometry::Vec3;
 use palpate_servo::{Fault, Trajectory, VirtualDevice, Waypoint};
 
-use super::Station;
+use super::PlacedDevice;
 use super::model_loop::CUTS;
 
-impl Station {
+impl PlacedDevice {
     /// A stiff scripted hand that plays `motion`, whose first row is the beginning of time. A hand that is
     /// there from the start rests in the first place before.
     ///

@@ -2,7 +2,7 @@ use palpate_files::Pose;
 use palpate_geometry::Vec3;
 use palpate_servo::Fault;
 
-use super::{Happenings, ModelReport};
+use super::{ModelReport, RecentEvents};
 use crate::cutting::Cuts;
 use crate::state::{SimulationState, ToolState};
 use crate::{LimitCounts, OrganField, Simulation, Tool};
@@ -23,7 +23,7 @@ pub struct Snapshot {
     /// Per tool, in the scene's order.
     pub tools: Vec<ToolSnapshot>,
     /// The last things that happened.
-    pub happenings: Happenings,
+    pub recent_events: RecentEvents,
     /// What the model measured of itself.
     pub report: ModelReport,
 }
@@ -55,14 +55,14 @@ pub struct ToolSnapshot {
 
 /// What a hand feels of its tool.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Felt {
+pub(super) struct RenderedForce {
     /// The force that its device gets [N], in the scene's frame.
     pub(super) force: Vec3,
     /// Why it gets none, if that has a reason.
     pub(super) fault: Option<Fault>,
 }
 
-impl Felt {
+impl RenderedForce {
     pub(super) const NOTHING: Self = Self {
         force: Vec3::new(0.0, 0.0, 0.0),
         fault: None,
@@ -134,19 +134,19 @@ impl Snapshot {
             paused: false,
             whole: OrganField::at_rest(simulation),
             tools: vec![nobody; simulation.tools().len()],
-            happenings: Happenings::default(),
+            recent_events: RecentEvents::default(),
             report: ModelReport::default(),
         }
     }
 
     /// Shows the `state` of a session that is played again, at `time` [s]; nobody feels it.
     pub fn show(&mut self, time: f64, state: &SimulationState) {
-        let nobody = [Felt::NOTHING; 2];
+        let nobody = [RenderedForce::NOTHING; 2];
         self.fill(time, state, &nobody);
     }
 
     /// Takes over `state`; nothing is allocated but for triangles that a cut has added.
-    pub(super) fn fill(&mut self, time: f64, state: &SimulationState, felt: &[Felt]) {
+    pub(super) fn fill(&mut self, time: f64, state: &SimulationState, felt: &[RenderedForce]) {
         self.time = time;
         for (seen, vertex) in self.vertices.iter_mut().zip(state.deformed.vertices()) {
             *seen = single(vertex);
@@ -219,7 +219,7 @@ impl OpenedSnapshot {
 }
 
 impl ToolSnapshot {
-    fn new(tool: &ToolState, felt: Felt) -> Self {
+    fn new(tool: &ToolState, felt: RenderedForce) -> Self {
         Self {
             pose: tool.pose,
             orientation: tool.row.orientation,

@@ -3,11 +3,11 @@ use std::sync::Arc;
 use palpate_files::SessionRow;
 use palpate_servo::{Fault, Sample, ServoLoop, ServoSettings, Supervisor, latest, log};
 
+use super::command::commands;
+use super::endpoints::{PlacedDevice, Watch, device_endpoints};
 use super::model::{PreparedModel, Replacing, take_over};
 use super::model_loop::{Channels, ModelLoop};
-use super::order::orders;
-use super::stations::{Station, Watch, take_apart};
-use super::{Order, Quality, Snapshot};
+use super::{ModelCommand, Quality, Snapshot};
 use crate::{Error, Simulation};
 
 /// An interaction on a virtual clock, in one thread: the same hands give the same bytes. The model's answer
@@ -18,7 +18,7 @@ pub struct VirtualInteraction {
     servos: Vec<Option<ServoLoop>>,
     watches: Vec<Option<Watch>>,
     rows: log::Reader<SessionRow>,
-    orders: log::Writer<Order>,
+    commands: log::Writer<ModelCommand>,
     snapshots: latest::Receiver<Snapshot>,
     replacing: Replacing,
     supervisor: Supervisor,
@@ -34,17 +34,17 @@ impl VirtualInteraction {
     /// When the stations are not those of the tools, or a setting is out of range.
     pub fn new(
         simulation: Arc<Simulation>,
-        stations: Vec<Option<Station>>,
+        devices: Vec<Option<PlacedDevice>>,
         settings: ServoSettings,
     ) -> Result<Self, Error> {
         let supervisor = Supervisor::armed();
-        let parts = take_apart(&simulation, stations, settings, &supervisor)?;
+        let parts = device_endpoints(&simulation, devices, settings, &supervisor)?;
         let (rows, read_rows) = log::ring(settings.log.max(1) * parts.len());
-        let (give, orders) = orders();
+        let (give, commands) = commands();
         let PreparedModel { model, seen } = PreparedModel::new(simulation.clone());
         let (replacing, taking_over) = take_over(&simulation, &supervisor);
         let channels = Channels {
-            orders,
+            commands,
             rows,
             taking_over,
         };
@@ -63,7 +63,7 @@ impl VirtualInteraction {
             servos,
             watches,
             rows: read_rows,
-            orders: give,
+            commands: give,
             snapshots: seen,
             replacing,
             supervisor,
@@ -107,11 +107,11 @@ impl VirtualInteraction {
         self.snapshots.latest()
     }
 
-    /// Gives an order to the model, which obeys before its next step; in a pause no device has a force from its next
+    /// Sends a command to the model, which processes it before its next step; in a pause no device has a force from its next
     /// tick on.
-    pub fn order(&mut self, order: Order) {
-        order.supervise(&self.supervisor);
-        self.orders.add(order);
+    pub fn send(&mut self, command: ModelCommand) {
+        command.supervise(&self.supervisor);
+        self.commands.add(command);
     }
 
     /// Goes on with another model, the organ at rest, while the loops run.

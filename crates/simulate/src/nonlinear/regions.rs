@@ -76,7 +76,7 @@ pub(super) struct Elements {
     pub(super) numbers: Vec<usize>,
     /// [kg/m³]
     pub(super) densities: Vec<f64>,
-    /// What deserves warning.
+    /// Warnings.
     pub(super) warnings: Vec<String>,
 }
 

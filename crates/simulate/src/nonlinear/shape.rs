@@ -12,7 +12,7 @@ use std::f64::consts::FRAC_2_PI;
 use palpate_geometry::{Nearest, NodeId, Vec3};
 
 use super::{NonlinearOrgan, NonlinearWorkspace, jaws_radius};
-use palpate_mechanics::contact::Bond;
+use palpate_mechanics::contact::Friction;
 
 use crate::simulation::Simulation;
 use crate::state::SimulationState;
@@ -68,7 +68,7 @@ impl NonlinearOrgan {
                 .map(|(node, weight)| shown[node.index()] * weight)
                 .sum();
             let mut lacks = own.displaced - there;
-            if let (Some(contact), Bond::Slip) = (&own.contact, tool.bond) {
+            if let (Some(contact), Friction::Frictionless) = (&own.contact, tool.bond) {
                 // What slips is not carried along.
                 let normal = contact.normal();
                 lacks = normal * normal.dot(&lacks);

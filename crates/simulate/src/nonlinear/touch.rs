@@ -22,7 +22,7 @@ use std::f64::consts::PI;
 use nalgebra::{Matrix3, Rotation3};
 use palpate_files::session::Event;
 use palpate_geometry::Vec3;
-use palpate_mechanics::contact::{Bond, half_space_stiffness, half_space_tangential_stiffness};
+use palpate_mechanics::contact::{Friction, half_space_stiffness, half_space_tangential_stiffness};
 use palpate_mechanics::nonlinear::{NonlinearModel, Pace, advance};
 use palpate_mechanics::{ForceHistory, Limits, PronySeries};
 
@@ -338,8 +338,8 @@ impl NonlinearOrgan {
             return None;
         }
         let (along, stiffness) = match tool.bond {
-            Bond::Slip => (Some(contact.normal()), slippery(&answer.stiffness)),
-            Bond::Stick => (None, answer.stiffness),
+            Friction::Frictionless => (Some(contact.normal()), slippery(&answer.stiffness)),
+            Friction::Bonded => (None, answer.stiffness),
         };
         let tip_and_organ = frame * stiffness.try_inverse()? * frame.transpose();
         // A tip that hardly touches.
@@ -417,7 +417,7 @@ impl NonlinearOrgan {
         let radius = super::jaws_radius(tool)?;
         let [along, normal] = self.regions.yields_to_tip(radius);
         let along = along / half_space_tangential_stiffness(&self.law, radius);
-        let normal = normal / half_space_stiffness(&self.law, radius, Bond::Stick);
+        let normal = normal / half_space_stiffness(&self.law, radius, Friction::Bonded);
         let own = Matrix3::from_diagonal(&Vec3::new(along, along, normal)) - self.of_load(now);
         let frame = now.turn * frame;
         Some(positive(&(frame * own * frame.transpose())))

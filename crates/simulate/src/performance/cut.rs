@@ -18,7 +18,7 @@ pub(super) struct CutWay {
     /// The layer that the line shall be cut down to; none in an organ without layers.
     wanted_layers: Option<usize>,
     /// Where something was opened, cut by cut.
-    strokes: Vec<Vec<Place>>,
+    cut_paths: Vec<Vec<Place>>,
     /// Which tool makes the last one.
     by: Option<usize>,
 }
@@ -74,7 +74,7 @@ impl CutWay {
         Self {
             line,
             wanted_layers,
-            strokes: Vec::new(),
+            cut_paths: Vec::new(),
             by: None,
         }
     }
@@ -82,11 +82,11 @@ impl CutWay {
     pub(super) fn add(&mut self, row: &SessionRow) {
         let happened = |event| row.events.contains(event);
         if happened(Event::BeginAnew) {
-            self.strokes.clear();
+            self.cut_paths.clear();
             self.by = None;
         }
         if happened(Event::UndoCut) {
-            self.strokes.pop();
+            self.cut_paths.pop();
             self.by = None;
         }
         let ends = !row.contact || happened(Event::Lifted);
@@ -99,16 +99,16 @@ impl CutWay {
         let tip = Vec3::from(row.position_m);
         let goes_on = self.by == Some(row.tool)
             && self
-                .strokes
+                .cut_paths
                 .last()
-                .and_then(|stroke| stroke.last())
+                .and_then(|cut_path| cut_path.last())
                 .is_some_and(|last| (last.tip - tip).norm() < LEAP);
         if !goes_on {
-            self.strokes.push(Vec::new());
+            self.cut_paths.push(Vec::new());
             self.by = Some(row.tool);
         }
-        if let Some(stroke) = self.strokes.last_mut() {
-            stroke.push(Place {
+        if let Some(cut_path) = self.cut_paths.last_mut() {
+            cut_path.push(Place {
                 tip,
                 depth: row.depth_m,
                 layer: row.events.deepest_opened(),
@@ -151,8 +151,8 @@ impl CutWay {
         let wanted = (to - from).norm();
         let along = (to - from) / wanted;
         let mut each: Vec<[f64; 2]> = Vec::new();
-        for stroke in &self.strokes {
-            let deep = stroke
+        for cut_path in &self.cut_paths {
+            let deep = cut_path
                 .iter()
                 .filter(|place| place.layer >= self.wanted_layers);
             let at = deep.map(|place| (place.tip - from).dot(&along));
@@ -176,22 +176,25 @@ impl CutWay {
     }
 
     pub(super) fn score(&self) -> Option<CutScore> {
-        if self.strokes.is_empty() {
+        if self.cut_paths.is_empty() {
             return None;
         }
-        let pieces = self.strokes.iter().flat_map(|stroke| stroke.windows(2));
+        let pieces = self
+            .cut_paths
+            .iter()
+            .flat_map(|cut_path| cut_path.windows(2));
         let length = pieces
             .clone()
             .filter(|piece| piece[0].outermost && piece[1].outermost)
             .map(|piece| (piece[1].tip - piece[0].tip).norm());
         Some(CutScore {
-            count: self.strokes.len(),
+            count: self.cut_paths.len(),
             length: length.sum(),
             along_line: self
                 .line
                 .zip(self.covered())
                 .map(|(line, (wanted, covered))| {
-                    let places = self.strokes.iter().flatten();
+                    let places = self.cut_paths.iter().flatten();
                     let largest = places.map(|place| off(&line, place)).fold(0.0, f64::max);
                     let (mut weight, mut sum) = (0.0, 0.0);
                     for piece in pieces.clone() {

@@ -41,7 +41,7 @@ pub fn feedback(task: &Task, score: &Score, late: bool) -> Feedback {
         change: change(task, score),
         next: match passed {
             Some(true) => format!(
-                "Next: do it once more, with other numbers, in less than {:.0} s and without errors.",
+                "Next: repeat it, with other numbers, in less than {:.0} s and without errors.",
                 score.duration.max(1.0)
             ),
             Some(false) => {
@@ -163,7 +163,7 @@ fn change(task: &Task, score: &Score) -> String {
                 .to_owned()
         }
         (Outcome::Traction { torn: Some(_), .. }, _) => {
-            "pull more slowly: tissue goes on yielding, and a fast pull overshoots".to_owned()
+            "pull more slowly: tissue keeps yielding, and a fast pull overshoots".to_owned()
         }
         (Outcome::Traction { held: false, .. }, _) => {
             "grasp first, then pull until the cue says hold, and stay there".to_owned()

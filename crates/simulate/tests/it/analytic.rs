@@ -3,7 +3,7 @@
 use palpate_files::Event;
 use palpate_geometry::Vec3;
 use palpate_mechanics::contact::{
-    Bond, half_space_stiffness, half_space_tangential_stiffness, hertz_force,
+    Friction, half_space_stiffness, half_space_tangential_stiffness, hertz_force,
 };
 use palpate_mechanics::finite_spheres::EXTERIOR_CONSTANTS;
 use palpate_mechanics::{LinearElastic, PronySeries};
@@ -43,7 +43,10 @@ fn a_flat_tip_on_the_hemisphere_has_the_force_of_the_expansion() {
     for triangles in [768, 3072, 20_000] {
         let organ = format!("builtin = \"hemisphere\"\ntriangles = {triangles}");
         for constants in EXTERIOR_CONSTANTS {
-            for (contact, bond) in [("slip", Bond::Slip), ("stick", Bond::Stick)] {
+            for (contact, bond) in [
+                ("slip", Friction::Frictionless),
+                ("stick", Friction::Bonded),
+            ] {
                 for radius in [2e-3, 3e-3] {
                     let poissons_ratio = constants.poissons_ratio;
                     let simulation = Setting {

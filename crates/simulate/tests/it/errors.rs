@@ -1,4 +1,4 @@
-//! Scenes that cannot be simulated: the message names the file, the cause and the mend.
+//! Scenes that cannot be simulated: the message names the file, the cause and the remedy.
 
 use std::fs;
 use std::path::Path;

@@ -18,7 +18,8 @@ use palpate_servo::{
 };
 use palpate_simulate::Simulation;
 use palpate_simulate::interactive::{
-    Environment, Interaction, Mount, PreparedModel, SceneDevices, Station, VirtualInteraction,
+    DevicePlacement, Environment, Interaction, PlacedDevice, PreparedModel, SceneDevices,
+    VirtualInteraction,
 };
 
 use crate::interactive::{POLE, advance};
@@ -58,8 +59,8 @@ fn service(device: Box<dyn Mechanics>) -> (HaplyStandIn, Places) {
 }
 
 /// Down to 4 mm into the pole of the hemisphere and 20 mm up again, by a handle that stands so.
-fn palpating(mount: &Mount) -> VirtualDevice {
-    let handle = |place: Vec3| mount.rotation.inverse() * (place - mount.origin);
+fn palpating(placement: &DevicePlacement) -> VirtualDevice {
+    let handle = |place: Vec3| placement.rotation.inverse() * (place - placement.origin);
     let [low, high] = [POLE - Vec3::z() * 4e-3, POLE + Vec3::z() * 20e-3].map(handle);
     VirtualDevice::new(Trajectory::Sine {
         center: 0.5 * (low + high),
@@ -69,22 +70,22 @@ fn palpating(mount: &Mount) -> VirtualDevice {
     })
 }
 
-fn palpated(simulation: &Arc<Simulation>, station: Station) -> (Vec<Sample>, Vec<SessionRow>) {
-    palpated_in_time(simulation, station, &AtomicU64::new(0))
+fn palpated(simulation: &Arc<Simulation>, device: PlacedDevice) -> (Vec<Sample>, Vec<SessionRow>) {
+    palpated_in_time(simulation, device, &AtomicU64::new(0))
 }
 
 /// The same, with its time told.
 fn palpated_in_time(
     simulation: &Arc<Simulation>,
-    station: Station,
+    device: PlacedDevice,
     time: &AtomicU64,
 ) -> (Vec<Sample>, Vec<SessionRow>) {
     let settings = ServoSettings {
         log: 10_000,
         ..ServoSettings::default()
     };
-    let stations = vec![Some(station)];
-    let mut interaction = VirtualInteraction::new(simulation.clone(), stations, settings).unwrap();
+    let devices = vec![Some(device)];
+    let mut interaction = VirtualInteraction::new(simulation.clone(), devices, settings).unwrap();
     for _ in 0..5000 {
         time.store(interaction.time().to_bits(), Ordering::Release);
         interaction.advance().unwrap();
@@ -93,16 +94,16 @@ fn palpated_in_time(
     (samples, interaction.rows().collect())
 }
 
-fn open(scene: &Scene, simulation: &Simulation, places: &Places) -> Station {
+fn open(scene: &Scene, simulation: &Simulation, places: &Places) -> PlacedDevice {
     let devices = SceneDevices::open(scene, simulation, places).unwrap();
-    devices.stations.into_iter().next().unwrap().unwrap()
+    devices.devices.into_iter().next().unwrap().unwrap()
 }
 
 /// Where the device of a scene stands; its capabilities.
-fn stands(scene: &Scene, simulation: &Simulation) -> (Mount, Capabilities) {
+fn stands(scene: &Scene, simulation: &Simulation) -> (DevicePlacement, Capabilities) {
     let (_service, places) = service(Box::new(NoDevice::new(Vec3::zeros())));
-    let station = open(scene, simulation, &places);
-    (station.mount, station.device.capabilities().clone())
+    let device = open(scene, simulation, &places);
+    (device.placement, device.device.capabilities().clone())
 }
 
 /// The judge is the same handle in the same place without a driver. What a message loses are the last bits of a number
@@ -110,13 +111,13 @@ fn stands(scene: &Scene, simulation: &Simulation) -> (Mount, Capabilities) {
 #[test]
 fn an_organ_feels_the_same_through_a_service() {
     let (scene, simulation) = scene(DeviceKind::Haply);
-    let (mount, capabilities) = stands(&scene, &simulation);
-    let direct = Station {
-        device: Box::new(palpating(&mount).with_capabilities(capabilities)),
-        mount,
+    let (placement, capabilities) = stands(&scene, &simulation);
+    let direct = PlacedDevice {
+        device: Box::new(palpating(&placement).with_capabilities(capabilities)),
+        placement,
     };
     let (expected, expected_rows) = palpated(&simulation, direct);
-    let (service, places) = service(Box::new(palpating(&mount)));
+    let (service, places) = service(Box::new(palpating(&placement)));
     let (found, rows) = palpated(&simulation, open(&scene, &simulation, &places));
     assert_eq!(found.len(), expected.len());
     let largest = expected.iter().map(|sample| sample.sent.norm());
@@ -145,20 +146,20 @@ fn an_organ_feels_the_same_through_a_library() {
         force_dimension: Some(library.path().to_owned()),
         ..Places::default()
     };
-    let station = open(&scene, &simulation, &places);
-    let (mount, capabilities) = (station.mount, station.device.capabilities().clone());
-    drop(station);
+    let device = open(&scene, &simulation, &places);
+    let (placement, capabilities) = (device.placement, device.device.capabilities().clone());
+    drop(device);
     let time = Arc::new(AtomicU64::new(0));
     let hand = InTime {
-        device: palpating(&mount),
+        device: palpating(&placement),
         time: time.clone(),
     };
     library.carry(Box::new(hand), StandInClock::PerCommand(1e-3), 0);
-    let station = open(&scene, &simulation, &places);
-    let (found, _) = palpated_in_time(&simulation, station, &time);
-    let direct = Station {
-        device: Box::new(palpating(&mount).with_capabilities(capabilities)),
-        mount,
+    let device = open(&scene, &simulation, &places);
+    let (found, _) = palpated_in_time(&simulation, device, &time);
+    let direct = PlacedDevice {
+        device: Box::new(palpating(&placement).with_capabilities(capabilities)),
+        placement,
     };
     let (expected, _) = palpated(&simulation, direct);
     let largest = expected.iter().map(|sample| sample.sent.norm());
@@ -177,20 +178,22 @@ fn an_organ_feels_the_same_through_a_library() {
 #[test]
 fn a_device_stands_as_its_picture_is_seen() {
     let (mut scene, simulation) = scene(DeviceKind::Haply);
-    let (mount, _) = stands(&scene, &simulation);
-    let axes = [Vec3::x(), Vec3::y(), Vec3::z()].map(|axis| mount.rotation * axis);
+    let (placement, _) = stands(&scene, &simulation);
+    let axes = [Vec3::x(), Vec3::y(), Vec3::z()].map(|axis| placement.rotation * axis);
     for (axis, expected) in axes.iter().zip([Vec3::x(), Vec3::z(), -Vec3::y()]) {
         assert!((axis - expected).norm() < 1e-12, "{axis}");
     }
     // From the left and above: what is toward the user is toward the eye.
     (scene.view.eye_m, scene.view.target_m) = (Some([-0.3, 0.0, 0.3]), Some([0.0, 0.0, 0.04]));
-    let (mount, _) = stands(&scene, &simulation);
-    let toward = mount.rotation * Vec3::z();
+    let (placement, _) = stands(&scene, &simulation);
+    let toward = placement.rotation * Vec3::z();
     assert!((toward - Vec3::new(-0.3, 0.0, 0.26).normalize()).norm() < 1e-12);
-    assert!((mount.rotation * Vec3::x() + Vec3::y()).norm() < 1e-12);
+    assert!((placement.rotation * Vec3::x() + Vec3::y()).norm() < 1e-12);
     let surface = simulation.surface();
     let tree = AabbTree::new(surface.mesh());
-    let clear = surface.signed_distance(&tree, &mount.tip(&Vec3::zeros())).1;
+    let clear = surface
+        .signed_distance(&tree, &placement.tip(&Vec3::zeros()))
+        .1;
     assert!(clear > 0.010 && clear < 0.030, "{clear}");
 }
 
@@ -216,12 +219,12 @@ fn a_device_that_is_not_there_is_one_sentence() {
 #[test]
 fn a_fault_of_the_device_ends_the_touch() {
     let (scene, simulation) = scene(DeviceKind::Haply);
-    let (mount, _) = stands(&scene, &simulation);
-    let (service, places) = service(Box::new(palpating(&mount)));
-    let station = open(&scene, &simulation, &places);
-    let stations = vec![Some(station)];
+    let (placement, _) = stands(&scene, &simulation);
+    let (service, places) = service(Box::new(palpating(&placement)));
+    let device = open(&scene, &simulation, &places);
+    let devices = vec![Some(device)];
     let settings = ServoSettings::default();
-    let mut interaction = VirtualInteraction::new(simulation, stations, settings).unwrap();
+    let mut interaction = VirtualInteraction::new(simulation, devices, settings).unwrap();
     // Three quarters of a swing, where it is deepest.
     advance(&mut interaction, 1875);
     let last = interaction.samples(0).last().unwrap();
@@ -245,15 +248,15 @@ fn a_touch_is_shown_in_an_operating_room() {
     use std::io::{Read, Write};
     let (_, simulation) = scene(DeviceKind::Virtual);
     let room = OperatingRoom::open("127.0.0.1:0".parse().unwrap()).unwrap();
-    let station = Station::palpating(&simulation, &simulation.tools()[0]);
+    let device = PlacedDevice::palpating(&simulation, &simulation.tools()[0]);
     let settings = ServoSettings::default();
-    let stations = vec![Some(station)];
+    let devices = vec![Some(device)];
     let environment = Environment {
         operating_room: Some(&room),
         ..Environment::default()
     };
     let prepared = PreparedModel::new(simulation.clone());
-    let touch = Interaction::start_in(&environment, prepared, stations, settings).unwrap();
+    let touch = Interaction::start_in(&environment, prepared, devices, settings).unwrap();
     let mut stream = std::net::TcpStream::connect(room.address()).unwrap();
     let mut request = Vec::new();
     let now = std::time::SystemTime::now();

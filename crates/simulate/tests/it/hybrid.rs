@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use palpate_files::{Pose, Scene};
 use palpate_geometry::{AabbTree, Vec3};
 use palpate_mechanics::LinearElastic;
-use palpate_mechanics::contact::{Bond, half_space_stiffness};
+use palpate_mechanics::contact::{Friction, half_space_stiffness};
 use palpate_simulate::{
     Error, Resources, Simulation, SimulationState, SimulationWorkspace, Work, step,
 };
@@ -230,7 +230,7 @@ fn a_place_that_was_not_prepared_is_told() {
     );
     let force = Vec3::from(rows[5].force_n).norm();
     let law = LinearElastic::new(YOUNGS_MODULUS, 0.45).unwrap();
-    let half_space = half_space_stiffness(&law, 2e-3, Bond::Stick) * 1e-3;
+    let half_space = half_space_stiffness(&law, 2e-3, Friction::Bonded) * 1e-3;
     // Depths are those of the nearest point, to a few parts in a thousand.
     assert!(
         (force / half_space - 1.0).abs() < 0.01,

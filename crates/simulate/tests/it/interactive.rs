@@ -12,8 +12,8 @@ use palpate_files::{Pose, SessionRow};
 use palpate_geometry::Vec3;
 use palpate_servo::{Fault, Pointer, Sample, ServoSettings, Trajectory, VirtualDevice};
 use palpate_simulate::interactive::{
-    ExtrapolationError, Interaction, Mount, SceneDevices, Station, VirtualInteraction,
-    judge_samples,
+    DevicePlacement, ExtrapolationError, Interaction, PlacedDevice, SceneDevices,
+    VirtualInteraction, judge_samples,
 };
 use palpate_simulate::{
     EnhancedSurface, Error, Simulation, SimulationState, SimulationWorkspace, step,
@@ -45,12 +45,12 @@ pub(crate) fn simulation(model: &str, contact: &str, prony: &str) -> Arc<Simulat
 }
 
 fn virtual_interaction(simulation: &Arc<Simulation>, frequency: f64) -> VirtualInteraction {
-    let stations = vec![Some(Station::new(palpating(frequency)))];
+    let devices = vec![Some(PlacedDevice::new(palpating(frequency)))];
     let settings = ServoSettings {
         log: 10_000,
         ..ServoSettings::default()
     };
-    VirtualInteraction::new(simulation.clone(), stations, settings).unwrap()
+    VirtualInteraction::new(simulation.clone(), devices, settings).unwrap()
 }
 
 pub(crate) fn advance(interaction: &mut VirtualInteraction, ticks: usize) {
@@ -116,7 +116,7 @@ fn felt_error(simulation: &Arc<Simulation>, frequency: f64) -> ExtrapolationErro
     let mut interaction = virtual_interaction(simulation, frequency);
     advance(&mut interaction, 3000);
     let samples: Vec<Sample> = interaction.samples(0).collect();
-    judge_samples(simulation, 0, &Mount::default(), &samples)
+    judge_samples(simulation, 0, &DevicePlacement::default(), &samples)
 }
 
 /// Judge: the same model at every tick. The flat tip's organ is a spring while it touches, so that only
@@ -154,10 +154,10 @@ fn a_scripted_hand_plays_a_motion() {
     ];
     let motion = motion(&rows);
     let (played, _) = played(&simulation, &motion);
-    let station = Station::playing(motion.tool("right").unwrap()).unwrap();
-    let stations = vec![Some(station)];
+    let device = PlacedDevice::playing(motion.tool("right").unwrap()).unwrap();
+    let devices = vec![Some(device)];
     let settings = ServoSettings::default();
-    let mut interaction = VirtualInteraction::new(simulation, stations, settings).unwrap();
+    let mut interaction = VirtualInteraction::new(simulation, devices, settings).unwrap();
     advance(&mut interaction, 1001);
     let found: Vec<_> = interaction.rows().collect();
     assert_eq!((found.len(), played.len()), (201, 201));
@@ -199,7 +199,7 @@ fn neither_tick_nor_step_allocates() {
         assert_no_alloc(|| advance(&mut interaction, 10_000));
         assert_eq!(violation_count(), 0);
         let snapshot = interaction.snapshot();
-        assert!(snapshot.happenings.count() > 20);
+        assert!(snapshot.recent_events.count() > 20);
         let wanted = simulation.enhancement().copied().unwrap_or_default();
         let seen = EnhancedSurface::new(&simulation, wanted).unwrap();
         assert_eq!(seen.is_some(), snapshot.whole.is_some());
@@ -234,7 +234,7 @@ fn a_snapshot_shows_what_the_model_has_done() {
     });
     // The corners of the touched triangle at least.
     assert!(moved.count() >= 3);
-    let events: Vec<_> = snapshot.happenings.since(0).map(|h| h.event).collect();
+    let events: Vec<_> = snapshot.recent_events.since(0).map(|h| h.event).collect();
     assert_eq!(
         events[..3],
         [Event::Contact, Event::Release, Event::Contact]
@@ -255,9 +255,9 @@ fn threads_give_the_same_forces_as_steps() {
     let simulation = simulation("", "stick", "[{ g = 0.3, tau_s = 1.5 }]");
     let device = palpating(4.0);
     let stops = device.stops();
-    let stations = vec![Some(Station::new(device))];
+    let devices = vec![Some(PlacedDevice::new(device))];
     let mut interaction =
-        Interaction::start(simulation.clone(), stations, ServoSettings::default()).unwrap();
+        Interaction::start(simulation.clone(), devices, ServoSettings::default()).unwrap();
     let mut rows = Vec::new();
     while rows.len() < 100 {
         assert!(interaction.is_running());
@@ -279,9 +279,9 @@ fn threads_give_the_same_forces_as_steps() {
 fn a_hand_may_leave_in_contact() {
     let simulation = simulation("", "slip", "[]");
     let (pointer, mut hand) = Pointer::new();
-    let stations = vec![Some(Station::new(pointer))];
+    let devices = vec![Some(PlacedDevice::new(pointer))];
     let mut interaction =
-        VirtualInteraction::new(simulation.clone(), stations, ServoSettings::default()).unwrap();
+        VirtualInteraction::new(simulation.clone(), devices, ServoSettings::default()).unwrap();
     advance(&mut interaction, 100);
     assert_eq!(interaction.rows().count(), 0);
     hand.move_to(POLE - Vec3::z() * 2e-3);
@@ -297,8 +297,8 @@ fn a_hand_may_leave_in_contact() {
     assert!(interaction.snapshot().tools[0].felt.z > 0.01);
     let (pointer, mut hand) = Pointer::new();
     hand.move_to(POLE - Vec3::z() * 2e-3);
-    let stations = vec![Some(Station::new(pointer))];
-    drop(Interaction::start(simulation, stations, ServoSettings::default()).unwrap());
+    let devices = vec![Some(PlacedDevice::new(pointer))];
+    drop(Interaction::start(simulation, devices, ServoSettings::default()).unwrap());
     drop(hand);
 }
 
@@ -315,10 +315,9 @@ fn a_dragged_mouse_meets_only_numbers() {
         };
         let simulation = Arc::new(setting.simulation());
         let (pointer, mut hand) = Pointer::new();
-        let stations = vec![Some(Station::new(pointer))];
+        let devices = vec![Some(PlacedDevice::new(pointer))];
         let mut interaction =
-            VirtualInteraction::new(simulation.clone(), stations, ServoSettings::default())
-                .unwrap();
+            VirtualInteraction::new(simulation.clone(), devices, ServoSettings::default()).unwrap();
         let mut random = Random(7);
         let mut felt = 0;
         for drag in 0..60 {
@@ -331,7 +330,7 @@ fn a_dragged_mouse_meets_only_numbers() {
                 let samples: Vec<_> = interaction.samples(0).collect();
                 for sample in &samples {
                     assert!(
-                        sample.wanted.iter().all(|c| c.is_finite()),
+                        sample.commanded.iter().all(|c| c.is_finite()),
                         "{organ} {drag}"
                     );
                     assert!(sample.sent.norm() <= 3.0);
@@ -372,14 +371,14 @@ fn a_scene_names_its_devices() {
         devices.map(|devices| (devices, simulation))
     };
     let (mouse, _) = open("mouse", "kidney", "flat").unwrap();
-    assert!(mouse.stations[0].is_some() && mouse.pointers[0].is_some());
+    assert!(mouse.devices[0].is_some() && mouse.pointers[0].is_some());
     let (none, _) = open("none", "kidney", "flat").unwrap();
-    assert!(none.stations[0].is_none() && none.pointers[0].is_none());
+    assert!(none.devices[0].is_none() && none.pointers[0].is_none());
     for (organ, shape) in [("liver", "flat"), ("esophagus", "sphere")] {
         let (devices, simulation) = open("virtual", organ, shape).unwrap();
         let settings = ServoSettings::default();
         let mut interaction =
-            VirtualInteraction::new(simulation, devices.stations, settings).unwrap();
+            VirtualInteraction::new(simulation, devices.devices, settings).unwrap();
         advance(&mut interaction, 501);
         let tool = interaction.snapshot().tools[0];
         // A quarter of two seconds: as deep as it goes, less where the highest point is a ridge.
@@ -403,8 +402,8 @@ fn a_station_for_each_tool_and_settings_in_range() {
         period: -1.0,
         ..ServoSettings::default()
     };
-    let stations = vec![Some(Station::new(palpating(1.0)))];
-    let wrong = Interaction::start(simulation.clone(), stations, settings);
+    let devices = vec![Some(PlacedDevice::new(palpating(1.0)))];
+    let wrong = Interaction::start(simulation.clone(), devices, settings);
     assert!(matches!(
         wrong.err(),
         Some(Error::Servo(Fault::Setting { .. }))

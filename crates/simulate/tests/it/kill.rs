@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use palpate_files::{Claim, Overwrite, Scene, Session, unfinished};
 use palpate_servo::ServoSettings;
-use palpate_simulate::interactive::{Interaction, Station};
+use palpate_simulate::interactive::{Interaction, PlacedDevice};
 use palpate_simulate::{SessionFolder, Simulation};
 
 use crate::interactive::palpating;
@@ -28,9 +28,9 @@ fn records_until_it_is_killed() {
     };
     let scene = Scene::parse(SCENE, "kill.toml").unwrap();
     let simulation = Arc::new(Simulation::new(&scene).unwrap());
-    let stations = vec![Some(Station::new(palpating(1.0)))];
+    let devices = vec![Some(PlacedDevice::new(palpating(1.0)))];
     let mut interaction =
-        Interaction::start(simulation.clone(), stations, ServoSettings::default()).unwrap();
+        Interaction::start(simulation.clone(), devices, ServoSettings::default()).unwrap();
     let writer = SessionFolder::create(
         Claim::of_folder(Path::new(&folder), Overwrite::Refused).unwrap(),
         (&scene, &simulation),

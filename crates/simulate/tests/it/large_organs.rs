@@ -1,10 +1,10 @@
 //! Organs with more triangles than are solved for: a coarse mesh carries the mechanics, the fine one is seen.
 
+use palpate_mechanics::contact::Friction;
 use std::sync::Arc;
 
 use palpate_geometry::{AabbTree, Vec3};
 use palpate_mechanics::LinearElastic;
-use palpate_mechanics::finite_elements::indentation::Grip;
 use palpate_mechanics::finite_elements::solid::{Body, Loads, MovedPatch, SolidProblem, solve};
 use palpate_simulate::{Simulation, held_region};
 
@@ -56,7 +56,7 @@ fn real_liver_of_20000_triangles() {
                 center,
                 radius: RADIUS,
                 displacement: -DEPTH * normal,
-                grip: Grip::Slide,
+                grip: Friction::Frictionless,
             }),
             law: law.clone(),
             loads: Loads::default(),

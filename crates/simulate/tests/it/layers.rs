@@ -70,7 +70,7 @@ impl<'a> Hand<'a> {
     }
 
     /// What happens in a stroke of 40 mm with the blade `depth` [m] deep, and in the step that lifts it.
-    pub(crate) fn stroke(&mut self, depth: f64) -> Events {
+    pub(crate) fn cut_path(&mut self, depth: f64) -> Events {
         let steps = (0..=400).map(|k| -0.02 + 1e-4 * f64::from(k));
         let mut all = Events::NONE;
         for x in steps {
@@ -92,7 +92,7 @@ impl<'a> Hand<'a> {
 fn a_blade_opens_the_layers_that_its_depth_reaches() {
     let simulation = prepared(&text("scissors", ""));
     let mut hand = Hand::new(&simulation);
-    let scratch = hand.stroke(0.0009);
+    let scratch = hand.cut_path(0.0009);
     assert_eq!(
         (scratch.deepest_opened(), scratch.contains(Event::Cut)),
         (None, false)
@@ -100,7 +100,7 @@ fn a_blade_opens_the_layers_that_its_depth_reaches() {
     assert_eq!(hand.lengths(), [0.0; 3]);
     let mut triangles = 0;
     for (depth, layer) in [(0.0011, 1), (0.0021, 2), (0.0031, 3)] {
-        let events = hand.stroke(depth);
+        let events = hand.cut_path(depth);
         assert_eq!(events.deepest_opened(), Some(layer), "{events}");
         assert_eq!(events.contains(Event::Perforation), layer == 3, "{events}");
         let lengths = hand.lengths();
@@ -235,12 +235,12 @@ fn a_deepened_cut_yields_as_one_that_was_made_at_once() {
     };
     let mut twice = Hand::new(&simulation);
     let whole = feel(&mut twice);
-    twice.stroke(0.0011);
+    twice.cut_path(0.0011);
     let shallow = feel(&mut twice);
-    twice.stroke(0.0021);
+    twice.cut_path(0.0021);
     let deep = feel(&mut twice);
     let mut once = Hand::new(&simulation);
-    once.stroke(0.0021);
+    once.cut_path(0.0021);
     let at_once = feel(&mut once);
     println!("{whole} {shallow} {deep} {at_once}");
     assert!(deep < shallow && shallow < whole);

@@ -9,7 +9,7 @@ use palpate_servo::{
     HandOver, Sample, ServoLoop, ServoSettings, Stage, VirtualDevice, latest,
 };
 use palpate_simulate::interactive::{
-    ForceRenderer, Interaction, Mount, Station, VirtualInteraction,
+    DevicePlacement, ForceRenderer, Interaction, PlacedDevice, VirtualInteraction,
 };
 
 use crate::interactive::{POLE, advance, palpating, simulation};
@@ -43,9 +43,9 @@ fn a_device_that_fails_ends_its_loop_and_says_why() {
     let simulation = simulation("", "slip", "[]");
     let device = palpating(2.0);
     let stops = device.stops();
-    let stations = vec![Some(Station::new(Unplugged(device, 0.1)))];
+    let devices = vec![Some(PlacedDevice::new(Unplugged(device, 0.1)))];
     let mut interaction =
-        Interaction::start(simulation, stations, ServoSettings::default()).unwrap();
+        Interaction::start(simulation, devices, ServoSettings::default()).unwrap();
     while interaction.is_running() {
         std::thread::sleep(Duration::from_millis(5));
     }
@@ -61,9 +61,9 @@ fn a_device_lost_in_contact_leaves_no_force() {
     let device = palpating(2.0);
     let stops = device.stops();
     // Deep: a quarter of half a second into the third cycle.
-    let stations = vec![Some(Station::new(Unplugged(device, 1.1255)))];
+    let devices = vec![Some(PlacedDevice::new(Unplugged(device, 1.1255)))];
     let settings = ServoSettings::default();
-    let mut interaction = VirtualInteraction::new(simulation, stations, settings).unwrap();
+    let mut interaction = VirtualInteraction::new(simulation, devices, settings).unwrap();
     advance(&mut interaction, 1126);
     assert_eq!(interaction.advance(), Err(Fault::Silent));
     assert!(stops.load(Ordering::Relaxed) > 0);
@@ -84,7 +84,7 @@ fn a_device_lost_in_contact_leaves_no_force() {
 fn a_model_lost_in_contact_is_a_fault_within_25_ms() {
     let (mut answers, heard) = latest::channel(&AffineForce::none(f64::NEG_INFINITY));
     let extrapolator = Extrapolator::new(HandOver::LocalModel, 5e-3, 1e-3);
-    let renderer = ForceRenderer::new(heard, extrapolator, Mount::default(), 1.0);
+    let renderer = ForceRenderer::new(heard, extrapolator, DevicePlacement::default(), 1.0);
     let settings = ServoSettings::default();
     // On its way in, so that the hand does work.
     let (mut servo, mut reader) =

@@ -144,7 +144,7 @@ fn a_step_that_cuts_layers_allocates_nothing() {
         ] {
             reset_violation_count();
             let before = violation_count();
-            let events = assert_no_alloc(|| hand.stroke(depth));
+            let events = assert_no_alloc(|| hand.cut_path(depth));
             let allocations = violation_count() - before;
             println!("{depth} m deep: {events}, {allocations} allocations");
             assert_eq!(events.deepest_opened(), layer);

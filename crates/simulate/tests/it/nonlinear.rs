@@ -1,5 +1,6 @@
 //! The whole organ at large deformation.
 
+use palpate_mechanics::contact::Friction;
 use std::sync::Arc;
 
 use nalgebra::UnitQuaternion;
@@ -7,7 +8,6 @@ use palpate_files::scene::{Jaws, Region, RegionPlane};
 use palpate_files::{Event, Scene};
 use palpate_geometry::{AabbTree, Organ, Surface, Vec3};
 use palpate_mechanics::NeoHookean;
-use palpate_mechanics::finite_elements::indentation::Grip;
 use palpate_mechanics::finite_elements::solid::{Body, Loads, MovedPatch, SolidProblem, solve_at};
 use palpate_simulate::Simulation;
 
@@ -168,7 +168,7 @@ fn a_pulled_hemisphere_is_that_of_finite_elements() {
                 center: Vec3::new(0.0, 0.0, 0.05),
                 radius,
                 displacement: way,
-                grip: Grip::Stick,
+                grip: Friction::Bonded,
             }),
             law: Arc::new(NeoHookean::compressible(0.5 * shear, bulk).unwrap()),
             loads: Loads::default(),

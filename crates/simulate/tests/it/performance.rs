@@ -420,9 +420,9 @@ fn the_uncut_stretches_are_told() {
         },
         ..Task::default()
     };
-    let after = |strokes: &[[f64; 2]]| {
+    let after = |cut_paths: &[[f64; 2]]| {
         let mut performance = Performance::new(&task, &tools);
-        for (number, [from, to]) in strokes.iter().enumerate() {
+        for (number, [from, to]) in cut_paths.iter().enumerate() {
             for part in 0..=20 {
                 let place = from + (to - from) * f64::from(part) / 20.0;
                 performance.add(&SessionRow {

@@ -6,7 +6,7 @@ use palpate_files::session::{Event, Events};
 use palpate_files::{Scene, Session, SessionRow, SessionWriter};
 use palpate_geometry::Vec3;
 use palpate_servo::{Pointer, PointerHand, ServoSettings};
-use palpate_simulate::interactive::{CUTS, Order, Station, VirtualInteraction};
+use palpate_simulate::interactive::{CUTS, ModelCommand, PlacedDevice, VirtualInteraction};
 use palpate_simulate::{Error, Replay, Simulation};
 
 use crate::scenes::Random;
@@ -37,10 +37,13 @@ struct Played {
 impl Played {
     fn new(simulation: &Arc<Simulation>) -> Self {
         let [(left, left_hand), (right, right_hand)] = [Pointer::new(), Pointer::new()];
-        let stations = vec![Some(Station::new(left)), Some(Station::new(right))];
+        let devices = vec![
+            Some(PlacedDevice::new(left)),
+            Some(PlacedDevice::new(right)),
+        ];
         let settings = ServoSettings::default();
         Self {
-            interaction: VirtualInteraction::new(simulation.clone(), stations, settings).unwrap(),
+            interaction: VirtualInteraction::new(simulation.clone(), devices, settings).unwrap(),
             hands: [left_hand, right_hand],
             rows: Vec::new(),
         }
@@ -74,15 +77,15 @@ impl Played {
                 self.wait((120.0 * random.unit()) as usize);
             }
             let order = match (12.0 * random.unit()) as usize {
-                0 => Order::UndoCut,
-                1 => Order::Mark,
-                2 => Order::Pause,
-                3 => Order::Reset,
+                0 => ModelCommand::UndoCut,
+                1 => ModelCommand::Mark,
+                2 => ModelCommand::Pause,
+                3 => ModelCommand::Reset,
                 _ => continue,
             };
-            self.interaction.order(order);
+            self.interaction.send(order);
             self.wait((60.0 * random.unit()) as usize);
-            self.interaction.order(Order::Resume);
+            self.interaction.send(ModelCommand::Resume);
         }
     }
 

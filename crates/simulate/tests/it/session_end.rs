@@ -13,7 +13,7 @@ use palpate_servo::{
     StopReason, Supervisor, Trajectory, Vec3, VirtualDevice, Waypoint,
 };
 use palpate_simulate::interactive::{
-    Environment, Interaction, Order, PreparedModel, Station, VirtualInteraction,
+    Environment, Interaction, ModelCommand, PlacedDevice, PreparedModel, VirtualInteraction,
 };
 use palpate_simulate::{SessionFolder, Simulation};
 
@@ -49,13 +49,13 @@ fn pressed_until(button: f64) -> VirtualInteraction {
         stop_buttons: STOPS,
         ..device.capabilities().clone()
     };
-    let station = Station::new(device.with_capabilities(capabilities));
+    let device = PlacedDevice::new(device.with_capabilities(capabilities));
     let simulation = simulation("", "slip", "[]");
     let settings = ServoSettings {
         log: 10_000,
         ..ServoSettings::default()
     };
-    let mut hands = VirtualInteraction::new(simulation, vec![Some(station)], settings).unwrap();
+    let mut hands = VirtualInteraction::new(simulation, vec![Some(device)], settings).unwrap();
     advance(&mut hands, 1400);
     let last = hands.samples(0).last().unwrap();
     assert!(last.sent.norm() > 0.01, "{last:?}");
@@ -93,7 +93,7 @@ fn every_order_to_stop_is_zero_force_within_5_ms_until_somebody_arms() {
             |hands| hands.supervisor().trip_because(StopReason::Unrecorded),
             Some(Fault::Unrecorded),
         ),
-        ("pause", |hands| hands.order(Order::Pause), None),
+        ("pause", |hands| hands.send(ModelCommand::Pause), None),
         ("end", |hands| hands.supervisor().switch_off(), None),
     ];
     for (name, stop, fault) in stops {
@@ -204,14 +204,14 @@ fn live(
     is_ended: fn() -> bool,
 ) -> (Interaction, Seen) {
     let seen = Seen::default();
-    let station = Station::new(Spied(device, seen.clone()));
+    let device = PlacedDevice::new(Spied(device, seen.clone()));
     let environment = Environment {
         is_ended,
         ..Environment::default()
     };
     let prepared = PreparedModel::new(simulation);
     let settings = ServoSettings::default();
-    let touch = Interaction::start_in(&environment, prepared, vec![Some(station)], settings);
+    let touch = Interaction::start_in(&environment, prepared, vec![Some(device)], settings);
     (touch.unwrap(), seen)
 }
 

@@ -10,7 +10,9 @@ use palpate_files::session::Event;
 use palpate_geometry::Vec3;
 use palpate_servo::{ForceState, ServoSettings, Stage, Trajectory, VirtualDevice};
 use palpate_simulate::Simulation;
-use palpate_simulate::interactive::{Order, PreparedModel, Station, VirtualInteraction};
+use palpate_simulate::interactive::{
+    ModelCommand, PlacedDevice, PreparedModel, VirtualInteraction,
+};
 
 use crate::interactive::{advance, palpating};
 use crate::scenes::Setting;
@@ -49,9 +51,9 @@ fn touch(
         log: 10_000,
         ..ServoSettings::default()
     };
-    let stations = vec![Some(Station::new(device))];
+    let devices = vec![Some(PlacedDevice::new(device))];
     (
-        VirtualInteraction::new(simulation.clone(), stations, settings).unwrap(),
+        VirtualInteraction::new(simulation.clone(), devices, settings).unwrap(),
         stops,
     )
 }
@@ -66,7 +68,7 @@ fn a_new_beginning_allocates_nothing() {
         reset_violation_count();
         assert_no_alloc(|| {
             for _ in 0..10 {
-                hands.order(Order::Reset);
+                hands.send(ModelCommand::Reset);
                 (0..100).for_each(|_| hands.advance().unwrap());
             }
         });
@@ -133,7 +135,7 @@ fn another_model_takes_over_while_the_device_stays_open() {
 fn a_pause_outlasts_another_model() {
     let (mut hands, _) = touch(&simulation("local"), palpating(1.0));
     advance(&mut hands, 1200);
-    hands.order(Order::Pause);
+    hands.send(ModelCommand::Pause);
     advance(&mut hands, 20);
     hands
         .replace_model(PreparedModel::new(simulation("hybrid")))
@@ -157,7 +159,7 @@ fn a_hand_deep_in_another_model_has_no_force_until_it_comes_out() {
     let samples: Vec<_> = hands.samples(0).skip(10).collect();
     let smallest = samples
         .iter()
-        .map(|sample| sample.wanted.norm())
+        .map(|sample| sample.commanded.norm())
         .fold(f64::INFINITY, f64::min);
     assert!(smallest > 0.3, "{smallest}");
     assert!(samples.iter().all(|sample| sample.sent.norm() == 0.0));

@@ -1,12 +1,12 @@
 //! Finite elements condensed to the surface, where they carry the whole organ.
 
+use palpate_mechanics::contact::Friction;
 use std::fs;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use palpate_geometry::{AabbTree, Vec3};
 use palpate_mechanics::LinearElastic;
-use palpate_mechanics::finite_elements::indentation::Grip;
 use palpate_mechanics::finite_elements::solid::{Body, Loads, MovedPatch, SolidProblem, solve};
 use palpate_mechanics::finite_elements::tube::{Ends, Tube, TubeProblem, TubePunch, indent};
 use palpate_simulate::{Resources, Simulation, held_region};
@@ -137,7 +137,7 @@ fn the_esophagus_is_that_of_finite_elements() {
             center: point,
             radius: 2e-3,
             displacement: -1e-3 * normal,
-            grip: Grip::Slide,
+            grip: Friction::Frictionless,
         }),
         law: law.clone(),
         loads: Loads::default(),
@@ -175,7 +175,7 @@ fn straight_tube(law: Arc<LinearElastic>) -> f64 {
     };
     let punch = TubePunch {
         radius: 2e-3,
-        face: Grip::Slide,
+        face: Friction::Frictionless,
         pressure: 0.0,
         depths: vec![1e-3, 1.2e-3],
     };

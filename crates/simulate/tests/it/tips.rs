@@ -1,5 +1,6 @@
 //! Tips on a cube, a slab and a hemisphere, for every model, against finite elements.
 
+use palpate_mechanics::contact::Friction;
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Arc;
@@ -7,7 +8,7 @@ use std::sync::Arc;
 use palpate_files::Scene;
 use palpate_geometry::Vec3;
 use palpate_mechanics::finite_elements::indentation::{
-    Base, Block, Grip, IndentationRun, IndentationSettings, Indenter, IndenterShape, Side,
+    Base, Block, IndentationRun, IndentationSettings, Indenter, IndenterShape, Side,
 };
 use palpate_mechanics::{Law, LinearElastic, NeoHookean, PronySeries};
 use palpate_simulate::{Resources, Simulation};
@@ -72,7 +73,7 @@ impl Body {
             indenter: Indenter {
                 shape,
                 radius,
-                face: Grip::Slide,
+                face: Friction::Frictionless,
             },
             law,
             prony: PronySeries::default(),

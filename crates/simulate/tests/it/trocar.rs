@@ -8,7 +8,7 @@ use palpate_files::scene::DeviceKind;
 use palpate_geometry::Vec3;
 use palpate_servo::{Fault, Sample, ServoSettings, Stage, Trajectory, VirtualDevice};
 use palpate_simulate::interactive::{
-    Mount, Order, SceneDevices, Station, VirtualInteraction, judge_samples,
+    DevicePlacement, ModelCommand, PlacedDevice, SceneDevices, VirtualInteraction, judge_samples,
 };
 use palpate_simulate::{ShaftFriction, Simulation, Trocar};
 
@@ -309,12 +309,12 @@ fn a_trocar_in_the_organ_is_refused() {
     assert!(Simulation::new(&scene([0.0, 0.01, 0.06])).is_ok());
 }
 
-fn interaction(simulation: &Arc<Simulation>, station: Station) -> VirtualInteraction {
+fn interaction(simulation: &Arc<Simulation>, device: PlacedDevice) -> VirtualInteraction {
     let settings = ServoSettings {
         log: 10_000,
         ..ServoSettings::default()
     };
-    VirtualInteraction::new(simulation.clone(), vec![Some(station)], settings).unwrap()
+    VirtualInteraction::new(simulation.clone(), vec![Some(device)], settings).unwrap()
 }
 
 /// Judges: the same tip moved directly, and steps at every tick. The hand that is felt is the tip's, by the
@@ -326,19 +326,19 @@ fn a_hand_feels_through_its_trocar() {
     scene.tools[0].trocar_stiffness_n_per_m = 2.0;
     let simulation = Arc::new(Simulation::new(&scene).unwrap());
     let trocar = simulation.tools()[0].fulcrum.unwrap();
-    let mount = Mount {
+    let placement = DevicePlacement {
         trocar: Some(trocar),
-        ..Mount::default()
+        ..DevicePlacement::default()
     };
     // The tip is the centre of a ball of 3 mm.
     let ends = [0.0, -6e-3].map(|deep| trocar.hand(&(POLE + Vec3::z() * (4e-3 + deep))));
-    let mut station = Station::new(VirtualDevice::new(Trajectory::Sine {
+    let mut device = PlacedDevice::new(VirtualDevice::new(Trajectory::Sine {
         center: 0.5 * (ends[0] + ends[1]),
         amplitude: 0.5 * (ends[1] - ends[0]),
         frequency: 0.5,
     }));
-    station.mount = mount;
-    let mut hands = interaction(&simulation, station);
+    device.placement = placement;
+    let mut hands = interaction(&simulation, device);
     advance(&mut hands, 4000);
     let rows: Vec<SessionRow> = hands.rows().collect();
     let deepest = rows.iter().map(|row| row.depth_m).fold(0.0, f64::max);
@@ -361,12 +361,12 @@ fn a_hand_feels_through_its_trocar() {
             "{wall} {}",
             sample.added
         );
-        let of_tip = mount.force_on_tip(&hand, &(sample.wanted - sample.added));
+        let of_tip = placement.force_on_tip(&hand, &(sample.commanded - sample.added));
         let back = trocar.force_on_hand(&hand, &of_tip) + wall;
-        assert!((back - sample.wanted).norm() < 1e-9);
+        assert!((back - sample.commanded).norm() < 1e-9);
         pressed += usize::from(of_tip.norm() > 0.01);
     }
-    let error = judge_samples(&simulation, 0, &mount, &samples);
+    let error = judge_samples(&simulation, 0, &placement, &samples);
     println!("{error:?}, {pressed} ticks pressed");
     assert!(pressed > 1000 && error.peak > 0.05);
     // As without a trocar: of a hand-over by the local stiffness, mostly where contact begins.
@@ -381,13 +381,13 @@ fn rubbed() -> VirtualInteraction {
     let simulation = Arc::new(Simulation::new(&scene).unwrap());
     let trocar = simulation.tools()[0].fulcrum.unwrap();
     let place = trocar.hand(&(POLE + Vec3::z() * 0.02));
-    let mut station = Station::new(VirtualDevice::new(Trajectory::Sine {
+    let mut device = PlacedDevice::new(VirtualDevice::new(Trajectory::Sine {
         center: place,
         amplitude: Vec3::repeat(3e-3),
         frequency: 0.5,
     }));
-    station.mount.trocar = Some(trocar);
-    interaction(&simulation, station)
+    device.placement.trocar = Some(trocar);
+    interaction(&simulation, device)
 }
 
 /// Judge: zero, at every tick that begins after the order.
@@ -406,16 +406,16 @@ fn a_pause_and_an_emergency_stop_leave_nothing_of_the_wall() {
         )
     };
     assert!(felt(&mut hands, 1500).0 > 0.1);
-    hands.order(Order::Pause);
+    hands.send(ModelCommand::Pause);
     assert_eq!(felt(&mut hands, 300), (0.0, Stage::Off));
-    hands.order(Order::Resume);
+    hands.send(ModelCommand::Resume);
     let (most, stage) = felt(&mut hands, 1500);
     assert!(most > 0.1 && stage == Stage::Live, "{most} {stage:?}");
     hands.supervisor().trip();
     let stopped = (0.0, Stage::Faulted(Fault::EmergencyStop));
     assert_eq!(felt(&mut hands, 300), stopped);
     // Going on is no arming.
-    hands.order(Order::Resume);
+    hands.send(ModelCommand::Resume);
     assert_eq!(felt(&mut hands, 300), stopped);
     hands.supervisor().arm();
     assert!(felt(&mut hands, 1500).0 > 0.1);
@@ -428,14 +428,14 @@ fn devices_of_a_scene_know_their_trocar() {
     scene.tools[0].device = DeviceKind::Virtual;
     let simulation = Arc::new(Simulation::new(&scene).unwrap());
     let mut devices = SceneDevices::open(&scene, &simulation, &Places::default()).unwrap();
-    let station = devices.stations.remove(0).unwrap();
-    assert_eq!(station.mount.trocar, simulation.tools()[0].fulcrum);
-    let mut hands = interaction(&simulation, station);
+    let device = devices.devices.remove(0).unwrap();
+    assert_eq!(device.placement.trocar, simulation.tools()[0].fulcrum);
+    let mut hands = interaction(&simulation, device);
     advance(&mut hands, 2000);
     let deepest = hands.rows().map(|row| row.depth_m).fold(0.0, f64::max);
     // What is scripted.
     assert!((deepest - 4e-3).abs() < 1e-4, "{deepest}");
     scene.tools[0].device = DeviceKind::Mouse;
     let devices = SceneDevices::open(&scene, &simulation, &Places::default()).unwrap();
-    assert_eq!(devices.stations[0].as_ref().unwrap().mount.trocar, None);
+    assert_eq!(devices.devices[0].as_ref().unwrap().placement.trocar, None);
 }

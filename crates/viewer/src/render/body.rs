@@ -2,9 +2,9 @@ use nalgebra::{Matrix3, Vector3};
 use palpate_geometry::{NodeId, Surface, TriangleMesh, Vec3};
 
 use super::Tint;
+use super::ambient_light::ambient_light;
 use super::crease::crease;
 use super::openings::Opening;
-use super::openness::openness;
 use crate::Gpu;
 
 type Vec3f = Vector3<f32>;
@@ -73,16 +73,21 @@ impl Fibres {
 impl Body {
     /// `surface` at rest, in the colours of `tint`.
     pub fn new(gpu: &Gpu, surface: &Surface, tint: Tint) -> Self {
-        Self::with_openness(gpu, surface.mesh(), &openness(surface), tint)
+        Self::with_ambient_light(gpu, surface.mesh(), &ambient_light(surface), tint)
     }
 
     /// Triangles that bound no solid, such as those of a wire frame, in the colours of `tint`.
     pub fn of_mesh(gpu: &Gpu, mesh: &TriangleMesh, tint: Tint) -> Self {
-        Self::with_openness(gpu, mesh, &vec![1.0; mesh.vertices().len()], tint)
+        Self::with_ambient_light(gpu, mesh, &vec![1.0; mesh.vertices().len()], tint)
     }
 
     /// `mesh` at rest, each vertex as open to light from all sides as `open` says [-].
-    pub(crate) fn with_openness(gpu: &Gpu, mesh: &TriangleMesh, open: &[f32], tint: Tint) -> Self {
+    pub(crate) fn with_ambient_light(
+        gpu: &Gpu,
+        mesh: &TriangleMesh,
+        open: &[f32],
+        tint: Tint,
+    ) -> Self {
         let mut body = Self::empty(gpu, tint);
         body.replace(gpu, (mesh.vertices(), mesh.triangles()), open);
         body

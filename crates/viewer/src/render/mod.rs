@@ -14,6 +14,7 @@
 //!
 //! *Limits*: no shadows but those of tools, as capsules; the film mirrors no organ.
 
+pub(crate) mod ambient_light;
 mod body;
 mod crease;
 pub(crate) mod environment;
@@ -23,7 +24,6 @@ mod light;
 mod maps;
 mod noise;
 pub(crate) mod openings;
-pub(crate) mod openness;
 mod pipelines;
 mod target;
 mod tint;

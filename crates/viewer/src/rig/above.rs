@@ -2,7 +2,7 @@ use eframe::egui::{
     self, Align, Align2, Button, Color32, ComboBox, FontId, Frame, Layout, Margin, ProgressBar,
     RichText, Ui, vec2,
 };
-use palpate_measure::live::Order;
+use palpate_measure::live::RigCommand;
 
 use super::{Behind, RigWindow};
 use crate::style::{DEPTH, FAULT, FORCE, ON_STOP, QUIET, STOP, STOP_HINT, WARNING};
@@ -95,8 +95,8 @@ fn state(window: &mut RigWindow, ui: &mut Ui) {
     let now = watch.now.map_or(0.0, |now| now.time);
     let whole = watch.doing.and_then(|(order, since)| {
         let whole = match order {
-            Order::Rest => window.settings.recovery,
-            Order::Press(course, _) => window.settings.time_of(&course),
+            RigCommand::Rest => window.settings.recovery,
+            RigCommand::Press(trajectory, _) => window.settings.time_of(&trajectory),
             _ => return None,
         };
         Some((now - since, whole))
@@ -213,7 +213,7 @@ fn fault(window: &mut RigWindow, ui: &mut Ui) {
                 }
             } else if fault.arming {
                 ui.spinner();
-                ui.label("forces come back");
+                ui.label("forces return");
             } else {
                 if ui.button("Arm again").clicked() {
                     window.arm();

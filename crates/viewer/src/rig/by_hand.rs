@@ -1,5 +1,5 @@
 use eframe::egui::{Button, Grid, RichText, Ui, vec2};
-use palpate_measure::live::Order;
+use palpate_measure::live::RigCommand;
 use palpate_servo::Vec3;
 
 use super::{RigWindow, keys};
@@ -135,8 +135,8 @@ fn drive(window: &mut RigWindow, (up, key): (bool, &str), size: eframe::egui::Ve
     let free = window.watch.is_free();
     let word = if up { "up" } else { "down" };
     let held = Button::new(format!("Hold to go {word}")).min_size(size);
-    // Enabled while it is held, when its own order is being carried out.
-    let driving = matches!(window.watch.doing, Some((Order::Drive(_), _)));
+    // Enabled while it is held, when its own command is being carried out.
+    let driving = matches!(window.watch.doing, Some((RigCommand::Drive(_), _)));
     let speed = 1e3 * window.settings.jog_speed;
     let hint = format!("at {speed} mm/s for as long as it is held ({key} key)");
     let held = ui.add_enabled(free || driving, held).on_hover_text(hint);
@@ -149,13 +149,13 @@ fn programmed(window: &mut RigWindow, size: eframe::egui::Vec2, ui: &mut Ui) {
     let down = "down until tissue is met, then wait above it (A key)";
     let out = "out of the tissue (W key)";
     for (word, hint, order) in [
-        ("Approach", down, Order::Approach),
-        ("Withdraw", out, Order::Withdraw),
+        ("Approach", down, RigCommand::Approach),
+        ("Withdraw", out, RigCommand::Withdraw),
     ] {
         let button = Button::new(word).min_size(size);
         let button = ui.add_enabled(window.watch.is_free(), button);
         if button.on_hover_text(hint).clicked() {
-            window.order(order);
+            window.send(order);
         }
     }
     ui.end_row();

@@ -1,5 +1,5 @@
 use eframe::egui::{Button, DragValue, RichText, Ui, vec2};
-use palpate_measure::live::Order;
+use palpate_measure::live::RigCommand;
 use palpate_servo::Vec3;
 
 use super::RigWindow;
@@ -34,7 +34,7 @@ pub(super) fn show(window: &mut RigWindow, ui: &mut Ui) {
             .on_hover_text("approach along the normal that is typed")
             .clicked()
         {
-            window.order(Order::Face(typed));
+            window.send(RigCommand::Face(typed));
         }
     });
     let size = vec2(ui.available_width(), 26.0);
@@ -42,7 +42,7 @@ pub(super) fn show(window: &mut RigWindow, ui: &mut Ui) {
     let measure = ui.add_enabled(free, measure);
     let hint = "touches the surface at four places around this one";
     if measure.on_hover_text(hint).clicked() {
-        window.order(Order::MeasureNormal);
+        window.send(RigCommand::MeasureNormal);
     }
 }
 

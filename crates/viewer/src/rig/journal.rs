@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 use palpate_files::recording::{RecordingHeader, RecordingRow};
 use palpate_files::{Claim, Error, Overwrite, unfinished};
 use palpate_measure::live::{Commission, Unwritten};
-use palpate_measure::{Course, Recorded, RigSettings, recording_name, stimulus_name};
+use palpate_measure::{DepthTrajectory, Recorded, RigSettings, recording_name, stimulus_name};
 
 use super::curves::{force_over_depth, relaxation};
 
@@ -44,7 +44,7 @@ struct Asked {
 pub(super) struct What {
     /// The number of the specimen.
     place: usize,
-    course: Course,
+    trajectory: DepthTrajectory,
     pub(super) stimulus: String,
     pub(super) repeat: u64,
 }
@@ -72,11 +72,11 @@ impl Journal {
     /// A recording of `course` on the specimen at a place, under a name that is free: repetitions are counted on.
     pub(super) fn ask(
         &mut self,
-        course: &Course,
+        trajectory: &DepthTrajectory,
         settings: &RigSettings,
         (specimen, place): (&RecordingHeader, usize),
     ) -> Commission {
-        let stimulus = stimulus_name(&course.stimulus());
+        let stimulus = stimulus_name(&trajectory.stimulus());
         let mut repeat = 0;
         let file = loop {
             repeat += 1;
@@ -93,7 +93,7 @@ impl Journal {
             file: file.clone(),
             entry: What {
                 place,
-                course: *course,
+                trajectory: *trajectory,
                 stimulus,
                 repeat,
             },
@@ -101,7 +101,7 @@ impl Journal {
         Commission {
             number: self.last,
             file,
-            header: settings.describe(specimen, (course, repeat)),
+            header: settings.describe(specimen, (trajectory, repeat)),
         }
     }
 
@@ -114,7 +114,7 @@ impl Journal {
         self.chosen = None;
         self.entries.push(Entry {
             force_over_depth: force_over_depth(rows),
-            relaxation: relaxation(rows, &what.course.stimulus()),
+            relaxation: relaxation(rows, &what.trajectory.stimulus()),
             what,
             recorded,
         });
@@ -148,7 +148,7 @@ impl Journal {
                 self.chosen = None;
                 self.entries.push(Entry {
                     force_over_depth: force_over_depth(rows),
-                    relaxation: relaxation(rows, &unsaved.what.course.stimulus()),
+                    relaxation: relaxation(rows, &unsaved.what.trajectory.stimulus()),
                     what: unsaved.what,
                     recorded,
                 });
@@ -184,8 +184,9 @@ impl Journal {
     pub(super) fn compared(&self) -> Option<(&Entry, impl Iterator<Item = &Entry>)> {
         let shown = self.shown()?;
         let entry = &self.entries[shown];
-        let same =
-            |other: &What| (other.place, other.course) == (entry.what.place, entry.what.course);
+        let same = |other: &What| {
+            (other.place, other.trajectory) == (entry.what.place, entry.what.trajectory)
+        };
         let others = self.entries.iter().enumerate();
         let others = others.filter(move |(place, other)| *place != shown && same(&other.what));
         Some((entry, others.map(|(_, other)| other)))
@@ -220,15 +221,15 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let full = folder.path().join("full");
         let mut journal = Journal::new(full.clone());
-        let course = Course::of(Stimulus::RampAndHold {
+        let trajectory = DepthTrajectory::of(Stimulus::RampAndHold {
             depth_m: 4e-3,
             ramp_s: 0.5,
             hold_s: 1.0,
         });
-        let course = course.unwrap();
+        let trajectory = trajectory.unwrap();
         let header = RecordingHeader::default();
         let settings = RigSettings::default();
-        let commission = journal.ask(&course, &settings, (&header, 0));
+        let commission = journal.ask(&trajectory, &settings, (&header, 0));
         let number = commission.number;
         let name = commission.file.file_name().unwrap().to_owned();
         journal.keep_unsaved(Unwritten {
@@ -268,19 +269,19 @@ mod tests {
         let left = folder.path().join("liver-1-ramp-and-hold-4mm-2.csv.part");
         std::fs::write(left, "").unwrap();
         let mut journal = Journal::new(folder.path().to_owned());
-        let course = Course::of(Stimulus::RampAndHold {
+        let trajectory = DepthTrajectory::of(Stimulus::RampAndHold {
             depth_m: 4e-3,
             ramp_s: 0.5,
             hold_s: 1.0,
         });
-        let course = course.unwrap();
+        let trajectory = trajectory.unwrap();
         let header = RecordingHeader {
             organ: Some("liver".to_owned()),
             ..RecordingHeader::default()
         };
         let settings = RigSettings::default();
         let ask = |journal: &mut Journal| {
-            let asked = journal.ask(&course, &settings, (&header, 0));
+            let asked = journal.ask(&trajectory, &settings, (&header, 0));
             (asked.number, asked.header.repeat, asked.file)
         };
         let (first, repeat, file) = ask(&mut journal);

@@ -1,5 +1,5 @@
 use eframe::egui::{Context, Key, Modifiers};
-use palpate_measure::live::Order;
+use palpate_measure::live::RigCommand;
 
 use super::RigWindow;
 use super::by_hand::Way;
@@ -33,12 +33,12 @@ pub(super) fn take(window: &mut RigWindow, context: &Context) {
         }
     }
     for (key, order) in [
-        (Key::A, Order::Approach),
-        (Key::N, Order::MeasureNormal),
-        (Key::W, Order::Withdraw),
+        (Key::A, RigCommand::Approach),
+        (Key::N, RigCommand::MeasureNormal),
+        (Key::W, RigCommand::Withdraw),
     ] {
         if taken(Modifiers::NONE, key) && window.watch.is_free() {
-            window.order(order);
+            window.send(order);
         }
     }
     for (key, up) in [(Key::PageDown, false), (Key::PageUp, true)] {
@@ -51,14 +51,14 @@ pub(super) fn take(window: &mut RigWindow, context: &Context) {
 /// Drives the indenter for as long as this is called at every picture.
 pub(super) fn drive(window: &mut RigWindow, up: bool) {
     let normal = window.watch.normal();
-    let order = Order::Drive(if up { normal } else { -normal });
+    let order = RigCommand::Drive(if up { normal } else { -normal });
     let driven = window.watch.doing.is_some_and(|(doing, _)| doing == order);
     if driven {
         // What only prolongs is not heard of again.
         if let Some(live) = window.live() {
-            live.console.order(order);
+            live.console.send(order);
         }
     } else if window.watch.is_free() {
-        window.order(order);
+        window.send(order);
     }
 }

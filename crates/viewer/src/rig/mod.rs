@@ -1,7 +1,7 @@
 //! The window in which a rig is operated: what it does and its limits above, what it can be asked on the left,
 //! what is felt and what was recorded in the middle.
 //!
-//! The window owns no rig: it gives orders, and shows what a [`LiveRig`] tells, which goes on in threads of its
+//! The window owns no rig: it sends commands, and shows what a [`LiveRig`] tells, which goes on in threads of its
 //! own however slow the picture is.
 //!
 //! *How we know*: `rig::journal::…`, `rig::curves::…`, `rig::prepared::…`; the rig by the tests of its crate; the
@@ -28,8 +28,8 @@ use std::time::Duration;
 
 use eframe::egui;
 use palpate_files::recording::RecordingHeader;
-use palpate_measure::live::{LiveRig, Order};
-use palpate_measure::{Course, Rig, RigSettings};
+use palpate_measure::live::{LiveRig, RigCommand};
+use palpate_measure::{DepthTrajectory, Rig, RigSettings};
 use palpate_servo::Vec3;
 
 use crate::{Error, native, style};
@@ -43,7 +43,7 @@ pub struct Bench {
     /// The limits and speeds of the rig.
     pub settings: RigSettings,
     /// What can be pressed, each with how often a protocol repeats it.
-    pub stimuli: Vec<(Course, u64)>,
+    pub stimuli: Vec<(DepthTrajectory, u64)>,
     /// The specimens, one at least.
     pub places: Vec<Place>,
     /// Where recordings go.
@@ -187,7 +187,7 @@ impl RigWindow {
         }
         if !live.is_running() {
             let sentence =
-                "a thread of the rig has ended, and its device was stopped; open the window anew";
+                "a thread of the rig has ended, and its device was stopped; open the window again";
             self.behind = Behind::Failed(sentence.to_owned());
         }
     }
@@ -199,10 +199,10 @@ impl RigWindow {
         }
     }
 
-    /// Gives an order that is heard of again.
-    fn order(&mut self, order: Order) {
+    /// Sends a command whose end is reported.
+    fn send(&mut self, order: RigCommand) {
         if let Behind::Live(live) = &mut self.behind {
-            live.console.order(order);
+            live.console.send(order);
             self.watch.waiting += 1;
         }
     }
@@ -210,18 +210,18 @@ impl RigWindow {
     /// Moves the indenter by a step.
     fn jog(&mut self, way: by_hand::Way) {
         let way = way.in_rig(self.step, &self.watch.normal());
-        self.order(Order::Jog(way));
+        self.send(RigCommand::Jog(way));
     }
 
     /// Has a course pressed and recorded.
-    fn press(&mut self, course: &Course) {
+    fn press(&mut self, trajectory: &DepthTrajectory) {
         if !self.can_record() {
             return;
         }
         if let Behind::Live(live) = &mut self.behind {
             let specimen = (&self.header, self.place);
-            let commission = self.journal.ask(course, &self.settings, specimen);
-            live.press(*course, commission);
+            let commission = self.journal.ask(trajectory, &self.settings, specimen);
+            live.press(*trajectory, commission);
             self.watch.waiting += 1;
         }
     }
@@ -244,17 +244,17 @@ impl RigWindow {
         }
         let begin = self.places[self.place].begin;
         if begin.place != Vec3::zeros() {
-            self.order(Order::GoTo(begin.place));
+            self.send(RigCommand::GoTo(begin.place));
         }
         if begin.measures_normal {
-            self.order(Order::MeasureNormal);
+            self.send(RigCommand::MeasureNormal);
         }
-        let all: Vec<Course> = self.prepared.iter().flat_map(Prepared::repeated).collect();
-        for course in all {
-            for order in [Order::Rest, Order::Approach, Order::Rest] {
-                self.order(order);
+        let all: Vec<DepthTrajectory> = self.prepared.iter().flat_map(Prepared::repeated).collect();
+        for trajectory in all {
+            for order in [RigCommand::Rest, RigCommand::Approach, RigCommand::Rest] {
+                self.send(order);
             }
-            self.press(&course);
+            self.press(&trajectory);
         }
     }
 

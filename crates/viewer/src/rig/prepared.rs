@@ -1,5 +1,5 @@
 use palpate_files::protocol::{Stimulus, Sweep};
-use palpate_measure::{Course, RigSettings};
+use palpate_measure::{DepthTrajectory, RigSettings};
 
 /// A stimulus on its button, which can be changed.
 #[derive(Debug, Clone, PartialEq)]
@@ -12,28 +12,30 @@ pub(super) struct Prepared {
 }
 
 impl Prepared {
-    pub(super) fn new((course, repeats): (Course, u64)) -> Self {
+    pub(super) fn new((trajectory, repeats): (DepthTrajectory, u64)) -> Self {
         Self {
-            stimulus: course.stimulus(),
+            stimulus: trajectory.stimulus(),
             repeats,
             open: false,
         }
     }
 
     /// Its course, or why it cannot be pressed.
-    pub(super) fn course(&self, settings: &RigSettings) -> Result<Course, String> {
-        let course = Course::of(self.stimulus).map_err(|error| error.to_string())?;
-        settings.check(&course).map_err(|error| error.to_string())?;
-        Ok(course)
+    pub(super) fn trajectory(&self, settings: &RigSettings) -> Result<DepthTrajectory, String> {
+        let trajectory = DepthTrajectory::of(self.stimulus).map_err(|error| error.to_string())?;
+        settings
+            .check(&trajectory)
+            .map_err(|error| error.to_string())?;
+        Ok(trajectory)
     }
 
     /// Its course, as often as it is repeated; nothing when it makes no sense.
-    pub(super) fn repeated(&self) -> impl Iterator<Item = Course> {
-        let course = Course::of(self.stimulus).ok();
+    pub(super) fn repeated(&self) -> impl Iterator<Item = DepthTrajectory> {
+        let trajectory = DepthTrajectory::of(self.stimulus).ok();
         let repeats = self.repeats as usize;
-        course
+        trajectory
             .into_iter()
-            .flat_map(move |course| std::iter::repeat_n(course, repeats))
+            .flat_map(move |trajectory| std::iter::repeat_n(trajectory, repeats))
     }
 
     /// What it is, and how far and how often.
@@ -118,15 +120,15 @@ mod tests {
             ramp_s: 0.5,
             hold_s: 40.0,
         };
-        let mut prepared = Prepared::new((Course::of(stimulus).unwrap(), 3));
+        let mut prepared = Prepared::new((DepthTrajectory::of(stimulus).unwrap(), 3));
         let settings = RigSettings {
             breath: Some(25.0),
             ..RigSettings::default()
         };
-        let said = prepared.course(&settings).unwrap_err();
+        let said = prepared.trajectory(&settings).unwrap_err();
         assert!(said.contains("25.0 s"), "{said}");
         *prepared.numbers()[2].3 = 10.0;
-        assert!(prepared.course(&settings).is_ok());
+        assert!(prepared.trajectory(&settings).is_ok());
         assert_eq!(prepared.repeated().count(), 3);
         assert_eq!(prepared.words()[0], "ramp and hold  4 mm");
     }

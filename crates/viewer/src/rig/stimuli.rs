@@ -14,7 +14,7 @@ pub(super) fn show(window: &mut RigWindow, ui: &mut Ui) {
     let wrong = window
         .prepared
         .iter()
-        .any(|own| own.course(&window.settings).is_err());
+        .any(|own| own.trajectory(&window.settings).is_err());
     let enabled = window.watch.is_free() && !wrong;
     ui.vertical_centered(|ui| {
         let all = Button::new(format!("Run the protocol ({times} recordings)"));
@@ -32,14 +32,14 @@ fn one(window: &mut RigWindow, number: usize, ui: &mut Ui) {
     let free = window.watch.is_free();
     let known = window.watch.contact().is_some();
     let prepared = &mut window.prepared[number];
-    let course = prepared.course(&window.settings);
+    let trajectory = prepared.trajectory(&window.settings);
     let [what, how] = prepared.words();
     let mut pressed = false;
     ui.horizontal(|ui| {
         let width = ui.available_width() - 34.0;
         let button = Button::new(what).min_size(vec2(width, 26.0));
         let response = ui
-            .add_enabled(free && known && course.is_ok(), button)
+            .add_enabled(free && known && trajectory.is_ok(), button)
             .on_hover_text("press it and record it")
             .on_disabled_hover_text(if known {
                 "what is being done comes first, and a fault before all"
@@ -73,8 +73,8 @@ fn one(window: &mut RigWindow, number: usize, ui: &mut Ui) {
             ui.end_row();
         });
     }
-    match course {
-        Ok(course) if pressed => window.press(&course),
+    match trajectory {
+        Ok(trajectory) if pressed => window.press(&trajectory),
         Ok(_) => {}
         Err(sentence) => {
             ui.label(RichText::new(sentence).small().color(WARNING));

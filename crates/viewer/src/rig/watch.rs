@@ -1,4 +1,4 @@
-use palpate_measure::live::{LiveRig, News, Order};
+use palpate_measure::live::{ConsoleEvent, LiveRig, RigCommand};
 use palpate_measure::{Phase, RigSample};
 use palpate_servo::{ForceTorque, Vec3};
 
@@ -12,7 +12,7 @@ pub(super) struct Watch {
     /// Force, and the way down from where the rig began.
     pub(super) history: History,
     /// What is being done, and since when on the rig's clock [s].
-    pub(super) doing: Option<(Order, f64)>,
+    pub(super) doing: Option<(RigCommand, f64)>,
     /// Orders that were given and neither done nor dropped.
     pub(super) waiting: usize,
     pub(super) fault: Option<Shown>,
@@ -87,20 +87,20 @@ impl Watch {
         Some(sum.map(|vector| vector / AVERAGED as f64))
     }
 
-    fn hear(&mut self, news: News, journal: &mut Journal) {
+    fn hear(&mut self, news: ConsoleEvent, journal: &mut Journal) {
         match news {
-            News::Begun(order) => {
+            ConsoleEvent::Begun(order) => {
                 self.doing = Some((order, self.now.map_or(0.0, |now| now.time)));
             }
-            News::Ended(order, ended) => {
+            ConsoleEvent::Ended(order, ended) => {
                 self.done_with(order, journal);
                 if let Err(error) = ended {
                     self.notice = Some(error.to_string());
                 }
             }
-            News::Dropped(order) => self.done_with(order, journal),
-            News::Disturbed(error) => self.notice = Some(error.to_string()),
-            News::Faulted(fault) => {
+            ConsoleEvent::Dropped(order) => self.done_with(order, journal),
+            ConsoleEvent::Disturbed(error) => self.notice = Some(error.to_string()),
+            ConsoleEvent::Faulted(fault) => {
                 self.fault = Some(Shown {
                     sentence: fault.to_string(),
                     seen: false,
@@ -109,25 +109,27 @@ impl Watch {
                 // It says all.
                 self.notice = None;
             }
-            News::Armed => self.fault = None,
-            News::Recorded(number, recorded, rows) => journal.enter(number, recorded, &rows),
+            ConsoleEvent::Armed => self.fault = None,
+            ConsoleEvent::Recorded(number, recorded, rows) => {
+                journal.enter(number, recorded, &rows)
+            }
             // It could not even be begun.
-            News::Unwritten(unwritten) if unwritten.rows.is_empty() => {
+            ConsoleEvent::Unwritten(unwritten) if unwritten.rows.is_empty() => {
                 self.notice = Some(unwritten.error.to_string());
             }
-            News::Unwritten(unwritten) => journal.keep_unsaved(*unwritten),
+            ConsoleEvent::Unwritten(unwritten) => journal.keep_unsaved(*unwritten),
         }
     }
 
-    fn done_with(&mut self, order: Order, journal: &mut Journal) {
+    fn done_with(&mut self, order: RigCommand, journal: &mut Journal) {
         self.doing = None;
         self.waiting = self.waiting.saturating_sub(1);
-        if let Order::Press(_, number) = order {
+        if let RigCommand::Press(_, number) = order {
             journal.forget(number);
         }
     }
 
-    /// Whether an order that moves the indenter would be carried out at once.
+    /// Whether a command that moves the indenter would be carried out at once.
     pub(super) fn is_free(&self) -> bool {
         self.fault.is_none() && self.waiting == 0 && self.now.is_some()
     }
@@ -147,10 +149,10 @@ impl Watch {
             (Phase::Limp, _) if self.fault.as_ref().is_some_and(|fault| fault.arming) => "arming",
             (Phase::Limp, _) => "no force",
             (Phase::Jogging, _) => "by hand",
-            (Phase::Approaching, _) | (_, Some((Order::Approach, _))) => "approaching",
+            (Phase::Approaching, _) | (_, Some((RigCommand::Approach, _))) => "approaching",
             (Phase::Withdrawing, _) => "withdrawing",
             (Phase::Pressing, _) => "pressing",
-            (Phase::Waiting, Some((Order::Rest, _))) => "resting",
+            (Phase::Waiting, Some((RigCommand::Rest, _))) => "resting",
             (Phase::Waiting, _) => "waiting",
         }
     }

@@ -11,7 +11,7 @@ use palpate_simulate::performance::{
 };
 use palpate_simulate::{Demonstration, Guidance, SessionFolder, ShownTool, Tutor, read_experts};
 
-use super::play::{Play, Wish};
+use super::play::{ModelRequest, Play};
 use super::training::PastResult;
 
 /// A task that is attempted.
@@ -216,7 +216,7 @@ impl Attempt {
         let elapsed = if self.has_begun { elapsed } else { 0.0 };
         let shown = demonstration.follow(elapsed, &forces).to_vec();
         if demonstration.marks() {
-            play.order(Wish::Mark);
+            play.send(ModelRequest::Mark);
         }
         Some(shown)
     }

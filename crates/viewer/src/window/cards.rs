@@ -43,7 +43,7 @@ pub(super) fn show(ui: &Ui, attempt: &mut Attempt, around: &Around) -> Option<As
         Phase::Reads => card(ui, "task", Align2::CENTER_CENTER, 430.0, |ui| {
             reads(ui, attempt, around, &mut asked);
         }),
-        Phase::GoesOn(folder) => card(ui, "goes on", Align2::CENTER_TOP, 360.0, |ui| {
+        Phase::GoesOn(folder) => card(ui, "in progress", Align2::CENTER_TOP, 360.0, |ui| {
             let badge = match (folder, &unsaved) {
                 (_, Some(_)) => Some(RichText::new("NOT RECORDED").strong().color(FAULT)),
                 (Some(_), None) => Some(RichText::new("recorded").small().color(FAULT)),

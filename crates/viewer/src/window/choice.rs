@@ -37,7 +37,7 @@ impl Choice {
         }
     }
 
-    /// Whether the scene draws its numbers anew for each attempt.
+    /// Whether the scene draws its numbers for each attempt.
     pub(super) fn draws(&self) -> bool {
         self.given.draws.is_some()
     }

@@ -14,7 +14,7 @@ use crate::{Camera, Picked, pick};
 
 /// What a scene gives to a gesture.
 #[derive(Debug, Clone, Copy)]
-pub struct Ground<'a> {
+pub struct GestureContext<'a> {
     /// The organ at rest.
     pub surface: &'a Surface,
     /// The tree of its mesh.
@@ -86,7 +86,7 @@ const HOVER: f64 = 0.004;
 
 impl Gesture {
     /// Takes the mouse's next state; the aim is none as long as the tool has not come over the organ.
-    pub fn follow(&mut self, mouse: &Mouse, ground: &Ground<'_>) -> Option<Aim> {
+    pub fn follow(&mut self, mouse: &Mouse, ground: &GestureContext<'_>) -> Option<Aim> {
         let seen = |place| {
             pick(
                 (ground.surface, ground.tree),
@@ -137,13 +137,13 @@ impl Gesture {
         self.aim
     }
 
-    fn go(&mut self, over: &Picked, depth: f64, ground: &Ground<'_>) {
+    fn go(&mut self, over: &Picked, depth: f64, ground: &GestureContext<'_>) {
         self.over = Some(*over);
         self.aim = aimed(over, depth, ground);
     }
 
     /// From above the surface, wherever the tool was.
-    fn leap(&mut self, over: &Picked, depth: f64, ground: &Ground<'_>) {
+    fn leap(&mut self, over: &Picked, depth: f64, ground: &GestureContext<'_>) {
         self.go(over, depth, ground);
         let above = aimed(over, -HOVER, ground).map(|above| above.tip);
         if let Some(aim) = &mut self.aim {
@@ -162,7 +162,7 @@ impl Gesture {
     }
 }
 
-fn aimed(over: &Picked, depth: f64, ground: &Ground<'_>) -> Option<Aim> {
+fn aimed(over: &Picked, depth: f64, ground: &GestureContext<'_>) -> Option<Aim> {
     let overhang = match ground.tip.shape {
         TipShape::Flat => 0.0,
         TipShape::Sphere => ground.tip.radius_m,

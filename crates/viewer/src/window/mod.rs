@@ -14,7 +14,6 @@ mod attempt;
 mod cards;
 mod choice;
 mod display;
-mod effort;
 mod enhancement;
 pub mod gesture;
 mod ghosts;
@@ -27,6 +26,7 @@ mod picture;
 mod play;
 mod preparation;
 mod rates;
+mod render_quality;
 mod results;
 mod source;
 mod timeline;
@@ -50,7 +50,7 @@ pub use display::check_display;
 use hands::keys::{self, Action};
 use home::Home;
 use picture::Picture;
-use play::{Play, Prepared, Wish};
+use play::{ModelRequest, Play, Prepared};
 use preparation::Preparation;
 use rates::Rates;
 use training::Training;
@@ -289,7 +289,7 @@ impl SimulatorWindow {
                 || "one of its threads ended".to_owned(),
                 |fault| fault.to_string(),
             );
-            self.fault = Some(format!("the touch has stopped: {why}; press Start anew"));
+            self.fault = Some(format!("the simulation has stopped: {why}; press Restart"));
         }
     }
 
@@ -325,7 +325,7 @@ impl SimulatorWindow {
             wanted.push(Action::OtherTool);
         }
         for action in wanted {
-            let wish = match action {
+            let request = match action {
                 Action::OtherTool => {
                     self.take_other(context);
                     continue;
@@ -342,13 +342,13 @@ impl SimulatorWindow {
                     self.engineer_view = !self.engineer_view;
                     continue;
                 }
-                Action::Undo => Wish::UndoCut,
-                Action::Pause => Wish::Pause,
-                Action::Reset => Wish::Reset,
+                Action::Undo => ModelRequest::UndoCut,
+                Action::Pause => ModelRequest::Pause,
+                Action::Reset => ModelRequest::Reset,
             };
             if let Some(play) = &mut self.play {
-                play.order(wish);
-                if wish == Wish::Reset {
+                play.send(request);
+                if request == ModelRequest::Reset {
                     self.picture.lay_down();
                     self.history.clear();
                 }

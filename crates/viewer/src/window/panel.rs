@@ -38,7 +38,7 @@ pub(super) fn side(window: &mut SimulatorWindow, ui: &mut Ui) {
             scene(window, ui);
             // Which tool the mouse moves is no matter of the scene.
             let other = window.choice != before && window.choice.scene() != before.scene();
-            if ui.button("Start anew").clicked() || other {
+            if ui.button("Restart").clicked() || other {
                 let context = ui.ctx().clone();
                 window.begin_anew(&context);
             }
@@ -233,14 +233,14 @@ fn rates(window: &SimulatorWindow, ui: &mut Ui) {
         .play
         .as_ref()
         .map(|play| 1.0 / play.simulation.step());
-    let effort = &window.picture.effort;
+    let render_quality = &window.picture.render_quality;
     egui::Grid::new("rates").num_columns(2).show(ui, |ui| {
         ui.label("display");
         ui.label(format!(
             "{:.0} Hz, {}x, {:.0} % of the pixels",
             rates.display,
-            effort.samples(),
-            100.0 * effort.scale() * effort.scale()
+            render_quality.samples(),
+            100.0 * render_quality.scale() * render_quality.scale()
         ));
         ui.end_row();
         ui.label("model");
@@ -296,7 +296,7 @@ fn limits(touch: &LoopReport, ui: &mut Ui) {
     ui.label("limits").on_hover_text(format!(
         "ticks in which a force was changed on its way to the hand: late {}, faded {}, damped {}, walls {}, \
          shortened {}, cooled {}, slowed {}; let go of {} times",
-        did.late, did.faded, did.damped, did.walls, did.shortened, did.cooled, did.slowed, did.let_go
+        did.deadline_missed, did.faded, did.damped, did.walls, did.saturated, did.thermally_limited, did.rate_limited, did.dead_man_released
     ));
     match touch.fault {
         Some(fault) => ui
@@ -353,7 +353,7 @@ fn arm(window: &SimulatorWindow, is_latched: bool, ui: &mut Ui) {
         return;
     };
     let button = ui.button("Arm forces");
-    let hint = "forces come back over half a second, once the hand is slow and the force small";
+    let hint = "forces return over half a second, once the hand is slow and the force small";
     if button.on_hover_text(hint).clicked() {
         play.source.arm();
     }

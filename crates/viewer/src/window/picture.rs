@@ -7,12 +7,12 @@ use palpate_geometry::Vec3;
 use palpate_simulate::ShownTool;
 
 use super::attempt::Attempt;
-use super::effort::Effort;
-use super::gesture::{Gesture, Ground, Mouse};
+use super::gesture::{Gesture, GestureContext, Mouse};
 use super::ghosts::Over;
 use super::hands::gamepad::Gamepad;
 use super::hands::{Hand, Room, keys};
 use super::play::Play;
+use super::render_quality::RenderQuality;
 use crate::render::{Body, Looks, Renderer, Target, ToolPicture, View};
 use crate::{Camera, Error, Gpu, Orbit, TissuePicture, pick, scene_camera};
 
@@ -29,7 +29,7 @@ pub(super) struct Picture {
     pub(super) endoscope: bool,
     /// How the whole organ is shown around its contacts, if not as the scene wants it.
     pub(super) enhancement: Option<Enhancement>,
-    pub(super) effort: Effort,
+    pub(super) render_quality: RenderQuality,
     pub(super) gesture: Gesture,
     /// One per tool.
     pub(super) hands: Vec<Hand>,
@@ -58,7 +58,7 @@ impl Picture {
             looks: Looks::ALL,
             endoscope: false,
             enhancement: None,
-            effort: Effort::new(gpu.is_software()),
+            render_quality: RenderQuality::new(gpu.is_software()),
             gesture: Gesture::default(),
             hands: Vec::new(),
             shown: None,
@@ -328,7 +328,7 @@ impl Picture {
         if hand.by_keys && !mouse.pressed && !(moved && place.is_some_and(over)) {
             return;
         }
-        let ground = Ground {
+        let ground = GestureContext {
             surface: play.surface(),
             tree: &play.tree,
             camera: room.camera,
@@ -405,12 +405,12 @@ impl Picture {
         size: Vec2,
         pixels_per_point: f32,
     ) -> egui::TextureId {
-        let pixels = size * pixels_per_point * self.effort.scale();
+        let pixels = size * pixels_per_point * self.render_quality.scale();
         let size = (
             pixels.x.round().max(1.0) as u32,
             pixels.y.round().max(1.0) as u32,
         );
-        let samples = self.effort.samples();
+        let samples = self.render_quality.samples();
         if let Some((target, id)) = &self.target
             && target.size() == size
             && target.samples() == samples
@@ -439,7 +439,7 @@ impl Picture {
 
     /// Counts a picture for the effort.
     pub(super) fn count(&mut self, time: Duration, touch_is_late: bool) {
-        self.effort.count(time, touch_is_late);
+        self.render_quality.count(time, touch_is_late);
     }
 }
 

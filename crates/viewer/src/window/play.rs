@@ -5,7 +5,7 @@ use palpate_files::Scene;
 use palpate_geometry::{AabbTree, Surface, Vec3};
 use palpate_servo::{PointerHand, ServoSettings, lock_memory};
 use palpate_simulate::interactive::{
-    CUTS, Environment, Interaction, Order, PreparedModel, SceneDevices,
+    CUTS, Environment, Interaction, ModelCommand, PreparedModel, SceneDevices,
 };
 use palpate_simulate::{Progress, Replay, Resources, Simulation, read_neighbour};
 
@@ -17,7 +17,7 @@ use crate::{Error, Gpu};
 
 /// What a key wants of the model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Wish {
+pub(super) enum ModelRequest {
     /// The last cut is taken back.
     UndoCut,
     /// It stops, or goes on.
@@ -50,7 +50,7 @@ pub(super) struct Play {
     pub(super) source: Source,
     pub(super) organ: SeenOrgan,
     pub(super) neighbours: Vec<Body>,
-    /// What deserves warning.
+    /// Warnings.
     pub(super) warnings: Vec<String>,
     /// Bounds of the models that acted since the start.
     pub(super) limits: Vec<String>,
@@ -131,7 +131,7 @@ impl Play {
         let interaction = Interaction::start_in(
             &environment(&prepared.resources, is_ended),
             model.unwrap_or_else(|| PreparedModel::new(simulation)),
-            devices.stations,
+            devices.devices,
             ServoSettings::default(),
         )?;
         let source = Source::Touched(Box::new(interaction));
@@ -211,26 +211,26 @@ impl Play {
     }
 
     /// Tells the model what is wanted of it.
-    pub(super) fn order(&mut self, wish: Wish) {
-        let order = match wish {
-            Wish::UndoCut => Order::UndoCut,
-            Wish::Reset => Order::Reset,
-            Wish::Mark => Order::Mark,
-            Wish::Pause if self.source.snapshot().paused => Order::Resume,
-            Wish::Pause => Order::Pause,
+    pub(super) fn send(&mut self, request: ModelRequest) {
+        let order = match request {
+            ModelRequest::UndoCut => ModelCommand::UndoCut,
+            ModelRequest::Reset => ModelCommand::Reset,
+            ModelRequest::Mark => ModelCommand::Mark,
+            ModelRequest::Pause if self.source.snapshot().paused => ModelCommand::Resume,
+            ModelRequest::Pause => ModelCommand::Pause,
         };
-        self.source.order(order);
+        self.source.send(order);
     }
 
     /// Makes the organ whole and at rest, and goes on if all stood still.
     pub(super) fn begin_anew(&mut self) {
         self.go_on();
-        self.source.order(Order::Reset);
+        self.source.send(ModelCommand::Reset);
     }
 
     /// Goes on, if all stood still.
     pub(super) fn go_on(&mut self) {
-        self.source.order(Order::Resume);
+        self.source.send(ModelCommand::Resume);
     }
 }
 

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use palpate_files::SessionRow;
 use palpate_simulate::interactive::{
-    Interaction, ModelReport, Order, Quality, Snapshot, Unwritten,
+    Interaction, ModelCommand, ModelReport, Quality, Snapshot, Unwritten,
 };
 use palpate_simulate::{Replay, SessionFolderWriter, Simulation};
 
@@ -68,14 +68,14 @@ impl Source {
         }
     }
 
-    pub(super) fn order(&mut self, order: Order) {
+    pub(super) fn send(&mut self, order: ModelCommand) {
         match self {
-            Self::Touched(interaction) => interaction.order(order),
+            Self::Touched(interaction) => interaction.send(order),
             Self::Again(playback) => match order {
-                Order::Pause => playback.plays = false,
-                Order::Resume => playback.plays = true,
-                Order::Reset => playback.go_to(0),
-                Order::UndoCut | Order::Mark => {}
+                ModelCommand::Pause => playback.plays = false,
+                ModelCommand::Resume => playback.plays = true,
+                ModelCommand::Reset => playback.go_to(0),
+                ModelCommand::UndoCut | ModelCommand::Mark => {}
             },
         }
     }

@@ -10,7 +10,7 @@ use super::attempt::{Attempt, Phase};
 use super::cards::{self, Around, Asked};
 use super::choice::Choice;
 use super::home::{Chosen, Home};
-use super::play::{Play, Wish};
+use super::play::{ModelRequest, Play};
 use super::training::TrainingResult;
 use super::{SimulatorWindow, panel, timeline};
 
@@ -206,7 +206,7 @@ impl SimulatorWindow {
             })
             | None => {
                 if let Some(play) = &mut self.play {
-                    play.order(Wish::Mark);
+                    play.send(ModelRequest::Mark);
                 }
             }
         }

@@ -2,7 +2,7 @@ use std::path::PathBuf;
 
 use palpate_viewer::{Error, TissuePicture};
 
-/// Every message is one sentence: cause, then mend.
+/// Every message is one sentence: cause, then remedy.
 #[test]
 fn messages_say_the_mend() {
     let folder = tempfile::tempdir().unwrap();

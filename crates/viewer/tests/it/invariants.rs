@@ -6,7 +6,7 @@ use palpate_files::scene::{BuiltinOrgan, TipShape};
 use palpate_geometry::AabbTree;
 use palpate_simulate::{Simulation, SimulationState, SimulationWorkspace, step};
 use palpate_viewer::Orbit;
-use palpate_viewer::gesture::{Gesture, Ground, Mouse};
+use palpate_viewer::gesture::{Gesture, GestureContext, Mouse};
 
 /// A small generator of numbers between 0 and 1 [Marsaglia 2003].
 struct Dice(u64);
@@ -73,7 +73,7 @@ fn drag(organ: BuiltinOrgan, tip: &str, seconds: f64) {
         } else {
             orbit.endoscope(orbit.before((surface.mesh(), &tree)))
         };
-        let ground = Ground {
+        let ground = GestureContext {
             surface,
             tree: &tree,
             camera: &camera,
@@ -146,7 +146,7 @@ fn down_is_deeper_sideways_slides_and_letting_go_leaves() {
     let camera = Orbit::framing(simulation.surface().mesh(), 0.8, 1.6).camera();
     let tip = scene.tools[0].tip;
     assert_eq!(tip.shape, TipShape::Flat);
-    let ground = Ground {
+    let ground = GestureContext {
         surface: simulation.surface(),
         tree: &tree,
         camera: &camera,
@@ -191,7 +191,7 @@ fn a_cut_follows_the_mouse_at_one_depth() {
     let surface = simulation.surface();
     let tree = AabbTree::new(surface.mesh());
     let camera = Orbit::framing(surface.mesh(), 0.8, 1.6).camera();
-    let ground = Ground {
+    let ground = GestureContext {
         surface,
         tree: &tree,
         camera: &camera,

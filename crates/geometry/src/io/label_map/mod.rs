@@ -21,7 +21,7 @@ const GZIP: &[u8] = b"\x1f\x8b";
 ///
 /// # Errors
 /// When the file cannot be read, is damaged, or holds something else than labels; the error names
-/// the path, the cause and the mend.
+/// the path, the cause and the remedy.
 pub fn read_label_map(path: &Path) -> Result<LabelMap, ReadError> {
     read_here(path).map_err(|fault| ReadError {
         path: path.to_owned(),

@@ -36,7 +36,7 @@ impl Header {
         if &bytes[344..347] != b"n+1" {
             return Err(ReadFault::UnreadEncoding {
                 what: "a NIfTI header whose voxels are in another file",
-                mend: "save the label map as one .nii or .nii.gz",
+                remedy: "save the label map as one .nii or .nii.gz",
             });
         }
         Ok(Self { bytes, big_endian })

@@ -217,7 +217,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<LabelMap, ReadFault> {
     {
         return Err(ReadFault::UnreadEncoding {
             what: "a NRRD header whose voxels are in another file",
-            mend: "save the label map as one .nrrd",
+            remedy: "save the label map as one .nrrd",
         });
     }
     let size = header.size()?;

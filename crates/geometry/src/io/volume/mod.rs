@@ -62,7 +62,7 @@ struct RawVolume {
 ///
 /// # Errors
 /// When the file cannot be read, is damaged, holds other volume elements or flat tetrahedra, or is
-/// of unknown unit; the error names the path, the cause and the mend.
+/// of unknown unit; the error names the path, the cause and the remedy.
 pub fn read_tetrahedra(
     path: &Path,
     unit: Option<LengthUnit>,

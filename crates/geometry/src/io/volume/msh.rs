@@ -74,7 +74,7 @@ fn version(lines: &mut Lines<'_>) -> Result<Version, ReadFault> {
         Some("0") => Ok(version),
         Some("1") => Err(ReadFault::UnreadEncoding {
             what: "a binary MSH file",
-            mend: "save it as ASCII (in Gmsh: Mesh.Binary = 0)",
+            remedy: "save it as ASCII (in Gmsh: Mesh.Binary = 0)",
         }),
         other => Err(unexpected(line, other.unwrap_or(""), "0 for ASCII")),
     }

@@ -20,7 +20,7 @@ pub(super) fn read(text: &str) -> Result<RawVolume, ReadFault> {
         "BINARY" => {
             return Err(ReadFault::UnreadEncoding {
                 what: "a binary VTK file",
-                mend: "save it as ASCII (in ParaView: File Type Ascii)",
+                remedy: "save it as ASCII (in ParaView: File Type Ascii)",
             });
         }
         found => return Err(unexpected(encoding.0, found, "`ASCII`")),

@@ -150,7 +150,7 @@ fn numbers(tag: &Tag<'_>, binary: &Binary) -> Result<Vec<f64>, ReadFault> {
         Some("binary") if !binary.compressed => coded(tag, binary),
         Some("binary" | "appended") => Err(ReadFault::UnreadEncoding {
             what: "a VTU file with compressed or appended numbers",
-            mend: "save it as ASCII (in ParaView: Data Mode Ascii)",
+            remedy: "save it as ASCII (in ParaView: Data Mode Ascii)",
         }),
         other => {
             let expected = "the format `ascii` or `binary`";

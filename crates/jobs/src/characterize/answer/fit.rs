@@ -42,7 +42,7 @@ pub struct ElasticAnswer {
     /// [N]
     pub force_n: Vec<f64>,
     /// Change of the force with each parameter [N over its unit].
-    pub by_parameter: BTreeMap<String, Vec<f64>>,
+    pub sensitivities: BTreeMap<String, Vec<f64>>,
 }
 
 impl CovarianceAnswer {
@@ -91,7 +91,7 @@ pub(super) fn fits(found: &Characterization) -> BTreeMap<String, FitAnswer> {
 fn of_indentation(law: &LawDescription) -> FitAnswer {
     let elastic = law.elastic();
     let points = || elastic.force.points().skip(1);
-    let by = elastic.by_parameter.iter().map(|(name, curve)| {
+    let by = elastic.sensitivities.iter().map(|(name, curve)| {
         let changes = points().map(|(depth, _)| curve.force(depth));
         (name.clone(), changes.collect())
     });
@@ -112,7 +112,7 @@ fn of_indentation(law: &LawDescription) -> FitAnswer {
         elastic: Some(ElasticAnswer {
             depth_m: points().map(|(depth, _)| depth).collect(),
             force_n: points().map(|(_, force)| force).collect(),
-            by_parameter: by.collect(),
+            sensitivities: by.collect(),
         }),
     }
 }

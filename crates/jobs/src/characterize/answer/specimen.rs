@@ -192,7 +192,7 @@ fn identifiability(found: &Characterization) -> Vec<String> {
     found.identifiability.iter().cloned().chain(pairs).collect()
 }
 
-/// What deserves warning in recordings and in what was found; `no_law` is why there is no law.
+/// Warnings about recordings and in what was found; `no_law` is why there is no law.
 fn warnings(studied: &Studied, no_law: Option<&String>) -> Vec<String> {
     let of_file = |(recording, file): (&CleanRecording, &PathBuf)| {
         let warnings = recording.warnings.iter();

@@ -1,7 +1,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use palpate_files::{Domain, Error, Key, Keys};
-use palpate_mechanics::contact::Bond;
+use palpate_mechanics::contact::Friction;
 
 use super::{BOND_MEANINGS, BONDS, length_below};
 
@@ -12,7 +12,7 @@ pub(crate) struct Hemisphere {
     pub(crate) radius: f64,
     /// Arc from the pole within which every point of the surface moves [m].
     pub(crate) patch_radius: f64,
-    pub(crate) patch: Bond,
+    pub(crate) patch: Friction,
     /// How far the patch moves along −z [m].
     pub(crate) depth: f64,
 }

@@ -1,6 +1,7 @@
 use palpate_files::{Domain, Error, Key, Keys};
+use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_elements::indentation::{
-    Base, Block, Grip, Indenter, IndenterShape, Relaxing, Side,
+    Base, Block, Indenter, IndenterShape, Relaxing, Side,
 };
 
 use super::{length_below, required_table, some_numbers};
@@ -47,11 +48,14 @@ enum End {
 
 const BASES: &[(&str, Base)] = &[("bonded", Base::Bonded), ("lubricated", Base::Lubricated)];
 
-const FACES: &[(&str, Grip)] = &[("stick", Grip::Stick), ("slip", Grip::Slide)];
+const FACES: &[(&str, Friction)] = &[
+    ("stick", Friction::Bonded),
+    ("slip", Friction::Frictionless),
+];
 
 const SIDES: &[(&str, Side)] = &[
-    ("stick", Side::Touches(Grip::Stick)),
-    ("slide", Side::Touches(Grip::Slide)),
+    ("stick", Side::Touches(Friction::Bonded)),
+    ("slide", Side::Touches(Friction::Frictionless)),
     ("none", Side::Absent),
 ];
 
@@ -189,7 +193,7 @@ fn indenter(keys: &Keys<'_>, block: &Block) -> Result<Indenter, Error> {
     }
     let shape = match end {
         End::Flat => IndenterShape::Flat {
-            side: side.unwrap_or(Side::Touches(Grip::Stick)),
+            side: side.unwrap_or(Side::Touches(Friction::Bonded)),
         },
         End::Sphere => IndenterShape::Sphere,
         End::Cone => {
@@ -202,7 +206,7 @@ fn indenter(keys: &Keys<'_>, block: &Block) -> Result<Indenter, Error> {
     Ok(Indenter {
         shape,
         radius: length_below(&keys, "radius_m", block.radius, "the radius of the block")?,
-        face: keys.word("face", FACES)?.unwrap_or(Grip::Stick),
+        face: keys.word("face", FACES)?.unwrap_or(Friction::Bonded),
     })
 }
 

@@ -16,7 +16,7 @@ use palpate_files::scene::TissueChoice;
 use palpate_files::tissue::LawName;
 use palpate_files::{Document, Domain, Key, Keys, Tissue, Word};
 use palpate_mechanics::Material;
-use palpate_mechanics::contact::Bond;
+use palpate_mechanics::contact::Friction;
 
 pub(crate) use hemisphere::Hemisphere;
 pub(crate) use indentation::{Indentation, Loading, Ramp};
@@ -35,7 +35,7 @@ pub struct Problem {
     pub(crate) material: Material,
     /// Relative error asked for [-].
     pub(crate) accuracy: f64,
-    /// What deserves a warning among its numbers.
+    /// Warnings about its numbers.
     pub(crate) warnings: Vec<String>,
 }
 
@@ -71,10 +71,10 @@ const DEFAULT_ACCURACY: f64 = 0.01;
 const ACCURACY: Domain = Domain::number("a relative error", [Included(1e-4), Included(0.2)]);
 
 /// How a part of a surface is held.
-const BONDS: &[(&str, Bond)] = &[
-    ("stick", Bond::Stick),
-    ("slip", Bond::Slip),
-    ("bonded", Bond::Stick),
+const BONDS: &[(&str, Friction)] = &[
+    ("stick", Friction::Bonded),
+    ("slip", Friction::Frictionless),
+    ("bonded", Friction::Bonded),
 ];
 
 const BOND_MEANINGS: &[Word] = &[

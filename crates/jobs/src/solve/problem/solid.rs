@@ -4,7 +4,7 @@ use std::path::Path;
 use palpate_files::scene::{Region, Shape};
 use palpate_files::{Domain, Error, Key, Keys, Place};
 use palpate_mechanics::Vec3;
-use palpate_mechanics::contact::Bond;
+use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_elements::solid::{DeadLoad, LoadPlace};
 
 use super::{BOND_MEANINGS, BONDS};
@@ -33,7 +33,7 @@ pub(crate) struct Patch {
     pub(crate) radius: f64,
     /// [m]
     pub(crate) displacement: Vec3,
-    pub(crate) contact: Bond,
+    pub(crate) contact: Friction,
 }
 
 /// A force on the surface.
@@ -185,7 +185,7 @@ impl Patch {
             center: keys.required_vector("center_m")?.into(),
             radius: keys.required_number("radius_m")?,
             displacement: keys.required_vector("displacement_m")?.into(),
-            contact: keys.word("contact", BONDS)?.unwrap_or(Bond::Stick),
+            contact: keys.word("contact", BONDS)?.unwrap_or(Friction::Bonded),
         })
     }
 }

@@ -1,5 +1,5 @@
 use palpate_files::{Domain, Error, Key, Keys};
-use palpate_mechanics::contact::Bond;
+use palpate_mechanics::contact::Friction;
 
 use super::{BOND_MEANINGS, BONDS, length_below, some_numbers};
 
@@ -25,7 +25,7 @@ pub(crate) struct TubeIndent {
     pub(crate) radius: f64,
     /// [m]
     pub(crate) depths: Vec<f64>,
-    pub(crate) contact: Bond,
+    pub(crate) contact: Friction,
 }
 
 impl TubeIndent {
@@ -100,7 +100,7 @@ impl Tube {
         Ok(TubeIndent {
             radius,
             depths: some_numbers(keys, "depths_m", Some(outer))?,
-            contact: keys.word("contact", BONDS)?.unwrap_or(Bond::Stick),
+            contact: keys.word("contact", BONDS)?.unwrap_or(Friction::Bonded),
         })
     }
 }

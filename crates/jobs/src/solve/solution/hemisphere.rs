@@ -1,6 +1,6 @@
 use std::f64::consts::FRAC_2_PI;
 
-use palpate_mechanics::contact::{Bond, half_space_stiffness};
+use palpate_mechanics::contact::{Friction, half_space_stiffness};
 use palpate_mechanics::finite_elements::hemisphere::{HemisphereProblem, Patch, solve};
 
 use super::super::problem::{Hemisphere, Problem};
@@ -21,8 +21,8 @@ pub(crate) fn solution(
         radius: case.radius,
         patch_radius: case.patch_radius,
         patch: match case.patch {
-            Bond::Slip => Patch::Slip,
-            Bond::Stick => Patch::Bonded,
+            Friction::Frictionless => Patch::Slip,
+            Friction::Bonded => Patch::Bonded,
         },
         law: problem.material.at_rest,
         depth: case.depth,
@@ -72,8 +72,8 @@ fn heading(case: &Hemisphere) -> String {
         plots::short(1e3 * case.radius),
         plots::short(1e3 * case.patch_radius),
         match case.patch {
-            Bond::Slip => "slips",
-            Bond::Stick => "is bonded",
+            Friction::Frictionless => "slips",
+            Friction::Bonded => "is bonded",
         }
     )
 }
@@ -86,7 +86,7 @@ fn profile(case: &Hemisphere, arcs: &[f64], moved: &[f64]) -> Plot {
             .zip(moved)
             .map(|(&arc, &moved)| both(arc, moved)),
     )];
-    if case.patch == Bond::Slip {
+    if case.patch == Friction::Frictionless {
         // Under a flat punch without friction: 2 d/π asin(a/r) beside it.
         let along = arcs.iter().map(|&arc| {
             let part = (case.patch_radius / arc).min(1.0);

@@ -1,8 +1,8 @@
 use palpate_files::Recording;
 use palpate_files::recording::{self, RecordingHeader, Samples, StimulusKind, Support};
-use palpate_mechanics::contact::{Bond, half_space_stiffness, hertz_force, sneddon_force};
+use palpate_mechanics::contact::{Friction, half_space_stiffness, hertz_force, sneddon_force};
 use palpate_mechanics::finite_elements::indentation::{
-    Base, Grip, History, IndentationProblem, IndenterShape, Side, solve, solve_history,
+    Base, History, IndentationProblem, IndenterShape, Side, solve, solve_history,
 };
 
 use super::super::problem::{Indentation, Loading, Problem, Ramp};
@@ -209,13 +209,9 @@ pub(super) fn mechanical(problem: &Problem, case: &Indentation) -> IndentationPr
 /// What the same indenter meets on a half-space at small strain [N].
 fn half_space_force(problem: &Problem, case: &Indentation, depth: f64) -> f64 {
     let (law, radius) = (&problem.material.at_rest, case.indenter.radius);
-    let bond = match case.indenter.face {
-        Grip::Stick => Bond::Stick,
-        Grip::Slide => Bond::Slip,
-    };
     match case.indenter.shape {
         IndenterShape::Sphere => hertz_force(law, radius, depth),
-        IndenterShape::Flat { .. } => depth * half_space_stiffness(law, radius, bond),
+        IndenterShape::Flat { .. } => depth * half_space_stiffness(law, radius, case.indenter.face),
         IndenterShape::Cone { half_angle } => sneddon_force(law, half_angle, depth),
     }
 }
@@ -240,8 +236,8 @@ fn title(case: &Indentation) -> String {
 
 fn heading(case: &Indentation) -> String {
     let face = match case.indenter.face {
-        Grip::Stick => "sticks",
-        Grip::Slide => "slips",
+        Friction::Bonded => "sticks",
+        Friction::Frictionless => "slips",
     };
     let how = match case.indenter.shape {
         IndenterShape::Sphere => format!("that {face}"),
@@ -250,8 +246,8 @@ fn heading(case: &Indentation) -> String {
         }
         IndenterShape::Flat { side } => {
             let side = match side {
-                Side::Touches(Grip::Stick) => "sticks",
-                Side::Touches(Grip::Slide) => "slides",
+                Side::Touches(Friction::Bonded) => "sticks",
+                Side::Touches(Friction::Frictionless) => "slides",
                 Side::Absent => "is not there",
             };
             format!("(its face {face}, its side {side})")

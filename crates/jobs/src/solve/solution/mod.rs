@@ -28,7 +28,7 @@ use crate::{Error, VERSION, Watch};
 /// An answer in all its forms.
 #[derive(Debug, Serialize)]
 pub struct Solution {
-    /// What deserves warning.
+    /// Warnings.
     pub warnings: Vec<String>,
     /// The figures of the JSON object.
     #[serde(flatten)]

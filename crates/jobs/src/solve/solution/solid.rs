@@ -6,8 +6,7 @@ use palpate_files::quantity::rounded;
 use palpate_files::scene::{LengthUnit, Shape};
 use palpate_geometry::read_tetrahedra;
 use palpate_geometry::vtk::{CellKind, Cells, FieldValues, PointField, unstructured_grid};
-use palpate_mechanics::contact::Bond;
-use palpate_mechanics::finite_elements::indentation::Grip;
+use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_elements::solid::{
     Body, Loads, MovedPatch, SolidError, SolidFields, SolidProblem, Weight, solve,
 };
@@ -171,10 +170,7 @@ fn moved(patch: &Patch) -> MovedPatch {
         center: patch.center,
         radius: patch.radius,
         displacement: patch.displacement,
-        grip: match patch.contact {
-            Bond::Stick => Grip::Stick,
-            Bond::Slip => Grip::Slide,
-        },
+        grip: patch.contact,
     }
 }
 
@@ -328,8 +324,8 @@ fn heading(case: &Solid) -> String {
     }
     if let Some(patch) = &case.patch {
         let contact = match patch.contact {
-            Bond::Stick => "sticks",
-            Bond::Slip => "slips",
+            Friction::Bonded => "sticks",
+            Friction::Frictionless => "slips",
         };
         let radius = plots::short(1e3 * patch.radius);
         how.push(format!(

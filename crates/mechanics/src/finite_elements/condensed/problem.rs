@@ -72,7 +72,7 @@ impl CondensedProblem<'_> {
     /// # Errors
     /// When the memory does not suffice or the surface cannot be filled with tetrahedra of this size; as
     /// [`BoundaryProblem::solve`](crate::boundary_elements::BoundaryProblem::solve) before that; and when `progress`
-    /// breaks off, which it cannot while the factors are made.
+    /// cancels, which it cannot while the factors are made.
     pub fn solve<T: Precision>(
         &self,
         memory: usize,

@@ -1,15 +1,16 @@
 //! Where tissue touches the indenter, node by node.
 //!
-//! A node of the surface that would enter the indenter is caught: at the place where it came in (stick)
+//! A node of the surface that would enter the indenter is activated: at the place where it came in (stick)
 //! or on the surface that it came through (slide). One that is pulled is let go, unless it belongs to a
 //! face that sticks.
 
 use super::super::supports::RigidSurface;
-use super::indenter::{Grip, Indenter, IndenterShape, Side};
+use super::indenter::{Indenter, IndenterShape, Side};
+use crate::contact::Friction;
 
 /// Contact of a node.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Touch {
+pub(super) enum ContactStatus {
     /// None.
     Free,
     /// Bonded to the face, at this radius [m].
@@ -48,13 +49,15 @@ impl Indenter {
     }
 
     /// Contact of a node of the untouched surface at `radius` [m].
-    pub(super) fn first_touch(&self, radius: f64) -> Touch {
+    pub(super) fn first_touch(&self, radius: f64) -> ContactStatus {
         // Rounding of the mesh's own lines.
         let under = radius <= self.radius * (1.0 + 1e-9);
         match (self.shape, self.face) {
-            (IndenterShape::Flat { .. }, Grip::Stick) if under => Touch::Bonded { radius },
-            (IndenterShape::Flat { .. }, Grip::Slide) if under => Touch::OnFace,
-            _ => Touch::Free,
+            (IndenterShape::Flat { .. }, Friction::Bonded) if under => {
+                ContactStatus::Bonded { radius }
+            }
+            (IndenterShape::Flat { .. }, Friction::Frictionless) if under => ContactStatus::OnFace,
+            _ => ContactStatus::Free,
         }
     }
 
@@ -69,16 +72,16 @@ impl Indenter {
 
     /// The contact of a node that came from `then`, outside, to `now`, inside. The part of the way at
     /// which it came in is also answered [-].
-    pub(super) fn catch(&self, then: Place, now: Place) -> (Touch, f64) {
+    pub(super) fn activate(&self, then: Place, now: Place) -> (ContactStatus, f64) {
         let grip = match self.shape {
             IndenterShape::Flat {
                 side: Side::Touches(grip),
             } => grip,
-            IndenterShape::Flat { side: Side::Absent } => return (Touch::Free, 0.0),
+            IndenterShape::Flat { side: Side::Absent } => return (ContactStatus::Free, 0.0),
             IndenterShape::Sphere | IndenterShape::Cone { .. } => self.face,
         };
         match (grip, self.shape) {
-            (Grip::Stick, _) => {
+            (Friction::Bonded, _) => {
                 let (outside, inside) = (-self.inside(then), self.inside(now));
                 let part = if outside > 0.0 && outside.is_finite() {
                     outside / (outside + inside)
@@ -86,34 +89,38 @@ impl Indenter {
                     0.0
                 };
                 let between = |a: f64, b: f64| a + part * (b - a);
-                let touch = Touch::Stuck {
+                let touch = ContactStatus::Stuck {
                     radius: between(then.radius, now.radius),
                     above: between(then.above, now.above),
                 };
                 (touch, part)
             }
-            (Grip::Slide, IndenterShape::Flat { .. }) => (Touch::OnSide, 1.0),
-            (Grip::Slide, IndenterShape::Sphere | IndenterShape::Cone { .. }) => {
-                (Touch::OnSurface, 1.0)
+            (Friction::Frictionless, IndenterShape::Flat { .. }) => (ContactStatus::OnSide, 1.0),
+            (Friction::Frictionless, IndenterShape::Sphere | IndenterShape::Cone { .. }) => {
+                (ContactStatus::OnSurface, 1.0)
             }
         }
     }
 
-    /// Whether a caught node is to be let go: it is at `place` and the tissue presses on the indenter
+    /// Whether an active node is to be released: it is at `place` and the tissue presses on the indenter
     /// with `force` [N], (r, z).
-    pub(super) fn lets_go(&self, touch: Touch, place: Place, force: [f64; 2]) -> bool {
+    pub(super) fn lets_go(&self, touch: ContactStatus, place: Place, force: [f64; 2]) -> bool {
         let push = match (touch, self.surface(0.0)) {
-            (Touch::Stuck { .. } | Touch::OnSide, None) => force[0],
+            (ContactStatus::Stuck { .. } | ContactStatus::OnSide, None) => force[0],
             // A sharp apex stays where it has gone in.
             (_, Some(RigidSurface::Cone { .. })) if place.radius == 0.0 => return false,
             // On the axis the radial force is that of symmetry.
-            (Touch::Stuck { .. } | Touch::OnSurface, Some(_)) if place.radius == 0.0 => -force[1],
-            (Touch::Stuck { .. } | Touch::OnSurface, Some(surface)) => {
+            (ContactStatus::Stuck { .. } | ContactStatus::OnSurface, Some(_))
+                if place.radius == 0.0 =>
+            {
+                -force[1]
+            }
+            (ContactStatus::Stuck { .. } | ContactStatus::OnSurface, Some(surface)) => {
                 let normal = surface.beside(place.radius, place.above).normal;
                 force[0] * normal[0] + force[1] * normal[1]
             }
             _ => return false,
         };
-        push < 0.0 || (touch == Touch::OnSide && place.above < 0.0)
+        push < 0.0 || (touch == ContactStatus::OnSide && place.above < 0.0)
     }
 }

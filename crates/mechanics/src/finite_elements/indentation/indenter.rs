@@ -1,19 +1,11 @@
+use crate::contact::Friction;
 use std::f64::consts::FRAC_2_PI;
-
-/// What a surface does that touches tissue.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Grip {
-    /// Tissue stays where it was first touched.
-    Stick,
-    /// Tissue slides without friction.
-    Slide,
-}
 
 /// What the side of a flat punch does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Side {
-    /// Touches, with this grip.
-    Touches(Grip),
+    /// Touches, with this friction.
+    Touches(Friction),
     /// Is not there: right only until tissue would enter the punch.
     Absent,
 }
@@ -43,7 +35,7 @@ pub struct Indenter {
     /// Radius of the cylinder, of the sphere, or of the base of the cone, which tissue must not reach [m].
     pub radius: f64,
     /// What its face, the sphere or the cone does.
-    pub face: Grip,
+    pub face: Friction,
 }
 
 impl Indenter {

@@ -15,10 +15,10 @@ mod indenter;
 mod mesh;
 mod problem;
 mod run;
-mod slopes;
+mod sensitivities;
 mod stiffening;
 
-pub use indenter::{Grip, Indenter, IndenterShape, Side};
+pub use indenter::{Indenter, IndenterShape, Side};
 pub use mesh::{Base, Block};
 pub use problem::{History, IndentationAnswer, IndentationProblem, Relaxing, solve, solve_history};
 pub use run::{IndentationPoint, IndentationRun, IndentationSettings};

@@ -1,7 +1,8 @@
+use crate::contact::Friction;
 use std::sync::Arc;
 
 use super::super::estimate::{Estimated, Meshes, Progress, Quantity, refine};
-use super::indenter::{Grip, Indenter, IndenterShape, Side};
+use super::indenter::{Indenter, IndenterShape, Side};
 use super::mesh::Block;
 use super::run::{IndentationPoint, IndentationRun, IndentationSettings};
 use crate::material::law::Law;
@@ -180,7 +181,7 @@ impl IndentationProblem {
         let slides = matches!(
             self.indenter.shape,
             IndenterShape::Flat {
-                side: Side::Touches(Grip::Slide)
+                side: Side::Touches(Friction::Frictionless)
             }
         );
         let most = if slides && deepest > DEEP * self.indenter.radius {
@@ -269,7 +270,7 @@ impl IndentationProblem {
             depth,
             force,
             energy: 0.0,
-            by_parameter: Vec::new(),
+            sensitivities: Vec::new(),
         });
         Ok(IndentationAnswer {
             points: points.collect(),

@@ -1,18 +1,18 @@
-mod settle;
+mod contact_update;
 
 use std::sync::Arc;
 
 use super::super::model::{
     FiniteElementModel, FiniteElementState, FiniteElementWorkspace, Formulation,
 };
-use super::super::newton::{self, Effort, Failure};
+use super::super::newton::{self, Failure, SolverControls};
 use super::super::relaxation::{Memory, RelaxationStep};
 use super::super::snap::equilibrate_downhill;
 use super::super::supports::{Sliding, Supports};
-use super::contact::Touch;
+use super::contact::ContactStatus;
 use super::indenter::{Indenter, IndenterShape};
 use super::mesh::{Base, Block, Body};
-use super::slopes::Slopes;
+use super::sensitivities::Sensitivities;
 use crate::material::law::Law;
 use crate::{Error, PronySeries, Strain};
 
@@ -45,7 +45,7 @@ pub struct IndentationPoint {
     /// Strain energy of the elastic law [J].
     pub energy: f64,
     /// Change of the force with each parameter of the law [N per unit], where asked for.
-    pub by_parameter: Vec<f64>,
+    pub sensitivities: Vec<f64>,
 }
 
 /// An indentation in progress.
@@ -61,23 +61,23 @@ pub struct IndentationRun {
     pub(super) top: Vec<usize>,
     /// Held whatever the indenter does: bottom and axis.
     rest: Vec<Option<f64>>,
-    pub(super) now: Standing,
+    pub(super) now: ConvergedIncrement,
     /// The standing before, from which the next is predicted.
-    before: Option<Standing>,
+    before: Option<ConvergedIncrement>,
     /// The next step [m].
     step: f64,
 }
 
 /// An equilibrium at a depth.
 #[derive(Debug, Clone)]
-pub(super) struct Standing {
+pub(super) struct ConvergedIncrement {
     pub(super) time: f64,
     pub(super) depth: f64,
     pub(super) state: FiniteElementState,
     /// Contact of each node of the top.
-    pub(super) touch: Vec<Touch>,
+    pub(super) touch: Vec<ContactStatus>,
     memory: Option<Memory>,
-    pub(super) slopes: Option<Slopes>,
+    pub(super) slopes: Option<Sensitivities>,
 }
 
 /// Steps in radii of the contact [-]: the first, the longest, the shortest before giving up.
@@ -89,14 +89,14 @@ const DOWNHILL_STEP: f64 = 0.1;
 /// Rounds of Newton's method and changes of contact at one depth.
 const MOST_CHANGES: usize = 24;
 /// Enough to see which nodes touch without friction.
-const ROUGH: Effort = Effort {
+const ROUGH: SolverControls = SolverControls {
     tolerance: 1e-3,
-    ..Effort::TRY
+    ..SolverControls::TRY
 };
 /// From there to equilibrium, without a further solution where that is reached.
-const FINISH: Effort = Effort {
+const FINISH: SolverControls = SolverControls {
     least: 0,
-    ..Effort::TRY
+    ..SolverControls::TRY
 };
 /// Solutions of the linear system after which steps grow, and above which they shrink.
 const LITTLE_EFFORT: usize = 6;
@@ -170,7 +170,7 @@ impl IndentationRun {
             prony: settings.prony.clone(),
             top,
             rest,
-            now: Standing {
+            now: ConvergedIncrement {
                 time: 0.0,
                 depth: 0.0,
                 state: FiniteElementState::at_rest(&model),
@@ -187,7 +187,7 @@ impl IndentationRun {
     /// Answers also for the change of force with the law's parameters, from now on. Only at rest, and
     /// for an elastic tissue.
     pub fn with_sensitivities(mut self) -> Self {
-        self.now.slopes = Some(Slopes::at_rest(&self.model));
+        self.now.slopes = Some(Sensitivities::at_rest(&self.model));
         self
     }
 
@@ -228,13 +228,13 @@ impl IndentationRun {
                 Way::Downhill
             };
             match self.stand_at(goal(start, time), goal(from, depth), way) {
-                Ok((standing, effort)) => {
+                Ok((standing, controls)) => {
                     self.before = Some(std::mem::replace(&mut self.now, standing));
                     self.check_domain()?;
                     let point = self.point();
                     at_step(&point);
                     gone = next;
-                    self.pace(step, effort);
+                    self.pace(step, controls);
                     if part == 1.0 {
                         return Ok(point);
                     }
@@ -260,11 +260,11 @@ impl IndentationRun {
     }
 
     /// Sets the next step after one that took this `effort`.
-    fn pace(&mut self, step: f64, effort: usize) {
-        if effort <= LITTLE_EFFORT {
+    fn pace(&mut self, step: f64, controls: usize) {
+        if controls <= LITTLE_EFFORT {
             let longest = LONGEST_STEP * self.scale;
             self.step = (1.5 * step).max(self.step).min(longest);
-        } else if effort > MUCH_EFFORT {
+        } else if controls > MUCH_EFFORT {
             self.step = 0.7 * step;
         }
     }
@@ -286,9 +286,9 @@ impl IndentationRun {
             &mut self.workspace,
         );
         debug_assert!(assembled.is_ok(), "an equilibrium was found here");
-        let caught = || {
+        let activated = || {
             let each = self.top.iter().zip(&self.now.touch);
-            each.filter(|(_, touch)| **touch != Touch::Free)
+            each.filter(|(_, touch)| **touch != ContactStatus::Free)
                 .map(|(node, _)| 2 * node + 1)
         };
         IndentationPoint {
@@ -296,12 +296,12 @@ impl IndentationRun {
             depth: self.now.depth,
             // Not −Σ, which is −0 at rest.
             force: 0.0
-                - caught()
+                - activated()
                     .map(|row| self.workspace.residual[row])
                     .sum::<f64>(),
             energy: self.workspace.energy,
-            by_parameter: self.now.slopes.as_ref().map_or_else(Vec::new, |slopes| {
-                slopes.force(&self.model, &self.now.state, &self.workspace, caught)
+            sensitivities: self.now.slopes.as_ref().map_or_else(Vec::new, |slopes| {
+                slopes.force(&self.model, &self.now.state, &self.workspace, activated)
             }),
         }
     }
@@ -314,7 +314,12 @@ impl IndentationRun {
     }
 
     /// An equilibrium at `depth` and `time`, contacts included, and the number of solutions it took.
-    fn stand_at(&mut self, time: f64, depth: f64, way: Way) -> Result<(Standing, usize), Failure> {
+    fn stand_at(
+        &mut self,
+        time: f64,
+        depth: f64,
+        way: Way,
+    ) -> Result<(ConvergedIncrement, usize), Failure> {
         let duration = time - self.now.time;
         let relaxing = self
             .now
@@ -325,15 +330,19 @@ impl IndentationRun {
         let mut slopes = self.now.slopes.clone();
         let mut state = self.predict(depth, relaxing.as_ref())?;
         let mut taken = 0;
-        // A node that sticks stays where it was caught, so that place must be exact.
-        let first = if self.slides() { ROUGH } else { Effort::TRY };
-        let mut effort = first;
+        // A node that sticks stays where it was activated, so that place must be exact.
+        let first = if self.slides() {
+            ROUGH
+        } else {
+            SolverControls::TRY
+        };
+        let mut controls = first;
         let mut released = vec![false; touch.len()];
         for _ in 0..MOST_CHANGES {
             let supports = self.supports(&touch, depth, relaxing.as_ref());
             let before = (way == Way::Downhill).then(|| state.clone());
             let workspace = &mut self.workspace;
-            let done = newton::correct(effort, &self.model, &supports, (&mut state, workspace));
+            let done = newton::correct(controls, &self.model, &supports, (&mut state, workspace));
             let unstable = relaxing.is_none()
                 && workspace.factors.negative_eigenvalues() > self.model.pressures();
             let done = done.and_then(|done| match unstable && done.iterations > 0 {
@@ -353,18 +362,18 @@ impl IndentationRun {
             }
             let statuses = (&mut touch[..], &mut released[..]);
             if self.settle((depth, &state), statuses, slopes.as_mut())? {
-                effort = first;
+                controls = first;
                 continue;
             }
-            if effort.tolerance == ROUGH.tolerance {
-                effort = FINISH;
+            if controls.tolerance == ROUGH.tolerance {
+                controls = FINISH;
                 continue;
             }
             let mut memory = self.now.memory.clone();
             if let Some(memory) = &mut memory {
                 memory.advance(&self.model, &self.prony, duration, &state);
             }
-            let standing = Standing {
+            let standing = ConvergedIncrement {
                 time,
                 depth,
                 state,
@@ -405,7 +414,7 @@ impl IndentationRun {
 
     fn supports<'a>(
         &self,
-        touch: &[Touch],
+        touch: &[ContactStatus],
         depth: f64,
         relaxing: Option<&'a RelaxationStep>,
     ) -> Supports<'a> {
@@ -424,20 +433,20 @@ impl IndentationRun {
             );
             let held = &mut supports.held[2 * node..2 * node + 2];
             match *touch {
-                Touch::Free => {}
-                Touch::Bonded { radius } => {
+                ContactStatus::Free => {}
+                ContactStatus::Bonded { radius } => {
                     held[0] = Some(radius - at);
                     held[1] = Some(-depth);
                 }
-                Touch::Stuck { radius, above } => {
+                ContactStatus::Stuck { radius, above } => {
                     held[0] = Some(radius - at);
                     held[1] = Some(above - depth - rest);
                 }
-                Touch::OnFace => held[1] = Some(-depth),
-                Touch::OnSide => held[0] = Some(self.indenter.radius - at),
+                ContactStatus::OnFace => held[1] = Some(-depth),
+                ContactStatus::OnSide => held[0] = Some(self.indenter.radius - at),
                 // On the axis the lowest point is met.
-                Touch::OnSurface if at == 0.0 => held[1] = Some(-depth),
-                Touch::OnSurface => {
+                ContactStatus::OnSurface if at == 0.0 => held[1] = Some(-depth),
+                ContactStatus::OnSurface => {
                     let surface = self.indenter.surface(-depth);
                     let sliding = |surface| Sliding { node, surface };
                     supports.sliding.extend(surface.map(sliding));

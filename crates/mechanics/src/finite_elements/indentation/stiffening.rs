@@ -3,10 +3,10 @@ mod neo_hookean;
 
 use std::sync::Arc;
 
-use super::indenter::{Grip, Indenter, IndenterShape, Side};
+use super::indenter::{Indenter, IndenterShape, Side};
 use super::mesh::{Base, Block};
 use super::run::{IndentationRun, IndentationSettings};
-use crate::contact::{Bond, Tip, half_space_stiffness, hertz_force};
+use crate::contact::{Friction, Tip, half_space_stiffness, hertz_force};
 use crate::{Error, IndentationCurve, Law, LinearElastic, Material, PronySeries, Strain};
 
 /// How much more, or less, a half-space of some tissue pushes back at depth than the closed form at small strain
@@ -29,7 +29,7 @@ const BLOCK: f64 = 50.0;
 impl Stiffening {
     /// Of a tissue that is linear at every depth, with this Poisson's ratio [-]. Known to a depth of one radius of a
     /// sphere.
-    pub fn linear((tip, bond): (Tip, Bond), poissons_ratio: f64) -> Self {
+    pub fn linear((tip, bond): (Tip, Friction), poissons_ratio: f64) -> Self {
         Self {
             equivalent: match tip {
                 Tip::Flat { .. } => None,
@@ -46,7 +46,7 @@ impl Stiffening {
     /// When the tissue cannot be indented at all.
     pub fn of(
         tissue: &Material,
-        (tip, bond): (Tip, Bond),
+        (tip, bond): (Tip, Friction),
         at_step: &mut dyn FnMut(f64),
     ) -> Result<Self, Error> {
         if tissue.law.volume().strain == Strain::Small {
@@ -81,7 +81,7 @@ impl Stiffening {
     }
 
     /// Of incompressible neo-Hookean tissue, the same for every modulus.
-    pub fn neo_hookean(tip: Tip, bond: Bond) -> Self {
+    pub fn neo_hookean(tip: Tip, bond: Friction) -> Self {
         let (depths, equivalent): (Vec<_>, Vec<_>) =
             neo_hookean::points(tip, bond).iter().copied().unzip();
         Self {
@@ -115,11 +115,7 @@ fn of_unit_radius(tip: Tip) -> Tip {
     }
 }
 
-fn press(law: &Arc<dyn Law>, (tip, bond): (Tip, Bond)) -> Result<IndentationRun, Error> {
-    let face = match bond {
-        Bond::Stick => Grip::Stick,
-        Bond::Slip => Grip::Slide,
-    };
+fn press(law: &Arc<dyn Law>, (tip, face): (Tip, Friction)) -> Result<IndentationRun, Error> {
     let shape = match tip {
         Tip::Flat { .. } => IndenterShape::Flat {
             side: Side::Touches(face),
@@ -145,7 +141,7 @@ fn press(law: &Arc<dyn Law>, (tip, bond): (Tip, Bond)) -> Result<IndentationRun,
 }
 
 /// F₀ [N] at `depth` [m] of a tip of unit radius.
-fn at_small_strain(law: &LinearElastic, (tip, bond): (Tip, Bond), depth: f64) -> f64 {
+fn at_small_strain(law: &LinearElastic, (tip, bond): (Tip, Friction), depth: f64) -> f64 {
     match tip {
         Tip::Flat { radius } => half_space_stiffness(law, radius, bond) * depth,
         Tip::Sphere { radius } => hertz_force(law, radius, depth),

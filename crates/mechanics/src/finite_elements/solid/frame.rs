@@ -1,6 +1,6 @@
+use crate::contact::Friction;
 use nalgebra::Rotation3;
 
-use super::super::indentation::Grip;
 use super::super::mesh::ElementMesh;
 use super::super::model::FiniteElementModel;
 use super::super::supports::Supports;
@@ -32,9 +32,11 @@ impl Frame {
         let axis = along.iamax();
         let is_axis = (0..3).all(|i| i == axis || along[i] == 0.0);
         let (turn, held) = match patch.grip {
-            Grip::Stick => (Rotation3::identity(), [true; 3]),
-            Grip::Slide if is_axis => (Rotation3::identity(), [0, 1, 2].map(|i| i == axis)),
-            Grip::Slide => {
+            Friction::Bonded => (Rotation3::identity(), [true; 3]),
+            Friction::Frictionless if is_axis => {
+                (Rotation3::identity(), [0, 1, 2].map(|i| i == axis))
+            }
+            Friction::Frictionless => {
                 // Nearly opposite vectors have no rotation between them.
                 let to = if along.z < 0.0 { -Vec3::z() } else { Vec3::z() };
                 let turn = Rotation3::rotation_between(&along, &to);

@@ -61,7 +61,7 @@ const AROUND: usize = 96;
 const OFF: f64 = 0.01;
 
 /// What all meshes of a problem have in common.
-pub(super) struct Ground<'a> {
+pub(super) struct MeshContext<'a> {
     body: &'a Body,
     filling: TetrahedronMesh,
     patch: Option<PatchEdge>,
@@ -117,7 +117,7 @@ impl PatchEdge {
     }
 }
 
-impl<'a> Ground<'a> {
+impl<'a> MeshContext<'a> {
     pub(super) fn new(problem: &'a SolidProblem) -> Result<Self, Error> {
         let SolidProblem { body, patch, .. } = problem;
         let triangles = triangles(body);
@@ -125,7 +125,7 @@ impl<'a> Ground<'a> {
         let patch = patch.map(|patch| PatchEdge::new(patch, &triangles));
         let (patch, warnings) = patch.transpose()?.unzip();
         let warnings: Vec<String> = warnings.unwrap_or_default();
-        let ground = |filling: TetrahedronMesh| {
+        let context = |filling: TetrahedronMesh| {
             let spacing = AT_ANCHOR * filling.quality().longest_edge;
             let rim = triangles.iter();
             let rim = rim.flat_map(|triangle| rim_in(triangle, &problem.anchor, spacing));
@@ -139,11 +139,11 @@ impl<'a> Ground<'a> {
         };
         let surface = match body {
             Body::Surface(surface) => surface,
-            Body::Volume(mesh) => return Ok(ground(mesh.clone())),
+            Body::Volume(mesh) => return Ok(context(mesh.clone())),
         };
         let (coarse, edge) = filling(surface)?;
         let Some(PatchEdge { center, radius, .. }) = &patch else {
-            return Ok(ground(coarse));
+            return Ok(context(coarse));
         };
         let (center, radius) = (*center, *radius);
         let wanted = area_within(radius, &center, surface);
@@ -152,7 +152,7 @@ impl<'a> Ground<'a> {
                 near + SPREAD * ((point - center).norm() - 1.5 * radius).max(0.0)
             })
         };
-        let mut closest = ground(coarse);
+        let mut closest = context(coarse);
         let mut found = closest.area_of_patch()?;
         let missed = |found: f64| (found / wanted - 1.0).abs();
         for halvings in 0..FINER_FILLINGS {
@@ -162,7 +162,7 @@ impl<'a> Ground<'a> {
             let Ok(tetrahedra) = finer(radius * 2.0_f64.powi(-halvings)) else {
                 break;
             };
-            let next = ground(tetrahedra);
+            let next = context(tetrahedra);
             let area = next.area_of_patch()?;
             if missed(area) < missed(found) {
                 (closest, found) = (next, area);

@@ -1,9 +1,9 @@
+use crate::contact::Friction;
 use std::sync::Arc;
 
 use palpate_files::scene::Region;
 use palpate_geometry::{Surface, TetrahedronMesh};
 
-use super::super::indentation::Grip;
 use crate::Vec3;
 use crate::material::law::Law;
 
@@ -27,7 +27,7 @@ pub struct MovedPatch {
     /// How far every point of it moves [m].
     pub displacement: Vec3,
     /// Whether it moves along with all of the displacement, or only with the component along it.
-    pub grip: Grip,
+    pub grip: Friction,
 }
 
 /// Loads that do not turn with the body.

@@ -3,7 +3,7 @@ use super::super::mesh::ElementMesh;
 use super::super::model::{FiniteElementModel, FiniteElementWorkspace, Formulation};
 use super::answer::SolidAnswer;
 use super::frame::{Conditions, Frame};
-use super::grading::Ground;
+use super::grading::MeshContext;
 use super::loads;
 use super::mesh::faces;
 use super::problem::{Body, SolidProblem};
@@ -37,13 +37,13 @@ pub fn solve(
     progress: &mut dyn FnMut(Progress),
 ) -> Result<Estimated<SolidAnswer>, Error> {
     problem.check()?;
-    let ground = Ground::new(problem)?;
+    let context = MeshContext::new(problem)?;
     let mut unknowns = 0;
     refine(&MESHES, accuracy, |mesh| {
         if unknowns > MOST_BEFORE_THE_LAST {
             return Ok(None);
         }
-        let answer = problem.solve_on(&ground, mesh, progress)?;
+        let answer = problem.solve_on(&context, mesh, progress)?;
         unknowns = answer.unknowns;
         let mut quantities = vec![Quantity::new(
             "displacement of the body",
@@ -75,19 +75,19 @@ pub fn solve_at(
     progress: &mut dyn FnMut(Progress),
 ) -> Result<SolidAnswer, Error> {
     problem.check()?;
-    let ground = Ground::new(problem)?;
-    problem.solve_on(&ground, (halvings + 1).max(0) as usize, progress)
+    let context = MeshContext::new(problem)?;
+    problem.solve_on(&context, (halvings + 1).max(0) as usize, progress)
 }
 
 impl SolidProblem {
     fn solve_on(
         &self,
-        ground: &Ground<'_>,
+        context: &MeshContext<'_>,
         mesh: usize,
         progress: &mut dyn FnMut(Progress),
     ) -> Result<SolidAnswer, Error> {
         progress(Progress { part: 0.0, mesh });
-        let (tetrahedra, crossing) = ground.mesh(mesh as i32 - 1)?;
+        let (tetrahedra, crossing) = context.mesh(mesh as i32 - 1)?;
         let corners = tetrahedra.vertices().len();
         let unknowns = 4 * corners + 3 * tetrahedra.edges().len();
         if unknowns > MOST_UNKNOWNS {
@@ -97,7 +97,7 @@ impl SolidProblem {
             });
         }
         let boundary = faces(&tetrahedra);
-        let held = Held::new(self, &tetrahedra, (&boundary, ground.center()))?;
+        let held = Held::new(self, &tetrahedra, (&boundary, context.center()))?;
         let forces = loads::of_boundary(&self.loads.forces, &tetrahedra, &boundary)?;
         let places = loads::places(&self.points, &tetrahedra, &boundary)?;
         let frame = Frame::new(self.patch.as_ref());
@@ -134,7 +134,7 @@ impl SolidProblem {
                 .sum()
         };
         answer.points = places.iter().map(moved).collect();
-        answer.warnings.clone_from(&ground.warnings);
+        answer.warnings.clone_from(&context.warnings);
         if crossing > 0 {
             answer.warnings.push(format!(
                 "{crossing} edges of the mesh cross the edge of the patch, whose area is {:.3e} m²",

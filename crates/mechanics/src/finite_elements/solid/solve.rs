@@ -61,7 +61,7 @@ pub(super) fn equilibrium(
             Err(_) if step > SHORTEST => {
                 step = 0.5 * (goal - part);
                 if before.is_some() {
-                    // A step that was foreseen badly is tried again from where the body stands.
+                    // A step that was predicted badly is tried again from where the body stands.
                     before = None;
                 }
             }

@@ -4,9 +4,9 @@
 //! its side is; the answer then carries a warning. The tube is held at its ends only.
 
 use super::super::estimate::{Estimated, Meshes, Progress, Quantity, refine};
-use super::super::indentation::Grip;
 use super::punching::Punching;
 use super::{Ends, TubeProblem, check_pressure, inflate, solid};
+use crate::contact::Friction;
 use crate::{Error, Strain};
 
 /// What is pressed on the tube.
@@ -15,7 +15,7 @@ pub struct TubePunch {
     /// Radius of its flat face [m].
     pub radius: f64,
     /// Whether tissue sticks to the face or slides on it.
-    pub face: Grip,
+    pub face: Friction,
     /// Pressure in the tube [Pa]; it stays while the punch goes in.
     pub pressure: f64,
     /// Depths [m] below the outermost point of the tube under pressure, in any order.
@@ -89,7 +89,7 @@ fn warnings(punch: &TubePunch, deepest: f64, run: &Punching<'_>) -> Vec<String> 
             punch.radius
         ));
     }
-    if deepest > FOLDS * punch.radius && punch.face == Grip::Slide {
+    if deepest > FOLDS * punch.radius && punch.face == Friction::Frictionless {
         warnings.push(format!(
             "a face without friction folds the tissue under it near {FOLDS} of its radius, and {deepest} m is more"
         ));

@@ -62,7 +62,7 @@ fn order(problem: &TubeProblem) -> f64 {
 /// give it, and the limit of the pressure.
 ///
 /// # Errors
-/// When the tube has no wall, a pressure is negative, or the path breaks off.
+/// When the tube has no wall, a pressure is negative, or the path cancels.
 pub fn inflate(
     problem: &TubeProblem,
     pressures: &[f64],

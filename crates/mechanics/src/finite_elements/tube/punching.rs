@@ -1,14 +1,14 @@
 //! One mesh of a tube on its way: pressure first, then the punch, step by step.
 //!
 //! The face is a plane across the punch's axis that moves inward from the outermost point of the
-//! pressurised tube. A node that began within the punch's radius is caught when the plane passes it; it
-//! then has the plane's x, and where it sticks also the y and z at which it was caught. A sliding node
+//! pressurised tube. A node that began within the punch's radius is activated when the plane passes it; it
+//! then has the plane's x, and where it sticks also the y and z at which it was activated. A sliding node
 //! that would pull is let go. Force on the tissue: four times the reactions' sum.
 
+use crate::contact::Friction;
 use std::sync::Arc;
 
 use super::super::cavity::Cavity;
-use super::super::indentation::Grip;
 use super::super::model::{
     FiniteElementModel, FiniteElementState, FiniteElementWorkspace, Formulation,
 };
@@ -33,8 +33,8 @@ pub(super) struct Punching<'a> {
     face: Vec<usize>,
     /// Held by ends and planes of symmetry.
     rest: Vec<Option<f64>>,
-    now: Standing,
-    before: Option<Standing>,
+    now: ConvergedIncrement,
+    before: Option<ConvergedIncrement>,
     /// Outermost place of the pressurised tube [m].
     top: f64,
     step: f64,
@@ -42,10 +42,10 @@ pub(super) struct Punching<'a> {
 
 /// An equilibrium at a depth.
 #[derive(Debug, Clone)]
-struct Standing {
+struct ConvergedIncrement {
     depth: f64,
     state: FiniteElementState,
-    /// Where each node of the face was caught [m], (y, z).
+    /// Where each node of the face was activated [m], (y, z).
     caught: Vec<Option<[f64; 2]>>,
 }
 
@@ -75,7 +75,7 @@ impl<'a> Punching<'a> {
         }
         Ok(Self {
             workspace: FiniteElementWorkspace::new(&model)?,
-            now: Standing {
+            now: ConvergedIncrement {
                 depth: 0.0,
                 state: FiniteElementState::at_rest(&model),
                 caught: vec![None; face.len()],
@@ -156,10 +156,10 @@ impl<'a> Punching<'a> {
                 self.now.depth + step
             };
             match self.stand_at(goal) {
-                Ok((standing, effort)) => {
+                Ok((standing, controls)) => {
                     self.before = Some(std::mem::replace(&mut self.now, standing));
                     at_step(goal);
-                    if effort <= 10 {
+                    if controls <= 10 {
                         let longest = LONGEST_STEP * self.punch.radius;
                         self.step = (1.5 * step).max(self.step).min(longest);
                     }
@@ -218,7 +218,7 @@ impl<'a> Punching<'a> {
             if let Some([y, z]) = caught {
                 let rest = self.model.mesh().nodes[node];
                 held[3 * node] = Some(self.top - depth - rest.x);
-                if self.punch.face == Grip::Stick {
+                if self.punch.face == Friction::Bonded {
                     // A plane of symmetry holds at zero already.
                     held[3 * node + 1].get_or_insert(y - rest.y);
                     held[3 * node + 2].get_or_insert(z - rest.z);
@@ -232,32 +232,32 @@ impl<'a> Punching<'a> {
     }
 
     /// An equilibrium at `depth`, contacts included, and the number of solutions that it took.
-    fn stand_at(&mut self, depth: f64) -> Result<(Standing, usize), Failure> {
-        let mut next = Standing {
+    fn stand_at(&mut self, depth: f64) -> Result<(ConvergedIncrement, usize), Failure> {
+        let mut next = ConvergedIncrement {
             depth,
-            state: self.foresee(depth),
+            state: self.predict(depth),
             caught: self.now.caught.clone(),
         };
         // The plane may already be past nodes that nothing has pushed yet.
         let state = self.now.state.clone();
         self.catch(&state, &mut next, false);
-        let (mut effort, cavity) = (0, self.cavity.clone());
+        let (mut controls, cavity) = (0, self.cavity.clone());
         for round in 0..ROUNDS {
             let supports = self.supports(&next.caught, depth);
             let supports = supports.press(&cavity, self.punch.pressure);
             let done = equilibrate(&self.model, &supports, &mut next.state, &mut self.workspace)?;
-            effort += done.iterations;
+            controls += done.iterations;
             let state = next.state.clone();
             let more = self.catch(&state, &mut next, round + 2 < ROUNDS);
             if !more {
-                return Ok((next, effort));
+                return Ok((next, controls));
             }
         }
         Err(Failure::NotConverged)
     }
 
     /// Where the body would be at `depth` if it went on as before.
-    fn foresee(&mut self, depth: f64) -> FiniteElementState {
+    fn predict(&mut self, depth: f64) -> FiniteElementState {
         let mut state = self.now.state.clone();
         if let Some(before) = &self.before {
             let ahead = (depth - self.now.depth) / (self.now.depth - before.depth);
@@ -270,7 +270,7 @@ impl<'a> Punching<'a> {
 
     /// Catches nodes that have passed the face of `next` in `state`, and lets go those that pull, if
     /// they `may`; answers whether there was one.
-    fn catch(&self, state: &FiniteElementState, next: &mut Standing, may: bool) -> bool {
+    fn catch(&self, state: &FiniteElementState, next: &mut ConvergedIncrement, may: bool) -> bool {
         let tiny = 1e-9 * self.punch.radius;
         let face = self.top - next.depth;
         let mut changed = false;
@@ -286,7 +286,7 @@ impl<'a> Punching<'a> {
                 changed = true;
             } else if caught.is_some()
                 && may
-                && self.punch.face == Grip::Slide
+                && self.punch.face == Friction::Frictionless
                 && self.workspace.reaction(&self.model, node).x > 0.0
             {
                 *caught = None;
@@ -315,7 +315,7 @@ mod tests {
         }
     }
 
-    fn punch(radius: f64, face: Grip, pressure: f64) -> TubePunch {
+    fn punch(radius: f64, face: Friction, pressure: f64) -> TubePunch {
         TubePunch {
             radius,
             face,
@@ -330,8 +330,8 @@ mod tests {
         let law = LinearElastic::new(1e3, 0.3).unwrap();
         let problem = problem([0.16, 0.02, 0.08], law);
         for (face, exact) in [
-            (Grip::Slide, 2e3 / (1.0 - 0.09)),
-            (Grip::Stick, 2e3 / 1.3 * 1.8_f64.ln() / 0.4),
+            (Friction::Frictionless, 2e3 / (1.0 - 0.09)),
+            (Friction::Bonded, 2e3 / 1.3 * 1.8_f64.ln() / 0.4),
         ] {
             let punch = punch(1e-3, face, 0.0);
             let mut run = Punching::new(&problem, &punch, 1).unwrap();
@@ -350,7 +350,7 @@ mod tests {
     fn pressure_alone_widens_the_axisymmetric_tube() {
         let law = NeoHookean::incompressible(5200.0 / 6.0).unwrap();
         let problem = problem([0.03, 0.005, 0.0075], law);
-        let punch = punch(0.002, Grip::Stick, 400.0);
+        let punch = punch(0.002, Friction::Bonded, 400.0);
         let mut run = Punching::new(&problem, &punch, 1).unwrap();
         run.pressurise().unwrap();
         let far = |x: &Vec3| (x.xy() - nalgebra::Vector2::new(-0.005, 0.0)).norm() < 1e-9;
@@ -368,7 +368,7 @@ mod tests {
     fn force_is_the_derivative_of_the_energy() {
         let law = NeoHookean::incompressible(5200.0 / 6.0).unwrap();
         let problem = problem([0.02, 0.005, 0.0075], law);
-        let punch = punch(0.002, Grip::Stick, 300.0);
+        let punch = punch(0.002, Friction::Bonded, 300.0);
         let mut run = Punching::new(&problem, &punch, 1).unwrap();
         run.pressurise().unwrap();
         let mut at = |depth: f64| {

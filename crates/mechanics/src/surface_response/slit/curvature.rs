@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 
 use nalgebra::Matrix5;
 
-use super::shell::{Waves, difference};
+use super::shell::{FourierShell, difference};
 use crate::cores::on_all_cores;
 
 /// Radii of the tables, in thicknesses. As these tables are scaled, those of thinner walls are the last.
@@ -57,7 +57,7 @@ impl Curvature {
         on_all_cores(
             RADII.iter().zip(places).rev(),
             |(&radius, (jumps, forces))| {
-                *jumps = of_jumps(nu, radius);
+                *jumps = jump_influences(nu, radius);
                 *forces = of_forces(nu, radius);
             },
         );
@@ -101,7 +101,11 @@ impl Curvature {
 
     /// What a unit jump on a unit length changes in the tractions on another, `away` from it along the slit, over E
     /// [1/m]: rows and columns are the modes of a facet.
-    pub(super) fn of_jump(&self, (curvature, thickness): (f64, f64), away: f64) -> Matrix5<f64> {
+    pub(super) fn jump_influence(
+        &self,
+        (curvature, thickness): (f64, f64),
+        away: f64,
+    ) -> Matrix5<f64> {
         let slim = 1.0 / (curvature.abs() * thickness).max(1e-6);
         let [nn, nh, hh, ss, ww, sw] = self.entries(slim.max(1.0), away.abs() / thickness);
         let nh = nh * curvature.signum();
@@ -152,7 +156,7 @@ fn between(radius: f64) -> (usize, usize, f64) {
 /// What forces do, over places across and along, for a wall of thickness one: N of a force outward; and less that of
 /// a plate V of it, of a force across in the middle of the wall, and of the couple that is left.
 fn of_forces(nu: f64, radius: f64) -> [[[f64; 4]; SIDE]; SIDE] {
-    let [shell, plate] = [1.0 / radius, 0.0].map(|curvature| Waves {
+    let [shell, plate] = [1.0 / radius, 0.0].map(|curvature| FourierShell {
         nu,
         curvature,
         thickness: 1.0,
@@ -197,7 +201,7 @@ fn of_forces(nu: f64, radius: f64) -> [[[f64; 4]; SIDE]; SIDE] {
 }
 
 /// The entries over the distance, for a wall of thickness one.
-fn of_jumps(nu: f64, radius: f64) -> [[f64; 6]; PLACES] {
+fn jump_influences(nu: f64, radius: f64) -> [[f64; 6]; PLACES] {
     let width = LAST / WAVES as f64;
     let waves: Vec<[f64; 6]> = (0..=WAVES)
         .map(|step| {
@@ -265,7 +269,7 @@ mod tests {
                     let line = 1.0 / (4.0 * PI) / (0.25 - away * away);
                     let hinge = (3.0 + nu) / (3.0 * (1.0 + nu));
                     let flat = line * [1.0, 0.0, 0.0, hinge][2 * (i % 2) + j % 2];
-                    let bent = tube.of_jump((curvature, 1.0), away * length);
+                    let bent = tube.jump_influence((curvature, 1.0), away * length);
                     let bent = if curvature > 0.0 {
                         bent
                     } else {

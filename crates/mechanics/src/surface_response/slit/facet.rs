@@ -46,7 +46,7 @@ pub struct CutBody<'a, T> {
 
 /// What a facet cuts.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Under {
+pub(super) enum CrackGeometry {
     /// A solid, to a depth that is small beside it [m].
     Solid { depth: f64 },
     /// A wall of a thickness [m], to a part of it [-]; one is through.
@@ -60,7 +60,7 @@ pub(super) struct Facet {
     pub(super) frame: Matrix3<f64>,
     pub(super) middle: Vec3,
     pub(super) length: f64,
-    pub(super) under: Under,
+    pub(super) under: CrackGeometry,
     /// Triangles at its middle: on the surface, and on the other side of a wall.
     pub(super) outer: TriangleId,
     pub(super) inner: Option<TriangleId>,
@@ -109,7 +109,7 @@ impl Facet {
 
     /// Learns how the wall bends from its outer surface.
     pub(super) fn bend(&mut self, outer: &Gradient) {
-        if let Under::Wall { thickness, .. } = self.under {
+        if let CrackGeometry::Wall { thickness, .. } = self.under {
             let rest = (1.0 - 0.5 * thickness * outer.curvature).max(0.5);
             self.curvature = (outer.curvature / rest).clamp(-1.0 / thickness, 1.0 / thickness);
         }
@@ -118,8 +118,8 @@ impl Facet {
     /// How many rows it has.
     pub(super) fn modes(&self) -> usize {
         match self.under {
-            Under::Solid { .. } => 3,
-            Under::Wall { .. } => 5,
+            CrackGeometry::Solid { .. } => 3,
+            CrackGeometry::Wall { .. } => 5,
         }
     }
 
@@ -143,8 +143,8 @@ impl Facet {
     /// Depth of the slit in a solid, or the thickness of the wall [m].
     pub(super) fn depth(&self) -> f64 {
         match self.under {
-            Under::Solid { depth } => depth,
-            Under::Wall { thickness, .. } => thickness,
+            CrackGeometry::Solid { depth } => depth,
+            CrackGeometry::Wall { thickness, .. } => thickness,
         }
     }
 }
@@ -165,7 +165,7 @@ fn under<T: Precision>(
     middle: &Vec3,
     outward: &Vec3,
     asked: &SlitFacet,
-) -> (Under, Option<TriangleId>) {
+) -> (CrackGeometry, Option<TriangleId>) {
     let mesh = body.surface.mesh();
     let (low, high) = mesh.bounds();
     let reach = (high - low).norm();
@@ -186,11 +186,11 @@ fn under<T: Precision>(
             let thickness = hit.distance + skip;
             let part = asked.depth / thickness;
             let part = if part > THROUGH { 1.0 } else { part };
-            (Under::Wall { thickness, part }, Some(hit.triangle))
+            (CrackGeometry::Wall { thickness, part }, Some(hit.triangle))
         }
         _ => {
             let depth = asked.depth.min(reach);
-            (Under::Solid { depth }, None)
+            (CrackGeometry::Solid { depth }, None)
         }
     }
 }

@@ -5,7 +5,7 @@ use nalgebra::Matrix3;
 use palpate_geometry::{Surface, TriangleId};
 
 use super::super::response::{SurfaceResponse, TouchId};
-use super::facet::{Facet, Under};
+use super::facet::{CrackGeometry, Facet};
 use crate::Vec3;
 use crate::boundary_elements::Precision;
 
@@ -74,8 +74,8 @@ impl Gradient {
         });
         self.size = f64::sqrt(2.0 * sum / count);
         let in_wall = match facet.under {
-            Under::Solid { .. } => 0.0,
-            Under::Wall { thickness, .. } => IN_WALLS * thickness,
+            CrackGeometry::Solid { .. } => 0.0,
+            CrackGeometry::Wall { thickness, .. } => IN_WALLS * thickness,
         };
         self.reach = in_wall.max(REACH * self.size);
         around(

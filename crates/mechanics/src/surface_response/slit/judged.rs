@@ -7,7 +7,7 @@
 //! tip is wide.
 
 use super::Slit;
-use super::facet::Under;
+use super::facet::CrackGeometry;
 use crate::boundary_elements::Precision;
 
 /// Least radius of the middle of a wall over its thickness [-]: 2.5 was judged, and triangles tell a radius to a fifth.
@@ -31,7 +31,7 @@ impl<T: Precision> Slit<T> {
         let (mut run, mut longest) = ([0.0; 2], [0.0; 2]);
         for (number, cut) in self.facets.iter().enumerate() {
             let facet = &cut.facet;
-            let Under::Wall { thickness, part } = facet.under else {
+            let CrackGeometry::Wall { thickness, part } = facet.under else {
                 continue;
             };
             let radius = 1.0 / (facet.curvature.abs() * thickness).max(1e-6);

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use nalgebra::{Matrix3, Matrix5};
 
 use super::curvature::Curvature;
-use super::facet::{Facet, Under};
+use super::facet::{CrackGeometry, Facet};
 use super::plate::Plate;
 use super::spring;
 use crate::Vec3;
@@ -80,7 +80,7 @@ pub(super) fn own((nu, tube): (f64, &Curvature), facet: &Facet) -> (Matrix5<f64>
         ends[0][mode] = one * matrix[(mode, mode)];
         ends[1][mode] = both * matrix[(mode, mode)];
     }
-    if let Under::Wall { part, .. } = facet.under
+    if let CrackGeometry::Wall { part, .. } = facet.under
         && part < 1.0
     {
         matrix += spring::ligament(nu, part) * facet.length;
@@ -91,15 +91,15 @@ pub(super) fn own((nu, tube): (f64, &Curvature), facet: &Facet) -> (Matrix5<f64>
 /// Less the work of the traction on the modes of `seen` by unit jumps of `jumping`.
 fn pull((nu, tube): (f64, &Curvature), seen: &Facet, jumping: &Facet) -> Matrix5<f64> {
     match (seen.under, jumping.under) {
-        (Under::Solid { depth }, Under::Solid { depth: other }) => {
+        (CrackGeometry::Solid { depth }, CrackGeometry::Solid { depth: other }) => {
             let block = in_solid(nu, (seen, depth), (jumping, other));
             let mut matrix = Matrix5::zeros();
             matrix.fixed_view_mut::<3, 3>(0, 0).copy_from(&block);
             matrix
         }
         (
-            Under::Wall { thickness, .. },
-            Under::Wall {
+            CrackGeometry::Wall { thickness, .. },
+            CrackGeometry::Wall {
                 thickness: other, ..
             },
         ) => {
@@ -174,7 +174,7 @@ fn in_solid(
     let half = [0.5 * jumping.length, 0.5 * yours];
     let mut diagonal = Vec3::zeros();
     for (m, of_seen) in PROFILE.iter().enumerate() {
-        for (k, of_jump) in PROFILE.iter().enumerate() {
+        for (k, jump_influence) in PROFILE.iter().enumerate() {
             for image in [1.0, -1.0] {
                 let height = row(m, mine) - image * row(k, yours);
                 let height = clear(height, yours);
@@ -185,7 +185,7 @@ fn in_solid(
                     shear * all + 3.0 * nu * along,
                     shear * all + 3.0 * nu * down,
                 );
-                diagonal -= each * (of_seen * of_jump * area * factor);
+                diagonal -= each * (of_seen * jump_influence * area * factor);
             }
         }
     }
@@ -263,7 +263,7 @@ fn of_curvature(
         .map(|length| 0.5 * length / 3.0_f64.sqrt());
     let mut sum = Matrix5::zeros();
     for off in [near, -near, far, -far] {
-        sum += tube.of_jump((curvature, thickness), away + off);
+        sum += tube.jump_influence((curvature, thickness), away + off);
     }
     sum.row_mut(4).scale_mut(cosine.signum());
     sum * (0.25 * cosine * cosine * seen.length * jumping.length)

@@ -60,7 +60,7 @@ impl<T: Precision> Slit<T> {
                 break;
             };
             let about = (self.poissons_ratio, &self.curvature, cut.reach);
-            let Some(found) = cut.facet.of_spot(about, spot) else {
+            let Some(found) = cut.facet.point_influence(about, spot) else {
                 continue;
             };
             *fade = found.0;

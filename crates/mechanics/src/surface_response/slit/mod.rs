@@ -49,7 +49,7 @@ pub use facet::{CutBody, SlitFacet};
 use gradient::{Gradient, MOST};
 pub use load::{SlitJumps, SlitLoad};
 use traction::{MODES, Near, Part, triangles_near};
-pub use traction::{OF_RIM, Spot};
+pub use traction::{RIM_COMPLIANCE, Spot};
 
 /// Near triangles that are known to a facet at most.
 const MOST_NEAR: usize = 320;

@@ -21,14 +21,14 @@ use nalgebra::{Matrix3, Matrix4, Matrix4x3, Matrix6, SMatrix, Vector3};
 
 /// Sanders' shell of a radius and a thickness, in wave numbers.
 #[derive(Clone, Copy)]
-pub(super) struct Waves {
+pub(super) struct FourierShell {
     pub(super) nu: f64,
     /// 1/R [1/m]; zero for a plate.
     pub(super) curvature: f64,
     pub(super) thickness: f64,
 }
 
-impl Waves {
+impl FourierShell {
     /// D over E.
     fn bending(&self) -> f64 {
         self.thickness.powi(3) / (12.0 * (1.0 - self.nu * self.nu))
@@ -90,7 +90,7 @@ impl Waves {
 /// sliding; of V on a deflection, and of shear on it.
 pub(super) fn difference(nu: f64, [radius, thickness]: [f64; 2], k: f64) -> [f64; 6] {
     let (w, r) = (thickness, radius);
-    let waves = Waves {
+    let waves = FourierShell {
         nu,
         curvature: 1.0 / r,
         thickness,
@@ -136,7 +136,7 @@ mod tests {
     #[test]
     fn a_flat_shell_bears_a_force_as_a_plate() {
         let (nu, width, last) = (0.3, 0.05, 240);
-        let flat = Waves {
+        let flat = FourierShell {
             nu,
             curvature: 0.0,
             thickness: 1.0,

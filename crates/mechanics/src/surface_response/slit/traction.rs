@@ -11,7 +11,7 @@ use nalgebra::{Matrix2x3, Matrix3, Vector2};
 use palpate_geometry::{Surface, TriangleId};
 
 use super::curvature::Curvature;
-use super::facet::{Facet, Under};
+use super::facet::{CrackGeometry, Facet};
 use super::gradient::{Gradient, around};
 use super::kernel::{FULLNESS, PROFILE, ROWS};
 use super::near;
@@ -29,7 +29,7 @@ const OF_LOADS: f64 = 2.2;
 
 /// What a force beside a slit yields more, where the slit is deep, over the reciprocal of its distance: across,
 /// along, outward [-].
-pub const OF_RIM: [f64; 3] = [0.69, 0.2, 0.28];
+pub const RIM_COMPLIANCE: [f64; 3] = [0.69, 0.2, 0.28];
 
 /// A spot is as wide as this part of its radius beyond its places [-].
 const OF_SPOT: f64 = 0.35;
@@ -94,10 +94,11 @@ impl Facet {
         let outward = normal.dot(&self.frame.column(2));
         let face = if outward > 0.0 { 1.0 } else { -1.0 };
         let height = match self.under {
-            Under::Solid { .. } => 0.0,
-            Under::Wall { thickness, .. } => 0.5 * (face - 1.0) * thickness,
+            CrackGeometry::Solid { .. } => 0.0,
+            CrackGeometry::Wall { thickness, .. } => 0.5 * (face - 1.0) * thickness,
         };
-        if outward.abs() < 0.2 || (face < 0.0 && matches!(self.under, Under::Solid { .. })) {
+        if outward.abs() < 0.2 || (face < 0.0 && matches!(self.under, CrackGeometry::Solid { .. }))
+        {
             return None;
         }
         let chord = (away - Vec3::new(0.0, 0.0, height)).norm();
@@ -128,7 +129,7 @@ impl Facet {
     ) -> [Vec3; MODES] {
         let mut rows = [Vec3::zeros(); MODES];
         match self.under {
-            Under::Solid { depth } => {
+            CrackGeometry::Solid { depth } => {
                 let ends = [-0.25, 0.25].map(|part| part * self.length - y);
                 for (m, profile) in PROFILE.iter().enumerate() {
                     let z = -(m as f64 + 0.5) * depth / ROWS as f64;
@@ -141,7 +142,7 @@ impl Facet {
                     }
                 }
             }
-            Under::Wall { thickness, .. } => {
+            CrackGeometry::Wall { thickness, .. } => {
                 let plate = Plate { nu, thickness };
                 let bent = (self.curvature, thickness);
                 for along in [-0.375, -0.125, 0.125, 0.375].map(|part| part * self.length - y) {
@@ -159,7 +160,7 @@ impl Facet {
     }
 
     /// φ and φ A of a spot, along the axes of space.
-    pub(super) fn of_spot(
+    pub(super) fn point_influence(
         &self,
         (nu, tube, reach): (f64, &Curvature, f64),
         spot: &Spot,
@@ -169,7 +170,7 @@ impl Facet {
         let soft = (OF_SPOT * spot.radius).powi(2);
         let beside = (x / spot.radius).abs().min(1.0);
         let mut rows = [Vec3::zeros(); MODES];
-        if matches!(self.under, Under::Solid { .. }) {
+        if matches!(self.under, CrackGeometry::Solid { .. }) {
             if seen.fade == 0.0 {
                 return None;
             }
@@ -212,7 +213,7 @@ impl Facet {
     /// Part of a spot's rim that the facet is [-], and what a deep slit adds there along the axes of space [1/m].
     pub(super) fn rim_of(&self, reach: f64, spot: &Spot) -> Option<(f64, Matrix3<f64>)> {
         let seen = self.sees(reach, &spot.place, &spot.normal)?;
-        let through = matches!(self.under, Under::Wall { part, .. } if part >= 1.0);
+        let through = matches!(self.under, CrackGeometry::Wall { part, .. } if part >= 1.0);
         if seen.face < 0.0 && !through {
             return None;
         }
@@ -226,8 +227,8 @@ impl Facet {
             let end = end * self.length - y;
             0.5 * end / (near * near + end * end).sqrt()
         });
-        let [across, along, mut outward] = OF_RIM;
-        if matches!(self.under, Under::Wall { .. }) {
+        let [across, along, mut outward] = RIM_COMPLIANCE;
+        if matches!(self.under, CrackGeometry::Wall { .. }) {
             outward = 0.0;
         }
         let own = Matrix3::from_diagonal(&Vec3::new(across, along, outward)) * more;
@@ -244,8 +245,8 @@ impl Facet {
     ) -> Option<[[[f32; 3]; MODES]; 2]> {
         let seen = self.sees(reach, place, normal)?;
         let spread = match self.under {
-            Under::Solid { .. } => 0.0,
-            Under::Wall { thickness, .. } => SOFT * thickness * thickness,
+            CrackGeometry::Solid { .. } => 0.0,
+            CrackGeometry::Wall { thickness, .. } => SOFT * thickness * thickness,
         };
         let soft = 0.25 * area + spread;
         let closed = if seen.fade > 0.0 {
@@ -262,7 +263,7 @@ impl Facet {
             }
         }
         // Triangles do not tell how a curved wall bears a force outward beside it; the tube does.
-        if matches!(self.under, Under::Wall { .. }) {
+        if matches!(self.under, CrackGeometry::Wall { .. }) {
             resolved[0].z = (seen.turn * known).z;
         }
         let turned = |rows: [Vec3; MODES]| rows.map(|row| seen.turn.tr_mul(&row));
@@ -281,8 +282,8 @@ impl Facet {
         // The mean of 1/r over a disc of the triangle's area is that at 0.59 of its radius.
         let soft = if flat < 1e-3 * area { 0.11 * area } else { 0.0 };
         match self.under {
-            Under::Solid { .. } => near::displacement(nu, away, soft),
-            Under::Wall { thickness, .. } => {
+            CrackGeometry::Solid { .. } => near::displacement(nu, away, soft),
+            CrackGeometry::Wall { thickness, .. } => {
                 let plate = Plate { nu, thickness };
                 plate.displacement(away, [faces.0, faces.1], soft + 1e-3 * area)
             }
@@ -313,11 +314,11 @@ impl Facet {
     /// alone makes no mean of the faces' stresses that is zero [Winkler 1858].
     pub(super) fn of_faces(&self, curvature: f64) -> ([f64; 3], [f64; 3]) {
         match self.under {
-            Under::Solid { depth } => {
+            CrackGeometry::Solid { depth } => {
                 let area = FULLNESS * depth * self.length;
                 ([area, area, 0.0], [0.0; 3])
             }
-            Under::Wall { thickness, .. } => {
+            CrackGeometry::Wall { thickness, .. } => {
                 let area = thickness * self.length;
                 let more = thickness * curvature / 6.0;
                 (

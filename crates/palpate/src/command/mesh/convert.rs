@@ -50,11 +50,11 @@ struct Answer {
     palpate: &'static str,
     #[serde(flatten)]
     written: Written,
-    mended: Vec<String>,
+    repaired: Vec<String>,
     warnings: Vec<String>,
 }
 
-/// Reads, mends and writes.
+/// Reads, repairs and writes.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let unit: LengthUnit = arguments.to_unit.parse()?;
     let out = Output::new(&arguments.out, unit)?;
@@ -67,7 +67,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let answer = Answer {
         palpate: output::VERSION,
         written: out.write(&mesh)?,
-        mended: told(&repairs),
+        repaired: told(&repairs),
         warnings: imported.warnings,
     };
     drop(progress);
@@ -75,8 +75,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         return output::json(&answer);
     }
     output::warnings(&answer.warnings);
-    for mended in &answer.mended {
-        output::line(mended)?;
+    for repaired in &answer.repaired {
+        output::line(repaired)?;
     }
     output::line(format!(
         "{} triangles written to {}, in {}",

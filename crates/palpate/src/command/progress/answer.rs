@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 use palpate_record::{CurvePoint, Measure, Spread, Standard};
 use serde::Serialize;
 
-use super::course::{Course, Learnt, Made, Trainee};
+use super::course::{LearningCurve, Learnt, Made, Trainee};
 use crate::date;
 use crate::output::VERSION;
 
@@ -75,19 +75,19 @@ struct CurveAnswer {
 }
 
 impl Answer {
-    pub(super) fn new(record: &Path, courses: &[Course<'_>]) -> Self {
+    pub(super) fn new(record: &Path, courses: &[LearningCurve<'_>]) -> Self {
         Self {
             palpate: VERSION,
             record: record.to_owned(),
             rule: super::rule(),
             tasks: courses.iter().map(TaskAnswer::new).collect(),
-            warnings: courses.iter().flat_map(Course::warnings).collect(),
+            warnings: courses.iter().flat_map(LearningCurve::warnings).collect(),
         }
     }
 }
 
 impl TaskAnswer {
-    fn new(course: &Course<'_>) -> Self {
+    fn new(course: &LearningCurve<'_>) -> Self {
         let trainees = course.trainees.iter();
         let curve = |of: Learnt| CurveAnswer {
             experts: course.of_experts(of),
@@ -108,7 +108,7 @@ impl TaskAnswer {
     }
 }
 
-fn trainee(course: &Course<'_>, trainee: &Trainee<'_>) -> TraineeAnswer {
+fn trainee(course: &LearningCurve<'_>, trainee: &Trainee<'_>) -> TraineeAnswer {
     let attempts = (1..).zip(&trainee.attempts);
     TraineeAnswer {
         trainee: trainee.name.to_owned(),
@@ -119,7 +119,7 @@ fn trainee(course: &Course<'_>, trainee: &Trainee<'_>) -> TraineeAnswer {
     }
 }
 
-fn attempt(course: &Course<'_>, number: usize, made: &Made<'_>) -> AttemptAnswer {
+fn attempt(course: &LearningCurve<'_>, number: usize, made: &Made<'_>) -> AttemptAnswer {
     let own = made.attempt;
     let measures = own.measures.iter().map(|measure| MeasureAnswer {
         measure: measure.clone(),

@@ -19,7 +19,7 @@ pub(crate) const ERRORS: [&str; 5] = [
 
 /// A task, and all attempts at it.
 #[derive(Debug)]
-pub(super) struct Course<'r> {
+pub(super) struct LearningCurve<'r> {
     pub(super) task: &'r str,
     /// By name.
     pub(super) trainees: Vec<Trainee<'r>>,
@@ -56,7 +56,7 @@ pub(super) enum Learnt {
     ProficientPart,
 }
 
-impl<'r> Course<'r> {
+impl<'r> LearningCurve<'r> {
     /// Of all tasks in alphabetical order, with one trainee alone if `only` names them. A task that nobody of
     /// these attempted is left out, unless all are wanted and experts did.
     pub(super) fn all(attempts: &'r [Attempt], only: Option<&str>) -> Vec<Self> {
@@ -130,16 +130,16 @@ impl<'r> Course<'r> {
         Spread::of(&judged.filter_map(|own| own.learnt(of)).collect::<Vec<_>>())
     }
 
-    /// What deserves warning.
+    /// Warnings.
     pub(super) fn warnings(&self) -> Vec<String> {
         let task = self.task;
         let mut warnings = Vec::new();
         match self.experts.len() {
             0 => warnings.push(format!(
-                "no session of an expert at `{task}` is recorded, so nobody can be proficient; record two or more"
+                "no session of an expert at `{task}` is recorded, so proficiency cannot be judged; record two or more"
             )),
             1 => warnings.push(format!(
-                "one session of an expert at `{task}` gives no deviation, so nobody can be proficient; record another"
+                "one session of an expert at `{task}` gives no deviation, so proficiency cannot be judged; record another"
             )),
             _ => {}
         }
@@ -189,7 +189,7 @@ impl Made<'_> {
     }
 
     /// Whether a measure of it is proficient; none where that cannot be told.
-    pub(super) fn judged(&self, course: &Course<'_>, key: &str) -> Option<bool> {
+    pub(super) fn judged(&self, course: &LearningCurve<'_>, key: &str) -> Option<bool> {
         let mut standards = course.standards.each.iter();
         let place = standards.position(|own| own.key == key)?;
         self.judgement.measures.get(place)?.proficient

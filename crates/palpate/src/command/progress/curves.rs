@@ -2,7 +2,7 @@
 
 use palpate_record::Spread;
 
-use super::course::{Course, Learnt};
+use super::course::{LearningCurve, Learnt};
 use crate::plot::{Axis, Band, Plot, Series, Style};
 
 /// Trainees that are drawn one by one, at most; all are in the mean.
@@ -14,7 +14,7 @@ const EXPERTS: usize = 2;
 const EACH: usize = 5;
 
 /// Operation time, errors, and the measures that are proficient; those that there are.
-pub(super) fn plots(course: &Course<'_>) -> Vec<Plot> {
+pub(super) fn plots(course: &LearningCurve<'_>) -> Vec<Plot> {
     let all: [(&str, &str, Learnt); 3] = [
         ("Operation time", "time [s]", Learnt::Time),
         ("Errors", "errors in an attempt", Learnt::Errors),
@@ -36,7 +36,7 @@ pub(super) fn plots(course: &Course<'_>) -> Vec<Plot> {
     plots.collect()
 }
 
-fn plot(course: &Course<'_>, of: Learnt) -> Option<Plot> {
+fn plot(course: &LearningCurve<'_>, of: Learnt) -> Option<Plot> {
     let curve = course.curve(of);
     let last = curve.last()?.attempt as f64;
     let mut plot = Plot {

@@ -2,7 +2,7 @@
 
 use palpate_files::text_cell;
 
-use super::course::{Course, Made};
+use super::course::{LearningCurve, Made};
 use crate::date;
 use crate::failure::Failure;
 
@@ -23,7 +23,7 @@ const COLUMNS: [&str; 13] = [
 ];
 
 /// The table, in which no text is a formula; experts are not counted and not judged.
-pub(super) fn csv(courses: &[Course<'_>]) -> Result<String, Failure> {
+pub(super) fn csv(courses: &[LearningCurve<'_>]) -> Result<String, Failure> {
     let cannot = |error: csv::Error| {
         Failure::failed(format!(
             "the table cannot be written: {error}; please report this"
@@ -55,7 +55,11 @@ pub(super) fn csv(courses: &[Course<'_>]) -> Result<String, Failure> {
 }
 
 /// Of one attempt; `number` zero is that of an expert.
-fn rows(course: &Course<'_>, number: usize, made: &Made<'_>) -> Vec<[String; COLUMNS.len()]> {
+fn rows(
+    course: &LearningCurve<'_>,
+    number: usize,
+    made: &Made<'_>,
+) -> Vec<[String; COLUMNS.len()]> {
     let attempt = made.attempt;
     let truth = |is: Option<bool>| is.map_or_else(String::new, |is| is.to_string());
     let counted = |text: String| match attempt.is_expert {

@@ -17,7 +17,7 @@ use palpate_files::write_whole;
 use palpate_record::{Filter, IN_A_ROW, Record};
 
 use self::answer::Answer;
-use self::course::Course;
+use self::course::LearningCurve;
 pub(crate) use self::course::{ERRORS, TIME};
 use super::overwrite::OverwriteOption;
 use crate::failure::Failure;
@@ -111,7 +111,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.anonymous {
         anonymous::anonymous(&mut attempts);
     }
-    let courses = Course::all(&attempts, trainee.as_deref());
+    let courses = LearningCurve::all(&attempts, trainee.as_deref());
     let answer = Answer::new(record.path(), &courses);
     if let Some(table) = &arguments.csv {
         write_whole(table, export::csv(&courses)?.as_bytes())?;

@@ -1,6 +1,6 @@
 //! `--report`: how trainees come along, as a page for people.
 
-use super::course::{Course, Made, Trainee};
+use super::course::{LearningCurve, Made, Trainee};
 use super::curves::{self, TRAINEES};
 use super::table::{NONE, proficient, shown, standing, truth, valued};
 use crate::date;
@@ -11,11 +11,11 @@ const COLUMNS: usize = 8;
 
 /// The page on `courses`; `settings` say how it was asked for: names and values.
 pub(super) fn html(
-    courses: &[Course<'_>],
+    courses: &[LearningCurve<'_>],
     warnings: &[String],
     settings: &[(String, String)],
 ) -> String {
-    let attempts: usize = courses.iter().map(Course::attempts).sum();
+    let attempts: usize = courses.iter().map(LearningCurve::attempts).sum();
     let title = match courses {
         [only] => only.task.to_owned(),
         _ => "Training".to_owned(),
@@ -42,7 +42,7 @@ const CONVENTIONS: &str = " Deviations are standard deviations of one session. E
 perforations, drops, contacts of a shaft and cuts that were taken back. Dates are in universal time.";
 
 /// The section on one task, with its title if it is one of `several`.
-fn section(course: &Course<'_>, several: bool) -> Markup {
+fn section(course: &LearningCurve<'_>, several: bool) -> Markup {
     let title = match several {
         true => Markup::plain("h2", course.task),
         false => Markup::default(),
@@ -55,7 +55,7 @@ fn section(course: &Course<'_>, several: bool) -> Markup {
     Markup::plain("section", inside)
 }
 
-fn cards(course: &Course<'_>) -> Markup {
+fn cards(course: &LearningCurve<'_>) -> Markup {
     let trainees = course.trainees.len();
     let proficient = course.trainees.iter();
     let proficient = proficient.filter(|own| own.proficient_since.is_some());
@@ -78,7 +78,7 @@ fn cards(course: &Course<'_>) -> Markup {
     Markup::of_class("dl", "cards", each.collect::<Markup>())
 }
 
-fn figures(course: &Course<'_>) -> Markup {
+fn figures(course: &LearningCurve<'_>) -> Markup {
     let trainees = course.trainees.len();
     let mut caption = match trainees {
         1 => "Attempt by attempt.".to_owned(),
@@ -100,7 +100,7 @@ fn figures(course: &Course<'_>) -> Markup {
     Markup::of_class("div", "figures", drawn.collect::<Markup>())
 }
 
-fn attempts(course: &Course<'_>) -> Markup {
+fn attempts(course: &LearningCurve<'_>) -> Markup {
     let head = [
         "trainee",
         "attempt",
@@ -132,7 +132,7 @@ fn attempts(course: &Course<'_>) -> Markup {
         .and(table)
 }
 
-fn standing_of(course: &Course<'_>, trainee: &Trainee<'_>) -> String {
+fn standing_of(course: &LearningCurve<'_>, trainee: &Trainee<'_>) -> String {
     let attempts = count(trainee.attempts.len(), "attempt");
     match course.experts.len() {
         0 | 1 => attempts,
@@ -154,7 +154,7 @@ fn row(trainee: &Trainee<'_>, number: usize, own: &Made<'_>) -> Vec<Markup> {
 }
 
 /// The latest attempts beside the experts, measure by measure.
-fn beside(course: &Course<'_>) -> Markup {
+fn beside(course: &LearningCurve<'_>) -> Markup {
     let trainees = course.trainees.iter().take(COLUMNS);
     let last: Vec<_> = trainees
         .filter_map(|own| Some((own, own.attempts.last()?)))

@@ -5,7 +5,7 @@ use std::path::Path;
 use palpate_files::printable;
 use palpate_files::quantity::number;
 
-use super::course::{Course, Learnt, Made, Trainee};
+use super::course::{LearningCurve, Learnt, Made, Trainee};
 use crate::date;
 use crate::report::{count, quantity, unit};
 
@@ -13,7 +13,7 @@ use crate::report::{count, quantity, unit};
 pub(super) const NONE: &str = "–";
 
 /// All tasks of a record, or those that were `asked` for.
-pub(super) fn of(courses: &[Course<'_>], record: &Path, asked: bool) -> String {
+pub(super) fn of(courses: &[LearningCurve<'_>], record: &Path, asked: bool) -> String {
     if courses.is_empty() {
         let such = if asked { "such " } else { "" };
         return format!(
@@ -45,7 +45,7 @@ pub(super) fn of(courses: &[Course<'_>], record: &Path, asked: bool) -> String {
     text + &super::rule().replace(". ", ".\n") + more + "\n"
 }
 
-fn heading(course: &Course<'_>) -> String {
+fn heading(course: &LearningCurve<'_>) -> String {
     format!(
         "{}: {} of {}, {}\n",
         printable(course.task),
@@ -96,7 +96,7 @@ pub(super) fn proficient(made: &Made<'_>) -> String {
     }
 }
 
-fn means(course: &Course<'_>) -> Vec<Vec<String>> {
+fn means(course: &LearningCurve<'_>) -> Vec<Vec<String>> {
     let head = ["attempt", "trainees", "time [s]", "±", "errors", "±"];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
     let errors = course.curve(Learnt::Errors);
@@ -116,7 +116,7 @@ fn means(course: &Course<'_>) -> Vec<Vec<String>> {
 }
 
 /// The latest attempt beside the experts, measure by measure.
-fn beside(course: &Course<'_>, trainee: &Trainee<'_>) -> String {
+fn beside(course: &LearningCurve<'_>, trainee: &Trainee<'_>) -> String {
     let Some(last) = trainee.attempts.last() else {
         return String::new();
     };

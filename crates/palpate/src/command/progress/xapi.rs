@@ -4,14 +4,14 @@
 use palpate_record::Attempt;
 use serde_json::{Value, json};
 
-use super::course::{Course, Made};
+use super::course::{LearningCurve, Made};
 use crate::date;
 
 /// Before the names of what only this program defines.
 const HOME: &str = "https://palpate.invalid";
 
 /// The statements of all attempts of trainees.
-pub(super) fn statements(courses: &[Course<'_>]) -> Vec<Value> {
+pub(super) fn statements(courses: &[LearningCurve<'_>]) -> Vec<Value> {
     let trainees = courses.iter().flat_map(|course| &course.trainees);
     let made = trainees.flat_map(|own| &own.attempts);
     made.map(statement).collect()

@@ -43,14 +43,14 @@ impl Run {
 /// The stages that changed a force.
 fn words(did: &Interventions) -> String {
     let all = [
-        ("dead-man released", did.let_go),
-        ("missed deadline", did.late),
+        ("dead-man released", did.dead_man_released),
+        ("missed deadline", did.deadline_missed),
         ("stale model force faded", did.faded),
         ("passivity damping", did.damped),
         ("workspace walls", did.walls),
-        ("saturated", did.shortened),
-        ("thermal limit", did.cooled),
-        ("rate limit", did.slowed),
+        ("saturated", did.saturated),
+        ("thermal limit", did.thermally_limited),
+        ("rate limit", did.rate_limited),
     ];
     let all = all.into_iter().filter(|(_, count)| *count > 0);
     let words: Vec<_> = all.map(|(name, count)| format!("{name} {count}")).collect();

@@ -11,7 +11,7 @@ use clap::Args;
 use palpate_files::Scene;
 use palpate_servo::{ServoSettings, lock_memory};
 use palpate_simulate::Simulation;
-use palpate_simulate::interactive::{Interaction, Quality, Station};
+use palpate_simulate::interactive::{Interaction, PlacedDevice, Quality};
 
 use answer::{Answer, Run};
 
@@ -90,7 +90,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 
 fn touch(simulation: &Arc<Simulation>, rate: u32, seconds: u32) -> Result<Quality, Failure> {
     let tools = simulation.tools().iter();
-    let hands = tools.map(|tool| Some(Station::palpating(simulation, tool)));
+    let hands = tools.map(|tool| Some(PlacedDevice::palpating(simulation, tool)));
     let settings = ServoSettings {
         period: 1.0 / f64::from(rate),
         ..ServoSettings::default()

@@ -39,7 +39,7 @@ pub(super) fn run(scene: Scene, resources: Resources) -> Result<(), Failure> {
     // Asked once, so that signals are heard from now on.
     let _ = interrupt::is_asked();
     let memory = lock_memory();
-    let mut touch = Interaction::start_in(&environment, prepared, devices.stations, settings)?;
+    let mut touch = Interaction::start_in(&environment, prepared, devices.devices, settings)?;
     if let Some(room) = environment.operating_room {
         output::line(format!("shown at {}, Ctrl-C ends it", room.address()))?;
     }

@@ -115,7 +115,7 @@ def _swept(
         except OSError as error:
             raise InputError(f"{path} cannot be read: {error.strerror}; check its name") from error
         except tomllib.TOMLDecodeError as error:
-            raise InputError(f"{path}: {error}; mend it") from error
+            raise InputError(f"{path}: {error}; correct it") from error
     _make_absolute(read, folder)
     keys = list(sweep or {})
     for values in itertools.product(*(sweep or {}).values()):

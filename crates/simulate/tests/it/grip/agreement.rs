@@ -1,5 +1,6 @@
 //! Other methods judge what jaws feel.
 
+use palpate_mechanics::contact::Friction;
 use std::sync::Arc;
 
 use nalgebra::{DMatrix, UnitQuaternion};
@@ -9,7 +10,6 @@ use palpate_geometry::{AabbTree, Vec3};
 use palpate_mechanics::LinearElastic;
 use palpate_mechanics::boundary_elements::{Influences, Kelvin, Panel};
 use palpate_mechanics::finite_elements::hemisphere::{HemisphereProblem, Patch};
-use palpate_mechanics::finite_elements::indentation::Grip;
 use palpate_mechanics::finite_elements::solid::{Body, Loads, MovedPatch, SolidProblem, solve};
 use palpate_simulate::{Simulation, held_region};
 
@@ -268,7 +268,7 @@ fn a_pulled_esophagus_is_that_of_finite_elements() {
             center: point,
             radius: (area / std::f64::consts::PI).sqrt(),
             displacement: 1e-3 * normal,
-            grip: Grip::Stick,
+            grip: Friction::Bonded,
         }),
         law: Arc::new(LinearElastic::new(YOUNGS_MODULUS, 0.45).unwrap()),
         loads: Loads::default(),

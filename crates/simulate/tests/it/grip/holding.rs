@@ -142,13 +142,13 @@ fn what_is_held_is_handed_over() {
         hands.at(&POLE, 1.0);
         let answer = affine_force(&simulation.tools()[0], hands.tool(), 0.0);
         let tip = POLE + Vec3::new(3e-4, -2e-4, 1e-3);
-        let foreseen = answer.at(&tip);
+        let predicted = answer.at(&tip);
         let found = hands.at(&tip, 1.0);
         assert!(found.z < -0.01);
         // Rounding.
         assert!(
-            (found - foreseen).norm() < 1e-9 * found.norm(),
-            "{kind}: {found} {foreseen}"
+            (found - predicted).norm() < 1e-9 * found.norm(),
+            "{kind}: {found} {predicted}"
         );
     }
 }

@@ -1,5 +1,3 @@
-use palpate_mechanics::contact::Bond;
-use palpate_mechanics::finite_elements::indentation::Grip;
 use palpate_mechanics::finite_elements::tube::{TubeProblem, TubePunch, indent};
 
 use super::super::super::problem::{Problem, Tube, TubeIndent};
@@ -37,10 +35,7 @@ pub(crate) fn with_forces(
     };
     let asked = TubePunch {
         radius: punch.radius,
-        face: match punch.contact {
-            Bond::Stick => Grip::Stick,
-            Bond::Slip => Grip::Slide,
-        },
+        face: punch.contact,
         pressure,
         depths: depths.clone(),
     };

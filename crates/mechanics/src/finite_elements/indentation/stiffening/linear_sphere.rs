@@ -5,7 +5,7 @@
 //! points of the surface are carried inward (below ν = ½) makes it stiffer, already at small depth.
 
 use crate::IndentationCurve;
-use crate::contact::Bond;
+use crate::contact::Friction;
 
 /// Depths s/ρ [-] of the columns.
 pub(super) const DEPTHS: [f64; 12] = [
@@ -19,7 +19,7 @@ struct Row {
 }
 
 /// x r(x) over x = s/ρ at a Poisson's ratio, r linear between the rows.
-pub(super) fn curve(poissons_ratio: f64, bond: Bond) -> IndentationCurve {
+pub(super) fn curve(poissons_ratio: f64, bond: Friction) -> IndentationCurve {
     let last = ROWS.len() - 1;
     let above = ROWS
         .iter()
@@ -28,8 +28,8 @@ pub(super) fn curve(poissons_ratio: f64, bond: Bond) -> IndentationCurve {
     let (low, high) = (&ROWS[above - 1], &ROWS[above]);
     let along = (poissons_ratio - low.poissons_ratio) / (high.poissons_ratio - low.poissons_ratio);
     let of = |row: &'static Row| match bond {
-        Bond::Slip => &row.slip,
-        Bond::Stick => &row.stick,
+        Friction::Frictionless => &row.slip,
+        Friction::Bonded => &row.stick,
     };
     let (low, high) = (of(low), of(high));
     let forces: [f64; DEPTHS.len()] =

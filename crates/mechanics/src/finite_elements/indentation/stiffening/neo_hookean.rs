@@ -1,15 +1,15 @@
 //! Stiffening of incompressible neo-Hookean tissue, made by [`super::Stiffening::of`]; the test
 //! `stiffening::the_stored_curves_are_those_of_finite_elements` makes it again.
 
-use crate::contact::{Bond, Tip};
+use crate::contact::{Friction, Tip};
 
 /// s/a and F/F₀ · s/a, from the first depth to the last at which there is an equilibrium.
-pub(super) fn points(tip: Tip, bond: Bond) -> &'static [(f64, f64)] {
+pub(super) fn points(tip: Tip, bond: Friction) -> &'static [(f64, f64)] {
     match (tip, bond) {
-        (Tip::Flat { .. }, Bond::Stick) => &FLAT_STICK,
-        (Tip::Flat { .. }, Bond::Slip) => &FLAT_SLIP,
-        (Tip::Sphere { .. }, Bond::Stick) => &SPHERE_STICK,
-        (Tip::Sphere { .. }, Bond::Slip) => &SPHERE_SLIP,
+        (Tip::Flat { .. }, Friction::Bonded) => &FLAT_STICK,
+        (Tip::Flat { .. }, Friction::Frictionless) => &FLAT_SLIP,
+        (Tip::Sphere { .. }, Friction::Bonded) => &SPHERE_STICK,
+        (Tip::Sphere { .. }, Friction::Frictionless) => &SPHERE_SLIP,
     }
 }
 

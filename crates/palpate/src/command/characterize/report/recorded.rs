@@ -12,7 +12,7 @@ pub(super) fn figure_of(own: &DrawnRecording) -> Markup {
         line(name.to_owned(), points, style, color)
     };
     let plot = Plot {
-        title: "What was recorded".to_owned(),
+        title: "Recordings".to_owned(),
         x_label: TIME.to_owned(),
         y_label: format!("force [{}]", force.unit),
         series: vec![

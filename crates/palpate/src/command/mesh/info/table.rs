@@ -68,10 +68,14 @@ fn problems(report: &MeshReport) -> String {
         let kind = kind
             .ok()
             .and_then(|word| word.as_str().map(|word| word.replace('_', " ")));
-        let mend = problem.mend.replace("mesh_unit", "--unit");
+        let remedy = problem.remedy.replace("mesh_unit", "--unit");
         let count = format!("{} x", problem.count);
         // Writing to a String cannot fail.
-        let _ = writeln!(text, "  {:<22}{count:>9}  {mend}", kind.unwrap_or_default());
+        let _ = writeln!(
+            text,
+            "  {:<22}{count:>9}  {remedy}",
+            kind.unwrap_or_default()
+        );
     }
     text
 }

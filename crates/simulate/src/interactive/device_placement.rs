@@ -6,7 +6,7 @@ use crate::{ShaftFriction, Trocar};
 /// Where a device stands in the scene: x_scene = origin + scale · rotation x_device. Through a trocar its handle is
 /// the hand, else the tip.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Mount {
+pub struct DevicePlacement {
     /// Where the device's origin is in the scene [m].
     pub origin: Vec3,
     /// The rotation from the device's frame to the scene's.
@@ -17,7 +17,7 @@ pub struct Mount {
     pub trocar: Option<Trocar>,
 }
 
-impl Default for Mount {
+impl Default for DevicePlacement {
     /// The device's frame is the scene's.
     fn default() -> Self {
         Self {
@@ -29,7 +29,7 @@ impl Default for Mount {
     }
 }
 
-impl Mount {
+impl DevicePlacement {
     /// A place of the device [m] in the scene [m].
     pub fn place_in_scene(&self, position: &Vec3) -> Vec3 {
         self.origin + self.vector_in_scene(position)
@@ -89,17 +89,17 @@ mod tests {
 
     #[test]
     fn a_place_and_a_force_go_there_and_back() {
-        let mount = Mount {
+        let placement = DevicePlacement {
             origin: Vec3::x(),
             rotation: UnitQuaternion::from_axis_angle(&Vec3::z_axis(), std::f64::consts::FRAC_PI_2),
             scale: 2.0,
             trocar: None,
         };
-        let place = mount.place_in_scene(&Vec3::x());
+        let place = placement.place_in_scene(&Vec3::x());
         // A quarter turn takes x to y; rounding of the cosine.
         assert!((place - Vec3::new(1.0, 2.0, 0.0)).norm() < 1e-12);
-        let force = mount.force_in_device(&Vec3::y());
+        let force = placement.force_in_device(&Vec3::y());
         assert!((force - Vec3::x()).norm() < 1e-12);
-        assert!((mount.force_in_scene(&force) - Vec3::y()).norm() < 1e-12);
+        assert!((placement.force_in_scene(&force) - Vec3::y()).norm() < 1e-12);
     }
 }

@@ -1,8 +1,8 @@
 use palpate_files::session::{Event, Events};
-use palpate_geometry::{Footing, Vec3};
+use palpate_geometry::{ContactPoint, Vec3};
 
 use super::CuttingModel;
-use super::cuts::{Cuts, Deepened, Mark, Stroke};
+use super::cuts::{CutPath, Cuts, Deepened, Mark};
 use super::model::cuts;
 use super::parts::{CutPart, opening_at};
 use crate::Contact;
@@ -60,14 +60,14 @@ pub(crate) fn advance(
     };
     let edge = Edge {
         tool: number,
-        footing: blade.footing,
+        contact_point: blade.contact_point,
         contact,
         layers: reached.max(own.broken_layers),
     };
     let mut opened = all.go_on(simulation, model, &edge);
     // What is pressed gives way under the whole tip, what is cut in its opening alone.
     let under = under.filter(|_| gives_way);
-    let below = opening_at(&all.parts, &blade.footing.point, LEAVES * model.width);
+    let below = opening_at(&all.parts, &blade.contact_point.point, LEAVES * model.width);
     for part in [under, below].into_iter().flatten() {
         opened.events = opened.events | all.deepen(model, part, edge.layers);
     }
@@ -83,7 +83,7 @@ pub(crate) fn advance(
 struct Edge {
     tool: usize,
     /// Where it is on the resting surface.
-    footing: Footing,
+    contact_point: ContactPoint,
     contact: Contact,
     /// How many layers it opens where it is.
     layers: usize,
@@ -117,24 +117,24 @@ impl Cuts {
             self.lift(simulation, edge.tool);
             return Opened::default();
         }
-        let at = edge.footing.point;
-        let leaps = |stroke: Stroke| (at - stroke.blade).norm() > LEAP;
+        let at = edge.contact_point.point;
+        let leaps = |cut_path: CutPath| (at - cut_path.blade).norm() > LEAP;
         if self
-            .stroke
-            .is_some_and(|stroke| stroke.tool == edge.tool && leaps(stroke))
+            .cut_path
+            .is_some_and(|cut_path| cut_path.tool == edge.tool && leaps(cut_path))
         {
             self.lift(simulation, edge.tool);
         }
-        let Some(stroke) = self.stroke else {
+        let Some(cut_path) = self.cut_path else {
             return self.put_down(simulation, model, edge);
         };
-        if stroke.tool != edge.tool {
+        if cut_path.tool != edge.tool {
             return Opened::default();
         }
-        if !stroke.opens {
+        if !cut_path.opens {
             return self.leave_opening(simulation, model, edge);
         }
-        let earlier = &self.parts[..stroke.before.parts];
+        let earlier = &self.parts[..cut_path.before.parts];
         if model.is_layered && opening_at(earlier, &at, ENTERS * model.width).is_some() {
             self.enter_opening(simulation, at);
             return Opened::default();
@@ -154,7 +154,7 @@ impl Cuts {
             lag: progress.lag,
         };
         if progress.opened > 0 {
-            self.extend(stroke, edge);
+            self.extend(cut_path, edge);
             opened.events = events(model, 0, edge.layers);
         }
         if progress.away > LEFT * simulation.typical_edge {
@@ -167,21 +167,21 @@ impl Cuts {
     fn enter_opening(&mut self, simulation: &Simulation, at: Vec3) {
         self.surface.end(&simulation.surface).ok();
         self.version += 1;
-        if let Some(stroke) = &mut self.stroke {
-            stroke.opens = false;
-            stroke.blade = at;
+        if let Some(cut_path) = &mut self.cut_path {
+            cut_path.opens = false;
+            cut_path.blade = at;
         }
     }
 
     fn set_blade(&mut self, at: Vec3) {
-        if let Some(stroke) = &mut self.stroke {
-            stroke.blade = at;
+        if let Some(cut_path) = &mut self.cut_path {
+            cut_path.blade = at;
         }
     }
 
     fn put_down(&mut self, simulation: &Simulation, model: &CuttingModel, edge: &Edge) -> Opened {
-        let at = edge.footing.point;
-        self.stroke = Some(Stroke {
+        let at = edge.contact_point.point;
+        self.cut_path = Some(CutPath {
             tool: edge.tool,
             at,
             blade: at,
@@ -202,39 +202,39 @@ impl Cuts {
         model: &CuttingModel,
         edge: &Edge,
     ) -> Opened {
-        let at = edge.footing.point;
+        let at = edge.contact_point.point;
         self.set_blade(at);
         if model.is_layered && opening_at(&self.parts, &at, LEAVES * model.width).is_some() {
             return Opened::default();
         }
         let begun = self
             .surface
-            .begin(&simulation.surface, edge.footing.triangle, &at);
-        let Some(stroke) = self.stroke.as_mut().filter(|_| begun.is_ok()) else {
+            .begin(&simulation.surface, edge.contact_point.triangle, &at);
+        let Some(cut_path) = self.cut_path.as_mut().filter(|_| begun.is_ok()) else {
             self.lift(simulation, edge.tool);
             return Opened::default();
         };
-        stroke.opens = true;
-        stroke.at = at;
+        cut_path.opens = true;
+        cut_path.at = at;
         // A triangle may have been split.
         self.version += 1;
         let mut opened = Opened::default();
         if model.is_layered {
             // It goes into the tissue before it goes along.
-            let stroke = *stroke;
-            self.extend(stroke, edge);
+            let cut_path = *cut_path;
+            self.extend(cut_path, edge);
             opened.events = events(model, 0, edge.layers);
         }
         opened
     }
 
     /// Adds a part from where `stroke` has come to.
-    fn extend(&mut self, stroke: Stroke, edge: &Edge) {
-        let at = edge.footing.point;
-        let before = self.parts[stroke.before.parts.min(self.parts.len())..].last();
-        let begins = before.is_none_or(|part| part.ends[1] != stroke.at);
+    fn extend(&mut self, cut_path: CutPath, edge: &Edge) {
+        let at = edge.contact_point.point;
+        let before = self.parts[cut_path.before.parts.min(self.parts.len())..].last();
+        let begins = before.is_none_or(|part| part.ends[1] != cut_path.at);
         self.parts.push(CutPart {
-            ends: [stroke.at, at],
+            ends: [cut_path.at, at],
             normal: edge.contact.rest_normal(),
             begins,
             layers: edge.layers,
@@ -244,15 +244,15 @@ impl Cuts {
         let room = Event::OPENS_LAYER.len() * self.parts.len();
         self.deepened
             .reserve(room.saturating_sub(self.deepened.len()));
-        if let Some(stroke) = &mut self.stroke {
-            stroke.at = at;
+        if let Some(cut_path) = &mut self.cut_path {
+            cut_path.at = at;
         }
     }
 
     /// Opens a part of a cut down to `layers`, as part of the cut that is being made.
     fn deepen(&mut self, model: &CuttingModel, part: usize, layers: usize) -> Events {
         let before = self.parts[part].layers;
-        if !model.is_layered || self.stroke.is_none() || before >= layers {
+        if !model.is_layered || self.cut_path.is_none() || before >= layers {
             return Events::NONE;
         }
         self.parts[part].layers = layers;
@@ -262,13 +262,13 @@ impl Cuts {
 
     /// Ends the cut of a tool, if it makes one.
     fn lift(&mut self, simulation: &Simulation, tool: usize) {
-        let Some(stroke) = self.stroke.filter(|stroke| stroke.tool == tool) else {
+        let Some(cut_path) = self.cut_path.filter(|cut_path| cut_path.tool == tool) else {
             return;
         };
-        self.stroke = None;
-        self.version += u64::from(stroke.opens);
-        let before = stroke.before;
-        if stroke.opens {
+        self.cut_path = None;
+        self.version += u64::from(cut_path.opens);
+        let before = cut_path.before;
+        if cut_path.opens {
             // A blade that has opened nothing leaves the surface as it was, and a puncture of its layers.
             self.surface.end(&simulation.surface).ok();
         }

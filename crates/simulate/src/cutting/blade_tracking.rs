@@ -1,6 +1,6 @@
 use nalgebra::Vector3;
 use palpate_files::scene::ToolKind;
-use palpate_geometry::{Footing, Vec3, follow};
+use palpate_geometry::{ContactPoint, Vec3, follow};
 
 use super::model::cuts;
 use super::{Cuts, CuttingModel};
@@ -13,7 +13,7 @@ use crate::tool::Tool;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Blade {
     /// Where it is on the resting surface.
-    pub(crate) footing: Footing,
+    pub(crate) contact_point: ContactPoint,
     /// Where the tip would be that is not held back [m].
     tip: Vec3,
 }
@@ -48,22 +48,35 @@ pub(crate) fn lead(
         // It begins where the tissue is held.
         let held = tip - flat(&(tip - contact.place.point));
         let way = (&tip, &held);
-        let footing = follow(&simulation.surface, &tool.patches, &contact.footing, way);
+        let contact_point = follow(
+            &simulation.surface,
+            &tool.patches,
+            &contact.contact_point,
+            way,
+        );
         Blade {
-            footing: footing.unwrap_or(contact.footing),
+            contact_point: contact_point.unwrap_or(contact.contact_point),
             tip: held,
         }
     });
     let behind = flat(&(tip - blade.tip));
-    let open = cuts.open_before(model, number, &blade.footing.point);
+    let open = cuts.open_before(model, number, &blade.contact_point.point);
     let resistance = model.resistance(open, contact.depth);
     let held = reach(resistance, tool, state).min(behind.norm());
     let goal = tip - behind.try_normalize(0.0).unwrap_or_default() * held;
     let way = (&blade.tip, &goal);
-    let footing =
-        follow(&simulation.surface, &tool.patches, &blade.footing, way).unwrap_or(contact.footing);
-    state.blade = Some(Blade { footing, tip: goal });
-    let held_at = (&footing, contact.depth);
+    let contact_point = follow(
+        &simulation.surface,
+        &tool.patches,
+        &blade.contact_point,
+        way,
+    )
+    .unwrap_or(contact.contact_point);
+    state.blade = Some(Blade {
+        contact_point,
+        tip: goal,
+    });
+    let held_at = (&contact_point, contact.depth);
     if let Some(contact) = &mut state.contact {
         contact.place = place(&simulation.ground(tool), tool, held_at, Some(&frame));
     }

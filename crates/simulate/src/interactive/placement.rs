@@ -12,7 +12,7 @@ use palpate_files::Scene;
 use palpate_files::scene::View;
 use palpate_geometry::{AabbTree, Vec3};
 
-use super::Mount;
+use super::DevicePlacement;
 use crate::{Simulation, Tool};
 
 /// How far the tip is from the organ when the handle is in its middle [m].
@@ -26,7 +26,10 @@ const STEP: f64 = 0.005;
 const STEPS: usize = 100;
 
 /// Where the device of `tool` stands.
-pub(super) fn standing((scene, simulation): (&Scene, &Simulation), tool: &Tool) -> Mount {
+pub(super) fn placement_of(
+    (scene, simulation): (&Scene, &Simulation),
+    tool: &Tool,
+) -> DevicePlacement {
     let axes = axes(&scene.view);
     let side = match tool.name.as_str() {
         _ if simulation.tools().len() < 2 => 0.0,
@@ -36,7 +39,7 @@ pub(super) fn standing((scene, simulation): (&Scene, &Simulation), tool: &Tool) 
     };
     let beside = axes.column(0) * side;
     let tip = clear_place(scene, simulation, &axes) + beside;
-    Mount {
+    DevicePlacement {
         origin: tool.fulcrum.map_or(tip, |trocar| trocar.hand(&tip)),
         rotation: UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes)),
         scale: 1.0,

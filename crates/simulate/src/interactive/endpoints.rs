@@ -5,45 +5,45 @@ use palpate_servo::{
     log,
 };
 
-use super::Mount;
+use super::DevicePlacement;
 use super::force_renderer::{ForceRenderer, hand_over};
 use crate::{Error, Simulation};
 
 /// The device of a tool and where it stands.
-pub struct Station {
+pub struct PlacedDevice {
     /// The device.
     pub device: Box<dyn Device>,
     /// Where it stands.
-    pub mount: Mount,
+    pub placement: DevicePlacement,
 }
 
-impl Station {
+impl PlacedDevice {
     /// A `device` whose frame is the scene's.
     pub fn new(device: impl Device + 'static) -> Self {
         Self {
             device: Box::new(device),
-            mount: Mount::default(),
+            placement: DevicePlacement::default(),
         }
     }
 }
 
-/// What the model has of a station: its end of both channels.
-pub(super) struct Line {
+/// The model's ends of a device's channels.
+pub(super) struct ModelEndpoint {
     pub(super) samples: Receiver<Option<Sample>>,
     pub(super) answers: Sender<AffineForce>,
-    pub(super) mount: Mount,
+    pub(super) placement: DevicePlacement,
 }
 
-/// What is watched of a station.
+/// Readings of a device's loop.
 pub(super) struct Watch {
     pub(super) samples: log::Reader<Sample>,
     pub(super) report: Receiver<LoopReport>,
 }
 
-/// A station with its loop, taken apart for those who run it.
-pub(super) struct Parts {
+/// A device with its loop, split into its ends for the threads that run it.
+pub(super) struct DeviceEndpoints {
     pub(super) servo: ServoLoop,
-    pub(super) line: Line,
+    pub(super) line: ModelEndpoint,
     pub(super) watch: Watch,
     /// Who its loop is, and when it ticks.
     pub(super) watched: Watched,
@@ -51,40 +51,41 @@ pub(super) struct Parts {
     pub(super) displays_force: bool,
 }
 
-/// The parts of every station, none for a tool without a device.
-pub(super) fn take_apart(
+/// The ends of every device, none for a tool without a device.
+pub(super) fn device_endpoints(
     simulation: &Simulation,
-    stations: Vec<Option<Station>>,
+    devices: Vec<Option<PlacedDevice>>,
     settings: ServoSettings,
     supervisor: &Supervisor,
-) -> Result<Vec<Option<Parts>>, Error> {
-    if stations.len() != simulation.tools().len() {
+) -> Result<Vec<Option<DeviceEndpoints>>, Error> {
+    if devices.len() != simulation.tools().len() {
         return Err(Error::OtherDevices {
             tools: simulation.tools().len(),
-            stations: stations.len(),
+            devices: devices.len(),
         });
     }
-    let tools = simulation.tools().iter().zip(stations);
-    let parts = tools.map(|(tool, station)| {
-        let parts = |station| Parts::new((simulation, &tool.name), station, settings, supervisor);
-        station.map(parts).transpose()
+    let tools = simulation.tools().iter().zip(devices);
+    let parts = tools.map(|(tool, device)| {
+        let parts =
+            |device| DeviceEndpoints::new((simulation, &tool.name), device, settings, supervisor);
+        device.map(parts).transpose()
     });
     parts.collect()
 }
 
-impl Parts {
+impl DeviceEndpoints {
     fn new(
         (simulation, tool): (&Simulation, &str),
-        station: Station,
+        device: PlacedDevice,
         settings: ServoSettings,
         supervisor: &Supervisor,
     ) -> Result<Self, Error> {
-        let Station { device, mount } = station;
+        let PlacedDevice { device, placement } = device;
         let (answers, heard) = channel(&AffineForce::none(f64::NEG_INFINITY));
         let hand_over = hand_over(simulation.hand_over());
         let extrapolator = Extrapolator::new(hand_over, simulation.step(), settings.period);
         let scale = simulation.force_scale();
-        let renderer = ForceRenderer::new(heard, extrapolator, mount, scale);
+        let renderer = ForceRenderer::new(heard, extrapolator, placement, scale);
         let capabilities = device.capabilities();
         let (name, displays_force) = (capabilities.name.clone(), capabilities.displays_force);
         let (servo, reader) =
@@ -96,10 +97,10 @@ impl Parts {
             },
             displays_force,
             servo,
-            line: Line {
+            line: ModelEndpoint {
                 samples: reader.latest,
                 answers,
-                mount,
+                placement,
             },
             watch: Watch {
                 samples: reader.log,

@@ -2,11 +2,11 @@
 //!
 //! At an equilibrium r(u, q) = 0, so K ∂u/∂q = −∂r/∂q: one more solution with the factors that Newton's
 //! method has made. What is held does not change with q, except where a node sticks, which remembers the
-//! change of the place at which it was caught.
+//! change of the place at which it was activated.
 //!
 //! *How we know*: `sensitivities::…` against runs with moved parameters.
 //!
-//! *Limits*: elastic tissue; the moment at which a sliding node is caught does not change with q.
+//! *Limits*: elastic tissue; the moment at which a sliding node is activated does not change with q.
 
 use super::super::model::{FiniteElementModel, FiniteElementState, FiniteElementWorkspace};
 use super::super::newton::Failure;
@@ -27,11 +27,11 @@ pub(super) struct Entry {
 
 /// ∂u/∂q of all unknowns, one column for each parameter of the law.
 #[derive(Debug, Clone)]
-pub(super) struct Slopes {
+pub(super) struct Sensitivities {
     columns: Vec<Vec<f64>>,
 }
 
-impl Slopes {
+impl Sensitivities {
     pub(super) fn at_rest(model: &FiniteElementModel) -> Self {
         let parameters = model.law.parameters().len();
         Self {
@@ -48,15 +48,15 @@ impl Slopes {
         workspace: &mut FiniteElementWorkspace,
     ) -> Result<(), Failure> {
         for (parameter, column) in self.columns.iter_mut().enumerate() {
-            let force = sensitivity::residual_by_parameter(model, state, parameter);
+            let force = sensitivity::residual_sensitivity(model, state, parameter);
             sensitivity::solve(model, supports, (state, &force), column, workspace)?;
         }
         Ok(())
     }
 
-    /// The node `entry.node` is caught: its held place moves with the parameters as the point where it
+    /// The node `entry.node` is activated: its prescribed place moves with the parameters as the point where it
     /// came in does.
-    pub(super) fn catch(&mut self, entry: &Entry, old: &Self) {
+    pub(super) fn activate(&mut self, entry: &Entry, old: &Self) {
         let Entry {
             node,
             ways,
@@ -85,7 +85,7 @@ impl Slopes {
     ) -> Vec<f64> {
         let mut product = vec![0.0; model.size()];
         let each = |(parameter, column): (usize, &Vec<f64>)| {
-            let direct = sensitivity::residual_by_parameter(model, state, parameter);
+            let direct = sensitivity::residual_sensitivity(model, state, parameter);
             model
                 .pattern
                 .multiply(&workspace.tangent, column, &mut product);

@@ -7,14 +7,14 @@ use crate::Error;
 
 /// Where the indenter is while it presses a stimulus: one that makes sense, as depth over time.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Course(Stimulus);
+pub struct DepthTrajectory(Stimulus);
 
 /// How fast the indenter goes to the depth that it swings about [m/s].
 const SETTLING_SPEED: f64 = 0.004;
 /// How long it stays there first [s].
 const SETTLED: f64 = 2.0;
 
-impl Course {
+impl DepthTrajectory {
     /// The course of `stimulus`.
     ///
     /// # Errors
@@ -195,7 +195,7 @@ mod tests {
         }
     }
 
-    fn all() -> [Course; 4] {
+    fn all() -> [DepthTrajectory; 4] {
         let ramp = Stimulus::RampAndHold {
             depth_m: 4e-3,
             ramp_s: 0.5,
@@ -207,25 +207,25 @@ mod tests {
             Sweep::Exponential([0.5, 5.0]),
         ];
         let [sine, linear, exponential] = swings.map(swing);
-        [ramp, sine, linear, exponential].map(|stimulus| Course::of(stimulus).unwrap())
+        [ramp, sine, linear, exponential].map(|stimulus| DepthTrajectory::of(stimulus).unwrap())
     }
 
     /// Speeds are differences of depths, wherever a course has no corner; the error of a central difference is
     /// that of the square of its step.
     #[test]
     fn speeds_are_those_of_the_depths() {
-        for course in all() {
+        for trajectory in all() {
             for i in 1..1000 {
                 let time = 0.0097 * f64::from(i);
-                let [before, after] = [time - 1e-5, time + 1e-5].map(|t| course.at(t));
-                if (before[1] - after[1]).abs() > 0.1 * course.fastest() {
+                let [before, after] = [time - 1e-5, time + 1e-5].map(|t| trajectory.at(t));
+                if (before[1] - after[1]).abs() > 0.1 * trajectory.fastest() {
                     continue;
                 }
                 let speed = (after[0] - before[0]) / 2e-5;
-                let off = (speed - course.at(time)[1]).abs();
-                assert!(off < 1e-5, "{course:?} at {time}: {off}");
-                assert!(course.at(time)[0] <= course.deepest() + 1e-12);
-                assert!(course.at(time)[1].abs() <= course.fastest() + 1e-12);
+                let off = (speed - trajectory.at(time)[1]).abs();
+                assert!(off < 1e-5, "{trajectory:?} at {time}: {off}");
+                assert!(trajectory.at(time)[0] <= trajectory.deepest() + 1e-12);
+                assert!(trajectory.at(time)[1].abs() <= trajectory.fastest() + 1e-12);
             }
         }
     }
@@ -250,7 +250,7 @@ mod tests {
             sweep: Sweep::Constant(1.0),
             duration_s: 3.0,
         };
-        let said = Course::of(leaving).unwrap_err().to_string();
+        let said = DepthTrajectory::of(leaving).unwrap_err().to_string();
         assert!(
             said.contains("pre-indentation less the amplitude"),
             "{said}"

@@ -5,7 +5,7 @@ const RAYS: usize = 160_000;
 
 /// How open each vertex is to light from all sides [-]: 1 on a ball, less in a hollow, as rays from there
 /// tell that meet the organ again within a third of its size.
-pub(crate) fn openness(surface: &Surface) -> Vec<f32> {
+pub(crate) fn ambient_light(surface: &Surface) -> Vec<f32> {
     let mesh = surface.mesh();
     let tree = AabbTree::new(mesh);
     let (low, high) = mesh.bounds();

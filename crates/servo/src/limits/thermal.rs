@@ -3,14 +3,14 @@
 /// What the motors have had lately: the mean of the square of the force, which forgets with a time τ.
 /// τ d(q²)/dt = F² − q².
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Heat {
+pub struct ThermalModel {
     square: f64,
 }
 
 /// The part of the continuous force from which on the largest force is folded back [-].
 const FOLDING: f64 = 0.8;
 
-impl Heat {
+impl ThermalModel {
     /// Counts a `force` [N] that was there for `dt` [s], and forgets with `time` [s].
     pub fn add(&mut self, force: f64, dt: f64, time: f64) {
         let part = -(-dt / time).exp_m1();
@@ -43,14 +43,14 @@ mod tests {
     #[test]
     fn a_peak_lasts_for_its_time_and_ends_at_the_continuous_force() {
         for (peak, continuous) in [(8.5, 1.4), (3.0, 1.4)] {
-            let mut heat = Heat::default();
+            let mut thermal = ThermalModel::default();
             let (mut began, mut force) = (None, peak);
             for tick in 0..300_000 {
-                force = heat.most(peak, continuous);
+                force = thermal.most(peak, continuous);
                 if force < peak {
                     began.get_or_insert(f64::from(tick) * 1e-3);
                 }
-                heat.add(force, 1e-3, TIME);
+                thermal.add(force, 1e-3, TIME);
             }
             let expected = -TIME * (1.0 - (FOLDING * continuous / peak).powi(2)).ln();
             // To the tick.
@@ -65,13 +65,13 @@ mod tests {
 
     #[test]
     fn rest_cools_and_a_motor_without_bounds_has_none() {
-        let mut heat = Heat::default();
-        heat.add(10.0, 60.0, TIME);
+        let mut thermal = ThermalModel::default();
+        thermal.add(10.0, 60.0, TIME);
         // Rounding.
-        assert!((heat.most(8.5, 1.4) - 1.4).abs() < 1e-12);
-        heat.add(0.0, 300.0, TIME);
-        assert_eq!(heat.most(8.5, 1.4), 8.5);
-        assert_eq!(heat.most(3.0, f64::INFINITY), 3.0);
-        assert_eq!(heat.most(1.0, 1.4), 1.0);
+        assert!((thermal.most(8.5, 1.4) - 1.4).abs() < 1e-12);
+        thermal.add(0.0, 300.0, TIME);
+        assert_eq!(thermal.most(8.5, 1.4), 8.5);
+        assert_eq!(thermal.most(3.0, f64::INFINITY), 3.0);
+        assert_eq!(thermal.most(1.0, 1.4), 1.0);
     }
 }

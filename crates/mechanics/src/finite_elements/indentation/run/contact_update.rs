@@ -1,14 +1,15 @@
 //! Which nodes touch the indenter at an equilibrium, and where that is known.
 
-use super::super::contact::{Place, Touch};
-use super::super::indenter::{Grip, IndenterShape, Side};
-use super::super::slopes::{Entry, Slopes};
+use super::super::contact::{ContactStatus, Place};
+use super::super::indenter::{IndenterShape, Side};
+use super::super::sensitivities::{Entry, Sensitivities};
 use super::{Failure, FiniteElementState, IndentationRun};
 use crate::Error;
+use crate::contact::Friction;
 
 /// A node that is deeper than this inside after a step has come in too fast [-].
 const DEEPEST_CATCH: f64 = 0.1;
-/// How far a node that pulled on a sphere or a cone may be inside without being caught again at the same depth, in
+/// How far a node that pulled on a sphere or a cone may be inside without being activated again at the same depth, in
 /// radii of the contact [-]: a hundredth of the smallest elements.
 const HAIR: f64 = 1e-3;
 
@@ -18,8 +19,8 @@ impl IndentationRun {
     pub(super) fn settle(
         &self,
         (depth, state): (f64, &FiniteElementState),
-        (touch, released): (&mut [Touch], &mut [bool]),
-        mut slopes: Option<&mut Slopes>,
+        (touch, released): (&mut [ContactStatus], &mut [bool]),
+        mut slopes: Option<&mut Sensitivities>,
     ) -> Result<bool, Failure> {
         if self.is_linear() {
             return Ok(false);
@@ -29,7 +30,7 @@ impl IndentationRun {
         for (&node, (touch, released)) in self.top.iter().zip(statuses) {
             let now = self.place(state, node, depth);
             let inside = self.indenter.inside(now) / self.scale;
-            if *touch == Touch::Free {
+            if *touch == ContactStatus::Free {
                 // Rounding is no contact, and a node that pulled does not come back for a hair.
                 let least = if *released { HAIR } else { 1e-9 };
                 if inside > least && self.has_side() {
@@ -37,7 +38,7 @@ impl IndentationRun {
                         return Err(Failure::NotConverged);
                     }
                     let then = self.place(&self.now.state, node, self.now.depth);
-                    let (caught, part) = self.indenter.catch(then, now);
+                    let (activated, part) = self.indenter.activate(then, now);
                     if let (Some(slopes), Some(old)) = (&mut slopes, &self.now.slopes) {
                         let entry = Entry {
                             node,
@@ -45,15 +46,15 @@ impl IndentationRun {
                             part,
                             rise: now.above - then.above,
                         };
-                        slopes.catch(&entry, old);
+                        slopes.activate(&entry, old);
                     }
-                    *touch = caught;
+                    *touch = activated;
                     changed = true;
                 }
             } else {
                 let force = [0, 1].map(|i| self.workspace.residual[2 * node + i]);
                 if self.indenter.lets_go(*touch, now, force) {
-                    *touch = Touch::Free;
+                    *touch = ContactStatus::Free;
                     *released = self.indenter.surface(0.0).is_some();
                     changed = true;
                 }
@@ -65,8 +66,10 @@ impl IndentationRun {
     /// Whether nodes come and go that touch without friction.
     pub(super) fn slides(&self) -> bool {
         match self.indenter.shape {
-            IndenterShape::Flat { side } => side == Side::Touches(Grip::Slide),
-            IndenterShape::Sphere | IndenterShape::Cone { .. } => self.indenter.face == Grip::Slide,
+            IndenterShape::Flat { side } => side == Side::Touches(Friction::Frictionless),
+            IndenterShape::Sphere | IndenterShape::Cone { .. } => {
+                self.indenter.face == Friction::Frictionless
+            }
         }
     }
 
@@ -83,8 +86,8 @@ impl IndentationRun {
         let (depth, radius) = (self.now.depth, self.indenter.radius);
         let place = |node: usize| self.place(&self.now.state, node, depth);
         let mut each = self.top.iter().zip(&self.now.touch);
-        let entered = |(&node, touch): (&usize, &Touch)| {
-            *touch == Touch::Free && self.indenter.inside(place(node)) > 1e-9 * radius
+        let entered = |(&node, touch): (&usize, &ContactStatus)| {
+            *touch == ContactStatus::Free && self.indenter.inside(place(node)) > 1e-9 * radius
         };
         if !self.has_side() && each.any(entered) {
             return Err(Error::TissueEntersPunch { depth });
@@ -92,7 +95,7 @@ impl IndentationRun {
         // Corners of elements: every second node.
         let corners = self.top.iter().zip(&self.now.touch).step_by(2);
         let under: Vec<f64> = corners
-            .filter(|(_, touch)| **touch == Touch::OnFace)
+            .filter(|(_, touch)| **touch == ContactStatus::OnFace)
             .map(|(&node, _)| place(node).radius)
             .collect();
         let outside = under.last().is_some_and(|&r| r > 1.05 * radius);

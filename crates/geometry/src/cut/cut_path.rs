@@ -12,7 +12,7 @@ const TURN: f64 = 0.35;
 
 /// A cut that is under way.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Stroke {
+pub(super) struct CutPath {
     pub(super) blade: Blade,
     /// Where the last vertex came from, when the edge between the two waits to be opened.
     pub(super) held: Option<NodeId>,
@@ -20,7 +20,7 @@ pub(super) struct Stroke {
     pub(super) before: Mark,
 }
 
-impl Stroke {
+impl CutPath {
     /// Triangles from the end of the opening to the blade, which is always in one around the last
     /// vertex.
     pub(super) fn lag(&self) -> usize {
@@ -66,8 +66,8 @@ impl CutSurface {
     }
 
     /// Moves the blade over the next edge on its way. Whether the way goes on.
-    pub(super) fn pass(&mut self, surface: &Surface, stroke: &mut Stroke, to: &Vec3) -> bool {
-        let blade = &mut stroke.blade;
+    pub(super) fn pass(&mut self, surface: &Surface, cut_path: &mut CutPath, to: &Vec3) -> bool {
+        let blade = &mut cut_path.blade;
         let Some(crossing) = blade.crossing(&self.net, to) else {
             return false;
         };
@@ -87,11 +87,11 @@ impl CutSurface {
             blade.rest(&self.net, &crossing.at);
             return true;
         }
-        let Some(next) = self.next_vertex(surface, stroke.held, &crossing, to) else {
-            stroke.blade.rest(&self.net, &crossing.at);
+        let Some(next) = self.next_vertex(surface, cut_path.held, &crossing, to) else {
+            cut_path.blade.rest(&self.net, &crossing.at);
             return false;
         };
-        self.extend(stroke, next);
+        self.extend(cut_path, next);
         true
     }
 
@@ -133,14 +133,14 @@ impl CutSurface {
     }
 
     /// A vertex where the blade is lifted.
-    pub(super) fn finish(&mut self, surface: &Surface, stroke: &mut Stroke) {
-        let (CutMethod::SplitTriangles, Some(place)) = (self.method, stroke.blade.inside) else {
+    pub(super) fn finish(&mut self, surface: &Surface, cut_path: &mut CutPath) {
+        let (CutMethod::SplitTriangles, Some(place)) = (self.method, cut_path.blade.inside) else {
             return;
         };
-        let front = stroke.blade.front;
+        let front = cut_path.blade.front;
         let lead = (place - self.net.position(front)).norm();
         if lead > LEAST_LEAD * self.limits.edge || self.meets_opening(front, &place) {
-            self.lead_to(surface, stroke, &place);
+            self.lead_to(surface, cut_path, &place);
         }
     }
 
@@ -155,19 +155,19 @@ impl CutSurface {
     }
 
     /// A vertex where the blade is, when it turns there.
-    pub(super) fn turn(&mut self, surface: &Surface, stroke: &mut Stroke, to: &Vec3) {
-        let (CutMethod::SplitTriangles, Some(place)) = (self.method, stroke.blade.inside) else {
+    pub(super) fn turn(&mut self, surface: &Surface, cut_path: &mut CutPath, to: &Vec3) {
+        let (CutMethod::SplitTriangles, Some(place)) = (self.method, cut_path.blade.inside) else {
             return;
         };
-        let (come, goes) = (place - self.net.position(stroke.blade.front), to - place);
+        let (come, goes) = (place - self.net.position(cut_path.blade.front), to - place);
         if come.norm() > LEAST_LEAD * self.limits.edge && come.angle(&goes) > TURN {
-            self.lead_to(surface, stroke, &place);
+            self.lead_to(surface, cut_path, &place);
         }
     }
 
     /// Leads the cut to a point [m] of the triangle in which the blade is, if a vertex can be had there.
-    fn lead_to(&mut self, surface: &Surface, stroke: &mut Stroke, place: &Vec3) {
-        let front = stroke.blade.front;
+    fn lead_to(&mut self, surface: &Surface, cut_path: &mut CutPath, place: &Vec3) {
+        let front = cut_path.blade.front;
         let last = self.net.node_at(front);
         let made = split::insert(&mut self.net, surface, front.triangle, place, &self.limits);
         let Some(made) = made.filter(|&made| self.net.node_at(made) != last) else {
@@ -180,19 +180,19 @@ impl CutSurface {
             .expect("a vertex in a triangle around the last one is its neighbour");
         let corners = self.net.mesh.corners(next.triangle);
         let place = corners.iter().position(|&corner| corner == last);
-        stroke.blade.front = Corner {
+        cut_path.blade.front = Corner {
             triangle: next.triangle,
             place: place.expect("the triangle was found by this corner"),
         };
-        self.extend(stroke, next);
+        self.extend(cut_path, next);
     }
 
     /// Opens the edge from the last vertex to the next, which is a corner of the same triangle, and
     /// puts the blade there. The first edge of a slit waits for the second: opened alone it would
     /// leave both sides with the same two vertices.
-    fn extend(&mut self, stroke: &mut Stroke, next: Corner) {
-        let front = stroke.blade.front;
-        stroke.blade = Blade {
+    fn extend(&mut self, cut_path: &mut CutPath, next: Corner) {
+        let front = cut_path.blade.front;
+        cut_path.blade = Blade {
             front: next,
             inside: None,
         };
@@ -202,27 +202,27 @@ impl CutSurface {
             (next.place, Side::Right)
         };
         let (from, to) = (self.net.node_at(front), self.net.node_at(next));
-        let returns = stroke.held == Some(to);
+        let returns = cut_path.held == Some(to);
         if returns {
-            stroke.held = Some(from);
+            cut_path.held = Some(from);
         }
         if returns || self.net.facet(front.triangle).open[edge].is_some() {
             return;
         }
-        if let Some(start) = stroke.held.take() {
+        if let Some(start) = cut_path.held.take() {
             let spoke = self.net.around(front).find(|corner| {
                 self.net.mesh.corners(corner.triangle)[(corner.place + 1) % 3] == start
             });
             if let Some(corner) = spoke {
                 self.net.open(corner.triangle, corner.place, Side::Right);
-                stroke.opened += 1;
+                cut_path.opened += 1;
             }
         }
         if self.net.openings_at(front) == 0 && self.net.openings_at(next) == 0 {
-            stroke.held = Some(from);
+            cut_path.held = Some(from);
             return;
         }
         self.net.open(front.triangle, edge, side);
-        stroke.opened += 1;
+        cut_path.opened += 1;
     }
 }

@@ -5,13 +5,13 @@ use palpate_files::recording::{RecordingHeader, RecordingRow};
 use palpate_servo::{Fault, log};
 
 use super::console::Switches;
-use super::{Order, Told};
+use super::{RigCommand, RigEvent};
 use crate::{Axes, Ended, Error, Phase, Recorded, Recorder, RigSample};
 
 /// A recording that is to be made.
 #[derive(Debug, Clone)]
 pub struct Commission {
-    /// Its number in [`Order::Press`].
+    /// Its number in [`RigCommand::Press`].
     pub number: u64,
     /// Where it shall be.
     pub file: PathBuf,
@@ -21,13 +21,13 @@ pub struct Commission {
 
 /// What happened.
 #[derive(Debug)]
-pub enum News {
-    /// The rig begins with an order.
-    Begun(Order),
-    /// It is done with an order.
-    Ended(Order, Result<Ended, Error>),
-    /// It did not begin with an order that had become stale.
-    Dropped(Order),
+pub enum ConsoleEvent {
+    /// The rig begins a command.
+    Begun(RigCommand),
+    /// It has ended a command.
+    Ended(RigCommand, Result<Ended, Error>),
+    /// It dropped a stale command.
+    Dropped(RigCommand),
     /// Something happened while it waited.
     Disturbed(Error),
     /// Forces are off.
@@ -69,11 +69,11 @@ impl Unwritten {
 }
 
 /// Writes what the rig says, and passes it on.
-pub(super) struct Clerk {
-    pub(super) told: log::Reader<Told>,
+pub(super) struct LogWriter {
+    pub(super) told: log::Reader<RigEvent>,
     pub(super) commissions: Receiver<Commission>,
     pub(super) samples: log::Writer<RigSample>,
-    pub(super) news: Sender<News>,
+    pub(super) news: Sender<ConsoleEvent>,
     pub(super) switches: Switches,
     pub(super) open: Option<Open>,
 }
@@ -86,35 +86,35 @@ pub(super) struct Open {
     rows: Vec<RecordingRow>,
 }
 
-impl Clerk {
+impl LogWriter {
     /// Takes what has been told so far.
     pub(super) fn read(&mut self) {
         while let Some(told) = self.told.next_value() {
             match told {
-                Told::Sample(sample) => self.take(&sample),
-                Told::Begun(order) => {
-                    self.begin(order);
-                    self.pass_on(News::Begun(order));
+                RigEvent::Sample(sample) => self.take(&sample),
+                RigEvent::Begun(command) => {
+                    self.begin(command);
+                    self.pass_on(ConsoleEvent::Begun(command));
                 }
-                Told::Ended(order, ended) => {
+                RigEvent::Ended(command, ended) => {
                     self.finish(&ended);
-                    self.pass_on(News::Ended(order, ended));
+                    self.pass_on(ConsoleEvent::Ended(command, ended));
                 }
-                Told::Dropped(order) => self.pass_on(News::Dropped(order)),
-                Told::Disturbed(error) => self.pass_on(News::Disturbed(error)),
-                Told::Faulted(fault) => self.pass_on(News::Faulted(fault)),
-                Told::Armed => self.pass_on(News::Armed),
+                RigEvent::Dropped(command) => self.pass_on(ConsoleEvent::Dropped(command)),
+                RigEvent::Disturbed(error) => self.pass_on(ConsoleEvent::Disturbed(error)),
+                RigEvent::Faulted(fault) => self.pass_on(ConsoleEvent::Faulted(fault)),
+                RigEvent::Armed => self.pass_on(ConsoleEvent::Armed),
             }
         }
     }
 
-    fn pass_on(&self, news: News) {
+    fn pass_on(&self, news: ConsoleEvent) {
         // A window that is gone hears nothing; its recordings are written all the same.
         let _ = self.news.send(news);
     }
 
-    fn begin(&mut self, order: Order) {
-        let Order::Press(_, number) = order else {
+    fn begin(&mut self, command: RigCommand) {
+        let RigCommand::Press(_, number) = command else {
             return;
         };
         let own = self
@@ -151,7 +151,11 @@ impl Clerk {
         };
         match recorder.finish(ended) {
             Ok(recorded) => {
-                self.pass_on(News::Recorded(open.commission.number, recorded, open.rows));
+                self.pass_on(ConsoleEvent::Recorded(
+                    open.commission.number,
+                    recorded,
+                    open.rows,
+                ));
             }
             Err(error) => self.give_up(open, error),
         }
@@ -160,7 +164,7 @@ impl Clerk {
     /// Nothing is pressed that is not recorded.
     fn give_up(&mut self, open: Open, error: palpate_files::Error) {
         self.switches.stop();
-        self.pass_on(News::Unwritten(Box::new(Unwritten {
+        self.pass_on(ConsoleEvent::Unwritten(Box::new(Unwritten {
             commission: open.commission,
             rows: open.rows,
             error,
@@ -190,28 +194,28 @@ impl Open {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Course;
+    use crate::DepthTrajectory;
     use palpate_files::Recording;
     use palpate_files::protocol::Stimulus;
     use palpate_servo::Vec3;
     use palpate_servo::log::Writer;
     use std::sync::mpsc::channel;
 
-    struct Desk {
-        clerk: Clerk,
-        told: Writer<Told>,
-        news: Receiver<News>,
+    struct TestBench {
+        log_writer: LogWriter,
+        told: Writer<RigEvent>,
+        news: Receiver<ConsoleEvent>,
         commissions: Sender<Commission>,
         samples: log::Reader<RigSample>,
-        course: Course,
+        trajectory: DepthTrajectory,
     }
 
-    fn desk() -> Desk {
+    fn test_bench() -> TestBench {
         let (told, told_reader) = log::ring(100);
         let (samples, samples_reader) = log::ring(4);
         let (news, news_reader) = channel();
         let (commissions, commissioned) = channel();
-        let clerk = Clerk {
+        let log_writer = LogWriter {
             told: told_reader,
             commissions: commissioned,
             samples,
@@ -219,18 +223,18 @@ mod tests {
             switches: Switches::default(),
             open: None,
         };
-        let course = Course::of(Stimulus::RampAndHold {
+        let trajectory = DepthTrajectory::of(Stimulus::RampAndHold {
             depth_m: 4e-3,
             ramp_s: 0.5,
             hold_s: 1.0,
         });
-        Desk {
-            clerk,
+        TestBench {
+            log_writer,
             told,
             news: news_reader,
             commissions,
             samples: samples_reader,
-            course: course.unwrap(),
+            trajectory: trajectory.unwrap(),
         }
     }
 
@@ -250,8 +254,8 @@ mod tests {
         }
     }
 
-    impl Desk {
-        fn ask(&self, number: u64, file: PathBuf) -> Order {
+    impl TestBench {
+        fn ask(&self, number: u64, file: PathBuf) -> RigCommand {
             let header = RecordingHeader::default();
             let commission = Commission {
                 number,
@@ -259,18 +263,18 @@ mod tests {
                 header,
             };
             self.commissions.send(commission).unwrap();
-            Order::Press(self.course, number)
+            RigCommand::Press(self.trajectory, number)
         }
 
         /// Thirty samples on the way and thirty of a stimulus, which then `ended`.
-        fn press(&mut self, order: Order, ended: Result<Ended, Error>) {
-            self.told.add(Told::Begun(order));
+        fn press(&mut self, command: RigCommand, ended: Result<Ended, Error>) {
+            self.told.add(RigEvent::Begun(command));
             for tick in 0..60 {
                 let phase = [Phase::Waiting, Phase::Pressing][usize::from(tick >= 30)];
-                self.told.add(Told::Sample(sample(tick, phase)));
+                self.told.add(RigEvent::Sample(sample(tick, phase)));
             }
-            self.told.add(Told::Ended(order, ended));
-            self.clerk.read();
+            self.told.add(RigEvent::Ended(command, ended));
+            self.log_writer.read();
         }
     }
 
@@ -280,20 +284,20 @@ mod tests {
     fn a_fault_is_recorded() {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("one.csv");
-        let mut desk = desk();
-        let order = desk.ask(3, file.clone());
-        desk.press(order, Err(Error::Device(Fault::EmergencyStop)));
+        let mut test_bench = test_bench();
+        let command = test_bench.ask(3, file.clone());
+        test_bench.press(command, Err(Error::Device(Fault::EmergencyStop)));
         let read = Recording::read(&file).unwrap();
         assert_eq!(read.time_s().len(), 30);
         assert_eq!(read.time_s()[0], 0.0);
         let why = read.header.cut_short().unwrap();
         assert_eq!(why, "the emergency stop was pressed");
-        assert_eq!(desk.samples.lost(), 56);
-        let news: Vec<News> = desk.news.try_iter().collect();
+        assert_eq!(test_bench.samples.lost(), 56);
+        let news: Vec<ConsoleEvent> = test_bench.news.try_iter().collect();
         let [
-            News::Begun(_),
-            News::Recorded(3, recorded, rows),
-            News::Ended(..),
+            ConsoleEvent::Begun(_),
+            ConsoleEvent::Recorded(3, recorded, rows),
+            ConsoleEvent::Ended(..),
         ] = &news[..]
         else {
             panic!("{news:?}");
@@ -319,20 +323,24 @@ mod tests {
             let is_last = |line: &String| line.starts_with("time_s");
             assert!(lines.map_while(Result::ok).any(|line| is_last(&line)));
         });
-        let mut desk = desk();
-        let order = desk.ask(1, file);
-        desk.told.add(Told::Begun(order));
-        desk.told.add(Told::Sample(sample(0, Phase::Pressing)));
-        desk.clerk.read();
+        let mut test_bench = test_bench();
+        let command = test_bench.ask(1, file);
+        test_bench.told.add(RigEvent::Begun(command));
+        test_bench
+            .told
+            .add(RigEvent::Sample(sample(0, Phase::Pressing)));
+        test_bench.log_writer.read();
         reader.join().unwrap();
         // Rows are brought to the disk at least every 200.
         for tick in 1..300 {
-            desk.told.add(Told::Sample(sample(tick, Phase::Pressing)));
-            desk.clerk.read();
+            test_bench
+                .told
+                .add(RigEvent::Sample(sample(tick, Phase::Pressing)));
+            test_bench.log_writer.read();
         }
-        assert_eq!(desk.clerk.switches.stops(), 1);
-        let unwritten = desk.news.try_iter().find_map(|news| match news {
-            News::Unwritten(unwritten) => Some(unwritten),
+        assert_eq!(test_bench.log_writer.switches.stops(), 1);
+        let unwritten = test_bench.news.try_iter().find_map(|news| match news {
+            ConsoleEvent::Unwritten(unwritten) => Some(unwritten),
             _ => None,
         });
         let unwritten = unwritten.unwrap();
@@ -350,21 +358,21 @@ mod tests {
     #[test]
     fn nothing_is_pressed_that_is_not_recorded() {
         let folder = tempfile::tempdir().unwrap();
-        let mut desk = desk();
-        let order = desk.ask(1, folder.path().join("missing").join("one.csv"));
-        desk.press(order, Ok(Ended::Stopped));
-        assert_eq!(desk.clerk.switches.stops(), 1);
-        let said = |news: News| match news {
-            News::Unwritten(unwritten) => Some(unwritten),
+        let mut test_bench = test_bench();
+        let command = test_bench.ask(1, folder.path().join("missing").join("one.csv"));
+        test_bench.press(command, Ok(Ended::Stopped));
+        assert_eq!(test_bench.log_writer.switches.stops(), 1);
+        let said = |news: ConsoleEvent| match news {
+            ConsoleEvent::Unwritten(unwritten) => Some(unwritten),
             _ => None,
         };
-        let unwritten = desk.news.try_iter().find_map(said).unwrap();
+        let unwritten = test_bench.news.try_iter().find_map(said).unwrap();
         assert!(unwritten.error.to_string().contains("missing"));
-        let refused = desk.ask(2, folder.path().join("two.csv"));
-        desk.told.add(Told::Begun(refused));
-        let told = Told::Ended(refused, Err(Error::NotApproached));
-        desk.told.add(told);
-        desk.clerk.read();
+        let refused = test_bench.ask(2, folder.path().join("two.csv"));
+        test_bench.told.add(RigEvent::Begun(refused));
+        let told = RigEvent::Ended(refused, Err(Error::NotApproached));
+        test_bench.told.add(told);
+        test_bench.log_writer.read();
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
     }
 }

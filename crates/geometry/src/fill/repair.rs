@@ -3,7 +3,7 @@ use crate::{NodeId, Vec3};
 
 /// The largest piece whose boundary is manifold, and the volume of what was taken away [m³]. Each round
 /// takes something away, so that there is a last one; two are usual where any are needed.
-pub(super) fn one_sound_piece(
+pub(super) fn largest_component(
     vertices: &[Vec3],
     mut tetrahedra: Vec<[NodeId; 4]>,
 ) -> (Vec<[NodeId; 4]>, f64) {
@@ -189,7 +189,7 @@ mod tests {
         for (part, seed) in [(50, 10), (60, 76), (65, 2), (75, 29)] {
             let (vertices, tetrahedra) = sieve(6, part, seed);
             let all = volume(&vertices, &tetrahedra);
-            let (left, lost) = one_sound_piece(&vertices, tetrahedra);
+            let (left, lost) = largest_component(&vertices, tetrahedra);
             assert!(!left.is_empty() && !at_pinches(vertices.len(), &left).contains(&true));
             assert_eq!(pieces(&left).iter().max(), Some(&0));
             // Rounding.

@@ -3,7 +3,7 @@ use std::time::Duration;
 /// How much work a picture may be: a slow machine draws fewer samples, then fewer pixels, and never keeps
 /// the touch waiting.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Effort {
+pub(super) struct RenderQuality {
     rung: usize,
     slow: u32,
     quick: u32,
@@ -20,7 +20,7 @@ const QUICK: Duration = Duration::from_millis(24);
 const PATIENCE: u32 = 8;
 const HOPE: u32 = 180;
 
-impl Effort {
+impl RenderQuality {
     /// Everything, or less where the processor draws.
     pub(super) fn new(is_software: bool) -> Self {
         Self {
@@ -66,30 +66,30 @@ mod tests {
 
     #[test]
     fn samples_go_before_pixels_and_come_back_after_them() {
-        let mut effort = Effort::new(false);
-        let mut seen = vec![(effort.samples(), effort.scale())];
+        let mut render_quality = RenderQuality::new(false);
+        let mut seen = vec![(render_quality.samples(), render_quality.scale())];
         for _ in 0..60 {
-            effort.count(Duration::from_millis(150), false);
-            seen.push((effort.samples(), effort.scale()));
+            render_quality.count(Duration::from_millis(150), false);
+            seen.push((render_quality.samples(), render_quality.scale()));
         }
         seen.dedup();
         assert_eq!(seen, LADDER);
         for _ in 0..1000 {
-            effort.count(Duration::from_millis(10), false);
+            render_quality.count(Duration::from_millis(10), false);
         }
         assert_eq!(
-            effort,
-            Effort {
-                quick: effort.quick,
-                ..Effort::new(false)
+            render_quality,
+            RenderQuality {
+                quick: render_quality.quick,
+                ..RenderQuality::new(false)
             }
         );
     }
 
     #[test]
     fn a_late_touch_lowers_a_quick_picture() {
-        let mut effort = Effort::new(false);
-        (0..PATIENCE).for_each(|_| effort.count(Duration::from_millis(10), true));
-        assert_eq!(effort.samples(), 1);
+        let mut render_quality = RenderQuality::new(false);
+        (0..PATIENCE).for_each(|_| render_quality.count(Duration::from_millis(10), true));
+        assert_eq!(render_quality.samples(), 1);
     }
 }

@@ -2,7 +2,7 @@ use palpate_servo::{Supervisor, log};
 
 /// What a window asks of the model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Order {
+pub enum ModelCommand {
     /// Stands still, without a force, until it shall go on.
     Pause,
     /// Goes on.
@@ -15,7 +15,7 @@ pub enum Order {
     Mark,
 }
 
-impl Order {
+impl ModelCommand {
     /// What it means for the forces of the devices.
     pub(super) fn supervise(self, supervisor: &Supervisor) {
         match self {
@@ -29,7 +29,7 @@ impl Order {
 /// Orders that have room until the model's next step.
 const ROOM: usize = 64;
 
-/// Ends of the way that orders take.
-pub(super) fn orders() -> (log::Writer<Order>, log::Reader<Order>) {
+/// The two ends of the channel of commands.
+pub(super) fn commands() -> (log::Writer<ModelCommand>, log::Reader<ModelCommand>) {
     log::ring(ROOM)
 }
