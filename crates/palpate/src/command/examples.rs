@@ -157,11 +157,6 @@ const ALL: &[Example] = &[
         "the same beam under a load, predicted"
     ),
     example!("problems/beam.msh", "problems/beam.msh", "its tetrahedra"),
-    example!(
-        "problems/silicone.toml",
-        "problems/silicone.toml",
-        "the tissue that the fit writes"
-    ),
 ];
 
 /// Writes them all, or none where one is there.
