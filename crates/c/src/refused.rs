@@ -92,7 +92,7 @@ pub(crate) enum Refused {
     Busy,
     /// An earlier panic left it as it was.
     #[error(
-        "an earlier call on this state panicked, and nobody knows how it was left; free it and make a new one"
+        "an earlier call on this state panicked, and the state is not valid; free it and make a new one"
     )]
     Broken,
     /// A defect here.

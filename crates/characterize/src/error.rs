@@ -3,6 +3,7 @@ use palpate_files::tissue::LawName;
 use crate::fit::Parameter;
 
 /// Why something cannot be found from a recording.
+#[non_exhaustive]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Error {
     /// The samples are too few.

@@ -3,6 +3,7 @@ use std::io;
 use crate::Kind;
 
 /// Why a device cannot be opened.
+#[non_exhaustive]
 #[derive(Debug, thiserror::Error)]
 pub enum OpenError {
     /// Nobody listens where the service should be.

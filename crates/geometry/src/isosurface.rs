@@ -67,6 +67,7 @@ pub struct Isosurface {
 }
 
 /// Why there is no surface.
+#[non_exhaustive]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum IsosurfaceError {
     /// No voxel has the label.

@@ -80,6 +80,7 @@ impl Simplified {
 }
 
 /// Why a mesh is not simplified.
+#[non_exhaustive]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SimplifyError {
     /// Fewer triangles than bound a solid.

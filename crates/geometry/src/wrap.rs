@@ -73,6 +73,7 @@ pub struct Wrapped {
 }
 
 /// Why there is no envelope.
+#[non_exhaustive]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum WrapError {
     /// A distance that is none.

@@ -1,4 +1,5 @@
 /// Why something cannot be measured.
+#[non_exhaustive]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Error {
     /// A number of a stimulus makes no sense.

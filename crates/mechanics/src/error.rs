@@ -1,6 +1,7 @@
 mod is_input;
 
 /// What a model cannot be made of.
+#[non_exhaustive]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Error {
     /// Young's modulus is not a positive number.
@@ -253,7 +254,7 @@ pub enum Error {
     },
     /// A patch on a hemisphere leaves nothing free above the base.
     #[error(
-        "the patch has a radius of {patch_radius} m, and the base is held {quarter} m from the pole; give a radius below 0.99 of that"
+        "the patch has a radius of {patch_radius} m, and the fixed base is {quarter} m from the pole; give a radius below 0.99 of that"
     )]
     PatchReachesBase {
         /// The value given [m].
@@ -279,7 +280,7 @@ pub enum Error {
     NothingHeld,
     /// A piece of the body is not held.
     #[error(
-        "the body has {pieces} pieces, and the one at {place:?} m is not held; hold each of them, or join them"
+        "the body has {pieces} pieces, and the one at {place:?} m is not fixed; fix each of them, or join them"
     )]
     LoosePiece {
         /// A vertex of the piece [m].
@@ -313,7 +314,7 @@ pub enum Error {
     },
     /// The anchor and the patch have nodes in common.
     #[error(
-        "{:.0} % of the patch is held by the anchor; move the patch, or make the anchor smaller", 100.0 * part
+        "{:.0} % of the patch lies in the anchor; move the patch, or make the anchor smaller", 100.0 * part
     )]
     PatchIsHeld {
         /// Part of the nodes of the patch [-].
@@ -392,7 +393,7 @@ pub enum Error {
     },
     /// Triangles are to be touched that cannot move.
     #[error(
-        "{triangles} of the triangles that can be touched are held by the anchor; touch others, or make the anchor smaller"
+        "{triangles} of the triangles that can be touched lie in the anchor; touch others, or make the anchor smaller"
     )]
     TouchableIsHeld {
         /// How many.

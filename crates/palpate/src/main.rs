@@ -46,7 +46,7 @@ fn main() -> ExitCode {
 
 /// Without a desktop session, Mesa's layer that chooses a device asks Wayland in vain, and prints an error of which
 /// nobody here is the cause.
-#[allow(unsafe_code, reason = "drivers are told by the environment alone")]
+#[allow(unsafe_code, reason = "drivers read the environment alone")]
 fn quieten_driver() {
     if std::env::var_os("XDG_RUNTIME_DIR").is_none() {
         // SAFETY: no other thread runs yet.

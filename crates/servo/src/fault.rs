@@ -1,5 +1,6 @@
 /// Why forces are off, or a loop cannot be made. A plain value, so that it leaves the loop without
 /// allocation.
+#[non_exhaustive]
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum Fault {
     /// The controller gave a force that is no number.

@@ -124,6 +124,7 @@ impl ForceSensorSpec {
 }
 
 /// Why there is no force. A plain value, so that it leaves the loop without allocation.
+#[non_exhaustive]
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum SensorFault {
     /// Nothing came.

@@ -4,6 +4,7 @@ use palpate_devices::OpenError;
 use palpate_geometry::{MeshError, OrganError, ReadError, SimplifyError};
 
 /// Why a scene cannot be simulated.
+#[non_exhaustive]
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// A file of the scene is wrong or cannot be read.

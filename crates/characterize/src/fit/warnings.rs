@@ -24,7 +24,7 @@ pub fn warnings(fit: &Fit, uncertainty: &Uncertainty, duration: Option<f64>) -> 
         // Of an exact fit nothing is left to be better by.
         Stop::NoBetter if is_exact(fit) => None,
         Stop::NoBetter => Some("no further step was better"),
-        Stop::NoDerivatives => Some("the model had no answer beside the last one"),
+        Stop::NoDerivatives => Some("the model has no answer near the last one"),
         Stop::Iterations => Some("its steps were used up"),
     };
     sentences.extend(early.map(|why| format!("the fit stopped before it arrived, as {why}")));

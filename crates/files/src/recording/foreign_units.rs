@@ -110,7 +110,7 @@ impl Quantity<'_> {
             place: table.column_place(),
             key: key.to_owned(),
             accepted: format!(
-                "{}, in brackets behind the name or stated beside it",
+                "{}, in brackets behind the name or next to it",
                 either(&units)
             ),
         }

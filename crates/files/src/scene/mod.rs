@@ -75,7 +75,7 @@ impl Scene {
         Key::tables(
             "neighbour",
             Neighbour::KEYS,
-            "Bodies that are shown beside the organ and not deformed.",
+            "Rigid bodies that are shown with the organ.",
         )
         .optional("", "none"),
         Key::table("model", Model::KEYS, "How the organ is moved.").optional("", "the defaults of its keys"),
@@ -162,8 +162,8 @@ impl Scene {
         if scene.lacks_anchor() {
             return Err(organ.missing(
                 "anchor",
-                "regions that are held, such as `[organ.anchor]` with `planes`, \
-                 for a model of the whole organ cannot compute a body that nothing holds",
+                "fixed regions, such as `[organ.anchor]` with `planes`, \
+                 for a global model needs a fixed part of the body",
             ));
         }
         Ok(scene)

@@ -132,7 +132,7 @@ fn choose(organ: &Organ, tools: &[Tool], cuts: bool) -> (ModelKind, &'static str
     let any = |kinds: &[ToolKind]| tools.iter().any(|tool| kinds.contains(&tool.kind));
     let is_held = organ.anchor.is_some() || matches!(organ.shape, Shape::Builtin { .. });
     if !is_held {
-        let reason = "the scene does not say where its mesh is held (organ.anchor)";
+        let reason = "the scene does not say where its mesh is fixed (organ.anchor)";
         return (ModelKind::Local, reason);
     }
     if cuts || any(&[ToolKind::Scissors, ToolKind::Hook]) || !organ.layers.is_empty() {

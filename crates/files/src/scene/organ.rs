@@ -97,9 +97,9 @@ impl Organ {
         Key::table(
             "anchor",
             Region::KEYS,
-            "Where it is held: triangles whose centroid lies in one of these regions.",
+            "The fixed part: triangles whose centroid lies in one of these regions.",
         )
-        .optional("", "where a built-in organ grows; a mesh is held nowhere, which only the local model can do"),
+        .optional("", "the attachment of a built-in organ; none of a mesh, which only the local model allows"),
         Key::table("touchable", Region::KEYS, "Where tools may touch it; the hybrid model prepares no more than this.")
             .optional("", "everywhere"),
         Key::tables(

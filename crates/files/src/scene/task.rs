@@ -71,7 +71,7 @@ fn expert(keys: &Keys<'_>, folder: &Path) -> Result<Option<PathBuf>, Error> {
     match keys.text("expert")? {
         Some(path) if plain(Path::new(&path)).as_os_str().is_empty() => Err(keys.bad(
             "expert",
-            "the folder of an expert's session; beside its own scene a session would be judged against itself",
+            "the folder of an expert's session; with its own scene a session would be judged against itself",
         )),
         path => Ok(path.map(|path| folder.join(path))),
     }
@@ -162,7 +162,7 @@ const TRACTION: &[Key] = &[
     Key::number(
         "tolerance_n",
         Domain::FORCE,
-        "How far beside it still counts.",
+        "The largest distance from it that counts.",
     )
     .required("0.1"),
     Key::number(
@@ -193,7 +193,7 @@ const CUT: &[Key] = &[
     Key::number(
         "tolerance_m",
         Domain::LENGTH,
-        "How far beside the line still counts.",
+        "The largest distance from the line that counts.",
     )
     .required("0.002"),
     Key::integer(

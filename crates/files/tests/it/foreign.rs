@@ -69,7 +69,7 @@ fn what_is_wrong_with_a_foreign_table_is_named() {
     assert_eq!(
         refused("above\nt_s,d,f_N\n0,1,2\n", &wanted),
         "a.csv line 2: the unit of `d` is not known here; use m, cm, mm, um or nm, \
-         in brackets behind the name or stated beside it"
+         in brackets behind the name or next to it"
     );
     assert_eq!(
         refused("t_s,d,force\n0,1,2\n", &wanted),

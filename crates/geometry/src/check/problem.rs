@@ -13,6 +13,7 @@ pub struct MeshProblem {
 }
 
 /// The problems that a mesh can have.
+#[non_exhaustive]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ProblemKind {

@@ -1,6 +1,7 @@
 use crate::Vec3;
 
 /// Why a blade does not cut.
+#[non_exhaustive]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CutError {
     /// A coordinate of the blade is NaN or infinite.

@@ -23,6 +23,7 @@ impl ReadError {
 }
 
 /// What is wrong with a mesh file. Each message says what was found, what was expected and the remedy.
+#[non_exhaustive]
 #[derive(Debug, thiserror::Error)]
 pub enum ReadFault {
     /// No file of that name.

@@ -1,4 +1,5 @@
 /// What is wrong with a mesh that was asked for.
+#[non_exhaustive]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MeshError {
     /// There is nothing to work on.

@@ -2,6 +2,7 @@ use super::Organ;
 use crate::MeshError;
 
 /// Why a built-in organ could not be made.
+#[non_exhaustive]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum OrganError {
     /// No built-in has this name.

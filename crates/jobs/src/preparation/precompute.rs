@@ -43,7 +43,7 @@ pub fn precompute(
 ) -> Result<Precomputed, Error> {
     if scene.model.kind == ModelKind::Nonlinear {
         return Err(Error::input(
-            "nothing is kept of `model.kind = \"nonlinear\"`: it is ready in seconds; simulate the scene",
+            "nothing is cached for `model.kind = \"nonlinear\"`: it is ready in seconds; simulate the scene",
         ));
     }
     scene.model.kind = ModelKind::Hybrid;

@@ -144,7 +144,7 @@ const ALL: &[Example] = &[
     example!(
         "problems/kidney.toml",
         "problems/kidney.toml",
-        "an organ, held and moved"
+        "an organ, fixed and moved"
     ),
     example!(
         "problems/beam_weight.toml",

@@ -79,7 +79,7 @@ fn text(answer: &Precomputed) -> String {
     match &answer.file {
         Some(file) if answer.was_kept => format!("{what}\nkept before in {}", file.display()),
         Some(file) => format!("{what}\nkept in {}", file.display()),
-        None => format!("{what}\nnot kept"),
+        None => format!("{what}\nnot cached"),
     }
 }
 

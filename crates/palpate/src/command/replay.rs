@@ -70,7 +70,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         (None, Some(scene)) => scene,
         (None, None) => {
             return Err(Failure::input(format!(
-                "{} has no scene.toml beside its session; name the scene with --scene SCENE.toml",
+                "{} has no scene.toml next to its session; name the scene with --scene SCENE.toml",
                 arguments.session.display()
             )));
         }

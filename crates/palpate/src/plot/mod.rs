@@ -60,7 +60,7 @@ pub(crate) fn write_pair(plots: [&Plot; 2], path: &Path) -> Result<(), Failure> 
     let png = drawing::png_of_two(printable.each_ref()).map_err(|cause| {
         let title = &plots[0].title;
         Failure::failed(format!(
-            "the plots beside `{title}` cannot be drawn ({cause}); please report this"
+            "the plots of `{title}` cannot be drawn ({cause}); please report this"
         ))
     })?;
     Ok(palpate_files::write_whole(path, &png)?)

@@ -240,7 +240,7 @@ fn a_page_has_learning_curves() {
     let parts = texts(&document, "h3");
     for part in [
         "Attempts",
-        "Latest attempts beside the experts",
+        "Latest attempts compared with the experts",
         "Provenance",
     ] {
         assert!(parts.iter().any(|own| own == part), "{part}: {parts:?}");

@@ -31,7 +31,13 @@ fn a_run_per_rate_with_every_tool() {
             assert!(tool["peak_force_n"].as_f64().unwrap() <= 1.5);
             let faults = tool["faults"].as_u64().unwrap();
             assert!(faults > 0 || tool.get("fault").is_none(), "{run}");
-            for stage in ["let_go", "damped", "walls", "shortened", "cooled"] {
+            for stage in [
+                "dead_man_released",
+                "damped",
+                "walls",
+                "saturated",
+                "thermally_limited",
+            ] {
                 assert_eq!(tool["limited_ticks"][stage], 0, "{stage}: {run}");
             }
         }

@@ -89,7 +89,7 @@ impl Body {
             point: high - HELD * (high - low),
             normal: -Vec3::y(),
         };
-        let whose = format!("{whose}, held on the back quarter");
+        let whose = format!("{whose}, fixed on the back quarter");
         Self::held(Surface::new(mesh)?, &[plane], &whose)
     }
 

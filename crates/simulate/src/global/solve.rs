@@ -57,7 +57,7 @@ pub(super) fn response(
     if let Some(place) = &file {
         tell(watch, Work::Storing)?;
         if let Err(error) = store(ingredients, &response, place) {
-            warnings.push(format!("the organ's response is not kept: {error}"));
+            warnings.push(format!("the organ's response is not cached: {error}"));
             file = None;
         }
     }

@@ -1,4 +1,4 @@
-//! A score beside those of experts.
+//! A score compared with experts.
 
 use super::{Better, Measure, Score};
 

@@ -62,7 +62,7 @@ fn why_not(task: &Task, score: &Score) -> String {
             },
             _,
         ) => {
-            format!("the mark is {} beside the lump", millimetres(*off))
+            format!("the mark is {} from the lump", millimetres(*off))
         }
         (
             Outcome::Traction {
@@ -81,7 +81,7 @@ fn why_not(task: &Task, score: &Score) -> String {
             match line {
                 Some(line) if line.largest_deviation > *tolerance_m => {
                     format!(
-                        "the cut is {} beside the line",
+                        "the cut is {} from the line",
                         millimetres(line.largest_deviation)
                     )
                 }
@@ -268,7 +268,7 @@ mod tests {
         let missed = told(find(0.02), Event::Mark.into(), 0.1, 1);
         assert_eq!(
             missed.verdict,
-            "Not passed: the mark is 20 mm beside the lump"
+            "Not passed: the mark is 20 mm from the lump"
         );
         assert!(missed.change.contains("same depth"));
         let found = told(find(0.002), Event::Mark.into(), 0.1, 1);

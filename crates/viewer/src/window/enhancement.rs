@@ -16,7 +16,7 @@ pub(super) fn show(window: &mut SimulatorWindow, ui: &mut Ui) {
         .and_then(|play| play.simulation.enhancement())
         .map(|of_scene| chosen.unwrap_or(*of_scene));
     let (Some(mut wanted), Some(play)) = (wanted, &mut window.play) else {
-        let hint = "around a tip the whole organ's model can show finer triangles";
+        let hint = "around a tip the global model can show finer triangles";
         ui.label(RichText::new(hint).small().color(QUIET));
         return;
     };

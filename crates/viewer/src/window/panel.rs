@@ -91,8 +91,8 @@ fn model(choice: &mut super::Choice, ui: &mut Ui) {
     ui.label("model");
     let words = |kind| match kind {
         ModelKind::Local => "around the tip",
-        ModelKind::Hybrid => "the whole organ",
-        ModelKind::Nonlinear => "the whole organ, which bends",
+        ModelKind::Hybrid => "global model, linear",
+        ModelKind::Nonlinear => "global model, large deformation",
     };
     egui::ComboBox::from_id_salt("model")
         .selected_text(words(choice.model))

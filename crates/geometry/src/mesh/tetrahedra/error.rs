@@ -1,4 +1,5 @@
 /// What is wrong with tetrahedra that were asked for.
+#[non_exhaustive]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TetrahedronError {
     /// There is nothing to work on.

@@ -26,7 +26,12 @@ impl Hemisphere {
             "Arc from the pole within which every point of the surface moves.",
         )
         .required("0.003"),
-        Key::word("patch", BOND_MEANINGS, "How the patch is held.").required("\"slip\""),
+        Key::word(
+            "patch",
+            BOND_MEANINGS,
+            "The tangential boundary condition of the patch.",
+        )
+        .required("\"slip\""),
         Key::number(
             "depth_m",
             Domain::DEPTH_OR_NONE,

@@ -112,7 +112,7 @@ const KIND_MEANINGS: &[Word] = &[
     ),
     (
         "solid",
-        "A body of any shape is held somewhere, and moved or loaded elsewhere.",
+        "A body of any shape, fixed at one part, and moved or loaded at others.",
     ),
 ];
 

@@ -73,7 +73,7 @@ impl Solid {
         Shape::KEYS[1],
         Shape::KEYS[2],
         Shape::KEYS[3],
-        Key::table("anchor", Region::KEYS, "Where it is held.")
+        Key::table("anchor", Region::KEYS, "The fixed part.")
             .optional("", "where a built-in shape grows"),
         Key::table(
             "patch",
@@ -177,7 +177,12 @@ impl Patch {
         .required("0.003"),
         Key::vector("displacement_m", DISPLACEMENT, "How far they move.")
             .required("[0.0, 0.0, -0.001]"),
-        Key::word("contact", BOND_MEANINGS, "How they are held.").default("\"stick\""),
+        Key::word(
+            "contact",
+            BOND_MEANINGS,
+            "Their tangential boundary condition.",
+        )
+        .default("\"stick\""),
     ];
 
     fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
@@ -282,7 +287,7 @@ impl Point {
 
 fn anchor(keys: &Keys<'_>, shape: &Shape) -> Result<Option<Region>, Error> {
     let anchor = keys.table("anchor")?;
-    let expected = format!("regions that are held, such as `{EXAMPLE}`");
+    let expected = format!("fixed regions, such as `{EXAMPLE}`");
     match anchor.map(|keys| Region::from_keys(&keys)).transpose()? {
         Some(anchor) if !anchor.is_empty() => Ok(Some(anchor)),
         Some(_) => Err(keys.bad("anchor", expected)),

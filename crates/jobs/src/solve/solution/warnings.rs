@@ -57,7 +57,7 @@ pub(crate) fn of_ramp(problem: &Problem, ramp: f64) -> Vec<String> {
     }
     if problem.tissue.prony.is_empty() {
         warnings.push(
-            "the tissue has no `prony` terms, so that nothing relaxes while it is held".to_owned(),
+            "the tissue has no `prony` terms, so that nothing relaxes during a hold".to_owned(),
         );
     }
     warnings

@@ -113,7 +113,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     interrupt::ends_between_files(match &arguments.study {
         None => "interrupted; nothing was found".to_owned(),
         Some(folder) => format!(
-            "stopped; what was finished is kept in {}, and the same command goes on",
+            "stopped; finished specimens are in {}; the same command continues",
             folder.display()
         ),
     });

@@ -104,7 +104,7 @@ fn headless(arguments: &Arguments, plan: Plan) -> Result<(), Failure> {
     }
     match answer.stopped {
         true => Err(Failure::failed(
-            "stopped before the end of the protocol; the indenter was withdrawn, and what was recorded is kept",
+            "stopped before the end of the protocol; the indenter was withdrawn, and finished recordings are kept",
         )),
         false => Ok(()),
     }

@@ -115,7 +115,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     if wrapped.other_pieces > 0 {
         warnings.push(format!(
-            "{} pieces beside the largest were left out; close wider gaps to join them",
+            "{} pieces other than the largest were left out; close wider gaps to join them",
             wrapped.other_pieces
         ));
     }

@@ -21,7 +21,7 @@ pub(super) fn html(
         _ => "Training".to_owned(),
     };
     let lead = format!(
-        "{} at {}, beside those of experts.",
+        "{} at {}, compared with experts.",
         count(attempts, "attempt"),
         count(courses.len(), "task")
     );
@@ -187,7 +187,7 @@ fn beside(course: &LearningCurve<'_>) -> Markup {
         let trainees = course.trainees.len();
         note += &format!(" Of {trainees} trainees the first {COLUMNS} are shown; `--csv` has all.");
     }
-    Markup::plain("h3", "Latest attempts beside the experts")
+    Markup::plain("h3", "Latest attempts compared with the experts")
         .and(Markup::of_class("p", "muted", note))
         .and(table)
 }

@@ -135,7 +135,7 @@ fn beside(course: &LearningCurve<'_>, trainee: &Trainee<'_>) -> String {
         ]);
     }
     let (name, number) = (printable(trainee.name), trainee.attempts.len());
-    format!("\n  {name}, attempt {number} beside the experts\n") + &columns(&rows)
+    format!("\n  {name}, attempt {number} compared with the experts\n") + &columns(&rows)
 }
 
 /// A number without its unit.

@@ -86,7 +86,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         if arguments.as_expert {
             if score.outcome.passed() == Some(false) {
                 return Err(Failure::input(format!(
-                    "{}: the task was not passed, so nobody can be judged by this session; leave --as-expert out",
+                    "{}: the task was not passed, so it is no standard; leave --as-expert out",
                     arguments.session.display()
                 )));
             }
@@ -109,7 +109,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     match arguments.trainee.is_some() && is_refused {
         true => Err(Failure::input(format!(
-            "{}: the session is incomplete, so its score is not kept in the record; --incomplete keeps it",
+            "{}: the session is incomplete, so its score is not added to the record; --incomplete adds it",
             arguments.session.display()
         ))),
         false => Ok(()),

@@ -136,7 +136,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         }
         (false, None, None) => touch(arguments),
         (true, Some(_), Some(_)) => Err(Failure::input(
-            "a motion is played at once, which nobody could see; leave --openigtlink out, or --motion and --out",
+            "a motion is played faster than it can be displayed; leave --openigtlink out, or --motion and --out",
         )),
         (true, ..) => Err(Failure::input(
             "--headless plays a motion or an indentation; add --motion MOTION.csv --out DIR, or --openigtlink \

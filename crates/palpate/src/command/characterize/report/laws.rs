@@ -90,7 +90,7 @@ pub(super) fn parameters(own: &Specimen) -> Markup {
         "error of the model",
         "spread of fits made again",
         "95 % interval",
-        "95 % profile, relaxation held",
+        "95 % profile, relaxation fixed",
         "verdict",
     ]);
     let mut add = |of: &str, name: &str, key: &str, known: &Known, marked: bool| {
