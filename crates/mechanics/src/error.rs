@@ -342,7 +342,7 @@ pub enum Error {
     },
     /// A solid cannot be followed further.
     #[error(
-        "no equilibrium was found beyond {:.1} % of the displacement ({failure}); give a smaller one or a larger patch", 100.0 * part
+        "no equilibrium was found beyond {:.1} % of the displacement and the loads ({failure}); give smaller ones or a larger patch", 100.0 * part
     )]
     NoSolid {
         /// The part that was reached [-].
@@ -422,6 +422,9 @@ pub enum Error {
         /// The most there can be.
         most: usize,
     },
+    /// What does not fit a solid.
+    #[error(transparent)]
+    Solid(#[from] crate::finite_elements::solid::SolidError),
     /// What does not fit a finite element model.
     #[error(transparent)]
     Mismatch(#[from] crate::finite_elements::Mismatch),

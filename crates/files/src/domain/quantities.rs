@@ -128,6 +128,13 @@ impl Domain {
     pub const STIFFNESS_OR_NONE: Self =
         Self::quantity("a stiffness", "n_per_m", [Included(0.0), Included(1e9)]).usually(1e-4, 1e5);
 
+    /// A component of an acceleration [m/s²].
+    pub const ACCELERATION: Self = Self::quantity(
+        "an acceleration",
+        "m_per_s2",
+        [Included(-100.0), Included(100.0)],
+    );
+
     /// A coefficient of damping [N s/m].
     pub const DAMPING: Self = Self::quantity(
         "a coefficient of damping",

@@ -1,5 +1,3 @@
-use std::ops::Bound::Included;
-
 use super::model_words::{
     Assembly, Calibration, EnhancementArea, Form, HandOver, IntegrationPoints, ModelKind,
     Placement, ResponseMethod, Smoothing, Solver,
@@ -150,13 +148,6 @@ fn choose(organ: &Organ, tools: &[Tool], cuts: bool) -> (ModelKind, &'static str
     }
 }
 
-/// A component of an acceleration [m/s²].
-const ACCELERATION: Domain = Domain::quantity(
-    "an acceleration",
-    "m/s2",
-    [Included(-100.0), Included(100.0)],
-);
-
 impl Model {
     pub(super) const KEYS: &'static [Key] = &[
         Key::word("kind", CHOICE_MEANINGS, "Which model.").default("\"local\""),
@@ -219,7 +210,7 @@ impl Model {
         .optional("1500", "chosen by the model"),
         Key::vector(
             "gravity_m_per_s2",
-            ACCELERATION,
+            Domain::ACCELERATION,
             "Nonlinear model: the acceleration by which the organ hangs under its own weight.",
         )
         .optional("[0.0, 0.0, -9.81]", "the mesh is the organ as it hangs"),

@@ -8,5 +8,8 @@ mod telling;
 
 pub use answer::Answer;
 pub use problem::Problem;
-pub use solution::{Figures, Profile, Solution, TubeFigures, Wanted, solve};
+pub use solution::{
+    Figures, PatchFigures, PointFigures, Profile, SolidFigures, Solution, TubeFigures, Wanted,
+    solve,
+};
 pub use table::in_words;

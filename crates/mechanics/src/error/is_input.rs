@@ -62,7 +62,8 @@ impl Error {
             | Self::TouchableNotAscending { .. }
             | Self::NothingTouchable
             | Self::OtherSurface { .. }
-            | Self::UnsoundSlit { .. } => true,
+            | Self::UnsoundSlit { .. }
+            | Self::Solid(_) => true,
         }
     }
 }

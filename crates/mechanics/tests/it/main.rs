@@ -18,6 +18,7 @@ mod condensed;
 mod contacts;
 mod convergence;
 mod data;
+mod dead_loads;
 mod enhance;
 mod errors;
 mod every_law;

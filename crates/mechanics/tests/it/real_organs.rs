@@ -10,7 +10,7 @@ use palpate_mechanics::Vec3;
 use palpate_mechanics::contact::{Friction, Tip, half_space_stiffness};
 use palpate_mechanics::enhance::{Interpolation, Press, SurfaceField, SurfacePoint, profile};
 use palpate_mechanics::finite_elements::solid::{
-    Body, MovedPatch, SolidAnswer, SolidProblem, solve,
+    Body, Loads, MovedPatch, SolidAnswer, SolidProblem, solve,
 };
 use palpate_mechanics::surface_response::{PressedTip, SurfaceResponse, TipField, TipLoad};
 
@@ -87,13 +87,15 @@ impl Kidney {
         SolidProblem {
             body: Body::Surface(self.solid.surface.clone()),
             anchor: plane(self.floor, Vec3::y()),
-            patch: MovedPatch {
+            patch: Some(MovedPatch {
                 center: self.solid.centroid(place),
                 radius: RADIUS,
                 displacement: -DEPTH * normal,
                 grip,
-            },
+            }),
             law: Arc::new(law(NU)),
+            loads: Loads::default(),
+            points: Vec::new(),
         }
     }
 
@@ -231,10 +233,10 @@ fn real_kidney_at_ten_places() {
         ];
         let (grip, bond) = bonds[number % 2];
         let problem = kidney.problem(place, grip);
-        let normal = -problem.patch.displacement.normalize();
+        let normal = -problem.patch.unwrap().displacement.normalize();
         let at = SurfacePoint::centroid(place);
         let load = field.at(surface, place, &at.barycentric);
-        let tip = pressed_tip(&load, (problem.patch.center, normal), bond);
+        let tip = pressed_tip(&load, (problem.patch.unwrap().center, normal), bond);
         let judge = solve(&problem, 0.03, &mut |_| ()).unwrap();
         let half_space = DEPTH * half_space_stiffness(&law(NU), RADIUS, bond);
         let force = tip.force.dot(&-normal) / judge.answer.force_along - 1.0;

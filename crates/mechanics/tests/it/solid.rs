@@ -13,7 +13,7 @@ use palpate_mechanics::finite_elements::indentation::{
     self, Base, Block, IndentationProblem, Indenter, IndenterShape, Side,
 };
 use palpate_mechanics::finite_elements::solid::{
-    Body, MovedPatch, SolidAnswer, SolidProblem, solve, solve_at,
+    Body, Loads, MovedPatch, SolidAnswer, SolidProblem, solve, solve_at,
 };
 use palpate_mechanics::finite_elements::{
     ElementMesh, FiniteElementModel, FiniteElementState, FiniteElementWorkspace, Formulation,
@@ -47,13 +47,15 @@ pub(crate) fn cube(radius: f64, nu: f64, grip: Friction) -> SolidProblem {
     SolidProblem {
         body: Body::Volume(block(4)),
         anchor: plane(-0.999 * HALF * Vec3::z(), Vec3::z()),
-        patch: MovedPatch {
+        patch: Some(MovedPatch {
             center: HALF * Vec3::z(),
             radius,
             displacement: -0.01 * radius * Vec3::z(),
             grip,
-        },
+        }),
         law: Arc::new(LinearElastic::new(MODULUS, nu).unwrap()),
+        loads: Loads::default(),
+        points: Vec::new(),
     }
 }
 
@@ -75,7 +77,7 @@ fn half_space(patch: &MovedPatch, nu: f64) -> f64 {
 
 /// Force of the cylinder with the cube's height and volume, by axisymmetric elements [N].
 fn cylinder(problem: &SolidProblem) -> f64 {
-    let patch = &problem.patch;
+    let patch = problem.patch.unwrap();
     let problem = IndentationProblem {
         block: Block {
             radius: 2.0 * HALF / PI.sqrt(),
@@ -106,7 +108,7 @@ fn a_patch_on_a_cube_is_a_punch() {
         let problem = cube(0.005, nu, grip);
         let answer = at(&problem, 0);
         let by_cylinder = answer.force_along / cylinder(&problem);
-        let by_half_space = answer.force_along / half_space(&problem.patch, nu);
+        let by_half_space = answer.force_along / half_space(&problem.patch.unwrap(), nu);
         println!(
             "{nu} {grip:?}: {by_cylinder:.4} of the cylinder, {by_half_space:.4} of the half-space, \
              {} unknowns",
@@ -131,18 +133,20 @@ fn a_turned_body_feels_the_same_force() {
         let turned = SolidProblem {
             body: Body::Volume(TetrahedronMesh::new(vertices, tetrahedra).unwrap()),
             anchor: plane(turn * (-0.999 * HALF * Vec3::z()), turn * Vec3::z()),
-            patch: MovedPatch {
-                center: turn * straight.patch.center,
-                displacement: turn * straight.patch.displacement,
-                ..straight.patch
-            },
+            patch: Some(MovedPatch {
+                center: turn * straight.patch.unwrap().center,
+                displacement: turn * straight.patch.unwrap().displacement,
+                ..straight.patch.unwrap()
+            }),
             law: straight.law.clone(),
+            loads: Loads::default(),
+            points: Vec::new(),
         };
         let (one, other) = (at(&straight, 0), at(&turned, 0));
         let size = one.force.norm();
         for answer in [&one, &other] {
             assert!((answer.force + answer.reaction).norm() < 1e-9 * size);
-            let depth = straight.patch.displacement.norm();
+            let depth = straight.patch.unwrap().displacement.norm();
             let work = 0.5 * answer.force_along * depth;
             let lost = answer.energy / work - 1.0;
             println!("{grip:?}: {lost:e} of the work is lost");
@@ -256,7 +260,7 @@ fn hyperelastic(mut problem: SolidProblem, depth: f64) {
     assert!((small / linear - 1.0).abs() < 0.02);
     let step = 0.0002;
     let [low, middle, high] = [depth - step, depth, depth + step].map(|depth| {
-        problem.patch.displacement = -depth * Vec3::z();
+        problem.patch.as_mut().unwrap().displacement = -depth * Vec3::z();
         at(&problem, 0)
     });
     let slope = (high.energy - low.energy) / (2.0 * step);
@@ -274,13 +278,15 @@ fn a_patch_on_a_hemisphere_is_3_percent_stiffer_than_on_a_half_space() {
     let problem = SolidProblem {
         body: Body::Surface(surface),
         anchor: plane(1e-4 * Vec3::z(), Vec3::z()),
-        patch: MovedPatch {
+        patch: Some(MovedPatch {
             center: HALF * Vec3::z(),
             radius: 0.002,
             displacement: -1e-4 * Vec3::z(),
             grip: Friction::Frictionless,
-        },
+        }),
         law: Arc::new(LinearElastic::new(MODULUS, 0.3).unwrap()),
+        loads: Loads::default(),
+        points: Vec::new(),
     };
     let round = HemisphereProblem {
         radius: HALF,
@@ -289,13 +295,13 @@ fn a_patch_on_a_hemisphere_is_3_percent_stiffer_than_on_a_half_space() {
         law: LinearElastic::new(MODULUS, 0.3).unwrap(),
         depth: 1e-4,
     };
-    let exact = round.solve_on(3e-3, 0).unwrap().force / half_space(&problem.patch, 0.3);
+    let exact = round.solve_on(3e-3, 0).unwrap().force / half_space(&problem.patch.unwrap(), 0.3);
     println!("axisymmetric: {exact:.4}");
     let mut ratios = Vec::new();
     for halvings in 0..3 {
         let started = std::time::Instant::now();
         let answer = at(&problem, halvings);
-        let ratio = answer.force_along / half_space(&problem.patch, 0.3);
+        let ratio = answer.force_along / half_space(&problem.patch.unwrap(), 0.3);
         println!(
             "{halvings}: {ratio:.4}, {} unknowns, {:.0} MB of factors, {:.1} s",
             answer.unknowns,
@@ -366,18 +372,20 @@ fn real_kidney_under_a_patch() {
     let problem = SolidProblem {
         body: Body::Surface(surface),
         anchor: plane(center - 0.025 * Vec3::y(), Vec3::y()),
-        patch: MovedPatch {
+        patch: Some(MovedPatch {
             center,
             radius: 0.005,
             displacement: -5e-4 * Vec3::y(),
             grip: Friction::Bonded,
-        },
+        }),
         law: Arc::new(LinearElastic::new(MODULUS, 0.45).unwrap()),
+        loads: Loads::default(),
+        points: Vec::new(),
     };
     let started = std::time::Instant::now();
     let found = solve(&problem, 0.02, &mut |_| ()).unwrap();
     let answer = found.answer;
-    let ratio = answer.force_along / half_space(&problem.patch, 0.45);
+    let ratio = answer.force_along / half_space(&problem.patch.unwrap(), 0.45);
     println!(
         "{ratio:.4} of the half-space, error {:.4}, {} unknowns, {:.0} MB, {:.1} s, {:?}",
         found.error,
@@ -428,23 +436,23 @@ fn what_cannot_be_solved_is_refused() {
             &["2 pieces", "not held", "join"],
         ),
         (
-            changed(&|p| p.patch.center = 0.1 * Vec3::z()),
+            changed(&|p| p.patch.as_mut().unwrap().center = 0.1 * Vec3::z()),
             &["0.05 m off", "0.02 m", "move it"],
         ),
         (
-            changed(&|p| p.patch.radius = 1.0),
+            changed(&|p| p.patch.as_mut().unwrap().radius = 1.0),
             &["1 m", "whole body", "smaller"],
         ),
         (
-            changed(&|p| p.patch.radius = -1.0),
+            changed(&|p| p.patch.as_mut().unwrap().radius = -1.0),
             &["radius of the patch is -1 m", "positive"],
         ),
         (
-            changed(&|p| p.patch.center = -HALF * Vec3::z()),
+            changed(&|p| p.patch.as_mut().unwrap().center = -HALF * Vec3::z()),
             &["100 %", "held by the anchor", "move the patch"],
         ),
         (
-            changed(&|p| p.patch.displacement = 0.5 * Vec3::z()),
+            changed(&|p| p.patch.as_mut().unwrap().displacement = 0.5 * Vec3::z()),
             &["0.5 m", "0.1 m long", "smaller"],
         ),
     ];

@@ -4,7 +4,7 @@ use palpate_mechanics::contact::Friction;
 use std::sync::Arc;
 
 use palpate_geometry::{Organ, Surface, TriangleMesh};
-use palpate_mechanics::finite_elements::solid::{Body, MovedPatch, SolidProblem};
+use palpate_mechanics::finite_elements::solid::{Body, Loads, MovedPatch, SolidProblem};
 use palpate_mechanics::{LinearElastic, Vec3};
 
 use crate::solid::{MODULUS, at, plane};
@@ -45,13 +45,15 @@ fn a_patch_on_a_thin_edge_has_its_area() {
     let problem = SolidProblem {
         body: Body::Surface(surface.clone()),
         anchor: plane(low + 0.3 * (high - low), Vec3::x()),
-        patch: MovedPatch {
+        patch: Some(MovedPatch {
             center,
             radius,
             displacement: -1e-4 * Vec3::x(),
             grip: Friction::Frictionless,
-        },
+        }),
         law: Arc::new(LinearElastic::new(MODULUS, 0.45).unwrap()),
+        loads: Loads::default(),
+        points: Vec::new(),
     };
     let answer = at(&problem, 0);
     println!(

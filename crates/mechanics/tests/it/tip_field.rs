@@ -11,7 +11,7 @@ use palpate_mechanics::contact::{
 };
 use palpate_mechanics::enhance::{Interpolation, Press, SurfaceField, SurfacePoint};
 use palpate_mechanics::finite_elements::hemisphere::{HemisphereProblem, Patch};
-use palpate_mechanics::finite_elements::solid::{Body, MovedPatch, SolidProblem, solve};
+use palpate_mechanics::finite_elements::solid::{Body, Loads, MovedPatch, SolidProblem, solve};
 use palpate_mechanics::surface_response::{PressedTip, SurfaceResponse, TipField, TipLoad};
 use palpate_mechanics::{LinearElastic, Vec3};
 
@@ -429,13 +429,15 @@ fn real_kidney_error(triangles: usize) -> Option<f64> {
         let problem = SolidProblem {
             body: Body::Surface(surface.clone()),
             anchor: plane(floor, Vec3::y()),
-            patch: MovedPatch {
+            patch: Some(MovedPatch {
                 center: solid.centroid(id),
                 radius: a,
                 displacement: -depth * normal,
                 grip,
-            },
+            }),
             law: Arc::new(law(nu)),
+            loads: Loads::default(),
+            points: Vec::new(),
         };
         let found = solve(&problem, 0.03, &mut |_| ()).unwrap();
         let half_space = depth * half_space_stiffness(&law(nu), a, bond);

@@ -12,7 +12,7 @@ use palpate_mechanics::finite_elements::hemisphere::{self, HemisphereProblem, Pa
 use palpate_mechanics::finite_elements::indentation::{
     Base, Block, IndentationRun, IndentationSettings, Indenter, IndenterShape,
 };
-use palpate_mechanics::finite_elements::solid::{self, Body, MovedPatch, SolidProblem};
+use palpate_mechanics::finite_elements::solid::{self, Body, Loads, MovedPatch, SolidProblem};
 use palpate_mechanics::finite_spheres::{
     Calibration, FiniteSphereModel, FiniteSphereSettings, Integration, LocalContact,
 };
@@ -264,13 +264,15 @@ fn solid_in_half_spaces(contact: &LocalContact, nu: f64) -> (f64, f64) {
             }],
             ..Region::default()
         },
-        patch: MovedPatch {
+        patch: Some(MovedPatch {
             center: Vec3::zeros(),
             radius: TIP,
             displacement: Vec3::new(0.0, 0.0, -1e-3 * TIP),
             grip: Friction::Frictionless,
-        },
+        }),
         law: Arc::new(law),
+        loads: Loads::default(),
+        points: Vec::new(),
     };
     let found = solid::solve(&problem, 0.02, &mut |_| ()).unwrap();
     let stiffness = found.answer.force_along / (1e-3 * TIP);

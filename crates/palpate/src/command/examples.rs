@@ -146,6 +146,17 @@ const ALL: &[Example] = &[
         "problems/kidney.toml",
         "an organ, fixed and moved"
     ),
+    example!(
+        "problems/beam_weight.toml",
+        "problems/beam_weight.toml",
+        "a beam under its weight, whose stiffness is fitted"
+    ),
+    example!(
+        "problems/beam_load.toml",
+        "problems/beam_load.toml",
+        "the same beam under a load, predicted"
+    ),
+    example!("problems/beam.msh", "problems/beam.msh", "its tetrahedra"),
 ];
 
 /// Writes them all, or none where one is there.

@@ -22,8 +22,9 @@ fn examples_are_valid() {
     let schemas = files_below(&here.join("schemas"));
     assert!(schemas > 0);
     assert_eq!(files_below(&here) - schemas, named.len());
-    // What this one names comes from a measurement.
-    let complete = named.iter().filter(|name| **name != "closed-loop.toml");
+    // What the first names comes from a measurement; the second is a volume mesh, which `solve` reads and `validate` does not.
+    let apart = ["closed-loop.toml", "problems/beam.msh"];
+    let complete = named.iter().filter(|name| !apart.contains(name));
     let arguments: Vec<&str> = ["validate", "--json"]
         .into_iter()
         .chain(complete.copied())

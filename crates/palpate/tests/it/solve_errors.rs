@@ -216,3 +216,65 @@ fn files_that_cannot_be_written_are_refused_before_the_work() {
     refused(&["--plt", "a"], &["--plt", "--plot"]);
     assert_eq!(fs::read_dir(problem.path()).unwrap().count(), 1);
 }
+
+#[test]
+fn loads_that_are_none() {
+    let solid = |lines: &str| {
+        format!(
+            "format = 1\nkind = \"solid\"\nbuiltin = \"cube\"\ntriangles = 200\naccuracy = 0.2\n\
+             tissue = {{ law = \"neo_hookean\", c10_pa = 1e5 }}\n{lines}"
+        )
+    };
+    let nothing = ["`patch` is missing", "gravity_m_per_s2", "[[load]]"];
+    refused(&solid(""), &nothing);
+    refused(
+        &solid("gravity_m_per_s2 = [0.0, 0.0, 0.0]"),
+        &[
+            "line 7",
+            "`gravity_m_per_s2` is [0.0, 0.0, 0.0]",
+            "not zero",
+        ],
+    );
+    let weight = solid("gravity_m_per_s2 = [0.0, 0.0, -9.81]");
+    for density in ["0.0", "-1.0"] {
+        let more = format!("c10_pa = 1e5, density_kg_m3 = {density}");
+        refused(
+            &weight.replace("c10_pa = 1e5", &more),
+            &["line 6", "`tissue.density_kg_m3`", density],
+        );
+    }
+    refused(
+        &format!("{weight}\nfit_stiffness = true"),
+        &["line 8", "`fit_stiffness` is true", "measured_m"],
+    );
+    let load = |more: &str| solid(&format!("load = [{{ {more} }}]"));
+    let force = "force_n = [0.0, 0.0, -0.1]";
+    let refused_load = |more: &str, words: &[&str]| {
+        refused(&load(&format!("{force}, {more}")), words);
+    };
+    refused(&load(force), &["`load[0].region` is missing", "line"]);
+    refused(
+        &load("force_n = [0.0, 0.0, 0.0], region = {}"),
+        &["line 7", "`load[0].force_n` is [0.0, 0.0, 0.0]", "not zero"],
+    );
+    refused(
+        &load("force_kg = [0.0, 0.0, 1.0]"),
+        &["`load[0].force_kg`", "`force_n`"],
+    );
+    refused_load(
+        "region = { spheres = [{ center_m = [1.0, 0.0, 0.0], radius_m = 0.1 }] }",
+        &["line 7", "`load[0].region`", "without a triangle"],
+    );
+    refused_load(
+        "line = { from_m = [0.0, 0.0, 0.05], to_m = [0.0, 0.0, 0.05] }",
+        &["line 7", "`load[0].line.to_m`", "another point"],
+    );
+    refused_load(
+        "line = { from_m = [0.0, 0.0, 0.5], to_m = [0.01, 0.0, 0.5] }",
+        &["line 7", "`load[0].line` is 0.450 m off the surface"],
+    );
+    refused(
+        &format!("{weight}\npoint = [{{ at_m = [0.0, 0.0, 1.0] }}]"),
+        &["line 8", "`point[0].at_m` is 0.950 m outside the body"],
+    );
+}

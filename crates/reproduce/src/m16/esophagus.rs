@@ -4,7 +4,7 @@ use palpate_mechanics::contact::Friction;
 use std::sync::Arc;
 
 use palpate_files::Scene;
-use palpate_mechanics::finite_elements::solid::{Body, MovedPatch, SolidProblem, solve};
+use palpate_mechanics::finite_elements::solid::{Body, Loads, MovedPatch, SolidProblem, solve};
 use palpate_mechanics::{IndentationCurve, LinearElastic, Material};
 use palpate_simulate::{Simulation, held_region};
 
@@ -162,14 +162,16 @@ fn organ(rows: &Rows<'_>, simulation: &Simulation) -> Result<SolidOrgan, Error> 
     let problem = SolidProblem {
         body: Body::Surface(simulation.surface().clone()),
         anchor: held_region(&scene()?.organ.shape, None),
-        patch: MovedPatch {
+        patch: Some(MovedPatch {
             center,
             radius: RADIUS,
             // Small strain: any will do.
             displacement: -1e-3 * normal,
             grip: Friction::Bonded,
-        },
+        }),
         law: Arc::new(LinearElastic::new(1.0, POISSONS_RATIO)?),
+        loads: Loads::default(),
+        points: Vec::new(),
     };
     let found = solve(&problem, ACCURACY, &mut rows.meshes("organ, "))?;
     Ok(SolidOrgan {

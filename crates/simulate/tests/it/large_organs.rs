@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use palpate_geometry::{AabbTree, Vec3};
 use palpate_mechanics::LinearElastic;
-use palpate_mechanics::finite_elements::solid::{Body, MovedPatch, SolidProblem, solve};
+use palpate_mechanics::finite_elements::solid::{Body, Loads, MovedPatch, SolidProblem, solve};
 use palpate_simulate::{Simulation, held_region};
 
 use crate::scenes::{Hand, Setting, YOUNGS_MODULUS, nearest};
@@ -52,13 +52,15 @@ fn real_liver_of_20000_triangles() {
         let problem = SolidProblem {
             body: Body::Surface(simulation.surface().clone()),
             anchor: held_region(&scene.organ.shape, scene.organ.anchor.as_ref()),
-            patch: MovedPatch {
+            patch: Some(MovedPatch {
                 center,
                 radius: RADIUS,
                 displacement: -DEPTH * normal,
                 grip: Friction::Frictionless,
-            },
+            }),
             law: law.clone(),
+            loads: Loads::default(),
+            points: Vec::new(),
         };
         let judge = solve(&problem, 0.03, &mut |_| ()).unwrap();
         let error = force.dot(&normal) / judge.answer.force_along - 1.0;

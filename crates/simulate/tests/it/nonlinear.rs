@@ -8,7 +8,7 @@ use palpate_files::scene::{Jaws, Region, RegionPlane};
 use palpate_files::{Event, Scene};
 use palpate_geometry::{AabbTree, Organ, Surface, Vec3};
 use palpate_mechanics::NeoHookean;
-use palpate_mechanics::finite_elements::solid::{Body, MovedPatch, SolidProblem, solve_at};
+use palpate_mechanics::finite_elements::solid::{Body, Loads, MovedPatch, SolidProblem, solve_at};
 use palpate_simulate::Simulation;
 
 use crate::grip::{Hands, grasping, pose};
@@ -164,13 +164,15 @@ fn a_pulled_hemisphere_is_that_of_finite_elements() {
                 }],
                 ..Region::default()
             },
-            patch: MovedPatch {
+            patch: Some(MovedPatch {
                 center: Vec3::new(0.0, 0.0, 0.05),
                 radius,
                 displacement: way,
                 grip: Friction::Bonded,
-            },
+            }),
             law: Arc::new(NeoHookean::compressible(0.5 * shear, bulk).unwrap()),
+            loads: Loads::default(),
+            points: Vec::new(),
         };
         let expected = solve_at(&problem, 0, &mut |_| {}).unwrap().force;
         println!("{way:?}: {found:?} N, finite elements {expected:?} N");

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use palpate_geometry::{AabbTree, Vec3};
 use palpate_mechanics::LinearElastic;
-use palpate_mechanics::finite_elements::solid::{Body, MovedPatch, SolidProblem, solve};
+use palpate_mechanics::finite_elements::solid::{Body, Loads, MovedPatch, SolidProblem, solve};
 use palpate_mechanics::finite_elements::tube::{Ends, Tube, TubeProblem, TubePunch, indent};
 use palpate_simulate::{Resources, Simulation, held_region};
 
@@ -133,13 +133,15 @@ fn the_esophagus_is_that_of_finite_elements() {
     let solid = SolidProblem {
         body: Body::Surface(simulation.surface().clone()),
         anchor: held_region(&scene.organ.shape, None),
-        patch: MovedPatch {
+        patch: Some(MovedPatch {
             center: point,
             radius: 2e-3,
             displacement: -1e-3 * normal,
             grip: Friction::Frictionless,
-        },
+        }),
         law: law.clone(),
+        loads: Loads::default(),
+        points: Vec::new(),
     };
     let solid = solve(&solid, 0.03, &mut |_| ()).unwrap();
     let expected = solid.answer.force_along;

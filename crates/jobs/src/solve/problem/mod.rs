@@ -20,7 +20,7 @@ use palpate_mechanics::contact::Friction;
 
 pub(crate) use hemisphere::Hemisphere;
 pub(crate) use indentation::{Indentation, Loading, Ramp};
-pub(crate) use solid::Solid;
+pub(crate) use solid::{Patch, Point, Solid};
 pub(crate) use tube::{Tube, TubeIndent};
 pub(crate) use uniaxial::Uniaxial;
 
@@ -112,7 +112,7 @@ const KIND_MEANINGS: &[Word] = &[
     ),
     (
         "solid",
-        "An organ of any shape, fixed at one part and moved at another.",
+        "A body of any shape, fixed at one part, and moved or loaded at others.",
     ),
 ];
 
@@ -195,6 +195,11 @@ impl Problem {
     /// Whether there is a course in time.
     pub fn has_recording(&self) -> bool {
         matches!(&self.case, Case::Indentation(case) if matches!(case.loading, Loading::Ramp(_)))
+    }
+
+    /// Whether the stiffness of the tissue is fitted.
+    pub fn fits_stiffness(&self) -> bool {
+        matches!(&self.case, Case::Solid(case) if case.fits)
     }
 
     /// Whether the law is for small strain only.

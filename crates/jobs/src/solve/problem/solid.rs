@@ -2,18 +2,31 @@ use std::ops::Bound::Included;
 use std::path::Path;
 
 use palpate_files::scene::{Region, Shape};
-use palpate_files::{Domain, Error, Key, Keys};
+use palpate_files::{Domain, Error, Key, Keys, Place};
 use palpate_mechanics::Vec3;
 use palpate_mechanics::contact::Friction;
+use palpate_mechanics::finite_elements::solid::{DeadLoad, LoadPlace};
 
-use super::{BOND_MEANINGS, BONDS, required_table};
+use super::{BOND_MEANINGS, BONDS};
 
-/// An organ of any shape, held somewhere and moved elsewhere.
+/// An organ of any shape, held somewhere, and moved or loaded elsewhere.
 #[derive(Debug, Clone)]
 pub(crate) struct Solid {
     pub(crate) shape: Shape,
     /// Where it is held; none: where a built-in organ grows.
     pub(crate) anchor: Option<Region>,
+    pub(crate) patch: Option<Patch>,
+    /// [m/s²]
+    pub(crate) gravity: Option<Vec3>,
+    pub(crate) loads: Vec<Load>,
+    pub(crate) points: Vec<Point>,
+    /// Whether the stiffness is fitted to what the points were measured to do.
+    pub(crate) fits: bool,
+}
+
+/// The part of the surface that is moved.
+#[derive(Debug, Clone)]
+pub(crate) struct Patch {
     /// Points of the surface within the radius [m] of the centre [m] move.
     pub(crate) center: Vec3,
     /// [m]
@@ -23,8 +36,33 @@ pub(crate) struct Solid {
     pub(crate) contact: Friction,
 }
 
+/// A force on the surface.
+#[derive(Debug, Clone)]
+pub(crate) struct Load {
+    pub(crate) load: DeadLoad,
+    /// Where it is in the document, and the full name of the key that says where it acts.
+    pub(crate) place: Place,
+    pub(crate) key: String,
+}
+
+/// A point of the body whose displacement is asked for.
+#[derive(Debug, Clone)]
+pub(crate) struct Point {
+    pub(crate) name: String,
+    /// [m]
+    pub(crate) at: Vec3,
+    /// How far it was measured to move [m], along a direction of length one [-].
+    pub(crate) measured: Option<(Vec3, f64)>,
+    /// Where it is in the document, and the full name of its key.
+    pub(crate) place: Place,
+    pub(crate) key: String,
+}
+
 const DISPLACEMENT: Domain =
     Domain::quantity("a displacement", "m", [Included(-1.0), Included(1.0)]).usually(-0.1, 0.1);
+
+const FORCE: Domain =
+    Domain::quantity("a force", "n", [Included(-1e4), Included(1e4)]).usually(-200.0, 200.0);
 
 const EXAMPLE: &str =
     "anchor = { planes = [{ point_m = [0.0, 0.0, 0.001], normal = [0.0, 0.0, 1.0] }] }";
@@ -39,13 +77,97 @@ impl Solid {
             .optional("", "where a built-in shape grows"),
         Key::table(
             "patch",
-            Self::PATCH,
-            "The part of the surface that is moved.",
+            Patch::KEYS,
+            "The part of the surface that is moved. A patch, gravity or a load has to be there.",
         )
-        .required(""),
+        .optional("", "nothing is moved")
+        .in_template(),
+        Key::vector(
+            "gravity_m_per_s2",
+            Domain::ACCELERATION,
+            "The acceleration by which the body hangs under its own weight; `tissue.density_kg_m3` is its density.",
+        )
+        .optional("[0.0, 0.0, -9.81]", "it has no weight"),
+        Key::tables(
+            "load",
+            Load::KEYS,
+            "Forces on the surface that keep their direction while the body turns.",
+        )
+        .optional("", "none"),
+        Key::tables(
+            "point",
+            Point::KEYS,
+            "Points of the body whose displacement is asked for.",
+        )
+        .optional("", "none"),
+        Key::truth(
+            "fit_stiffness",
+            "Whether the moduli of the tissue are multiplied by the factor with which the points move as measured, by \
+             least squares.",
+        )
+        .default("false"),
     ];
 
-    const PATCH: &[Key] = &[
+    pub(crate) fn from_keys(keys: &Keys<'_>, folder: &Path) -> Result<Self, Error> {
+        let shape = Shape::from_keys(keys, folder)?;
+        let anchor = anchor(keys, &shape)?;
+        let patch = keys.table("patch")?;
+        let gravity = keys.vector("gravity_m_per_s2")?.map(Vec3::from);
+        if gravity == Some(Vec3::zeros()) {
+            let expected =
+                "an acceleration that is not zero, or leave the key out for a body without weight";
+            return Err(keys.bad("gravity_m_per_s2", expected));
+        }
+        let loads = keys.tables("load")?;
+        let points = keys.tables("point")?;
+        let fits = keys.truth("fit_stiffness")?.unwrap_or(false);
+        let solid = Self {
+            shape,
+            anchor,
+            patch: patch.map(|keys| Patch::from_keys(&keys)).transpose()?,
+            gravity,
+            loads: loads
+                .iter()
+                .map(Load::from_keys)
+                .collect::<Result<_, _>>()?,
+            points: points
+                .iter()
+                .enumerate()
+                .map(|(number, keys)| Point::from_keys(keys, number))
+                .collect::<Result<_, _>>()?,
+            fits,
+        };
+        if solid.patch.is_none() && solid.gravity.is_none() && solid.loads.is_empty() {
+            return Err(keys.missing(
+                "patch",
+                "what moves or loads the body: `patch = { center_m = [0.0, 0.0, 0.05], radius_m = 0.003, \
+                 displacement_m = [0.0, 0.0, -0.001] }`, `gravity_m_per_s2 = [0.0, 0.0, -9.81]` or a `[[load]]`",
+            ));
+        }
+        if fits {
+            solid.can_fit(keys)?;
+        }
+        Ok(solid)
+    }
+
+    /// Whether there is something to fit the stiffness to.
+    fn can_fit(&self, keys: &Keys<'_>) -> Result<(), Error> {
+        let measured = self.points.iter().filter_map(|point| point.measured);
+        if self.patch.is_some() {
+            let expected =
+                "false with a patch, whose displacement does not depend on the stiffness";
+            return Err(keys.bad("fit_stiffness", expected));
+        }
+        if measured.map(|(_, way)| way.abs()).sum::<f64>() == 0.0 {
+            let expected = "false, or points with `along` and a `measured_m` that is not zero";
+            return Err(keys.bad("fit_stiffness", expected));
+        }
+        Ok(())
+    }
+}
+
+impl Patch {
+    const KEYS: &[Key] = &[
         Key::vector("center_m", Domain::POSITION, "Its centre.").required("[0.0, 0.0, 0.05]"),
         Key::number(
             "radius_m",
@@ -63,21 +185,102 @@ impl Solid {
         .default("\"stick\""),
     ];
 
-    pub(crate) fn from_keys(keys: &Keys<'_>, folder: &Path) -> Result<Self, Error> {
-        let shape = Shape::from_keys(keys, folder)?;
-        let anchor = anchor(keys, &shape)?;
-        let patch = required_table(
-            keys,
-            "patch",
-            "patch = { center_m = [0.0, 0.0, 0.05], radius_m = 0.003, displacement_m = [0.0, 0.0, -0.001] }",
-        )?;
+    fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
         Ok(Self {
-            shape,
-            anchor,
-            center: patch.required_vector("center_m")?.into(),
-            radius: patch.required_number("radius_m")?,
-            displacement: patch.required_vector("displacement_m")?.into(),
-            contact: patch.word("contact", BONDS)?.unwrap_or(Friction::Bonded),
+            center: keys.required_vector("center_m")?.into(),
+            radius: keys.required_number("radius_m")?,
+            displacement: keys.required_vector("displacement_m")?.into(),
+            contact: keys.word("contact", BONDS)?.unwrap_or(Friction::Bonded),
+        })
+    }
+}
+
+impl Load {
+    const KEYS: &[Key] = &[
+        Key::vector("force_n", FORCE, "The whole force.").required("[0.0, 0.0, -0.5]"),
+        Key::table(
+            "region",
+            Region::KEYS,
+            "It acts evenly on the triangles of the surface whose centroid lies in one of these regions.",
+        )
+        .optional("", "`line` says where it acts")
+        .in_template(),
+        Key::table("line", LINE, "It acts evenly along a straight line on the surface, such as an edge.")
+            .optional("", "`region` says where it acts"),
+    ];
+
+    fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
+        let force = Vec3::from(keys.required_vector("force_n")?);
+        if force == Vec3::zeros() {
+            return Err(keys.bad("force_n", "a force that is not zero"));
+        }
+        let (key, place) = match (keys.table("region")?, keys.table("line")?) {
+            (Some(_), Some(_)) => return Err(keys.given_twice("region", "line")),
+            (Some(region), None) => ("region", LoadPlace::Faces(Region::from_keys(&region)?)),
+            (None, Some(line)) => {
+                let ends = [
+                    line.required_vector("from_m")?,
+                    line.required_vector("to_m")?,
+                ];
+                if ends[0] == ends[1] {
+                    return Err(line.bad("to_m", "another point than `from_m`"));
+                }
+                ("line", LoadPlace::Line(ends.map(Vec3::from)))
+            }
+            (None, None) => {
+                let expected = "where the force acts: a table of planes, boxes or spheres, or `line = { from_m, to_m }`";
+                return Err(keys.missing("region", expected));
+            }
+        };
+        Ok(Self {
+            load: DeadLoad { place, force },
+            place: keys.place_of_key(key),
+            key: keys.full_name(key),
+        })
+    }
+}
+
+const LINE: &[Key] = &[
+    Key::vector("from_m", Domain::POSITION, "One end.").required("[0.0, 0.0, 0.03]"),
+    Key::vector("to_m", Domain::POSITION, "The other end.").required("[0.0, 0.03, 0.03]"),
+];
+
+impl Point {
+    const KEYS: &[Key] = &[
+        Key::text("name", "What people call it.").optional("\"tip\"", "its number"),
+        Key::vector("at_m", Domain::POSITION, "Where it is at rest.")
+            .required("[0.0, 0.015, 0.03]"),
+        Key::direction("along", "The direction along which it was measured.")
+            .optional("[0.0, 0.0, 1.0]", "it was not"),
+        Key::number(
+            "measured_m",
+            DISPLACEMENT,
+            "How far along that direction it was measured to move.",
+        )
+        .optional("-0.0067", "it was not"),
+    ];
+
+    fn from_keys(keys: &Keys<'_>, number: usize) -> Result<Self, Error> {
+        let name = keys.text("name")?;
+        let measured = match (keys.direction("along")?, keys.number("measured_m")?) {
+            (Some(along), Some(measured)) => Some((Vec3::from(along).normalize(), measured)),
+            (None, None) => None,
+            (Some(_), None) => {
+                return Err(keys.missing("measured_m", "how far the point moved along `along`"));
+            }
+            (None, Some(_)) => {
+                return Err(keys.missing(
+                    "along",
+                    "the direction of `measured_m`, such as [0.0, 0.0, 1.0]",
+                ));
+            }
+        };
+        Ok(Self {
+            name: name.unwrap_or_else(|| format!("point {}", number + 1)),
+            at: keys.required_vector("at_m")?.into(),
+            measured,
+            place: keys.place_of_key("at_m"),
+            key: keys.full_name("at_m"),
         })
     }
 }

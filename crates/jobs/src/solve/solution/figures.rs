@@ -33,14 +33,7 @@ pub enum Figures {
         nominal_stress_pa: Vec<f64>,
     },
     /// An organ of any shape.
-    Solid {
-        /// On the tool.
-        force_n: [f64; 3],
-        /// On the tissue, along the displacement: positive where the tissue resists.
-        force_along_displacement_n: f64,
-        /// Of the patch [m].
-        displacement_m: [f64; 3],
-    },
+    Solid(SolidFigures),
 }
 
 impl Figures {
@@ -61,7 +54,14 @@ impl Figures {
             Self::Uniaxial {
                 nominal_stress_pa, ..
             } => all(&[nominal_stress_pa]),
-            Self::Solid { force_n, .. } => all(&[force_n]),
+            Self::Solid(solid) => {
+                let points = solid.points.iter();
+                let force = solid.patch.as_ref().map_or([0.0; 3], |patch| patch.force_n);
+                all(&[&force, &solid.reaction_n])
+                    && points
+                        .flat_map(|point| point.displacement_m)
+                        .all(f64::is_finite)
+            }
         }
     }
 }
@@ -90,4 +90,51 @@ pub struct TubeFigures {
     /// [N]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub force_n: Option<Vec<Option<f64>>>,
+}
+
+/// The figures of an organ of any shape.
+#[derive(Debug, Clone, Serialize)]
+pub struct SolidFigures {
+    /// Of the patch, where there is one.
+    #[serde(flatten)]
+    pub patch: Option<PatchFigures>,
+    /// On the tissue where it is held [N].
+    pub reaction_n: [f64; 3],
+    /// Displacements that were asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub points: Vec<PointFigures>,
+    /// What the moduli of the tissue were multiplied by, where they were fitted [-].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stiffness_factor: Option<f64>,
+    /// The fitted tissue.
+    #[serde(skip)]
+    pub tissue: Option<Box<palpate_files::Tissue>>,
+}
+
+/// The figures of a patch that is moved.
+#[derive(Debug, Clone, Serialize)]
+pub struct PatchFigures {
+    /// On the tool.
+    pub force_n: [f64; 3],
+    /// On the tissue, along the displacement: positive where the tissue resists.
+    pub force_along_displacement_n: f64,
+    /// Of the patch [m].
+    pub displacement_m: [f64; 3],
+}
+
+/// The figures of a point.
+#[derive(Debug, Clone, Serialize)]
+pub struct PointFigures {
+    /// Its name.
+    pub name: String,
+    /// At rest [m].
+    pub at_m: [f64; 3],
+    /// [m]
+    pub displacement_m: [f64; 3],
+    /// What was measured along its direction [m].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub measured_m: Option<f64>,
+    /// The displacement along that direction, less what was measured [m].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error_m: Option<f64>,
 }

@@ -11,11 +11,11 @@ mod tube;
 mod uniaxial;
 mod warnings;
 
-pub use figures::{Figures, Profile, TubeFigures};
+pub use figures::{Figures, PatchFigures, PointFigures, Profile, SolidFigures, TubeFigures};
 
 use std::time::Instant;
 
-use palpate_files::Recording;
+use palpate_files::{Recording, Tissue};
 use serde::Serialize;
 
 use super::answer::Answer;
@@ -92,6 +92,16 @@ pub fn solve(problem: &Problem, wanted: Wanted, watch: &dyn Watch) -> Result<Ans
         solution,
         seconds: begun.elapsed().as_secs_f64(),
     })
+}
+
+impl Solution {
+    /// The tissue, where its stiffness was fitted.
+    pub fn fitted_tissue(&self) -> Option<&Tissue> {
+        match &self.figures {
+            Figures::Solid(solid) => solid.tissue.as_deref(),
+            _ => None,
+        }
+    }
 }
 
 /// Millimetres, of lengths [m].

@@ -1,21 +1,28 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use palpate_files::Place;
+use palpate_files::quantity::rounded;
 use palpate_files::scene::{LengthUnit, Shape};
 use palpate_geometry::read_tetrahedra;
 use palpate_geometry::vtk::{CellKind, Cells, FieldValues, PointField, unstructured_grid};
 use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_elements::solid::{
-    Body, MovedPatch, SolidFields, SolidProblem, solve,
+    Body, Loads, MovedPatch, SolidError, SolidFields, SolidProblem, Weight, solve,
 };
+use palpate_mechanics::{Material, Vec3};
 use palpate_simulate::{held_region, read_organ};
 
-use super::super::problem::{Problem, Solid};
+use super::super::problem::{Patch, Point, Problem, Solid};
 use super::super::table::Table;
-use super::{Figures, Solution, Wanted, plots, warnings};
+use super::figures::{Figures, PatchFigures, PointFigures, SolidFigures};
+use super::{Solution, Wanted, plots, warnings};
 use crate::Error;
 use crate::plot::{Plot, Series, Style};
 use crate::solve::telling::Telling;
+
+/// Parts of its length by which a body moves before a linear law deserves a warning [-].
+const LARGE_WAY: f64 = 0.05;
 
 /// Points of the plot; more are not seen.
 const POINTS: usize = 3000;
@@ -23,7 +30,11 @@ const POINTS: usize = 3000;
 /// Files that hold tetrahedra.
 const VOLUMES: [&str; 3] = ["msh", "vtk", "vtu"];
 
-/// Force on a patch that is moved.
+/// The stiffness is fitted until it changes by no more than this part of the accuracy [-], in so many solutions at most.
+const FITTED_TO: f64 = 0.1;
+const MOST_FITS: usize = 8;
+
+/// A body that is moved or loaded, of a tissue that is fitted where that is asked for.
 pub(crate) fn solution(
     problem: &Problem,
     case: &Solid,
@@ -31,42 +42,120 @@ pub(crate) fn solution(
     telling: &Telling<'_>,
 ) -> Result<Solution, Error> {
     let (body, mut warnings) = body(&case.shape)?;
-    let mechanical = SolidProblem {
+    let patch = case.patch.as_ref();
+    let mut mechanical = SolidProblem {
         body,
         anchor: held_region(&case.shape, case.anchor.as_ref()),
-        patch: MovedPatch {
-            center: case.center,
-            radius: case.radius,
-            displacement: case.displacement,
-            grip: case.contact,
-        },
+        patch: patch.map(moved),
         law: problem.material.law.clone(),
+        loads: Loads {
+            weight: case.gravity.map(|gravity| Weight {
+                gravity,
+                density: problem.tissue.density_kg_m3.value,
+            }),
+            forces: case.loads.iter().map(|load| load.load.clone()).collect(),
+        },
+        points: case.points.iter().map(|point| point.at).collect(),
     };
-    let found = solve(&mechanical, problem.accuracy, &mut |progress| {
-        telling.at(progress);
-    })
-    .map_err(|error| problem.refused(error))?;
+    let solved = |mechanical: &SolidProblem| {
+        solve(mechanical, problem.accuracy, &mut |progress| {
+            telling.at(progress);
+        })
+        .map_err(|error| refused(problem, case, error))
+    };
+    let mut found = solved(&mechanical)?;
+    let mut factor = 1.0;
+    let mut tissue = None;
+    for _ in 0..MOST_FITS {
+        if !case.fits {
+            break;
+        }
+        // Displacements are nearly as the reciprocal of the stiffness.
+        let change = stiffness_ratio(case, &found.answer.points).ok_or_else(|| against(case))?;
+        if (change - 1.0).abs() <= FITTED_TO * problem.accuracy {
+            break;
+        }
+        factor *= change;
+        let mut fitted = problem.tissue.clone();
+        fitted.elasticity = fitted.elasticity.times(factor);
+        mechanical.law = Material::from_tissue(&fitted)
+            .map_err(|error| problem.refused(error))?
+            .law;
+        tissue = Some(Box::new(fitted));
+        found = solved(&mechanical)?;
+    }
     let answer = found.answer;
     warnings.extend(found.warnings);
     warnings.extend(answer.warnings);
-    let length = case.displacement.norm();
-    warnings.extend(warnings::of_depths(problem, case.radius, &[length]));
-    let on_tool = -answer.force;
-    let table = Table::default()
-        .with("displacement [mm]", [1e3 * length])
-        .with("force along it [mN]", [1e3 * answer.force_along])
-        .with("on the tool: x [mN]", [1e3 * on_tool.x])
-        .with("y [mN]", [1e3 * on_tool.y])
-        .with("z [mN]", [1e3 * on_tool.z]);
+    let mut tables = Vec::new();
+    if let Some(patch) = patch {
+        let length = patch.displacement.norm();
+        warnings.extend(warnings::of_depths(problem, patch.radius, &[length]));
+        let on_tool = -answer.force;
+        let table = Table::default()
+            .with("displacement [mm]", [1e3 * length])
+            .with("force along it [mN]", [1e3 * answer.force_along])
+            .with("on the tool: x [mN]", [1e3 * on_tool.x])
+            .with("y [mN]", [1e3 * on_tool.y])
+            .with("z [mN]", [1e3 * on_tool.z]);
+        tables.push(table);
+    } else {
+        let turned = answer.fields.displacements.iter().map(Vec3::norm);
+        let farthest = turned.fold(0.0, f64::max);
+        let (low, high) = mechanical.body.bounds();
+        if problem.is_small_strain() && farthest > LARGE_WAY * (high - low).max() {
+            warnings.push(format!(
+                "the linear law is for small strain and small rotation, but the body moves by {:.3} of its length; a \
+                 hyperelastic law follows large ones",
+                farthest / (high - low).max()
+            ));
+        }
+        let reaction = answer.reaction;
+        let table = Table::default()
+            .with("largest displacement [mm]", [1e3 * farthest])
+            .with("on the tissue where it is held: x [mN]", [1e3 * reaction.x])
+            .with("y [mN]", [1e3 * reaction.y])
+            .with("z [mN]", [1e3 * reaction.z]);
+        tables.push(table);
+    }
+    let points: Vec<PointFigures> = case
+        .points
+        .iter()
+        .zip(&answer.points)
+        .map(|(point, moved)| figures(point, moved))
+        .collect();
+    if !points.is_empty() {
+        tables.push(table_of_points(&points));
+    }
+    if case.fits {
+        let parameters = tissue
+            .as_deref()
+            .unwrap_or(&problem.tissue)
+            .elasticity
+            .parameters();
+        let table = Table::default().with("fitted stiffness, factor", [factor]);
+        tables.push(parameters.iter().fold(table, |table, (key, estimate)| {
+            table.with(key, [estimate.value])
+        }));
+    }
     Ok(Solution {
         heading: heading(case),
-        tables: vec![table],
+        tables,
         plot: around_patch(case, &answer.fields),
-        figures: Figures::Solid {
-            force_n: on_tool.into(),
-            force_along_displacement_n: answer.force_along,
-            displacement_m: case.displacement.into(),
-        },
+        figures: Figures::Solid(SolidFigures {
+            patch: patch.map(|patch| PatchFigures {
+                force_n: (-answer.force).into(),
+                force_along_displacement_n: answer.force_along,
+                displacement_m: patch.displacement.into(),
+            }),
+            reaction_n: answer.reaction.into(),
+            points,
+            stiffness_factor: case.fits.then_some(factor),
+            tissue: match case.fits {
+                true => Some(tissue.unwrap_or_else(|| Box::new(problem.tissue.clone()))),
+                false => None,
+            },
+        }),
         unknowns: answer.unknowns,
         estimated_error: found.error,
         observed_order: found.observed_order,
@@ -74,6 +163,128 @@ pub(crate) fn solution(
         vtu: wanted.vtu.then(|| grid(&answer.fields)),
         recording: None,
     })
+}
+
+fn moved(patch: &Patch) -> MovedPatch {
+    MovedPatch {
+        center: patch.center,
+        radius: patch.radius,
+        displacement: patch.displacement,
+        grip: patch.contact,
+    }
+}
+
+/// By what the stiffness is multiplied so that the points move as measured, by least squares; none where they do not.
+fn stiffness_ratio(case: &Solid, moved: &[Vec3]) -> Option<f64> {
+    let (mut both, mut squares) = (0.0, 0.0);
+    for (point, moved) in case.points.iter().zip(moved) {
+        if let Some((along, measured)) = point.measured {
+            let found = moved.dot(&along);
+            both += found * measured;
+            squares += found * found;
+        }
+    }
+    let ratio = squares / both;
+    (ratio > 0.0 && ratio.is_finite()).then_some(ratio)
+}
+
+/// The error where the points move the other way.
+fn against(case: &Solid) -> Error {
+    let measured = case.points.iter().find(|point| point.measured.is_some());
+    let way = measured.and_then(|point| point.measured);
+    let Some((point, (_, way))) = measured.zip(way) else {
+        return Error::failed("no point has a measured displacement");
+    };
+    let error = palpate_files::Error::BadValue {
+        place: point.place.clone(),
+        key: point.key.replace("at_m", "measured_m"),
+        found: format!("{way}"),
+        expected: "a displacement to the side to which gravity and the loads move the points"
+            .into(),
+    };
+    error.into()
+}
+
+fn figures(point: &Point, moved: &Vec3) -> PointFigures {
+    PointFigures {
+        name: point.name.clone(),
+        at_m: point.at.into(),
+        displacement_m: (*moved).into(),
+        measured_m: point.measured.map(|(_, way)| way),
+        error_m: point.measured.map(|(along, way)| moved.dot(&along) - way),
+    }
+}
+
+fn table_of_points(points: &[PointFigures]) -> Table {
+    let each = |axis: usize| {
+        points
+            .iter()
+            .map(move |point| 1e3 * point.displacement_m[axis])
+    };
+    let table = Table::default()
+        .with_texts("point", points.iter().map(|point| point.name.clone()))
+        .with("moves: x [mm]", each(0))
+        .with("y [mm]", each(1))
+        .with("z [mm]", each(2));
+    if points.iter().all(|point| point.measured_m.is_none()) {
+        return table;
+    }
+    let number =
+        |value: Option<f64>| value.map_or("–".to_owned(), |value| rounded(1e3 * value, 4));
+    table
+        .with_texts(
+            "measured [mm]",
+            points.iter().map(|point| number(point.measured_m)),
+        )
+        .with_texts(
+            "off by [mm]",
+            points.iter().map(|point| number(point.error_m)),
+        )
+}
+
+/// What the solver says, with the line and the key where it is about a load or a point.
+fn refused(problem: &Problem, case: &Solid, error: palpate_mechanics::Error) -> Error {
+    let bad = |place: &Place, key: &str, found: String, expected: &'static str| {
+        Error::from(palpate_files::Error::BadValue {
+            place: place.clone(),
+            key: key.to_owned(),
+            found,
+            expected: expected.into(),
+        })
+    };
+    let load = |number: usize| case.loads.get(number);
+    match &error {
+        palpate_mechanics::Error::Solid(SolidError::EmptyLoad { load: number }) => load(*number)
+            .map(|load| {
+                let found = "a region without a triangle of the surface".to_owned();
+                bad(
+                    &load.place,
+                    &load.key,
+                    found,
+                    "one that takes in a part of the surface",
+                )
+            }),
+        palpate_mechanics::Error::Solid(SolidError::LineOffSurface {
+            load: number,
+            distance,
+        }) => load(*number).map(|load| {
+            let found = format!("{} m off the surface", rounded(*distance, 3));
+            bad(&load.place, &load.key, found, "a line on the surface")
+        }),
+        palpate_mechanics::Error::Solid(SolidError::PointOutside { point, distance }) => {
+            case.points.get(*point).map(|point| {
+                let found = format!("{} m outside the body", rounded(*distance, 3));
+                bad(
+                    &point.place,
+                    &point.key,
+                    found,
+                    "a point in the body or on its surface",
+                )
+            })
+        }
+        _ => None,
+    }
+    .unwrap_or_else(|| problem.refused(error))
 }
 
 /// What is to be filled, and warnings about it.
@@ -102,12 +313,26 @@ fn heading(case: &Solid) -> String {
         Shape::Builtin { organ, .. } => format!("Built-in {organ}"),
         Shape::Mesh { path, .. } => path.display().to_string(),
     };
-    let how = match case.contact {
-        Friction::Bonded => "sticks",
-        Friction::Frictionless => "slips",
-    };
-    let radius = plots::short(1e3 * case.radius);
-    format!("{name}, moved by a patch of radius {radius} mm that {how}")
+    let mut how = Vec::new();
+    if case.gravity.is_some() {
+        how.push("under its weight".to_owned());
+    }
+    match case.loads.len() {
+        0 => {}
+        1 => how.push("under a load".to_owned()),
+        many => how.push(format!("under {many} loads")),
+    }
+    if let Some(patch) = &case.patch {
+        let contact = match patch.contact {
+            Friction::Bonded => "sticks",
+            Friction::Frictionless => "slips",
+        };
+        let radius = plots::short(1e3 * patch.radius);
+        how.push(format!(
+            "moved by a patch of radius {radius} mm that {contact}"
+        ));
+    }
+    format!("{name}, {}", how.join(", "))
 }
 
 /// The body at rest with its displacement, for ParaView's `Warp By Vector`.
@@ -134,22 +359,53 @@ fn grid(fields: &SolidFields) -> Vec<u8> {
     )
 }
 
-/// How far the surface moves, by its distance from the patch.
+/// How far the surface moves: by its distance from the patch, or along the longest axis where there is none.
 fn around_patch(case: &Solid, fields: &SolidFields) -> Plot {
     let surface = boundary_nodes(&fields.cells);
     let step = surface.len() / POINTS + 1;
-    let along = case.displacement.normalize();
-    let points = surface.iter().step_by(step).map(|&node| {
-        let (at, moved) = (fields.positions[node], fields.displacements[node]);
-        (1e3 * (at - case.center).norm(), 1e3 * moved.dot(&along))
-    });
+    let nodes = surface.iter().step_by(step);
+    let nodes = nodes.map(|&node| (fields.positions[node], fields.displacements[node]));
+    let (title, x_label, y_label, points): (_, _, _, Vec<(f64, f64)>) = match &case.patch {
+        Some(patch) => {
+            let along = patch.displacement.normalize();
+            let points = nodes
+                .map(|(at, moved)| (1e3 * (at - patch.center).norm(), 1e3 * moved.dot(&along)));
+            (
+                "How the surface moves around the patch",
+                "Distance at rest from the centre of the patch [mm]",
+                "Displacement along that of the patch [mm]",
+                points.collect(),
+            )
+        }
+        None => {
+            let span = |axis: usize| {
+                let each = fields.positions.iter().map(|at| at[axis]);
+                let (low, high) = each
+                    .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+                        (low.min(x), high.max(x))
+                    });
+                high - low
+            };
+            let longest = (0..3)
+                .max_by(|&a, &b| span(a).total_cmp(&span(b)))
+                .unwrap_or(0);
+            (
+                "How the surface moves along the body",
+                ["x at rest [mm]", "y at rest [mm]", "z at rest [mm]"][longest],
+                "Displacement [mm]",
+                nodes
+                    .map(|(at, moved)| (1e3 * at[longest], 1e3 * moved.norm()))
+                    .collect(),
+            )
+        }
+    };
     Plot {
-        title: "How the surface moves around the patch".to_owned(),
-        x_label: "Distance at rest from the centre of the patch [mm]".to_owned(),
-        y_label: "Displacement along that of the patch [mm]".to_owned(),
+        title: title.to_owned(),
+        x_label: x_label.to_owned(),
+        y_label: y_label.to_owned(),
         series: vec![Series {
             style: Style::Dots,
-            ..plots::line("", points)
+            ..plots::line("", points.into_iter())
         }],
         ..Plot::default()
     }

@@ -1,14 +1,13 @@
 use nalgebra::Matrix3;
 
 use super::super::model::{FiniteElementModel, FiniteElementState, FiniteElementWorkspace};
-use super::frame::Frame;
-use super::supports::Held;
+use super::frame::{Conditions, Frame};
 use crate::{Strain, Vec3};
 
 /// A solid in equilibrium, in the frame of the scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SolidAnswer {
-    /// Force on the tissue in the patch [N].
+    /// Force on the tissue in the patch [N]; zero without a patch.
     pub force: Vec3,
     /// Its component along the displacement [N].
     pub force_along: f64,
@@ -18,6 +17,8 @@ pub struct SolidAnswer {
     pub energy: f64,
     /// Root mean square of the displacement over the body [m].
     pub mean_displacement: f64,
+    /// Displacement of each point that was asked for [m].
+    pub points: Vec<Vec3>,
     /// Area of the patch at rest [m²].
     pub patch_area: f64,
     /// Number of unknowns.
@@ -50,8 +51,9 @@ impl SolidAnswer {
         model: &FiniteElementModel,
         state: &FiniteElementState,
         workspace: &FiniteElementWorkspace,
-        (frame, held, along): (&Frame, &Held, &Vec3),
+        (conditions, along): (&Conditions<'_>, Option<&Vec3>),
     ) -> Self {
+        let Conditions { frame, held, .. } = conditions;
         let sum = |nodes: &[usize]| -> Vec3 {
             let forces = nodes.iter().map(|&node| workspace.reaction(model, node));
             frame.back(&forces.sum())
@@ -59,10 +61,11 @@ impl SolidAnswer {
         let force = sum(&held.moved);
         Self {
             force,
-            force_along: force.dot(&along.normalize()),
+            force_along: along.map_or(0.0, |along| force.dot(&along.normalize())),
             reaction: sum(&held.anchored),
             energy: workspace.energy(),
             mean_displacement: mean_displacement(model, state),
+            points: Vec::new(),
             patch_area: held.area,
             unknowns: model.size(),
             factor_entries: workspace.factor_entries(),

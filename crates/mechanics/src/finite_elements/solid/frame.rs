@@ -20,7 +20,14 @@ pub(super) struct Frame {
 }
 
 impl Frame {
-    pub(super) fn new(patch: &MovedPatch) -> Self {
+    pub(super) fn new(patch: Option<&MovedPatch>) -> Self {
+        let Some(patch) = patch else {
+            return Self {
+                turn: Rotation3::identity(),
+                held: [false; 3],
+                displacement: Vec3::zeros(),
+            };
+        };
         let along = patch.displacement;
         let axis = along.iamax();
         let is_axis = (0..3).all(|i| i == axis || along[i] == 0.0);
@@ -55,18 +62,31 @@ impl Frame {
         self.turn.inverse() * vector
     }
 
-    /// The supports when the patch has moved this `part` [-] of its way.
-    pub(super) fn supports(
-        &self,
-        model: &FiniteElementModel,
-        held: &Held,
-        part: f64,
-    ) -> Supports<'static> {
+    /// A vector of the scene in the frame.
+    pub(super) fn forth(&self, vector: &Vec3) -> Vec3 {
+        self.turn * vector
+    }
+}
+
+/// What holds, moves and loads a solid.
+#[derive(Debug)]
+pub(super) struct Conditions<'a> {
+    pub(super) frame: &'a Frame,
+    pub(super) held: &'a Held,
+    /// Whole forces at the unknowns [N], in the frame.
+    pub(super) load: &'a [f64],
+}
+
+impl Conditions<'_> {
+    /// The supports at this `part` [-] of the displacement of the patch and of the loads.
+    pub(super) fn supports(&self, model: &FiniteElementModel, part: f64) -> Supports<'_> {
+        let Self { frame, held, load } = self;
         let mut supports = Supports::none(model);
+        supports.dead_load = Some((load, part));
         for axis in 0..3 {
             supports = supports.hold(model, held.anchored.iter().copied(), axis, 0.0);
-            if self.held[axis] {
-                let at = part * self.displacement[axis];
+            if frame.held[axis] {
+                let at = part * frame.displacement[axis];
                 supports = supports.hold(model, held.moved.iter().copied(), axis, at);
             }
         }

@@ -22,7 +22,7 @@ use palpate_geometry::{
 
 use super::mesh::faces;
 use super::patch::{area_of, area_within, faces_within};
-use super::problem::{Body, SolidProblem};
+use super::problem::{Body, MovedPatch, SolidProblem};
 use crate::{Error, Vec3};
 
 /// h₀, in radii of the patch [-].
@@ -64,20 +64,25 @@ const OFF: f64 = 0.01;
 pub(super) struct MeshContext<'a> {
     body: &'a Body,
     filling: TetrahedronMesh,
-    /// Centre of the patch, on the boundary [m].
-    pub(super) center: Vec3,
-    radius: f64,
-    /// Points of the edge of the patch [m].
-    edge: Vec<Vec3>,
+    patch: Option<PatchEdge>,
     /// Points where the anchor ends [m].
     rim: Vec<Vec3>,
     pub(super) warnings: Vec<String>,
 }
 
-impl<'a> MeshContext<'a> {
-    pub(super) fn new(problem: &'a SolidProblem) -> Result<Self, Error> {
-        let SolidProblem { body, patch, .. } = problem;
-        let triangles = triangles(body);
+/// Where a patch is on the boundary.
+#[derive(Debug, Clone)]
+struct PatchEdge {
+    /// Its centre, on the boundary [m].
+    center: Vec3,
+    radius: f64,
+    /// Points of its edge [m].
+    edge: Vec<Vec3>,
+}
+
+impl PatchEdge {
+    /// That of `patch` on the `triangles` of a boundary, and what deserves a warning.
+    fn new(patch: &MovedPatch, triangles: &[[Vec3; 3]]) -> Result<(Self, Vec<String>), Error> {
         let nearest = triangles
             .iter()
             .map(|triangle| closest_on_triangle(triangle, &patch.center).position)
@@ -103,6 +108,23 @@ impl<'a> MeshContext<'a> {
         if edge.is_empty() {
             return Err(Error::PatchCoversBody { radius });
         }
+        let found = Self {
+            center,
+            radius,
+            edge,
+        };
+        Ok((found, warnings))
+    }
+}
+
+impl<'a> MeshContext<'a> {
+    pub(super) fn new(problem: &'a SolidProblem) -> Result<Self, Error> {
+        let SolidProblem { body, patch, .. } = problem;
+        let triangles = triangles(body);
+        let patch = patch.as_ref();
+        let patch = patch.map(|patch| PatchEdge::new(patch, &triangles));
+        let (patch, warnings) = patch.transpose()?.unzip();
+        let warnings: Vec<String> = warnings.unwrap_or_default();
         let context = |filling: TetrahedronMesh| {
             let spacing = AT_ANCHOR * filling.quality().longest_edge;
             let rim = triangles.iter();
@@ -111,9 +133,7 @@ impl<'a> MeshContext<'a> {
                 body,
                 rim: rim.collect(),
                 filling,
-                center,
-                radius,
-                edge: edge.clone(),
+                patch: patch.clone(),
                 warnings: warnings.clone(),
             }
         };
@@ -121,8 +141,12 @@ impl<'a> MeshContext<'a> {
             Body::Surface(surface) => surface,
             Body::Volume(mesh) => return Ok(context(mesh.clone())),
         };
-        let wanted = area_within(radius, &center, surface);
         let (coarse, edge) = filling(surface)?;
+        let Some(PatchEdge { center, radius, .. }) = &patch else {
+            return Ok(context(coarse));
+        };
+        let (center, radius) = (*center, *radius);
+        let wanted = area_within(radius, &center, surface);
         let finer = |near: f64| {
             fill_graded(surface, &FillSettings::new(FINER * edge), |point| {
                 near + SPREAD * ((point - center).norm() - 1.5 * radius).max(0.0)
@@ -157,8 +181,14 @@ impl<'a> MeshContext<'a> {
     fn area_of_patch(&self) -> Result<f64, Error> {
         let (mesh, _) = self.mesh(0)?;
         let faces = faces(&mesh);
-        let patch = faces_within(self.radius, &self.center, (&mesh, &faces));
-        Ok(area_of(&patch, &mesh))
+        let patch = self.patch.iter();
+        let patch = patch.flat_map(|at| faces_within(at.radius, &at.center, (&mesh, &faces)));
+        Ok(area_of(&patch.collect::<Vec<_>>(), &mesh))
+    }
+
+    /// Centre of the patch, on the boundary [m].
+    pub(super) fn center(&self) -> Option<&Vec3> {
+        self.patch.as_ref().map(|patch| &patch.center)
     }
 
     /// The tetrahedra after `halvings`, and how many edges still cross the edge of the patch.
@@ -169,16 +199,22 @@ impl<'a> MeshContext<'a> {
         };
         let halves = f64::from(halvings);
         let follow = 2.0_f64.powf(-halves / 4.0);
-        let shortest = EDGE * self.radius * 2.0_f64.powf(-halves);
+        let halved = 2.0_f64.powf(-halves);
         let filling = self.filling.quality().longest_edge;
-        let at_anchor = AT_ANCHOR * filling * 2.0_f64.powf(-halves);
+        let at_anchor = AT_ANCHOR * filling * halved;
         let mesh = refine_to(&self.filling, surface, |point| {
             let away = |from| GROWTH * follow * distance(from, point);
             let longest = filling * follow * (1.0 + 1e-9);
             let near_anchor = away(&self.rim).max(at_anchor);
-            away(&self.edge).max(shortest).min(near_anchor).min(longest)
+            let near_patch = self.patch.as_ref().map_or(f64::INFINITY, |patch| {
+                away(&patch.edge).max(EDGE * patch.radius * halved)
+            });
+            near_patch.min(near_anchor).min(longest)
         })?;
-        let (mesh, resolved) = resolve_sphere(&mesh, surface, &self.center, self.radius)?;
+        let Some(PatchEdge { center, radius, .. }) = &self.patch else {
+            return Ok((mesh, 0));
+        };
+        let (mesh, resolved) = resolve_sphere(&mesh, surface, center, *radius)?;
         Ok((mesh, resolved.crossing))
     }
 }

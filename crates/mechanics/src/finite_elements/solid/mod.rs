@@ -1,11 +1,13 @@
-//! A solid of any shape, held in one place and moved by a tool in another.
+//! A solid of any shape, held in one place, and moved by a tool or loaded in others.
 //!
 //! Its body is filled with quadratic tetrahedra with a pressure field [Taylor and Hood 1973], refined
 //! towards the edge of the patch that the tool moves and that of the anchor (`grading`). The patch is a set of whole triangles
 //! within a radius of a point; *stick* prescribes all three components of its displacement, *slip* only
 //! the one along the displacement. With K the tangent and r the residual,
 //!   K Δu = −r, u given where the body is held or moved,
-//! once at small strain, and in steps at finite strain; the force is Σ r over the nodes of the patch.
+//! once at small strain, and in steps at finite strain; the force is Σ r over the nodes of the patch. Weight and forces on
+//! the boundary are dead loads: they keep their direction while the body turns, and grow with the displacement of the
+//! patch.
 //!
 //! *How we know*: `solid::a_patch_on_a_cube_is_a_punch` (axisymmetric elements and the half-space),
 //! `solid::a_patch_on_a_hemisphere_is_3_percent_stiffer_than_on_a_half_space`,
@@ -16,8 +18,10 @@
 //! its facets. A third mesh of an organ takes gigabytes and minutes.
 
 mod answer;
+mod error;
 mod frame;
 mod grading;
+mod loads;
 mod mesh;
 mod patch;
 mod problem;
@@ -28,5 +32,6 @@ mod supports;
 pub(crate) use mesh::{Face, faces};
 
 pub use answer::{SolidAnswer, SolidFields};
-pub use problem::{Body, MovedPatch, SolidProblem};
+pub use error::SolidError;
+pub use problem::{Body, DeadLoad, LoadPlace, Loads, MovedPatch, SolidProblem, Weight};
 pub use run::{solve, solve_at};

@@ -30,15 +30,55 @@ pub struct MovedPatch {
     pub grip: Friction,
 }
 
-/// A solid that is held in one place and moved in another.
+/// Loads that do not turn with the body.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Loads {
+    /// Its weight, if it has one.
+    pub weight: Option<Weight>,
+    /// Forces on its boundary.
+    pub forces: Vec<DeadLoad>,
+}
+
+/// What makes a body weigh.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Weight {
+    /// Acceleration of gravity [m/s²].
+    pub gravity: Vec3,
+    /// Density at rest [kg/m³].
+    pub density: f64,
+}
+
+/// A force on a part of the boundary whose direction is constant.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DeadLoad {
+    /// The part.
+    pub place: LoadPlace,
+    /// The whole force [N].
+    pub force: Vec3,
+}
+
+/// Where a force acts.
+#[derive(Debug, Clone, PartialEq)]
+pub enum LoadPlace {
+    /// Evenly on the triangles of the boundary, at rest, whose centroid lies in a region.
+    Faces(Region),
+    /// Evenly along a straight line on the boundary, such as an edge, between two points [m].
+    Line([Vec3; 2]),
+}
+
+/// A solid that is held in one place, and moved or loaded in others.
 #[derive(Debug, Clone)]
 pub struct SolidProblem {
     /// The body.
     pub body: Body,
     /// Where it is held: in the triangles of its boundary whose centroid lies in one of the regions.
     pub anchor: Region,
-    /// Where it is moved.
-    pub patch: MovedPatch,
+    /// Where it is moved, if it is.
+    pub patch: Option<MovedPatch>,
     /// Its law; with [`crate::Strain::Small`] all is linear.
     pub law: Arc<dyn Law>,
+    /// What loads it besides. Loads and the displacement of the patch grow together from rest.
+    pub loads: Loads,
+    /// Points of the body whose displacement is asked for [m].
+    pub points: Vec<Vec3>,
 }

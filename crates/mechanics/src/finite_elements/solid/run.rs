@@ -2,8 +2,10 @@ use super::super::estimate::{Estimated, Meshes, Progress, Quantity, refine};
 use super::super::mesh::ElementMesh;
 use super::super::model::{FiniteElementModel, FiniteElementWorkspace, Formulation};
 use super::answer::SolidAnswer;
-use super::frame::Frame;
+use super::frame::{Conditions, Frame};
 use super::grading::MeshContext;
+use super::loads;
+use super::mesh::faces;
 use super::problem::{Body, SolidProblem};
 use super::solve::equilibrium;
 use super::supports::Held;
@@ -23,12 +25,12 @@ const MESHES: Meshes<'static> = Meshes {
     order: 1.0,
 };
 
-/// The force of a patch, to the relative `accuracy` [-] if four meshes give it; on a body too large for
-/// the last the error that is left is told all the same.
+/// The force of a patch and the displacement of the body, to the relative `accuracy` [-] if four meshes give it; on a
+/// body too large for the last the error that is left is told all the same.
 ///
 /// # Errors
-/// When the problem is none (no anchor, no patch, no displacement), too large for the memory, or
-/// cannot be followed to its end.
+/// When the problem is none (no anchor, neither a patch nor a load, a load on no part of the body), too large for the
+/// memory, or cannot be followed to its end.
 pub fn solve(
     problem: &SolidProblem,
     accuracy: f64,
@@ -43,10 +45,21 @@ pub fn solve(
         }
         let answer = problem.solve_on(&context, mesh, progress)?;
         unknowns = answer.unknowns;
-        let quantities = vec![
-            Quantity::new("force", vec![answer.force_along]),
-            Quantity::new("displacement of the body", vec![answer.mean_displacement]),
-        ];
+        let mut quantities = vec![Quantity::new(
+            "displacement of the body",
+            vec![answer.mean_displacement],
+        )];
+        if problem.patch.is_some() {
+            quantities.push(Quantity::new("force", vec![answer.force_along]));
+        }
+        if !answer.points.is_empty() {
+            let squares = answer.points.iter().map(Vec3::norm_squared);
+            let mean = squares.sum::<f64>() / answer.points.len() as f64;
+            quantities.push(Quantity::new(
+                "displacement of the points",
+                vec![mean.sqrt()],
+            ));
+        }
         Ok(Some((answer, quantities)))
     })
 }
@@ -83,16 +96,44 @@ impl SolidProblem {
                 most: MOST_UNKNOWNS,
             });
         }
-        let held = Held::new(self, &tetrahedra, &context.center)?;
-        let frame = Frame::new(&self.patch);
+        let boundary = faces(&tetrahedra);
+        let held = Held::new(self, &tetrahedra, (&boundary, context.center()))?;
+        let forces = loads::of_boundary(&self.loads.forces, &tetrahedra, &boundary)?;
+        let places = loads::places(&self.points, &tetrahedra, &boundary)?;
+        let frame = Frame::new(self.patch.as_ref());
         let elements = frame.put(ElementMesh::from_tetrahedra(&tetrahedra));
         let model = FiniteElementModel::new(elements, self.law.clone(), Formulation::Mixed)?;
         let mut workspace = FiniteElementWorkspace::new(&model)?;
-        let state = equilibrium(&model, (&frame, &held), &mut workspace, &mut |part| {
+        let mut load = match &self.loads.weight {
+            Some(weight) => {
+                let force = weight.density * frame.forth(&weight.gravity);
+                model.body_load(|_| force)
+            }
+            None => vec![0.0; model.size()],
+        };
+        for (node, force) in forces {
+            for (axis, force) in frame.forth(&force).iter().enumerate() {
+                load[3 * node + axis] += force;
+            }
+        }
+        let conditions = Conditions {
+            frame: &frame,
+            held: &held,
+            load: &load,
+        };
+        let state = equilibrium(&model, &conditions, &mut workspace, &mut |part| {
             progress(Progress { part, mesh });
         })?;
-        let supports = (&frame, &held, &self.patch.displacement);
-        let mut answer = SolidAnswer::new(&model, &state, &workspace, supports);
+        let along = self.patch.map(|patch| patch.displacement);
+        let mut answer =
+            SolidAnswer::new(&model, &state, &workspace, (&conditions, along.as_ref()));
+        let moved = |place: &loads::Place| {
+            let parts = place.iter();
+            parts
+                .map(|(node, part)| *part * answer.fields.displacements[*node])
+                .sum()
+        };
+        answer.points = places.iter().map(moved).collect();
         answer.warnings.clone_from(&context.warnings);
         if crossing > 0 {
             answer.warnings.push(format!(
@@ -104,7 +145,8 @@ impl SolidProblem {
     }
 
     fn check(&self) -> Result<(), Error> {
-        let patch = &self.patch;
+        let (low, high) = self.body.bounds();
+        let extent = (high - low).max();
         let length = |name: &'static str, found: f64| {
             if found > 0.0 && found.is_finite() {
                 Ok(())
@@ -112,17 +154,18 @@ impl SolidProblem {
                 Err(Error::NotALength { name, found })
             }
         };
-        let displacement = patch.displacement.norm();
-        length("the radius of the patch", patch.radius)?;
-        length("the displacement of the patch", displacement)?;
-        let (low, high) = self.body.bounds();
-        let extent = (high - low).max();
-        if displacement > extent {
-            return Err(Error::DisplacementBeyondBody {
-                displacement,
-                extent,
-            });
+        if let Some(patch) = &self.patch {
+            let displacement = patch.displacement.norm();
+            length("the radius of the patch", patch.radius)?;
+            length("the displacement of the patch", displacement)?;
+            if displacement > extent {
+                return Err(Error::DisplacementBeyondBody {
+                    displacement,
+                    extent,
+                });
+            }
         }
+        self.loads.check(self.patch.is_some())?;
         if self.anchor.is_empty() {
             return Err(Error::NothingHeld);
         }

@@ -6,8 +6,7 @@
 use super::super::model::{FiniteElementModel, FiniteElementState, FiniteElementWorkspace};
 use super::super::newton::{self, Failure, equilibrate};
 use super::super::supports::Supports;
-use super::frame::Frame;
-use super::supports::Held;
+use super::frame::Conditions;
 use crate::{Error, Strain};
 
 /// Free residual over that of the reactions [-].
@@ -18,16 +17,16 @@ const MOST_SOLUTIONS: usize = 4;
 const FIRST: f64 = 0.25;
 const SHORTEST: f64 = 1e-3;
 
-/// Brings a body at rest to where the patch has gone all of its way; `at_part` hears how far it is.
+/// Brings a body at rest to where the patch has gone all of its way and all loads act; `at_part` hears how far it is.
 pub(super) fn equilibrium(
     model: &FiniteElementModel,
-    (frame, held): (&Frame, &Held),
+    conditions: &Conditions<'_>,
     workspace: &mut FiniteElementWorkspace,
     at_part: &mut dyn FnMut(f64),
 ) -> Result<FiniteElementState, Error> {
     let mut state = FiniteElementState::at_rest(model);
     if model.law.volume().strain == Strain::Small {
-        let supports = frame.supports(model, held, 1.0);
+        let supports = conditions.supports(model, 1.0);
         linear(model, &supports, &mut state, workspace)
             .map_err(|failure| Error::NoSolid { part: 0.0, failure })?;
         at_part(1.0);
@@ -48,7 +47,7 @@ pub(super) fn equilibrium(
                 *x += ahead * (*x - old);
             }
         }
-        let supports = frame.supports(model, held, goal);
+        let supports = conditions.supports(model, goal);
         match equilibrate(model, &supports, &mut trial, workspace) {
             Ok(done) => {
                 let old = std::mem::replace(&mut state, trial);

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use palpate_geometry::TetrahedronMesh;
 
-use super::mesh::{Face, faces};
+use super::mesh::Face;
 use super::patch::{area_of, faces_within};
 use super::problem::SolidProblem;
 use crate::{Error, Vec3};
@@ -24,9 +24,8 @@ impl Held {
     pub(super) fn new(
         problem: &SolidProblem,
         mesh: &TetrahedronMesh,
-        center: &Vec3,
+        (faces, center): (&[Face], Option<&Vec3>),
     ) -> Result<Self, Error> {
-        let faces = faces(mesh);
         let anchored: Vec<&Face> = faces
             .iter()
             .filter(|face| problem.anchor.holds(face.centroid(mesh).into()))
@@ -35,14 +34,17 @@ impl Held {
             return Err(Error::NothingHeld);
         }
         every_piece_is_held(mesh, &anchored)?;
-        let patch = faces_within(problem.patch.radius, center, (mesh, &faces));
+        let patch = match (&problem.patch, center) {
+            (Some(patch), Some(center)) => faces_within(patch.radius, center, (mesh, faces)),
+            _ => Vec::new(),
+        };
         let nodes = |faces: &[&Face]| -> Vec<usize> {
             let nodes: BTreeSet<_> = faces.iter().flat_map(|face| face.nodes).collect();
             nodes.into_iter().collect()
         };
         let (anchored, moved) = (nodes(&anchored), nodes(&patch));
-        if moved.is_empty() {
-            let radius = problem.patch.radius;
+        if let (true, Some(patch)) = (moved.is_empty(), &problem.patch) {
+            let radius = patch.radius;
             return Err(Error::EmptyPatch { radius });
         }
         let both = moved.iter().filter(|n| anchored.binary_search(n).is_ok());

@@ -26,6 +26,8 @@ Examples:
       also writes the deformed body, for ParaView
   palpate solve ramp.toml --recording ramp.csv
       writes a recording, as an indenter would record it
+  palpate solve beam_weight.toml --tissue silicone.toml
+      fits the stiffness to measured displacements and writes the tissue
 
 A problem names a body, its tissue and its loads. This is punch.toml:
 
@@ -43,7 +45,10 @@ The keys of each kind:
                and perhaps indent = { radius_m, depths_m, contact = \"stick\" | \"slip\" }
   uniaxial     stretches
   solid        mesh (a surface or tetrahedra) and mesh_unit, or builtin and triangles; anchor as in
-               a scene; patch = { center_m, radius_m, displacement_m, contact = \"stick\" | \"slip\" }
+               a scene; patch = { center_m, radius_m, displacement_m, contact = \"stick\" | \"slip\" },
+               gravity_m_per_s2, or [[load]] with force_n and region = { planes, boxes, spheres }
+               or line = { from_m, to_m }; [[point]] with name, at_m, and perhaps along and measured_m,
+               to which fit_stiffness = true fits the tissue
 All have format = 1, kind, accuracy (0.01 if not given), and tissue (a table or a file) or \
 builtin_tissue, as in a scene. A key ends in its unit; depths_mm is read as well as depths_m. \
 Moduli are instantaneous; only a ramp relaxes. `palpate examples DIR` writes a problem of each kind."
@@ -67,6 +72,9 @@ pub(crate) struct Arguments {
     /// Write the forces of a `ramp` as a recording.
     #[arg(long, value_name = "FILE.csv")]
     recording: Option<PathBuf>,
+    /// Write the tissue whose stiffness was fitted (`fit_stiffness`).
+    #[arg(long, value_name = "FILE.toml")]
+    tissue: Option<PathBuf>,
     /// Write the JSON object to a file as well.
     #[arg(long, value_name = "FILE.json")]
     out: Option<PathBuf>,
@@ -112,6 +120,12 @@ fn claimed(arguments: &Arguments, problem: &Problem) -> Result<Vec<Claim>, Failu
              use --out",
         ));
     }
+    if arguments.tissue.is_some() && !problem.fits_stiffness() {
+        return Err(Failure::input(
+            "--tissue: only a solid with `fit_stiffness = true` has a tissue of its own; leave it out, or fit the \
+             stiffness to measured points",
+        ));
+    }
     arguments.overwrite.claim(arguments.files())
 }
 
@@ -128,6 +142,9 @@ fn write(arguments: &Arguments, answer: &Answer) -> Result<(), Failure> {
     if let (Some(path), Some(recording)) = (&arguments.recording, &solution.recording) {
         recording.write(path)?;
     }
+    if let (Some(path), Some(tissue)) = (&arguments.tissue, solution.fitted_tissue()) {
+        tissue.write(path)?;
+    }
     if let Some(path) = &arguments.out {
         let json = json_text(answer)? + "\n";
         palpate_files::write_whole(path, json.as_bytes())?;
@@ -138,7 +155,15 @@ fn write(arguments: &Arguments, answer: &Answer) -> Result<(), Failure> {
 impl Arguments {
     /// The files to be written.
     fn files(&self) -> impl Iterator<Item = &Path> {
-        let files = [&self.plot, &self.vtu, &self.recording, &self.out];
+        let Self {
+            plot,
+            vtu,
+            recording,
+            tissue,
+            out,
+            ..
+        } = self;
+        let files = [plot, vtu, recording, tissue, out];
         files.into_iter().filter_map(|path| path.as_deref())
     }
 }

@@ -10,7 +10,7 @@ use palpate_geometry::{AabbTree, Vec3};
 use palpate_mechanics::LinearElastic;
 use palpate_mechanics::boundary_elements::{Influences, Kelvin, Panel};
 use palpate_mechanics::finite_elements::hemisphere::{HemisphereProblem, Patch};
-use palpate_mechanics::finite_elements::solid::{Body, MovedPatch, SolidProblem, solve};
+use palpate_mechanics::finite_elements::solid::{Body, Loads, MovedPatch, SolidProblem, solve};
 use palpate_simulate::{Simulation, held_region};
 
 use super::{HEMISPHERE, Hands, POLE, around_the_pole, grasping, pose, with_jaws};
@@ -264,13 +264,15 @@ fn a_pulled_esophagus_is_that_of_finite_elements() {
     let solid = SolidProblem {
         body: Body::Surface(simulation.surface().clone()),
         anchor: held_region(&scene.organ.shape, None),
-        patch: MovedPatch {
+        patch: Some(MovedPatch {
             center: point,
             radius: (area / std::f64::consts::PI).sqrt(),
             displacement: 1e-3 * normal,
             grip: Friction::Bonded,
-        },
+        }),
         law: Arc::new(LinearElastic::new(YOUNGS_MODULUS, 0.45).unwrap()),
+        loads: Loads::default(),
+        points: Vec::new(),
     };
     let solid = solve(&solid, 0.03, &mut |_| ()).unwrap();
     let expected = solid.answer.force_along;

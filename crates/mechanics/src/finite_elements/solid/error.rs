@@ -1,0 +1,53 @@
+/// What does not fit a solid.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SolidError {
+    /// Neither a patch nor a load.
+    #[error("nothing moves or loads the body; give a patch, a weight or a force on its surface")]
+    NothingLoads,
+    /// A density that is none.
+    #[error("the density is {density} kg/m3; give a positive number")]
+    DensityOutOfRange {
+        /// The value given [kg/m³].
+        density: f64,
+    },
+    /// An acceleration or a force without a direction.
+    #[error("{name} is {found:?}; give three finite numbers that are not all zero")]
+    NoDirection {
+        /// What it is.
+        name: &'static str,
+        /// The value given.
+        found: [f64; 3],
+    },
+    /// No triangle of the boundary is in the region of a force.
+    #[error(
+        "load {} acts on no triangle of the body; give a plane, box or sphere that takes in a part of its surface", load + 1
+    )]
+    EmptyLoad {
+        /// Its number, from 0.
+        load: usize,
+    },
+    /// The line of a force leaves the boundary.
+    #[error(
+        "the line of load {} lies {distance} m off the surface; move it to the surface", load + 1
+    )]
+    LineOffSurface {
+        /// Number of the force, from 0.
+        load: usize,
+        /// The largest distance of a point of the line [m].
+        distance: f64,
+    },
+    /// The line of a force has no length.
+    #[error("the line of load {} has no length; give two different ends", load + 1)]
+    NoLine {
+        /// Number of the force, from 0.
+        load: usize,
+    },
+    /// A point whose displacement is asked for is outside the body.
+    #[error("point {} lies {distance} m outside the body; move it into the body", point + 1)]
+    PointOutside {
+        /// Its number, from 0.
+        point: usize,
+        /// Its distance [m].
+        distance: f64,
+    },
+}
