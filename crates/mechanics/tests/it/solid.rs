@@ -433,7 +433,7 @@ fn what_cannot_be_solved_is_refused() {
         ),
         (
             changed(&|p| p.body = two()),
-            &["2 pieces", "not held", "join"],
+            &["2 pieces", "not fixed", "join"],
         ),
         (
             changed(&|p| p.patch.as_mut().unwrap().center = 0.1 * Vec3::z()),
@@ -449,7 +449,7 @@ fn what_cannot_be_solved_is_refused() {
         ),
         (
             changed(&|p| p.patch.as_mut().unwrap().center = -HALF * Vec3::z()),
-            &["100 %", "held by the anchor", "move the patch"],
+            &["100 %", "lies in the anchor", "move the patch"],
         ),
         (
             changed(&|p| p.patch.as_mut().unwrap().displacement = 0.5 * Vec3::z()),

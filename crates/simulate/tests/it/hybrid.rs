@@ -159,7 +159,7 @@ fn a_damaged_file_is_made_again() {
     };
     let (kept_nowhere, _) = prepare(&KIDNEY.scene(), &blocked).unwrap();
     assert_eq!(kept_nowhere.response().unwrap().file, None);
-    assert!(kept_nowhere.warnings()[0].contains("is not kept"));
+    assert!(kept_nowhere.warnings()[0].contains("is not cached"));
 }
 
 #[test]
