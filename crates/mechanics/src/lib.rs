@@ -8,6 +8,7 @@
 //! use std::sync::Arc;
 //!
 //! use palpate_mechanics::NeoHookean;
+//! use palpate_mechanics::contact::Friction;
 //! use palpate_mechanics::finite_elements::indentation::{
 //!     Base, Block, IndentationProblem, Indenter, IndenterShape, solve,
 //! };
