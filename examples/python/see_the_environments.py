@@ -57,6 +57,7 @@ def main(path: str) -> None:
         )
     ]
     Image.fromarray(np.vstack(rows)).save(path, optimize=True)
+    print(f"{path}: Palpation, Traction and Cutting; colour, depth [m] and labels")
 
 
 if __name__ == "__main__":

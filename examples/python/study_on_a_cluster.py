@@ -37,7 +37,9 @@ def main() -> None:
         study = palpate.study.run(tasks, asked.study, client)
 
     table = study.to_frame()
-    numbers = [name for name in table if name.startswith("laws.") and name.endswith((".misfit", "_pa.value", ".alpha.value"))]
+    numbers = [
+        name for name in table if name.startswith("laws.") and name.endswith((".misfit", "_pa.value", ".alpha.value"))
+    ]
     shown = ["specimen", "law", *numbers]
     print(table[shown].to_string(index=False))
     for place, why in study.failures.items():
