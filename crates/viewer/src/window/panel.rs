@@ -295,7 +295,7 @@ fn limits(touch: &LoopReport, ui: &mut Ui) {
     let did = touch.interventions;
     ui.label("limits").on_hover_text(format!(
         "ticks in which a force was changed on its way to the hand: late {}, faded {}, damped {}, walls {}, \
-         shortened {}, cooled {}, slowed {}; let go of {} times",
+         saturated {}, thermally limited {}, rate limited {}; dead-man switch released {} times",
         did.deadline_missed, did.faded, did.damped, did.walls, did.saturated, did.thermally_limited, did.rate_limited, did.dead_man_released
     ));
     match touch.fault {
