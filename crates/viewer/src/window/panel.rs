@@ -296,7 +296,14 @@ fn limits(touch: &LoopReport, ui: &mut Ui) {
     ui.label("limits").on_hover_text(format!(
         "ticks in which a force was changed on its way to the hand: late {}, faded {}, damped {}, walls {}, \
          saturated {}, thermally limited {}, rate limited {}; dead-man switch released {} times",
-        did.deadline_missed, did.faded, did.damped, did.walls, did.saturated, did.thermally_limited, did.rate_limited, did.dead_man_released
+        did.deadline_missed,
+        did.faded,
+        did.damped,
+        did.walls,
+        did.saturated,
+        did.thermally_limited,
+        did.rate_limited,
+        did.dead_man_released,
     ));
     match touch.fault {
         Some(fault) => ui
