@@ -53,7 +53,7 @@ impl Simulation {
 pub struct Contact {
     /// Where the tip is over the rest surface now.
     pub(crate) contact_point: ContactPoint,
-    /// The place that answers: that of the contact_point, or of the first contact of a tip that sticks.
+    /// The place that answers: that of the contact point, or of the first contact of a tip that sticks.
     pub(crate) place: LocalContact,
     /// Where the tool is [m].
     pub(crate) tip: Vec3,
@@ -213,7 +213,7 @@ fn creep(last: &Contact, (measured, signed): (f64, f64), (tip, run): (&Vec3, f64
 
 /// Depth of the tool's reference point below the rest surface [m]: its distance, where the nearest
 /// point of the surface is the one that is touched. Where it is another one (below a thin wall, or
-/// behind a ridge) it is the depth below the contact_point, with a continuous passage between the two. With
+/// behind a ridge) it is the depth below the contact point, with a continuous passage between the two. With
 /// it the signed distance.
 fn depth_of_tip(ground: &RestSurface<'_>, contact_point: &ContactPoint, tip: &Vec3) -> (f64, f64) {
     let surface = ground.surface;

@@ -1,4 +1,4 @@
-//! A long preparation is heard of, cancelled and kept.
+//! A long preparation reports its progress, can be cancelled, and its result is stored.
 
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::ptr;

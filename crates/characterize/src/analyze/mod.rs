@@ -33,7 +33,7 @@ pub struct Analysis {
     pub sinusoids: Vec<Sinusoid>,
     /// The answer to each chirp, in the order of time.
     pub sweeps: Vec<Sweep>,
-    /// Warnings, in plain sentences, beside the warnings of the recording.
+    /// Warnings about the results; those about the recordings stand apart.
     pub warnings: Vec<String>,
 }
 

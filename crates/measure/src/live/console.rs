@@ -82,7 +82,7 @@ impl Console {
         self.switches.stop();
     }
 
-    /// No force at once, until somebody arms again; the queued commands are dropped.
+    /// No force at once, until a person arms again; the queued commands are dropped.
     pub fn emergency_stop(&self) {
         self.supervisor.trip();
         self.switches.stop();

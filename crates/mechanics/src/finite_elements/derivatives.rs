@@ -133,7 +133,7 @@ fn tangent_is_the_derivative_of_the_residual() {
                 .map(|i| random.sign() * if i < count { 0.02 } else { 1.0 })
                 .collect();
             let mut direction: Vec<f64> = at.iter().map(|_| random.sign()).collect();
-            // Nodes of the axis stay on it, or hoop_terms divide by nothing.
+            // Nodes of the axis stay on it, or the hoop terms divide by nothing.
             for (node, place) in model.mesh.nodes.iter().enumerate() {
                 if kind == ElementKind::Quad9 && place.x == 0.0 {
                     direction[2 * node] = 0.0;

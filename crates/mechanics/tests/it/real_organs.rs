@@ -82,7 +82,7 @@ impl Kidney {
         }
     }
 
-    fn problem(&self, place: TriangleId, grip: Friction) -> SolidProblem {
+    fn problem(&self, place: TriangleId, friction: Friction) -> SolidProblem {
         let normal = self.solid.surface.mesh().area_vector(place).normalize();
         SolidProblem {
             body: Body::Surface(self.solid.surface.clone()),
@@ -91,7 +91,7 @@ impl Kidney {
                 center: self.solid.centroid(place),
                 radius: RADIUS,
                 displacement: -DEPTH * normal,
-                grip,
+                friction,
             }),
             law: Arc::new(law(NU)),
             loads: Loads::default(),

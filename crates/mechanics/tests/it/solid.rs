@@ -43,7 +43,7 @@ fn block(cells: usize) -> TetrahedronMesh {
 
 /// A cube of 0.1 m with its bottom held, and a patch of `radius` [m] in the middle of its top that
 /// moves down by a hundredth of it.
-pub(crate) fn cube(radius: f64, nu: f64, grip: Friction) -> SolidProblem {
+pub(crate) fn cube(radius: f64, nu: f64, friction: Friction) -> SolidProblem {
     SolidProblem {
         body: Body::Volume(block(4)),
         anchor: plane(-0.999 * HALF * Vec3::z(), Vec3::z()),
@@ -51,7 +51,7 @@ pub(crate) fn cube(radius: f64, nu: f64, grip: Friction) -> SolidProblem {
             center: HALF * Vec3::z(),
             radius,
             displacement: -0.01 * radius * Vec3::z(),
-            grip,
+            friction,
         }),
         law: Arc::new(LinearElastic::new(MODULUS, nu).unwrap()),
         loads: Loads::default(),
@@ -66,7 +66,7 @@ pub(crate) fn at(problem: &SolidProblem, halvings: i32) -> SolidAnswer {
 /// Force of the half-space [N].
 fn half_space(patch: &MovedPatch, nu: f64) -> f64 {
     let (a, d) = (patch.radius, patch.displacement.norm());
-    match patch.grip {
+    match patch.friction {
         Friction::Frictionless => 2.0 * a * MODULUS * d / (1.0 - nu * nu),
         Friction::Bonded => {
             let shear = MODULUS / (2.0 * (1.0 + nu));
@@ -87,7 +87,7 @@ fn cylinder(problem: &SolidProblem) -> f64 {
         indenter: Indenter {
             shape: IndenterShape::Flat { side: Side::Absent },
             radius: patch.radius,
-            face: patch.grip,
+            face: patch.friction,
         },
         law: problem.law.clone(),
     };
@@ -282,7 +282,7 @@ fn a_patch_on_a_hemisphere_is_3_percent_stiffer_than_on_a_half_space() {
             center: HALF * Vec3::z(),
             radius: 0.002,
             displacement: -1e-4 * Vec3::z(),
-            grip: Friction::Frictionless,
+            friction: Friction::Frictionless,
         }),
         law: Arc::new(LinearElastic::new(MODULUS, 0.3).unwrap()),
         loads: Loads::default(),
@@ -376,7 +376,7 @@ fn real_kidney_under_a_patch() {
             center,
             radius: 0.005,
             displacement: -5e-4 * Vec3::y(),
-            grip: Friction::Bonded,
+            friction: Friction::Bonded,
         }),
         law: Arc::new(LinearElastic::new(MODULUS, 0.45).unwrap()),
         loads: Loads::default(),

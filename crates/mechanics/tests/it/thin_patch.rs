@@ -49,7 +49,7 @@ fn a_patch_on_a_thin_edge_has_its_area() {
             center,
             radius,
             displacement: -1e-4 * Vec3::x(),
-            grip: Friction::Frictionless,
+            friction: Friction::Frictionless,
         }),
         law: Arc::new(LinearElastic::new(MODULUS, 0.45).unwrap()),
         loads: Loads::default(),

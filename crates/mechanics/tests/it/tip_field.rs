@@ -433,7 +433,7 @@ fn real_kidney_error(triangles: usize) -> Option<f64> {
                 center: solid.centroid(id),
                 radius: a,
                 displacement: -depth * normal,
-                grip,
+                friction: grip,
             }),
             law: Arc::new(law(nu)),
             loads: Loads::default(),

@@ -268,7 +268,7 @@ fn solid_in_half_spaces(contact: &LocalContact, nu: f64) -> (f64, f64) {
             center: Vec3::zeros(),
             radius: TIP,
             displacement: Vec3::new(0.0, 0.0, -1e-3 * TIP),
-            grip: Friction::Frictionless,
+            friction: Friction::Frictionless,
         }),
         law: Arc::new(law),
         loads: Loads::default(),

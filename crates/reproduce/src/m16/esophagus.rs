@@ -167,7 +167,7 @@ fn organ(rows: &Rows<'_>, simulation: &Simulation) -> Result<SolidOrgan, Error> 
             radius: RADIUS,
             // Small strain: any will do.
             displacement: -1e-3 * normal,
-            grip: Friction::Bonded,
+            friction: Friction::Bonded,
         }),
         law: Arc::new(LinearElastic::new(1.0, POISSONS_RATIO)?),
         loads: Loads::default(),

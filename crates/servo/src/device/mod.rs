@@ -1,7 +1,7 @@
 //! The seam to devices. The virtual ones and the real ones are the same to everybody above it.
 //!
 //! A device is commanded by a [`ServoLoop`](crate::ServoLoop) alone, for nobody else can make a [`Command`] with a
-//! force: its force is a [`OutputForce`], which the guard makes, and the loop gives it to the device whose
+//! force: its force is an [`OutputForce`], which the guard makes, and the loop gives it to the device whose
 //! [`Capabilities`] the guard was made for.
 //!
 //! ```compile_fail,E0624

@@ -16,7 +16,7 @@
 //! 9. [`slew`]: a force rises by at most 400 N/s and falls at once.
 //!
 //! What is added against the device's own weight, spring and mass passes stages 1 to 5, 8 (what the device displays, and
-//! its motors bear) and 9 with the rest: what is sent is one force, a [`OutputForce`].
+//! its motors bear) and 9 with the rest: what is sent is one force, an [`OutputForce`].
 //!
 //! A fault keeps forces off until somebody arms them again. What the stages did is counted
 //! ([`Interventions`]).

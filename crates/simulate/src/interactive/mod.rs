@@ -5,7 +5,7 @@
 //!  recorder      ◀─every SessionRow─      step           ◀───latest(Sample)────  extrapolate, limit
 //! ```
 //!
-//! An [`ModelCommand`] (pause, undo, anew) goes to the model by a ring of its own. The recorder writes a session that is
+//! A [`ModelCommand`] (pause, undo, anew) goes to the model by a ring of its own. The recorder writes a session that is
 //! recorded, and hands its rows on to who shows them. A watch thread notices a loop that hangs and a program that shall end
 //! ([`palpate_servo::watch`]). Another model takes over while the devices stay open ([`PreparedModel`]).
 //!

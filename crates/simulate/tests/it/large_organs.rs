@@ -56,7 +56,7 @@ fn real_liver_of_20000_triangles() {
                 center,
                 radius: RADIUS,
                 displacement: -DEPTH * normal,
-                grip: Friction::Frictionless,
+                friction: Friction::Frictionless,
             }),
             law: law.clone(),
             loads: Loads::default(),

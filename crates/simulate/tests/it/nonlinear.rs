@@ -168,7 +168,7 @@ fn a_pulled_hemisphere_is_that_of_finite_elements() {
                 center: Vec3::new(0.0, 0.0, 0.05),
                 radius,
                 displacement: way,
-                grip: Friction::Bonded,
+                friction: Friction::Bonded,
             }),
             law: Arc::new(NeoHookean::compressible(0.5 * shear, bulk).unwrap()),
             loads: Loads::default(),

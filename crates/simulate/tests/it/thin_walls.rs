@@ -137,7 +137,7 @@ fn the_esophagus_is_that_of_finite_elements() {
             center: point,
             radius: 2e-3,
             displacement: -1e-3 * normal,
-            grip: Friction::Frictionless,
+            friction: Friction::Frictionless,
         }),
         law: law.clone(),
         loads: Loads::default(),

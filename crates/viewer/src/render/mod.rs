@@ -142,25 +142,19 @@ impl Renderer {
         target: &Target,
     ) {
         self.write(gpu, view, (bodies, tools), target.size());
-        let mut encoder = gpu
-            .device
-            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        {
-            let mut pass = begin(&mut encoder, &target.attachments());
-            pass.set_bind_group(0, &self.globals.group, &[]);
+        self.pass(gpu, &target.attachments(), |pass| {
             let pipeline = |subject| self.pipelines.of(gpu, subject, target.samples());
             pass.set_pipeline(&pipeline(Subject::Tissue {
                 shading: number(view.shading),
                 looks: view.looks,
             }));
-            self.draw_bodies(&mut pass, bodies);
+            self.draw_bodies(pass, bodies);
             pass.set_pipeline(&pipeline(Subject::Instrument));
-            self.draw_tools(&mut pass, tools.len());
+            self.draw_tools(pass, tools.len());
             // Last, where nothing is: a slow machine does not draw it twice.
             pass.set_pipeline(&pipeline(Subject::Backdrop));
             pass.draw(0..3, 0..1);
-        }
-        gpu.queue.submit([encoder.finish()]);
+        });
     }
 
     /// Draws how far ahead of the eye `bodies` and `tools` are, and what they are, into `target`; it is handed in, not
@@ -173,16 +167,28 @@ impl Renderer {
         target: &LabelTarget,
     ) {
         self.write(gpu, view, (bodies, tools), target.size());
+        self.pass(gpu, &target.attachments(), |pass| {
+            pass.set_pipeline(&self.pipelines.of(gpu, Subject::TissueLabel, 1));
+            self.draw_bodies(pass, bodies);
+            pass.set_pipeline(&self.pipelines.of(gpu, Subject::InstrumentLabel, 1));
+            self.draw_tools(pass, tools.len());
+        });
+    }
+
+    /// Submits what `draw` puts into one pass over `attachments`.
+    fn pass(
+        &self,
+        gpu: &Gpu,
+        attachments: &Attachments<'_>,
+        draw: impl FnOnce(&mut wgpu::RenderPass<'_>),
+    ) {
         let mut encoder = gpu
             .device
             .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         {
-            let mut pass = begin(&mut encoder, &target.attachments());
+            let mut pass = begin(&mut encoder, attachments);
             pass.set_bind_group(0, &self.globals.group, &[]);
-            pass.set_pipeline(&self.pipelines.of(gpu, Subject::TissueLabel, 1));
-            self.draw_bodies(&mut pass, bodies);
-            pass.set_pipeline(&self.pipelines.of(gpu, Subject::InstrumentLabel, 1));
-            self.draw_tools(&mut pass, tools.len());
+            draw(&mut pass);
         }
         gpu.queue.submit([encoder.finish()]);
     }

@@ -66,15 +66,22 @@ pub(crate) fn solution(
     let mut found = solved(&mechanical)?;
     let mut factor = 1.0;
     let mut tissue = None;
-    for _ in 0..MOST_FITS {
-        if !case.fits {
-            break;
-        }
+    let mut fits = 0;
+    while case.fits {
         // Displacements are nearly as the reciprocal of the stiffness.
         let change = stiffness_ratio(case, &found.answer.points).ok_or_else(|| against(case))?;
         if (change - 1.0).abs() <= FITTED_TO * problem.accuracy {
             break;
         }
+        if fits == MOST_FITS {
+            warnings.push(format!(
+                "the fitted stiffness still changes by {:.2} % after {MOST_FITS} solutions; measure points that move \
+                 more with it",
+                100.0 * (change - 1.0).abs()
+            ));
+            break;
+        }
+        fits += 1;
         factor *= change;
         let mut fitted = problem.tissue.clone();
         fitted.elasticity = fitted.elasticity.times(factor);
@@ -113,7 +120,7 @@ pub(crate) fn solution(
         let reaction = answer.reaction;
         let table = Table::default()
             .with("largest displacement [mm]", [1e3 * farthest])
-            .with("on the tissue where it is held: x [mN]", [1e3 * reaction.x])
+            .with("on the fixed tissue: x [mN]", [1e3 * reaction.x])
             .with("y [mN]", [1e3 * reaction.y])
             .with("z [mN]", [1e3 * reaction.z]);
         tables.push(table);
@@ -170,7 +177,7 @@ fn moved(patch: &Patch) -> MovedPatch {
         center: patch.center,
         radius: patch.radius,
         displacement: patch.displacement,
-        grip: patch.contact,
+        friction: patch.contact,
     }
 }
 

@@ -31,7 +31,7 @@ impl Frame {
         let along = patch.displacement;
         let axis = along.iamax();
         let is_axis = (0..3).all(|i| i == axis || along[i] == 0.0);
-        let (turn, held) = match patch.grip {
+        let (turn, held) = match patch.friction {
             Friction::Bonded => (Rotation3::identity(), [true; 3]),
             Friction::Frictionless if is_axis => {
                 (Rotation3::identity(), [0, 1, 2].map(|i| i == axis))

@@ -27,7 +27,7 @@ pub struct MovedPatch {
     /// How far every point of it moves [m].
     pub displacement: Vec3,
     /// Whether it moves along with all of the displacement, or only with the component along it.
-    pub grip: Friction,
+    pub friction: Friction,
 }
 
 /// Loads that do not turn with the body.

@@ -26,7 +26,7 @@ const MESHES: Meshes<'static> = Meshes {
 };
 
 /// The force of a patch and the displacement of the body, to the relative `accuracy` [-] if four meshes give it; on a
-/// body too large for the last the error that is left is told all the same.
+/// body too large for the last the remaining error is stated too.
 ///
 /// # Errors
 /// When the problem is none (no anchor, neither a patch nor a load, a load on no part of the body), too large for the

@@ -268,7 +268,7 @@ fn a_pulled_esophagus_is_that_of_finite_elements() {
             center: point,
             radius: (area / std::f64::consts::PI).sqrt(),
             displacement: 1e-3 * normal,
-            grip: Friction::Bonded,
+            friction: Friction::Bonded,
         }),
         law: Arc::new(LinearElastic::new(YOUNGS_MODULUS, 0.45).unwrap()),
         loads: Loads::default(),

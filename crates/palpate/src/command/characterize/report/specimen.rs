@@ -114,7 +114,7 @@ fn known_card(name: Markup, key: &str, known: &Known) -> Markup {
     card(name, quantity(key, known.value, known.standard_error), note)
 }
 
-/// What can be told apart, by the verdicts on each parameter, and Warnings.
+/// What can be told apart, by the verdicts on each parameter, and warnings.
 fn told(own: &Specimen) -> Markup {
     let others = own
         .warnings
