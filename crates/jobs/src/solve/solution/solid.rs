@@ -66,14 +66,16 @@ pub(crate) fn solution(
     let mut found = solved(&mechanical)?;
     let mut factor = 1.0;
     let mut tissue = None;
-    let mut fits = 0;
-    while case.fits {
+    for fit in 0..=MOST_FITS {
+        if !case.fits {
+            break;
+        }
         // Displacements are nearly as the reciprocal of the stiffness.
         let change = stiffness_ratio(case, &found.answer.points).ok_or_else(|| against(case))?;
         if (change - 1.0).abs() <= FITTED_TO * problem.accuracy {
             break;
         }
-        if fits == MOST_FITS {
+        if fit == MOST_FITS {
             warnings.push(format!(
                 "the fitted stiffness still changes by {:.2} % after {MOST_FITS} solutions; measure points that move \
                  more with it",
@@ -81,7 +83,6 @@ pub(crate) fn solution(
             ));
             break;
         }
-        fits += 1;
         factor *= change;
         let mut fitted = problem.tissue.clone();
         fitted.elasticity = fitted.elasticity.times(factor);
