@@ -53,7 +53,7 @@ pub use io::error::{ReadError, ReadFault, UnknownUnit};
 pub use io::format::MeshFormat;
 pub use io::label_map::read_label_map;
 pub use io::unit::{LengthUnit, extent_warning, is_plausible_extent, unit_by_extent};
-pub use io::volume::{ImportedTetrahedra, VolumeFormat, read_tetrahedra};
+pub use io::volume::{ImportedTetrahedra, VolumeFormat, VolumeRegion, read_tetrahedra};
 pub use io::vtk;
 pub use io::write::WriteFormat;
 pub use io::{ImportedMesh, read_mesh};
@@ -70,7 +70,7 @@ pub use neighborhood_watch::{ContactPoint, FASTEST_TURN, follow, settle};
 pub use organ::{AnchorPlane, Organ, OrganDescription, OrganError};
 pub use patch_field::{Patch, PatchField};
 pub use proximity::{PointOnTriangle, closest_on_triangle};
-pub use refine::{Focus, Resolved, refine_near, refine_to, refine_uniformly, resolve_sphere};
+pub use refine::{Level, Resolved, refine_to, resolve_levels};
 pub use simplify::{
     Simplified, SimplifyError, SimplifySettings, simplify, simplify_graded, simplify_with_progress,
 };

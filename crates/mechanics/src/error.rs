@@ -425,6 +425,9 @@ pub enum Error {
     /// What does not fit a solid.
     #[error(transparent)]
     Solid(#[from] crate::finite_elements::solid::SolidError),
+    /// See [`crate::regions::RegionError`].
+    #[error(transparent)]
+    Region(#[from] crate::regions::RegionError),
     /// What does not fit a finite element model.
     #[error(transparent)]
     Mismatch(#[from] crate::finite_elements::Mismatch),

@@ -41,6 +41,7 @@ mod limits;
 mod linear;
 mod material;
 pub mod nonlinear;
+pub mod regions;
 pub mod surface_response;
 mod tip_law;
 

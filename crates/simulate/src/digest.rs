@@ -15,8 +15,9 @@
 use std::fmt::{Debug, Write};
 
 use palpate_files::scene::{
-    Calibration, Cutting, DeviceKind, Enhancement, InclusionShape, IntegrationPoints, Jaws, Layer,
-    LocalSettings, Model, Nodule, Region, RegionBox, RegionPlane, RegionSphere, Tip, Tool,
+    Calibration, Cutting, DeviceKind, Enhancement, InclusionPlace, InclusionShape,
+    IntegrationPoints, Jaws, Layer, LocalSettings, Model, Nodule, Region, RegionBox, RegionPlane,
+    RegionSphere, Tip, Tool,
 };
 use palpate_files::{Scene, Tissue};
 use palpate_geometry::Surface;
@@ -35,11 +36,12 @@ pub(crate) struct SceneDigest {
 }
 
 impl SceneDigest {
-    /// `felt` are the tissues of layers and inclusions that are felt, `neighbours` those at which tools stop.
+    /// `felt` are the tissues of layers and inclusions that are felt, `enclosed` the surfaces of inclusions, `neighbours` those at which tools stop.
     pub(crate) fn of<'a>(
         scene: &Scene,
         surface: &Surface,
         (tissue, felt): (&Tissue, &[Tissue]),
+        enclosed: &[Surface],
         neighbours: impl Iterator<Item = &'a Surface>,
     ) -> Self {
         let mut form = canonical(scene, tissue);
@@ -48,6 +50,9 @@ impl SceneDigest {
             for tissue in std::iter::once(tissue).chain(felt) {
                 form.numbers("density_kg_m3", &[tissue.density_kg_m3.value]);
             }
+        }
+        for body in enclosed {
+            form.word("enclosed", &digits(of_surface(body)));
         }
         neighbours.for_each(|body| form.word("neighbour", &digits(of_surface(body))));
         let of_surface = of_surface(surface);
@@ -140,7 +145,7 @@ fn canonical(scene: &Scene, tissue: &Tissue) -> Form {
         .organ
         .inclusions
         .iter()
-        .for_each(|inclusion| form.inclusion(&inclusion.shape));
+        .for_each(|inclusion| form.inclusion(&inclusion.place));
     form
 }
 
@@ -346,7 +351,11 @@ impl Form {
         }
     }
 
-    fn inclusion(&mut self, shape: &InclusionShape) {
+    /// A surface is told by its vertices.
+    fn inclusion(&mut self, place: &InclusionPlace) {
+        let InclusionPlace::Shape(shape) = place else {
+            return;
+        };
         match shape {
             InclusionShape::Ball { center_m, radius_m } => {
                 self.numbers("ball", &[&center_m[..], &[*radius_m]].concat());

@@ -11,8 +11,9 @@ use crate::global::{GlobalModel, GlobalProblem, ResponseOrigin, surround};
 use crate::neighbour::Neighbour;
 use crate::nonlinear::{NonlinearOrgan, Regions};
 use crate::preparation::tell;
+use crate::region_places::read_regions;
 use crate::tool::{Tool, settings, typical_radius};
-use crate::{Error, Progress, Resources, Work, inclusion, nodule, organ, tip_laws, trocar};
+use crate::{Error, Progress, Resources, Work, nodule, organ, tip_laws, trocar};
 
 /// An organ and the tools that may touch it. Built once, never changed.
 #[derive(Debug, Clone)]
@@ -78,14 +79,13 @@ impl Simulation {
             trocar::check(tool, (&surface, &tree))?;
         }
         nodule::check(&scene.organ.nodules, (&surface, &tree))?;
-        inclusion::check(&scene.organ.inclusions, (&surface, &tree))?;
+        let is_nonlinear = scene.model.kind == ModelKind::Nonlinear;
+        let (map, more) = read_regions(&scene.organ, is_nonlinear, (&surface, &tree))?;
+        warnings.extend(more);
+        let enclosed: Vec<Surface> = map.enclosed().cloned().collect();
         let regions = match scene.model.kind {
             ModelKind::Local | ModelKind::Hybrid => None,
-            ModelKind::Nonlinear => Some(Regions::new(
-                scene,
-                (&surface, &tree),
-                (&tissue, &material),
-            )?),
+            ModelKind::Nonlinear => Some(Regions::new(scene, map, (&tissue, &material))?),
         };
         let touched = scene.tools.iter().map(|tool| match &regions {
             Some(regions) => regions.touched(typical_radius(&tool.tip)),
@@ -177,6 +177,7 @@ impl Simulation {
                 scene,
                 &surface,
                 (&tissue, &felt),
+                &enclosed,
                 neighbours.iter().map(|body| &body.surface),
             ),
             seed: scene.variant.as_ref().map_or(0, |own| own.seed),

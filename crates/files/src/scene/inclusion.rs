@@ -1,7 +1,7 @@
 use std::ops::Bound::Included;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use super::TissueChoice;
+use super::{LengthUnit, Shape, TissueChoice};
 use crate::{Domain, Error, Key, Keys};
 
 /// A part of an organ with a tissue of its own, such as a tumour or a vessel. The nonlinear model feels it.
@@ -10,9 +10,23 @@ pub struct Inclusion {
     /// Its name, for people.
     pub name: String,
     /// Where it is.
-    pub shape: InclusionShape,
+    pub place: InclusionPlace,
     /// What it is made of.
     pub tissue: TissueChoice,
+}
+
+/// Where an inclusion is.
+#[derive(Debug, Clone, PartialEq)]
+pub enum InclusionPlace {
+    /// In a shape.
+    Shape(InclusionShape),
+    /// Inside of a closed surface in a file.
+    Mesh {
+        /// The file.
+        path: PathBuf,
+        /// The unit of its coordinates; none: its own, or a guess from its size.
+        unit: Option<LengthUnit>,
+    },
 }
 
 /// The shape of an inclusion.
@@ -46,12 +60,13 @@ pub enum InclusionShape {
 }
 
 impl Inclusion {
-    pub(super) const KEYS: &[Key] = &[
+    /// The keys of an inclusion.
+    pub const KEYS: &'static [Key] = &[
         Key::text("name", "What people call it.").optional("\"tumour\"", "its number"),
         Key::table(
             "ball",
             BALL,
-            "A ball. One of the three shapes has to be there.",
+            "A ball. One of the three shapes or `mesh` has to be there.",
         )
         .optional("", "another shape is there")
         .in_template(),
@@ -62,15 +77,25 @@ impl Inclusion {
             "All points within a distance of a line segment.",
         )
         .optional("", "another shape is there"),
+        Key::path(
+            "mesh",
+            "A mesh file with a closed surface in the organ, as of a tumour or a vessel.",
+        )
+        .optional("\"tumour.stl\"", "another shape is there"),
+        Shape::KEYS[1],
         TissueChoice::KEYS[0],
         TissueChoice::KEYS[1],
     ];
 
-    pub(super) fn from_keys(keys: &Keys<'_>, number: usize, folder: &Path) -> Result<Self, Error> {
+    /// The inclusion of a table with these keys, the `number`th from 0; paths begin in `folder`.
+    ///
+    /// # Errors
+    /// When the table has no shape or two, or no tissue.
+    pub fn from_keys(keys: &Keys<'_>, number: usize, folder: &Path) -> Result<Self, Error> {
         let name = keys.text("name")?;
         Ok(Self {
             name: name.unwrap_or_else(|| format!("inclusion {}", number + 1)),
-            shape: InclusionShape::from_keys(keys)?,
+            place: InclusionPlace::from_keys(keys, folder)?,
             tissue: TissueChoice::from_keys(keys, folder)?,
         })
     }
@@ -102,6 +127,24 @@ const CAPSULE: &[Key] = &[
     Key::number("radius_m", RADIUS, "The distance.").required("0.003"),
 ];
 
+impl InclusionPlace {
+    fn from_keys(keys: &Keys<'_>, folder: &Path) -> Result<Self, Error> {
+        let Some(mesh) = keys.text("mesh")? else {
+            keys.refuse("mesh_unit", "no unit without `mesh`")?;
+            return Ok(Self::Shape(InclusionShape::from_keys(keys)?));
+        };
+        for shape in ["ball", "ellipsoid", "capsule"] {
+            if keys.contains(shape) {
+                return Err(keys.given_twice("mesh", shape));
+            }
+        }
+        Ok(Self::Mesh {
+            path: folder.join(mesh),
+            unit: keys.word("mesh_unit", LengthUnit::WORDS)?,
+        })
+    }
+}
+
 impl InclusionShape {
     fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
         let ball = keys.table("ball")?;
@@ -124,8 +167,8 @@ impl InclusionShape {
             }),
             (None, None, None) => Err(keys.missing(
                 "ball",
-                "one shape: `ball = { center_m, radius_m }`, `ellipsoid = { center_m, radii_m }` or \
-                 `capsule = { from_m, to_m, radius_m }`",
+                "one shape: `ball = { center_m, radius_m }`, `ellipsoid = { center_m, radii_m }`, \
+                 `capsule = { from_m, to_m, radius_m }` or `mesh = \"file.stl\"`",
             )),
             (Some(_), Some(_), _) => Err(keys.given_twice("ball", "ellipsoid")),
             (Some(_), _, Some(_)) => Err(keys.given_twice("ball", "capsule")),

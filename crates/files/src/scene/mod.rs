@@ -20,7 +20,7 @@ use std::path::{Path, PathBuf};
 
 pub use cutting::{CutMode, Cutting};
 pub use draw::{Drawn, Draws, FindOnSurface, LARGEST_SEED, OnSurface, SurfacePoint, Variant};
-pub use inclusion::{Inclusion, InclusionShape};
+pub use inclusion::{Inclusion, InclusionPlace, InclusionShape};
 pub use jaws::Jaws;
 pub use model::{Enhancement, LocalSettings, Model};
 pub use model_words::{

@@ -183,7 +183,8 @@ impl Nodule {
 }
 
 impl Layer {
-    const KEYS: &[Key] = &[
+    /// The keys of a layer: name, thickness and tissue, then what a blade meets.
+    pub const KEYS: &'static [Key] = &[
         Key::text("name", "What people call it.").optional("\"circular muscle\"", "its number"),
         Key::number("thickness_m", Domain::LENGTH, "Its thickness.").required("0.0008"),
         TissueChoice::KEYS[0],

@@ -78,10 +78,11 @@ fn inclusions_and_weight_are_understood() {
         ellipsoid = { center_m = [0, 0.01, 0], radii_m = [0.01, 0.02, 0.03], turn_rad = [0.1, 0.2, 0.3] }\n\
         tissue = \"cyst.toml\"\n[[organ.inclusion]]\n\
         capsule = { from_m = [0, 0, 0], to_m = [0, 0, 0.1], radius_m = 0.002 }\ntissue = \"vessel.toml\"\n\
+        [[organ.inclusion]]\nmesh = \"stone.stl\"\nmesh_unit = \"mm\"\ntissue = \"stone.toml\"\n\
         [model]\nkind = \"nonlinear\"\ngravity_m_per_s2 = [0, 0, -9.81]\n[[tool]]\nname = \"right\"\n";
     let scene = parse(text);
     assert_eq!(scene.model.gravity_m_per_s2, Some([0.0, 0.0, -9.81]));
-    let [ball, ellipsoid, capsule] = &scene.organ.inclusions[..] else {
+    let [ball, ellipsoid, capsule, stone] = &scene.organ.inclusions[..] else {
         panic!("{:?}", scene.organ.inclusions)
     };
     assert_eq!(
@@ -92,19 +93,24 @@ fn inclusions_and_weight_are_understood() {
         center_m: [0.01, 0.0, 0.0],
         radius_m: 0.005,
     };
-    assert_eq!(ball.shape, shape);
+    assert_eq!(ball.place, InclusionPlace::Shape(shape));
     let shape = InclusionShape::Ellipsoid {
         center_m: [0.0, 0.01, 0.0],
         radii_m: [0.01, 0.02, 0.03],
         turn_rad: [0.1, 0.2, 0.3],
     };
-    assert_eq!(ellipsoid.shape, shape);
+    assert_eq!(ellipsoid.place, InclusionPlace::Shape(shape));
     let shape = InclusionShape::Capsule {
         from_m: [0.0; 3],
         to_m: [0.0, 0.0, 0.1],
         radius_m: 0.002,
     };
-    assert_eq!(capsule.shape, shape);
+    assert_eq!(capsule.place, InclusionPlace::Shape(shape));
+    let mesh = InclusionPlace::Mesh {
+        path: PathBuf::from("scenes/stone.stl"),
+        unit: Some(LengthUnit::Millimetre),
+    };
+    assert_eq!(stone.place, mesh);
     let tissue = PathBuf::from("scenes/vessel.toml");
     assert_eq!(capsule.tissue, TissueChoice::File(tissue));
 }

@@ -14,7 +14,7 @@ mod faces;
 mod quality;
 
 pub use error::TetrahedronError;
-pub(crate) use faces::{OPPOSITE, faces, matched, pieces};
+pub(crate) use faces::{faces, matched, pieces};
 pub use quality::TetrahedronQuality;
 pub(crate) use quality::{dihedral_angles, longest_edge, six_fold_volume};
 
@@ -30,6 +30,8 @@ const FLAT: f64 = 1e-12;
 pub struct TetrahedronMesh {
     vertices: Vec<Vec3>,
     tetrahedra: Vec<[NodeId; 4]>,
+    /// The region of each; empty where all are of region 0.
+    regions: Vec<u32>,
 }
 
 impl TetrahedronMesh {
@@ -37,7 +39,7 @@ impl TetrahedronMesh {
     pub const MOST_TETRAHEDRA: usize = 4_000_000;
 
     /// A mesh of `vertices` [m] and positive `tetrahedra` (vertex numbers). Vertices that none uses
-    /// are dropped; the others keep their order.
+    /// are dropped; the others keep their order. All tetrahedra are of region 0.
     ///
     /// # Errors
     /// When there is no tetrahedron, a coordinate is not finite, an index is out of range, a
@@ -68,10 +70,41 @@ impl TetrahedronMesh {
         let mesh = Self {
             vertices,
             tetrahedra,
+            regions: Vec::new(),
         };
         mesh.check_shapes()?;
         mesh.check_faces()?;
         Ok(mesh)
+    }
+
+    /// The same with a region for each tetrahedron.
+    ///
+    /// # Errors
+    /// When there is not one for each.
+    pub fn with_regions(self, regions: Vec<u32>) -> Result<Self, TetrahedronError> {
+        if regions.len() != self.tetrahedra.len() {
+            return Err(TetrahedronError::WrongRegions {
+                found: regions.len(),
+                tetrahedra: self.tetrahedra.len(),
+            });
+        }
+        let regions = match regions.iter().all(|region| *region == 0) {
+            true => Vec::new(),
+            false => regions,
+        };
+        Ok(Self { regions, ..self })
+    }
+
+    /// The region that a tetrahedron belongs to.
+    pub fn region(&self, tetrahedron: usize) -> u32 {
+        self.regions.get(tetrahedron).copied().unwrap_or(0)
+    }
+
+    /// Whether several regions meet in each vertex.
+    pub(crate) fn between_regions(&self) -> Vec<bool> {
+        let each = self.tetrahedra.iter().enumerate();
+        let each = each.map(|(number, corners)| (corners.map(|node| node.0), self.region(number)));
+        between_regions(self.vertices.len(), each)
     }
 
     fn check_shapes(&self) -> Result<(), TetrahedronError> {
@@ -112,7 +145,7 @@ impl TetrahedronMesh {
         &self.tetrahedra
     }
 
-    /// Vertices and tetrahedra, to be changed and checked again.
+    /// Vertices and tetrahedra, to be changed and checked again; the regions are left out.
     pub fn into_parts(self) -> (Vec<Vec3>, Vec<[NodeId; 4]>) {
         (self.vertices, self.tetrahedra)
     }
@@ -141,6 +174,22 @@ impl TetrahedronMesh {
         edges.dedup();
         edges
     }
+}
+
+/// Whether several regions meet in each of so many vertices, from tetrahedra with their regions.
+pub(crate) fn between_regions(
+    vertices: usize,
+    tetrahedra: impl Iterator<Item = ([u32; 4], u32)>,
+) -> Vec<bool> {
+    let mut first = vec![None; vertices];
+    let mut between = vec![false; vertices];
+    for (nodes, region) in tetrahedra {
+        for node in nodes {
+            let seen = *first[node as usize].get_or_insert(region);
+            between[node as usize] |= seen != region;
+        }
+    }
+    between
 }
 
 fn without_unused(

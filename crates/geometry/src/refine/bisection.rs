@@ -1,6 +1,6 @@
 use std::collections::HashMap;
 
-use crate::mesh::tetrahedra::{faces, longest_edge, matched};
+use crate::mesh::tetrahedra::{between_regions, faces, longest_edge, matched};
 use crate::{NodeId, TetrahedronError, TetrahedronMesh, Vec3};
 
 type Edge = [u32; 2];
@@ -17,6 +17,7 @@ struct Marked {
     flag: bool,
     /// Whether the face that leaves out each corner lies on the boundary.
     boundary: [bool; 4],
+    region: u32,
 }
 
 /// Tetrahedra under bisection. A child takes the place of its parent, the other comes last.
@@ -42,7 +43,7 @@ impl Bisection {
             for node in nodes {
                 around[node as usize].push(number as u32);
             }
-            tetrahedra.push(marked(&vertices, nodes));
+            tetrahedra.push(marked(&vertices, nodes, mesh.region(number)));
         }
         let sorted = faces(mesh.tetrahedra());
         for alike in matched(&sorted).filter(|alike| alike.len() == 1) {
@@ -88,6 +89,12 @@ impl Bisection {
         on_boundary
     }
 
+    /// Whether several regions meet in each vertex.
+    pub(super) fn between_regions(&self) -> Vec<bool> {
+        let each = self.tetrahedra.iter().map(|one| (one.nodes, one.region));
+        between_regions(self.vertices.len(), each)
+    }
+
     /// Bisects each of `chosen` once, and then others until no vertex lies in the middle of an edge.
     pub(super) fn bisect(&mut self, chosen: &[u32]) {
         for &tetrahedron in chosen {
@@ -102,7 +109,8 @@ impl Bisection {
 
     pub(super) fn into_mesh(self) -> Result<TetrahedronMesh, TetrahedronError> {
         let corners = self.tetrahedra.iter().map(|t| t.nodes.map(NodeId));
-        TetrahedronMesh::new(self.vertices, corners.collect())
+        let regions = self.tetrahedra.iter().map(|t| t.region);
+        TetrahedronMesh::new(self.vertices, corners.collect())?.with_regions(regions.collect())
     }
 
     fn hangs(&self, tetrahedron: u32) -> bool {
@@ -192,7 +200,7 @@ fn sorted([a, b]: Edge) -> Edge {
 }
 
 /// Marked by longest edges, ties settled by numbers: neighbours agree about their face.
-fn marked(vertices: &[Vec3], nodes: [u32; 4]) -> Marked {
+fn marked(vertices: &[Vec3], nodes: [u32; 4], region: u32) -> Marked {
     let key = |edge: Edge| {
         let [low, high] = sorted(edge);
         let squared = (vertices[high as usize] - vertices[low as usize]).norm_squared();
@@ -218,5 +226,6 @@ fn marked(vertices: &[Vec3], nodes: [u32; 4]) -> Marked {
         marks: [[b, c, d], [a, c, d], [a, b, d], [a, b, c]].map(|face| longest(&face)),
         flag: false,
         boundary: [false; 4],
+        region,
     }
 }

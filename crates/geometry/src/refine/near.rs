@@ -1,8 +1,6 @@
 use super::bisection::Bisection;
 use super::relax::relax;
 use super::shell::{Shell, move_if_sound};
-use crate::mesh::tetrahedra::{OPPOSITE, six_fold_volume};
-use crate::proximity::closest_on_triangle;
 use crate::{Surface, TetrahedronError, TetrahedronMesh, Vec3};
 
 /// Angles below this are not made by moving a vertex [rad].
@@ -14,54 +12,9 @@ const MOST_ROUNDS: usize = 100;
 /// Times that vertices inside are moved.
 const MOST_RELAXED: usize = 2;
 
-/// A ball in which tetrahedra are to be small.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Focus {
-    /// Its centre [m].
-    pub center: Vec3,
-    /// Its radius [m].
-    pub radius: f64,
-    /// The longest edge that a tetrahedron may have that touches it [m].
-    pub edge: f64,
-}
-
-/// Bisects tetrahedra until those that touch the ball have no edge longer than `focus.edge`. Away
-/// from it they grow by themselves. New vertices of the boundary move onto `surface`, if it is given;
-/// without one the boundary keeps its shape. A ball between the mesh and its surface refines what is
-/// nearest to it.
-///
-/// # Errors
-/// When radius or edge is not a positive length, there come more tetrahedra than
-/// [`TetrahedronMesh::MOST_TETRAHEDRA`], or the edge is not reached.
-pub fn refine_near(
-    mesh: &TetrahedronMesh,
-    surface: Option<&Surface>,
-    focus: &Focus,
-) -> Result<TetrahedronMesh, TetrahedronError> {
-    for (what, found) in [
-        ("the radius of the ball", focus.radius),
-        ("the edge to refine to", focus.edge),
-    ] {
-        if !found.is_finite() || found <= 0.0 {
-            return Err(TetrahedronError::NotALength { what, found });
-        }
-    }
-    let center = center_in(mesh, focus);
-    refine(mesh, surface, |longest, positions| {
-        longest > focus.edge && is_within(positions, &center, focus.radius)
-    })
-    .map_err(|error| match error {
-        TetrahedronError::TooMany { expected, most, .. } => TetrahedronError::TooMany {
-            expected,
-            edge_m: focus.edge,
-            most,
-        },
-        other => other,
-    })
-}
-
 /// Bisects tetrahedra until none has an edge longer than what `longest_edge` [m] says at any of its
-/// corners [m] or at their centroid; otherwise as [`refine_near`].
+/// corners [m] or at their centroid. Away from there they grow by themselves. New vertices of the boundary move onto
+/// `surface`, if it is given; without one the boundary keeps its shape. Regions keep their shapes.
 ///
 /// # Errors
 /// When there come more tetrahedra than [`TetrahedronMesh::MOST_TETRAHEDRA`], or the edge is not
@@ -71,19 +24,11 @@ pub fn refine_to(
     surface: Option<&Surface>,
     longest_edge: impl Fn(&Vec3) -> f64,
 ) -> Result<TetrahedronMesh, TetrahedronError> {
-    refine(mesh, surface, |longest, positions| {
+    let too_long = |longest: f64, positions: &[Vec3; 4]| {
         let [a, b, c, d] = positions;
         let centroid = 0.25 * (a + b + c + d);
         longest > longest_edge(&centroid) || positions.iter().any(|p| longest > longest_edge(p))
-    })
-}
-
-/// Bisects tetrahedra that are `too_long`, by their longest edge [m] and their corners [m].
-fn refine(
-    mesh: &TetrahedronMesh,
-    surface: Option<&Surface>,
-    too_long: impl Fn(f64, &[Vec3; 4]) -> bool,
-) -> Result<TetrahedronMesh, TetrahedronError> {
+    };
     let shell = surface.map(Shell::new);
     let mut bisection = Bisection::new(mesh);
     let mut off_surface = Vec::new();
@@ -146,45 +91,4 @@ fn pull(bisection: &mut Bisection, shell: &Shell<'_>, node: u32) -> bool {
         return false;
     }
     move_if_sound(vertices, star.iter().copied(), node, target, FLOOR)
-}
-
-/// The centre of the ball, or where the ball lies between the mesh and its surface, the point of the
-/// mesh nearest to it [m].
-fn center_in(mesh: &TetrahedronMesh, focus: &Focus) -> Vec3 {
-    let all = || (0..mesh.tetrahedra().len()).map(|t| mesh.positions(t));
-    let mut nearest = (f64::INFINITY, focus.center);
-    if all().any(|positions| is_within(&positions, &focus.center, focus.radius)) {
-        return focus.center;
-    }
-    for face in all().flat_map(|positions| faces_of(&positions)) {
-        let point = closest_on_triangle(&face, &focus.center).position;
-        let distance = (point - focus.center).norm();
-        if distance < nearest.0 {
-            nearest = (distance, point);
-        }
-    }
-    nearest.1
-}
-
-/// Whether a tetrahedron has a point within `reach` of `center` [m].
-fn is_within(positions: &[Vec3; 4], center: &Vec3, reach: f64) -> bool {
-    let [a, b, c, d] = positions;
-    let (low, high) = (a.inf(b).inf(c).inf(d), a.sup(b).sup(c).sup(d));
-    let outside = (low - center).sup(&(center - high)).sup(&Vec3::zeros());
-    if outside.norm() > reach {
-        return false;
-    }
-    let faces = faces_of(positions);
-    let near = faces.iter().any(|face| {
-        let nearest = closest_on_triangle(face, center).position;
-        (nearest - center).norm() <= reach
-    });
-    near || faces
-        .iter()
-        .all(|[p, q, r]| six_fold_volume(&[*center, *p, *q, *r]) >= 0.0)
-}
-
-/// The faces of a positive tetrahedron, counter-clockwise seen from outside.
-fn faces_of(positions: &[Vec3; 4]) -> [[Vec3; 3]; 4] {
-    OPPOSITE.map(|face| face.map(|k| positions[k]))
 }

@@ -20,11 +20,14 @@ const STEPS: [f64; 4] = [0.3, 0.15, 0.07, 0.03];
 /// Without a shell the boundary stays.
 pub(super) fn relax(bisection: &mut Bisection, shell: Option<&Shell<'_>>) {
     let on_boundary = bisection.on_boundary();
+    // A vertex between regions would change their shapes.
+    let between = bisection.between_regions();
     for _ in 0..SWEEPS {
         let mut nodes: Vec<u32> = (0..bisection.len() as u32)
             .filter(|&t| dihedral_quality(&bisection.positions(t)) < FLAT)
             .flat_map(|t| bisection.nodes(t))
             .filter(|&node| shell.is_some() || !on_boundary[node as usize])
+            .filter(|&node| !between[node as usize])
             .collect();
         nodes.sort_unstable();
         nodes.dedup();

@@ -26,6 +26,14 @@ pub(crate) fn all() -> Vec<(&'static str, Vec<u8>)> {
     ]
 }
 
+/// Numbers of the regions: 4 of the first tetrahedra, 9 of the others.
+fn numbers(mesh: &TetrahedronMesh) -> Vec<i64> {
+    let count = mesh.tetrahedra().len();
+    (0..count)
+        .map(|k| if k < count / 3 { 4 } else { 9 })
+        .collect()
+}
+
 fn spaced(values: impl IntoIterator<Item = impl ToString>) -> String {
     let words: Vec<_> = values.into_iter().map(|v| v.to_string()).collect();
     words.join(" ")
@@ -38,7 +46,7 @@ fn msh_2(mesh: &TetrahedronMesh, quadratic: bool) -> String {
     let count = mesh.vertices().len() as u32;
     let extra = if quadratic { 1 } else { 0 };
     let mut text = String::from("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n");
-    text += "$PhysicalNames\n1\n3 1 \"$Nodes in a name\"\n$EndPhysicalNames\n";
+    text += "$PhysicalNames\n2\n2 5 \"skin\"\n3 9 \"$Nodes in a name\"\n$EndPhysicalNames\n";
     writeln!(text, "$Nodes\n{}", count + extra).unwrap();
     for (n, p) in mesh.vertices().iter().enumerate() {
         writeln!(text, "{} {} {} {:e}", tag(n as u32), p.x, p.y, p.z).unwrap();
@@ -57,7 +65,7 @@ fn msh_2(mesh: &TetrahedronMesh, quadratic: bool) -> String {
         let (kind, middles) = if quadratic { (11, 6) } else { (4, 0) };
         let nodes = corners.iter().map(|n| tag(n.0));
         let nodes = spaced(nodes.chain(std::iter::repeat_n(tag(count), middles)));
-        writeln!(text, "{} {kind} 2 0 1 {nodes}", k + 2).unwrap();
+        writeln!(text, "{} {kind} 2 {} 1 {nodes}", k + 2, numbers(mesh)[k]).unwrap();
     }
     text + "$EndElements\n"
 }
@@ -66,7 +74,8 @@ fn msh_2(mesh: &TetrahedronMesh, quadratic: bool) -> String {
 fn msh_4(mesh: &TetrahedronMesh) -> String {
     let (nodes, half) = (mesh.vertices().len(), mesh.vertices().len() / 2);
     let mut text = String::from("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 0 1\n");
-    text += "1 0 0 0 1 1 1 0 0\n$EndEntities\n";
+    text = text.replace("0 0 0 1\n", "0 0 0 2\n");
+    text += "1 0 0 0 1 1 1 1 4 0\n2 0 0 0 1 1 1 2 9 4 1 -7\n$EndEntities\n";
     writeln!(text, "$Nodes\n2 {nodes} 1 {nodes}").unwrap();
     for (entity, range) in [(2, 0..half), (3, half..nodes)] {
         writeln!(text, "{entity} 1 0 {}", range.len()).unwrap();
@@ -80,13 +89,18 @@ fn msh_4(mesh: &TetrahedronMesh) -> String {
     let cells = mesh.tetrahedra().len();
     writeln!(
         text,
-        "$EndNodes\n$Elements\n2 {} 1 {}\n0 1 15 1\n1 1",
+        "$EndNodes\n$Elements\n3 {} 1 {}\n0 1 15 1\n1 1",
         cells + 1,
         cells + 1
     )
     .unwrap();
-    writeln!(text, "3 1 4 {cells}").unwrap();
+    let first = numbers(mesh).iter().filter(|number| **number == 4).count();
     for (k, corners) in mesh.tetrahedra().iter().enumerate() {
+        match k {
+            0 => writeln!(text, "3 1 4 {first}").unwrap(),
+            k if k == first => writeln!(text, "3 2 4 {}", cells - first).unwrap(),
+            _ => {}
+        }
         writeln!(text, "{} {}", k + 2, spaced(corners.map(|n| n.0 + 1))).unwrap();
     }
     text + "$EndElements\n"
@@ -106,8 +120,13 @@ fn vtk_types(mesh: &TetrahedronMesh) -> String {
     let types = std::iter::repeat_n(10, mesh.tetrahedra().len());
     let types = spaced(std::iter::once(5).chain(types));
     format!(
-        "\nCELL_TYPES {}\n{types}\nPOINT_DATA 0\n",
-        mesh.tetrahedra().len() + 1
+        "\nCELL_TYPES {}\n{types}\nPOINT_DATA 0\nCELL_DATA {}\nSCALARS u float 1\nLOOKUP_TABLE default\n{}\n\
+         FIELD FieldData 1\nMaterialIDs 1 {} int\n{}\n",
+        mesh.tetrahedra().len() + 1,
+        mesh.tetrahedra().len() + 1,
+        spaced(vec![0.5; mesh.tetrahedra().len() + 1]),
+        mesh.tetrahedra().len() + 1,
+        spaced(std::iter::once(77).chain(numbers(mesh)))
     )
 }
 
@@ -150,10 +169,11 @@ fn vtu_text(mesh: &TetrahedronMesh) -> String {
         "<?xml version=\"1.0\"?>\n<!-- a comment with <Points> -->\n\
          <VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n\
          <UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{cells}\">\n\
-         <PointData>{}</PointData>\n<CellData/>\n<Points>{}</Points>\n<Cells>{}\n{}{}</Cells>\n\
+         <PointData>{}</PointData>\n<CellData>{}</CellData>\n<Points>{}</Points>\n<Cells>{}\n{}{}</Cells>\n\
          </Piece>\n</UnstructuredGrid>\n</VTKFile>\n",
         mesh.vertices().len(),
         array("u", "1 2 3"),
+        array("gmsh:physical", &spaced(numbers(mesh))),
         array("Points", &points),
         array("connectivity", &nodes),
         array("offsets", &offsets),
@@ -167,13 +187,13 @@ fn vtu_own(mesh: &TetrahedronMesh) -> Vec<u8> {
         kind: CellKind::Tetrahedron,
         nodes: &nodes,
     };
-    let numbers: Vec<f64> = (0..mesh.tetrahedra().len()).map(|k| k as f64).collect();
+    let numbers: Vec<f64> = numbers(mesh).into_iter().map(|n| n as f64).collect();
     let point_fields = [PointField {
         name: "position & <place>",
         values: FieldValues::Vectors(mesh.vertices()),
     }];
     let cell_fields = [PointField {
-        name: "number",
+        name: "region",
         values: FieldValues::Scalars(&numbers),
     }];
     unstructured_grid(mesh.vertices(), &cells, &point_fields, &cell_fields)
@@ -194,7 +214,21 @@ fn read(
 fn every_format_gives_the_tetrahedra_back() {
     for (name, bytes) in all() {
         let imported = read(name, &bytes, None).unwrap();
-        assert_eq!(imported.mesh, block(), "{name}");
+        let regions = numbers(&block())
+            .into_iter()
+            .map(|number| u32::from(number == 9));
+        let expected = block().with_regions(regions.collect()).unwrap();
+        assert_eq!(imported.mesh, expected, "{name}");
+        let found: Vec<_> = imported
+            .regions
+            .iter()
+            .map(|r| (r.number, r.tetrahedra))
+            .collect();
+        assert_eq!(found, [(4, 4), (9, 8)], "{name}");
+        let named = name
+            .starts_with("two")
+            .then(|| "$Nodes in a name".to_owned());
+        assert_eq!(imported.regions[1].name, named, "{name}");
         assert_eq!((imported.unit, imported.turned), (LengthUnit::Metre, 0));
         assert!(imported.warnings.is_empty());
         let small = read(name, &bytes, Some(LengthUnit::Millimetre)).unwrap();
@@ -266,24 +300,24 @@ const BAD: [(&str, &str, &str, &[&str]); 21] = [
         "two.msh",
         "7 0 0 0e0",
         "7 0 x 0e0",
-        &["line 10", "`x`", "a number"],
+        &["line 11", "`x`", "a number"],
     ),
     (
         "two.msh",
         "7 0 0 0e0",
         "10 0 0 0e0",
-        &["line 11", "`10`", "not there before"],
+        &["line 12", "`10`", "not there before"],
     ),
     (
         "two.msh",
-        "2 4 2 0 1 7",
-        "2 4 2 0 1 8",
+        "2 4 2 4 1 7",
+        "2 4 2 4 1 8",
         &["cell 1", "vertex 8", "12 of the file"],
     ),
     (
         "two.msh",
-        "2 4 2 0 1",
-        "2 5 2 0 1",
+        "2 4 2 4 1",
+        "2 5 2 4 1",
         &["cell 1", "a hexahedron (type 5)"],
     ),
     (
@@ -294,11 +328,11 @@ const BAD: [(&str, &str, &str, &[&str]); 21] = [
     ),
     (
         "four.msh",
-        "3 1 4 12",
-        "3 1 4 13",
+        "3 2 4 8",
+        "3 2 4 9",
         &["`$EndElements`", "the number of an element"],
     ),
-    ("four.msh", "3 1 4 12", "2 1 3 12", &["no tetrahedra"]),
+    ("two.msh", " 4 2 ", " 2 2 ", &["no tetrahedra"]),
     (
         "lists.vtk",
         "# vtk",

@@ -33,7 +33,7 @@ pub struct FiniteElementModel {
     pub(crate) pattern: Pattern,
     /// Places of an element's lower triangle among the matrix values.
     pub(crate) scatter: Vec<u32>,
-    /// Shear modulus at rest [Pa]: the scale of stress.
+    /// The largest shear modulus at rest [Pa]: the scale of stress.
     pub(crate) shear_modulus: f64,
 }
 
@@ -47,17 +47,52 @@ impl FiniteElementModel {
         law: Arc<dyn Law>,
         formulation: Formulation,
     ) -> Result<Self, Error> {
+        let regions = vec![0; mesh.len()];
+        Self::with_regions(mesh, &[law], &regions, formulation)
+    }
+
+    /// As [`Self::new`], with a law for each region and the region of each element. Pressures jump from region to region.
+    ///
+    /// # Errors
+    /// As [`Self::new`], and when there is not one region for each element, a region has no law, or some laws are for small
+    /// and others for finite strain.
+    pub fn with_regions(
+        mesh: ElementMesh,
+        laws: &[Arc<dyn Law>],
+        regions: &[u32],
+        formulation: Formulation,
+    ) -> Result<Self, Error> {
         mesh.check()?;
-        let shear_modulus = law.distortion_tangent(&nalgebra::Matrix3::identity())[(3, 3)];
-        if formulation == Formulation::Displacement {
-            let softness = shear_modulus / law.volume().bulk_modulus;
-            let poissons_ratio = (3.0 - 2.0 * softness) / (2.0 * (3.0 + softness));
-            if poissons_ratio > LOCKING {
-                return Err(Error::Locking { poissons_ratio });
+        let wrong = |found| Mismatch::WrongLength {
+            what: "the list of the elements' laws",
+            found,
+            expected: mesh.len(),
+        };
+        let each = regions
+            .iter()
+            .map_while(|region| laws.get(*region as usize));
+        let each: Vec<_> = each.cloned().collect();
+        let law = each.first().ok_or(wrong(0))?.clone();
+        let strain = law.volume().strain;
+        let alike = each.iter().filter(|law| law.volume().strain == strain);
+        let alike = alike.count();
+        if alike != mesh.len() {
+            return Err(wrong(alike).into());
+        }
+        let mut shear_modulus: f64 = 0.0;
+        for law in laws {
+            let own = law.distortion_tangent(&nalgebra::Matrix3::identity())[(3, 3)];
+            shear_modulus = shear_modulus.max(own);
+            if formulation == Formulation::Displacement {
+                let softness = own / law.volume().bulk_modulus;
+                let poissons_ratio = (3.0 - 2.0 * softness) / (2.0 * (3.0 + softness));
+                if poissons_ratio > LOCKING {
+                    return Err(Error::Locking { poissons_ratio });
+                }
             }
         }
         let mapping = Mapping::new(&mesh, formulation == Formulation::Mixed)?;
-        let unknowns = number(&mesh, mapping.pressures_per_element);
+        let unknowns = number(&mesh, regions, mapping.pressures_per_element);
         let size = unknowns.iter().max().map_or(0, |&last| last as usize + 1);
         let local = unknowns.len() / mesh.len();
         let mut entries = Vec::with_capacity(mesh.len() * local * (local + 1) / 2);
@@ -77,42 +112,13 @@ impl FiniteElementModel {
         Ok(Self {
             mesh,
             law,
-            laws: Vec::new(),
+            laws: if laws.len() > 1 { each } else { Vec::new() },
             mapping,
             unknowns,
             pattern,
             scatter,
             shear_modulus,
         })
-    }
-
-    /// As [`Self::new`], with a law for each element. Scales of stress are those of the first. Pressures are continuous,
-    /// also where laws meet, so that displacements alone converge faster there.
-    ///
-    /// # Errors
-    /// As [`Self::new`], and when there is not one law for each element, or some are for small and others for finite strain.
-    pub fn with_laws(
-        mesh: ElementMesh,
-        laws: Vec<Arc<dyn Law>>,
-        formulation: Formulation,
-    ) -> Result<Self, Error> {
-        let wrong = |found| Mismatch::WrongLength {
-            what: "the list of the elements' laws",
-            found,
-            expected: mesh.len(),
-        };
-        let first = laws.first().ok_or(wrong(0))?.clone();
-        let strain = first.volume().strain;
-        let alike = laws
-            .iter()
-            .filter(|law| law.volume().strain == strain)
-            .count();
-        if alike != mesh.len() {
-            return Err(wrong(alike).into());
-        }
-        let mut model = Self::new(mesh, first, formulation)?;
-        model.laws = laws;
-        Ok(model)
     }
 
     /// The law of an element.
@@ -145,20 +151,21 @@ impl FiniteElementModel {
         self.size() - self.displacements()
     }
 
-    /// Forces at the unknowns [N] of a load per undeformed volume [N/m³] that depends on the place at
-    /// rest; a weight, for one.
-    pub fn body_load(&self, density: impl Fn(&Vec3) -> Vec3) -> Vec<f64> {
+    /// Forces at the unknowns [N] of a load per undeformed volume [N/m³] that depends on the element and on the place at
+    /// rest [m]; a weight, for one.
+    pub fn body_load(&self, density: impl Fn(usize, &Vec3) -> Vec3) -> Vec<f64> {
         let (kind, dimension) = (self.mesh.kind, self.dimension());
         let mut load = vec![0.0; self.size()];
         let mut shape = vec![0.0; kind.nodes()];
         for (index, weight) in self.mapping.weights.iter().enumerate() {
-            let nodes = self.mesh.element(index / self.mapping.points);
+            let element = index / self.mapping.points;
+            let nodes = self.mesh.element(element);
             kind.shape(self.mapping.at[index % self.mapping.points], &mut shape);
             let parts = || nodes.iter().map(|&n| n as usize).zip(&shape);
             let place = parts()
                 .map(|(node, part)| *part * self.mesh.nodes[node])
                 .sum();
-            let force = *weight * density(&place);
+            let force = *weight * density(element, &place);
             for (node, part) in parts() {
                 for i in 0..dimension {
                     load[node * dimension + i] += part * force[i];
@@ -307,42 +314,26 @@ impl FiniteElementWorkspace {
     }
 }
 
-/// Unknowns of every element.
-fn number(mesh: &ElementMesh, pressures: usize) -> Vec<u32> {
+/// Unknowns of every element. There is a pressure at each corner for each region that has it.
+fn number(mesh: &ElementMesh, regions: &[u32], pressures: usize) -> Vec<u32> {
     let dimension = mesh.kind.dimension() as u32;
     let first = mesh.nodes.len() as u32 * dimension;
-    let numbers = corner_numbers(mesh);
+    let corners = |element: usize| {
+        let nodes = mesh.element(element);
+        let corners = mesh.kind.corners().iter().take(pressures);
+        corners.map(move |&corner| (nodes[corner], regions[element]))
+    };
+    let mut places: Vec<(u32, u32)> = (0..mesh.len()).flat_map(corners).collect();
+    places.sort_unstable();
+    places.dedup();
+    let place = |corner| places.partition_point(|other| *other < corner) as u32;
     let mut unknowns = Vec::new();
     for element in 0..mesh.len() {
-        let nodes = mesh.element(element);
-        unknowns.extend(
-            nodes
-                .iter()
-                .flat_map(|n| (0..dimension).map(move |i| n * dimension + i)),
-        );
-        let corners = mesh.kind.corners().iter().take(pressures);
-        unknowns.extend(corners.map(|&c| first + numbers[nodes[c] as usize]));
+        let nodes = mesh.element(element).iter();
+        unknowns.extend(nodes.flat_map(|n| (0..dimension).map(move |i| n * dimension + i)));
+        unknowns.extend(corners(element).map(|corner| first + place(corner)));
     }
     unknowns
-}
-
-/// Numbers of the pressures, one at each corner of an element, by node.
-fn corner_numbers(mesh: &ElementMesh) -> Vec<u32> {
-    let mut is_corner = vec![false; mesh.nodes.len()];
-    for element in 0..mesh.len() {
-        for &corner in mesh.kind.corners() {
-            is_corner[mesh.element(element)[corner] as usize] = true;
-        }
-    }
-    let mut next = 0;
-    is_corner
-        .iter()
-        .map(|&corner| {
-            let number = next;
-            next += u32::from(corner);
-            number
-        })
-        .collect()
 }
 
 /// Pairs (row, column) of an element's lower triangle, column by column of its own numbering, turned so

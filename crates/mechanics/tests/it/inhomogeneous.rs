@@ -85,7 +85,7 @@ fn a_column_under_its_weight() {
     for kind in KINDS {
         for formulation in [Formulation::Displacement, Formulation::Mixed] {
             let mut body = Body::new(block(kind, 2, 0.0), law.clone(), formulation);
-            let load = body.model.body_load(|_| -weight * Vec3::y());
+            let load = body.model.body_load(|_, _| -weight * Vec3::y());
             let (low, axis) = (
                 face(body.model.mesh(), 1, 0.0),
                 face(body.model.mesh(), 0, 0.0),
@@ -134,7 +134,7 @@ fn a_field_that_is_made_up() {
             .map(|cells| {
                 let mesh = bent(cells);
                 let mut body = Body::new(mesh, Arc::new(law), formulation);
-                let load = body.model.body_load(density);
+                let load = body.model.body_load(|_, place| density(place));
                 let mut supports = Supports::none(&body.model).load(&load);
                 for node in boundary_of(&body) {
                     let place = body.model.mesh().nodes[node];

@@ -48,6 +48,7 @@ mod slit_held_out;
 mod slit_judge;
 mod solid;
 mod solid_fields;
+mod solid_regions;
 mod stiffening;
 mod stretches;
 mod thin_patch;

@@ -56,7 +56,10 @@ fn judge(cells: [usize; 3], c10: &Tissue, force: Vec3) -> Vec3 {
         .collect();
     let elements = ElementMesh::from_tetrahedra(&mesh);
     let fixed = elements.nodes_where(base);
-    let model = FiniteElementModel::with_laws(elements, laws, Formulation::Displacement).unwrap();
+    let regions: Vec<u32> = (0..elements.len() as u32).collect();
+    let model =
+        FiniteElementModel::with_regions(elements, &laws, &regions, Formulation::Displacement)
+            .unwrap();
     let mut state = FiniteElementState::at_rest(&model);
     let mut workspace = FiniteElementWorkspace::new(&model).unwrap();
     for part in [0.25, 0.5, 0.75, 1.0] {

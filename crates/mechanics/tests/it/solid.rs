@@ -54,6 +54,7 @@ pub(crate) fn cube(radius: f64, nu: f64, friction: Friction) -> SolidProblem {
             friction,
         }),
         law: Arc::new(LinearElastic::new(MODULUS, nu).unwrap()),
+        regions: Vec::new(),
         loads: Loads::default(),
         points: Vec::new(),
     }
@@ -139,6 +140,7 @@ fn a_turned_body_feels_the_same_force() {
                 ..straight.patch.unwrap()
             }),
             law: straight.law.clone(),
+            regions: Vec::new(),
             loads: Loads::default(),
             points: Vec::new(),
         };
@@ -285,6 +287,7 @@ fn a_patch_on_a_hemisphere_is_3_percent_stiffer_than_on_a_half_space() {
             friction: Friction::Frictionless,
         }),
         law: Arc::new(LinearElastic::new(MODULUS, 0.3).unwrap()),
+        regions: Vec::new(),
         loads: Loads::default(),
         points: Vec::new(),
     };
@@ -379,6 +382,7 @@ fn real_kidney_under_a_patch() {
             friction: Friction::Bonded,
         }),
         law: Arc::new(LinearElastic::new(MODULUS, 0.45).unwrap()),
+        regions: Vec::new(),
         loads: Loads::default(),
         points: Vec::new(),
     };

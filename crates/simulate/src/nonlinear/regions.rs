@@ -1,22 +1,17 @@
-//! The tissues of an organ: layers from its outer surface inwards, inclusions, and what is around them.
+//! The tissues of an organ: layers, inclusions and what is around them, where `palpate_mechanics::regions` says.
 //!
 //! An element that several tissues share has the mean of the bounds of Voigt and Reuss (`Moduli::mixed`), and relaxes as
 //! the tissue that has most of it.
 //!
-//! Depth is the distance to the outer surface: the triangles from which one of seven directions, within 35 degrees of the
-//! normal, leads away from the organ. So the wall of a tube is layered from outside, not from its lumen.
-//!
 //! A tip is smaller than an element. What it meets, and what its load leaves out of the elements, are those of a layered
 //! half-space (`palpate_mechanics::layered`).
 
-use std::f64::consts::PI;
-
-use palpate_files::scene::InclusionShape;
 use palpate_files::tissue::LawName;
 use palpate_files::{Scene, Tissue};
-use palpate_geometry::{AabbTree, Surface, TetrahedronMesh, TriangleMesh, Vec3};
+use palpate_geometry::{TetrahedronMesh, Vec3};
 use palpate_mechanics::layered::{LayeredHalfSpace, LoadShape};
 use palpate_mechanics::nonlinear::Moduli;
+use palpate_mechanics::regions::RegionMap;
 use palpate_mechanics::{LinearElastic, Material, PronySeries};
 
 use crate::Error;
@@ -26,10 +21,6 @@ const LARGEST_RATIO: f64 = 0.49;
 
 /// An element is asked for its tissues at the centroids of its parts, so many along an edge.
 const PARTS: usize = 6;
-
-/// Directions in which a triangle of the outer surface may look away: off its normal [-], and how many beside it.
-const OFF_NORMAL: f64 = 0.7;
-const DIRECTIONS: usize = 6;
 
 /// Edges in an inclusion, in its smallest radius, and by how much they grow away from it [-].
 const OF_RADIUS: f64 = 0.6;
@@ -54,14 +45,12 @@ pub(crate) struct RegionTissue {
 /// Where which tissue is.
 #[derive(Debug, Clone)]
 pub(crate) struct Regions {
-    /// Of the layers from outside, of what is below, of the inclusions.
+    /// Of the organ, of the layers from outside, of the inclusions.
     tissues: Vec<RegionTissue>,
-    /// Depths of the lower faces of the layers [m].
-    bottoms: Vec<f64>,
-    inclusions: Vec<InclusionShape>,
+    layers: usize,
     /// Names of layers and inclusions.
     names: Vec<String>,
-    outer: Option<(TriangleMesh, AabbTree)>,
+    map: RegionMap,
     /// How much more than their outermost tissue the layers yield to a flat tip and to a load of each radius [-].
     punch: Vec<[f64; 2]>,
     load: Vec<[f64; 2]>,
@@ -84,12 +73,13 @@ impl Regions {
     /// Those of `scene`, whose organ is mostly of one tissue.
     pub(crate) fn new(
         scene: &Scene,
-        (surface, tree): (&Surface, &AabbTree),
+        map: RegionMap,
         (tissue, material): (&Tissue, &Material),
     ) -> Result<Self, Error> {
         let organ = &scene.organ;
         let mut warnings = Vec::new();
-        let mut tissues = Vec::new();
+        let own = Some(material.clone());
+        let mut tissues = vec![RegionTissue::new(tissue.clone(), own, &mut warnings)?];
         for layer in &organ.layers {
             tissues.push(RegionTissue::new(
                 layer.tissue.read()?,
@@ -97,27 +87,20 @@ impl Regions {
                 &mut warnings,
             )?);
         }
-        let own = Some(material.clone());
-        tissues.push(RegionTissue::new(tissue.clone(), own, &mut warnings)?);
         for inclusion in &organ.inclusions {
             let own = inclusion.tissue.read()?;
             tissues.push(RegionTissue::new(own, None, &mut warnings)?);
         }
         warnings.sort();
         warnings.dedup();
-        let mut bottom = 0.0;
-        let bottoms = organ.layers.iter().map(|layer| {
-            bottom += layer.thickness_m;
-            bottom
-        });
         let layered = LayeredHalfSpace {
             layers: organ
                 .layers
                 .iter()
-                .zip(&tissues)
+                .zip(&tissues[1..])
                 .map(|(layer, region)| (layer.thickness_m, region.law))
                 .collect(),
-            base: tissues[organ.layers.len()].law,
+            base: tissues[0].law,
         };
         let yields = |shape| -> Vec<[f64; 2]> {
             let radii = (0..RADII).filter(|_| !organ.layers.is_empty());
@@ -128,13 +111,9 @@ impl Regions {
         let layers = organ.layers.iter().map(|layer| &layer.name);
         let inclusions = organ.inclusions.iter().map(|inclusion| &inclusion.name);
         Ok(Self {
-            bottoms: bottoms.collect(),
-            inclusions: organ.inclusions.iter().map(|one| one.shape).collect(),
+            layers: organ.layers.len(),
             names: layers.chain(inclusions).cloned().collect(),
-            outer: match organ.layers.is_empty() {
-                true => None,
-                false => Some(outer(surface, tree)?),
-            },
+            map,
             punch: yields(LoadShape::Punch),
             load: yields(LoadShape::Bump),
             tissues,
@@ -144,15 +123,12 @@ impl Regions {
 
     /// Layers and inclusions: with what tissue, beside that of the organ.
     pub(crate) fn beside(&self) -> impl Iterator<Item = &Tissue> {
-        let own = self.bottoms.len();
-        let all = self.tissues.iter().enumerate();
-        all.filter(move |(number, _)| *number != own)
-            .map(|(_, region)| &region.tissue)
+        self.tissues[1..].iter().map(|region| &region.tissue)
     }
 
     /// What lies at the outer surface.
     pub(crate) fn at_surface(&self) -> &RegionTissue {
-        &self.tissues[0]
+        &self.tissues[usize::from(self.layers > 0)]
     }
 
     /// That at rest, as the elements take it.
@@ -196,7 +172,7 @@ impl Regions {
             for barycentric in &places {
                 let place = corners.iter().zip(barycentric);
                 let place: Vec3 = place.map(|(corner, part)| corner * *part).sum();
-                shares[self.at(&place)] += 1.0 / places.len() as f64;
+                shares[self.map.at(&place)] += 1.0 / places.len() as f64;
             }
             let each = || self.tissues.iter().zip(&shares);
             let mixed = Moduli::mixed(each().map(|(region, share)| (region.moduli, *share)));
@@ -209,8 +185,11 @@ impl Regions {
                 *found |= *share > 0.0;
             }
         }
-        found.remove(self.bottoms.len());
-        let missing = self.names.iter().zip(found).filter(|(_, found)| !found);
+        let missing = self
+            .names
+            .iter()
+            .zip(&found[1..])
+            .filter(|(_, found)| !**found);
         elements.warnings.extend(missing.map(|(name, _)| {
             format!(
                 "{name:?} is in no element of the nonlinear model: the organ has no place as deep, or `model.nodes` is too \
@@ -221,30 +200,12 @@ impl Regions {
     }
 
     pub(super) fn has_inclusions(&self) -> bool {
-        !self.inclusions.is_empty()
+        self.tissues.len() > 1 + self.layers
     }
 
     /// The edges that the inclusions ask for at `place` [m].
     pub(super) fn longest_edge(&self, place: &Vec3) -> f64 {
-        let edges = self.inclusions.iter().map(|shape| {
-            let off = shape.off((*place).into()).max(0.0);
-            OF_RADIUS * shape.smallest_radius() + GROWTH * off
-        });
-        edges.fold(f64::INFINITY, f64::min)
-    }
-
-    /// The number of the tissue at `place` [m].
-    fn at(&self, place: &Vec3) -> usize {
-        let held = |shape: &InclusionShape| shape.holds((*place).into());
-        if let Some(number) = self.inclusions.iter().position(held) {
-            return self.bottoms.len() + 1 + number;
-        }
-        let Some((mesh, tree)) = &self.outer else {
-            return 0;
-        };
-        let depth = tree.nearest(mesh, place).distance;
-        let layer = self.bottoms.iter().position(|bottom| depth < *bottom);
-        layer.unwrap_or(self.bottoms.len())
+        self.map.longest_edge_at_shapes(place, OF_RADIUS, GROWTH)
     }
 
     /// How much more than the tissue at the surface the layers yield to a flat tip of this radius [m]: along the surface, and
@@ -263,7 +224,7 @@ impl Regions {
         let RegionTissue {
             tissue, material, ..
         } = self.at_surface();
-        if self.bottoms.is_empty() {
+        if self.layers == 0 {
             return Ok((tissue.clone(), material.clone()));
         }
         let factor = 1.0 / self.yields_to_tip(radius)[1];
@@ -346,34 +307,4 @@ fn parts() -> Vec<[f64; 4]> {
         }
     }
     places
-}
-
-/// The triangles of the outer surface.
-fn outer(surface: &Surface, tree: &AabbTree) -> Result<(TriangleMesh, AabbTree), Error> {
-    let mesh = surface.mesh();
-    let (low, high) = mesh.bounds();
-    let reach = (high - low).norm();
-    let looks_out = |triangle| {
-        let [a, b, c] = mesh.positions(triangle);
-        let area = mesh.area_vector(triangle);
-        let normal = area.normalize();
-        let along = (b - a).normalize();
-        let across = normal.cross(&along);
-        let start = (a + b + c) / 3.0 + normal * (1e-3 * (2.0 * area.norm()).sqrt());
-        let mut directions = (0..DIRECTIONS).map(|k| {
-            let (sine, cosine) = (2.0 * PI * k as f64 / DIRECTIONS as f64).sin_cos();
-            (normal + OFF_NORMAL * (cosine * along + sine * across)).normalize()
-        });
-        let is_free = |direction: &Vec3| tree.cast(mesh, &start, direction, reach).is_none();
-        is_free(&normal) || directions.any(|direction| is_free(&direction))
-    };
-    let triangles: Vec<_> = mesh
-        .triangle_ids()
-        .filter(|triangle| looks_out(*triangle))
-        .map(|triangle| mesh.corners(triangle))
-        .collect();
-    let triangles = TriangleMesh::new(mesh.vertices().to_vec(), triangles)
-        .map_err(|_| palpate_mechanics::Error::NoElements)?;
-    let tree = AabbTree::new(&triangles);
-    Ok((triangles, tree))
 }

@@ -78,7 +78,9 @@ fn finite_elements(modulus: &impl Fn(f64, f64) -> f64, interface: f64, fine: f64
     let axis = mesh.nodes_where(|place| place.x < 1e-9);
     let base = mesh.nodes_where(|place| place.y < 1e-9);
     let tip = mesh.nodes_where(|place| place.y > 0.1 - 1e-9 && place.x < RADIUS + 1e-9);
-    let model = FiniteElementModel::with_laws(mesh, laws, Formulation::Displacement).unwrap();
+    let regions: Vec<u32> = (0..mesh.len() as u32).collect();
+    let model =
+        FiniteElementModel::with_regions(mesh, &laws, &regions, Formulation::Displacement).unwrap();
     let supports = Supports::none(&model)
         .hold(&model, axis, 0, 0.0)
         .hold(&model, base.iter().copied(), 0, 0.0)

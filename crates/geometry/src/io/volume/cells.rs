@@ -17,6 +17,8 @@ pub(super) struct CellLists {
     pub(super) nodes: Vec<i64>,
     pub(super) ends: Vec<i64>,
     pub(super) kinds: Vec<i64>,
+    /// The number of the region of each; empty where the file has none.
+    pub(super) regions: Vec<i64>,
 }
 
 impl CellLists {
@@ -27,6 +29,13 @@ impl CellLists {
                 what: "types of cells",
                 found: self.kinds.len(),
                 expected: self.ends.len(),
+            });
+        }
+        if !self.regions.is_empty() && self.regions.len() != self.kinds.len() {
+            return Err(ReadFault::Mismatch {
+                what: "regions of cells",
+                found: self.regions.len(),
+                expected: self.kinds.len(),
             });
         }
         let mut start = 0;
@@ -55,6 +64,8 @@ impl CellLists {
                 });
             }
             volume.add([nodes[0], nodes[1], nodes[2], nodes[3]], cell)?;
+            let region = self.regions.get(cell).copied();
+            volume.regions.push(region.unwrap_or(0));
         }
         Ok(())
     }

@@ -7,7 +7,8 @@
 //! *How we know*: `volumes::every_format_gives_the_tetrahedra_back`,
 //! `volumes::bad_files_are_refused_with_their_place`, `fuzz::damaged_volumes_never_panic`.
 //!
-//! *Limits*: physical groups and fields are not read.
+//! The region of a cell is its first physical group in MSH, and a whole number in the cell data of VTK: that of the first
+//! array with one of the usual names (`REGION_ARRAYS`).
 
 mod cells;
 mod msh;
@@ -15,6 +16,7 @@ mod vtk_legacy;
 mod vtu;
 mod words;
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::path::Path;
 
@@ -44,10 +46,23 @@ pub struct ImportedTetrahedra {
     pub format: VolumeFormat,
     /// The unit that the coordinates were in.
     pub unit: LengthUnit,
+    /// The regions of the file, in ascending order; those of the mesh are places in this list.
+    pub regions: Vec<VolumeRegion>,
     /// Tetrahedra that were inverted, and have been turned.
     pub turned: usize,
     /// Warnings.
     pub warnings: Vec<String>,
+}
+
+/// Tetrahedra that belong together in their file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct VolumeRegion {
+    /// Its number in the file; 0 for tetrahedra that have none.
+    pub number: i64,
+    /// Its name, of a physical group that has one.
+    pub name: Option<String>,
+    /// How many tetrahedra it has.
+    pub tetrahedra: usize,
 }
 
 /// Tetrahedra in the unit of the file. Vertices are checked, corners are in range.
@@ -55,7 +70,23 @@ pub struct ImportedTetrahedra {
 struct RawVolume {
     points: RawMesh,
     tetrahedra: Vec<[u32; 4]>,
+    /// Number of the region of each tetrahedron.
+    regions: Vec<i64>,
+    /// Names of regions, by their numbers.
+    names: BTreeMap<i64, String>,
 }
+
+/// Arrays of cell data that number regions, as this crate, Gmsh, meshio, ParaView, SimpleITK and OpenGeoSys call them.
+const REGION_ARRAYS: [&str; 8] = [
+    "region",
+    "gmsh:physical",
+    "medit:ref",
+    "CellEntityIds",
+    "MaterialIDs",
+    "material",
+    "label",
+    "labels",
+];
 
 /// Reads a file of tetrahedra. The format is that of the extension. Without a `unit`, metres are
 /// taken when that makes a plausible organ.
@@ -108,15 +139,36 @@ fn read_here(path: &Path, unit: Option<LengthUnit>) -> Result<ImportedTetrahedra
             turned += 1;
         }
     }
+    let (regions, numbers) = regions(&raw);
     Ok(ImportedTetrahedra {
-        mesh: TetrahedronMesh::new(vertices, tetrahedra)?,
+        mesh: TetrahedronMesh::new(vertices, tetrahedra)?.with_regions(numbers)?,
         format,
         unit,
+        regions,
         turned,
         warnings: extent_warning(extent * unit.in_metres())
             .into_iter()
             .collect(),
     })
+}
+
+/// The regions of a file, and the place of that of each tetrahedron among them.
+fn regions(raw: &RawVolume) -> (Vec<VolumeRegion>, Vec<u32>) {
+    let mut counts: BTreeMap<i64, usize> = BTreeMap::new();
+    for number in &raw.regions {
+        *counts.entry(*number).or_default() += 1;
+    }
+    let places: BTreeMap<i64, u32> = counts.keys().copied().zip(0..).collect();
+    let regions = counts.iter().map(|(number, count)| VolumeRegion {
+        number: *number,
+        name: raw.names.get(number).cloned(),
+        tetrahedra: *count,
+    });
+    let numbers = raw.regions.iter();
+    (
+        regions.collect(),
+        numbers.map(|number| places[number]).collect(),
+    )
 }
 
 fn largest_extent(raw: &RawVolume) -> f64 {

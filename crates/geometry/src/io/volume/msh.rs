@@ -1,4 +1,4 @@
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use super::super::text::{number, unexpected};
 use super::RawVolume;
@@ -25,6 +25,8 @@ struct Msh {
     volume: RawVolume,
     /// Position of a node by its number in the file. Never walked over.
     places: HashMap<i64, u32>,
+    /// First physical group of each volume of a file of version 4.
+    groups: BTreeMap<i64, i64>,
     cells: usize,
 }
 
@@ -39,6 +41,8 @@ pub(super) fn read(text: &str) -> Result<RawVolume, ReadFault> {
     let mut msh = Msh::default();
     while let Some((line, section)) = lines.try_next() {
         match (section, version) {
+            ("$PhysicalNames", _) => msh.names(&mut lines)?,
+            ("$Entities", Version::Four) => msh.entities(&mut lines)?,
             ("$Nodes", Version::Two) => msh.nodes_2(&mut lines)?,
             ("$Nodes", Version::Four) => msh.nodes_4(&mut lines)?,
             ("$Elements", Version::Two) => msh.elements_2(&mut lines)?,
@@ -49,10 +53,11 @@ pub(super) fn read(text: &str) -> Result<RawVolume, ReadFault> {
             }
             _ => return Err(unexpected(line, section, "the beginning of a section")),
         }
-        let expected = if section == "$Nodes" {
-            "`$EndNodes`"
-        } else {
-            "`$EndElements`"
+        let expected = match section {
+            "$PhysicalNames" => "`$EndPhysicalNames`",
+            "$Entities" => "`$EndEntities`",
+            "$Nodes" => "`$EndNodes`",
+            _ => "`$EndElements`",
         };
         end(&mut lines, expected)?;
     }
@@ -100,6 +105,45 @@ fn pass_over(lines: &mut Lines<'_>, section: &str) -> Result<(), ReadFault> {
 }
 
 impl Msh {
+    /// Dimension, number and name of each physical group.
+    fn names(&mut self, lines: &mut Lines<'_>) -> Result<(), ReadFault> {
+        let (line, words) = lines.next("a number of names")?;
+        for _ in 0..count(Some(words), line, "a number of names")? {
+            let (line, content) = lines.next("a name of a physical group")?;
+            let mut words = content.splitn(3, |c: char| c.is_ascii_whitespace());
+            let dimension = integer(words.next(), line, "the dimension of a physical group")?;
+            let number = integer(words.next(), line, "the number of a physical group")?;
+            let name = words.next().unwrap_or("").trim().trim_matches('"');
+            if dimension == 3 && !name.is_empty() {
+                self.volume.names.insert(number, name.to_owned());
+            }
+        }
+        Ok(())
+    }
+
+    /// Points, curves, surfaces and volumes; a volume has a number, six bounds and its physical groups.
+    fn entities(&mut self, lines: &mut Lines<'_>) -> Result<(), ReadFault> {
+        let (line, content) = lines.next("four numbers of entities")?;
+        let mut words = content.split_ascii_whitespace();
+        let mut next = || count(words.next(), line, "four numbers of entities");
+        let [points, curves, surfaces, volumes] = [next()?, next()?, next()?, next()?];
+        let others = points.saturating_add(curves).saturating_add(surfaces);
+        for _ in 0..others {
+            lines.next("an entity")?;
+        }
+        for _ in 0..volumes {
+            let (line, content) = lines.next("a volume")?;
+            let mut words = content.split_ascii_whitespace();
+            let number = integer(words.next(), line, "the number of a volume")?;
+            let mut words = words.skip(6);
+            if count(words.next(), line, "a number of physical groups")? > 0 {
+                let group = integer(words.next(), line, "the number of a physical group")?;
+                self.groups.insert(number, group);
+            }
+        }
+        Ok(())
+    }
+
     fn nodes_2(&mut self, lines: &mut Lines<'_>) -> Result<(), ReadFault> {
         let (line, words) = lines.next("a number of nodes")?;
         for _ in 0..count(Some(words), line, "a number of nodes")? {
@@ -135,19 +179,25 @@ impl Msh {
             integer(words.next(), line, "the number of an element")?;
             let kind = integer(words.next(), line, "the type of an element")?;
             let tags = count(words.next(), line, "a number of tags")?;
-            self.add_element(kind, words.skip(tags), line)?;
+            let group = match tags {
+                0 => 0,
+                _ => integer(words.next(), line, "the number of a physical group")?,
+            };
+            let words = words.skip(tags.saturating_sub(1));
+            self.add_element(kind, words, group, line)?;
         }
         Ok(())
     }
 
     fn elements_4(&mut self, lines: &mut Lines<'_>) -> Result<(), ReadFault> {
         for _ in 0..blocks(lines)? {
-            let [_, _, kind, elements] = block(lines)?;
+            let [_, volume, kind, elements] = block(lines)?;
+            let group = self.groups.get(&volume).copied().unwrap_or(0);
             for _ in 0..elements {
                 let (line, content) = lines.next("an element")?;
                 let mut words = content.split_ascii_whitespace();
                 integer(words.next(), line, "the number of an element")?;
-                self.add_element(kind, words, line)?;
+                self.add_element(kind, words, group, line)?;
             }
         }
         Ok(())
@@ -166,6 +216,7 @@ impl Msh {
         &mut self,
         kind: i64,
         mut words: impl Iterator<Item = &'a str>,
+        region: i64,
         line: usize,
     ) -> Result<(), ReadFault> {
         let cell = self.cells;
@@ -196,6 +247,7 @@ impl Msh {
             return Err(unexpected(line, word, "the end of the line"));
         }
         self.volume.tetrahedra.push(corners);
+        self.volume.regions.push(region);
         Ok(())
     }
 }

@@ -1,7 +1,7 @@
 use super::super::text::unexpected;
-use super::RawVolume;
 use super::cells::CellLists;
 use super::words::{Lines, Words};
+use super::{REGION_ARRAYS, RawVolume};
 use crate::ReadFault;
 
 pub(super) fn read(text: &str) -> Result<RawVolume, ReadFault> {
@@ -54,12 +54,63 @@ fn read_grid(words: &mut Words<'_>) -> Result<RawVolume, ReadFault> {
                     cells.kinds.push(words.integer("a type of cell")?);
                 }
             }
-            "POINT_DATA" | "CELL_DATA" => break,
+            "CELL_DATA" => {
+                read_regions(words, &mut cells)?;
+                break;
+            }
             _ => {}
         }
     }
     cells.sort_out(&mut volume)?;
     Ok(volume)
+}
+
+/// `SCALARS name type` and a number for each cell, or a field `name 1 n type` among others; the rest is passed over.
+fn read_regions(words: &mut Words<'_>, cells: &mut CellLists) -> Result<(), ReadFault> {
+    let mut rank = REGION_ARRAYS.len();
+    while let Some(word) = words.try_next() {
+        let (name, is_scalars) = match word {
+            "SCALARS" => (words.next("the name of an array")?, true),
+            name => (name, false),
+        };
+        let Some(place) = REGION_ARRAYS.iter().position(|known| *known == name) else {
+            continue;
+        };
+        if is_scalars {
+            words.next("a type of number")?;
+            let mut word = words.next("`LOOKUP_TABLE`")?;
+            if word == "1" {
+                word = words.next("`LOOKUP_TABLE`")?;
+            }
+            if word != "LOOKUP_TABLE" {
+                return Err(unexpected(words.line(), word, "`LOOKUP_TABLE`"));
+            }
+            words.next("the name of a table")?;
+        } else {
+            let components = words.count("a number of components")?;
+            let count = words.count("a number of cells")?;
+            words.next("a type of number")?;
+            if components != 1 || count != cells.kinds.len() {
+                return Err(ReadFault::Mismatch {
+                    what: "regions of cells",
+                    found: components * count,
+                    expected: cells.kinds.len(),
+                });
+            }
+        }
+        let mut numbers = Vec::with_capacity(cells.kinds.len());
+        for _ in 0..cells.kinds.len() {
+            numbers.push(words.next("the number of a region")?);
+        }
+        let whole = numbers.iter().map(|word| word.parse().ok());
+        // An array that is called so and does not number anything is not of regions.
+        if let Some(regions) = whole.collect::<Option<_>>()
+            && place < rank
+        {
+            (rank, cells.regions) = (place, regions);
+        }
+    }
+    Ok(())
 }
 
 /// `CELLS n size` and n lists after their lengths; since version 5 all ends, from zero, and all

@@ -1,8 +1,8 @@
 use super::super::base64;
 use super::super::text::unexpected;
-use super::RawVolume;
 use super::cells::CellLists;
 use super::words::Words;
+use super::{REGION_ARRAYS, RawVolume};
 use crate::{ReadFault, Vec3};
 
 /// A tag and the text after it, up to the next one.
@@ -28,6 +28,7 @@ pub(super) fn read(text: &str) -> Result<RawVolume, ReadFault> {
     let mut cells = CellLists::default();
     let mut binary = None;
     let (mut section, mut pieces) = ("", 0);
+    let mut rank = REGION_ARRAYS.len();
     for tag in tags(text) {
         match tag.name {
             "VTKFile" => binary = Some(file(&tag)?),
@@ -50,6 +51,15 @@ pub(super) fn read(text: &str) -> Result<RawVolume, ReadFault> {
                     ("Cells", Some("connectivity")) => cells.nodes = integers(&tag, binary)?,
                     ("Cells", Some("offsets")) => cells.ends = integers(&tag, binary)?,
                     ("Cells", Some("types")) => cells.kinds = integers(&tag, binary)?,
+                    ("CellData", Some(name)) => {
+                        let place = REGION_ARRAYS.iter().position(|known| *known == name);
+                        // An array that is called so and does not number anything is not of regions.
+                        if let Some(place) = place.filter(|place| *place < rank)
+                            && let Ok(numbers) = integers(&tag, binary)
+                        {
+                            (rank, cells.regions) = (place, numbers);
+                        }
+                    }
                     _ => {}
                 }
             }

@@ -49,6 +49,16 @@ pub enum TetrahedronError {
         /// How many tetrahedra have it.
         tetrahedra: usize,
     },
+    /// There is not one region for each tetrahedron.
+    #[error(
+        "there are regions for {found} tetrahedra, but {tetrahedra} tetrahedra; give one for each"
+    )]
+    WrongRegions {
+        /// How many regions were given.
+        found: usize,
+        /// How many tetrahedra there are.
+        tetrahedra: usize,
+    },
     /// A length that is none.
     #[error("{what} is {found:e} m where a positive length was expected; give one in metres")]
     NotALength {
@@ -101,6 +111,7 @@ impl TetrahedronError {
             | Self::Inverted { .. }
             | Self::Flat { .. }
             | Self::CrowdedFace { .. }
+            | Self::WrongRegions { .. }
             | Self::NotALength { .. }
             | Self::TooMany { .. }
             | Self::NotRefined { .. }

@@ -4,6 +4,7 @@
 
 mod hemisphere;
 mod indentation;
+mod regions;
 mod solid;
 mod tube;
 mod uniaxial;
@@ -20,6 +21,7 @@ use palpate_mechanics::contact::Friction;
 
 pub(crate) use hemisphere::Hemisphere;
 pub(crate) use indentation::{Indentation, Loading, Ramp};
+pub(crate) use regions::{PartPlace, SolidPart};
 pub(crate) use solid::{Patch, Point, Solid};
 pub(crate) use tube::{Tube, TubeIndent};
 pub(crate) use uniaxial::Uniaxial;
@@ -159,7 +161,10 @@ impl Problem {
             }
             Kind::Tube => Case::Tube(Tube::from_keys(&keys)?),
             Kind::Uniaxial => Case::Uniaxial(Uniaxial::from_keys(&keys)?),
-            Kind::Solid => Case::Solid(Solid::from_keys(&keys, folder)?),
+            Kind::Solid => {
+                let law = tissue.elasticity.law();
+                Case::Solid(Solid::from_keys(&keys, folder, law)?)
+            }
         };
         Ok(Self {
             path: path.to_owned(),

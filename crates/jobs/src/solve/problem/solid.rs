@@ -2,12 +2,15 @@ use std::ops::Bound::Included;
 use std::path::Path;
 
 use palpate_files::scene::{Region, Shape};
+use palpate_files::tissue::LawName;
 use palpate_files::{Domain, Error, Key, Keys, Place};
 use palpate_mechanics::Vec3;
 use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_elements::solid::{DeadLoad, LoadPlace};
 
+use super::regions::{self, SolidPart};
 use super::{BOND_MEANINGS, BONDS};
+use crate::Error as JobError;
 
 /// An organ of any shape, held somewhere, and moved or loaded elsewhere.
 #[derive(Debug, Clone)]
@@ -20,6 +23,8 @@ pub(crate) struct Solid {
     pub(crate) gravity: Option<Vec3>,
     pub(crate) loads: Vec<Load>,
     pub(crate) points: Vec<Point>,
+    /// Layers, inclusions and regions of the file.
+    pub(crate) parts: Vec<SolidPart>,
     /// Whether the stiffness is fitted to what the points were measured to do.
     pub(crate) fits: bool,
 }
@@ -100,15 +105,23 @@ impl Solid {
             "Points of the body whose displacement is asked for.",
         )
         .optional("", "none"),
+        regions::KEYS[0],
+        regions::KEYS[1],
+        regions::KEYS[2],
         Key::truth(
             "fit_stiffness",
-            "Whether the moduli of the tissue are multiplied by the factor with which the points move as measured, by \
+            "Whether the moduli of all tissues are multiplied by the factor with which the points move as measured, by \
              least squares.",
         )
         .default("false"),
     ];
 
-    pub(crate) fn from_keys(keys: &Keys<'_>, folder: &Path) -> Result<Self, Error> {
+    /// The body outside of its parts is of `law`.
+    pub(crate) fn from_keys(
+        keys: &Keys<'_>,
+        folder: &Path,
+        law: LawName,
+    ) -> Result<Self, JobError> {
         let shape = Shape::from_keys(keys, folder)?;
         let anchor = anchor(keys, &shape)?;
         let patch = keys.table("patch")?;
@@ -116,7 +129,7 @@ impl Solid {
         if gravity == Some(Vec3::zeros()) {
             let expected =
                 "an acceleration that is not zero, or leave the key out for a body without weight";
-            return Err(keys.bad("gravity_m_per_s2", expected));
+            return Err(keys.bad("gravity_m_per_s2", expected).into());
         }
         let loads = keys.tables("load")?;
         let points = keys.tables("point")?;
@@ -135,6 +148,7 @@ impl Solid {
                 .enumerate()
                 .map(|(number, keys)| Point::from_keys(keys, number))
                 .collect::<Result<_, _>>()?,
+            parts: regions::from_keys(keys, folder, law)?,
             fits,
         };
         if solid.patch.is_none() && solid.gravity.is_none() && solid.loads.is_empty() {
@@ -142,7 +156,8 @@ impl Solid {
                 "patch",
                 "what moves or loads the body: `patch = { center_m = [0.0, 0.0, 0.05], radius_m = 0.003, \
                  displacement_m = [0.0, 0.0, -0.001] }`, `gravity_m_per_s2 = [0.0, 0.0, -9.81]` or a `[[load]]`",
-            ));
+            )
+            .into());
         }
         if fits {
             solid.can_fit(keys)?;

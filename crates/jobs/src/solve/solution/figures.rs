@@ -103,12 +103,26 @@ pub struct SolidFigures {
     /// Displacements that were asked for.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub points: Vec<PointFigures>,
-    /// What the moduli of the tissue were multiplied by, where they were fitted [-].
+    /// The parts of the body, after what is in none of them.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub regions: Vec<RegionFigures>,
+    /// What the moduli of the tissues were multiplied by, where they were fitted [-].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stiffness_factor: Option<f64>,
     /// The fitted tissue.
     #[serde(skip)]
     pub tissue: Option<Box<palpate_files::Tissue>>,
+}
+
+/// A part of the body.
+#[derive(Debug, Clone, Serialize)]
+pub struct RegionFigures {
+    /// Its name; `body` for what is in no other.
+    pub name: String,
+    /// The name of its law.
+    pub law: &'static str,
+    /// On the finest mesh [m³].
+    pub volume_m3: f64,
 }
 
 /// The figures of a patch that is moved.

@@ -38,9 +38,11 @@ pub struct SolidFields {
     pub positions: Vec<Vec3>,
     /// Ten nodes for each tetrahedron: corners, then the middles of 01, 12, 02, 03, 13, 23.
     pub cells: Vec<u32>,
+    /// The region of each tetrahedron: 0, or one of the problem from 1.
+    pub regions: Vec<u32>,
     /// Displacement of each node [m].
     pub displacements: Vec<Vec3>,
-    /// Mean stress at each node, tension positive [Pa].
+    /// Mean stress at each node, tension positive [Pa]; on a border that of one of the regions.
     pub pressures: Vec<f64>,
     /// Von Mises' equivalent stress of each tetrahedron, of its mean Cauchy stress [Pa].
     pub equivalent_stresses: Vec<f64>,
@@ -82,6 +84,7 @@ impl SolidFields {
         Self {
             positions: nodes.iter().map(|x| frame.back(x)).collect(),
             cells: model.mesh.elements.clone(),
+            regions: Vec::new(),
             displacements: (0..nodes.len()).map(displacement).collect(),
             pressures: pressures(model, state),
             equivalent_stresses: (0..model.mesh.len())

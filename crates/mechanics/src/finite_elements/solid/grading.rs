@@ -9,20 +9,25 @@
 //! fall alike, and three meshes show one order. A level has about two and a half times as many unknowns as
 //! the one before.
 //!
+//! In layers under the patch edges are no longer than the layer is thick, and in and around shapes no longer than their
+//! radius asks for, both by 2⁻ᵏ.
+//!
 //! A coarse filling cuts off what is thin. Where the first mesh does not have the area of the patch, the body is filled
 //! again, with ever smaller tetrahedra at the patch.
 
 use std::f64::consts::TAU;
+use std::rc::Rc;
 
 use palpate_files::scene::Region;
 use palpate_geometry::{
-    FillSettings, Surface, TetrahedronError, TetrahedronMesh, closest_on_triangle, fill,
-    fill_graded, refine_to, resolve_sphere,
+    FillSettings, Level, Surface, TetrahedronError, TetrahedronMesh, closest_on_triangle, fill,
+    fill_graded, refine_to, resolve_levels,
 };
 
 use super::mesh::faces;
 use super::patch::{area_of, area_within, faces_within};
 use super::problem::{Body, MovedPatch, SolidProblem};
+use super::regions::SolidRegions;
 use crate::{Error, Vec3};
 
 /// h₀, in radii of the patch [-].
@@ -33,6 +38,9 @@ const AT_ANCHOR: f64 = 0.5;
 
 /// g [-].
 const GROWTH: f64 = 1.5;
+
+/// By how much edges grow away from a shape [-]: what it adds to the strain falls with the cube of the distance.
+const AT_SHAPES: f64 = 0.75;
 
 /// Tetrahedra of the first filling.
 const FILLING: usize = 2_000;
@@ -67,6 +75,16 @@ pub(super) struct MeshContext<'a> {
     patch: Option<PatchEdge>,
     /// Points where the anchor ends [m].
     rim: Vec<Vec3>,
+    regions: Rc<SolidRegions>,
+    pub(super) warnings: Vec<String>,
+}
+
+/// Tetrahedra on which a problem is solved, with the regions of the problem from 1.
+pub(super) struct Graded {
+    pub(super) mesh: TetrahedronMesh,
+    /// Edges of the boundary that still cross the edge of the patch.
+    pub(super) crossing: usize,
+    /// Warnings.
     pub(super) warnings: Vec<String>,
 }
 
@@ -125,6 +143,7 @@ impl<'a> MeshContext<'a> {
         let patch = patch.map(|patch| PatchEdge::new(patch, &triangles));
         let (patch, warnings) = patch.transpose()?.unzip();
         let warnings: Vec<String> = warnings.unwrap_or_default();
+        let regions = Rc::new(SolidRegions::new(problem)?);
         let context = |filling: TetrahedronMesh| {
             let spacing = AT_ANCHOR * filling.quality().longest_edge;
             let rim = triangles.iter();
@@ -134,6 +153,7 @@ impl<'a> MeshContext<'a> {
                 rim: rim.collect(),
                 filling,
                 patch: patch.clone(),
+                regions: regions.clone(),
                 warnings: warnings.clone(),
             }
         };
@@ -179,7 +199,7 @@ impl<'a> MeshContext<'a> {
 
     /// On the first mesh [m²].
     fn area_of_patch(&self) -> Result<f64, Error> {
-        let (mesh, _) = self.mesh(0)?;
+        let mesh = self.mesh(0)?.mesh;
         let faces = faces(&mesh);
         let patch = self.patch.iter();
         let patch = patch.flat_map(|at| faces_within(at.radius, &at.center, (&mesh, &faces)));
@@ -191,8 +211,8 @@ impl<'a> MeshContext<'a> {
         self.patch.as_ref().map(|patch| &patch.center)
     }
 
-    /// The tetrahedra after `halvings`, and how many edges still cross the edge of the patch.
-    pub(super) fn mesh(&self, halvings: i32) -> Result<(TetrahedronMesh, usize), Error> {
+    /// The tetrahedra after `halvings`.
+    pub(super) fn mesh(&self, halvings: i32) -> Result<Graded, Error> {
         let surface = match self.body {
             Body::Surface(surface) => Some(surface),
             Body::Volume(_) => None,
@@ -209,13 +229,39 @@ impl<'a> MeshContext<'a> {
             let near_patch = self.patch.as_ref().map_or(f64::INFINITY, |patch| {
                 away(&patch.edge).max(EDGE * patch.radius * halved)
             });
-            near_patch.min(near_anchor).min(longest)
+            let in_layer = self.patch.as_ref().map_or(f64::INFINITY, |patch| {
+                let off = (point - patch.center).norm() - patch.radius;
+                (self.regions.thickness_at(point) * halved).max(GROWTH * follow * off)
+            });
+            let near_shapes =
+                self.regions
+                    .longest_edge_at_shapes(point, halved, AT_SHAPES * follow);
+            near_patch
+                .min(near_anchor)
+                .min(longest)
+                .min(in_layer)
+                .min(near_shapes)
         })?;
-        let Some(PatchEdge { center, radius, .. }) = &self.patch else {
-            return Ok((mesh, 0));
-        };
-        let (mesh, resolved) = resolve_sphere(&mesh, surface, center, *radius)?;
-        Ok((mesh, resolved.crossing))
+        let circle = self.patch.as_ref();
+        let circle = circle.map(|at| move |point: &Vec3| (point - at.center).norm() - at.radius);
+        let heights = self.regions.heights();
+        let mut levels = Vec::new();
+        levels.extend(circle.iter().map(|height| Level {
+            height,
+            boundary_only: true,
+        }));
+        levels.extend(heights.iter().map(|height| Level {
+            height,
+            boundary_only: false,
+        }));
+        let (mesh, resolved) = resolve_levels(mesh, surface, &levels)?;
+        let (circle, borders) = resolved.split_at(usize::from(circle.is_some()));
+        let (mesh, warnings) = self.regions.put(mesh, borders)?;
+        Ok(Graded {
+            mesh,
+            crossing: circle.iter().map(|level| level.crossing).sum(),
+            warnings,
+        })
     }
 }
 

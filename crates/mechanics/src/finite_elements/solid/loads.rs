@@ -34,10 +34,7 @@ impl Loads {
         };
         if let Some(weight) = &self.weight {
             direction("the acceleration of gravity", &weight.gravity)?;
-            let density = weight.density;
-            if !(density > 0.0 && density.is_finite()) {
-                return Err(SolidError::DensityOutOfRange { density });
-            }
+            check_densities([weight.density])?;
         }
         for (load, DeadLoad { place, force }) in self.forces.iter().enumerate() {
             direction("a force", force)?;
@@ -49,6 +46,15 @@ impl Loads {
         }
         Ok(())
     }
+}
+
+/// Densities [kg/m³] have to be positive.
+pub(super) fn check_densities(densities: impl IntoIterator<Item = f64>) -> Result<(), SolidError> {
+    let is_one = |density: &f64| *density > 0.0 && density.is_finite();
+    let bad = densities.into_iter().find(|density| !is_one(density));
+    bad.map_or(Ok(()), |density| {
+        Err(SolidError::DensityOutOfRange { density })
+    })
 }
 
 /// Forces at nodes [N].

@@ -9,6 +9,8 @@
 //! the boundary are dead loads: they keep their direction while the body turns, and grow with the displacement of the
 //! patch.
 //!
+//! Regions have laws of their own. Tetrahedra are cut at their borders, and pressures jump there.
+//!
 //! *How we know*: `solid::a_patch_on_a_cube_is_a_punch` (axisymmetric elements and the half-space),
 //! `solid::a_patch_on_a_hemisphere_is_3_percent_stiffer_than_on_a_half_space`,
 //! `solid::the_force_converges_with_the_edge_of_the_patch`, `thin_patch::a_patch_on_a_thin_edge_has_its_area`, and energy, equilibrium and turned bodies.
@@ -25,6 +27,7 @@ mod loads;
 mod mesh;
 mod patch;
 mod problem;
+mod regions;
 mod run;
 mod solve;
 mod supports;
@@ -33,5 +36,7 @@ pub(crate) use mesh::{Face, faces};
 
 pub use answer::{SolidAnswer, SolidFields};
 pub use error::SolidError;
-pub use problem::{Body, DeadLoad, LoadPlace, Loads, MovedPatch, SolidProblem, Weight};
+pub use problem::{
+    Body, DeadLoad, LoadPlace, Loads, MovedPatch, SolidPlace, SolidProblem, SolidRegion, Weight,
+};
 pub use run::{solve, solve_at};

@@ -6,6 +6,7 @@ use palpate_geometry::{Surface, TetrahedronMesh};
 
 use crate::Vec3;
 use crate::material::law::Law;
+use crate::regions::RegionPlace;
 
 /// What the solid fills.
 #[derive(Debug, Clone)]
@@ -44,8 +45,28 @@ pub struct Loads {
 pub struct Weight {
     /// Acceleration of gravity [m/s²].
     pub gravity: Vec3,
+    /// Density at rest [kg/m³], where no region has its own.
+    pub density: f64,
+}
+
+/// A part of the body with a tissue of its own.
+#[derive(Debug, Clone)]
+pub struct SolidRegion {
+    /// Where it is.
+    pub place: SolidPlace,
+    /// Its law, for small or finite strain as that of the body.
+    pub law: Arc<dyn Law>,
     /// Density at rest [kg/m³].
     pub density: f64,
+}
+
+/// Where a region of a solid is.
+#[derive(Debug, Clone)]
+pub enum SolidPlace {
+    /// A layer, a shape or what a surface encloses; the tetrahedra are made not to cross its border.
+    Bounded(RegionPlace),
+    /// The tetrahedra of [`Body::Volume`] that have this number.
+    Cells(u32),
 }
 
 /// A force on a part of the boundary whose direction is constant.
@@ -75,8 +96,10 @@ pub struct SolidProblem {
     pub anchor: Region,
     /// Where it is moved, if it is.
     pub patch: Option<MovedPatch>,
-    /// Its law; with [`crate::Strain::Small`] all is linear.
+    /// Its law outside of the regions; with [`crate::Strain::Small`] all is linear.
     pub law: Arc<dyn Law>,
+    /// Parts of other tissue. Shapes and surfaces are above layers, and these above cells.
+    pub regions: Vec<SolidRegion>,
     /// What loads it besides. Loads and the displacement of the patch grow together from rest.
     pub loads: Loads,
     /// Points of the body whose displacement is asked for [m].

@@ -87,7 +87,8 @@ impl SolidProblem {
         progress: &mut dyn FnMut(Progress),
     ) -> Result<SolidAnswer, Error> {
         progress(Progress { part: 0.0, mesh });
-        let (tetrahedra, crossing) = context.mesh(mesh as i32 - 1)?;
+        let graded = context.mesh(mesh as i32 - 1)?;
+        let (tetrahedra, crossing) = (graded.mesh, graded.crossing);
         let corners = tetrahedra.vertices().len();
         let unknowns = 4 * corners + 3 * tetrahedra.edges().len();
         if unknowns > MOST_UNKNOWNS {
@@ -102,12 +103,23 @@ impl SolidProblem {
         let places = loads::places(&self.points, &tetrahedra, &boundary)?;
         let frame = Frame::new(self.patch.as_ref());
         let elements = frame.put(ElementMesh::from_tetrahedra(&tetrahedra));
-        let model = FiniteElementModel::new(elements, self.law.clone(), Formulation::Mixed)?;
+        let regions: Vec<u32> = (0..tetrahedra.tetrahedra().len())
+            .map(|number| tetrahedra.region(number))
+            .collect();
+        let laws = std::iter::once(&self.law);
+        let laws = laws.chain(self.regions.iter().map(|region| &region.law));
+        let laws: Vec<_> = laws.cloned().collect();
+        let model =
+            FiniteElementModel::with_regions(elements, &laws, &regions, Formulation::Mixed)?;
         let mut workspace = FiniteElementWorkspace::new(&model)?;
         let mut load = match &self.loads.weight {
             Some(weight) => {
-                let force = weight.density * frame.forth(&weight.gravity);
-                model.body_load(|_| force)
+                let gravity = frame.forth(&weight.gravity);
+                model.body_load(|element, _| {
+                    let number = regions[element] as usize;
+                    let region = number.checked_sub(1).and_then(|at| self.regions.get(at));
+                    region.map_or(weight.density, |region| region.density) * gravity
+                })
             }
             None => vec![0.0; model.size()],
         };
@@ -134,7 +146,9 @@ impl SolidProblem {
                 .sum()
         };
         answer.points = places.iter().map(moved).collect();
+        answer.fields.regions = regions;
         answer.warnings.clone_from(&context.warnings);
+        answer.warnings.extend(graded.warnings);
         if crossing > 0 {
             answer.warnings.push(format!(
                 "{crossing} edges of the mesh cross the edge of the patch, whose area is {:.3e} m²",
@@ -166,6 +180,10 @@ impl SolidProblem {
             }
         }
         self.loads.check(self.patch.is_some())?;
+        if self.loads.weight.is_some() {
+            let densities = self.regions.iter().map(|region| region.density);
+            loads::check_densities(densities)?;
+        }
         if self.anchor.is_empty() {
             return Err(Error::NothingHeld);
         }

@@ -1,11 +1,14 @@
+mod regions;
+
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use palpate_files::Place;
 use palpate_files::quantity::rounded;
 use palpate_files::scene::{LengthUnit, Shape};
-use palpate_geometry::read_tetrahedra;
+use palpate_files::{Place, Tissue};
 use palpate_geometry::vtk::{CellKind, Cells, FieldValues, PointField, unstructured_grid};
+use palpate_geometry::{VolumeRegion, read_tetrahedra};
 use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_elements::solid::{
     Body, Loads, MovedPatch, SolidError, SolidFields, SolidProblem, Weight, solve,
@@ -41,13 +44,20 @@ pub(crate) fn solution(
     wanted: Wanted,
     telling: &Telling<'_>,
 ) -> Result<Solution, Error> {
-    let (body, mut warnings) = body(&case.shape)?;
+    let BodyOfFile {
+        body,
+        regions: of_file,
+        mut warnings,
+    } = body(&case.shape)?;
+    let (regions, more) = regions::solved(&case.parts, &of_file)?;
+    warnings.extend(more);
     let patch = case.patch.as_ref();
     let mut mechanical = SolidProblem {
         body,
         anchor: held_region(&case.shape, case.anchor.as_ref()),
         patch: patch.map(moved),
         law: problem.material.law.clone(),
+        regions,
         loads: Loads {
             weight: case.gravity.map(|gravity| Weight {
                 gravity,
@@ -84,11 +94,18 @@ pub(crate) fn solution(
             break;
         }
         factor *= change;
-        let mut fitted = problem.tissue.clone();
-        fitted.elasticity = fitted.elasticity.times(factor);
-        mechanical.law = Material::from_tissue(&fitted)
-            .map_err(|error| problem.refused(error))?
-            .law;
+        let law_of = |tissue: &Tissue| {
+            let mut fitted = tissue.clone();
+            fitted.elasticity = fitted.elasticity.times(factor);
+            let material = Material::from_tissue(&fitted);
+            let material = material.map_err(|error| problem.refused(error))?;
+            Ok::<_, Error>((fitted, material.law))
+        };
+        let (fitted, law) = law_of(&problem.tissue)?;
+        mechanical.law = law;
+        for (region, part) in mechanical.regions.iter_mut().zip(&case.parts) {
+            region.law = law_of(&part.tissue)?.1;
+        }
         tissue = Some(Box::new(fitted));
         found = solved(&mechanical)?;
     }
@@ -135,6 +152,18 @@ pub(crate) fn solution(
     if !points.is_empty() {
         tables.push(table_of_points(&points));
     }
+    let regions = regions::figures(problem, case, &answer.fields);
+    if !regions.is_empty() {
+        tables.push(
+            Table::default()
+                .with_texts("region", regions.iter().map(|region| region.name.clone()))
+                .with_texts("law", regions.iter().map(|region| region.law.to_owned()))
+                .with(
+                    "volume [cm³]",
+                    regions.iter().map(|region| 1e6 * region.volume_m3),
+                ),
+        );
+    }
     if case.fits {
         let parameters = tissue
             .as_deref()
@@ -158,6 +187,7 @@ pub(crate) fn solution(
             }),
             reaction_n: answer.reaction.into(),
             points,
+            regions,
             stiffness_factor: case.fits.then_some(factor),
             tissue: match case.fits {
                 true => Some(tissue.unwrap_or_else(|| Box::new(problem.tissue.clone()))),
@@ -252,14 +282,6 @@ fn table_of_points(points: &[PointFigures]) -> Table {
 
 /// What the solver says, with the line and the key where it is about a load or a point.
 fn refused(problem: &Problem, case: &Solid, error: palpate_mechanics::Error) -> Error {
-    let bad = |place: &Place, key: &str, found: String, expected: &'static str| {
-        Error::from(palpate_files::Error::BadValue {
-            place: place.clone(),
-            key: key.to_owned(),
-            found,
-            expected: expected.into(),
-        })
-    };
     let load = |number: usize| case.loads.get(number);
     match &error {
         palpate_mechanics::Error::Solid(SolidError::EmptyLoad { load: number }) => load(*number)
@@ -290,21 +312,47 @@ fn refused(problem: &Problem, case: &Solid, error: palpate_mechanics::Error) -> 
                 )
             })
         }
+        palpate_mechanics::Error::Region(error) => regions::refused(case, error),
         _ => None,
     }
     .unwrap_or_else(|| problem.refused(error))
 }
 
-/// What is to be filled, and warnings about it.
-fn body(shape: &Shape) -> Result<(Body, Vec<String>), Error> {
+/// What is to be filled, or is filled already.
+struct BodyOfFile {
+    body: Body,
+    /// Regions of the cells, where a file of tetrahedra has any.
+    regions: Vec<VolumeRegion>,
+    /// Warnings.
+    warnings: Vec<String>,
+}
+
+fn body(shape: &Shape) -> Result<BodyOfFile, Error> {
     if let Shape::Mesh { path, unit } = shape
         && holds_tetrahedra(path)
     {
         let imported = read_tetrahedra(path, unit.map(in_words).transpose()?)?;
-        return Ok((Body::Volume(imported.mesh), imported.warnings));
+        return Ok(BodyOfFile {
+            body: Body::Volume(imported.mesh),
+            regions: imported.regions,
+            warnings: imported.warnings,
+        });
     }
     let (surface, warnings) = read_organ(shape)?;
-    Ok((Body::Surface(surface), warnings))
+    Ok(BodyOfFile {
+        body: Body::Surface(surface),
+        regions: Vec::new(),
+        warnings,
+    })
+}
+
+fn bad(place: &Place, key: &str, found: String, expected: impl Into<Cow<'static, str>>) -> Error {
+    Error::from(palpate_files::Error::BadValue {
+        place: place.clone(),
+        key: key.to_owned(),
+        found,
+        expected: expected.into(),
+    })
 }
 
 fn holds_tetrahedra(path: &Path) -> bool {
@@ -350,6 +398,11 @@ fn grid(fields: &SolidFields) -> Vec<u8> {
         nodes: &fields.cells,
     };
     let field = |name, values| PointField { name, values };
+    let regions: Vec<f64> = fields
+        .regions
+        .iter()
+        .map(|region| f64::from(*region))
+        .collect();
     unstructured_grid(
         &fields.positions,
         &cells,
@@ -360,10 +413,13 @@ fn grid(fields: &SolidFields) -> Vec<u8> {
             ),
             field("mean_stress_pa", FieldValues::Scalars(&fields.pressures)),
         ],
-        &[field(
-            "equivalent_stress_pa",
-            FieldValues::Scalars(&fields.equivalent_stresses),
-        )],
+        &[
+            field("region", FieldValues::Scalars(&regions)),
+            field(
+                "equivalent_stress_pa",
+                FieldValues::Scalars(&fields.equivalent_stresses),
+            ),
+        ],
     )
 }
 

@@ -1,0 +1,158 @@
+//! Parts of a solid with a tissue of their own.
+
+use std::path::Path;
+
+use palpate_files::scene::{Inclusion, InclusionPlace, Layer, TissueChoice};
+use palpate_files::tissue::LawName;
+use palpate_files::{Error, Key, Keys, Place, Tissue};
+use palpate_mechanics::Material;
+
+use crate::Error as JobError;
+
+/// A part of a solid.
+#[derive(Debug, Clone)]
+pub(crate) struct SolidPart {
+    pub(crate) name: String,
+    pub(crate) place: PartPlace,
+    pub(crate) tissue: Tissue,
+    pub(crate) material: Material,
+    /// Where it is in the document, and the full name of the key that says where it lies.
+    pub(crate) found_at: Place,
+    pub(crate) key: String,
+}
+
+/// Where a part of a solid is.
+#[derive(Debug, Clone)]
+pub(crate) enum PartPlace {
+    /// The next layer from outside, of this thickness [m].
+    Layer(f64),
+    Inclusion(InclusionPlace),
+    /// Cells of a volume mesh, by the number or the name of their region in its file.
+    Number(i64),
+    Group(String),
+}
+
+/// The tables of a problem that name parts.
+pub(super) const KEYS: [Key; 3] = [
+    Key::tables(
+        "layer",
+        LAYER,
+        "Layers from the outer surface inwards, above `tissue`. Tetrahedra do not cross their borders.",
+    )
+    .optional("", "it is of one tissue"),
+    Key::tables(
+        "inclusion",
+        Inclusion::KEYS,
+        "Parts of another tissue inside, such as a tumour or a vessel. Tetrahedra do not cross their borders.",
+    )
+    .optional("", "none"),
+    Key::tables(
+        "region",
+        REGION,
+        "Regions of a volume mesh: physical groups of a Gmsh file, or whole numbers in the cell data of a VTK file. What is \
+         in none of them is of `tissue`.",
+    )
+    .optional("", "none"),
+];
+
+const LAYER: &[Key] = &[
+    Layer::KEYS[0],
+    Layer::KEYS[1],
+    Layer::KEYS[2],
+    Layer::KEYS[3],
+];
+
+const REGION: &[Key] = &[
+    Key::text("name", "What people call it.").optional("\"tumour\"", "that of the file"),
+    Key::integer(
+        "number",
+        0,
+        1_000_000_000,
+        "The number of the region in the file.",
+    )
+    .optional("2", "`group` names it"),
+    Key::text("group", "The name of the physical group in a Gmsh file.")
+        .optional("\"tumour\"", "`number` says which"),
+    TissueChoice::KEYS[0],
+    TissueChoice::KEYS[1],
+];
+
+/// The parts of a problem, layers first, whose body is of `law`.
+pub(super) fn from_keys(
+    keys: &Keys<'_>,
+    folder: &Path,
+    law: LawName,
+) -> Result<Vec<SolidPart>, JobError> {
+    let mut parts = Vec::new();
+    for (number, keys) in keys.tables("layer")?.iter().enumerate() {
+        let name = keys.text("name")?;
+        let name = name.unwrap_or_else(|| format!("layer {}", number + 1));
+        let place = PartPlace::Layer(keys.required_number("thickness_m")?);
+        let tissue = TissueChoice::from_keys(keys, folder)?.read()?;
+        parts.push(part((keys, "thickness_m"), name, place, (tissue, law))?);
+    }
+    for (number, keys) in keys.tables("inclusion")?.iter().enumerate() {
+        let inclusion = Inclusion::from_keys(keys, number, folder)?;
+        let shapes = ["ball", "ellipsoid", "capsule", "mesh"];
+        let key = shapes.into_iter().find(|key| keys.contains(key));
+        let place = PartPlace::Inclusion(inclusion.place);
+        let tissue = inclusion.tissue.read()?;
+        let key = key.unwrap_or("name");
+        parts.push(part((keys, key), inclusion.name, place, (tissue, law))?);
+    }
+    for keys in &keys.tables("region")? {
+        let (key, place) = match (keys.integer("number")?, keys.text("group")?) {
+            (Some(_), Some(_)) => return Err(keys.given_twice("number", "group").into()),
+            (Some(number), None) => ("number", PartPlace::Number(number as i64)),
+            (None, Some(group)) => ("group", PartPlace::Group(group)),
+            (None, None) => {
+                let expected = "which region of the file: its `number`, or the name of its `group`";
+                return Err(keys.missing("number", expected).into());
+            }
+        };
+        let name = keys.text("name")?;
+        let name = name.unwrap_or_else(|| match &place {
+            PartPlace::Group(group) => group.clone(),
+            PartPlace::Number(number) => format!("region {number}"),
+            PartPlace::Layer(_) | PartPlace::Inclusion(_) => String::new(),
+        });
+        let tissue = TissueChoice::from_keys(keys, folder)?.read()?;
+        parts.push(part((keys, key), name, place, (tissue, law))?);
+    }
+    Ok(parts)
+}
+
+fn part(
+    (keys, key): (&Keys<'_>, &'static str),
+    name: String,
+    place: PartPlace,
+    (tissue, law): (Tissue, LawName),
+) -> Result<SolidPart, JobError> {
+    let is_small = |law| law == LawName::Linear;
+    let found = tissue.elasticity.law();
+    if is_small(found) != is_small(law) {
+        let expected = match is_small(law) {
+            true => "a linear law, as that of the body: it is for small strain",
+            false => "a law for large strain, as that of the body",
+        };
+        let key = match keys.contains("tissue") {
+            true => "tissue",
+            false => "builtin_tissue",
+        };
+        return Err(Error::BadValue {
+            place: keys.place_of_key(key),
+            key: keys.full_name(key),
+            found: found.to_string(),
+            expected: expected.into(),
+        }
+        .into());
+    }
+    Ok(SolidPart {
+        name,
+        place,
+        material: Material::from_tissue(&tissue)?,
+        tissue,
+        found_at: keys.place_of_key(key),
+        key: keys.full_name(key),
+    })
+}

@@ -1,0 +1,158 @@
+//! Which region each tetrahedron of a solid belongs to.
+
+use palpate_geometry::{AabbTree, Resolved, Surface, TetrahedronMesh, TriangleMesh};
+
+use super::problem::{Body, SolidPlace, SolidProblem};
+use crate::regions::{RegionError, RegionMap};
+use crate::{Error, Vec3};
+
+/// Longest edges in a shape, in its smallest radius [-].
+const IN_SHAPE: f64 = 0.6;
+
+/// The regions of a problem.
+#[derive(Debug)]
+pub(super) struct SolidRegions {
+    /// Those with borders.
+    map: RegionMap,
+    /// Number among the regions of the problem, from 1, of each region of the map after the first.
+    bounded: Vec<usize>,
+    /// The same for each number of a cell; empty where cells have none.
+    cells: Vec<usize>,
+}
+
+impl SolidRegions {
+    pub(super) fn new(problem: &SolidProblem) -> Result<Self, Error> {
+        let mut places = Vec::new();
+        let mut bounded = Vec::new();
+        let mut cells = Vec::new();
+        for (region, number) in problem.regions.iter().zip(1..) {
+            match &region.place {
+                SolidPlace::Bounded(place) => {
+                    places.push(place.clone());
+                    bounded.push(number);
+                }
+                SolidPlace::Cells(cell) => {
+                    let cell = *cell as usize;
+                    cells.resize(cells.len().max(cell + 1), 0);
+                    cells[cell] = number;
+                }
+            }
+        }
+        if places.is_empty() {
+            return Ok(Self {
+                map: RegionMap::default(),
+                bounded,
+                cells,
+            });
+        }
+        let (boundary, closed);
+        let (mesh, surface) = match &problem.body {
+            Body::Surface(surface) => (surface.mesh(), Some(surface)),
+            Body::Volume(mesh) => {
+                boundary = boundary_of(mesh)?;
+                closed = Surface::new(boundary.clone()).ok();
+                (&boundary, closed.as_ref())
+            }
+        };
+        let tree = AabbTree::new(mesh);
+        let map = RegionMap::new(mesh, &tree, places)?;
+        // A boundary that is no surface, such as one that touches itself, has no inside by distances.
+        if let Some(surface) = surface {
+            map.check(surface, &tree)
+                .map_err(|error| renumbered(error, &bounded))?;
+        }
+        Ok(Self {
+            map,
+            bounded,
+            cells,
+        })
+    }
+
+    /// How many regions are cells.
+    fn named(&self) -> usize {
+        self.cells.iter().filter(|number| **number > 0).count()
+    }
+
+    /// The borders that tetrahedra are not to cross, as heights over them [m].
+    pub(super) fn heights(&self) -> Vec<impl Fn(&Vec3) -> f64 + use<'_>> {
+        let numbers = self.map.bounded();
+        numbers
+            .map(|number| move |place: &Vec3| self.map.height(number, place))
+            .collect()
+    }
+
+    /// The longest edge that the shapes ask for at a place [m], where edges in them are multiplied by `halved` [-] and the
+    /// others grow by `growth` [-].
+    pub(super) fn longest_edge_at_shapes(&self, place: &Vec3, halved: f64, growth: f64) -> f64 {
+        let of_radius = IN_SHAPE * halved;
+        self.map.longest_edge_at_shapes(place, of_radius, growth)
+    }
+
+    /// Thickness of the layer at a place [m]; infinite below layers.
+    pub(super) fn thickness_at(&self, place: &Vec3) -> f64 {
+        self.map.thickness_at(place)
+    }
+
+    /// The mesh with its regions, as numbers among those of the problem from 1, of the sides on which its tetrahedra lie
+    /// (`resolved`, one for each of [`heights`](Self::heights)); and warnings.
+    pub(super) fn put(
+        &self,
+        mesh: TetrahedronMesh,
+        resolved: &[Resolved],
+    ) -> Result<(TetrahedronMesh, Vec<String>), Error> {
+        let levels: Vec<usize> = self.map.bounded().collect();
+        let sides = |tetrahedron: usize| {
+            let below = levels.iter().zip(resolved);
+            below
+                .filter(move |(_, level)| level.below[tetrahedron])
+                .map(|(number, _)| *number)
+        };
+        let mut regions = Vec::with_capacity(mesh.tetrahedra().len());
+        for tetrahedron in 0..mesh.tetrahedra().len() {
+            regions.push(match sides(tetrahedron).next() {
+                Some(number) => self.bounded[number - 1],
+                None => {
+                    let cell = mesh.region(tetrahedron) as usize;
+                    self.cells.get(cell).copied().unwrap_or(0)
+                }
+            } as u32);
+        }
+        let is_somewhere = |number: &usize| regions.contains(&(*number as u32));
+        if let Some(number) = (1..=self.bounded.len() + self.named()).find(|n| !is_somewhere(n)) {
+            let region = number - 1;
+            return Err(RegionError::Nowhere { region }.into());
+        }
+        let has_layers = self.map.bounded().any(|number| self.map.is_layer(number));
+        if has_layers && self.cells.is_empty() && !is_somewhere(&0) {
+            return Err(RegionError::NothingBelowLayers.into());
+        }
+        let crossing: usize = resolved.iter().map(|level| level.crossing).sum();
+        let warnings = (crossing > 0).then(|| {
+            format!(
+                "{crossing} edges of the mesh cross the borders of regions, which lie up to half an edge off there"
+            )
+        });
+        Ok((mesh.with_regions(regions)?, warnings.into_iter().collect()))
+    }
+}
+
+/// The same with the numbers of the problem.
+fn renumbered(error: RegionError, bounded: &[usize]) -> RegionError {
+    let number = |region: usize| bounded[region] - 1;
+    match error {
+        RegionError::Outside { region, outside } => RegionError::Outside {
+            region: number(region),
+            outside,
+        },
+        RegionError::Overlap { regions } => RegionError::Overlap {
+            regions: regions.map(number),
+        },
+        other => other,
+    }
+}
+
+/// The boundary of tetrahedra, for depths below it.
+fn boundary_of(mesh: &TetrahedronMesh) -> Result<TriangleMesh, Error> {
+    let triangles = mesh.boundary().into_iter().map(|(corners, _)| corners);
+    TriangleMesh::new(mesh.vertices().to_vec(), triangles.collect()).map_err(|_| Error::NoElements)
+}

@@ -1,0 +1,304 @@
+//! Where the tissues of a body are: layers from its outer surface inwards, and shapes inside of it.
+//!
+//! Depth is the distance to the outer surface: the triangles from which one of seven directions, within 35 degrees of the
+//! normal, leads away from the body. So the wall of a tube is layered from outside, not from its lumen.
+
+use std::f64::consts::PI;
+
+use palpate_files::scene::InclusionShape;
+use palpate_geometry::{AabbTree, Surface, TriangleMesh, Vec3};
+
+use crate::Error;
+
+/// Directions in which a triangle of the outer surface may look away: off its normal [-], and how many beside it.
+const OFF_NORMAL: f64 = 0.7;
+const DIRECTIONS: usize = 6;
+
+/// Points around a sphere, and spheres along a capsule, that say whether a shape lies in a body.
+const AROUND: usize = 200;
+const ALONG: usize = 9;
+
+/// A part of a body that has a tissue of its own.
+#[derive(Debug, Clone)]
+pub enum RegionPlace {
+    /// The next layer from outside, of this thickness [m].
+    Layer(f64),
+    /// A shape inside; it is above layers.
+    Shape(InclusionShape),
+    /// The inside of a closed surface in the body; it is above layers.
+    Enclosed(Enclosed),
+}
+
+/// The inside of a closed surface.
+#[derive(Debug, Clone)]
+pub struct Enclosed {
+    surface: Surface,
+    tree: AabbTree,
+    /// A third of the cube root of its volume [m].
+    size: f64,
+}
+
+impl From<Surface> for Enclosed {
+    fn from(surface: Surface) -> Self {
+        let tree = AabbTree::new(surface.mesh());
+        let size = surface.mesh().volume().abs().cbrt() / 3.0;
+        Self {
+            surface,
+            tree,
+            size,
+        }
+    }
+}
+
+/// What is wrong with the regions of a body.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum RegionError {
+    /// A shape reaches out of the body.
+    #[error("region {} reaches {outside} m out of the body; make it smaller or move it in", region + 1)]
+    Outside {
+        /// Its number among the regions, from 0.
+        region: usize,
+        /// How far [m].
+        outside: f64,
+    },
+    /// Two shapes share a place.
+    #[error("regions {} and {} overlap; move them apart", regions[0] + 1, regions[1] + 1)]
+    Overlap {
+        /// Their numbers among the regions, from 0.
+        regions: [usize; 2],
+    },
+    /// A region has no part of the body.
+    #[error("region {} is nowhere in the body; make a layer thinner, or a shape larger", region + 1)]
+    Nowhere {
+        /// Its number among the regions, from 0.
+        region: usize,
+    },
+    /// The layers together are as thick as the body.
+    #[error("the layers fill the whole body; make them thinner")]
+    NothingBelowLayers,
+}
+
+/// Which of its regions each point of a body belongs to. Region 0 is what is in no other; the others are numbered from 1, in
+/// the order in which they were given.
+#[derive(Debug, Clone, Default)]
+pub struct RegionMap {
+    regions: Vec<Mapped>,
+    /// Triangles from which depths are measured, where there are layers.
+    outer: Option<(TriangleMesh, AabbTree)>,
+}
+
+#[derive(Debug, Clone)]
+enum Mapped {
+    /// Depths of the upper and the lower face of a layer [m].
+    Layer {
+        top: f64,
+        bottom: f64,
+    },
+    Shape(InclusionShape),
+    Enclosed(Enclosed),
+}
+
+impl RegionMap {
+    /// The `places` in the body inside of `surface`, whose tree is `tree`.
+    ///
+    /// # Errors
+    /// When there are layers and no triangle of the surface looks outwards.
+    pub fn new(
+        surface: &TriangleMesh,
+        tree: &AabbTree,
+        places: impl IntoIterator<Item = RegionPlace>,
+    ) -> Result<Self, Error> {
+        let mut bottom = 0.0;
+        let mut has_layers = false;
+        let regions = places.into_iter().map(|place| match place {
+            RegionPlace::Layer(thickness) => {
+                has_layers = true;
+                let top = bottom;
+                bottom += thickness;
+                Mapped::Layer { top, bottom }
+            }
+            RegionPlace::Shape(shape) => Mapped::Shape(shape),
+            RegionPlace::Enclosed(surface) => Mapped::Enclosed(surface),
+        });
+        let regions = regions.collect();
+        let outer = match has_layers {
+            true => Some(outer(surface, tree)?),
+            false => None,
+        };
+        Ok(Self { regions, outer })
+    }
+
+    /// Number of regions beside region 0.
+    pub fn len(&self) -> usize {
+        self.regions.len()
+    }
+
+    /// Whether the whole body is region 0.
+    pub fn is_empty(&self) -> bool {
+        self.regions.is_empty()
+    }
+
+    /// The closed surfaces among the regions.
+    pub fn enclosed(&self) -> impl Iterator<Item = &Surface> {
+        self.regions.iter().filter_map(|region| match region {
+            Mapped::Enclosed(enclosed) => Some(&enclosed.surface),
+            Mapped::Layer { .. } | Mapped::Shape(_) => None,
+        })
+    }
+
+    /// Whether all shapes lie inside of the body, whose `surface` has the `tree`, and clear of each other.
+    ///
+    /// # Errors
+    /// When one does not.
+    pub fn check(&self, surface: &Surface, tree: &AabbTree) -> Result<(), RegionError> {
+        let mut borders: Vec<(usize, Vec<Vec3>)> = Vec::new();
+        for (region, number) in self.regions.iter().zip(1..) {
+            let points = match region {
+                Mapped::Layer { .. } => continue,
+                Mapped::Shape(shape) => border(shape),
+                Mapped::Enclosed(enclosed) => enclosed.surface.mesh().vertices().to_vec(),
+            };
+            let outside = points.iter();
+            let outside = outside.map(|point| surface.signed_distance(tree, point).1);
+            let outside = outside.fold(0.0, f64::max);
+            if outside > 0.0 {
+                let region = number - 1;
+                return Err(RegionError::Outside { region, outside });
+            }
+            let reaches = |into: usize, points: &[Vec3]| {
+                points.iter().any(|point| self.height(into, point) < 0.0)
+            };
+            for (other, of_other) in &borders {
+                if reaches(number, of_other) || reaches(*other, &points) {
+                    return Err(RegionError::Overlap {
+                        regions: [other - 1, number - 1],
+                    });
+                }
+            }
+            borders.push((number, points));
+        }
+        Ok(())
+    }
+
+    /// Numbers of the regions whose borders are levels of [`height`](Self::height): shapes, then layers from outside.
+    pub fn bounded(&self) -> impl Iterator<Item = usize> + '_ {
+        let of_kind = move |layers: bool| {
+            let numbers = 1..=self.regions.len();
+            numbers.filter(move |number| self.is_layer(*number) == layers)
+        };
+        of_kind(false).chain(of_kind(true))
+    }
+
+    /// Whether a region is a layer.
+    pub fn is_layer(&self, number: usize) -> bool {
+        matches!(self.regions.get(number - 1), Some(Mapped::Layer { .. }))
+    }
+
+    /// How far a point [m] lies outside of a shape, or below the lower face of a layer [m]; negative on the other side.
+    pub fn height(&self, number: usize, place: &Vec3) -> f64 {
+        match self.regions.get(number - 1) {
+            None => f64::INFINITY,
+            Some(Mapped::Layer { bottom, .. }) => self.depth(place) - bottom,
+            Some(Mapped::Shape(shape)) => shape.off((*place).into()),
+            Some(Mapped::Enclosed(Enclosed { surface, tree, .. })) => {
+                surface.signed_distance(tree, place).1
+            }
+        }
+    }
+
+    /// Distance to the outer surface [m]; infinite without layers.
+    fn depth(&self, place: &Vec3) -> f64 {
+        let outer = self.outer.as_ref();
+        outer.map_or(f64::INFINITY, |(mesh, tree)| {
+            tree.nearest(mesh, place).distance
+        })
+    }
+
+    /// The region of what lies below the borders that `is_below` says.
+    pub fn region_below(&self, is_below: impl FnMut(&usize) -> bool) -> usize {
+        self.bounded().find(is_below).unwrap_or(0)
+    }
+
+    /// The region of a point [m].
+    pub fn at(&self, place: &Vec3) -> usize {
+        self.region_below(|number| self.height(*number, place) <= 0.0)
+    }
+
+    /// The longest edge at `place` [m], if edges in a shape are to have `of_radius` of its smallest radius [-], and to grow
+    /// by `growth` [-] away from it.
+    pub fn longest_edge_at_shapes(&self, place: &Vec3, of_radius: f64, growth: f64) -> f64 {
+        let edges = self.regions.iter().zip(1..).filter_map(|(region, number)| {
+            let size = match region {
+                Mapped::Layer { .. } => return None,
+                Mapped::Shape(shape) => shape.smallest_radius(),
+                Mapped::Enclosed(enclosed) => enclosed.size,
+            };
+            let off = self.height(number, place).max(0.0);
+            Some(of_radius * size + growth * off)
+        });
+        edges.fold(f64::INFINITY, f64::min)
+    }
+
+    /// Thickness of the layer in which a point [m] lies [m]; infinite below them.
+    pub fn thickness_at(&self, place: &Vec3) -> f64 {
+        if self.outer.is_none() {
+            return f64::INFINITY;
+        }
+        let depth = self.depth(place);
+        let found = self.regions.iter().find_map(|region| match region {
+            Mapped::Layer { top, bottom } if depth < *bottom => Some(bottom - top),
+            _ => None,
+        });
+        found.unwrap_or(f64::INFINITY)
+    }
+}
+
+/// Points of the border of a shape [m], spread evenly, and some within a capsule.
+fn border(shape: &InclusionShape) -> Vec<Vec3> {
+    let golden = PI * (3.0 - 5.0_f64.sqrt());
+    let parts = match shape {
+        InclusionShape::Capsule { .. } => ALONG,
+        _ => 1,
+    };
+    let mut points = Vec::with_capacity(parts * AROUND);
+    for k in 0..parts {
+        let part = k as f64 / (ALONG - 1) as f64;
+        for i in 0..AROUND {
+            let height = 1.0 - (2 * i + 1) as f64 / AROUND as f64;
+            let (sine, cosine) = (golden * i as f64).sin_cos();
+            let around = (1.0 - height * height).sqrt();
+            let unit = [around * cosine, around * sine, height];
+            points.push(shape.point(unit, part).into());
+        }
+    }
+    points
+}
+
+/// The triangles of the outer surface.
+fn outer(mesh: &TriangleMesh, tree: &AabbTree) -> Result<(TriangleMesh, AabbTree), Error> {
+    let (low, high) = mesh.bounds();
+    let reach = (high - low).norm();
+    let looks_out = |triangle| {
+        let [a, b, c] = mesh.positions(triangle);
+        let area = mesh.area_vector(triangle);
+        let normal = area.normalize();
+        let along = (b - a).normalize();
+        let across = normal.cross(&along);
+        let start = (a + b + c) / 3.0 + normal * (1e-3 * (2.0 * area.norm()).sqrt());
+        let mut directions = (0..DIRECTIONS).map(|k| {
+            let (sine, cosine) = (2.0 * PI * k as f64 / DIRECTIONS as f64).sin_cos();
+            (normal + OFF_NORMAL * (cosine * along + sine * across)).normalize()
+        });
+        let is_free = |direction: &Vec3| tree.cast(mesh, &start, direction, reach).is_none();
+        is_free(&normal) || directions.any(|direction| is_free(&direction))
+    };
+    let triangles: Vec<_> = mesh
+        .triangle_ids()
+        .filter(|triangle| looks_out(*triangle))
+        .map(|triangle| mesh.corners(triangle))
+        .collect();
+    let triangles =
+        TriangleMesh::new(mesh.vertices().to_vec(), triangles).map_err(|_| Error::NoElements)?;
+    let tree = AabbTree::new(&triangles);
+    Ok((triangles, tree))
+}

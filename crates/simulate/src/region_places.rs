@@ -1,0 +1,64 @@
+//! Where the layers and inclusions of a scene are.
+
+use palpate_files::scene::{Inclusion, InclusionPlace, Organ, Shape};
+use palpate_geometry::{AabbTree, Surface};
+use palpate_mechanics::regions::{RegionError, RegionMap, RegionPlace};
+
+use crate::{Error, read_organ};
+
+/// The place of an inclusion, whose file is read if it has one, and warnings.
+///
+/// # Errors
+/// When the file cannot be read or has no closed surface.
+pub fn read_inclusion(inclusion: &InclusionPlace) -> Result<(RegionPlace, Vec<String>), Error> {
+    match inclusion {
+        InclusionPlace::Shape(shape) => Ok((RegionPlace::Shape(*shape), Vec::new())),
+        InclusionPlace::Mesh { path, unit } => {
+            let (path, unit) = (path.clone(), *unit);
+            let (surface, warnings) = read_organ(&Shape::Mesh { path, unit })?;
+            Ok((RegionPlace::Enclosed(surface.into()), warnings))
+        }
+    }
+}
+
+/// Where the inclusions of `organ` are, after its layers if they are felt, in the organ with this surface and its tree;
+/// and warnings.
+pub(crate) fn read_regions(
+    organ: &Organ,
+    with_layers: bool,
+    (surface, tree): (&Surface, &AabbTree),
+) -> Result<(RegionMap, Vec<String>), Error> {
+    let layers = organ.layers.iter().filter(|_| with_layers);
+    let mut places: Vec<RegionPlace> = layers
+        .map(|layer| RegionPlace::Layer(layer.thickness_m))
+        .collect();
+    let layers = places.len();
+    let mut warnings = Vec::new();
+    for inclusion in &organ.inclusions {
+        let (place, more) = read_inclusion(&inclusion.place)?;
+        places.push(place);
+        warnings.extend(more);
+    }
+    let map = RegionMap::new(surface.mesh(), tree, places)?;
+    let named = |error| refused(error, &organ.inclusions, layers);
+    map.check(surface, tree).map_err(named)?;
+    Ok((map, warnings))
+}
+
+/// The error with the names of the inclusions.
+fn refused(error: RegionError, inclusions: &[Inclusion], layers: usize) -> Error {
+    let name = |region: usize| inclusions[region - layers].name.clone();
+    match error {
+        RegionError::Outside { region, outside } => Error::InclusionOutside {
+            name: name(region),
+            outside,
+        },
+        RegionError::Overlap {
+            regions: [one, other],
+        } => Error::InclusionsOverlap {
+            one: name(one),
+            other: name(other),
+        },
+        other => palpate_mechanics::Error::from(other).into(),
+    }
+}
