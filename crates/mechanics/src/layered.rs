@@ -14,8 +14,8 @@
 //! c = 1/(2π) ∫ C(k) f²(kR) k dk
 //! ```
 //!
-//! which is exact for a known load. For a flat punch the load of the half-space is taken, f = sin(ka)/(ka): the compliance
-//! errs by the square of what the layers change of it.
+//! which is exact for a known load. That of a flat punch is the sum of three, (1 − (r/a)²) to the powers −1/2, 1/2 and 3/2,
+//! that yields least under a given force: it is flat. Loads along the surface are taken to have the same shapes.
 //!
 //! *How we know*: tests of this module, `nonlinear_regions::…` of `simulate`.
 //!
@@ -23,7 +23,7 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::{Matrix2, Matrix4};
+use nalgebra::{Matrix2, Matrix3, Matrix4, Vector3};
 
 use crate::LinearElastic;
 
@@ -59,20 +59,38 @@ impl LayeredHalfSpace {
             layers: Vec::new(),
             base: surface,
         };
-        let (mut layered, mut uniform) = ([0.0; 2], [0.0; 2]);
         // By trapezes in ln x, x = k R: the layers change the slowest waves most.
         let ratio = (HIGHEST / LOWEST).ln() / SAMPLES as f64;
+        let (mut layered, mut uniform) = ([Matrix3::zeros(); 2], [Matrix3::zeros(); 2]);
         for sample in 0..=SAMPLES {
             let x = LOWEST * (ratio * sample as f64).exp();
             let k = x / radius;
             let end = if sample % SAMPLES == 0 { 0.5 } else { 1.0 };
-            let weight = end * (shape.transform(x) * k).powi(2);
-            for (sum, body) in [(&mut layered, self), (&mut uniform, &alone)] {
-                let own = body.compliance(k);
-                *sum = [sum[0] + weight * own[0], sum[1] + weight * own[1]];
+            let loads = Vector3::from(shape.transforms(x));
+            let weight = ratio * end * k * k * loads * loads.transpose();
+            let (own, of_surface) = (self.compliance(k), alone.compliance(k));
+            for axis in 0..2 {
+                layered[axis] += own[axis] * weight;
+                uniform[axis] += of_surface[axis] * weight;
             }
         }
-        [layered[0] / uniform[0], layered[1] / uniform[1]]
+        [0, 1].map(|axis| match shape {
+            LoadShape::Bump => layered[axis][(0, 0)] / uniform[axis][(0, 0)],
+            LoadShape::Punch => {
+                // Waves above the highest are left out of what the layers change alone.
+                let mut exact = uniform[axis];
+                let scale = alone.compliance(1.0)[axis] / radius;
+                for n in 0..3 {
+                    exact[(0, n)] = scale * PI / 2.0;
+                    exact[(n, 0)] = exact[(0, n)];
+                }
+                let all = layered[axis] - uniform[axis] + exact;
+                let least = all
+                    .try_inverse()
+                    .map_or(f64::NAN, |inverse| 1.0 / inverse.sum());
+                least / exact[(0, 0)]
+            }
+        })
     }
 
     /// C(k) [m³/N] at the wave number `k` [1/m]: along the surface, the mean over all directions of k, and along the normal.
@@ -94,11 +112,19 @@ impl LayeredHalfSpace {
 }
 
 impl LoadShape {
-    /// f(x), one at zero.
-    fn transform(self, x: f64) -> f64 {
+    /// f(x) of the loads that it is a sum of, each one at zero. That of the half-space under a punch is the first.
+    fn transforms(self, x: f64) -> [f64; 3] {
         match self {
-            Self::Punch => x.sin() / x,
-            Self::Bump => bump(x),
+            // Of (1 − (r/R)²) to the powers −1/2, 1/2 and 3/2: spherical Bessel functions.
+            Self::Punch if x > 0.1 => {
+                let (sine, cosine) = x.sin_cos();
+                let (zero, one) = (sine / x, (sine / x - cosine) / x);
+                let two = 3.0 * one / x - zero;
+                [zero, 3.0 * one / x, 15.0 * two / (x * x)]
+            }
+            // Their series, to x⁴.
+            Self::Punch => [6.0, 10.0, 14.0].map(|first| 1.0 - x * x / first),
+            Self::Bump => [bump(x), 0.0, 0.0],
         }
     }
 }
@@ -250,6 +276,34 @@ mod tests {
             );
         }
         assert!((bump(1e-4) - 1.0).abs() < 1e-8);
+    }
+
+    /// Judge: a layer bonded to a rigid base under a flat punch, without friction, of ν = 0.3 and 0.5, by Hayes et al.'s
+    /// integral equation [Hayes et al. 1972], to the digits of their table.
+    #[test]
+    fn a_punch_on_a_layer_meets_hayes_factor() {
+        // Poisson's ratio, radius over thickness, factor.
+        let table = [
+            (0.3, 0.2, 1.207),
+            (0.3, 0.4, 1.472),
+            (0.3, 0.6, 1.784),
+            (0.3, 0.8, 2.124),
+            (0.3, 1.0, 2.480),
+            (0.4999, 0.2, 1.281),
+            (0.4999, 0.4, 1.683),
+            (0.4999, 0.6, 2.211),
+            (0.4999, 0.8, 2.855),
+            (0.4999, 1.0, 3.609),
+        ];
+        for (ratio, of_height, factor) in table {
+            let body = LayeredHalfSpace {
+                layers: vec![(1.0, law(3.0, ratio))],
+                base: law(3e9, ratio),
+            };
+            let found = 1.0 / body.yields(LoadShape::Punch, of_height)[1];
+            println!("{ratio} {of_height}: {found} {factor}");
+            assert!((found / factor - 1.0).abs() < 0.005);
+        }
     }
 
     /// A load is wider than its layer or narrower: the base's compliance, and the layer's.

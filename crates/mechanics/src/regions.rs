@@ -51,7 +51,7 @@ impl From<Surface> for Enclosed {
 }
 
 /// What is wrong with the regions of a body.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum RegionError {
     /// A shape reaches out of the body.
     #[error("region {} reaches {outside} m out of the body; make it smaller or move it in", region + 1)]
@@ -73,6 +73,9 @@ pub enum RegionError {
         /// Its number among the regions, from 0.
         region: usize,
     },
+    /// The boundary of tetrahedra has no inside.
+    #[error("layers and shapes need a body whose boundary is a surface: {0}")]
+    NoSurface(palpate_geometry::MeshError),
     /// The layers together are as thick as the body.
     #[error("the layers fill the whole body; make them thinner")]
     NothingBelowLayers,

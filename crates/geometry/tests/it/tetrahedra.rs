@@ -8,7 +8,7 @@ use palpate_geometry::{NodeId, Surface, TetrahedronError, TetrahedronMesh, Trian
 /// manifold, oriented outward; Euler's number of the solid half that of its boundary.
 pub(crate) fn assert_sound(mesh: &TetrahedronMesh) {
     assert!(mesh.pieces().iter().all(|&piece| piece == 0));
-    let boundary = boundary_surface(mesh);
+    let boundary = mesh.boundary_surface().unwrap();
     assert!((boundary.mesh().volume() / mesh.volume() - 1.0).abs() < 1e-10);
     let faces = (4 * mesh.tetrahedra().len() + boundary.mesh().triangles().len()) / 2;
     let solid = mesh.vertices().len() as i64 - mesh.edges().len() as i64 + faces as i64
@@ -21,22 +21,6 @@ pub(crate) fn assert_sound(mesh: &TetrahedronMesh) {
         hull,
         "Euler's numbers of the solid and of its boundary"
     );
-}
-
-/// The boundary with its own numbers.
-pub(crate) fn boundary_surface(mesh: &TetrahedronMesh) -> Surface {
-    let mut number = BTreeMap::new();
-    let mut vertices = Vec::new();
-    let triangles = mesh.boundary().into_iter().map(|(corners, _)| {
-        corners.map(|node| {
-            *number.entry(node).or_insert_with(|| {
-                vertices.push(mesh.vertices()[node.index()]);
-                NodeId(vertices.len() as u32 - 1)
-            })
-        })
-    });
-    let triangles = triangles.collect();
-    Surface::new(TriangleMesh::new(vertices, triangles).unwrap()).unwrap()
 }
 
 /// Its size and shape in a line.

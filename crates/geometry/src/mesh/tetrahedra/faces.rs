@@ -1,5 +1,5 @@
 use super::TetrahedronMesh;
-use crate::NodeId;
+use crate::{MeshError, NodeId, Surface, TriangleMesh};
 
 /// Corners of the face that leaves out corner `k`, counter-clockwise seen from outside.
 pub(crate) const OPPOSITE: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
@@ -54,6 +54,26 @@ impl TetrahedronMesh {
                 (corners, tetrahedron as usize)
             })
             .collect()
+    }
+
+    /// The boundary with vertices of its own.
+    ///
+    /// # Errors
+    /// When it touches itself in an edge or a vertex.
+    pub fn boundary_surface(&self) -> Result<Surface, MeshError> {
+        let mut number = vec![None; self.vertices.len()];
+        let mut vertices = Vec::new();
+        let mut own = |node: NodeId| {
+            *number[node.index()].get_or_insert_with(|| {
+                vertices.push(self.vertices[node.index()]);
+                NodeId(vertices.len() as u32 - 1)
+            })
+        };
+        let triangles = self.boundary().into_iter();
+        let triangles = triangles
+            .map(|(corners, _)| corners.map(&mut own))
+            .collect();
+        Surface::new(TriangleMesh::new(vertices, triangles)?)
     }
 
     /// For each tetrahedron the number of its piece. Pieces hang together over faces and are

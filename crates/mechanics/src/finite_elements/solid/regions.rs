@@ -1,6 +1,6 @@
 //! Which region each tetrahedron of a solid belongs to.
 
-use palpate_geometry::{AabbTree, Resolved, Surface, TetrahedronMesh, TriangleMesh};
+use palpate_geometry::{AabbTree, Resolved, TetrahedronMesh};
 
 use super::problem::{Body, SolidPlace, SolidProblem};
 use crate::regions::{RegionError, RegionMap};
@@ -45,22 +45,18 @@ impl SolidRegions {
                 cells,
             });
         }
-        let (boundary, closed);
-        let (mesh, surface) = match &problem.body {
-            Body::Surface(surface) => (surface.mesh(), Some(surface)),
+        let boundary;
+        let surface = match &problem.body {
+            Body::Surface(surface) => surface,
             Body::Volume(mesh) => {
-                boundary = boundary_of(mesh)?;
-                closed = Surface::new(boundary.clone()).ok();
-                (&boundary, closed.as_ref())
+                boundary = mesh.boundary_surface().map_err(RegionError::NoSurface)?;
+                &boundary
             }
         };
-        let tree = AabbTree::new(mesh);
-        let map = RegionMap::new(mesh, &tree, places)?;
-        // A boundary that is no surface, such as one that touches itself, has no inside by distances.
-        if let Some(surface) = surface {
-            map.check(surface, &tree)
-                .map_err(|error| renumbered(error, &bounded))?;
-        }
+        let tree = AabbTree::new(surface.mesh());
+        let map = RegionMap::new(surface.mesh(), &tree, places)?;
+        map.check(surface, &tree)
+            .map_err(|error| renumbered(error, &bounded))?;
         Ok(Self {
             map,
             bounded,
@@ -149,10 +145,4 @@ fn renumbered(error: RegionError, bounded: &[usize]) -> RegionError {
         },
         other => other,
     }
-}
-
-/// The boundary of tetrahedra, for depths below it.
-fn boundary_of(mesh: &TetrahedronMesh) -> Result<TriangleMesh, Error> {
-    let triangles = mesh.boundary().into_iter().map(|(corners, _)| corners);
-    TriangleMesh::new(mesh.vertices().to_vec(), triangles.collect()).map_err(|_| Error::NoElements)
 }
