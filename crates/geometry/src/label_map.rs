@@ -75,6 +75,19 @@ impl LabelMap {
         }
     }
 
+    /// The same with the voxels of `others` as voxels of `organ`: an organ with what lies in it.
+    #[must_use]
+    pub fn with_inside(&self, organ: u16, others: &[u16]) -> Self {
+        let joined = |label: &u16| match others.contains(label) {
+            true => organ,
+            false => *label,
+        };
+        Self {
+            labels: self.labels.iter().map(joined).collect(),
+            ..self.clone()
+        }
+    }
+
     /// Volume of one voxel [m³].
     pub(crate) fn voxel_volume(&self) -> f64 {
         self.steps.determinant().abs()

@@ -39,7 +39,7 @@ pub enum MeshError {
     },
     /// The surface branches, or touches itself in a vertex.
     #[error(
-        "the surface is not manifold: {edges} edges have more than two triangles and {vertices} vertices join separate fans; remove inner walls and doubled triangles, or wrap it (`palpate mesh wrap`)"
+        "the surface is not manifold: {edges} edges have more than two triangles and {vertices} vertices join separate fans; remove inner walls and doubled triangles, or wrap it (`palpate mesh wrap`, `palpate simulate --wrap`)"
     )]
     NotManifold {
         /// Edges with more than two triangles.
@@ -49,7 +49,7 @@ pub enum MeshError {
     },
     /// The surface has a border.
     #[error(
-        "the surface is not closed: {edges} edges have one triangle only; weld the vertices or fill the holes, or wrap it (`palpate mesh wrap`)"
+        "the surface is not closed: {edges} edges have one triangle only; weld the vertices or fill the holes, or wrap it (`palpate mesh wrap`, `palpate simulate --wrap`)"
     )]
     NotClosed {
         /// Edges with one triangle.
@@ -73,7 +73,7 @@ pub enum MeshError {
     },
     /// There are several separate surfaces.
     #[error(
-        "the mesh has {pieces} separate pieces; keep one of them, join them, or wrap them (`palpate mesh wrap`)"
+        "the mesh has {pieces} separate pieces; keep one of them, join them, or wrap them (`palpate mesh wrap`, `palpate simulate --wrap`)"
     )]
     SeveralPieces {
         /// How many.

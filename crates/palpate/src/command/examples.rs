@@ -147,6 +147,11 @@ const ALL: &[Example] = &[
         "an organ, fixed and moved"
     ),
     example!(
+        "problems/tumour.toml",
+        "problems/tumour.toml",
+        "the same organ with a layer and a tumour"
+    ),
+    example!(
         "problems/beam_weight.toml",
         "problems/beam_weight.toml",
         "a beam under its weight, whose stiffness is fitted"

@@ -9,7 +9,7 @@
 //! fall alike, and three meshes show one order. A level has about two and a half times as many unknowns as
 //! the one before.
 //!
-//! In layers under the patch edges are no longer than the layer is thick, and in and around shapes no longer than their
+//! In layers under the patch edges are no longer than twice the thickness, and in and around shapes no longer than their
 //! radius asks for, both by 2⁻ᵏ.
 //!
 //! A coarse filling cuts off what is thin. Where the first mesh does not have the area of the patch, the body is filled
@@ -41,6 +41,9 @@ const GROWTH: f64 = 1.5;
 
 /// By how much edges grow away from a shape [-]: what it adds to the strain falls with the cube of the distance.
 const AT_SHAPES: f64 = 0.75;
+
+/// Longest edges in a layer under the patch, in its thickness [-]: its border cuts them.
+const IN_LAYER: f64 = 2.0;
 
 /// Tetrahedra of the first filling.
 const FILLING: usize = 2_000;
@@ -231,7 +234,7 @@ impl<'a> MeshContext<'a> {
             });
             let in_layer = self.patch.as_ref().map_or(f64::INFINITY, |patch| {
                 let off = (point - patch.center).norm() - patch.radius;
-                (self.regions.thickness_at(point) * halved).max(GROWTH * follow * off)
+                (IN_LAYER * self.regions.thickness_at(point) * halved).max(GROWTH * follow * off)
             });
             let near_shapes =
                 self.regions

@@ -24,6 +24,9 @@ Examples:
   palpate mesh isosurface segmentation.nii.gz
       lists the labels with their volumes
   palpate mesh isosurface segmentation.nii.gz --label liver --out liver.ply
+  palpate mesh isosurface segmentation.nii.gz --label liver --inside liver_tumor --out liver.ply
+      the liver with its tumour filled in, and the tumour's own surface in liver-liver_tumor.ply: a
+      scene or a problem takes it as an [[inclusion]]
   palpate mesh isosurface segmentation.nrrd --label all --out organs
       writes one file per label to the folder organs
 
@@ -42,6 +45,10 @@ pub(crate) struct Arguments {
     /// A label's name or number, or all; default: list the labels.
     #[arg(long, requires = "out")]
     label: Option<String>,
+    /// A label that lies inside of the organ, by name or number; may be repeated. It belongs to the organ's surface, and
+    /// gets a file of its own beside OUT.
+    #[arg(long, value_name = "LABEL", requires = "label")]
+    inside: Vec<String>,
     /// The file to write (.stl, .obj, .ply, .vtp); with --label all a folder, for .ply files.
     #[arg(long, requires = "label")]
     out: Option<PathBuf>,
@@ -90,12 +97,18 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut surfaces = Vec::new();
     if let (Some(wanted), Some(out)) = (&arguments.label, &arguments.out) {
         let overwrite = Overwrite::of_option(arguments.overwrite);
-        let chosen = chosen(&labels, wanted, (out, overwrite))?;
+        let chosen = chosen(&labels, (wanted, &arguments.inside), (out, overwrite))?;
         let count = chosen.surfaces.len() as f64;
-        for (number, (label, out)) in chosen.surfaces.into_iter().enumerate() {
+        for (number, (label, out)) in chosen.surfaces.iter().enumerate() {
             progress.say(format!("the surface of {}", label::in_words(label)));
             let at = |part| Watch::at(&progress, (number as f64 + part) / count);
-            let made = surface(&map, (label, &out), arguments, &at)?;
+            let made = match number == 0 && !chosen.inside.is_empty() {
+                true => {
+                    let whole = map.with_inside(label.number, &chosen.inside);
+                    surface(&whole, (label, out), arguments, &at)?
+                }
+                false => surface(&map, (label, out), arguments, &at)?,
+            };
             warnings.extend(label::warnings(label, &made.0));
             surfaces.push(made.1);
         }
@@ -119,6 +132,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 /// What is going to be written.
 struct Chosen<'l> {
     surfaces: Vec<(&'l Label, PathBuf)>,
+    /// Numbers of labels that belong to the first.
+    inside: Vec<u16>,
     /// Until all are written nobody else may write there.
     _claims: Vec<Claim>,
 }
@@ -126,24 +141,54 @@ struct Chosen<'l> {
 /// The labels that are asked for, each with its file, which are for this program alone.
 fn chosen<'l>(
     labels: &'l [Label],
-    wanted: &str,
+    (wanted, inside): (&str, &[String]),
     (out, overwrite): (&Path, Overwrite),
 ) -> Result<Chosen<'l>, Failure> {
     if wanted == "all" {
+        if !inside.is_empty() {
+            return Err(Failure::input(
+                "--inside says what lies in one organ; name its label instead of all",
+            ));
+        }
         let claim = Claim::of_folder(out, overwrite)?;
         let name = |label: &Label| format!("{}.ply", file_name(label));
         claim.check(labels.iter().map(name))?;
         let chosen = labels.iter().map(|label| (label, out.join(name(label))));
         return Ok(Chosen {
             surfaces: chosen.collect(),
+            inside: Vec::new(),
             _claims: vec![claim],
         });
     }
     let label = label::find(labels, wanted)?;
+    let mut surfaces = vec![(label, out.to_owned())];
+    for wanted in inside {
+        let found = label::find(labels, wanted)?;
+        if surfaces
+            .iter()
+            .any(|(other, _)| other.number == found.number)
+        {
+            return Err(Failure::input(format!(
+                "--inside {wanted} names a label that is asked for already; name each once"
+            )));
+        }
+        surfaces.push((found, beside(out, &plain_name(found))));
+    }
     Ok(Chosen {
-        surfaces: vec![(label, out.to_owned())],
-        _claims: Claim::of_files([out], overwrite)?,
+        inside: surfaces[1..]
+            .iter()
+            .map(|(label, _)| label.number)
+            .collect(),
+        _claims: Claim::of_files(surfaces.iter().map(|(_, path)| path), overwrite)?,
+        surfaces,
     })
+}
+
+/// `out` with `name` at the end of its stem.
+fn beside(out: &Path, name: &str) -> PathBuf {
+    let stem = out.file_stem().unwrap_or_default().to_string_lossy();
+    let extension = out.extension().unwrap_or_default().to_string_lossy();
+    out.with_file_name(format!("{stem}-{name}.{extension}"))
 }
 
 fn surface(
@@ -172,22 +217,25 @@ fn surface(
     Ok((found, surfaced))
 }
 
-/// The label's name without what a file's name cannot hold.
+/// The label's number and name.
 fn file_name(label: &Label) -> String {
-    let name = label.name.clone().unwrap_or_default();
-    let kept: String = name
-        .chars()
-        .map(|c| {
-            if c.is_alphanumeric() || c == '-' {
-                c
-            } else {
-                '_'
-            }
-        })
-        .collect();
+    match &label.name {
+        Some(_) => format!("{}_{}", label.number, plain_name(label)),
+        None => plain_name(label),
+    }
+}
+
+/// The label's name without what a file's name cannot hold, or its number.
+fn plain_name(label: &Label) -> String {
+    let name = label.name.as_deref().unwrap_or_default();
+    let kept = name.chars().map(|c| match c.is_alphanumeric() || c == '-' {
+        true => c,
+        false => '_',
+    });
+    let kept: String = kept.collect();
     match kept.trim_matches('_') {
         "" => format!("label_{}", label.number),
-        name => format!("{}_{name}", label.number),
+        name => name.to_owned(),
     }
 }
 

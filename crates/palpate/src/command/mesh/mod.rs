@@ -4,7 +4,7 @@ mod convert;
 mod info;
 mod isosurface;
 mod simplify;
-mod wrap;
+pub(crate) mod wrap;
 mod written;
 
 use std::path::Path;

@@ -1,11 +1,12 @@
 //! `palpate mesh wrap`: a closed surface around triangles that are none.
 
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::Args;
-use palpate_geometry::{Deviation, LengthUnit, WrapSettings, wrap_with_progress};
+use palpate_files::{Claim, Overwrite};
+use palpate_geometry::{Deviation, LengthUnit, WrapSettings, Wrapped, wrap_with_progress};
 use palpate_jobs::{Error, Watch};
 use serde::Serialize;
 
@@ -83,20 +84,60 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let _claims = arguments.overwrite.claim([path])?;
     interrupt::ends_between_files("interrupted; nothing was written");
     let progress = Progress::of_job(Reader::of_json(arguments.json));
-    progress.say("reading the triangles");
-    let imported = super::read(&arguments.file, arguments.unit.as_deref())?;
     let begin = Instant::now();
-    progress.say("making the envelope");
     let settings = WrapSettings {
         distance: arguments.distance,
         close_gaps: arguments.close_gaps,
         triangles: arguments.triangles,
     };
-    let wrapped = wrap_with_progress(&imported.mesh, &settings, &mut |part| {
-        Watch::at(&progress, part);
+    let input = (arguments.file.as_path(), arguments.unit.as_deref());
+    let Envelope {
+        wrapped,
+        triangles_before,
+        warnings,
+    } = envelope(input, &settings, &progress)?;
+    let answer = Answer {
+        palpate: output::VERSION,
+        written: out.write(wrapped.surface.mesh())?,
+        triangles_before,
+        envelope_to_input: wrapped.to_input,
+        input_to_envelope: wrapped.of_input,
+        holes_capped: wrapped.holes,
+        widest_rim_m: wrapped.widest_rim,
+        pieces_left_out: wrapped.other_pieces,
+        cavities_filled_m3: wrapped.filled,
+        seconds: begin.elapsed().as_secs_f64(),
+        warnings,
+    };
+    drop(progress);
+    if arguments.json {
+        return output::json(&answer);
+    }
+    output::warnings(&answer.warnings);
+    output::text(answer.text())
+}
+
+/// The envelope of a file.
+struct Envelope {
+    wrapped: Wrapped,
+    triangles_before: usize,
+    warnings: Vec<String>,
+}
+
+/// Of the file at a path, in the unit that is given or its own.
+fn envelope(
+    (path, unit): (&Path, Option<&str>),
+    settings: &WrapSettings,
+    progress: &Progress,
+) -> Result<Envelope, Failure> {
+    progress.say("reading the triangles");
+    let imported = super::read(path, unit)?;
+    progress.say("making the envelope");
+    let wrapped = wrap_with_progress(&imported.mesh, settings, &mut |part| {
+        Watch::at(progress, part);
         ControlFlow::Continue(())
     });
-    let wrapped = wrapped.map_err(|error| Error::from(error).about(&arguments.file))?;
+    let wrapped = wrapped.map_err(|error| Error::from(error).about(path))?;
     let mut warnings = imported.warnings;
     if wrapped.to_input.max > settings.distance {
         warnings.push(format!(
@@ -119,25 +160,21 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
             wrapped.other_pieces
         ));
     }
-    let answer = Answer {
-        palpate: output::VERSION,
-        written: out.write(wrapped.surface.mesh())?,
+    Ok(Envelope {
         triangles_before: imported.mesh.triangles().len(),
-        envelope_to_input: wrapped.to_input,
-        input_to_envelope: wrapped.of_input,
-        holes_capped: wrapped.holes,
-        widest_rim_m: wrapped.widest_rim,
-        pieces_left_out: wrapped.other_pieces,
-        cavities_filled_m3: wrapped.filled,
-        seconds: begin.elapsed().as_secs_f64(),
+        wrapped,
         warnings,
-    };
-    drop(progress);
-    if arguments.json {
-        return output::json(&answer);
-    }
-    output::warnings(&answer.warnings);
-    output::text(answer.text())
+    })
+}
+
+/// Writes the envelope of the mesh at `path`, with the usual settings, to the file `out`; and warnings.
+pub(crate) fn wrap_into(out: &Path, path: &Path, reader: Reader) -> Result<Vec<String>, Failure> {
+    let output = Output::new(out, LengthUnit::Metre)?;
+    let _claims = Claim::of_files([out], Overwrite::Refused)?;
+    let progress = Progress::of_job(reader);
+    let found = envelope((path, None), &WrapSettings::default(), &progress)?;
+    output.write(found.wrapped.surface.mesh())?;
+    Ok(found.warnings)
 }
 
 impl Answer {

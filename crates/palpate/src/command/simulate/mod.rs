@@ -16,6 +16,7 @@ use palpate_simulate::{Resources, Simulation, draw_variant};
 use palpate_viewer::{FrameWriter, Start};
 
 use self::repeated::Repeated;
+use super::mesh::wrap::wrap_into;
 use super::window;
 use crate::failure::Failure;
 use crate::output;
@@ -45,6 +46,9 @@ Examples:
       opens a window in which the mouse moves the tool
   palpate simulate liver.ply
       opens your own organ; assumes pig liver unless a scene says otherwise
+  palpate simulate atlas-kidney.glb --wrap
+      the same of an atlas' organ that is open, doubled or in pieces: writes atlas-kidney-wrapped.ply
+      first
   palpate simulate scene.toml --headless --motion motion.csv --out session
       writes session/session.csv (forces on the tool at every step), plots and summary.json; --overwrite
       replaces an existing session
@@ -72,6 +76,10 @@ pub(crate) struct Arguments {
     /// The scene, or a mesh of an organ; without one, the built-in esophagus.
     #[arg(value_name = "SCENE.toml|MESH")]
     scene: Option<PathBuf>,
+    /// Wrap the mesh first: a closed envelope of any triangles, within 0.5 mm and with gaps of up to 2 mm closed, written to
+    /// this file [default: the name of the mesh with -wrapped.ply, in this folder]. `palpate mesh wrap` has the settings.
+    #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, requires = "scene")]
+    wrap: Option<Option<PathBuf>>,
     /// Play without a window; needs --motion or --indentation, and --out; or --openigtlink.
     #[arg(long)]
     headless: bool,
@@ -160,9 +168,39 @@ impl Arguments {
     fn touched(&self) -> Result<Scene, Failure> {
         self.refuse_pictures()?;
         match &self.scene {
-            Some(path) => scene_of(path),
+            Some(path) => self.scene_of(path),
             None => training::free(),
         }
+    }
+
+    /// A scene file, or a mesh with a probe over it.
+    fn scene_of(&self, path: &Path) -> Result<Scene, Failure> {
+        if !is_mesh(path) {
+            return match self.wrap {
+                None => Ok(Scene::read(path)?),
+                Some(_) => Err(Failure::input(
+                    "--wrap is for a mesh; wrap the mesh of a scene with `palpate mesh wrap`",
+                )),
+            };
+        }
+        let mesh = match &self.wrap {
+            None => path.to_owned(),
+            Some(out) => {
+                let out = out.clone().unwrap_or_else(|| wrapped_name(path));
+                let warnings = wrap_into(&out, path, Reader::of_json(self.json))?;
+                output::warnings(&warnings);
+                if !self.json {
+                    output::line(format!("the envelope is in {}", out.display()))?;
+                }
+                out
+            }
+        };
+        let mut scene = Scene::parse(AROUND_A_MESH, "scene around a mesh")?;
+        scene.organ.shape = Shape::Mesh {
+            path: mesh,
+            unit: None,
+        };
+        Ok(scene)
     }
 
     /// Pictures and fields belong to a motion.
@@ -191,25 +229,23 @@ impl Arguments {
     }
 }
 
-/// A scene file, or a mesh with a probe over it.
-fn scene_of(path: &Path) -> Result<Scene, Failure> {
+fn is_mesh(path: &Path) -> bool {
     let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
-    if !MESHES.iter().any(|mesh| extension == *mesh) {
-        return Ok(Scene::read(path)?);
-    }
-    let mut scene = Scene::parse(AROUND_A_MESH, "scene around a mesh")?;
-    scene.organ.shape = Shape::Mesh {
-        path: path.to_owned(),
-        unit: None,
-    };
-    Ok(scene)
+    MESHES.iter().any(|mesh| extension == *mesh)
+}
+
+/// Where the envelope of a mesh goes, in the present folder.
+fn wrapped_name(path: &Path) -> PathBuf {
+    let mut name = path.file_stem().unwrap_or_default().to_owned();
+    name.push("-wrapped.ply");
+    name.into()
 }
 
 /// In a window, until it is closed.
 fn touch(arguments: &Arguments) -> Result<(), Failure> {
     arguments.refuse_pictures()?;
     let start = match &arguments.scene {
-        Some(path) => Start::Scene(Box::new(scene_of(path)?)),
+        Some(path) => Start::Scene(Box::new(arguments.scene_of(path)?)),
         None => Start::Home,
     };
     let resources = arguments.resources()?;
@@ -256,7 +292,7 @@ fn touched(simulation: &Simulation, motion: &Motion) -> Option<Vec3> {
 
 fn simulate(arguments: &Arguments, played: &Played<'_>, out: &Path) -> Result<Report, Failure> {
     let scene = match &arguments.scene {
-        Some(path) => draw_variant(&scene_of(path)?, arguments.seed)?,
+        Some(path) => draw_variant(&arguments.scene_of(path)?, arguments.seed)?,
         None => Scene::parse(ESOPHAGUS, "built-in scene")?,
     };
     let reader = Reader::of_json(arguments.json);
