@@ -425,6 +425,9 @@ pub enum Error {
     /// What does not fit a solid.
     #[error(transparent)]
     Solid(#[from] crate::finite_elements::solid::SolidError),
+    /// What is wrong with fibres.
+    #[error(transparent)]
+    Fibres(#[from] crate::FibreError),
     /// What does not fit a finite element model.
     #[error(transparent)]
     Mismatch(#[from] crate::finite_elements::Mismatch),

@@ -63,6 +63,7 @@ impl Error {
             | Self::NothingTouchable
             | Self::OtherSurface { .. }
             | Self::UnsoundSlit { .. }
+            | Self::Fibres(_)
             | Self::Solid(_) => true,
         }
     }

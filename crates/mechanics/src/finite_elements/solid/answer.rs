@@ -142,7 +142,7 @@ fn equivalent_stress(
     state: &FiniteElementState,
     element: usize,
 ) -> f64 {
-    let (law, mapping) = (model.law_of(element), &model.mapping);
+    let mapping = &model.mapping;
     let (mut mean, mut volume) = (Matrix3::zeros(), 0.0);
     for point in element * mapping.points..(element + 1) * mapping.points {
         let mut f = Matrix3::identity();
@@ -151,6 +151,7 @@ fn equivalent_stress(
             let u = state.displacement(model, *node as usize);
             f += u * Vec3::from_column_slice(g).transpose();
         }
+        let law = model.law_at(point);
         let stress = law.distortion_stress(&f);
         let cauchy = match law.volume().strain {
             Strain::Small => stress,

@@ -4,8 +4,8 @@ use std::sync::Arc;
 use palpate_files::scene::Region;
 use palpate_geometry::{Surface, TetrahedronMesh};
 
-use crate::Vec3;
 use crate::material::law::Law;
+use crate::{FibreField, Vec3};
 
 /// What the solid fills.
 #[derive(Debug, Clone)]
@@ -77,6 +77,8 @@ pub struct SolidProblem {
     pub patch: Option<MovedPatch>,
     /// Its law; with [`crate::Strain::Small`] all is linear.
     pub law: Arc<dyn Law>,
+    /// Where its fibres point to, if it has any.
+    pub fibres: Option<FibreField>,
     /// What loads it besides. Loads and the displacement of the patch grow together from rest.
     pub loads: Loads,
     /// Points of the body whose displacement is asked for [m].

@@ -9,7 +9,7 @@ use super::mesh::faces;
 use super::problem::{Body, SolidProblem};
 use super::solve::equilibrium;
 use super::supports::Held;
-use crate::{Error, Vec3};
+use crate::{Error, FibreError, Vec3};
 
 /// More unknowns than these are refused: their factors would have about ten gigabytes.
 const MOST_UNKNOWNS: usize = 600_000;
@@ -102,7 +102,10 @@ impl SolidProblem {
         let places = loads::places(&self.points, &tetrahedra, &boundary)?;
         let frame = Frame::new(self.patch.as_ref());
         let elements = frame.put(ElementMesh::from_tetrahedra(&tetrahedra));
-        let model = FiniteElementModel::new(elements, self.law.clone(), Formulation::Mixed)?;
+        let mut model = FiniteElementModel::new(elements, self.law.clone(), Formulation::Mixed)?;
+        if let Some(fibres) = &self.fibres {
+            model = model.in_frames(|place| frame.turned(&fibres.at(&frame.back(place))));
+        }
         let mut workspace = FiniteElementWorkspace::new(&model)?;
         let mut load = match &self.loads.weight {
             Some(weight) => {
@@ -168,6 +171,10 @@ impl SolidProblem {
         self.loads.check(self.patch.is_some())?;
         if self.anchor.is_empty() {
             return Err(Error::NothingHeld);
+        }
+        if self.law.has_fibres() && self.fibres.is_none() {
+            let model = "a solid without `fibres`";
+            return Err(FibreError::NoDirection { model }.into());
         }
         Ok(())
     }

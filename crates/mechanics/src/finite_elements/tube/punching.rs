@@ -17,7 +17,7 @@ use super::super::supports::Supports;
 use super::TubeProblem;
 use super::indent::TubePunch;
 use super::solid::{Quarter, quarter};
-use crate::{Error, Strain, Vec3};
+use crate::{Error, FibreField, Strain, Vec3};
 
 /// Longest step of the depth, in radii of the punch [-].
 const LONGEST_STEP: f64 = 0.5;
@@ -58,7 +58,9 @@ impl<'a> Punching<'a> {
     ) -> Result<Self, Error> {
         let Quarter { body, cavity } = quarter(&problem.tube, punch.radius, parts)?;
         let face = body.face;
-        let model = FiniteElementModel::new(body.mesh, problem.law.clone(), Formulation::Mixed)?;
+        let fibres = FibreField::around(Vec3::zeros(), Vec3::z()).expect("the axis has a length");
+        let model = FiniteElementModel::new(body.mesh, problem.law.clone(), Formulation::Mixed)?
+            .in_frames(|place| fibres.at(place));
         let half = 0.5 * problem.tube.length;
         let tiny = 1e-9 * problem.tube.outer_radius;
         let on = |axis: usize, at: f64| {
