@@ -11,12 +11,12 @@
 //!
 //! With H = κ 1 + (1 − 3 κ) a ⊗ a, E = H:(C̄ − 1), w′ = k1 ⟨E⟩ exp(k2 ⟨E⟩²) and w″ = dw′/dE,
 //!   P̄ = 2 C10 F̄ + Σ 2 w′ F̄ H,  Ā:dF = 2 C10 dF + Σ 2 w′ dF H + 4 w″ (F̄ H):dF F̄ H,
-//! which `Isochoric` makes stress and tangent. C10 is half the shear modulus of the matrix; at rest no fibre is stretched, and
-//! the tangent there is the matrix's alone, μ = 2 C10. Nothing divides by k2.
+//! which `Isochoric` makes stress and tangent. C10 is half the shear modulus of the matrix. Nothing divides by k2.
 //!
 //! *How we know*: `laws` (the battery), `fibres` (closed forms, other laws in the limits, a thick tube).
 //!
-//! *Limits*: the tangent jumps where a family begins to stretch. An exponential that overflows makes stress infinite or NaN:
+//! *Limits*: the tangent jumps where E is zero, at rest too, where a stretch along the fibres meets them and a compression does
+//! not; there it is that of fibres that resist. An exponential that overflows makes stress infinite or NaN:
 //! with k2 = 500, beyond E = 1.2.
 
 use std::sync::Arc;
@@ -134,10 +134,10 @@ impl HolzapfelGasserOgden {
         self.structure.map(|h| h.dot(&green))
     }
 
-    /// H and E of the families that resist.
+    /// H and E of the families that resist, or are about to.
     fn stretched(&self, f: &Matrix3<f64>) -> impl Iterator<Item = (&Matrix3<f64>, f64)> {
         let each = self.structure.iter().zip(self.strains(f));
-        each.filter(|(_, strain)| *strain > 0.0)
+        each.filter(|(_, strain)| *strain >= 0.0)
     }
 
     /// w′/k1 [-].
@@ -253,7 +253,8 @@ impl Law for HolzapfelGasserOgden {
         let k1 = self.fibres.k1;
         let mut inner = Matrix3::zeros();
         for (family, strain) in self.strains(f).into_iter().enumerate() {
-            if !(strain > 0.0) {
+            // Nor of what is no number.
+            if strain.is_nan() || strain <= 0.0 {
                 continue;
             }
             let (h, a) = (self.structure[family], directions[family]);

@@ -20,8 +20,7 @@ use crate::Error;
 pub struct Material {
     /// The instantaneous law; the hyperelastic ones are incompressible.
     pub law: Arc<dyn Law>,
-    /// What the law is at small strain, nearly incompressible where it is incompressible; without fibres, which are not
-    /// stretched at rest.
+    /// What the law is at small strain, without fibres, and nearly incompressible where it is incompressible.
     pub at_rest: LinearElastic,
     /// How the force relaxes.
     pub prony: PronySeries,
@@ -50,6 +49,9 @@ impl Material {
         let law = named(name, &values)?;
         let at_rest = match (name, values.as_slice()) {
             (LawName::Linear, &[modulus, ratio]) => LinearElastic::new(modulus, ratio)?,
+            (LawName::HolzapfelGasserOgden, &[c10, ..]) => {
+                LinearElastic::at_rest(&NeoHookean::incompressible(c10)?)?
+            }
             _ => LinearElastic::at_rest(law.as_ref())?,
         };
         let terms: Vec<_> = tissue

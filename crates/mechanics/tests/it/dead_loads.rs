@@ -24,6 +24,7 @@ fn beam(cells: [usize; 3], law: Arc<dyn Law>) -> SolidProblem {
         anchor: plane(1e-6, Vec3::x()),
         patch: None,
         law,
+        fibres: None,
         loads: Loads::default(),
         points: vec![LENGTH * Vec3::x()],
     }

@@ -94,6 +94,7 @@ impl Kidney {
                 friction,
             }),
             law: Arc::new(law(NU)),
+            fibres: None,
             loads: Loads::default(),
             points: Vec::new(),
         }

@@ -52,6 +52,7 @@ fn a_patch_on_a_thin_edge_has_its_area() {
             friction: Friction::Frictionless,
         }),
         law: Arc::new(LinearElastic::new(MODULUS, 0.45).unwrap()),
+        fibres: None,
         loads: Loads::default(),
         points: Vec::new(),
     };

@@ -436,6 +436,7 @@ fn real_kidney_error(triangles: usize) -> Option<f64> {
                 friction: grip,
             }),
             law: Arc::new(law(nu)),
+            fibres: None,
             loads: Loads::default(),
             points: Vec::new(),
         };

@@ -170,6 +170,7 @@ fn organ(rows: &Rows<'_>, simulation: &Simulation) -> Result<SolidOrgan, Error> 
             friction: Friction::Bonded,
         }),
         law: Arc::new(LinearElastic::new(1.0, POISSONS_RATIO)?),
+        fibres: None,
         loads: Loads::default(),
         points: Vec::new(),
     };

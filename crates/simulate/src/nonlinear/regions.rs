@@ -11,7 +11,7 @@
 
 use std::f64::consts::PI;
 
-use palpate_files::scene::InclusionShape;
+use palpate_files::scene::{InclusionShape, TissueChoice};
 use palpate_files::tissue::LawName;
 use palpate_files::{Scene, Tissue};
 use palpate_geometry::{AabbTree, Surface, TetrahedronMesh, TriangleMesh, Vec3};
@@ -20,6 +20,7 @@ use palpate_mechanics::nonlinear::Moduli;
 use palpate_mechanics::{LinearElastic, Material, PronySeries};
 
 use crate::Error;
+use crate::organ::read_tissue;
 
 /// A larger Poisson's ratio is taken as this [-]: volume is kept to the percent, and a few iterations suffice.
 const LARGEST_RATIO: f64 = 0.49;
@@ -91,17 +92,12 @@ impl Regions {
         let mut warnings = Vec::new();
         let mut tissues = Vec::new();
         for layer in &organ.layers {
-            tissues.push(RegionTissue::new(
-                layer.tissue.read()?,
-                None,
-                &mut warnings,
-            )?);
+            tissues.push(RegionTissue::read(&layer.tissue, &mut warnings)?);
         }
-        let own = Some(material.clone());
-        tissues.push(RegionTissue::new(tissue.clone(), own, &mut warnings)?);
+        let own = (tissue.clone(), material.clone());
+        tissues.push(RegionTissue::new(own, &mut warnings)?);
         for inclusion in &organ.inclusions {
-            let own = inclusion.tissue.read()?;
-            tissues.push(RegionTissue::new(own, None, &mut warnings)?);
+            tissues.push(RegionTissue::read(&inclusion.tissue, &mut warnings)?);
         }
         warnings.sort();
         warnings.dedup();
@@ -275,19 +271,16 @@ impl Regions {
 }
 
 impl RegionTissue {
+    fn read(choice: &TissueChoice, warnings: &mut Vec<String>) -> Result<Self, Error> {
+        let (tissue, material) = read_tissue(choice)?;
+        warnings.extend(material.warnings.iter().cloned());
+        Self::new((tissue, material), warnings)
+    }
+
     fn new(
-        tissue: Tissue,
-        material: Option<Material>,
+        (tissue, material): (Tissue, Material),
         warnings: &mut Vec<String>,
     ) -> Result<Self, Error> {
-        let material = match material {
-            Some(material) => material,
-            None => {
-                let own = Material::from_tissue(&tissue)?;
-                warnings.extend(own.warnings.iter().cloned());
-                own
-            }
-        };
         let given = material.at_rest.poissons_ratio();
         let ratio = given.min(LARGEST_RATIO);
         let shear = material.at_rest.shear_modulus();

@@ -59,6 +59,7 @@ fn real_liver_of_20000_triangles() {
                 friction: Friction::Frictionless,
             }),
             law: law.clone(),
+            fibres: None,
             loads: Loads::default(),
             points: Vec::new(),
         };

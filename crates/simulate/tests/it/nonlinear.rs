@@ -171,6 +171,7 @@ fn a_pulled_hemisphere_is_that_of_finite_elements() {
                 friction: Friction::Bonded,
             }),
             law: Arc::new(NeoHookean::compressible(0.5 * shear, bulk).unwrap()),
+            fibres: None,
             loads: Loads::default(),
             points: Vec::new(),
         };

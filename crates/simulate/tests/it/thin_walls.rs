@@ -140,6 +140,7 @@ fn the_esophagus_is_that_of_finite_elements() {
             friction: Friction::Frictionless,
         }),
         law: law.clone(),
+        fibres: None,
         loads: Loads::default(),
         points: Vec::new(),
     };

@@ -7,6 +7,7 @@ use palpate_mechanics::Vec3;
 use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_elements::solid::{DeadLoad, LoadPlace};
 
+use super::fibres::Fibres;
 use super::{BOND_MEANINGS, BONDS};
 
 /// An organ of any shape, held somewhere, and moved or loaded elsewhere.
@@ -15,6 +16,8 @@ pub(crate) struct Solid {
     pub(crate) shape: Shape,
     /// Where it is held; none: where a built-in organ grows.
     pub(crate) anchor: Option<Region>,
+    /// Where the fibres of the tissue point to, if it has any.
+    pub(crate) fibres: Option<Fibres>,
     pub(crate) patch: Option<Patch>,
     /// [m/s²]
     pub(crate) gravity: Option<Vec3>,
@@ -76,6 +79,12 @@ impl Solid {
         Key::table("anchor", Region::KEYS, "The fixed part.")
             .optional("", "where a built-in shape grows"),
         Key::table(
+            "fibres",
+            Fibres::KEYS,
+            "Where the fibres of the tissue point to at rest; the law `holzapfel_gasser_ogden` needs it.",
+        )
+        .optional("", "the tissue has no fibres"),
+        Key::table(
             "patch",
             Patch::KEYS,
             "The part of the surface that is moved. A patch, gravity or a load has to be there.",
@@ -124,6 +133,7 @@ impl Solid {
         let solid = Self {
             shape,
             anchor,
+            fibres: Fibres::from_keys(keys, folder)?,
             patch: patch.map(|keys| Patch::from_keys(&keys)).transpose()?,
             gravity,
             loads: loads

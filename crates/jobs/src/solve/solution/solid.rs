@@ -48,6 +48,7 @@ pub(crate) fn solution(
         anchor: held_region(&case.shape, case.anchor.as_ref()),
         patch: patch.map(moved),
         law: problem.material.law.clone(),
+        fibres: case.fibres.as_ref().map(|fibres| fibres.field.clone()),
         loads: Loads {
             weight: case.gravity.map(|gravity| Weight {
                 gravity,

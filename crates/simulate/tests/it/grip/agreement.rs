@@ -271,6 +271,7 @@ fn a_pulled_esophagus_is_that_of_finite_elements() {
             friction: Friction::Bonded,
         }),
         law: Arc::new(LinearElastic::new(YOUNGS_MODULUS, 0.45).unwrap()),
+        fibres: None,
         loads: Loads::default(),
         points: Vec::new(),
     };

@@ -1,7 +1,7 @@
 use nalgebra::Matrix3;
-use palpate_mechanics::Law;
 use palpate_mechanics::finite_elements::estimate::Estimated;
 use palpate_mechanics::finite_elements::tube::Inflated;
+use palpate_mechanics::{FibreFrame, Law, Vec3};
 
 use super::super::super::problem::{Problem, Tube};
 use super::super::plots;
@@ -89,7 +89,14 @@ fn endless_pressure(problem: &Problem, case: &Tube, moved: f64) -> f64 {
                 * ((1.0 - 2.0 * nu) * squares.0 + squares.1);
             moved / compliance
         }
-        false => incompressible_pressure(problem.material.law.as_ref(), (inner, outer), moved),
+        false => {
+            let law = &problem.material.law;
+            // The hoop is the first axis here, the axis of the tube the third.
+            let frame = FibreFrame::new(&Vec3::x(), &Vec3::z());
+            let in_wall = frame.and_then(|frame| law.in_frame(&frame));
+            let law = in_wall.as_ref().unwrap_or(law);
+            incompressible_pressure(law.as_ref(), (inner, outer), moved)
+        }
     }
 }
 
