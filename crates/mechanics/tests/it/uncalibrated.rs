@@ -271,6 +271,7 @@ fn solid_in_half_spaces(contact: &LocalContact, nu: f64) -> (f64, f64) {
             friction: Friction::Frictionless,
         }),
         law: Arc::new(law),
+        fibres: None,
         loads: Loads::default(),
         points: Vec::new(),
     };
