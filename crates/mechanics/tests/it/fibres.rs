@@ -21,7 +21,7 @@ use crate::contacts::Random;
 use crate::every_law::{deformation, rotation, with_fibres};
 use crate::solid::{at, cube, turned_cube};
 
-/// The adventitia of an iliac artery [Gasser, Ogden and Holzapfel 2006, section 5], in pascals: c = 2 C10 = 7.64 kPa.
+/// The artery of the example in FEBio's manual, in pascals: c = 2 C10 = 7.64 kPa.
 const ARTERY: [f64; 5] = [3820.0, 996_600.0, 524.6, 0.226, 49.98];
 
 /// C10, k1, k2, dispersion and angle: stiff and soft fibres, one direction and two.

@@ -351,6 +351,13 @@ fn grid(fields: &SolidFields) -> Vec<u8> {
         nodes: &fields.cells,
     };
     let field = |name, values| PointField { name, values };
+    let mut in_cells = vec![field(
+        "equivalent_stress_pa",
+        FieldValues::Scalars(&fields.equivalent_stresses),
+    )];
+    if !fields.fibre_axes.is_empty() {
+        in_cells.push(field("fibre_axis", FieldValues::Vectors(&fields.fibre_axes)));
+    }
     unstructured_grid(
         &fields.positions,
         &cells,
@@ -361,10 +368,7 @@ fn grid(fields: &SolidFields) -> Vec<u8> {
             ),
             field("mean_stress_pa", FieldValues::Scalars(&fields.pressures)),
         ],
-        &[field(
-            "equivalent_stress_pa",
-            FieldValues::Scalars(&fields.equivalent_stresses),
-        )],
+        &in_cells,
     )
 }
 

@@ -2,7 +2,7 @@ use nalgebra::Matrix3;
 
 use super::super::model::{FiniteElementModel, FiniteElementState, FiniteElementWorkspace};
 use super::frame::{Conditions, Frame};
-use crate::{Strain, Vec3};
+use crate::{FibreField, Strain, Vec3};
 
 /// A solid in equilibrium, in the frame of the scene.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,6 +44,8 @@ pub struct SolidFields {
     pub pressures: Vec<f64>,
     /// Von Mises' equivalent stress of each tetrahedron, of its mean Cauchy stress [Pa].
     pub equivalent_stresses: Vec<f64>,
+    /// Reference axis of the fibres in the middle of each tetrahedron, of length one [-]; empty without fibres.
+    pub fibre_axes: Vec<Vec3>,
 }
 
 impl SolidAnswer {
@@ -87,7 +89,19 @@ impl SolidFields {
             equivalent_stresses: (0..model.mesh.len())
                 .map(|element| equivalent_stress(model, state, element))
                 .collect(),
+            fibre_axes: Vec::new(),
         }
+    }
+
+    /// Puts the axes of these fibres in.
+    pub(super) fn set_fibres(&mut self, fibres: &FibreField) {
+        let middle = |cell: &[u32]| {
+            let corners = cell[..4].iter();
+            corners.map(|&node| self.positions[node as usize]).sum::<Vec3>() / 4.0
+        };
+        let cells = self.cells.chunks_exact(10);
+        let axes = cells.map(|cell| *fibres.at(&middle(cell)).axis());
+        self.fibre_axes = axes.collect();
     }
 }
 

@@ -137,6 +137,9 @@ impl SolidProblem {
                 .sum()
         };
         answer.points = places.iter().map(moved).collect();
+        if let Some(fibres) = &self.fibres {
+            answer.fields.set_fibres(fibres);
+        }
         answer.warnings.clone_from(&context.warnings);
         if crossing > 0 {
             answer.warnings.push(format!(
