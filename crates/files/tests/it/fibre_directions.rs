@@ -28,7 +28,10 @@ fn directions_have_their_places_and_units() {
 #[test]
 fn what_gives_no_direction_is_refused() {
     for (rows, words) in [
-        ("", "fibres.csv has no rows"),
+        (
+            "",
+            "fibres.csv: found no rows below the names of the columns",
+        ),
         (
             "1,0,0,0,0,0,1,0,0\n",
             "fibres.csv line 3: `axis_x` is \"0\"; give a direction, of which a component is not zero",

@@ -46,7 +46,8 @@ fn a_strip_is_pulled_along_each_axis() {
         let [wide, thick] = [0, 1].map(|side| sides[side].as_f64().unwrap());
         let squares = [stretch, wide, thick].map(|l| l * l);
         let fourth = squares[0] * cos + squares[1] * (1.0 - cos);
-        let strain = kappa * (squares.iter().sum::<f64>() - 3.0) + (1.0 - 3.0 * kappa) * (fourth - 1.0);
+        let strain =
+            kappa * (squares.iter().sum::<f64>() - 3.0) + (1.0 - 3.0 * kappa) * (fourth - 1.0);
         let strain = strain.max(0.0);
         let slope = k1 * strain * (k2 * strain * strain).exp();
         let stress = |i: usize, part: f64| {
@@ -54,16 +55,25 @@ fn a_strip_is_pulled_along_each_axis() {
         };
         let [along, across, normal] = [stress(0, cos), stress(1, 1.0 - cos), stress(2, 0.0)];
         // Rounding, in the stiffness of fibres.
-        assert!((across - normal).abs() < 1e-12 * k1, "{stretch}: {across} {normal}");
+        assert!(
+            (across - normal).abs() < 1e-12 * k1,
+            "{stretch}: {across} {normal}"
+        );
         let found = answer["nominal_stress_pa"][row].as_f64().unwrap();
-        assert!((found - (along - normal) / stretch).abs() < 1e-12 * k1, "{stretch}: {found}");
+        assert!(
+            (found - (along - normal) / stretch).abs() < 1e-12 * k1,
+            "{stretch}: {found}"
+        );
     }
     let (one, other) = (bar("across", 25.0), bar("axis", 65.0));
     for row in 0..2 {
-        let [one, other] = [&one, &other].map(|bar| bar["nominal_stress_pa"][row].as_f64().unwrap());
+        let [one, other] =
+            [&one, &other].map(|bar| bar["nominal_stress_pa"][row].as_f64().unwrap());
         assert!((one / other - 1.0).abs() < 1e-12, "{one} {other}");
     }
-    let normal = bar("normal", 25.0)["nominal_stress_pa"][1].as_f64().unwrap();
+    let normal = bar("normal", 25.0)["nominal_stress_pa"][1]
+        .as_f64()
+        .unwrap();
     let matrix = 2.0 * c10 * (1.2 - 1.2_f64.powi(-2));
     assert!((normal / matrix - 1.0).abs() < 1e-12, "{normal} {matrix}");
 }
@@ -96,7 +106,8 @@ fn directions_are_the_same_however_they_are_said() {
     let read = moved("fibres = { file = \"fibres.csv\" }");
     assert_eq!(constant, read);
     // A line a kilometre away, around which directions turn by less than 1e-4 within the cube.
-    let around = moved("fibres = { around = { point_m = [0.0, -1000.0, 0.0], line = [0.0, 0.0, 1.0] } }");
+    let around =
+        moved("fibres = { around = { point_m = [0.0, -1000.0, 0.0], line = [0.0, 0.0, 1.0] } }");
     assert!(off(&constant, &around) < 1e-3, "{constant:?} {around:?}");
     let other = moved("fibres = { axis = [0.0, 1.0, 0.0], across = [0.0, 0.0, 1.0] }");
     assert!(off(&constant, &other) > 0.02, "{constant:?} {other:?}");
@@ -109,7 +120,12 @@ fn a_model_without_directions_refuses_fibres() {
             "format = 1\nkind = \"indentation\"\nblock = {{ radius_m = 0.05, height_m = 0.1 }}\n{TISSUE}\
              indenter = {{ radius_m = 0.001 }}\ndepths_m = [0.001]"
         ),
-        &["line 4", "`tissue.law` is \"holzapfel_gasser_ogden\"", "isotropic", "axisymmetric"],
+        &[
+            "line 4",
+            "`tissue.law` is \"holzapfel_gasser_ogden\"",
+            "isotropic",
+            "axisymmetric",
+        ],
     );
     refused(
         &format!("format = 1\nkind = \"hemisphere\"\n{TISSUE}"),
@@ -120,14 +136,24 @@ fn a_model_without_directions_refuses_fibres() {
         "format = 1\n[organ]\nbuiltin = \"liver\"\n{TISSUE}[[tool]]\nname = \"probe\"\ntip = {{ shape = \"sphere\", radius_m = 0.003 }}\n"
     );
     fs::write(folder.path().join("scene.toml"), scene).unwrap();
-    let words = ["the tissue has fibres", "a simulation does not know", "neo_hookean"];
+    let words = [
+        "the tissue has fibres",
+        "a simulation does not know",
+        "neo_hookean",
+    ];
     assert_refused(folder.path(), &["validate", "scene.toml"], &words);
 }
 
 #[test]
 fn keys_of_fibres() {
-    refused(&cube(""), &["`fibres` is missing", "axis = [1.0, 0.0, 0.0]"]);
-    refused(&cube("fibres = {}"), &["`fibres.axis` is missing", "around", "file"]);
+    refused(
+        &cube(""),
+        &["`fibres` is missing", "axis = [1.0, 0.0, 0.0]"],
+    );
+    refused(
+        &cube("fibres = {}"),
+        &["`fibres.axis` is missing", "around", "file"],
+    );
     refused(
         &cube("fibres = { axis = [1.0, 0.0, 0.0] }"),
         &["`fibres.across` is missing", "`fibre_angle_deg`"],
@@ -149,10 +175,8 @@ fn keys_of_fibres() {
         &["`fibres.around.line`"],
     );
     refused(
-        &cube("fibres = { axis = [1.0, 0.0, 0.0], across = [0.0, 1.0, 0.0] }").replace(
-            TISSUE,
-            "tissue = { law = \"neo_hookean\", c10_pa = 1e4 }\n",
-        ),
+        &cube("fibres = { axis = [1.0, 0.0, 0.0], across = [0.0, 1.0, 0.0] }")
+            .replace(TISSUE, "tissue = { law = \"neo_hookean\", c10_pa = 1e4 }\n"),
         &["line 8", "`fibres`", "no fibres"],
     );
     refused(
@@ -165,6 +189,14 @@ fn keys_of_fibres() {
         &["`pulled_along`", "no fibres"],
     );
     let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("problem.toml"), cube("fibres = { file = \"a.csv\" }")).unwrap();
-    assert_refused(folder.path(), &["solve", "problem.toml"], &["a.csv", "No such file"]);
+    fs::write(
+        folder.path().join("problem.toml"),
+        cube("fibres = { file = \"a.csv\" }"),
+    )
+    .unwrap();
+    assert_refused(
+        folder.path(),
+        &["solve", "problem.toml"],
+        &["a.csv", "No such file"],
+    );
 }

@@ -12,6 +12,8 @@ pub(crate) struct Uniaxial {
     pub(crate) stretches: Vec<f64>,
     /// Directions of the fibres of the tissue, if it has any, where the bar is pulled along x.
     pub(crate) frame: FibreFrame,
+    /// Directions of its sides, by the words of `pulled_along`.
+    pub(crate) sides: [&'static str; 2],
 }
 
 /// Which direction of the fibres a bar is pulled along.
@@ -65,14 +67,15 @@ impl Uniaxial {
             )?;
         }
         let (x, y, z) = (Vec3::x(), Vec3::y(), Vec3::z());
-        let frame = match keys.word("pulled_along", PULLED)?.unwrap_or(Pulled::Axis) {
-            Pulled::Axis => FibreFrame::new(&x, &y),
-            Pulled::Across => FibreFrame::new(&y, &x),
-            Pulled::Normal => FibreFrame::new(&y, &z),
+        let (frame, sides) = match keys.word("pulled_along", PULLED)?.unwrap_or(Pulled::Axis) {
+            Pulled::Axis => (FibreFrame::new(&x, &y), ["across", "normal"]),
+            Pulled::Across => (FibreFrame::new(&y, &x), ["axis", "normal"]),
+            Pulled::Normal => (FibreFrame::new(&y, &z), ["axis", "across"]),
         };
         Ok(Self {
             stretches: some_numbers(keys, "stretches", None)?,
             frame: frame.unwrap_or(FibreFrame::ALONG_AXES),
+            sides,
         })
     }
 }

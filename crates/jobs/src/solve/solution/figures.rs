@@ -31,8 +31,8 @@ pub enum Figures {
         stretch: Vec<f64>,
         /// [Pa]
         nominal_stress_pa: Vec<f64>,
-        /// Of the sides, where the tissue has fibres: that in the plane of the fibres, or along the second axis where the bar is
-        /// pulled along the normal of the plane, and the other [-].
+        /// Where the tissue has fibres, of the two of axis, across and normal that the bar is not pulled along, in this
+        /// order [-].
         #[serde(skip_serializing_if = "Option::is_none")]
         lateral_stretch: Option<Vec<[f64; 2]>>,
     },

@@ -356,7 +356,10 @@ fn grid(fields: &SolidFields) -> Vec<u8> {
         FieldValues::Scalars(&fields.equivalent_stresses),
     )];
     if !fields.fibre_axes.is_empty() {
-        in_cells.push(field("fibre_axis", FieldValues::Vectors(&fields.fibre_axes)));
+        in_cells.push(field(
+            "fibre_axis",
+            FieldValues::Vectors(&fields.fibre_axes),
+        ));
     }
     unstructured_grid(
         &fields.positions,

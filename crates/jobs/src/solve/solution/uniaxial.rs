@@ -29,9 +29,10 @@ pub(crate) fn solution(problem: &Problem, case: &Uniaxial) -> Result<Solution, E
         .with("stretch [-]", case.stretches.iter().copied())
         .with("nominal stress [Pa]", stresses.iter().copied());
     if has_fibres {
-        table = table
-            .with("one side [-]", lateral.iter().map(|sides| sides[0]))
-            .with("the other [-]", lateral.iter().map(|sides| sides[1]));
+        for (side, name) in case.sides.into_iter().enumerate() {
+            let stretches = lateral.iter().map(|sides| sides[side]);
+            table = table.with(&format!("stretch of {name} [-]"), stretches);
+        }
     }
     let mut warnings = Vec::new();
     if problem.is_small_strain()

@@ -97,7 +97,10 @@ impl SolidFields {
     pub(super) fn set_fibres(&mut self, fibres: &FibreField) {
         let middle = |cell: &[u32]| {
             let corners = cell[..4].iter();
-            corners.map(|&node| self.positions[node as usize]).sum::<Vec3>() / 4.0
+            corners
+                .map(|&node| self.positions[node as usize])
+                .sum::<Vec3>()
+                / 4.0
         };
         let cells = self.cells.chunks_exact(10);
         let axes = cells.map(|cell| *fibres.at(&middle(cell)).axis());

@@ -24,8 +24,15 @@ pub(crate) fn curve(
     let most = inflated
         .limit_pressure
         .map_or(most, |limit| most.min(limit));
-    // Denser towards the limit, where a little pressure moves the wall far.
-    let part = |k: usize| 1.0 - (1.0 - k as f64 / POINTS as f64).powi(3);
+    let part = |k: usize| {
+        let even = k as f64 / POINTS as f64;
+        match inflated.limit_pressure {
+            // Denser towards the limit, where a little pressure moves the wall far.
+            Some(_) => 1.0 - (1.0 - even).powi(3),
+            // Else at both ends: fibres make the wall stiffer the more it widens.
+            None => 0.5 - 0.5 * (std::f64::consts::PI * even).cos(),
+        }
+    };
     let pressures: Vec<f64> = (0..=POINTS)
         .map(|k| part(k) * (1.0 - 1e-6) * most)
         .collect();
