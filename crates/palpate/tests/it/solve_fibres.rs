@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::Path;
 
+use palpate_geometry::vtk::{CellKind, Cells, unstructured_grid};
+use palpate_geometry::{TetrahedronMesh, Vec3};
 use serde_json::Value;
 
 use crate::errors::assert_refused;
@@ -78,11 +80,29 @@ fn a_strip_is_pulled_along_each_axis() {
     assert!((normal / matrix - 1.0).abs() < 1e-12, "{normal} {matrix}");
 }
 
+/// A cube of 0.1 m whose lowest triangles are fixed, under its weight.
 fn cube(fibres: &str) -> String {
     format!(
-        "format = 1\nkind = \"solid\"\nbuiltin = \"cube\"\ntriangles = 200\naccuracy = 0.2\n\
-         gravity_m_per_s2 = [3.0, 1.0, -9.81]\n{TISSUE}{fibres}\n"
+        "format = 1\nkind = \"solid\"\nmesh = \"cube.vtu\"\naccuracy = 0.2\ngravity_m_per_s2 = [3.0, 1.0, -9.81]\n\
+         anchor = {{ planes = [{{ point_m = [0.0, 0.0, 0.001], normal = [0.0, 0.0, 1.0] }}] }}\n{TISSUE}{fibres}\n"
     )
+}
+
+/// The file of that cube, of a few tetrahedra.
+fn write_cube(folder: &Path) {
+    let mesh = TetrahedronMesh::block(Vec3::zeros(), Vec3::repeat(0.1), [1; 3]).unwrap();
+    let nodes: Vec<u32> = mesh
+        .tetrahedra()
+        .iter()
+        .flatten()
+        .map(|node| node.0)
+        .collect();
+    let cells = Cells {
+        kind: CellKind::Tetrahedron,
+        nodes: &nodes,
+    };
+    let bytes = unstructured_grid(mesh.vertices(), &cells, &[], &[]);
+    fs::write(folder.join("cube.vtu"), bytes).unwrap();
 }
 
 /// Judge: the same directions said in three ways; others give another answer.
@@ -91,10 +111,11 @@ fn directions_are_the_same_however_they_are_said() {
     let folder = tempfile::tempdir().unwrap();
     let rows = "# format = 1\nx_m,y_m,z_m,axis_x,axis_y,axis_z,across_x,across_y,across_z\n0,0,0,2,0,0,0,0,1\n";
     fs::write(folder.path().join("fibres.csv"), rows).unwrap();
-    let reaction = |fibres: &str| solve_in(folder.path(), &cube(fibres))["points"].clone();
-    let point = "point = [{ at_m = [0.0, 0.0, 0.02] }]";
+    write_cube(folder.path());
+    let point = "point = [{ at_m = [0.05, 0.05, 0.1] }]";
     let moved = |fibres: &str| -> Vec<f64> {
-        let points = reaction(&format!("{point}\n{fibres}"));
+        let points =
+            solve_in(folder.path(), &cube(&format!("{point}\n{fibres}")))["points"].clone();
         let moved = points[0]["displacement_m"].as_array().unwrap().clone();
         moved.iter().map(|x| x.as_f64().unwrap()).collect()
     };

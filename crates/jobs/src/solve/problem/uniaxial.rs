@@ -12,7 +12,7 @@ pub(crate) struct Uniaxial {
     pub(crate) stretches: Vec<f64>,
     /// Directions of the fibres of the tissue, if it has any, where the bar is pulled along x.
     pub(crate) frame: FibreFrame,
-    /// Directions of its sides, by the words of `pulled_along`.
+    /// What the stretches of its sides are called.
     pub(crate) sides: [&'static str; 2],
 }
 
@@ -38,6 +38,10 @@ const PULLED_MEANINGS: &[Word] = &[
     ("across", "The second axis of the plane of the families."),
     ("normal", "The normal of that plane."),
 ];
+
+const AXIS: &str = "stretch along the axis [-]";
+const ACROSS: &str = "stretch across [-]";
+const NORMAL: &str = "stretch along the normal [-]";
 
 const STRETCH: Domain = Domain::number("a stretch", [Excluded(0.0), Included(1e3)])
     .usually(0.05, 10.0)
@@ -68,9 +72,9 @@ impl Uniaxial {
         }
         let (x, y, z) = (Vec3::x(), Vec3::y(), Vec3::z());
         let (frame, sides) = match keys.word("pulled_along", PULLED)?.unwrap_or(Pulled::Axis) {
-            Pulled::Axis => (FibreFrame::new(&x, &y), ["across", "normal"]),
-            Pulled::Across => (FibreFrame::new(&y, &x), ["axis", "normal"]),
-            Pulled::Normal => (FibreFrame::new(&y, &z), ["axis", "across"]),
+            Pulled::Axis => (FibreFrame::new(&x, &y), [ACROSS, NORMAL]),
+            Pulled::Across => (FibreFrame::new(&y, &x), [AXIS, NORMAL]),
+            Pulled::Normal => (FibreFrame::new(&y, &z), [AXIS, ACROSS]),
         };
         Ok(Self {
             stretches: some_numbers(keys, "stretches", None)?,

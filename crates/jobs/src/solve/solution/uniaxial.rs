@@ -31,7 +31,7 @@ pub(crate) fn solution(problem: &Problem, case: &Uniaxial) -> Result<Solution, E
     if has_fibres {
         for (side, name) in case.sides.into_iter().enumerate() {
             let stretches = lateral.iter().map(|sides| sides[side]);
-            table = table.with(&format!("stretch of {name} [-]"), stretches);
+            table = table.with(name, stretches);
         }
     }
     let mut warnings = Vec::new();
