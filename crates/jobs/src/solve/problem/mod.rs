@@ -166,7 +166,7 @@ impl Problem {
             Kind::Uniaxial => Case::Uniaxial(Uniaxial::from_keys(&keys, &tissue)?),
             Kind::Solid => {
                 let solid = Solid::from_keys(&keys, folder)?;
-                fibres::check(&keys, solid.fibres.as_ref(), &tissue)?;
+                fibres::check(&keys, solid.fibres.as_deref(), &tissue)?;
                 Case::Solid(solid)
             }
         };

@@ -17,7 +17,7 @@ pub(crate) struct Solid {
     /// Where it is held; none: where a built-in organ grows.
     pub(crate) anchor: Option<Region>,
     /// Where the fibres of the tissue point to, if it has any.
-    pub(crate) fibres: Option<Fibres>,
+    pub(crate) fibres: Option<Box<Fibres>>,
     pub(crate) patch: Option<Patch>,
     /// [m/s²]
     pub(crate) gravity: Option<Vec3>,
@@ -133,7 +133,7 @@ impl Solid {
         let solid = Self {
             shape,
             anchor,
-            fibres: Fibres::from_keys(keys, folder)?,
+            fibres: Fibres::from_keys(keys, folder)?.map(Box::new),
             patch: patch.map(|keys| Patch::from_keys(&keys)).transpose()?,
             gravity,
             loads: loads
