@@ -114,9 +114,9 @@ fn scene(path: &Path) -> Result<Validated, Error> {
     let mut warnings = scene.warnings.clone();
     let (surface, said) = palpate_simulate::read_organ(&scene.organ.shape)?;
     warnings.extend(said);
-    scene.organ.tissue.read()?;
+    palpate_simulate::read_tissue(&scene.organ.tissue)?;
     for layer in &scene.organ.layers {
-        layer.tissue.read()?;
+        palpate_simulate::read_tissue(&layer.tissue)?;
     }
     for neighbour in &scene.neighbours {
         palpate_simulate::read_neighbour(neighbour)?;

@@ -99,7 +99,7 @@ impl VirtualSpecimen {
         (radius, deepest): (f64, f64),
         at_step: &mut dyn FnMut(f64),
     ) -> Result<Self, Error> {
-        let material = Material::from_tissue(tissue)?;
+        let material = Material::isotropic(tissue, "a virtual specimen")?;
         if tissue.elasticity.law() != LawName::Linear {
             let curve = solved(&material, (radius, deepest), at_step)?;
             return Self::of_solved(tissue, radius, curve);

@@ -428,6 +428,9 @@ pub enum Error {
     /// See [`crate::regions::RegionError`].
     #[error(transparent)]
     Region(#[from] crate::regions::RegionError),
+    /// What is wrong with fibres.
+    #[error(transparent)]
+    Fibres(#[from] crate::FibreError),
     /// What does not fit a finite element model.
     #[error(transparent)]
     Mismatch(#[from] crate::finite_elements::Mismatch),

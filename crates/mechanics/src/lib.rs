@@ -50,6 +50,8 @@ pub use error::Error;
 pub use indentation_curve::IndentationCurve;
 pub use limits::{Limit, Limits, Reached};
 pub use material::exponential::Exponential;
+pub use material::fibres::{FibreError, FibreField, FibreFrame, FibreSample};
+pub use material::holzapfel_gasser_ogden::{Fibres, HolzapfelGasserOgden};
 pub use material::law::{Distortion, Law, Tangent};
 pub use material::linear_elastic::LinearElastic;
 pub use material::material::{Material, named as law_named};

@@ -19,7 +19,7 @@ const NAME: &str = "tissue";
 ///
 /// Parameters
 /// ----------
-/// law : {"linear", "neo_hookean", "mooney_rivlin", "exponential", "ogden", "reduced_polynomial"}
+/// law : {"linear", "neo_hookean", "mooney_rivlin", "exponential", "ogden", "reduced_polynomial", "holzapfel_gasser_ogden"}
 ///     The elastic law.
 /// name : str, optional
 ///     What it is, for people.
@@ -30,7 +30,8 @@ const NAME: &str = "tissue";
 /// **parameters : float or dict
 ///     Those of the law, by the keys of a tissue's file: ``youngs_modulus_pa`` [Pa] and ``poissons_ratio`` [-];
 ///     ``c10_pa`` and ``c01_pa`` [Pa]; ``gamma_pa`` [Pa] and ``alpha`` [-]; ``mu_1_pa`` [Pa] and ``alpha_1`` [-], and
-///     up to two terms more; ``c10_pa``, ``c20_pa`` and ``c30_pa`` [Pa], the last two optional. A dict has a ``value`` and its
+///     up to two terms more; ``c10_pa``, ``c20_pa`` and ``c30_pa`` [Pa], the last two optional; ``c10_pa`` and ``k1_pa`` [Pa],
+///     ``k2`` [-], ``dispersion`` [-] and ``fibre_angle_deg`` [degrees]. A dict has a ``value`` and its
 ///     ``standard_error``.
 #[pyclass(frozen, module = "palpate")]
 #[derive(Debug, Clone)]

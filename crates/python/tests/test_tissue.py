@@ -82,5 +82,9 @@ def test_laws_of_several_terms_keep_their_order(tmp_path: Path) -> None:
     assert "OGDEN, N=2" in ogden.to_abaqus() and 'type="Ogden"' in ogden.to_febio()
     yeoh = palpate.Tissue(law="reduced_polynomial", c10_pa=500.0, c20_pa=-20.0, c30_pa=3.0)
     assert "REDUCED POLYNOMIAL, N=3" in yeoh.to_abaqus() and 'type="Yeoh"' in yeoh.to_febio()
+    artery = palpate.Tissue(
+        law="holzapfel_gasser_ogden", c10_pa=3820.0, k1_pa=996600.0, k2=524.6, dispersion=0.226, fibre_angle_deg=49.98
+    )
+    assert "HOLZAPFEL, LOCAL DIRECTIONS=2" in artery.to_abaqus() and "<gamma>49.98</gamma>" in artery.to_febio()
     with pytest.raises(palpate.InputError, match="`tissue.alpha_1` is missing"):
         palpate.Tissue(law="ogden", mu_1_pa=500.0)

@@ -1,12 +1,25 @@
 use nalgebra::Rotation3;
+use palpate_files::Tissue;
 use palpate_files::scene::{
     BuiltinOrgan, LengthUnit as FileUnit, Location, Neighbour, Region, RegionPlane, Shape,
+    TissueChoice,
 };
 use palpate_geometry::{
     AnchorPlane, LengthUnit, Organ, ProblemKind, Surface, Vec3, inspect, read_mesh, repair,
 };
+use palpate_mechanics::Material;
 
 use crate::Error;
+
+/// The tissue of `choice`, which must be one that a simulation can take, and its material.
+///
+/// # Errors
+/// When it cannot be read, is that of no solid, or has fibres, whose direction a scene does not give.
+pub fn read_tissue(choice: &TissueChoice) -> Result<(Tissue, Material), Error> {
+    let tissue = choice.read()?;
+    let material = Material::isotropic(&tissue, "a simulation")?;
+    Ok((tissue, material))
+}
 
 /// The surface of `shape`, read and repaired or made, and warnings.
 ///

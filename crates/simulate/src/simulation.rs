@@ -70,8 +70,7 @@ impl Simulation {
             return Err(Error::NotDrawn);
         }
         let (surface, mut warnings) = organ::read_organ(&scene.organ.shape)?;
-        let tissue = scene.organ.tissue.read()?;
-        let material = Material::from_tissue(&tissue)?;
+        let (tissue, material) = organ::read_tissue(&scene.organ.tissue)?;
         warnings.extend_from_slice(&scene.warnings);
         warnings.extend(material.warnings.iter().cloned());
         let tree = AabbTree::new(surface.mesh());

@@ -37,5 +37,16 @@ pub(super) fn card(tissue: &Tissue) -> Result<String, NoCard> {
         };
         text += &format!("{:?}, {bulk:?}, {:?}\n", term.g.value, term.tau_s.value);
     }
+    if !written.fibres.is_empty() {
+        text += &format!(
+            "** Name this orientation in the *SOLID SECTION, and turn its axes to the reference axis and the plane of the fibres.\n\
+             *ORIENTATION, NAME=fibres_of_{}, LOCAL DIRECTIONS={}\n1.0, 0.0, 0.0, 0.0, 1.0, 0.0\n3, 0.0\n",
+            tissue.card_name(),
+            written.fibres.len(),
+        );
+    }
+    for [x, y, z] in written.fibres {
+        text += &format!("{x:?}, {y:?}, {z:?}\n");
+    }
     Ok(text)
 }

@@ -20,12 +20,23 @@ pub(super) fn card(tissue: &Tissue) -> Result<String, NoCard> {
         }
         None => "viscoelastic",
     };
+    let axes = |depth: usize| {
+        let indent = "\t".repeat(depth);
+        match written.has_axes {
+            true => format!(
+                "{indent}<!-- The reference axis a, and d in the plane of the fibres: turn them to those of the body. -->\n\
+                 {indent}<mat_axis type=\"vector\">\n{indent}\t<a>1,0,0</a>\n{indent}\t<d>0,1,0</d>\n{indent}</mat_axis>\n"
+            ),
+            false => String::new(),
+        }
+    };
     let density = ("density".to_owned(), tissue.density_kg_m3.value);
     let material = if tissue.prony.is_empty() {
         let inner = elements(&[vec![density], numbers].concat(), 3);
         format!(
-            "\t\t<material id=\"1\" name=\"{}\" type=\"{kind}\">\n{inner}",
-            tissue.card_name()
+            "\t\t<material id=\"1\" name=\"{}\" type=\"{kind}\">\n{inner}{}",
+            tissue.card_name(),
+            axes(3),
         )
     } else {
         let times = (1..).zip(&tissue.prony);
@@ -36,11 +47,12 @@ pub(super) fn card(tissue: &Tissue) -> Result<String, NoCard> {
             ]
         });
         format!(
-            "\t\t<material id=\"1\" name=\"{}\" type=\"{relaxing}\">\n{}{}\t\t\t<elastic type=\"{kind}\">\n{}\t\t\t</elastic>\n",
+            "\t\t<material id=\"1\" name=\"{}\" type=\"{relaxing}\">\n{}{}\t\t\t<elastic type=\"{kind}\">\n{}{}\t\t\t</elastic>\n",
             tissue.card_name(),
             elements(&[density], 3),
             elements(&terms.collect::<Vec<_>>(), 3),
             elements(&numbers, 4),
+            axes(4),
         )
     };
     Ok(format!(

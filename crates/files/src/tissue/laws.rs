@@ -21,6 +21,9 @@ words! {
         Ogden = "ogden",
         /// The reduced polynomial of order 1 to 3 (Yeoh's law), incompressible.
         ReducedPolynomial = "reduced_polynomial",
+        /// The fibre-reinforced law of Holzapfel, Gasser and Ogden with dispersion, incompressible; `solve` knows the
+        /// direction of its fibres.
+        HolzapfelGasserOgden = "holzapfel_gasser_ogden",
     }
 }
 
@@ -55,6 +58,8 @@ pub(crate) struct AbaqusLaw {
     pub(crate) keyword: String,
     /// The numbers below it, in Abaqus' order.
     pub(crate) numbers: Vec<f64>,
+    /// Directions of the families of fibres in the local system of an orientation, of length one [-].
+    pub(crate) fibres: Vec<[f64; 3]>,
     /// Whether the bulk modulus is finite, so that it relaxes.
     pub(crate) compressible: bool,
 }
@@ -67,6 +72,8 @@ pub(crate) struct FebioLaw {
     pub(crate) numbers: Vec<(String, f64)>,
     /// Shear modulus at rest [Pa], of a law that keeps its volume.
     pub(crate) shear_modulus: Option<f64>,
+    /// Whether it needs a local system of axes.
+    pub(crate) has_axes: bool,
 }
 
 const POISSONS_RATIO: Domain = Domain::number("a number", [Excluded(-1.0), Excluded(0.5)])
@@ -74,6 +81,22 @@ const POISSONS_RATIO: Domain = Domain::number("a number", [Excluded(-1.0), Exclu
     .with_remark(
         "0.5 itself belongs to the incompressible laws, such as neo_hookean; 0.49 is near enough for most tissues",
     );
+
+const FIBRE_STIFFNESS: Domain = Domain::quantity(
+    "a stiffness of fibres",
+    "pa",
+    [Included(0.0), Included(1e11)],
+)
+.usually(1.0, 1e8);
+
+const FIBRE_EXPONENT: Domain =
+    Domain::number("an exponent", [Included(0.0), Included(1e5)]).usually(0.0, 2000.0);
+
+const DISPERSION: Domain = Domain::number("a dispersion", [Included(0.0), Included(1.0 / 3.0)])
+    .with_remark("0 is no dispersion, 1/3 = 0.333333 an isotropic one");
+
+const FIBRE_ANGLE: Domain =
+    Domain::number("an angle", [Included(0.0), Included(90.0)]).with_remark("in degrees");
 
 const SIGNED_EXPONENT: Domain =
     Domain::number("an exponent", [Included(-1e4), Included(1e4)]).usually(-100.0, 100.0);
@@ -85,7 +108,8 @@ const OTHER: &str = "another law";
 const C10: Key = Key::estimate(
     "c10_pa",
     Domain::SIGNED_MODULUS,
-    "`neo_hookean`, `reduced_polynomial`: C10, half the shear modulus; `mooney_rivlin`: C10.",
+    "`neo_hookean`, `reduced_polynomial`: C10, half the shear modulus; `holzapfel_gasser_ogden`: that of the matrix; \
+     `mooney_rivlin`: C10.",
 )
 .optional("1333.0", OTHER);
 
@@ -112,12 +136,14 @@ pub(super) const LINEAR: LawRow = LawRow {
     abaqus: Some(|p| AbaqusLaw {
         keyword: "*ELASTIC".to_owned(),
         numbers: p.to_vec(),
+        fibres: Vec::new(),
         compressible: true,
     }),
     febio: Some(|p| FebioLaw {
         kind: "isotropic elastic",
         numbers: named(["E", "v"], p),
         shear_modulus: None,
+        has_axes: false,
     }),
 };
 
@@ -227,6 +253,7 @@ pub(super) const OGDEN: LawRow = LawRow {
             .flat_map(|(i, &[mu, alpha])| [(format!("c{i}"), 2.0 * mu), (format!("m{i}"), alpha)])
             .collect(),
         shear_modulus: Some(p.iter().step_by(2).sum()),
+        has_axes: false,
     }),
 };
 
@@ -255,10 +282,73 @@ pub(super) const REDUCED_POLYNOMIAL: LawRow = LawRow {
         kind: "Yeoh",
         numbers: named(["c1", "c2", "c3"], p),
         shear_modulus: p.first().map(|c10| 2.0 * c10),
+        has_axes: false,
+    }),
+};
+
+/// Ψ = C₁₀ (I₁ − 3) + k₁/(2 k₂) Σ (exp(k₂ ⟨E⟩²) − 1), E = κ (I₁ − 3) + (1 − 3 κ)(I₄ − 1), over two families of fibres at
+/// ±γ to a reference axis. Abaqus takes the numbers as they are, and the directions from the orientation of the section
+/// [Abaqus 2017, *ANISOTROPIC HYPERELASTIC and *ORIENTATION, LOCAL DIRECTIONS]; FEBio's c is 2 C₁₀, its angle is in degrees to
+/// the first of its material axes, in the plane of the first two [FEBio, Holzapfel-Gasser-Ogden]. In both ⟨E⟩ is as here.
+pub(super) const HOLZAPFEL_GASSER_OGDEN: LawRow = LawRow {
+    title: "Holzapfel-Gasser-Ogden",
+    parameters: &[
+        C10.within(Domain::MODULUS),
+        Key::estimate(
+            "k1_pa",
+            FIBRE_STIFFNESS,
+            "`holzapfel_gasser_ogden`: k1, the stiffness of each of its two families of fibres.",
+        )
+        .optional("996600.0", OTHER),
+        Key::estimate(
+            "k2",
+            FIBRE_EXPONENT,
+            "`holzapfel_gasser_ogden`: k2, how fast the fibres stiffen.",
+        )
+        .optional("524.6", OTHER),
+        Key::estimate(
+            "dispersion",
+            DISPERSION,
+            "`holzapfel_gasser_ogden`: kappa, the dispersion of the fibres of a family around its direction.",
+        )
+        .optional("0.226", OTHER),
+        Key::estimate(
+            "fibre_angle_deg",
+            FIBRE_ANGLE,
+            "`holzapfel_gasser_ogden`: the angle gamma of the two families to the reference axis, on either side of it; at 0 \
+             and at 90 they are one, of twice k1. The problem says where the axis is.",
+        )
+        .optional("49.98", OTHER),
+    ],
+    term: 5,
+    positive: None,
+    abaqus: Some(|p| {
+        let (sin, cos) = p[4].to_radians().sin_cos();
+        AbaqusLaw {
+            keyword: "*ANISOTROPIC HYPERELASTIC, HOLZAPFEL, LOCAL DIRECTIONS=2".to_owned(),
+            // 2/κ is zero of what keeps its volume.
+            numbers: vec![p[0], 0.0, p[1], p[2], p[3]],
+            fibres: vec![[cos, sin, 0.0], [cos, -sin, 0.0]],
+            compressible: false,
+        }
+    }),
+    febio: Some(|p| FebioLaw {
+        kind: "Holzapfel-Gasser-Ogden",
+        numbers: named(
+            ["c", "k1", "k2", "kappa", "gamma"],
+            &[2.0 * p[0], p[1], p[2], p[3], p[4]],
+        ),
+        shear_modulus: Some(2.0 * p[0]),
+        has_axes: true,
     }),
 };
 
 impl LawName {
+    /// Whether it has fibres, whose direction a model must know.
+    pub fn has_fibres(self) -> bool {
+        matches!(self, Self::HolzapfelGasserOgden)
+    }
+
     /// What the program knows of it.
     pub fn row(self) -> &'static LawRow {
         match self {
@@ -268,6 +358,7 @@ impl LawName {
             Self::Exponential => &EXPONENTIAL,
             Self::Ogden => &OGDEN,
             Self::ReducedPolynomial => &REDUCED_POLYNOMIAL,
+            Self::HolzapfelGasserOgden => &HOLZAPFEL_GASSER_OGDEN,
         }
     }
 }
@@ -285,6 +376,7 @@ fn hyperelastic(kind: String, coefficients: &[f64], terms: usize) -> AbaqusLaw {
     AbaqusLaw {
         keyword: format!("*HYPERELASTIC, {kind}"),
         numbers: [coefficients, &vec![0.0; terms]].concat(),
+        fibres: Vec::new(),
         compressible: false,
     }
 }
@@ -294,6 +386,7 @@ fn mooney_rivlin(c1: f64, c2: f64) -> FebioLaw {
         kind: "Mooney-Rivlin",
         numbers: named(["c1", "c2"], &[c1, c2]),
         shear_modulus: Some(2.0 * (c1 + c2)),
+        has_axes: false,
     }
 }
 

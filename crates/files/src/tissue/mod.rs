@@ -64,6 +64,10 @@ impl Tissue {
         laws::OGDEN.parameters[5],
         laws::REDUCED_POLYNOMIAL.parameters[1],
         laws::REDUCED_POLYNOMIAL.parameters[2],
+        laws::HOLZAPFEL_GASSER_OGDEN.parameters[1],
+        laws::HOLZAPFEL_GASSER_OGDEN.parameters[2],
+        laws::HOLZAPFEL_GASSER_OGDEN.parameters[3],
+        laws::HOLZAPFEL_GASSER_OGDEN.parameters[4],
         Key::tables(
             "prony",
             prony::KEYS,

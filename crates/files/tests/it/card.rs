@@ -167,3 +167,63 @@ fn reduced_polynomial_cards_hold_each_package_s_coefficients() {
         "{febio}"
     );
 }
+
+/// Abaqus' manual: `HOLZAPFEL` with C₁₀, D, k₁, k₂, κ and two directions in an orientation. FEBio's manual: c = 2 C₁₀, the
+/// angle in degrees from the first material axis; of c and k₁ what is left after relaxation.
+#[test]
+fn fibre_cards_hold_each_package_s_coefficients_and_directions() {
+    let values = [3820.0, 996_600.0, 524.6, 0.226, 60.0];
+    let abaqus = tissue(LawName::HolzapfelGasserOgden, &values)
+        .to_abaqus()
+        .unwrap();
+    let own = "*ANISOTROPIC HYPERELASTIC, HOLZAPFEL, LOCAL DIRECTIONS=2, MODULI=INSTANTANEOUS\n\
+               3820.0, 0.0, 996600.0, 524.6, 0.226\n";
+    assert!(abaqus.contains(own), "{abaqus}");
+    let (_, directions) = abaqus
+        .split_once("*ORIENTATION, NAME=fibres_of_pig_s_liver, LOCAL DIRECTIONS=2\n1.0, 0.0, 0.0, 0.0, 1.0, 0.0\n3, 0.0\n")
+        .unwrap();
+    let directions: Vec<_> = directions.lines().map(numbers).collect();
+    for (found, side) in directions.iter().zip([1.0, -1.0]) {
+        let exact = [0.5, side * 0.75_f64.sqrt(), 0.0];
+        assert!(
+            (0..3).all(|i| (found[i] - exact[i]).abs() < 1e-15),
+            "{found:?}"
+        );
+    }
+    assert_eq!(directions.len(), 2);
+    let left = 1.0 - TERMS[0].0 - TERMS[1].0;
+    let febio = tissue(LawName::HolzapfelGasserOgden, &values)
+        .to_febio()
+        .unwrap();
+    let value = |name: &str| -> f64 {
+        let from = febio.split(&format!("<{name}>")).nth(1).unwrap();
+        from.split('<').next().unwrap().parse().unwrap()
+    };
+    assert!(
+        febio.contains("<elastic type=\"Holzapfel-Gasser-Ogden\">"),
+        "{febio}"
+    );
+    for (name, exact) in [
+        ("c", 7640.0 * left),
+        ("k1", 996_600.0 * left),
+        ("k2", 524.6),
+        ("kappa", 0.226),
+        ("gamma", 60.0),
+    ] {
+        assert!(
+            (value(name) / exact - 1.0).abs() < 1e-14,
+            "{name}: {}",
+            value(name)
+        );
+    }
+    let axes = "<mat_axis type=\"vector\">\n\t\t\t\t\t<a>1,0,0</a>\n\t\t\t\t\t<d>0,1,0</d>\n\t\t\t\t</mat_axis>\n\t\t\t</elastic>";
+    assert!(febio.contains(axes), "{febio}");
+    // An isotropic law needs none.
+    assert!(!mooney_rivlin().to_febio().unwrap().contains("mat_axis"));
+    assert!(
+        !mooney_rivlin()
+            .to_abaqus()
+            .unwrap()
+            .contains("*ORIENTATION")
+    );
+}

@@ -223,7 +223,7 @@ fn bad_values_of_a_tissue() {
     assert!(tissue("youngs_modulus_pa = \"10\"").contains("is \"10\"; give a modulus"));
     assert!(tissue("law = \"hookean\"").contains(
         "`tissue.law` is \"hookean\"; give \"linear\", \"neo_hookean\", \"mooney_rivlin\", \"exponential\", \
-         \"ogden\" or \"reduced_polynomial\""
+         \"ogden\", \"reduced_polynomial\" or \"holzapfel_gasser_ogden\""
     ));
     assert!(tissue("prony = [{ g = 0.5, tau_s = 1 }, { g = 0.5, tau_s = 2 }]").contains(
         "`tissue.prony` is a series whose g add up to 1; give terms whose g add up to less than 1"

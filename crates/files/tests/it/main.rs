@@ -6,6 +6,7 @@ mod builtin;
 mod card;
 mod draw;
 mod errors;
+mod fibre_directions;
 mod foreign;
 mod fuzz;
 mod motion;

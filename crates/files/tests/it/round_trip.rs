@@ -67,6 +67,17 @@ fn elasticity() -> impl Strategy<Value = Elasticity> {
         (pa(), pa()).prop_map(move |(c10, c01)| law(LawName::MooneyRivlin, &[c10, c01])),
         (pa(), pa()).prop_map(move |(gamma, alpha)| law(LawName::Exponential, &[gamma, alpha])),
         several.prop_map(move |c| law(LawName::ReducedPolynomial, &c)),
+        (
+            pa(),
+            pa(),
+            estimate(0.0..500.0),
+            estimate(0.0..0.3333),
+            estimate(0.0..90.0)
+        )
+            .prop_map(move |(c10, k1, k2, dispersion, angle)| {
+                let parameters = [c10, k1, k2, dispersion, angle];
+                law(LawName::HolzapfelGasserOgden, &parameters)
+            }),
         ogden.prop_map(move |terms| {
             let each: Vec<_> = terms.into_iter().flat_map(|(mu, a)| [mu, a]).collect();
             law(LawName::Ogden, &each)

@@ -1,8 +1,7 @@
 //! Meshes of tetrahedra: what every one of them must be, and what is refused.
 
-use std::collections::BTreeMap;
 
-use palpate_geometry::{NodeId, Surface, TetrahedronError, TetrahedronMesh, TriangleMesh, Vec3};
+use palpate_geometry::{NodeId, TetrahedronError, TetrahedronMesh, Vec3};
 
 /// In one piece; all volumes positive; each face inside shared by two; the boundary closed,
 /// manifold, oriented outward; Euler's number of the solid half that of its boundary.

@@ -64,6 +64,7 @@ impl Error {
             | Self::OtherSurface { .. }
             | Self::UnsoundSlit { .. }
             | Self::Region(_)
+            | Self::Fibres(_)
             | Self::Solid(_) => true,
         }
     }

@@ -87,7 +87,6 @@ pub(super) fn add_sensitivity(
     let local = model.local_unknowns();
     let (mut values, mut force) = (vec![0.0; local], vec![0.0; local]);
     for (element, numbers) in model.unknowns.chunks_exact(local).enumerate() {
-        let law = model.law_of(element);
         for (value, &number) in values.iter_mut().zip(numbers) {
             *value = unknowns[number as usize];
         }
@@ -100,7 +99,7 @@ pub(super) fn add_sensitivity(
             } else {
                 point.gradient::<2>(&values)
             };
-            let (stress, compressibility) = law.sensitivities(parameter, &f);
+            let (stress, compressibility) = point.law.sensitivities(parameter, &f);
             if solid {
                 point.add_stress::<3>(&stress, &mut force);
             } else {
@@ -125,12 +124,12 @@ pub(super) fn elastic_stresses(model: &FiniteElementModel, unknowns: &[f64]) -> 
     let mut stresses = Vec::with_capacity(model.mapping.weights.len());
     let mut values = vec![0.0; local];
     for (element, numbers) in model.unknowns.chunks_exact(local).enumerate() {
-        let law = model.law_of(element);
         for (value, &number) in values.iter_mut().zip(numbers) {
             *value = unknowns[number as usize];
         }
         for point in 0..model.mapping.points {
             let point = Point::new(model, element, point);
+            let law = point.law;
             let f = if model.dimension() == 2 {
                 point.gradient::<2>(&values)
             } else {
@@ -177,7 +176,7 @@ impl<'a> Point<'a> {
             all.get(index * width..(index + 1) * width).unwrap_or(&[])
         };
         Self {
-            law: model.law_of(element),
+            law: model.law_at(index),
             weight: mapping.weights[index],
             gradients: part(&mapping.gradients, nodes * model.dimension()),
             hoop_terms: part(&mapping.hoop_terms, nodes),

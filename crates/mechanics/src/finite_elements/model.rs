@@ -5,7 +5,7 @@ use super::mesh::ElementMesh;
 use super::mismatch::Mismatch;
 use crate::linear::sparse::{Factors, Pattern};
 use crate::material::law::Law;
-use crate::{Error, Vec3};
+use crate::{Error, FibreFrame, Vec3};
 
 /// Which fields an element has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,7 +25,7 @@ const LOCKING: f64 = 0.49;
 pub struct FiniteElementModel {
     pub(crate) mesh: ElementMesh,
     pub(crate) law: Arc<dyn Law>,
-    /// Laws of the elements, where they are not all `law`.
+    /// Laws of the elements, or of all points of integration, where they are not all `law`.
     laws: Vec<Arc<dyn Law>>,
     pub(crate) mapping: Mapping,
     /// Unknowns of an element: displacements node by node, then pressures; elements × local unknowns.
@@ -121,9 +121,49 @@ impl FiniteElementModel {
         })
     }
 
-    /// The law of an element.
-    pub(crate) fn law_of(&self, element: usize) -> &dyn Law {
-        self.laws.get(element).unwrap_or(&self.law).as_ref()
+    /// The same body with the fibres of its laws in the `frame` of each place at rest [m], which is that of the mesh: (r, z, 0)
+    /// in an axisymmetric body, whose directions are (r, z, hoop). Laws without fibres are as they were.
+    #[must_use]
+    pub fn in_frames(mut self, frame: impl Fn(&Vec3) -> FibreFrame) -> Self {
+        let any = std::iter::once(&self.law).chain(&self.laws);
+        if !any.into_iter().any(|law| law.has_fibres()) {
+            return self;
+        }
+        let mut laws = Vec::with_capacity(self.mapping.weights.len());
+        self.at_points(|index, place, _| {
+            let law = self.shared_law(index);
+            laws.push(law.in_frame(&frame(place)).unwrap_or_else(|| law.clone()));
+        });
+        self.laws = laws;
+        self
+    }
+
+    /// The law at a point of integration, counted over all elements.
+    pub(crate) fn law_at(&self, index: usize) -> &dyn Law {
+        self.shared_law(index).as_ref()
+    }
+
+    fn shared_law(&self, index: usize) -> &Arc<dyn Law> {
+        let is_of_point = self.laws.len() == self.mapping.weights.len();
+        let place = if is_of_point {
+            index
+        } else {
+            index / self.mapping.points
+        };
+        self.laws.get(place).unwrap_or(&self.law)
+    }
+
+    /// Calls `each` at every point of integration with its number, its place at rest [m] and the shape functions there.
+    fn at_points(&self, mut each: impl FnMut(usize, &Vec3, &[f64])) {
+        let kind = self.mesh.kind;
+        let mut shape = vec![0.0; kind.nodes()];
+        for index in 0..self.mapping.weights.len() {
+            let nodes = self.mesh.element(index / self.mapping.points);
+            kind.shape(self.mapping.at[index % self.mapping.points], &mut shape);
+            let parts = nodes.iter().zip(&shape);
+            let place = parts.map(|(&node, part)| *part * self.mesh.nodes[node as usize]);
+            each(index, &place.sum(), &shape);
+        }
     }
 
     /// The mesh.
@@ -154,24 +194,18 @@ impl FiniteElementModel {
     /// Forces at the unknowns [N] of a load per undeformed volume [N/m³] that depends on the element and on the place at
     /// rest [m]; a weight, for one.
     pub fn body_load(&self, density: impl Fn(usize, &Vec3) -> Vec3) -> Vec<f64> {
-        let (kind, dimension) = (self.mesh.kind, self.dimension());
+        let dimension = self.dimension();
         let mut load = vec![0.0; self.size()];
-        let mut shape = vec![0.0; kind.nodes()];
-        for (index, weight) in self.mapping.weights.iter().enumerate() {
+        self.at_points(|index, place, shape| {
             let element = index / self.mapping.points;
+            let force = self.mapping.weights[index] * density(element, place);
             let nodes = self.mesh.element(element);
-            kind.shape(self.mapping.at[index % self.mapping.points], &mut shape);
-            let parts = || nodes.iter().map(|&n| n as usize).zip(&shape);
-            let place = parts()
-                .map(|(node, part)| *part * self.mesh.nodes[node])
-                .sum();
-            let force = *weight * density(element, &place);
-            for (node, part) in parts() {
+            for (&node, part) in nodes.iter().zip(shape) {
                 for i in 0..dimension {
-                    load[node * dimension + i] += part * force[i];
+                    load[node as usize * dimension + i] += part * force[i];
                 }
             }
-        }
+        });
         load
     }
 

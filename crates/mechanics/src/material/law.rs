@@ -1,7 +1,9 @@
 use std::fmt::Debug;
+use std::sync::Arc;
 
 use nalgebra::{Matrix3, SMatrix};
 
+use super::fibres::FibreFrame;
 use super::volume::Volume;
 
 /// ∂P/∂F [Pa]: entry (3 j + i, 3 l + k) is ∂P_ij/∂F_kl, both matrices read column by column.
@@ -52,6 +54,16 @@ pub trait Law: Debug + Send + Sync {
     /// What a unit of the parameter `index` of [`Law::parameters`] adds: to the stress of distortion,
     /// and to the compressibility 1/κ [1/Pa].
     fn sensitivities(&self, index: usize, f: &Matrix3<f64>) -> (Matrix3<f64>, f64);
+
+    /// The same law with its fibres in `frame`; none where it has no fibres, so that it is the same in every frame.
+    fn in_frame(&self, _frame: &FibreFrame) -> Option<Arc<dyn Law>> {
+        None
+    }
+
+    /// Whether it has fibres, and so depends on their direction.
+    fn has_fibres(&self) -> bool {
+        self.in_frame(&FibreFrame::ALONG_AXES).is_some()
+    }
 
     /// Strain energy per undeformed volume Ψ(F) [Pa].
     fn energy(&self, f: &Matrix3<f64>) -> f64 {

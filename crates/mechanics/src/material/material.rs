@@ -4,6 +4,8 @@ use palpate_files::Tissue;
 use palpate_files::tissue::LawName;
 
 use super::exponential::Exponential;
+use super::fibres::FibreError;
+use super::holzapfel_gasser_ogden::{Fibres, HolzapfelGasserOgden};
 use super::law::Law;
 use super::linear_elastic::LinearElastic;
 use super::mooney_rivlin::MooneyRivlin;
@@ -18,7 +20,7 @@ use crate::Error;
 pub struct Material {
     /// The instantaneous law; the hyperelastic ones are incompressible.
     pub law: Arc<dyn Law>,
-    /// What the law is at small strain, nearly incompressible where it is incompressible.
+    /// What the law is at small strain, without fibres, and nearly incompressible where it is incompressible.
     pub at_rest: LinearElastic,
     /// How the force relaxes.
     pub prony: PronySeries,
@@ -27,6 +29,17 @@ pub struct Material {
 }
 
 impl Material {
+    /// As [`Self::from_tissue`], for a `model` that does not know the direction of fibres.
+    ///
+    /// # Errors
+    /// As [`Self::from_tissue`], and when the tissue has fibres.
+    pub fn isotropic(tissue: &Tissue, model: &'static str) -> Result<Self, Error> {
+        if tissue.elasticity.law().has_fibres() {
+            return Err(FibreError::NoDirection { model }.into());
+        }
+        Self::from_tissue(tissue)
+    }
+
     /// The material that `tissue` describes.
     ///
     /// # Errors
@@ -36,6 +49,9 @@ impl Material {
         let law = named(name, &values)?;
         let at_rest = match (name, values.as_slice()) {
             (LawName::Linear, &[modulus, ratio]) => LinearElastic::new(modulus, ratio)?,
+            (LawName::HolzapfelGasserOgden, &[c10, ..]) => {
+                LinearElastic::at_rest(&NeoHookean::incompressible(c10)?)?
+            }
             _ => LinearElastic::at_rest(law.as_ref())?,
         };
         let terms: Vec<_> = tissue
@@ -67,5 +83,14 @@ pub fn named(name: LawName, values: &[f64]) -> Result<Arc<dyn Law>, Error> {
         LawName::Exponential => Arc::new(Exponential::incompressible(at(0), at(1))?),
         LawName::Ogden => Arc::new(Ogden::incompressible(values.as_chunks().0)?),
         LawName::ReducedPolynomial => Arc::new(ReducedPolynomial::incompressible(values)?),
+        LawName::HolzapfelGasserOgden => {
+            let fibres = Fibres {
+                k1: at(1),
+                k2: at(2),
+                dispersion: at(3),
+                angle_deg: at(4),
+            };
+            Arc::new(HolzapfelGasserOgden::incompressible(at(0), fibres)?)
+        }
     })
 }

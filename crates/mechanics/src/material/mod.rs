@@ -1,6 +1,8 @@
 //! What a tissue is made of: a law between deformation and stress, and its relaxation in time.
 
 pub(crate) mod exponential;
+pub(crate) mod fibres;
+pub(crate) mod holzapfel_gasser_ogden;
 mod isochoric;
 pub(crate) mod law;
 pub(crate) mod linear_elastic;

@@ -25,6 +25,7 @@ fn beam(cells: [usize; 3], law: Arc<dyn Law>) -> SolidProblem {
         patch: None,
         law,
         regions: Vec::new(),
+        fibres: None,
         loads: Loads::default(),
         points: vec![LENGTH * Vec3::x()],
     }

@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix3, Rotation3};
 use palpate_mechanics::{
-    Exponential, Law, LinearElastic, MooneyRivlin, NeoHookean, Ogden, ReducedPolynomial, Strain,
-    Tangent,
+    Exponential, FibreFrame, Fibres, HolzapfelGasserOgden, Law, LinearElastic, MooneyRivlin,
+    NeoHookean, Ogden, ReducedPolynomial, Strain, Tangent, Vec3,
 };
 
 use crate::contacts::{MODULUS, Random};
@@ -16,8 +16,10 @@ pub(crate) struct Candidate {
     pub(crate) law: Box<dyn Law>,
     /// The same law with other values of its parameters.
     pub(crate) rebuilt: Builder,
-    /// Young's modulus at rest, by hand [Pa].
+    /// Young's modulus at rest, by hand [Pa]; without its fibres.
     pub(crate) youngs_modulus: f64,
+    /// The law, if it has fibres.
+    pub(crate) fibres: Option<HolzapfelGasserOgden>,
 }
 
 impl Candidate {
@@ -32,6 +34,35 @@ impl Candidate {
             law: Box::new(law),
             rebuilt: Box::new(move |parameters| Box::new(build(parameters))),
             youngs_modulus,
+            fibres: None,
+        }
+    }
+
+    fn with_fibres(parameters: &[f64], bulk_modulus: Option<f64>) -> Self {
+        let build = move |p: &[f64]| with_fibres(p, bulk_modulus);
+        let youngs_modulus = match bulk_modulus {
+            Some(bulk) => 9.0 * bulk * 2.0 * parameters[0] / (3.0 * bulk + 2.0 * parameters[0]),
+            None => 6.0 * parameters[0],
+        };
+        Self {
+            fibres: Some(build(parameters)),
+            ..Self::new(parameters, youngs_modulus, build)
+        }
+    }
+
+    /// Whether the tangent has no jump near a deformation: where no fibre is about to stretch.
+    pub(crate) fn is_smooth_near(&self, f: &Matrix3<f64>) -> bool {
+        let far = |law: &HolzapfelGasserOgden| law.fibre_strains(f).iter().all(|e| e.abs() > 0.05);
+        self.fibres.as_ref().is_none_or(far)
+    }
+
+    /// A random deformation near which the tangent has no jump.
+    pub(crate) fn deformation(&self, random: &mut Random) -> Matrix3<f64> {
+        loop {
+            let f = deformation(random);
+            if self.is_smooth_near(&f) {
+                return f;
+            }
         }
     }
 
@@ -148,7 +179,39 @@ pub(crate) fn every_law() -> Vec<Candidate> {
             move |p| ReducedPolynomial::compressible(p, bulk).unwrap(),
         ));
     }
+    for [k1, k2, dispersion, angle] in FIBRES {
+        let parameters = &[c10, k1 * MODULUS, k2, dispersion, angle];
+        laws.push(Candidate::with_fibres(parameters, None));
+        laws.push(Candidate::with_fibres(parameters, Some(20.0 * c10)));
+    }
     laws
+}
+
+/// k1 in moduli, k2, dispersion and angle of laws with fibres: of one direction and two, without stiffening, without
+/// direction, and without fibres.
+const FIBRES: [[f64; 4]; 6] = [
+    [0.5, 1.0, 0.0, 0.0],
+    [2.0, 5.0, 0.1, 40.0],
+    [1.0, 0.0, 0.226, 49.98],
+    [0.5, 2.0, 1.0 / 3.0, 30.0],
+    [0.3, 1.0, 0.05, 90.0],
+    [0.0, 1.0, 0.1, 60.0],
+];
+
+/// The law of C10, k1, k2, dispersion and angle, in a frame along no axis.
+pub(crate) fn with_fibres(p: &[f64], bulk_modulus: Option<f64>) -> HolzapfelGasserOgden {
+    let fibres = Fibres {
+        k1: p[1],
+        k2: p[2],
+        dispersion: p[3],
+        angle_deg: p[4],
+    };
+    let law = match bulk_modulus {
+        Some(bulk) => HolzapfelGasserOgden::compressible(p[0], fibres, bulk),
+        None => HolzapfelGasserOgden::incompressible(p[0], fibres),
+    };
+    let frame = FibreFrame::new(&Vec3::new(1.0, 2.0, -1.0), &Vec3::new(0.3, -1.0, 2.0));
+    law.unwrap().turned_to(frame.unwrap())
 }
 
 /// Shares of μ and exponents α of Ogden's law.

@@ -23,6 +23,7 @@ mod enhance;
 mod errors;
 mod every_law;
 mod exterior;
+mod fibres;
 mod field;
 mod hexahedra;
 mod homogeneous;

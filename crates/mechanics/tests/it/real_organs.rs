@@ -95,6 +95,7 @@ impl Kidney {
             }),
             law: Arc::new(law(NU)),
             regions: Vec::new(),
+            fibres: None,
             loads: Loads::default(),
             points: Vec::new(),
         }

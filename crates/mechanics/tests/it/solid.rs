@@ -55,8 +55,26 @@ pub(crate) fn cube(radius: f64, nu: f64, friction: Friction) -> SolidProblem {
         }),
         law: Arc::new(LinearElastic::new(MODULUS, nu).unwrap()),
         regions: Vec::new(),
+        fibres: None,
         loads: Loads::default(),
         points: Vec::new(),
+    }
+}
+
+/// The same cube, turned.
+pub(crate) fn turned_cube(straight: &SolidProblem, turn: &Rotation3<f64>) -> SolidProblem {
+    let (vertices, tetrahedra) = block(4).into_parts();
+    let vertices = vertices.into_iter().map(|v| turn * v).collect();
+    let patch = straight.patch.unwrap();
+    SolidProblem {
+        body: Body::Volume(TetrahedronMesh::new(vertices, tetrahedra).unwrap()),
+        anchor: plane(turn * (-0.999 * HALF * Vec3::z()), turn * Vec3::z()),
+        patch: Some(MovedPatch {
+            center: turn * patch.center,
+            displacement: turn * patch.displacement,
+            ..patch
+        }),
+        ..straight.clone()
     }
 }
 
@@ -129,21 +147,7 @@ fn a_turned_body_feels_the_same_force() {
     for grip in [Friction::Frictionless, Friction::Bonded] {
         let straight = cube(0.02, 0.3, grip);
         let turn = Rotation3::from_euler_angles(0.4, -0.7, 1.1);
-        let (vertices, tetrahedra) = block(4).into_parts();
-        let vertices = vertices.into_iter().map(|v| turn * v).collect();
-        let turned = SolidProblem {
-            body: Body::Volume(TetrahedronMesh::new(vertices, tetrahedra).unwrap()),
-            anchor: plane(turn * (-0.999 * HALF * Vec3::z()), turn * Vec3::z()),
-            patch: Some(MovedPatch {
-                center: turn * straight.patch.unwrap().center,
-                displacement: turn * straight.patch.unwrap().displacement,
-                ..straight.patch.unwrap()
-            }),
-            law: straight.law.clone(),
-            regions: Vec::new(),
-            loads: Loads::default(),
-            points: Vec::new(),
-        };
+        let turned = turned_cube(&straight, &turn);
         let (one, other) = (at(&straight, 0), at(&turned, 0));
         let size = one.force.norm();
         for answer in [&one, &other] {
@@ -288,6 +292,7 @@ fn a_patch_on_a_hemisphere_is_3_percent_stiffer_than_on_a_half_space() {
         }),
         law: Arc::new(LinearElastic::new(MODULUS, 0.3).unwrap()),
         regions: Vec::new(),
+        fibres: None,
         loads: Loads::default(),
         points: Vec::new(),
     };
@@ -383,6 +388,7 @@ fn real_kidney_under_a_patch() {
         }),
         law: Arc::new(LinearElastic::new(MODULUS, 0.45).unwrap()),
         regions: Vec::new(),
+        fibres: None,
         loads: Loads::default(),
         points: Vec::new(),
     };

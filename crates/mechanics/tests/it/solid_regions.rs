@@ -49,6 +49,7 @@ fn pulled(law: Arc<dyn Law>, place: RegionPlace) -> SolidProblem {
         anchor: plane(-0.999 * half * Vec3::x(), Vec3::x()),
         patch: None,
         law: linear(1.0, 0.0),
+        fibres: None,
         regions: vec![region(place, law)],
         loads: Loads {
             weight: None,
@@ -209,6 +210,7 @@ fn cells_have_the_tissue_of_their_region() {
         anchor: plane(1e-6 * Vec3::z(), Vec3::z()),
         patch: None,
         law: linear(1e4, 0.0),
+        fibres: None,
         regions: vec![SolidRegion {
             place: SolidPlace::Cells(1),
             law: linear(1e5, 0.0),

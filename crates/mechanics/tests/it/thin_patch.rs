@@ -53,6 +53,7 @@ fn a_patch_on_a_thin_edge_has_its_area() {
         }),
         law: Arc::new(LinearElastic::new(MODULUS, 0.45).unwrap()),
         regions: Vec::new(),
+        fibres: None,
         loads: Loads::default(),
         points: Vec::new(),
     };

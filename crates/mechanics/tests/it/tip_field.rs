@@ -437,6 +437,7 @@ fn real_kidney_error(triangles: usize) -> Option<f64> {
             }),
             law: Arc::new(law(nu)),
             regions: Vec::new(),
+            fibres: None,
             loads: Loads::default(),
             points: Vec::new(),
         };

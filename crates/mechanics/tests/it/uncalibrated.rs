@@ -272,6 +272,7 @@ fn solid_in_half_spaces(contact: &LocalContact, nu: f64) -> (f64, f64) {
         }),
         law: Arc::new(law),
         regions: Vec::new(),
+        fibres: None,
         loads: Loads::default(),
         points: Vec::new(),
     };

@@ -53,10 +53,10 @@ fn compressible_laws_tend_to_incompressible_ones() {
     }
 }
 
-/// E is the slope at rest, of every law; the error of the difference falls with the step.
+/// E is the slope at rest, of every isotropic law; the error of the difference falls with the step.
 #[test]
 fn the_slope_at_rest_is_youngs_modulus() {
-    for law in every_law() {
+    for law in every_law().iter().filter(|law| law.fibres.is_none()) {
         let off = |strain: f64| {
             let stress = nominal_stress(law.law.as_ref(), 1.0 + strain).unwrap();
             (stress / strain / law.youngs_modulus - 1.0).abs()

@@ -137,6 +137,16 @@ const ALL: &[Example] = &[
         "a tube under pressure"
     ),
     example!(
+        "problems/artery.toml",
+        "problems/artery.toml",
+        "an artery under pressure, with its fibres"
+    ),
+    example!(
+        "problems/strip.toml",
+        "problems/strip.toml",
+        "a strip of its wall, pulled"
+    ),
+    example!(
         "problems/uniaxial.toml",
         "problems/uniaxial.toml",
         "a stretched bar"

@@ -38,6 +38,7 @@ mod score;
 mod simulate;
 mod solve;
 mod solve_errors;
+mod solve_fibres;
 mod window;
 
 use std::path::Path;

@@ -171,6 +171,7 @@ fn organ(rows: &Rows<'_>, simulation: &Simulation) -> Result<SolidOrgan, Error> 
         }),
         law: Arc::new(LinearElastic::new(1.0, POISSONS_RATIO)?),
         regions: Vec::new(),
+        fibres: None,
         loads: Loads::default(),
         points: Vec::new(),
     };

@@ -6,6 +6,7 @@
 //! A tip is smaller than an element. What it meets, and what its load leaves out of the elements, are those of a layered
 //! half-space (`palpate_mechanics::layered`).
 
+use palpate_files::scene::TissueChoice;
 use palpate_files::tissue::LawName;
 use palpate_files::{Scene, Tissue};
 use palpate_geometry::{TetrahedronMesh, Vec3};
@@ -15,6 +16,7 @@ use palpate_mechanics::regions::RegionMap;
 use palpate_mechanics::{LinearElastic, Material, PronySeries};
 
 use crate::Error;
+use crate::organ::read_tissue;
 
 /// A larger Poisson's ratio is taken as this [-]: volume is kept to the percent, and a few iterations suffice.
 const LARGEST_RATIO: f64 = 0.49;
@@ -78,18 +80,13 @@ impl Regions {
     ) -> Result<Self, Error> {
         let organ = &scene.organ;
         let mut warnings = Vec::new();
-        let own = Some(material.clone());
-        let mut tissues = vec![RegionTissue::new(tissue.clone(), own, &mut warnings)?];
+        let own = (tissue.clone(), material.clone());
+        let mut tissues = vec![RegionTissue::new(own, &mut warnings)?];
         for layer in &organ.layers {
-            tissues.push(RegionTissue::new(
-                layer.tissue.read()?,
-                None,
-                &mut warnings,
-            )?);
+            tissues.push(RegionTissue::read(&layer.tissue, &mut warnings)?);
         }
         for inclusion in &organ.inclusions {
-            let own = inclusion.tissue.read()?;
-            tissues.push(RegionTissue::new(own, None, &mut warnings)?);
+            tissues.push(RegionTissue::read(&inclusion.tissue, &mut warnings)?);
         }
         warnings.sort();
         warnings.dedup();
@@ -236,19 +233,16 @@ impl Regions {
 }
 
 impl RegionTissue {
+    fn read(choice: &TissueChoice, warnings: &mut Vec<String>) -> Result<Self, Error> {
+        let (tissue, material) = read_tissue(choice)?;
+        warnings.extend(material.warnings.iter().cloned());
+        Self::new((tissue, material), warnings)
+    }
+
     fn new(
-        tissue: Tissue,
-        material: Option<Material>,
+        (tissue, material): (Tissue, Material),
         warnings: &mut Vec<String>,
     ) -> Result<Self, Error> {
-        let material = match material {
-            Some(material) => material,
-            None => {
-                let own = Material::from_tissue(&tissue)?;
-                warnings.extend(own.warnings.iter().cloned());
-                own
-            }
-        };
         let given = material.at_rest.poissons_ratio();
         let ratio = given.min(LARGEST_RATIO);
         let shear = material.at_rest.shear_modulus();

@@ -60,6 +60,7 @@ fn real_liver_of_20000_triangles() {
             }),
             law: law.clone(),
             regions: Vec::new(),
+            fibres: None,
             loads: Loads::default(),
             points: Vec::new(),
         };

@@ -172,6 +172,7 @@ fn a_pulled_hemisphere_is_that_of_finite_elements() {
             }),
             law: Arc::new(NeoHookean::compressible(0.5 * shear, bulk).unwrap()),
             regions: Vec::new(),
+            fibres: None,
             loads: Loads::default(),
             points: Vec::new(),
         };

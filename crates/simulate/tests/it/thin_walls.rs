@@ -141,6 +141,7 @@ fn the_esophagus_is_that_of_finite_elements() {
         }),
         law: law.clone(),
         regions: Vec::new(),
+        fibres: None,
         loads: Loads::default(),
         points: Vec::new(),
     };

@@ -2,6 +2,7 @@
 //!
 //! Reading is checking: a `Problem` that exists has a solution, as far as its numbers can tell.
 
+mod fibres;
 mod hemisphere;
 mod indentation;
 mod regions;
@@ -154,16 +155,24 @@ impl Problem {
         let accuracy = keys.number("accuracy")?;
         let tissue = TissueChoice::from_keys(&keys, folder)?.read()?;
         let case = match kind {
-            Kind::Indentation => Case::Indentation(Indentation::from_keys(&keys)?),
+            Kind::Indentation => {
+                let why = "the block is axisymmetric about its indenter and knows no direction";
+                fibres::refuse(&keys, &tissue, why)?;
+                Case::Indentation(Indentation::from_keys(&keys)?)
+            }
             Kind::Hemisphere => {
                 refuse_large_strain(&keys, &tissue)?;
                 Case::Hemisphere(Hemisphere::from_keys(&keys)?)
             }
             Kind::Tube => Case::Tube(Tube::from_keys(&keys)?),
-            Kind::Uniaxial => Case::Uniaxial(Uniaxial::from_keys(&keys)?),
+            Kind::Uniaxial => Case::Uniaxial(Uniaxial::from_keys(&keys, &tissue)?),
             Kind::Solid => {
                 let law = tissue.elasticity.law();
-                Case::Solid(Solid::from_keys(&keys, folder, law)?)
+                let solid = Solid::from_keys(&keys, folder, law)?;
+                let tissues = std::iter::once(&tissue);
+                let parts = solid.parts.iter().map(|part| &part.tissue);
+                fibres::check(&keys, solid.fibres.as_deref(), tissues.chain(parts))?;
+                Case::Solid(solid)
             }
         };
         Ok(Self {

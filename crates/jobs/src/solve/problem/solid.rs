@@ -8,6 +8,7 @@ use palpate_mechanics::Vec3;
 use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_elements::solid::{DeadLoad, LoadPlace};
 
+use super::fibres::Fibres;
 use super::regions::{self, SolidPart};
 use super::{BOND_MEANINGS, BONDS};
 use crate::Error as JobError;
@@ -18,6 +19,8 @@ pub(crate) struct Solid {
     pub(crate) shape: Shape,
     /// Where it is held; none: where a built-in organ grows.
     pub(crate) anchor: Option<Region>,
+    /// Where the fibres of the tissue point to, if it has any.
+    pub(crate) fibres: Option<Box<Fibres>>,
     pub(crate) patch: Option<Patch>,
     /// [m/s²]
     pub(crate) gravity: Option<Vec3>,
@@ -81,6 +84,12 @@ impl Solid {
         Key::table("anchor", Region::KEYS, "The fixed part.")
             .optional("", "where a built-in shape grows"),
         Key::table(
+            "fibres",
+            Fibres::KEYS,
+            "Where the fibres of the tissue point to at rest; the law `holzapfel_gasser_ogden` needs it.",
+        )
+        .optional("", "the tissue has no fibres"),
+        Key::table(
             "patch",
             Patch::KEYS,
             "The part of the surface that is moved. A patch, gravity or a load has to be there.",
@@ -137,6 +146,7 @@ impl Solid {
         let solid = Self {
             shape,
             anchor,
+            fibres: Fibres::from_keys(keys, folder)?.map(Box::new),
             patch: patch.map(|keys| Patch::from_keys(&keys)).transpose()?,
             gravity,
             loads: loads

@@ -31,6 +31,10 @@ pub enum Figures {
         stretch: Vec<f64>,
         /// [Pa]
         nominal_stress_pa: Vec<f64>,
+        /// Where the tissue has fibres, of the two of axis, across and normal that the bar is not pulled along, in this
+        /// order [-].
+        #[serde(skip_serializing_if = "Option::is_none")]
+        lateral_stretch: Option<Vec<[f64; 2]>>,
     },
     /// An organ of any shape.
     Solid(SolidFigures),

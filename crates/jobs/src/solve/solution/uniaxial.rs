@@ -1,4 +1,7 @@
-use palpate_mechanics::finite_elements::uniaxial::nominal_stress;
+use std::sync::Arc;
+
+use palpate_mechanics::Law;
+use palpate_mechanics::finite_elements::uniaxial::{Stretched, nominal_stress, stretched};
 
 use super::super::problem::{Problem, Uniaxial};
 use super::super::table::Table;
@@ -11,16 +14,26 @@ const SMALL: std::ops::RangeInclusive<f64> = 0.9..=1.1;
 
 /// Nominal stress at each stretch. The bar is everywhere the same, so nothing is left to the mesh.
 pub(crate) fn solution(problem: &Problem, case: &Uniaxial) -> Result<Solution, Error> {
-    let law = problem.material.law.as_ref();
-    let stresses = case
+    let law = problem.material.law.in_frame(&case.frame);
+    let has_fibres = law.is_some();
+    let law = law.unwrap_or_else(|| Arc::clone(&problem.material.law));
+    let bars = case
         .stretches
         .iter()
-        .map(|&stretch| nominal_stress(law, stretch))
-        .collect::<Result<Vec<f64>, _>>()
+        .map(|&stretch| stretched(law.as_ref(), stretch))
+        .collect::<Result<Vec<Stretched>, _>>()
         .map_err(|error| problem.refused(error))?;
-    let table = Table::default()
+    let stresses: Vec<f64> = bars.iter().map(|bar| bar.nominal_stress).collect();
+    let lateral: Vec<[f64; 2]> = bars.iter().map(|bar| bar.lateral).collect();
+    let mut table = Table::default()
         .with("stretch [-]", case.stretches.iter().copied())
         .with("nominal stress [Pa]", stresses.iter().copied());
+    if has_fibres {
+        for (side, name) in case.sides.into_iter().enumerate() {
+            let stretches = lateral.iter().map(|sides| sides[side]);
+            table = table.with(name, stretches);
+        }
+    }
     let mut warnings = Vec::new();
     if problem.is_small_strain()
         && case
@@ -37,10 +50,11 @@ pub(crate) fn solution(problem: &Problem, case: &Uniaxial) -> Result<Solution, E
     Ok(Solution {
         heading: "Bar, pulled or pressed along its axis, free to widen".to_owned(),
         tables: vec![table],
-        plot: over_stretch(problem, &case.stretches, &stresses),
+        plot: over_stretch(problem, law.as_ref(), &case.stretches, &stresses),
         figures: Figures::Uniaxial {
             stretch: case.stretches.clone(),
             nominal_stress_pa: stresses,
+            lateral_stretch: has_fibres.then_some(lateral),
         },
         unknowns: 0,
         estimated_error: 0.0,
@@ -51,8 +65,7 @@ pub(crate) fn solution(problem: &Problem, case: &Uniaxial) -> Result<Solution, E
     })
 }
 
-fn over_stretch(problem: &Problem, stretches: &[f64], stresses: &[f64]) -> Plot {
-    let law = problem.material.law.as_ref();
+fn over_stretch(problem: &Problem, law: &dyn Law, stretches: &[f64], stresses: &[f64]) -> Plot {
     let lowest = stretches.iter().copied().fold(1.0, f64::min);
     let highest = stretches.iter().copied().fold(1.0, f64::max);
     let between = (0..=120).filter_map(|k| {

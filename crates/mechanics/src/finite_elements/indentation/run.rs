@@ -14,7 +14,7 @@ use super::indenter::{Indenter, IndenterShape};
 use super::mesh::{Base, Block, Body};
 use super::sensitivities::Sensitivities;
 use crate::material::law::Law;
-use crate::{Error, PronySeries, Strain};
+use crate::{Error, FibreError, PronySeries, Strain};
 
 /// An indentation to be solved on one mesh.
 #[derive(Debug, Clone)]
@@ -147,6 +147,10 @@ impl IndentationRun {
     fn in_body(body: Body, settings: &IndentationSettings) -> Result<Self, Error> {
         let indenter = settings.indenter;
         let top = body.top;
+        if settings.law.has_fibres() {
+            let model = "an axisymmetric indentation";
+            return Err(FibreError::NoDirection { model }.into());
+        }
         let model = FiniteElementModel::new(body.mesh, settings.law.clone(), Formulation::Mixed)?;
         let glued = match settings.block.base {
             Base::Bonded => body.bottom.clone(),

@@ -2,7 +2,7 @@ use nalgebra::Matrix3;
 
 use super::super::model::{FiniteElementModel, FiniteElementState, FiniteElementWorkspace};
 use super::frame::{Conditions, Frame};
-use crate::{Strain, Vec3};
+use crate::{FibreField, Strain, Vec3};
 
 /// A solid in equilibrium, in the frame of the scene.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,6 +46,8 @@ pub struct SolidFields {
     pub pressures: Vec<f64>,
     /// Von Mises' equivalent stress of each tetrahedron, of its mean Cauchy stress [Pa].
     pub equivalent_stresses: Vec<f64>,
+    /// Reference axis of the fibres in the middle of each tetrahedron, of length one [-]; empty without fibres.
+    pub fibre_axes: Vec<Vec3>,
 }
 
 impl SolidAnswer {
@@ -90,7 +92,22 @@ impl SolidFields {
             equivalent_stresses: (0..model.mesh.len())
                 .map(|element| equivalent_stress(model, state, element))
                 .collect(),
+            fibre_axes: Vec::new(),
         }
+    }
+
+    /// Puts the axes of these fibres in.
+    pub(super) fn set_fibres(&mut self, fibres: &FibreField) {
+        let middle = |cell: &[u32]| {
+            let corners = cell[..4].iter();
+            corners
+                .map(|&node| self.positions[node as usize])
+                .sum::<Vec3>()
+                / 4.0
+        };
+        let cells = self.cells.chunks_exact(10);
+        let axes = cells.map(|cell| *fibres.at(&middle(cell)).axis());
+        self.fibre_axes = axes.collect();
     }
 }
 
@@ -145,7 +162,7 @@ fn equivalent_stress(
     state: &FiniteElementState,
     element: usize,
 ) -> f64 {
-    let (law, mapping) = (model.law_of(element), &model.mapping);
+    let mapping = &model.mapping;
     let (mut mean, mut volume) = (Matrix3::zeros(), 0.0);
     for point in element * mapping.points..(element + 1) * mapping.points {
         let mut f = Matrix3::identity();
@@ -154,6 +171,7 @@ fn equivalent_stress(
             let u = state.displacement(model, *node as usize);
             f += u * Vec3::from_column_slice(g).transpose();
         }
+        let law = model.law_at(point);
         let stress = law.distortion_stress(&f);
         let cauchy = match law.volume().strain {
             Strain::Small => stress,

@@ -6,7 +6,7 @@ use super::super::model::FiniteElementModel;
 use super::super::supports::Supports;
 use super::problem::MovedPatch;
 use super::supports::Held;
-use crate::Vec3;
+use crate::{FibreFrame, Vec3};
 
 /// The frame in which a body is solved: that of the scene, or one whose third axis points along the
 /// displacement, so that a patch that slides across it has one held component.
@@ -60,6 +60,11 @@ impl Frame {
     /// A vector of the frame in the scene.
     pub(super) fn back(&self, vector: &Vec3) -> Vec3 {
         self.turn.inverse() * vector
+    }
+
+    /// Directions of the scene in the frame.
+    pub(super) fn turned(&self, fibres: &FibreFrame) -> FibreFrame {
+        fibres.turned(&self.turn)
     }
 
     /// A vector of the scene in the frame.

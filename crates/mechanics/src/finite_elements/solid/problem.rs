@@ -4,9 +4,9 @@ use std::sync::Arc;
 use palpate_files::scene::Region;
 use palpate_geometry::{Surface, TetrahedronMesh};
 
-use crate::Vec3;
 use crate::material::law::Law;
 use crate::regions::RegionPlace;
+use crate::{FibreField, Vec3};
 
 /// What the solid fills.
 #[derive(Debug, Clone)]
@@ -100,6 +100,8 @@ pub struct SolidProblem {
     pub law: Arc<dyn Law>,
     /// Parts of other tissue. Shapes and surfaces are above layers, and these above cells.
     pub regions: Vec<SolidRegion>,
+    /// Where its fibres point to, if it has any.
+    pub fibres: Option<FibreField>,
     /// What loads it besides. Loads and the displacement of the patch grow together from rest.
     pub loads: Loads,
     /// Points of the body whose displacement is asked for [m].

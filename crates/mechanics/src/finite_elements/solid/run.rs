@@ -9,7 +9,7 @@ use super::mesh::faces;
 use super::problem::{Body, SolidProblem};
 use super::solve::equilibrium;
 use super::supports::Held;
-use crate::{Error, Vec3};
+use crate::{Error, FibreError, Vec3};
 
 /// More unknowns than these are refused: their factors would have about ten gigabytes.
 const MOST_UNKNOWNS: usize = 600_000;
@@ -109,8 +109,11 @@ impl SolidProblem {
         let laws = std::iter::once(&self.law);
         let laws = laws.chain(self.regions.iter().map(|region| &region.law));
         let laws: Vec<_> = laws.cloned().collect();
-        let model =
+        let mut model =
             FiniteElementModel::with_regions(elements, &laws, &regions, Formulation::Mixed)?;
+        if let Some(fibres) = &self.fibres {
+            model = model.in_frames(|place| frame.turned(&fibres.at(&frame.back(place))));
+        }
         let mut workspace = FiniteElementWorkspace::new(&model)?;
         let mut load = match &self.loads.weight {
             Some(weight) => {
@@ -147,6 +150,9 @@ impl SolidProblem {
         };
         answer.points = places.iter().map(moved).collect();
         answer.fields.regions = regions;
+        if let Some(fibres) = &self.fibres {
+            answer.fields.set_fibres(fibres);
+        }
         answer.warnings.clone_from(&context.warnings);
         answer.warnings.extend(graded.warnings);
         if crossing > 0 {
@@ -186,6 +192,12 @@ impl SolidProblem {
         }
         if self.anchor.is_empty() {
             return Err(Error::NothingHeld);
+        }
+        let laws = self.regions.iter().map(|region| &region.law);
+        let mut laws = std::iter::once(&self.law).chain(laws);
+        if laws.any(|law| law.has_fibres()) && self.fibres.is_none() {
+            let model = "a solid without `fibres`";
+            return Err(FibreError::NoDirection { model }.into());
         }
         Ok(())
     }

@@ -11,7 +11,7 @@ use super::super::newton::equilibrate;
 use super::super::path::{Path, PathPoint};
 use super::super::supports::Supports;
 use super::{Ends, TubeProblem, check_pressure, mesh};
-use crate::{Error, Strain};
+use crate::{Error, FibreFrame, Strain, Vec3};
 
 /// An inflated tube.
 #[derive(Debug, Clone, PartialEq)]
@@ -104,7 +104,10 @@ pub(super) fn on_mesh(
     progress: &mut dyn FnMut(Progress),
 ) -> Result<Inflated, Error> {
     let (elements, cavity) = mesh::half(&problem.tube, PARTS[mesh]);
-    let model = FiniteElementModel::new(elements, problem.law.clone(), Formulation::Mixed)?;
+    // The third direction is the hoop. The two families mirror one another, so that the tube does not twist.
+    let frame = FibreFrame::new(&Vec3::z(), &Vec3::y()).expect("they are at right angles");
+    let model = FiniteElementModel::new(elements, problem.law.clone(), Formulation::Mixed)?
+        .in_frames(|_| frame);
     let inner = problem.tube.inner_radius;
     let middle = model
         .mesh()

@@ -51,7 +51,8 @@ pub enum Ends {
 pub struct TubeProblem {
     /// Its shape.
     pub tube: Tube,
-    /// Its law; with [`crate::Strain::Small`] all is linear and there is no limit.
+    /// Its law; with [`crate::Strain::Small`] all is linear and there is no limit. Fibres lie in the wall, at their angle to
+    /// the circumference.
     pub law: Arc<dyn Law>,
     /// Its ends.
     pub ends: Ends,

@@ -17,7 +17,7 @@ use super::super::supports::Supports;
 use super::TubeProblem;
 use super::indent::TubePunch;
 use super::solid::{Quarter, quarter};
-use crate::{Error, Strain, Vec3};
+use crate::{Error, FibreField, Strain, Vec3};
 
 /// Longest step of the depth, in radii of the punch [-].
 const LONGEST_STEP: f64 = 0.5;
@@ -58,7 +58,9 @@ impl<'a> Punching<'a> {
     ) -> Result<Self, Error> {
         let Quarter { body, cavity } = quarter(&problem.tube, punch.radius, parts)?;
         let face = body.face;
-        let model = FiniteElementModel::new(body.mesh, problem.law.clone(), Formulation::Mixed)?;
+        let fibres = FibreField::around(Vec3::zeros(), Vec3::z()).expect("the axis has a length");
+        let model = FiniteElementModel::new(body.mesh, problem.law.clone(), Formulation::Mixed)?
+            .in_frames(|place| fibres.at(place));
         let half = 0.5 * problem.tube.length;
         let tiny = 1e-9 * problem.tube.outer_radius;
         let on = |axis: usize, at: f64| {
@@ -301,7 +303,7 @@ impl<'a> Punching<'a> {
 mod tests {
     use super::super::{Ends, Tube, inflate};
     use super::*;
-    use crate::{LinearElastic, NeoHookean};
+    use crate::{Fibres, HolzapfelGasserOgden, Law, LinearElastic, NeoHookean};
 
     fn problem(tube: [f64; 3], law: impl crate::Law + 'static) -> TubeProblem {
         TubeProblem {
@@ -345,22 +347,34 @@ mod tests {
         }
     }
 
-    /// The axisymmetric tube, which has another mesh and other elements.
+    /// The axisymmetric tube, which has another mesh and other elements; also of fibres, which here turn with the wall.
     #[test]
     fn pressure_alone_widens_the_axisymmetric_tube() {
-        let law = NeoHookean::incompressible(5200.0 / 6.0).unwrap();
-        let problem = problem([0.03, 0.005, 0.0075], law);
-        let punch = punch(0.002, Friction::Bonded, 400.0);
-        let mut run = Punching::new(&problem, &punch, 1).unwrap();
-        run.pressurise().unwrap();
-        let far = |x: &Vec3| (x.xy() - nalgebra::Vector2::new(-0.005, 0.0)).norm() < 1e-9;
-        let node = run.model.mesh().nodes_where(|x| far(x) && x.z == 0.0)[0];
-        let solid = -run.now.state.displacement(&run.model, node).x;
-        let answer = inflate::on_mesh(&problem, &[400.0], 2, &mut |_| {}).unwrap();
-        let flat = answer.inner_displacements[0].unwrap();
-        println!("{} unknowns: {solid}, {flat}", run.unknowns());
-        // The coarse solid, with elements as long as the wall is thick.
-        assert!((solid / flat - 1.0).abs() < 0.01, "{solid} {flat}");
+        let fibres = Fibres {
+            k1: 2000.0,
+            k2: 1.0,
+            dispersion: 0.1,
+            angle_deg: 35.0,
+        };
+        let laws: [Arc<dyn Law>; 2] = [
+            Arc::new(NeoHookean::incompressible(5200.0 / 6.0).unwrap()),
+            Arc::new(HolzapfelGasserOgden::incompressible(5200.0 / 6.0, fibres).unwrap()),
+        ];
+        for law in laws {
+            let mut problem = problem([0.03, 0.005, 0.0075], LinearElastic::new(1.0, 0.3).unwrap());
+            problem.law = law;
+            let punch = punch(0.002, Friction::Bonded, 400.0);
+            let mut run = Punching::new(&problem, &punch, 1).unwrap();
+            run.pressurise().unwrap();
+            let far = |x: &Vec3| (x.xy() - nalgebra::Vector2::new(-0.005, 0.0)).norm() < 1e-9;
+            let node = run.model.mesh().nodes_where(|x| far(x) && x.z == 0.0)[0];
+            let solid = -run.now.state.displacement(&run.model, node).x;
+            let answer = inflate::on_mesh(&problem, &[400.0], 2, &mut |_| {}).unwrap();
+            let flat = answer.inner_displacements[0].unwrap();
+            println!("{} unknowns: {solid}, {flat}", run.unknowns());
+            // The coarse solid, with elements as long as the wall is thick.
+            assert!((solid / flat - 1.0).abs() < 0.01, "{solid} {flat}");
+        }
     }
 
     /// F = d(E − p V)/dd, of the whole tube under pressure.

@@ -272,6 +272,7 @@ fn a_pulled_esophagus_is_that_of_finite_elements() {
         }),
         law: Arc::new(LinearElastic::new(YOUNGS_MODULUS, 0.45).unwrap()),
         regions: Vec::new(),
+        fibres: None,
         loads: Loads::default(),
         points: Vec::new(),
     };

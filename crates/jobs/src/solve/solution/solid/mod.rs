@@ -58,6 +58,7 @@ pub(crate) fn solution(
         patch: patch.map(moved),
         law: problem.material.law.clone(),
         regions,
+        fibres: case.fibres.as_ref().map(|fibres| fibres.field.clone()),
         loads: Loads {
             weight: case.gravity.map(|gravity| Weight {
                 gravity,
@@ -403,6 +404,19 @@ fn grid(fields: &SolidFields) -> Vec<u8> {
         .iter()
         .map(|region| f64::from(*region))
         .collect();
+    let mut in_cells = vec![
+        field(
+            "equivalent_stress_pa",
+            FieldValues::Scalars(&fields.equivalent_stresses),
+        ),
+        field("region", FieldValues::Scalars(&regions)),
+    ];
+    if !fields.fibre_axes.is_empty() {
+        in_cells.push(field(
+            "fibre_axis",
+            FieldValues::Vectors(&fields.fibre_axes),
+        ));
+    }
     unstructured_grid(
         &fields.positions,
         &cells,
@@ -413,13 +427,7 @@ fn grid(fields: &SolidFields) -> Vec<u8> {
             ),
             field("mean_stress_pa", FieldValues::Scalars(&fields.pressures)),
         ],
-        &[
-            field("region", FieldValues::Scalars(&regions)),
-            field(
-                "equivalent_stress_pa",
-                FieldValues::Scalars(&fields.equivalent_stresses),
-            ),
-        ],
+        &in_cells,
     )
 }
 

@@ -1,7 +1,7 @@
 use nalgebra::Matrix3;
-use palpate_mechanics::Law;
 use palpate_mechanics::finite_elements::estimate::Estimated;
 use palpate_mechanics::finite_elements::tube::Inflated;
+use palpate_mechanics::{FibreFrame, Law, Vec3};
 
 use super::super::super::problem::{Problem, Tube};
 use super::super::plots;
@@ -24,8 +24,15 @@ pub(crate) fn curve(
     let most = inflated
         .limit_pressure
         .map_or(most, |limit| most.min(limit));
-    // Denser towards the limit, where a little pressure moves the wall far.
-    let part = |k: usize| 1.0 - (1.0 - k as f64 / POINTS as f64).powi(3);
+    let part = |k: usize| {
+        let even = k as f64 / POINTS as f64;
+        match inflated.limit_pressure {
+            // Denser towards the limit, where a little pressure moves the wall far.
+            Some(_) => 1.0 - (1.0 - even).powi(3),
+            // Else at both ends: fibres make the wall stiffer the more it widens.
+            None => 0.5 - 0.5 * (std::f64::consts::PI * even).cos(),
+        }
+    };
     let pressures: Vec<f64> = (0..=POINTS)
         .map(|k| part(k) * (1.0 - 1e-6) * most)
         .collect();
@@ -89,7 +96,14 @@ fn endless_pressure(problem: &Problem, case: &Tube, moved: f64) -> f64 {
                 * ((1.0 - 2.0 * nu) * squares.0 + squares.1);
             moved / compliance
         }
-        false => incompressible_pressure(problem.material.law.as_ref(), (inner, outer), moved),
+        false => {
+            let law = &problem.material.law;
+            // The hoop is the first axis here, the axis of the tube the third.
+            let frame = FibreFrame::new(&Vec3::x(), &Vec3::z());
+            let in_wall = frame.and_then(|frame| law.in_frame(&frame));
+            let law = in_wall.as_ref().unwrap_or(law);
+            incompressible_pressure(law.as_ref(), (inner, outer), moved)
+        }
     }
 }
 
