@@ -44,7 +44,7 @@ impl Default for CharacterizeSettings {
     fn default() -> Self {
         Self {
             relaxation: RelaxationSettings::default(),
-            laws: SoughtLaw::ALL.to_vec(),
+            laws: SoughtLaw::USUAL.to_vec(),
             draws: Some(Draws {
                 count: 100,
                 seed: 1,
@@ -90,7 +90,7 @@ pub fn characterize(
     at_step("relaxation");
     let of_block = curves.as_mut().ok();
     let of_block = of_block.filter(|curves| matches!(curves.body(), Body::Block { .. }));
-    let neo_hookean = of_block.and_then(|curves| curves.of(f64::INFINITY, 0.0).ok());
+    let neo_hookean = of_block.and_then(|curves| curves.of(f64::INFINITY, &[]).ok());
     let records = records(&pressed, neo_hookean.as_ref());
     let relaxing = relaxation(&records, settings.relaxation);
     let of_steps = relaxation_of_steps(&records, settings.relaxation);
@@ -267,7 +267,7 @@ fn half_space_factor(
 ) -> Option<String> {
     let header = &recordings.first()?.header;
     header.thickness_m?;
-    let curve = curves.of(f64::INFINITY, 0.0).ok()?;
+    let curve = curves.of(f64::INFINITY, &[]).ok()?;
     let contact = Contact::of(header).ok()?;
     // E = 6 C₁₀, and the curve is that of C₁₀ = 1 Pa.
     let modulus = mean_modulus(contact, false, deepest, curve.force.force(deepest)).ok()?;

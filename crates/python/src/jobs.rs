@@ -112,7 +112,13 @@ type Fitted<'py> = (String, Vec<FoundTissue>, Vec<Vec<Bound<'py, PyDict>>>);
 pub(crate) fn _characterize<'py>(
     py: Python<'py>,
     recordings: &str,
-    choice: (Option<String>, Option<usize>, usize, u64, bool),
+    choice: (
+        Option<(String, Option<usize>)>,
+        Option<usize>,
+        usize,
+        u64,
+        bool,
+    ),
     study: Option<(PathBuf, bool)>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Fitted<'py>> {
@@ -120,7 +126,9 @@ pub(crate) fn _characterize<'py>(
     let (law, terms, draws, seed, in_loop) = choice;
     let (answer, tissues, fits) = waiting(py, progress, move |told| {
         let choice = Choice {
-            law: law.as_deref().map(Choice::law_named).transpose()?,
+            law: law
+                .map(|(name, order)| Choice::law_named(&name, order))
+                .transpose()?,
             terms,
             draws,
             seed,
