@@ -9,6 +9,7 @@ use palpate_mechanics::{IndentationCurve, Law, PronySeries};
 use super::body::Body;
 use super::family::Family;
 use super::law::SoughtLaw;
+use super::organ::FarField;
 use super::tables;
 use crate::Error;
 
@@ -39,6 +40,8 @@ pub struct Curves {
     solves: usize,
     /// What counts of the bounds on the product of an elastic force and G(t) [-].
     product_share: f64,
+    /// How much more the organ gives way than the body; none of a specimen that is the body.
+    far: Option<FarField>,
 }
 
 /// What is left of these bounds when full runs have taken the product's error away [-]: how far its size differs between
@@ -66,6 +69,23 @@ impl Curves {
             solved: Vec::new(),
             solves: 0,
             product_share: 1.0,
+            far: None,
+        }
+    }
+
+    /// The same in an organ, which gives way by so much more than the body.
+    pub fn in_organ(self, far: FarField) -> Self {
+        // Of the depth the body has what the rest leaves; a force that grows less than linearly leaves a tenth more.
+        let part = 1.1 * (1.0 - far.share);
+        let part = if far.compliance > 0.0 {
+            part.min(1.0)
+        } else {
+            part
+        };
+        Self {
+            deepest: part * self.deepest,
+            far: Some(far),
+            ..self
         }
     }
 
@@ -144,16 +164,41 @@ impl Curves {
                 self.solved.push((modulus, family));
             }
         }
-        Ok(curve)
+        Ok(self.placed(curve))
     }
 
     /// The curve of these shapes [-] at a `modulus` [Pa], as far as it follows from what was tabulated or solved; none
     /// where nothing was.
     pub(super) fn predicted(&self, modulus: f64, shape: &[f64]) -> Option<UnitCurve> {
-        tables::curve(&self.body, self.law, shape, self.deepest).or_else(|| {
+        let tabulated = tables::curve(&self.body, self.law, shape, self.deepest);
+        let known = tabulated.or_else(|| {
             let place = self.family(modulus)?;
             Some(self.solved[place].1.at(shape))
-        })
+        });
+        known.map(|curve| self.placed(curve))
+    }
+
+    /// A curve of the body in its organ: at each force the depth is larger by what the organ gives way.
+    fn placed(&self, curve: UnitCurve) -> UnitCurve {
+        let Some(far) = self.far else {
+            return curve;
+        };
+        let further = far.compliance / self.law.shear();
+        let known: Vec<(f64, f64)> = curve.force.points().skip(1).collect();
+        let depths: Vec<f64> = known.iter().map(|(d, force)| d + further * force).collect();
+        let through = |of: &dyn Fn(&(f64, f64)) -> f64| {
+            IndentationCurve::through(&depths, &known.iter().map(of).collect::<Vec<_>>())
+        };
+        let by_shape = curve.by_shape.iter().map(|by| {
+            // At one depth of the organ, that of the body falls where the force rises.
+            through(&|(d, _)| by.force(*d) / (1.0 + further * curve.force.stiffness(*d)))
+        });
+        UnitCurve {
+            force: through(&|(_, force)| *force),
+            by_shape: by_shape.collect(),
+            discretisation: curve.discretisation + far.error,
+            shape: curve.shape,
+        }
     }
 
     /// The shapes next to `shape` [-] that were tabulated or solved at a `modulus` [Pa].

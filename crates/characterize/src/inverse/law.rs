@@ -156,6 +156,14 @@ impl SoughtLaw {
         self.shapes().iter().map(|range| range.start).collect()
     }
 
+    /// The shear modulus at rest over the modulus [-].
+    pub(super) fn shear(self) -> f64 {
+        match self {
+            Self::NeoHookean | Self::MooneyRivlin | Self::ReducedPolynomial(_) => 2.0,
+            Self::Exponential | Self::Ogden(_) => 1.0,
+        }
+    }
+
     /// How many parameters it has.
     pub fn count(self) -> usize {
         1 + self.shapes().len()

@@ -10,8 +10,8 @@
 //! *How we know*: `inverse::…`: forces of full viscoelastic runs, at other meshes and Poisson's ratios.
 //!
 //! *Limits*: one law and one relaxation for the whole body, homogeneous, isotropic and incompressible; a solid
-//! specimen is indented in its middle, and large where its recording does not state its size ([`assumption`]); a
-//! tube has no other law than the neo-Hookean.
+//! specimen is indented in its middle, and large where its recording does not state its size ([`assumption`]), or an
+//! [`Organ`] of its own shape; a tube has no other law than the neo-Hookean.
 
 mod body;
 mod correlations;
@@ -23,6 +23,7 @@ mod fitted_force;
 mod forces;
 mod law;
 mod law_fit;
+mod organ;
 mod repeated;
 mod tables;
 mod thickness;
@@ -36,6 +37,7 @@ pub use fitted_force::{ElasticForce, standard_errors};
 pub use forces::{Indentation, ZeroErrors};
 pub use law::{LawParameter, ShapeRange, SoughtLaw, Terms};
 pub use law_fit::{LawFit, OtherMinimum, law_fit};
+pub use organ::{FarField, Organ};
 pub use repeated::{LEAST_DRAWS, NoiseEffect, Repeated, repeated};
 pub use tables::{PUNCH, SHAPES};
 pub use thickness::{CONE_ON_LAYER, PUNCH_ON_LAYER, THICKNESSES, assumption, sphere_on_layer};
