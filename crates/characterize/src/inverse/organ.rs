@@ -1,7 +1,7 @@
 //! An organ of any shape under an indenter: how much more it gives way than a large piece.
 //!
 //! Far from an indenter strain is small, whatever it is beneath it. So an organ differs from a large piece of the same
-//! tissue by a compliance in series [Johnson 1985],
+//! tissue by a compliance in series,
 //!   d = d_piece + γ F/G,
 //! and the curve of the piece becomes that of the organ when its depths are moved, of every law and every shape. γ [1/m] is
 //! the difference of two compliances at small strain: that of the organ under a patch of the contact's size, by
