@@ -60,6 +60,12 @@ pub enum Error {
         "the recording is of an organ with a `mesh`, which was not read; characterize it by the command, which reads it"
     )]
     NoMesh,
+    /// An organ with a mesh under an indenter that is not flat.
+    #[error(
+        "an organ's `mesh` is fitted under a flat punch alone; leave `mesh` out and state the thickness under the indenter, \
+         `thickness_m`"
+    )]
+    OrganIndenter,
     /// The mesh of an organ is none.
     #[error("{why}")]
     UnreadMesh {
@@ -252,6 +258,7 @@ impl Error {
             | Self::BadParameter { .. }
             | Self::HollowOrgan
             | Self::NoMesh
+            | Self::OrganIndenter
             | Self::UnreadMesh { .. }
             | Self::OffMesh { .. }
             | Self::PressedWhereFixed

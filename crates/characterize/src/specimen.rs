@@ -12,6 +12,7 @@ use std::ops::Range;
 
 use palpate_files::recording::StimulusKind;
 use palpate_files::{Estimate, PronyTerm, Tissue};
+use palpate_mechanics::finite_elements::indentation::IndenterShape;
 
 use crate::clean::SegmentKind;
 use crate::fit::{Draws, simplest};
@@ -99,7 +100,7 @@ pub fn characterize_organ(
     let is_organ = organ.is_some();
     let far = organ.filter(|_| deepest > 0.0).map(|organ| {
         at_step("finite elements of the organ");
-        far_field(&organ?, body.clone()?, deepest)
+        far_field(&organ?, body.clone()?)
     });
     let far = far.transpose();
     let mut curves = body.clone().and_then(|body| {
@@ -273,12 +274,13 @@ fn body(recordings: &[CleanRecording], deepest: f64) -> Result<Body, Error> {
 }
 
 /// How much more an organ gives way than the large piece `body`.
-fn far_field(organ: &Organ, body: Body, deepest: f64) -> Result<FarField, Error> {
+fn far_field(organ: &Organ, body: Body) -> Result<FarField, Error> {
     match body {
-        Body::Block { block, indenter } => {
-            organ.far_field(&block, indenter.contact_radius(deepest))
-        }
-        Body::Tube { .. } => Err(Error::HollowOrgan),
+        Body::Block { block, indenter } => match indenter.shape {
+            IndenterShape::Flat { .. } => organ.far_field(&block, indenter.radius),
+            _ => Err(Error::OrganIndenter),
+        },
+        Body::Tube { .. } => Err(Error::OrganIndenter),
     }
 }
 

@@ -10,8 +10,9 @@
 //!
 //! *How we know*: `organ::…`: a hemisphere by axisymmetric elements; runs of the whole organ at finite strain.
 //!
-//! *Limits*: where the organ is hardly thicker or wider than the contact, or bends as a whole by much more than the
-//! depth, what is far from the indenter is strained too: [`FarField::share`] says how much of the depth it is.
+//! *Limits*: flat punches, for the curvature of the organ under a sphere or a cone is not taken into account; where the
+//! organ is hardly thicker or wider than the contact, or bends as a whole by much more than the depth, what is far from the
+//! indenter is strained too: [`FarField::share`] says how much of the depth it is.
 
 use std::sync::Arc;
 
@@ -44,7 +45,7 @@ pub struct FarField {
     pub compliance: f64,
     /// Part of the depth that it takes at small strain [-].
     pub share: f64,
-    /// Part of the force that the elements may be off [-].
+    /// Part of the force that the elements may be off, and that what is far is strained by more than a little [-].
     pub error: f64,
 }
 
@@ -66,6 +67,9 @@ const BEYOND: f64 = 1.0 / 3.0;
 /// Part of that difference that stays in doubt [-], and the least error [-].
 const LEFT: f64 = 0.5;
 const LEAST: f64 = 0.005;
+/// Error of the force over the share of the depth, because what is far is taken for linear [-]: on a hemisphere, under
+/// punches of a tenth and a twentieth of its radius that go in by 1.5 and 2 radii, up to 2.2 % of 7.7 % and 0.9 % of 3.8 %.
+const FINITE: f64 = 0.25;
 
 impl Organ {
     /// How much more it gives way under a contact of `radius` [m] than the piece `block`.
@@ -130,10 +134,12 @@ impl Organ {
         }
         let whole = fine + BEYOND * (fine - coarse);
         let further = whole - piece(*block)?;
+        let share = further / whole;
+        let elements = (LEFT * (fine / coarse - 1.0).abs()).max(LEAST);
         Ok(FarField {
             compliance: further,
-            share: further / whole,
-            error: (LEFT * (fine / coarse - 1.0).abs()).max(LEAST),
+            share,
+            error: elements + FINITE * share.abs(),
         })
     }
 

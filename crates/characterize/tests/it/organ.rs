@@ -33,18 +33,18 @@ fn hemisphere() -> Organ {
     }
 }
 
-fn far_field(body: &Body, radius: f64) -> FarField {
+fn far_field(body: &Body) -> FarField {
     let Body::Block { block, .. } = body else {
         panic!("a punch is pressed into a block");
     };
-    hemisphere().far_field(block, radius).unwrap()
+    hemisphere().far_field(block, RADIUS).unwrap()
 }
 
 /// Judge: axisymmetric elements, 1.079 of the half-space for a patch of 5 mm on a hemisphere of 50 mm, and 1.000 on the
-/// large piece. Tolerance: the error that is stated.
+/// large piece. Tolerance: the least error of the elements.
 #[test]
 fn a_hemisphere_is_stiffer_than_a_large_piece() {
-    let far = far_field(&Body::under_punch(RADIUS), RADIUS);
+    let far = far_field(&Body::under_punch(RADIUS));
     let depth = 1e-2 * RADIUS;
     let round = HemisphereProblem {
         radius: ROUND,
@@ -57,8 +57,9 @@ fn a_hemisphere_is_stiffer_than_a_large_piece() {
     // 8 G a d, and 0.9995 of it on the large piece.
     let share = 1.0 - force / (0.9995 * 8.0 * RADIUS * depth * 3.0 / 2.9998);
     println!("{far:?}, {share}");
-    assert!((far.share - share).abs() < far.error, "{far:?} {share}");
-    assert!(far.error < 0.01 && far.compliance < 0.0, "{far:?}");
+    assert!((far.share - share).abs() < 0.005, "{far:?} {share}");
+    // Of them 0.5 % by the elements, and a fourth of the share.
+    assert!(far.error < 0.03 && far.compliance < 0.0, "{far:?}");
 }
 
 /// Elastic forces on the pole by axisymmetric elements at finite strain, extrapolated from two meshes.
@@ -99,7 +100,7 @@ fn elastic(
 
 /// Of each parameter, how many of `seeds` recordings with noise of 1 % of the largest force hold it in the interval of
 /// 95 %.
-fn held((body, radius): (Body, f64), law: SoughtLaw, deepest: f64, seeds: u64) -> Vec<usize> {
+fn held(law: SoughtLaw, deepest: f64, seeds: u64) -> Vec<usize> {
     let (modulus, shape) = (
         731.0,
         if law == SoughtLaw::NeoHookean {
@@ -108,8 +109,9 @@ fn held((body, radius): (Body, f64), law: SoughtLaw, deepest: f64, seeds: u64) -
             vec![4.7]
         },
     );
+    let body = Body::under_punch(RADIUS);
     let curve = elastic(&body, law, modulus, &shape, deepest);
-    let far = far_field(&body, radius);
+    let far = far_field(&body);
     let mut curves = Curves::new(body, law, deepest).in_organ(far);
     let series = PronySeries::default();
     let time: Vec<f64> = (0..=200).map(|i| 0.01 * f64::from(i)).collect();
@@ -142,8 +144,7 @@ fn held((body, radius): (Body, f64), law: SoughtLaw, deepest: f64, seeds: u64) -
 /// Judge: forces of axisymmetric elements at finite strain, to as deep as the punch is wide.
 #[test]
 fn a_modulus_on_a_hemisphere_is_within_its_interval() {
-    let body = Body::under_punch(RADIUS);
-    let held = held((body, RADIUS), SoughtLaw::NeoHookean, RADIUS, 1);
+    let held = held(SoughtLaw::NeoHookean, RADIUS, 1);
     assert_eq!(held, [1]);
 }
 
@@ -151,14 +152,8 @@ fn a_modulus_on_a_hemisphere_is_within_its_interval() {
 #[test]
 #[ignore = "slow: finite elements of a hemisphere on four meshes"]
 fn intervals_on_a_hemisphere_hold_the_truth() {
-    let punch = (Body::under_punch(RADIUS), RADIUS);
-    let ball = (Body::under_sphere(2.0 * RADIUS), RADIUS * 2_f64.sqrt());
-    for (place, law) in [
-        (punch, SoughtLaw::NeoHookean),
-        (punch, SoughtLaw::Ogden(Terms::One)),
-        (ball, SoughtLaw::NeoHookean),
-    ] {
-        let held = held(place, law, RADIUS, 100);
+    for law in [SoughtLaw::NeoHookean, SoughtLaw::Ogden(Terms::One)] {
+        let held = held(law, RADIUS, 100);
         assert!(held.iter().all(|held| *held >= 90), "{law:?} {held:?}");
     }
 }
@@ -203,7 +198,7 @@ fn a_recording_of_an_organ_needs_its_mesh() {
         fixed: Some(hemisphere().fixed),
         ..RecordingHeader::default()
     };
-    let recording = [clean(
+    let mut recording = [clean(
         &Recording::new(header, samples).unwrap(),
         &CleanSettings::default(),
     )
@@ -216,11 +211,14 @@ fn a_recording_of_an_organ_needs_its_mesh() {
     let found = characterize(&recording, &settings, &mut |_| ());
     assert_eq!(found.laws[0].1, Err(Error::NoMesh));
     let organ = Some(Ok(hemisphere()));
-    let found = characterize_organ(&recording, organ, &settings, &mut |_| ());
+    let found = characterize_organ(&recording, organ.clone(), &settings, &mut |_| ());
     assert!(found.laws[0].1.is_ok(), "{:?}", found.laws[0].1);
     assert!(
         !found.warnings.iter().any(|own| own.contains("thickness_m")),
         "{:?}",
         found.warnings
     );
+    recording[0].header.indenter_shape = Some(IndenterShape::Sphere);
+    let found = characterize_organ(&recording, organ, &settings, &mut |_| ());
+    assert_eq!(found.laws[0].1, Err(Error::OrganIndenter));
 }
