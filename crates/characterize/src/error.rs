@@ -55,6 +55,38 @@ pub enum Error {
         "no protocol keeps within the limits of force, depth, speed and time; allow more of one of them, or name other radii"
     )]
     NoDesign,
+    /// A recording is of an organ whose mesh is not there.
+    #[error(
+        "the recording is of an organ with a `mesh`, which was not read; characterize it by the command, which reads it"
+    )]
+    NoMesh,
+    /// An organ with a mesh under an indenter that is not flat.
+    #[error(
+        "an organ's `mesh` is fitted under a flat punch alone; leave `mesh` out and state the thickness under the indenter, \
+         `thickness_m`"
+    )]
+    OrganIndenter,
+    /// The mesh of an organ is none.
+    #[error("{why}")]
+    UnreadMesh {
+        /// Why.
+        why: String,
+    },
+    /// The place of the indenter is not on the organ.
+    #[error(
+        "`location_m` is {:.2} mm off the surface of the mesh, more than the radius of the contact; the nearest point of the \
+         surface is {nearest:?}, in metres: check the unit of the mesh, or give that",
+        1e3 * distance
+    )]
+    OffMesh {
+        /// From the surface [m].
+        distance: f64,
+        /// The nearest point of it [m].
+        nearest: [f64; 3],
+    },
+    /// The organ is pressed where it is fixed.
+    #[error("`location_m` lies where the organ is `fixed`; fix another part of it")]
+    PressedWhereFixed,
     /// A filter that the samples cannot carry.
     #[error(
         "the cut-off is {cutoff} Hz with {rate} samples a second; give one above 0 and below half of that"
@@ -225,6 +257,11 @@ impl Error {
             | Self::BadCutoff { .. }
             | Self::BadParameter { .. }
             | Self::HollowOrgan
+            | Self::NoMesh
+            | Self::OrganIndenter
+            | Self::UnreadMesh { .. }
+            | Self::OffMesh { .. }
+            | Self::PressedWhereFixed
             | Self::NoHold
             | Self::NoStart { .. }
             | Self::NothingFelt

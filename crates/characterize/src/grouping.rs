@@ -44,6 +44,7 @@ fn is_same(a: &RecordingHeader, b: &RecordingHeader) -> bool {
         (
             specimen,
             (shape, piece, h.support),
+            (h.mesh.clone(), h.location_m, h.fixed.clone()),
             indenter,
             h.condition,
             h.post_mortem_s,

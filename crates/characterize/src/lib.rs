@@ -39,6 +39,6 @@ pub use error::Error;
 pub use grouping::specimens;
 pub use specimen::{
     Characterization, CharacterizeSettings, FittedLaw, FittedRecording, FittedRelaxation,
-    characterize,
+    characterize, characterize_organ,
 };
 pub use without_geometry::WithoutGeometry;

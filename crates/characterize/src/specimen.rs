@@ -12,12 +12,13 @@ use std::ops::Range;
 
 use palpate_files::recording::StimulusKind;
 use palpate_files::{Estimate, PronyTerm, Tissue};
+use palpate_mechanics::finite_elements::indentation::IndenterShape;
 
 use crate::clean::SegmentKind;
 use crate::fit::{Draws, simplest};
 use crate::inverse::{
-    Body, Curves, Indentation, LawDescription, SoughtLaw, UnitCurve, ZeroErrors, assumption,
-    law_fit, repeated,
+    Body, Curves, FarField, Indentation, LawDescription, Organ, SoughtLaw, UnitCurve, ZeroErrors,
+    assumption, law_fit, repeated,
 };
 use crate::lumped::{Contact, UniaxialFit, fit_uniaxial_recordings, mean_modulus};
 use crate::viscoelastic::{
@@ -44,7 +45,7 @@ impl Default for CharacterizeSettings {
     fn default() -> Self {
         Self {
             relaxation: RelaxationSettings::default(),
-            laws: SoughtLaw::ALL.to_vec(),
+            laws: SoughtLaw::USUAL.to_vec(),
             draws: Some(Draws {
                 count: 100,
                 seed: 1,
@@ -81,16 +82,38 @@ pub fn characterize(
     settings: &CharacterizeSettings,
     at_step: &mut dyn FnMut(&'static str),
 ) -> Characterization {
+    let mesh = recordings.first().and_then(|own| own.header.mesh.as_ref());
+    let organ = mesh.map(|_| Err(Error::NoMesh));
+    characterize_organ(recordings, organ, settings, at_step)
+}
+
+/// The same of a specimen that is a whole `organ`, if it is one, or where that could not be read.
+pub fn characterize_organ(
+    recordings: &[CleanRecording],
+    organ: Option<Result<Organ, Error>>,
+    settings: &CharacterizeSettings,
+    at_step: &mut dyn FnMut(&'static str),
+) -> Characterization {
     let pressed: Vec<Pressed> = recordings.iter().filter_map(Pressed::of).collect();
     let deepest = pressed.iter().map(Pressed::deepest).fold(0.0, f64::max);
     let body = body(recordings, deepest);
-    let mut curves = body
-        .clone()
-        .map(|body| Curves::new(body, SoughtLaw::NeoHookean, deepest));
+    let is_organ = organ.is_some();
+    let far = organ.filter(|_| deepest > 0.0).map(|organ| {
+        at_step("finite elements of the organ");
+        far_field(&organ?, body.clone()?)
+    });
+    let far = far.transpose();
+    let mut curves = body.clone().and_then(|body| {
+        let curves = Curves::new(body, SoughtLaw::NeoHookean, deepest);
+        Ok(match far.clone()? {
+            Some(far) => curves.in_organ(far),
+            None => curves,
+        })
+    });
     at_step("relaxation");
     let of_block = curves.as_mut().ok();
     let of_block = of_block.filter(|curves| matches!(curves.body(), Body::Block { .. }));
-    let neo_hookean = of_block.and_then(|curves| curves.of(f64::INFINITY, 0.0).ok());
+    let neo_hookean = of_block.and_then(|curves| curves.of(f64::INFINITY, &[]).ok());
     let records = records(&pressed, neo_hookean.as_ref());
     let relaxing = relaxation(&records, settings.relaxation);
     let of_steps = relaxation_of_steps(&records, settings.relaxation);
@@ -107,9 +130,10 @@ pub fn characterize(
         warnings: Vec::new(),
     };
     found.warnings = found.without_geometry.warnings();
-    found
-        .warnings
-        .extend(about_size(recordings, &body, deepest));
+    found.warnings.extend(match &far {
+        Ok(Some(far)) => about_organ(far),
+        _ => about_size(recordings, &body, deepest),
+    });
     let half_space = curves.as_mut().ok();
     let half_space = half_space.and_then(|own| half_space_factor(own, recordings, deepest));
     found.warnings.extend(half_space);
@@ -131,7 +155,7 @@ pub fn characterize(
             continue;
         }
         let answer = curves.clone().and_then(|curves| {
-            if settings.in_loop && !matches!(curves.body(), Body::Block { .. }) {
+            if settings.in_loop && (is_organ || !matches!(curves.body(), Body::Block { .. })) {
                 return Err(Error::NoLoop);
             }
             let relaxation = found.relaxation.as_ref().map_err(Clone::clone)?;
@@ -140,7 +164,7 @@ pub fn characterize(
         });
         found.laws.push((law, answer));
     }
-    if settings.in_loop && pieces.is_empty() {
+    if settings.in_loop && pieces.is_empty() && !is_organ {
         in_loop::refine(&mut found, (&pressed, body), settings, at_step);
     }
     found.speak(&pressed);
@@ -249,6 +273,34 @@ fn body(recordings: &[CleanRecording], deepest: f64) -> Result<Body, Error> {
     Body::of(&first.header, deepest)
 }
 
+/// How much more an organ gives way than the large piece `body`.
+fn far_field(organ: &Organ, body: Body) -> Result<FarField, Error> {
+    match body {
+        Body::Block { block, indenter } => match indenter.shape {
+            IndenterShape::Flat { .. } => organ.far_field(&block, indenter.radius),
+            _ => Err(Error::OrganIndenter),
+        },
+        Body::Tube { .. } => Err(Error::OrganIndenter),
+    }
+}
+
+/// What the organ does to the depth, where that is a part worth a word.
+fn about_organ(far: &FarField) -> Option<String> {
+    (far.share.abs() > LARGE).then(|| {
+        let percent = 100.0 * far.share.abs();
+        match far.share > 0.0 {
+            true => format!(
+                "{percent:.0} % of the depth is the organ that gives way as a whole, by linear finite elements on its mesh: \
+                 the laws depend on its shape and on where it is fixed as much"
+            ),
+            false => format!(
+                "the organ is {percent:.0} % stiffer than a large piece, by linear finite elements on its mesh: what is \
+                 fixed or ends near the indenter is strained too, which they leave out"
+            ),
+        }
+    })
+}
+
 /// What was assumed of the specimen's size.
 fn about_size(
     recordings: &[CleanRecording],
@@ -267,7 +319,7 @@ fn half_space_factor(
 ) -> Option<String> {
     let header = &recordings.first()?.header;
     header.thickness_m?;
-    let curve = curves.of(f64::INFINITY, 0.0).ok()?;
+    let curve = curves.of(f64::INFINITY, &[]).ok()?;
     let contact = Contact::of(header).ok()?;
     // E = 6 C₁₀, and the curve is that of C₁₀ = 1 Pa.
     let modulus = mean_modulus(contact, false, deepest, curve.force.force(deepest)).ok()?;
@@ -400,6 +452,8 @@ impl Characterization {
     }
 }
 
+/// A part of the depth beyond which an organ is worth a word [-].
+const LARGE: f64 = 0.2;
 /// A part of a modulus that is worth a word [-].
 const TELLING: f64 = 0.02;
 

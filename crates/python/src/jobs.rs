@@ -106,13 +106,16 @@ pub(crate) fn _analyze(
 /// What a characterization comes with: the answer, tissues, and what was fitted of each specimen.
 type Fitted<'py> = (String, Vec<FoundTissue>, Vec<Vec<Bound<'py, PyDict>>>);
 
+/// A law's name, and its order if it was given.
+type NamedLaw = (String, Option<usize>);
+
 /// `palpate characterize`: the answer, the tissue of each specimen or why there is none, and what was fitted.
 #[pyfunction]
 #[pyo3(signature = (recordings, choice, study=None, progress=None))]
 pub(crate) fn _characterize<'py>(
     py: Python<'py>,
     recordings: &str,
-    choice: (Option<String>, Option<usize>, usize, u64, bool),
+    choice: (Option<NamedLaw>, Option<usize>, usize, u64, bool),
     study: Option<(PathBuf, bool)>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Fitted<'py>> {
@@ -120,7 +123,9 @@ pub(crate) fn _characterize<'py>(
     let (law, terms, draws, seed, in_loop) = choice;
     let (answer, tissues, fits) = waiting(py, progress, move |told| {
         let choice = Choice {
-            law: law.as_deref().map(Choice::law_named).transpose()?,
+            law: law
+                .map(|(name, order)| Choice::law_named(&name, order))
+                .transpose()?,
             terms,
             draws,
             seed,

@@ -89,10 +89,10 @@ fn cleaned(
     Ok(clean(&recording, &CleanSettings::default())?)
 }
 
-/// Elastic force [N] over depth [m] under the probe, of `law` with this `modulus` [Pa] and `shape` [-].
+/// Elastic force [N] over depth [m] under the probe, of `law` with this `modulus` [Pa] and these shapes [-].
 pub(super) fn elastic(
     law: SoughtLaw,
-    (modulus, shape): (f64, f64),
+    (modulus, shape): (f64, &[f64]),
 ) -> Result<IndentationCurve, Error> {
     let mut curves = Curves::new(Body::under_punch(RADIUS), law, 8.0 * RADIUS);
     let unit = curves.of(f64::INFINITY, shape)?;

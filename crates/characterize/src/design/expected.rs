@@ -42,7 +42,7 @@ impl Expecting {
     /// When no equilibrium is found down to there.
     pub fn new(guess: Guess, deepest: f64) -> Result<Self, Error> {
         let body = Body::under_punch(1.0);
-        let curve = Curves::new(body, guess.law, deepest).of(f64::INFINITY, guess.shape)?;
+        let curve = Curves::new(body, guess.law, deepest).of(f64::INFINITY, &guess.shape)?;
         Ok(Self { guess, curve })
     }
 
@@ -114,7 +114,7 @@ impl Expecting {
             known,
             &of_noise(instrument.noise),
         );
-        let own = law.parameters(*modulus, *shape);
+        let own = law.parameters(*modulus, shape);
         let mut all: Vec<ExpectedParameter> = own
             .iter()
             .zip(errors)

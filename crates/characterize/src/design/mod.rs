@@ -30,8 +30,8 @@ pub struct Guess {
     pub law: SoughtLaw,
     /// Its modulus [Pa].
     pub modulus: f64,
-    /// Its shape [-].
-    pub shape: f64,
+    /// Its shapes [-].
+    pub shape: Vec<f64>,
     /// How it relaxes.
     pub series: PronySeries,
 }

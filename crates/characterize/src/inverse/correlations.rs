@@ -38,38 +38,35 @@ impl LawDescription {
     pub fn correlations(&self) -> Correlations {
         let own = in_its_parameters(&self.found);
         let [covariance, _] = self.uncertainty.of_all(own.parameters.len());
-        Correlations::of_law(&own, covariance)
+        Correlations::of_law(&own, self.found.law.count(), covariance)
     }
 }
 
 impl Correlations {
-    /// Of a fit in a law's own parameters, which has this `covariance`.
-    pub(super) fn of_law(own: &Fit, covariance: DMatrix<f64>) -> Self {
-        let ratios: Vec<f64> = own.parameters[2..]
-            .iter()
-            .step_by(2)
-            .map(|p| p.value)
-            .collect();
+    /// Of a fit in the own parameters of a law, so many as `count`, which has this `covariance`.
+    pub(super) fn of_law(own: &Fit, count: usize, covariance: DMatrix<f64>) -> Self {
+        let relaxation = &own.parameters[count..];
+        let ratios: Vec<f64> = relaxation.iter().step_by(2).map(|p| p.value).collect();
         let whole = 1.0 + ratios.iter().sum::<f64>();
-        let times = own.parameters.iter().skip(3).step_by(2);
+        let times = relaxation.iter().skip(1).step_by(2);
         let times: Vec<f64> = times.map(|p| p.value.exp()).collect();
         // gᵢ = ρᵢ/(1 + Σ ρ); the fit has ln τ.
         let mut to_terms = DMatrix::identity(own.parameters.len(), own.parameters.len());
         for (i, ratio) in ratios.iter().enumerate() {
             for j in 0..ratios.len() {
                 let own = if i == j { 1.0 } else { 0.0 };
-                to_terms[(2 + 2 * i, 2 + 2 * j)] = (own - ratio / whole) / whole;
+                to_terms[(count + 2 * i, count + 2 * j)] = (own - ratio / whole) / whole;
             }
-            to_terms[(3 + 2 * i, 3 + 2 * i)] = times[i];
+            to_terms[(count + 1 + 2 * i, count + 1 + 2 * i)] = times[i];
         }
         let of_terms = (1..=ratios.len()).flat_map(|i| [format!("g_{i}"), format!("tau_{i}_s")]);
-        let of_law = own.parameters[..2].iter().map(|p| p.name.clone());
+        let of_law = own.parameters[..count].iter().map(|p| p.name.clone());
         let mut covariance = &to_terms * covariance * to_terms.transpose();
         // As in the errors of the terms.
         let off = quasi_linear(1.0 - 1.0 / whole);
         for (i, ratio) in ratios.iter().enumerate() {
-            covariance[(2 + 2 * i, 2 + 2 * i)] += even(off * ratio / whole);
-            covariance[(3 + 2 * i, 3 + 2 * i)] += even(off * times[i]);
+            covariance[(count + 2 * i, count + 2 * i)] += even(off * ratio / whole);
+            covariance[(count + 1 + 2 * i, count + 1 + 2 * i)] += even(off * times[i]);
         }
         Self::of(of_law.chain(of_terms).collect(), &covariance)
     }

@@ -9,18 +9,19 @@ use palpate_mechanics::{IndentationCurve, Law, PronySeries};
 use super::body::Body;
 use super::family::Family;
 use super::law::SoughtLaw;
+use super::organ::FarField;
 use super::tables;
 use crate::Error;
 
-/// Elastic force per unit of the modulus [m²] over the depth [m], of one shape.
+/// Elastic force per unit of the modulus [m²] over the depth [m], of a law with given shapes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UnitCurve {
-    /// The shape [-].
-    pub shape: f64,
+    /// The shapes of the law [-].
+    pub shape: Vec<f64>,
     /// The force.
     pub force: IndentationCurve,
-    /// Its change with the shape; zero where the law has none.
-    pub by_shape: IndentationCurve,
+    /// Its change with each shape.
+    pub by_shape: Vec<IndentationCurve>,
     /// Part of the force that the elements may be off [-].
     pub discretisation: f64,
 }
@@ -39,6 +40,8 @@ pub struct Curves {
     solves: usize,
     /// What counts of the bounds on the product of an elastic force and G(t) [-].
     product_share: f64,
+    /// How much more the organ gives way than the body; none of a specimen that is the body.
+    far: Option<FarField>,
 }
 
 /// What is left of these bounds when full runs have taken the product's error away [-]: how far its size differs between
@@ -66,6 +69,23 @@ impl Curves {
             solved: Vec::new(),
             solves: 0,
             product_share: 1.0,
+            far: None,
+        }
+    }
+
+    /// The same in an organ, which gives way by so much more than the body.
+    pub fn in_organ(self, far: FarField) -> Self {
+        // Of the depth the body has what the rest leaves; a force that grows less than linearly leaves a tenth more.
+        let part = 1.1 * (1.0 - far.share);
+        let part = if far.compliance > 0.0 {
+            part.min(1.0)
+        } else {
+            part
+        };
+        Self {
+            deepest: part * self.deepest,
+            far: Some(far),
+            ..self
         }
     }
 
@@ -110,13 +130,14 @@ impl Curves {
         self.solves
     }
 
-    /// The curve of `shape` [-] at a `modulus` [Pa], which matters only under pressure: an infinite one feels none.
+    /// The curve of these shapes [-] at a `modulus` [Pa], which matters only under pressure: an infinite one feels none.
     ///
     /// # Errors
     /// When no equilibrium is found down to the deepest depth.
-    pub fn of(&mut self, modulus: f64, shape: f64) -> Result<UnitCurve, Error> {
-        let known = self.predicted(modulus, shape);
-        if let Some(known) = known.filter(|_| self.nearest(modulus, shape) == Some(shape)) {
+    pub fn of(&mut self, modulus: f64, shape: &[f64]) -> Result<UnitCurve, Error> {
+        if self.nearest(modulus, shape).as_deref() == Some(shape)
+            && let Some(known) = self.predicted(modulus, shape)
+        {
             return Ok(known);
         }
         let curve = match self.body {
@@ -138,27 +159,55 @@ impl Curves {
         };
         match self.family(modulus) {
             Some(place) => self.solved[place].1.add(curve.clone()),
-            None => self.solved.push((modulus, Family::of(curve.clone()))),
+            None => {
+                let family = Family::of(&self.law.shapes(), curve.clone());
+                self.solved.push((modulus, family));
+            }
         }
-        Ok(curve)
+        Ok(self.placed(curve))
     }
 
-    /// The curve of `shape` [-] at a `modulus` [Pa], as far as it follows from what was tabulated or solved; none
+    /// The curve of these shapes [-] at a `modulus` [Pa], as far as it follows from what was tabulated or solved; none
     /// where nothing was.
-    pub(super) fn predicted(&self, modulus: f64, shape: f64) -> Option<UnitCurve> {
-        tables::curve(&self.body, self.law, shape, self.deepest).or_else(|| {
+    pub(super) fn predicted(&self, modulus: f64, shape: &[f64]) -> Option<UnitCurve> {
+        let tabulated = tables::curve(&self.body, self.law, shape, self.deepest);
+        let known = tabulated.or_else(|| {
             let place = self.family(modulus)?;
             Some(self.solved[place].1.at(shape))
-        })
+        });
+        known.map(|curve| self.placed(curve))
     }
 
-    /// The shape next to `shape` [-] that was tabulated or solved at a `modulus` [Pa].
-    pub(super) fn nearest(&self, modulus: f64, shape: f64) -> Option<f64> {
+    /// A curve of the body in its organ: at each force the depth is larger by what the organ gives way.
+    fn placed(&self, curve: UnitCurve) -> UnitCurve {
+        let Some(far) = self.far else {
+            return curve;
+        };
+        let further = far.compliance / self.law.shear();
+        let known: Vec<(f64, f64)> = curve.force.points().skip(1).collect();
+        let depths: Vec<f64> = known.iter().map(|(d, force)| d + further * force).collect();
+        let through = |of: &dyn Fn(&(f64, f64)) -> f64| {
+            IndentationCurve::through(&depths, &known.iter().map(of).collect::<Vec<_>>())
+        };
+        let by_shape = curve.by_shape.iter().map(|by| {
+            // At one depth of the organ, that of the body falls where the force rises.
+            through(&|(d, _)| by.force(*d) / (1.0 + further * curve.force.stiffness(*d)))
+        });
+        UnitCurve {
+            force: through(&|(_, force)| *force),
+            by_shape: by_shape.collect(),
+            discretisation: curve.discretisation + far.error,
+            shape: curve.shape,
+        }
+    }
+
+    /// The shapes next to `shape` [-] that were tabulated or solved at a `modulus` [Pa].
+    pub(super) fn nearest(&self, modulus: f64, shape: &[f64]) -> Option<Vec<f64>> {
         match tables::curve(&self.body, self.law, shape, self.deepest) {
-            Some(_) => Some(shape),
+            Some(_) => Some(shape.to_vec()),
             None => self
                 .family(modulus)
-                .map(|place| self.solved[place].1.nearest(shape)),
+                .map(|place| self.solved[place].1.nearest(shape).to_vec()),
         }
     }
 
@@ -188,7 +237,7 @@ impl Curves {
         all.map(|x| x * self.body.radius()).collect()
     }
 
-    fn solve_block(&mut self, piece: (Block, Indenter), shape: f64) -> Result<UnitCurve, Error> {
+    fn solve_block(&mut self, piece: (Block, Indenter), shape: &[f64]) -> Result<UnitCurve, Error> {
         let mesh_error = self.mesh_error(piece)?;
         let depths = self.depths();
         let points = self.run(piece, self.law.unit(shape)?, 0)?;
@@ -198,14 +247,19 @@ impl Curves {
             .enumerate()
             .map(|(i, point)| right(i) * point.0)
             .collect();
-        let slopes = points.iter().enumerate();
-        let slopes: Vec<f64> = slopes
-            .map(|(i, point)| right(i) * self.law.by_shape(&point.1))
+        let each = points.iter();
+        let slopes: Vec<_> = each
+            .map(|point| self.law.by_shape(shape, &point.1))
             .collect();
+        let by_shape = (0..shape.len()).map(|place| {
+            let slopes = slopes.iter().enumerate();
+            let slopes: Vec<f64> = slopes.map(|(i, by)| right(i) * by[place]).collect();
+            IndentationCurve::through(&depths, &slopes)
+        });
         Ok(UnitCurve {
-            shape,
+            shape: shape.to_vec(),
             force: IndentationCurve::through(&depths, &forces),
-            by_shape: IndentationCurve::through(&depths, &slopes),
+            by_shape: by_shape.collect(),
             discretisation: mesh_error.left,
         })
     }
@@ -250,7 +304,7 @@ impl Curves {
                     left: tables::discretisation(),
                 }
             } else {
-                let law = SoughtLaw::NeoHookean.unit(0.0)?;
+                let law = SoughtLaw::NeoHookean.unit(&[])?;
                 let coarse = self.run(piece, law.clone(), 0)?;
                 MeshError::of_two(&coarse, &self.run(piece, law, 1)?)
             });
@@ -262,7 +316,7 @@ impl Curves {
         &mut self,
         tube: Tube,
         punch: &TubePunch,
-        shape: f64,
+        shape: &[f64],
     ) -> Result<UnitCurve, Error> {
         self.solves += 1;
         let problem = TubeProblem {
@@ -273,9 +327,9 @@ impl Curves {
         let found = indent(&problem, punch, TUBE_ACCURACY, &mut |_| ());
         let found = found.map_err(|why| Error::of_law(self.law.name(), self.deepest, why))?;
         Ok(UnitCurve {
-            shape,
+            shape: shape.to_vec(),
             force: IndentationCurve::through(&punch.depths, &found.answer.forces),
-            by_shape: IndentationCurve::untouched(),
+            by_shape: Vec::new(),
             discretisation: found.error,
         })
     }

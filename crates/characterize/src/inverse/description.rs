@@ -1,9 +1,9 @@
-use nalgebra::{DMatrix, Matrix2};
+use nalgebra::DMatrix;
 use palpate_files::Estimate;
 use palpate_files::quantity::plain_quantity;
 
 use super::forces::Indentation;
-use super::law::{LawParameter, SoughtLaw};
+use super::law::{LawParameter, SoughtLaw, to_shape};
 use super::law_fit::LawFit;
 use super::repeated::Repeated;
 use crate::Error;
@@ -46,7 +46,7 @@ impl LawDescription {
         let uncertainty = with_systematic(noise, &free, &found.systematic);
         let each = found.law.parameters(found.modulus(), found.shape());
         let known = |(place, parameter): (usize, &LawParameter)| {
-            let is_estimate = place == 0 || !found.shape_at_bound();
+            let is_estimate = !found.at_bound(place);
             let estimate = Estimate {
                 value: parameter.value,
                 standard_error: uncertainty.standard_error(place).filter(|_| is_estimate),
@@ -83,22 +83,23 @@ impl LawDescription {
 }
 
 impl LawFit {
-    fn shape_at_bound(&self) -> bool {
-        let shape = &self.fit.parameters[1];
-        !shape.fixed && shape.at_bound()
+    /// Whether the law's own parameter at this place is none that was found, because its shape ended on a bound.
+    fn at_bound(&self, place: usize) -> bool {
+        let shape = &self.fit.parameters[place];
+        place > 0 && !shape.fixed && shape.at_bound()
     }
 
     /// The sentence on two moduli that are not told apart because the fit ended where one of them is none, or at the
     /// end of the shapes that are sought; none elsewhere. `known` is of the law's own parameters.
     fn at_edge(&self, known: &Uncertainty) -> Option<String> {
-        if self.law != SoughtLaw::MooneyRivlin || !self.shape_at_bound() {
+        if self.law != SoughtLaw::MooneyRivlin || !self.at_bound(1) {
             return None;
         }
         let error = known.covariance.sum().max(0.0).sqrt();
         Some(format!(
             "c10_pa and c01_pa are not identified: the fit ended at the edge of what is sought, where c01_pa is {} of \
              their sum, which is {}",
-            self.shape(),
+            self.shape()[0],
             plain_quantity("_pa", self.modulus(), Some(error))
         ))
     }
@@ -108,32 +109,18 @@ impl LawFit {
 pub(super) fn in_its_parameters(found: &LawFit) -> Fit {
     let own = found.law.parameters(found.modulus(), found.shape());
     let mut fit = found.fit.clone();
-    let at_bound = found.shape_at_bound();
-    let named = |parameter: &LawParameter| {
-        let lower = if parameter.name.ends_with("_pa") {
-            0.0
-        } else {
-            f64::NEG_INFINITY
-        };
-        Parameter::new(parameter.name, parameter.value).within(lower, f64::INFINITY)
-    };
-    fit.parameters[0] = named(&own[0]);
-    let (modulus, shape) = (found.fit.jacobian.column(0), found.fit.jacobian.column(1));
-    let [first, second] = match own.get(1) {
-        None => [modulus.into_owned(), shape.into_owned()],
-        Some(second) => {
+    for (place, parameter) in own.iter().enumerate() {
+        let [lower, upper] = match (found.at_bound(place), parameter.name.ends_with("_pa")) {
             // On its bound it is no estimate.
-            fit.parameters[1] = match at_bound {
-                true => named(second).within(second.value, second.value),
-                false => named(second),
-            };
-            let back = Matrix2::from_rows(&[own[0].by.into(), second.by.into()]).try_inverse();
-            let back = back.unwrap_or_else(Matrix2::zeros);
-            [0, 1].map(|new| modulus * back[(0, new)] + shape * back[(1, new)])
-        }
-    };
-    fit.jacobian.set_column(0, &first);
-    fit.jacobian.set_column(1, &second);
+            (true, _) => [parameter.value; 2],
+            (false, true) => [0.0, f64::INFINITY],
+            (false, false) => [f64::NEG_INFINITY, f64::INFINITY],
+        };
+        let named = Parameter::new(parameter.name, parameter.value);
+        fit.parameters[place] = named.within(lower, upper);
+    }
+    let columns = found.fit.jacobian.columns(0, own.len()) * to_shape(&own);
+    fit.jacobian.columns_mut(0, own.len()).copy_from(&columns);
     fit
 }
 
@@ -156,6 +143,9 @@ fn among(all: &Uncertainty, count: usize) -> Uncertainty {
 }
 
 fn correlation(covariance: &DMatrix<f64>, count: usize) -> Option<f64> {
+    if count < 2 {
+        return None;
+    }
     let size = (covariance[(0, 0)] * covariance[(1, 1)]).sqrt();
-    (count > 1 && size > 0.0).then(|| covariance[(0, 1)] / size)
+    (size > 0.0).then(|| covariance[(0, 1)] / size)
 }

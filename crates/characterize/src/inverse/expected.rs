@@ -15,7 +15,7 @@ impl UnitCurve {
             |curve: &palpate_mechanics::IndentationCurve| curve.scaled(radius, radius * radius);
         Self {
             force: scaled(&self.force),
-            by_shape: scaled(&self.by_shape),
+            by_shape: self.by_shape.iter().map(scaled).collect(),
             ..self.clone()
         }
     }
@@ -33,8 +33,8 @@ pub(crate) fn expected_law(
     weights: &[f64],
 ) -> (Vec<(f64, f64)>, Correlations) {
     let mut start = parameters(curves.law(), series, modulus);
-    if !start[1].fixed {
-        start[1].value = curve.shape;
+    for (parameter, shape) in start[1..].iter_mut().zip(&curve.shape) {
+        parameter.value = *shape;
     }
     let samples = weights.len();
     let fit = Fit::at(start, samples);
@@ -46,12 +46,12 @@ pub(crate) fn expected_law(
     // The last three are of the model.
     let zeros = law.systematic.len() - 3;
     let known = expected.known(&free, zeros, indentations.len());
-    let count = law.law.parameters(1.0, 0.0).len();
+    let count = law.law.count();
     let error = |place| {
         let error = known.standard_error(place).unwrap_or(f64::INFINITY);
         (error, known.quantile(place, 0.95).unwrap_or(f64::INFINITY))
     };
     let errors = (0..count).map(error).collect();
     let [covariance, _]: [DMatrix<f64>; 2] = known.of_all(own.parameters.len());
-    (errors, Correlations::of_law(&own, covariance))
+    (errors, Correlations::of_law(&own, count, covariance))
 }

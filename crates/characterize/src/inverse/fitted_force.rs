@@ -10,11 +10,12 @@
 
 use std::ops::Range;
 
-use nalgebra::{DMatrix, Matrix2};
+use nalgebra::DMatrix;
 use palpate_mechanics::{IndentationCurve, PronySeries, branch};
 
 use super::correlations::Correlations;
 use super::description::LawDescription;
+use super::law::to_shape;
 
 /// The elastic force of a law over depth, with its changes with the law's parameters.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,17 +37,13 @@ impl LawDescription {
             IndentationCurve::through(&depths, &forces)
         };
         let own = law.law.parameters(modulus, law.shape());
-        // Modulus and shape by the law's own parameters.
-        let back = match own.as_slice() {
-            [first, second] => Matrix2::from_rows(&[first.by.into(), second.by.into()])
-                .try_inverse()
-                .unwrap_or_else(Matrix2::zeros),
-            _ => Matrix2::identity(),
-        };
+        let back = to_shape(&own);
         let by = |place: usize| {
             through(&|depth| {
-                curve.force.force(depth) * back[(0, place)]
-                    + modulus * curve.by_shape.force(depth) * back[(1, place)]
+                let shapes = curve.by_shape.iter().enumerate();
+                let of_shapes =
+                    shapes.map(|(shape, by)| by.force(depth) * back[(1 + shape, place)]);
+                curve.force.force(depth) * back[(0, place)] + modulus * of_shapes.sum::<f64>()
             })
         };
         let named = own.iter().enumerate();

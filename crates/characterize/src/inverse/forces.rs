@@ -37,7 +37,7 @@ impl<'a> Indentation<'a> {
     }
 }
 
-/// Forces [N] of a unit curve times `modulus` [Pa] in an indentation, and their change with the modulus, the
+/// Forces [N] of a unit curve times `modulus` [Pa] in an indentation, and their change with the modulus, each
 /// shape, and the ratio ρᵢ = gᵢ/(1 − Σ g) and the logarithm of the time of each term.
 pub(super) fn forces(
     (time, depth): (&[f64], &[f64]),
@@ -46,23 +46,22 @@ pub(super) fn forces(
     series: &PronySeries,
 ) -> (Vec<f64>, Vec<Vec<f64>>) {
     let elastic: Vec<f64> = depth.iter().map(|&d| curve.force.force(d)).collect();
-    let by_shape: Vec<f64> = depth.iter().map(|&d| curve.by_shape.force(d)).collect();
     let left = 1.0 - series.terms().iter().map(|(g, _)| g).sum::<f64>();
-    let branches: Vec<_> = series
-        .terms()
-        .iter()
-        .map(|&(_, tau)| (branch(tau, time, &elastic), branch(tau, time, &by_shape).0))
-        .collect();
-    let (mut lost, mut shape) = (vec![0.0; time.len()], by_shape);
-    for ((g, _), ((values, _), of_shape)) in series.terms().iter().zip(&branches) {
-        for row in 0..time.len() {
-            lost[row] += g * values[row];
-            shape[row] -= g * of_shape[row];
+    let each = series.terms().iter();
+    let branches: Vec<_> = each.map(|&(_, tau)| branch(tau, time, &elastic)).collect();
+    let mut lost = vec![0.0; time.len()];
+    for ((g, _), (values, _)) in series.terms().iter().zip(&branches) {
+        for (lost, value) in lost.iter_mut().zip(values) {
+            *lost += g * value;
         }
     }
     let unit: Vec<f64> = elastic.iter().zip(&lost).map(|(e, l)| e - l).collect();
-    let mut columns = vec![unit.clone(), shape.iter().map(|s| modulus * s).collect()];
-    for ((g, _), ((values, slopes), _)) in series.terms().iter().zip(&branches) {
+    let mut columns = vec![unit.clone()];
+    for by_shape in &curve.by_shape {
+        let course = (time, depth.iter().copied());
+        columns.push(relaxed(course, by_shape, modulus, series));
+    }
+    for ((g, _), (values, slopes)) in series.terms().iter().zip(&branches) {
         let ratio = lost
             .iter()
             .zip(values)

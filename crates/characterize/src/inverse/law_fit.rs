@@ -13,14 +13,14 @@ use crate::viscoelastic::QUASI_LINEAR;
 pub struct LawFit {
     /// Which.
     pub law: SoughtLaw,
-    /// The modulus [Pa] and the shape [-], and after them the relaxation that was given, as ratios and
+    /// The modulus [Pa] and the shapes [-], and after them the relaxation that was given, as ratios and
     /// logarithms of times: free, so that its uncertainty is part of theirs.
     pub fit: Fit,
     /// Forces of the law in each recording [N].
     pub forces: Vec<Vec<f64>>,
     /// How many runs of finite elements it took.
     pub solves: usize,
-    /// Elastic force per unit of the modulus at the shape that was found.
+    /// Elastic force per unit of the modulus at the shapes that were found.
     pub curve: UnitCurve,
     /// Part of the force that the elements may be off [-].
     pub discretisation: f64,
@@ -29,8 +29,19 @@ pub struct LawFit {
     /// What changes the residuals and is no noise [N], each column by one standard deviation: the zeros of the
     /// recordings, the elements, and that force is taken for an elastic one times G(t), at any depth and at finite strain.
     pub systematic: Vec<Vec<f64>>,
-    /// Sums of squares of the other minima that were found [N²], the least first, each with its shape [-].
-    pub others: Vec<[f64; 2]>,
+    /// The other minima that were found, the best first.
+    pub others: Vec<OtherMinimum>,
+}
+
+/// A minimum beside the least one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OtherMinimum {
+    /// [N²]
+    pub sum_of_squares: f64,
+    /// [Pa]
+    pub modulus: f64,
+    /// [-]
+    pub shape: Vec<f64>,
 }
 
 impl LawFit {
@@ -39,9 +50,9 @@ impl LawFit {
         self.fit.parameters[0].value
     }
 
-    /// The shape [-].
-    pub fn shape(&self) -> f64 {
-        self.fit.parameters[1].value
+    /// The shapes [-].
+    pub fn shape(&self) -> &[f64] {
+        &self.curve.shape
     }
 
     /// Part of the force, and so of the modulus, that the model may be off [-]: by its elements, and because
@@ -54,18 +65,17 @@ impl LawFit {
 impl LawFit {
     /// The sentence on other minima that are about as good; none where there is one alone.
     pub(super) fn not_alone(&self) -> Option<String> {
-        let sum = self.fit.sum_of_squares();
-        let [other, shape] = *self.others.first()?;
+        let other = self.others.first()?;
+        let times = other.sum_of_squares / self.fit.sum_of_squares();
         let name = self.law.name().word();
-        (other < AS_GOOD * sum).then(|| {
+        (times < AS_GOOD).then(|| {
+            let each = self.law.parameters(other.modulus, &other.shape);
+            let of_shapes = each.iter().skip(1);
+            let of_shapes = of_shapes.map(|own| format!("{} = {:.4}", own.name, own.value));
             format!(
-                "{name}: another minimum is about as good, with a sum of squares {:.2} times as large, at {}; \
+                "{name}: another minimum is about as good, with a sum of squares {times:.2} times as large, at {}; \
                  which of them is the tissue's cannot be told from these recordings",
-                other / sum,
-                self.law.parameters(self.modulus(), shape).last().map_or_else(
-                    String::new,
-                    |parameter| format!("{} = {:.4}", parameter.name, parameter.value)
-                )
+                of_shapes.collect::<Vec<_>>().join(", ")
             )
         })
     }
@@ -110,14 +120,13 @@ pub fn law_fit(
     Ok(found)
 }
 
-/// The modulus [Pa] with which the force of the first shape is nearest: force is linear in it.
+/// The modulus [Pa] with which the force of the first shapes is nearest: force is linear in it.
 fn start(
     curves: &mut Curves,
     indentations: &[Indentation<'_>],
     series: &PronySeries,
 ) -> Result<f64, Error> {
-    let shape = curves.law().shapes().map_or(0.0, |shapes| shapes[1]);
-    let curve = curves.of(f64::INFINITY, shape)?;
+    let curve = curves.of(f64::INFINITY, &curves.law().start())?;
     let (mut products, mut squares) = (0.0, 0.0);
     for each in indentations {
         let (unit, _) = forces::forces((each.time, each.depth), &curve, 1.0, series);
@@ -134,8 +143,8 @@ fn start(
     }
 }
 
-/// Rounds in which a shape is found, and halvings of the way to one that has no equilibrium, at most.
-const SHAPES_SOLVED: usize = 12;
+/// Rounds in which each shape is found, and halvings of the way to those that have no equilibrium, at most.
+const ROUNDS_OF_SHAPE: usize = 12;
 const HALVINGS: usize = 4;
 
 /// With curves between those that were solved, until one that is solved at the fit's own shape is as it was predicted.
@@ -145,17 +154,19 @@ fn from(
     series: &PronySeries,
     modulus: f64,
 ) -> Result<LawFit, Error> {
+    let count = curves.law().count();
+    let rounds = ROUNDS_OF_SHAPE * count.max(2).saturating_sub(1);
     let mut start = parameters(curves.law(), series, modulus);
     let mut iterations = Vec::new();
-    curves.of(modulus, start[1].value)?;
-    for _ in 0..SHAPES_SOLVED {
+    curves.of(modulus, &curves.law().start())?;
+    for _ in 0..rounds {
         let (mut fit, others) = least_minimum(curves, modulus, &start, (indentations, series))?;
         // A later round begins where the one before it ended.
         let again = usize::from(!iterations.is_empty());
         iterations.extend(fit.iterations.drain(again..));
-        let shape = fit.parameters[1].value;
-        let predicted = curves.predicted(modulus, shape);
-        let solved = solved_toward(curves, modulus, shape)?;
+        let shape = shapes(&fit.parameters[..count]);
+        let predicted = curves.predicted(modulus, &shape);
+        let solved = solved_toward(curves, modulus, &shape)?;
         let is_like = |own: UnitCurve| own.force.is_like(&solved.force, FORESEEN);
         if solved.shape == shape && predicted.is_some_and(is_like) {
             fit.iterations = iterations;
@@ -166,31 +177,44 @@ fn from(
         }
         start = fit.parameters;
     }
-    Err(Error::NoShape {
-        tried: SHAPES_SOLVED,
-    })
+    Err(Error::NoShape { tried: rounds })
+}
+
+/// The shapes [-] among the parameters of a law.
+fn shapes(of_law: &[Parameter]) -> Vec<f64> {
+    of_law[1..]
+        .iter()
+        .map(|parameter| parameter.value)
+        .collect()
 }
 
 /// Other places from which a shape is sought, and the seed that draws them.
 const STARTS: usize = 6;
 const SEED: u64 = 1;
 
-/// The least minimum by curves that are known, from `start` and from shapes all over their range, and the sums of
-/// squares [N²] and shapes [-] of the others.
+/// The least minimum by curves that are known, from `start` and from shapes all over their range, and the others.
 fn least_minimum(
     curves: &Curves,
     modulus: f64,
     start: &[Parameter],
     felt: (&[Indentation<'_>], &PronySeries),
-) -> Result<(Fit, Vec<[f64; 2]>), Error> {
-    let of = |shape| curves.predicted(modulus, shape);
-    let one = |start: &[Parameter]| fitted(start, felt, of);
-    if start[1].fixed {
+) -> Result<(Fit, Vec<OtherMinimum>), Error> {
+    let count = curves.law().count();
+    let one = |start: &[Parameter]| {
+        fitted((start, count), felt, |shape| {
+            curves.predicted(modulus, shape)
+        })
+    };
+    if count == 1 {
         return Ok((one(start)?, Vec::new()));
     }
     let mut minima = multi_start(start, STARTS, SEED, one)?.into_iter();
     let least = minima.next().ok_or(Error::NothingFelt)?;
-    let others = minima.map(|other| [other.fit.sum_of_squares(), other.fit.parameters[1].value]);
+    let others = minima.map(|other| OtherMinimum {
+        sum_of_squares: other.fit.sum_of_squares(),
+        modulus: other.fit.parameters[0].value,
+        shape: shapes(&other.fit.parameters[..count]),
+    });
     Ok((least.fit, others.collect()))
 }
 
@@ -200,11 +224,11 @@ pub(super) fn found(
     (curves, curve): (&Curves, &UnitCurve),
     felt: (&[Indentation<'_>], &PronySeries),
 ) -> LawFit {
-    let values: Vec<f64> = fit.parameters.iter().map(|p| p.value).collect();
+    let modulus = fit.parameters[0].value;
     let derivatives = (&mut fit.residuals[..], &mut fit.jacobian);
-    let forces = write(curve, felt, &values, derivatives);
+    let forces = write(curve, felt, modulus, derivatives);
     // The columns of what was fixed were not asked for.
-    for parameter in fit.parameters.iter_mut().skip(2) {
+    for parameter in fit.parameters.iter_mut().skip(curves.law().count()) {
         parameter.fixed = false;
     }
     let (indentations, series) = felt;
@@ -217,7 +241,7 @@ pub(super) fn found(
     };
     LawFit {
         law: curves.law(),
-        systematic: forces::systematic(indentations, curve, (values[0], series), bounds),
+        systematic: forces::systematic(indentations, curve, (modulus, series), bounds),
         product_error,
         fit,
         forces,
@@ -228,29 +252,34 @@ pub(super) fn found(
     }
 }
 
-/// The curve of a shape [-], or of one on the way to it from where there is equilibrium.
-fn solved_toward(curves: &mut Curves, modulus: f64, mut shape: f64) -> Result<UnitCurve, Error> {
-    let known = curves.nearest(modulus, shape).unwrap_or(shape);
-    let mut found = curves.of(modulus, shape);
+/// The curve of these shapes [-], or of some on the way to them from where there is equilibrium.
+fn solved_toward(curves: &mut Curves, modulus: f64, shape: &[f64]) -> Result<UnitCurve, Error> {
+    let known = curves.nearest(modulus, shape);
+    let known = known.unwrap_or_else(|| shape.to_vec());
+    let mut shape = shape.to_vec();
+    let mut found = curves.of(modulus, &shape);
     for _ in 0..HALVINGS {
         if found.is_ok() {
             break;
         }
-        shape = 0.5 * (shape + known);
-        found = curves.of(modulus, shape);
+        for (own, known) in shape.iter_mut().zip(&known) {
+            *own = 0.5 * (*own + known);
+        }
+        found = curves.of(modulus, &shape);
     }
     found
 }
 
-/// The fit of a modulus and a shape, whose curves `of` gives.
+/// The fit of the parameters of a law, so many as `count`, a modulus and shapes, whose curves `of` gives.
 fn fitted(
-    start: &[Parameter],
+    (start, count): (&[Parameter], usize),
     felt: (&[Indentation<'_>], &PronySeries),
-    of: impl Fn(f64) -> Option<UnitCurve>,
+    of: impl Fn(&[f64]) -> Option<UnitCurve>,
 ) -> Result<Fit, Error> {
     let samples = felt.0.iter().map(|each| each.time.len()).sum();
     let evaluate = |values: &[f64], residuals: &mut [f64], jacobian: &mut DMatrix<f64>| {
-        write(&of(values[1])?, felt, values, (residuals, jacobian));
+        let curve = of(&values[1..count])?;
+        write(&curve, felt, values[0], (residuals, jacobian));
         residuals.iter().all(|r| r.is_finite()).then_some(())
     };
     least_squares_with_jacobian(start, samples, &SETTINGS, evaluate)
@@ -260,12 +289,12 @@ fn fitted(
 fn write(
     curve: &UnitCurve,
     (indentations, series): (&[Indentation<'_>], &PronySeries),
-    values: &[f64],
+    modulus: f64,
     (residuals, jacobian): (&mut [f64], &mut DMatrix<f64>),
 ) -> Vec<Vec<f64>> {
     let mut start = 0;
     let each = indentations.iter().map(|each| {
-        let (forces, columns) = forces::forces((each.time, each.depth), curve, values[0], series);
+        let (forces, columns) = forces::forces((each.time, each.depth), curve, modulus, series);
         forces::write(&columns, start, jacobian);
         for (row, force) in forces.iter().enumerate() {
             residuals[start + row] = force - each.force[row];
@@ -278,12 +307,11 @@ fn write(
 
 pub(super) fn parameters(law: SoughtLaw, series: &PronySeries, modulus: f64) -> Vec<Parameter> {
     let first = Parameter::new("modulus_pa", modulus).within(0.0, f64::INFINITY);
-    let second = match law.shapes() {
-        Some([lower, start, upper]) => Parameter::new("shape", start)
-            .within(lower, upper)
-            .scaled(1.0),
-        None => Parameter::new("shape", 0.0).fixed(),
-    };
+    let shapes = law.shapes().into_iter().enumerate().map(|(place, range)| {
+        Parameter::new(format!("shape_{}", place + 1), range.start)
+            .within(range.lower, range.upper)
+            .scaled(1.0)
+    });
     let left = 1.0 - series.terms().iter().map(|(g, _)| g).sum::<f64>();
     let relaxation = series
         .terms()
@@ -294,5 +322,9 @@ pub(super) fn parameters(law: SoughtLaw, series: &PronySeries, modulus: f64) -> 
             let time = Parameter::new(format!("log_tau_{}", place + 1), tau.ln()).scaled(1.0);
             [ratio.fixed(), time.fixed()]
         });
-    [first, second].into_iter().chain(relaxation).collect()
+    [first]
+        .into_iter()
+        .chain(shapes)
+        .chain(relaxation)
+        .collect()
 }

@@ -2,7 +2,7 @@
 //!
 //! All force grows with the modulus M, so with a punch of radius a the elastic force is
 //!   Fₑ(d) = M f(d; w),
-//! f from finite elements, once for each shape w of the law ([`Curves`]); the relaxed force is its
+//! f from finite elements, once for each set of shapes w of the law ([`Curves`]); the relaxed force is its
 //! convolution with a relaxation that is known already ([`crate::viscoelastic`]). [`law_fit`] looks for M and
 //! w. ∂f/∂w comes from the factors that the run has made, so that no run is made to find a slope. The
 //! source's own iteration (6.16), with runs of perturbed parameters, is beside it.
@@ -10,8 +10,8 @@
 //! *How we know*: `inverse::…`: forces of full viscoelastic runs, at other meshes and Poisson's ratios.
 //!
 //! *Limits*: one law and one relaxation for the whole body, homogeneous, isotropic and incompressible; a solid
-//! specimen is indented in its middle, and large where its recording does not state its size ([`assumption`]); a
-//! tube has no other law than the neo-Hookean.
+//! specimen is indented in its middle, and large where its recording does not state its size ([`assumption`]), or an
+//! [`Organ`] of its own shape; a tube has no other law than the neo-Hookean.
 
 mod body;
 mod correlations;
@@ -23,6 +23,7 @@ mod fitted_force;
 mod forces;
 mod law;
 mod law_fit;
+mod organ;
 mod repeated;
 mod tables;
 mod thickness;
@@ -34,8 +35,9 @@ pub use description::LawDescription;
 pub(crate) use expected::expected_law;
 pub use fitted_force::{ElasticForce, standard_errors};
 pub use forces::{Indentation, ZeroErrors};
-pub use law::{LawParameter, SoughtLaw};
-pub use law_fit::{LawFit, law_fit};
+pub use law::{LawParameter, ShapeRange, SoughtLaw, Terms};
+pub use law_fit::{LawFit, OtherMinimum, law_fit};
+pub use organ::{FarField, Organ};
 pub use repeated::{LEAST_DRAWS, NoiseEffect, Repeated, repeated};
 pub use tables::{PUNCH, SHAPES};
 pub use thickness::{CONE_ON_LAYER, PUNCH_ON_LAYER, THICKNESSES, assumption, sphere_on_layer};

@@ -126,7 +126,7 @@ fn profiles(
     model: &mut OwnModel<'_>,
 ) -> Result<Vec<Option<[Option<f64>; 2]>>, Error> {
     let mut held = own.clone();
-    for parameter in held.parameters.iter_mut().skip(2) {
+    for parameter in held.parameters.iter_mut().skip(count) {
         parameter.fixed = true;
     }
     let uncertainty = correlated_uncertainty(&held, lengths);
@@ -152,16 +152,17 @@ struct OwnModel<'a> {
 }
 
 impl OwnModel<'_> {
-    /// The parameters are two of the law (of one alone, the second means nothing) and the relaxation's.
+    /// The parameters are those of the law and the relaxation's.
     fn evaluate(
         &mut self,
         values: &[f64],
         residuals: &mut [f64],
         jacobian: &mut DMatrix<f64>,
     ) -> Option<()> {
-        let own = self.law.seen_as_shape([values[0], values[1]])?;
-        let curve = self.curves.predicted(f64::INFINITY, own.shape)?;
-        let pairs = terms(&values[1..], (values.len() - 2) / 2);
+        let count = self.law.count();
+        let own = self.law.seen_as_shape(&values[..count])?;
+        let curve = self.curves.predicted(f64::INFINITY, &own.shape)?;
+        let pairs = terms(&values[count - 1..], (values.len() - count) / 2);
         let series = PronySeries::new(&pairs).ok()?;
         let mut start = 0;
         for each in self.indentations {
@@ -169,9 +170,10 @@ impl OwnModel<'_> {
             let (forces, mut columns) = forces::forces(course, &curve, own.modulus, &series);
             for row in 0..forces.len() {
                 residuals[start + row] = forces[row] - each.force[row];
-                let (modulus, shape) = (columns[0][row], columns[1][row]);
-                for (place, [by_modulus, by_shape]) in own.by.into_iter().enumerate() {
-                    columns[place][row] = modulus * by_modulus + shape * by_shape;
+                let of_shape: Vec<f64> = (0..count).map(|place| columns[place][row]).collect();
+                for (place, column) in columns[..count].iter_mut().enumerate() {
+                    let by = own.by.column(place);
+                    column[row] = of_shape.iter().zip(&by).map(|(of, by)| of * by).sum();
                 }
             }
             forces::write(&columns, start, jacobian);

@@ -108,7 +108,7 @@ const TOO_STIFF_OTHERS: f64 = 0.0017;
 const LEFT: f64 = 0.005;
 
 /// The tabulated curve of `law` in `body` down to `deepest` [m]; none where there is none.
-pub(super) fn curve(body: &Body, law: SoughtLaw, shape: f64, deepest: f64) -> Option<UnitCurve> {
+pub(super) fn curve(body: &Body, law: SoughtLaw, shape: &[f64], deepest: f64) -> Option<UnitCurve> {
     let radius = body.radius();
     let last = PUNCH[PUNCH.len() - 1].0;
     if !body.is_tabulated() || deepest > last * radius {
@@ -119,23 +119,23 @@ pub(super) fn curve(body: &Body, law: SoughtLaw, shape: f64, deepest: f64) -> Op
         let forces: Vec<f64> = values.iter().map(|value| value * radius * radius).collect();
         IndentationCurve::through(&depths, &forces)
     };
-    let (force, by_shape) = match law {
-        SoughtLaw::NeoHookean => {
+    let (force, by_shape) = match (law, shape) {
+        (SoughtLaw::NeoHookean, []) => {
             let force = PUNCH.iter().map(|row| row.1);
-            (through(force.collect()), IndentationCurve::untouched())
+            (through(force.collect()), Vec::new())
         }
-        SoughtLaw::MooneyRivlin => {
+        (SoughtLaw::MooneyRivlin, &[shape]) => {
             let of = |row: &(f64, f64, [f64; SHAPES.len()])| {
                 let right = |place: usize| row.2[place] * (1.0 - TOO_STIFF[place] * row.0);
                 between(&std::array::from_fn(right), shape)
             };
             let (forces, slopes) = PUNCH.iter().map(of).unzip();
-            (through(forces), through(slopes))
+            (through(forces), vec![through(slopes)])
         }
-        SoughtLaw::Exponential => return None,
+        _ => return None,
     };
     Some(UnitCurve {
-        shape,
+        shape: shape.to_vec(),
         force,
         by_shape,
         discretisation: LEFT,

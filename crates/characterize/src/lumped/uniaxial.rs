@@ -3,7 +3,7 @@ use std::ops::Range;
 use palpate_files::Estimate;
 use palpate_files::tissue::Elasticity;
 use palpate_mechanics::finite_elements::uniaxial::nominal_stress;
-use palpate_mechanics::{Exponential, Law, MooneyRivlin, NeoHookean};
+use palpate_mechanics::{Exponential, Law, MooneyRivlin, NeoHookean, Ogden};
 
 use super::column::ALPHAS;
 use crate::fit::{
@@ -69,6 +69,9 @@ impl Pulled {
 
 /// Where the exponent α is first looked for [-].
 const STARTS: [f64; 5] = [0.003, 0.03, 0.3, 3.0, 30.0];
+/// The same for the exponents of Ogden's law, and how large they may become.
+const OGDEN_STARTS: [f64; 6] = [1.5, 4.0, 10.0, -1.5, -4.0, -10.0];
+const OGDEN_ALPHA: f64 = 50.0;
 
 impl UniaxialFit {
     /// Nominal stress [Pa] of the law at a `stretch` [-], deformed over undeformed length.
@@ -128,12 +131,25 @@ fn fitted(
             said.push(format!(
                 "the nearest c10_pa and c01_pa, {c10:.4e} and {c01:.4e}, have no stiffness at rest; both were held above zero"
             ));
-        } else if c10.min(c01) < 0.0 {
-            let negative = if c10 < c01 { "c10_pa" } else { "c01_pa" };
+        }
+    }
+    if let SoughtLaw::Ogden(_) = law {
+        let moduli = fit.parameters.iter().step_by(2).map(|own| own.value);
+        let shear: f64 = moduli.sum();
+        if shear <= 0.0 {
+            fit = nearest(law, stretches, stresses, 0.0)?;
             said.push(format!(
-                "{negative} is negative: far from the stretches recorded the law has no stiffness"
+                "the nearest mu have the sum {shear:.4e}, which is no stiffness at rest; all were held above zero"
             ));
         }
+    }
+    let is_modulus = |own: &&Parameter| own.name.ends_with("_pa");
+    let negative = fit.parameters.iter().filter(is_modulus);
+    for own in negative.filter(|own| own.value < 0.0) {
+        said.push(format!(
+            "{} is negative: far from the stretches recorded the law may have no stiffness",
+            own.name
+        ));
     }
     let uncertainty = correlated_uncertainty(&fit, lengths);
     let largest = stresses.iter().fold(0.0, |most: f64, s| most.max(s.abs()));
@@ -146,7 +162,7 @@ fn fitted(
             standard_error: uncertainty.standard_error(place),
         })
         .collect();
-    let names = law.parameters(1.0, 0.0).into_iter().map(|p| p.name);
+    let names = law.names().into_iter();
     Ok(UniaxialFit {
         law,
         elasticity: law.elasticity(&estimates),
@@ -158,39 +174,46 @@ fn fitted(
     })
 }
 
-/// The fit with the least Σ ε² and no modulus below `least` [Pa].
+/// The fit with the least Σ ε² and no modulus below `least` [Pa], of all that the starts lead to.
 fn nearest(law: SoughtLaw, stretches: &[f64], stresses: &[f64], least: f64) -> Result<Fit, Error> {
     let samples = stretches.len().min(stresses.len());
-    let parameters = start(law, stretches, stresses, least)?;
-    least_squares(
-        &parameters,
-        samples,
-        &Settings::default(),
-        |p, residuals| {
-            for (residual, (&stretch, known)) in
-                residuals.iter_mut().zip(stretches.iter().zip(stresses))
-            {
-                *residual = uniaxial_stress(law, p, stretch).ok()? - known;
-            }
-            Some(())
-        },
-    )
+    let mut best: Option<Fit> = None;
+    for parameters in starts(law, (stretches, stresses), least)? {
+        let fit = least_squares(
+            &parameters,
+            samples,
+            &Settings::default(),
+            |p, residuals| {
+                for (residual, (&stretch, known)) in
+                    residuals.iter_mut().zip(stretches.iter().zip(stresses))
+                {
+                    *residual = uniaxial_stress(law, p, stretch).ok()? - known;
+                }
+                Some(())
+            },
+        )?;
+        let is_better = |best: &Fit| fit.sum_of_squares() < best.sum_of_squares();
+        if best.as_ref().is_none_or(is_better) {
+            best = Some(fit);
+        }
+    }
+    best.ok_or(Error::NothingFelt)
 }
 
-/// Where a fit starts. Stress is linear in the modulus, which is found for each of a few shapes.
-fn start(
+/// Where fits start: stress is linear in the moduli, which are found for each of a few exponents, and the best of each
+/// sign of the exponents is taken.
+fn starts(
     law: SoughtLaw,
-    stretches: &[f64],
-    stresses: &[f64],
+    (stretches, stresses): (&[f64], &[f64]),
     least: f64,
-) -> Result<Vec<Parameter>, Error> {
-    let shapes = match law {
-        SoughtLaw::Exponential => &STARTS[..],
-        SoughtLaw::NeoHookean | SoughtLaw::MooneyRivlin => &[0.5],
-    };
-    let mut best: Option<(f64, Vec<f64>)> = None;
-    for &shape in shapes {
-        let unit: Vec<f64> = law.parameters(1.0, shape).iter().map(|p| p.value).collect();
+) -> Result<Vec<Vec<Parameter>>, Error> {
+    let mut best: Vec<([bool; 3], f64, Vec<f64>)> = Vec::new();
+    for shape in shapes(law) {
+        let unit: Vec<f64> = law
+            .parameters(1.0, &shape)
+            .iter()
+            .map(|p| p.value)
+            .collect();
         let (mut products, mut squares) = (0.0, 0.0);
         for (&stretch, known) in stretches.iter().zip(stresses) {
             let own = uniaxial_stress(law, &unit, stretch).unwrap_or(f64::INFINITY);
@@ -198,23 +221,72 @@ fn start(
             squares += own * own;
         }
         let (modulus, gained) = (products / squares, products * products / squares);
-        if modulus > 0.0 && best.as_ref().is_none_or(|(most, _)| gained > *most) {
-            let values = law.parameters(modulus, shape);
-            best = Some((gained, values.iter().map(|p| p.value).collect()));
+        if !(modulus > 0.0 && modulus.is_finite()) {
+            continue;
+        }
+        let values = law
+            .parameters(modulus, &shape)
+            .iter()
+            .map(|p| p.value)
+            .collect();
+        // Of Ogden's law the exponents are every second number.
+        let signs = [0, 2, 4].map(|place| shape.get(place).is_some_and(|alpha| *alpha < 0.0));
+        match best.iter_mut().find(|own| own.0 == signs) {
+            Some(own) if own.1 >= gained => {}
+            Some(own) => *own = (signs, gained, values),
+            None => best.push((signs, gained, values)),
         }
     }
-    let (_, values) = best.ok_or(Error::NothingFelt)?;
-    let named = values.iter().zip(law.parameters(1.0, 0.0));
-    Ok(named
-        .map(|(&value, own)| match own.name {
-            "alpha" => Parameter::new(own.name, value).within(ALPHAS[0], ALPHAS[2]),
-            _ => Parameter::new(own.name, value).within(least, f64::INFINITY),
-        })
-        .collect())
+    if best.is_empty() {
+        return Err(Error::NothingFelt);
+    }
+    let bounded = |(name, value): (&'static str, f64)| {
+        let parameter = Parameter::new(name, value);
+        match name {
+            "alpha" => parameter.within(ALPHAS[0], ALPHAS[2]),
+            name if name.starts_with("alpha_") => parameter.within(-OGDEN_ALPHA, OGDEN_ALPHA),
+            // The law has no stiffness at rest without it.
+            "c10_pa" if matches!(law, SoughtLaw::ReducedPolynomial(_)) => {
+                parameter.within(least.max(0.0), f64::INFINITY)
+            }
+            _ => parameter.within(least, f64::INFINITY),
+        }
+    };
+    let all = best.into_iter().map(|(_, _, values)| {
+        let named = law.names().into_iter().zip(values);
+        named.map(bounded).collect()
+    });
+    Ok(all.collect())
+}
+
+/// Shapes from which fits may start.
+fn shapes(law: SoughtLaw) -> Vec<Vec<f64>> {
+    match law {
+        SoughtLaw::NeoHookean => vec![Vec::new()],
+        SoughtLaw::MooneyRivlin => vec![vec![0.5]],
+        SoughtLaw::Exponential => STARTS.map(|alpha| vec![alpha]).to_vec(),
+        SoughtLaw::ReducedPolynomial(_) => vec![vec![0.0; law.count() - 1]],
+        SoughtLaw::Ogden(terms) => {
+            // Exponents in the order of the starts, so that terms do not change places.
+            let mut all: Vec<Vec<f64>> = OGDEN_STARTS.map(|alpha| vec![alpha]).to_vec();
+            for _ in 1..terms.count() {
+                let more = all.iter().flat_map(|own| {
+                    let after = OGDEN_STARTS
+                        .iter()
+                        .skip_while(|alpha| own.last() != Some(alpha));
+                    after
+                        .skip(1)
+                        .map(|alpha| [&own[..], &[0.3, *alpha]].concat())
+                });
+                all = more.collect();
+            }
+            all
+        }
+    }
 }
 
 /// Nominal stress [Pa] of a law with these parameters, also where they are none of a tissue: it is linear in
-/// all but α.
+/// all but exponents.
 ///
 /// # Errors
 /// At a stretch where the law has no stress.
@@ -232,5 +304,19 @@ pub fn uniaxial_stress(
             Ok(p[0] * first + p[1] * second)
         }
         SoughtLaw::Exponential => Ok(p[0] * of(&Exponential::incompressible(1.0, p[1])?)?),
+        SoughtLaw::Ogden(_) => {
+            let terms = p.as_chunks().0.iter();
+            let each =
+                terms.map(|&[mu, alpha]| Ok(mu * of(&Ogden::incompressible(&[[1.0, alpha]])?)?));
+            each.sum()
+        }
+        SoughtLaw::ReducedPolynomial(_) => {
+            // P = 2 (λ − λ⁻²) Σ k C_k0 (I₁ − 3)^(k−1).
+            let first = of(&NeoHookean::incompressible(1.0)?)?;
+            let invariant = stretch * stretch + 2.0 / stretch - 3.0;
+            let each = (1..).zip(p);
+            let slope = each.map(|(k, c)| f64::from(k) * c * invariant.powi(k - 1));
+            Ok(first * slope.sum::<f64>())
+        }
     }
 }

@@ -76,7 +76,7 @@ struct Specimen<'a> {
 #[derive(Debug, Clone)]
 struct Tissue {
     modulus: f64,
-    shape: f64,
+    shape: Vec<f64>,
     series: PronySeries,
 }
 
@@ -84,7 +84,7 @@ impl Tissue {
     fn of(relaxation: &Relaxation, law: &LawDescription) -> Self {
         Self {
             modulus: law.found.modulus(),
-            shape: law.found.shape(),
+            shape: law.found.shape().to_vec(),
             series: relaxation.series.clone(),
         }
     }
@@ -92,7 +92,7 @@ impl Tissue {
     /// Whether it is `other` but for less than elements are off.
     fn is_like(&self, other: &Self) -> bool {
         (self.modulus / other.modulus - 1.0).abs() <= SETTLED
-            && (self.shape - other.shape).abs() <= SETTLED
+            && (self.shape.iter().zip(&other.shape)).all(|(a, b)| (a - b).abs() <= SETTLED)
     }
 }
 
@@ -119,7 +119,7 @@ impl Specimen<'_> {
                 divide(pressed, factor);
             }
             // The law's own elastic force, where a first fit takes that of neo-Hookean tissue.
-            let elastic = curves.of(f64::INFINITY, of.shape)?;
+            let elastic = curves.of(f64::INFINITY, &of.shape)?;
             let records = records(&divided, Some(&elastic));
             let mut relaxing = relaxation(&records, settings.relaxation)?;
             let mut law = |draws: Option<Draws>| sought(&mut curves, &divided, (&relaxing, draws));
@@ -151,7 +151,7 @@ impl Specimen<'_> {
         tissue: &Tissue,
         places: &[Vec<usize>],
     ) -> Result<(Vec<Vec<f64>>, Tissue), Error> {
-        let begin = self.law.shapes().map_or(0.0, |[_, begin, _]| begin);
+        let begin = self.law.start();
         let mut of = tissue.clone();
         let mut halvings = 0;
         loop {
@@ -160,7 +160,9 @@ impl Specimen<'_> {
             match factors.collect::<Result<Vec<_>, _>>() {
                 Err(Error::NotSolved { .. }) if halvings < HALVINGS => {
                     halvings += 1;
-                    of.shape = 0.5 * (of.shape + begin);
+                    for (shape, begin) in of.shape.iter_mut().zip(&begin) {
+                        *shape = 0.5 * (*shape + begin);
+                    }
                 }
                 factors => return Ok((factors?, of)),
             }
@@ -209,7 +211,7 @@ impl Specimen<'_> {
         let mut run = IndentationRun::new(&IndentationSettings {
             block,
             indenter,
-            law: self.law.of(tissue.modulus, tissue.shape)?,
+            law: self.law.of(tissue.modulus, &tissue.shape)?,
             prony: prony.clone(),
             deepest: self.deepest,
             halvings: 0,

@@ -60,7 +60,7 @@ fn guess() -> Guess {
     Guess {
         law: SoughtLaw::MooneyRivlin,
         modulus: 612.0,
-        shape: 0.37,
+        shape: vec![0.37],
         series: PronySeries::new(&LIVER).unwrap(),
     }
 }
@@ -76,7 +76,7 @@ fn specimen(seed: u64) -> Guess {
     Guess {
         law: SoughtLaw::MooneyRivlin,
         modulus: between(400.0, 1000.0),
-        shape: between(0.25, 0.6),
+        shape: vec![between(0.25, 0.6)],
         series: PronySeries::new(&terms).unwrap(),
     }
 }
@@ -85,7 +85,7 @@ fn recording(truth: &Guess, presses: &Presses, (place, seed): (usize, u64)) -> R
     let mut random = Random::new(seed);
     let body = Body::under_punch(presses.radius);
     let mut curves = Curves::new(body, truth.law, presses.deepest());
-    let curve = curves.of(f64::INFINITY, truth.shape).unwrap().force;
+    let curve = curves.of(f64::INFINITY, &truth.shape).unwrap().force;
     let count = ((BEFORE + presses.ramp + presses.hold) * RATE) as usize;
     let time_s: Vec<f64> = (0..count).map(|i| i as f64 / RATE).collect();
     let depth = |time: &f64| presses.depths[place] * ((time - BEFORE) / presses.ramp).min(1.0);
@@ -137,7 +137,7 @@ fn found(truth: &Guess, presses: &Presses, seed: u64) -> Vec<(f64, bool)> {
 fn intervals(truth: &Guess, found: &Characterization) -> Vec<(f64, bool)> {
     let law = found.laws[0].1.as_ref().unwrap();
     let relaxation = found.relaxation.as_ref().unwrap();
-    let own = truth.law.parameters(truth.modulus, truth.shape);
+    let own = truth.law.parameters(truth.modulus, &truth.shape);
     let of_law = own.iter().enumerate().map(|(place, parameter)| {
         let known = law.parameters[place].1;
         let reach = known.standard_error.map_or(f64::INFINITY, |error| {

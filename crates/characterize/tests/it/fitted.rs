@@ -157,7 +157,7 @@ fn forces_of_a_found_law_and_their_errors_are_those_of_its_parameters() {
         Correlations::of(vec![name.to_owned()], &covariance)
     };
     // Of the law: the elastic force is that of moved parameters.
-    let shape = law.found.shape();
+    let shape = law.found.shape()[0];
     for (name, curve) in &elastic.sensitivities {
         let size = 1e-4 * law.found.modulus() * (1.0 - shape);
         let moved = |sign: f64| {

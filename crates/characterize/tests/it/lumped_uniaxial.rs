@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use palpate_characterize::fit::Random;
-use palpate_characterize::inverse::SoughtLaw;
+use palpate_characterize::inverse::{SoughtLaw, Terms};
 use palpate_characterize::lumped::{UniaxialFit, fit_uniaxial, fit_uniaxial_recordings};
 use palpate_characterize::{CleanRecording, CleanSettings, Error, clean};
 use palpate_files::Recording;
@@ -22,13 +22,30 @@ fn stress(law: SoughtLaw, p: &[f64], l: f64) -> f64 {
             let (along, across) = (p[1] * (l * l - 1.0), p[1] * (1.0 / l - 1.0));
             p[0] / (p[1] + 1.0) * (l * along.exp() - across.exp() / (l * l))
         }
+        SoughtLaw::Ogden(_) => {
+            let term =
+                |p: &[f64]| 2.0 * p[0] / p[1] * (l.powf(p[1] - 1.0) - l.powf(-0.5 * p[1] - 1.0));
+            p.chunks(2).map(term).sum()
+        }
+        SoughtLaw::ReducedPolynomial(_) => {
+            let i = l * l + 2.0 / l - 3.0;
+            let c = |place: usize| p.get(place).copied().unwrap_or(0.0);
+            2.0 * bar * (c(0) + 2.0 * c(1) * i + 3.0 * c(2) * i * i)
+        }
     }
 }
 
-const TRUTHS: [(SoughtLaw, &[f64]); 3] = [
+const TRUTHS: [(SoughtLaw, &[f64]); 7] = [
     (SoughtLaw::NeoHookean, &[800.0]),
     (SoughtLaw::MooneyRivlin, &[500.0, 300.0]),
     (SoughtLaw::Exponential, &[1500.0, 2.0]),
+    (SoughtLaw::Ogden(Terms::One), &[900.0, 5.7]),
+    (SoughtLaw::Ogden(Terms::Two), &[700.0, 3.1, 200.0, -5.3]),
+    (SoughtLaw::ReducedPolynomial(Terms::Two), &[500.0, 180.0]),
+    (
+        SoughtLaw::ReducedPolynomial(Terms::Three),
+        &[500.0, 90.0, 40.0],
+    ),
 ];
 
 /// Judge: the closed forms that made the stresses, pressed and pulled. Tolerance: rounding, grown by the fit.
@@ -65,7 +82,7 @@ fn pieces(law: SoughtLaw, truth: &[f64]) -> Vec<CleanRecording> {
 }
 
 /// Judge: the laws that made the recordings. Tolerance: four of the standard errors, and the contact, which is
-/// found to the part of a percent.
+/// found to the part of a percent. Of three parameters or more a piece pressed by a third tells some badly.
 #[test]
 fn laws_return_from_recordings() {
     for (law, truth) in TRUTHS {
@@ -75,7 +92,8 @@ fn laws_return_from_recordings() {
             println!("{name}: {truth} {} +- {error}", estimate.value);
             let off = (estimate.value - truth).abs();
             assert!(off < 4.0 * error + 0.01 * truth, "{name}: {estimate:?}");
-            assert!(error < 0.02 * truth, "{name}: {estimate:?}");
+            let tells_all = found.parameters.len() < 3;
+            assert!(error < 0.02 * truth || !tells_all, "{name}: {estimate:?}");
         }
     }
     let mut unknown = pieces(TRUTHS[0].0, TRUTHS[0].1);
@@ -112,7 +130,7 @@ fn rubber_is_missed_by_two_laws() {
         &folder.join("rubber/treloar1944_uniaxial.csv"),
         &columns,
     )];
-    let found = SoughtLaw::ALL.map(|law| fit_uniaxial_recordings(law, &rubber).unwrap());
+    let found = SoughtLaw::USUAL.map(|law| fit_uniaxial_recordings(law, &rubber).unwrap());
     for fit in &found {
         println!("{:?} {:.3} {:#?}", fit.parameters, fit.misfit, fit.warnings);
     }
@@ -162,7 +180,7 @@ fn silicone(folder: &Path, material: &str) -> Vec<CleanRecording> {
 /// Judge: the authors' parameters of the same laws over the same two thirds of the height. Theirs are of the mean
 /// curve of ten pieces from where the machine set out, ours of three of them from first contact. Tolerance: at no
 /// stretch are the stresses of both farther apart than those of our pieces. The authors' neo-Hookean parameter is
-/// μ = 2 C₁₀.
+/// μ = 2 C₁₀; that of Ogden's law belongs to W = μ/α Σ λ^α, so that ours is α/2 of it.
 #[test]
 fn silicone_is_what_its_authors_found() {
     let Some(folder) = data::folder() else {
@@ -175,9 +193,16 @@ fn silicone_is_what_its_authors_found() {
         for (law, model, unit) in [
             (SoughtLaw::NeoHookean, "Neo Hookean", 0.5),
             (SoughtLaw::MooneyRivlin, "Mooney Rivlin_o1", 1.0),
+            (SoughtLaw::Ogden(Terms::One), "Ogden_o1", 1.0),
+            (SoughtLaw::ReducedPolynomial(Terms::Two), "Yeoh_o2", 1.0),
+            (SoughtLaw::ReducedPolynomial(Terms::Three), "Yeoh_o3", 1.0),
         ] {
             let theirs = authors(&table, material, model).into_iter();
-            let theirs: Vec<f64> = theirs.map(|value| 1e3 * unit * value).collect();
+            let mut theirs: Vec<f64> = theirs.map(|value| 1e3 * unit * value).collect();
+            if let (SoughtLaw::Ogden(_), [mu, alpha]) = (law, &mut theirs[..]) {
+                *alpha *= 1e-3;
+                *mu *= 0.5 * *alpha;
+            }
             let fit = |pieces: &[CleanRecording]| fit_uniaxial_recordings(law, pieces).unwrap();
             let together = fit(&pieces);
             let alone: Vec<UniaxialFit> = pieces.chunks(1).map(fit).collect();

@@ -22,6 +22,7 @@ mod lumped_column;
 mod lumped_springs;
 mod lumped_uniaxial;
 mod made_up;
+mod organ;
 mod random;
 mod real;
 mod relaxation;

@@ -47,11 +47,11 @@ fn assert_column(place: usize, deepest: f64) {
 /// what the coarsest mesh is too stiff at six radii.
 fn assert_slopes(shape: f64, deepest: f64) {
     let mut curves = Curves::new(Body::under_punch(1.0), SoughtLaw::MooneyRivlin, deepest);
-    let tabulated = curves.of(f64::INFINITY, shape).unwrap().by_shape;
+    let tabulated = curves.of(f64::INFINITY, &[shape]).unwrap();
     let mut run = run(shape, 0).with_sensitivities();
     for depth in PUNCH.iter().map(|row| row.0).take_while(|x| *x <= deepest) {
         let by = run.press(depth, depth, |_| ()).unwrap().sensitivities;
-        let (slope, found) = (by[1] - by[0], tabulated.force(depth));
+        let (slope, found) = (by[1] - by[0], tabulated.by_shape[0].force(depth));
         assert!(
             (found / slope - 1.0).abs() < 0.03,
             "{shape} {depth}: {found} {slope}"
@@ -71,8 +71,9 @@ fn the_last_column_is_no_end() {
     let [before, last] = [4, 5].map(|place| SHAPES[place]);
     let mut curves = Curves::new(Body::under_punch(1.0), SoughtLaw::MooneyRivlin, 6.0);
     let mut ratio = |shape: f64| {
-        let curve = curves.of(f64::INFINITY, shape).unwrap();
-        let [deep, shallow] = [6.0, 1.0].map(|d| (curve.force.force(d), curve.by_shape.force(d)));
+        let curve = curves.of(f64::INFINITY, &[shape]).unwrap();
+        let at = |d: f64| (curve.force.force(d), curve.by_shape[0].force(d));
+        let [deep, shallow] = [6.0, 1.0].map(at);
         let value = deep.0 / shallow.0;
         (value, value * (deep.1 / deep.0 - shallow.1 / shallow.0))
     };
@@ -132,7 +133,7 @@ fn assert_trends(shapes: &[f64], deepest: f64) {
     for &shape in shapes {
         let [coarse, fine] = [0, 1].map(|halvings| forces(shape, halvings, deepest));
         let mut curves = Curves::new(Body::under_punch(1.0), SoughtLaw::MooneyRivlin, deepest);
-        let tabulated = curves.of(f64::INFINITY, shape).unwrap().force;
+        let tabulated = curves.of(f64::INFINITY, &[shape]).unwrap().force;
         let pairs = coarse.iter().zip(&fine);
         let off = PUNCH.iter().zip(pairs).map(|(row, (coarse, fine))| {
             let limit = fine + (fine - coarse) / (2_f64.powf(1.2) - 1.0);

@@ -13,6 +13,10 @@ impl Domain {
         Self::quantity("the radius of a tip", "m", [Included(1e-9), Included(0.1)])
             .usually(1e-6, 0.02);
 
+    /// A coordinate [m], which may reach far beyond any organ.
+    pub const COORDINATE: Self =
+        Self::quantity("a coordinate", "m", [Included(-1e6), Included(1e6)]);
+
     /// A length of an organ, a specimen, an instrument or a region [m].
     pub const LENGTH: Self =
         Self::quantity("a length", "m", [Included(1e-9), Included(10.0)]).usually(1e-5, 1.0);

@@ -1,4 +1,5 @@
 use super::header_keys::header_keys;
+use crate::scene::{LengthUnit, Region};
 use crate::table::ExtraKey;
 use crate::words::words;
 use crate::{Domain, Error, Holds, Key, Keys};
@@ -135,6 +136,14 @@ header_keys! {
         length_m: f64 = Holds::Number(Domain::LENGTH),
         /// Pressure inside a tube [Pa].
         pressure_pa: f64 = Holds::Number(Domain::PRESSURE_OR_SUCTION),
+        /// The surface of a whole organ, a mesh file, from the recording's own folder.
+        mesh: String = Holds::Path,
+        /// The unit of its coordinates.
+        mesh_unit: LengthUnit = Holds::Word(LengthUnit::MEANINGS),
+        /// Where the indenter touches it, in its coordinates [m].
+        location_m: [f64; 3] = Holds::Vector(Domain::COORDINATE),
+        /// Where it is fixed: its triangles whose centroid lies in these regions.
+        fixed: Region = Holds::Table(Region::KEYS),
         /// Where the recording comes from.
         source: String = Holds::Text,
         /// How it ended: `whole`, `unfinished` while it is made, or why it was cut short.
@@ -142,11 +151,15 @@ header_keys! {
     }
 }
 
+/// What is expected of the key `fixed`.
+const FIXED: &str = "where the organ is fixed, such as `{ planes = [{ point_m = [0.0, 0.0, 0.001], normal = [0.0, 0.0, 1.0] }] }`";
+
 impl RecordingHeader {
     pub(super) fn from_keys(keys: &Keys<'_>) -> Result<Self, Error> {
         let header = Self::read(keys)?;
         header.check_wall(keys)?;
         header.check_specimen(keys)?;
+        header.check_organ(keys)?;
         Ok(header)
     }
 
@@ -165,6 +178,32 @@ impl RecordingHeader {
             return Err(keys.given_twice("specimen_radius_m", "specimen_width_m"));
         }
         Ok(())
+    }
+
+    fn check_organ(&self, keys: &Keys<'_>) -> Result<(), Error> {
+        if self.mesh.is_none() {
+            for key in ["mesh_unit", "location_m", "fixed"] {
+                keys.refuse(key, "`mesh` too, for it says something of a mesh")?;
+            }
+            return Ok(());
+        }
+        for key in [
+            "thickness_m",
+            "specimen_radius_m",
+            "specimen_width_m",
+            "support",
+            "specimen",
+        ] {
+            keys.refuse(key, "no other shape, for `mesh` is that of the specimen")?;
+        }
+        if self.location_m.is_none() {
+            let expected = "the place of the indenter on the mesh, three coordinates in metres";
+            return Err(keys.missing("location_m", expected));
+        }
+        match &self.fixed {
+            Some(region) if !region.is_empty() => Ok(()),
+            _ => Err(keys.missing("fixed", FIXED)),
+        }
     }
 
     /// [`ended`](Self::ended) of a recording with all its samples.
@@ -193,6 +232,7 @@ impl RecordingHeader {
             thickness_m specimen_radius_m specimen_width_m support density_kg_per_m3
             area_m2 height_m
             specimen inner_radius_m outer_radius_m length_m pressure_pa
+            mesh mesh_unit location_m fixed
             source ended
         );
         self.extra.extend(other.extra.iter().cloned());

@@ -1,5 +1,6 @@
 //! A header is declared once: its fields, its keys, their reader and their writer come from one list.
 
+use crate::scene::Region;
 use crate::toml_document::{quoted, toml_number};
 use crate::words::Worded;
 use crate::{Error, Holds, Keys};
@@ -58,11 +59,44 @@ impl HeaderValue for bool {
 
 impl HeaderValue for [f64; 3] {
     fn read(keys: &Keys<'_>, key: &'static str) -> Result<Option<Self>, Error> {
-        keys.direction(key)
+        match keys.declared(key).holds {
+            Holds::Vector(_) => keys.vector(key),
+            _ => keys.direction(key),
+        }
     }
 
     fn written(&self) -> String {
         format!("[{}]", self.map(toml_number).join(", "))
+    }
+}
+
+impl HeaderValue for Region {
+    fn read(keys: &Keys<'_>, key: &'static str) -> Result<Option<Self>, Error> {
+        let table = keys.table(key)?;
+        table.map(|table| Self::from_keys(&table)).transpose()
+    }
+
+    fn written(&self) -> String {
+        let planes = self.planes.iter().map(|plane| {
+            let (point, normal) = (plane.point_m.written(), plane.normal.written());
+            format!("{{ point_m = {point}, normal = {normal} }}")
+        });
+        let boxes = self.boxes.iter().map(|own| {
+            let (least, most) = (own.min_m.written(), own.max_m.written());
+            format!("{{ min_m = {least}, max_m = {most} }}")
+        });
+        let spheres = self.spheres.iter().map(|sphere| {
+            let (center, radius) = (sphere.center_m.written(), toml_number(sphere.radius_m));
+            format!("{{ center_m = {center}, radius_m = {radius} }}")
+        });
+        let lists: [(&str, Vec<String>); 3] = [
+            ("planes", planes.collect()),
+            ("boxes", boxes.collect()),
+            ("spheres", spheres.collect()),
+        ];
+        let lists = lists.iter().filter(|(_, own)| !own.is_empty());
+        let lists = lists.map(|(name, own)| format!("{name} = [{}]", own.join(", ")));
+        format!("{{ {} }}", lists.collect::<Vec<_>>().join(", "))
     }
 }
 

@@ -44,9 +44,6 @@ pub struct RegionSphere {
 /// A radius of a region [m].
 const RADIUS: Domain = Domain::quantity("a radius", "m", [Included(1e-9), Included(1e6)]);
 
-/// A coordinate of a region [m], which may reach far beyond any organ.
-const FAR: Domain = Domain::quantity("a coordinate", "m", [Included(-1e6), Included(1e6)]);
-
 impl Region {
     /// The keys of a region's table.
     pub const KEYS: &'static [Key] = &[
@@ -99,7 +96,8 @@ impl Region {
 
 impl RegionPlane {
     const KEYS: &[Key] = &[
-        Key::vector("point_m", FAR, "A point of its border.").required("[0.0, 0.0, 0.0]"),
+        Key::vector("point_m", Domain::COORDINATE, "A point of its border.")
+            .required("[0.0, 0.0, 0.0]"),
         Key::direction(
             "normal",
             "The direction away from it, of any length but zero.",
@@ -127,10 +125,18 @@ impl RegionPlane {
 
 impl RegionBox {
     const KEYS: &[Key] = &[
-        Key::vector("min_m", FAR, "The corner with the smallest coordinates.")
-            .required("[-0.1, -0.1, -0.1]"),
-        Key::vector("max_m", FAR, "The corner with the largest coordinates.")
-            .required("[0.1, 0.1, 0.0]"),
+        Key::vector(
+            "min_m",
+            Domain::COORDINATE,
+            "The corner with the smallest coordinates.",
+        )
+        .required("[-0.1, -0.1, -0.1]"),
+        Key::vector(
+            "max_m",
+            Domain::COORDINATE,
+            "The corner with the largest coordinates.",
+        )
+        .required("[0.1, 0.1, 0.0]"),
     ];
 
     fn holds(&self, point: [f64; 3]) -> bool {
@@ -160,7 +166,7 @@ impl RegionBox {
 
 impl RegionSphere {
     const KEYS: &[Key] = &[
-        Key::vector("center_m", FAR, "Its centre.").required("[0.0, 0.0, 0.0]"),
+        Key::vector("center_m", Domain::COORDINATE, "Its centre.").required("[0.0, 0.0, 0.0]"),
         Key::number("radius_m", RADIUS, "Its radius.").required("0.02"),
     ];
 

@@ -83,12 +83,15 @@ impl FoundLaw {
     }
 
     fn stresses(&self, stretches: &[f64]) -> Result<Vec<[f64; 2]>, Error> {
-        let law: SoughtLaw = Choice::law_named(&self.law)?;
-        let names: Vec<&str> = law
-            .parameters(1.0, 0.0)
-            .iter()
-            .map(|own| own.name)
-            .collect();
+        let law = Choice::law_named(&self.law, None)?;
+        let law = SoughtLaw::with_parameters(law.name(), self.values.len()).ok_or_else(|| {
+            Error::input(format!(
+                "the law `{}` has {} parameters; give those that were found",
+                self.law,
+                self.values.len()
+            ))
+        })?;
+        let names = law.names();
         let known = |name: &&str| self.values.get(*name).copied().unwrap_or(0.0);
         let values: Vec<f64> = names.iter().map(known).collect();
         let at = |values: &[f64]| -> Result<Vec<f64>, Error> {

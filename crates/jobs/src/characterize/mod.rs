@@ -13,8 +13,9 @@ use std::path::PathBuf;
 
 use palpate_characterize::CharacterizeSettings;
 use palpate_characterize::fit::Draws;
-use palpate_characterize::inverse::{LEAST_DRAWS, SoughtLaw};
+use palpate_characterize::inverse::{LEAST_DRAWS, SoughtLaw, Terms};
 use palpate_characterize::viscoelastic::RelaxationSettings;
+use palpate_files::tissue::LawName;
 
 pub use answer::{
     Answer, CovarianceAnswer, ElasticAnswer, FitAnswer, Identified, Known, LawAnswer, LumpedAnswer,
@@ -32,7 +33,7 @@ use crate::{Error, Recordings, Unusable, Watch, nearest};
 /// What may be chosen, in the words of the command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Choice {
-    /// The only law that is sought; none: all.
+    /// The only law that is sought; none: those of [`SoughtLaw::USUAL`].
     pub law: Option<SoughtLaw>,
     /// Terms of the relaxation; none: as many as the recordings can tell.
     pub terms: Option<usize>,
@@ -57,17 +58,30 @@ impl Default for Choice {
 }
 
 impl Choice {
-    /// The law of a name in files: `neo_hookean`, `mooney_rivlin` or `exponential`.
+    /// The law of a name in files, and of this order where it is one of a series: by default 1 of `ogden` and 2 of
+    /// `reduced_polynomial`.
     ///
     /// # Errors
-    /// When there is no such law.
-    pub fn law_named(name: &str) -> Result<SoughtLaw, Error> {
-        SoughtLaw::named(name).ok_or_else(|| {
-            let names = SoughtLaw::ALL.map(|law| law.name().word());
+    /// When there is no such law, or not of this order.
+    pub fn law_named(name: &str, order: Option<usize>) -> Result<SoughtLaw, Error> {
+        let law = LawName::from_word(name).and_then(SoughtLaw::of_name);
+        let law = law.ok_or_else(|| {
+            let names = SoughtLaw::NAMES.map(LawName::word);
             let meant = nearest(name, &names);
             Error::input(format!(
                 "there is no law `{name}` to seek; name one of {}, such as {meant}",
                 names.join(", ")
+            ))
+        })?;
+        let Some(order) = order else {
+            return Ok(law);
+        };
+        let terms = Terms::of(order).ok_or_else(|| {
+            Error::input(format!("the order of the law is {order}; give 1, 2 or 3"))
+        })?;
+        law.with_terms(terms).ok_or_else(|| {
+            Error::input(format!(
+                "the law `{name}` has no order; leave it out, or seek `ogden` or `reduced_polynomial`"
             ))
         })
     }

@@ -1,7 +1,11 @@
+use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use palpate_characterize::{CharacterizeSettings, characterize, specimens};
+use palpate_characterize::inverse::Organ;
+use palpate_characterize::{CharacterizeSettings, characterize_organ, specimens};
+use palpate_files::scene::Shape;
+use palpate_simulate::read_organ;
 
 use super::answer::Specimen;
 use super::finished::{Finished, Studied};
@@ -70,11 +74,29 @@ fn finish(
     say: &dyn Fn(&str),
 ) -> Finished {
     let recordings: Vec<_> = group.iter().map(|read| read.clean.clone()).collect();
-    let found = characterize(&recordings, settings, &mut |doing| say(doing));
+    let organ = organ(&group[0]);
+    let found = characterize_organ(&recordings, organ, settings, &mut |doing| say(doing));
     Finished::of(&Studied {
         files: group.iter().map(|read| read.path.clone()).collect(),
         digests: group.iter().map(|read| read.digest.clone()).collect(),
         recordings,
         found,
     })
+}
+
+/// The organ that a recording names a mesh of; none where it names none.
+fn organ(recording: &ReadRecording) -> Option<Result<Organ, palpate_characterize::Error>> {
+    let header = &recording.clean.header;
+    let folder = recording.path.parent().unwrap_or(Path::new(""));
+    let path = folder.join(header.mesh.as_ref()?);
+    let unit = header.mesh_unit;
+    let read = read_organ(&Shape::Mesh { path, unit });
+    let unread = |why: palpate_simulate::Error| palpate_characterize::Error::UnreadMesh {
+        why: why.to_string(),
+    };
+    Some(read.map_err(unread).map(|(surface, _)| Organ {
+        surface,
+        fixed: header.fixed.clone().unwrap_or_default(),
+        location: header.location_m.unwrap_or_default().into(),
+    }))
 }

@@ -1,6 +1,8 @@
 use std::path::PathBuf;
 
+use palpate_characterize::inverse::SoughtLaw;
 use palpate_files::text_cell;
+use palpate_files::tissue::LawName;
 
 use super::answer::{Answer, Known, Specimen};
 use super::folder::{StudyFolder, TABLES};
@@ -8,17 +10,22 @@ use crate::Error;
 
 /// Most terms of a relaxation.
 const TERMS: usize = 4;
-/// Laws with their parameters, in the order of their columns.
-const LAWS: [(&str, &[&str]); 3] = [
-    ("neo_hookean", &["c10_pa"]),
-    ("mooney_rivlin", &["c10_pa", "c01_pa"]),
-    ("exponential", &["gamma_pa", "alpha"]),
-];
+
+/// The laws that have columns: the usual ones, and those that were found besides.
+fn laws(answer: &Answer) -> Vec<LawName> {
+    let has_column = |law: &LawName| {
+        let mut found = answer.specimens.iter();
+        SoughtLaw::USUAL.iter().any(|usual| usual.name() == *law)
+            || found.any(|own| own.laws.contains_key(law.word()))
+    };
+    SoughtLaw::NAMES.into_iter().filter(has_column).collect()
+}
 
 /// Writes `summary.csv`, a row for each specimen and for each file that could not be used, and `pooled.csv`.
 pub(crate) fn write(answer: &Answer, folder: &StudyFolder) -> Result<(), Error> {
     let [summary, pooled_table] = TABLES;
-    folder.write(summary, &table(&columns(), specimens(answer))?)?;
+    let laws = laws(answer);
+    folder.write(summary, &table(&columns(&laws), specimens(answer, &laws))?)?;
     let names = [
         "parameter",
         "n",
@@ -49,9 +56,9 @@ pub(crate) fn write(answer: &Answer, folder: &StudyFolder) -> Result<(), Error> 
     folder.write(pooled_table, &table(&names.map(str::to_owned), pooled)?)
 }
 
-fn specimens(answer: &Answer) -> impl Iterator<Item = Vec<String>> {
+fn specimens(answer: &Answer, laws: &[LawName]) -> impl Iterator<Item = Vec<String>> {
     let unusable = answer.unusable.iter().map(|unusable| {
-        let mut row = vec![String::new(); columns().len()];
+        let mut row = vec![String::new(); columns(laws).len()];
         row[0] = unusable.file.display().to_string();
         row[4] = row[0].clone();
         if let Some(problem) = row.last_mut() {
@@ -59,10 +66,11 @@ fn specimens(answer: &Answer) -> impl Iterator<Item = Vec<String>> {
         }
         row
     });
-    answer.specimens.iter().map(row).chain(unusable)
+    let found = answer.specimens.iter().map(|own| row(own, laws));
+    found.chain(unusable)
 }
 
-fn columns() -> Vec<String> {
+fn columns(laws: &[LawName]) -> Vec<String> {
     let mut names: Vec<String> = ["specimen", "organ", "subject", "site", "files"]
         .map(str::to_owned)
         .into();
@@ -80,8 +88,9 @@ fn columns() -> Vec<String> {
             format!("tau_{term}_standard_error_s"),
         ]);
     }
-    for (law, parameters) in LAWS {
-        for parameter in parameters {
+    for own in laws {
+        let law = own.word();
+        for parameter in own.row().keys() {
             let bare = parameter.trim_end_matches("_pa");
             let unit = &parameter[bare.len()..];
             for of in ["", "_standard_error", "_discretisation_error"] {
@@ -95,7 +104,7 @@ fn columns() -> Vec<String> {
 }
 
 /// What stands in [`columns`] of a specimen.
-fn row(specimen: &Specimen) -> Vec<String> {
+fn row(specimen: &Specimen, laws: &[LawName]) -> Vec<String> {
     let named = |name: &Option<String>| name.clone().unwrap_or_default();
     let path = |path: &PathBuf| path.display().to_string();
     let files: Vec<String> = specimen.files.iter().map(path).collect();
@@ -120,10 +129,10 @@ fn row(specimen: &Specimen) -> Vec<String> {
         row.extend(of(relaxation.and_then(|found| found.g.get(term))));
         row.extend(of(relaxation.and_then(|found| found.tau_s.get(term))));
     }
-    for (name, parameters) in LAWS {
-        let law = specimen.laws.get(name);
-        for parameter in parameters {
-            let known = law.and_then(|law| law.parameters.get(*parameter));
+    for own in laws {
+        let law = specimen.laws.get(own.word());
+        for parameter in own.row().keys() {
+            let known = law.and_then(|law| law.parameters.get(parameter));
             row.push(shown(known.map(|known| known.value)));
             row.push(shown(known.and_then(|known| known.standard_error)));
             row.push(shown(known.and_then(|known| known.discretisation_error)));

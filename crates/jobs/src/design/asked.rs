@@ -26,7 +26,8 @@ impl Request {
     /// When the text is none, or a law or a criterion is not known.
     pub fn parse(text: &str) -> Result<Self, Error> {
         let asked: Asked = serde_json::from_str(text).map_err(Error::input)?;
-        let law = asked.law.as_deref().map(Choice::law_named).transpose()?;
+        let law = asked.law.as_deref();
+        let law = law.map(|name| Choice::law_named(name, None)).transpose()?;
         Ok(Self {
             known: match asked.tissue {
                 Some(path) => Known::Tissue(path),

@@ -11,6 +11,7 @@ use palpate_characterize::design::{
     Criterion, Expecting, Guess, Instrument, Limits, Presses, design as best,
 };
 use palpate_characterize::inverse::{SoughtLaw, ZeroErrors};
+use palpate_files::tissue::LawName;
 use palpate_files::{Estimate, PronyTerm, Tissue};
 use palpate_mechanics::PronySeries;
 
@@ -129,9 +130,9 @@ pub fn design(request: &Request, watch: &dyn Watch) -> Result<Designed, Error> {
 
 /// The law's parameters, and the times of the relaxation.
 fn usual(guess: &Guess) -> Vec<String> {
-    let own = guess.law.parameters(guess.modulus, guess.shape).into_iter();
+    let own = guess.law.names().into_iter();
     let times = (1..=guess.series.terms().len()).map(|place| format!("tau_{place}_s"));
-    own.map(|own| own.name.to_owned()).chain(times).collect()
+    own.map(str::to_owned).chain(times).collect()
 }
 
 fn guesses(first: &Expecting, [modulus, time]: [f64; 2]) -> Result<Vec<Expecting>, Error> {
@@ -176,21 +177,18 @@ fn of_tissue(tissue: Tissue) -> Result<Start, Error> {
 fn guess(tissue: &Tissue) -> Result<Guess, Error> {
     let elasticity = &tissue.elasticity;
     let name = elasticity.law();
-    let law = SoughtLaw::ALL.into_iter().find(|law| law.name() == name);
-    let law = law.ok_or_else(|| {
+    let values = elasticity.values();
+    let law = SoughtLaw::with_parameters(name, values.len()).ok_or_else(|| {
         Error::input(format!(
-            "the law `{}` is not one that recordings are fitted with; guess neo_hookean, mooney_rivlin or exponential",
-            name.word()
+            "the law `{}` is not one that recordings are fitted with; guess one of {}",
+            name.word(),
+            SoughtLaw::NAMES.map(LawName::word).join(", ")
         ))
     })?;
-    let values: Vec<f64> = elasticity
-        .parameters()
-        .iter()
-        .map(|own| own.1.value)
-        .collect();
     let (modulus, shape) = law.as_shape(&values).ok_or_else(|| {
         Error::input(format!(
-            "no fit of `{}` ends at these parameters; guess moduli above zero, with c01_pa at most nine times c10_pa",
+            "no fit of `{}` ends at these parameters; guess moduli above zero, with c01_pa at most nine times c10_pa, and \
+             of `ogden` alpha_1 above 1 and alpha_2 below -1",
             name.word()
         ))
     })?;

@@ -1,5 +1,6 @@
 use std::fs;
 
+use palpate_characterize::inverse::{SoughtLaw, Terms};
 use palpate_jobs::characterize::{Choice, characterize, specimens};
 use palpate_jobs::{Nobody, Recordings, json_text};
 
@@ -8,7 +9,7 @@ use crate::measured;
 /// Few draws, one law: the question is who is asked, not what is found.
 pub(crate) fn quick() -> Choice {
     Choice {
-        law: Some(Choice::law_named("neo_hookean").unwrap()),
+        law: Some(Choice::law_named("neo_hookean", None).unwrap()),
         draws: 10,
         ..Choice::default()
     }
@@ -89,7 +90,23 @@ fn specimens_are_told_without_being_characterized() {
 
 #[test]
 fn a_law_that_is_not_there_is_refused_with_the_nearest() {
-    let refused = Choice::law_named("neohookean").unwrap_err();
+    let refused = Choice::law_named("neohookean", None).unwrap_err();
     assert!(refused.is_input());
     assert!(refused.to_string().contains("such as neo_hookean"));
+}
+
+#[test]
+fn an_order_is_one_of_a_law_that_has_some() {
+    let law = Choice::law_named("ogden", Some(3)).unwrap();
+    assert_eq!(law, SoughtLaw::Ogden(Terms::Three));
+    for (name, order, why) in [
+        ("ogden", 4, "give 1, 2 or 3"),
+        ("exponential", 1, "has no order"),
+    ] {
+        let refused = Choice::law_named(name, Some(order)).unwrap_err();
+        assert!(
+            refused.is_input() && refused.to_string().contains(why),
+            "{refused}"
+        );
+    }
 }

@@ -42,7 +42,7 @@ pub(crate) struct Arguments {
     /// Print one JSON object.
     #[arg(long)]
     json: bool,
-    /// The law to fit to recordings: neo_hookean, mooney_rivlin or exponential; default: the preferred law.
+    /// The law to fit to recordings, as in `palpate characterize`; default: the preferred law.
     #[arg(long)]
     law: Option<String>,
     /// The parameters to determine, such as c10_pa,tau_1_s; default: those of the law and the relaxation times.
@@ -140,7 +140,7 @@ impl Arguments {
         let law = self
             .law
             .as_deref()
-            .map(palpate_jobs::characterize::Choice::law_named)
+            .map(|name| palpate_jobs::characterize::Choice::law_named(name, None))
             .transpose()?;
         let millimetres = |value: f64| 1e-3 * value;
         let is_toml = |path: &PathBuf| path.extension().is_some_and(|own| own == "toml");

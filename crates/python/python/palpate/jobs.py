@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from palpate import _palpate
+from palpate.errors import InputError
 from palpate.fits import Characterization
 
 if TYPE_CHECKING:
@@ -134,6 +135,7 @@ def characterize(
     recordings: Recordings,
     *,
     law: str | None = None,
+    order: int | None = None,
     terms: int | None = None,
     draws: int = 100,
     seed: int = 1,
@@ -149,8 +151,11 @@ def characterize(
     ----------
     recordings : path or iterable of paths
         Files, or folders of them; those of the same organ, subject and site are one specimen.
-    law : {"neo_hookean", "mooney_rivlin", "exponential"}, optional
-        The only law that is sought; by default all are. Its answer stands under this name in ``Specimen.laws``.
+    law : {"neo_hookean", "mooney_rivlin", "exponential", "ogden", "reduced_polynomial"}, optional
+        The only law that is sought; by default the first three are. Its answer stands under this name in
+        ``Specimen.laws``.
+    order : int, optional
+        Terms of ``"ogden"``, by default 1, or of ``"reduced_polynomial"``, by default 2: 1 to 3.
     terms : int, optional
         Terms of the relaxation, 1 to 4; by default as many as the recordings can tell.
     draws : int
@@ -171,7 +176,9 @@ def characterize(
         ``known``: what the files do not say, such as ``{"indenter_radius_m": 0.001}``.
     """
     folder = None if study is None else (study, overwrite)
-    choice = (law, terms, draws, seed, in_loop)
+    if order is not None and law is None:
+        raise InputError("order is given without a law; name ogden or reduced_polynomial")
+    choice = (None if law is None else (law, order), terms, draws, seed, in_loop)
     answer, tissues, samples = _palpate._characterize(asked(recordings, **columns), choice, folder, progress)
     found = Characterization(json.loads(answer), samples)
     found.tissues = [text for text, _ in tissues]

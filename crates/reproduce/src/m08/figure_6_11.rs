@@ -13,9 +13,10 @@ pub(crate) fn run(rows: &mut Rows<'_>) -> Result<(), Error> {
         let alone = printed(SoughtLaw::NeoHookean, organ, "final")?[0];
         let both = printed(SoughtLaw::MooneyRivlin, organ, "final")?;
         let mean = cell(&format!("table-5-1 {organ} {depth_mm} mean_n"))?;
-        let both = (both[0] + both[1], both[1] / (both[0] + both[1]));
+        let sum = both[0] + both[1];
+        let both = (sum, &[both[1] / sum][..]);
         let laws = [
-            ("neo-Hookean", elastic(SoughtLaw::NeoHookean, (alone, 0.0))?),
+            ("neo-Hookean", elastic(SoughtLaw::NeoHookean, (alone, &[]))?),
             ("Mooney-Rivlin", elastic(SoughtLaw::MooneyRivlin, both)?),
         ];
         let series = add(rows, (organ, depth_mm), mean, &laws)?;

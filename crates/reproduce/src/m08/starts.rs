@@ -86,12 +86,12 @@ impl Model {
                 series,
             } => {
                 let modulus: f64 = parameters.iter().sum();
-                let shape = parameters.get(1).map_or(0.0, |second| second / modulus);
+                let shape: Vec<f64> = parameters[1..].iter().map(|own| own / modulus).collect();
                 // A law with a negative parameter has no run.
-                if !(modulus > 0.0 && (0.0..=1.0).contains(&shape)) {
+                if !(modulus > 0.0 && shape.iter().all(|part| (0.0..=1.0).contains(part))) {
                     return None;
                 }
-                let unit = curves.clone().of(f64::INFINITY, shape).ok()?;
+                let unit = curves.clone().of(f64::INFINITY, &shape).ok()?;
                 let curve = unit.force.scaled(1.0, modulus);
                 Some(curve.relaxed(series, &course.times, &course.depths))
             }

@@ -28,7 +28,7 @@ fn run(rows: &mut Rows<'_>, law: SoughtLaw) -> Result<(), Error> {
         let series = prony(organ, depth_mm)?;
         let depth = 1e-3 * f64::from(depth_mm);
         let (course, forces) = felt(rows, (law, &truth), &series, depth)?;
-        let assumed = elastic(SoughtLaw::NeoHookean, (1.0, 0.0))?;
+        let assumed = elastic(SoughtLaw::NeoHookean, (1.0, &[]))?;
         let largest = forces.iter().copied().fold(0.0, f64::max);
         let columns = (&course.times[..], &course.depths[..], &forces[..]);
         let seen = RelaxationRecord::new(columns, largest, |depth| assumed.force(depth));

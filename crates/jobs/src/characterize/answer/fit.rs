@@ -96,10 +96,12 @@ fn of_indentation(law: &LawDescription) -> FitAnswer {
         (name.clone(), changes.collect())
     });
     let shapes = law.found.law.shapes();
-    let bounds = law.parameters.iter().map(|(name, _)| {
-        let [least, largest] = match (*name, shapes) {
-            ("alpha", Some([least, _, largest])) => [Some(least), Some(largest)],
-            _ => [Some(0.0), None],
+    // Each parameter but the first belongs to a shape; those without a unit are it.
+    let bounds = law.parameters.iter().enumerate().map(|(place, (name, _))| {
+        let shape = shapes.get(place.wrapping_sub(1));
+        let [least, largest] = match shape.filter(|_| !name.ends_with("_pa")) {
+            Some(shape) => [Some(shape.lower), Some(shape.upper)],
+            None => [Some(0.0), None],
         };
         ((*name).to_owned(), [least, largest])
     });

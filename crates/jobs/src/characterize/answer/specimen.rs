@@ -5,6 +5,7 @@ use palpate_characterize::fit::correlated_pairs;
 use palpate_characterize::inverse::{Correlations, SoughtLaw};
 use palpate_characterize::{Characterization, CleanRecording, WithoutGeometry};
 use palpate_files::recording::RecordingHeader;
+use palpate_files::tissue::LawName;
 use serde::{Deserialize, Serialize};
 
 use super::fit::{FitAnswer, fits};
@@ -88,7 +89,7 @@ impl Specimen {
 
     /// The elastic laws that were found, by their keys, the simplest first.
     pub fn laws(&self) -> impl Iterator<Item = (&'static str, &LawAnswer)> {
-        let laws = SoughtLaw::ALL.into_iter().map(|law| law.name().word());
+        let laws = SoughtLaw::NAMES.into_iter().map(LawName::word);
         laws.filter_map(|name| Some((name, self.laws.get(name)?)))
     }
 
@@ -181,7 +182,7 @@ fn identifiability(found: &Characterization) -> Vec<String> {
     let pairs = own.map(|own| correlated_pairs(&own.names, &own.matrix));
     let law = found.preferred_law();
     // The parameters of the law come first.
-    let count = law.map_or(0, |law| law.parameters(1.0, 0.0).len());
+    let count = law.map_or(0, SoughtLaw::count);
     let named = |(places, pair): ([usize; 2], String)| match law {
         Some(law) if places.iter().any(|place| *place < count) => {
             format!("{}: {pair}", law.name().word())

@@ -18,9 +18,10 @@ pub(crate) fn drawn(found: &Characterization) -> Vec<DrawnLaw> {
 
 fn of_indentation(law: &LawDescription) -> DrawnLaw {
     let fit = &law.found.fit;
-    // The fit moves a modulus and a shape.
+    // The fit moves a modulus and shapes.
     let own = |values: &[f64]| {
-        let each = law.found.law.parameters(values[0], values[1]);
+        let sought = law.found.law;
+        let each = sought.parameters(values[0], &values[1..sought.count()]);
         each.iter().map(|parameter| parameter.value).collect()
     };
     let way = fit.iterations.iter().map(|step| own(&step.values));
@@ -33,11 +34,10 @@ fn of_piece(law: &UniaxialFit) -> DrawnLaw {
 }
 
 fn described(law: SoughtLaw, fit: &Fit, iterations: Vec<Vec<f64>>) -> DrawnLaw {
-    let names = law.parameters(1.0, 0.0);
     let steps = fit.iterations.iter();
     DrawnLaw {
         law: key(law),
-        names: names.iter().map(|own| own.name.to_owned()).collect(),
+        names: law.names().into_iter().map(str::to_owned).collect(),
         iterations,
         sums_of_squares: steps.map(|step| step.sum_of_squares).collect(),
     }

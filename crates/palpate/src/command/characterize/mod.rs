@@ -7,7 +7,7 @@ mod warnings;
 use std::path::PathBuf;
 
 use clap::Args;
-use palpate_characterize::inverse::SoughtLaw;
+use palpate_files::tissue::LawName;
 use palpate_files::{Tissue, write_whole};
 use palpate_jobs::Error;
 use palpate_jobs::characterize::{Choice, StudyFolder, characterize};
@@ -66,9 +66,13 @@ pub(crate) struct Arguments {
     /// Write an HTML report with plots of all results.
     #[arg(long, value_name = "FILE.html")]
     report: Option<PathBuf>,
-    /// Fit this law only; default: all laws, of which the simplest that no other beats is preferred.
+    /// Fit this law only; default: the first three, of which the simplest that no other beats is preferred.
     #[arg(long, value_enum)]
     law: Option<Law>,
+    /// Number of terms of `ogden` (default 1: mu and alpha) or `reduced_polynomial` (default 2: C10 and C20; 3 is Yeoh's
+    /// law).
+    #[arg(long, value_name = "TERMS", requires = "law", value_parser = clap::value_parser!(u64).range(1..=3))]
+    order: Option<u64>,
     /// Run full viscoelastic finite elements inside the fit, for one specimen and one law: takes seconds per run, and
     /// corrects the error of the product of elastic force and G(t).
     #[arg(long, requires = "law")]
@@ -92,14 +96,18 @@ enum Law {
     MooneyRivlin,
     #[value(alias = "blatz")]
     Exponential,
+    Ogden,
+    ReducedPolynomial,
 }
 
-impl From<Law> for SoughtLaw {
+impl From<Law> for LawName {
     fn from(law: Law) -> Self {
         match law {
             Law::NeoHookean => Self::NeoHookean,
             Law::MooneyRivlin => Self::MooneyRivlin,
             Law::Exponential => Self::Exponential,
+            Law::Ogden => Self::Ogden,
+            Law::ReducedPolynomial => Self::ReducedPolynomial,
         }
     }
 }
@@ -119,7 +127,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     });
     let recordings = arguments.recordings.asked();
     let progress = Progress::of_job(Reader::of_json(arguments.json));
-    let found = characterize(&recordings, arguments.choice(), folder.as_ref(), &progress)?;
+    let found = characterize(&recordings, arguments.choice()?, folder.as_ref(), &progress)?;
     drop(progress);
     let unbroken = Unbroken::begin();
     arguments.write(found.tissues)?;
@@ -142,14 +150,17 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 impl Arguments {
-    fn choice(&self) -> Choice {
-        Choice {
-            law: self.law.map(SoughtLaw::from),
+    fn choice(&self) -> Result<Choice, Error> {
+        let order = self.order.map(|order| order as usize);
+        let law = self.law.map(LawName::from);
+        let law = law.map(|law| Choice::law_named(law.word(), order));
+        Ok(Choice {
+            law: law.transpose()?,
             terms: self.terms.map(|terms| terms as usize),
             draws: self.draws as usize,
             in_loop: self.in_loop,
             ..Choice::default()
-        }
+        })
     }
 
     /// What was asked for, by name and value.
@@ -157,7 +168,10 @@ impl Arguments {
         let mut said = Vec::new();
         let mut say = |name: &str, value: String| said.push((name.to_owned(), value));
         if let Some(law) = self.law {
-            say("--law", SoughtLaw::from(law).name().word().to_owned());
+            say("--law", LawName::from(law).word().to_owned());
+        }
+        if let Some(order) = self.order {
+            say("--order", order.to_string());
         }
         if let Some(terms) = self.terms {
             say("--terms", terms.to_string());

@@ -1,7 +1,9 @@
 use std::fmt::Write;
 
+use palpate_characterize::inverse::SoughtLaw;
 use palpate_files::printable;
 use palpate_files::quantity::{plain_quantity, without_unit};
+use palpate_files::tissue::LawName;
 use palpate_jobs::characterize::{Answer, Identified, Known, LawAnswer, Specimen};
 
 /// What was found, for people.
@@ -13,9 +15,6 @@ pub(super) fn of(answer: &Answer) -> String {
     }
     text
 }
-
-/// Laws and what else can be missing, in the order of their lines.
-const LAWS: [&str; 3] = ["neo_hookean", "mooney_rivlin", "exponential"];
 
 fn write(text: &mut String, specimen: &Specimen) -> std::fmt::Result {
     let files = specimen.files.len();
@@ -40,7 +39,7 @@ fn write(text: &mut String, specimen: &Specimen) -> std::fmt::Result {
             writeln!(text, "  relaxation {place}     g {g}, tau {tau}")?;
         }
     }
-    for name in LAWS {
+    for name in SoughtLaw::NAMES.map(LawName::word) {
         if let Some(law) = specimen.laws.get(name) {
             writeln!(text, "  {name:<16} {}", of_law(law))?;
         } else if let Some(why) = specimen.reasons.get(name) {

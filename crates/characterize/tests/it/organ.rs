@@ -1,0 +1,301 @@
+//! Organs of any shape: a hemisphere's mesh beside axisymmetric elements, which know no tetrahedra.
+
+use palpate_characterize::fit::Random;
+use palpate_characterize::inverse::{
+    Body, Curves, FarField, Indentation, LawDescription, Organ, SoughtLaw, Terms, law_fit,
+};
+use palpate_characterize::{CleanSettings, Error, characterize, characterize_organ, clean};
+use palpate_files::Recording;
+use palpate_files::recording::{IndenterShape, RecordingHeader, Samples};
+use palpate_files::scene::{Region, RegionPlane};
+use palpate_geometry::{Organ as Builtin, Surface, read_mesh};
+use palpate_mechanics::contact::Friction;
+use palpate_mechanics::finite_elements::hemisphere::{HemisphereProblem, Patch};
+use palpate_mechanics::finite_elements::indentation::{IndentationRun, IndentationSettings};
+use palpate_mechanics::finite_elements::solid::{
+    Body as Solid, Loads, MovedPatch, SolidProblem, solve,
+};
+use palpate_mechanics::{IndentationCurve, LinearElastic, PronySeries, Vec3};
+
+use crate::data;
+
+/// Of the hemisphere, whose base is held [m].
+const ROUND: f64 = 0.05;
+const RADIUS: f64 = 5e-3;
+
+fn hemisphere() -> Organ {
+    let mesh = Builtin::Hemisphere.surface_mesh(5_000).unwrap();
+    let plane = RegionPlane {
+        point_m: [0.0, 0.0, 1e-4],
+        normal: [0.0, 0.0, 1.0],
+    };
+    Organ {
+        surface: Surface::new(mesh).unwrap(),
+        fixed: Region {
+            planes: vec![plane],
+            ..Region::default()
+        },
+        location: Vec3::new(0.0, 0.0, ROUND),
+    }
+}
+
+fn far_field(body: &Body) -> FarField {
+    let Body::Block { block, .. } = body else {
+        panic!("a punch is pressed into a block");
+    };
+    hemisphere().far_field(block, RADIUS).unwrap()
+}
+
+/// Judge: axisymmetric elements, 1.079 of the half-space for a patch of 5 mm on a hemisphere of 50 mm, and 1.000 on the
+/// large piece. Tolerance: the least error of the elements.
+#[test]
+fn a_hemisphere_is_stiffer_than_a_large_piece() {
+    let far = far_field(&Body::under_punch(RADIUS));
+    let depth = 1e-2 * RADIUS;
+    let round = HemisphereProblem {
+        radius: ROUND,
+        patch_radius: RADIUS,
+        patch: Patch::Bonded,
+        law: LinearElastic::new(3.0, 0.4999).unwrap(),
+        depth,
+    };
+    let force = round.solve_on(2e-3, 0).unwrap().force;
+    // 8 G a d, and 0.9995 of it on the large piece.
+    let share = 1.0 - force / (0.9995 * 8.0 * RADIUS * depth * 3.0 / 2.9998);
+    println!("{far:?}, {share}");
+    assert!((far.share - share).abs() < 0.005, "{far:?} {share}");
+    // Of them 0.5 % by the elements, and a fourth of the share.
+    assert!(far.error < 0.03 && far.compliance < 0.0, "{far:?}");
+}
+
+/// Elastic forces on the pole by axisymmetric elements at finite strain, extrapolated from two meshes.
+fn elastic(
+    body: &Body,
+    law: SoughtLaw,
+    modulus: f64,
+    shape: &[f64],
+    deepest: f64,
+) -> IndentationCurve {
+    let Body::Block {
+        mut block,
+        indenter,
+    } = *body
+    else {
+        panic!("a punch is pressed into a block");
+    };
+    block.height = ROUND;
+    let depths: Vec<f64> = (1..=12).map(|i| f64::from(i) * deepest / 12.0).collect();
+    let forces = |halvings: i32| -> Vec<f64> {
+        let mut run = IndentationRun::on_hemisphere(&IndentationSettings {
+            block,
+            indenter,
+            law: law.of(modulus, shape).unwrap(),
+            prony: PronySeries::default(),
+            deepest,
+            halvings,
+        })
+        .unwrap();
+        let press = |&depth: &f64| run.press(depth, depth, |_| ()).unwrap().force;
+        depths.iter().map(press).collect()
+    };
+    let [coarse, fine] = [0, 1].map(forces);
+    let limit = coarse.iter().zip(&fine);
+    let limit = limit.map(|(c, f)| f + (f - c) / (2_f64.powf(1.2) - 1.0));
+    IndentationCurve::through(&depths, &limit.collect::<Vec<_>>())
+}
+
+/// Of each parameter, how many of `seeds` recordings with noise of 1 % of the largest force hold it in the interval of
+/// 95 %.
+fn held(law: SoughtLaw, deepest: f64, seeds: u64) -> Vec<usize> {
+    let (modulus, shape) = (
+        731.0,
+        if law == SoughtLaw::NeoHookean {
+            vec![]
+        } else {
+            vec![4.7]
+        },
+    );
+    let body = Body::under_punch(RADIUS);
+    let curve = elastic(&body, law, modulus, &shape, deepest);
+    let far = far_field(&body);
+    let mut curves = Curves::new(body, law, deepest).in_organ(far);
+    let series = PronySeries::default();
+    let time: Vec<f64> = (0..=200).map(|i| 0.01 * f64::from(i)).collect();
+    let depth: Vec<f64> = time.iter().map(|t| 0.5 * t * deepest).collect();
+    let most = curve.force(deepest);
+    let truth = law.parameters(modulus, &shape);
+    let mut held = vec![0; truth.len()];
+    for seed in 0..seeds {
+        let mut random = Random::new(seed);
+        let noisy = depth
+            .iter()
+            .map(|d| curve.force(*d) + 0.01 * most * random.normal());
+        let force: Vec<f64> = noisy.collect();
+        let indentation = [Indentation::new(&time, &depth, &force)];
+        let found = law_fit(&mut curves, &indentation, &series).unwrap();
+        let found = LawDescription::of(found, &indentation);
+        for (place, ((name, own), truth)) in found.parameters.iter().zip(&truth).enumerate() {
+            let error = own.standard_error.unwrap_or(f64::INFINITY);
+            let quantile = found.uncertainty.quantile(place, 0.95).unwrap_or(1.0);
+            if seed == 0 {
+                println!("{name}: {} ± {error} of {}", own.value, truth.value);
+            }
+            held[place] += usize::from((own.value - truth.value).abs() <= quantile * error);
+        }
+    }
+    println!("{law:?}: {held:?} of {seeds}, {far:?}");
+    held
+}
+
+/// Judge: forces of axisymmetric elements at finite strain, to as deep as the punch is wide.
+#[test]
+fn a_modulus_on_a_hemisphere_is_within_its_interval() {
+    let held = held(SoughtLaw::NeoHookean, RADIUS, 1);
+    assert_eq!(held, [1]);
+}
+
+/// A hundred recordings: nine of ten intervals or more hold the truth. Judge: as above.
+#[test]
+#[ignore = "slow: finite elements of a hemisphere on four meshes"]
+fn intervals_on_a_hemisphere_hold_the_truth() {
+    for law in [SoughtLaw::NeoHookean, SoughtLaw::Ogden(Terms::One)] {
+        let held = held(law, RADIUS, 100);
+        assert!(held.iter().all(|held| *held >= 90), "{law:?} {held:?}");
+    }
+}
+
+/// A kidney that is held in its lowest 30 %, so that most of the depth is the whole organ's. Judge: the same organ at
+/// finite strain under a patch, by tetrahedra whose estimated error is 2 %; tolerance: three of these.
+#[test]
+#[ignore = "slow: three runs of a kidney at finite strain"]
+fn real_kidney_returns_its_tissue() {
+    let Some(folder) = data::folder() else {
+        return;
+    };
+    let path = folder.join("../meshes/vhm_kidney_left_5146.ply");
+    let surface = Surface::new(read_mesh(&path, None).unwrap().mesh).unwrap();
+    let (low, high) = surface.mesh().bounds();
+    let middle = 0.5 * (low + high);
+    let vertices = surface.mesh().vertices().iter();
+    let near = vertices.filter(|v| (*v - middle).xz().norm() < 0.01);
+    let location = *near.max_by(|a, b| a.y.total_cmp(&b.y)).unwrap();
+    let height = low.y + 0.3 * (high.y - low.y);
+    let plane = RegionPlane {
+        point_m: [0.0, height, 0.0],
+        normal: [0.0, 1.0, 0.0],
+    };
+    let fixed = Region {
+        planes: vec![plane],
+        ..Region::default()
+    };
+    let triangles = surface
+        .mesh()
+        .triangle_ids()
+        .map(|t| surface.mesh().positions(t));
+    let under = triangles.filter(|t| t.iter().any(|p| (p - location).norm() < RADIUS));
+    let inward: Vec3 = under.map(|[a, b, c]| (c - a).cross(&(b - a))).sum();
+    let depths = [0.1, 0.3, 0.5].map(|part| part * RADIUS);
+    let (modulus, law) = (1000.0, SoughtLaw::NeoHookean);
+    let forces = depths.map(|depth| {
+        let problem = SolidProblem {
+            body: Solid::Surface(surface.clone()),
+            anchor: fixed.clone(),
+            patch: Some(MovedPatch {
+                center: location,
+                radius: RADIUS,
+                displacement: depth * inward.normalize(),
+                friction: Friction::Bonded,
+            }),
+            law: law.of(modulus, &[]).unwrap(),
+            loads: Loads::default(),
+            points: Vec::new(),
+        };
+        solve(&problem, 0.02, &mut |_| ())
+            .unwrap()
+            .answer
+            .force_along
+    });
+    let body = Body::under_punch(RADIUS);
+    let Body::Block { block, .. } = body else {
+        panic!("a punch is pressed into a block");
+    };
+    let organ = Organ {
+        surface,
+        fixed,
+        location,
+    };
+    let far = organ.far_field(&block, RADIUS).unwrap();
+    let mut curves = Curves::new(body, law, depths[2]).in_organ(far);
+    let time = [1.0, 2.0, 3.0];
+    let indentation = [Indentation::new(&time, &depths, &forces)];
+    let found = law_fit(&mut curves, &indentation, &PronySeries::default()).unwrap();
+    let found = LawDescription::of(found, &indentation);
+    let off = found.parameters[0].1.value / modulus - 1.0;
+    println!("{off}, {far:?}, {:?}", found.parameters);
+    assert!(off.abs() < 0.06 && far.share > 0.4, "{off} {far:?}");
+}
+
+/// What is no place of an indenter is refused in a sentence.
+#[test]
+fn a_place_off_the_mesh_is_refused() {
+    let body = Body::under_punch(RADIUS);
+    let Body::Block { block, .. } = body else {
+        panic!("a punch is pressed into a block");
+    };
+    let mut organ = hemisphere();
+    organ.location = Vec3::new(0.0, 0.0, 50.0);
+    let refused = organ.far_field(&block, RADIUS).unwrap_err();
+    assert!(
+        refused.is_input() && refused.to_string().contains("check the unit"),
+        "{refused}"
+    );
+    organ.location = Vec3::new(0.0, 0.0, 0.0);
+    let refused = organ.far_field(&block, RADIUS).unwrap_err();
+    assert_eq!(refused, Error::PressedWhereFixed);
+}
+
+/// The mesh reaches the fit by the recording's header, and a mesh that nobody read is told.
+#[test]
+fn a_recording_of_an_organ_needs_its_mesh() {
+    let time: Vec<f64> = (0..200).map(|i| 0.01 * f64::from(i)).collect();
+    let depth: Vec<f64> = time
+        .iter()
+        .map(|t| 1e-3 * (t - 0.5).clamp(0.0, 1.0))
+        .collect();
+    let samples = Samples {
+        force_n: depth.iter().map(|d| 100.0 * d).collect(),
+        time_s: time,
+        depth_m: depth,
+    };
+    let header = RecordingHeader {
+        indenter_shape: Some(IndenterShape::Flat),
+        indenter_radius_m: Some(RADIUS),
+        mesh: Some("organ.stl".to_owned()),
+        location_m: Some([0.0, 0.0, ROUND]),
+        fixed: Some(hemisphere().fixed),
+        ..RecordingHeader::default()
+    };
+    let mut recording = [clean(
+        &Recording::new(header, samples).unwrap(),
+        &CleanSettings::default(),
+    )
+    .unwrap()];
+    let settings = palpate_characterize::CharacterizeSettings {
+        laws: vec![SoughtLaw::NeoHookean],
+        draws: None,
+        ..Default::default()
+    };
+    let found = characterize(&recording, &settings, &mut |_| ());
+    assert_eq!(found.laws[0].1, Err(Error::NoMesh));
+    let organ = Some(Ok(hemisphere()));
+    let found = characterize_organ(&recording, organ.clone(), &settings, &mut |_| ());
+    assert!(found.laws[0].1.is_ok(), "{:?}", found.laws[0].1);
+    assert!(
+        !found.warnings.iter().any(|own| own.contains("thickness_m")),
+        "{:?}",
+        found.warnings
+    );
+    recording[0].header.indenter_shape = Some(IndenterShape::Sphere);
+    let found = characterize_organ(&recording, organ, &settings, &mut |_| ());
+    assert_eq!(found.laws[0].1, Err(Error::OrganIndenter));
+}
