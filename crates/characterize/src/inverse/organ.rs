@@ -91,6 +91,8 @@ impl Organ {
             anchor: self.fixed.clone(),
             patch: Some(under(center, inward)),
             law: law.clone(),
+            fibres: None,
+            regions: Vec::new(),
             loads: Loads::default(),
             points: Vec::new(),
         };

@@ -1,6 +1,5 @@
 //! Meshes of tetrahedra: what every one of them must be, and what is refused.
 
-
 use palpate_geometry::{NodeId, TetrahedronError, TetrahedronMesh, Vec3};
 
 /// In one piece; all volumes positive; each face inside shared by two; the boundary closed,
