@@ -207,6 +207,8 @@ fn real_kidney_returns_its_tissue() {
                 friction: Friction::Bonded,
             }),
             law: law.of(modulus, &[]).unwrap(),
+            fibres: None,
+            regions: Vec::new(),
             loads: Loads::default(),
             points: Vec::new(),
         };
