@@ -187,6 +187,12 @@ impl Arguments {
             None => path.to_owned(),
             Some(out) => {
                 let out = out.clone().unwrap_or_else(|| wrapped_name(path));
+                if out.exists() {
+                    return Err(Failure::input(format!(
+                        "{} is there already; open it instead of the mesh, or name another file with --wrap=FILE",
+                        out.display()
+                    )));
+                }
                 let warnings = wrap_into(&out, path, Reader::of_json(self.json))?;
                 output::warnings(&warnings);
                 if !self.json {
