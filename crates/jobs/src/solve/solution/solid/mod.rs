@@ -1,17 +1,16 @@
+mod fields;
 mod regions;
 
 use std::borrow::Cow;
-use std::collections::BTreeMap;
 use std::path::Path;
 
 use palpate_files::quantity::rounded;
 use palpate_files::scene::{LengthUnit, Shape};
 use palpate_files::{Place, Tissue};
-use palpate_geometry::vtk::{CellKind, Cells, FieldValues, PointField, unstructured_grid};
 use palpate_geometry::{VolumeRegion, read_tetrahedra};
 use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_elements::solid::{
-    Body, Loads, MovedPatch, SolidError, SolidFields, SolidProblem, Weight, solve,
+    Body, Loads, MovedPatch, SolidError, SolidProblem, Weight, solve,
 };
 use palpate_mechanics::{Material, Vec3};
 use palpate_simulate::{held_region, read_organ};
@@ -21,14 +20,10 @@ use super::super::table::Table;
 use super::figures::{Figures, PatchFigures, PointFigures, SolidFigures};
 use super::{Solution, Wanted, plots, warnings};
 use crate::Error;
-use crate::plot::{Plot, Series, Style};
 use crate::solve::telling::Telling;
 
 /// Parts of its length by which a body moves before a linear law deserves a warning [-].
 const LARGE_WAY: f64 = 0.05;
-
-/// Points of the plot; more are not seen.
-const POINTS: usize = 3000;
 
 /// Files that hold tetrahedra.
 const VOLUMES: [&str; 3] = ["msh", "vtk", "vtu"];
@@ -179,7 +174,7 @@ pub(crate) fn solution(
     Ok(Solution {
         heading: heading(case),
         tables,
-        plot: around_patch(case, &answer.fields),
+        plot: fields::around_patch(case, &answer.fields),
         figures: Figures::Solid(SolidFigures {
             patch: patch.map(|patch| PatchFigures {
                 force_n: (-answer.force).into(),
@@ -199,7 +194,7 @@ pub(crate) fn solution(
         estimated_error: found.error,
         observed_order: found.observed_order,
         warnings,
-        vtu: wanted.vtu.then(|| grid(&answer.fields)),
+        vtu: wanted.vtu.then(|| fields::grid(&answer.fields)),
         recording: None,
     })
 }
@@ -390,114 +385,4 @@ fn heading(case: &Solid) -> String {
         ));
     }
     format!("{name}, {}", how.join(", "))
-}
-
-/// The body at rest with its displacement, for ParaView's `Warp By Vector`.
-fn grid(fields: &SolidFields) -> Vec<u8> {
-    let cells = Cells {
-        kind: CellKind::QuadraticTetrahedron,
-        nodes: &fields.cells,
-    };
-    let field = |name, values| PointField { name, values };
-    let regions: Vec<f64> = fields
-        .regions
-        .iter()
-        .map(|region| f64::from(*region))
-        .collect();
-    let mut in_cells = vec![
-        field(
-            "equivalent_stress_pa",
-            FieldValues::Scalars(&fields.equivalent_stresses),
-        ),
-        field("region", FieldValues::Scalars(&regions)),
-    ];
-    if !fields.fibre_axes.is_empty() {
-        in_cells.push(field(
-            "fibre_axis",
-            FieldValues::Vectors(&fields.fibre_axes),
-        ));
-    }
-    unstructured_grid(
-        &fields.positions,
-        &cells,
-        &[
-            field(
-                "displacement_m",
-                FieldValues::Vectors(&fields.displacements),
-            ),
-            field("mean_stress_pa", FieldValues::Scalars(&fields.pressures)),
-        ],
-        &in_cells,
-    )
-}
-
-/// How far the surface moves: by its distance from the patch, or along the longest axis where there is none.
-fn around_patch(case: &Solid, fields: &SolidFields) -> Plot {
-    let surface = boundary_nodes(&fields.cells);
-    let step = surface.len() / POINTS + 1;
-    let nodes = surface.iter().step_by(step);
-    let nodes = nodes.map(|&node| (fields.positions[node], fields.displacements[node]));
-    let (title, x_label, y_label, points): (_, _, _, Vec<(f64, f64)>) = match &case.patch {
-        Some(patch) => {
-            let along = patch.displacement.normalize();
-            let points = nodes
-                .map(|(at, moved)| (1e3 * (at - patch.center).norm(), 1e3 * moved.dot(&along)));
-            (
-                "How the surface moves around the patch",
-                "Distance at rest from the centre of the patch [mm]",
-                "Displacement along that of the patch [mm]",
-                points.collect(),
-            )
-        }
-        None => {
-            let span = |axis: usize| {
-                let each = fields.positions.iter().map(|at| at[axis]);
-                let (low, high) = each
-                    .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-                        (low.min(x), high.max(x))
-                    });
-                high - low
-            };
-            let longest = (0..3)
-                .max_by(|&a, &b| span(a).total_cmp(&span(b)))
-                .unwrap_or(0);
-            (
-                "How the surface moves along the body",
-                ["x at rest [mm]", "y at rest [mm]", "z at rest [mm]"][longest],
-                "Displacement [mm]",
-                nodes
-                    .map(|(at, moved)| (1e3 * at[longest], 1e3 * moved.norm()))
-                    .collect(),
-            )
-        }
-    };
-    Plot {
-        title: title.to_owned(),
-        x_label: x_label.to_owned(),
-        y_label: y_label.to_owned(),
-        series: vec![Series {
-            style: Style::Dots,
-            ..plots::line("", points.into_iter())
-        }],
-        ..Plot::default()
-    }
-}
-
-/// Corners of faces that belong to one tetrahedron only.
-fn boundary_nodes(cells: &[u32]) -> Vec<usize> {
-    let mut faces: BTreeMap<[u32; 3], u32> = BTreeMap::new();
-    for cell in cells.chunks_exact(10) {
-        for face in [[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3]] {
-            let mut corners = face.map(|corner: usize| cell[corner]);
-            corners.sort_unstable();
-            *faces.entry(corners).or_default() += 1;
-        }
-    }
-    let alone = faces.iter().filter(|(_, count)| **count == 1);
-    let mut nodes: Vec<usize> = alone
-        .flat_map(|(face, _)| face.map(|n| n as usize))
-        .collect();
-    nodes.sort_unstable();
-    nodes.dedup();
-    nodes
 }
