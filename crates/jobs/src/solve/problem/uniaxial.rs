@@ -60,7 +60,7 @@ impl Uniaxial {
             PULLED_MEANINGS,
             "With the law `holzapfel_gasser_ogden`: which direction of its fibres the bar is pulled along.",
         )
-        .default("\"axis\""),
+        .optional("\"across\"", "`axis`"),
     ];
 
     pub(crate) fn from_keys(keys: &Keys<'_>, tissue: &Tissue) -> Result<Self, Error> {
