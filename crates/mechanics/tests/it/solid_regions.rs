@@ -3,14 +3,14 @@
 use std::sync::Arc;
 
 use palpate_files::scene::InclusionShape;
-use palpate_geometry::{Organ, Surface, TetrahedronMesh};
+use palpate_geometry::{Organ, Surface, TetrahedronMesh, TriangleMesh};
 use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_elements::solid::{
     Body, DeadLoad, LoadPlace, Loads, SolidPlace, SolidProblem, SolidRegion, Weight, solve_at,
 };
 use palpate_mechanics::layered::{LayeredHalfSpace, LoadShape};
 use palpate_mechanics::regions::{RegionError, RegionPlace};
-use palpate_mechanics::{Error, Law, LinearElastic, NeoHookean, Vec3};
+use palpate_mechanics::{Error, Law, LinearElastic, Vec3};
 
 use crate::solid::{at, cube, plane};
 
@@ -102,10 +102,26 @@ fn a_ball_is_strained_as_eshelbys() {
 /// Judge: the volume of the surface, of which flat triangles cut off a part that falls with the square of their edges.
 #[test]
 fn what_a_surface_encloses_is_a_region() {
-    let surface = Surface::new(Organ::Kidney.surface_mesh(4000).unwrap()).unwrap();
+    let (vertices, triangles) = {
+        let kidney = Organ::Kidney.surface_mesh(4000).unwrap();
+        let half = kidney.vertices().iter().map(|at| 0.5 * at).collect();
+        (half, kidney.triangles().to_vec())
+    };
+    let surface = Surface::new(TriangleMesh::new(vertices, triangles).unwrap()).unwrap();
     let volume = surface.mesh().volume();
     let place = RegionPlace::Enclosed(surface.into());
-    let problem = pulled(linear(10.0, 0.3), place);
+    let problem = SolidProblem {
+        patch: None,
+        regions: vec![region(place, linear(1e5, 0.3))],
+        loads: Loads {
+            weight: Some(Weight {
+                gravity: -10.0 * Vec3::z(),
+                density: DENSITY,
+            }),
+            forces: Vec::new(),
+        },
+        ..cube(5e-3, 0.3, Friction::Bonded)
+    };
     let missing = [-1, 0].map(|halvings| {
         let answer = at(&problem, halvings);
         let fields = &answer.fields;
@@ -128,55 +144,95 @@ fn volumes(positions: &[Vec3], cells: &[u32], regions: &[u32]) -> [f64; 2] {
     volumes
 }
 
-/// Judge: layered half-spaces by transfer matrices (`palpate_mechanics::layered`), after what the block yields less than a
-/// half-space far from the patch, which is that of its lower tissue. Tolerance 2 %, as asked for. The layer is one of cells,
-/// under the top alone; one around the whole cube yields alike where it is soft.
+/// A punch on a layer of this thickness on a cube of another tissue, which has Poisson's ratio [-] and modulus [Pa].
+const RADIUS: f64 = 4e-3;
+const THICKNESS: f64 = 5e-3;
+const RATIO: f64 = 0.3;
+const BASE: f64 = 10e3;
+
+/// What the cube yields less than a half-space of its tissue, far from the punch [-]: `a_layer_yields_as_on_a_half_space`
+/// finds it.
+const OF_BLOCK: f64 = 0.011;
+
+fn of_half_space(modulus: f64) -> f64 {
+    (1.0 - RATIO * RATIO) / (2.0 * RADIUS * modulus)
+}
+
+fn uniform() -> SolidProblem {
+    SolidProblem {
+        law: linear(BASE, RATIO),
+        ..cube(RADIUS, RATIO, Friction::Frictionless)
+    }
+}
+
+/// What a layered half-space yields by transfer matrices, whose layer is `contrast` times as stiff.
+fn of_layered(contrast: f64) -> f64 {
+    let modulus = contrast * BASE;
+    let layered = LayeredHalfSpace {
+        layers: vec![(THICKNESS, LinearElastic::new(modulus, RATIO).unwrap())],
+        base: LinearElastic::new(BASE, RATIO).unwrap(),
+    };
+    layered.yields(LoadShape::Punch, RADIUS)[1] * of_half_space(modulus)
+}
+
+/// The layer is one of cells, under the top alone.
+fn under_top(contrast: f64) -> SolidProblem {
+    SolidProblem {
+        body: Body::Volume(below_top(THICKNESS)),
+        regions: vec![SolidRegion {
+            place: SolidPlace::Cells(1),
+            law: linear(contrast * BASE, RATIO),
+            density: DENSITY,
+        }],
+        ..uniform()
+    }
+}
+
+fn compliance(problem: &SolidProblem, halvings: i32) -> f64 {
+    let answer = at(problem, halvings);
+    println!("{} unknowns, {:?}", answer.unknowns, answer.warnings);
+    0.01 * RADIUS / answer.force_along
+}
+
+/// Judge: layered half-spaces by transfer matrices (`palpate_mechanics::layered`). The error of the mesh at the edge of the
+/// punch is that of the uniform cube. Tolerance 2 %, as asked for.
 #[test]
+fn a_stiff_layer_yields_as_on_a_half_space() {
+    let of_block = OF_BLOCK * of_half_space(BASE);
+    let of_mesh = compliance(&uniform(), 0) / (of_half_space(BASE) - of_block);
+    for contrast in [0.3, 10.0] {
+        let expected = of_mesh * (of_layered(contrast) - of_block);
+        let off = compliance(&under_top(contrast), 0) / expected - 1.0;
+        println!("stiffness ratio {contrast}: {:.3} % off", 100.0 * off);
+        assert!(off.abs() < 0.02);
+    }
+}
+
+/// Judge: as above, on two meshes each. A layer around the whole cube yields alike where it is soft.
+#[test]
+#[ignore = "one to two minutes"]
 fn a_layer_yields_as_on_a_half_space() {
-    let (radius, thickness, ratio, base) = (4e-3, 5e-3, 0.3, 10e3);
-    let compliance = |problem: &SolidProblem| {
-        let [coarse, fine] = [0, 1].map(|halvings| {
-            let answer = at(problem, halvings);
-            println!("{} unknowns, {:?}", answer.unknowns, answer.warnings);
-            0.01 * radius / answer.force_along
-        });
-        // Of the first order in the edges.
+    // Of the first order in the edges.
+    let converged = |problem: &SolidProblem| {
+        let [coarse, fine] = [0, 1].map(|halvings| compliance(problem, halvings));
         2.0 * fine - coarse
     };
-    let of_half_space = |modulus: f64| (1.0 - ratio * ratio) / (2.0 * radius * modulus);
-    let uniform = SolidProblem {
-        law: linear(base, ratio),
-        ..cube(radius, ratio, Friction::Frictionless)
-    };
-    let of_block = of_half_space(base) - compliance(&uniform);
-    println!(
-        "the block yields {:.2} % less",
-        100.0 * of_block / of_half_space(base)
-    );
+    let of_block = of_half_space(BASE) - converged(&uniform());
+    let part = of_block / of_half_space(BASE);
+    println!("the block yields {:.2} % less", 100.0 * part);
+    assert!((part - OF_BLOCK).abs() < 0.002);
     for contrast in [0.1, 0.3, 3.0, 10.0] {
-        let modulus = contrast * base;
-        let layered = LayeredHalfSpace {
-            layers: vec![(thickness, LinearElastic::new(modulus, ratio).unwrap())],
-            base: LinearElastic::new(base, ratio).unwrap(),
-        };
-        let [_, yields] = layered.yields(LoadShape::Punch, radius);
-        let expected = yields * of_half_space(modulus) - of_block;
-        let of_cells = SolidProblem {
-            body: Body::Volume(below_top(thickness)),
-            regions: vec![SolidRegion {
-                place: SolidPlace::Cells(1),
-                law: linear(modulus, ratio),
-                density: DENSITY,
-            }],
-            ..uniform.clone()
-        };
-        let place = RegionPlace::Layer(thickness);
+        let expected = of_layered(contrast) - of_block;
         let around = SolidProblem {
-            regions: vec![region(place, linear(modulus, ratio))],
-            ..uniform.clone()
+            regions: vec![region(
+                RegionPlace::Layer(THICKNESS),
+                linear(contrast * BASE, RATIO),
+            )],
+            ..uniform()
         };
-        for problem in std::iter::once(&of_cells).chain((contrast < 1.0).then_some(&around)) {
-            let off = compliance(problem) / expected - 1.0;
+        let cells = under_top(contrast);
+        for problem in std::iter::once(&cells).chain((contrast < 1.0).then_some(&around)) {
+            let off = converged(problem) / expected - 1.0;
             println!("stiffness ratio {contrast}: {:.3} % off", 100.0 * off);
             assert!(off.abs() < 0.02);
         }
@@ -257,16 +313,13 @@ fn cells_have_the_tissue_of_their_region() {
     );
 }
 
-/// At large strain and without compressibility pressures jump at the border. Judge: one tissue with a border in it answers as
-/// one without; and the border alone, of equal laws, changes nothing but the mesh.
+/// Judge: one tissue with a border in it, where pressures may jump, answers as one without. Tolerance: what another mesh of
+/// this fineness changes.
 #[test]
 fn a_border_between_equal_tissues_is_not_felt() {
-    let law: Arc<dyn Law> = Arc::new(NeoHookean::incompressible(1e3).unwrap());
-    let mut problem = cube(8e-3, 0.45, Friction::Bonded);
+    let law = linear(1e4, 0.4999);
+    let mut problem = cube(8e-3, 0.4999, Friction::Bonded);
     problem.law = law.clone();
-    if let Some(patch) = &mut problem.patch {
-        patch.displacement = -3e-3 * Vec3::z();
-    }
     let alone = at(&problem, 0);
     problem.regions = vec![region(
         RegionPlace::Shape(ball(0.03 * Vec3::z(), 0.012)),
