@@ -4,6 +4,7 @@
 //! normal, leads away from the body. So the wall of a tube is layered from outside, not from its lumen.
 
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 use palpate_files::scene::InclusionShape;
 use palpate_geometry::{AabbTree, Surface, TriangleMesh, Vec3};
@@ -32,20 +33,18 @@ pub enum RegionPlace {
 /// The inside of a closed surface.
 #[derive(Debug, Clone)]
 pub struct Enclosed {
-    surface: Surface,
-    tree: AabbTree,
+    surface: Arc<Surface>,
+    tree: Arc<AabbTree>,
     /// A third of the cube root of its volume [m].
     size: f64,
 }
 
 impl From<Surface> for Enclosed {
     fn from(surface: Surface) -> Self {
-        let tree = AabbTree::new(surface.mesh());
-        let size = surface.mesh().volume().abs().cbrt() / 3.0;
         Self {
-            surface,
-            tree,
-            size,
+            tree: Arc::new(AabbTree::new(surface.mesh())),
+            size: surface.mesh().volume().abs().cbrt() / 3.0,
+            surface: Arc::new(surface),
         }
     }
 }
@@ -144,7 +143,7 @@ impl RegionMap {
     /// The closed surfaces among the regions.
     pub fn enclosed(&self) -> impl Iterator<Item = &Surface> {
         self.regions.iter().filter_map(|region| match region {
-            Mapped::Enclosed(enclosed) => Some(&enclosed.surface),
+            Mapped::Enclosed(enclosed) => Some(enclosed.surface.as_ref()),
             Mapped::Layer { .. } | Mapped::Shape(_) => None,
         })
     }

@@ -128,7 +128,7 @@ pub(super) fn check<'t>(
         .filter(|elasticity| elasticity.law().has_fibres())
         .collect();
     let Some(law) = with_fibres.first().map(|elasticity| elasticity.law()) else {
-        return keys.refuse("fibres", "no directions, for no law of a tissue has fibres");
+        return keys.refuse("fibres", "no directions, for the tissues have no fibres");
     };
     let is_one = with_fibres.iter().all(|elasticity| {
         let parameters = elasticity.parameters();
