@@ -212,7 +212,7 @@ fn real_kidney_returns_its_tissue() {
             loads: Loads::default(),
             points: Vec::new(),
         };
-        solve(&problem, 0.02, &mut |_| ())
+        solve(&problem, 0.05, &mut |_| ())
             .unwrap()
             .answer
             .force_along
