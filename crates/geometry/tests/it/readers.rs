@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use palpate_geometry::vtk::{CellKind, Cells, unstructured_grid};
+use palpate_geometry::vtk::{CellKind, Cells, FieldValues, PointField, unstructured_grid};
 use palpate_geometry::{
     ImportedMesh, ImportedTetrahedra, LengthUnit, WriteFormat, read_label_map, read_mesh,
     read_tetrahedra,
@@ -64,7 +64,14 @@ pub(crate) fn survive_volume(folder: &Path, name: &str, bytes: &[u8]) {
         nodes: &nodes,
     };
     let path = folder.join("b.vtu");
-    std::fs::write(&path, unstructured_grid(mesh.vertices(), &cells, &[], &[])).unwrap();
+    let regions = (0..mesh.tetrahedra().len()).map(|t| f64::from(mesh.region(t)));
+    let regions: Vec<f64> = regions.collect();
+    let field = PointField {
+        name: "region",
+        values: FieldValues::Scalars(&regions),
+    };
+    let bytes = unstructured_grid(mesh.vertices(), &cells, &[], &[field]);
+    std::fs::write(&path, bytes).unwrap();
     let again = read(&path).unwrap();
     assert_eq!((again.mesh, again.turned), (mesh, 0));
 }
