@@ -84,7 +84,11 @@ impl LabelMap {
         };
         Self {
             labels: self.labels.iter().map(joined).collect(),
-            ..self.clone()
+            size: self.size,
+            steps: self.steps,
+            origin: self.origin,
+            names: self.names.clone(),
+            warnings: self.warnings.clone(),
         }
     }
 

@@ -7,11 +7,9 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 use palpate_files::scene::InclusionShape;
-use palpate_geometry::{AabbTree, Surface, TriangleMesh, Vec3};
+use palpate_geometry::{AabbTree, MeshError, Surface, TriangleMesh, Vec3};
 
-use crate::Error;
-
-/// Directions in which a triangle of the outer surface may look away: off its normal [-], and how many beside it.
+/// Directions in which a triangle of the outer surface may look away: off its normal [-], and how many of these besides the normal.
 const OFF_NORMAL: f64 = 0.7;
 const DIRECTIONS: usize = 6;
 
@@ -72,9 +70,9 @@ pub enum RegionError {
         /// Its number among the regions, from 0.
         region: usize,
     },
-    /// The boundary of tetrahedra has no inside.
+    /// The boundary of the body has no inside.
     #[error("layers and shapes need a body whose boundary is a surface: {0}")]
-    NoSurface(palpate_geometry::MeshError),
+    NoSurface(MeshError),
     /// The layers together are as thick as the body.
     #[error("the layers fill the whole body; make them thinner")]
     NothingBelowLayers,
@@ -104,12 +102,13 @@ impl RegionMap {
     /// The `places` in the body inside of `surface`, whose tree is `tree`.
     ///
     /// # Errors
-    /// When there are layers and no triangle of the surface looks outwards.
+    /// When a shape does not lie inside of the body and clear of the others, or there are layers and no triangle of the
+    /// surface looks outwards.
     pub fn new(
-        surface: &TriangleMesh,
+        surface: &Surface,
         tree: &AabbTree,
         places: impl IntoIterator<Item = RegionPlace>,
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, RegionError> {
         let mut bottom = 0.0;
         let mut has_layers = false;
         let regions = places.into_iter().map(|place| match place {
@@ -124,20 +123,12 @@ impl RegionMap {
         });
         let regions = regions.collect();
         let outer = match has_layers {
-            true => Some(outer(surface, tree)?),
+            true => Some(outer(surface.mesh(), tree).map_err(RegionError::NoSurface)?),
             false => None,
         };
-        Ok(Self { regions, outer })
-    }
-
-    /// Number of regions beside region 0.
-    pub fn len(&self) -> usize {
-        self.regions.len()
-    }
-
-    /// Whether the whole body is region 0.
-    pub fn is_empty(&self) -> bool {
-        self.regions.is_empty()
+        let map = Self { regions, outer };
+        map.check(surface, tree)?;
+        Ok(map)
     }
 
     /// The closed surfaces among the regions.
@@ -148,11 +139,7 @@ impl RegionMap {
         })
     }
 
-    /// Whether all shapes lie inside of the body, whose `surface` has the `tree`, and clear of each other.
-    ///
-    /// # Errors
-    /// When one does not.
-    pub fn check(&self, surface: &Surface, tree: &AabbTree) -> Result<(), RegionError> {
+    fn check(&self, surface: &Surface, tree: &AabbTree) -> Result<(), RegionError> {
         let mut borders: Vec<(usize, Vec<Vec3>)> = Vec::new();
         for (region, number) in self.regions.iter().zip(1..) {
             let points = match region {
@@ -193,12 +180,18 @@ impl RegionMap {
 
     /// Whether a region is a layer.
     pub fn is_layer(&self, number: usize) -> bool {
-        matches!(self.regions.get(number - 1), Some(Mapped::Layer { .. }))
+        matches!(self.region(number), Some(Mapped::Layer { .. }))
     }
 
-    /// How far a point [m] lies outside of a shape, or below the lower face of a layer [m]; negative on the other side.
+    /// The region of a number; none of region 0, which has no border of its own.
+    fn region(&self, number: usize) -> Option<&Mapped> {
+        self.regions.get(number.checked_sub(1)?)
+    }
+
+    /// How far a point [m] lies outside of a shape, or below the lower face of a layer [m]; negative on the other side, and
+    /// infinite for region 0.
     pub fn height(&self, number: usize, place: &Vec3) -> f64 {
-        match self.regions.get(number - 1) {
+        match self.region(number) {
             None => f64::INFINITY,
             Some(Mapped::Layer { bottom, .. }) => self.depth(place) - bottom,
             Some(Mapped::Shape(shape)) => shape.off((*place).into()),
@@ -277,7 +270,7 @@ fn border(shape: &InclusionShape) -> Vec<Vec3> {
 }
 
 /// The triangles of the outer surface.
-fn outer(mesh: &TriangleMesh, tree: &AabbTree) -> Result<(TriangleMesh, AabbTree), Error> {
+fn outer(mesh: &TriangleMesh, tree: &AabbTree) -> Result<(TriangleMesh, AabbTree), MeshError> {
     let (low, high) = mesh.bounds();
     let reach = (high - low).norm();
     let looks_out = |triangle| {
@@ -299,8 +292,7 @@ fn outer(mesh: &TriangleMesh, tree: &AabbTree) -> Result<(TriangleMesh, AabbTree
         .filter(|triangle| looks_out(*triangle))
         .map(|triangle| mesh.corners(triangle))
         .collect();
-    let triangles =
-        TriangleMesh::new(mesh.vertices().to_vec(), triangles).map_err(|_| Error::NoElements)?;
+    let triangles = TriangleMesh::new(mesh.vertices().to_vec(), triangles)?;
     let tree = AabbTree::new(&triangles);
     Ok((triangles, tree))
 }

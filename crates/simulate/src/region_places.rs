@@ -39,9 +39,8 @@ pub(crate) fn read_regions(
         places.push(place);
         warnings.extend(more);
     }
-    let map = RegionMap::new(surface.mesh(), tree, places)?;
-    let named = |error| refused(error, &organ.inclusions, layers);
-    map.check(surface, tree).map_err(named)?;
+    let map = RegionMap::new(surface, tree, places);
+    let map = map.map_err(|error| refused(error, &organ.inclusions, layers))?;
     Ok((map, warnings))
 }
 

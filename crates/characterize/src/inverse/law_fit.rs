@@ -33,7 +33,7 @@ pub struct LawFit {
     pub others: Vec<OtherMinimum>,
 }
 
-/// A minimum beside the least one.
+/// A local minimum other than the least one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OtherMinimum {
     /// [N²]
@@ -74,7 +74,7 @@ impl LawFit {
             let of_shapes = of_shapes.map(|own| format!("{} = {:.4}", own.name, own.value));
             format!(
                 "{name}: another minimum is about as good, with a sum of squares {times:.2} times as large, at {}; \
-                 which of them is the tissue's cannot be told from these recordings",
+                 these recordings do not decide which of them is the tissue's",
                 of_shapes.collect::<Vec<_>>().join(", ")
             )
         })

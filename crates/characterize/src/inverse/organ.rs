@@ -6,7 +6,7 @@
 //! and the curve of the piece becomes that of the organ when its depths are moved, of every law and every shape. γ [1/m] is
 //! the difference of two compliances at small strain: that of the organ under a patch of the contact's size, by
 //! tetrahedra that fill its mesh, and that of the piece by axisymmetric elements. The tetrahedra are too stiff at the edge
-//! of the patch; the same patch on a cube, whose compliance is known, says by how much.
+//! of the patch; the same patch on a cube, whose compliance is known, corrects that.
 //!
 //! *How we know*: `organ::…`: a hemisphere by axisymmetric elements; runs of the whole organ at finite strain.
 //!
@@ -54,7 +54,7 @@ const RATIO: f64 = 0.4999;
 const YOUNG: f64 = 2.0 * (1.0 + RATIO);
 /// Depth over the radius of the patch [-]; at small strain the force grows with it.
 const DEPTH: f64 = 0.01;
-/// Half the edge of the cube beside the organ, over the radius of the patch [-], and its cells along an edge.
+/// Half the edge of the cube that corrects the tetrahedra, over the radius of the patch [-], and its cells along an edge.
 const HALF: f64 = 10.0;
 const CELLS: usize = 8;
 /// What is asked of axisymmetric elements [-].

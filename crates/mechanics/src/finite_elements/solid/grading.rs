@@ -39,6 +39,9 @@ const AT_ANCHOR: f64 = 0.5;
 /// g [-].
 const GROWTH: f64 = 1.5;
 
+/// Longest edges in a shape, in its smallest radius [-].
+const IN_SHAPE: f64 = 0.6;
+
 /// By how much edges grow away from a shape [-]: what it adds to the strain falls with the cube of the distance.
 const AT_SHAPES: f64 = 0.75;
 
@@ -234,11 +237,14 @@ impl<'a> MeshContext<'a> {
             });
             let in_layer = self.patch.as_ref().map_or(f64::INFINITY, |patch| {
                 let off = (point - patch.center).norm() - patch.radius;
-                (IN_LAYER * self.regions.thickness_at(point) * halved).max(GROWTH * follow * off)
+                (IN_LAYER * self.regions.map.thickness_at(point) * halved)
+                    .max(GROWTH * follow * off)
             });
-            let near_shapes =
-                self.regions
-                    .longest_edge_at_shapes(point, halved, AT_SHAPES * follow);
+            let (in_shape, growth) = (IN_SHAPE * halved, AT_SHAPES * follow);
+            let near_shapes = self
+                .regions
+                .map
+                .longest_edge_at_shapes(point, in_shape, growth);
             near_patch
                 .min(near_anchor)
                 .min(longest)

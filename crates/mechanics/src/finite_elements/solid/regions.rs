@@ -3,18 +3,17 @@
 use palpate_geometry::{AabbTree, Resolved, TetrahedronMesh};
 
 use super::problem::{Body, SolidPlace, SolidProblem};
-use crate::regions::{RegionError, RegionMap};
+use crate::regions::{RegionError, RegionMap, RegionPlace};
 use crate::{Error, Vec3};
-
-/// Longest edges in a shape, in its smallest radius [-].
-const IN_SHAPE: f64 = 0.6;
 
 /// The regions of a problem.
 #[derive(Debug)]
 pub(super) struct SolidRegions {
     /// Those with borders.
-    map: RegionMap,
-    /// Number among the regions of the problem, from 1, of each region of the map after the first.
+    pub(super) map: RegionMap,
+    /// How many there are.
+    count: usize,
+    /// Number among the regions of the problem, from 1, of each region of the map from its number 1 on.
     bounded: Vec<usize>,
     /// The same for each number of a cell; empty where cells have none.
     cells: Vec<usize>,
@@ -38,35 +37,19 @@ impl SolidRegions {
                 }
             }
         }
-        if places.is_empty() {
-            return Ok(Self {
-                map: RegionMap::default(),
-                bounded,
-                cells,
-            });
-        }
-        let boundary;
-        let surface = match &problem.body {
-            Body::Surface(surface) => surface,
-            Body::Volume(mesh) => {
-                boundary = mesh.boundary_surface().map_err(RegionError::NoSurface)?;
-                &boundary
+        let map = match places.is_empty() {
+            true => RegionMap::default(),
+            false => {
+                let found = bounded_map(&problem.body, places);
+                found.map_err(|error| renumbered(error, &bounded))?
             }
         };
-        let tree = AabbTree::new(surface.mesh());
-        let map = RegionMap::new(surface.mesh(), &tree, places)?;
-        map.check(surface, &tree)
-            .map_err(|error| renumbered(error, &bounded))?;
         Ok(Self {
             map,
+            count: problem.regions.len(),
             bounded,
             cells,
         })
-    }
-
-    /// How many regions are cells.
-    fn named(&self) -> usize {
-        self.cells.iter().filter(|number| **number > 0).count()
     }
 
     /// The borders that tetrahedra are not to cross, as heights over them [m].
@@ -75,18 +58,6 @@ impl SolidRegions {
         numbers
             .map(|number| move |place: &Vec3| self.map.height(number, place))
             .collect()
-    }
-
-    /// The longest edge that the shapes ask for at a place [m], where edges in them are multiplied by `halved` [-] and the
-    /// others grow by `growth` [-].
-    pub(super) fn longest_edge_at_shapes(&self, place: &Vec3, halved: f64, growth: f64) -> f64 {
-        let of_radius = IN_SHAPE * halved;
-        self.map.longest_edge_at_shapes(place, of_radius, growth)
-    }
-
-    /// Thickness of the layer at a place [m]; infinite below layers.
-    pub(super) fn thickness_at(&self, place: &Vec3) -> f64 {
-        self.map.thickness_at(place)
     }
 
     /// The mesh with its regions, as numbers among those of the problem from 1, of the sides on which its tetrahedra lie
@@ -114,7 +85,7 @@ impl SolidRegions {
             } as u32);
         }
         let is_somewhere = |number: &usize| regions.contains(&(*number as u32));
-        if let Some(number) = (1..=self.bounded.len() + self.named()).find(|n| !is_somewhere(n)) {
+        if let Some(number) = (1..=self.count).find(|number| !is_somewhere(number)) {
             let region = number - 1;
             return Err(RegionError::Nowhere { region }.into());
         }
@@ -130,6 +101,19 @@ impl SolidRegions {
         });
         Ok((mesh.with_regions(regions)?, warnings.into_iter().collect()))
     }
+}
+
+/// The places in a body.
+fn bounded_map(body: &Body, places: Vec<RegionPlace>) -> Result<RegionMap, RegionError> {
+    let boundary;
+    let surface = match body {
+        Body::Surface(surface) => surface,
+        Body::Volume(mesh) => {
+            boundary = mesh.boundary_surface().map_err(RegionError::NoSurface)?;
+            &boundary
+        }
+    };
+    RegionMap::new(surface, &AabbTree::new(surface.mesh()), places)
 }
 
 /// The same with the numbers of the problem.

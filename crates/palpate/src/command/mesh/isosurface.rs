@@ -45,8 +45,8 @@ pub(crate) struct Arguments {
     /// A label's name or number, or all; default: list the labels.
     #[arg(long, requires = "out")]
     label: Option<String>,
-    /// A label that lies inside of the organ, by name or number; may be repeated. It belongs to the organ's surface, and
-    /// gets a file of its own beside OUT.
+    /// A label that lies inside of the organ, by name or number; may be repeated. The organ's surface
+    /// encloses it, and its own surface is written next to OUT, as OUT-LABEL.
     #[arg(long, value_name = "LABEL", requires = "label")]
     inside: Vec<String>,
     /// The file to write (.stl, .obj, .ply, .vtp); with --label all a folder, for .ply files.

@@ -20,6 +20,7 @@ pub(super) fn solved(
     let mut taken = Vec::new();
     let mut regions = Vec::new();
     for part in parts {
+        warnings.extend(part.material.warnings.iter().cloned());
         let place = match &part.place {
             PartPlace::Layer(thickness) => SolidPlace::Bounded(RegionPlace::Layer(*thickness)),
             PartPlace::Inclusion(inclusion) => {
