@@ -9,7 +9,7 @@ use std::ops::Bound::{self, Excluded, Included, Unbounded};
 use crate::units::{Match, UNITS, Unit};
 
 /// The numbers that a key or a column may hold.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Domain {
     /// What it holds, with its article: `"a modulus"`.
     what: &'static str,

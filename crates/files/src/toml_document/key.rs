@@ -4,7 +4,7 @@
 use crate::Domain;
 
 /// A key of a document.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Key {
     /// Its name, which ends in the unit of what it holds.
     pub name: &'static str,
@@ -21,7 +21,7 @@ pub struct Key {
 }
 
 /// What a key holds.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Holds {
     /// A number [unit of the key].
     Number(Domain),

@@ -35,16 +35,16 @@ fn table(
     page: &mut String,
     keys: &'static [Key],
     name: &str,
-    told: &mut Vec<(*const Key, String)>,
+    told: &mut Vec<(&'static [Key], String)>,
 ) {
     if !name.is_empty() {
         *page += &format!("\n### {name}\n");
     }
-    if let Some((_, before)) = told.iter().find(|(own, _)| *own == keys.as_ptr()) {
+    if let Some((_, before)) = told.iter().find(|(own, _)| *own == keys) {
         *page += &format!("\nAs `{before}`.\n");
         return;
     }
-    told.push((keys.as_ptr(), name.to_owned()));
+    told.push((keys, name.to_owned()));
     *page += "\n| key | holds | where it is left out | meaning |\n|---|---|---|---|\n";
     for key in keys {
         *page += &format!(

@@ -49,18 +49,17 @@ pub fn schema(kind: &Kind) -> String {
 /// A schema being written.
 struct Writer {
     can_draw: bool,
-    /// The tables so far, each once, by its declaration.
-    tables: Vec<(*const Key, Value)>,
+    /// The tables so far, each once. Compared by value: a constant may have several addresses.
+    tables: Vec<(&'static [Key], Value)>,
 }
 
 impl Writer {
     /// A reference to the schema of a table, which is written where it is met first.
     fn reference(&mut self, keys: &'static [Key]) -> Value {
-        let own = keys.as_ptr();
-        let number = self.tables.iter().position(|(other, _)| *other == own);
+        let number = self.tables.iter().position(|(other, _)| *other == keys);
         let number = number.unwrap_or_else(|| {
             let number = self.tables.len();
-            self.tables.push((own, Value::Null));
+            self.tables.push((keys, Value::Null));
             self.tables[number].1 = self.table(keys);
             number
         });
