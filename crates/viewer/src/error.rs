@@ -23,6 +23,15 @@ pub enum Error {
         /// In the words of the graphics interface.
         cause: wgpu::RequestDeviceError,
     },
+    /// The adapter draws pictures, and no depths and labels.
+    #[error(
+        "the graphics adapter {adapter} cannot draw depths and labels; install the Vulkan driver of the graphics card, or \
+         `mesa-vulkan-drivers`, which draws on the processor"
+    )]
+    NoLabels {
+        /// Its name.
+        adapter: String,
+    },
     /// There is nowhere to open a window.
     #[error(
         "there is no display to open a window on; set DISPLAY or WAYLAND_DISPLAY, or use `xvfb-run -a` \
@@ -80,6 +89,7 @@ impl Error {
             Self::NoAdapter { .. }
             | Self::NoDevice { .. }
             | Self::NoDisplay
+            | Self::NoLabels { .. }
             | Self::NoWindowLibrary { .. }
             | Self::Window { .. }
             | Self::Lost { .. } => false,

@@ -109,13 +109,14 @@ impl Studio {
     /// How far everything in the picture of `state` is, and what it is.
     ///
     /// # Errors
-    /// When the adapter was lost.
+    /// When the adapter cannot draw it, or was lost.
     pub fn labels(&mut self, state: &SimulationState) -> Result<Labels, Error> {
         self.take(state);
         let size = self.target.size();
-        let target = self
-            .labels
-            .get_or_insert_with(|| LabelTarget::new(&self.gpu, size));
+        let target = match &mut self.labels {
+            Some(target) => target,
+            none => none.insert(LabelTarget::new(&self.gpu, size)?),
+        };
         let bodies: Vec<&Body> = self.organ.bodies().chain(&self.neighbours).collect();
         let tools = tool_pictures(&self.tools, state);
         self.renderer

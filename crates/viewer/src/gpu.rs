@@ -1,4 +1,5 @@
 use crate::Error;
+use crate::render::DEPTH_AND_LABEL;
 
 /// What draws: an adapter with its device and queue. Clones are the same device.
 #[derive(Debug, Clone)]
@@ -9,6 +10,8 @@ pub struct Gpu {
     pub(crate) queue: wgpu::Queue,
     adapter: String,
     software: bool,
+    /// Whether it draws depths and labels.
+    pub(crate) has_labels: bool,
 }
 
 impl Gpu {
@@ -38,7 +41,11 @@ impl Gpu {
     /// A device that somebody else has opened, such as a window.
     pub fn of(adapter: &wgpu::Adapter, device: wgpu::Device, queue: wgpu::Queue) -> Self {
         let told = adapter.get_info();
+        let features = adapter.get_texture_format_features(DEPTH_AND_LABEL);
         Self {
+            has_labels: features
+                .allowed_usages
+                .contains(wgpu::TextureUsages::RENDER_ATTACHMENT),
             device,
             queue,
             adapter: format!("{} ({})", told.name, told.backend),

@@ -3,6 +3,7 @@
 //! A [`Renderer`] draws bodies and tools into a [`Target`]; a [`Studio`] is one with a scene in it, which
 //! needs no display. A [`FrameWriter`] takes pictures of a motion that is played.
 
+mod animation;
 mod camera;
 mod error;
 mod frame;
@@ -21,6 +22,7 @@ mod window;
 
 pub use image::RgbaImage;
 
+pub use animation::Animation;
 pub use camera::{Camera, Lamp};
 pub use error::Error;
 pub use frame::{FRAME_SIZE, FrameWriter, SeenTool, Studio, png, tool_pictures};

@@ -156,10 +156,11 @@ impl Domain {
         in_other_unit().unwrap_or_default()
     }
 
-    /// A number of the bounds with its unit, in the size of the unit that needs the fewest digits.
+    /// A number of the bounds with its unit, in the size of the unit that needs the fewest digits: six of them at most.
     fn print(&self, value: f64) -> String {
+        let shortened = |value: f64| format!("{value:.5e}").parse().unwrap_or(value);
         let Some(unit) = Unit::named(self.unit) else {
-            return value.to_string();
+            return shortened(value).to_string();
         };
         if value == 0.0 {
             return "0".to_owned();
@@ -176,7 +177,7 @@ impl Domain {
             .filter(|(number, _)| number.abs() >= 1.0)
             .min_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))
             .unwrap_or((value, unit));
-        format!("{number} {}", unit.spelling)
+        format!("{} {}", shortened(number), unit.spelling)
     }
 }
 
@@ -194,6 +195,8 @@ mod tests {
         assert_eq!(Domain::POSITIVE.expected(), "a number above 0");
         assert_eq!(Domain::FRACTION.expected(), "a number from 0 to 1");
         assert_eq!(Domain::FINITE.expected(), "a finite number");
+        let third = Domain::number("a part", [Included(0.0), Included(1.0 / 3.0)]);
+        assert_eq!(third.expected(), "a part from 0 to 0.333333");
         assert!(!LENGTH.contains(0.0) && LENGTH.contains(10.0) && !LENGTH.contains(f64::INFINITY));
     }
 

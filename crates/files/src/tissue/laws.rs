@@ -93,7 +93,7 @@ const FIBRE_EXPONENT: Domain =
     Domain::number("an exponent", [Included(0.0), Included(1e5)]).usually(0.0, 2000.0);
 
 const DISPERSION: Domain = Domain::number("a dispersion", [Included(0.0), Included(1.0 / 3.0)])
-    .with_remark("0 is no dispersion, 1/3 = 0.333333 an isotropic one");
+    .with_remark("0 is no dispersion, 1/3 an isotropic one");
 
 const FIBRE_ANGLE: Domain =
     Domain::number("an angle", [Included(0.0), Included(90.0)]).with_remark("in degrees");

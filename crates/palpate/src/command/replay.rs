@@ -1,14 +1,17 @@
 //! `palpate replay`: a session again, step by step, on the same organ.
 
-use std::path::PathBuf;
+mod pictures;
+
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::Args;
-use palpate_files::{Claim, Overwrite, Scene};
+use palpate_files::{Overwrite, Scene};
 use palpate_simulate::{Replay, SessionFolder, Simulation};
-use palpate_viewer::{Start, Studio, png};
+use palpate_viewer::Start;
 use serde::Serialize;
 
+use self::pictures::Pictures;
 use super::window;
 use crate::failure::Failure;
 use crate::output::{self, VERSION};
@@ -22,6 +25,8 @@ Examples:
       opens a window: play, pause, rewind, view from any angle
   palpate replay session --frames 20 --out pictures
       without a window: 20 pictures, and a check of every force against the recorded one
+  palpate replay session --gif session.gif --speed 2
+      an animation at twice the speed, for slides and web pages
 
 The folder contains session.csv and scene.toml, as written by `palpate simulate` and the window.";
 
@@ -40,12 +45,24 @@ pub(crate) struct Arguments {
     /// The folder for pictures; it is created if missing.
     #[arg(long, value_name = "DIR", requires = "frames")]
     out: Option<PathBuf>,
-    /// Replace existing pictures in the folder.
-    #[arg(long, requires = "out")]
+    /// Write an animation of 12.5 pictures a second, instead of opening a window.
+    #[arg(long, value_name = "FILE.gif", conflicts_with = "frames")]
+    gif: Option<PathBuf>,
+    /// Seconds of the session in a second of the animation, from 0.25 to 8.
+    #[arg(long, value_name = "X", requires = "gif", default_value_t = 1.0, value_parser = speed)]
+    speed: f64,
+    /// Replace pictures that exist.
+    #[arg(long)]
     overwrite: bool,
     /// Print the result as one JSON object, without a window.
     #[arg(long)]
     json: bool,
+}
+
+fn speed(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok();
+    let allowed = number.filter(|speed| (0.25..=8.0).contains(speed));
+    allowed.ok_or_else(|| "a number from 0.25 to 8 is expected".to_owned())
 }
 
 /// What came of playing a session again.
@@ -78,11 +95,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let reader = Reader::of_json(arguments.json);
     let simulation = preparation::simulation(&scene, &preparation::resources(), reader)?;
     let replay = Replay::new(Arc::new(simulation.clone()), &folder.session)?;
-    if arguments.frames.is_none() && !arguments.json {
+    if arguments.frames.is_none() && arguments.gif.is_none() && !arguments.json {
         let start = Start::Again(Box::new(scene), Arc::new(simulation), Box::new(replay));
         return match window::open((start, None), preparation::resources()) {
             Err(why) if window::is_absent(&why) => Err(Failure::failed(format!(
-                "{why}; --frames N --out DIR takes pictures without a window"
+                "{why}; --frames N --out DIR and --gif FILE.gif need no window"
             ))),
             outcome => Ok(outcome?),
         };
@@ -93,9 +110,15 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         return output::json(&answer);
     }
     output::text(format!(
-        "{} steps over {:.1} s played again; of {} forces the one that is farthest from what was recorded \
-         is off by {:e} N",
-        answer.steps, answer.duration_s, answer.rows_compared, answer.largest_difference_n
+        "{} steps over {:.1} s were played again; {}",
+        answer.steps,
+        answer.duration_s,
+        match (answer.rows_compared, answer.largest_difference_n) {
+            (count, 0.0) => format!("all {count} forces are the recorded ones, to the last bit"),
+            (count, off) => format!(
+                "of {count} forces none differs from the recorded one by more than {off:.2e} N"
+            ),
+        }
     ))?;
     for file in &answer.files {
         output::line(file.display())?;
@@ -110,24 +133,20 @@ fn play(
     (scene, simulation): (&Scene, &Simulation),
     mut replay: Replay,
 ) -> Result<Answer, Failure> {
-    let wanted = arguments.frames.unwrap_or(0);
-    let folder = arguments.out.clone().unwrap_or_default();
-    let name = |number: u64| format!("frame-{number:04}.png");
-    // Until all pictures are written nobody else may write there.
-    let (_claim, mut studio) = match wanted {
-        0 => (None, None),
-        _ => {
-            let claim = Claim::of_folder(&folder, Overwrite::of_option(arguments.overwrite))?;
-            claim.check((1..=wanted).map(name))?;
-            let studio = Studio::new(scene, simulation, palpate_viewer::FRAME_SIZE)?;
-            (Some(claim), Some(studio))
+    let overwrite = Overwrite::of_option(arguments.overwrite);
+    let organ = (scene, simulation);
+    let mut pictures = match (arguments.frames, &arguments.gif) {
+        (_, Some(file)) => Pictures::animation(file, arguments.speed, overwrite, organ, &replay)?,
+        (Some(count @ 1..), None) => {
+            let folder = arguments.out.as_deref().unwrap_or(Path::new(""));
+            Pictures::files(folder, count, overwrite, organ, replay.steps())?
         }
+        _ => Pictures::none(),
     };
     let steps = replay.steps();
     let progress = Progress::new(Reader::of_json(arguments.json), Some(steps as u64));
     progress.say("steps played again");
     let (mut compared, mut largest) = (0, 0.0_f64);
-    let mut files = Vec::new();
     while replay.advance() {
         let number = replay.played() as u64 - 1;
         if number.is_multiple_of(64) {
@@ -141,24 +160,10 @@ fn play(
                 compared += 1;
             }
         }
-        let done = files.len() as u64;
-        let last = steps as u64 - 1;
-        let due = match wanted {
-            0 | 1 => last,
-            _ => done * last / (wanted - 1),
-        };
-        if let Some(studio) = &mut studio
-            && done < wanted
-            && number >= due
-        {
-            let path = folder.join(name(done + 1));
-            let picture = studio.picture(replay.state())?;
-            palpate_files::write_whole(&path, &png(&picture)?)?;
-            files.push(path);
-        }
+        pictures.see(&replay)?;
         if interrupt::is_asked() {
             return Err(Failure::failed(
-                "interrupted; the pictures so far are whole",
+                "interrupted; pictures in files of their own are whole, an animation is not written",
             ));
         }
     }
@@ -177,7 +182,7 @@ fn play(
         duration_s: replay.time(steps) - replay.time(0),
         rows_compared: compared,
         largest_difference_n: largest,
-        files,
+        files: pictures.finish()?,
         warnings,
     })
 }

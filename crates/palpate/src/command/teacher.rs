@@ -49,6 +49,13 @@ enum What {
         #[arg(long)]
         json: bool,
     },
+    #[command(flatten)]
+    Change(Change),
+}
+
+/// What changes the record.
+#[derive(Debug, Subcommand)]
+enum Change {
     /// Add trainees to a cohort, or remove them.
     Cohort {
         /// The cohort.
@@ -120,24 +127,27 @@ struct StandingAnswer {
 /// Does what a teacher wants.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let file = training::record_file(arguments.record.as_deref())?;
-    if let What::Show { json } = arguments.what {
-        let answer = answer(&Record::read(&file)?)?;
-        return match json {
-            true => output::json(&answer),
-            false => output::text(text(&answer)),
-        };
+    match &arguments.what {
+        What::Show { json } => {
+            let answer = answer(&Record::read(&file)?)?;
+            match json {
+                true => output::json(&answer),
+                false => output::text(text(&answer)),
+            }
+        }
+        What::Change(wanted) => {
+            let said = change(wanted, &file, arguments.pin.as_deref())?;
+            output::line(said)
+        }
     }
-    let said = change(&arguments.what, &file, arguments.pin.as_deref())?;
-    output::line(said)
 }
 
-fn change(what: &What, file: &Path, pin: Option<&str>) -> Result<String, Failure> {
+fn change(wanted: &Change, file: &Path, pin: Option<&str>) -> Result<String, Failure> {
     let mut record = Record::open(file)?;
     record.check_pin(pin)?;
     output::warnings(record.warnings());
-    Ok(match what {
-        What::Show { .. } => String::new(),
-        What::Cohort { name, add, remove } => {
+    Ok(match wanted {
+        Change::Cohort { name, add, remove } => {
             record.join(name, add)?;
             record.leave(name, remove)?;
             let cohorts = record.cohorts()?;
@@ -145,7 +155,7 @@ fn change(what: &What, file: &Path, pin: Option<&str>) -> Result<String, Failure
             let trainees = own.map_or(String::new(), |own| own.trainees.join(", "));
             format!("{}: {}", printable(name), printable(&trainees))
         }
-        What::Assign {
+        Change::Assign {
             cohort,
             task,
             due,
@@ -167,7 +177,7 @@ fn change(what: &What, file: &Path, pin: Option<&str>) -> Result<String, Failure
                 date::short(end)
             )
         }
-        What::Expert { session, trainee } => {
+        Change::Expert { session, trainee } => {
             let folder = SessionFolder::read(session)?;
             record.make_expert(trainee, &folder.session.digest())?;
             format!(
@@ -175,7 +185,7 @@ fn change(what: &What, file: &Path, pin: Option<&str>) -> Result<String, Failure
                 printable(trainee)
             )
         }
-        What::Pin { new } => {
+        Change::Pin { new } => {
             record.set_pin(new)?;
             "the PIN is set; it guards against mistakes, not against people who may write the file"
                 .to_owned()

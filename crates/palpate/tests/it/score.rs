@@ -134,6 +134,19 @@ fn a_session_is_measured_and_played_again() {
     let again = json(&output);
     assert_eq!(again["largest_difference_n"], 0.0);
     assert_eq!(again["rows_compared"], 401);
+    // Two seconds at twice the speed, 12.5 pictures a second.
+    let arguments = [
+        "replay", "hard", "--gif", "hard.gif", "--speed", "2", "--json",
+    ];
+    let again = json(&palpate_in(folder.path(), &arguments));
+    assert_eq!(again["files"][0], "hard.gif");
+    let bytes = fs::read(folder.path().join("hard.gif")).unwrap();
+    let mut reader = gif::DecodeOptions::new().read_info(&bytes[..]).unwrap();
+    let mut pictures = 0;
+    while reader.read_next_frame().unwrap().is_some() {
+        pictures += 1;
+    }
+    assert_eq!(pictures, 13);
 }
 
 #[test]
@@ -191,6 +204,17 @@ fn bad_sessions_are_told() {
     // Without a scene, and one whose mesh is gone.
     fs::write(at("new/session.csv"), &session).unwrap();
     refused(&["replay", "new", "--json"], "--scene");
+    // An animation is not written over a file, and its speed has bounds.
+    fs::write(at("kept.gif"), "mine").unwrap();
+    let to_gif = ["replay", "gentle", "--gif", "kept.gif"];
+    refused(&to_gif, "--overwrite");
+    assert_eq!(fs::read_to_string(at("kept.gif")).unwrap(), "mine");
+    let too_fast = palpate_in(
+        folder.path(),
+        &["replay", "gentle", "--gif", "new.gif", "--speed", "9"],
+    );
+    assert!(stderr(&too_fast).contains("from 0.25 to 8"));
+    assert!(!at("new.gif").exists());
     fs::remove_file(at("meshes/ball.stl")).unwrap();
     refused(&["replay", "gentle", "--json"], "ball.stl");
     // A line that was cut off is told, and the rest counts.

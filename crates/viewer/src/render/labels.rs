@@ -55,7 +55,15 @@ pub struct LabelTarget {
 
 impl LabelTarget {
     /// Of `size` [pixels]. No side is shorter than one pixel or longer than the adapter allows.
-    pub fn new(gpu: &Gpu, size: (u32, u32)) -> Self {
+    ///
+    /// # Errors
+    /// When the adapter draws no two floats per pixel, as some of OpenGL do not.
+    pub fn new(gpu: &Gpu, size: (u32, u32)) -> Result<Self, Error> {
+        if !gpu.has_labels {
+            return Err(Error::NoLabels {
+                adapter: gpu.adapter().to_owned(),
+            });
+        }
         let most = gpu.device.limits().max_texture_dimension_2d;
         let size = (size.0.clamp(1, most), size.1.clamp(1, most));
         let texture = |format, usage| {
@@ -73,12 +81,12 @@ impl LabelTarget {
         let view =
             |texture: &wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
         let measured = texture(DEPTH_AND_LABEL, wgpu::TextureUsages::COPY_SRC);
-        Self {
+        Ok(Self {
             size,
             drawn: view(&measured),
             measured,
             depth: view(&texture(DEPTH, wgpu::TextureUsages::empty())),
-        }
+        })
     }
 
     /// Width and height [pixels].

@@ -39,6 +39,7 @@ use wgpu::util::DeviceExt;
 pub use body::{Body, single_precision};
 pub(crate) use body::{FibreRun, Fibres};
 pub use labels::{Label, LabelTarget, Labels};
+pub(crate) use target::DEPTH_AND_LABEL;
 pub use target::Target;
 pub use tint::Tint;
 pub use tool::ToolPicture;

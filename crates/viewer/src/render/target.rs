@@ -5,7 +5,7 @@ use crate::{Error, Gpu};
 
 /// Bytes of light that the shader has already bent to the display's gamma; windows take them as they are.
 pub(super) const COLOR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
-pub(super) const DEPTH_AND_LABEL: wgpu::TextureFormat = wgpu::TextureFormat::Rg32Float;
+pub(crate) const DEPTH_AND_LABEL: wgpu::TextureFormat = wgpu::TextureFormat::Rg32Float;
 pub(super) const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
 /// What copies between textures and buffers demand.

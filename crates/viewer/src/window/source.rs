@@ -11,6 +11,10 @@ use palpate_simulate::{Replay, SessionFolderWriter, Simulation};
 /// What a picture has time for [ms]: steps that are played again take their turn with the pictures.
 const BUDGET: Duration = Duration::from_millis(12);
 
+/// How far the pictures may lag behind the pace before the pace waits for them [s of the session]: a state that was kept
+/// is never farther away once the session was played ahead.
+const MOST_BEHIND: f64 = 2.0;
+
 /// Where what is shown comes from.
 pub(super) enum Source {
     /// Hands that touch now.
@@ -154,7 +158,8 @@ impl Source {
 
 impl Playback {
     /// At its beginning, playing.
-    pub(super) fn new(simulation: &Simulation, replay: Replay) -> Self {
+    pub(super) fn new(simulation: &Simulation, mut replay: Replay) -> Self {
+        replay.look_ahead();
         let mut snapshot = Snapshot::new(simulation);
         snapshot.show(replay.time(0), replay.state());
         Self {
@@ -193,25 +198,26 @@ impl Playback {
     /// Plays on by so many seconds of the clock, as far as there is time.
     pub(super) fn go_on(&mut self, elapsed: f64) {
         let start = Instant::now();
-        if self.replay.played() > self.goal {
-            // Back to a state that was kept; from there it goes forth again.
-            self.replay.go_back(self.goal);
-        }
-        if self.plays && self.replay.played() >= self.goal {
+        let behind = self.replay.time(self.goal) - self.replay.time(self.replay.played());
+        if self.plays && behind < MOST_BEHIND {
             self.at += elapsed.min(0.1) * self.pace;
             while self.goal < self.replay.steps() && self.replay.time(self.goal) <= self.at {
                 self.goal += 1;
             }
         }
         let before = self.replay.played();
+        self.replay.jump(self.goal);
+        let from = before.min(self.replay.played());
         while self.replay.played() < self.goal && start.elapsed() < BUDGET {
             self.replay.advance();
-            self.rows.extend_from_slice(self.replay.recorded());
         }
+        let now = self.replay.played();
+        self.rows
+            .extend_from_slice(self.replay.recorded_in(from..now));
         if self.plays && self.replay.played() == self.replay.steps() {
             self.plays = false;
         }
-        if self.replay.played() != before || self.snapshot.paused == self.plays {
+        if now != before || self.snapshot.paused == self.plays {
             let time = self.replay.time(self.replay.played().saturating_sub(1));
             self.snapshot.show(time, self.replay.state());
             self.snapshot.paused = !self.plays;

@@ -6,7 +6,7 @@ use super::source::Playback;
 use crate::style::QUIET;
 
 /// Paces to choose from [-].
-const PACES: [f64; 4] = [0.25, 0.5, 1.0, 2.0];
+const PACES: [f64; 6] = [0.25, 0.5, 1.0, 2.0, 4.0, 8.0];
 
 /// Shows the line; whether somebody wants to leave the session.
 pub(super) fn show(ui: &mut Ui, playback: &mut Playback, can_leave: bool) -> bool {

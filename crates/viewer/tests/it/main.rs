@@ -8,6 +8,7 @@
 
 mod agreement;
 mod analytic;
+mod animation;
 mod errors;
 mod golden;
 mod hands;

@@ -1,0 +1,129 @@
+//! Pictures of a session that is played again: in files of their own, or in one animation.
+
+use std::path::{Path, PathBuf};
+
+use palpate_files::{Claim, Overwrite, Scene};
+use palpate_simulate::{Replay, Simulation};
+use palpate_viewer::{Animation, FRAME_SIZE, Studio, png};
+
+use crate::failure::Failure;
+
+/// Width and height of an animation [pixels]: a quarter of a picture's, for every picture of it is kept whole.
+const ANIMATION_SIZE: (u32, u32) = (FRAME_SIZE.0 / 2, FRAME_SIZE.1 / 2);
+
+/// What is taken, and when.
+pub(super) struct Pictures {
+    /// The steps after which a picture is taken, the next one last.
+    due: Vec<usize>,
+    studio: Option<Studio>,
+    kept: Kept,
+    files: Vec<PathBuf>,
+    /// Until it is dropped nobody else writes there.
+    _claims: Vec<Claim>,
+}
+
+/// Where pictures go.
+enum Kept {
+    InFolder(PathBuf),
+    InAnimation(PathBuf, Box<Animation>),
+    Nowhere,
+}
+
+impl Pictures {
+    /// No picture.
+    pub(super) fn none() -> Self {
+        Self {
+            due: Vec::new(),
+            studio: None,
+            kept: Kept::Nowhere,
+            files: Vec::new(),
+            _claims: Vec::new(),
+        }
+    }
+
+    /// This many files in `folder`, evenly over so many steps.
+    pub(super) fn files(
+        folder: &Path,
+        count: u64,
+        overwrite: Overwrite,
+        (scene, simulation): (&Scene, &Simulation),
+        steps: usize,
+    ) -> Result<Self, Failure> {
+        let claim = Claim::of_folder(folder, overwrite)?;
+        claim.check((0..count).map(name))?;
+        let last = steps as u64 - 1;
+        let due = (0..count).map(|number| match count {
+            1 => last,
+            _ => number * last / (count - 1),
+        });
+        Ok(Self {
+            due: due.rev().map(|step| step as usize).collect(),
+            studio: Some(Studio::new(scene, simulation, FRAME_SIZE)?),
+            kept: Kept::InFolder(folder.to_owned()),
+            files: Vec::new(),
+            _claims: vec![claim],
+        })
+    }
+
+    /// An animation in `file` at a speed [-].
+    pub(super) fn animation(
+        file: &Path,
+        speed: f64,
+        overwrite: Overwrite,
+        (scene, simulation): (&Scene, &Simulation),
+        replay: &Replay,
+    ) -> Result<Self, Failure> {
+        let claims = Claim::of_files([file], overwrite)?;
+        let mut due = Vec::new();
+        for step in 0..replay.steps() {
+            let since = replay.time(step) - replay.time(0);
+            // Half a step early is nearer than half a step late.
+            if since + 0.5 * simulation.step() >= due.len() as f64 * speed * Animation::DELAY {
+                due.push(step);
+            }
+        }
+        due.reverse();
+        let animation = Box::new(Animation::new(ANIMATION_SIZE)?);
+        Ok(Self {
+            due,
+            studio: Some(Studio::new(scene, simulation, ANIMATION_SIZE)?),
+            kept: Kept::InAnimation(file.to_owned(), animation),
+            files: Vec::new(),
+            _claims: claims,
+        })
+    }
+
+    /// Takes the pictures that are due after the step that was played last.
+    pub(super) fn see(&mut self, replay: &Replay) -> Result<(), Failure> {
+        while self.due.pop_if(|step| *step < replay.played()).is_some() {
+            let Some(studio) = &mut self.studio else {
+                break;
+            };
+            let picture = studio.picture(replay.state())?;
+            match &mut self.kept {
+                Kept::InFolder(folder) => {
+                    let path = folder.join(name(self.files.len() as u64));
+                    palpate_files::write_whole(&path, &png(&picture)?)?;
+                    self.files.push(path);
+                }
+                Kept::InAnimation(_, animation) => animation.add(&picture)?,
+                Kept::Nowhere => {}
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes what is not yet written; all files.
+    pub(super) fn finish(mut self) -> Result<Vec<PathBuf>, Failure> {
+        if let Kept::InAnimation(path, animation) = self.kept {
+            palpate_files::write_whole(&path, &animation.finish()?)?;
+            self.files.push(path);
+        }
+        Ok(self.files)
+    }
+}
+
+/// The file of a picture, counted from zero.
+fn name(number: u64) -> String {
+    format!("frame-{:04}.png", number + 1)
+}
