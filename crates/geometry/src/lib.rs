@@ -51,6 +51,7 @@ pub use deviation::{Deviation, deviation};
 pub use fill::{FillSettings, fill, fill_graded};
 pub use io::error::{ReadError, ReadFault, UnknownUnit};
 pub use io::format::MeshFormat;
+pub use io::label_map::dicom::{DicomFolder, DicomSeries, read_dicom_folder};
 pub use io::label_map::read_label_map;
 pub use io::unit::{LengthUnit, extent_warning, is_plausible_extent, unit_by_extent};
 pub use io::volume::{ImportedTetrahedra, VolumeFormat, VolumeRegion, read_tetrahedra};

@@ -260,7 +260,7 @@ pub enum ReadFault {
     },
     /// The name does not tell a format that holds label maps.
     #[error(
-        "the extension `{found}` is not one of .nii, .nii.gz, .nrrd; save the label map as one of these"
+        "the extension `{found}` is not one of .nii, .nii.gz, .nrrd, and this is no DICOM file; save the label map as one of these"
     )]
     UnknownMapExtension {
         /// The extension, or nothing.
@@ -281,6 +281,28 @@ pub enum ReadFault {
     /// Compressed bytes that cannot be unpacked.
     #[error("the compressed part is damaged ({0}); copy or save the file again")]
     BadCompression(std::io::Error),
+    /// A DICOM file that breaks its standard.
+    #[error("the DICOM data cannot be read ({cause}); copy or export the file again")]
+    Dicom {
+        /// By the parser.
+        cause: String,
+    },
+    /// An image instead of a segmentation.
+    #[error(
+        "this is a DICOM object of modality `{modality}`, not a segmentation (SEG); segment the images, with 3D Slicer or TotalSegmentator for instance, and give what they save"
+    )]
+    NotASegmentation {
+        /// As the file has it.
+        modality: String,
+    },
+    /// A folder with no segmentation object, or several.
+    #[error(
+        "{found} DICOM segmentations (SEG) were found where one was expected; give the file of a segmentation, or one that 3D Slicer or TotalSegmentator made of the images"
+    )]
+    NotOneSegmentation {
+        /// How many there are.
+        found: usize,
+    },
     /// A voxel of a picture that is no label.
     #[error(
         "voxel {voxel} has the value {found} where a label, a whole number from 0 to 65535, was expected; give the label map instead of the picture"
@@ -345,6 +367,9 @@ impl ReadFault {
             | Self::UnknownMapExtension { .. }
             | Self::BadHeader { .. }
             | Self::BadCompression(_)
+            | Self::Dicom { .. }
+            | Self::NotASegmentation { .. }
+            | Self::NotOneSegmentation { .. }
             | Self::NotALabel { .. } => true,
         }
     }

@@ -1,5 +1,5 @@
 //! Mesh files: STL, OBJ, PLY and glTF in; STL, OBJ, PLY and VTK out; tetrahedra from MSH and VTK;
-//! label maps from NIfTI and NRRD.
+//! label maps from NIfTI, NRRD and DICOM.
 
 mod base64;
 pub(crate) mod error;

@@ -12,6 +12,7 @@ mod check;
 mod coarsen;
 mod cut;
 mod data;
+mod dicom;
 mod files;
 mod fill;
 mod fuzz;

@@ -1,5 +1,6 @@
-//! Label maps: NIfTI and NRRD.
+//! Label maps: NIfTI, NRRD and segmentation objects of DICOM.
 
+pub(crate) mod dicom;
 mod names;
 mod nifti;
 mod nrrd;
@@ -16,12 +17,12 @@ use crate::{LabelMap, ReadError, ReadFault};
 /// How a compressed file begins.
 const GZIP: &[u8] = b"\x1f\x8b";
 
-/// Reads a label map: `.nii`, `.nii.gz` or `.nrrd`. Labels are named by the file itself, or by a JSON
-/// file beside it of the same name, as `{"labels": {"1": "liver"}}`.
+/// Reads a label map: `.nii`, `.nii.gz`, `.nrrd`, or a segmentation object of DICOM, which may be the only one in a folder.
+/// Labels are named by the file itself, or by a JSON file beside it of the same name, as `{"labels": {"1": "liver"}}`.
 ///
 /// # Errors
-/// When the file cannot be read, is damaged, or holds something else than labels; the error names
-/// the path, the cause and the remedy.
+/// When the file cannot be read, is damaged, or holds something else than labels, or a folder holds no segmentation object
+/// or several; the error names the path, the cause and the remedy.
 pub fn read_label_map(path: &Path) -> Result<LabelMap, ReadError> {
     read_here(path).map_err(|fault| ReadError {
         path: path.to_owned(),
@@ -32,11 +33,19 @@ pub fn read_label_map(path: &Path) -> Result<LabelMap, ReadError> {
 fn read_here(path: &Path) -> Result<LabelMap, ReadFault> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let name = name.to_ascii_lowercase();
+    if path.is_dir() {
+        let (file, bytes) = dicom::only_segmentation(path)?;
+        let mut map = dicom::read_segmentation(&bytes)?;
+        map.add_names(names::beside(&file));
+        return Ok(map);
+    }
     let bytes = read_whole(path, MOST_BYTES)?;
     let mut map = if name.ends_with(".nii") || name.ends_with(".nii.gz") {
         nifti::read(&mut unpacked(&bytes))?
     } else if name.ends_with(".nrrd") {
         nrrd::read(&bytes)?
+    } else if dicom::is_dicom(&bytes) {
+        dicom::read_segmentation(&bytes)?
     } else {
         let found = path.extension().unwrap_or_default().to_string_lossy();
         let found = found.chars().take(40).collect();

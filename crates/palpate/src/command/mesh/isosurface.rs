@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use palpate_files::{Claim, Overwrite, printable};
 use palpate_geometry::{
-    Isosurface, IsosurfaceSettings, Label, LabelMap, LengthUnit, isosurface_with_progress,
-    read_label_map,
+    DicomFolder, DicomSeries, Isosurface, IsosurfaceSettings, Label, LabelMap, LengthUnit,
+    isosurface_with_progress, read_dicom_folder, read_label_map,
 };
 use serde::Serialize;
 
@@ -29,17 +29,19 @@ Examples:
       scene or a problem takes it as an [[inclusion]]
   palpate mesh isosurface segmentation.nrrd --label all --out organs
       writes one file per label to the folder organs
+  palpate mesh isosurface patient
+      lists the DICOM series in a folder, and the labels of its segmentation object (SEG)
 
 The surface is closed and connected, even where the volume's border cuts the organ; smoothing removes voxel steps \
 without loss of volume. Coordinates in metres, shared by all organs of a volume: x to the patient's left, y to the \
-back, z to the head. Names come from the file (TotalSegmentator, 3D Slicer) or from a file \
-beside it, segmentation.json, with {\"labels\": {\"5\": \"liver\"}}. Limits: 400 million voxels (1 GB of memory) per \
+back, z to the head. No name and no date of a patient is read. Labels are named by the file (TotalSegmentator, 3D Slicer) \
+or by a file next to it, segmentation.json, with {\"labels\": {\"5\": \"liver\"}}. Limits: 400 million voxels (1 GB of memory) per \
 volume, and 4 million triangles per label before simplification (2.5 GB, minutes).";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Arguments {
-    /// The label map: .nii, .nii.gz or .nrrd.
+    /// The label map: .nii, .nii.gz, .nrrd, a DICOM segmentation (SEG), or a folder with DICOM files.
     #[arg(value_name = "LABELS")]
     file: PathBuf,
     /// A label's name or number, or all; default: list the labels.
@@ -69,8 +71,13 @@ pub(crate) struct Arguments {
 #[derive(Debug, Serialize)]
 struct Answer {
     palpate: &'static str,
-    size: [usize; 3],
-    spacing_m: [f64; 3],
+    /// Those of a folder with DICOM files.
+    series: Vec<DicomSeries>,
+    #[serde(serialize_with = "palpate_jobs::lossy")]
+    segmentations: Vec<PathBuf>,
+    /// Of the label map; none where a folder has none, or several.
+    size: Option<[usize; 3]>,
+    spacing_m: Option<[f64; 3]>,
     labels: Vec<Label>,
     surfaces: Vec<Surfaced>,
     warnings: Vec<String>,
@@ -91,11 +98,21 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     interrupt::ends_between_files("interrupted; the surfaces that were written are whole");
     let progress = Progress::of_job(Reader::of_json(arguments.json));
     progress.say("reading the volume");
-    let map = read_label_map(&arguments.file)?;
-    let labels = map.labels();
-    let mut warnings = map.warnings().to_vec();
+    let folder = match arguments.file.is_dir() {
+        true => read_dicom_folder(&arguments.file)?,
+        false => DicomFolder::default(),
+    };
+    // A folder of images is listed; only a label asks for its one segmentation.
+    let map = match arguments.file.is_dir() && folder.segmentations.len() != 1 {
+        true if arguments.label.is_none() => None,
+        _ => Some(read_label_map(&arguments.file)?),
+    };
+    let labels = map.as_ref().map(LabelMap::labels).unwrap_or_default();
+    let mut warnings = map
+        .as_ref()
+        .map_or(Vec::new(), |map| map.warnings().to_vec());
     let mut surfaces = Vec::new();
-    if let (Some(wanted), Some(out)) = (&arguments.label, &arguments.out) {
+    if let (Some(map), Some(wanted), Some(out)) = (&map, &arguments.label, &arguments.out) {
         let overwrite = Overwrite::of_option(arguments.overwrite);
         let chosen = chosen(&labels, (wanted, &arguments.inside), (out, overwrite))?;
         let count = chosen.surfaces.len() as f64;
@@ -107,7 +124,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
                     let whole = map.with_inside(label.number, &chosen.inside);
                     surface(&whole, (label, out), arguments, &at)?
                 }
-                false => surface(&map, (label, out), arguments, &at)?,
+                false => surface(map, (label, out), arguments, &at)?,
             };
             warnings.extend(label::warnings(label, &made.0));
             surfaces.push(made.1);
@@ -116,8 +133,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     drop(progress);
     let answer = Answer {
         palpate: output::VERSION,
-        size: map.size(),
-        spacing_m: map.spacing(),
+        series: folder.series,
+        segmentations: folder.segmentations,
+        size: map.as_ref().map(LabelMap::size),
+        spacing_m: map.as_ref().map(LabelMap::spacing),
         labels,
         surfaces,
         warnings,
@@ -242,7 +261,11 @@ fn plain_name(label: &Label) -> String {
 impl Answer {
     fn text(&self) -> String {
         if self.surfaces.is_empty() {
-            let rows = self.labels.iter().map(|label| {
+            let series = self.series.iter().map(series_text);
+            let files = self.segmentations.iter();
+            let files =
+                files.map(|file| format!("segmentation {}\n", printable(&file.to_string_lossy())));
+            let labels = self.labels.iter().map(|label| {
                 format!(
                     "{:>6}  {:<28} {:>10} voxels {:>10.1} ml\n",
                     label.number,
@@ -251,7 +274,11 @@ impl Answer {
                     1e6 * label.volume
                 )
             });
-            return rows.collect();
+            let text: String = series.chain(files).chain(labels).collect();
+            return match text.is_empty() {
+                true => "no labels and no DICOM files\n".to_owned(),
+                false => text,
+            };
         }
         let rows = self.surfaces.iter().map(|surface| {
             format!(
@@ -264,4 +291,17 @@ impl Answer {
         });
         rows.collect()
     }
+}
+
+fn series_text(series: &DicomSeries) -> String {
+    let [columns, rows] = series.size;
+    let spacing = series.spacing_m.map_or(String::new(), |spacing| {
+        let [column, row, image] = spacing.map(|metres| 1e3 * metres);
+        format!(", {column:.3} x {row:.3} x {image:.3} mm")
+    });
+    let images = series.images;
+    format!(
+        "{} images: {images} of {columns} x {rows} pixels{spacing}\n",
+        series.modality
+    )
 }

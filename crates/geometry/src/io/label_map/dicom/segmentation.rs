@@ -1,0 +1,171 @@
+use std::collections::BTreeMap;
+
+use dicom_dictionary_std::tags;
+use dicom_object::{FileDicomObject, InMemDicomObject};
+
+use super::frames::Lattice;
+use super::{Values, invalid};
+use crate::io::label_map::placed;
+use crate::io::label_map::voxels::size;
+use crate::{LabelMap, ReadFault};
+
+/// How the pixels of a frame tell a label.
+#[derive(Clone, Copy)]
+enum Pixels {
+    /// A bit for each, that of the frame's segment; the first pixel in the lowest bit.
+    Bits,
+    /// A byte for each: a part of the frame's segment, which has at least this value where more than half is.
+    Parts(u8),
+    /// One or two bytes for each: the number of a segment.
+    Numbers(usize),
+}
+
+impl Pixels {
+    fn of(object: &Values<'_>) -> Result<Self, ReadFault> {
+        let kind = object.text(tags::SEGMENTATION_TYPE).unwrap_or_default();
+        let bits = object.number(tags::BITS_ALLOCATED).unwrap_or(0);
+        let greatest = object.number(tags::MAXIMUM_FRACTIONAL_VALUE);
+        match (kind.as_str(), bits) {
+            ("BINARY", 1) => Ok(Self::Bits),
+            ("FRACTIONAL", 8) => {
+                let greatest = greatest.and_then(|own| u8::try_from(own).ok());
+                let half = greatest.unwrap_or(u8::MAX).div_ceil(2);
+                Ok(Self::Parts(half.max(1)))
+            }
+            ("LABELMAP", 8 | 16) => Ok(Self::Numbers(bits as usize / 8)),
+            (kind, bits) => Err(ReadFault::BadHeader {
+                what: "segmentation type",
+                found: format!("{kind} of {bits} bits"),
+                expected: "BINARY of 1 bit, FRACTIONAL of 8, or LABELMAP of 8 or 16",
+            }),
+        }
+    }
+
+    /// Bytes of so many pixels.
+    fn bytes(self, pixels: usize) -> usize {
+        match self {
+            Self::Bits => pixels.div_ceil(8),
+            Self::Parts(_) => pixels,
+            Self::Numbers(width) => width * pixels,
+        }
+    }
+
+    /// The label of a pixel, counted over all frames; `own` is that of the frame.
+    fn label(self, data: &[u8], pixel: usize, own: u16) -> u16 {
+        let is_own = match self {
+            Self::Bits => (data[pixel / 8] >> (pixel % 8)) & 1 == 1,
+            Self::Parts(half) => data[pixel] >= half,
+            Self::Numbers(1) => return u16::from(data[pixel]),
+            Self::Numbers(_) => {
+                return u16::from_le_bytes([data[2 * pixel], data[2 * pixel + 1]]);
+            }
+        };
+        if is_own { own } else { 0 }
+    }
+}
+
+pub(super) fn label_map(object: &FileDicomObject<InMemDicomObject>) -> Result<LabelMap, ReadFault> {
+    let values = Values::of(object);
+    let modality = values.text(tags::MODALITY).unwrap_or_default();
+    if modality != "SEG" {
+        let modality = modality.chars().filter(char::is_ascii_alphanumeric);
+        return Err(ReadFault::NotASegmentation {
+            modality: modality.take(16).collect(),
+        });
+    }
+    let syntax = object.meta().transfer_syntax.trim_end_matches('\0');
+    // Implicit and explicit little endian, and explicit big endian, in which bytes are the same.
+    if !["1.2.840.10008.1.2", "1.2.840.10008.1.2.1"].contains(&syntax) {
+        return Err(ReadFault::UnreadEncoding {
+            what: "a segmentation with compressed or big-endian pixels",
+            remedy: "save it uncompressed, with `gdcmconv --raw` for instance",
+        });
+    }
+    let pixels = Pixels::of(&values)?;
+    let lattice = Lattice::of(&values)?;
+    let side = |tag| values.number(tag).unwrap_or(0);
+    let [columns, rows] = [side(tags::COLUMNS), side(tags::ROWS)];
+    let size = size([columns, rows, lattice.count as i64])?;
+    let area = size[0] * size[1];
+    let frames = lattice.slices.len();
+    let data = object.get(tags::PIXEL_DATA).ok_or(ReadFault::Truncated {
+        what: "a segmentation",
+        expected: 1,
+        found: 0,
+    })?;
+    let data = data.to_bytes().map_err(invalid)?;
+    let expected = area
+        .checked_mul(frames)
+        .map(|pixels_all| pixels.bytes(pixels_all));
+    if expected.is_none_or(|expected| data.len() < expected) {
+        return Err(ReadFault::Truncated {
+            what: "the frames",
+            expected: expected.map_or(u64::MAX, |expected| expected as u64),
+            found: data.len() as u64,
+        });
+    }
+    let own_labels = frame_labels(&values, pixels, frames)?;
+    let mut labels = vec![0; area * lattice.count];
+    let mut shared = 0_usize;
+    for (frame, (&slice, &own)) in lattice.slices.iter().zip(&own_labels).enumerate() {
+        for (pixel, kept) in labels[slice * area..(slice + 1) * area]
+            .iter_mut()
+            .enumerate()
+        {
+            let label = pixels.label(&data, frame * area + pixel, own);
+            if label != 0 {
+                shared += usize::from(*kept != 0 && *kept != label);
+                *kept = label;
+            }
+        }
+    }
+    let mut warnings = Vec::new();
+    if shared > 0 {
+        warnings.push(format!(
+            "{shared} voxels belong to several segments; each is taken for the one whose frame comes last"
+        ));
+    }
+    placed(LabelMap {
+        size,
+        labels,
+        steps: lattice.steps,
+        origin: lattice.origin,
+        names: names(&values),
+        warnings,
+    })
+}
+
+/// The label of each frame; zeros where pixels have their own.
+fn frame_labels(object: &Values<'_>, pixels: Pixels, frames: usize) -> Result<Vec<u16>, ReadFault> {
+    if matches!(pixels, Pixels::Numbers(_)) {
+        return Ok(vec![0; frames]);
+    }
+    let shared = object.first(tags::SHARED_FUNCTIONAL_GROUPS_SEQUENCE);
+    let read = |group: &Values<'_>| {
+        let segment = group.first(tags::SEGMENT_IDENTIFICATION_SEQUENCE)?;
+        segment.number(tags::REFERENCED_SEGMENT_NUMBER)
+    };
+    let groups = object.items(tags::PER_FRAME_FUNCTIONAL_GROUPS_SEQUENCE);
+    let each = groups.iter().map(|own| {
+        let number = read(&Values(own)).or_else(|| read(shared.as_ref()?));
+        let label = number.and_then(|number| u16::try_from(number).ok());
+        label
+            .filter(|label| *label > 0)
+            .ok_or_else(|| ReadFault::BadHeader {
+                what: "referenced segment number of a frame",
+                found: number.map_or("missing".to_owned(), |number| number.to_string()),
+                expected: "a whole number from 1 to 65535",
+            })
+    });
+    each.collect()
+}
+
+fn names(object: &Values<'_>) -> BTreeMap<u16, String> {
+    let segments = object.items(tags::SEGMENT_SEQUENCE).iter().map(Values);
+    let named = segments.filter_map(|segment| {
+        let number = segment.number(tags::SEGMENT_NUMBER)?;
+        let name = segment.text(tags::SEGMENT_LABEL)?;
+        Some((u16::try_from(number).ok()?, name)).filter(|(_, name)| !name.is_empty())
+    });
+    named.collect()
+}
