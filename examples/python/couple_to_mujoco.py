@@ -3,9 +3,10 @@
 pip install palpate mujoco
 python examples/python/couple_to_mujoco.py
 
-In each step of MuJoCo palpate takes the tip's position and returns the force [N], which acts on the arm's last body in
-the same step (`xfrc_applied`, at the body's centre of mass, with the torque of the lever arm). The coupling is explicit:
-it is stable if the tissue's stiffness times the step squared is far below the moving mass, here 30 N/m, 2 ms and 0.3 kg.
+In each step of MuJoCo palpate takes the tip's position and returns the force [N], which acts on the arm's last body
+in the same step (`xfrc_applied`, at the body's centre of mass, with the torque of the lever arm). The coupling is
+explicit: it is stable if the tissue's stiffness times the step squared is far below the moving mass, here 30 N/m, 2
+ms and 0.3 kg.
 """
 
 import mujoco
