@@ -1,5 +1,5 @@
-//! Measures a specimen, characterizes it, and presses the tissue that was found as the specimen was pressed.
-//! Builds on: `palpate_a_liver`. Asserts how far the simulated force is from the recorded one.
+//! Measures a specimen, characterizes it, and presses a simulated block of the fitted tissue in the same way.
+//! Builds on: `palpate_a_liver`. Asserts the difference between simulated and recorded force.
 #![allow(clippy::print_stdout, reason = "an example shows its result")]
 
 use palpate_characterize::clean::{CleanSettings, clean};
@@ -35,7 +35,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let recording = Recording::new(rig.describe(&trajectory, 1), seen)?;
     let recorded = clean(&recording, &CleanSettings::default())?;
 
-    // The specimen is linear, and what is sought is not.
+    // The specimen is linear, the fitted law is not.
     let mut settings = CharacterizeSettings::default();
     (settings.laws, settings.draws) = (vec![SoughtLaw::NeoHookean], None);
     let found = characterize(std::slice::from_ref(&recorded), &settings, &mut |_| ());

@@ -6,7 +6,7 @@ using Palpate;
 
 static class PalpateALiver
 {
-    const string Scene = @"
+    internal const string Scene = @"
 format = 1
 organ = { builtin = ""liver"", builtin_tissue = ""pig-liver"" }
 tool = [{ name = ""right"", tip = { shape = ""flat"", radius_m = 0.001 } }]

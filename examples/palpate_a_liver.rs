@@ -1,6 +1,6 @@
 //! Presses into the liver and holds: the force jumps up, then relaxes.
 //!
-//! Builds on: nothing. Asserts the part of the force that is left after 40 s.
+//! Builds on: nothing. Asserts the fraction of the force that remains after 40 s.
 
 #![allow(clippy::print_stdout, reason = "an example shows its result")]
 
@@ -43,7 +43,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (first, last) = (forces[0], forces[400]);
     println!("{first:.4} N at once, {last:.4} N after 40 s");
 
-    // 1 − g₁ − g₂ of the tissue (table 6-3), and what its slower term has left to relax.
+    // 1 − g₁ − g₂ of the tissue (table 6-3), plus the remaining relaxation of the slower term.
     assert!((last / first - 0.5115).abs() < 1e-3);
     Ok(())
 }

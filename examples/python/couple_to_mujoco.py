@@ -1,12 +1,12 @@
-"""A three-joint arm in MuJoCo presses a liver of palpate: the tip's place goes to the tissue, its force goes back.
+"""A three-joint arm in MuJoCo presses a liver in palpate, which gets the tip's position and returns the force.
 
 pip install palpate mujoco
 python examples/python/couple_to_mujoco.py
 
-In each step of MuJoCo the tissue takes the tip's place and gives a force [N], which acts on the arm's last body in the
-same step (`xfrc_applied`, at the body's centre of mass, so with the torque of the lever to it). The coupling is explicit:
-stable where the tissue's stiffness times the step squared is far below the mass that the tip moves, here 30 N/m, 2 ms and
-0.3 kg.
+In each step of MuJoCo palpate takes the tip's position and returns the force [N], which acts on the arm's last body
+in the same step (`xfrc_applied`, at the body's centre of mass, with the torque of the lever arm). The coupling is
+explicit: it is stable if the tissue's stiffness times the step squared is far below the moving mass, here 30 N/m, 2
+ms and 0.3 kg.
 """
 
 import mujoco
@@ -65,7 +65,7 @@ def tissue() -> palpate.Simulation:
 
 
 class Coupling:
-    """An arm above the top of an organ, which it feels."""
+    """An arm above the top of an organ, coupled to the organ's force."""
 
     def __init__(self) -> None:
         self.model = mujoco.MjModel.from_xml_string(ARM)
@@ -73,7 +73,7 @@ class Coupling:
         self.organ = tissue()
         self.body = self.model.body("lower").id
         self.site = self.model.site("tip").id
-        # Bent, with the tip 10 mm above the highest place of the organ.
+        # Bent, with the tip 10 mm above the highest point of the organ.
         self.data.qpos[:] = self.data.ctrl[:] = [0.0, -0.6, 1.5]
         mujoco.mj_forward(self.model, self.data)
         vertices = self.organ.surface.vertices
@@ -90,7 +90,7 @@ class Coupling:
         mujoco.mj_step(self.model, self.data)
 
     def joint_torques(self) -> np.ndarray:
-        """What the tissue does to the joints [N m]: the Jacobian of the tip, transposed, times the force."""
+        """The tissue's torques at the joints [N m]: the transposed Jacobian of the tip times the force."""
         jacobian = np.zeros((3, self.model.nv))
         mujoco.mj_jacSite(self.model, self.data, jacobian, None, self.site)
         return jacobian.T @ self.force
@@ -110,7 +110,7 @@ def main() -> None:
                 f"{coupling.data.time:8.2f}  {1e3 * state.depths[0]:10.2f}  "
                 f"{np.linalg.norm(coupling.force):9.3f}  {coupling.joint_torques()[2]:25.4f}"
             )
-    # At rest the actuators carry exactly what the tissue does to the joints.
+    # At rest the actuators balance exactly the tissue's torques at the joints.
     carried = coupling.data.actuator_force
     assert np.linalg.norm(coupling.force) > 0.05
     assert np.allclose(carried, -coupling.joint_torques(), rtol=0.02, atol=1e-4), (

@@ -1,4 +1,4 @@
-"""Draws a touched liver, with how far its surface moved as colour, into a PNG; needs OpenGL, but no display.
+"""Draws a touched liver into a PNG, coloured by the displacement of its surface; needs OpenGL, but no display.
 
 pip install palpate[pictures]
 python examples/python/look_at_an_organ.py liver.png
@@ -32,7 +32,7 @@ def main(path: str) -> None:
     # The nearest vertex is not quite under the tip.
     assert abs(moved.max() - 0.008) < 0.0005
 
-    # Where there is no OpenGL at all, VTK ends the process; so another one tries.
+    # Without OpenGL, VTK ends the process; so another process tries.
     if subprocess.run([sys.executable, "-c", PROBE], capture_output=True).returncode != 0:
         raise SystemExit("no picture: there is no OpenGL here; install libegl1 and libgl1-mesa-dri")
     import pyvista

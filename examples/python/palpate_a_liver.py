@@ -1,4 +1,4 @@
-"""Presses 4 mm into a liver and holds for 40 s; the same as `examples/palpate_a_liver.rs` and its sibling in C.
+"""Presses 4 mm into a liver and holds for 40 s; the same as `examples/palpate_a_liver.rs` and `.c`.
 
 python examples/python/palpate_a_liver.py
 """
@@ -27,7 +27,7 @@ def main() -> None:
     first, last = forces[0], forces[400]
     print(f"{first:.4f} N at once, {last:.4f} N after 40 s")
 
-    # 1 − g₁ − g₂ of the tissue (table 6-3), and what its slower term has left to relax.
+    # 1 − g₁ − g₂ of the tissue (table 6-3), plus the remaining relaxation of the slower term.
     assert abs(last / first - 0.5115) < 1e-3
 
 

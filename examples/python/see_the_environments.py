@@ -1,4 +1,4 @@
-"""What an agent sees in the three environments, as one PNG: colour, depth and labels of the endoscope.
+"""Draws the images of an agent in the three environments into one PNG: colour, depth and labels of the endoscope.
 
 pip install "palpate[gym]" pillow
 python examples/python/see_the_environments.py environments.png
@@ -14,7 +14,7 @@ import palpate.gym  # noqa: F401
 from PIL import Image
 
 SIZE = (360, 270)
-#: Of the background, the organ, its neighbours and the tools.
+#: Colours of the background, the organ, its neighbours and the tools.
 COLORS = np.array(
     [[20, 20, 24], [205, 92, 92], [120, 100, 140], [240, 200, 60], [90, 180, 220]],
     dtype=np.uint8,
@@ -22,7 +22,7 @@ COLORS = np.array(
 
 
 def seen(name: str, seed: int, depth: float) -> np.ndarray:
-    """A row of three images, with the tool so deep in the organ [m]."""
+    """A row of three images, with the tool at this depth in the organ [m]."""
     environment = gymnasium.make(
         f"palpate/{name}-v0",
         model="local",
@@ -32,7 +32,7 @@ def seen(name: str, seed: int, depth: float) -> np.ndarray:
         randomization={"camera.distance": (0.75, 0.85)},
     )
     observation, _ = environment.reset(seed=seed)
-    # The surface is 10 mm below the tip at the beginning: away from the endoscope, until the tool is deep enough.
+    # At first the surface is 10 mm below the tip: move away from the endoscope until the tool is deep enough.
     ahead = environment.unwrapped.touch.camera.rotation[2]
     action = np.append(ahead / np.abs(ahead).max(), -1.0).astype(np.float32)
     for _ in range(100):

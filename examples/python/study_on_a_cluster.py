@@ -1,10 +1,10 @@
-"""Seeks several laws in every specimen of a folder of recordings, on the workers of a Dask cluster.
+"""Fits several laws to every specimen of a folder of recordings, on the workers of a Dask cluster.
 
     pip install palpate[study,pandas]
     python examples/python/study_on_a_cluster.py recordings/
     python examples/python/study_on_a_cluster.py recordings/ --scheduler tcp://10.0.0.5:8786
 
-Run it again with the same --study to go on where it was stopped.
+Run it again with the same --study to continue after an interruption.
 """
 
 import argparse

@@ -1,16 +1,10 @@
-// What the binding answers beyond the example; exits with 0 when all is right.
+// Checks the binding beyond the example, with the example's scene; exits with 0 when all is right.
 
 using System;
 using Palpate;
 
 static class Checks
 {
-    const string Scene = @"
-format = 1
-organ = { builtin = ""liver"", builtin_tissue = ""pig-liver"" }
-tool = [{ name = ""right"", tip = { shape = ""flat"", radius_m = 0.001 } }]
-";
-
     static void Must(bool right, string what)
     {
         if (!right)
@@ -38,7 +32,7 @@ tool = [{ name = ""right"", tip = { shape = ""flat"", radius_m = 0.001 } }]
     {
         Refuses("another format", () => Simulation.Parse("format = 2", "é.toml"));
         Refuses("no file", () => Simulation.Open("/no/such/scene.toml"));
-        Simulation simulation = Simulation.Parse(Scene, "liver.toml");
+        Simulation simulation = Simulation.Parse(PalpateALiver.Scene, "liver.toml");
         Must(simulation.ToolCount == 1 && simulation.ToolName(0) == "right", "tools");
         Must(simulation.ToolName(1) == null, "no second tool");
         Must(simulation.StepLength > 0.0 && simulation.ForceScale > 0.0, "numbers of the scene");

@@ -25,11 +25,11 @@ fn compiles(program: &Path, sources: &[&Path], flags: &[&str]) -> bool {
     true
 }
 
-/// What the program `source` does with the binding; none where Mono is not installed.
-fn run(source: &Path) -> Option<Output> {
+/// The output of the program of these `sources` and the binding; none where Mono is not installed.
+fn run(sources: &[&Path], flags: &[&str]) -> Option<Output> {
     let folder = tempfile::tempdir().unwrap();
     let program = folder.path().join("program.exe");
-    compiles(&program, &[source], &[]).then(|| {
+    compiles(&program, sources, flags).then(|| {
         let mut mono = Command::new("mono");
         mono.arg(&program).env("LD_LIBRARY_PATH", libraries());
         mono.output().unwrap()
@@ -43,9 +43,13 @@ fn beside(name: &str) -> PathBuf {
         .join(name)
 }
 
+fn example() -> PathBuf {
+    root().join("examples/palpate_a_liver.cs")
+}
+
 #[test]
 fn the_example_prints_the_forces_of_the_step_in_rust() {
-    if let Some(output) = run(&root().join("examples/palpate_a_liver.cs")) {
+    if let Some(output) = run(&[&example()], &[]) {
         let error = String::from_utf8_lossy(&output.stderr);
         assert!(output.status.success(), "{error}");
         assert_eq!(String::from_utf8_lossy(&output.stdout), expected());
@@ -54,7 +58,8 @@ fn the_example_prints_the_forces_of_the_step_in_rust() {
 
 #[test]
 fn refusals_and_states_are_those_of_the_header() {
-    if let Some(output) = run(&beside("checks.cs")) {
+    let sources: [&Path; 2] = [&beside("checks.cs"), &example()];
+    if let Some(output) = run(&sources, &["-main:Checks"]) {
         let told = String::from_utf8_lossy(&output.stdout);
         let error = String::from_utf8_lossy(&output.stderr);
         assert!(output.status.success(), "{told}{error}");
