@@ -117,7 +117,7 @@
 /**
  * The version of this header.
  */
-#define PALPATE_VERSION_MINOR 1
+#define PALPATE_VERSION_MINOR 2
 
 /**
  * The version of this header.
@@ -444,7 +444,7 @@ enum palpate_status palpate_state_surface(const struct palpate_state *state,
 uint32_t palpate_abi(void);
 
 /**
- * The version of the library, as "0.1.0".
+ * The version of the library, as "0.2.0".
  */
 const char *palpate_version(void);
 

@@ -5,7 +5,7 @@ use std::ffi::c_char;
 /// The version of this header.
 pub const PALPATE_VERSION_MAJOR: u32 = 0;
 /// The version of this header.
-pub const PALPATE_VERSION_MINOR: u32 = 1;
+pub const PALPATE_VERSION_MINOR: u32 = 2;
 /// The version of this header.
 pub const PALPATE_VERSION_PATCH: u32 = 0;
 
@@ -19,7 +19,7 @@ pub extern "C" fn palpate_abi() -> u32 {
     PALPATE_ABI
 }
 
-/// The version of the library, as "0.1.0".
+/// The version of the library, as "0.2.0".
 #[unsafe(no_mangle)]
 pub extern "C" fn palpate_version() -> *const c_char {
     const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), "\0");

@@ -22,7 +22,7 @@ pub struct SessionHeader {
 
 impl SessionHeader {
     pub(super) const KEYS: &'static [Key] = &[
-        Key::text("version", "The version of the program.").required("\"0.1.0\""),
+        Key::text("version", "The version of the program.").required("\"0.2.0\""),
         Key::text(
             "scene_digest",
             "A digest of the scene with all that belongs to it.",

@@ -19,7 +19,7 @@ impl TissueSource {
         Key::text("method", "How the numbers were found.")
             .optional("\"relaxation fit\"", "unknown"),
         Key::text("version", "The version of the program that found them.")
-            .optional("\"0.1.0\"", "unknown"),
+            .optional("\"0.2.0\"", "unknown"),
         Key::texts(
             "warnings",
             "Warnings, in sentences. Programs that use the tissue pass them on.",
