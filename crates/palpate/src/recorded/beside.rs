@@ -121,10 +121,10 @@ impl Beside {
         let deepest = largest(depths);
         if self.worst_depth.abs() > SAME_DEPTH * deepest {
             self.warnings.push(format!(
-                "the organ is felt {:.2} mm {} than was recorded, for its surface turns or its wall is thin there; \
-                 choose another place with --at",
+                "the simulated depth is {:.2} mm {} than the recorded one, because the surface curves or the wall is thin \
+                 there; choose another place with --at",
                 1e3 * self.worst_depth.abs(),
-                if self.worst_depth > 0.0 { "deeper" } else { "less deep" },
+                if self.worst_depth > 0.0 { "greater" } else { "smaller" },
             ));
         }
         let answer = BesideAnswer {
