@@ -85,7 +85,8 @@ pub(super) fn label_map(object: &FileDicomObject<InMemDicomObject>) -> Result<La
     let lattice = Lattice::of(&values)?;
     let side = |tag| values.number(tag).unwrap_or(0);
     let [columns, rows] = [side(tags::COLUMNS), side(tags::ROWS)];
-    let size = size([columns, rows, lattice.count as i64])?;
+    // One more at either end: frames without a label may have been left out.
+    let size = size([columns, rows, lattice.count as i64 + 2])?;
     let area = size[0] * size[1];
     let frames = lattice.slices.len();
     let data = object.get(tags::PIXEL_DATA).ok_or(ReadFault::Truncated {
@@ -105,7 +106,7 @@ pub(super) fn label_map(object: &FileDicomObject<InMemDicomObject>) -> Result<La
         });
     }
     let own_labels = frame_labels(&values, pixels, frames)?;
-    let mut labels = vec![0; area * lattice.count];
+    let mut labels = vec![0; area * size[2]];
     let mut shared = 0_usize;
     for (frame, (&slice, &own)) in lattice.slices.iter().zip(&own_labels).enumerate() {
         for (pixel, kept) in labels[slice * area..(slice + 1) * area]
@@ -125,11 +126,23 @@ pub(super) fn label_map(object: &FileDicomObject<InMemDicomObject>) -> Result<La
             "{shared} voxels belong to several segments; each is taken for the one whose frame comes last"
         ));
     }
+    let has_label = |slice: usize| {
+        labels[slice * area..][..area]
+            .iter()
+            .any(|label| *label != 0)
+    };
+    if has_label(1) || has_label(lattice.count) {
+        warnings.push(
+            "the first or the last frame has labels: a segmentation need not keep empty frames, so whether the images go on \
+             there is unknown, and the organ is taken to end"
+                .to_owned(),
+        );
+    }
     placed(LabelMap {
         size,
         labels,
         steps: lattice.steps,
-        origin: lattice.origin,
+        origin: lattice.origin - lattice.steps.column(2),
         names: names(&values),
         warnings,
     })
