@@ -30,6 +30,12 @@ fn is_same(a: &RecordingHeader, b: &RecordingHeader) -> bool {
             h.specimen_width_m,
             h.density_kg_per_m3,
         ];
+        let base = [
+            h.base_modulus_pa,
+            h.base_modulus_ratio,
+            h.base_modulus_error,
+            h.base_thickness_m,
+        ];
         let shape = [
             h.inner_radius_m,
             h.outer_radius_m,
@@ -43,7 +49,7 @@ fn is_same(a: &RecordingHeader, b: &RecordingHeader) -> bool {
         );
         (
             specimen,
-            (shape, piece, h.support),
+            (shape, piece, base, h.support),
             (h.mesh.clone(), h.location_m, h.fixed.clone()),
             indenter,
             h.condition,

@@ -112,7 +112,7 @@ pub fn characterize_organ(
     });
     at_step("relaxation");
     let of_block = curves.as_mut().ok();
-    let of_block = of_block.filter(|curves| matches!(curves.body(), Body::Block { .. }));
+    let of_block = of_block.filter(|curves| !matches!(curves.body(), Body::Tube { .. }));
     let neo_hookean = of_block.and_then(|curves| curves.of(f64::INFINITY, &[]).ok());
     let records = records(&pressed, neo_hookean.as_ref());
     let relaxing = relaxation(&records, settings.relaxation);
@@ -280,7 +280,7 @@ fn far_field(organ: &Organ, body: Body) -> Result<FarField, Error> {
             IndenterShape::Flat { .. } => organ.far_field(&block, indenter.radius),
             _ => Err(Error::OrganIndenter),
         },
-        Body::Tube { .. } => Err(Error::OrganIndenter),
+        Body::Layer { .. } | Body::Tube { .. } => Err(Error::OrganIndenter),
     }
 }
 
@@ -319,6 +319,12 @@ fn half_space_factor(
 ) -> Option<String> {
     let header = &recordings.first()?.header;
     header.thickness_m?;
+    if matches!(curves.body(), Body::Layer { .. }) {
+        return Some(
+            "mean_elastic_modulus is that of a half-space (6.1), here of layer and base together; the laws are of the layer"
+                .to_owned(),
+        );
+    }
     let curve = curves.of(f64::INFINITY, &[]).ok()?;
     let contact = Contact::of(header).ok()?;
     // E = 6 C₁₀, and the curve is that of C₁₀ = 1 Pa.

@@ -156,11 +156,22 @@ impl Recordings {
         };
         let mut recording = recording?;
         recording.header = recording.header.completed_by(said);
+        if let Some((key, expected)) = recording.header.wrong_of_layer() {
+            let path = path.display();
+            return Err(Error::input(format!(
+                "{path}: `{key}` {wrong}; give {expected}"
+            )));
+        }
         let mut clean = clean(&recording, &CleanSettings::default())
             .map_err(|error| Error::from(error).about(path))?;
         let sideways = Sideways::of(&recording);
         clean
             .warnings
+            let mut said = recording.header.entries().into_iter();
+            let wrong = match said.any(|(own, _)| own == key) {
+                true => "does not fit the other keys",
+                false => "is missing",
+            };
             .extend(sideways.and_then(|found| found.warning()));
         Ok((clean, sideways))
     }

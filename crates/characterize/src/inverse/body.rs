@@ -5,6 +5,7 @@ use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_elements::indentation::{Base, Block, Indenter, IndenterShape, Side};
 use palpate_mechanics::finite_elements::tube::Tube;
 
+use super::law::SoughtLaw;
 use crate::Error;
 
 /// What was indented, and with what.
@@ -16,6 +17,15 @@ pub enum Body {
         block: Block,
         /// The indenter.
         indenter: Indenter,
+    },
+    /// A layer of tissue on an elastic base, indented in its middle.
+    Layer {
+        /// The layer.
+        block: Block,
+        /// The indenter.
+        indenter: Indenter,
+        /// What it is bonded on.
+        base: LayerBase,
     },
     /// A hollow organ between fixed ends, with a flat indenter on its side.
     Tube {
@@ -30,11 +40,46 @@ pub enum Body {
     },
 }
 
+/// What a layer is bonded on. It relaxes as the layer does, and is on a rigid plate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LayerBase {
+    /// Thickness [m].
+    pub thickness: f64,
+    /// How stiff it is.
+    pub modulus: BaseModulus,
+    /// Standard error of that, over it [-].
+    pub error: f64,
+}
+
+/// How stiff a base is: a neo-Hookean one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum BaseModulus {
+    /// Its instantaneous Young's modulus [Pa].
+    Young(f64),
+    /// Its modulus at rest over that of the layer [-].
+    Ratio(f64),
+}
+
+impl LayerBase {
+    /// Its shear modulus at rest over that of a layer of `law` with this `modulus` [Pa] [-]; one under an infinite modulus,
+    /// which stands for one that is not known yet.
+    pub(super) fn stiffness(&self, law: SoughtLaw, modulus: f64) -> f64 {
+        match self.modulus {
+            BaseModulus::Young(_) if modulus.is_infinite() => 1.0,
+            BaseModulus::Young(young) => young / (3.0 * law.shear() * modulus),
+            BaseModulus::Ratio(ratio) => ratio,
+        }
+    }
+}
+
 /// Radius and thickness of a specimen that states neither, in radii of the contact [-]: as the source's cube of
 /// 100 mm under its punch of 1 mm, with the same cross-section (figure 6-8).
 pub const BLOCK: [f64; 2] = [56.42, 100.0];
 /// Radius of a specimen that states its thickness alone, over that [-]: at its rim nothing is felt of the indenter.
 const WIDE: f64 = 5.0;
+/// Radius of a layer on a base that states its thickness alone, and least thickness of a base that states none, over that of
+/// the layer [-]: a layer that is a hundred times as stiff spreads a load over ∛100 of its thickness.
+const WIDE_ON_BASE: f64 = 25.0;
 /// Lengths that differ by less than this part are one [-]: rounding of a file's numbers.
 const ALIKE: f64 = 1e-9;
 
@@ -84,7 +129,7 @@ impl Body {
     /// as in a large one.
     ///
     /// # Errors
-    /// When the indenter or a tube is not known, or the specimen is thinner than it was pressed or narrower than the
+    /// When the indenter, a tube or the base of a layer is not known, or the specimen is thinner than it was pressed or narrower than the
     /// indenter.
     pub fn of(header: &RecordingHeader, deepest: f64) -> Result<Self, Error> {
         let known = |value: Option<f64>, key| value.ok_or(Error::Unknown { key });
@@ -93,9 +138,9 @@ impl Body {
         let large = match (header.specimen, shape) {
             (Some(Specimen::Tube), RecordedShape::Flat) => return tube(header, radius()?),
             (Some(Specimen::Tube), _) => return Err(Error::TubeIndenter),
-            (None, RecordedShape::Flat) => Self::under_punch(radius()?),
-            (None, RecordedShape::Sphere) => Self::under_sphere(radius()?),
-            (None, RecordedShape::Cone) => {
+            (_, RecordedShape::Flat) => Self::under_punch(radius()?),
+            (_, RecordedShape::Sphere) => Self::under_sphere(radius()?),
+            (_, RecordedShape::Cone) => {
                 let angle = known(header.indenter_half_angle_deg, "indenter_half_angle_deg")?;
                 Self::under_cone(angle.to_radians(), deepest)
             }
@@ -112,8 +157,10 @@ impl Body {
         else {
             return Ok(self);
         };
+        let is_layer = header.specimen == Some(Specimen::Layer);
         if let Some(thickness) = header.thickness_m {
-            block.radius = block.radius.max(WIDE * thickness);
+            let wide = if is_layer { WIDE_ON_BASE } else { WIDE };
+            block.radius = block.radius.max(wide * thickness);
             block.height = thickness;
             if deepest >= thickness {
                 return Err(Error::DeeperThanThick {
@@ -135,13 +182,21 @@ impl Body {
         if header.support == Some(Support::Lubricated) {
             block.base = Base::Lubricated;
         }
+        if is_layer {
+            let base = base(header, &indenter)?;
+            return Ok(Self::Layer {
+                block,
+                indenter,
+                base,
+            });
+        }
         Ok(Self::Block { block, indenter })
     }
 
     /// Radius of the indenter, or of what a cone touches at the depth that it was made for [m].
     pub fn radius(&self) -> f64 {
         match *self {
-            Self::Block { indenter, .. } => indenter.radius,
+            Self::Block { indenter, .. } | Self::Layer { indenter, .. } => indenter.radius,
             Self::Tube { radius, .. } => radius,
         }
     }
@@ -159,6 +214,20 @@ impl Body {
             && alike(block.height, large.height)
             && block.base == large.base
     }
+}
+
+/// What the header of a layer says of its base.
+fn base(header: &RecordingHeader, indenter: &Indenter) -> Result<LayerBase, Error> {
+    let unknown = |key| Error::Unknown { key };
+    let layer = header.thickness_m.ok_or(unknown("thickness_m"))?;
+    let young = header.base_modulus_pa.map(BaseModulus::Young);
+    let modulus = young.or(header.base_modulus_ratio.map(BaseModulus::Ratio));
+    let large = (BLOCK[1] * indenter.radius).max(WIDE_ON_BASE * layer);
+    Ok(LayerBase {
+        thickness: header.base_thickness_m.unwrap_or(large),
+        modulus: modulus.ok_or(unknown("base_modulus_pa"))?,
+        error: header.base_modulus_error.unwrap_or(0.0),
+    })
 }
 
 fn tube(header: &RecordingHeader, radius: f64) -> Result<Body, Error> {

@@ -28,9 +28,9 @@ mod repeated;
 mod tables;
 mod thickness;
 
-pub use body::{BLOCK, Body};
+pub use body::{BLOCK, BaseModulus, Body, LayerBase};
 pub use correlations::Correlations;
-pub use curves::{Curves, UnitCurve};
+pub use curves::{Curves, OfBase, UnitCurve};
 pub use description::LawDescription;
 pub(crate) use expected::expected_law;
 pub use fitted_force::{ElasticForce, standard_errors};

@@ -61,6 +61,8 @@ words! {
     pub enum Specimen {
         /// A hollow organ between fixed ends.
         Tube = "tube",
+        /// A layer of `thickness_m` that is bonded on a softer or stiffer base.
+        Layer = "layer",
     }
 }
 
@@ -128,6 +130,14 @@ header_keys! {
         height_m: f64 = Holds::Number(Domain::LENGTH),
         /// The shape of the specimen.
         specimen: Specimen = Holds::Word(Specimen::MEANINGS),
+        /// Young's modulus of the base under a layer, at the speed of the press [Pa].
+        base_modulus_pa: f64 = Holds::Number(Domain::MODULUS),
+        /// The modulus of the base over that of the layer, where only that is known [-].
+        base_modulus_ratio: f64 = Holds::Number(Domain::BASE_RATIO),
+        /// Standard error of the base's modulus or ratio, over that [-]; exact if not stated.
+        base_modulus_error: f64 = Holds::Number(Domain::FRACTION),
+        /// Thickness of the base, which is on a rigid plate [m]; large if not stated.
+        base_thickness_m: f64 = Holds::Number(Domain::LENGTH),
         /// Inner radius of a tube [m].
         inner_radius_m: f64 = Holds::Number(Domain::LENGTH),
         /// Outer radius of a tube [m].
@@ -177,7 +187,65 @@ impl RecordingHeader {
         if self.specimen_radius_m.is_some() && self.specimen_width_m.is_some() {
             return Err(keys.given_twice("specimen_radius_m", "specimen_width_m"));
         }
-        Ok(())
+        if self.base_modulus_pa.is_some() && self.base_modulus_ratio.is_some() {
+            return Err(keys.given_twice("base_modulus_pa", "base_modulus_ratio"));
+        }
+        match self.contradiction() {
+            Some((key, expected)) => Err(keys.bad(key, expected)),
+            None => Ok(()),
+        }
+    }
+
+    /// A key that what the specimen is forbids, and what to give; none where all fits.
+    fn contradiction(&self) -> Option<(&'static str, &'static str)> {
+        if self.specimen == Some(Specimen::Layer) {
+            return (self.support == Some(Support::Lubricated)).then_some((
+                "support",
+                "`bonded`, or no support, for a layer is glued to its base",
+            ));
+        }
+        let is_other = self.specimen.is_some() || self.mesh.is_some();
+        let key = self.of_base().filter(|_| is_other)?;
+        Some((key, "`specimen = \"layer\"`, for only a layer has a base"))
+    }
+
+    /// A key that says something of a base; none where nothing does.
+    fn of_base(&self) -> Option<&'static str> {
+        let each = [
+            ("base_modulus_pa", self.base_modulus_pa),
+            ("base_modulus_ratio", self.base_modulus_ratio),
+            ("base_modulus_error", self.base_modulus_error),
+            ("base_thickness_m", self.base_thickness_m),
+        ];
+        let mut said = each.into_iter().filter(|(_, value)| value.is_some());
+        said.next().map(|(key, _)| key)
+    }
+
+    /// What is wrong with a header that says all that is known of a layer on a base: a key, and what to do; none where
+    /// all is said that has to be.
+    pub fn wrong_of_layer(&self) -> Option<(&'static str, &'static str)> {
+        if let Some(found) = self.contradiction() {
+            return Some(found);
+        }
+        if self.specimen != Some(Specimen::Layer) {
+            let key = self.of_base()?;
+            return Some((
+                key,
+                "`specimen = \"layer\"` too, for only a layer has a base",
+            ));
+        }
+        if self.base_modulus_pa.is_some() && self.base_modulus_ratio.is_some() {
+            return Some((
+                "base_modulus_ratio",
+                "no ratio, for `base_modulus_pa` says how stiff the base is",
+            ));
+        }
+        if self.thickness_m.is_none() {
+            return Some(("thickness_m", "the thickness of the layer, in metres"));
+        }
+        let is_known = self.base_modulus_pa.or(self.base_modulus_ratio).is_some();
+        let expected = "Young's modulus of the base in pascals, or `base_modulus_ratio`, what it is over the layer's";
+        (!is_known).then_some(("base_modulus_pa", expected))
     }
 
     fn check_organ(&self, keys: &Keys<'_>) -> Result<(), Error> {
@@ -231,7 +299,8 @@ impl RecordingHeader {
             force_sensor approach_normal indenter_axis tip_distance_m
             thickness_m specimen_radius_m specimen_width_m support density_kg_per_m3
             area_m2 height_m
-            specimen inner_radius_m outer_radius_m length_m pressure_pa
+            specimen base_modulus_pa base_modulus_ratio base_modulus_error base_thickness_m
+            inner_radius_m outer_radius_m length_m pressure_pa
             mesh mesh_unit location_m fixed
             source ended
         );

@@ -19,6 +19,7 @@ mod contacts;
 mod convergence;
 mod data;
 mod dead_loads;
+mod elastic_base;
 mod enhance;
 mod errors;
 mod every_law;

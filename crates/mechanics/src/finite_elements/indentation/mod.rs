@@ -9,6 +9,7 @@
 //! *Limits*: axisymmetric; sharp edge; no friction but none and infinite. A face that slides folds the
 //! surface under it at some depth, and what lies beyond is refused.
 
+mod base;
 mod contact;
 mod edge;
 mod indenter;
@@ -18,6 +19,7 @@ mod run;
 mod sensitivities;
 mod stiffening;
 
+pub use base::ElasticBase;
 pub use indenter::{Indenter, IndenterShape, Side};
 pub use mesh::{Base, Block};
 pub use problem::{History, IndentationAnswer, IndentationProblem, Relaxing, solve, solve_history};
