@@ -1,4 +1,4 @@
-use palpate_files::recording::RecordingHeader;
+use palpate_files::recording::{RecordingHeader, StimulusKind};
 
 /// Which recordings are of one specimen: the same organ, subject, site and state under the same indenter, in
 /// the order of their first recordings. A recording that names neither organ, subject nor site is one for
@@ -53,6 +53,7 @@ fn is_same(a: &RecordingHeader, b: &RecordingHeader) -> bool {
             (h.mesh.clone(), h.location_m, h.fixed.clone()),
             indenter,
             h.condition,
+            h.stimulus == Some(StimulusKind::PlanarTension),
             h.post_mortem_s,
             [h.area_m2, h.height_m],
         )

@@ -187,9 +187,12 @@ fn sought(
     Ok(description)
 }
 
-/// Whether a whole piece was pressed or pulled along one axis.
+/// Whether a whole piece was pressed or pulled.
 fn is_piece(recording: &CleanRecording) -> bool {
-    recording.header.stimulus == Some(StimulusKind::Uniaxial)
+    recording
+        .header
+        .stimulus
+        .is_some_and(StimulusKind::is_of_piece)
 }
 
 /// What of a recording is fitted: from first contact to where the indenter goes back.

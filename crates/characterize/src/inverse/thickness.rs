@@ -34,7 +34,7 @@ pub fn assumption(header: &RecordingHeader, body: &Body, deepest: f64) -> Option
         Body::Layer { base, .. } => return Some(on_base(header, base)),
         Body::Tube { .. } => return None,
     };
-    let is_piece = header.stimulus == Some(StimulusKind::Uniaxial);
+    let is_piece = header.stimulus.is_some_and(StimulusKind::is_of_piece);
     if header.specimen == Some(Specimen::Tube) || is_piece {
         return None;
     }

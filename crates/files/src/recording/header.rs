@@ -29,8 +29,27 @@ words! {
         ChirpExponential = "chirp_exponential",
         /// It pressed or pulled a whole piece along one axis.
         Uniaxial = "uniaxial",
+        /// It pulled a wide sheet whose clamps keep its width.
+        PlanarTension = "planar_tension",
         /// Something else.
         Other = "other",
+    }
+}
+
+impl StimulusKind {
+    /// Whether a whole piece was deformed evenly, and not indented.
+    pub fn is_of_piece(self) -> bool {
+        matches!(self, Self::Uniaxial | Self::PlanarTension)
+    }
+}
+
+words! {
+    /// Whether tissue moves along the indenter.
+    pub enum IndenterFriction {
+        /// Tissue that it touches moves with it.
+        Bonded = "bonded",
+        /// Tissue slides along it without friction.
+        Frictionless = "frictionless",
     }
 }
 
@@ -124,9 +143,9 @@ header_keys! {
         support: Support = Holds::Word(Support::MEANINGS),
         /// Density of the specimen [kg/m³].
         density_kg_per_m3: f64 = Holds::Number(Domain::DENSITY),
-        /// Cross-section of a piece that is pressed or pulled along one axis [m²].
+        /// Cross-section of a piece that is pressed or pulled along one axis; of a sheet, its width times its thickness [m²].
         area_m2: f64 = Holds::Number(Domain::AREA),
-        /// Height of a piece that is pressed or pulled along one axis [m].
+        /// Height of a piece that is pressed or pulled along one axis; of a sheet, between its clamps [m].
         height_m: f64 = Holds::Number(Domain::LENGTH),
         /// The shape of the specimen.
         specimen: Specimen = Holds::Word(Specimen::MEANINGS),

@@ -8,7 +8,6 @@
 
 mod agreement;
 mod analytic;
-mod blood_clot;
 mod bodies;
 mod boundary_elements;
 mod boundary_response;
