@@ -69,6 +69,12 @@ pub enum Error {
          `thickness_m`"
     )]
     OrganIndenter,
+    /// An organ with a mesh under a punch without friction.
+    #[error(
+        "an organ's `mesh` is fitted under a punch that tissue sticks to alone; leave `indenter_friction` out, or leave `mesh` out \
+         and state the thickness under the indenter, `thickness_m`"
+    )]
+    OrganFriction,
     /// The mesh of an organ is none.
     #[error("{why}")]
     UnreadMesh {
@@ -272,6 +278,7 @@ impl Error {
             | Self::HollowOrgan
             | Self::NoMesh
             | Self::OrganIndenter
+            | Self::OrganFriction
             | Self::UnreadMesh { .. }
             | Self::OffMesh { .. }
             | Self::PressedWhereFixed

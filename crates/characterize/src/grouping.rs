@@ -46,14 +46,15 @@ fn is_same(a: &RecordingHeader, b: &RecordingHeader) -> bool {
             h.indenter_shape,
             h.indenter_radius_m,
             h.indenter_half_angle_deg,
+            h.indenter_friction,
         );
         (
             specimen,
             (shape, piece, base, h.support),
             (h.mesh.clone(), h.location_m, h.fixed.clone()),
             indenter,
-            h.condition,
             h.stimulus == Some(StimulusKind::PlanarTension),
+            h.condition,
             h.post_mortem_s,
             [h.area_m2, h.height_m],
         )

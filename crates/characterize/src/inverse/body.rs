@@ -1,5 +1,5 @@
 use palpate_files::recording::{
-    IndenterShape as RecordedShape, RecordingHeader, Specimen, Support,
+    IndenterFriction, IndenterShape as RecordedShape, RecordingHeader, Specimen, Support,
 };
 use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_elements::indentation::{Base, Block, Indenter, IndenterShape, Side};
@@ -145,7 +145,18 @@ impl Body {
                 Self::under_cone(angle.to_radians(), deepest)
             }
         };
-        large.cut_to(header, deepest)
+        large.with(friction(header)).cut_to(header, deepest)
+    }
+
+    /// The same under an indenter of this `friction`; as it is without one.
+    fn with(mut self, friction: Option<Friction>) -> Self {
+        if let (Self::Block { indenter, .. }, Some(friction)) = (&mut self, friction) {
+            indenter.face = friction;
+            if let IndenterShape::Flat { side } = &mut indenter.shape {
+                *side = Side::Touches(friction);
+            }
+        }
+        self
     }
 
     /// The same with the specimen's sizes that the header states.
@@ -209,11 +220,21 @@ impl Body {
             return false;
         };
         let alike = |a: f64, b: f64| (a - b).abs() <= ALIKE * b;
-        matches!(indenter.shape, IndenterShape::Flat { .. })
+        let side = Side::Touches(Friction::Bonded);
+        indenter.shape == IndenterShape::Flat { side }
+            && indenter.face == Friction::Bonded
             && alike(block.radius, large.radius)
             && alike(block.height, large.height)
             && block.base == large.base
     }
+}
+
+/// What a header says of the indenter's friction.
+fn friction(header: &RecordingHeader) -> Option<Friction> {
+    header.indenter_friction.map(|own| match own {
+        IndenterFriction::Bonded => Friction::Bonded,
+        IndenterFriction::Frictionless => Friction::Frictionless,
+    })
 }
 
 /// What the header of a layer says of its base.
@@ -239,7 +260,7 @@ fn tube(header: &RecordingHeader, radius: f64) -> Result<Body, Error> {
             outer_radius: known(header.outer_radius_m, "outer_radius_m")?,
         },
         radius,
-        face: Friction::Bonded,
+        face: friction(header).unwrap_or(Friction::Bonded),
         pressure: header.pressure_pa.unwrap_or(0.0),
     })
 }

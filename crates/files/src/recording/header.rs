@@ -125,6 +125,8 @@ header_keys! {
         indenter_radius_m: f64 = Holds::Number(Domain::TIP_RADIUS),
         /// The angle between a cone's axis and its side [degrees].
         indenter_half_angle_deg: f64 = Holds::Number(Domain::HALF_ANGLE),
+        /// Whether tissue moves along the indenter; not stated, it sticks to a flat one and slides along a sphere or a cone.
+        indenter_friction: IndenterFriction = Holds::Word(IndenterFriction::MEANINGS),
         /// What measured the force.
         force_sensor: String = Holds::Text,
         /// The direction out of the tissue along which the indenter was moved, in the rig's axes [-].
@@ -314,7 +316,7 @@ impl RecordingHeader {
             organ subject weight_kg site repeat
             condition post_mortem_s breath_held stimulus ramp_s
             amplitude_m pre_indentation_m frequency_hz end_frequency_hz sample_rate_hz
-            indenter_shape indenter_radius_m indenter_half_angle_deg
+            indenter_shape indenter_radius_m indenter_half_angle_deg indenter_friction
             force_sensor approach_normal indenter_axis tip_distance_m
             thickness_m specimen_radius_m specimen_width_m support density_kg_per_m3
             area_m2 height_m
