@@ -77,8 +77,7 @@ impl LayerBase {
 pub const BLOCK: [f64; 2] = [56.42, 100.0];
 /// Radius of a specimen that states its thickness alone, over that [-]: at its rim nothing is felt of the indenter.
 const WIDE: f64 = 5.0;
-/// Radius of a layer on a base that states its thickness alone, and least thickness of a base that states none, over that of
-/// the layer [-]: a layer that is a hundred times as stiff spreads a load over ∛100 of its thickness.
+/// Least radius of a layer on a base that states its thickness alone, over that [-]: a layer that is a hundred times as stiff spreads a load over ∛100 of its thickness.
 const WIDE_ON_BASE: f64 = 25.0;
 /// Lengths that differ by less than this part are one [-]: rounding of a file's numbers.
 const ALIKE: f64 = 1e-9;
@@ -243,7 +242,8 @@ fn base(header: &RecordingHeader, indenter: &Indenter) -> Result<LayerBase, Erro
     let layer = header.thickness_m.ok_or(unknown("thickness_m"))?;
     let young = header.base_modulus_pa.map(BaseModulus::Young);
     let modulus = young.or(header.base_modulus_ratio.map(BaseModulus::Ratio));
-    let large = (BLOCK[1] * indenter.radius).max(WIDE_ON_BASE * layer);
+    // A block of these proportions is as good as a half-space.
+    let large = BLOCK[1] * indenter.radius.max(WIDE_ON_BASE * layer / BLOCK[0]);
     Ok(LayerBase {
         thickness: header.base_thickness_m.unwrap_or(large),
         modulus: modulus.ok_or(unknown("base_modulus_pa"))?,
