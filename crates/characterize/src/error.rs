@@ -2,6 +2,9 @@ use palpate_files::tissue::LawName;
 
 use crate::fit::Parameter;
 
+/// From and to which a base is softer or stiffer than the layer on it [-].
+pub(crate) const BASE_RATIOS: [f64; 2] = [0.01, 100.0];
+
 /// Why something cannot be found from a recording.
 #[non_exhaustive]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -66,6 +69,12 @@ pub enum Error {
          `thickness_m`"
     )]
     OrganIndenter,
+    /// An organ with a mesh under a punch without friction.
+    #[error(
+        "an organ's `mesh` is fitted under a punch that tissue sticks to alone; leave `indenter_friction` out, or leave `mesh` out \
+         and state the thickness under the indenter, `thickness_m`"
+    )]
+    OrganFriction,
     /// The mesh of an organ is none.
     #[error("{why}")]
     UnreadMesh {
@@ -156,7 +165,7 @@ pub enum Error {
     },
     /// Finite elements in the loop of a hollow organ.
     #[error(
-        "finite elements in the loop need a solid specimen under an indenter; leave them out for a tube or a piece along one axis"
+        "finite elements in the loop need a solid specimen under an indenter; leave them out for a tube, a layer on a base, an organ's mesh or a piece along one axis"
     )]
     NoLoop,
     /// A run in the loop would take too many steps.
@@ -186,6 +195,16 @@ pub enum Error {
     /// An indenter that is not solved on a tube.
     #[error("only a flat indenter is solved on a hollow organ; use a flat one")]
     TubeIndenter,
+    /// A layer whose base is too different from it.
+    #[error(
+        "the base would be {stiffness:.2e} times as stiff as the layer, and both are told apart from {} to {} times: check \
+         `base_modulus_pa` and `thickness_m`, or leave `specimen = \"layer\"` out where the base is as good as rigid",
+        BASE_RATIOS[0], BASE_RATIOS[1]
+    )]
+    BaseTooDifferent {
+        /// The shear modulus of the base over that of the layer [-].
+        stiffness: f64,
+    },
     /// A specimen that is thinner than it was pressed.
     #[error(
         "the specimen is pressed by {depth} m and is {thickness} m thick; check the units, or correct `thickness_m`"
@@ -259,6 +278,7 @@ impl Error {
             | Self::HollowOrgan
             | Self::NoMesh
             | Self::OrganIndenter
+            | Self::OrganFriction
             | Self::UnreadMesh { .. }
             | Self::OffMesh { .. }
             | Self::PressedWhereFixed
@@ -272,6 +292,7 @@ impl Error {
             | Self::LoopMovesTooLong { .. }
             | Self::CostlyToRepeat { .. }
             | Self::TubeIndenter
+            | Self::BaseTooDifferent { .. }
             | Self::DeeperThanThick { .. }
             | Self::Narrow { .. } => true,
         }

@@ -1,4 +1,4 @@
-use palpate_files::recording::RecordingHeader;
+use palpate_files::recording::{RecordingHeader, StimulusKind};
 
 /// Which recordings are of one specimen: the same organ, subject, site and state under the same indenter, in
 /// the order of their first recordings. A recording that names neither organ, subject nor site is one for
@@ -30,6 +30,12 @@ fn is_same(a: &RecordingHeader, b: &RecordingHeader) -> bool {
             h.specimen_width_m,
             h.density_kg_per_m3,
         ];
+        let base = [
+            h.base_modulus_pa,
+            h.base_modulus_ratio,
+            h.base_modulus_error,
+            h.base_thickness_m,
+        ];
         let shape = [
             h.inner_radius_m,
             h.outer_radius_m,
@@ -40,12 +46,14 @@ fn is_same(a: &RecordingHeader, b: &RecordingHeader) -> bool {
             h.indenter_shape,
             h.indenter_radius_m,
             h.indenter_half_angle_deg,
+            h.indenter_friction,
         );
         (
             specimen,
-            (shape, piece, h.support),
+            (shape, piece, base, h.support),
             (h.mesh.clone(), h.location_m, h.fixed.clone()),
             indenter,
+            h.stimulus == Some(StimulusKind::PlanarTension),
             h.condition,
             h.post_mortem_s,
             [h.area_m2, h.height_m],

@@ -12,6 +12,7 @@ use std::ops::Range;
 
 use palpate_files::recording::StimulusKind;
 use palpate_files::{Estimate, PronyTerm, Tissue};
+use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_elements::indentation::IndenterShape;
 
 use crate::clean::SegmentKind;
@@ -112,7 +113,7 @@ pub fn characterize_organ(
     });
     at_step("relaxation");
     let of_block = curves.as_mut().ok();
-    let of_block = of_block.filter(|curves| matches!(curves.body(), Body::Block { .. }));
+    let of_block = of_block.filter(|curves| !matches!(curves.body(), Body::Tube { .. }));
     let neo_hookean = of_block.and_then(|curves| curves.of(f64::INFINITY, &[]).ok());
     let records = records(&pressed, neo_hookean.as_ref());
     let relaxing = relaxation(&records, settings.relaxation);
@@ -187,9 +188,12 @@ fn sought(
     Ok(description)
 }
 
-/// Whether a whole piece was pressed or pulled along one axis.
+/// Whether a whole piece was pressed or pulled.
 fn is_piece(recording: &CleanRecording) -> bool {
-    recording.header.stimulus == Some(StimulusKind::Uniaxial)
+    recording
+        .header
+        .stimulus
+        .is_some_and(StimulusKind::is_of_piece)
 }
 
 /// What of a recording is fitted: from first contact to where the indenter goes back.
@@ -277,10 +281,13 @@ fn body(recordings: &[CleanRecording], deepest: f64) -> Result<Body, Error> {
 fn far_field(organ: &Organ, body: Body) -> Result<FarField, Error> {
     match body {
         Body::Block { block, indenter } => match indenter.shape {
+            IndenterShape::Flat { .. } if indenter.face == Friction::Frictionless => {
+                Err(Error::OrganFriction)
+            }
             IndenterShape::Flat { .. } => organ.far_field(&block, indenter.radius),
             _ => Err(Error::OrganIndenter),
         },
-        Body::Tube { .. } => Err(Error::OrganIndenter),
+        Body::Layer { .. } | Body::Tube { .. } => Err(Error::OrganIndenter),
     }
 }
 
@@ -319,6 +326,12 @@ fn half_space_factor(
 ) -> Option<String> {
     let header = &recordings.first()?.header;
     header.thickness_m?;
+    if matches!(curves.body(), Body::Layer { .. }) {
+        return Some(
+            "mean_elastic_modulus is that of a half-space (6.1), here of layer and base together; the laws are of the layer"
+                .to_owned(),
+        );
+    }
     let curve = curves.of(f64::INFINITY, &[]).ok()?;
     let contact = Contact::of(header).ok()?;
     // E = 6 C₁₀, and the curve is that of C₁₀ = 1 Pa.

@@ -47,6 +47,15 @@ pub struct ReadRecording {
     pub digest: String,
 }
 
+impl ReadRecording {
+    /// The file of the mesh of its organ; none where it names none.
+    pub fn mesh(&self) -> Option<PathBuf> {
+        let mesh = self.clean.header.mesh.as_ref()?;
+        let folder = self.path.parent().unwrap_or(Path::new(""));
+        Some(folder.join(mesh))
+    }
+}
+
 /// A recording that could not be used, and why.
 #[derive(Debug, Serialize)]
 pub struct Unusable {
@@ -156,6 +165,17 @@ impl Recordings {
         };
         let mut recording = recording?;
         recording.header = recording.header.completed_by(said);
+        if let Some((key, expected)) = recording.header.wrong_of_layer() {
+            let path = path.display();
+            let mut said = recording.header.entries().into_iter();
+            let wrong = match said.any(|(own, _)| own == key) {
+                true => "does not fit the other keys",
+                false => "is missing",
+            };
+            return Err(Error::input(format!(
+                "{path}: `{key}` {wrong}; give {expected}"
+            )));
+        }
         let mut clean = clean(&recording, &CleanSettings::default())
             .map_err(|error| Error::from(error).about(path))?;
         let sideways = Sideways::of(&recording);

@@ -61,10 +61,10 @@ pub struct Contact {
 }
 
 /// The contact where the depth, which counts from it, leaves zero.
-pub(super) fn by_depth(samples: &Oriented, is_uniaxial: bool) -> Result<Contact, Error> {
+pub(super) fn by_depth(samples: &Oriented, is_piece: bool) -> Result<Contact, Error> {
     let (time, depth) = (&samples.time, &samples.depth);
     let deepest = depth.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    if deepest <= 0.0 && is_uniaxial {
+    if deepest <= 0.0 && is_piece {
         // A piece that is pulled is held from the first.
         return Ok(Contact {
             time_s: time[0],
@@ -230,7 +230,7 @@ pub(super) fn tell(contact: &Contact, clean: &CleanRecording, warnings: &mut Vec
             contact.time_s, contact.depth_m
         ));
     }
-    if clean.is_uniaxial() {
+    if clean.is_piece() {
         // Nothing touches: the piece is held.
     } else if contact.sample == 0 {
         warnings.push(

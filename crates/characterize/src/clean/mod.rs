@@ -183,8 +183,8 @@ fn find_contact(
             contact::by_force(samples, recording.header.indenter_shape)
         }
         None => {
-            let is_uniaxial = recording.header.stimulus == Some(StimulusKind::Uniaxial);
-            contact::by_depth(samples, is_uniaxial)
+            let stimulus = recording.header.stimulus;
+            contact::by_depth(samples, stimulus.is_some_and(StimulusKind::is_of_piece))
         }
     }
 }
@@ -227,8 +227,9 @@ impl CleanRecording {
             .min(HIGHEST_CUTOFF * rate)
     }
 
-    fn is_uniaxial(&self) -> bool {
-        self.header.stimulus == Some(StimulusKind::Uniaxial)
+    fn is_piece(&self) -> bool {
+        let stimulus = self.header.stimulus;
+        stimulus.is_some_and(StimulusKind::is_of_piece)
     }
 
     /// How long a segment takes [s], from its first sample to the first of the next.

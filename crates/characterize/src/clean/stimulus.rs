@@ -91,7 +91,7 @@ fn tell_kind(clean: &CleanRecording, warnings: &mut Vec<String>) {
 /// Depths and frequencies for which the source has nothing to compare with.
 fn tell_beyond(clean: &CleanRecording, warnings: &mut Vec<String>) {
     let deepest = clean.depth.iter().copied().fold(0.0, f64::max);
-    if deepest > DEEPEST && !clean.is_uniaxial() {
+    if deepest > DEEPEST && !clean.is_piece() {
         warnings.push(format!(
             "the depth goes to {:.1} mm, beyond 10 mm",
             1e3 * deepest

@@ -1,10 +1,11 @@
 use palpate_files::recording::{
-    IndenterShape as RecordedShape, RecordingHeader, Specimen, Support,
+    IndenterFriction, IndenterShape as RecordedShape, RecordingHeader, Specimen, Support,
 };
 use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_elements::indentation::{Base, Block, Indenter, IndenterShape, Side};
 use palpate_mechanics::finite_elements::tube::Tube;
 
+use super::law::SoughtLaw;
 use crate::Error;
 
 /// What was indented, and with what.
@@ -16,6 +17,15 @@ pub enum Body {
         block: Block,
         /// The indenter.
         indenter: Indenter,
+    },
+    /// A layer of tissue on an elastic base, indented in its middle.
+    Layer {
+        /// The layer.
+        block: Block,
+        /// The indenter.
+        indenter: Indenter,
+        /// What it is bonded on.
+        base: LayerBase,
     },
     /// A hollow organ between fixed ends, with a flat indenter on its side.
     Tube {
@@ -30,11 +40,45 @@ pub enum Body {
     },
 }
 
+/// What a layer is bonded on. It relaxes as the layer does, and is on a rigid plate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LayerBase {
+    /// Thickness [m].
+    pub thickness: f64,
+    /// How stiff it is.
+    pub modulus: BaseModulus,
+    /// Standard error of that, over it [-].
+    pub error: f64,
+}
+
+/// How stiff a base is: a neo-Hookean one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum BaseModulus {
+    /// Its instantaneous Young's modulus [Pa].
+    Young(f64),
+    /// Its modulus at rest over that of the layer [-].
+    Ratio(f64),
+}
+
+impl LayerBase {
+    /// Its shear modulus at rest over that of a layer of `law` with this `modulus` [Pa] [-]; one under an infinite modulus,
+    /// which stands for one that is not known yet.
+    pub(super) fn stiffness(&self, law: SoughtLaw, modulus: f64) -> f64 {
+        match self.modulus {
+            BaseModulus::Young(_) if modulus.is_infinite() => 1.0,
+            BaseModulus::Young(young) => young / (3.0 * law.shear() * modulus),
+            BaseModulus::Ratio(ratio) => ratio,
+        }
+    }
+}
+
 /// Radius and thickness of a specimen that states neither, in radii of the contact [-]: as the source's cube of
 /// 100 mm under its punch of 1 mm, with the same cross-section (figure 6-8).
 pub const BLOCK: [f64; 2] = [56.42, 100.0];
 /// Radius of a specimen that states its thickness alone, over that [-]: at its rim nothing is felt of the indenter.
 const WIDE: f64 = 5.0;
+/// Least radius of a layer on a base that states its thickness alone, over that [-]: a layer that is a hundred times as stiff spreads a load over ∛100 of its thickness.
+const WIDE_ON_BASE: f64 = 25.0;
 /// Lengths that differ by less than this part are one [-]: rounding of a file's numbers.
 const ALIKE: f64 = 1e-9;
 
@@ -84,7 +128,7 @@ impl Body {
     /// as in a large one.
     ///
     /// # Errors
-    /// When the indenter or a tube is not known, or the specimen is thinner than it was pressed or narrower than the
+    /// When the indenter, a tube or the base of a layer is not known, or the specimen is thinner than it was pressed or narrower than the
     /// indenter.
     pub fn of(header: &RecordingHeader, deepest: f64) -> Result<Self, Error> {
         let known = |value: Option<f64>, key| value.ok_or(Error::Unknown { key });
@@ -93,14 +137,25 @@ impl Body {
         let large = match (header.specimen, shape) {
             (Some(Specimen::Tube), RecordedShape::Flat) => return tube(header, radius()?),
             (Some(Specimen::Tube), _) => return Err(Error::TubeIndenter),
-            (None, RecordedShape::Flat) => Self::under_punch(radius()?),
-            (None, RecordedShape::Sphere) => Self::under_sphere(radius()?),
-            (None, RecordedShape::Cone) => {
+            (_, RecordedShape::Flat) => Self::under_punch(radius()?),
+            (_, RecordedShape::Sphere) => Self::under_sphere(radius()?),
+            (_, RecordedShape::Cone) => {
                 let angle = known(header.indenter_half_angle_deg, "indenter_half_angle_deg")?;
                 Self::under_cone(angle.to_radians(), deepest)
             }
         };
-        large.cut_to(header, deepest)
+        large.with(friction(header)).cut_to(header, deepest)
+    }
+
+    /// The same under an indenter of this `friction`; as it is without one.
+    fn with(mut self, friction: Option<Friction>) -> Self {
+        if let (Self::Block { indenter, .. }, Some(friction)) = (&mut self, friction) {
+            indenter.face = friction;
+            if let IndenterShape::Flat { side } = &mut indenter.shape {
+                *side = Side::Touches(friction);
+            }
+        }
+        self
     }
 
     /// The same with the specimen's sizes that the header states.
@@ -112,8 +167,10 @@ impl Body {
         else {
             return Ok(self);
         };
+        let is_layer = header.specimen == Some(Specimen::Layer);
         if let Some(thickness) = header.thickness_m {
-            block.radius = block.radius.max(WIDE * thickness);
+            let wide = if is_layer { WIDE_ON_BASE } else { WIDE };
+            block.radius = block.radius.max(wide * thickness);
             block.height = thickness;
             if deepest >= thickness {
                 return Err(Error::DeeperThanThick {
@@ -135,13 +192,21 @@ impl Body {
         if header.support == Some(Support::Lubricated) {
             block.base = Base::Lubricated;
         }
+        if is_layer {
+            let base = base(header, &indenter)?;
+            return Ok(Self::Layer {
+                block,
+                indenter,
+                base,
+            });
+        }
         Ok(Self::Block { block, indenter })
     }
 
     /// Radius of the indenter, or of what a cone touches at the depth that it was made for [m].
     pub fn radius(&self) -> f64 {
         match *self {
-            Self::Block { indenter, .. } => indenter.radius,
+            Self::Block { indenter, .. } | Self::Layer { indenter, .. } => indenter.radius,
             Self::Tube { radius, .. } => radius,
         }
     }
@@ -154,11 +219,36 @@ impl Body {
             return false;
         };
         let alike = |a: f64, b: f64| (a - b).abs() <= ALIKE * b;
-        matches!(indenter.shape, IndenterShape::Flat { .. })
+        let side = Side::Touches(Friction::Bonded);
+        indenter.shape == IndenterShape::Flat { side }
+            && indenter.face == Friction::Bonded
             && alike(block.radius, large.radius)
             && alike(block.height, large.height)
             && block.base == large.base
     }
+}
+
+/// What a header says of the indenter's friction.
+fn friction(header: &RecordingHeader) -> Option<Friction> {
+    header.indenter_friction.map(|own| match own {
+        IndenterFriction::Bonded => Friction::Bonded,
+        IndenterFriction::Frictionless => Friction::Frictionless,
+    })
+}
+
+/// What the header of a layer says of its base.
+fn base(header: &RecordingHeader, indenter: &Indenter) -> Result<LayerBase, Error> {
+    let unknown = |key| Error::Unknown { key };
+    let layer = header.thickness_m.ok_or(unknown("thickness_m"))?;
+    let young = header.base_modulus_pa.map(BaseModulus::Young);
+    let modulus = young.or(header.base_modulus_ratio.map(BaseModulus::Ratio));
+    // A block of these proportions is as good as a half-space.
+    let large = BLOCK[1] * indenter.radius.max(WIDE_ON_BASE * layer / BLOCK[0]);
+    Ok(LayerBase {
+        thickness: header.base_thickness_m.unwrap_or(large),
+        modulus: modulus.ok_or(unknown("base_modulus_pa"))?,
+        error: header.base_modulus_error.unwrap_or(0.0),
+    })
 }
 
 fn tube(header: &RecordingHeader, radius: f64) -> Result<Body, Error> {
@@ -170,7 +260,7 @@ fn tube(header: &RecordingHeader, radius: f64) -> Result<Body, Error> {
             outer_radius: known(header.outer_radius_m, "outer_radius_m")?,
         },
         radius,
-        face: Friction::Bonded,
+        face: friction(header).unwrap_or(Friction::Bonded),
         pressure: header.pressure_pa.unwrap_or(0.0),
     })
 }

@@ -1,17 +1,18 @@
 use std::sync::Arc;
 
 use palpate_mechanics::finite_elements::indentation::{
-    Block, IndentationRun, IndentationSettings, Indenter, IndenterShape,
+    Block, ElasticBase, IndentationRun, IndentationSettings, Indenter, IndenterShape,
 };
 use palpate_mechanics::finite_elements::tube::{Ends, Tube, TubeProblem, TubePunch, indent};
 use palpate_mechanics::{IndentationCurve, Law, PronySeries};
 
-use super::body::Body;
+use super::body::{BaseModulus, Body};
 use super::family::Family;
-use super::law::SoughtLaw;
+use super::law::{ShapeRange, SoughtLaw};
 use super::organ::FarField;
 use super::tables;
 use crate::Error;
+use crate::error::BASE_RATIOS;
 
 /// Elastic force per unit of the modulus [m²] over the depth [m], of a law with given shapes.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,6 +25,30 @@ pub struct UnitCurve {
     pub by_shape: Vec<IndentationCurve>,
     /// Part of the force that the elements may be off [-].
     pub discretisation: f64,
+    /// How it changes with the base of a layer, where it is on one.
+    pub base: Option<OfBase>,
+}
+
+/// How the force on a layer changes with its base.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OfBase {
+    /// Change with the logarithm of the base's stiffness over the layer's [m²].
+    pub by_stiffness: IndentationCurve,
+    /// Whether the stiffness of the base is known by itself, so that the ratio falls where the layer's modulus rises.
+    pub is_absolute: bool,
+    /// Standard error of the stiffness, over it [-].
+    pub error: f64,
+}
+
+impl UnitCurve {
+    /// The change of the force with the modulus at `depth` [m] [m²].
+    pub(super) fn by_modulus(&self, depth: f64) -> f64 {
+        let force = self.force.force(depth);
+        match &self.base {
+            Some(base) if base.is_absolute => force - base.by_stiffness.force(depth),
+            _ => force,
+        }
+    }
 }
 
 /// Where unit curves come from: what has been solved is kept, what has been tabulated is not solved.
@@ -33,8 +58,8 @@ pub struct Curves {
     law: SoughtLaw,
     /// Down to which they are known [m].
     deepest: f64,
-    /// How much too stiff the coarsest mesh is, once it was found.
-    mesh_error: Option<MeshError>,
+    /// How much too stiff the coarsest mesh is, once it was found, for the logarithm of a base's stiffness.
+    mesh_error: Option<(f64, MeshError)>,
     /// What was solved, for each modulus that matters [Pa].
     solved: Vec<(f64, Family)>,
     solves: usize,
@@ -53,6 +78,14 @@ const DEPTHS: [f64; 5] = [0.1, 0.25, 0.5, 0.75, 1.0];
 const STEP: f64 = 0.5;
 /// Depths of a curve under a sphere or a cone.
 const ROUND_DEPTHS: usize = 16;
+/// The range of the logarithm of a base's stiffness, by which distances between curves are measured.
+const STIFFNESS: ShapeRange = ShapeRange {
+    lower: -1.0,
+    start: 0.0,
+    upper: 1.0,
+};
+/// A change of that logarithm by which elements are about as wrong.
+const ALIKE_BASES: f64 = 0.2;
 /// Depths of a curve of a tube.
 const TUBE_DEPTHS: usize = 6;
 /// What is asked of a tube's force [-]: as much as meshes give that take seconds.
@@ -135,13 +168,16 @@ impl Curves {
     /// # Errors
     /// When no equilibrium is found down to the deepest depth.
     pub fn of(&mut self, modulus: f64, shape: &[f64]) -> Result<UnitCurve, Error> {
-        if self.nearest(modulus, shape).as_deref() == Some(shape)
+        if self.is_known(modulus, shape)
             && let Some(known) = self.predicted(modulus, shape)
         {
             return Ok(known);
         }
         let curve = match self.body {
-            Body::Block { block, indenter } => self.solve_block((block, indenter), shape)?,
+            Body::Block { block, indenter } => self.solve_block((block, indenter), None, shape)?,
+            Body::Layer {
+                block, indenter, ..
+            } => self.solve_block((block, indenter), self.base(modulus), shape)?,
             Body::Tube {
                 tube,
                 radius,
@@ -160,7 +196,11 @@ impl Curves {
         match self.family(modulus) {
             Some(place) => self.solved[place].1.add(curve.clone()),
             None => {
-                let family = Family::of(&self.law.shapes(), curve.clone());
+                let mut ranges = self.law.shapes();
+                if curve.shape.len() > ranges.len() {
+                    ranges.push(STIFFNESS);
+                }
+                let family = Family::of(&ranges, curve.clone());
                 self.solved.push((modulus, family));
             }
         }
@@ -173,13 +213,68 @@ impl Curves {
         let tabulated = tables::curve(&self.body, self.law, shape, self.deepest);
         let known = tabulated.or_else(|| {
             let place = self.family(modulus)?;
-            Some(self.solved[place].1.at(shape))
+            Some(self.solved[place].1.at(&self.place(modulus, shape)))
         });
         known.map(|curve| self.placed(curve))
     }
 
+    /// The shapes [-], and after them the logarithm of a base's stiffness: where a curve is in its family.
+    fn place(&self, modulus: f64, shape: &[f64]) -> Vec<f64> {
+        let base = self.stiffness(modulus).map(f64::ln);
+        shape.iter().copied().chain(base).collect()
+    }
+
+    /// How much stiffer than the layer its base is at a `modulus` [Pa]; none without a base.
+    fn stiffness(&self, modulus: f64) -> Option<f64> {
+        match self.body {
+            Body::Layer { base, .. } => Some(base.stiffness(self.law, modulus)),
+            Body::Block { .. } | Body::Tube { .. } => None,
+        }
+    }
+
+    /// The base that is solved: a fit may go beyond what it may end at.
+    fn base(&self, modulus: f64) -> Option<ElasticBase> {
+        let Body::Layer { base, .. } = self.body else {
+            return None;
+        };
+        let stiffness = base.stiffness(self.law, modulus);
+        Some(ElasticBase {
+            thickness: base.thickness,
+            stiffness: stiffness.clamp(BASE_RATIOS[0], BASE_RATIOS[1]),
+        })
+    }
+
+    /// Refuses a layer whose base is much softer or stiffer at a `modulus` [Pa].
+    pub(super) fn check_base(&self, modulus: f64) -> Result<(), Error> {
+        let [least, most] = BASE_RATIOS;
+        match self.stiffness(modulus) {
+            Some(stiffness) if !(least..=most).contains(&stiffness) => {
+                Err(Error::BaseTooDifferent { stiffness })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn is_known(&self, modulus: f64, shape: &[f64]) -> bool {
+        let is_tabulated = || tables::curve(&self.body, self.law, shape, self.deepest).is_some();
+        let place = self.place(modulus, shape);
+        let is_solved = |family: usize| self.solved[family].1.nearest(&place) == place;
+        self.family(modulus).is_some_and(is_solved) || is_tabulated()
+    }
+
     /// A curve of the body in its organ: at each force the depth is larger by what the organ gives way.
-    fn placed(&self, curve: UnitCurve) -> UnitCurve {
+    fn placed(&self, mut curve: UnitCurve) -> UnitCurve {
+        if let Body::Layer { base, .. } = self.body {
+            // The last shape is the base's.
+            curve.shape.truncate(self.law.count() - 1);
+            let by_stiffness = curve.by_shape.pop();
+            curve.base = by_stiffness.map(|by_stiffness| OfBase {
+                by_stiffness,
+                is_absolute: matches!(base.modulus, BaseModulus::Young(_)),
+                error: base.error,
+            });
+            return curve;
+        }
         let Some(far) = self.far else {
             return curve;
         };
@@ -198,6 +293,7 @@ impl Curves {
             by_shape: by_shape.collect(),
             discretisation: curve.discretisation + far.error,
             shape: curve.shape,
+            base: None,
         }
     }
 
@@ -205,9 +301,10 @@ impl Curves {
     pub(super) fn nearest(&self, modulus: f64, shape: &[f64]) -> Option<Vec<f64>> {
         match tables::curve(&self.body, self.law, shape, self.deepest) {
             Some(_) => Some(shape.to_vec()),
-            None => self
-                .family(modulus)
-                .map(|place| self.solved[place].1.nearest(shape).to_vec()),
+            None => self.family(modulus).map(|family| {
+                let place = self.place(modulus, shape);
+                self.solved[family].1.nearest(&place)[..shape.len()].to_vec()
+            }),
         }
     }
 
@@ -223,7 +320,7 @@ impl Curves {
     }
 
     fn depths(&self) -> Vec<f64> {
-        if let Body::Block { indenter, .. } = self.body
+        if let Body::Block { indenter, .. } | Body::Layer { indenter, .. } = self.body
             && !matches!(indenter.shape, IndenterShape::Flat { .. })
         {
             // Even steps of what a sphere touches.
@@ -237,10 +334,15 @@ impl Curves {
         all.map(|x| x * self.body.radius()).collect()
     }
 
-    fn solve_block(&mut self, piece: (Block, Indenter), shape: &[f64]) -> Result<UnitCurve, Error> {
-        let mesh_error = self.mesh_error(piece)?;
+    fn solve_block(
+        &mut self,
+        piece: (Block, Indenter),
+        base: Option<ElasticBase>,
+        shape: &[f64],
+    ) -> Result<UnitCurve, Error> {
+        let mesh_error = self.mesh_error(piece, base)?;
         let depths = self.depths();
-        let points = self.run(piece, self.law.unit(shape)?, 0)?;
+        let points = self.run((piece, base), self.law.unit(shape)?, 0)?;
         let right = |place: usize| mesh_error.correction[place];
         let forces: Vec<f64> = points
             .iter()
@@ -249,38 +351,53 @@ impl Curves {
             .collect();
         let each = points.iter();
         let slopes: Vec<_> = each
-            .map(|point| self.law.by_shape(shape, &point.1))
+            .map(|point| {
+                let of_law = self.law.by_shape(shape, &point.1);
+                // The last change is that with the base.
+                let of_base = base.and(point.1.last().copied());
+                of_law.into_iter().chain(of_base).collect::<Vec<_>>()
+            })
             .collect();
-        let by_shape = (0..shape.len()).map(|place| {
+        let place: Vec<f64> = shape
+            .iter()
+            .copied()
+            .chain(base.map(|base| base.stiffness.ln()))
+            .collect();
+        let by_shape = (0..place.len()).map(|place| {
             let slopes = slopes.iter().enumerate();
             let slopes: Vec<f64> = slopes.map(|(i, by)| right(i) * by[place]).collect();
             IndentationCurve::through(&depths, &slopes)
         });
         Ok(UnitCurve {
-            shape: shape.to_vec(),
+            shape: place,
             force: IndentationCurve::through(&depths, &forces),
             by_shape: by_shape.collect(),
             discretisation: mesh_error.left,
+            base: None,
         })
     }
 
     /// Forces at all depths on one mesh, each with its changes with the parameters of the law.
     fn run(
         &mut self,
-        (block, indenter): (Block, Indenter),
+        ((block, indenter), base): ((Block, Indenter), Option<ElasticBase>),
         law: Arc<dyn Law>,
         halvings: i32,
     ) -> Result<Vec<(f64, Vec<f64>)>, Error> {
         self.solves += 1;
-        let mut run = IndentationRun::new(&IndentationSettings {
+        let settings = IndentationSettings {
             block,
             indenter,
             law,
             prony: PronySeries::default(),
             deepest: self.deepest,
             halvings,
-        })?
-        .with_sensitivities();
+        };
+        let run = match base {
+            Some(base) => IndentationRun::on_base(&settings, base),
+            None => IndentationRun::new(&settings),
+        };
+        let mut run = run?.with_sensitivities();
         let (name, deepest) = (self.law.name(), self.deepest);
         let press = |depth: f64| {
             let point = run.press(depth, depth, |_| ());
@@ -292,10 +409,16 @@ impl Curves {
 
     /// How much too stiff the coarsest mesh is: tabulated, or from neo-Hookean tissue on a mesh with every element
     /// halved, for it is about alike for every law.
-    fn mesh_error(&mut self, piece: (Block, Indenter)) -> Result<MeshError, Error> {
-        if self.mesh_error.is_none() {
+    fn mesh_error(
+        &mut self,
+        piece: (Block, Indenter),
+        base: Option<ElasticBase>,
+    ) -> Result<MeshError, Error> {
+        let stiffness = base.map_or(0.0, |base| base.stiffness.ln());
+        let known = self.mesh_error.as_ref();
+        if known.is_none_or(|(of, _)| (of - stiffness).abs() > ALIKE_BASES) {
             let depths = self.depths();
-            self.mesh_error = Some(if self.body.is_tabulated() {
+            let found = if self.body.is_tabulated() {
                 MeshError {
                     correction: depths
                         .iter()
@@ -305,11 +428,13 @@ impl Curves {
                 }
             } else {
                 let law = SoughtLaw::NeoHookean.unit(&[])?;
-                let coarse = self.run(piece, law.clone(), 0)?;
-                MeshError::of_two(&coarse, &self.run(piece, law, 1)?)
-            });
+                let coarse = self.run((piece, base), law.clone(), 0)?;
+                MeshError::of_two(&coarse, &self.run((piece, base), law, 1)?)
+            };
+            self.mesh_error = Some((stiffness, found));
         }
-        self.mesh_error.clone().ok_or(Error::NothingFelt)
+        let known = self.mesh_error.clone().ok_or(Error::NothingFelt)?;
+        Ok(known.1)
     }
 
     fn solve_tube(
@@ -331,6 +456,7 @@ impl Curves {
             force: IndentationCurve::through(&punch.depths, &found.answer.forces),
             by_shape: Vec::new(),
             discretisation: found.error,
+            base: None,
         })
     }
 }

@@ -2,7 +2,7 @@ use nalgebra::DMatrix;
 use palpate_mechanics::PronySeries;
 
 use super::correlations::Correlations;
-use super::curves::{Curves, UnitCurve};
+use super::curves::{Curves, OfBase, UnitCurve};
 use super::description::in_its_parameters;
 use super::forces::Indentation;
 use super::law_fit::{found, parameters};
@@ -16,6 +16,10 @@ impl UnitCurve {
         Self {
             force: scaled(&self.force),
             by_shape: self.by_shape.iter().map(scaled).collect(),
+            base: self.base.as_ref().map(|base| OfBase {
+                by_stiffness: scaled(&base.by_stiffness),
+                ..*base
+            }),
             ..self.clone()
         }
     }

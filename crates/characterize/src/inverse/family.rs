@@ -80,6 +80,7 @@ impl Family {
                 .iter()
                 .map(|own| own.discretisation)
                 .fold(0.0, f64::max),
+            base: None,
         }
     }
 
@@ -196,6 +197,7 @@ mod tests {
             force: through(&|d| log(d).0.exp()),
             by_shape: by.collect(),
             discretisation: 0.0,
+            base: None,
         }
     }
 

@@ -43,7 +43,7 @@ impl LawDescription {
                 let shapes = curve.by_shape.iter().enumerate();
                 let of_shapes =
                     shapes.map(|(shape, by)| by.force(depth) * back[(1 + shape, place)]);
-                curve.force.force(depth) * back[(0, place)] + modulus * of_shapes.sum::<f64>()
+                curve.by_modulus(depth) * back[(0, place)] + modulus * of_shapes.sum::<f64>()
             })
         };
         let named = own.iter().enumerate();

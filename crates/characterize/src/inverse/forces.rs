@@ -56,7 +56,17 @@ pub(super) fn forces(
         }
     }
     let unit: Vec<f64> = elastic.iter().zip(&lost).map(|(e, l)| e - l).collect();
-    let mut columns = vec![unit.clone()];
+    let mut of_modulus = unit.clone();
+    if let Some(base) = curve.base.as_ref().filter(|base| base.is_absolute) {
+        // Under a layer that is stiffer the same base is softer beside it.
+        let course = (time, depth.iter().copied());
+        let softer = relaxed(course, &base.by_stiffness, 1.0, series);
+        of_modulus
+            .iter_mut()
+            .zip(softer)
+            .for_each(|(f, less)| *f -= less);
+    }
+    let mut columns = vec![of_modulus];
     for by_shape in &curve.by_shape {
         let course = (time, depth.iter().copied());
         columns.push(relaxed(course, by_shape, modulus, series));
@@ -117,7 +127,7 @@ pub(super) struct Bounds {
 }
 
 /// What changes the residuals of all `indentations` and is no noise [N], each column by one standard deviation: the zeros
-/// of each recording, and, of all alike, what the model may be off by its `bounds`.
+/// of each recording, and, of all alike, the modulus of a base and what the model may be off by its `bounds`.
 pub(super) fn systematic(
     indentations: &[Indentation<'_>],
     curve: &UnitCurve,
@@ -125,6 +135,7 @@ pub(super) fn systematic(
     bounds: Bounds,
 ) -> Vec<Vec<f64>> {
     let samples: usize = indentations.iter().map(|each| each.time.len()).sum();
+    let mut of_base = Vec::new();
     let deepest = indentations.iter().flat_map(|each| each.depth);
     let deepest = deepest.copied().fold(f64::MIN_POSITIVE, f64::max);
     let even = 1.0 / 3.0_f64.sqrt();
@@ -160,9 +171,15 @@ pub(super) fn systematic(
                 .map(|(f, share)| even * bounds.mesh * f * share),
         );
         scale.extend(force.iter().map(|f| even * bounds.model * f));
+        if let Some(base) = curve.base.as_ref().filter(|base| base.error > 0.0) {
+            let course = (each.time, each.depth.iter().copied());
+            let by = relaxed(course, &base.by_stiffness, modulus, series);
+            of_base.extend(by.into_iter().map(|by| base.error * by));
+        }
         let more = kept_of_earlier(each, curve, (modulus, series));
         history.extend(more.iter().map(|more| even * bounds.earlier * more));
     }
+    columns.extend((!of_base.is_empty()).then_some(of_base));
     columns.extend(of_model);
     columns
 }

@@ -165,10 +165,15 @@ fn from(
         let again = usize::from(!iterations.is_empty());
         iterations.extend(fit.iterations.drain(again..));
         let shape = shapes(&fit.parameters[..count]);
+        let modulus = match curves.depend_on_modulus() {
+            true => modulus,
+            false => fit.parameters[0].value,
+        };
         let predicted = curves.predicted(modulus, &shape);
         let solved = solved_toward(curves, modulus, &shape)?;
         let is_like = |own: UnitCurve| own.force.is_like(&solved.force, FORESEEN);
         if solved.shape == shape && predicted.is_some_and(is_like) {
+            curves.check_base(modulus)?;
             fit.iterations = iterations;
             return Ok(LawFit {
                 others,
@@ -177,6 +182,7 @@ fn from(
         }
         start = fit.parameters;
     }
+    curves.check_base(start[0].value)?;
     Err(Error::NoShape { tried: rounds })
 }
 
@@ -200,9 +206,10 @@ fn least_minimum(
     felt: (&[Indentation<'_>], &PronySeries),
 ) -> Result<(Fit, Vec<OtherMinimum>), Error> {
     let count = curves.law().count();
+    let is_of_one = curves.depend_on_modulus();
     let one = |start: &[Parameter]| {
-        fitted((start, count), felt, |shape| {
-            curves.predicted(modulus, shape)
+        fitted((start, count), felt, |own, shape| {
+            curves.predicted(if is_of_one { modulus } else { own }, shape)
         })
     };
     if count == 1 {
@@ -270,15 +277,15 @@ fn solved_toward(curves: &mut Curves, modulus: f64, shape: &[f64]) -> Result<Uni
     found
 }
 
-/// The fit of the parameters of a law, so many as `count`, a modulus and shapes, whose curves `of` gives.
+/// The fit of the parameters of a law, so many as `count`, a modulus and shapes, whose curves `of` gives from both.
 fn fitted(
     (start, count): (&[Parameter], usize),
     felt: (&[Indentation<'_>], &PronySeries),
-    of: impl Fn(&[f64]) -> Option<UnitCurve>,
+    of: impl Fn(f64, &[f64]) -> Option<UnitCurve>,
 ) -> Result<Fit, Error> {
     let samples = felt.0.iter().map(|each| each.time.len()).sum();
     let evaluate = |values: &[f64], residuals: &mut [f64], jacobian: &mut DMatrix<f64>| {
-        let curve = of(&values[1..count])?;
+        let curve = of(values[0], &values[1..count])?;
         write(&curve, felt, values[0], (residuals, jacobian));
         residuals.iter().all(|r| r.is_finite()).then_some(())
     };

@@ -10,8 +10,8 @@
 //! *How we know*: `inverse::…`: forces of full viscoelastic runs, at other meshes and Poisson's ratios.
 //!
 //! *Limits*: one law and one relaxation for the whole body, homogeneous, isotropic and incompressible; a solid
-//! specimen is indented in its middle, and large where its recording does not state its size ([`assumption`]), or an
-//! [`Organ`] of its own shape; a tube has no other law than the neo-Hookean.
+//! specimen is indented in its middle, and large where its recording does not state its size ([`assumption`]), a layer on a
+//! base ([`LayerBase`]), or an [`Organ`] of its own shape; a tube has no other law than the neo-Hookean.
 
 mod body;
 mod correlations;
@@ -28,9 +28,9 @@ mod repeated;
 mod tables;
 mod thickness;
 
-pub use body::{BLOCK, Body};
+pub use body::{BLOCK, BaseModulus, Body, LayerBase};
 pub use correlations::Correlations;
-pub use curves::{Curves, UnitCurve};
+pub use curves::{Curves, OfBase, UnitCurve};
 pub use description::LawDescription;
 pub(crate) use expected::expected_law;
 pub use fitted_force::{ElasticForce, standard_errors};

@@ -161,7 +161,7 @@ impl OwnModel<'_> {
     ) -> Option<()> {
         let count = self.law.count();
         let own = self.law.seen_as_shape(&values[..count])?;
-        let curve = self.curves.predicted(f64::INFINITY, &own.shape)?;
+        let curve = self.curves.predicted(own.modulus, &own.shape)?;
         let pairs = terms(&values[count - 1..], (values.len() - count) / 2);
         let series = PronySeries::new(&pairs).ok()?;
         let mut start = 0;

@@ -139,6 +139,7 @@ pub(super) fn curve(body: &Body, law: SoughtLaw, shape: &[f64], deepest: f64) ->
         force,
         by_shape,
         discretisation: LEFT,
+        base: None,
     })
 }
 

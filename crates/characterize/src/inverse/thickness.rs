@@ -10,7 +10,7 @@
 use palpate_files::recording::{RecordingHeader, Specimen, StimulusKind};
 use palpate_mechanics::finite_elements::indentation::IndenterShape;
 
-use super::body::Body;
+use super::body::{Body, LayerBase};
 
 /// Thicknesses that an answer speaks of, in radii [-].
 pub const THICKNESSES: [f64; 3] = [2.0, 5.0, 10.0];
@@ -29,10 +29,12 @@ pub fn sphere_on_layer(chi: f64) -> f64 {
 /// The sentence on what was assumed of the specimen's size, where a recording does not say it; `deepest` [m] is how
 /// far it was pressed.
 pub fn assumption(header: &RecordingHeader, body: &Body, deepest: f64) -> Option<String> {
-    let Body::Block { block, indenter } = body else {
-        return None;
+    let (block, indenter) = match body {
+        Body::Block { block, indenter } => (block, indenter),
+        Body::Layer { base, .. } => return Some(on_base(header, base)),
+        Body::Tube { .. } => return None,
     };
-    let is_piece = header.stimulus == Some(StimulusKind::Uniaxial);
+    let is_piece = header.stimulus.is_some_and(StimulusKind::is_of_piece);
     if header.specimen == Some(Specimen::Tube) || is_piece {
         return None;
     }
@@ -75,4 +77,20 @@ pub fn assumption(header: &RecordingHeader, body: &Body, deepest: f64) -> Option
         falls[1],
         falls[2]
     ))
+}
+
+/// What is assumed of the base of a layer.
+fn on_base(header: &RecordingHeader, base: &LayerBase) -> String {
+    let mut assumed = vec!["neo-Hookean, bonded to the layer and relaxing as it does".to_owned()];
+    if header.base_thickness_m.is_none() {
+        let thickness = 1e3 * base.thickness;
+        assumed.push(format!("{thickness:.0} mm thick (`base_thickness_m`)"));
+    }
+    if header.base_modulus_error.is_none() {
+        assumed.push("of exactly the stated modulus (`base_modulus_error`)".to_owned());
+    }
+    format!(
+        "the base is taken as {}, and the thickness of the layer as exact",
+        assumed.join(", ")
+    )
 }

@@ -100,7 +100,7 @@ pub fn mean_elastic_modulus(recordings: &[CleanRecording]) -> Result<MeanModulus
         if header.specimen == Some(Specimen::Tube) {
             return Err(Error::HollowOrgan);
         }
-        if header.stimulus == Some(StimulusKind::Uniaxial) {
+        if header.stimulus.is_some_and(StimulusKind::is_of_piece) {
             continue;
         }
         let contact = Contact::of(header)?;

@@ -34,4 +34,6 @@ pub use kelvin::{DepthHistory, KelvinFit, fit_kelvin};
 pub use mean_modulus::{Contact, MeanModulus, fit_modulus, mean_elastic_modulus, mean_modulus};
 pub use springs::springs_force;
 pub use springs_fit::{SpringsFit, fit_springs};
-pub use uniaxial::{Pulled, UniaxialFit, fit_uniaxial, fit_uniaxial_recordings, uniaxial_stress};
+pub use uniaxial::{
+    PieceTest, Pulled, UniaxialFit, fit_uniaxial, fit_uniaxial_recordings, piece_stress,
+};

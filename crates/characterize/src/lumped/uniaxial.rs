@@ -1,6 +1,8 @@
 use std::ops::Range;
 
+use nalgebra::Matrix3;
 use palpate_files::Estimate;
+use palpate_files::recording::StimulusKind;
 use palpate_files::tissue::Elasticity;
 use palpate_mechanics::finite_elements::uniaxial::nominal_stress;
 use palpate_mechanics::{Exponential, Law, MooneyRivlin, NeoHookean, Ogden};
@@ -13,11 +15,24 @@ use crate::fit::{misfit, missed};
 use crate::inverse::SoughtLaw;
 use crate::{CleanRecording, Error};
 
-/// A law that was found from a piece that is pressed or pulled along one axis.
+/// How a piece is deformed, evenly.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PieceTest {
+    /// Along one axis, its sides free.
+    #[default]
+    Uniaxial,
+    /// Along one axis, one of its sides free and the other held as wide as it is: pure shear.
+    PlanarTension,
+}
+
+/// A law that was found from a piece that is pressed or pulled.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UniaxialFit {
     /// Which.
     pub law: SoughtLaw,
+    /// How the piece was deformed.
+    pub test: PieceTest,
     /// The law as files hold it.
     pub elasticity: Elasticity,
     /// Its parameters in the order of its keys, each with its name and its standard error.
@@ -56,14 +71,53 @@ impl Pulled {
             (first..depths.len()).max_by(|&a, &b| depths[a].abs().total_cmp(&depths[b].abs()));
         let samples = first..largest.map_or(first, |last| last + 1);
         let forces = &recording.force[samples.clone()];
+        // A sheet is pulled, whichever sign its table gives that.
+        let farthest = largest.map_or(0.0, |last| depths[last]);
+        let is_turned = PieceTest::of(recording) == PieceTest::PlanarTension && farthest > 0.0;
+        let sign = if is_turned { 1.0 } else { -1.0 };
         Ok(Self {
             stretches: depths[samples.clone()]
                 .iter()
-                .map(|d| 1.0 - d / height)
+                .map(|d| 1.0 + sign * d / height)
                 .collect(),
-            stresses: forces.iter().map(|f| -f / area).collect(),
+            stresses: forces.iter().map(|f| sign * f / area).collect(),
             samples,
         })
+    }
+}
+
+impl PieceTest {
+    /// That of a recording of a piece.
+    pub fn of(recording: &CleanRecording) -> Self {
+        match recording.header.stimulus {
+            Some(StimulusKind::PlanarTension) => Self::PlanarTension,
+            _ => Self::Uniaxial,
+        }
+    }
+
+    /// Nominal stress [Pa] of an incompressible law at the `stretch` [-].
+    fn stress(self, law: &dyn Law, stretch: f64) -> Result<f64, palpate_mechanics::Error> {
+        if self == Self::Uniaxial {
+            return nominal_stress(law, stretch);
+        }
+        let refused = palpate_mechanics::Error::StretchOutOfRange { stretch };
+        if !(stretch > 0.0 && stretch.is_finite()) {
+            return Err(refused);
+        }
+        // The pressure makes P₃₃ = 0: P₁₁ = (∂W/∂F)₁₁ − (∂W/∂F)₃₃/λ².
+        let f = Matrix3::from_diagonal(&[stretch, 1.0, stretch.recip()].into());
+        let stress = law.distortion_stress(&f);
+        let found = stress[(0, 0)] - stress[(2, 2)] / (stretch * stretch);
+        found.is_finite().then_some(found).ok_or(refused)
+    }
+
+    /// I₁ − 3 of the left Cauchy-Green tensor at the `stretch` [-].
+    fn invariant(self, stretch: f64) -> f64 {
+        let squared = stretch * stretch;
+        match self {
+            Self::Uniaxial => squared + 2.0 / stretch - 3.0,
+            Self::PlanarTension => squared + 1.0 / squared - 2.0,
+        }
     }
 }
 
@@ -80,7 +134,7 @@ impl UniaxialFit {
     /// Where the law has no stress: at no stretch above zero, or where an exponential overflows.
     pub fn nominal_stress(&self, stretch: f64) -> Result<f64, Error> {
         let values: Vec<f64> = self.fit.parameters.iter().map(|p| p.value).collect();
-        Ok(uniaxial_stress(self.law, &values, stretch)?)
+        Ok(piece_stress(self.law, self.test, &values, stretch)?)
     }
 }
 
@@ -94,10 +148,15 @@ pub fn fit_uniaxial(
     nominal_stresses: &[f64],
 ) -> Result<UniaxialFit, Error> {
     let samples = stretches.len().min(nominal_stresses.len());
-    fitted(law, stretches, nominal_stresses, &[samples])
+    let measured = Measured {
+        test: PieceTest::Uniaxial,
+        stretches,
+        stresses: nominal_stresses,
+    };
+    fitted(law, measured, &[samples])
 }
 
-/// The same from all `recordings` of pieces whose area and height are known, each from first contact to its
+/// The same from all `recordings` of pieces whose area and height are known, all in the test of the first, each from first contact to its
 /// largest strain.
 ///
 /// # Errors
@@ -113,21 +172,30 @@ pub fn fit_uniaxial_recordings(
         stretches.extend(own.stretches);
         stresses.extend(own.stresses);
     }
-    fitted(law, &stretches, &stresses, &lengths)
+    let measured = Measured {
+        test: recordings.first().map(PieceTest::of).unwrap_or_default(),
+        stretches: &stretches,
+        stresses: &stresses,
+    };
+    fitted(law, measured, &lengths)
 }
 
-fn fitted(
-    law: SoughtLaw,
-    stretches: &[f64],
-    stresses: &[f64],
-    lengths: &[usize],
-) -> Result<UniaxialFit, Error> {
+/// What was measured of a piece.
+#[derive(Debug, Clone, Copy)]
+struct Measured<'a> {
+    test: PieceTest,
+    stretches: &'a [f64],
+    /// [Pa]
+    stresses: &'a [f64],
+}
+
+fn fitted(law: SoughtLaw, measured: Measured<'_>, lengths: &[usize]) -> Result<UniaxialFit, Error> {
     let mut said = Vec::new();
-    let mut fit = nearest(law, stretches, stresses, f64::NEG_INFINITY)?;
+    let mut fit = nearest(law, measured, f64::NEG_INFINITY)?;
     if law == SoughtLaw::MooneyRivlin {
         let [c10, c01] = [0, 1].map(|place: usize| fit.parameters[place].value);
         if c10 + c01 <= 0.0 {
-            fit = nearest(law, stretches, stresses, 0.0)?;
+            fit = nearest(law, measured, 0.0)?;
             said.push(format!(
                 "the nearest c10_pa and c01_pa, {c10:.4e} and {c01:.4e}, have no stiffness at rest; both were held above zero"
             ));
@@ -137,11 +205,17 @@ fn fitted(
         let moduli = fit.parameters.iter().step_by(2).map(|own| own.value);
         let shear: f64 = moduli.sum();
         if shear <= 0.0 {
-            fit = nearest(law, stretches, stresses, 0.0)?;
+            fit = nearest(law, measured, 0.0)?;
             said.push(format!(
                 "the nearest mu have the sum {shear:.4e}, which is no stiffness at rest; all were held above zero"
             ));
         }
+    }
+    if measured.test == PieceTest::PlanarTension && matches!(law, SoughtLaw::Ogden(_)) {
+        said.push(
+            "planar tension does not tell the sign of alpha, which is taken as above zero; a uniaxial test does"
+                .to_owned(),
+        );
     }
     let is_modulus = |own: &&Parameter| own.name.ends_with("_pa");
     let negative = fit.parameters.iter().filter(is_modulus);
@@ -152,7 +226,10 @@ fn fitted(
         ));
     }
     let uncertainty = correlated_uncertainty(&fit, lengths);
-    let largest = stresses.iter().fold(0.0, |most: f64, s| most.max(s.abs()));
+    let largest = measured
+        .stresses
+        .iter()
+        .fold(0.0, |most: f64, s| most.max(s.abs()));
     let misfit = misfit(&fit, largest);
     said.extend(warnings(&fit, &uncertainty, None));
     said.extend(missed(law.name().word(), "stress", misfit));
@@ -165,6 +242,7 @@ fn fitted(
     let names = law.names().into_iter();
     Ok(UniaxialFit {
         law,
+        test: measured.test,
         elasticity: law.elasticity(&estimates),
         parameters: names.zip(estimates).collect(),
         uncertainty,
@@ -175,10 +253,15 @@ fn fitted(
 }
 
 /// The fit with the least Σ ε² and no modulus below `least` [Pa], of all that the starts lead to.
-fn nearest(law: SoughtLaw, stretches: &[f64], stresses: &[f64], least: f64) -> Result<Fit, Error> {
+fn nearest(law: SoughtLaw, measured: Measured<'_>, least: f64) -> Result<Fit, Error> {
+    let Measured {
+        test,
+        stretches,
+        stresses,
+    } = measured;
     let samples = stretches.len().min(stresses.len());
     let mut best: Option<Fit> = None;
-    for parameters in starts(law, (stretches, stresses), least)? {
+    for parameters in starts(law, measured, least)? {
         let fit = least_squares(
             &parameters,
             samples,
@@ -187,7 +270,7 @@ fn nearest(law: SoughtLaw, stretches: &[f64], stresses: &[f64], least: f64) -> R
                 for (residual, (&stretch, known)) in
                     residuals.iter_mut().zip(stretches.iter().zip(stresses))
                 {
-                    *residual = uniaxial_stress(law, p, stretch).ok()? - known;
+                    *residual = piece_stress(law, test, p, stretch).ok()? - known;
                 }
                 Some(())
             },
@@ -204,19 +287,29 @@ fn nearest(law: SoughtLaw, stretches: &[f64], stresses: &[f64], least: f64) -> R
 /// sign of the exponents is taken.
 fn starts(
     law: SoughtLaw,
-    (stretches, stresses): (&[f64], &[f64]),
+    measured: Measured<'_>,
     least: f64,
 ) -> Result<Vec<Vec<Parameter>>, Error> {
+    let test = measured.test;
     let mut best: Vec<([bool; 3], f64, Vec<f64>)> = Vec::new();
-    for shape in shapes(law) {
+    // In planar tension an exponent does as much as its opposite.
+    let least_alpha = match test {
+        PieceTest::Uniaxial => -OGDEN_ALPHA,
+        PieceTest::PlanarTension => 0.0,
+    };
+    let is_sought = |shape: &Vec<f64>| {
+        let mut exponents = shape.iter().step_by(2);
+        !matches!(law, SoughtLaw::Ogden(_)) || exponents.all(|alpha| *alpha >= least_alpha)
+    };
+    for shape in shapes(law).into_iter().filter(is_sought) {
         let unit: Vec<f64> = law
             .parameters(1.0, &shape)
             .iter()
             .map(|p| p.value)
             .collect();
         let (mut products, mut squares) = (0.0, 0.0);
-        for (&stretch, known) in stretches.iter().zip(stresses) {
-            let own = uniaxial_stress(law, &unit, stretch).unwrap_or(f64::INFINITY);
+        for (&stretch, known) in measured.stretches.iter().zip(measured.stresses) {
+            let own = piece_stress(law, test, &unit, stretch).unwrap_or(f64::INFINITY);
             products += own * known;
             squares += own * own;
         }
@@ -244,7 +337,7 @@ fn starts(
         let parameter = Parameter::new(name, value);
         match name {
             "alpha" => parameter.within(ALPHAS[0], ALPHAS[2]),
-            name if name.starts_with("alpha_") => parameter.within(-OGDEN_ALPHA, OGDEN_ALPHA),
+            name if name.starts_with("alpha_") => parameter.within(least_alpha, OGDEN_ALPHA),
             // The law has no stiffness at rest without it.
             "c10_pa" if matches!(law, SoughtLaw::ReducedPolynomial(_)) => {
                 parameter.within(least.max(0.0), f64::INFINITY)
@@ -285,17 +378,18 @@ fn shapes(law: SoughtLaw) -> Vec<Vec<f64>> {
     }
 }
 
-/// Nominal stress [Pa] of a law with these parameters, also where they are none of a tissue: it is linear in
+/// Nominal stress [Pa] of a law with the parameters `p` in a `test`, also where they are none of a tissue: it is linear in
 /// all but exponents.
 ///
 /// # Errors
 /// At a stretch where the law has no stress.
-pub fn uniaxial_stress(
+pub fn piece_stress(
     law: SoughtLaw,
+    test: PieceTest,
     p: &[f64],
     stretch: f64,
 ) -> Result<f64, palpate_mechanics::Error> {
-    let of = |law: &dyn Law| nominal_stress(law, stretch);
+    let of = |law: &dyn Law| test.stress(law, stretch);
     match law {
         SoughtLaw::NeoHookean => Ok(p[0] * of(&NeoHookean::incompressible(1.0)?)?),
         SoughtLaw::MooneyRivlin => {
@@ -311,9 +405,9 @@ pub fn uniaxial_stress(
             each.sum()
         }
         SoughtLaw::ReducedPolynomial(_) => {
-            // P = 2 (λ − λ⁻²) Σ k C_k0 (I₁ − 3)^(k−1).
+            // The stress of neo-Hookean tissue times Σ k C_k0 (I₁ − 3)^(k−1).
             let first = of(&NeoHookean::incompressible(1.0)?)?;
-            let invariant = stretch * stretch + 2.0 / stretch - 3.0;
+            let invariant = test.invariant(stretch);
             let each = (1..).zip(p);
             let slope = each.map(|(k, c)| f64::from(k) * c * invariant.powi(k - 1));
             Ok(first * slope.sum::<f64>())

@@ -102,6 +102,10 @@ impl Domain {
     )
     .usually(-2e7, 2e7);
 
+    /// The modulus of a base over that of the layer on it [-]: within a hundred both can be told apart.
+    pub const BASE_RATIO: Self =
+        Self::number("a ratio of moduli", [Included(0.01), Included(100.0)]);
+
     /// A pressure in a hollow organ [Pa].
     pub const PRESSURE: Self =
         Self::quantity("a pressure", "pa", [Included(0.0), Included(1e7)]).usually(1.0, 1e5);

@@ -125,7 +125,7 @@ impl StimulusPlan {
             StimulusKind::Sine => sines(keys)?,
             StimulusKind::ChirpLinear => chirp(keys, Sweep::Linear)?,
             StimulusKind::ChirpExponential => chirp(keys, Sweep::Exponential)?,
-            StimulusKind::Uniaxial | StimulusKind::Other => {
+            StimulusKind::Uniaxial | StimulusKind::PlanarTension | StimulusKind::Other => {
                 return Err(keys.bad("kind", EXPECTED));
             }
         };

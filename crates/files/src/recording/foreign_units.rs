@@ -58,6 +58,19 @@ pub(super) fn stress(
     quantity.unit(table, None)
 }
 
+/// The units of the columns of a displacement and a force, by their names or as they are stated.
+pub(super) fn sheet(
+    table: &TableText<'_>,
+    [depth, force]: [&str; 2],
+    wanted: &ForeignColumns,
+) -> Result<[&'static Unit; 2], Error> {
+    let of = |name, stated, si| Quantity { name, stated, si }.unit(table, None);
+    Ok([
+        of(depth, wanted.depth_unit.as_deref(), "m")?,
+        of(force, wanted.force_unit.as_deref(), "n")?,
+    ])
+}
+
 /// The units in a row that holds units in place of numbers.
 pub(super) fn of_row(row: &Row<'_>, columns: &[Column; 3]) -> Option<[&'static Unit; 3]> {
     let [time, depth, force] = columns.each_ref().map(|column| {

@@ -29,8 +29,27 @@ words! {
         ChirpExponential = "chirp_exponential",
         /// It pressed or pulled a whole piece along one axis.
         Uniaxial = "uniaxial",
+        /// It pulled a wide sheet whose clamps keep its width.
+        PlanarTension = "planar_tension",
         /// Something else.
         Other = "other",
+    }
+}
+
+impl StimulusKind {
+    /// Whether a whole piece was deformed evenly, and not indented.
+    pub fn is_of_piece(self) -> bool {
+        matches!(self, Self::Uniaxial | Self::PlanarTension)
+    }
+}
+
+words! {
+    /// Whether tissue moves along the indenter.
+    pub enum IndenterFriction {
+        /// Tissue that it touches moves with it.
+        Bonded = "bonded",
+        /// Tissue slides along it without friction.
+        Frictionless = "frictionless",
     }
 }
 
@@ -61,6 +80,8 @@ words! {
     pub enum Specimen {
         /// A hollow organ between fixed ends.
         Tube = "tube",
+        /// A layer of `thickness_m` that is bonded on a softer or stiffer base.
+        Layer = "layer",
     }
 }
 
@@ -104,6 +125,8 @@ header_keys! {
         indenter_radius_m: f64 = Holds::Number(Domain::TIP_RADIUS),
         /// The angle between a cone's axis and its side [degrees].
         indenter_half_angle_deg: f64 = Holds::Number(Domain::HALF_ANGLE),
+        /// Whether tissue moves along the indenter; not stated, it sticks to a flat one and slides along a sphere or a cone.
+        indenter_friction: IndenterFriction = Holds::Word(IndenterFriction::MEANINGS),
         /// What measured the force.
         force_sensor: String = Holds::Text,
         /// The direction out of the tissue along which the indenter was moved, in the rig's axes [-].
@@ -122,12 +145,20 @@ header_keys! {
         support: Support = Holds::Word(Support::MEANINGS),
         /// Density of the specimen [kg/m³].
         density_kg_per_m3: f64 = Holds::Number(Domain::DENSITY),
-        /// Cross-section of a piece that is pressed or pulled along one axis [m²].
+        /// Cross-section of a piece that is pressed or pulled along one axis; of a sheet, its width times its thickness [m²].
         area_m2: f64 = Holds::Number(Domain::AREA),
-        /// Height of a piece that is pressed or pulled along one axis [m].
+        /// Height of a piece that is pressed or pulled along one axis; of a sheet, between its clamps [m].
         height_m: f64 = Holds::Number(Domain::LENGTH),
         /// The shape of the specimen.
         specimen: Specimen = Holds::Word(Specimen::MEANINGS),
+        /// Young's modulus of the base under a layer, at the speed of the press [Pa].
+        base_modulus_pa: f64 = Holds::Number(Domain::MODULUS),
+        /// The modulus of the base over that of the layer, where only that is known [-].
+        base_modulus_ratio: f64 = Holds::Number(Domain::BASE_RATIO),
+        /// Standard error of the base's modulus or ratio, over that [-]; exact if not stated.
+        base_modulus_error: f64 = Holds::Number(Domain::FRACTION),
+        /// Thickness of the base, which is on a rigid plate [m]; large if not stated.
+        base_thickness_m: f64 = Holds::Number(Domain::LENGTH),
         /// Inner radius of a tube [m].
         inner_radius_m: f64 = Holds::Number(Domain::LENGTH),
         /// Outer radius of a tube [m].
@@ -177,7 +208,65 @@ impl RecordingHeader {
         if self.specimen_radius_m.is_some() && self.specimen_width_m.is_some() {
             return Err(keys.given_twice("specimen_radius_m", "specimen_width_m"));
         }
-        Ok(())
+        if self.base_modulus_pa.is_some() && self.base_modulus_ratio.is_some() {
+            return Err(keys.given_twice("base_modulus_pa", "base_modulus_ratio"));
+        }
+        match self.contradiction() {
+            Some((key, expected)) => Err(keys.bad(key, expected)),
+            None => Ok(()),
+        }
+    }
+
+    /// A key that what the specimen is forbids, and what to give; none where all fits.
+    fn contradiction(&self) -> Option<(&'static str, &'static str)> {
+        if self.specimen == Some(Specimen::Layer) {
+            return (self.support == Some(Support::Lubricated)).then_some((
+                "support",
+                "`bonded`, or no support, for a layer is glued to its base",
+            ));
+        }
+        let is_other = self.specimen.is_some() || self.mesh.is_some();
+        let key = self.of_base().filter(|_| is_other)?;
+        Some((key, "`specimen = \"layer\"`, for only a layer has a base"))
+    }
+
+    /// A key that says something of a base; none where nothing does.
+    fn of_base(&self) -> Option<&'static str> {
+        let each = [
+            ("base_modulus_pa", self.base_modulus_pa),
+            ("base_modulus_ratio", self.base_modulus_ratio),
+            ("base_modulus_error", self.base_modulus_error),
+            ("base_thickness_m", self.base_thickness_m),
+        ];
+        let mut said = each.into_iter().filter(|(_, value)| value.is_some());
+        said.next().map(|(key, _)| key)
+    }
+
+    /// What is wrong with a header that says all that is known of a layer on a base: a key, and what to do; none where
+    /// all is said that has to be.
+    pub fn wrong_of_layer(&self) -> Option<(&'static str, &'static str)> {
+        if let Some(found) = self.contradiction() {
+            return Some(found);
+        }
+        if self.specimen != Some(Specimen::Layer) {
+            let key = self.of_base()?;
+            return Some((
+                key,
+                "`specimen = \"layer\"` too, for only a layer has a base",
+            ));
+        }
+        if self.base_modulus_pa.is_some() && self.base_modulus_ratio.is_some() {
+            return Some((
+                "base_modulus_ratio",
+                "no ratio, for `base_modulus_pa` says how stiff the base is",
+            ));
+        }
+        if self.thickness_m.is_none() {
+            return Some(("thickness_m", "the thickness of the layer, in metres"));
+        }
+        let is_known = self.base_modulus_pa.or(self.base_modulus_ratio).is_some();
+        let expected = "Young's modulus of the base in pascals, or `base_modulus_ratio`, what it is over the layer's";
+        (!is_known).then_some(("base_modulus_pa", expected))
     }
 
     fn check_organ(&self, keys: &Keys<'_>) -> Result<(), Error> {
@@ -227,11 +316,12 @@ impl RecordingHeader {
             organ subject weight_kg site repeat
             condition post_mortem_s breath_held stimulus ramp_s
             amplitude_m pre_indentation_m frequency_hz end_frequency_hz sample_rate_hz
-            indenter_shape indenter_radius_m indenter_half_angle_deg
+            indenter_shape indenter_radius_m indenter_half_angle_deg indenter_friction
             force_sensor approach_normal indenter_axis tip_distance_m
             thickness_m specimen_radius_m specimen_width_m support density_kg_per_m3
             area_m2 height_m
-            specimen inner_radius_m outer_radius_m length_m pressure_pa
+            specimen base_modulus_pa base_modulus_ratio base_modulus_error base_thickness_m
+            inner_radius_m outer_radius_m length_m pressure_pa
             mesh mesh_unit location_m fixed
             source ended
         );

@@ -18,7 +18,9 @@ use std::path::Path;
 use axes::Reading;
 pub use axes::{RecordingRow, SensorAxes};
 pub use foreign::ForeignColumns;
-pub use header::{Condition, IndenterShape, RecordingHeader, Specimen, StimulusKind, Support};
+pub use header::{
+    Condition, IndenterFriction, IndenterShape, RecordingHeader, Specimen, StimulusKind, Support,
+};
 use samples::Repeated;
 pub use samples::{ExtraColumn, Samples};
 pub use writer::RecordingWriter;

@@ -11,8 +11,9 @@ use crate::{Domain, Error};
 const STRETCH: &[&str] = &["stretch", "lambda"];
 const STRESS: &[&str] = &["stress"];
 
-/// A table of stretches and nominal stresses, as a recording of a cube of one metre that is pulled
-/// in a step a second; none when `text` holds no such table.
+/// A table without times of a piece that is deformed: of stretches and nominal stresses, as a recording of a cube of one
+/// metre that is pulled in a step a second, or of displacements and forces of a sheet in planar tension; none when `text`
+/// holds no such table.
 pub(super) fn parse(
     text: &str,
     path: &Path,
@@ -24,11 +25,13 @@ pub(super) fn parse(
     ];
     let (table, has_all) = foreign_table::find(text, path, &wanted)?;
     if !has_all {
-        return Ok(None);
+        return sheet(text, path, columns);
     }
     let keys = table.header.keys(path, RecordingHeader::KEYS);
     let mut header = RecordingHeader::from_keys(&keys)?;
-    header.stimulus = Some(StimulusKind::Uniaxial);
+    if header.stimulus != Some(StimulusKind::PlanarTension) {
+        header.stimulus = Some(StimulusKind::Uniaxial);
+    }
     header.area_m2 = Some(1.0);
     header.height_m = Some(1.0);
     let [stretch, stress] = [wanted[0].choose(&table)?, wanted[1].choose(&table)?];
@@ -39,7 +42,12 @@ pub(super) fn parse(
     );
     Ok(Some(Recording {
         header,
-        samples: samples(&table, stretch, (stress, unit))?,
+        samples: samples(
+            &table,
+            (stretch, named("m")),
+            (stress, unit, "Pa"),
+            |height| 1.0 - height,
+        )?,
         axes: None,
         extra_columns: Vec::new(),
         remarks: vec![remark],
@@ -51,20 +59,58 @@ pub(super) fn parse(
 /// A height over that at rest [-].
 const HEIGHT: Domain = Domain::number("a stretch", [Excluded(0.0), Included(1e3)]);
 
+/// A displacement of a clamp [m].
+const DISPLACEMENT: Domain =
+    Domain::quantity("a displacement", "m", [Included(-10.0), Included(10.0)]);
+
+/// Displacements and forces of a sheet in planar tension; none of another table.
+fn sheet(text: &str, path: &Path, columns: &ForeignColumns) -> Result<Option<Recording>, Error> {
+    let [_, depth, force] = columns.wanted();
+    let (table, has_all) = foreign_table::find(text, path, &[depth, force])?;
+    if !has_all {
+        return Ok(None);
+    }
+    let keys = table.header.keys(path, RecordingHeader::KEYS);
+    let header = RecordingHeader::from_keys(&keys)?;
+    if header.stimulus != Some(StimulusKind::PlanarTension) {
+        return Ok(None);
+    }
+    let [depth, force] = [depth.choose(&table)?, force.choose(&table)?];
+    let [length, load] = foreign_units::sheet(&table, [depth, force], columns)?;
+    let remark = format!(
+        "`{depth}` in {} and `{force}` in {} were read as the pull of a sheet, a row a second",
+        length.spelling, load.spelling
+    );
+    Ok(Some(Recording {
+        header,
+        samples: samples(&table, (depth, length), (force, load, "N"), |way| -way)?,
+        axes: None,
+        extra_columns: Vec::new(),
+        remarks: vec![remark],
+        is_foreign: false,
+        incomplete: None,
+    }))
+}
+
+fn named(name: &str) -> &'static Unit {
+    Unit::named(name).expect("SI units are in the table")
+}
+
 fn samples(
     table: &TableText<'_>,
-    stretch: &str,
-    (stress, unit): (&str, &'static Unit),
+    (stretch, length): (&str, &'static Unit),
+    (stress, unit, si): (&str, &'static Unit, &str),
+    depth: impl Fn(f64) -> f64,
 ) -> Result<Samples, Error> {
-    let named = |name| Unit::named(name).expect("SI units are in the table");
-    let stretch = table.foreign_column(stretch, named("m"), named("m"))?;
-    let stress = table.foreign_column(stress, unit, named("Pa"))?;
+    let domain = if si == "Pa" { HEIGHT } else { DISPLACEMENT };
+    let stretch = table.foreign_column(stretch, length, named("m"))?;
+    let stress = table.foreign_column(stress, unit, named(si))?;
     let mut samples = Samples::default();
     let mut rows = table.rows();
     while let Some(row) = rows.next()? {
         samples.time_s.push(samples.time_s.len() as f64);
-        let height = row.number(&stretch, HEIGHT)?;
-        samples.depth_m.push(1.0 - height);
+        let way = row.number(&stretch, domain)?;
+        samples.depth_m.push(depth(way));
         samples
             .force_n
             .push(-row.number(&stress, Domain::ANY_FORCE)?);

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::DMatrix;
 use palpate_characterize::inverse::{ElasticForce, SoughtLaw, standard_errors};
-use palpate_characterize::lumped::uniaxial_stress;
+use palpate_characterize::lumped::{PieceTest, piece_stress};
 use palpate_mechanics::{IndentationCurve, PronySeries};
 use serde::Deserialize;
 
@@ -25,6 +25,9 @@ pub struct FoundLaw {
     pub covariance: CovarianceAnswer,
     /// Its elastic force; null of a piece.
     pub elastic: Option<ElasticAnswer>,
+    /// How the piece was deformed, of a piece.
+    #[serde(default)]
+    pub test: Option<PieceTest>,
 }
 
 /// A step of a derivative of a stress, over the parameter [-]: half the digits.
@@ -91,12 +94,13 @@ impl FoundLaw {
                 self.values.len()
             ))
         })?;
+        let test = self.test.unwrap_or_default();
         let names = law.names();
         let known = |name: &&str| self.values.get(*name).copied().unwrap_or(0.0);
         let values: Vec<f64> = names.iter().map(known).collect();
         let at = |values: &[f64]| -> Result<Vec<f64>, Error> {
             let each = stretches.iter();
-            let each = each.map(|stretch| uniaxial_stress(law, values, *stretch));
+            let each = each.map(|stretch| piece_stress(law, test, values, *stretch));
             Ok(each.collect::<Result<_, _>>()?)
         };
         let known = self.covariance.correlations();

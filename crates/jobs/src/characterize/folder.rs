@@ -1,14 +1,14 @@
 //! A folder that keeps what is finished of a study, so that the study can be stopped and gone on with.
 //!
 //! Each specimen has two files, `liver-7.json` with all that was found and `liver-7.toml` with its tissue.
-//! The first names what it was found from, by a digest of recordings and settings. What does not fit, or cannot be
+//! The first names what it was found from, by a digest of recordings, meshes and settings. What does not fit, or cannot be
 //! read, is found again where files may be replaced, and refused otherwise. `.palpate-study` marks the folder of a
 //! study, whose tables are written anew.
 
 use std::path::{Path, PathBuf};
 
 use palpate_characterize::CharacterizeSettings;
-use palpate_files::{Claim, MOST_OF_TABLE, Overwrite, read_text, write_whole};
+use palpate_files::{Claim, MOST_OF_TABLE, Overwrite, read_bytes, read_text, write_whole};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
@@ -166,6 +166,12 @@ fn digest(group: &[ReadRecording], settings: &CharacterizeSettings) -> String {
     for read in group {
         let clean = &read.clean;
         hash.update(format!("{}{:?}", read.path.display(), clean.header));
+        if let Some(mesh) = read.mesh() {
+            // One that cannot be read is an error where it is used.
+            hash.update(Sha256::digest(
+                read_bytes(&mesh, MOST_OF_TABLE).unwrap_or_default(),
+            ));
+        }
         for samples in [&clean.time, &clean.depth, &clean.force] {
             for sample in samples {
                 hash.update(sample.to_le_bytes());
@@ -183,5 +189,29 @@ mod tests {
     fn titles_are_names_of_files() {
         assert_eq!(file_name("liver, 3/left lobe"), "liver-3-left-lobe");
         assert_eq!(file_name("../.."), "specimen");
+    }
+
+    /// What was found on a mesh is not taken for what is found on another of the same name.
+    #[test]
+    fn a_changed_mesh_is_another_study() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("kidney.csv");
+        let text = "# format = 1\n# indenter_radius_m = 0.005\n# mesh = \"kidney.ply\"\n\
+            # location_m = [0.0, 0.0, 0.05]\n\
+            # fixed = { planes = [{ point_m = [0.0, 0.0, 0.001], normal = [0.0, 0.0, 1.0] }] }\n\
+            time_s,depth_m,force_n\n0,0,0\n0.1,0.001,0.01\n0.2,0.002,0.02\n0.3,0.003,0.03\n0.4,0.003,0.02\n";
+        std::fs::write(&path, text).unwrap();
+        let now = || {
+            let (read, _) = crate::Recordings::of(&path).read(|_| ()).unwrap();
+            digest(&read, &CharacterizeSettings::default())
+        };
+        let without = now();
+        let mesh = folder.path().join("kidney.ply");
+        std::fs::write(&mesh, "one").unwrap();
+        let with_one = now();
+        assert_eq!(now(), with_one);
+        std::fs::write(&mesh, "two").unwrap();
+        let with_two = now();
+        assert!(without != with_one && with_one != with_two && without != with_two);
     }
 }

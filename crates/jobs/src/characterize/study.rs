@@ -1,4 +1,3 @@
-use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -87,8 +86,7 @@ fn finish(
 /// The organ that a recording names a mesh of; none where it names none.
 fn organ(recording: &ReadRecording) -> Option<Result<Organ, palpate_characterize::Error>> {
     let header = &recording.clean.header;
-    let folder = recording.path.parent().unwrap_or(Path::new(""));
-    let path = folder.join(header.mesh.as_ref()?);
+    let path = recording.mesh()?;
     let unit = header.mesh_unit;
     let read = read_organ(&Shape::Mesh { path, unit });
     let unread = |why: palpate_simulate::Error| palpate_characterize::Error::UnreadMesh {

@@ -10,6 +10,8 @@
 //!
 //! *Limits*: pressures are continuous where laws meet.
 
+use std::sync::Arc;
+
 use nalgebra::Matrix3;
 
 use super::model::{ElementSums, FiniteElementModel, FiniteElementWorkspace};
@@ -77,16 +79,19 @@ pub(super) fn assemble(
     Ok(())
 }
 
-/// Adds what a unit of the law's `parameter` adds to the residual of an elastic body.
+/// Adds what a unit of the `parameter` of `law` adds to the residual of an elastic body, where it is of that law.
 pub(super) fn add_sensitivity(
     model: &FiniteElementModel,
     unknowns: &[f64],
-    parameter: usize,
+    (law, parameter): (&Arc<dyn Law>, usize),
     residual: &mut [f64],
 ) {
     let local = model.local_unknowns();
     let (mut values, mut force) = (vec![0.0; local], vec![0.0; local]);
     for (element, numbers) in model.unknowns.chunks_exact(local).enumerate() {
+        if !Arc::ptr_eq(model.shared_law(element * model.mapping.points), law) {
+            continue;
+        }
         for (value, &number) in values.iter_mut().zip(numbers) {
             *value = unknowns[number as usize];
         }

@@ -143,7 +143,8 @@ impl FiniteElementModel {
         self.shared_law(index).as_ref()
     }
 
-    fn shared_law(&self, index: usize) -> &Arc<dyn Law> {
+    /// The same, which tells laws from one another.
+    pub(crate) fn shared_law(&self, index: usize) -> &Arc<dyn Law> {
         let is_of_point = self.laws.len() == self.mapping.weights.len();
         let place = if is_of_point {
             index

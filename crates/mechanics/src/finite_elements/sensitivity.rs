@@ -1,18 +1,23 @@
 //! The change of an equilibrium with the law's parameters.
 
+use std::sync::Arc;
+
 use super::assembly;
 use super::model::{FiniteElementModel, FiniteElementState, FiniteElementWorkspace};
 use super::newton::{self, Failure};
 use super::supports::Supports;
+use crate::material::law::Law;
 
-/// ∂r/∂q: change of the residual [N per unit; m³ per unit] with a parameter at fixed unknowns.
+/// ∂r/∂q: change of the residual [N per unit; m³ per unit] with a parameter of `law` at fixed unknowns, where the body is of
+/// that law.
 pub(super) fn residual_sensitivity(
     model: &FiniteElementModel,
     state: &FiniteElementState,
+    law: &Arc<dyn Law>,
     parameter: usize,
 ) -> Vec<f64> {
     let mut residual = vec![0.0; model.size()];
-    assembly::add_sensitivity(model, &state.unknowns, parameter, &mut residual);
+    assembly::add_sensitivity(model, &state.unknowns, (law, parameter), &mut residual);
     residual
 }
 

@@ -8,7 +8,6 @@
 
 mod agreement;
 mod analytic;
-mod blood_clot;
 mod bodies;
 mod boundary_elements;
 mod boundary_response;
@@ -19,6 +18,7 @@ mod contacts;
 mod convergence;
 mod data;
 mod dead_loads;
+mod elastic_base;
 mod enhance;
 mod errors;
 mod every_law;

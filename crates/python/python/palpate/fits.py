@@ -260,6 +260,7 @@ class Law(dict[str, Any]):
             "series": [] if self.relaxation is None else self.relaxation.terms,
             "covariance": self._fit["covariance"],
             "elastic": self._fit["elastic"],
+            "test": self._fit.get("test"),
         }
         return _palpate._evaluate(
             json.dumps(known), None if time is None else np.atleast_1d(time), np.atleast_1d(course)

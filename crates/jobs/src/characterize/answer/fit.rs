@@ -3,7 +3,7 @@ use std::collections::BTreeMap;
 use nalgebra::DMatrix;
 use palpate_characterize::Characterization;
 use palpate_characterize::inverse::{Correlations, LawDescription, SoughtLaw};
-use palpate_characterize::lumped::UniaxialFit;
+use palpate_characterize::lumped::{PieceTest, UniaxialFit};
 use serde::{Deserialize, Serialize};
 
 use super::values::correlations_of_piece;
@@ -23,6 +23,8 @@ pub struct FitAnswer {
     pub information_criterion: Option<f64>,
     /// The instantaneous elastic force; null of a piece, whose stress is a closed form.
     pub elastic: Option<ElasticAnswer>,
+    /// How a piece was deformed; null of an indentation.
+    pub test: Option<PieceTest>,
 }
 
 /// A covariance.
@@ -116,6 +118,7 @@ fn of_indentation(law: &LawDescription) -> FitAnswer {
             force_n: points().map(|(_, force)| force).collect(),
             sensitivities: by.collect(),
         }),
+        test: None,
     }
 }
 
@@ -130,5 +133,6 @@ fn of_piece(law: &UniaxialFit) -> FitAnswer {
         effective_samples: law.uncertainty.effective_samples,
         information_criterion: None,
         elastic: None,
+        test: Some(law.test),
     }
 }

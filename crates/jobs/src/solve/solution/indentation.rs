@@ -1,5 +1,7 @@
 use palpate_files::Recording;
-use palpate_files::recording::{self, RecordingHeader, Samples, StimulusKind, Support};
+use palpate_files::recording::{
+    self, IndenterFriction, RecordingHeader, Samples, StimulusKind, Support,
+};
 use palpate_mechanics::contact::{Friction, half_space_stiffness, hertz_force, sneddon_force};
 use palpate_mechanics::finite_elements::indentation::{
     Base, History, IndentationProblem, IndenterShape, Side, solve, solve_history,
@@ -176,6 +178,10 @@ fn recording(
         Base::Bonded => Support::Bonded,
         Base::Lubricated => Support::Lubricated,
     };
+    let friction = match case.indenter.face {
+        Friction::Bonded => IndenterFriction::Bonded,
+        Friction::Frictionless => IndenterFriction::Frictionless,
+    };
     let header = RecordingHeader {
         stimulus: Some(StimulusKind::RampAndHold),
         ramp_s: Some(ramp.ramp),
@@ -184,6 +190,7 @@ fn recording(
         indenter_shape: Some(shape),
         indenter_radius_m: Some(case.indenter.radius),
         indenter_half_angle_deg: half_angle,
+        indenter_friction: Some(friction),
         thickness_m: Some(case.block.height),
         specimen_radius_m: Some(case.block.radius),
         support: Some(support),

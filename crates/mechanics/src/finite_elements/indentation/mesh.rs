@@ -57,6 +57,8 @@ pub(super) struct Body {
     pub(super) top: Vec<usize>,
     pub(super) bottom: Vec<usize>,
     pub(super) axis: Vec<usize>,
+    /// 0 for each element of the tissue, 1 for those of an elastic base.
+    pub(super) regions: Vec<u32>,
 }
 
 impl Body {
@@ -67,8 +69,30 @@ impl Body {
             &settings.indenter,
             settings.deepest,
             settings.halvings,
+            0.0,
         );
         Self::of_block(mesh, block)
+    }
+
+    /// A block with a base of this `thickness` [m] below it.
+    pub(super) fn on_base(settings: &IndentationSettings, thickness: f64) -> Self {
+        let block = &settings.block;
+        let (deepest, halvings) = (settings.deepest, settings.halvings);
+        let mesh = graded_block(block, &settings.indenter, deepest, halvings, thickness);
+        let whole = Block {
+            height: block.height + thickness,
+            ..*block
+        };
+        let is_below = |element: usize| {
+            let highest = mesh.element(element).iter();
+            let highest = highest.map(|&node| mesh.nodes[node as usize].y);
+            u32::from(highest.fold(f64::NEG_INFINITY, f64::max) <= -block.height)
+        };
+        let regions = (0..mesh.len()).map(is_below).collect();
+        Self {
+            regions,
+            ..Self::of_block(mesh, &whole)
+        }
     }
 
     /// A block with elements that shrink towards the edge of a flat punch.
@@ -84,6 +108,7 @@ impl Body {
             top,
             bottom: mesh.nodes_where(|x| x.y == -block.height),
             axis: mesh.nodes_where(|x| x.x == 0.0),
+            regions: vec![0; mesh.len()],
             mesh,
         }
     }
@@ -100,6 +125,7 @@ impl Body {
             *node -= Vec3::new(0.0, radius, 0.0);
         }
         Self {
+            regions: vec![0; disc.mesh.len()],
             mesh: disc.mesh,
             top: disc.arc.iter().map(|&(node, _)| node).collect(),
             bottom: disc.base,
@@ -119,8 +145,14 @@ impl IndenterShape {
 }
 
 /// A grid with its smallest elements around the contact of `indenter` at the depth `deepest` [m] on the top
-/// (z = 0); of the usual mesh where `halvings` is 0.
-fn graded_block(block: &Block, indenter: &Indenter, deepest: f64, halvings: i32) -> ElementMesh {
+/// (z = 0), and a base of the thickness `below` [m] under it; of the usual mesh where `halvings` is 0.
+fn graded_block(
+    block: &Block,
+    indenter: &Indenter,
+    deepest: f64,
+    halvings: i32,
+    below: f64,
+) -> ElementMesh {
     let contact = indenter.scale(deepest);
     let edge = EDGE * contact;
     let grading = Grading {
@@ -140,7 +172,19 @@ fn graded_block(block: &Block, indenter: &Indenter, deepest: f64, halvings: i32)
         ..grading
     }
     .line(block.radius - contact, halvings);
-    let down = grading.line(block.height, halvings);
+    let mut down = grading.line(block.height, halvings);
+    if below > 0.0 {
+        // Elements go on to grow in the base.
+        let unhalved = grading.line(block.height, 0);
+        let last = unhalved.windows(2).last();
+        let base = Grading {
+            first: last.map_or(edge, |two| two[1] - two[0]),
+            near: (grading.near - block.height).max(0.0),
+            ..grading
+        };
+        let base = base.line(below, halvings);
+        down.extend(base[1..].iter().map(|z| block.height + z));
+    }
     let mut columns: Vec<f64> = inward.iter().rev().map(|x| contact - x).collect();
     columns[0] = 0.0;
     columns.extend(outward[1..].iter().map(|x| contact + x));

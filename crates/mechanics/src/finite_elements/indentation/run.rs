@@ -9,10 +9,11 @@ use super::super::newton::{self, Failure, SolverControls};
 use super::super::relaxation::{Memory, RelaxationStep};
 use super::super::snap::equilibrate_downhill;
 use super::super::supports::{Sliding, Supports};
+use super::base::ElasticBase;
 use super::contact::ContactStatus;
 use super::indenter::{Indenter, IndenterShape};
 use super::mesh::{Base, Block, Body};
-use super::sensitivities::Sensitivities;
+use super::sensitivities::{Sensitivities, SoughtChange};
 use crate::material::law::Law;
 use crate::{Error, FibreError, PronySeries, Strain};
 
@@ -44,7 +45,8 @@ pub struct IndentationPoint {
     pub force: f64,
     /// Strain energy of the elastic law [J].
     pub energy: f64,
-    /// Change of the force with each parameter of the law [N per unit], where asked for.
+    /// Change of the force with each parameter of the law [N per unit], and with the logarithm of the stiffness of an
+    /// elastic base [N], where asked for.
     pub sensitivities: Vec<f64>,
 }
 
@@ -54,6 +56,8 @@ pub struct IndentationRun {
     pub(super) model: FiniteElementModel,
     pub(super) workspace: FiniteElementWorkspace,
     indenter: Indenter,
+    /// The law of the tissue, and that of an elastic base.
+    laws: Vec<Arc<dyn Law>>,
     /// Radius of the contact at the depth that the mesh is made for [m]: the scale of steps.
     scale: f64,
     prony: PronySeries,
@@ -118,7 +122,23 @@ impl IndentationRun {
     /// When the block is smaller than the indenter, or see [`FiniteElementModel::new`].
     pub fn new(settings: &IndentationSettings) -> Result<Self, Error> {
         settings.block.check(&settings.indenter)?;
-        Self::in_body(Body::block(settings), settings)
+        Self::in_body(Body::block(settings), settings, None)
+    }
+
+    /// An indenter that just touches a layer, which is the block, on an elastic base. What relaxes relaxes in both alike.
+    ///
+    /// # Errors
+    /// As [`Self::new`], and when the base has no thickness or no stiffness.
+    pub fn on_base(settings: &IndentationSettings, base: ElasticBase) -> Result<Self, Error> {
+        settings.block.check(&settings.indenter)?;
+        let below = Block {
+            height: base.thickness,
+            ..settings.block
+        };
+        below.check(&settings.indenter)?;
+        let law = base.law(settings.law.as_ref())?;
+        let body = Body::on_base(settings, base.thickness);
+        Self::in_body(body, settings, Some(law))
     }
 
     /// A flat punch that just touches a block whose elements shrink towards its edge, with `parts` of them along half
@@ -128,7 +148,7 @@ impl IndentationRun {
     /// As [`Self::new`].
     pub(super) fn around_edge(settings: &IndentationSettings, parts: usize) -> Result<Self, Error> {
         settings.block.check(&settings.indenter)?;
-        Self::in_body(Body::around_edge(settings, parts), settings)
+        Self::in_body(Body::around_edge(settings, parts), settings, None)
     }
 
     /// An indenter that just touches the pole of a hemisphere, which is as high as the block and stands in its place.
@@ -141,17 +161,23 @@ impl IndentationRun {
             ..settings.block
         };
         within.check(&settings.indenter)?;
-        Self::in_body(Body::hemisphere(settings), settings)
+        Self::in_body(Body::hemisphere(settings), settings, None)
     }
 
-    fn in_body(body: Body, settings: &IndentationSettings) -> Result<Self, Error> {
+    fn in_body(
+        body: Body,
+        settings: &IndentationSettings,
+        base: Option<Arc<dyn Law>>,
+    ) -> Result<Self, Error> {
         let indenter = settings.indenter;
         let top = body.top;
         if settings.law.has_fibres() {
             let model = "an axisymmetric indentation";
             return Err(FibreError::NoDirection { model }.into());
         }
-        let model = FiniteElementModel::new(body.mesh, settings.law.clone(), Formulation::Mixed)?;
+        let laws: Vec<_> = [settings.law.clone()].into_iter().chain(base).collect();
+        let (mesh, formulation) = (body.mesh, Formulation::Mixed);
+        let model = FiniteElementModel::with_regions(mesh, &laws, &body.regions, formulation)?;
         let glued = match settings.block.base {
             Base::Bonded => body.bottom.clone(),
             Base::Lubricated => Vec::new(),
@@ -170,6 +196,7 @@ impl IndentationRun {
         Ok(Self {
             workspace: FiniteElementWorkspace::new(&model)?,
             indenter,
+            laws,
             scale,
             prony: settings.prony.clone(),
             top,
@@ -191,7 +218,18 @@ impl IndentationRun {
     /// Answers also for the change of force with the law's parameters, from now on. Only at rest, and
     /// for an elastic tissue.
     pub fn with_sensitivities(mut self) -> Self {
-        self.now.slopes = Some(Sensitivities::at_rest(&self.model));
+        let mut sought = Vec::new();
+        for (region, law) in self.laws.iter().enumerate() {
+            let known = law.parameters().into_iter().enumerate();
+            let of_law = known.map(|(parameter, (_, value))| SoughtChange {
+                law: law.clone(),
+                parameter,
+                unit: if region == 0 { 1.0 } else { value },
+            });
+            // The first parameter of a base is its modulus.
+            sought.extend(of_law.take(if region == 0 { usize::MAX } else { 1 }));
+        }
+        self.now.slopes = Some(Sensitivities::at_rest(&self.model, sought));
         self
     }
 

@@ -10,8 +10,11 @@
 
 use super::super::model::{FiniteElementModel, FiniteElementState, FiniteElementWorkspace};
 use super::super::newton::Failure;
+use std::sync::Arc;
+
 use super::super::sensitivity;
 use super::super::supports::Supports;
+use crate::material::law::Law;
 
 /// How a node came into the indenter.
 #[derive(Debug, Clone, Copy)]
@@ -25,17 +28,29 @@ pub(super) struct Entry {
     pub(super) rise: f64,
 }
 
-/// ∂u/∂q of all unknowns, one column for each parameter of the law.
+/// A parameter whose change is asked for.
+#[derive(Debug, Clone)]
+pub(super) struct SoughtChange {
+    /// The law that it is of.
+    pub(super) law: Arc<dyn Law>,
+    /// Its place among the law's parameters.
+    pub(super) parameter: usize,
+    /// The change of it that answers are for.
+    pub(super) unit: f64,
+}
+
+/// ∂u/∂q of all unknowns, one column for each parameter.
 #[derive(Debug, Clone)]
 pub(super) struct Sensitivities {
+    sought: Vec<SoughtChange>,
     columns: Vec<Vec<f64>>,
 }
 
 impl Sensitivities {
-    pub(super) fn at_rest(model: &FiniteElementModel) -> Self {
-        let parameters = model.law.parameters().len();
+    pub(super) fn at_rest(model: &FiniteElementModel, sought: Vec<SoughtChange>) -> Self {
         Self {
-            columns: vec![vec![0.0; model.size()]; parameters],
+            columns: vec![vec![0.0; model.size()]; sought.len()],
+            sought,
         }
     }
 
@@ -47,8 +62,9 @@ impl Sensitivities {
         state: &FiniteElementState,
         workspace: &mut FiniteElementWorkspace,
     ) -> Result<(), Failure> {
-        for (parameter, column) in self.columns.iter_mut().enumerate() {
-            let force = sensitivity::residual_sensitivity(model, state, parameter);
+        for (sought, column) in self.sought.iter().zip(&mut self.columns) {
+            let (law, parameter) = (&sought.law, sought.parameter);
+            let force = sensitivity::residual_sensitivity(model, state, law, parameter);
             sensitivity::solve(model, supports, (state, &force), column, workspace)?;
         }
         Ok(())
@@ -84,13 +100,14 @@ impl Sensitivities {
         rows: impl Fn() -> I,
     ) -> Vec<f64> {
         let mut product = vec![0.0; model.size()];
-        let each = |(parameter, column): (usize, &Vec<f64>)| {
-            let direct = sensitivity::residual_sensitivity(model, state, parameter);
+        let each = |(sought, column): (&SoughtChange, &Vec<f64>)| {
+            let (law, parameter) = (&sought.law, sought.parameter);
+            let direct = sensitivity::residual_sensitivity(model, state, law, parameter);
             model
                 .pattern
                 .multiply(&workspace.tangent, column, &mut product);
-            -rows().map(|row| direct[row] + product[row]).sum::<f64>()
+            -sought.unit * rows().map(|row| direct[row] + product[row]).sum::<f64>()
         };
-        self.columns.iter().enumerate().map(each).collect()
+        self.sought.iter().zip(&self.columns).map(each).collect()
     }
 }

@@ -42,7 +42,8 @@ impl Repeated {
             )));
         }
         let read = read.remove(0);
-        if read.clean.header.stimulus == Some(StimulusKind::Uniaxial) {
+        let stimulus = read.clean.header.stimulus;
+        if stimulus.is_some_and(StimulusKind::is_of_piece) {
             return Err(Failure::input(format!(
                 "{}: a whole piece was pressed or pulled, not indented; name the recording of an indenter",
                 read.path.display()

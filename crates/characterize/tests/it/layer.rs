@@ -1,0 +1,326 @@
+//! Layers on a softer or stiffer base: tetrahedra, which know nothing of axisymmetric elements, closed cases, and what is
+//! refused.
+
+use palpate_characterize::fit::Random;
+use palpate_characterize::inverse::{
+    Body, Curves, Indentation, LawDescription, SoughtLaw, ZeroErrors, law_fit,
+};
+use palpate_characterize::{CharacterizeSettings, CleanSettings, Error, characterize, clean};
+use palpate_files::Recording;
+use palpate_files::recording::{
+    IndenterFriction, IndenterShape, RecordingHeader, Samples, Specimen,
+};
+use palpate_files::scene::{Region, RegionPlane};
+use palpate_geometry::TetrahedronMesh;
+use palpate_mechanics::contact::Friction;
+use palpate_mechanics::finite_elements::solid::{
+    Body as Solid, Loads, MovedPatch, SolidPlace, SolidProblem, SolidRegion, solve_at,
+};
+use palpate_mechanics::{IndentationCurve, PronySeries, Vec3};
+
+const RADIUS: f64 = 4e-3;
+/// C₁₀ of the layer [Pa].
+const MODULUS: f64 = 731.0;
+
+/// A layer of this thickness [radii] on a base that is so many times as stiff.
+fn header(thickness: f64, contrast: f64) -> RecordingHeader {
+    RecordingHeader {
+        indenter_radius_m: Some(RADIUS),
+        specimen: Some(Specimen::Layer),
+        thickness_m: Some(thickness * RADIUS),
+        // E = 6 C₁₀.
+        base_modulus_pa: Some(6.0 * contrast * MODULUS),
+        ..RecordingHeader::default()
+    }
+}
+
+/// Half the edge of the cube of tetrahedra [radii], and its cells along its edges.
+const HALF: f64 = 10.0;
+const CELLS: [usize; 3] = [8, 8, 16];
+/// Of the layer, the uppermost of those [radii].
+const THICKNESS: f64 = 2.0 * HALF / 16.0;
+
+/// Force [N] of a bonded punch at these depths [radii] on neo-Hookean tissue on a base, by tetrahedra, to the size of none
+/// of them.
+fn of_tetrahedra(contrast: f64, depths: &[f64]) -> IndentationCurve {
+    let corner = Vec3::repeat(HALF * RADIUS);
+    let mesh = TetrahedronMesh::block(-corner, corner, CELLS).unwrap();
+    let border = (HALF - THICKNESS) * RADIUS;
+    let is_of_base = |cell: usize| {
+        let center: Vec3 = mesh.positions(cell).iter().sum();
+        u32::from(0.25 * center.z < border)
+    };
+    let regions = (0..mesh.tetrahedra().len()).map(is_of_base).collect();
+    let mesh = mesh.clone().with_regions(regions).unwrap();
+    let law = |modulus: f64| SoughtLaw::NeoHookean.of(modulus, &[]).unwrap();
+    let base = SolidRegion {
+        place: SolidPlace::Cells(1),
+        law: law(contrast * MODULUS),
+        density: 1000.0,
+    };
+    let plane = RegionPlane {
+        point_m: [0.0, 0.0, -0.999 * HALF * RADIUS],
+        normal: [0.0, 0.0, 1.0],
+    };
+    let problem = |depth: f64| SolidProblem {
+        body: Solid::Volume(mesh.clone()),
+        anchor: Region {
+            planes: vec![plane.clone()],
+            ..Region::default()
+        },
+        patch: Some(MovedPatch {
+            center: Vec3::new(0.0, 0.0, HALF * RADIUS),
+            radius: RADIUS,
+            displacement: -depth * RADIUS * Vec3::z(),
+            friction: Friction::Bonded,
+        }),
+        law: law(MODULUS),
+        fibres: None,
+        regions: vec![base.clone()],
+        loads: Loads::default(),
+        points: Vec::new(),
+    };
+    let force = |&depth: &f64| {
+        let [coarse, fine] = [-1, 0].map(|halvings| {
+            let found = solve_at(&problem(depth), halvings, &mut |_| ());
+            found.unwrap().force_along
+        });
+        println!("contrast {contrast}, {depth} radii: {coarse} and {fine} N");
+        // Of the first order in the edges, by the compliance.
+        depth / (2.0 * depth / fine - depth / coarse)
+    };
+    let forces: Vec<f64> = depths.iter().map(force).collect();
+    let depths: Vec<f64> = depths.iter().map(|depth| depth * RADIUS).collect();
+    IndentationCurve::through(&depths, &forces)
+}
+
+/// The header of what those are pressed into.
+fn header_of_cube(contrast: f64) -> RecordingHeader {
+    RecordingHeader {
+        specimen_width_m: Some(2.0 * HALF * RADIUS),
+        base_thickness_m: Some((2.0 * HALF - THICKNESS) * RADIUS),
+        ..header(THICKNESS, contrast)
+    }
+}
+
+/// How many of a hundred recordings of a curve have an interval of 95 % that holds the truth. The base is stated to 5 %, and
+/// what it is differs by that from one to another; noise is 1 % of the largest force.
+fn held(contrast: f64, curve: &IndentationCurve, deepest: f64) -> usize {
+    const ERROR: f64 = 0.05;
+    let header = RecordingHeader {
+        base_modulus_error: Some(ERROR),
+        ..header_of_cube(contrast)
+    };
+    let mut curves = Curves::new(
+        Body::of(&header, deepest).unwrap(),
+        SoughtLaw::NeoHookean,
+        deepest,
+    );
+    let time: Vec<f64> = (0..=200).map(|i| 0.01 * f64::from(i)).collect();
+    let depth: Vec<f64> = time.iter().map(|t| 0.5 * t * deepest).collect();
+    let mut held = 0;
+    for seed in 0..100 {
+        let mut random = Random::new(seed);
+        // All moduli and forces of a specimen, over those of the curve.
+        let size = 1.0 + ERROR * random.normal();
+        let noise = 0.01 * curve.force(deepest);
+        let noisy = depth
+            .iter()
+            .map(|d| size * curve.force(*d) + noise * random.normal());
+        let force: Vec<f64> = noisy.collect();
+        let indentation = [Indentation::new(&time, &depth, &force)];
+        let found = law_fit(&mut curves, &indentation, &PronySeries::default()).unwrap();
+        let found = LawDescription::of(found, &indentation);
+        let own = found.parameters[0].1;
+        let error = own.standard_error.unwrap();
+        let quantile = found.uncertainty.quantile(0, 0.95).unwrap();
+        if seed < 3 {
+            println!("{} ± {error} of {}", own.value, size * MODULUS);
+        }
+        held += usize::from((own.value - size * MODULUS).abs() <= quantile * error);
+    }
+    println!(
+        "contrast {contrast}, to {} radii: {held} of 100",
+        deepest / RADIUS
+    );
+    held
+}
+
+/// Judge: tetrahedra at finite strain. What is asked of the intervals of 95 %: 90 to 99 of 100; where the base hardly matters,
+/// or elements do most, they are wider, which their bounds are for.
+#[test]
+#[ignore = "some minutes: tetrahedra at finite strain"]
+fn intervals_of_layers_hold_the_truth() {
+    for contrast in [0.1, 0.3, 3.0, 10.0] {
+        let depths = [0.05, 0.3];
+        let curve = of_tetrahedra(contrast, &depths);
+        for deepest in depths {
+            let held = held(contrast, &curve, deepest * RADIUS);
+            assert!(held >= 90, "{contrast} {deepest}: {held}");
+        }
+    }
+}
+
+/// Judge: the forces of a large piece of one tissue, which are tabulated; to 1.5 radii. Tolerance: what elements are off in
+/// both, 0.5 % each.
+#[test]
+fn a_base_like_its_layer_is_no_base() {
+    let deepest = 1.5 * RADIUS;
+    let mut table = Curves::new(Body::under_punch(RADIUS), SoughtLaw::MooneyRivlin, deepest);
+    let of_ratio = RecordingHeader {
+        base_modulus_pa: None,
+        base_modulus_ratio: Some(1.0),
+        ..header(2.0, 1.0)
+    };
+    let body = Body::of(&of_ratio, deepest).unwrap();
+    let mut layer = Curves::new(body, SoughtLaw::MooneyRivlin, deepest);
+    let [expected, found] =
+        [&mut table, &mut layer].map(|curves| curves.of(f64::INFINITY, &[0.0]).unwrap());
+    for part in [0.1, 0.5, 1.0] {
+        let off = found.force.force(part * deepest) / expected.force.force(part * deepest) - 1.0;
+        println!("{part}: {off}");
+        assert!(off.abs() < 0.01, "{off}");
+    }
+}
+
+/// A recording of a layer, as a fit of it gives it: to `deepest` [m], with noise of 0.1 %.
+fn recording(header: RecordingHeader, curve: &IndentationCurve, deepest: f64) -> Recording {
+    let time: Vec<f64> = (0..=600).map(|i| 0.01 * f64::from(i)).collect();
+    let depth: Vec<f64> = time.iter().map(|t| deepest * t.min(1.0)).collect();
+    let mut random = Random::new(7);
+    let most = MODULUS * curve.force(deepest);
+    let series = PronySeries::new(&[(0.3, 0.5)]).unwrap();
+    let forces = curve.relaxed(&series, &time, &depth);
+    let noisy = forces
+        .iter()
+        .map(|f| MODULUS * f + 1e-3 * most * random.normal());
+    let samples = Samples {
+        force_n: noisy.collect(),
+        time_s: time,
+        depth_m: depth,
+    };
+    Recording::new(header, samples).unwrap()
+}
+
+fn settings() -> CharacterizeSettings {
+    CharacterizeSettings {
+        laws: vec![SoughtLaw::NeoHookean],
+        draws: None,
+        ..CharacterizeSettings::default()
+    }
+}
+
+/// Judges: the tissue that forces were made of, by the modulus of the base and by its ratio; and what is known of the base: the
+/// error grows by what the fit changes when another modulus of the base is stated.
+#[test]
+fn a_layer_returns_with_the_error_of_its_base() {
+    let deepest = 0.5 * RADIUS;
+    let stated = header(1.0, 0.2);
+    let by_ratio = RecordingHeader {
+        base_modulus_pa: None,
+        base_modulus_ratio: Some(0.2),
+        ..stated.clone()
+    };
+    let body = Body::of(&by_ratio, deepest).unwrap();
+    let curve = Curves::new(body, SoughtLaw::NeoHookean, deepest).of(1.0, &[]);
+    let curve = curve.unwrap().force;
+    let found = |header: RecordingHeader| {
+        let recording = recording(header, &curve, deepest);
+        let cleaned = clean(&recording, &CleanSettings::default()).unwrap();
+        let all = characterize(&[cleaned], &settings(), &mut |_| ());
+        println!("{:?}", all.warnings);
+        let law = all.laws[0].1.clone().unwrap();
+        let own = law.parameters[0].1;
+        println!("{own:?}, {} runs", law.found.solves);
+        [own.value, own.standard_error.unwrap()]
+    };
+    let [exact, of_noise] = found(stated.clone());
+    let [ratio, _] = found(by_ratio);
+    // Relaxation is found with the elastic force on a base like the layer, which costs 0.3 % of the force; three fourths of the
+    // force are the base's, which makes that four times as much of the modulus.
+    assert!((exact / MODULUS - 1.0).abs() < 0.02, "{exact}");
+    assert!((ratio / MODULUS - 1.0).abs() < 0.01, "{ratio}");
+    let known_to = |error: f64| RecordingHeader {
+        base_modulus_error: Some(error),
+        ..stated.clone()
+    };
+    let [_, with_base] = found(known_to(0.02));
+    let moved = RecordingHeader {
+        base_modulus_pa: stated.base_modulus_pa.map(|own| 1.02 * own),
+        ..stated.clone()
+    };
+    let change = exact - found(moved)[0];
+    let expected = of_noise.hypot(change);
+    println!("{with_base} {expected}: {of_noise} and {change}");
+    // To first order of 2 %, which is 5 % of the modulus.
+    assert!(
+        (with_base / expected - 1.0).abs() < 0.1,
+        "{with_base} {expected}"
+    );
+    assert!(change > of_noise, "{change} {of_noise}");
+}
+
+/// Judge: the factor of a smooth punch on a layer of two radii on a rigid plate [Hayes et al. 1972], 1.94 for ν = ½; over the
+/// half-space's 8 G a. Bonded it is 1.956 (`thickness::…`), and a sphere differs by its friction as well.
+#[test]
+fn friction_is_that_of_the_header() {
+    let depth = 0.01 * RADIUS;
+    let force = |shape: IndenterShape, friction: Option<IndenterFriction>, thickness: f64| {
+        let header = RecordingHeader {
+            indenter_shape: Some(shape),
+            indenter_radius_m: Some(RADIUS),
+            indenter_friction: friction,
+            thickness_m: Some(thickness * RADIUS),
+            ..RecordingHeader::default()
+        };
+        let body = Body::of(&header, depth).unwrap();
+        let mut curves = Curves::new(body, SoughtLaw::NeoHookean, depth);
+        curves.of(f64::INFINITY, &[]).unwrap().force.force(depth)
+    };
+    let [bonded, smooth] = [IndenterFriction::Bonded, IndenterFriction::Frictionless].map(Some);
+    let of_half_space = 8.0 * 2.0 * RADIUS * depth;
+    for (friction, expected) in [(smooth, 1.94), (bonded, 1.956)] {
+        let found = force(IndenterShape::Flat, friction, 2.0) / of_half_space;
+        println!("{friction:?}: {found}");
+        assert!((found / expected - 1.0).abs() < 0.01, "{found} {expected}");
+    }
+    let thin = |friction| force(IndenterShape::Flat, friction, 1.0);
+    assert!(thin(bonded) > 1.005 * thin(smooth));
+    assert_eq!(thin(None), thin(bonded));
+    let of_sphere = |friction| force(IndenterShape::Sphere, friction, 0.05);
+    assert!(of_sphere(bonded) > 1.01 * of_sphere(smooth));
+    assert_eq!(of_sphere(None), of_sphere(smooth));
+}
+
+/// What cannot be is refused with the key to correct.
+#[test]
+fn layers_that_cannot_be_are_refused() {
+    let deepest = 0.5 * RADIUS;
+    let of = |header: RecordingHeader| Body::of(&header, deepest).unwrap_err().to_string();
+    let thin = of(header(0.4, 1.0));
+    assert!(thin.contains("`thickness_m`"), "{thin}");
+    let no_base = RecordingHeader {
+        base_modulus_pa: None,
+        ..header(2.0, 1.0)
+    };
+    assert!(of(no_base).contains("`base_modulus_pa`"));
+    let no_thickness = RecordingHeader {
+        thickness_m: None,
+        ..header(2.0, 1.0)
+    };
+    assert!(of(no_thickness).contains("`thickness_m`"));
+    // A base of a thousandth: whatever the layer is, both cannot be told apart.
+    let body = Body::of(&header(2.0, 1e-4), deepest).unwrap();
+    let mut curves = Curves::new(body, SoughtLaw::NeoHookean, deepest);
+    let (time, depth) = ([0.0, 0.5, 1.0], [0.0, 0.5 * deepest, deepest]);
+    let force = depth.map(|d| 16.0 * MODULUS * RADIUS * d);
+    let pressed = [Indentation {
+        time: &time,
+        depth: &depth,
+        force: &force,
+        zeros: ZeroErrors::default(),
+    }];
+    let error = law_fit(&mut curves, &pressed, &PronySeries::default()).unwrap_err();
+    assert!(matches!(error, Error::BaseTooDifferent { .. }), "{error}");
+    assert!(error.is_input());
+}
