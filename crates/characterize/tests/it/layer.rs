@@ -65,7 +65,7 @@ fn of_tetrahedra(contrast: f64, depths: &[f64]) -> IndentationCurve {
     let problem = |depth: f64| SolidProblem {
         body: Solid::Volume(mesh.clone()),
         anchor: Region {
-            planes: vec![plane.clone()],
+            planes: vec![plane],
             ..Region::default()
         },
         patch: Some(MovedPatch {
