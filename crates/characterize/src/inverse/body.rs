@@ -1,7 +1,7 @@
 use palpate_files::recording::{
     IndenterShape as RecordedShape, RecordingHeader, Specimen, Support,
 };
-use palpate_mechanics::contact::Friction;
+use palpate_mechanics::contact::{Friction, FrictionLaw};
 use palpate_mechanics::finite_elements::indentation::{Base, Block, Indenter, IndenterShape, Side};
 use palpate_mechanics::finite_elements::tube::Tube;
 
@@ -42,13 +42,13 @@ impl Body {
     /// A large piece of a solid organ under a flat punch that tissue sticks to, on its face and its side.
     pub fn under_punch(radius: f64) -> Self {
         let shape = IndenterShape::Flat {
-            side: Side::Touches(Friction::Bonded),
+            side: Side::Touches(FrictionLaw::Bonded),
         };
         let face = Friction::Bonded;
         Self::large(Indenter {
             shape,
             radius,
-            face,
+            face: face.into(),
         })
     }
 
@@ -57,7 +57,7 @@ impl Body {
         Self::large(Indenter {
             shape: IndenterShape::Sphere,
             radius,
-            face: Friction::Frictionless,
+            face: FrictionLaw::Frictionless,
         })
     }
 
@@ -67,7 +67,7 @@ impl Body {
         Self::large(Indenter {
             shape: IndenterShape::Cone { half_angle },
             radius: deepest * half_angle.tan(),
-            face: Friction::Frictionless,
+            face: FrictionLaw::Frictionless,
         })
     }
 

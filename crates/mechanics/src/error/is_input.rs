@@ -37,6 +37,7 @@ impl Error {
             | Self::BlockTooSmall { .. }
             | Self::TissueEntersPunch { .. }
             | Self::SurfaceFolds { .. }
+            | Self::FrictionOutOfRange { .. }
             | Self::ImpossibleDepth { .. }
             | Self::TimesDoNotAscend
             | Self::NotALength { .. }

@@ -64,6 +64,16 @@ pub enum Mismatch {
         /// The surface [m, rad].
         surface: RigidSurface,
     },
+    /// A force of friction that is no number.
+    #[error(
+        "node {node} slides with a tangential force of {force_ratio} times the normal force; give a finite number, 0 without friction"
+    )]
+    ForceRatioOutOfRange {
+        /// The node.
+        node: usize,
+        /// The value given [-].
+        force_ratio: f64,
+    },
     /// A node slides that is also fixed, or slides twice.
     #[error(
         "node {node} slides on a rigid surface and is fixed as well, or slides on two; remove one of the supports"
@@ -124,6 +134,7 @@ impl Mismatch {
             | Self::CavitySide { .. }
             | Self::CannotSlide { .. }
             | Self::SurfaceOutOfRange { .. }
+            | Self::ForceRatioOutOfRange { .. }
             | Self::SlidesAndIsFixed { .. }
             | Self::WrongLength { .. }
             | Self::FirstStepOutOfRange { .. }

@@ -24,6 +24,7 @@ mod errors;
 mod every_law;
 mod exterior;
 mod fibres;
+mod friction;
 mod field;
 mod hexahedra;
 mod homogeneous;

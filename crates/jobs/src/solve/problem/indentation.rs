@@ -1,5 +1,5 @@
 use palpate_files::{Domain, Error, Key, Keys};
-use palpate_mechanics::contact::Friction;
+use palpate_mechanics::contact::{Friction, FrictionLaw};
 use palpate_mechanics::finite_elements::indentation::{
     Base, Block, Indenter, IndenterShape, Relaxing, Side,
 };
@@ -54,8 +54,8 @@ const FACES: &[(&str, Friction)] = &[
 ];
 
 const SIDES: &[(&str, Side)] = &[
-    ("stick", Side::Touches(Friction::Bonded)),
-    ("slide", Side::Touches(Friction::Frictionless)),
+    ("stick", Side::Touches(FrictionLaw::Bonded)),
+    ("slide", Side::Touches(FrictionLaw::Frictionless)),
     ("none", Side::Absent),
 ];
 
@@ -193,7 +193,7 @@ fn indenter(keys: &Keys<'_>, block: &Block) -> Result<Indenter, Error> {
     }
     let shape = match end {
         End::Flat => IndenterShape::Flat {
-            side: side.unwrap_or(Side::Touches(Friction::Bonded)),
+            side: side.unwrap_or(Side::Touches(FrictionLaw::Bonded)),
         },
         End::Sphere => IndenterShape::Sphere,
         End::Cone => {
@@ -206,7 +206,7 @@ fn indenter(keys: &Keys<'_>, block: &Block) -> Result<Indenter, Error> {
     Ok(Indenter {
         shape,
         radius: length_below(&keys, "radius_m", block.radius, "the radius of the block")?,
-        face: keys.word("face", FACES)?.unwrap_or(Friction::Bonded),
+        face: keys.word.into()("face", FACES)?.unwrap_or(Friction::Bonded),
     })
 }
 

@@ -1,6 +1,6 @@
 use palpate_files::Recording;
 use palpate_files::recording::{self, RecordingHeader, Samples, StimulusKind, Support};
-use palpate_mechanics::contact::{Friction, half_space_stiffness, hertz_force, sneddon_force};
+use palpate_mechanics::contact::{Friction, FrictionLaw, half_space_stiffness, hertz_force, sneddon_force};
 use palpate_mechanics::finite_elements::indentation::{
     Base, History, IndentationProblem, IndenterShape, Side, solve, solve_history,
 };
@@ -236,8 +236,8 @@ fn title(case: &Indentation) -> String {
 
 fn heading(case: &Indentation) -> String {
     let face = match case.indenter.face {
-        Friction::Bonded => "sticks",
-        Friction::Frictionless => "slips",
+        FrictionLaw::Bonded => "sticks",
+        FrictionLaw::Frictionless => "slips",
     };
     let how = match case.indenter.shape {
         IndenterShape::Sphere => format!("that {face}"),
@@ -246,8 +246,8 @@ fn heading(case: &Indentation) -> String {
         }
         IndenterShape::Flat { side } => {
             let side = match side {
-                Side::Touches(Friction::Bonded) => "sticks",
-                Side::Touches(Friction::Frictionless) => "slides",
+                Side::Touches(FrictionLaw::Bonded) => "sticks",
+                Side::Touches(FrictionLaw::Frictionless) => "slides",
                 Side::Absent => "is not there",
             };
             format!("(its face {face}, its side {side})")

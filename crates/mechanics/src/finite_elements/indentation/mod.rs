@@ -21,5 +21,7 @@ mod stiffening;
 pub use indenter::{Indenter, IndenterShape, Side};
 pub use mesh::{Base, Block};
 pub use problem::{History, IndentationAnswer, IndentationProblem, Relaxing, solve, solve_history};
-pub use run::{IndentationPoint, IndentationRun, IndentationSettings};
+pub use run::{
+    ContactNode, FrictionalContact, IndentationPoint, IndentationRun, IndentationSettings,
+};
 pub use stiffening::Stiffening;

@@ -1,4 +1,7 @@
 mod contact_update;
+mod frictional_contact;
+
+pub use frictional_contact::{ContactNode, FrictionalContact};
 
 use std::sync::Arc;
 
@@ -9,7 +12,7 @@ use super::super::newton::{self, Failure, SolverControls};
 use super::super::relaxation::{Memory, RelaxationStep};
 use super::super::snap::equilibrate_downhill;
 use super::super::supports::{Sliding, Supports};
-use super::contact::ContactStatus;
+use super::contact::{ContactStatus, Part, Place};
 use super::indenter::{Indenter, IndenterShape};
 use super::mesh::{Base, Block, Body};
 use super::sensitivities::Sensitivities;
@@ -46,6 +49,8 @@ pub struct IndentationPoint {
     pub energy: f64,
     /// Change of the force with each parameter of the law [N per unit], where asked for.
     pub sensitivities: Vec<f64>,
+    /// How the indenter touches, with Coulomb friction.
+    pub friction: Option<FrictionalContact>,
 }
 
 /// An indentation in progress.
@@ -66,6 +71,10 @@ pub struct IndentationRun {
     before: Option<ConvergedIncrement>,
     /// The next step [m].
     step: f64,
+    /// No step is longer [m].
+    longest: f64,
+    /// Whether a part of the indenter has Coulomb friction.
+    has_friction: bool,
 }
 
 /// An equilibrium at a depth.
@@ -88,6 +97,11 @@ const SHORTEST_STEP: f64 = 1e-3;
 const DOWNHILL_STEP: f64 = 0.1;
 /// Rounds of Newton's method and changes of contact at one depth.
 const MOST_CHANGES: usize = 24;
+/// The same with Coulomb friction, where nodes stick and slip too.
+const MOST_CHANGES_WITH_FRICTION: usize = 60;
+/// Longest step with Coulomb friction, in parts of the depth that the mesh is made for [-]: slip depends on the way, and
+/// backward differences of it have an error of the first power of the step.
+const FRICTION_STEP: f64 = 1.0 / 32.0;
 /// Enough to see which nodes touch without friction.
 const ROUGH: SolverControls = SolverControls {
     tolerance: 1e-3,
@@ -146,6 +160,7 @@ impl IndentationRun {
 
     fn in_body(body: Body, settings: &IndentationSettings) -> Result<Self, Error> {
         let indenter = settings.indenter;
+        indenter.check()?;
         let top = body.top;
         if settings.law.has_fibres() {
             let model = "an axisymmetric indentation";
@@ -164,9 +179,20 @@ impl IndentationRun {
         let scale = indenter.scale(settings.deepest);
         let touch = top
             .iter()
-            .map(|&node| indenter.first_touch(model.mesh().nodes[node].x))
+            .map(|&node| {
+                let rest = model.mesh().nodes[node];
+                indenter.first_touch(Place {
+                    radius: rest.x,
+                    above: rest.y,
+                })
+            })
             .collect();
         let relaxes = !settings.prony.terms().is_empty();
+        let has_friction = indenter.coefficients().next().is_some();
+        let longest = match has_friction && settings.deepest > 0.0 {
+            true => FRICTION_STEP * settings.deepest,
+            false => LONGEST_STEP * scale,
+        };
         Ok(Self {
             workspace: FiniteElementWorkspace::new(&model)?,
             indenter,
@@ -183,15 +209,17 @@ impl IndentationRun {
                 slopes: None,
             },
             before: None,
-            step: FIRST_STEP * scale,
+            step: longest.min(FIRST_STEP * scale),
+            longest,
+            has_friction,
             model,
         })
     }
 
     /// Answers also for the change of force with the law's parameters, from now on. Only at rest, and
-    /// for an elastic tissue.
+    /// for an elastic tissue; with Coulomb friction they stay empty.
     pub fn with_sensitivities(mut self) -> Self {
-        self.now.slopes = Some(Sensitivities::at_rest(&self.model));
+        self.now.slopes = (!self.has_friction).then(|| Sensitivities::at_rest(&self.model));
         self
     }
 
@@ -222,11 +250,12 @@ impl IndentationRun {
         let mut gone = 0.0;
         loop {
             let left = length - gone;
-            let step = self.next_step(left);
+            let step = self.next_step(left, depth > from);
             let next = if step >= left { length } else { gone + step };
             let part = if length > 0.0 { next / length } else { 1.0 };
             let goal = |a: f64, b: f64| if part == 1.0 { b } else { a + part * (b - a) };
-            let way = if step > DOWNHILL_STEP * scale {
+            // Friction has no energy to follow downhill.
+            let way = if step > DOWNHILL_STEP * scale || self.has_friction {
                 Way::Straight
             } else {
                 Way::Downhill
@@ -255,8 +284,10 @@ impl IndentationRun {
     }
 
     /// The next step [m] when `left` [m] are left; two equal steps rather than one and a crumb.
-    fn next_step(&self, left: f64) -> f64 {
-        if self.is_linear() || left <= self.step {
+    fn next_step(&self, left: f64, loading: bool) -> f64 {
+        // Under a growing load the face sticks and slips at the same places.
+        let one = self.is_linear() && (loading || !self.has_friction);
+        if one || left <= self.step {
             left
         } else {
             self.step.min(0.5 * left)
@@ -266,8 +297,7 @@ impl IndentationRun {
     /// Sets the next step after one that took this `effort`.
     fn pace(&mut self, step: f64, controls: usize) {
         if controls <= LITTLE_EFFORT {
-            let longest = LONGEST_STEP * self.scale;
-            self.step = (1.5 * step).max(self.step).min(longest);
+            self.step = (1.5 * step).max(self.step).min(self.longest);
         } else if controls > MUCH_EFFORT {
             self.step = 0.7 * step;
         }
@@ -307,6 +337,9 @@ impl IndentationRun {
             sensitivities: self.now.slopes.as_ref().map_or_else(Vec::new, |slopes| {
                 slopes.force(&self.model, &self.now.state, &self.workspace, activated)
             }),
+            friction: self
+                .has_friction
+                .then(|| FrictionalContact::of(&self.contact_nodes())),
         }
     }
 
@@ -342,7 +375,11 @@ impl IndentationRun {
         };
         let mut controls = first;
         let mut released = vec![false; touch.len()];
-        for _ in 0..MOST_CHANGES {
+        let most = match self.has_friction {
+            true => MOST_CHANGES_WITH_FRICTION,
+            false => MOST_CHANGES,
+        };
+        for _ in 0..most {
             let supports = self.supports(&touch, depth, relaxing.as_ref());
             let before = (way == Way::Downhill).then(|| state.clone());
             let workspace = &mut self.workspace;
@@ -377,6 +414,7 @@ impl IndentationRun {
             if let Some(memory) = &mut memory {
                 memory.advance(&self.model, &self.prony, duration, &state);
             }
+            self.note_places(&mut touch, (depth, &state));
             let standing = ConvergedIncrement {
                 time,
                 depth,
@@ -438,22 +476,20 @@ impl IndentationRun {
             let held = &mut supports.held[2 * node..2 * node + 2];
             match *touch {
                 ContactStatus::Free => {}
-                ContactStatus::Bonded { radius } => {
-                    held[0] = Some(radius - at);
-                    held[1] = Some(-depth);
+                ContactStatus::Stuck { at: place, .. } => {
+                    held[0] = Some(place.radius - at);
+                    held[1] = Some((place.above - rest) - depth);
                 }
-                ContactStatus::Stuck { radius, above } => {
-                    held[0] = Some(radius - at);
-                    held[1] = Some(above - depth - rest);
-                }
-                ContactStatus::OnFace => held[1] = Some(-depth),
-                ContactStatus::OnSide => held[0] = Some(self.indenter.radius - at),
                 // On the axis the lowest point is met.
-                ContactStatus::OnSurface if at == 0.0 => held[1] = Some(-depth),
-                ContactStatus::OnSurface => {
-                    let surface = self.indenter.surface(-depth);
-                    let sliding = |surface| Sliding { node, surface };
-                    supports.sliding.extend(surface.map(sliding));
+                ContactStatus::Sliding { .. } if at == 0.0 => held[1] = Some(-depth),
+                ContactStatus::Sliding { part, slip } => {
+                    // A face lies on the surface as it is at rest.
+                    let lowest = if part == Part::Face { rest } else { 0.0 };
+                    supports.sliding.push(Sliding {
+                        node,
+                        surface: self.indenter.surface(part, lowest - depth),
+                        force_ratio: slip.force_ratio,
+                    });
                 }
             }
         }
