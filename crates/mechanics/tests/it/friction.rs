@@ -260,12 +260,13 @@ fn probe() {
 
 #[test]
 fn probe_sphere() {
-    for (nu, mu) in [(0.3, 0.1), (0.3, 0.2), (0.0, 0.3), (0.0, 0.5), (0.45, 0.05)] {
+    for (nu, mu) in [(0.3, 0.2)] {
         let (stick, factor) = Rings::new(nu, 120).solve(mu);
-        for mesh in [0, 1, 2] {
+        for mesh in [1, 2] {
             let law = FrictionLaw::Coulomb(mu);
             let begun = std::time::Instant::now();
-            let sphere = problem(IndenterShape::Sphere, law, linear(nu), HALF_SPACE);
+            let block = Block { radius: 10.0*RADIUS, height: 10.0*RADIUS, base: Base::Bonded };
+            let sphere = problem(IndenterShape::Sphere, law, linear(nu), block);
             let depth = 1e-4 * RADIUS;
             let found = point(&sphere, depth, mesh);
             let FrictionalContact { contact_radius, stick_radius, .. } = found.friction.unwrap();

@@ -75,6 +75,8 @@ pub struct IndentationRun {
     longest: f64,
     /// Whether a part of the indenter has Coulomb friction.
     has_friction: bool,
+    /// Whether the indenter never went back.
+    only_deeper: bool,
 }
 
 /// An equilibrium at a depth.
@@ -212,6 +214,7 @@ impl IndentationRun {
             step: longest.min(FIRST_STEP * scale),
             longest,
             has_friction,
+            only_deeper: true,
             model,
         })
     }
@@ -245,12 +248,14 @@ impl IndentationRun {
         mut at_step: impl FnMut(&IndentationPoint),
     ) -> Result<IndentationPoint, Error> {
         let scale = self.scale;
+        let shortest = (SHORTEST_STEP * scale).min(SHORTEST_STEP / LONGEST_STEP * self.longest);
         let (start, from) = (self.now.time, self.now.depth);
         let length = (depth - from).abs();
+        self.only_deeper &= depth >= from;
         let mut gone = 0.0;
         loop {
             let left = length - gone;
-            let step = self.next_step(left, depth > from);
+            let step = self.next_step(left);
             let next = if step >= left { length } else { gone + step };
             let part = if length > 0.0 { next / length } else { 1.0 };
             let goal = |a: f64, b: f64| if part == 1.0 { b } else { a + part * (b - a) };
@@ -272,7 +277,7 @@ impl IndentationRun {
                         return Ok(point);
                     }
                 }
-                Err(_) if step > SHORTEST_STEP * scale => self.step = 0.5 * step,
+                Err(_) if step > shortest => self.step = 0.5 * step,
                 Err(failure) => {
                     return Err(Error::NoEquilibrium {
                         depth: self.now.depth,
@@ -284,9 +289,9 @@ impl IndentationRun {
     }
 
     /// The next step [m] when `left` [m] are left; two equal steps rather than one and a crumb.
-    fn next_step(&self, left: f64, loading: bool) -> f64 {
+    fn next_step(&self, left: f64) -> f64 {
         // Under a growing load the face sticks and slips at the same places.
-        let one = self.is_linear() && (loading || !self.has_friction);
+        let one = self.is_linear() && (self.only_deeper || !self.has_friction);
         if one || left <= self.step {
             left
         } else {
@@ -339,7 +344,7 @@ impl IndentationRun {
             }),
             friction: self
                 .has_friction
-                .then(|| FrictionalContact::of(&self.contact_nodes())),
+                .then(|| self.frictional_contact()),
         }
     }
 

@@ -1,6 +1,7 @@
 //! Where an indenter with Coulomb friction sticks and slips, and with which forces.
 
-use super::super::contact::{ContactStatus, Place};
+use super::super::contact::ContactStatus;
+use super::super::indenter::IndenterShape;
 use super::{FiniteElementState, IndentationRun};
 use crate::contact::FrictionLaw;
 
@@ -23,36 +24,51 @@ pub struct ContactNode {
 /// How an indenter with Coulomb friction touches.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrictionalContact {
-    /// Distance from the axis of the outermost node that touches, deformed [m].
+    /// Radius of the circle that touches, deformed [m]: to the last node that touches, and of a sphere or a cone half way
+    /// to the next, so that it is known to half the distance of nodes.
     pub contact_radius: f64,
     /// Radius of the circle in which tissue sticks [m]: half way from the last node that sticks to the first that slips,
-    /// from the axis outward, so that it is known to half the distance of nodes.
+    /// from the axis outward; as the radius of the contact where all stick.
     pub stick_radius: f64,
     /// Sum of the tangential forces over the whole contact, away from the axis along the surface [N]. They hold each other
     /// across the axis.
     pub tangential_force: f64,
 }
 
-impl FrictionalContact {
-    /// From the nodes that touch, from the axis outward.
-    pub(super) fn of(nodes: &[ContactNode]) -> Self {
-        let slip = nodes.iter().position(|node| !node.sticks);
+impl IndentationRun {
+    /// How the indenter touches now, with the forces of the last assembly.
+    pub(super) fn frictional_contact(&self) -> FrictionalContact {
+        let nodes = self.contact_nodes();
         let radius = |place: usize| nodes.get(place).map_or(0.0, |node| node.radius);
         let last = radius(nodes.len().saturating_sub(1));
-        Self {
-            contact_radius: last,
+        let slip = nodes.iter().position(|node| !node.sticks);
+        let next = self.top.iter().zip(&self.now.touch).rev();
+        let next = next.take_while(|(_, touch)| **touch == ContactStatus::Free);
+        let next = next.last().map(|(&node, _)| {
+            let place = self.place(&self.now.state, node, self.now.depth);
+            place.radius
+        });
+        let contact_radius = match (self.indenter.shape, next) {
+            (IndenterShape::Sphere | IndenterShape::Cone { .. }, Some(next))
+                if !nodes.is_empty() =>
+            {
+                0.5 * (last + next)
+            }
+            _ => last,
+        };
+        FrictionalContact {
+            contact_radius,
             stick_radius: match slip {
-                None => last,
+                None => contact_radius,
                 // The axis cannot slip.
                 Some(0 | 1) => 0.0,
                 Some(slip) => 0.5 * (radius(slip - 1) + radius(slip)),
             },
-            tangential_force: nodes.iter().map(|node| node.tangential_force).sum(),
+            // Not the −0 of nothing.
+            tangential_force: 0.0 + nodes.iter().map(|node| node.tangential_force).sum::<f64>(),
         }
     }
-}
 
-impl IndentationRun {
     /// The nodes that touch the indenter, from the axis outward, with the forces of the last assembly.
     pub fn contact_nodes(&self) -> Vec<ContactNode> {
         let depth = self.now.depth;
@@ -89,8 +105,7 @@ impl IndentationRun {
     ) {
         for (&node, touch) in self.top.iter().zip(touch) {
             if let ContactStatus::Sliding { slip, .. } = touch {
-                let place: Place = self.place(state, node, depth);
-                slip.from = place;
+                slip.from = self.place(state, node, depth);
             }
         }
     }
