@@ -11,7 +11,7 @@
     reason = "a bench that fails to unwrap has failed, and tells more than times"
 )]
 
-use palpate_mechanics::contact::{Friction, FrictionLaw};
+use palpate_mechanics::contact::FrictionLaw;
 use std::hint::black_box;
 use std::sync::Arc;
 use std::time::Instant;

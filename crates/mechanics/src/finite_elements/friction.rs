@@ -138,7 +138,9 @@ fn gmres(
         }
         if residual <= SMALL * length || step + 1 == size {
             let each = basis.iter().zip(parts.iter());
-            return Ok(each.fold(DVector::zeros(size), |sum, (known, part)| sum + known * *part));
+            return Ok(each.fold(DVector::zeros(size), |sum, (known, part)| {
+                sum + known * *part
+            }));
         }
         basis.push(next / left);
     }
@@ -190,15 +192,22 @@ mod tests {
         let model = FiniteElementModel::new(mesh, law, Formulation::Displacement).unwrap();
         let nodes = &model.mesh().nodes;
         let at = |r: f64, z: f64| {
-            let near = |x: &crate::Vec3| (x.x - r).abs() + (x.y - (z + 0.1 * r * r - 1.1)).abs() < 1e-9;
+            let near =
+                |x: &crate::Vec3| (x.x - r).abs() + (x.y - (z + 0.1 * r * r - 1.1)).abs() < 1e-9;
             nodes.iter().position(near).unwrap()
         };
         let axis = model.mesh().nodes_where(|x| x.x == 0.0);
         let bottom = [0.0, 0.15, 0.3, 0.5, 0.7, 0.85, 1.0].map(|r| at(r, 0.0));
         let mut supports = Supports::none(&model).hold(&model, axis, 0, 0.0);
         supports = supports.hold(&model, bottom, 1, 0.0);
-        let sphere = RigidSurface::Sphere { center: 1.95, radius: 2.0 };
-        let cone = RigidSurface::Cone { apex: -0.3, half_angle: 1.2 };
+        let sphere = RigidSurface::Sphere {
+            center: 1.95,
+            radius: 2.0,
+        };
+        let cone = RigidSurface::Cone {
+            apex: -0.3,
+            half_angle: 1.2,
+        };
         let plane = RigidSurface::Plane { height: -0.08 };
         let cylinder = RigidSurface::Cylinder { radius: 0.95 };
         let slides = [
@@ -210,7 +219,11 @@ mod tests {
             (at(1.0, 0.5), cylinder, 1.5),
         ];
         supports.sliding = slides
-            .map(|(node, surface, force_ratio)| Sliding { node, surface, force_ratio })
+            .map(|(node, surface, force_ratio)| Sliding {
+                node,
+                surface,
+                force_ratio,
+            })
             .to_vec();
         supports.check(&model).unwrap();
         let mut workspace = FiniteElementWorkspace::new(&model).unwrap();

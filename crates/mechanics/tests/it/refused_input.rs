@@ -111,7 +111,7 @@ fn a_node_slides_on_a_sphere_only_in_axisymmetry() {
             center: 2.0,
             radius: 1.0,
         },
-            force_ratio: 0.0,
+        force_ratio: 0.0,
     };
     for kind in [ElementKind::Hex27, ElementKind::Tet10] {
         let mut body = body(kind);
@@ -135,7 +135,7 @@ fn a_node_slides_on_a_sphere_only_in_axisymmetry() {
             center: 2.0,
             radius: 0.0,
         },
-            force_ratio: 0.0,
+        force_ratio: 0.0,
     };
     assert!(matches!(
         with(&[on(nodes)]),
@@ -160,7 +160,7 @@ fn a_path_refuses_what_slides_and_a_first_step_of_nothing() {
             center: 2.0,
             radius: 1.0,
         },
-            force_ratio: 0.0,
+        force_ratio: 0.0,
     });
     let refused = Path::new(model, supports, 0.1).unwrap_err();
     assert_eq!(refused, Error::from(Mismatch::CannotSlide { node }));

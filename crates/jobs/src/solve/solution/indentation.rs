@@ -1,13 +1,17 @@
 use palpate_files::Recording;
 use palpate_files::recording::{self, RecordingHeader, Samples, StimulusKind, Support};
-use palpate_mechanics::contact::{Friction, FrictionLaw, half_space_stiffness, hertz_force, sneddon_force};
+use palpate_mechanics::contact::{
+    Friction, FrictionLaw, half_space_stiffness, hertz_force, sneddon_force,
+};
 use palpate_mechanics::finite_elements::indentation::{
-    Base, History, IndentationProblem, IndenterShape, Side, solve, solve_history,
+    Base, History, IndentationPoint, IndentationProblem, IndenterShape, Side, solve, solve_history,
 };
 
 use super::super::problem::{Indentation, Loading, Problem, Ramp};
 use super::super::table::Table;
-use super::{Figures, Solution, Wanted, field, millimetres, millinewtons, plots, warnings};
+use super::{
+    Figures, FrictionFigures, Solution, Wanted, field, millimetres, millinewtons, plots, warnings,
+};
 use crate::Error;
 use crate::VERSION;
 use crate::plot::Plot;
@@ -55,7 +59,12 @@ fn at_depths(
     let table = Table::default()
         .with("depth [mm]", millimetres(depths))
         .with("force [mN]", millinewtons(&forces))
-        .with("half-space [mN]", depths.iter().map(|&d| 1e3 * closed(d)));
+        .with(
+            &format!("{} [mN]", half_space(case)),
+            depths.iter().map(|&d| 1e3 * closed(d)),
+        );
+    let friction = friction(&found.answer.points);
+    let table = with_friction(table, friction.as_ref());
     Ok(Solution {
         heading: heading(case),
         tables: vec![table],
@@ -64,6 +73,7 @@ fn at_depths(
             depth_m: depths.to_vec(),
             force_n: forces,
             time_s: None,
+            friction,
         },
         unknowns: found.answer.unknowns,
         estimated_error: found.error,
@@ -98,8 +108,13 @@ fn in_time(
     let table = Table::default()
         .with("time [s]", times.iter().copied())
         .with("depth [mm]", millimetres(&depths))
-        .with("force [mN]", millinewtons(&forces))
-        .keeping_the_peak(&forces);
+        .with("force [mN]", millinewtons(&forces));
+    let sampled: Vec<_> = wanted
+        .iter()
+        .map(|&k| found.answer.points[k].clone())
+        .collect();
+    let friction = friction(&sampled);
+    let table = with_friction(table, friction.as_ref()).keeping_the_peak(&forces);
     let mut warnings = found.warnings;
     warnings.extend(warnings::of_depths(
         problem,
@@ -126,6 +141,7 @@ fn in_time(
             depth_m: depths,
             force_n: forces,
             time_s: Some(times),
+            friction,
         },
         unknowns: found.answer.unknowns,
         estimated_error: found.error,
@@ -133,6 +149,33 @@ fn in_time(
         warnings,
         vtu: None,
     })
+}
+
+/// How the indenter touches at each point, where it has Coulomb friction at all of them.
+fn friction(points: &[IndentationPoint]) -> Option<FrictionFigures> {
+    let contacts: Option<Vec<_>> = points.iter().map(|point| point.friction).collect();
+    let contacts = contacts.filter(|contacts| !contacts.is_empty())?;
+    Some(FrictionFigures {
+        contact_radius_m: contacts.iter().map(|c| c.contact_radius).collect(),
+        stick_radius_m: contacts.iter().map(|c| c.stick_radius).collect(),
+        tangential_force_n: contacts.iter().map(|c| c.tangential_force).collect(),
+    })
+}
+
+fn with_friction(table: Table, friction: Option<&FrictionFigures>) -> Table {
+    match friction {
+        None => table,
+        Some(friction) => table
+            .with(
+                "contact radius [mm]",
+                millimetres(&friction.contact_radius_m),
+            )
+            .with("stick radius [mm]", millimetres(&friction.stick_radius_m))
+            .with(
+                "tangential [mN]",
+                millinewtons(&friction.tangential_force_n),
+            ),
+    }
 }
 
 impl Ramp {
@@ -206,13 +249,26 @@ pub(super) fn mechanical(problem: &Problem, case: &Indentation) -> IndentationPr
     }
 }
 
-/// What the same indenter meets on a half-space at small strain [N].
+/// What the same indenter meets on a half-space at small strain [N]; with Coulomb friction, for which there is no closed
+/// form, what it meets without.
 fn half_space_force(problem: &Problem, case: &Indentation, depth: f64) -> f64 {
     let (law, radius) = (&problem.material.at_rest, case.indenter.radius);
+    let friction = match case.indenter.face {
+        FrictionLaw::Bonded => Friction::Bonded,
+        FrictionLaw::Frictionless | FrictionLaw::Coulomb(_) => Friction::Frictionless,
+    };
     match case.indenter.shape {
         IndenterShape::Sphere => hertz_force(law, radius, depth),
-        IndenterShape::Flat { .. } => depth * half_space_stiffness(law, radius, case.indenter.face),
+        IndenterShape::Flat { .. } => depth * half_space_stiffness(law, radius, friction),
         IndenterShape::Cone { half_angle } => sneddon_force(law, half_angle, depth),
+    }
+}
+
+/// What that is called.
+fn half_space(case: &Indentation) -> &'static str {
+    match case.indenter.face {
+        FrictionLaw::Coulomb(_) => "half-space without friction",
+        FrictionLaw::Bonded | FrictionLaw::Frictionless => "half-space",
     }
 }
 
@@ -235,10 +291,12 @@ fn title(case: &Indentation) -> String {
 }
 
 fn heading(case: &Indentation) -> String {
-    let face = match case.indenter.face {
-        FrictionLaw::Bonded => "sticks",
-        FrictionLaw::Frictionless => "slips",
+    let surface = |friction, slides: &str| match friction {
+        FrictionLaw::Bonded => "sticks".to_owned(),
+        FrictionLaw::Frictionless => slides.to_owned(),
+        FrictionLaw::Coulomb(coefficient) => format!("has friction {coefficient}"),
     };
+    let face = surface(case.indenter.face, "slips");
     let how = match case.indenter.shape {
         IndenterShape::Sphere => format!("that {face}"),
         IndenterShape::Cone { half_angle } => {
@@ -246,9 +304,8 @@ fn heading(case: &Indentation) -> String {
         }
         IndenterShape::Flat { side } => {
             let side = match side {
-                Side::Touches(FrictionLaw::Bonded) => "sticks",
-                Side::Touches(FrictionLaw::Frictionless) => "slides",
-                Side::Absent => "is not there",
+                Side::Touches(friction) => surface(friction, "slides"),
+                Side::Absent => "is not there".to_owned(),
             };
             format!("(its face {face}, its side {side})")
         }
@@ -282,7 +339,7 @@ fn over_depth(
         series: vec![
             plots::dotted_line("finite elements", points),
             plots::closed_form(
-                "half-space at small strain, closed form",
+                &format!("{} at small strain, closed form", half_space(case)),
                 along.map(|depth| (1e3 * depth, 1e3 * closed(depth))),
             ),
         ],

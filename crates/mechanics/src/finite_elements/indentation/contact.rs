@@ -184,8 +184,13 @@ impl Indenter {
     /// with `force` [N], (r, z).
     pub(super) fn lets_go(&self, touch: ContactStatus, place: Place, force: [f64; 2]) -> bool {
         let (part, slides) = match touch {
-            ContactStatus::Free | ContactStatus::Stuck { part: Part::Face, .. } => return false,
-            ContactStatus::Sliding { part: Part::Face, .. } => return false,
+            ContactStatus::Free
+            | ContactStatus::Stuck {
+                part: Part::Face, ..
+            } => return false,
+            ContactStatus::Sliding {
+                part: Part::Face, ..
+            } => return false,
             ContactStatus::Stuck { part, .. } => (part, false),
             ContactStatus::Sliding { part, .. } => (part, true),
         };

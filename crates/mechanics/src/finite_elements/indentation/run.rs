@@ -342,9 +342,7 @@ impl IndentationRun {
             sensitivities: self.now.slopes.as_ref().map_or_else(Vec::new, |slopes| {
                 slopes.force(&self.model, &self.now.state, &self.workspace, activated)
             }),
-            friction: self
-                .has_friction
-                .then(|| self.frictional_contact()),
+            friction: self.has_friction.then(|| self.frictional_contact()),
         }
     }
 
