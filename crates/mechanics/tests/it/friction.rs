@@ -61,7 +61,7 @@ fn point(problem: &IndentationProblem, depth: f64, mesh: usize) -> IndentationPo
 
 const NO_SIDE: IndenterShape = IndenterShape::Flat { side: Side::Absent };
 
-/// Complete elliptic integrals K and E of 1 − m = `rest`, by the arithmetic-geometric mean [Abramowitz and Stegun 1964].
+/// Complete elliptic integrals K and E of 1 − m = `rest`, by the arithmetic-geometric mean.
 fn elliptic(rest: f64) -> (f64, f64) {
     let (mut a, mut g, mut sum, mut factor) =
         (1.0, rest.max(1e-15).sqrt(), 0.5 * (1.0 - rest), 1.0);
@@ -274,11 +274,22 @@ fn rings_meet_closed_forms() {
 /// distance of nodes takes 2.5 %; of the force 0.2 %, twice the error without friction on this mesh.
 #[test]
 fn a_flat_punch_sticks_as_far_as_spence_says() {
+    sticks_as_spence_says(3, 0.03, 2e-3);
+}
+
+/// The same on the finest mesh. Tolerance: 2 %, of which the distance of nodes takes 1.6 %; of the force 0.1 %.
+#[test]
+#[ignore = "slow: a minute"]
+fn the_finest_punch_sticks_as_far_as_spence_says() {
+    sticks_as_spence_says(4, 0.02, 1e-3);
+}
+
+fn sticks_as_spence_says(mesh: usize, tolerance: f64, of_force: f64) {
     let depth = 1e-2 * RADIUS;
     for (nu, mu) in [(0.0, 0.3), (0.3, 0.2), (0.45, 0.05)] {
         let (stick, factor) = Rings::new(nu, 120).solve(mu);
         let law = FrictionLaw::Coulomb(mu);
-        let found = point(&problem(NO_SIDE, law, linear(nu), HALF_SPACE), depth, 3);
+        let found = point(&problem(NO_SIDE, law, linear(nu), HALF_SPACE), depth, mesh);
         let force = 2.0 * YOUNG * RADIUS * depth / (1.0 - nu * nu) * factor;
         let contact = found.friction.unwrap();
         let part = contact.stick_radius / contact.contact_radius;
@@ -287,12 +298,12 @@ fn a_flat_punch_sticks_as_far_as_spence_says() {
             found.force / force
         );
         assert!(
-            (part / stick - 1.0).abs() < 0.03,
+            (part / stick - 1.0).abs() < tolerance,
             "{nu} {mu}: {part} {stick}"
         );
-        assert!((found.force / force - 1.0).abs() < 2e-3, "{nu} {mu}");
+        assert!((found.force / force - 1.0).abs() < of_force, "{nu} {mu}");
         if nu == 0.45 {
-            assert!((part / uncoupled(mu, nu) - 1.0).abs() < 0.03, "{part}");
+            assert!((part / uncoupled(mu, nu) - 1.0).abs() < tolerance, "{part}");
         }
     }
 }
@@ -392,7 +403,7 @@ fn no_node_leaves_the_cone_of_friction() {
     };
     let mut slipped = 0;
     for case in 0..12 {
-        let mu = 1.2 * random.next();
+        let mu = 0.4 * random.next();
         let law: Arc<dyn Law> = match case % 3 {
             0 => linear(0.4 * random.next()),
             1 => Arc::new(NeoHookean::compressible(1000.0, 5000.0 + 5e4 * random.next()).unwrap()),
@@ -408,8 +419,9 @@ fn no_node_leaves_the_cone_of_friction() {
         let deepest = 0.2 * RADIUS;
         let problem = problem(shape, FrictionLaw::Coulomb(mu), law, block);
         let mut run = problem.run(&PronySeries::default(), deepest, 0).unwrap();
-        for target in [0.3 + 0.4 * random.next(), 0.2 * random.next() + 0.1, 1.0] {
-            let depth = target * deepest;
+        let targets = (1..=6).chain((2..6).rev()).chain(3..=6);
+        for target in targets {
+            let depth = (f64::from(target) - 0.9 * random.next()) / 6.0 * deepest;
             let end = run.press(depth, depth, |_| {});
             end.unwrap_or_else(|error| panic!("case {case}, {shape:?}, mu {mu}: {error}"));
             let nodes = run.contact_nodes();
@@ -432,7 +444,8 @@ fn no_node_leaves_the_cone_of_friction() {
             }
         }
     }
-    assert!(slipped > 50, "{slipped}");
+    println!("{slipped} slipped");
+    assert!(slipped > 200, "{slipped}");
 }
 
 /// Judge: energy. What a way in and out takes is what friction has spent, and without friction nothing; the trapezoidal
@@ -448,14 +461,14 @@ fn a_cycle_costs_what_slips() {
         let problem = problem(IndenterShape::Sphere, face, linear(0.0), block);
         let deepest = 0.01 * RADIUS;
         let mut run = problem.run(&PronySeries::default(), deepest, 0).unwrap();
-        let (mut work, mut most, mut before) = (0.0, 0.0_f64, (0.0, 0.0));
-        let way = (1..=64).chain((0..64).rev());
-        for step in way {
-            let depth = deepest * f64::from(step) / 64.0;
-            let force = run.press(depth, depth, |_| {}).unwrap().force;
-            work += 0.5 * (force + before.1) * (depth - before.0);
+        let to = |step: i32| deepest * f64::from(step) / 64.0;
+        let mut before = run.press(0.0, to(4), |_| {}).unwrap();
+        let (mut work, mut most) = (0.0, 0.0_f64);
+        for step in (5..=64).chain((4..64).rev()) {
+            let now = run.press(0.0, to(step), |_| {}).unwrap();
+            work += 0.5 * (now.force + before.force) * (now.depth - before.depth);
             most = most.max(work);
-            before = (depth, force);
+            before = now;
         }
         work / most
     };

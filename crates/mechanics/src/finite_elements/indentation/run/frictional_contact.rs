@@ -3,12 +3,13 @@
 use super::super::contact::ContactStatus;
 use super::super::indenter::IndenterShape;
 use super::{FiniteElementState, IndentationRun};
+use crate::Strain;
 use crate::contact::FrictionLaw;
 
 /// A node of the surface that touches the indenter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactNode {
-    /// Its distance from the axis, deformed [m].
+    /// Its distance from the axis [m]: deformed, but at rest with a law for small strain.
     pub radius: f64,
     /// The force of the indenter on it along the indenter's outward normal, over the whole ring [N].
     pub normal_force: f64,
@@ -24,7 +25,7 @@ pub struct ContactNode {
 /// How an indenter with Coulomb friction touches.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrictionalContact {
-    /// Radius of the circle that touches, deformed [m]: to the last node that touches, and of a sphere or a cone half way
+    /// Radius of the circle that touches [m], in which nodes are where [`ContactNode::radius`] says: to the last node that touches, and of a sphere or a cone half way
     /// to the next, so that it is known to half the distance of nodes.
     pub contact_radius: f64,
     /// Radius of the circle in which tissue sticks [m]: half way from the last node that sticks to the first that slips,
@@ -44,10 +45,7 @@ impl IndentationRun {
         let slip = nodes.iter().position(|node| !node.sticks);
         let next = self.top.iter().zip(&self.now.touch).rev();
         let next = next.take_while(|(_, touch)| **touch == ContactStatus::Free);
-        let next = next.last().map(|(&node, _)| {
-            let place = self.place(&self.now.state, node, self.now.depth);
-            place.radius
-        });
+        let next = next.last().map(|(&node, _)| self.radius_of(node));
         let contact_radius = match (self.indenter.shape, next) {
             (IndenterShape::Sphere | IndenterShape::Cone { .. }, Some(next))
                 if !nodes.is_empty() =>
@@ -79,7 +77,7 @@ impl IndentationRun {
             let beside = self.indenter.beside(part, place);
             let [normal_force, tangential_force] = beside.components(self.force_on(node));
             Some(ContactNode {
-                radius: place.radius,
+                radius: self.radius_of(node),
                 normal_force,
                 // On the axis the radial force is that of symmetry.
                 tangential_force: if place.radius > 0.0 {
@@ -95,6 +93,14 @@ impl IndentationRun {
             })
         })
         .collect()
+    }
+
+    /// As [`ContactNode::radius`].
+    fn radius_of(&self, node: usize) -> f64 {
+        match self.model.law.volume().strain {
+            Strain::Small => self.model.mesh().nodes[node].x,
+            Strain::Finite => self.place(&self.now.state, node, self.now.depth).radius,
+        }
     }
 
     /// Notes where nodes that slide are at an equilibrium: from there they slip next.
