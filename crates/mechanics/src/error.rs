@@ -209,14 +209,6 @@ pub enum Error {
         /// Radius of the indenter [m].
         indenter: f64,
     },
-    /// A coefficient that no friction has.
-    #[error(
-        "an indenter with a coefficient of friction of {coefficient}; give a finite number that is not negative"
-    )]
-    FrictionOutOfRange {
-        /// The coefficient [-].
-        coefficient: f64,
-    },
     /// Without a side, the punch would have tissue inside it.
     #[error(
         "tissue enters the punch at a depth of {depth} m, where a punch without a side means nothing; let its side stick or slide"

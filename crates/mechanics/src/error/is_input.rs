@@ -37,7 +37,6 @@ impl Error {
             | Self::BlockTooSmall { .. }
             | Self::TissueEntersPunch { .. }
             | Self::SurfaceFolds { .. }
-            | Self::FrictionOutOfRange { .. }
             | Self::ImpossibleDepth { .. }
             | Self::TimesDoNotAscend
             | Self::NotALength { .. }

@@ -74,6 +74,14 @@ pub enum Mismatch {
         /// The value given [-].
         force_ratio: f64,
     },
+    /// A coefficient that no friction has.
+    #[error(
+        "an indenter with a coefficient of friction of {coefficient}; give a finite number that is not negative"
+    )]
+    FrictionOutOfRange {
+        /// The coefficient [-].
+        coefficient: f64,
+    },
     /// A node slides that is also fixed, or slides twice.
     #[error(
         "node {node} slides on a rigid surface and is fixed as well, or slides on two; remove one of the supports"
@@ -135,6 +143,7 @@ impl Mismatch {
             | Self::CannotSlide { .. }
             | Self::SurfaceOutOfRange { .. }
             | Self::ForceRatioOutOfRange { .. }
+            | Self::FrictionOutOfRange { .. }
             | Self::SlidesAndIsFixed { .. }
             | Self::WrongLength { .. }
             | Self::FirstStepOutOfRange { .. }

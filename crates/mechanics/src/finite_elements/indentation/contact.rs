@@ -108,6 +108,21 @@ impl Indenter {
         }
     }
 
+    /// Coulomb's coefficient that bounds the force on a node [-]: none on a sharp edge whose side touches, which is on both
+    /// and does not let the node go around it.
+    pub(super) fn coefficient_of(&self, touch: ContactStatus) -> Option<f64> {
+        let part = touch.part()?;
+        let on_edge = match touch {
+            ContactStatus::Stuck { at, .. } => at.radius >= self.radius * (1.0 - 1e-9),
+            ContactStatus::Sliding { .. } | ContactStatus::Free => false,
+        };
+        let has_side = self.shape != (IndenterShape::Flat { side: Side::Absent });
+        match part == Part::Face && on_edge && has_side {
+            true => None,
+            false => self.coefficient(part),
+        }
+    }
+
     /// Coulomb's coefficients of what can touch [-].
     pub(super) fn coefficients(&self) -> impl Iterator<Item = f64> {
         [Part::Face, Part::of(self.shape)]
@@ -211,7 +226,7 @@ impl Indenter {
         tolerances: Tolerances,
     ) -> Option<ContactStatus> {
         let part = touch.part()?;
-        let coefficient = self.coefficient(part)?;
+        let coefficient = self.coefficient_of(touch)?;
         let beside = self.beside(part, place);
         let [normal, tangential] = beside.components(force);
         match touch {

@@ -1,6 +1,6 @@
 use std::f64::consts::FRAC_2_PI;
 
-use crate::Error;
+use super::super::mismatch::Mismatch;
 use crate::contact::FrictionLaw;
 
 /// What the side of a flat punch does.
@@ -41,10 +41,10 @@ pub struct Indenter {
 }
 
 impl Indenter {
-    pub(super) fn check(&self) -> Result<(), Error> {
+    pub(super) fn check(&self) -> Result<(), Mismatch> {
         let impossible = |coefficient: &f64| !(coefficient.is_finite() && *coefficient >= 0.0);
         match self.coefficients().find(impossible) {
-            Some(coefficient) => Err(Error::FrictionOutOfRange { coefficient }),
+            Some(coefficient) => Err(Mismatch::FrictionOutOfRange { coefficient }),
             None => Ok(()),
         }
     }

@@ -4,9 +4,10 @@
 //! goes step by step on one mesh.
 //!
 //! *How we know*: `indentation::…`: closed forms of punch and sphere, F = dE/dd, the two values of a
-//! bonded punch in an incompressible neo-Hookean block, refined runs, runs with moved parameters.
+//! bonded punch in an incompressible neo-Hookean block, refined runs, runs with moved parameters; `friction::…`: Spence's
+//! partial slip, both limits, the cone at every node.
 //!
-//! *Limits*: axisymmetric; sharp edge; no friction but none and infinite. A face that slides folds the
+//! *Limits*: axisymmetric; sharp edge; one coefficient of friction, static as kinetic. A face that slides folds the
 //! surface under it at some depth, and what lies beyond is refused.
 
 mod contact;

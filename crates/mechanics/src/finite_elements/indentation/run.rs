@@ -1,5 +1,6 @@
 mod contact_update;
 mod frictional_contact;
+mod supports;
 
 pub use frictional_contact::{ContactNode, FrictionalContact};
 
@@ -11,8 +12,8 @@ use super::super::model::{
 use super::super::newton::{self, Failure, SolverControls};
 use super::super::relaxation::{Memory, RelaxationStep};
 use super::super::snap::equilibrate_downhill;
-use super::super::supports::{Sliding, Supports};
-use super::contact::{ContactStatus, Part, Place};
+use super::super::supports::Supports;
+use super::contact::{ContactStatus, Place};
 use super::indenter::{Indenter, IndenterShape};
 use super::mesh::{Base, Block, Body};
 use super::sensitivities::Sensitivities;
@@ -455,47 +456,5 @@ impl IndentationRun {
         }
         newton::assemble(&self.model, &supports, &state.unknowns, workspace)?;
         Ok(state)
-    }
-
-    fn supports<'a>(
-        &self,
-        touch: &[ContactStatus],
-        depth: f64,
-        relaxing: Option<&'a RelaxationStep>,
-    ) -> Supports<'a> {
-        let mut supports = Supports {
-            held: self.rest.clone(),
-            sliding: Vec::new(),
-            pressure: None,
-            dead_load: None,
-            relaxing,
-            stray: None,
-        };
-        for (&node, touch) in self.top.iter().zip(touch) {
-            let (at, rest) = (
-                self.model.mesh().nodes[node].x,
-                self.model.mesh().nodes[node].y,
-            );
-            let held = &mut supports.held[2 * node..2 * node + 2];
-            match *touch {
-                ContactStatus::Free => {}
-                ContactStatus::Stuck { at: place, .. } => {
-                    held[0] = Some(place.radius - at);
-                    held[1] = Some((place.above - rest) - depth);
-                }
-                // On the axis the lowest point is met.
-                ContactStatus::Sliding { .. } if at == 0.0 => held[1] = Some(-depth),
-                ContactStatus::Sliding { part, slip } => {
-                    // A face lies on the surface as it is at rest.
-                    let lowest = if part == Part::Face { rest } else { 0.0 };
-                    supports.sliding.push(Sliding {
-                        node,
-                        surface: self.indenter.surface(part, lowest - depth),
-                        force_ratio: slip.force_ratio,
-                    });
-                }
-            }
-        }
-        supports
     }
 }

@@ -4,7 +4,6 @@ use super::super::contact::ContactStatus;
 use super::super::indenter::IndenterShape;
 use super::{FiniteElementState, IndentationRun};
 use crate::Strain;
-use crate::contact::FrictionLaw;
 
 /// A node of the surface that touches the indenter.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,7 +15,8 @@ pub struct ContactNode {
     /// The force of the indenter on it along the tangent (−n_z, n_r) of that normal, over the whole ring [N]: outward on a
     /// face, along the meridian away from the lowest point on a sphere or a cone.
     pub tangential_force: f64,
-    /// Coulomb's coefficient where it touches [-]; none where the friction is of another kind.
+    /// Coulomb's coefficient where it touches [-]; none where the friction is of another kind, and on a sharp edge whose
+    /// side touches.
     pub coefficient: Option<f64>,
     /// Whether it moves with the indenter.
     pub sticks: bool,
@@ -85,10 +85,7 @@ impl IndentationRun {
                 } else {
                     0.0
                 },
-                coefficient: match self.indenter.friction(part) {
-                    FrictionLaw::Coulomb(coefficient) => Some(coefficient),
-                    FrictionLaw::Bonded | FrictionLaw::Frictionless => None,
-                },
+                coefficient: self.indenter.coefficient_of(*touch),
                 sticks: matches!(touch, ContactStatus::Stuck { .. }),
             })
         })
