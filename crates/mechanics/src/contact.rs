@@ -46,7 +46,7 @@ pub enum FrictionLaw {
     /// As [`Friction::Frictionless`].
     Frictionless,
     /// Coulomb's, with this coefficient μ [-], finite and not negative: tissue sticks where the tangential force is below μ
-    /// times the normal force, and slips where it is equal to that. The surface does not pull.
+    /// times the normal force, and slips where it is equal to that.
     Coulomb(f64),
 }
 

@@ -120,7 +120,7 @@ const INDENTER: &[Key] = &[
     Key::number(
         "friction",
         Domain::FRICTION,
-        "Coulomb's coefficient of a face and a side that stick, beyond which tissue slips along them; they do not pull then.",
+        "Coulomb's coefficient of a face and a side that stick, beyond which tissue slips along them.",
     )
     .optional("0.3", "tissue never slips along them"),
     Key::word(
