@@ -7,8 +7,8 @@
 //!
 //! A x = b + E λ, λ = ρ δN(x)  ⟹  (1 − ρ δN(A⁻¹ E)) λ = ρ δN(A⁻¹ b)
 //!
-//! which generalised minimal residuals solve with some ten solutions more of the factored system. Passing N back from the last iteration instead would keep the matrix
-//! symmetric as well, but converges linearly, at a rate that grows with μ.
+//! which generalised minimal residuals solve with some ten solutions more of the factored system. Passing N back from the
+//! last iteration instead would keep the matrix symmetric as well, but converges linearly, at a rate that grows with μ.
 //!
 //! *How we know*: `tests::the_step_is_newtons` against differences of the residual.
 

@@ -108,15 +108,20 @@ impl Indenter {
         }
     }
 
-    /// Coulomb's coefficient that bounds the force on a node [-]: none on a sharp edge whose side touches, which is on both
-    /// and does not let the node go around it.
+    /// Coulomb's coefficient that bounds the force on a node [-]: none on a sharp edge between a face and a side with
+    /// friction: it is on both, and the node does not go around it.
     pub(super) fn coefficient_of(&self, touch: ContactStatus) -> Option<f64> {
         let part = touch.part()?;
         let on_edge = match touch {
             ContactStatus::Stuck { at, .. } => at.radius >= self.radius * (1.0 - 1e-9),
             ContactStatus::Sliding { .. } | ContactStatus::Free => false,
         };
-        let has_side = self.shape != (IndenterShape::Flat { side: Side::Absent });
+        let has_side = matches!(
+            self.shape,
+            IndenterShape::Flat {
+                side: Side::Touches(FrictionLaw::Coulomb(_))
+            }
+        );
         match part == Part::Face && on_edge && has_side {
             true => None,
             false => self.coefficient(part),

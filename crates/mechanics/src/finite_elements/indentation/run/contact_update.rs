@@ -19,14 +19,17 @@ const CONE: f64 = 1e-6;
 const NO_SLIP: f64 = 1e-9;
 
 impl IndentationRun {
-    /// Catches nodes that have entered the indenter and lets go those that pull; answers whether there
-    /// was one. Fails when tissue went in too deep to know where it entered.
+    /// Catches nodes that have entered the indenter, lets go those that pull, and lets nodes stick or slip; answers whether
+    /// there was one. Fails when tissue went in too deep to know where it entered.
     pub(super) fn settle(
         &self,
         (depth, state): (f64, &FiniteElementState),
         (touch, released): (&mut [ContactStatus], &mut [bool]),
         mut slopes: Option<&mut Sensitivities>,
     ) -> Result<bool, Failure> {
+        if self.is_linear() && !self.has_friction {
+            return Ok(false);
+        }
         let mut changed = false;
         let tolerances = Tolerances {
             force: CONE * self.largest_normal_force(touch, depth, state),

@@ -15,8 +15,8 @@ pub struct ContactNode {
     /// The force of the indenter on it along the tangent (−n_z, n_r) of that normal, over the whole ring [N]: outward on a
     /// face, along the meridian away from the lowest point on a sphere or a cone.
     pub tangential_force: f64,
-    /// Coulomb's coefficient where it touches [-]; none where the friction is of another kind, and on a sharp edge whose
-    /// side touches.
+    /// Coulomb's coefficient where it touches [-]; none where the friction is of another kind, and on a sharp edge
+    /// between a face and a side with friction.
     pub coefficient: Option<f64>,
     /// Whether it moves with the indenter.
     pub sticks: bool,
