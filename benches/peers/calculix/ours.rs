@@ -13,7 +13,7 @@
 
 use std::sync::Arc;
 
-use palpate_mechanics::contact::Friction;
+use palpate_mechanics::contact::FrictionLaw;
 use palpate_mechanics::finite_elements::indentation::{
     Base, Block, IndentationRun, IndentationSettings, Indenter, IndenterShape, Side,
 };
@@ -105,7 +105,7 @@ fn punch(law: Arc<dyn Law>, halvings: i32, depth: f64) {
         indenter: Indenter {
             shape: IndenterShape::Flat { side: Side::Absent },
             radius,
-            face: Friction::Bonded,
+            face: FrictionLaw::Bonded,
         },
         law,
         prony: Default::default(),

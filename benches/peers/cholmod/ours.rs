@@ -16,7 +16,7 @@
 use std::io::Write;
 use std::sync::Arc;
 
-use palpate_mechanics::contact::Friction;
+use palpate_mechanics::contact::FrictionLaw;
 use palpate_mechanics::finite_elements::indentation::{
     Base, Block, IndentationRun, IndentationSettings, Indenter, IndenterShape, Side,
 };
@@ -94,7 +94,7 @@ fn punch(halvings: i32) -> ElementMesh {
         indenter: Indenter {
             shape: IndenterShape::Flat { side: Side::Absent },
             radius: 1e-3,
-            face: Friction::Bonded,
+            face: FrictionLaw::Bonded,
         },
         law: Arc::new(NeoHookean::incompressible(1000.0).unwrap()),
         prony: Default::default(),

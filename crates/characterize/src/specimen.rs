@@ -12,7 +12,7 @@ use std::ops::Range;
 
 use palpate_files::recording::StimulusKind;
 use palpate_files::{Estimate, PronyTerm, Tissue};
-use palpate_mechanics::contact::Friction;
+use palpate_mechanics::contact::FrictionLaw;
 use palpate_mechanics::finite_elements::indentation::IndenterShape;
 
 use crate::clean::SegmentKind;
@@ -281,7 +281,7 @@ fn body(recordings: &[CleanRecording], deepest: f64) -> Result<Body, Error> {
 fn far_field(organ: &Organ, body: Body) -> Result<FarField, Error> {
     match body {
         Body::Block { block, indenter } => match indenter.shape {
-            IndenterShape::Flat { .. } if indenter.face == Friction::Frictionless => {
+            IndenterShape::Flat { .. } if indenter.face == FrictionLaw::Frictionless => {
                 Err(Error::OrganFriction)
             }
             IndenterShape::Flat { .. } => organ.far_field(&block, indenter.radius),

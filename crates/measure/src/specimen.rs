@@ -18,7 +18,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use palpate_files::Tissue;
 use palpate_files::recording::{IndenterShape, RecordingHeader};
 use palpate_files::tissue::LawName;
-use palpate_mechanics::contact::{Friction, Tip};
+use palpate_mechanics::contact::{Friction, FrictionLaw, Tip};
 use palpate_mechanics::finite_elements::indentation::{
     self, Base, Block, IndentationProblem, Indenter, Side,
 };
@@ -240,10 +240,10 @@ fn solved(
         },
         indenter: Indenter {
             shape: indentation::IndenterShape::Flat {
-                side: Side::Touches(Friction::Bonded),
+                side: Side::Touches(FrictionLaw::Bonded),
             },
             radius,
-            face: Friction::Bonded,
+            face: FrictionLaw::Bonded,
         },
         law: material.law.clone(),
     };

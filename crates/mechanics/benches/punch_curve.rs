@@ -11,7 +11,7 @@
     reason = "a bench that fails to unwrap has failed, and tells more than times"
 )]
 
-use palpate_mechanics::contact::Friction;
+use palpate_mechanics::contact::FrictionLaw;
 use std::hint::black_box;
 use std::sync::Arc;
 use std::time::Instant;
@@ -39,10 +39,10 @@ fn punch(halvings: i32) -> IndentationRun {
         },
         indenter: Indenter {
             shape: IndenterShape::Flat {
-                side: Side::Touches(Friction::Bonded),
+                side: Side::Touches(FrictionLaw::Bonded),
             },
             radius: RADIUS,
-            face: Friction::Bonded,
+            face: FrictionLaw::Bonded,
         },
         law: Arc::new(NeoHookean::incompressible(C10).unwrap()),
         prony: Default::default(),

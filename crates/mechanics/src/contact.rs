@@ -38,6 +38,27 @@ pub enum Friction {
     Frictionless,
 }
 
+/// The law of friction between tissue and an indenter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum FrictionLaw {
+    /// As [`Friction::Bonded`].
+    Bonded,
+    /// As [`Friction::Frictionless`].
+    Frictionless,
+    /// Coulomb's, with this coefficient μ [-], finite and not negative: tissue sticks where the tangential force is below μ
+    /// times the normal force, and slips where it is equal to that.
+    Coulomb(f64),
+}
+
+impl From<Friction> for FrictionLaw {
+    fn from(friction: Friction) -> Self {
+        match friction {
+            Friction::Bonded => Self::Bonded,
+            Friction::Frictionless => Self::Frictionless,
+        }
+    }
+}
+
 /// Force per depth of a flat tip on a half-space [N/m].
 pub fn half_space_stiffness(law: &LinearElastic, radius: f64, bond: Friction) -> f64 {
     let nu = law.poissons_ratio();

@@ -1,7 +1,7 @@
 use palpate_files::recording::{
     IndenterFriction, IndenterShape as RecordedShape, RecordingHeader, Specimen, Support,
 };
-use palpate_mechanics::contact::Friction;
+use palpate_mechanics::contact::{Friction, FrictionLaw};
 use palpate_mechanics::finite_elements::indentation::{Base, Block, Indenter, IndenterShape, Side};
 use palpate_mechanics::finite_elements::tube::Tube;
 
@@ -86,13 +86,13 @@ impl Body {
     /// A large piece of a solid organ under a flat punch that tissue sticks to, on its face and its side.
     pub fn under_punch(radius: f64) -> Self {
         let shape = IndenterShape::Flat {
-            side: Side::Touches(Friction::Bonded),
+            side: Side::Touches(FrictionLaw::Bonded),
         };
         let face = Friction::Bonded;
         Self::large(Indenter {
             shape,
             radius,
-            face,
+            face: face.into(),
         })
     }
 
@@ -101,7 +101,7 @@ impl Body {
         Self::large(Indenter {
             shape: IndenterShape::Sphere,
             radius,
-            face: Friction::Frictionless,
+            face: FrictionLaw::Frictionless,
         })
     }
 
@@ -111,7 +111,7 @@ impl Body {
         Self::large(Indenter {
             shape: IndenterShape::Cone { half_angle },
             radius: deepest * half_angle.tan(),
-            face: Friction::Frictionless,
+            face: FrictionLaw::Frictionless,
         })
     }
 
@@ -150,9 +150,9 @@ impl Body {
     /// The same under an indenter of this `friction`; as it is without one.
     fn with(mut self, friction: Option<Friction>) -> Self {
         if let (Self::Block { indenter, .. }, Some(friction)) = (&mut self, friction) {
-            indenter.face = friction;
+            indenter.face = friction.into();
             if let IndenterShape::Flat { side } = &mut indenter.shape {
-                *side = Side::Touches(friction);
+                *side = Side::Touches(friction.into());
             }
         }
         self
@@ -219,9 +219,9 @@ impl Body {
             return false;
         };
         let alike = |a: f64, b: f64| (a - b).abs() <= ALIKE * b;
-        let side = Side::Touches(Friction::Bonded);
+        let side = Side::Touches(FrictionLaw::Bonded);
         indenter.shape == IndenterShape::Flat { side }
-            && indenter.face == Friction::Bonded
+            && indenter.face == FrictionLaw::Bonded
             && alike(block.radius, large.radius)
             && alike(block.height, large.height)
             && block.base == large.base

@@ -18,7 +18,7 @@ use std::sync::Arc;
 
 use palpate_files::scene::Region;
 use palpate_geometry::{Surface, TetrahedronMesh, TriangleId, closest_on_triangle};
-use palpate_mechanics::contact::Friction;
+use palpate_mechanics::contact::{Friction, FrictionLaw};
 use palpate_mechanics::finite_elements::indentation::{
     Base, Block, IndentationProblem, Indenter, IndenterShape, Side, solve,
 };
@@ -111,7 +111,7 @@ impl Organ {
                 indenter: Indenter {
                     shape,
                     radius,
-                    face: Friction::Bonded,
+                    face: FrictionLaw::Bonded,
                 },
                 law: law.clone(),
             };

@@ -64,6 +64,24 @@ pub enum Mismatch {
         /// The surface [m, rad].
         surface: RigidSurface,
     },
+    /// A force of friction that is no number.
+    #[error(
+        "node {node} slides with a tangential force of {force_ratio} times the normal force; give a finite number, 0 without friction"
+    )]
+    ForceRatioOutOfRange {
+        /// The node.
+        node: usize,
+        /// The value given [-].
+        force_ratio: f64,
+    },
+    /// A coefficient that no friction has.
+    #[error(
+        "an indenter with a coefficient of friction of {coefficient}; give a finite number that is not negative"
+    )]
+    FrictionOutOfRange {
+        /// The coefficient [-].
+        coefficient: f64,
+    },
     /// A node slides that is also fixed, or slides twice.
     #[error(
         "node {node} slides on a rigid surface and is fixed as well, or slides on two; remove one of the supports"
@@ -124,6 +142,8 @@ impl Mismatch {
             | Self::CavitySide { .. }
             | Self::CannotSlide { .. }
             | Self::SurfaceOutOfRange { .. }
+            | Self::ForceRatioOutOfRange { .. }
+            | Self::FrictionOutOfRange { .. }
             | Self::SlidesAndIsFixed { .. }
             | Self::WrongLength { .. }
             | Self::FirstStepOutOfRange { .. }

@@ -11,6 +11,7 @@ mod derivatives;
 mod element;
 mod equilibrium;
 pub mod estimate;
+mod friction;
 mod graded;
 pub mod hemisphere;
 pub mod indentation;

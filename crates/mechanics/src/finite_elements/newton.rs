@@ -5,6 +5,7 @@
 //! that the tolerance is relative and has no unit.
 
 use super::assembly::{self, PRESSURE_REGULARIZATION};
+use super::friction;
 use super::model::{FiniteElementModel, FiniteElementState, FiniteElementWorkspace};
 use super::supports::{Beside, Sliding, Supports};
 
@@ -174,11 +175,12 @@ pub(super) fn size_of_residual(
         }
     }
     for contact in &supports.sliding {
-        let n = beside(model, contact, &workspace.trial).normal;
+        let place = beside(model, contact, &workspace.trial);
+        let n = place.normal;
         let rows = [2 * contact.node, 2 * contact.node + 1];
-        let [r, z] = rows.map(|row| workspace.residual[row]);
+        let [normal, tangential] = place.components(rows.map(|row| workspace.residual[row]));
+        let across = tangential - contact.force_ratio * normal;
         let [stiff_r, stiff_z] = rows.map(|row| diagonal(row).abs());
-        let (normal, across) = (n[0] * r + n[1] * z, n[0] * z - n[1] * r);
         let along_normal = n[0] * n[0] * stiff_r + n[1] * n[1] * stiff_z;
         let along_surface = n[1] * n[1] * stiff_r + n[0] * n[0] * stiff_z;
         size.free += across * across / along_surface;
@@ -239,14 +241,14 @@ pub(super) fn solve(
     workspace.supported.copy_from_slice(&workspace.tangent);
     let mut right: Vec<f64> = workspace.residual.iter().map(|r| -r).collect();
     turn(model, supports, workspace, &mut right);
+    friction::balance(supports, &mut right);
     let is_held = held_rows(model, supports);
     eliminate(model, &is_held, workspace, &mut right);
     factor(model, workspace)?;
-    workspace.factors.solve(&mut right);
+    friction::solve(model, supports, workspace, &mut right)?;
     if right.iter().any(|x| !x.is_finite()) {
         return Err(Failure::Singular);
     }
-    turn_back(model, supports, workspace, &mut right);
     workspace.step.copy_from_slice(&right);
     Ok(())
 }
@@ -382,7 +384,7 @@ fn advance(
 }
 
 /// Where a sliding node lies beside its surface.
-fn beside(model: &FiniteElementModel, contact: &Sliding, unknowns: &[f64]) -> Beside {
+pub(super) fn beside(model: &FiniteElementModel, contact: &Sliding, unknowns: &[f64]) -> Beside {
     let place = &model.mesh.nodes[contact.node];
     contact.surface.beside(
         place.x + unknowns[2 * contact.node],

@@ -33,11 +33,24 @@ pub struct Sliding {
     pub node: usize,
     /// The surface.
     pub surface: RigidSurface,
+    /// The tangential over the normal force on the node [-], along the tangent (−n_z, n_r) of the outward normal n: ±μ
+    /// where it slips with Coulomb friction, 0 without friction.
+    pub force_ratio: f64,
 }
 
 /// A rigid surface of revolution about the axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum RigidSurface {
+    /// A plane across the axis, above the body.
+    Plane {
+        /// Its height [m].
+        height: f64,
+    },
+    /// A cylinder inside the body.
+    Cylinder {
+        /// Its radius [m].
+        radius: f64,
+    },
     /// A sphere around a point of the axis.
     Sphere {
         /// Height of its centre [m].
@@ -69,6 +82,8 @@ impl RigidSurface {
     /// Whether its numbers are those of a surface.
     fn exists(&self) -> bool {
         match *self {
+            Self::Plane { height } => height.is_finite(),
+            Self::Cylinder { radius } => radius > 0.0 && radius.is_finite(),
             Self::Sphere { center, radius } => {
                 radius > 0.0 && radius.is_finite() && center.is_finite()
             }
@@ -81,7 +96,8 @@ impl RigidSurface {
     /// A length that rounding of the distance is relative to [m].
     pub(super) fn size(&self) -> f64 {
         match *self {
-            Self::Sphere { radius, .. } => radius,
+            Self::Plane { height } => height.abs(),
+            Self::Cylinder { radius } | Self::Sphere { radius, .. } => radius,
             Self::Cone { apex, .. } => apex.abs(),
         }
     }
@@ -89,6 +105,16 @@ impl RigidSurface {
     /// The point at radius `r` and height `z` [m].
     pub(super) fn beside(&self, r: f64, z: f64) -> Beside {
         match *self {
+            Self::Plane { height } => Beside {
+                distance: height - z,
+                normal: [0.0, -1.0],
+                curvature: 0.0,
+            },
+            Self::Cylinder { radius } => Beside {
+                distance: r - radius,
+                normal: [1.0, 0.0],
+                curvature: 0.0,
+            },
             Self::Sphere { center, radius } => {
                 let (z, from_center) = (z - center, r.hypot(z - center));
                 Beside {
@@ -106,6 +132,14 @@ impl RigidSurface {
                 }
             }
         }
+    }
+}
+
+impl Beside {
+    /// Components of a vector (r, z) along the normal and along the tangent (−n_z, n_r).
+    pub(super) fn components(&self, vector: [f64; 2]) -> [f64; 2] {
+        let (n, [r, z]) = (self.normal, vector);
+        [n[0] * r + n[1] * z, n[0] * z - n[1] * r]
     }
 }
 
@@ -196,7 +230,12 @@ impl<'a> Supports<'a> {
             cavity.check(model)?;
         }
         let mut slides = vec![false; nodes];
-        for &Sliding { node, surface } in &self.sliding {
+        for &Sliding {
+            node,
+            surface,
+            force_ratio,
+        } in &self.sliding
+        {
             if dimension != 2 {
                 return Err(Mismatch::CannotSlide { node });
             }
@@ -205,6 +244,9 @@ impl<'a> Supports<'a> {
             }
             if !surface.exists() {
                 return Err(Mismatch::SurfaceOutOfRange { node, surface });
+            }
+            if !force_ratio.is_finite() {
+                return Err(Mismatch::ForceRatioOutOfRange { node, force_ratio });
             }
             let fixed = [0, 1].map(|axis| self.held[2 * node + axis].is_some());
             if fixed[0] || fixed[1] || std::mem::replace(&mut slides[node], true) {

@@ -1,6 +1,6 @@
 //! Indentation of a block by punch and sphere.
 
-use palpate_mechanics::contact::Friction;
+use palpate_mechanics::contact::{Friction, FrictionLaw};
 use std::sync::Arc;
 
 use palpate_mechanics::finite_elements::indentation::{
@@ -26,12 +26,12 @@ fn punch(side: Side, face: Friction) -> Indenter {
     Indenter {
         shape: IndenterShape::Flat { side },
         radius: RADIUS,
-        face,
+        face: face.into(),
     }
 }
 
 fn bonded() -> Indenter {
-    punch(Side::Touches(Friction::Bonded), Friction::Bonded)
+    punch(Side::Touches(FrictionLaw::Bonded), Friction::Bonded)
 }
 
 fn neo_hookean() -> Arc<dyn Law> {
@@ -78,7 +78,7 @@ fn sphere() -> Indenter {
     Indenter {
         shape: IndenterShape::Sphere,
         radius: RADIUS,
-        face: Friction::Frictionless,
+        face: FrictionLaw::Frictionless,
     }
 }
 
@@ -119,7 +119,7 @@ fn a_cone_meets_sneddon() {
     let cone = Indenter {
         shape: IndenterShape::Cone { half_angle },
         radius: RADIUS,
-        face: Friction::Frictionless,
+        face: FrictionLaw::Frictionless,
     };
     let found = linear_force(cone, BLOCK, (0.4999, depth), 0);
     let modulus = 6.0 * C10 / (1.0 - 0.4999 * 0.4999);
@@ -243,7 +243,7 @@ fn goes_on_to_eight_radii() {
 #[ignore = "slow: a quarter of a minute"]
 fn a_sliding_side_goes_on_to_seven_radii() {
     let mut run = run(
-        punch(Side::Touches(Friction::Frictionless), Friction::Bonded),
+        punch(Side::Touches(FrictionLaw::Frictionless), Friction::Bonded),
         neo_hookean(),
         0,
     );
@@ -261,7 +261,7 @@ fn a_sliding_side_goes_on_to_seven_radii() {
 fn a_sliding_side_forgets_its_path() {
     let slide = || {
         run(
-            punch(Side::Touches(Friction::Frictionless), Friction::Bonded),
+            punch(Side::Touches(FrictionLaw::Frictionless), Friction::Bonded),
             neo_hookean(),
             0,
         )
@@ -292,8 +292,8 @@ fn a_held_depth_keeps_its_force() {
 #[test]
 fn force_is_the_slope_of_energy() {
     for side in [
-        Side::Touches(Friction::Bonded),
-        Side::Touches(Friction::Frictionless),
+        Side::Touches(FrictionLaw::Bonded),
+        Side::Touches(FrictionLaw::Frictionless),
     ] {
         let mut run = run(punch(side, Friction::Bonded), neo_hookean(), 0);
         let mut before: Option<IndentationPoint> = None;
@@ -385,7 +385,7 @@ fn refuses_what_lies_beyond_its_domain() {
     let mut without_side = run(punch(Side::Absent, Friction::Bonded), neo_hookean(), 0);
     let beyond = without_side.press(1.0, 2.0 * RADIUS, |_| {});
     assert!(matches!(beyond, Err(Error::TissueEntersPunch { depth }) if depth < RADIUS));
-    let smooth = punch(Side::Touches(Friction::Bonded), Friction::Frictionless);
+    let smooth = punch(Side::Touches(FrictionLaw::Bonded), Friction::Frictionless);
     let beyond = run(smooth, neo_hookean(), 0).press(1.0, 3.0 * RADIUS, |_| {});
     assert!(matches!(beyond, Err(Error::SurfaceFolds { .. })));
 }

@@ -25,6 +25,7 @@ mod every_law;
 mod exterior;
 mod fibres;
 mod field;
+mod friction;
 mod hexahedra;
 mod homogeneous;
 mod indentation;

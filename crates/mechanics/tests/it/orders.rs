@@ -87,7 +87,7 @@ fn the_error_of_a_punch_is_honest() {
             indenter: Indenter {
                 shape: IndenterShape::Flat { side: Side::Absent },
                 radius,
-                face,
+                face: face.into(),
             },
             law: Arc::new(LinearElastic::new(young, nu).unwrap()),
         };

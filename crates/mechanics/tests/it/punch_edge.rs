@@ -1,6 +1,6 @@
 //! Flat punches whose side touches, pressed to eight radii on meshes that shrink towards the edge.
 
-use palpate_mechanics::contact::Friction;
+use palpate_mechanics::contact::{Friction, FrictionLaw};
 use std::sync::Arc;
 
 use palpate_mechanics::finite_elements::indentation::{
@@ -27,10 +27,10 @@ fn punch(side: Friction, law: Arc<dyn Law>) -> IndentationProblem {
         },
         indenter: Indenter {
             shape: IndenterShape::Flat {
-                side: Side::Touches(side),
+                side: Side::Touches(side.into()),
             },
             radius: RADIUS,
-            face: Friction::Bonded,
+            face: FrictionLaw::Bonded,
         },
         law,
     }
@@ -151,7 +151,7 @@ fn a_small_block_is_that_of_a_grid() {
     let indenter = Indenter {
         shape: IndenterShape::Flat { side: Side::Absent },
         radius: RADIUS,
-        face: Friction::Frictionless,
+        face: FrictionLaw::Frictionless,
     };
     let problem = IndentationProblem {
         block,

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use palpate_geometry::{Organ, TriangleId};
 use palpate_mechanics::boundary_elements::{BoundaryProblem, Progress};
-use palpate_mechanics::contact::Friction;
+use palpate_mechanics::contact::{Friction, FrictionLaw};
 use palpate_mechanics::finite_elements::condensed::CondensedProblem;
 use palpate_mechanics::finite_elements::hemisphere::{HalfBall, HemisphereProblem, Patch};
 use palpate_mechanics::finite_elements::indentation::{
@@ -111,6 +111,7 @@ fn a_node_slides_on_a_sphere_only_in_axisymmetry() {
             center: 2.0,
             radius: 1.0,
         },
+        force_ratio: 0.0,
     };
     for kind in [ElementKind::Hex27, ElementKind::Tet10] {
         let mut body = body(kind);
@@ -134,6 +135,7 @@ fn a_node_slides_on_a_sphere_only_in_axisymmetry() {
             center: 2.0,
             radius: 0.0,
         },
+        force_ratio: 0.0,
     };
     assert!(matches!(
         with(&[on(nodes)]),
@@ -158,6 +160,7 @@ fn a_path_refuses_what_slides_and_a_first_step_of_nothing() {
             center: 2.0,
             radius: 1.0,
         },
+        force_ratio: 0.0,
     });
     let refused = Path::new(model, supports, 0.1).unwrap_err();
     assert_eq!(refused, Error::from(Mismatch::CannotSlide { node }));
@@ -329,7 +332,7 @@ fn sizes_that_no_mesh_has_are_refused() {
         indenter: Indenter {
             shape: IndenterShape::Sphere,
             radius: 1e-3,
-            face: Friction::Bonded,
+            face: FrictionLaw::Bonded,
         },
         law: Arc::new(law),
         prony: PronySeries::default(),

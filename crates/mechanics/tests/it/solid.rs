@@ -106,7 +106,7 @@ fn cylinder(problem: &SolidProblem) -> f64 {
         indenter: Indenter {
             shape: IndenterShape::Flat { side: Side::Absent },
             radius: patch.radius,
-            face: patch.friction,
+            face: patch.friction.into(),
         },
         law: problem.law.clone(),
     };

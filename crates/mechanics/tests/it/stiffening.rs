@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use palpate_mechanics::contact::{Friction, Tip, half_space_stiffness};
+use palpate_mechanics::contact::{Friction, FrictionLaw, Tip, half_space_stiffness};
 use palpate_mechanics::finite_elements::indentation::{
     Base, Block, IndentationRun, IndentationSettings, Indenter, IndenterShape, Side, Stiffening,
 };
@@ -35,7 +35,7 @@ fn run(tissue: &Material, tip: Tip, block: Block) -> IndentationRun {
     let (shape, face) = match tip {
         Tip::Flat { .. } => (
             IndenterShape::Flat {
-                side: Side::Touches(Friction::Bonded),
+                side: Side::Touches(FrictionLaw::Bonded),
             },
             Friction::Bonded,
         ),
@@ -46,7 +46,7 @@ fn run(tissue: &Material, tip: Tip, block: Block) -> IndentationRun {
         indenter: Indenter {
             shape,
             radius: RADIUS,
-            face,
+            face: face.into(),
         },
         law: tissue.law.clone(),
         prony: PronySeries::default(),
@@ -179,7 +179,7 @@ fn the_stored_spheres_are_those_of_finite_elements() {
         };
         let flat = IndenterShape::Flat { side: Side::Absent };
         let small = 0.01 * RADIUS;
-        let flat_stiffness = pressed(flat, Friction::Frictionless, small, 2) / small;
+        let flat_stiffness = pressed(flat, FrictionLaw::Frictionless, small, 2) / small;
         let further =
             1.0 / flat_stiffness - 1.0 / half_space_stiffness(&law, RADIUS, Friction::Frictionless);
         for (bond, face) in [
@@ -189,7 +189,7 @@ fn the_stored_spheres_are_those_of_finite_elements() {
             let tip_law = TipLaw::linear(tip, bond, law);
             for part in [0.05, 0.25, 0.55, 0.85] {
                 let depth = part * RADIUS;
-                let full = pressed(IndenterShape::Sphere, face, depth, 0);
+                let full = pressed(IndenterShape::Sphere, face.into(), depth, 0);
                 let own = tip_law.normal_force_in_series(depth - further * full, 0.0);
                 let off = own.force / full - 1.0;
                 assert!(off.abs() < 0.006, "{poissons_ratio} {bond:?} {part}: {off}");

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector, Vector3};
 use palpate_files::scene::{Region, RegionPlane};
 use palpate_geometry::{NodeId, Surface, TriangleMesh};
-use palpate_mechanics::contact::{Friction, Tip, half_space_stiffness};
+use palpate_mechanics::contact::{Friction, FrictionLaw, Tip, half_space_stiffness};
 use palpate_mechanics::finite_elements::hemisphere::{self, HemisphereProblem, Patch};
 use palpate_mechanics::finite_elements::indentation::{
     Base, Block, IndentationRun, IndentationSettings, Indenter, IndenterShape,
@@ -374,7 +374,7 @@ fn sphere_on_slab(particles: usize, nu: f64, thickness: f64) -> f64 {
         indenter: Indenter {
             shape: IndenterShape::Sphere,
             radius: sphere,
-            face: Friction::Frictionless,
+            face: FrictionLaw::Frictionless,
         },
         law: Arc::new(law),
         prony: PronySeries::default(),

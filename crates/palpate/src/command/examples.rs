@@ -122,6 +122,11 @@ const ALL: &[Example] = &[
         "a flat punch on a block"
     ),
     example!(
+        "problems/friction.toml",
+        "problems/friction.toml",
+        "a punch with Coulomb friction"
+    ),
+    example!(
         "problems/ramp.toml",
         "problems/ramp.toml",
         "a ramp and a hold over time"

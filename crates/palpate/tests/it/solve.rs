@@ -76,6 +76,31 @@ fn a_punch_has_the_closed_form_first_and_the_known_force_later() {
 
 /// Relaxed for as long as ten time constants, a force is 1 − g of what it was. What is recorded can be
 /// read as a recording, and what is drawn for ParaView has the depth of the indenter.
+/// Judge: the rings of `friction::a_flat_punch_sticks_as_far_as_spence_says`, by which 0.702 of the radius sticks and the
+/// force is 1.0193 of that without friction. Tolerance: the asked 5 %, and half the distance of nodes on a coarse mesh.
+#[test]
+fn friction_holds_the_middle_of_a_punch() {
+    let problem = example("friction.toml").replace("accuracy = 0.01", "accuracy = 0.05");
+    let answer = solve(&problem);
+    assert_whole(&answer, "indentation");
+    for (contact, stick) in numbers(&answer, "contact_radius_m")
+        .into_iter()
+        .zip(numbers(&answer, "stick_radius_m"))
+    {
+        assert_near(contact, 0.002, 1e-3);
+        assert_near(stick / contact, 0.702, 0.05);
+    }
+    assert!(
+        numbers(&answer, "tangential_force_n")
+            .iter()
+            .all(|force| *force > 0.0)
+    );
+    let without = solve(&problem.replace("friction = 0.2", "face = \"slip\""));
+    assert!(without.get("stick_radius_m").is_none());
+    let [with, without] = [&answer, &without].map(|answer| numbers(answer, "force_n")[1]);
+    assert_near(with / without, 1.0193, 0.005);
+}
+
 #[test]
 fn a_ramp_relaxes_to_what_the_series_leaves() {
     let folder = tempfile::tempdir().unwrap();

@@ -56,6 +56,18 @@ fn keys_of_an_indentation() {
     let indenter =
         |more: &str| format!("{PUNCH}{TISSUE}indenter = {{ {more} }}\ndepths_m = [0.001]");
     refused(
+        &indenter("radius_m = 0.001, friction = -0.1"),
+        &[
+            "line 5",
+            "`indenter.friction` is -0.1",
+            "a coefficient of friction",
+        ],
+    );
+    refused(
+        &indenter("radius_m = 0.001, face = \"slip\", friction = 0.3"),
+        &["line 5", "friction", "face = \"stick\""],
+    );
+    refused(
         &indenter("radius_m = -0.001"),
         &[
             "line 5",

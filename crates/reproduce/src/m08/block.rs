@@ -1,6 +1,6 @@
 //! The block under the punch, with the laws that the source found for it.
 
-use palpate_mechanics::contact::Friction;
+use palpate_mechanics::contact::FrictionLaw;
 use std::sync::{Arc, OnceLock};
 
 use palpate_characterize::inverse::SoughtLaw;
@@ -121,10 +121,10 @@ fn curve(rows: &Rows<'_>, name: &str, law: Arc<dyn Law>) -> Result<(IndentationC
         block: BLOCK,
         indenter: Indenter {
             shape: IndenterShape::Flat {
-                side: Side::Touches(Friction::Bonded),
+                side: Side::Touches(FrictionLaw::Bonded),
             },
             radius: RADIUS,
-            face: Friction::Bonded,
+            face: FrictionLaw::Bonded,
         },
         law,
     };

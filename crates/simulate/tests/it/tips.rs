@@ -1,6 +1,6 @@
 //! Tips on a cube, a slab and a hemisphere, for every model, against finite elements.
 
-use palpate_mechanics::contact::Friction;
+use palpate_mechanics::contact::FrictionLaw;
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Arc;
@@ -73,7 +73,7 @@ impl Body {
             indenter: Indenter {
                 shape,
                 radius,
-                face: Friction::Frictionless,
+                face: FrictionLaw::Frictionless,
             },
             law,
             prony: PronySeries::default(),

@@ -1,5 +1,5 @@
 use palpate_files::{Domain, Error, Key, Keys};
-use palpate_mechanics::contact::Friction;
+use palpate_mechanics::contact::{Friction, FrictionLaw};
 use palpate_mechanics::finite_elements::indentation::{
     Base, Block, Indenter, IndenterShape, Relaxing, Side,
 };
@@ -53,10 +53,11 @@ const FACES: &[(&str, Friction)] = &[
     ("slip", Friction::Frictionless),
 ];
 
-const SIDES: &[(&str, Side)] = &[
-    ("stick", Side::Touches(Friction::Bonded)),
-    ("slide", Side::Touches(Friction::Frictionless)),
-    ("none", Side::Absent),
+/// What a side is like; none where there is no side.
+const SIDES: &[(&str, Option<Friction>)] = &[
+    ("stick", Some(Friction::Bonded)),
+    ("slide", Some(Friction::Frictionless)),
+    ("none", None),
 ];
 
 const SHAPES: &[(&str, End)] = &[
@@ -116,6 +117,12 @@ const INDENTER: &[Key] = &[
         "How its face holds tissue.",
     )
     .default("\"stick\""),
+    Key::number(
+        "friction",
+        Domain::FRICTION,
+        "Coulomb's coefficient of a face and a side that stick, beyond which tissue slips along them.",
+    )
+    .optional("0.3", "tissue never slips along them"),
     Key::word(
         "side",
         &[
@@ -184,6 +191,18 @@ impl Indentation {
 fn indenter(keys: &Keys<'_>, block: &Block) -> Result<Indenter, Error> {
     let keys = required_table(keys, "indenter", "indenter = { radius_m = 0.001 }")?;
     let side = keys.word("side", SIDES)?;
+    let face = keys.word("face", FACES)?.unwrap_or(Friction::Bonded);
+    let coefficient = keys.number("friction")?;
+    if face == Friction::Frictionless {
+        keys.refuse(
+            "friction",
+            "no friction of a face that slips: it is that of `face = \"stick\"`, beyond which tissue slips",
+        )?;
+    }
+    let law = |friction| match (friction, coefficient) {
+        (Friction::Bonded, Some(coefficient)) => FrictionLaw::Coulomb(coefficient),
+        (friction, _) => friction.into(),
+    };
     let end = keys.word("shape", SHAPES)?.unwrap_or(End::Flat);
     if !matches!(end, End::Flat) {
         keys.refuse("side", "no side, for only a flat punch has one")?;
@@ -193,7 +212,10 @@ fn indenter(keys: &Keys<'_>, block: &Block) -> Result<Indenter, Error> {
     }
     let shape = match end {
         End::Flat => IndenterShape::Flat {
-            side: side.unwrap_or(Side::Touches(Friction::Bonded)),
+            side: match side.unwrap_or(Some(Friction::Bonded)) {
+                Some(friction) => Side::Touches(law(friction)),
+                None => Side::Absent,
+            },
         },
         End::Sphere => IndenterShape::Sphere,
         End::Cone => {
@@ -206,7 +228,7 @@ fn indenter(keys: &Keys<'_>, block: &Block) -> Result<Indenter, Error> {
     Ok(Indenter {
         shape,
         radius: length_below(&keys, "radius_m", block.radius, "the radius of the block")?,
-        face: keys.word("face", FACES)?.unwrap_or(Friction::Bonded),
+        face: law(face),
     })
 }
 

@@ -13,6 +13,9 @@ pub enum Figures {
         /// Of a ramp [s].
         #[serde(skip_serializing_if = "Option::is_none")]
         time_s: Option<Vec<f64>>,
+        /// Of an indenter with Coulomb friction.
+        #[serde(flatten)]
+        friction: Option<FrictionFigures>,
     },
     /// A patch of a hemisphere.
     Hemisphere {
@@ -45,7 +48,12 @@ impl Figures {
     pub(crate) fn are_numbers(&self) -> bool {
         let all = |lists: &[&[f64]]| lists.iter().all(|list| list.iter().all(|x| x.is_finite()));
         match self {
-            Self::Indentation { force_n, .. } => all(&[force_n]),
+            Self::Indentation {
+                force_n, friction, ..
+            } => {
+                let along = friction.as_ref().map_or(&[][..], |f| &f.tangential_force_n);
+                all(&[force_n, along])
+            }
             Self::Hemisphere {
                 force_n, profile, ..
             } => all(&[&[*force_n], &profile.normal_displacement_m]),
@@ -68,6 +76,17 @@ impl Figures {
             }
         }
     }
+}
+
+/// How an indenter with Coulomb friction touches, at each depth or time.
+#[derive(Debug, Clone, Serialize)]
+pub struct FrictionFigures {
+    /// Of the circle that touches [m].
+    pub contact_radius_m: Vec<f64>,
+    /// Of the circle in which tissue sticks [m].
+    pub stick_radius_m: Vec<f64>,
+    /// On the tissue along the surface, away from the axis, summed around it [N].
+    pub tangential_force_n: Vec<f64>,
 }
 
 /// The surface of the hemisphere, from the pole to the equator.

@@ -2,14 +2,18 @@ use palpate_files::Recording;
 use palpate_files::recording::{
     self, IndenterFriction, RecordingHeader, Samples, StimulusKind, Support,
 };
-use palpate_mechanics::contact::{Friction, half_space_stiffness, hertz_force, sneddon_force};
+use palpate_mechanics::contact::{
+    Friction, FrictionLaw, half_space_stiffness, hertz_force, sneddon_force,
+};
 use palpate_mechanics::finite_elements::indentation::{
-    Base, History, IndentationProblem, IndenterShape, Side, solve, solve_history,
+    Base, History, IndentationPoint, IndentationProblem, IndenterShape, Side, solve, solve_history,
 };
 
 use super::super::problem::{Indentation, Loading, Problem, Ramp};
 use super::super::table::Table;
-use super::{Figures, Solution, Wanted, field, millimetres, millinewtons, plots, warnings};
+use super::{
+    Figures, FrictionFigures, Solution, Wanted, field, millimetres, millinewtons, plots, warnings,
+};
 use crate::Error;
 use crate::VERSION;
 use crate::plot::Plot;
@@ -57,7 +61,12 @@ fn at_depths(
     let table = Table::default()
         .with("depth [mm]", millimetres(depths))
         .with("force [mN]", millinewtons(&forces))
-        .with("half-space [mN]", depths.iter().map(|&d| 1e3 * closed(d)));
+        .with(
+            &format!("{} [mN]", half_space(case)),
+            depths.iter().map(|&d| 1e3 * closed(d)),
+        );
+    let friction = friction(&found.answer.points);
+    let table = with_friction(table, friction.as_ref());
     Ok(Solution {
         heading: heading(case),
         tables: vec![table],
@@ -66,6 +75,7 @@ fn at_depths(
             depth_m: depths.to_vec(),
             force_n: forces,
             time_s: None,
+            friction,
         },
         unknowns: found.answer.unknowns,
         estimated_error: found.error,
@@ -100,8 +110,13 @@ fn in_time(
     let table = Table::default()
         .with("time [s]", times.iter().copied())
         .with("depth [mm]", millimetres(&depths))
-        .with("force [mN]", millinewtons(&forces))
-        .keeping_the_peak(&forces);
+        .with("force [mN]", millinewtons(&forces));
+    let sampled: Vec<_> = wanted
+        .iter()
+        .map(|&k| found.answer.points[k].clone())
+        .collect();
+    let friction = friction(&sampled);
+    let table = with_friction(table, friction.as_ref()).keeping_the_peak(&forces);
     let mut warnings = found.warnings;
     warnings.extend(warnings::of_depths(
         problem,
@@ -128,6 +143,7 @@ fn in_time(
             depth_m: depths,
             force_n: forces,
             time_s: Some(times),
+            friction,
         },
         unknowns: found.answer.unknowns,
         estimated_error: found.error,
@@ -135,6 +151,33 @@ fn in_time(
         warnings,
         vtu: None,
     })
+}
+
+/// How the indenter touches at each point, where it has Coulomb friction at all of them.
+fn friction(points: &[IndentationPoint]) -> Option<FrictionFigures> {
+    let contacts: Option<Vec<_>> = points.iter().map(|point| point.friction).collect();
+    let contacts = contacts.filter(|contacts| !contacts.is_empty())?;
+    Some(FrictionFigures {
+        contact_radius_m: contacts.iter().map(|c| c.contact_radius).collect(),
+        stick_radius_m: contacts.iter().map(|c| c.stick_radius).collect(),
+        tangential_force_n: contacts.iter().map(|c| c.tangential_force).collect(),
+    })
+}
+
+fn with_friction(table: Table, friction: Option<&FrictionFigures>) -> Table {
+    match friction {
+        None => table,
+        Some(friction) => table
+            .with(
+                "contact radius [mm]",
+                millimetres(&friction.contact_radius_m),
+            )
+            .with("stick radius [mm]", millimetres(&friction.stick_radius_m))
+            .with(
+                "tangential [mN]",
+                millinewtons(&friction.tangential_force_n),
+            ),
+    }
 }
 
 impl Ramp {
@@ -178,9 +221,13 @@ fn recording(
         Base::Bonded => Support::Bonded,
         Base::Lubricated => Support::Lubricated,
     };
-    let friction = match case.indenter.face {
-        Friction::Bonded => IndenterFriction::Bonded,
-        Friction::Frictionless => IndenterFriction::Frictionless,
+    // No header has a coefficient; the source tells it.
+    let (friction, source) = match case.indenter.face {
+        FrictionLaw::Bonded => (Some(IndenterFriction::Bonded), String::new()),
+        FrictionLaw::Frictionless => (Some(IndenterFriction::Frictionless), String::new()),
+        FrictionLaw::Coulomb(coefficient) => {
+            (None, format!(", coefficient of friction {coefficient}"))
+        }
     };
     let header = RecordingHeader {
         stimulus: Some(StimulusKind::RampAndHold),
@@ -190,11 +237,11 @@ fn recording(
         indenter_shape: Some(shape),
         indenter_radius_m: Some(case.indenter.radius),
         indenter_half_angle_deg: half_angle,
-        indenter_friction: Some(friction),
+        indenter_friction: friction,
         thickness_m: Some(case.block.height),
         specimen_radius_m: Some(case.block.radius),
         support: Some(support),
-        source: Some(format!("palpate solve {VERSION}, finite elements")),
+        source: Some(format!("palpate solve {VERSION}, finite elements{source}")),
         ..RecordingHeader::default()
     };
     let samples = Samples {
@@ -213,13 +260,26 @@ pub(super) fn mechanical(problem: &Problem, case: &Indentation) -> IndentationPr
     }
 }
 
-/// What the same indenter meets on a half-space at small strain [N].
+/// What the same indenter meets on a half-space at small strain [N]; with Coulomb friction, for which there is no closed
+/// form, what it meets without.
 fn half_space_force(problem: &Problem, case: &Indentation, depth: f64) -> f64 {
     let (law, radius) = (&problem.material.at_rest, case.indenter.radius);
+    let friction = match case.indenter.face {
+        FrictionLaw::Bonded => Friction::Bonded,
+        FrictionLaw::Frictionless | FrictionLaw::Coulomb(_) => Friction::Frictionless,
+    };
     match case.indenter.shape {
         IndenterShape::Sphere => hertz_force(law, radius, depth),
-        IndenterShape::Flat { .. } => depth * half_space_stiffness(law, radius, case.indenter.face),
+        IndenterShape::Flat { .. } => depth * half_space_stiffness(law, radius, friction),
         IndenterShape::Cone { half_angle } => sneddon_force(law, half_angle, depth),
+    }
+}
+
+/// What that is called.
+fn half_space(case: &Indentation) -> &'static str {
+    match case.indenter.face {
+        FrictionLaw::Coulomb(_) => "half-space without friction",
+        FrictionLaw::Bonded | FrictionLaw::Frictionless => "half-space",
     }
 }
 
@@ -242,10 +302,12 @@ fn title(case: &Indentation) -> String {
 }
 
 fn heading(case: &Indentation) -> String {
-    let face = match case.indenter.face {
-        Friction::Bonded => "sticks",
-        Friction::Frictionless => "slips",
+    let surface = |friction, slides: &str| match friction {
+        FrictionLaw::Bonded => "sticks".to_owned(),
+        FrictionLaw::Frictionless => slides.to_owned(),
+        FrictionLaw::Coulomb(coefficient) => format!("has friction {coefficient}"),
     };
+    let face = surface(case.indenter.face, "slips");
     let how = match case.indenter.shape {
         IndenterShape::Sphere => format!("that {face}"),
         IndenterShape::Cone { half_angle } => {
@@ -253,9 +315,8 @@ fn heading(case: &Indentation) -> String {
         }
         IndenterShape::Flat { side } => {
             let side = match side {
-                Side::Touches(Friction::Bonded) => "sticks",
-                Side::Touches(Friction::Frictionless) => "slides",
-                Side::Absent => "is not there",
+                Side::Touches(friction) => surface(friction, "slides"),
+                Side::Absent => "is not there".to_owned(),
             };
             format!("(its face {face}, its side {side})")
         }
@@ -289,7 +350,7 @@ fn over_depth(
         series: vec![
             plots::dotted_line("finite elements", points),
             plots::closed_form(
-                "half-space at small strain, closed form",
+                &format!("{} at small strain, closed form", half_space(case)),
                 along.map(|depth| (1e3 * depth, 1e3 * closed(depth))),
             ),
         ],

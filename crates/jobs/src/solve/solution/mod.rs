@@ -11,7 +11,9 @@ mod tube;
 mod uniaxial;
 mod warnings;
 
-pub use figures::{Figures, PatchFigures, PointFigures, Profile, SolidFigures, TubeFigures};
+pub use figures::{
+    Figures, FrictionFigures, PatchFigures, PointFigures, Profile, SolidFigures, TubeFigures,
+};
 
 use std::time::Instant;
 

@@ -2,125 +2,267 @@
 //!
 //! A node of the surface that would enter the indenter is activated: at the place where it came in (stick)
 //! or on the surface that it came through (slide). One that is pulled is let go, unless it belongs to a
-//! face that sticks.
+//! face that cannot lose it.
+//!
+//! With Coulomb friction a node sticks while the tangential force |T| is at most μ N, and otherwise slips with |T| = μ N
+//! from the place where it last stood: the closest-point return of plasticity, backward in time. It sticks again when
+//! it would slip along its force.
 
-use super::super::supports::RigidSurface;
+use super::super::supports::{Beside, RigidSurface};
 use super::indenter::{Indenter, IndenterShape, Side};
-use crate::contact::Friction;
+use crate::contact::FrictionLaw;
+
+/// A part of an indenter's surface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Part {
+    /// The flat face.
+    Face,
+    /// The side of a flat punch.
+    Side,
+    /// The sphere or the cone.
+    Round,
+}
 
 /// Contact of a node.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum ContactStatus {
     /// None.
     Free,
-    /// Bonded to the face, at this radius [m].
-    Bonded { radius: f64 },
-    /// Stays at this radius and height above the lowest point of the indenter [m].
-    Stuck { radius: f64, above: f64 },
-    /// Slides on the flat face.
-    OnFace,
-    /// Slides on the side.
-    OnSide,
-    /// Slides on the sphere or the cone.
-    OnSurface,
+    /// Stays where it is on the indenter.
+    Stuck { part: Part, at: Place },
+    /// Slides.
+    Sliding { part: Part, slip: Slip },
+}
+
+/// How a node slides.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Slip {
+    /// Tangential over normal force on the tissue [-]; 0 without friction.
+    pub(super) force_ratio: f64,
+    /// Where it was at the last equilibrium, or came in since.
+    pub(super) from: Place,
 }
 
 /// A place as the indenter sees it: radius and height above its lowest point [m].
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Place {
     pub(super) radius: f64,
     pub(super) above: f64,
 }
 
+/// Limits below which a node keeps its status.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Tolerances {
+    /// Force beyond the cone of friction [N].
+    pub(super) force: f64,
+    /// Slip along the force of friction [m].
+    pub(super) slip: f64,
+}
+
+impl Part {
+    fn of(shape: IndenterShape) -> Self {
+        match shape {
+            IndenterShape::Flat { .. } => Self::Side,
+            IndenterShape::Sphere | IndenterShape::Cone { .. } => Self::Round,
+        }
+    }
+}
+
 impl Indenter {
-    /// The surface of a sphere or a cone whose lowest point is at `height` [m]; a flat face has none.
-    pub(super) fn surface(&self, height: f64) -> Option<RigidSurface> {
-        match self.shape {
-            IndenterShape::Flat { .. } => None,
-            IndenterShape::Sphere => Some(RigidSurface::Sphere {
-                center: height + self.radius,
-                radius: self.radius,
-            }),
-            IndenterShape::Cone { half_angle } => Some(RigidSurface::Cone {
+    /// The surface of a part when the lowest point is at `height` [m].
+    pub(super) fn surface(&self, part: Part, height: f64) -> RigidSurface {
+        match (part, self.shape) {
+            (Part::Face, _) => RigidSurface::Plane { height },
+            (Part::Round, IndenterShape::Cone { half_angle }) => RigidSurface::Cone {
                 apex: height,
                 half_angle,
-            }),
+            },
+            (Part::Round, _) => RigidSurface::Sphere {
+                center: height + self.radius,
+                radius: self.radius,
+            },
+            (Part::Side, _) => RigidSurface::Cylinder {
+                radius: self.radius,
+            },
         }
     }
 
-    /// Contact of a node of the untouched surface at `radius` [m].
-    pub(super) fn first_touch(&self, radius: f64) -> ContactStatus {
-        // Rounding of the mesh's own lines.
-        let under = radius <= self.radius * (1.0 + 1e-9);
-        match (self.shape, self.face) {
-            (IndenterShape::Flat { .. }, Friction::Bonded) if under => {
-                ContactStatus::Bonded { radius }
+    /// The law of friction of a part.
+    pub(super) fn friction(&self, part: Part) -> FrictionLaw {
+        match (part, self.shape) {
+            (
+                Part::Side,
+                IndenterShape::Flat {
+                    side: Side::Touches(law),
+                },
+            ) => law,
+            _ => self.face,
+        }
+    }
+
+    /// Coulomb's coefficient of a part [-]; none where its friction is of another kind.
+    fn coefficient(&self, part: Part) -> Option<f64> {
+        match self.friction(part) {
+            FrictionLaw::Coulomb(coefficient) => Some(coefficient),
+            FrictionLaw::Bonded | FrictionLaw::Frictionless => None,
+        }
+    }
+
+    /// Coulomb's coefficient that bounds the force on a node [-]: none on a sharp edge between a face and a side with
+    /// friction: it is on both, and the node does not go around it.
+    pub(super) fn coefficient_of(&self, touch: ContactStatus) -> Option<f64> {
+        let part = touch.part()?;
+        let on_edge = match touch {
+            ContactStatus::Stuck { at, .. } => at.radius >= self.radius * (1.0 - 1e-9),
+            ContactStatus::Sliding { .. } | ContactStatus::Free => false,
+        };
+        let has_side = matches!(
+            self.shape,
+            IndenterShape::Flat {
+                side: Side::Touches(FrictionLaw::Coulomb(_))
             }
-            (IndenterShape::Flat { .. }, Friction::Frictionless) if under => ContactStatus::OnFace,
-            _ => ContactStatus::Free,
+        );
+        match part == Part::Face && on_edge && has_side {
+            true => None,
+            false => self.coefficient(part),
+        }
+    }
+
+    /// Coulomb's coefficients of what can touch [-].
+    pub(super) fn coefficients(&self) -> impl Iterator<Item = f64> {
+        [Part::Face, Part::of(self.shape)]
+            .into_iter()
+            .filter_map(|part| self.coefficient(part))
+    }
+
+    /// Where a place lies beside a part.
+    pub(super) fn beside(&self, part: Part, place: Place) -> Beside {
+        self.surface(part, 0.0).beside(place.radius, place.above)
+    }
+
+    /// Whether a node of the untouched surface at `radius` [m] is under a flat face.
+    fn is_under_face(&self, radius: f64) -> bool {
+        // Rounding of the mesh's own lines.
+        matches!(self.shape, IndenterShape::Flat { .. }) && radius <= self.radius * (1.0 + 1e-9)
+    }
+
+    /// Contact of a node of the untouched surface at `rest`.
+    pub(super) fn first_touch(&self, rest: Place) -> ContactStatus {
+        match self.is_under_face(rest.radius) {
+            true => self.touch(Part::Face, rest),
+            false => ContactStatus::Free,
+        }
+    }
+
+    /// Contact of a node that has come to a part.
+    fn touch(&self, part: Part, at: Place) -> ContactStatus {
+        match self.friction(part) {
+            FrictionLaw::Bonded | FrictionLaw::Coulomb(_) => ContactStatus::Stuck { part, at },
+            FrictionLaw::Frictionless => ContactStatus::Sliding {
+                part,
+                slip: Slip {
+                    force_ratio: 0.0,
+                    from: at,
+                },
+            },
         }
     }
 
     /// How deep a place is inside the indenter [m]; negative outside it.
     pub(super) fn inside(&self, place: Place) -> f64 {
-        match self.surface(0.0) {
-            Some(surface) => -surface.beside(place.radius, place.above).distance,
-            None if place.above > 0.0 => self.radius - place.radius,
-            None => f64::NEG_INFINITY,
+        match Part::of(self.shape) {
+            Part::Side if place.above <= 0.0 => f64::NEG_INFINITY,
+            part => -self.beside(part, place).distance,
         }
     }
 
     /// The contact of a node that came from `then`, outside, to `now`, inside. The part of the way at
     /// which it came in is also answered [-].
     pub(super) fn activate(&self, then: Place, now: Place) -> (ContactStatus, f64) {
-        let grip = match self.shape {
-            IndenterShape::Flat {
-                side: Side::Touches(grip),
-            } => grip,
-            IndenterShape::Flat { side: Side::Absent } => return (ContactStatus::Free, 0.0),
-            IndenterShape::Sphere | IndenterShape::Cone { .. } => self.face,
+        if self.shape == (IndenterShape::Flat { side: Side::Absent }) {
+            return (ContactStatus::Free, 0.0);
+        }
+        let part = Part::of(self.shape);
+        if self.friction(part) == FrictionLaw::Frictionless {
+            return (self.touch(part, now), 1.0);
+        }
+        let (outside, inside) = (-self.inside(then), self.inside(now));
+        let share = if outside > 0.0 && outside.is_finite() {
+            outside / (outside + inside)
+        } else {
+            0.0
         };
-        match (grip, self.shape) {
-            (Friction::Bonded, _) => {
-                let (outside, inside) = (-self.inside(then), self.inside(now));
-                let part = if outside > 0.0 && outside.is_finite() {
-                    outside / (outside + inside)
-                } else {
-                    0.0
-                };
-                let between = |a: f64, b: f64| a + part * (b - a);
-                let touch = ContactStatus::Stuck {
-                    radius: between(then.radius, now.radius),
-                    above: between(then.above, now.above),
-                };
-                (touch, part)
+        let between = |a: f64, b: f64| a + share * (b - a);
+        let at = Place {
+            radius: between(then.radius, now.radius),
+            above: between(then.above, now.above),
+        };
+        (self.touch(part, at), share)
+    }
+
+    /// Whether an active node is to be released: it is at `place` and the indenter acts on the tissue
+    /// with `force` [N], (r, z).
+    pub(super) fn lets_go(&self, touch: ContactStatus, place: Place, force: [f64; 2]) -> bool {
+        let (part, slides) = match touch {
+            ContactStatus::Free
+            | ContactStatus::Stuck {
+                part: Part::Face, ..
+            } => return false,
+            ContactStatus::Sliding {
+                part: Part::Face, ..
+            } => return false,
+            ContactStatus::Stuck { part, .. } => (part, false),
+            ContactStatus::Sliding { part, .. } => (part, true),
+        };
+        // A sharp apex stays where it has gone in.
+        if matches!(self.shape, IndenterShape::Cone { .. }) && place.radius == 0.0 {
+            return false;
+        }
+        let [push, _] = self.beside(part, place).components(force);
+        push < 0.0 || (slides && part == Part::Side && place.above < 0.0)
+    }
+
+    /// What the cone of friction makes of an active node that is at `place` off the axis and on which the indenter acts
+    /// with `force` [N], (r, z); none where it keeps its status.
+    pub(super) fn stick_or_slip(
+        &self,
+        touch: ContactStatus,
+        (place, force): (Place, [f64; 2]),
+        tolerances: Tolerances,
+    ) -> Option<ContactStatus> {
+        let part = touch.part()?;
+        let coefficient = self.coefficient_of(touch)?;
+        let beside = self.beside(part, place);
+        let [normal, tangential] = beside.components(force);
+        match touch {
+            ContactStatus::Free => None,
+            ContactStatus::Stuck { at, .. } => {
+                let most = coefficient * normal.max(0.0) + tolerances.force;
+                (tangential.abs() > most).then_some(ContactStatus::Sliding {
+                    part,
+                    slip: Slip {
+                        force_ratio: coefficient.copysign(tangential),
+                        from: at,
+                    },
+                })
             }
-            (Friction::Frictionless, IndenterShape::Flat { .. }) => (ContactStatus::OnSide, 1.0),
-            (Friction::Frictionless, IndenterShape::Sphere | IndenterShape::Cone { .. }) => {
-                (ContactStatus::OnSurface, 1.0)
+            ContactStatus::Sliding { slip, .. } => {
+                let Slip { force_ratio, from } = slip;
+                let moved = [place.radius - from.radius, place.above - from.above];
+                let [_, along] = beside.components(moved);
+                let with_force = along * 1_f64.copysign(force_ratio) > tolerances.slip;
+                with_force.then_some(ContactStatus::Stuck { part, at: from })
             }
         }
     }
+}
 
-    /// Whether an active node is to be released: it is at `place` and the tissue presses on the indenter
-    /// with `force` [N], (r, z).
-    pub(super) fn lets_go(&self, touch: ContactStatus, place: Place, force: [f64; 2]) -> bool {
-        let push = match (touch, self.surface(0.0)) {
-            (ContactStatus::Stuck { .. } | ContactStatus::OnSide, None) => force[0],
-            // A sharp apex stays where it has gone in.
-            (_, Some(RigidSurface::Cone { .. })) if place.radius == 0.0 => return false,
-            // On the axis the radial force is that of symmetry.
-            (ContactStatus::Stuck { .. } | ContactStatus::OnSurface, Some(_))
-                if place.radius == 0.0 =>
-            {
-                -force[1]
-            }
-            (ContactStatus::Stuck { .. } | ContactStatus::OnSurface, Some(surface)) => {
-                let normal = surface.beside(place.radius, place.above).normal;
-                force[0] * normal[0] + force[1] * normal[1]
-            }
-            _ => return false,
-        };
-        push < 0.0 || (touch == ContactStatus::OnSide && place.above < 0.0)
+impl ContactStatus {
+    /// The part of the indenter that it is on.
+    pub(super) fn part(&self) -> Option<Part> {
+        match *self {
+            Self::Free => None,
+            Self::Stuck { part, .. } | Self::Sliding { part, .. } => Some(part),
+        }
     }
 }

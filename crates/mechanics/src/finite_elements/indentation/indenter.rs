@@ -1,11 +1,13 @@
-use crate::contact::Friction;
 use std::f64::consts::FRAC_2_PI;
 
+use super::super::mismatch::Mismatch;
+use crate::contact::FrictionLaw;
+
 /// What the side of a flat punch does.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Side {
     /// Touches, with this friction.
-    Touches(Friction),
+    Touches(FrictionLaw),
     /// Is not there: right only until tissue would enter the punch.
     Absent,
 }
@@ -35,10 +37,18 @@ pub struct Indenter {
     /// Radius of the cylinder, of the sphere, or of the base of the cone, which tissue must not reach [m].
     pub radius: f64,
     /// What its face, the sphere or the cone does.
-    pub face: Friction,
+    pub face: FrictionLaw,
 }
 
 impl Indenter {
+    pub(super) fn check(&self) -> Result<(), Mismatch> {
+        let impossible = |coefficient: &f64| !(coefficient.is_finite() && *coefficient >= 0.0);
+        match self.coefficients().find(impossible) {
+            Some(coefficient) => Err(Mismatch::FrictionOutOfRange { coefficient }),
+            None => Ok(()),
+        }
+    }
+
     /// Radius of the touched circle at `depth` on a half-space, at small strain [m]: of a sphere [Hertz 1881], of a
     /// cone [Sneddon 1965].
     pub fn contact_radius(&self, depth: f64) -> f64 {

@@ -5,9 +5,9 @@
 //!
 //! *How we know*: `indentation::…`: closed forms of punch and sphere, F = dE/dd, the two values of a
 //! bonded punch in an incompressible neo-Hookean block, refined runs, runs with moved parameters; `elastic_base::…`: transfer
-//! matrices.
+//! matrices; `friction::…`: Spence's partial slip, both limits, the cone at every node.
 //!
-//! *Limits*: axisymmetric; sharp edge; no friction but none and infinite. A face that slides folds the
+//! *Limits*: axisymmetric; sharp edge; one coefficient of friction, static as kinetic. A face that slides folds the
 //! surface under it at some depth, and what lies beyond is refused.
 
 mod base;
@@ -24,5 +24,7 @@ pub use base::ElasticBase;
 pub use indenter::{Indenter, IndenterShape, Side};
 pub use mesh::{Base, Block};
 pub use problem::{History, IndentationAnswer, IndentationProblem, Relaxing, solve, solve_history};
-pub use run::{IndentationPoint, IndentationRun, IndentationSettings};
+pub use run::{
+    ContactNode, FrictionalContact, IndentationPoint, IndentationRun, IndentationSettings,
+};
 pub use stiffening::Stiffening;

@@ -1,4 +1,4 @@
-use crate::contact::Friction;
+use crate::contact::FrictionLaw;
 use std::sync::Arc;
 
 use super::super::estimate::{Estimated, Meshes, Progress, Quantity, refine};
@@ -181,7 +181,7 @@ impl IndentationProblem {
         let slides = matches!(
             self.indenter.shape,
             IndenterShape::Flat {
-                side: Side::Touches(Friction::Frictionless)
+                side: Side::Touches(FrictionLaw::Frictionless)
             }
         );
         let most = if slides && deepest > DEEP * self.indenter.radius {
@@ -271,6 +271,7 @@ impl IndentationProblem {
             force,
             energy: 0.0,
             sensitivities: Vec::new(),
+            friction: None,
         });
         Ok(IndentationAnswer {
             points: points.collect(),

@@ -1,4 +1,8 @@
 mod contact_update;
+mod frictional_contact;
+mod supports;
+
+pub use frictional_contact::{ContactNode, FrictionalContact};
 
 use std::sync::Arc;
 
@@ -8,9 +12,9 @@ use super::super::model::{
 use super::super::newton::{self, Failure, SolverControls};
 use super::super::relaxation::{Memory, RelaxationStep};
 use super::super::snap::equilibrate_downhill;
-use super::super::supports::{Sliding, Supports};
+use super::super::supports::Supports;
 use super::base::ElasticBase;
-use super::contact::ContactStatus;
+use super::contact::{ContactStatus, Place};
 use super::indenter::{Indenter, IndenterShape};
 use super::mesh::{Base, Block, Body};
 use super::sensitivities::{Sensitivities, SoughtChange};
@@ -48,6 +52,8 @@ pub struct IndentationPoint {
     /// Change of the force with each parameter of the law [N per unit], and with the logarithm of the stiffness of an
     /// elastic base [N], where asked for.
     pub sensitivities: Vec<f64>,
+    /// How the indenter touches, with Coulomb friction.
+    pub friction: Option<FrictionalContact>,
 }
 
 /// An indentation in progress.
@@ -70,6 +76,12 @@ pub struct IndentationRun {
     before: Option<ConvergedIncrement>,
     /// The next step [m].
     step: f64,
+    /// No step is longer [m].
+    longest: f64,
+    /// Whether a part of the indenter has Coulomb friction.
+    has_friction: bool,
+    /// Whether the indenter never went back.
+    only_deeper: bool,
 }
 
 /// An equilibrium at a depth.
@@ -92,6 +104,11 @@ const SHORTEST_STEP: f64 = 1e-3;
 const DOWNHILL_STEP: f64 = 0.1;
 /// Rounds of Newton's method and changes of contact at one depth.
 const MOST_CHANGES: usize = 24;
+/// The same with Coulomb friction, where nodes stick and slip too.
+const MOST_CHANGES_WITH_FRICTION: usize = 60;
+/// Longest step with Coulomb friction, in parts of the depth that the mesh is made for [-]: slip depends on the way, and
+/// backward differences of it have an error of the first power of the step.
+const FRICTION_STEP: f64 = 1.0 / 32.0;
 /// Enough to see which nodes touch without friction.
 const ROUGH: SolverControls = SolverControls {
     tolerance: 1e-3,
@@ -170,6 +187,7 @@ impl IndentationRun {
         base: Option<Arc<dyn Law>>,
     ) -> Result<Self, Error> {
         let indenter = settings.indenter;
+        indenter.check()?;
         let top = body.top;
         if settings.law.has_fibres() {
             let model = "an axisymmetric indentation";
@@ -190,9 +208,20 @@ impl IndentationRun {
         let scale = indenter.scale(settings.deepest);
         let touch = top
             .iter()
-            .map(|&node| indenter.first_touch(model.mesh().nodes[node].x))
+            .map(|&node| {
+                let rest = model.mesh().nodes[node];
+                indenter.first_touch(Place {
+                    radius: rest.x,
+                    above: rest.y,
+                })
+            })
             .collect();
         let relaxes = !settings.prony.terms().is_empty();
+        let has_friction = indenter.coefficients().next().is_some();
+        let longest = match has_friction && settings.deepest > 0.0 {
+            true => FRICTION_STEP * settings.deepest,
+            false => LONGEST_STEP * scale,
+        };
         Ok(Self {
             workspace: FiniteElementWorkspace::new(&model)?,
             indenter,
@@ -210,14 +239,20 @@ impl IndentationRun {
                 slopes: None,
             },
             before: None,
-            step: FIRST_STEP * scale,
+            step: longest.min(FIRST_STEP * scale),
+            longest,
+            has_friction,
+            only_deeper: true,
             model,
         })
     }
 
     /// Answers also for the change of force with the law's parameters, from now on. Only at rest, and
-    /// for an elastic tissue.
+    /// for an elastic tissue; with Coulomb friction they stay empty.
     pub fn with_sensitivities(mut self) -> Self {
+        if self.has_friction {
+            return self;
+        }
         let mut sought = Vec::new();
         for (region, law) in self.laws.iter().enumerate() {
             let known = law.parameters().into_iter().enumerate();
@@ -255,8 +290,10 @@ impl IndentationRun {
         mut at_step: impl FnMut(&IndentationPoint),
     ) -> Result<IndentationPoint, Error> {
         let scale = self.scale;
+        let shortest = (SHORTEST_STEP * scale).min(SHORTEST_STEP / LONGEST_STEP * self.longest);
         let (start, from) = (self.now.time, self.now.depth);
         let length = (depth - from).abs();
+        self.only_deeper &= depth >= from;
         let mut gone = 0.0;
         loop {
             let left = length - gone;
@@ -264,7 +301,8 @@ impl IndentationRun {
             let next = if step >= left { length } else { gone + step };
             let part = if length > 0.0 { next / length } else { 1.0 };
             let goal = |a: f64, b: f64| if part == 1.0 { b } else { a + part * (b - a) };
-            let way = if step > DOWNHILL_STEP * scale {
+            // Friction has no energy to follow downhill.
+            let way = if step > DOWNHILL_STEP * scale || self.has_friction {
                 Way::Straight
             } else {
                 Way::Downhill
@@ -281,7 +319,7 @@ impl IndentationRun {
                         return Ok(point);
                     }
                 }
-                Err(_) if step > SHORTEST_STEP * scale => self.step = 0.5 * step,
+                Err(_) if step > shortest => self.step = 0.5 * step,
                 Err(failure) => {
                     return Err(Error::NoEquilibrium {
                         depth: self.now.depth,
@@ -294,7 +332,9 @@ impl IndentationRun {
 
     /// The next step [m] when `left` [m] are left; two equal steps rather than one and a crumb.
     fn next_step(&self, left: f64) -> f64 {
-        if self.is_linear() || left <= self.step {
+        // Under a growing load the face sticks and slips at the same places.
+        let one = self.is_linear() && (self.only_deeper || !self.has_friction);
+        if one || left <= self.step {
             left
         } else {
             self.step.min(0.5 * left)
@@ -304,8 +344,7 @@ impl IndentationRun {
     /// Sets the next step after one that took this `effort`.
     fn pace(&mut self, step: f64, controls: usize) {
         if controls <= LITTLE_EFFORT {
-            let longest = LONGEST_STEP * self.scale;
-            self.step = (1.5 * step).max(self.step).min(longest);
+            self.step = (1.5 * step).max(self.step).min(self.longest);
         } else if controls > MUCH_EFFORT {
             self.step = 0.7 * step;
         }
@@ -345,6 +384,7 @@ impl IndentationRun {
             sensitivities: self.now.slopes.as_ref().map_or_else(Vec::new, |slopes| {
                 slopes.force(&self.model, &self.now.state, &self.workspace, activated)
             }),
+            friction: self.has_friction.then(|| self.frictional_contact()),
         }
     }
 
@@ -380,7 +420,11 @@ impl IndentationRun {
         };
         let mut controls = first;
         let mut released = vec![false; touch.len()];
-        for _ in 0..MOST_CHANGES {
+        let most = match self.has_friction {
+            true => MOST_CHANGES_WITH_FRICTION,
+            false => MOST_CHANGES,
+        };
+        for _ in 0..most {
             let supports = self.supports(&touch, depth, relaxing.as_ref());
             let before = (way == Way::Downhill).then(|| state.clone());
             let workspace = &mut self.workspace;
@@ -415,6 +459,7 @@ impl IndentationRun {
             if let Some(memory) = &mut memory {
                 memory.advance(&self.model, &self.prony, duration, &state);
             }
+            self.note_places(&mut touch, (depth, &state));
             let standing = ConvergedIncrement {
                 time,
                 depth,
@@ -452,49 +497,5 @@ impl IndentationRun {
         }
         newton::assemble(&self.model, &supports, &state.unknowns, workspace)?;
         Ok(state)
-    }
-
-    fn supports<'a>(
-        &self,
-        touch: &[ContactStatus],
-        depth: f64,
-        relaxing: Option<&'a RelaxationStep>,
-    ) -> Supports<'a> {
-        let mut supports = Supports {
-            held: self.rest.clone(),
-            sliding: Vec::new(),
-            pressure: None,
-            dead_load: None,
-            relaxing,
-            stray: None,
-        };
-        for (&node, touch) in self.top.iter().zip(touch) {
-            let (at, rest) = (
-                self.model.mesh().nodes[node].x,
-                self.model.mesh().nodes[node].y,
-            );
-            let held = &mut supports.held[2 * node..2 * node + 2];
-            match *touch {
-                ContactStatus::Free => {}
-                ContactStatus::Bonded { radius } => {
-                    held[0] = Some(radius - at);
-                    held[1] = Some(-depth);
-                }
-                ContactStatus::Stuck { radius, above } => {
-                    held[0] = Some(radius - at);
-                    held[1] = Some(above - depth - rest);
-                }
-                ContactStatus::OnFace => held[1] = Some(-depth),
-                ContactStatus::OnSide => held[0] = Some(self.indenter.radius - at),
-                // On the axis the lowest point is met.
-                ContactStatus::OnSurface if at == 0.0 => held[1] = Some(-depth),
-                ContactStatus::OnSurface => {
-                    let surface = self.indenter.surface(-depth);
-                    let sliding = |surface| Sliding { node, surface };
-                    supports.sliding.extend(surface.map(sliding));
-                }
-            }
-        }
-        supports
     }
 }

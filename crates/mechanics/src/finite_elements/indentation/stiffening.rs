@@ -118,7 +118,7 @@ fn of_unit_radius(tip: Tip) -> Tip {
 fn press(law: &Arc<dyn Law>, (tip, face): (Tip, Friction)) -> Result<IndentationRun, Error> {
     let shape = match tip {
         Tip::Flat { .. } => IndenterShape::Flat {
-            side: Side::Touches(face),
+            side: Side::Touches(face.into()),
         },
         Tip::Sphere { .. } => IndenterShape::Sphere,
     };
@@ -131,7 +131,7 @@ fn press(law: &Arc<dyn Law>, (tip, face): (Tip, Friction)) -> Result<Indentation
         indenter: Indenter {
             shape,
             radius: 1.0,
-            face,
+            face: face.into(),
         },
         law: law.clone(),
         prony: PronySeries::default(),

@@ -1,39 +1,49 @@
 //! Which nodes touch the indenter at an equilibrium, and where that is known.
 
-use super::super::contact::{ContactStatus, Place};
+use super::super::contact::{ContactStatus, Part, Place, Tolerances};
 use super::super::indenter::{IndenterShape, Side};
 use super::super::sensitivities::{Entry, Sensitivities};
 use super::{Failure, FiniteElementState, IndentationRun};
 use crate::Error;
-use crate::contact::Friction;
+use crate::contact::FrictionLaw;
 
 /// A node that is deeper than this inside after a step has come in too fast [-].
 const DEEPEST_CATCH: f64 = 0.1;
 /// How far a node that pulled on a sphere or a cone may be inside without being activated again at the same depth, in
 /// radii of the contact [-]: a hundredth of the smallest elements.
 const HAIR: f64 = 1e-3;
+/// How far a tangential force may be beyond the cone of friction, in parts of the largest normal force on a node [-]: ten
+/// times the relative residual that an equilibrium has.
+const CONE: f64 = 1e-6;
+/// Slip along the force of friction that is rounding, in radii of the contact [-].
+const NO_SLIP: f64 = 1e-9;
 
 impl IndentationRun {
-    /// Catches nodes that have entered the indenter and lets go those that pull; answers whether there
-    /// was one. Fails when tissue went in too deep to know where it entered.
+    /// Catches nodes that have entered the indenter, lets go those that pull, and lets nodes stick or slip; answers whether
+    /// there was one. Fails when tissue went in too deep to know where it entered.
     pub(super) fn settle(
         &self,
         (depth, state): (f64, &FiniteElementState),
         (touch, released): (&mut [ContactStatus], &mut [bool]),
         mut slopes: Option<&mut Sensitivities>,
     ) -> Result<bool, Failure> {
-        if self.is_linear() {
+        if self.is_linear() && !self.has_friction {
             return Ok(false);
         }
         let mut changed = false;
+        let tolerances = Tolerances {
+            force: CONE * self.largest_normal_force(touch, depth, state),
+            slip: NO_SLIP * self.scale,
+        };
         let statuses = touch.iter_mut().zip(released);
         for (&node, (touch, released)) in self.top.iter().zip(statuses) {
             let now = self.place(state, node, depth);
-            let inside = self.indenter.inside(now) / self.scale;
+            let force = self.force_on(node);
             if *touch == ContactStatus::Free {
+                let inside = self.indenter.inside(now) / self.scale;
                 // Rounding is no contact, and a node that pulled does not come back for a hair.
                 let least = if *released { HAIR } else { 1e-9 };
-                if inside > least && self.has_side() {
+                if inside > least && self.has_side() && !self.is_linear() {
                     if inside > DEEPEST_CATCH {
                         return Err(Failure::NotConverged);
                     }
@@ -51,24 +61,51 @@ impl IndentationRun {
                     *touch = activated;
                     changed = true;
                 }
-            } else {
-                let force = [0, 1].map(|i| self.workspace.residual[2 * node + i]);
-                if self.indenter.lets_go(*touch, now, force) {
-                    *touch = ContactStatus::Free;
-                    *released = self.indenter.surface(0.0).is_some();
-                    changed = true;
-                }
+            } else if !self.is_linear() && self.indenter.lets_go(*touch, now, force) {
+                *released = touch.part() == Some(Part::Round);
+                *touch = ContactStatus::Free;
+                changed = true;
+            } else if now.radius > 0.0
+                && let Some(next) = self
+                    .indenter
+                    .stick_or_slip(*touch, (now, force), tolerances)
+            {
+                *touch = next;
+                changed = true;
             }
         }
         Ok(changed)
     }
 
+    /// The force of the indenter on a node that touches it, at the last assembly [N]: (r, z).
+    pub(super) fn force_on(&self, node: usize) -> [f64; 2] {
+        [0, 1].map(|i| self.workspace.residual[2 * node + i])
+    }
+
+    fn largest_normal_force(
+        &self,
+        touch: &[ContactStatus],
+        depth: f64,
+        state: &FiniteElementState,
+    ) -> f64 {
+        let each = self.top.iter().zip(touch);
+        each.filter_map(|(&node, touch)| {
+            let place = self.place(state, node, depth);
+            let [normal, _] = self
+                .indenter
+                .beside(touch.part()?, place)
+                .components(self.force_on(node));
+            Some(normal)
+        })
+        .fold(0.0, f64::max)
+    }
+
     /// Whether nodes come and go that touch without friction.
     pub(super) fn slides(&self) -> bool {
         match self.indenter.shape {
-            IndenterShape::Flat { side } => side == Side::Touches(Friction::Frictionless),
+            IndenterShape::Flat { side } => side == Side::Touches(FrictionLaw::Frictionless),
             IndenterShape::Sphere | IndenterShape::Cone { .. } => {
-                self.indenter.face == Friction::Frictionless
+                self.indenter.face == FrictionLaw::Frictionless
             }
         }
     }
@@ -95,7 +132,7 @@ impl IndentationRun {
         // Corners of elements: every second node.
         let corners = self.top.iter().zip(&self.now.touch).step_by(2);
         let under: Vec<f64> = corners
-            .filter(|(_, touch)| **touch == ContactStatus::OnFace)
+            .filter(|(_, touch)| touch.part() == Some(Part::Face))
             .map(|(&node, _)| place(node).radius)
             .collect();
         let outside = under.last().is_some_and(|&r| r > 1.05 * radius);

@@ -1,0 +1,50 @@
+//! What holds the body while the indenter is at a depth.
+
+use super::super::super::relaxation::RelaxationStep;
+use super::super::super::supports::{Sliding, Supports};
+use super::super::contact::{ContactStatus, Part};
+use super::IndentationRun;
+
+impl IndentationRun {
+    pub(super) fn supports<'a>(
+        &self,
+        touch: &[ContactStatus],
+        depth: f64,
+        relaxing: Option<&'a RelaxationStep>,
+    ) -> Supports<'a> {
+        let mut supports = Supports {
+            held: self.rest.clone(),
+            sliding: Vec::new(),
+            pressure: None,
+            dead_load: None,
+            relaxing,
+            stray: None,
+        };
+        for (&node, touch) in self.top.iter().zip(touch) {
+            let (at, rest) = (
+                self.model.mesh().nodes[node].x,
+                self.model.mesh().nodes[node].y,
+            );
+            let held = &mut supports.held[2 * node..2 * node + 2];
+            match *touch {
+                ContactStatus::Free => {}
+                ContactStatus::Stuck { at: place, .. } => {
+                    held[0] = Some(place.radius - at);
+                    held[1] = Some((place.above - rest) - depth);
+                }
+                // On the axis the lowest point is met.
+                ContactStatus::Sliding { .. } if at == 0.0 => held[1] = Some(-depth),
+                ContactStatus::Sliding { part, slip } => {
+                    // A face lies on the surface as it is at rest.
+                    let lowest = if part == Part::Face { rest } else { 0.0 };
+                    supports.sliding.push(Sliding {
+                        node,
+                        surface: self.indenter.surface(part, lowest - depth),
+                        force_ratio: slip.force_ratio,
+                    });
+                }
+            }
+        }
+        supports
+    }
+}
