@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use palpate_mechanics::contact::Friction;
+use palpate_mechanics::contact::{Friction, FrictionLaw};
 use palpate_mechanics::finite_elements::indentation::{
     Base, Block, ElasticBase, IndentationRun, IndentationSettings, Indenter, IndenterShape, Side,
 };
@@ -21,7 +21,7 @@ const DEEP: f64 = 100.0 / 56.42;
 
 fn settings(law: Arc<dyn Law>, thickness: f64, face: Friction) -> IndentationSettings {
     let side = match face {
-        Friction::Bonded => Side::Touches(Friction::Bonded),
+        Friction::Bonded => Side::Touches(FrictionLaw::Bonded),
         Friction::Frictionless => Side::Absent,
     };
     IndentationSettings {
@@ -33,7 +33,7 @@ fn settings(law: Arc<dyn Law>, thickness: f64, face: Friction) -> IndentationSet
         indenter: Indenter {
             shape: IndenterShape::Flat { side },
             radius: RADIUS,
-            face,
+            face: face.into(),
         },
         law,
         prony: PronySeries::default(),

@@ -250,9 +250,6 @@ impl IndentationRun {
     /// Answers also for the change of force with the law's parameters, from now on. Only at rest, and
     /// for an elastic tissue; with Coulomb friction they stay empty.
     pub fn with_sensitivities(mut self) -> Self {
-        if self.has_friction {
-            return self;
-        }
         let mut sought = Vec::new();
         for (region, law) in self.laws.iter().enumerate() {
             let known = law.parameters().into_iter().enumerate();
@@ -264,7 +261,7 @@ impl IndentationRun {
             // The first parameter of a base is its modulus.
             sought.extend(of_law.take(if region == 0 { usize::MAX } else { 1 }));
         }
-        self.now.slopes = Some(Sensitivities::at_rest(&self.model, sought));
+        self.now.slopes = (!self.has_friction).then(|| Sensitivities::at_rest(&self.model, sought));
         self
     }
 
