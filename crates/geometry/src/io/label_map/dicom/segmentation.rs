@@ -109,10 +109,7 @@ pub(super) fn label_map(object: &FileDicomObject<InMemDicomObject>) -> Result<La
     let mut labels = vec![0; area * size[2]];
     let mut shared = 0_usize;
     for (frame, (&slice, &own)) in lattice.slices.iter().zip(&own_labels).enumerate() {
-        for (pixel, kept) in labels[slice * area..(slice + 1) * area]
-            .iter_mut()
-            .enumerate()
-        {
+        for (pixel, kept) in labels[(slice + 1) * area..][..area].iter_mut().enumerate() {
             let label = pixels.label(&data, frame * area + pixel, own);
             if label != 0 {
                 shared += usize::from(*kept != 0 && *kept != label);
