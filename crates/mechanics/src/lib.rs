@@ -8,7 +8,7 @@
 //! use std::sync::Arc;
 //!
 //! use palpate_mechanics::NeoHookean;
-//! use palpate_mechanics::contact::Friction;
+//! use palpate_mechanics::contact::FrictionLaw;
 //! use palpate_mechanics::finite_elements::indentation::{
 //!     Base, Block, IndentationProblem, Indenter, IndenterShape, solve,
 //! };
@@ -16,7 +16,7 @@
 //! // A sphere of 5 mm radius is pressed 1 mm into a block of 50 mm, without friction.
 //! let problem = IndentationProblem {
 //!     block: Block { radius: 0.05, height: 0.05, base: Base::Bonded },
-//!     indenter: Indenter { shape: IndenterShape::Sphere, radius: 5e-3, face: Friction::Frictionless },
+//!     indenter: Indenter { shape: IndenterShape::Sphere, radius: 5e-3, face: FrictionLaw::Frictionless },
 //!     law: Arc::new(NeoHookean::incompressible(1000.0)?), // C10 [Pa]
 //! };
 //! let found = solve(&problem, &[1e-3], 0.02, &mut |_| {})?;
