@@ -1,9 +1,7 @@
+use palpate_files::Domain;
 use palpate_files::tissue::LawName;
 
 use crate::fit::Parameter;
-
-/// From and to which a base is softer or stiffer than the layer on it [-].
-pub(crate) const BASE_RATIOS: [f64; 2] = [0.01, 100.0];
 
 /// Why something cannot be found from a recording.
 #[non_exhaustive]
@@ -199,7 +197,7 @@ pub enum Error {
     #[error(
         "the base would be {stiffness:.2e} times as stiff as the layer, and both are told apart from {} to {} times: check \
          `base_modulus_pa` and `thickness_m`, or leave `specimen = \"layer\"` out where the base is as good as rigid",
-        BASE_RATIOS[0], BASE_RATIOS[1]
+        Domain::BASE_RATIOS[0], Domain::BASE_RATIOS[1]
     )]
     BaseTooDifferent {
         /// The shear modulus of the base over that of the layer [-].

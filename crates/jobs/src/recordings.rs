@@ -165,7 +165,7 @@ impl Recordings {
         };
         let mut recording = recording?;
         recording.header = recording.header.completed_by(said);
-        if let Some((key, expected)) = recording.header.wrong_of_layer() {
+        if let Some((key, expected)) = recording.header.layer_error() {
             let path = path.display();
             let mut said = recording.header.entries().into_iter();
             let wrong = match said.any(|(own, _)| own == key) {

@@ -14,7 +14,7 @@ use crate::mesh::Mesh;
 use crate::waiting::{ProgressMessage, waiting};
 use palpate_jobs::label;
 
-/// The surfaces of organs from a segmented volume: NIfTI or NRRD.
+/// The surfaces of organs from a segmented volume: NIfTI, NRRD or a segmentation object of DICOM.
 ///
 /// Each is closed and in one piece, also where the border of the volume cuts the organ. Metres; x to the patient's
 /// left, y to the back, z to the head, as all organs of one volume share it.
@@ -22,7 +22,7 @@ use palpate_jobs::label;
 /// Parameters
 /// ----------
 /// path : path-like
-///     The label map: .nii, .nii.gz or .nrrd.
+///     The label map: .nii, .nii.gz, .nrrd, a segmentation of DICOM, or a folder with one.
 /// labels : list of str or int, optional
 ///     Names or numbers of the labels; all of them without.
 /// triangles : int

@@ -23,8 +23,8 @@ impl Animation {
     /// When a side is longer than 65,535 pixels.
     pub fn new(size: (u32, u32)) -> Result<Self, Error> {
         let [width, height] = sides(size)?;
-        let mut encoder = Encoder::new(Vec::new(), width, height, &[]).map_err(lost)?;
-        encoder.set_repeat(Repeat::Infinite).map_err(lost)?;
+        let mut encoder = Encoder::new(Vec::new(), width, height, &[]).map_err(unencodable)?;
+        encoder.set_repeat(Repeat::Infinite).map_err(unencodable)?;
         Ok(Self {
             encoder,
             before: None,
@@ -50,7 +50,7 @@ impl Animation {
         let mut frame = Frame::from_rgba_speed(width, height, &mut changed, Self::COARSENESS);
         frame.dispose = DisposalMethod::Keep;
         frame.delay = (100.0 * Self::DELAY) as u16;
-        self.encoder.write_frame(&frame).map_err(lost)
+        self.encoder.write_frame(&frame).map_err(unencodable)
     }
 
     /// All of it, as a file has it.
@@ -58,23 +58,21 @@ impl Animation {
     /// # Errors
     /// When it is larger than memory.
     pub fn finish(self) -> Result<Vec<u8>, Error> {
-        self.encoder.into_inner().map_err(|cause| Error::Lost {
-            cause: cause.to_string(),
-        })
+        self.encoder.into_inner().map_err(unencodable)
     }
 }
 
 fn sides((width, height): (u32, u32)) -> Result<[u16; 2], Error> {
     match (u16::try_from(width), u16::try_from(height)) {
         (Ok(width), Ok(height)) => Ok([width, height]),
-        _ => Err(Error::Lost {
+        _ => Err(Error::Unencodable {
             cause: format!("{width} x {height} pixels are more than a GIF file can have"),
         }),
     }
 }
 
-fn lost(cause: gif::EncodingError) -> Error {
-    Error::Lost {
+fn unencodable(cause: impl ToString) -> Error {
+    Error::Unencodable {
         cause: cause.to_string(),
     }
 }

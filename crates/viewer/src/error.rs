@@ -56,6 +56,12 @@ pub enum Error {
         /// In the words of the graphics interface.
         cause: String,
     },
+    /// A picture does not become a file.
+    #[error("a picture cannot be encoded ({cause}); take a smaller one")]
+    Unencodable {
+        /// In the words of what encodes it.
+        cause: String,
+    },
     /// The user's picture cannot be read.
     #[error("{path}: the picture cannot be read ({cause}); a PNG file is expected", path = path.display())]
     Picture {
@@ -92,7 +98,8 @@ impl Error {
             | Self::NoLabels { .. }
             | Self::NoWindowLibrary { .. }
             | Self::Window { .. }
-            | Self::Lost { .. } => false,
+            | Self::Lost { .. }
+            | Self::Unencodable { .. } => false,
             Self::Picture { .. } | Self::TooSmall { .. } => true,
         }
     }

@@ -282,7 +282,7 @@ pub fn png(picture: &RgbaImage) -> Result<Vec<u8>, Error> {
     let opaque = image::DynamicImage::ImageRgba8(picture.clone()).into_rgb8();
     opaque
         .write_with_encoder(encoder)
-        .map_err(|cause| Error::Lost {
+        .map_err(|cause| Error::Unencodable {
             cause: cause.to_string(),
         })?;
     Ok(bytes.into_inner())

@@ -77,7 +77,8 @@ impl LayerBase {
 pub const BLOCK: [f64; 2] = [56.42, 100.0];
 /// Radius of a specimen that states its thickness alone, over that [-]: at its rim nothing is felt of the indenter.
 const WIDE: f64 = 5.0;
-/// Least radius of a layer on a base that states its thickness alone, over that [-]: a layer that is a hundred times as stiff spreads a load over ∛100 of its thickness.
+/// Least radius of a layer on a base that states its thickness alone, over that [-]: a layer that is a hundred times as
+/// stiff spreads a load over ∛100 of its thickness.
 const WIDE_ON_BASE: f64 = 25.0;
 /// Lengths that differ by less than this part are one [-]: rounding of a file's numbers.
 const ALIKE: f64 = 1e-9;
@@ -88,11 +89,10 @@ impl Body {
         let shape = IndenterShape::Flat {
             side: Side::Touches(FrictionLaw::Bonded),
         };
-        let face = Friction::Bonded;
         Self::large(Indenter {
             shape,
             radius,
-            face: face.into(),
+            face: FrictionLaw::Bonded,
         })
     }
 
@@ -128,8 +128,8 @@ impl Body {
     /// as in a large one.
     ///
     /// # Errors
-    /// When the indenter, a tube or the base of a layer is not known, or the specimen is thinner than it was pressed or narrower than the
-    /// indenter.
+    /// When the indenter, a tube or the base of a layer is not known, or the specimen is thinner than it was pressed or
+    /// narrower than the indenter.
     pub fn of(header: &RecordingHeader, deepest: f64) -> Result<Self, Error> {
         let known = |value: Option<f64>, key| value.ok_or(Error::Unknown { key });
         let radius = || known(header.indenter_radius_m, "indenter_radius_m");

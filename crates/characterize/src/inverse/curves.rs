@@ -1,5 +1,6 @@
 use std::sync::Arc;
 
+use palpate_files::Domain;
 use palpate_mechanics::finite_elements::indentation::{
     Block, ElasticBase, IndentationRun, IndentationSettings, Indenter, IndenterShape,
 };
@@ -12,7 +13,6 @@ use super::law::{ShapeRange, SoughtLaw};
 use super::organ::FarField;
 use super::tables;
 use crate::Error;
-use crate::error::BASE_RATIOS;
 
 /// Elastic force per unit of the modulus [m²] over the depth [m], of a law with given shapes.
 #[derive(Debug, Clone, PartialEq)]
@@ -163,7 +163,8 @@ impl Curves {
         self.solves
     }
 
-    /// The curve of these shapes [-] at a `modulus` [Pa], which matters only under pressure: an infinite one feels none.
+    /// The curve of these shapes [-] at a `modulus` [Pa]. The modulus matters under pressure, of which an infinite one feels
+    /// none, and on a base whose own modulus is known: under an infinite one that is as stiff as the layer.
     ///
     /// # Errors
     /// When no equilibrium is found down to the deepest depth.
@@ -237,16 +238,17 @@ impl Curves {
         let Body::Layer { base, .. } = self.body else {
             return None;
         };
+        let [least, most] = Domain::BASE_RATIOS;
         let stiffness = base.stiffness(self.law, modulus);
         Some(ElasticBase {
             thickness: base.thickness,
-            stiffness: stiffness.clamp(BASE_RATIOS[0], BASE_RATIOS[1]),
+            stiffness: stiffness.clamp(least, most),
         })
     }
 
     /// Refuses a layer whose base is much softer or stiffer at a `modulus` [Pa].
     pub(super) fn check_base(&self, modulus: f64) -> Result<(), Error> {
-        let [least, most] = BASE_RATIOS;
+        let [least, most] = Domain::BASE_RATIOS;
         match self.stiffness(modulus) {
             Some(stiffness) if !(least..=most).contains(&stiffness) => {
                 Err(Error::BaseTooDifferent { stiffness })

@@ -156,8 +156,8 @@ pub fn fit_uniaxial(
     fitted(law, measured, &[samples])
 }
 
-/// The same from all `recordings` of pieces whose area and height are known, all in the test of the first, each from first contact to its
-/// largest strain.
+/// The same from all `recordings` of pieces whose area and height are known, all in the test of the first, each from first
+/// contact to its largest strain.
 ///
 /// # Errors
 /// As [`fit_uniaxial`], and when a recording does not say area or height.

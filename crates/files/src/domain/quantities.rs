@@ -102,9 +102,17 @@ impl Domain {
     )
     .usually(-2e7, 2e7);
 
-    /// The modulus of a base over that of the layer on it [-]: within a hundred both can be told apart.
-    pub const BASE_RATIO: Self =
-        Self::number("a ratio of moduli", [Included(0.01), Included(100.0)]);
+    /// From and to which the modulus of a base over that of the layer on it tells both apart [-].
+    pub const BASE_RATIOS: [f64; 2] = [0.01, 100.0];
+
+    /// The modulus of a base over that of the layer on it [-].
+    pub const BASE_RATIO: Self = Self::number(
+        "a ratio of moduli",
+        [
+            Included(Self::BASE_RATIOS[0]),
+            Included(Self::BASE_RATIOS[1]),
+        ],
+    );
 
     /// A pressure in a hollow organ [Pa].
     pub const PRESSURE: Self =

@@ -208,17 +208,20 @@ impl RecordingHeader {
         if self.specimen_radius_m.is_some() && self.specimen_width_m.is_some() {
             return Err(keys.given_twice("specimen_radius_m", "specimen_width_m"));
         }
-        if self.base_modulus_pa.is_some() && self.base_modulus_ratio.is_some() {
-            return Err(keys.given_twice("base_modulus_pa", "base_modulus_ratio"));
-        }
         match self.contradiction() {
             Some((key, expected)) => Err(keys.bad(key, expected)),
             None => Ok(()),
         }
     }
 
-    /// A key that what the specimen is forbids, and what to give; none where all fits.
+    /// A key that contradicts another one on the specimen, and what to give; none where none does.
     fn contradiction(&self) -> Option<(&'static str, &'static str)> {
+        if self.base_modulus_pa.is_some() && self.base_modulus_ratio.is_some() {
+            return Some((
+                "base_modulus_ratio",
+                "no ratio, for `base_modulus_pa` says how stiff the base is",
+            ));
+        }
         if self.specimen == Some(Specimen::Layer) {
             return (self.support == Some(Support::Lubricated)).then_some((
                 "support",
@@ -226,12 +229,12 @@ impl RecordingHeader {
             ));
         }
         let is_other = self.specimen.is_some() || self.mesh.is_some();
-        let key = self.of_base().filter(|_| is_other)?;
+        let key = self.base_key().filter(|_| is_other)?;
         Some((key, "`specimen = \"layer\"`, for only a layer has a base"))
     }
 
-    /// A key that says something of a base; none where nothing does.
-    fn of_base(&self) -> Option<&'static str> {
+    /// The first key on a base that is given.
+    fn base_key(&self) -> Option<&'static str> {
         let each = [
             ("base_modulus_pa", self.base_modulus_pa),
             ("base_modulus_ratio", self.base_modulus_ratio),
@@ -242,23 +245,17 @@ impl RecordingHeader {
         said.next().map(|(key, _)| key)
     }
 
-    /// What is wrong with a header that says all that is known of a layer on a base: a key, and what to do; none where
-    /// all is said that has to be.
-    pub fn wrong_of_layer(&self) -> Option<(&'static str, &'static str)> {
+    /// The error of a complete header that states a layer on a base: a key and what to give; none where nothing is missing
+    /// and nothing contradicts.
+    pub fn layer_error(&self) -> Option<(&'static str, &'static str)> {
         if let Some(found) = self.contradiction() {
             return Some(found);
         }
         if self.specimen != Some(Specimen::Layer) {
-            let key = self.of_base()?;
+            let key = self.base_key()?;
             return Some((
                 key,
                 "`specimen = \"layer\"` too, for only a layer has a base",
-            ));
-        }
-        if self.base_modulus_pa.is_some() && self.base_modulus_ratio.is_some() {
-            return Some((
-                "base_modulus_ratio",
-                "no ratio, for `base_modulus_pa` says how stiff the base is",
             ));
         }
         if self.thickness_m.is_none() {

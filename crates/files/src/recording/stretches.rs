@@ -44,9 +44,11 @@ pub(super) fn parse(
         header,
         samples: samples(
             &table,
-            (stretch, named("m")),
-            (stress, unit, "Pa"),
-            |height| 1.0 - height,
+            &Pulls {
+                length: (stretch, named("m"), HEIGHT),
+                load: (stress, unit, named("Pa")),
+                depth: |height| 1.0 - height,
+            },
         )?,
         axes: None,
         extra_columns: Vec::new(),
@@ -83,7 +85,14 @@ fn sheet(text: &str, path: &Path, columns: &ForeignColumns) -> Result<Option<Rec
     );
     Ok(Some(Recording {
         header,
-        samples: samples(&table, (depth, length), (force, load, "N"), |way| -way)?,
+        samples: samples(
+            &table,
+            &Pulls {
+                length: (depth, length, DISPLACEMENT),
+                load: (force, load, named("N")),
+                depth: |way| -way,
+            },
+        )?,
         axes: None,
         extra_columns: Vec::new(),
         remarks: vec![remark],
@@ -96,24 +105,28 @@ fn named(name: &str) -> &'static Unit {
     Unit::named(name).expect("SI units are in the table")
 }
 
-fn samples(
-    table: &TableText<'_>,
-    (stretch, length): (&str, &'static Unit),
-    (stress, unit, si): (&str, &'static Unit, &str),
-    depth: impl Fn(f64) -> f64,
-) -> Result<Samples, Error> {
-    let domain = if si == "Pa" { HEIGHT } else { DISPLACEMENT };
-    let stretch = table.foreign_column(stretch, length, named("m"))?;
-    let stress = table.foreign_column(stress, unit, named(si))?;
+/// The columns of a pulled piece.
+struct Pulls<'c> {
+    /// Name, unit and domain in SI units.
+    length: (&'c str, &'static Unit, Domain),
+    /// Name, unit and the SI unit of it.
+    load: (&'c str, &'static Unit, &'static Unit),
+    /// The depth [m] of a length.
+    depth: fn(f64) -> f64,
+}
+
+fn samples(table: &TableText<'_>, pulls: &Pulls<'_>) -> Result<Samples, Error> {
+    let (length, unit, domain) = pulls.length;
+    let length = table.foreign_column(length, unit, named("m"))?;
+    let (load, unit, si) = pulls.load;
+    let load = table.foreign_column(load, unit, si)?;
     let mut samples = Samples::default();
     let mut rows = table.rows();
     while let Some(row) = rows.next()? {
         samples.time_s.push(samples.time_s.len() as f64);
-        let way = row.number(&stretch, domain)?;
-        samples.depth_m.push(depth(way));
-        samples
-            .force_n
-            .push(-row.number(&stress, Domain::ANY_FORCE)?);
+        let length = row.number(&length, domain)?;
+        samples.depth_m.push((pulls.depth)(length));
+        samples.force_n.push(-row.number(&load, Domain::ANY_FORCE)?);
     }
     if samples.time_s.is_empty() {
         let path = table.path.clone();

@@ -12,11 +12,10 @@
 //!
 //! *How we know*: `tests::the_step_is_newtons` against differences of the residual.
 
-use nalgebra::{DMatrix, DVector};
-
 use super::model::{FiniteElementModel, FiniteElementWorkspace};
 use super::newton::{self, Failure};
 use super::supports::{Sliding, Supports};
+use crate::linear::gmres::solve_by_products;
 
 /// Relative residual of the small system [-].
 const SMALL: f64 = 1e-9;
@@ -55,16 +54,20 @@ pub(super) fn solve(
         })
         .collect()
     };
-    let first = DVector::from_vec(forces(workspace, &without));
+    let first = forces(workspace, &without);
     let mut unit = vec![0.0; model.size()];
-    let found = gmres(&first, |loads| {
+    let found = solve_by_products(&first, SMALL, &mut |loads, product| {
         unit.fill(0.0);
-        for (contact, load) in slipping.iter().zip(loads.iter()) {
+        for (contact, load) in slipping.iter().zip(loads) {
             unit[2 * contact.node + 1] = *load;
         }
         back(model, supports, workspace, &mut unit);
-        loads - DVector::from_vec(forces(workspace, &unit))
-    })?;
+        let own = loads.iter().zip(forces(workspace, &unit));
+        for (value, (load, force)) in product.iter_mut().zip(own) {
+            *value += load - force;
+        }
+    });
+    let found = found.map_err(|_| Failure::Singular)?;
     for (contact, force) in slipping.iter().zip(found.iter()) {
         right[2 * contact.node + 1] += force;
     }
@@ -98,53 +101,6 @@ fn normal_force_change(
     let [_, moved] = at(step);
     let [_, tangential] = at(&workspace.residual);
     at(product)[0] + place.curvature * moved * tangential
-}
-
-/// Solves `multiply`(x) = `right` by generalised minimal residuals without restart [Saad and Schultz 1986].
-fn gmres(
-    right: &DVector<f64>,
-    mut multiply: impl FnMut(&DVector<f64>) -> DVector<f64>,
-) -> Result<DVector<f64>, Failure> {
-    let (size, length) = (right.len(), right.norm());
-    if length == 0.0 {
-        return Ok(right.clone());
-    }
-    let mut basis = vec![right / length];
-    // Of Hessenberg's form, a column for each multiplication.
-    let mut columns = DMatrix::zeros(size + 1, size);
-    for step in 0..size {
-        let mut next = multiply(&basis[step]);
-        // Twice: rounding leaves a part along the basis.
-        for _ in 0..2 {
-            for (row, known) in basis.iter().enumerate() {
-                let along = known.dot(&next);
-                columns[(row, step)] += along;
-                next -= known * along;
-            }
-        }
-        let left = next.norm();
-        columns[(step + 1, step)] = left;
-        let known = columns.view((0, 0), (step + 2, step + 1)).clone_owned();
-        let mut target = DVector::zeros(step + 2);
-        target[0] = length;
-        let factors = known.clone().qr();
-        let [q, r] = [factors.q(), factors.r()];
-        let parts = r
-            .solve_upper_triangular(&(q.transpose() * &target))
-            .ok_or(Failure::Singular)?;
-        let residual = (known * &parts - &target).norm();
-        if !residual.is_finite() {
-            return Err(Failure::Singular);
-        }
-        if residual <= SMALL * length || step + 1 == size {
-            let each = basis.iter().zip(parts.iter());
-            return Ok(each.fold(DVector::zeros(size), |sum, (known, part)| {
-                sum + known * *part
-            }));
-        }
-        basis.push(next / left);
-    }
-    Err(Failure::Singular)
 }
 
 #[cfg(test)]

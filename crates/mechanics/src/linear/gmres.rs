@@ -10,6 +10,27 @@ const SPACE: usize = 60;
 /// Restarts before giving up.
 const RESTARTS: usize = 20;
 
+/// Adds the product of a matrix and the first to the second.
+type AddProduct<'a> = &'a mut dyn FnMut(&[f64], &mut [f64]);
+
+/// Solves a system of a matrix that is known by its products alone, to the relative `tolerance`.
+///
+/// # Errors
+/// When the residual stays larger.
+pub(crate) fn solve_by_products(
+    right: &[f64],
+    tolerance: f64,
+    add_product: AddProduct<'_>,
+) -> Result<Vec<f64>, NotConverged> {
+    let mut gmres = Gmres::new(right.len(), 0);
+    gmres.right.copy_from_slice(right);
+    gmres.diagonal.fill(1.0);
+    match gmres.iterate(tolerance, add_product).1 {
+        residual if residual <= tolerance => Ok(gmres.solution),
+        residual => Err(NotConverged { residual }),
+    }
+}
+
 /// Scratch of the iteration.
 #[derive(Debug)]
 pub(crate) struct Gmres {
@@ -20,6 +41,7 @@ pub(crate) struct Gmres {
     rotations: Vec<(f64, f64)>,
     residuals: Vec<f64>,
     solution: Vec<f64>,
+    right: Vec<f64>,
     /// Of all right sides, until the last is known.
     solutions: Vec<f64>,
     diagonal: Vec<f64>,
@@ -44,6 +66,7 @@ impl Gmres {
             rotations: vec![(0.0, 0.0); space],
             residuals: vec![0.0; space + 1],
             solution: vec![0.0; size],
+            right: vec![0.0; size],
             solutions: vec![0.0; size * right_sides],
             diagonal: vec![0.0; size],
         }
@@ -65,25 +88,23 @@ impl Gmres {
         }
         let (mut iterations, mut worst) = (0, 0.0_f64);
         for column in 0..system.right.ncols() {
-            self.solution.fill(0.0);
-            let size = self.residual(system, column, 0);
-            let mut residual = size;
-            for _ in 0..RESTARTS {
-                iterations += self.cycle(system, column, tolerance * size);
-                residual = self.residual(system, column, 0);
-                if residual <= tolerance * size {
-                    break;
+            for (row, value) in self.right.iter_mut().enumerate() {
+                *value = system.right[(row, column)];
+            }
+            let matrix = &system.matrix;
+            let (more, relative) = self.iterate(tolerance, &mut |x, product| {
+                for (col, &x) in x.iter().enumerate() {
+                    for (value, entry) in product.iter_mut().zip(matrix.col(col).iter()) {
+                        *value += entry * x;
+                    }
                 }
-            }
-            // A right side of zeros is its own solution; NaN is no convergence.
-            if size > 0.0 || size.is_nan() {
-                let relative = residual / size;
-                worst = if relative > worst || relative.is_nan() {
-                    relative
-                } else {
-                    worst
-                };
-            }
+            });
+            iterations += more;
+            worst = if relative > worst || relative.is_nan() {
+                relative
+            } else {
+                worst
+            };
             self.solutions[column * self.size..][..self.size].copy_from_slice(&self.solution);
         }
         if worst > tolerance || worst.is_nan() {
@@ -97,28 +118,40 @@ impl Gmres {
         Ok(iterations)
     }
 
-    /// Puts the scaled residual into basis vector `slot`; answers its norm.
-    fn residual(&mut self, system: &DenseSystem, column: usize, slot: usize) -> f64 {
-        let n = self.size;
-        let residual = &mut self.basis[slot * n..(slot + 1) * n];
-        for (row, value) in residual.iter_mut().enumerate() {
-            *value = system.right[(row, column)];
-        }
-        for col in 0..n {
-            let x = self.solution[col];
-            for (value, entry) in residual.iter_mut().zip(system.matrix.col(col).iter()) {
-                *value -= entry * x;
+    /// Solves for `self.right`; answers the number of iterations and the relative residual that is left [-].
+    fn iterate(&mut self, tolerance: f64, add_product: AddProduct<'_>) -> (usize, f64) {
+        let mut iterations = 0;
+        self.solution.fill(0.0);
+        let size = self.residual(add_product);
+        let mut residual = size;
+        for _ in 0..RESTARTS {
+            iterations += self.cycle(tolerance * size, add_product);
+            residual = self.residual(add_product);
+            if residual <= tolerance * size {
+                break;
             }
         }
+        // A right side of zeros is its own solution; NaN is no convergence.
+        let is_solved = size == 0.0;
+        (iterations, if is_solved { 0.0 } else { residual / size })
+    }
+
+    /// Puts the scaled residual into the first basis vector; answers its norm.
+    fn residual(&mut self, add_product: AddProduct<'_>) -> f64 {
+        let residual = &mut self.basis[..self.size];
+        for (value, right) in residual.iter_mut().zip(&self.right) {
+            *value = -right;
+        }
+        add_product(&self.solution, residual);
         for (value, scale) in residual.iter_mut().zip(&self.diagonal) {
-            *value *= scale;
+            *value *= -scale;
         }
         norm(residual)
     }
 
-    fn cycle(&mut self, system: &DenseSystem, column: usize, goal: f64) -> usize {
+    fn cycle(&mut self, goal: f64, add_product: AddProduct<'_>) -> usize {
         let n = self.size;
-        let start = self.residual(system, column, 0);
+        let start = self.residual(add_product);
         if start <= goal || start == 0.0 {
             return 0;
         }
@@ -127,7 +160,7 @@ impl Gmres {
         self.residuals[0] = start;
         let mut done = 0;
         while done < self.space && self.residuals[done].abs() > goal {
-            self.extend(system, done);
+            self.extend(done, add_product);
             self.rotate(done);
             done += 1;
         }
@@ -136,16 +169,12 @@ impl Gmres {
     }
 
     /// The next basis vector, made orthogonal by modified Gram and Schmidt.
-    fn extend(&mut self, system: &DenseSystem, k: usize) {
+    fn extend(&mut self, k: usize, add_product: AddProduct<'_>) {
         let n = self.size;
         let (known, new) = self.basis.split_at_mut((k + 1) * n);
         let new = &mut new[..n];
         new.fill(0.0);
-        for (col, &x) in known[k * n..].iter().enumerate() {
-            for (value, entry) in new.iter_mut().zip(system.matrix.col(col).iter()) {
-                *value += entry * x;
-            }
-        }
+        add_product(&known[k * n..], new);
         for (value, scale) in new.iter_mut().zip(&self.diagonal) {
             *value *= scale;
         }

@@ -43,16 +43,21 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "N", requires = "out", value_parser = clap::value_parser!(u64).range(0..=100_000))]
     frames: Option<u64>,
     /// The folder for pictures; it is created if missing.
-    #[arg(long, value_name = "DIR", requires = "frames")]
+    #[arg(long, value_name = "DIR", requires = "frames", group = "pictures")]
     out: Option<PathBuf>,
     /// Write an animation of 12.5 pictures a second, instead of opening a window.
-    #[arg(long, value_name = "FILE.gif", conflicts_with = "frames")]
+    #[arg(
+        long,
+        value_name = "FILE.gif",
+        conflicts_with = "frames",
+        group = "pictures"
+    )]
     gif: Option<PathBuf>,
     /// Seconds of the session in a second of the animation, from 0.25 to 8.
     #[arg(long, value_name = "X", requires = "gif", default_value_t = 1.0, value_parser = speed)]
     speed: f64,
     /// Replace pictures that exist.
-    #[arg(long)]
+    #[arg(long, requires = "pictures")]
     overwrite: bool,
     /// Print the result as one JSON object, without a window.
     #[arg(long)]
@@ -136,12 +141,24 @@ fn play(
     let overwrite = Overwrite::of_option(arguments.overwrite);
     let organ = (scene, simulation);
     let mut pictures = match (arguments.frames, &arguments.gif) {
-        (_, Some(file)) => Pictures::animation(file, arguments.speed, overwrite, organ, &replay)?,
+        (_, Some(file)) => Some(Pictures::animation(
+            file,
+            arguments.speed,
+            overwrite,
+            organ,
+            &replay,
+        )?),
         (Some(count @ 1..), None) => {
             let folder = arguments.out.as_deref().unwrap_or(Path::new(""));
-            Pictures::files(folder, count, overwrite, organ, replay.steps())?
+            Some(Pictures::files(
+                folder,
+                count,
+                overwrite,
+                organ,
+                replay.steps(),
+            )?)
         }
-        _ => Pictures::none(),
+        _ => None,
     };
     let steps = replay.steps();
     let progress = Progress::new(Reader::of_json(arguments.json), Some(steps as u64));
@@ -160,7 +177,9 @@ fn play(
                 compared += 1;
             }
         }
-        pictures.see(&replay)?;
+        if let Some(pictures) = &mut pictures {
+            pictures.see(&replay)?;
+        }
         if interrupt::is_asked() {
             return Err(Failure::failed(
                 "interrupted; pictures in files of their own are whole, an animation is not written",
@@ -182,7 +201,7 @@ fn play(
         duration_s: replay.time(steps) - replay.time(0),
         rows_compared: compared,
         largest_difference_n: largest,
-        files: pictures.finish()?,
+        files: pictures.map_or(Ok(Vec::new()), Pictures::finish)?,
         warnings,
     })
 }

@@ -203,17 +203,10 @@ impl Indenter {
     /// Whether an active node is to be released: it is at `place` and the indenter acts on the tissue
     /// with `force` [N], (r, z).
     pub(super) fn lets_go(&self, touch: ContactStatus, place: Place, force: [f64; 2]) -> bool {
-        let (part, slides) = match touch {
-            ContactStatus::Free
-            | ContactStatus::Stuck {
-                part: Part::Face, ..
-            } => return false,
-            ContactStatus::Sliding {
-                part: Part::Face, ..
-            } => return false,
-            ContactStatus::Stuck { part, .. } => (part, false),
-            ContactStatus::Sliding { part, .. } => (part, true),
+        let Some(part) = touch.part().filter(|part| *part != Part::Face) else {
+            return false;
         };
+        let slides = matches!(touch, ContactStatus::Sliding { .. });
         // A sharp apex stays where it has gone in.
         if matches!(self.shape, IndenterShape::Cone { .. }) && place.radius == 0.0 {
             return false;

@@ -8,10 +8,10 @@
 //!
 //! *Limits*: elastic tissue; the moment at which a sliding node is activated does not change with q.
 
-use super::super::model::{FiniteElementModel, FiniteElementState, FiniteElementWorkspace};
-use super::super::newton::Failure;
 use std::sync::Arc;
 
+use super::super::model::{FiniteElementModel, FiniteElementState, FiniteElementWorkspace};
+use super::super::newton::Failure;
 use super::super::sensitivity;
 use super::super::supports::Supports;
 use crate::material::law::Law;

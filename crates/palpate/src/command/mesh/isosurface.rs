@@ -276,7 +276,7 @@ impl Answer {
             });
             let text: String = series.chain(files).chain(labels).collect();
             return match text.is_empty() {
-                true => "no labels and no DICOM files\n".to_owned(),
+                true => "no labels\n".to_owned(),
                 false => text,
             };
         }

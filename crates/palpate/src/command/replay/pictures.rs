@@ -15,7 +15,7 @@ const ANIMATION_SIZE: (u32, u32) = (FRAME_SIZE.0 / 2, FRAME_SIZE.1 / 2);
 pub(super) struct Pictures {
     /// The steps after which a picture is taken, the next one last.
     due: Vec<usize>,
-    studio: Option<Studio>,
+    studio: Studio,
     kept: Kept,
     files: Vec<PathBuf>,
     /// Until it is dropped nobody else writes there.
@@ -26,21 +26,9 @@ pub(super) struct Pictures {
 enum Kept {
     InFolder(PathBuf),
     InAnimation(PathBuf, Box<Animation>),
-    Nowhere,
 }
 
 impl Pictures {
-    /// No picture.
-    pub(super) fn none() -> Self {
-        Self {
-            due: Vec::new(),
-            studio: None,
-            kept: Kept::Nowhere,
-            files: Vec::new(),
-            _claims: Vec::new(),
-        }
-    }
-
     /// This many files in `folder`, evenly over so many steps.
     pub(super) fn files(
         folder: &Path,
@@ -58,7 +46,7 @@ impl Pictures {
         });
         Ok(Self {
             due: due.rev().map(|step| step as usize).collect(),
-            studio: Some(Studio::new(scene, simulation, FRAME_SIZE)?),
+            studio: Studio::new(scene, simulation, FRAME_SIZE)?,
             kept: Kept::InFolder(folder.to_owned()),
             files: Vec::new(),
             _claims: vec![claim],
@@ -86,7 +74,7 @@ impl Pictures {
         let animation = Box::new(Animation::new(ANIMATION_SIZE)?);
         Ok(Self {
             due,
-            studio: Some(Studio::new(scene, simulation, ANIMATION_SIZE)?),
+            studio: Studio::new(scene, simulation, ANIMATION_SIZE)?,
             kept: Kept::InAnimation(file.to_owned(), animation),
             files: Vec::new(),
             _claims: claims,
@@ -96,10 +84,7 @@ impl Pictures {
     /// Takes the pictures that are due after the step that was played last.
     pub(super) fn see(&mut self, replay: &Replay) -> Result<(), Failure> {
         while self.due.pop_if(|step| *step < replay.played()).is_some() {
-            let Some(studio) = &mut self.studio else {
-                break;
-            };
-            let picture = studio.picture(replay.state())?;
+            let picture = self.studio.picture(replay.state())?;
             match &mut self.kept {
                 Kept::InFolder(folder) => {
                     let path = folder.join(name(self.files.len() as u64));
@@ -107,7 +92,6 @@ impl Pictures {
                     self.files.push(path);
                 }
                 Kept::InAnimation(_, animation) => animation.add(&picture)?,
-                Kept::Nowhere => {}
             }
         }
         Ok(())

@@ -32,7 +32,10 @@ impl IndentationRun {
         }
         let mut changed = false;
         let tolerances = Tolerances {
-            force: CONE * self.largest_normal_force(touch, depth, state),
+            force: match self.has_friction {
+                true => CONE * self.largest_normal_force(touch, depth, state),
+                false => 0.0,
+            },
             slip: NO_SLIP * self.scale,
         };
         let statuses = touch.iter_mut().zip(released);

@@ -25,8 +25,8 @@ pub struct ContactNode {
 /// How an indenter with Coulomb friction touches.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrictionalContact {
-    /// Radius of the circle that touches [m], in which nodes are where [`ContactNode::radius`] says: to the last node that touches, and of a sphere or a cone half way
-    /// to the next, so that it is known to half the distance of nodes.
+    /// Radius of the circle that touches [m], with nodes where [`ContactNode::radius`] says: to the last node that touches,
+    /// and of a sphere or a cone half way to the next, so that it is known to half the distance of nodes.
     pub contact_radius: f64,
     /// Radius of the circle in which tissue sticks [m]: half way from the last node that sticks to the first that slips,
     /// from the axis outward; as the radius of the contact where all stick.
