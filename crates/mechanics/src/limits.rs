@@ -26,6 +26,8 @@ pub enum Limit {
     Carried,
     /// Nonlinear model: how far a tool was to move the organ in a step [m], and how far it did.
     Pace,
+    /// Nonlinear model: points of the organ beside neighbours in a step [-], and those that it was solved with.
+    NeighbourContacts,
 }
 
 /// How far a bound changed an answer.
@@ -45,7 +47,7 @@ pub struct Limits {
 
 impl Limit {
     /// All of them, in the order in which they are told.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Curvature,
         Self::LocalStiffness,
         Self::LocalShearStiffness,
@@ -56,6 +58,7 @@ impl Limit {
         Self::Coupling,
         Self::Carried,
         Self::Pace,
+        Self::NeighbourContacts,
     ];
 }
 

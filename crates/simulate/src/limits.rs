@@ -133,6 +133,10 @@ fn sentence(limit: Limit, reached: &Reached, (tool, when): (&str, &str)) -> Stri
             1e3 * asked,
             1e3 * used
         ),
+        Limit::NeighbourContacts => format!(
+            "while the tool {tool:?} moved the organ, {asked:.0} points of it lay beside neighbours, and the {used:.0} \
+             nearest were kept out of them {when}: set `model.nodes` lower, or fewer neighbours that collide"
+        ),
         Limit::Carried => format!(
             "what the other tool moves the organ by under the tip {tool:?} was taken as {used:.2} of what it moves it by \
              under itself, where its model asks for {asked:.2}, {when}: the tips are on the same spot, or deep beside \

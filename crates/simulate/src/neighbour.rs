@@ -6,7 +6,7 @@
 //!
 //! *How we know*: `neighbours::…`.
 //!
-//! *Limits*: only tips touch them, no shafts, and the organ passes through them.
+//! *Limits*: no shafts touch them, and only an organ of the nonlinear model stays out of them (`nonlinear::neighbours`).
 
 use nalgebra::Matrix3;
 use palpate_files::Scene;
@@ -68,6 +68,19 @@ impl Neighbour {
             }
         }
         Ok(all)
+    }
+
+    /// Signed distance of a `place` [m], negative inside, and the smooth normal of the nearest place.
+    pub(crate) fn distance(&self, place: &Vec3) -> (f64, Vec3) {
+        let (nearest, distance) = self.surface.signed_distance(&self.tree, place);
+        let corners = self.surface.mesh().corners(nearest.triangle);
+        let normals = self.surface.vertex_normals();
+        let normal: Vec3 = corners
+            .iter()
+            .zip(nearest.on.barycentric)
+            .map(|(node, weight)| normals[node.index()] * weight)
+            .sum();
+        (distance, normal.normalize())
     }
 
     fn surface(&self, tool: usize) -> RestSurface<'_> {

@@ -114,11 +114,22 @@ impl Simulation {
         let surface_material = regions
             .as_ref()
             .map(|regions| regions.at_surface().material.clone());
+        let neighbours = Neighbour::all(scene, &tools)?;
+        if !neighbours.is_empty() {
+            warnings.push(match is_nonlinear {
+                true => "neighbours that collide are rigid to the tips of tools and, without friction, to the organ; shafts \
+                         pass through them"
+                    .to_owned(),
+                false => "neighbours that collide are rigid to the tips of tools; shafts and the organ pass through them: \
+                          `model.kind = \"nonlinear\"` keeps the organ out"
+                    .to_owned(),
+            });
+        }
         let nonlinear = match regions {
             None => None,
             Some(regions) => {
                 tell(watch, Work::Tetrahedra)?;
-                let (organ, more) = NonlinearOrgan::new(scene, &surface, regions)?;
+                let (organ, more) = NonlinearOrgan::new(scene, &surface, regions, &neighbours)?;
                 warnings.extend(more);
                 Some(organ)
             }
@@ -137,13 +148,6 @@ impl Simulation {
             // It cannot be cancelled, and takes seconds.
             let _ = watch(Progress { work, part });
         })?);
-        let neighbours = Neighbour::all(scene, &tools)?;
-        if !neighbours.is_empty() {
-            warnings.push(
-                "neighbours that collide are rigid to the tips of tools; shafts and the organ pass through them"
-                    .to_owned(),
-            );
-        }
         let cutting = CuttingModel::new(scene, &surface)?;
         if nonlinear.is_some() && cutting.as_ref().is_some_and(|model| model.changes_force) {
             warnings.push(

@@ -239,7 +239,7 @@ impl Neighbour {
             "How much larger it is than its shape.",
         )
         .default("1.0"),
-        Key::truth("collides", "Whether the tips of tools stop at it.").default("false"),
+        Key::truth("collides", "Whether it is rigid to the tips of tools and to an organ of the nonlinear model.").default("false"),
     ];
 
     pub(super) fn from_keys(keys: &Keys<'_>, folder: &Path) -> Result<Self, Error> {

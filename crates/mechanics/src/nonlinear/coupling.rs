@@ -1,4 +1,4 @@
-use nalgebra::{DMatrix, DVector, Matrix3};
+use nalgebra::{DMatrix, Matrix3};
 
 use super::model::NonlinearModel;
 use crate::Vec3;
@@ -49,13 +49,9 @@ pub(super) struct Row {
 pub(super) struct Rows {
     pub(super) rows: Vec<Row>,
     /// Z = Q K⁻¹ Qᵀ W, row after row; each has three values a node [m/N].
-    pub(super) influences: Vec<f32>,
-    /// C + Wᵀ Z [m/N].
-    pub(super) compliance: DMatrix<f64>,
+    influences: Vec<f32>,
     /// C [m/N].
     pub(super) own: DMatrix<f64>,
-    /// The inverse of `compliance` [N/m].
-    inverse: DMatrix<f64>,
     size: usize,
 }
 
@@ -65,9 +61,7 @@ impl Rows {
         Self {
             rows: Vec::with_capacity(rows),
             influences: vec![0.0; rows * size],
-            compliance: DMatrix::zeros(rows, rows),
             own: DMatrix::zeros(rows, rows),
-            inverse: DMatrix::zeros(rows, rows),
             size,
         }
     }
@@ -84,7 +78,7 @@ impl Rows {
         }
     }
 
-    /// Makes Z and the compliances with the `rotations` of the nodes.
+    /// Makes Z and C with the `rotations` of the nodes.
     #[inline(always)]
     pub(super) fn prepare(
         &mut self,
@@ -99,61 +93,39 @@ impl Rows {
             influence(model, coupling, rotations, columns);
             first += count;
         }
-        self.inverse.fill(0.0);
         for (i, row) in self.rows.iter().enumerate() {
             for (j, column) in self.rows.iter().enumerate() {
-                let loads = &self.influences[j * self.size..(j + 1) * self.size];
-                let moved = couplings[row.tool]
-                    .as_ref()
-                    .map_or(0.0, |coupling| mean(coupling, &row.direction, loads));
-                let own = match (row.tool == column.tool, &couplings[row.tool]) {
+                self.own[(i, j)] = match (row.tool == column.tool, &couplings[row.tool]) {
                     (true, Some(coupling)) => {
                         row.direction.dot(&(coupling.compliance * column.direction))
                     }
                     _ => 0.0,
                 };
-                self.own[(i, j)] = own;
-                self.compliance[(i, j)] = own + moved;
-            }
-        }
-        self.invert();
-    }
-
-    /// Gauss and Jordan, in place and without an allocation; the compliance is positive.
-    fn invert(&mut self) {
-        let count = self.rows.len();
-        let (a, inverse) = (&mut self.compliance, &mut self.inverse);
-        for i in 0..count {
-            inverse[(i, i)] = 1.0;
-        }
-        for pivot in 0..count {
-            let scale = 1.0 / a[(pivot, pivot)];
-            for j in 0..count {
-                a[(pivot, j)] *= scale;
-                inverse[(pivot, j)] *= scale;
-            }
-            for i in (0..count).filter(|&i| i != pivot) {
-                let factor = a[(i, pivot)];
-                for j in 0..count {
-                    a[(i, j)] -= factor * a[(pivot, j)];
-                    inverse[(i, j)] -= factor * inverse[(pivot, j)];
-                }
             }
         }
     }
 
-    /// (C + Wᵀ Z)⁻¹ times `right`.
-    pub(super) fn solve(&self, right: &DVector<f64>, solution: &mut DVector<f64>) {
-        for i in 0..self.rows.len() {
-            solution[i] = (0..self.rows.len())
-                .map(|j| self.inverse[(i, j)] * right[j])
-                .sum();
-        }
+    /// How far a unit force of row `from` moves row `to` [m/N]: Wᵀ Z.
+    pub(super) fn shared(
+        &self,
+        couplings: &[Option<Coupling<'_>>],
+        (to, from): (usize, usize),
+    ) -> f64 {
+        let row = &self.rows[to];
+        let coupling = couplings[row.tool].as_ref();
+        coupling.map_or(0.0, |coupling| {
+            mean(coupling, &row.direction, self.influence(from))
+        })
+    }
+
+    /// A row of Z [m/N].
+    pub(super) fn influence(&self, row: usize) -> &[f32] {
+        &self.influences[row * self.size..][..self.size]
     }
 
     /// Zᵀ r.
     #[inline(always)]
-    pub(super) fn project(&self, r: &[f32], projected: &mut DVector<f64>) {
+    pub(super) fn project(&self, r: &[f32], projected: &mut [f64]) {
         for (row, z) in self.influences.chunks_exact(self.size).enumerate() {
             if row < self.rows.len() {
                 projected[row] = super::step::dot(z, r);
@@ -163,7 +135,7 @@ impl Rows {
 
     /// x ← x + Z t.
     #[inline(always)]
-    pub(super) fn add_influence(&self, t: &DVector<f64>, x: &mut [f32]) {
+    pub(super) fn add_influence(&self, t: &[f64], x: &mut [f32]) {
         let columns = self.influences.chunks_exact(self.size);
         for (z, row) in columns.zip(0..self.rows.len()) {
             let factor = t[row] as f32;
@@ -174,12 +146,7 @@ impl Rows {
     }
 
     /// r ← r + W t.
-    pub(super) fn add_load(
-        &self,
-        couplings: &[Option<Coupling<'_>>],
-        t: &DVector<f64>,
-        r: &mut [f32],
-    ) {
+    pub(super) fn add_load(&self, couplings: &[Option<Coupling<'_>>], t: &[f64], r: &mut [f32]) {
         for (number, row) in self.rows.iter().enumerate() {
             if let Some(coupling) = &couplings[row.tool] {
                 for &(node, weight) in coupling.nodes {
@@ -253,7 +220,7 @@ fn influence(
 
 impl Rows {
     /// tᵀ C t [J].
-    pub(super) fn own_curvature(&self, t: &DVector<f64>) -> f64 {
+    pub(super) fn own_curvature(&self, t: &[f64]) -> f64 {
         let count = self.rows.len();
         let row = |i: usize| (0..count).map(|j| self.own[(i, j)] * t[j]).sum::<f64>();
         (0..count).map(|i| t[i] * row(i)).sum()

@@ -20,6 +20,9 @@
 
 mod boundary;
 mod carried;
+mod complementarity;
+mod constraints;
+mod contact;
 mod coupling;
 mod elements;
 mod gravity;
@@ -37,6 +40,7 @@ mod tests;
 
 pub use boundary::{Boundary, SpreadLoad};
 pub use carried::CarriedPoints;
+pub use contact::{BoundaryPoint, MOST_CONTACTS, UnilateralContact};
 pub use coupling::Coupling;
 pub use law::Moduli;
 pub use model::{MOST_INFLUENCE_BYTES, NonlinearModel};

@@ -3,6 +3,7 @@ use palpate_geometry::TetrahedronMesh;
 
 use super::boundary::{Boundary, SpreadLoad};
 use super::carried::CarriedPoints;
+use super::contact::BoundaryPoint;
 use super::elements::Pack;
 use super::law::Moduli;
 use super::relaxation::Relaxation;
@@ -40,6 +41,7 @@ pub struct NonlinearModel {
     /// Ten nodes for each tetrahedron.
     elements: Vec<u32>,
     boundary: Boundary,
+    points: Vec<BoundaryPoint>,
 }
 
 impl NonlinearModel {
@@ -106,6 +108,7 @@ impl NonlinearModel {
             nodes: places,
             farthest: (FARTHEST * mean_edge(mesh)) as f32,
             boundary: Boundary::new(mesh)?,
+            points: BoundaryPoint::all(mesh, moduli, mean_edge(mesh)),
             mesh: mesh.clone(),
             elements: numbers,
         })
@@ -157,6 +160,11 @@ impl NonlinearModel {
     /// Where tools load it.
     pub fn boundary(&self) -> &Boundary {
         &self.boundary
+    }
+
+    /// The points of its boundary that may bear on rigid bodies.
+    pub fn boundary_points(&self) -> &[BoundaryPoint] {
+        &self.points
     }
 
     /// Room for a load on its boundary.

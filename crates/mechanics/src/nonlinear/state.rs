@@ -24,6 +24,8 @@ pub struct NonlinearState {
     /// Rotations of the nodes in the last step, each column by column [-].
     pub(super) rotations: Vec<[f32; 9]>,
     pub(super) tools: Vec<ToolMemory>,
+    /// Force of the contact at each point of the boundary [N].
+    pub(super) pressed: Vec<f64>,
     /// Stress at the integration points in the past; none where nothing relaxes.
     pub(super) stress: Vec<Remembered<f32>>,
     /// Forces on the nodes by tools that have let go [N], and the steps in which they still act.
@@ -57,6 +59,7 @@ impl NonlinearState {
             is_smooth: true,
             rotations: vec![UNTURNED; nodes],
             tools: vec![tool; tools],
+            pressed: vec![0.0; model.boundary_points().len()],
             stress: model
                 .relaxation
                 .as_ref()
@@ -85,6 +88,7 @@ impl NonlinearState {
             self.stress.fill(Remembered::default());
         }
         self.fading.fill(0.0);
+        self.pressed.fill(0.0);
         self.fades = 0;
         self.is_smooth = true;
         for tool in &mut self.tools {
@@ -162,6 +166,14 @@ impl NonlinearState {
     /// Whether no node is displaced from rest by more than `most` [m] along any axis, and no force fades.
     pub fn is_within(&self, model: &NonlinearModel, most: f64) -> bool {
         self.fades == 0 && self.largest(model) <= most
+    }
+
+    /// Force of the contact at a point of the boundary [N], along its normal.
+    ///
+    /// # Panics
+    /// When there is no such point.
+    pub fn contact_force(&self, point: u32) -> f64 {
+        self.pressed[point as usize]
     }
 
     /// Force of a tool on the body [N].

@@ -1,6 +1,6 @@
-use nalgebra::DVector;
-
-use super::coupling::{Coupling, Rows};
+use super::constraints::{Constraints, Turned};
+use super::contact::UnilateralContact;
+use super::coupling::Coupling;
 use super::kernel::{self, Deformed};
 use super::model::NonlinearModel;
 use super::relaxation::{Relaxation, StepShares};
@@ -47,7 +47,7 @@ pub struct Workspace {
     forces: Vec<f32>,
     gradients: Vec<[f32; 9]>,
     guess: Vec<f64>,
-    rows: Rows,
+    constraints: Constraints,
     residual: Vec<f32>,
     /// Change of the displacements in this step [m].
     change: Vec<f32>,
@@ -55,63 +55,46 @@ pub struct Workspace {
     direction: Vec<f32>,
     product: Vec<f32>,
     scratch: Vec<f32>,
-    small: Small,
-}
-
-/// Vectors with a number a row.
-#[derive(Debug, Clone)]
-struct Small {
-    force: DVector<f64>,
-    jump: DVector<f64>,
-    t: DVector<f64>,
-    projected: DVector<f64>,
-    direction: DVector<f64>,
 }
 
 impl Workspace {
     pub(super) fn new(model: &NonlinearModel, tools: usize) -> Self {
-        let (nodes, rows) = (model.nodes().len(), 3 * tools);
+        let nodes = model.nodes().len();
         let vector = || vec![0.0_f32; 3 * nodes];
-        let small = || DVector::zeros(rows);
         Self {
             deformed: vec![Deformed::default(); model.packs.len()],
             shares: model.relaxation.as_ref().map(Relaxation::shares),
             forces: vector(),
             gradients: vec![[0.0; 9]; nodes],
             guess: vec![0.0; 3 * nodes],
-            rows: Rows::new(model, tools),
+            constraints: Constraints::new(model, tools),
             residual: vector(),
             change: vector(),
             z: vector(),
             direction: vector(),
             product: vector(),
             scratch: vec![0.0; model.rest.scratch()],
-            small: Small {
-                force: small(),
-                jump: small(),
-                t: small(),
-                projected: small(),
-                direction: small(),
-            },
         }
     }
 }
 
-/// Takes the body to where `couplings`, one a tool, move it: one step of Newton's method, whose linear system is
-/// solved by conjugate gradients.
+/// Takes the body to where `couplings`, one a tool, move it, out of the half-spaces of `contacts`: one step of Newton's
+/// method, whose linear system is solved by conjugate gradients. Contacts beyond the first
+/// [`MOST_CONTACTS`](super::MOST_CONTACTS) are left out.
 ///
 /// # Panics
-/// When `state` or `workspace` are those of another model or fewer tools.
+/// When `state` or `workspace` are those of another model or fewer tools, or a contact has no point.
 pub fn advance(
     model: &NonlinearModel,
     couplings: &[Option<Coupling<'_>>],
+    contacts: &[UnilateralContact],
     pace: Pace,
     state: &mut NonlinearState,
     workspace: &mut Workspace,
 ) -> Advance {
     pulp::Arch::new().dispatch(
         #[inline(always)]
-        || step(model, couplings, pace, state, workspace),
+        || step(model, couplings, contacts, pace, state, workspace),
     )
 }
 
@@ -119,6 +102,7 @@ pub fn advance(
 fn step(
     model: &NonlinearModel,
     couplings: &[Option<Coupling<'_>>],
+    contacts: &[UnilateralContact],
     pace: Pace,
     state: &mut NonlinearState,
     workspace: &mut Workspace,
@@ -128,14 +112,22 @@ fn step(
     guess(couplings, state, workspace);
     workspace.deform(model, GuessOrEnd::Guess, state);
     workspace.rotate(model, state);
-    workspace.rows.list(couplings);
-    workspace.rows.prepare(model, couplings, &state.rotations);
-    workspace.carry(model, couplings, state);
-    let mut advance = workspace.iterate(model, couplings, &state.rotations, pace.iterations);
+    let body = Turned {
+        model,
+        rotations: &state.rotations,
+    };
+    workspace.constraints.prepare(body, couplings, contacts);
+    workspace.carry(body, couplings, state);
+    let mut advance = workspace.iterate(body, couplings, pace.iterations);
     workspace.bound(model.farthest, &mut advance);
     advance.was_shortened |= workspace.take(model, couplings, state);
-    workspace.finish_forces();
-    workspace.remember(couplings, state);
+    let body = Turned {
+        model,
+        rotations: &state.rotations,
+    };
+    let (residual, displacements) = (&workspace.residual, &state.displacements);
+    workspace.constraints.finish(body, residual, displacements);
+    workspace.constraints.remember(couplings, state);
     advance.is_inverted = workspace.end(model, advance.was_shortened, state);
     state.is_smooth = !advance.was_shortened && !advance.was_unstable;
     advance.was_reset = !state.is_finite();
@@ -239,38 +231,22 @@ impl Workspace {
         );
     }
 
-    /// Moves the body by Z t so that every tool's condition holds, and finds what is then left of the forces.
+    /// Moves the body so that every condition holds, and finds what is then left of the forces.
     #[inline(always)]
     fn carry(
         &mut self,
-        model: &NonlinearModel,
+        body: Turned<'_>,
         couplings: &[Option<Coupling<'_>>],
         state: &NonlinearState,
     ) {
-        for (number, row) in self.rows.rows.iter().enumerate() {
-            let force = state.tools[row.tool].force;
-            self.small.force[number] = force.dot(&row.direction);
-            if let Some(coupling) = &couplings[row.tool] {
-                let mut left =
-                    coupling.displacement - coupling.offset - coupling.compliance * force;
-                for &(node, weight) in coupling.nodes {
-                    let u = &self.guess[3 * node as usize..][..3];
-                    left -= weight * Vec3::new(u[0], u[1], u[2]);
-                }
-                self.small.jump[number] = left.dot(&row.direction);
-            }
-        }
-        self.rows.solve(&self.small.jump, &mut self.small.t);
-        self.small.force += &self.small.t;
-        self.change.fill(0.0);
-        self.rows.add_influence(&self.small.t, &mut self.change);
-        self.multiply(model, true);
+        self.constraints
+            .carry(body, couplings, state, &self.guess, &mut self.change);
+        self.multiply(body.model, true);
         let forces = self.forces.iter().zip(&self.product);
         for (r, (force, product)) in self.residual.iter_mut().zip(forces) {
             *r = -force - product;
         }
-        self.rows
-            .add_load(couplings, &self.small.force, &mut self.residual);
+        self.constraints.add_load(couplings, &mut self.residual);
     }
 
     /// The product of the stiffness with the change, or else with the direction.
@@ -288,21 +264,18 @@ impl Workspace {
     #[inline(always)]
     fn iterate(
         &mut self,
-        model: &NonlinearModel,
+        body: Turned<'_>,
         couplings: &[Option<Coupling<'_>>],
-        rotations: &[[f32; 9]],
         iterations: usize,
     ) -> Advance {
+        let Turned { model, rotations } = body;
         let mut advance = Advance::default();
         let (mut released, mut first) = (0.0, 0.0);
         for iteration in 0..iterations {
             model
                 .rest
                 .apply(rotations, &self.residual, &mut self.z, &mut self.scratch);
-            self.rows.project(&self.residual, &mut self.small.projected);
-            self.rows.solve(&self.small.projected, &mut self.small.t);
-            self.small.t.neg_mut();
-            self.rows.add_influence(&self.small.t, &mut self.z);
+            self.constraints.project(body, &self.residual, &mut self.z);
             let now = dot(&self.residual, &self.z);
             if iteration == 0 {
                 first = now;
@@ -315,10 +288,8 @@ impl Workspace {
             for (direction, z) in self.direction.iter_mut().zip(&self.z) {
                 *direction = z + kept as f32 * *direction;
             }
-            self.small.direction *= kept;
-            self.small.direction += &self.small.t;
+            let own = self.constraints.turn_direction(kept);
             self.multiply(model, false);
-            let own = self.rows.own_curvature(&self.small.direction);
             let curvature = dot(&self.direction, &self.product) + own;
             advance.was_unstable = curvature <= 0.0;
             let length = match advance.was_unstable {
@@ -327,7 +298,6 @@ impl Workspace {
                 true if iteration == 0 => 1.0,
                 true => break,
             };
-            self.small.force.axpy(length, &self.small.direction, 1.0);
             let along = self.direction.iter().zip(&self.product);
             for ((change, r), (direction, product)) in
                 self.change.iter_mut().zip(&mut self.residual).zip(along)
@@ -335,10 +305,7 @@ impl Workspace {
                 *change += length as f32 * direction;
                 *r -= length as f32 * product;
             }
-            self.small.projected.copy_from(&self.small.direction);
-            self.small.projected *= length;
-            self.rows
-                .add_load(couplings, &self.small.projected, &mut self.residual);
+            self.constraints.go(couplings, length, &mut self.residual);
             if advance.was_unstable {
                 break;
             }
@@ -362,14 +329,6 @@ impl Workspace {
             self.change.iter_mut().for_each(|by| *by *= part);
             advance.was_shortened = true;
         }
-    }
-
-    /// The forces of the tools that leave the least of the residual.
-    #[inline(always)]
-    fn finish_forces(&mut self) {
-        self.rows.project(&self.residual, &mut self.small.projected);
-        self.rows.solve(&self.small.projected, &mut self.small.t);
-        self.small.force -= &self.small.t;
     }
 
     /// Takes the change, or as much of it as the energy goes down for; whether that was less than all.
@@ -404,32 +363,12 @@ impl Workspace {
         true
     }
 
-    /// Slope of the energy along the change, with the forces of the tools as they are [J].
+    /// Slope of the energy along the change, with the forces of tools and contacts as they are [J].
     #[inline(always)]
     fn slope(&mut self, couplings: &[Option<Coupling<'_>>]) -> f64 {
         self.product.fill(0.0);
-        self.rows
-            .add_load(couplings, &self.small.force, &mut self.product);
+        self.constraints.add_load(couplings, &mut self.product);
         dot(&self.forces, &self.change) - dot(&self.product, &self.change)
-    }
-
-    fn remember(&self, couplings: &[Option<Coupling<'_>>], state: &mut NonlinearState) {
-        for (coupling, memory) in couplings.iter().zip(&mut state.tools) {
-            memory.force = Vec3::zeros();
-            memory.is_coupled = coupling.is_some();
-        }
-        for (number, row) in self.rows.rows.iter().enumerate() {
-            state.tools[row.tool].force += self.small.force[number] * row.direction;
-        }
-        for (coupling, memory) in couplings.iter().zip(&mut state.tools) {
-            memory.load.fill(0.0);
-            for &(node, weight) in coupling.iter().flat_map(|coupling| coupling.nodes) {
-                let load = &mut memory.load[3 * node as usize..][..3];
-                for (load, force) in load.iter_mut().zip(memory.force.iter()) {
-                    *load = (weight * force) as f32;
-                }
-            }
-        }
     }
 }
 

@@ -35,6 +35,7 @@ mod laws;
 mod linear_system;
 mod no_allocation;
 mod nonlinear;
+mod nonlinear_contact;
 mod nonlinear_judges;
 mod nonlinear_regions;
 mod nonlinear_relaxation;

@@ -80,6 +80,7 @@ impl Bar {
             advance(
                 &self.model,
                 &self.grip(displacement),
+                &[],
                 Pace {
                     iterations: 30,
                     elapsed: 0.0,
@@ -105,6 +106,7 @@ impl Bar {
             advance(
                 &self.model,
                 &self.grip(displacement),
+                &[],
                 Pace {
                     iterations,
                     elapsed: 0.0,

@@ -135,6 +135,7 @@ impl Moved {
                 advance(
                     &self.model,
                     &[Some(coupling)],
+                    &[],
                     pace,
                     &mut self.state,
                     &mut workspace,

@@ -113,6 +113,7 @@ fn found(cells: [usize; 3], c10: &Tissue, way: Vec3) -> Vec3 {
         advance(
             &model,
             &[Some(coupling)],
+            &[],
             pace(6),
             &mut state,
             &mut workspace,
@@ -210,6 +211,7 @@ fn parts_of_a_column_are_in_series() {
         advance(
             &model,
             &[Some(coupling)],
+            &[],
             pace(10),
             &mut state,
             &mut workspace,

@@ -86,6 +86,7 @@ impl Held {
                 advance(
                     &self.model,
                     &[Some(coupling)],
+                    &[],
                     pace,
                     &mut state,
                     &mut workspace,

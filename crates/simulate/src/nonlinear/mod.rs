@@ -17,17 +17,20 @@
 //!
 //! Layers and inclusions are tissues of their own elements (`regions`).
 //!
-//! *Limits*: quasi-static; nothing touches but tips and jaws, and the
-//! organ does not touch itself. A body that is nearly incompressible is taken with a Poisson's ratio of 0.49.
+//! Neighbours that collide keep the organ out (`neighbours`).
+//!
+//! *Limits*: quasi-static; of tools, only tips and jaws touch the organ, and it does not touch itself. A body that is nearly incompressible is taken with a Poisson's ratio of 0.49.
 //!
 //! [`TipField`]: palpate_mechanics::surface_response::TipField
 
 mod hold;
+mod neighbours;
 mod regions;
 mod shape;
 mod target;
 mod touch;
 
+use neighbours::{Candidates, Overlap};
 use regions::Elements;
 pub(crate) use regions::Regions;
 pub(crate) use touch::Moved;
@@ -44,6 +47,7 @@ use palpate_mechanics::nonlinear::{
 use palpate_mechanics::{ForceHistory, LinearElastic};
 
 use crate::grip::Swept;
+use crate::neighbour::Neighbour;
 use crate::tool::Tool;
 use crate::{Error, held_region};
 
@@ -75,6 +79,8 @@ pub(crate) struct NonlinearOrgan {
     /// The tissue at the surface at rest.
     law: LinearElastic,
     shown: CarriedPoints,
+    /// How far it lies in its neighbours at rest.
+    overlaps: Vec<Overlap>,
     /// The shown surface as the organ hangs under its weight, if it has any.
     hangs: Option<(TriangleMesh, AabbTree)>,
     iterations: usize,
@@ -103,16 +109,18 @@ pub(crate) struct Body {
 pub(crate) struct NonlinearWorkspace {
     solver: Workspace,
     targets: Vec<Option<target::Target>>,
+    candidates: Candidates,
     /// Displacements of the shown vertices [m].
     shown: Vec<Vec3>,
 }
 
 impl NonlinearOrgan {
-    /// That of the organ of `scene` and its tissues, which is seen as `shown`; with warnings.
+    /// That of the organ of `scene` and its tissues, which is seen as `shown` beside its `neighbours`; with warnings.
     pub(crate) fn new(
         scene: &Scene,
         shown: &Surface,
         regions: Regions,
+        neighbours: &[Neighbour],
     ) -> Result<(Self, Vec<String>), Error> {
         let mesh = tetrahedra(shown, scene.model.nodes.unwrap_or(NODES), &regions)?;
         let Elements {
@@ -144,6 +152,7 @@ impl NonlinearOrgan {
         let organ = Self {
             size: (high - low).norm(),
             shown: carried,
+            overlaps: Overlap::all(&model, neighbours),
             hangs,
             iterations: match regions.largest_ratio() < NEARLY_INCOMPRESSIBLE {
                 true => ITERATIONS.0,
@@ -178,6 +187,7 @@ impl NonlinearOrgan {
         NonlinearWorkspace {
             solver: self.model.workspace(tools),
             targets: vec![None; tools],
+            candidates: Candidates::new(&self.model, self.overlaps.len()),
             shown: vec![Vec3::zeros(); self.shown.len()],
         }
     }

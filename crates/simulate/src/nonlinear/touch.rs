@@ -156,6 +156,10 @@ impl NonlinearOrgan {
             return;
         }
         let before = body.state.largest(&self.model);
+        let around = (self.model.boundary_points(), &simulation.neighbours[..]);
+        workspace
+            .candidates
+            .find(around, &self.overlaps, &body.state);
         let ended = self.go(relaxes, body, workspace);
         if ended.was_reset || body.state.largest(&self.model) > self.size || self.is_unsound(body) {
             body.state.reset(&self.model);
@@ -173,6 +177,7 @@ impl NonlinearOrgan {
             if let (Some(target), false) = (target, body.lets_go[number] > 0) {
                 own.elastic = -body.histories[number].elastic();
                 target.tell_pace(body, number, own);
+                workspace.candidates.tell(own);
             }
             own.solved = own.elastic;
             if let Some(hold) = &own.grip.hold {
@@ -274,7 +279,8 @@ impl NonlinearOrgan {
             });
             let couplings = &couplings[..targets.len().min(MOST_TOOLS)];
             let (state, solver) = (&mut body.state, &mut workspace.solver);
-            let advance = advance(&self.model, couplings, pace, state, solver);
+            let contacts = &workspace.candidates.contacts;
+            let advance = advance(&self.model, couplings, contacts, pace, state, solver);
             ended.was_reset |= advance.was_reset;
             ended.is_inverted = advance.is_inverted;
             for (number, own) in body.histories.iter_mut().enumerate() {

@@ -33,6 +33,7 @@ mod neighbours;
 mod no_allocation;
 mod nodules;
 mod nonlinear;
+mod nonlinear_neighbours;
 mod nonlinear_regions;
 mod performance;
 mod random_scenes;

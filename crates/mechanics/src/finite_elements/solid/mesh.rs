@@ -46,7 +46,7 @@ pub(crate) struct Face {
     /// Its six nodes: corners, then middles.
     pub(crate) nodes: [usize; 6],
     /// The tetrahedron that it belongs to.
-    pub(super) tetrahedron: usize,
+    pub(crate) tetrahedron: usize,
 }
 
 /// The boundary of `mesh`, with the node numbers of [`ElementMesh::from_tetrahedra`].

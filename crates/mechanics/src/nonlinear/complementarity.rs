@@ -1,0 +1,226 @@
+//! Forces of tools and of unilateral contacts that belong together.
+//!
+//! ```text
+//! w = S x + q,   w = 0 in the rows of tools,   x ≥ 0, w ≥ 0, x w = 0 in the rows of contacts
+//! ```
+//!
+//! with S symmetric and positive: the contacts that bear are found by block principal pivoting, which goes over to single
+//! pivots where the blocks do not help, and so ends [Portugal, Júdice and Vicente 1994]. Nothing is allocated.
+
+/// Exchanges of blocks that may pass without progress.
+const PATIENCE: u32 = 3;
+
+/// Solutions to try, for each row [-]: single pivots may need very many, seldom.
+const MOST_SOLUTIONS: usize = 4;
+
+/// What is taken as zero, over the largest entry [-].
+const ZERO: f64 = 1e-9;
+
+/// The problem, its solution and the factors of its bearing part.
+#[derive(Debug, Clone)]
+pub(super) struct Complementarity {
+    /// S, row by row, `room` in each.
+    matrix: Vec<f64>,
+    pub(super) q: Vec<f64>,
+    pub(super) x: Vec<f64>,
+    pub(super) bears: Vec<bool>,
+    is_wrong: Vec<bool>,
+    /// The rows that bear, and S of these = L Lᵀ.
+    free: Vec<usize>,
+    factor: Vec<f64>,
+    right: Vec<f64>,
+    room: usize,
+}
+
+impl Complementarity {
+    pub(super) fn new(room: usize) -> Self {
+        Self {
+            matrix: vec![0.0; room * room],
+            q: vec![0.0; room],
+            x: vec![0.0; room],
+            bears: vec![false; room],
+            is_wrong: vec![false; room],
+            free: Vec::with_capacity(room),
+            factor: vec![0.0; room * room],
+            right: vec![0.0; room],
+            room,
+        }
+    }
+
+    pub(super) fn at(&mut self, row: usize, column: usize) -> &mut f64 {
+        &mut self.matrix[row * self.room + column]
+    }
+
+    pub(super) fn get(&self, row: usize, column: usize) -> f64 {
+        self.matrix[row * self.room + column]
+    }
+
+    /// Solves for the first `count` rows, of which the first `tools` are tools'; `bears` is where it begins. Whether it
+    /// was solved; if not, the last trial stands, without forces that pull.
+    pub(super) fn solve(&mut self, tools: usize, count: usize) -> bool {
+        self.bears[..tools].fill(true);
+        let (mut fewest, mut patience) = (count + 1, PATIENCE);
+        for _ in 0..MOST_SOLUTIONS * (count + 4) {
+            if !self.factor(count) {
+                break;
+            }
+            self.x[..count].fill(0.0);
+            for (k, &row) in self.free.iter().enumerate() {
+                self.right[k] = -self.q[row];
+            }
+            self.substitute();
+            for (k, &row) in self.free.iter().enumerate() {
+                self.x[row] = self.right[k];
+            }
+            let (wrong, last) = self.wrong(tools, count);
+            if wrong == 0 {
+                return true;
+            }
+            if wrong < fewest {
+                (fewest, patience) = (wrong, PATIENCE);
+            } else if patience > 0 {
+                patience -= 1;
+            } else {
+                self.bears[last] = !self.bears[last];
+                continue;
+            }
+            for row in tools..count {
+                self.is_wrong[row] = self.wrong_in(row, count);
+            }
+            for (bears, is_wrong) in self.bears[tools..count]
+                .iter_mut()
+                .zip(&self.is_wrong[tools..])
+            {
+                *bears ^= is_wrong;
+            }
+        }
+        self.x[tools..count]
+            .iter_mut()
+            .for_each(|x| *x = x.max(0.0));
+        false
+    }
+
+    /// Solves S t = `right` in the rows that bear, which are those of the last [`Self::solve`]; zero in the others.
+    pub(super) fn solve_bearing(&mut self, right: &[f64], t: &mut [f64]) {
+        for (k, &row) in self.free.iter().enumerate() {
+            self.right[k] = right[row];
+        }
+        self.substitute();
+        t.fill(0.0);
+        for (k, &row) in self.free.iter().enumerate() {
+            t[row] = self.right[k];
+        }
+    }
+
+    /// How many rows are wrong, and the last of them.
+    fn wrong(&self, tools: usize, count: usize) -> (usize, usize) {
+        let (mut wrong, mut last) = (0, 0);
+        for row in tools..count {
+            if self.wrong_in(row, count) {
+                (wrong, last) = (wrong + 1, row);
+            }
+        }
+        (wrong, last)
+    }
+
+    fn wrong_in(&self, row: usize, count: usize) -> bool {
+        let zero = |values: &[f64]| {
+            let largest = values[..count]
+                .iter()
+                .fold(0.0_f64, |most, x| most.max(x.abs()));
+            -ZERO * largest
+        };
+        if self.bears[row] {
+            self.x[row] < zero(&self.x)
+        } else {
+            let entries = &self.matrix[row * self.room..][..count];
+            let sum: f64 = entries.iter().zip(&self.x).map(|(s, x)| s * x).sum();
+            sum + self.q[row] < zero(&self.q)
+        }
+    }
+
+    /// Cholesky's factors of the rows that bear; whether they are positive.
+    fn factor(&mut self, count: usize) -> bool {
+        let Self { free, bears, .. } = self;
+        free.clear();
+        free.extend((0..count).filter(|&row| bears[row]));
+        let size = free.len();
+        for i in 0..size {
+            for j in 0..=i {
+                let mut sum = self.matrix[free[i] * self.room + free[j]];
+                for k in 0..j {
+                    sum -= self.factor[i * self.room + k] * self.factor[j * self.room + k];
+                }
+                if i != j {
+                    self.factor[i * self.room + j] = sum / self.factor[j * self.room + j];
+                } else if sum > 0.0 {
+                    self.factor[i * self.room + i] = sum.sqrt();
+                } else {
+                    free.clear();
+                    return false;
+                }
+            }
+        }
+        true
+    }
+
+    /// `right` becomes (L Lᵀ)⁻¹ `right`.
+    fn substitute(&mut self) {
+        let size = self.free.len();
+        let (l, room, right) = (&self.factor, self.room, &mut self.right);
+        for i in 0..size {
+            let sum: f64 = (0..i).map(|k| l[i * room + k] * right[k]).sum();
+            right[i] = (right[i] - sum) / l[i * room + i];
+        }
+        for i in (0..size).rev() {
+            let sum: f64 = (i + 1..size).map(|k| l[k * room + i] * right[k]).sum();
+            right[i] = (right[i] - sum) / l[i * room + i];
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Complementarity;
+
+    /// A number in [-1, 1) of a linear congruential sequence.
+    fn draw(state: &mut u64) -> f64 {
+        *state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        (*state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+
+    /// Judge: the conditions themselves, of random positive matrices; from any beginning there is one solution.
+    #[test]
+    fn random_problems_meet_their_conditions() {
+        let mut random = 1;
+        for count in [1, 2, 5, 20, 60] {
+            for trial in 0..20 {
+                let tools = count.min(trial % 7);
+                let mut problem = Complementarity::new(64);
+                let root: Vec<f64> = (0..count * count).map(|_| draw(&mut random)).collect();
+                for i in 0..count {
+                    for j in 0..count {
+                        let sum: f64 = (0..count)
+                            .map(|k| root[i * count + k] * root[j * count + k])
+                            .sum();
+                        *problem.at(i, j) = sum + if i == j { 0.01 } else { 0.0 };
+                    }
+                    problem.q[i] = draw(&mut random);
+                    problem.bears[i] = draw(&mut random) > 0.0;
+                }
+                assert!(problem.solve(tools, count));
+                for i in 0..count {
+                    let w: f64 = (0..count).map(|j| *problem.at(i, j) * problem.x[j]).sum();
+                    let (w, x) = (w + problem.q[i], problem.x[i]);
+                    let good = match i < tools {
+                        true => w.abs() < 1e-7,
+                        false => x > -1e-6 && w > -1e-6 && (x * w).abs() < 1e-5,
+                    };
+                    assert!(good, "{count} rows, {trial}, row {i}: x {x}, w {w}");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,272 @@
+//! The conditions of a step and their forces: those of tools, which hold, and those of contacts, which bear or are open.
+//!
+//! What bears is found once in a step, with the forces of the tools, by the compliance of the body at rest, turned with
+//! the body ([`Complementarity`]); the conjugate gradients are projected onto these conditions. Forces, and what bears, are
+//! found once more at the end, without moving the body. Contacts have no columns of Z: they take a solution by the
+//! factors in each projection.
+
+use super::complementarity::Complementarity;
+use super::contact::{Contacts, MOST_CONTACTS, UnilateralContact};
+use super::coupling::{Coupling, Rows};
+use super::model::NonlinearModel;
+use super::state::NonlinearState;
+use crate::Vec3;
+
+/// The body with the rotations of its nodes: what turns the factors.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Turned<'a> {
+    pub(super) model: &'a NonlinearModel,
+    pub(super) rotations: &'a [[f32; 9]],
+}
+
+/// All conditions of a step: rows of tools, then of contacts.
+#[derive(Debug, Clone)]
+pub(super) struct Constraints {
+    tools: Rows,
+    contacts: Contacts,
+    problem: Complementarity,
+    /// Forces, the direction of the iterations, and a change of either [N].
+    force: Vec<f64>,
+    direction: Vec<f64>,
+    t: Vec<f64>,
+    /// What conditions lack [m].
+    lacks: Vec<f64>,
+    /// Forces on all nodes, and what they displace.
+    load: Vec<f32>,
+    displaced: Vec<f32>,
+    scratch: Vec<f32>,
+}
+
+impl Constraints {
+    pub(super) fn new(model: &NonlinearModel, tools: usize) -> Self {
+        let (rows, size) = (3 * tools + MOST_CONTACTS, 3 * model.nodes().len());
+        Self {
+            tools: Rows::new(model, tools),
+            contacts: Contacts::new(model.nodes().len()),
+            problem: Complementarity::new(rows),
+            force: vec![0.0; rows],
+            direction: vec![0.0; rows],
+            t: vec![0.0; rows],
+            lacks: vec![0.0; rows],
+            load: vec![0.0; size],
+            displaced: vec![0.0; size],
+            scratch: vec![0.0; model.rest.scratch()],
+        }
+    }
+
+    fn count(&self) -> usize {
+        self.tools.rows.len() + self.contacts.listed.len()
+    }
+
+    /// Takes the conditions of a step, and S of all of them.
+    #[inline(always)]
+    pub(super) fn prepare(
+        &mut self,
+        body: Turned<'_>,
+        couplings: &[Option<Coupling<'_>>],
+        contacts: &[UnilateralContact],
+    ) {
+        self.tools.list(couplings);
+        self.tools.prepare(body.model, couplings, body.rotations);
+        self.contacts.prepare(body.model, contacts, body.rotations);
+        let tools = self.tools.rows.len();
+        for i in 0..tools {
+            for j in 0..tools {
+                *self.problem.at(i, j) =
+                    self.tools.own[(i, j)] + self.tools.shared(couplings, (i, j));
+            }
+        }
+        for (number, contact) in self.contacts.listed.iter().enumerate() {
+            let row = tools + number;
+            for tool in 0..tools {
+                let shared = contact.along(self.tools.influence(tool));
+                *self.problem.at(row, tool) = shared;
+                *self.problem.at(tool, row) = shared;
+            }
+            for other in 0..=number {
+                let shared = self.contacts.shared(number, other);
+                *self.problem.at(row, tools + other) = shared;
+                *self.problem.at(tools + other, row) = shared;
+            }
+            *self.problem.at(row, row) += contact.compliance;
+        }
+        self.direction.fill(0.0);
+    }
+
+    /// Changes the displacements `guess` [m] by Z t, so that every condition holds: the `change` [m].
+    #[inline(always)]
+    pub(super) fn carry(
+        &mut self,
+        body: Turned<'_>,
+        couplings: &[Option<Coupling<'_>>],
+        state: &NonlinearState,
+        guess: &[f64],
+        change: &mut [f32],
+    ) {
+        for (number, row) in self.tools.rows.iter().enumerate() {
+            let force = state.tools[row.tool].force;
+            self.force[number] = force.dot(&row.direction);
+            if let Some(coupling) = &couplings[row.tool] {
+                let mut left =
+                    coupling.displacement - coupling.offset - coupling.compliance * force;
+                for &(node, weight) in coupling.nodes {
+                    let u = &guess[3 * node as usize..][..3];
+                    left -= weight * Vec3::new(u[0], u[1], u[2]);
+                }
+                self.lacks[number] = -left.dot(&row.direction);
+            }
+        }
+        let tools = self.tools.rows.len();
+        for (number, contact) in self.contacts.listed.iter().enumerate() {
+            let force = state.pressed[contact.point as usize];
+            self.force[tools + number] = force;
+            self.lacks[tools + number] = contact.gap(guess) + contact.compliance * force;
+        }
+        self.bear();
+        change.fill(0.0);
+        self.add_displacement(body, change);
+    }
+
+    /// Projects `z`, the preconditioned `residual`, onto the conditions.
+    #[inline(always)]
+    pub(super) fn project(&mut self, body: Turned<'_>, residual: &[f32], z: &mut [f32]) {
+        self.tools.project(residual, &mut self.lacks);
+        let tools = self.tools.rows.len();
+        for (lacks, contact) in self.lacks[tools..].iter_mut().zip(&self.contacts.listed) {
+            *lacks = contact.along(z);
+        }
+        let count = self.count();
+        self.problem
+            .solve_bearing(&self.lacks, &mut self.t[..count]);
+        self.t[..count].iter_mut().for_each(|t| *t = -*t);
+        self.add_displacement(body, z);
+    }
+
+    /// Goes on along the last projection, of which so much is `kept` [-]: what the conditions' own compliances store.
+    pub(super) fn turn_direction(&mut self, kept: f64) -> f64 {
+        let (count, tools) = (self.count(), self.tools.rows.len());
+        for (direction, t) in self.direction.iter_mut().zip(&self.t[..count]) {
+            *direction = kept * *direction + t;
+        }
+        let contacts = self.contacts.listed.iter().zip(&self.direction[tools..]);
+        let own = contacts.map(|(contact, direction)| contact.compliance * direction * direction);
+        self.tools.own_curvature(&self.direction) + own.sum::<f64>()
+    }
+
+    /// Changes the forces by `length` [-] times the direction, and the `residual` [N] by as much.
+    #[inline(always)]
+    pub(super) fn go(
+        &mut self,
+        couplings: &[Option<Coupling<'_>>],
+        length: f64,
+        residual: &mut [f32],
+    ) {
+        let count = self.count();
+        for row in 0..count {
+            self.t[row] = length * self.direction[row];
+            self.force[row] += self.t[row];
+        }
+        self.add(couplings, &self.t, residual);
+    }
+
+    /// Adds all forces to those on the nodes [N].
+    #[inline(always)]
+    pub(super) fn add_load(&self, couplings: &[Option<Coupling<'_>>], load: &mut [f32]) {
+        self.add(couplings, &self.force, load);
+    }
+
+    /// Finds the forces that leave the least of the `residual` [N] at the `displacements` [m].
+    #[inline(always)]
+    pub(super) fn finish(&mut self, body: Turned<'_>, residual: &[f32], displacements: &[f64]) {
+        self.tools.project(residual, &mut self.lacks);
+        if !self.contacts.listed.is_empty() {
+            let Turned { model, rotations } = body;
+            model
+                .rest
+                .apply(rotations, residual, &mut self.displaced, &mut self.scratch);
+        }
+        let tools = self.tools.rows.len();
+        for (number, contact) in self.contacts.listed.iter().enumerate() {
+            self.lacks[tools + number] = contact.gap(displacements)
+                + contact.along(&self.displaced)
+                + contact.compliance * self.force[tools + number];
+        }
+        self.bear();
+    }
+
+    /// Keeps the forces in `state`.
+    pub(super) fn remember(&self, couplings: &[Option<Coupling<'_>>], state: &mut NonlinearState) {
+        for (coupling, memory) in couplings.iter().zip(&mut state.tools) {
+            memory.force = Vec3::zeros();
+            memory.is_coupled = coupling.is_some();
+        }
+        for (row, force) in self.tools.rows.iter().zip(&self.force) {
+            state.tools[row.tool].force += *force * row.direction;
+        }
+        for (coupling, memory) in couplings.iter().zip(&mut state.tools) {
+            memory.load.fill(0.0);
+            for &(node, weight) in coupling.iter().flat_map(|coupling| coupling.nodes) {
+                let load = &mut memory.load[3 * node as usize..][..3];
+                for (load, force) in load.iter_mut().zip(memory.force.iter()) {
+                    *load = (weight * force) as f32;
+                }
+            }
+        }
+        state.pressed.fill(0.0);
+        let forces = &self.force[self.tools.rows.len()..];
+        for (contact, force) in self.contacts.listed.iter().zip(forces) {
+            state.pressed[contact.point as usize] = *force;
+        }
+    }
+
+    /// Forces for what the conditions lack where these do not change; the changes into `t`.
+    fn bear(&mut self) {
+        let (count, tools) = (self.count(), self.tools.rows.len());
+        for row in 0..count {
+            let carried =
+                (tools..count).map(|column| self.problem.get(row, column) * self.force[column]);
+            self.problem.q[row] = self.lacks[row] - carried.sum::<f64>();
+        }
+        for (bears, force) in self.problem.bears[tools..count]
+            .iter_mut()
+            .zip(&self.force[tools..])
+        {
+            *bears = *force > 0.0;
+        }
+        self.problem.solve(tools, count);
+        for row in 0..count {
+            let before = if row < tools { 0.0 } else { self.force[row] };
+            self.t[row] = self.problem.x[row] - before;
+            self.force[row] += self.t[row];
+        }
+    }
+
+    /// x ← x + Z t.
+    #[inline(always)]
+    fn add_displacement(&mut self, body: Turned<'_>, x: &mut [f32]) {
+        self.tools.add_influence(&self.t, x);
+        if self.contacts.listed.is_empty() {
+            return;
+        }
+        self.load.fill(0.0);
+        let forces = &self.t[self.tools.rows.len()..];
+        for (contact, force) in self.contacts.listed.iter().zip(forces) {
+            contact.add(*force, &mut self.load);
+        }
+        let Turned { model, rotations } = body;
+        let (displaced, scratch) = (&mut self.displaced, &mut self.scratch);
+        model.rest.apply(rotations, &self.load, displaced, scratch);
+        for (x, displaced) in x.iter_mut().zip(&self.displaced) {
+            *x += displaced;
+        }
+    }
+
+    #[inline(always)]
+    fn add(&self, couplings: &[Option<Coupling<'_>>], forces: &[f64], load: &mut [f32]) {
+        self.tools.add_load(couplings, forces, load);
+        let forces = &forces[self.tools.rows.len()..];
+        for (contact, force) in self.contacts.listed.iter().zip(forces) {
+            contact.add(*force, load);
+        }
+    }
+}

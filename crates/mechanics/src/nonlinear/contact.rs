@@ -1,0 +1,240 @@
+//! Rigid bodies that the boundary stays out of, without friction.
+//!
+//! Three points of each face, those of a quadrature, stay out of half-spaces, through a small compliance c of their own:
+//!
+//! ```text
+//! g = n · u + o + c λ,   λ ≥ 0, g ≥ 0, λ g = 0
+//! ```
+//!
+//! Point after point, so that an element resolves pressure as it resolves stress; a contact that is smaller than a face is
+//! not resolved.
+
+use palpate_geometry::TetrahedronMesh;
+
+use super::law::Moduli;
+use super::model::NonlinearModel;
+use crate::Vec3;
+use crate::finite_elements::solid::faces;
+
+/// Contacts of a step, at most.
+pub const MOST_CONTACTS: usize = 192;
+
+/// Points of a face in barycentric coordinates: one of these, and two of the other [-].
+const NEAR: f64 = 2.0 / 3.0;
+const FAR: f64 = 1.0 / 6.0;
+
+/// c times the area over 1/E, in lengths of an edge [-]: a point that bears a tenth of E is that part of a tenth of an edge deep.
+const SOFTNESS: f64 = 0.005;
+
+/// Nodes of a point.
+const NODES: usize = 6;
+const NOWHERE: u32 = u32::MAX;
+
+/// A point of the boundary that may bear on rigid bodies.
+#[derive(Debug, Clone)]
+pub struct BoundaryPoint {
+    nodes: [u32; NODES],
+    weights: [f64; NODES],
+    /// Where it is at rest [m].
+    pub place: Vec3,
+    /// c [m/N].
+    pub(super) compliance: f64,
+}
+
+/// A half-space that a point of the boundary stays out of during a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct UnilateralContact {
+    /// Number in [`NonlinearModel::boundary_points`].
+    pub point: u32,
+    /// Where the half-space's outside is [-].
+    pub normal: Vec3,
+    /// Distance of the point at rest from the half-space [m]; negative inside.
+    pub offset: f64,
+}
+
+impl BoundaryPoint {
+    pub(super) fn all(mesh: &TetrahedronMesh, moduli: &[Moduli<f64>], edge: f64) -> Vec<Self> {
+        let mut points = Vec::new();
+        for face in faces(mesh) {
+            let [a, b, c] = face.corners.map(|node| mesh.vertices()[node.index()]);
+            let area = 0.5 * (b - a).cross(&(c - a)).norm() / 3.0;
+            let Moduli { c10, c01, .. } = moduli[face.tetrahedron];
+            let compliance = SOFTNESS * edge / (6.0 * (c10 + c01) * area);
+            for at in [[NEAR, FAR, FAR], [FAR, NEAR, FAR], [FAR, FAR, NEAR]] {
+                let corner = |l: f64| l * (2.0 * l - 1.0);
+                let [u, v, w] = at;
+                points.push(Self {
+                    nodes: face.nodes.map(|node| node as u32),
+                    weights: [
+                        corner(u),
+                        corner(v),
+                        corner(w),
+                        4.0 * u * v,
+                        4.0 * v * w,
+                        4.0 * w * u,
+                    ],
+                    place: a * u + b * v + c * w,
+                    compliance,
+                });
+            }
+        }
+        points
+    }
+
+    /// Where it is displaced to [m] where the nodes have the `displacements` [m].
+    pub fn displacement(&self, displacements: &[f64]) -> Vec3 {
+        let nodes = self.nodes.iter().zip(self.weights);
+        nodes
+            .map(|(&node, weight)| {
+                let u = &displacements[3 * node as usize..][..3];
+                weight * Vec3::new(u[0], u[1], u[2])
+            })
+            .sum()
+    }
+}
+
+/// The contacts of a step.
+#[derive(Debug, Clone)]
+pub(super) struct Contacts {
+    pub(super) listed: Vec<Contact>,
+    /// The nodes of the points, and the place of each node among them.
+    nodes: Vec<u32>,
+    places: Vec<u32>,
+    /// Displacement of each of `nodes` by a unit force on each of `listed` [m/N].
+    columns: Vec<[f32; 3]>,
+}
+
+/// One of them, with the force λ along `normal`.
+#[derive(Debug, Clone)]
+pub(super) struct Contact {
+    pub(super) point: u32,
+    /// c [m/N].
+    pub(super) compliance: f64,
+    nodes: [u32; NODES],
+    weights: [f64; NODES],
+    normal: Vec3,
+    offset: f64,
+}
+
+impl Contact {
+    /// Along the normal, of `values` on all nodes.
+    pub(super) fn along(&self, values: &[f32]) -> f64 {
+        let nodes = self.nodes.iter().zip(self.weights);
+        let along = nodes.map(|(&node, weight)| {
+            let value = &values[3 * node as usize..][..3];
+            let along = value.iter().zip(self.normal.iter());
+            weight * along.map(|(u, n)| f64::from(*u) * n).sum::<f64>()
+        });
+        along.sum()
+    }
+
+    /// n · u + o where the nodes have the `displacements` [m].
+    pub(super) fn gap(&self, displacements: &[f64]) -> f64 {
+        let nodes = self.nodes.iter().zip(self.weights);
+        let along = nodes.map(|(&node, weight)| {
+            let u = &displacements[3 * node as usize..][..3];
+            let along = u.iter().zip(self.normal.iter());
+            weight * along.map(|(u, n)| u * n).sum::<f64>()
+        });
+        self.offset + along.sum::<f64>()
+    }
+
+    /// Adds a `force` [N] on the body to the forces on all nodes.
+    pub(super) fn add(&self, force: f64, forces: &mut [f32]) {
+        for (&node, weight) in self.nodes.iter().zip(self.weights) {
+            let own = &mut forces[3 * node as usize..][..3];
+            for (own, n) in own.iter_mut().zip(self.normal.iter()) {
+                *own += (force * weight * n) as f32;
+            }
+        }
+    }
+}
+
+impl Contacts {
+    pub(super) fn new(nodes: usize) -> Self {
+        Self {
+            listed: Vec::with_capacity(MOST_CONTACTS),
+            nodes: Vec::with_capacity(NODES * MOST_CONTACTS),
+            places: vec![NOWHERE; nodes],
+            columns: Vec::with_capacity(NODES * MOST_CONTACTS * MOST_CONTACTS),
+        }
+    }
+
+    /// Lists the `contacts`, the first [`MOST_CONTACTS`] of them, and finds what a force on each moves.
+    pub(super) fn prepare(
+        &mut self,
+        model: &NonlinearModel,
+        contacts: &[UnilateralContact],
+        rotations: &[[f32; 9]],
+    ) {
+        self.listed.clear();
+        let contacts = contacts.iter().take(MOST_CONTACTS);
+        self.listed.extend(contacts.map(|contact| {
+            let point = &model.boundary_points()[contact.point as usize];
+            Contact {
+                point: contact.point,
+                compliance: point.compliance,
+                nodes: point.nodes,
+                weights: point.weights,
+                normal: contact.normal,
+                offset: contact.offset,
+            }
+        }));
+        for node in self.nodes.drain(..) {
+            self.places[node as usize] = NOWHERE;
+        }
+        for node in self.listed.iter().flat_map(|own| own.nodes) {
+            let place = &mut self.places[node as usize];
+            if *place == NOWHERE {
+                *place = self.nodes.len() as u32;
+                self.nodes.push(node);
+            }
+        }
+        self.displace(model, rotations);
+    }
+
+    /// Q_a Σ_b w_b K⁻¹_ab Q_bᵀ n.
+    fn displace(&mut self, model: &NonlinearModel, rotations: &[[f32; 9]]) {
+        self.columns.clear();
+        for own in &self.listed {
+            let first = self.columns.len();
+            self.columns.resize(first + self.nodes.len(), [0.0; 3]);
+            let columns = &mut self.columns[first..];
+            for (&node, weight) in own.nodes.iter().zip(own.weights) {
+                let Some(place) = model.loaded[node as usize] else {
+                    continue;
+                };
+                let influence = &model.influences[place as usize].values;
+                let q = &rotations[node as usize];
+                let f: [f32; 3] = std::array::from_fn(|i| {
+                    let along = (0..3).map(|k| f64::from(q[3 * i + k]) * own.normal[k]);
+                    (weight * along.sum::<f64>()) as f32
+                });
+                for (column, &there) in columns.iter_mut().zip(&self.nodes) {
+                    let g = &influence[9 * there as usize..][..9];
+                    for (i, u) in column.iter_mut().enumerate() {
+                        *u += g[i] * f[0] + g[3 + i] * f[1] + g[6 + i] * f[2];
+                    }
+                }
+            }
+            for (column, &there) in columns.iter_mut().zip(&self.nodes) {
+                let q = &rotations[there as usize];
+                let [x, y, z] = *column;
+                *column = std::array::from_fn(|i| q[i] * x + q[3 + i] * y + q[6 + i] * z);
+            }
+        }
+    }
+
+    /// How far a unit force on contact `from` moves contact `to` along its normal, by the factors at rest [m/N].
+    pub(super) fn shared(&self, to: usize, from: usize) -> f64 {
+        let columns = &self.columns[from * self.nodes.len()..];
+        let own = &self.listed[to];
+        let nodes = own.nodes.iter().zip(own.weights);
+        let along = nodes.map(|(&node, weight)| {
+            let column = &columns[self.places[node as usize] as usize];
+            let along = column.iter().zip(own.normal.iter());
+            weight * along.map(|(u, n)| f64::from(*u) * n).sum::<f64>()
+        });
+        along.sum()
+    }
+}

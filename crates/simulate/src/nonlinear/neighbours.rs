@@ -1,0 +1,124 @@
+//! Neighbours that the organ stays out of: rigid bodies, without friction.
+//!
+//! Each point of the boundary keeps the distance that it has from a neighbour at rest, as far as it lies within it there:
+//! where an organ grows through a neighbour, nothing pushes it out.
+//!
+//! *How we know*: `nonlinear_neighbours::…`.
+
+use palpate_geometry::Vec3;
+use palpate_mechanics::nonlinear::{
+    BoundaryPoint, MOST_CONTACTS, NonlinearModel, NonlinearState, UnilateralContact,
+};
+use palpate_mechanics::{Limit, Reached};
+
+use crate::neighbour::Neighbour;
+use crate::state::ToolState;
+
+/// Points that are nearer than this may bear in the step [m]: no part of an organ goes much farther in one.
+const NEAR: f64 = 2e-3;
+
+/// Signed distances of all points of the boundary from one neighbour at rest, where these are negative [m].
+#[derive(Debug, Clone)]
+pub(super) struct Overlap(Vec<f64>);
+
+impl Overlap {
+    pub(super) fn all(model: &NonlinearModel, neighbours: &[Neighbour]) -> Vec<Self> {
+        let rest = NonlinearState::at_rest(model, 0);
+        let of = |neighbour: &Neighbour| {
+            let points = model.boundary_points().iter();
+            let depths = points.map(|point| {
+                let place = point.place + point.displacement(&rest.displacements);
+                neighbour.distance(&place).0.min(0.0)
+            });
+            Self(depths.collect())
+        };
+        neighbours.iter().map(of).collect()
+    }
+}
+
+/// Where a point was when its distance was last sought [m], and that distance: a bound of what it is elsewhere.
+#[derive(Debug, Clone, Copy)]
+struct Known {
+    place: Vec3,
+    distance: f64,
+}
+
+/// The points that may bear in a step. Scratch.
+#[derive(Debug)]
+pub(super) struct Candidates {
+    known: Vec<Known>,
+    found: Vec<(f64, UnilateralContact)>,
+    pub(super) contacts: Vec<UnilateralContact>,
+    /// Such points beyond those that a step takes.
+    left_out: usize,
+}
+
+impl Candidates {
+    pub(super) fn new(model: &NonlinearModel, neighbours: usize) -> Self {
+        let unknown = Known {
+            place: Vec3::zeros(),
+            distance: f64::NEG_INFINITY,
+        };
+        let count = neighbours * model.boundary_points().len();
+        Self {
+            known: vec![unknown; count],
+            found: Vec::with_capacity(count),
+            contacts: Vec::with_capacity(MOST_CONTACTS),
+            left_out: 0,
+        }
+    }
+
+    /// Finds them where the body is in `state`; those that are deepest if a step cannot take all.
+    pub(super) fn find(
+        &mut self,
+        (points, neighbours): (&[BoundaryPoint], &[Neighbour]),
+        overlaps: &[Overlap],
+        state: &NonlinearState,
+    ) {
+        self.found.clear();
+        let bodies = neighbours.iter().zip(overlaps);
+        for ((neighbour, overlap), known) in bodies.zip(self.known.chunks_mut(points.len())) {
+            for (number, (point, known)) in points.iter().zip(known).enumerate() {
+                let moved = point.displacement(&state.displacements);
+                let place = point.place + moved;
+                let allowed = overlap.0[number];
+                let bears = state.contact_force(number as u32) > 0.0;
+                let least = known.distance - (place - known.place).norm();
+                if least - allowed > NEAR && !bears {
+                    continue;
+                }
+                let (distance, normal) = neighbour.distance(&place);
+                *known = Known { place, distance };
+                let gap = distance - allowed;
+                if gap < NEAR {
+                    let contact = UnilateralContact {
+                        point: number as u32,
+                        normal,
+                        offset: gap - normal.dot(&moved),
+                    };
+                    self.found.push((gap, contact));
+                }
+            }
+        }
+        self.left_out = self.found.len().saturating_sub(MOST_CONTACTS);
+        if self.left_out > 0 {
+            self.found
+                .select_nth_unstable_by(MOST_CONTACTS, |a, b| a.0.total_cmp(&b.0));
+            self.found.truncate(MOST_CONTACTS);
+        }
+        self.contacts.clear();
+        self.contacts
+            .extend(self.found.iter().map(|(_, contact)| *contact));
+    }
+
+    /// Tells of points that were left out, under a tool that touches.
+    pub(super) fn tell(&self, tool: &mut ToolState) {
+        if self.left_out > 0 {
+            let reached = Reached {
+                asked: (MOST_CONTACTS + self.left_out) as f64,
+                used: MOST_CONTACTS as f64,
+            };
+            tool.limited.add(Limit::NeighbourContacts, reached);
+        }
+    }
+}
