@@ -129,7 +129,8 @@ impl Simulation {
             None => None,
             Some(regions) => {
                 tell(watch, Work::Tetrahedra)?;
-                let (organ, more) = NonlinearOrgan::new(scene, &surface, regions, &neighbours)?;
+                let (organ, more) =
+                    NonlinearOrgan::new(scene, (&surface, &tree), regions, &neighbours)?;
                 warnings.extend(more);
                 Some(organ)
             }

@@ -30,7 +30,7 @@ mod shape;
 mod target;
 mod touch;
 
-use neighbours::{Candidates, Overlap};
+use neighbours::{Candidates, Skin};
 use regions::Elements;
 pub(crate) use regions::Regions;
 pub(crate) use touch::Moved;
@@ -79,8 +79,7 @@ pub(crate) struct NonlinearOrgan {
     /// The tissue at the surface at rest.
     law: LinearElastic,
     shown: CarriedPoints,
-    /// How far it lies in its neighbours at rest.
-    overlaps: Vec<Overlap>,
+    skin: Skin,
     /// The shown surface as the organ hangs under its weight, if it has any.
     hangs: Option<(TriangleMesh, AabbTree)>,
     iterations: usize,
@@ -118,7 +117,7 @@ impl NonlinearOrgan {
     /// That of the organ of `scene` and its tissues, which is seen as `shown` beside its `neighbours`; with warnings.
     pub(crate) fn new(
         scene: &Scene,
-        shown: &Surface,
+        (shown, tree): (&Surface, &AabbTree),
         regions: Regions,
         neighbours: &[Neighbour],
     ) -> Result<(Self, Vec<String>), Error> {
@@ -152,7 +151,7 @@ impl NonlinearOrgan {
         let organ = Self {
             size: (high - low).norm(),
             shown: carried,
-            overlaps: Overlap::all(&model, neighbours),
+            skin: Skin::new(&model, (shown, tree), neighbours),
             hangs,
             iterations: match regions.largest_ratio() < NEARLY_INCOMPRESSIBLE {
                 true => ITERATIONS.0,
@@ -187,7 +186,7 @@ impl NonlinearOrgan {
         NonlinearWorkspace {
             solver: self.model.workspace(tools),
             targets: vec![None; tools],
-            candidates: Candidates::new(&self.model, self.overlaps.len()),
+            candidates: Candidates::new(&self.model, self.skin.neighbours()),
             shown: vec![Vec3::zeros(); self.shown.len()],
         }
     }

@@ -5,7 +5,7 @@
 //!
 //! *How we know*: `nonlinear_neighbours::…`.
 
-use palpate_geometry::Vec3;
+use palpate_geometry::{AabbTree, Surface, Vec3};
 use palpate_mechanics::nonlinear::{
     BoundaryPoint, MOST_CONTACTS, NonlinearModel, NonlinearState, UnilateralContact,
 };
@@ -17,22 +17,43 @@ use crate::state::ToolState;
 /// Points that are nearer than this may bear in the step [m]: no part of an organ goes much farther in one.
 const NEAR: f64 = 2e-3;
 
-/// Signed distances of all points of the boundary from one neighbour at rest, where these are negative [m].
+/// The points of the boundary as neighbours meet them.
 #[derive(Debug, Clone)]
-pub(super) struct Overlap(Vec<f64>);
+pub(super) struct Skin {
+    /// At rest, on the shown surface, which coarse faces cut short [m].
+    places: Vec<Vec3>,
+    /// For each neighbour, how deep they lie in it at rest, as negative distances [m].
+    overlaps: Vec<Vec<f64>>,
+}
 
-impl Overlap {
-    pub(super) fn all(model: &NonlinearModel, neighbours: &[Neighbour]) -> Vec<Self> {
+impl Skin {
+    pub(super) fn new(
+        model: &NonlinearModel,
+        (shown, tree): (&Surface, &AabbTree),
+        neighbours: &[Neighbour],
+    ) -> Self {
         let rest = NonlinearState::at_rest(model, 0);
-        let of = |neighbour: &Neighbour| {
-            let points = model.boundary_points().iter();
-            let depths = points.map(|point| {
-                let place = point.place + point.displacement(&rest.displacements);
+        let points = model.boundary_points();
+        let places: Vec<Vec3> = points
+            .iter()
+            .map(|point| tree.nearest(shown.mesh(), &point.place).on.position)
+            .collect();
+        let overlap = |neighbour: &Neighbour| {
+            let places = places.iter().zip(points);
+            let depths = places.map(|(place, point)| {
+                let place = place + point.displacement(&rest.displacements);
                 neighbour.distance(&place).0.min(0.0)
             });
-            Self(depths.collect())
+            depths.collect()
         };
-        neighbours.iter().map(of).collect()
+        Self {
+            overlaps: neighbours.iter().map(overlap).collect(),
+            places,
+        }
+    }
+
+    pub(super) fn neighbours(&self) -> usize {
+        self.overlaps.len()
     }
 }
 
@@ -72,16 +93,16 @@ impl Candidates {
     pub(super) fn find(
         &mut self,
         (points, neighbours): (&[BoundaryPoint], &[Neighbour]),
-        overlaps: &[Overlap],
+        skin: &Skin,
         state: &NonlinearState,
     ) {
         self.found.clear();
-        let bodies = neighbours.iter().zip(overlaps);
+        let bodies = neighbours.iter().zip(&skin.overlaps);
         for ((neighbour, overlap), known) in bodies.zip(self.known.chunks_mut(points.len())) {
             for (number, (point, known)) in points.iter().zip(known).enumerate() {
                 let moved = point.displacement(&state.displacements);
-                let place = point.place + moved;
-                let allowed = overlap.0[number];
+                let place = skin.places[number] + moved;
+                let allowed = overlap[number];
                 let bears = state.contact_force(number as u32) > 0.0;
                 let least = known.distance - (place - known.place).norm();
                 if least - allowed > NEAR && !bears {

@@ -157,9 +157,7 @@ impl NonlinearOrgan {
         }
         let before = body.state.largest(&self.model);
         let around = (self.model.boundary_points(), &simulation.neighbours[..]);
-        workspace
-            .candidates
-            .find(around, &self.overlaps, &body.state);
+        workspace.candidates.find(around, &self.skin, &body.state);
         let ended = self.go(relaxes, body, workspace);
         if ended.was_reset || body.state.largest(&self.model) > self.size || self.is_unsound(body) {
             body.state.reset(&self.model);

@@ -14,7 +14,7 @@ use palpate_simulate::Simulation;
 use crate::grip::{Hands, grasping, pose};
 use crate::scenes::{Hand, Random, Setting, YOUNGS_MODULUS, nearest};
 
-const LIVER: Setting<'_> = Setting {
+pub(crate) const LIVER: Setting<'_> = Setting {
     organ: "builtin = \"liver\"\ntriangles = 1200",
     kind: "nonlinear",
     model: "",
@@ -96,7 +96,10 @@ fn a_press_does_not_depend_on_the_number_of_nodes() {
 }
 
 /// A grasper that holds the organ at the place nearest to `at`, upright on it; with where its tip is.
-fn holding<'a>(simulation: &'a Simulation, at: &Vec3) -> (Hands<'a>, Vec3, UnitQuaternion<f64>) {
+pub(crate) fn holding<'a>(
+    simulation: &'a Simulation,
+    at: &Vec3,
+) -> (Hands<'a>, Vec3, UnitQuaternion<f64>) {
     let tree = AabbTree::new(simulation.surface().mesh());
     let (point, normal) = nearest(simulation, &tree, at);
     let turned = UnitQuaternion::rotation_between(&Vec3::z(), &normal).unwrap_or_default();
@@ -113,7 +116,7 @@ fn holding<'a>(simulation: &'a Simulation, at: &Vec3) -> (Hands<'a>, Vec3, UnitQ
     (hands, point, turned)
 }
 
-const STRONG: Jaws = Jaws {
+pub(crate) const STRONG: Jaws = Jaws {
     force_n: 100.0,
     ..Jaws::GRASPER
 };
@@ -123,7 +126,7 @@ fn graspers(setting: &Setting<'_>, tools: usize) -> Simulation {
 }
 
 /// Largest displacement of the surface that is seen [m].
-fn displaced(hands: &Hands<'_>, simulation: &Simulation) -> f64 {
+pub(crate) fn displaced(hands: &Hands<'_>, simulation: &Simulation) -> f64 {
     let rest = simulation.surface().mesh().vertices();
     let moved = hands.state.deformed.vertices().iter().zip(rest);
     moved
