@@ -155,7 +155,7 @@ mod tests {
             ("format = 1\nscale = 9.0\n", "scale"),
             ("format = 1\nmouse_hand = \"third\"\n", "mouse_hand"),
             ("format = 1\nscael = 1.0\n", "scael"),
-            ("format = 1\nscale = \n", ":2"),
+            ("format = 1\nscale = \n", "line 2"),
             ("\u{0}", "settings.toml"),
         ] {
             let told = Settings::parse(text, "settings.toml").unwrap_err();

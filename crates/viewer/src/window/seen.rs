@@ -30,7 +30,9 @@ impl Seen {
             events: std::mem::take(&mut self.events),
             ..RawInput::default()
         };
-        let output = self.context.run_ui(input, |ui| page(ui));
+        let mut output = self.context.run_ui(input, |ui| page(ui));
+        // Nobody draws it.
+        output.textures_delta.clear();
         if let Some(update) = output.platform_output.accesskit_update {
             self.nodes = update.nodes.into_iter().map(|(_, node)| node).collect();
         }
