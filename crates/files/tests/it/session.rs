@@ -162,11 +162,7 @@ fn a_stated_diameter_is_read_as_it_was_written() {
     };
     assert_eq!(both.event_text(), "mark;stated_diameter_m=0.0165");
     let with = |event: &str| {
-        let lines = SESSION.lines().map(|line| match line.starts_with("time_s") {
-            true => format!("{line}\n"),
-            false => format!("{}\n", line.replace(",cut,", &format!(",{event},"))),
-        });
-        let text: String = lines.collect();
+        let text = SESSION.replace("contact;cut", event);
         assert_ne!(text, SESSION);
         Session::parse(&text, "session.csv")
     };

@@ -1,13 +1,15 @@
 //! A page without a window, for tests: its accessibility tree, clicks and keys.
 
-use eframe::egui::accesskit::{Node, Role};
+use eframe::egui::accesskit::{Node, NodeId, Role};
 use eframe::egui::{Context, Event, Key, Modifiers, PointerButton, Pos2, RawInput, Rect, Ui, Vec2};
 
 /// A page as somebody sees it who reads the accessibility tree.
 pub(crate) struct Seen {
     context: Context,
-    nodes: Vec<Node>,
+    nodes: Vec<(NodeId, Node)>,
     events: Vec<Event>,
+    /// A button is let go a picture later than it was pressed, as by a hand.
+    later: Vec<Event>,
 }
 
 impl Default for Seen {
@@ -18,32 +20,39 @@ impl Default for Seen {
             context,
             nodes: Vec::new(),
             events: Vec::new(),
+            later: Vec::new(),
         }
     }
 }
 
 impl Seen {
-    /// Shows the page once, with the clicks and keys since the last time.
+    /// Shows the page once, with the presses and keys since the last time.
     pub(crate) fn show(&mut self, mut page: impl FnMut(&mut Ui)) {
         let input = RawInput {
             screen_rect: Some(Rect::from_min_size(Pos2::ZERO, Vec2::new(1280.0, 1600.0))),
-            events: std::mem::take(&mut self.events),
+            events: std::mem::replace(&mut self.events, std::mem::take(&mut self.later)),
             ..RawInput::default()
         };
         let mut output = self.context.run_ui(input, |ui| page(ui));
         // Nobody draws it.
         output.textures_delta.clear();
         if let Some(update) = output.platform_output.accesskit_update {
-            self.nodes = update.nodes.into_iter().map(|(_, node)| node).collect();
+            self.nodes = update.nodes;
         }
     }
 
     fn find(&self, role: Role, label: &str) -> Option<&Node> {
-        let is_meant = |node: &&Node| {
-            let own = node.label().or(node.value());
-            node.role() == role && own.is_some_and(|own| own == label)
-        };
-        self.nodes.iter().find(is_meant)
+        let nodes = self.nodes.iter().map(|(_, node)| node);
+        let mut nodes = nodes.filter(|node| node.role() == role);
+        nodes.find(|node| self.label(node) == label)
+    }
+
+    /// The label of a node: its own, or that of the node that labels it.
+    fn label<'n>(&'n self, node: &'n Node) -> &'n str {
+        let by = node.labelled_by().first();
+        let labels = self.nodes.iter().find(|(id, _)| Some(id) == by);
+        let label = labels.map_or(node, |(_, node)| node);
+        label.label().or(label.value()).unwrap_or_default()
     }
 
     /// Whether there is a node with this role and label.
@@ -53,10 +62,7 @@ impl Seen {
 
     /// Roles and labels of all nodes.
     pub(crate) fn labels(&self) -> Vec<(Role, String)> {
-        let own = |node: &Node| {
-            let label = node.label().or(node.value()).unwrap_or_default();
-            (node.role(), label.to_owned())
-        };
+        let own = |(_, node): &(NodeId, Node)| (node.role(), self.label(node).to_owned());
         self.nodes.iter().map(own).collect()
     }
 
@@ -72,14 +78,14 @@ impl Seen {
             (0.5 * (bounds.y0 + bounds.y1)) as f32,
         );
         self.events.push(Event::PointerMoved(pos));
-        for pressed in [true, false] {
-            self.events.push(Event::PointerButton {
-                pos,
-                button: PointerButton::Primary,
-                pressed,
-                modifiers: Modifiers::NONE,
-            });
-        }
+        let button = |pressed| Event::PointerButton {
+            pos,
+            button: PointerButton::Primary,
+            pressed,
+            modifiers: Modifiers::NONE,
+        };
+        self.events.push(button(true));
+        self.later.push(button(false));
     }
 
     /// Presses a key.

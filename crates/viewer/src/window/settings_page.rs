@@ -231,10 +231,10 @@ mod tests {
         (saved, own)
     }
 
-    /// Shows the page twice: a click counts in the picture after it.
+    /// Shows the page with the press, with the release, and with what came of it.
     fn look(seen: &mut Seen, page: &mut SettingsPage, own: &mut WindowSettings) -> bool {
         let mut is_left = false;
-        for _ in 0..2 {
+        for _ in 0..3 {
             seen.show(|ui| is_left |= page.show(ui, own));
         }
         is_left
