@@ -13,6 +13,7 @@ mod preparation;
 mod progress;
 mod recorded;
 mod report;
+mod settings;
 mod training;
 
 use std::process::ExitCode;

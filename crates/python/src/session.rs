@@ -142,7 +142,7 @@ impl Session {
         }
         truths("contact", &|row| row.contact)?;
         add("depth_m", &|row| row.depth_m)?;
-        let events: Vec<String> = rows.iter().map(|row| row.events.to_string()).collect();
+        let events: Vec<String> = rows.iter().map(SessionRow::event_text).collect();
         columns.set_item("event", events)?;
         add("grip_force_n", &|row| row.grip_force_n)?;
         Ok(columns)

@@ -6,12 +6,14 @@
 //! *Limits*: it moves tips and jaws, and turns no tool.
 
 use std::collections::VecDeque;
+use std::ops::ControlFlow;
 
-use palpate_files::Scene;
 use palpate_files::scene::{Goal, ToolKind};
+use palpate_files::{Event, Pose, Scene, Session};
 use palpate_geometry::Vec3;
 
-use crate::Simulation;
+use crate::performance::{Performance, Status};
+use crate::{Simulation, SimulationState, SimulationWorkspace, step};
 
 /// Speed through the air [m/s], and in the tissue or towards it [m/s].
 const FREE: f64 = 0.025;
@@ -34,6 +36,9 @@ const FOLLOWS: f64 = 0.03;
 /// How far a cut goes on beyond the ends of its line [m].
 const BEYOND: f64 = 0.002;
 
+/// A demonstration without a time limit ends after this time [s].
+const LONGEST: f64 = 300.0;
+
 /// Points of a way over the surface are this far apart [m].
 const SPACING: f64 = 0.001;
 
@@ -48,12 +53,25 @@ pub struct ShownTool {
     pub cuts: bool,
 }
 
+impl ShownTool {
+    /// Its pose; a script turns no tool.
+    fn pose(&self) -> Pose {
+        Pose {
+            position_m: self.tip.into(),
+            orientation: None,
+            grip: self.grip,
+            cut: self.cuts,
+        }
+    }
+}
+
 /// A task that is being demonstrated.
 #[derive(Debug, Clone)]
 pub struct Demonstration {
     steps: VecDeque<Step>,
     tools: Vec<Option<ShownTool>>,
     marks: bool,
+    states: Option<f64>,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -71,6 +89,8 @@ enum Step {
     /// [s]
     Wait(f64),
     Mark,
+    /// States a diameter [m].
+    State(f64),
     /// Keeps a pull [N], for ever.
     Pull {
         tool: usize,
@@ -114,7 +134,13 @@ impl Demonstration {
         let ground = RestSurface(simulation);
         let steps = match &scene.task.goal {
             Goal::Free => return None,
-            Goal::Find { target_m, .. } => found(&ground, &Vec3::from(*target_m)),
+            Goal::Find { target_m, size, .. } => {
+                let mut steps = found(&ground, &Vec3::from(*target_m));
+                if let Some(size) = size {
+                    steps.extend([Step::Wait(1.5), Step::State(2.0 * size.radius_m)]);
+                }
+                steps
+            }
             Goal::Traction {
                 tool,
                 force_n,
@@ -149,12 +175,72 @@ impl Demonstration {
             steps: steps.into(),
             tools: vec![None; scene.tools.len()],
             marks: false,
+            states: None,
+        })
+    }
+
+    /// The session of a demonstration of the task of `scene`, which `simulation` was made of, at the step of the model:
+    /// until the task is over, or for its time limit. `watch` gets the part [-] that is done and may cancel it. None
+    /// where there is nothing to do, no tool to do it with, or it was cancelled.
+    pub fn record(
+        scene: &Scene,
+        simulation: &Simulation,
+        watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) -> Option<Session> {
+        let mut script = Self::new(scene, simulation)?;
+        let tools: Vec<String> = scene.tools.iter().map(|tool| tool.name.clone()).collect();
+        let mut performance = Performance::new(&scene.task, &tools);
+        let mut state = SimulationState::new(simulation).show_every(f64::INFINITY);
+        let mut workspace = SimulationWorkspace::new(simulation);
+        let (period, longest) = (
+            simulation.step(),
+            scene.task.time_limit_s.unwrap_or(LONGEST),
+        );
+        let mut rows = Vec::new();
+        for number in 0.. {
+            let time = period * f64::from(number);
+            if time > longest || matches!(performance.status(), Status::Over { .. }) {
+                break;
+            }
+            if number % 50 == 0 && watch(time / longest).is_break() {
+                return None;
+            }
+            let elapsed = if number == 0 { 0.0 } else { period };
+            let forces: Vec<Vec3> = state.tools.iter().map(|tool| tool.force).collect();
+            let shown = script.follow(period, &forces).iter();
+            let poses: Vec<_> = shown.map(|tool| tool.map(|own| own.pose())).collect();
+            step(
+                simulation,
+                (time, elapsed),
+                &poses,
+                &mut state,
+                &mut workspace,
+            );
+            let mut says = Some((script.marks(), script.states()));
+            for tool in state.tools.iter().filter(|tool| tool.pose.is_some()) {
+                let mut row = tool.row;
+                if let Some((marks, states)) = says.take() {
+                    if marks {
+                        row.events.insert(Event::Mark);
+                    }
+                    row.stated_diameter_m = states;
+                }
+                performance.add(&row);
+                rows.push(row);
+            }
+        }
+        Some(Session {
+            header: simulation.session_header(),
+            tools,
+            rows,
+            incomplete: None,
         })
     }
 
     /// The tools after another `elapsed` [s], under `forces` on them [N]; none for those that are not held.
     pub fn follow(&mut self, elapsed: f64, forces: &[Vec3]) -> &[Option<ShownTool>] {
         self.marks = false;
+        self.states = None;
         let mut left = elapsed;
         while left > 0.0 {
             let Some(step) = self.steps.front_mut() else {
@@ -169,6 +255,10 @@ impl Demonstration {
                 }
                 Step::Mark => {
                     self.marks = true;
+                    true
+                }
+                Step::State(diameter) => {
+                    self.states = Some(*diameter);
                     true
                 }
                 Step::Grip { tool, to } => match self.tools[*tool].as_mut() {
@@ -228,6 +318,11 @@ impl Demonstration {
     /// Whether it has just marked where it is.
     pub fn marks(&self) -> bool {
         self.marks
+    }
+
+    /// The diameter that it has just stated [m]: that of the task, for a script knows it.
+    pub fn states(&self) -> Option<f64> {
+        self.states
     }
 }
 

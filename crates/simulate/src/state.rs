@@ -273,6 +273,7 @@ impl ToolState {
                 depth_m: 0.0,
                 events: Events::NONE,
                 grip_force_n: 0.0,
+                stated_diameter_m: None,
             },
             limits: LimitCounts::default(),
             limited: Limits::NONE,

@@ -35,4 +35,6 @@ pub use render::{
     Body, Label, LabelTarget, Labels, Looks, Renderer, Target, Tint, ToolPicture, View,
     single_precision,
 };
-pub use window::{Start, check_display, gesture, hands, open_window, training};
+pub use window::{
+    PlayedSession, Start, check_display, gesture, hands, open_window, settings, training,
+};

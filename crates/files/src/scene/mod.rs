@@ -31,7 +31,7 @@ pub use organ::{Layer, Location, Neighbour, Nodule, Organ};
 pub use region::{Region, RegionBox, RegionPlane, RegionSphere};
 pub use shape::{BuiltinOrgan, LengthUnit, Shape};
 pub use standing_alone::standing_alone;
-pub use task::{Goal, Task};
+pub use task::{Goal, SoughtSize, Task};
 pub use tissue_choice::TissueChoice;
 pub use tool::{DeviceKind, Tip, TipContact, TipShape, Tool, ToolKind, ToolMesh};
 pub use view::{Shading, View};

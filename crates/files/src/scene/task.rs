@@ -34,6 +34,8 @@ pub enum Goal {
         target_m: [f64; 3],
         /// How far from it, along the surface, still counts [m].
         tolerance_m: f64,
+        /// How large it is, where that is asked for as well.
+        size: Option<SoughtSize>,
     },
     /// When a force was held for long enough.
     Traction {
@@ -61,6 +63,27 @@ pub enum Goal {
         /// How many layers from outside; none in an organ without layers.
         layers: Option<usize>,
     },
+}
+
+/// The size of what is to be found; the trainee states its diameter after marking it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SoughtSize {
+    /// Its radius [m].
+    pub radius_m: f64,
+    /// The largest error of the stated diameter that counts [m].
+    pub diameter_tolerance_m: f64,
+}
+
+impl SoughtSize {
+    /// By how much a stated diameter is too large [m]; negative where it is too small.
+    pub fn error_of(&self, stated_diameter_m: f64) -> f64 {
+        stated_diameter_m - 2.0 * self.radius_m
+    }
+
+    /// Whether a stated diameter [m] counts.
+    pub fn accepts(&self, stated_diameter_m: f64) -> bool {
+        self.error_of(stated_diameter_m).abs() <= self.diameter_tolerance_m
+    }
 }
 
 /// How far a pull may be from its direction [rad].
@@ -154,6 +177,18 @@ const FIND: &[Key] = &[
         "How far from it, along the surface, still counts.",
     )
     .required("0.006"),
+    Key::number(
+        "radius_m",
+        Domain::LENGTH,
+        "Its radius; with it the trainee also states a diameter after marking the place.",
+    )
+    .optional("0.008", "only the place counts"),
+    Key::number(
+        "diameter_tolerance_m",
+        Domain::LENGTH,
+        "The largest error of the stated diameter that counts.",
+    )
+    .optional("0.002", "a quarter of the diameter, with a `radius_m`"),
 ];
 
 const TRACTION: &[Key] = &[
@@ -219,6 +254,7 @@ impl Goal {
             return Ok(Self::Find {
                 target_m: find.required_vector("target_m")?,
                 tolerance_m: find.required_number("tolerance_m")?,
+                size: Self::size(&find)?,
             });
         }
         if let Some(traction) = keys.table("traction")? {
@@ -234,6 +270,21 @@ impl Goal {
         match keys.table("cut")? {
             Some(cut) => Self::cut(&cut, layers),
             None => Ok(Self::Free),
+        }
+    }
+
+    fn size(find: &Keys<'_>) -> Result<Option<SoughtSize>, Error> {
+        let tolerance = find.number("diameter_tolerance_m")?;
+        match find.number("radius_m")? {
+            Some(radius_m) => Ok(Some(SoughtSize {
+                radius_m,
+                diameter_tolerance_m: tolerance.unwrap_or(0.5 * radius_m),
+            })),
+            None if tolerance.is_some() => Err(find.missing(
+                "radius_m",
+                "the radius of what is to be found, such as 0.008",
+            )),
+            None => Ok(None),
         }
     }
 

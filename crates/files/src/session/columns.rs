@@ -1,3 +1,4 @@
+use super::row::STATED_DIAMETER;
 use super::{Event, Events, SessionRow};
 use crate::table::{Column, Row, TableText};
 use crate::words::either;
@@ -53,6 +54,7 @@ impl Columns {
             Ok([finite(x)?, finite(y)?, finite(z)?])
         };
         let [qx, qy, qz, qw] = &self.orientation;
+        let (events, stated_diameter_m) = self.events(row)?;
         Ok(SessionRow {
             time_s: finite(&self.time)?,
             tool,
@@ -63,16 +65,32 @@ impl Columns {
             force_n: three(&self.force)?,
             contact: row.truth(&self.contact)?,
             depth_m: finite(&self.depth)?,
-            events: self.events(row)?,
+            events,
             grip_force_n: self.grip_force.as_ref().map_or(Ok(0.0), finite)?,
+            stated_diameter_m,
         })
     }
 
-    fn events(&self, row: &Row<'_>) -> Result<Events, Error> {
-        Events::from_words(row.text(&self.event)).ok_or_else(|| {
+    /// The events, and the diameter that stands after them [m].
+    fn events(&self, row: &Row<'_>) -> Result<(Events, Option<f64>), Error> {
+        let text = row.text(&self.event);
+        let (words, stated) = match text.split_once(STATED_DIAMETER) {
+            None => (text, None),
+            Some((words, number)) => {
+                let number: Option<f64> = number.trim().parse().ok();
+                let diameter = number.filter(|own| own.is_finite() && *own > 0.0);
+                let diameter = diameter.ok_or_else(|| {
+                    let expected = format!("a length [m] above 0 after `{STATED_DIAMETER}`");
+                    row.bad(&self.event, expected)
+                })?;
+                (words, Some(diameter))
+            }
+        };
+        let events = Events::from_words(words).ok_or_else(|| {
             let words: Vec<_> = Event::WORDS.iter().map(|(word, _)| *word).collect();
             let expected = format!("events such as {}, with `;` between them", either(&words));
             row.bad(&self.event, expected)
-        })
+        })?;
+        Ok((events, stated))
     }
 }

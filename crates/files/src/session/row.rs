@@ -28,11 +28,16 @@ pub struct SessionRow {
     pub events: Events,
     /// With how much each of its jaws presses on the tissue that it holds [N]; 0 without.
     pub grip_force_n: f64,
+    /// The diameter that the trainee stated for what was found [m].
+    pub stated_diameter_m: Option<f64>,
 }
 
 /// The names of the columns, as written above the rows.
 pub(super) const COLUMNS: &str = "time_s,tool,x_m,y_m,z_m,qx,qy,qz,qw,grip,cut,\
                                   fx_n,fy_n,fz_n,contact,depth_m,event,grip_force_n";
+
+/// Before the diameter in the column `event`, the only value there.
+pub(super) const STATED_DIAMETER: &str = "stated_diameter_m=";
 
 impl SessionRow {
     /// The first number of the row that is not finite, with its column.
@@ -42,7 +47,7 @@ impl SessionRow {
             .find(|(_, value)| !value.is_finite())
     }
 
-    fn numbers(&self) -> [(&'static str, f64); 14] {
+    fn numbers(&self) -> [(&'static str, f64); 15] {
         let ([x, y, z], [fx, fy, fz]) = (self.position_m, self.force_n);
         let [qx, qy, qz, qw] = self.orientation;
         [
@@ -60,6 +65,7 @@ impl SessionRow {
             ("fz_n", fz),
             ("depth_m", self.depth_m),
             ("grip_force_n", self.grip_force_n),
+            ("event", self.stated_diameter_m.unwrap_or(0.0)),
         ]
     }
 
@@ -75,7 +81,17 @@ impl SessionRow {
             write!(text, ",{value:?}")?;
         }
         let contact = u8::from(self.contact);
-        write!(text, ",{contact},{:?},{}", self.depth_m, self.events)?;
+        write!(text, ",{contact},{:?},{}", self.depth_m, self.event_text())?;
         writeln!(text, ",{:?}", self.grip_force_n)
+    }
+
+    /// The text of the column `event`: the events, and after them the stated diameter, with `;` between them.
+    pub fn event_text(&self) -> String {
+        let mut text = self.events.to_string();
+        if let Some(diameter) = self.stated_diameter_m {
+            let separator = if text.is_empty() { "" } else { ";" };
+            text += &format!("{separator}{STATED_DIAMETER}{diameter:?}");
+        }
+        text
     }
 }

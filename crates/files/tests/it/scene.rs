@@ -37,6 +37,7 @@ fn every_key_is_understood() {
     let goal = Goal::Find {
         target_m: [0.001, 0.002, 0.003],
         tolerance_m: 0.004,
+        size: None,
     };
     assert_eq!(scene.task.goal, goal);
     let nodule = Nodule {

@@ -32,6 +32,7 @@ fn row(step: u32) -> SessionRow {
         depth_m: 0.001,
         events: [Event::Contact, Event::Cut].into_iter().collect(),
         grip_force_n: 0.1 * time_s,
+        stated_diameter_m: None,
     }
 }
 
@@ -141,4 +142,44 @@ fn rows_that_no_session_can_hold_are_refused() {
         ..row(1)
     };
     assert!(writer.write(&stranger).is_err());
+}
+
+/// A stated diameter stands after the events; a row without one is as it was before there were any.
+#[test]
+fn a_stated_diameter_is_read_as_it_was_written() {
+    let plain = row(0);
+    let text = plain.event_text();
+    assert_eq!(text, plain.events.to_string());
+    let stated = SessionRow {
+        events: Events::NONE,
+        stated_diameter_m: Some(0.0165),
+        ..plain
+    };
+    assert_eq!(stated.event_text(), "stated_diameter_m=0.0165");
+    let both = SessionRow {
+        events: Event::Mark.into(),
+        ..stated
+    };
+    assert_eq!(both.event_text(), "mark;stated_diameter_m=0.0165");
+    let with = |event: &str| {
+        let text = SESSION.replace("contact;cut", event);
+        assert_ne!(text, SESSION);
+        Session::parse(&text, "session.csv")
+    };
+    let read = with("mark;stated_diameter_m=0.0165").unwrap();
+    let found: Vec<_> = read
+        .rows
+        .iter()
+        .filter_map(|row| row.stated_diameter_m)
+        .collect();
+    assert_eq!(found, [0.0165]);
+    assert!(read.rows.iter().any(|row| row.events.contains(Event::Mark)));
+    for wrong in ["-1", "nan", "", "0"] {
+        let told = with(&format!("mark;stated_diameter_m={wrong}")).unwrap_err();
+        let told = told.to_string();
+        assert!(
+            told.contains("session.csv") && told.contains("stated_diameter_m"),
+            "{told}"
+        );
+    }
 }

@@ -54,9 +54,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let kept = kept_files(&folder)?;
     let bytes = kept.iter().map(|(_, bytes)| bytes).sum();
     if arguments.clear {
-        for (file, _) in &kept {
-            fs::remove_file(file).map_err(|error| unusable(file, &error))?;
-        }
+        remove(&kept)?;
     }
     let answer = Answer {
         palpate: output::VERSION,
@@ -80,7 +78,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// What is kept in a folder, with its size [B]; other files are not this program's.
-fn kept_files(folder: &Path) -> Result<Vec<(PathBuf, u64)>, Failure> {
+pub(crate) fn kept_files(folder: &Path) -> Result<Vec<(PathBuf, u64)>, Failure> {
     let entries = match fs::read_dir(folder) {
         Ok(entries) => entries,
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
@@ -101,6 +99,14 @@ fn kept_files(folder: &Path) -> Result<Vec<(PathBuf, u64)>, Failure> {
     }
     found.sort();
     Ok(found)
+}
+
+/// Removes what is kept.
+pub(crate) fn remove(kept: &[(PathBuf, u64)]) -> Result<(), Failure> {
+    for (file, _) in kept {
+        fs::remove_file(file).map_err(|error| unusable(file, &error))?;
+    }
+    Ok(())
 }
 
 fn unusable(path: &Path, error: &std::io::Error) -> Failure {

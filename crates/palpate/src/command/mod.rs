@@ -1,7 +1,7 @@
 //! The command line: one file per command.
 
 mod analyze;
-mod cache;
+pub(crate) mod cache;
 mod characterize;
 mod demonstration;
 mod design;

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use clap::Args;
 use palpate_files::{Overwrite, Scene};
 use palpate_simulate::{Replay, SessionFolder, Simulation};
-use palpate_viewer::Start;
+use palpate_viewer::{PlayedSession, Start};
 use serde::Serialize;
 
 use self::pictures::Pictures;
@@ -23,6 +23,8 @@ const EXAMPLES: &str = "\
 Examples:
   palpate replay session
       opens a window: play, pause, rewind, view from any angle
+  palpate replay session --compare expert
+      both side by side in a window, on one clock
   palpate replay session --frames 20 --out pictures
       without a window: 20 pictures, and a check of every force against the recorded one
   palpate replay session --gif session.gif --speed 2
@@ -39,6 +41,9 @@ pub(crate) struct Arguments {
     /// The scene, if it is not in the session's folder.
     #[arg(long, value_name = "SCENE.toml")]
     scene: Option<PathBuf>,
+    /// Another session's folder, shown on the right on the same clock.
+    #[arg(long, value_name = "SESSION_DIR", conflicts_with_all = ["frames", "gif", "json"])]
+    compare: Option<PathBuf>,
     /// Write this many pictures, evenly spaced in time, instead of opening a window.
     #[arg(long, value_name = "N", requires = "out", value_parser = clap::value_parser!(u64).range(0..=100_000))]
     frames: Option<u64>,
@@ -87,21 +92,27 @@ struct Answer {
 /// Opens a window, or plays it without one.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let folder = SessionFolder::read(&arguments.session)?;
-    let scene = match (&arguments.scene, folder.scene.clone()) {
-        (Some(path), _) => Scene::read(path)?,
-        (None, Some(scene)) => scene,
-        (None, None) => {
-            return Err(Failure::input(format!(
-                "{} has no scene.toml next to its session; name the scene with --scene SCENE.toml",
-                arguments.session.display()
-            )));
-        }
-    };
-    let reader = Reader::of_json(arguments.json);
-    let simulation = preparation::simulation(&scene, &preparation::resources(), reader)?;
-    let replay = Replay::new(Arc::new(simulation.clone()), &folder.session)?;
+    let PlayedSession {
+        name,
+        scene,
+        simulation,
+        replay,
+    } = prepared(&folder, arguments.scene.as_deref(), arguments.json)?;
     if arguments.frames.is_none() && arguments.gif.is_none() && !arguments.json {
-        let start = Start::Again(Box::new(scene), Arc::new(simulation), Box::new(replay));
+        let own = PlayedSession {
+            name,
+            scene,
+            simulation,
+            replay,
+        };
+        let other = match &arguments.compare {
+            None => None,
+            Some(other) => {
+                let folder = SessionFolder::read(other)?;
+                Some(Box::new(prepared(&folder, None, false)?))
+            }
+        };
+        let start = Start::Again(Box::new(own), other);
         return match window::open((start, None), preparation::resources()) {
             Err(why) if window::is_absent(&why) => Err(Failure::failed(format!(
                 "{why}; --frames N --out DIR and --gif FILE.gif need no window"
@@ -109,7 +120,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
             outcome => Ok(outcome?),
         };
     }
-    let mut answer = play(arguments, (&scene, &simulation), replay)?;
+    let mut answer = play(arguments, (&scene, simulation.as_ref()), replay)?;
     answer.warnings.extend(folder.warnings());
     if arguments.json {
         return output::json(&answer);
@@ -130,6 +141,33 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     output::warnings(&answer.warnings);
     Ok(())
+}
+
+/// The session of a folder, ready to be played again on its scene or on that of `named`.
+fn prepared(
+    folder: &SessionFolder,
+    named: Option<&Path>,
+    json: bool,
+) -> Result<PlayedSession, Failure> {
+    let path = folder.path.display();
+    let scene = match (named, folder.scene.clone()) {
+        (Some(named), _) => Scene::read(named)?,
+        (None, Some(scene)) => scene,
+        (None, None) => {
+            return Err(Failure::input(format!(
+                "{path} has no scene.toml next to its session; name the scene with --scene SCENE.toml"
+            )));
+        }
+    };
+    let reader = Reader::of_json(json);
+    let simulation = preparation::simulation(&scene, &preparation::resources(), reader)?;
+    let simulation = Arc::new(simulation);
+    Ok(PlayedSession {
+        name: path.to_string(),
+        scene,
+        replay: Replay::new(simulation.clone(), &folder.session)?,
+        simulation,
+    })
 }
 
 /// Plays all steps, takes pictures and compares.

@@ -106,22 +106,22 @@ struct Answer {
 }
 
 #[derive(Debug, Serialize)]
-struct AssignmentAnswer {
-    cohort: String,
-    task: String,
-    due_unix_s: i64,
+pub(super) struct AssignmentAnswer {
+    pub(super) cohort: String,
+    pub(super) task: String,
+    pub(super) due_unix_s: i64,
     due_utc: String,
-    passes: u32,
-    trainees: Vec<StandingAnswer>,
+    pub(super) passes: u32,
+    pub(super) trainees: Vec<StandingAnswer>,
 }
 
 #[derive(Debug, Serialize)]
-struct StandingAnswer {
-    trainee: String,
-    attempts: usize,
-    passed: usize,
+pub(super) struct StandingAnswer {
+    pub(super) trainee: String,
+    pub(super) attempts: usize,
+    pub(super) passed: usize,
     /// `done`, `open` or `late`.
-    standing: &'static str,
+    pub(super) standing: &'static str,
 }
 
 /// Does what a teacher wants.
@@ -194,6 +194,16 @@ fn change(wanted: &Change, file: &Path, pin: Option<&str>) -> Result<String, Fai
 }
 
 fn answer(record: &Record) -> Result<Answer, Failure> {
+    Ok(Answer {
+        palpate: VERSION,
+        record: record.path().to_owned(),
+        cohorts: record.cohorts()?,
+        assignments: standings(record)?,
+    })
+}
+
+/// Each assignment, and how far each trainee of its cohort is.
+pub(super) fn standings(record: &Record) -> Result<Vec<AssignmentAnswer>, Failure> {
     let (cohorts, attempts) = (record.cohorts()?, record.attempts(&Filter::default())?);
     let now = training::now();
     let standing = |given: &Assignment, trainee: &String| {
@@ -222,13 +232,7 @@ fn answer(record: &Record) -> Result<Answer, Failure> {
             task: given.task,
         }
     });
-    let assignments = assignments.collect();
-    Ok(Answer {
-        palpate: VERSION,
-        record: record.path().to_owned(),
-        cohorts,
-        assignments,
-    })
+    Ok(assignments.collect())
 }
 
 fn text(answer: &Answer) -> String {

@@ -16,7 +16,15 @@ pub(super) fn open(
     let way_out = Scene::parse(ESOPHAGUS, "built-in scene")?;
     // Asked once, so that signals are heard from now on.
     let _ = interrupt::is_asked();
-    open_window(start, way_out, resources, training, interrupt::is_asked)
+    let settings = crate::settings::of_window();
+    open_window(
+        start,
+        way_out,
+        resources,
+        training,
+        settings,
+        interrupt::is_asked,
+    )
 }
 
 /// Whether there can be no window here, whatever the scene.

@@ -4,7 +4,7 @@ use palpate_files::scene::Task;
 use palpate_record::{Added, Attempt, Filter, Record};
 use palpate_simulate::SessionFolder;
 use palpate_simulate::performance::Score;
-use palpate_viewer::training::{Assigned, PastResult, TrainingResult};
+use palpate_viewer::training::{Assigned, Class, PastResult, TrainingResult};
 
 use super::TrainingRecord;
 use super::record::{measures, record_file};
@@ -164,6 +164,14 @@ impl TrainingRecord for Kept {
             Ok(assigned.collect())
         };
         read().map_err(|error| error.to_string())
+    }
+
+    fn class(&self) -> Result<Class, String> {
+        if !self.file.exists() {
+            return Ok(Class::default());
+        }
+        let record = Record::read(&self.file).map_err(|error| error.to_string())?;
+        crate::command::progress::class(&record).map_err(|error| error.to_string())
     }
 
     fn results(&self, trainee: &str) -> Result<Vec<PastResult>, String> {

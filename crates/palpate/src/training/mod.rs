@@ -20,15 +20,20 @@ use kept::Kept;
 const FOLDER_VARIABLE: &str = "PALPATE_TRAINING";
 
 /// The folder in which sessions and results are kept.
-fn folder() -> Result<PathBuf, Failure> {
+pub(crate) fn folder() -> Result<PathBuf, Failure> {
     let named = std::env::var_os(FOLDER_VARIABLE).filter(|name| !name.is_empty());
+    let set = || crate::settings::read_or_warn().training_folder;
     let own = || Some(dirs::data_dir()?.join("palpate"));
-    named.map(PathBuf::from).or_else(own).ok_or_else(|| {
-        Failure::failed(format!(
-            "this system names no folder for sessions and results; name one with the variable \
+    named
+        .map(PathBuf::from)
+        .or_else(set)
+        .or_else(own)
+        .ok_or_else(|| {
+            Failure::failed(format!(
+                "this system names no folder for sessions and results; name one with the variable \
              {FOLDER_VARIABLE}"
-        ))
-    })
+            ))
+        })
 }
 
 /// Seconds since the beginning of 1970.

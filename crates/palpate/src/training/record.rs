@@ -63,6 +63,7 @@ mod tests {
                 depth_m: 0.002 * press,
                 events: Events::default(),
                 grip_force_n: 0.0,
+                stated_diameter_m: None,
             }
         });
         performance::score(&task, &["left".to_owned()], &rows.collect::<Vec<_>>())

@@ -1,7 +1,7 @@
 use palpate_servo::{Supervisor, log};
 
 /// What a window asks of the model.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ModelCommand {
     /// Stands still, without a force, until it shall go on.
     Pause,
@@ -13,6 +13,8 @@ pub enum ModelCommand {
     UndoCut,
     /// Says in the session that a hand means this place, or that it is done.
     Mark,
+    /// Says in the session which diameter was felt [m].
+    StateDiameter(f64),
 }
 
 impl ModelCommand {
@@ -21,7 +23,7 @@ impl ModelCommand {
         match self {
             Self::Pause => supervisor.pause(),
             Self::Resume => supervisor.resume(),
-            Self::Reset | Self::UndoCut | Self::Mark => {}
+            Self::Reset | Self::UndoCut | Self::Mark | Self::StateDiameter(_) => {}
         }
     }
 }

@@ -31,6 +31,8 @@ pub(super) struct ModelLoop {
     paused: bool,
     /// What was ordered since the last row.
     ordered: Events,
+    /// The diameter that was stated since the last row [m].
+    stated: Option<f64>,
     /// Which tools were there in the step before.
     were_there: Vec<bool>,
     /// When it was asked last [s], and how long it stood still in all [s].
@@ -81,6 +83,7 @@ impl ModelLoop {
             commands,
             paused: false,
             ordered: Events::NONE,
+            stated: None,
             were_there: vec![false; tools],
             asked: 0.0,
             stood: 0.0,
@@ -232,6 +235,7 @@ impl ModelLoop {
     /// Does what was ordered. What changes the organ is told by the next row, one thing at a time.
     fn process_commands(&mut self) {
         while self.ordered.is_empty()
+            && self.stated.is_none()
             && let Some(command) = self.commands.next_value()
         {
             match command {
@@ -250,6 +254,7 @@ impl ModelLoop {
                     }
                 }
                 ModelCommand::Mark => self.ordered.insert(Event::Mark),
+                ModelCommand::StateDiameter(diameter) => self.stated = Some(diameter),
             }
         }
     }
@@ -295,7 +300,8 @@ impl ModelLoop {
         for (number, tool) in tools.iter().enumerate() {
             let is_there = tool.pose.is_some();
             let was_there = std::mem::replace(&mut self.were_there[number], is_there);
-            let speaks = nobody && number == 0 && !self.ordered.is_empty();
+            let is_asked = !self.ordered.is_empty() || self.stated.is_some();
+            let speaks = nobody && number == 0 && is_asked;
             if !is_there && !was_there && !speaks {
                 continue;
             }
@@ -304,6 +310,7 @@ impl ModelLoop {
                 false => lifted(tool.row, time),
             };
             row.events = row.events | std::mem::take(&mut self.ordered);
+            row.stated_diameter_m = self.stated.take();
             self.last = Some(time);
             self.rows.add(row);
             for event in row.events.iter() {
@@ -321,6 +328,7 @@ fn lifted(last: SessionRow, time: f64) -> SessionRow {
         contact: false,
         depth_m: 0.0,
         grip_force_n: 0.0,
+        stated_diameter_m: None,
         events: last.events | [Event::Lifted].into_iter().collect(),
         ..last
     }

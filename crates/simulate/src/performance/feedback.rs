@@ -2,7 +2,7 @@
 
 use palpate_files::scene::{Goal, Task};
 
-use super::{Outcome, Score};
+use super::{Outcome, Score, SizeOutcome};
 
 /// Four sentences on an attempt.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -58,6 +58,21 @@ fn why_not(task: &Task, score: &Score) -> String {
         (Outcome::Find { beside: None, .. }, _) => "no place was marked".to_owned(),
         (
             Outcome::Find {
+                found: true,
+                size: Some(size),
+                ..
+            },
+            _,
+        ) => match size.stated {
+            None => "no diameter was stated".to_owned(),
+            Some(stated) => format!(
+                "the diameter is {}, not {}",
+                millimetres(2.0 * size.truth.radius_m),
+                millimetres(stated)
+            ),
+        },
+        (
+            Outcome::Find {
                 beside: Some(off), ..
             },
             _,
@@ -105,12 +120,14 @@ fn good(task: &Task, score: &Score) -> String {
             Outcome::Find {
                 beside: Some(off),
                 found: true,
+                size,
             },
             _,
         ) => {
             format!(
-                "Good: you found the lump, {} from its middle.",
-                millimetres(*off)
+                "Good: you found the lump, {} from its middle{}.",
+                millimetres(*off),
+                size.map_or(String::new(), |size| size_words(&size))
             )
         }
         (
@@ -152,6 +169,18 @@ fn good(task: &Task, score: &Score) -> String {
     }
 }
 
+/// How near a stated diameter is.
+fn size_words(size: &SizeOutcome) -> String {
+    let truth = millimetres(2.0 * size.truth.radius_m);
+    match size.stated {
+        Some(stated) if size.is_right() => format!(
+            ", and stated {} for its diameter of {truth}",
+            millimetres(stated)
+        ),
+        _ => String::new(),
+    }
+}
+
 fn change(task: &Task, score: &Score) -> String {
     let perforated = score.errors.perforations > 0;
     let first = match (&score.outcome, &task.goal) {
@@ -161,6 +190,20 @@ fn change(task: &Task, score: &Score) -> String {
         (Outcome::Find { found: false, .. }, _) => {
             "press to the same depth everywhere, in rows 15 mm apart, and compare the forces"
                 .to_owned()
+        }
+        (
+            Outcome::Find {
+                size: Some(size), ..
+            },
+            _,
+        ) if !size.is_right() => {
+            let stated = size.stated.unwrap_or(0.0);
+            match size.truth.error_of(stated) > 0.0 {
+                true => "state a smaller diameter for such a rise of the force".to_owned(),
+                false => {
+                    "state a larger diameter for such a rise of the force over the lump".to_owned()
+                }
+            }
         }
         (Outcome::Traction { torn: Some(_), .. }, _) => {
             "pull more slowly: tissue keeps yielding, and a fast pull overshoots".to_owned()
@@ -244,6 +287,7 @@ mod tests {
                     Events::NONE
                 },
                 grip_force_n: 0.0,
+                stated_diameter_m: None,
             });
         }
         feedback(&task, &performance.score(), false)
@@ -256,6 +300,7 @@ mod tests {
         let find = |x: f64| Goal::Find {
             target_m: [x, 0.0, 0.0],
             tolerance_m: 0.005,
+            size: None,
         };
         let pull = || Goal::Traction {
             tool: None,

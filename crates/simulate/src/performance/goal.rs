@@ -1,6 +1,6 @@
 //! How far a task is, and what became of it.
 
-use palpate_files::scene::Goal;
+use palpate_files::scene::{Goal, SoughtSize};
 use palpate_files::{Event, SessionRow};
 use palpate_geometry::Vec3;
 
@@ -18,6 +18,8 @@ pub(super) struct GoalWatch {
     done: bool,
     /// How far beside the target was marked [m].
     beside: Option<f64>,
+    /// The diameter that was stated [m].
+    stated: Option<f64>,
     /// Time [s] and force [N] of each tool before.
     last: Vec<Option<(f64, Vec3)>>,
     /// The last pull of the tool that pulls.
@@ -68,6 +70,22 @@ pub enum Status {
     },
 }
 
+/// What was stated of the size of what was to be found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SizeOutcome {
+    /// The diameter that was stated [m]; none if none was.
+    pub stated: Option<f64>,
+    /// The size that it has.
+    pub truth: SoughtSize,
+}
+
+impl SizeOutcome {
+    /// Whether the stated diameter is near enough.
+    pub fn is_right(&self) -> bool {
+        self.stated.is_some_and(|stated| self.truth.accepts(stated))
+    }
+}
+
 /// What became of a task.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Outcome {
@@ -79,6 +97,8 @@ pub enum Outcome {
         beside: Option<f64>,
         /// Whether that is near enough.
         found: bool,
+        /// Its size, where that was asked for.
+        size: Option<SizeOutcome>,
     },
     /// A force was to be held.
     Traction {
@@ -113,6 +133,7 @@ impl GoalWatch {
             tool,
             done: false,
             beside: None,
+            stated: None,
             last: vec![None; tools.len()],
             pull: None,
             torn: None,
@@ -124,15 +145,20 @@ impl GoalWatch {
     pub(super) fn add(&mut self, row: &SessionRow) {
         if row.events.contains(Event::Mark) {
             match self.goal {
-                Goal::Find { target_m, .. } if row.contact => {
+                // The first mark counts; where a size is asked for, that is still to be stated.
+                Goal::Find { target_m, size, .. } if row.contact && self.beside.is_none() => {
                     let way = Vec3::from(row.position_m) - Vec3::from(target_m);
                     self.beside = Some(aside(&way, row.depth_m));
-                    self.done = true;
+                    self.done = size.is_none();
                 }
                 // In the air nothing is meant.
                 Goal::Find { .. } => {}
                 _ => self.done = true,
             }
+        }
+        if self.awaits_diameter() && row.stated_diameter_m.is_some() {
+            self.stated = row.stated_diameter_m;
+            self.done = true;
         }
         let &Goal::Traction {
             force_n,
@@ -174,6 +200,12 @@ impl GoalWatch {
         self.done |= self.within >= hold_s || self.torn.is_some();
     }
 
+    /// Whether a place is marked and its size is still to be stated.
+    pub(super) fn awaits_diameter(&self) -> bool {
+        let is_asked = matches!(self.goal, Goal::Find { size: Some(_), .. });
+        is_asked && self.beside.is_some() && self.stated.is_none()
+    }
+
     pub(super) fn status(&self, cut: &CutWay, late: bool) -> Status {
         let part = match &self.goal {
             Goal::Free | Goal::Find { .. } => None,
@@ -195,9 +227,15 @@ impl GoalWatch {
     pub(super) fn outcome(&self, cut: &CutWay, errors: &Errors) -> Outcome {
         match &self.goal {
             Goal::Free => Outcome::Free,
-            Goal::Find { tolerance_m, .. } => Outcome::Find {
+            Goal::Find {
+                tolerance_m, size, ..
+            } => Outcome::Find {
                 beside: self.beside,
                 found: self.beside.is_some_and(|beside| beside <= *tolerance_m),
+                size: size.map(|truth| SizeOutcome {
+                    stated: self.stated,
+                    truth,
+                }),
             },
             Goal::Traction { hold_s, .. } => Outcome::Traction {
                 within: self.within,
@@ -260,7 +298,7 @@ impl Outcome {
     pub fn passed(&self) -> Option<bool> {
         match *self {
             Self::Free => None,
-            Self::Find { found, .. } => Some(found),
+            Self::Find { found, size, .. } => Some(found && size.is_none_or(|own| own.is_right())),
             Self::Traction { held, .. } => Some(held),
             Self::Cut { clean, .. } => Some(clean),
         }

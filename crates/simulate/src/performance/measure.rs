@@ -80,7 +80,19 @@ impl Score {
         }
         match self.outcome {
             Outcome::Free | Outcome::Cut { .. } => {}
-            Outcome::Find { beside, .. } => add(own("beside_m"), beside, Less),
+            Outcome::Find {
+                beside,
+                found,
+                size,
+            } => {
+                add(own("beside_m"), beside, Less);
+                // Of what was not found no size was felt: a guess earns nothing.
+                let error = size.filter(|_| found).and_then(|own| {
+                    let stated = own.stated?;
+                    Some(own.truth.error_of(stated).abs())
+                });
+                add(own("diameter_error_m"), error, Less);
+            }
             Outcome::Traction { within, error, .. } => {
                 add(own("held_s"), Some(within), More);
                 add(own("traction_error_n"), error, Less);

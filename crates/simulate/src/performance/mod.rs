@@ -26,7 +26,7 @@ pub use comparison::{Comparison, Standard, compare};
 pub use cut::CutScore;
 pub use feedback::{Feedback, feedback};
 pub use force::ForceScore;
-pub use goal::{Outcome, Pull, PullCue, Status};
+pub use goal::{Outcome, Pull, PullCue, SizeOutcome, Status};
 pub use hand::HandScore;
 pub use measure::{Better, Measure};
 pub use words::outcome_words;
@@ -134,6 +134,11 @@ impl Performance {
             .time_limit_s
             .is_some_and(|limit| self.elapsed() >= limit);
         self.goal.status(&self.cut, late)
+    }
+
+    /// Whether a place is marked and its diameter is still to be stated.
+    pub fn awaits_diameter(&self) -> bool {
+        self.goal.awaits_diameter()
     }
 
     /// The stretches of the line of a cut that are not cut to the wanted depth yet: their ends [m].

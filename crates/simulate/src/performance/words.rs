@@ -1,4 +1,4 @@
-use super::Outcome;
+use super::{Outcome, SizeOutcome};
 
 /// What became of a task, in a sentence for who did it.
 pub fn outcome_words(outcome: &Outcome) -> String {
@@ -8,10 +8,12 @@ pub fn outcome_words(outcome: &Outcome) -> String {
         Outcome::Find {
             beside: Some(beside),
             found,
+            size,
         } => format!(
-            "{}, {:.1} mm from its middle.",
+            "{}, {:.1} mm from its middle.{}",
             if found { "Found" } else { "Missed" },
-            1e3 * beside
+            1e3 * beside,
+            size.map_or(String::new(), |size| format!(" {}", size_words(&size)))
         ),
         Outcome::Traction {
             torn: Some(force), ..
@@ -37,5 +39,17 @@ pub fn outcome_words(outcome: &Outcome) -> String {
                 100.0 * part
             ),
         },
+    }
+}
+
+/// What was stated of a size, and what it is.
+fn size_words(size: &SizeOutcome) -> String {
+    let truth = 2e3 * size.truth.radius_m;
+    match size.stated {
+        None => format!("Its diameter is {truth:.1} mm; none was stated."),
+        Some(stated) => format!(
+            "Its diameter is {truth:.1} mm; {:.1} mm was stated.",
+            1e3 * stated
+        ),
     }
 }

@@ -41,6 +41,7 @@ mod replay;
 mod scenes;
 mod session_end;
 mod silicone_beam;
+mod sized;
 mod slides;
 mod take_over;
 mod thin_walls;

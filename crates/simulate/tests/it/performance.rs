@@ -11,7 +11,7 @@ use palpate_simulate::performance::{
     Outcome, Performance, Pull, PullCue, Score, Standard, Status, compare, score,
 };
 
-fn row(time: f64, place: Vec3) -> SessionRow {
+pub(crate) fn row(time: f64, place: Vec3) -> SessionRow {
     SessionRow {
         time_s: time,
         tool: 0,
@@ -24,6 +24,7 @@ fn row(time: f64, place: Vec3) -> SessionRow {
         depth_m: 0.0,
         events: Events::NONE,
         grip_force_n: 0.0,
+        stated_diameter_m: None,
     }
 }
 
@@ -288,6 +289,7 @@ fn goals_are_reached() {
         goal: Goal::Find {
             target_m: [0.01, 0.0, 0.0],
             tolerance_m: 0.004,
+            size: None,
         },
         ..Task::default()
     };
@@ -301,7 +303,7 @@ fn goals_are_reached() {
     marked.depth_m = 0.005;
     performance.add(&marked);
     assert_eq!(performance.status(), Status::Over { late: false });
-    let Outcome::Find { beside, found } = performance.score().outcome else {
+    let Outcome::Find { beside, found, .. } = performance.score().outcome else {
         panic!("{:?}", performance.score().outcome)
     };
     assert!(found && (beside.unwrap() - 0.003).abs() < 1e-12);

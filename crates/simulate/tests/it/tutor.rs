@@ -21,6 +21,7 @@ fn expert() -> Session {
             depth_m: 0.0,
             events: Events::NONE,
             grip_force_n: 0.0,
+            stated_diameter_m: None,
         }
     });
     Session {

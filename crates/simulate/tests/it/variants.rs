@@ -30,8 +30,8 @@ fn vector(scene: &Scene, name: &str) -> Vec3 {
     }
 }
 
-/// Whether marking a place on the surface passes.
-fn passes(task: &Task, place: &Vec3) -> bool {
+/// Whether marking a place on the surface and stating a diameter [m] passes.
+fn passes(task: &Task, place: &Vec3, diameter: f64) -> bool {
     let row = SessionRow {
         time_s: 0.0,
         tool: 0,
@@ -44,9 +44,17 @@ fn passes(task: &Task, place: &Vec3) -> bool {
         depth_m: 0.0,
         events: Event::Mark.into(),
         grip_force_n: 0.0,
+        stated_diameter_m: None,
     };
     assert_ne!(row.events, Events::NONE);
-    score(task, &["right".to_owned()], &[row]).outcome.passed() == Some(true)
+    let states = SessionRow {
+        time_s: 1.0,
+        events: Events::NONE,
+        stated_diameter_m: Some(diameter),
+        ..row
+    };
+    let rows = [row, states];
+    score(task, &["right".to_owned()], &rows).outcome.passed() == Some(true)
 }
 
 #[test]
@@ -80,6 +88,10 @@ fn a_lump_lies_as_deep_as_it_was_drawn() {
             "{seed}: {outside} {depth}"
         );
         assert!(depth > nodule.radius_m, "{seed}");
+        let Goal::Find { size, .. } = one.task.goal else {
+            panic!("{:?}", one.task.goal)
+        };
+        assert_eq!(size.unwrap().radius_m, nodule.radius_m, "{seed}");
         let (_, off) = surface.signed_distance(&tree, &vector(&one, "place"));
         assert!(off.abs() < 1e-9, "{seed}: {off}");
     }
@@ -109,30 +121,42 @@ fn area(surface: &Surface, scene: &Scene) -> f64 {
     each.sum()
 }
 
-/// A clicker who knows where lumps may lie, but touches nothing, passes as often as a disc of the tolerance is of the
-/// area; so does one who always marks the place that was right once. Judge: the binomial distribution, four deviations.
+/// A clicker who knows where lumps may lie and how large they may be, but touches nothing, passes as often as a disc of
+/// the tolerance is of the area and the tolerance of the diameter is of its range; so does one who always marks and
+/// states what was right once. Judge: the binomial distribution, four deviations.
 #[test]
 fn clicking_without_touching_passes_by_chance_alone() {
     let scene = palpation();
-    let Goal::Find { tolerance_m, .. } = scene.task.goal else {
+    let Goal::Find {
+        tolerance_m,
+        size: Some(size),
+        ..
+    } = draw_variant(&scene, 0).unwrap().task.goal
+    else {
         panic!("{:?}", scene.task.goal)
     };
     let (surface, _) = read_organ(&scene.organ.shape).unwrap();
-    let chance = PI * tolerance_m.powi(2) / area(&surface, &scene);
+    // The middle of the diameters from 13 to 21 mm is the best guess.
+    let guess = 0.017;
+    let share = 2.0 * size.diameter_tolerance_m / 0.008;
+    let chance = share * PI * tolerance_m.powi(2) / area(&surface, &scene);
     let most = chance + 4.0 * (chance * (1.0 - chance) / VARIANTS as f64).sqrt();
     let variants: Vec<Scene> = (0..VARIANTS)
         .map(|seed| draw_variant(&scene, seed).unwrap())
         .collect();
     let clicks = clicks(&scene);
-    let remembered = vector(&variants[0], "place");
-    let count = |click: &dyn Fn(usize) -> Vec3| {
+    let remembered = (vector(&variants[0], "place"), 2.0 * size.radius_m);
+    let count = |click: &dyn Fn(usize) -> (Vec3, f64)| {
         let passed = variants.iter().enumerate().skip(1);
-        let passed = passed.filter(|(at, variant)| passes(&variant.task, &click(*at)));
+        let passed = passed.filter(|(at, variant)| {
+            let (place, diameter) = click(*at);
+            passes(&variant.task, &place, diameter)
+        });
         passed.count() as f64 / (VARIANTS - 1) as f64
     };
-    let (random, same) = (count(&|at| clicks[at]), count(&|_| remembered));
+    let (random, same) = (count(&|at| (clicks[at], guess)), count(&|_| remembered));
     println!("chance {chance:.4}, at random {random:.4}, remembered {same:.4}");
-    assert!(passes(&variants[0].task, &remembered));
-    assert!(chance < 0.05, "{chance}");
+    assert!(passes(&variants[0].task, &remembered.0, remembered.1));
+    assert!(chance < 0.02, "{chance}");
     assert!(random <= most && same <= most, "{random} {same} {most}");
 }

@@ -7,7 +7,7 @@ use palpate_files::session::{Event, SessionRow};
 use palpate_files::{Claim, Overwrite};
 use palpate_geometry::Vec3;
 use palpate_simulate::performance::{
-    Comparison, Errors, Performance, Score, Standard, Status, compare,
+    Comparison, Errors, Outcome, Performance, Score, Standard, Status, compare,
 };
 use palpate_simulate::{Demonstration, Guidance, SessionFolder, ShownTool, Tutor, read_experts};
 
@@ -32,6 +32,8 @@ pub(super) struct Attempt {
     pub(super) forces: Vec<[f64; 2]>,
     /// Where a place was marked [m].
     pub(super) marked: Option<Vec3>,
+    /// The diameter that is to be stated [mm], as it is set so far.
+    pub(super) diameter: Option<u32>,
     /// What went wrong beside the touch.
     pub(super) trouble: Option<String>,
     /// The recording, where it cannot be written.
@@ -83,6 +85,9 @@ pub(super) struct Done {
     pub(super) earlier: Vec<PastResult>,
 }
 
+/// The least and the largest diameter that can be stated [mm].
+pub(super) const DIAMETERS: [u32; 2] = [4, 40];
+
 /// Forces are kept for a plot at most so often [s].
 const PLOTTED: f64 = 0.02;
 
@@ -117,6 +122,7 @@ impl Attempt {
             was_shown: false,
             forces: Vec::new(),
             marked: None,
+            diameter: None,
             phase: Phase::Reads,
             has_begun: false,
             task,
@@ -138,6 +144,7 @@ impl Attempt {
         self.demonstration = None;
         self.forces.clear();
         self.marked = None;
+        self.diameter = None;
         self.unsaved = None;
         if let Some(tutor) = &mut self.tutor {
             tutor.begin_anew();
@@ -187,7 +194,7 @@ impl Attempt {
             Some(last) if time - last[0] < PLOTTED => last[1] = last[1].max(force),
             _ => self.forces.push([time, force]),
         }
-        if row.events.contains(Event::Mark) && row.contact {
+        if row.events.contains(Event::Mark) && row.contact && self.marked.is_none() {
             self.marked = Some(Vec3::from(row.position_m));
         }
     }
@@ -218,7 +225,34 @@ impl Attempt {
         if demonstration.marks() {
             play.send(ModelRequest::Mark);
         }
+        if let Some(diameter) = demonstration.states() {
+            self.diameter = Some((1e3 * diameter).round() as u32);
+            play.send(ModelRequest::StateDiameter(diameter));
+        }
         Some(shown)
+    }
+
+    /// Whether the place is marked and the diameter is still to be stated.
+    pub(super) fn awaits_diameter(&self) -> bool {
+        matches!(self.phase, Phase::GoesOn(_)) && self.performance.awaits_diameter()
+    }
+
+    /// Sets the diameter by so many millimetres more or less.
+    pub(super) fn change_diameter(&mut self, by: i32) {
+        let [least, most] = DIAMETERS;
+        let now = self.diameter.unwrap_or(least);
+        self.diameter = Some(now.saturating_add_signed(by).clamp(least, most));
+    }
+
+    /// What was stated of the size, once the attempt is over: the diameter [m].
+    pub(super) fn stated_diameter(&self) -> Option<f64> {
+        match &self.phase {
+            Phase::Over(done) => match done.score.outcome {
+                Outcome::Find { size, .. } => size?.stated,
+                _ => None,
+            },
+            Phase::Reads | Phase::GoesOn(_) => None,
+        }
     }
 
     /// The stretches of a line that are not cut yet [m].
@@ -272,6 +306,14 @@ impl Attempt {
             Phase::GoesOn(own) => *own = Some(folder),
             Phase::Over(done) => done.folder = Some(folder),
             Phase::Reads => {}
+        }
+    }
+
+    /// Where it was recorded, once it is over.
+    pub(super) fn folder(&self) -> Option<PathBuf> {
+        match &self.phase {
+            Phase::Over(done) => done.folder.clone(),
+            Phase::Reads | Phase::GoesOn(_) => None,
         }
     }
 

@@ -5,6 +5,7 @@ use palpate_files::scene::Goal;
 use palpate_simulate::performance::{PullCue, Status};
 
 use super::attempt::{Attempt, Phase, Unsaved};
+use super::diameter;
 use super::results::over;
 use crate::style::{DEPTH, FAULT, QUIET, WARNING, WHITE};
 
@@ -15,10 +16,14 @@ pub(super) enum Asked {
     Begin,
     /// To end it here.
     End,
+    /// To state the diameter that is set.
+    State,
     /// To see how it may be done.
     Show,
     /// To look at it again.
     Again,
+    /// To look at it beside the demonstration.
+    Compare,
     /// To record it in another folder.
     RecordElsewhere,
     /// To go back to the start screen.
@@ -33,12 +38,15 @@ pub(super) struct Around {
     pub(super) begins: bool,
     /// Whether there is a start screen.
     pub(super) has_home: bool,
+    /// How far the demonstration is that shall be seen beside the attempt [-].
+    pub(super) comparing: Option<f64>,
 }
 
 /// Shows the card of an attempt; what was asked by it.
 pub(super) fn show(ui: &Ui, attempt: &mut Attempt, around: &Around) -> Option<Asked> {
     let mut asked = None;
     let mut unsaved = attempt.unsaved.take();
+    let mut states = attempt.diameter;
     match &attempt.phase {
         Phase::Reads => card(ui, "task", Align2::CENTER_CENTER, 430.0, |ui| {
             reads(ui, attempt, around, &mut asked);
@@ -50,6 +58,9 @@ pub(super) fn show(ui: &Ui, attempt: &mut Attempt, around: &Around) -> Option<As
                 (None, None) => None,
             };
             goes_on(ui, attempt, badge, &mut asked);
+            if attempt.awaits_diameter() {
+                diameter::show(ui, &mut states, &mut asked);
+            }
             not_recorded(ui, unsaved.as_mut(), &mut asked);
         }),
         Phase::Over(done) => card(ui, "over", Align2::RIGHT_CENTER, 400.0, |ui| {
@@ -58,6 +69,7 @@ pub(super) fn show(ui: &Ui, attempt: &mut Attempt, around: &Around) -> Option<As
         }),
     }
     attempt.unsaved = unsaved;
+    attempt.diameter = states;
     asked
 }
 
@@ -99,7 +111,16 @@ fn reads(ui: &mut Ui, attempt: &Attempt, around: &Around, asked: &mut Option<Ask
     ui.add_space(6.0);
     let mut facts = vec![match &attempt.task.goal {
         Goal::Free => "Enter ends it.".to_owned(),
-        Goal::Find { .. } => "Enter marks the place that you press on, and ends it.".to_owned(),
+        Goal::Find { size: None, .. } => {
+            "Enter marks the place that you press on, and ends it.".to_owned()
+        }
+        Goal::Find {
+            size: Some(size), ..
+        } => format!(
+            "Enter marks the place that you press on. Then set the diameter with the left and right arrow keys, and \
+             Enter states it; ± {:.0} mm counts.",
+            1e3 * size.diameter_tolerance_m
+        ),
         Goal::Traction {
             force_n,
             tolerance_n,

@@ -1,7 +1,7 @@
 use palpate_files::scene::{
     BuiltinOrgan, DeviceKind, ModelKind, Shading, Shape, Tip, TissueChoice, Tool,
 };
-use palpate_files::{BuiltinTissue, Scene};
+use palpate_files::{BuiltinTissue, MouseHand, Scene};
 
 /// A scene and what the side panel has changed in it.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,6 +35,18 @@ impl Choice {
             tissue: None,
             tool,
         }
+    }
+
+    /// The tool of that hand is the one that the mouse moves, if there is such a tool and no device moves it.
+    #[must_use]
+    pub(super) fn with_mouse(mut self, hand: MouseHand) -> Self {
+        let is_meant = |tool: &Tool| tool.name == hand.word() && !tool.device.is_haptic();
+        if hand != MouseHand::Scene
+            && let Some(number) = self.tools().iter().position(is_meant)
+        {
+            self.take(number);
+        }
+        self
     }
 
     /// Whether the scene draws its numbers for each attempt.

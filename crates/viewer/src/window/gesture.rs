@@ -1,5 +1,6 @@
 //! The hand of a mouse, which has two dimensions: over the organ the tool hovers; a pressed button touches,
-//! dragged down it goes deeper, dragged sideways it slides. While it cuts it slides both ways and stays as deep
+//! dragged down it goes deeper, dragged sideways it slides. Let go, the tool comes out as a critically damped spring
+//! brings it, x = x₀ + (x₁ − x₀)(1 − (1 + ωt) e^(−ωt)), for tissue is not left in an instant by any hand. While it cuts it slides both ways and stays as deep
 //! as it was.
 //!
 //! It is arithmetic on places of the picture and knows no window, so that tests can move it for hours.
@@ -38,6 +39,8 @@ pub struct Mouse {
     pub wheel: f64,
     /// Whether the tool cuts.
     pub cuts: bool,
+    /// Time since the last picture [s].
+    pub elapsed: f64,
 }
 
 /// Where the tool is to be.
@@ -67,10 +70,22 @@ struct Press {
     by_wheel: f64,
 }
 
+/// A tool that comes out after a press.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Return {
+    /// Where it was pressed in.
+    over: Picked,
+    /// How deep [m].
+    depth: f64,
+    /// For how long it has been coming out [s].
+    since: f64,
+}
+
 /// The state of the hand.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Gesture {
     press: Option<Press>,
+    back: Option<Return>,
     /// The last place that the tool was over.
     over: Option<Picked>,
     aim: Option<Aim>,
@@ -83,6 +98,9 @@ const DEEPEST: f64 = 0.025;
 const WHEEL: f64 = 0.0005;
 /// Height of a tool that hovers [m].
 const HOVER: f64 = 0.004;
+/// A tool comes out in this time [s], when a hundredth of its way is left: (1 + ωt) e^(−ωt) = 0.01 at ωt = 6.64.
+const RETURN: f64 = 0.3;
+const RETURN_RATE: f64 = 6.64 / RETURN;
 
 impl Gesture {
     /// Takes the mouse's next state; the aim is none as long as the tool has not come over the organ.
@@ -113,6 +131,7 @@ impl Gesture {
                 self.go(&press.over, depth, ground);
             }
             (true, None, Some(place)) => {
+                self.back = None;
                 let over = seen(place);
                 self.press = over.map(|over| Press {
                     line: place.1,
@@ -127,7 +146,16 @@ impl Gesture {
             // A press goes on where the mouse has left the picture.
             (true, _, None) => {}
             (false, _, place) => {
-                self.press = None;
+                if let (Some(press), Some(aim)) = (self.press.take(), self.aim) {
+                    self.back = Some(Return {
+                        over: press.over,
+                        depth: aim.depth,
+                        since: 0.0,
+                    });
+                }
+                if self.come_out(mouse.elapsed, ground) {
+                    return self.aim;
+                }
                 let over = place.and_then(seen).or(self.over);
                 if let Some(over) = over {
                     self.leap(&over, -HOVER, ground);
@@ -142,6 +170,22 @@ impl Gesture {
         self.aim = aimed(over, depth, ground);
     }
 
+    /// Takes a tool that was let go further out; whether it still is on its way.
+    fn come_out(&mut self, elapsed: f64, ground: &GestureContext<'_>) -> bool {
+        let Some(mut back) = self.back.take() else {
+            return false;
+        };
+        back.since += elapsed.max(0.0);
+        if back.since >= RETURN {
+            return false;
+        }
+        let turns = RETURN_RATE * back.since;
+        let left = (1.0 + turns) * (-turns).exp();
+        self.go(&back.over, -HOVER + (back.depth + HOVER) * left, ground);
+        self.back = Some(back);
+        true
+    }
+
     /// From above the surface, wherever the tool was.
     fn leap(&mut self, over: &Picked, depth: f64, ground: &GestureContext<'_>) {
         self.go(over, depth, ground);
@@ -154,6 +198,11 @@ impl Gesture {
     /// Whether the tool is being pressed in.
     pub fn is_pressing(&self) -> bool {
         self.press.is_some()
+    }
+
+    /// Whether the tool comes out after a press.
+    pub fn is_returning(&self) -> bool {
+        self.back.is_some()
     }
 
     /// Where the tool is to be.

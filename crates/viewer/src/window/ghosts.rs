@@ -89,6 +89,25 @@ impl Over<'_> {
         }
     }
 
+    /// Draws the outline of the size that was stated for a lump.
+    pub(super) fn stated(&self, middle: &Vec3, radius: f64) {
+        let [right, ..] = self.camera.axes();
+        let edge = middle + radius * right;
+        if let (Some(at), Some(edge)) = (self.seen(middle), self.seen(&edge)) {
+            let size = at.distance(edge);
+            let turn = |part: u8| {
+                let angle = std::f32::consts::TAU * f32::from(part) / 48.0;
+                at + size * Vec2::angled(angle)
+            };
+            for part in (0..48).step_by(2) {
+                let dash = [turn(part), turn(part + 1)];
+                self.painter.line_segment(dash, Stroke::new(2.5, BRIGHT));
+            }
+            let below = at + Vec2::new(0.0, size + 22.0);
+            self.named(below, "the size you stated", BRIGHT);
+        }
+    }
+
     /// Draws where a place was marked, and how far from the right one.
     pub(super) fn mark(&self, marked: &Vec3, target: &Vec3) {
         self.line(marked, target, Stroke::new(1.5, BRIGHT));

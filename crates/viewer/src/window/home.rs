@@ -4,6 +4,7 @@ use eframe::egui::{self, Color32, Frame, Margin, RichText, Ui};
 use egui_plot::{Line, Plot, PlotPoints, Points};
 use palpate_files::Scene;
 
+use super::texts;
 use super::training::{Assigned, PastResult, Training};
 use crate::style::{DEPTH, FAULT, QUIET, WARNING, WHITE};
 
@@ -14,6 +15,10 @@ pub(super) enum Chosen {
     Task(usize),
     /// To touch without a task.
     Free,
+    /// To change settings.
+    Settings,
+    /// To see all trainees.
+    Class,
     /// To look at a session again.
     Session(std::path::PathBuf),
 }
@@ -43,7 +48,21 @@ impl Home {
             egui::ScrollArea::vertical()
                 .auto_shrink([false, false])
                 .show(ui, |ui| {
-                    ui.label(RichText::new("palpate").size(34.0).color(WHITE));
+                    ui.horizontal(|ui| {
+                        ui.label(RichText::new("palpate").size(34.0).color(WHITE));
+                        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                            let is_clicked =
+                                ui.button(texts::SETTINGS).on_hover_text("or F2").clicked();
+                            if is_clicked || ui.input(|input| input.key_pressed(egui::Key::F2)) {
+                                chosen = Some(Chosen::Settings);
+                            }
+                            let is_clicked =
+                                ui.button(texts::CLASS).on_hover_text("or F3").clicked();
+                            if is_clicked || ui.input(|input| input.key_pressed(egui::Key::F3)) {
+                                chosen = Some(Chosen::Class);
+                            }
+                        });
+                    });
                     ui.label(
                         RichText::new("organs that answer a touch, to practise on").color(QUIET),
                     );

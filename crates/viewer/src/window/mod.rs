@@ -10,9 +10,14 @@
 //!
 //! [`Interaction`]: palpate_simulate::interactive::Interaction
 
+mod absence;
+mod actions;
 mod attempt;
 mod cards;
 mod choice;
+mod class_page;
+mod compared;
+mod diameter;
 mod display;
 mod enhancement;
 pub mod gesture;
@@ -28,7 +33,12 @@ mod preparation;
 mod rates;
 mod render_quality;
 mod results;
+#[cfg(test)]
+mod seen;
+pub mod settings;
+mod settings_page;
 mod source;
+mod texts;
 mod timeline;
 mod trained;
 pub mod training;
@@ -43,16 +53,19 @@ use palpate_files::scene::{Tool, ToolKind};
 use palpate_simulate::{Replay, Resources, Simulation};
 
 use crate::history::History;
-use crate::{Error, Gpu, TissuePicture, native, style};
+use crate::{Error, Gpu, native};
 use attempt::Attempt;
 use choice::Choice;
+use class_page::ClassPage;
+use compared::{Compared, ShownDemonstration};
 pub use display::check_display;
-use hands::keys::{self, Action};
 use home::Home;
 use picture::Picture;
-use play::{ModelRequest, Play, Prepared};
+use play::{Play, Prepared};
 use preparation::Preparation;
 use rates::Rates;
+use settings::WindowSettings;
+use settings_page::SettingsPage;
 use training::Training;
 
 /// How long a picture in which nothing moves is left as it is.
@@ -84,6 +97,12 @@ struct SimulatorWindow {
     takes_other: bool,
     /// Who trains, and what.
     training: Option<Training>,
+    /// What is set, and where it is kept.
+    settings: WindowSettings,
+    /// The page on which it is set, while it is shown.
+    settings_page: Option<SettingsPage>,
+    /// The teacher's page, while it is shown.
+    class_page: Option<ClassPage>,
     /// The start screen, while it is shown.
     home: Option<Home>,
     /// The task that is attempted.
@@ -94,6 +113,10 @@ struct SimulatorWindow {
     begins_anew: bool,
     /// Whether what an engineer wants to see is shown during a task.
     engineer_view: bool,
+    /// The session that is seen on the right of another one.
+    compared: Option<Box<Compared>>,
+    /// The demonstration that is computed to be seen there.
+    shown_demonstration: Option<ShownDemonstration>,
     /// The session that shall be looked at again when its organ is prepared.
     awaited: Option<PathBuf>,
     /// Whether the window shall close, as if somebody had closed it.
@@ -106,13 +129,26 @@ pub enum Start {
     Home,
     /// A scene.
     Scene(Box<Scene>),
-    /// A session of a scene that is played again.
-    Again(Box<Scene>, Arc<Simulation>, Box<Replay>),
+    /// A session that is played again, and another one that is seen beside it.
+    Again(Box<PlayedSession>, Option<Box<PlayedSession>>),
+}
+
+/// A session of a scene that is played again.
+pub struct PlayedSession {
+    /// What it is called in the window.
+    pub name: String,
+    /// The scene.
+    pub scene: Scene,
+    /// What it was played on.
+    pub simulation: Arc<Simulation>,
+    /// The session.
+    pub replay: Replay,
 }
 
 /// Opens a window and waits until it is closed. `way_out` is a scene that works, which is offered when another
 /// does not. Whole organs are prepared with `resources`, beside the touch; with `training` tasks are chosen, and
-/// sessions and results kept. It closes as if somebody had closed it when `is_ended`, which is asked at every picture.
+/// sessions and results kept; `settings` are changed on a page of
+/// their own. It closes as if somebody had closed it when `is_ended`, which is asked at every picture.
 ///
 /// # Errors
 /// When there is no display, no adapter, or the window breaks down. What is wrong with the scene is shown in
@@ -122,10 +158,17 @@ pub fn open_window(
     way_out: Scene,
     resources: Resources,
     training: Option<Training>,
+    settings: WindowSettings,
     is_ended: fn() -> bool,
 ) -> Result<(), Error> {
     native::open([[1280.0, 800.0], [560.0, 380.0]], move |context| {
-        SimulatorWindow::new(context, start, (way_out, resources), training, is_ended)
+        SimulatorWindow::new(
+            context,
+            start,
+            (way_out, resources),
+            (training, settings),
+            is_ended,
+        )
     })
 }
 
@@ -134,7 +177,7 @@ impl SimulatorWindow {
         context: &eframe::CreationContext<'_>,
         start: Start,
         (way_out, resources): (Scene, Resources),
-        training: Option<Training>,
+        (training, settings): (Option<Training>, WindowSettings),
         is_ended: fn() -> bool,
     ) -> Result<Self, Error> {
         let Some(state) = &context.wgpu_render_state else {
@@ -145,9 +188,13 @@ impl SimulatorWindow {
         let gpu = Gpu::of(&state.adapter, state.device.clone(), state.queue.clone());
         let scene = match &start {
             Start::Home => way_out.clone(),
-            Start::Scene(scene) | Start::Again(scene, ..) => (**scene).clone(),
+            Start::Scene(scene) => (**scene).clone(),
+            Start::Again(session, _) => session.scene.clone(),
         };
-        let choice = Choice::new(scene);
+        let choice = Choice::new(scene).with_mouse(settings.settings.mouse_hand);
+        context
+            .egui_ctx
+            .set_zoom_factor(settings.settings.scale as f32);
         let mut window = Self {
             picture: Picture::new(&gpu, choice.shading()),
             radius: 1e3 * choice.tip.radius_m,
@@ -164,20 +211,33 @@ impl SimulatorWindow {
             moves: false,
             takes_other: false,
             training,
+            settings,
+            settings_page: None,
+            class_page: None,
             home: None,
             attempt: None,
             begins: false,
             begins_anew: false,
             engineer_view: false,
+            compared: None,
+            shown_demonstration: None,
             awaited: None,
             is_ended,
             gpu,
         };
         match start {
-            Start::Home => window.home = Some(Home::default()),
+            Start::Home => {
+                let mut home = Home::default();
+                home.trouble.clone_from(&window.settings.trouble);
+                window.home = Some(home);
+            }
             Start::Scene(_) => window.begin_anew(&context.egui_ctx),
-            Start::Again(scene, simulation, replay) => {
-                window.play = Some(Play::again((*scene, simulation), *replay, &window.gpu)?);
+            Start::Again(session, other) => {
+                let name = session.name.clone();
+                window.play = Some(Play::of_session(*session, &window.gpu)?);
+                if let Some(other) = other {
+                    window.compare(name, *other)?;
+                }
             }
         }
         Ok(window)
@@ -298,102 +358,6 @@ impl SimulatorWindow {
         let preparation = self.preparation.as_ref()?;
         Some(preparation.progress().map_or(0.0, |progress| progress.part))
     }
-
-    /// Wraps the organ in a PNG file that was dropped on the window.
-    fn take_dropped(&mut self, context: &egui::Context) {
-        let dropped = context.input(|input| input.raw.dropped_files.clone());
-        for file in dropped {
-            let path = file.path();
-            match TissuePicture::read(path) {
-                Ok(picture) => {
-                    self.picture.surround(&self.gpu, Some(&picture));
-                    self.surroundings = Some(path.display().to_string());
-                    self.notice = None;
-                }
-                Err(error) => self.notice = Some(error.to_string()),
-            }
-        }
-    }
-
-    /// Does what keys ask for once.
-    fn act(&mut self, context: &egui::Context) {
-        let mut wanted: Vec<Action> = Vec::new();
-        if !context.egui_wants_keyboard_input() {
-            wanted = context.input(|input| keys::actions(input).collect());
-        }
-        if std::mem::take(&mut self.takes_other) {
-            wanted.push(Action::OtherTool);
-        }
-        for action in wanted {
-            let request = match action {
-                Action::OtherTool => {
-                    self.take_other(context);
-                    continue;
-                }
-                Action::Hints => {
-                    self.picture.lists_keys = !self.picture.lists_keys;
-                    continue;
-                }
-                Action::Mark => {
-                    self.mark();
-                    continue;
-                }
-                Action::EngineerView => {
-                    self.engineer_view = !self.engineer_view;
-                    continue;
-                }
-                Action::Undo => ModelRequest::UndoCut,
-                Action::Pause => ModelRequest::Pause,
-                Action::Reset => ModelRequest::Reset,
-            };
-            if let Some(play) = &mut self.play {
-                play.send(request);
-                if request == ModelRequest::Reset {
-                    self.picture.lay_down();
-                    self.history.clear();
-                }
-            }
-        }
-    }
-
-    /// The mouse takes the next tool, which is prepared anew only if nothing could move it before.
-    fn take_other(&mut self, context: &egui::Context) {
-        let before = self.choice.scene();
-        let next = (self.choice.tool + 1) % self.choice.tools().len();
-        self.choice.take(next);
-        self.radius = 1e3 * self.choice.tip.radius_m;
-        self.history.clear();
-        self.picture.gesture = gesture::Gesture::default();
-        if self.choice.scene() != before {
-            self.begin_anew(context);
-        }
-    }
-
-    /// What fills the place of the picture when there is no organ.
-    fn show_absence(&mut self, ui: &mut egui::Ui) {
-        let context = ui.ctx().clone();
-        ui.centered_and_justified(|ui| {
-            ui.vertical_centered(|ui| {
-                ui.add_space(0.35 * ui.available_height());
-                match self.fault.clone() {
-                    None => {
-                        ui.spinner();
-                        ui.label("preparing the organ and its model");
-                    }
-                    Some(fault) => {
-                        ui.colored_label(style::FAULT, fault);
-                        ui.add_space(12.0);
-                        if ui.button("Open the built-in esophagus").clicked() {
-                            self.choice = Choice::new(self.way_out.clone());
-                            self.radius = 1e3 * self.choice.tip.radius_m;
-                            self.fault = None;
-                            self.begin_anew(&context);
-                        }
-                    }
-                }
-            });
-        });
-    }
 }
 
 impl SimulatorWindow {
@@ -422,6 +386,14 @@ impl eframe::App for SimulatorWindow {
         }
         context.request_repaint_after(REST);
         self.receive();
+        if self.settings_page.is_some() {
+            self.show_settings(ui);
+            return;
+        }
+        if self.class_page.is_some() {
+            self.show_class(ui);
+            return;
+        }
         if self.home.is_some() {
             self.show_home(ui);
             return;
@@ -429,12 +401,20 @@ impl eframe::App for SimulatorWindow {
         self.supervise(&context);
         self.listen(&context);
         self.watch_attempt(&context);
+        self.watch_demonstration(&context);
         self.take_dropped(&context);
         self.act(&context);
+        self.set_diameter(&context);
         self.show_timeline(ui);
         self.show_panels(ui);
         egui::CentralPanel::no_frame().show(ui, |ui| {
             let tool = self.choice.tool;
+            if self.compared.is_some()
+                && let Some(state) = frame.wgpu_render_state()
+            {
+                self.show_both(ui, state);
+                return;
+            }
             match (&mut self.play, frame.wgpu_render_state()) {
                 (Some(play), Some(state)) => {
                     let rect = self.picture.show(ui, (state, &self.gpu), play, tool);
@@ -467,7 +447,7 @@ impl eframe::App for SimulatorWindow {
     }
 
     fn raw_input_hook(&mut self, _context: &egui::Context, raw: &mut egui::RawInput) {
-        if self.home.is_some() {
+        if self.home.is_some() || self.settings_page.is_some() {
             return;
         }
         // Else it would walk through the side panel, which Shift and Tab still do.

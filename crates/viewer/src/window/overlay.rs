@@ -2,6 +2,8 @@ use std::sync::Arc;
 
 use eframe::egui::{self, Align2, Color32, FontId, Pos2, Rect, Stroke, Vec2};
 
+use palpate_files::scene::{Tip, TipContact};
+
 use super::list;
 use super::picture::Picture;
 use super::play::Play;
@@ -16,9 +18,7 @@ pub(super) fn show(ui: &egui::Ui, rect: Rect, picture: &Picture, play: &mut Play
     let hand = picture.hands.get(tool).copied().unwrap_or_default();
     let pressing = picture.gesture.is_pressing() && !hand.holds() || hand.is_pulling();
     let hint = match (pressing, hand.holds()) {
-        (true, false) => {
-            "drag down: deeper · up: out · sideways: slide · wheel: fine · let go: leave"
-        }
+        (true, false) => press_hint(&play.scene.tools[tool].tip),
         (true, true) => "drag: pull · wheel: to and fro · G: open the jaws",
         (false, true) => "the jaws are shut · drag: pull · G: open them · ?: keys",
         (false, false) => {
@@ -56,6 +56,21 @@ pub(super) fn show(ui: &egui::Ui, rect: Rect, picture: &Picture, play: &mut Play
     if let (true, Some(pointer)) = (pressing, pointer) {
         let depth = seen.contact.map_or(0.0, |contact| contact.depth);
         gauge(&painter, (rect, pointer), depth, seen.force.norm());
+    }
+}
+
+/// How a tip that is pressed in is moved on.
+fn press_hint(tip: &Tip) -> &'static str {
+    match (tip.contact, tip.friction) {
+        (TipContact::Slip, _) => {
+            "drag down: deeper · up: out · sideways: slide · wheel: fine · let go: leave"
+        }
+        (TipContact::Stick, Some(_)) => {
+            "drag down: deeper · up: out · sideways: the tip drags the tissue, then slides · let go: leave"
+        }
+        (TipContact::Stick, None) => {
+            "drag down: deeper · up: out · sideways: this tip sticks and drags the tissue · let go: leave"
+        }
     }
 }
 

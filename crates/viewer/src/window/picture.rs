@@ -90,6 +90,11 @@ impl Picture {
         self.lay_down();
     }
 
+    /// Looks from where another picture looks.
+    pub(super) fn look_as(&mut self, other: &Self) {
+        (self.orbit, self.endoscope) = (other.orbit, other.endoscope);
+    }
+
     /// All hands let go of their tools.
     pub(super) fn lay_down(&mut self) {
         self.gesture = Gesture::default();
@@ -99,7 +104,8 @@ impl Picture {
     /// Whether somebody presses, pulls or moves a tool, or may do so without telling the window.
     pub(super) fn is_busy(&self) -> bool {
         let pulls = self.hands.iter().any(Hand::is_pulling);
-        self.gesture.is_pressing() || pulls || self.driven
+        let moves = self.gesture.is_pressing() || self.gesture.is_returning();
+        moves || pulls || self.driven
     }
 
     /// Whether there is a gamepad, which does not wake the window.
@@ -207,7 +213,11 @@ impl Picture {
             }
             Goal::Find { target_m, .. } if attempt.is_over() => {
                 for nodule in &play.scene.organ.nodules {
-                    over.lump(&Vec3::from(nodule.center_m), nodule.radius_m);
+                    let middle = Vec3::from(nodule.center_m);
+                    over.lump(&middle, nodule.radius_m);
+                    if let Some(stated) = attempt.stated_diameter() {
+                        over.stated(&middle, 0.5 * stated);
+                    }
                 }
                 if let Some(marked) = attempt.marked {
                     over.mark(&marked, &Vec3::from(*target_m));
@@ -318,6 +328,7 @@ impl Picture {
             pressed: down && held && !self.turning && !turned,
             wheel: if busy { wheel } else { 0.0 },
             cuts: hand.cuts,
+            elapsed: f64::from(ui.input(|input| input.unstable_dt)).min(0.05),
         };
         if hand.holds() {
             hand.pull(&mouse, room);

@@ -9,6 +9,7 @@ use palpate_simulate::interactive::{
 };
 use palpate_simulate::{Progress, Replay, Resources, Simulation, read_neighbour};
 
+use super::PlayedSession;
 use super::hands::Hand;
 use super::source::{Playback, Source};
 use crate::render::{Body, Tint};
@@ -16,7 +17,7 @@ use crate::seen_organ::SeenOrgan;
 use crate::{Error, Gpu};
 
 /// What a key wants of the model.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum ModelRequest {
     /// The last cut is taken back.
     UndoCut,
@@ -26,6 +27,8 @@ pub(super) enum ModelRequest {
     Reset,
     /// This place is meant, or it is done.
     Mark,
+    /// This diameter was felt [m].
+    StateDiameter(f64),
 }
 
 /// A scene that can be touched, once its devices are there.
@@ -154,6 +157,14 @@ impl Play {
         Self::of(prepared, (self.source, self.pointers))
     }
 
+    /// A session that is played again.
+    ///
+    /// # Errors
+    /// When a neighbour cannot be read.
+    pub(super) fn of_session(session: PlayedSession, gpu: &Gpu) -> Result<Self, Error> {
+        Self::again((session.scene, session.simulation), session.replay, gpu)
+    }
+
     /// A session of `scene` that is played again; its hands move nothing.
     ///
     /// # Errors
@@ -216,6 +227,7 @@ impl Play {
             ModelRequest::UndoCut => ModelCommand::UndoCut,
             ModelRequest::Reset => ModelCommand::Reset,
             ModelRequest::Mark => ModelCommand::Mark,
+            ModelRequest::StateDiameter(diameter) => ModelCommand::StateDiameter(diameter),
             ModelRequest::Pause if self.source.snapshot().paused => ModelCommand::Resume,
             ModelRequest::Pause => ModelCommand::Pause,
         };

@@ -59,6 +59,20 @@ pub(super) fn over(
             *asked = Some(Asked::Home);
         }
     });
+    if done.folder.is_some() && attempt.task.goal != Goal::Free {
+        ui.add_space(4.0);
+        match around.comparing {
+            Some(part) => {
+                let words = format!("computing the demonstration, {:.0} %", 100.0 * part);
+                ui.label(RichText::new(words).color(QUIET));
+            }
+            None => {
+                if ui.button("Replay beside the demonstration").clicked() {
+                    *asked = Some(Asked::Compare);
+                }
+            }
+        }
+    }
 }
 
 /// The force over time, beside its band or its limit.

@@ -79,7 +79,7 @@ impl Source {
                 ModelCommand::Pause => playback.plays = false,
                 ModelCommand::Resume => playback.plays = true,
                 ModelCommand::Reset => playback.go_to(0),
-                ModelCommand::UndoCut | ModelCommand::Mark => {}
+                ModelCommand::UndoCut | ModelCommand::Mark | ModelCommand::StateDiameter(_) => {}
             },
         }
     }
@@ -195,9 +195,31 @@ impl Playback {
         self.rows.clear();
     }
 
+    /// How long the session is [s].
+    pub(super) fn duration(&self) -> f64 {
+        self.time(self.replay.steps())
+    }
+
+    /// The time of what is seen since the beginning of the session [s].
+    pub(super) fn seen_at(&self) -> f64 {
+        self.time(self.replay.played().saturating_sub(1))
+    }
+
+    /// Goes to a time since the beginning of the session [s], as far as there is time; its end lasts.
+    pub(super) fn follow(&mut self, time: f64, plays: bool) {
+        while self.goal < self.replay.steps() && self.time(self.goal) <= time {
+            self.goal += 1;
+        }
+        while self.goal > 0 && self.time(self.goal - 1) > time {
+            self.goal -= 1;
+        }
+        self.at = self.replay.time(self.goal);
+        self.plays = plays;
+        self.catch_up();
+    }
+
     /// Plays on by so many seconds of the clock, as far as there is time.
     pub(super) fn go_on(&mut self, elapsed: f64) {
-        let start = Instant::now();
         let behind = self.replay.time(self.goal) - self.replay.time(self.replay.played());
         if self.plays && behind < MOST_BEHIND {
             self.at += elapsed.min(0.1) * self.pace;
@@ -205,6 +227,16 @@ impl Playback {
                 self.goal += 1;
             }
         }
+        self.catch_up();
+        if self.plays && self.replay.played() == self.replay.steps() {
+            self.plays = false;
+            self.snapshot.paused = true;
+        }
+    }
+
+    /// Plays the steps that are missing, as far as there is time.
+    fn catch_up(&mut self) {
+        let start = Instant::now();
         let before = self.replay.played();
         self.replay.jump(self.goal);
         let from = before.min(self.replay.played());
@@ -214,9 +246,6 @@ impl Playback {
         let now = self.replay.played();
         self.rows
             .extend_from_slice(self.replay.recorded_in(from..now));
-        if self.plays && self.replay.played() == self.replay.steps() {
-            self.plays = false;
-        }
         if now != before || self.snapshot.paused == self.plays {
             let time = self.replay.time(self.replay.played().saturating_sub(1));
             self.snapshot.show(time, self.replay.state());

@@ -9,10 +9,13 @@ use palpate_simulate::{Replay, SessionFolder};
 use super::attempt::{Attempt, Phase};
 use super::cards::{self, Around, Asked};
 use super::choice::Choice;
+use super::class_page::ClassPage;
+use super::compared::ShownDemonstration;
 use super::home::{Chosen, Home};
 use super::play::{ModelRequest, Play};
+use super::settings_page::SettingsPage;
 use super::training::TrainingResult;
-use super::{SimulatorWindow, panel, timeline};
+use super::{SimulatorWindow, panel};
 
 impl SimulatorWindow {
     /// The start screen instead of everything else.
@@ -28,6 +31,14 @@ impl SimulatorWindow {
         let scene = match chosen {
             None => return,
             Some(Chosen::Task(number)) => training.tasks[number].clone(),
+            Some(Chosen::Class) => {
+                self.class_page = Some(ClassPage(training.record.class()));
+                return;
+            }
+            Some(Chosen::Settings) => {
+                self.settings_page = Some(SettingsPage::new(&self.settings));
+                return;
+            }
             Some(Chosen::Free) => training.free.clone(),
             Some(Chosen::Session(session)) => match scene_of(&session) {
                 Ok(scene) => {
@@ -43,12 +54,47 @@ impl SimulatorWindow {
         self.open(scene, &context);
     }
 
+    /// The teacher's page instead of everything else.
+    pub(super) fn show_class(&mut self, ui: &mut egui::Ui) {
+        if let Some(page) = &self.class_page
+            && egui::CentralPanel::default()
+                .show(ui, |ui| page.show(ui))
+                .inner
+        {
+            self.class_page = None;
+        }
+    }
+
+    /// The page of settings instead of everything else.
+    pub(super) fn show_settings(&mut self, ui: &mut egui::Ui) {
+        let Some(page) = &mut self.settings_page else {
+            return;
+        };
+        let is_left = egui::CentralPanel::default()
+            .show(ui, |ui| page.show(ui, &mut self.settings))
+            .inner;
+        // While the slider is dragged it would run away from the pointer.
+        if !ui.input(|input| input.pointer.any_down()) {
+            let scale = self.settings.settings.scale as f32;
+            ui.ctx().set_zoom_factor(scale);
+        }
+        if is_left {
+            self.settings_page = None;
+            if let Some(home) = &mut self.home {
+                home.trouble.clone_from(&self.settings.trouble);
+            }
+        }
+    }
+
     fn open(&mut self, scene: Scene, context: &egui::Context) {
         self.home = None;
+        self.compared = None;
+        self.shown_demonstration = None;
         self.attempt = None;
         self.play = None;
         self.fault = None;
-        self.choice = Choice::new(scene);
+        let hand = self.settings.settings.mouse_hand;
+        self.choice = Choice::new(scene).with_mouse(hand);
         self.radius = 1e3 * self.choice.tip.radius_m;
         self.picture.shading = self.choice.shading();
         self.begin_anew(context);
@@ -59,6 +105,8 @@ impl SimulatorWindow {
         self.preparation = None;
         self.play = None;
         self.attempt = None;
+        self.compared = None;
+        self.shown_demonstration = None;
         self.awaited = None;
         self.begins = false;
         self.notice = None;
@@ -141,6 +189,10 @@ impl SimulatorWindow {
             preparing: self.preparing(),
             begins: self.begins,
             has_home: self.training.is_some(),
+            comparing: self
+                .shown_demonstration
+                .as_ref()
+                .map(ShownDemonstration::part),
         };
         let (Some(attempt), Some(play)) = (&mut self.attempt, &mut self.play) else {
             return;
@@ -172,6 +224,7 @@ impl SimulatorWindow {
                 self.begin_anew(&context);
             }
             Some(Asked::Begin) => self.begin_attempt(),
+            Some(Asked::State) => self.state_diameter(),
             Some(Asked::End) => self.end_attempt(),
             Some(Asked::RecordElsewhere) => {
                 attempt.record_elsewhere(play);
@@ -179,13 +232,16 @@ impl SimulatorWindow {
                     self.keep_result();
                 }
             }
+            Some(Asked::Compare) => {
+                let folder = attempt.folder();
+                if let Some(folder) = folder {
+                    let context = ui.ctx().clone();
+                    self.compare_with_demonstration(&folder, &context);
+                }
+            }
             Some(Asked::Home) => self.go_home(),
             Some(Asked::Again) => {
-                let folder = match &attempt.phase {
-                    Phase::Over(done) => done.folder.clone(),
-                    Phase::Reads | Phase::GoesOn(_) => None,
-                };
-                if let Some(folder) = folder {
+                if let Some(folder) = attempt.folder() {
                     self.look_again(&folder);
                 }
             }
@@ -200,6 +256,7 @@ impl SimulatorWindow {
                 ..
             }) => self.begins_anew = true,
             Some(attempt) if attempt.is_shown() => self.end_attempt(),
+            Some(attempt) if attempt.awaits_diameter() => self.state_diameter(),
             Some(Attempt {
                 phase: Phase::GoesOn(_),
                 ..
@@ -208,6 +265,30 @@ impl SimulatorWindow {
                 if let Some(play) = &mut self.play {
                     play.send(ModelRequest::Mark);
                 }
+            }
+        }
+    }
+
+    /// States the diameter that is set, if one is.
+    fn state_diameter(&mut self) {
+        if let (Some(attempt), Some(play)) = (&self.attempt, &mut self.play)
+            && let Some(diameter) = attempt.diameter
+        {
+            play.send(ModelRequest::StateDiameter(1e-3 * f64::from(diameter)));
+        }
+    }
+
+    /// The arrow keys set the diameter that is to be stated.
+    pub(super) fn set_diameter(&mut self, context: &egui::Context) {
+        if let Some(attempt) = &mut self.attempt
+            && attempt.awaits_diameter()
+            && !attempt.is_shown()
+            && !context.egui_wants_keyboard_input()
+        {
+            let times = |key| context.input(|input| input.num_presses(key)) as i32;
+            let by = times(egui::Key::ArrowRight) - times(egui::Key::ArrowLeft);
+            if by != 0 {
+                attempt.change_diameter(by);
             }
         }
     }
@@ -264,6 +345,9 @@ impl SimulatorWindow {
     /// What can be chosen and what is measured; a trainee within a task sees the organ alone, unless something is
     /// wrong. Beside a device with forces the emergency stop stays.
     pub(super) fn show_panels(&mut self, ui: &mut egui::Ui) {
+        if self.compared.is_some() && self.notice.is_none() {
+            return;
+        }
         let has_devices = self.play.as_ref().is_some_and(Play::has_devices);
         let trains = self.attempt.is_some() || self.begins;
         let is_trainee = trains && !self.engineer_view && !has_devices;
@@ -277,22 +361,6 @@ impl SimulatorWindow {
                 .default_size(300.0)
                 .size_range(220.0..=460.0)
                 .show(ui, |ui| panel::side(self, ui));
-        }
-    }
-
-    /// The line below a session that is played again.
-    pub(super) fn show_timeline(&mut self, ui: &mut egui::Ui) {
-        let can_leave = self.training.is_some();
-        let elapsed = f64::from(ui.input(|input| input.unstable_dt));
-        let Some(playback) = self.play.as_mut().and_then(|play| play.source.playback()) else {
-            return;
-        };
-        playback.go_on(elapsed);
-        let leaves = egui::Panel::bottom("timeline")
-            .show(ui, |ui| timeline::show(ui, playback, can_leave))
-            .inner;
-        if leaves {
-            self.go_home();
         }
     }
 }

@@ -37,11 +37,82 @@ pub trait TrainingRecord {
     /// When it cannot be read; in a sentence.
     fn assigned(&self, trainee: &str) -> Result<Vec<Assigned>, String>;
 
+    /// All trainees, for a teacher.
+    ///
+    /// # Errors
+    /// When they cannot be read; in a sentence.
+    fn class(&self) -> Result<Class, String>;
+
     /// The results of a trainee, the last one last.
     ///
     /// # Errors
     /// When they cannot be read; in a sentence.
     fn results(&self, trainee: &str) -> Result<Vec<PastResult>, String>;
+}
+
+/// What a teacher sees of all trainees.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Class {
+    /// What cohorts shall do, the first due first.
+    pub assignments: Vec<AssignedTask>,
+    /// Each task that was attempted.
+    pub tasks: Vec<TaskProgress>,
+}
+
+/// What a cohort shall do.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct AssignedTask {
+    /// The cohort.
+    pub cohort: String,
+    /// The title of the task.
+    pub task: String,
+    /// Until when, for people.
+    pub due: String,
+    /// Passed attempts that are needed.
+    pub passes: u32,
+    /// How far each trainee is.
+    pub trainees: Vec<TraineeStanding>,
+}
+
+/// How far a trainee is with an assignment.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TraineeStanding {
+    /// Who.
+    pub trainee: String,
+    /// Attempts at the task.
+    pub attempts: usize,
+    /// Passed attempts until it was due.
+    pub passed: usize,
+    /// `done`, `open` or `late`.
+    pub standing: &'static str,
+}
+
+/// How trainees come on with a task.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TaskProgress {
+    /// The title of the task.
+    pub task: String,
+    /// Each trainee.
+    pub trainees: Vec<TraineeProgress>,
+    /// Number of the attempt, counted from one, and the mean time of the trainees who made it [s].
+    pub mean_times: Vec<[f64; 2]>,
+    /// The mean time of the experts [s].
+    pub expert_time: Option<f64>,
+}
+
+/// How a trainee comes on with a task.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TraineeProgress {
+    /// Who.
+    pub trainee: String,
+    /// Attempts.
+    pub attempts: usize,
+    /// Passed attempts.
+    pub passed: usize,
+    /// The attempt since which they are proficient, counted from one.
+    pub proficient_since: Option<usize>,
+    /// Number of the attempt, counted from one, and its time [s].
+    pub times: Vec<[f64; 2]>,
 }
 
 /// What somebody shall do.

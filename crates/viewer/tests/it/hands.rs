@@ -46,6 +46,7 @@ fn mouse(x: f64, y: f64, pressed: bool) -> Mouse {
         pressed,
         wheel: 0.0,
         cuts: false,
+        elapsed: 1.0 / 60.0,
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod anonymous;
 mod answer;
+mod class;
 mod course;
 mod curves;
 mod export;
@@ -17,6 +18,7 @@ use palpate_files::write_whole;
 use palpate_record::{Filter, IN_A_ROW, Record};
 
 use self::answer::Answer;
+pub(crate) use self::class::class;
 use self::course::LearningCurve;
 pub(crate) use self::course::{ERRORS, TIME};
 use super::overwrite::OverwriteOption;

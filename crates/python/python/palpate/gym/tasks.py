@@ -133,6 +133,9 @@ class Palpation(Task):
         """The spot, and where the tip begins."""
         start, place = draw.choice(self.places), draw.choice(self.hidden)
         content = self.with_task(target_m=self.vertices[place].tolist())
+        # An agent marks a place, and states no size.
+        for key in ("radius_m", "diameter_tolerance_m"):
+            content["task"][self.word].pop(key, None)
         content["organ"]["nodule"] = [{**self.nodule, "center_m": self.centers[place].tolist()}]
         above = self.vertices[start] + CLEAR * self.normals[start]
         return Scenario(palpate.Scene(content), above, np.empty(0))

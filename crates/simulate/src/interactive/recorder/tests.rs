@@ -30,6 +30,7 @@ fn row(step: u32) -> SessionRow {
             _ => Events::default(),
         },
         grip_force_n: 0.0,
+        stated_diameter_m: None,
     }
 }
 

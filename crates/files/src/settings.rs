@@ -1,0 +1,169 @@
+//! What a person has set in the window, in a file of the user's.
+
+use std::fmt::Write;
+use std::ops::Bound::Included;
+use std::path::{Path, PathBuf};
+
+use crate::toml_document::{Document, quoted, toml_number};
+use crate::words::words;
+use crate::{Domain, Error, Key, Keys, write_whole};
+
+words! {
+    /// Whose tool the mouse moves at first.
+    pub enum MouseHand {
+        /// The one that the scene gives to the mouse.
+        Scene = "scene",
+        /// The left hand's.
+        Left = "left",
+        /// The right hand's.
+        Right = "right",
+    }
+}
+
+/// What a person has set.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Settings {
+    /// Whose tool the mouse moves at first.
+    pub mouse_hand: MouseHand,
+    /// The size of texts and buttons beside that of the display [-].
+    pub scale: f64,
+    /// The folder of sessions and results; none for that of the system.
+    pub training_folder: Option<PathBuf>,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            mouse_hand: MouseHand::Scene,
+            scale: 1.0,
+            training_folder: None,
+        }
+    }
+}
+
+/// Sizes of texts that still fit into the least window and that can still be read [-].
+const SCALE: Domain = Domain::number("a factor", [Included(0.75), Included(2.0)]);
+
+impl Settings {
+    /// The keys of the file.
+    pub const KEYS: &'static [Key] = &[
+        Key::word(
+            "mouse_hand",
+            MouseHand::MEANINGS,
+            "Whose tool the mouse moves at first.",
+        )
+        .optional("\"scene\"", "\"scene\""),
+        Key::number(
+            "scale",
+            SCALE,
+            "The size of texts and buttons beside that of the display.",
+        )
+        .optional("1.0", "1"),
+        Key::path(
+            "training_folder",
+            "The folder of sessions and results; the variable PALPATE_TRAINING overrides it.",
+        )
+        .optional("\"training\"", "the data folder of the system"),
+    ];
+
+    /// Least and largest [`Self::scale`] [-].
+    pub const SCALES: [f64; 2] = [0.75, 2.0];
+
+    /// Reads a file; without one nothing is set.
+    ///
+    /// # Errors
+    /// When there is a file and it cannot be read, or holds no settings.
+    pub fn read(path: &Path) -> Result<Self, Error> {
+        match path.exists() {
+            true => Self::of(&Document::read(path)?),
+            false => Ok(Self::default()),
+        }
+    }
+
+    /// Reads a text; `path` is its name in errors.
+    ///
+    /// # Errors
+    /// When it holds no settings.
+    pub fn parse(text: &str, path: impl AsRef<Path>) -> Result<Self, Error> {
+        Self::of(&Document::parse(text, path)?)
+    }
+
+    fn of(document: &Document) -> Result<Self, Error> {
+        let keys: Keys<'_> = document.keys(Self::KEYS)?;
+        let hand = keys.word("mouse_hand", MouseHand::WORDS)?;
+        Ok(Self {
+            mouse_hand: hand.unwrap_or(MouseHand::Scene),
+            scale: keys.number("scale")?.unwrap_or(1.0),
+            training_folder: keys.text("training_folder")?.map(PathBuf::from),
+        })
+    }
+
+    /// The text of the file.
+    pub fn print(&self) -> String {
+        let mut text = format!(
+            "# What is set in palpate's window.\nformat = 1\nmouse_hand = {}\nscale = {}\n",
+            quoted(self.mouse_hand.word()),
+            toml_number(self.scale)
+        );
+        if let Some(folder) = &self.training_folder {
+            let folder = quoted(&folder.to_string_lossy());
+            writeln!(text, "training_folder = {folder}").expect("a string takes every text");
+        }
+        text
+    }
+
+    /// Writes the file whole or not at all, and its folder where that is missing.
+    ///
+    /// # Errors
+    /// When the operating system refuses; the file is then as it was.
+    pub fn write(&self, path: &Path) -> Result<(), Error> {
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder).map_err(|source| Error::write(folder, source))?;
+        }
+        write_whole(path, self.print().as_bytes())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn settings_are_read_as_they_were_written() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("new/settings.toml");
+        assert_eq!(Settings::read(&path).unwrap(), Settings::default());
+        for settings in [
+            Settings::default(),
+            Settings {
+                mouse_hand: MouseHand::Left,
+                scale: 1.3,
+                training_folder: Some(PathBuf::from("C:\\a \"b\"/c")),
+            },
+        ] {
+            settings.write(&path).unwrap();
+            assert_eq!(Settings::read(&path).unwrap(), settings);
+            let files = std::fs::read_dir(path.parent().unwrap()).unwrap();
+            assert_eq!(files.count(), 1, "nothing is left beside the file");
+        }
+    }
+
+    /// Each fault is one sentence with the file and the line or key.
+    #[test]
+    fn damaged_settings_are_told() {
+        for (text, word) in [
+            ("format = 1\nscale = 9.0\n", "scale"),
+            ("format = 1\nmouse_hand = \"third\"\n", "mouse_hand"),
+            ("format = 1\nscael = 1.0\n", "scael"),
+            ("format = 1\nscale = \n", "line 2"),
+            ("\u{0}", "settings.toml"),
+        ] {
+            let told = Settings::parse(text, "settings.toml").unwrap_err();
+            let told = told.to_string();
+            assert!(
+                told.contains("settings.toml") && told.contains(word),
+                "{told}"
+            );
+        }
+    }
+}

@@ -1,0 +1,115 @@
+//! What a person has set in the window: its file, and what the page of settings does beside it.
+
+use std::path::PathBuf;
+
+use palpate_devices::{Kind, Places};
+use palpate_files::Settings;
+use palpate_jobs::preparation::folder as cache_folder;
+use palpate_viewer::settings::{CacheUse, NamedFolder, SettingsKeeper, WindowSettings};
+
+use crate::command::cache::{kept_files, remove};
+use crate::output;
+use crate::training;
+
+/// The variable that names the file of the settings.
+const FILE_VARIABLE: &str = "PALPATE_SETTINGS";
+
+/// The file of the settings; none where the system names no folder for it.
+fn file() -> Option<PathBuf> {
+    let named = std::env::var_os(FILE_VARIABLE).filter(|name| !name.is_empty());
+    let own = || Some(dirs::config_dir()?.join("palpate/settings.toml"));
+    named.map(PathBuf::from).or_else(own)
+}
+
+/// The settings, and why the defaults are used instead, in a sentence, if the file is damaged.
+pub(crate) fn read() -> (Settings, Option<String>) {
+    let Some(file) = file() else {
+        return (Settings::default(), None);
+    };
+    match Settings::read(&file) {
+        Ok(settings) => (settings, None),
+        Err(error) => {
+            let why = format!(
+                "{error}; the default settings are used, and the next change in the window replaces the file"
+            );
+            (Settings::default(), Some(why))
+        }
+    }
+}
+
+/// The settings of a command without a window, which warns of a damaged file.
+pub(crate) fn read_or_warn() -> Settings {
+    let (settings, trouble) = read();
+    output::warnings(trouble.as_slice());
+    settings
+}
+
+/// The settings as a window shows and changes them.
+pub(crate) fn of_window() -> WindowSettings {
+    let (settings, trouble) = read();
+    WindowSettings {
+        settings,
+        trouble,
+        keeper: Box::new(Keeper),
+    }
+}
+
+/// The user's files and devices.
+struct Keeper;
+
+impl SettingsKeeper for Keeper {
+    fn save(&mut self, settings: &Settings) -> Result<(), String> {
+        let file = file().ok_or_else(|| {
+            format!("this system names no folder for settings; name a file by {FILE_VARIABLE}")
+        })?;
+        settings.write(&file).map_err(|error| error.to_string())
+    }
+
+    fn devices(&self) -> Vec<String> {
+        let places = match Places::from_environment() {
+            Ok(places) => places,
+            Err(error) => return vec![error.to_string()],
+        };
+        let each = Kind::ALL.iter().flat_map(|kind| match kind.list(&places) {
+            Ok(found) if found.is_empty() => vec![format!("{kind}: none is plugged in")],
+            Ok(found) => {
+                let named = found.into_iter();
+                named.map(|own| own.capabilities.name.to_string()).collect()
+            }
+            Err(why) => vec![why.to_string()],
+        });
+        each.collect()
+    }
+
+    fn folders(&self) -> Vec<NamedFolder> {
+        let training = training::folder().ok();
+        let all = [
+            ("Sessions and results", training),
+            ("Settings", file()),
+            ("Cache", cache_folder()),
+        ];
+        let named = all.into_iter();
+        named
+            .filter_map(|(name, path)| Some(NamedFolder { name, path: path? }))
+            .collect()
+    }
+
+    fn cache(&self) -> Result<CacheUse, String> {
+        let kept = match cache_folder() {
+            Some(folder) => kept_files(&folder).map_err(|error| error.to_string())?,
+            None => Vec::new(),
+        };
+        Ok(CacheUse {
+            files: kept.len(),
+            bytes: kept.iter().map(|(_, bytes)| bytes).sum(),
+        })
+    }
+
+    fn clear_cache(&mut self) -> Result<CacheUse, String> {
+        if let Some(folder) = cache_folder() {
+            let kept = kept_files(&folder).map_err(|error| error.to_string())?;
+            remove(&kept).map_err(|error| error.to_string())?;
+        }
+        self.cache()
+    }
+}

@@ -1,0 +1,51 @@
+//! What is shown where there is no organ, and what is wrapped around one.
+
+use eframe::egui;
+
+use super::SimulatorWindow;
+use super::choice::Choice;
+use crate::{TissuePicture, style};
+
+impl SimulatorWindow {
+    /// Wraps the organ in a PNG file that was dropped on the window.
+    pub(super) fn take_dropped(&mut self, context: &egui::Context) {
+        let dropped = context.input(|input| input.raw.dropped_files.clone());
+        for file in dropped {
+            let path = file.path();
+            match TissuePicture::read(path) {
+                Ok(picture) => {
+                    self.picture.surround(&self.gpu, Some(&picture));
+                    self.surroundings = Some(path.display().to_string());
+                    self.notice = None;
+                }
+                Err(error) => self.notice = Some(error.to_string()),
+            }
+        }
+    }
+
+    /// What fills the place of the picture when there is no organ.
+    pub(super) fn show_absence(&mut self, ui: &mut egui::Ui) {
+        let context = ui.ctx().clone();
+        ui.centered_and_justified(|ui| {
+            ui.vertical_centered(|ui| {
+                ui.add_space(0.35 * ui.available_height());
+                match self.fault.clone() {
+                    None => {
+                        ui.spinner();
+                        ui.label("preparing the organ and its model");
+                    }
+                    Some(fault) => {
+                        ui.colored_label(style::FAULT, fault);
+                        ui.add_space(12.0);
+                        if ui.button("Open the built-in esophagus").clicked() {
+                            self.choice = Choice::new(self.way_out.clone());
+                            self.radius = 1e3 * self.choice.tip.radius_m;
+                            self.fault = None;
+                            self.begin_anew(&context);
+                        }
+                    }
+                }
+            });
+        });
+    }
+}

@@ -1,0 +1,76 @@
+//! The card on which a trainee states how large the lump is.
+
+use eframe::egui::{self, RichText, Ui};
+
+use super::attempt::DIAMETERS;
+use super::cards::{Asked, button};
+use crate::style::{QUIET, WHITE};
+
+/// What the card is called; the slider and the button have names of their own.
+const TITLE: &str = "Marked. How large is the lump?";
+const SLIDER: &str = "Diameter [mm]";
+const STATE: &str = "State the diameter";
+
+/// Shows the card; `diameter` [mm] is none until somebody sets it.
+pub(super) fn show(ui: &mut Ui, diameter: &mut Option<u32>, asked: &mut Option<Asked>) {
+    let [least, most] = DIAMETERS;
+    ui.add_space(4.0);
+    ui.label(RichText::new(TITLE).size(16.0).strong().color(WHITE));
+    let mut value = diameter.unwrap_or(least);
+    let slider = egui::Slider::new(&mut value, least..=most)
+        .text(SLIDER)
+        .show_value(diameter.is_some());
+    let slider = ui.add(slider);
+    if slider.changed() || slider.clicked() {
+        *diameter = Some(value);
+    }
+    if slider.drag_stopped() {
+        // The keys of the hands go on.
+        slider.surrender_focus();
+    }
+    ui.horizontal(|ui| {
+        ui.add_enabled_ui(diameter.is_some(), |ui| {
+            if button(ui, STATE).on_hover_text("or Enter").clicked() {
+                *asked = Some(Asked::State);
+            }
+        });
+        let words = match diameter {
+            None => "left and right arrow keys, or the slider",
+            Some(_) => "or Enter",
+        };
+        ui.label(RichText::new(words).color(QUIET));
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use eframe::egui::accesskit::Role;
+
+    use super::*;
+    use crate::window::seen::Seen;
+
+    /// Judge: the accessibility tree that the window gives, and what a person clicks in it.
+    #[test]
+    fn a_diameter_is_set_before_it_can_be_stated() {
+        let (mut diameter, mut asked) = (None, None);
+        let mut seen = Seen::default();
+        seen.show(|ui| show(ui, &mut diameter, &mut asked));
+        assert!(seen.has(Role::Label, TITLE) && seen.has(Role::Slider, SLIDER));
+        seen.click(Role::Button, STATE);
+        seen.show(|ui| show(ui, &mut diameter, &mut asked));
+        seen.show(|ui| show(ui, &mut diameter, &mut asked));
+        assert_eq!((diameter, asked), (None, None), "nothing is set yet");
+        seen.click(Role::Slider, SLIDER);
+        seen.show(|ui| show(ui, &mut diameter, &mut asked));
+        seen.show(|ui| show(ui, &mut diameter, &mut asked));
+        let [least, most] = DIAMETERS;
+        let middle = f64::from(least + most) / 2.0;
+        // Judge: the middle of the slider is that of its range. Tolerance: the slider contains its value and name.
+        let set = f64::from(diameter.unwrap());
+        assert!((set - middle).abs() <= 18.0, "{set}");
+        seen.click(Role::Button, STATE);
+        seen.show(|ui| show(ui, &mut diameter, &mut asked));
+        seen.show(|ui| show(ui, &mut diameter, &mut asked));
+        assert_eq!(asked, Some(Asked::State));
+    }
+}

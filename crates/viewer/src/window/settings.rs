@@ -1,0 +1,70 @@
+//! What a window needs to know of a person's settings, and where it keeps them.
+
+use std::path::PathBuf;
+
+use palpate_files::Settings;
+
+/// The settings of a window.
+pub struct WindowSettings {
+    /// What is set.
+    pub settings: Settings,
+    /// Why it is not what was set before, or is not kept; in a sentence.
+    pub trouble: Option<String>,
+    /// Where it is kept.
+    pub keeper: Box<dyn SettingsKeeper>,
+}
+
+/// A folder or file that the program uses.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct NamedFolder {
+    /// What is in it, for people.
+    pub name: &'static str,
+    /// Where it is.
+    pub path: PathBuf,
+}
+
+/// How much is cached.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct CacheUse {
+    /// Number of files.
+    pub files: usize,
+    /// Their size [B].
+    pub bytes: u64,
+}
+
+/// Where settings are kept, and what is set up on this machine.
+pub trait SettingsKeeper {
+    /// Keeps the settings.
+    ///
+    /// # Errors
+    /// When they cannot be kept; in a sentence.
+    fn save(&mut self, settings: &Settings) -> Result<(), String>;
+
+    /// Haptic devices that are connected, and why others are not; a sentence each. It may take seconds.
+    fn devices(&self) -> Vec<String>;
+
+    /// The folders and files that the program uses.
+    fn folders(&self) -> Vec<NamedFolder>;
+
+    /// How much is cached.
+    ///
+    /// # Errors
+    /// When the cache cannot be read; in a sentence.
+    fn cache(&self) -> Result<CacheUse, String>;
+
+    /// Removes what is cached; how much is left.
+    ///
+    /// # Errors
+    /// When it cannot be removed; in a sentence.
+    fn clear_cache(&mut self) -> Result<CacheUse, String>;
+}
+
+impl WindowSettings {
+    /// Takes over what a person set, and keeps it.
+    pub(super) fn change(&mut self, settings: Settings) {
+        if self.settings != settings {
+            self.trouble = self.keeper.save(&settings).err();
+            self.settings = settings;
+        }
+    }
+}
