@@ -38,6 +38,11 @@ fn a_sliding_step_allocates_nothing() {
         ("nonlinear", "stick", "nodes = 400"),
         ("nonlinear", "slip", "nodes = 400"),
         (
+            "nonlinear",
+            "slip",
+            "nodes = 400\n[[neighbour]]\nbuiltin = \"cube\"\ncollides = true",
+        ),
+        (
             "hybrid",
             "slip",
             "mechanical_triangles = 400\nenhancement = { area = \"vertex\", levels = 3 }",
