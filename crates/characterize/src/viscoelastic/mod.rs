@@ -20,5 +20,7 @@ mod relaxation;
 pub use model::RelaxationRecord;
 pub(crate) use model::terms;
 pub use product_form::ProductForm;
-pub(crate) use relaxation::{QUASI_LINEAR, even, expected_relaxation, quasi_linear};
+pub(crate) use relaxation::{
+    QUASI_LINEAR, even, expected_relaxation, quasi_linear, relaxation_from,
+};
 pub use relaxation::{Relaxation, RelaxationSettings, relaxation, relaxation_of_steps};

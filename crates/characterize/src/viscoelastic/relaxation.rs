@@ -7,8 +7,8 @@ use super::model::{Model, RelaxationRecord, terms};
 use super::product_form::ProductForm;
 use crate::Error;
 use crate::fit::{
-    Expected, Fit, HARDLY_KNOWN, Parameter, Settings, Uncertainty, correlated_uncertainty,
-    least_squares_with_jacobian, simplest, student_quantile, with_systematic,
+    Effort, Expected, Fit, HARDLY_KNOWN, Parameter, Settings, Uncertainty, correlated_uncertainty,
+    least_squares_with_jacobian, simplest, student_quantile, uncertainty_by, with_systematic,
 };
 use crate::inverse::Correlations;
 
@@ -223,6 +223,49 @@ pub(crate) fn expected_relaxation(
     let expected = Expected::of(fit, &systematic, weights);
     let known = expected.known(&expected.fit, systematic.len(), records.len());
     described(records, expected.fit, known, Vec::new())
+}
+
+/// The relaxation of so many `terms` of one record, sought from the parameters of the fit `before` it too; without one, or
+/// when `afresh`, from everywhere.
+///
+/// # Errors
+/// As [`relaxation`].
+pub(crate) fn relaxation_from(
+    record: &RelaxationRecord,
+    count: usize,
+    (before, afresh): (Option<&Fit>, bool),
+) -> Result<Relaxation, Error> {
+    let records = std::slice::from_ref(record);
+    let mut best = None;
+    if afresh || before.is_none() {
+        let one = with_terms(records, count - 1, None)
+            .ok()
+            .filter(|_| count > 1);
+        best = Some(with_terms(records, count, one.as_ref())?);
+    }
+    if let Some(before) = before {
+        // Its bounds were those of a shorter record.
+        let mut start = starts(records, count, None).swap_remove(0);
+        for (own, other) in start.iter_mut().zip(&before.parameters) {
+            own.value = other.value.clamp(own.lower, own.upper);
+        }
+        let own = fitted(records, count, &start)?;
+        let is_better = |best: &Fit| own.sum_of_squares() < best.sum_of_squares();
+        if best.as_ref().is_none_or(is_better) {
+            best = Some(own);
+        }
+    }
+    let fit = best.ok_or(Error::NothingFelt)?;
+    let model = Model {
+        records,
+        terms: count,
+    };
+    let systematic = model.systematic(&values_of(&fit));
+    // One on its bound does not make the others better known.
+    let free = fit.unbounded();
+    let noise = uncertainty_by(&free, &[record.time.len()], Effort::QUICK);
+    let uncertainty = with_systematic(noise, &free, &systematic);
+    described(records, fit, uncertainty, Vec::new())
 }
 
 fn terms_of(fit: &Fit, records: &[RelaxationRecord]) -> usize {

@@ -8,6 +8,7 @@
 mod cancelled;
 mod exit_status;
 mod fuzz;
+mod online;
 mod readers;
 mod recordings;
 mod watched;
