@@ -5,9 +5,9 @@ use serde::Serialize;
 
 use super::OnlineEstimator;
 use super::record::Samples;
-use crate::fit::{Effort, Fit};
+use crate::fit::Effort;
 use crate::inverse::{Curves, Indentation, LawDescription, law_fit};
-use crate::viscoelastic::{Relaxation, RelaxationRecord, relaxation_from};
+use crate::viscoelastic::{PressedRelaxation, RelaxationRecord};
 
 /// Terms of the relaxation.
 const TERMS: usize = 2;
@@ -109,7 +109,7 @@ impl fmt::Display for OnlineEstimate {
 /// What was fitted last.
 #[derive(Debug, Clone)]
 pub(super) struct Fitted {
-    relaxation: Relaxation,
+    pressed: PressedRelaxation,
     law: LawDescription,
     /// Length of the record that was searched from everywhere last [s].
     searched: f64,
@@ -133,18 +133,18 @@ impl Fitted {
         let (time, depth, force) = (&samples.time, &samples.depth, &samples.force);
         let record = RelaxationRecord::new((time, depth, force), largest, shape)?;
         let record = record.with_zeros((depth, samples.zeros), largest, shape);
-        let start: Option<&Fit> = before.map(|own| &own.relaxation.fit);
-        let relaxation = relaxation_from(&record, TERMS, (start, afresh)).ok()?;
+        let start = before.map(|own| &own.pressed);
+        let pressed = PressedRelaxation::of(&record, start, afresh).ok()?;
         let indentation = Indentation {
             time,
             depth,
             force,
             zeros: samples.zeros,
         };
-        let law = law_fit(curves, &[indentation], &relaxation.series).ok()?;
+        let law = law_fit(curves, &[indentation], &pressed.relaxation.series).ok()?;
         let law = LawDescription::by(law, &[indentation], Effort::QUICK);
         Some(Self {
-            relaxation,
+            pressed,
             law,
             searched: match (afresh, before) {
                 (false, Some(own)) => own.searched,
@@ -153,39 +153,29 @@ impl Fitted {
         })
     }
 
-    /// Whether the fit ended on a bound of the term that has this name.
-    fn is_on_bound(&self, name: &str) -> bool {
-        let parameters = &self.relaxation.fit.parameters;
-        let mut terms: Vec<_> = (0..TERMS)
-            .map(|term| &parameters[1 + 2 * term..3 + 2 * term])
-            .collect();
-        terms.sort_by(|a, b| a[1].value.total_cmp(&b[1].value));
-        let of_name = terms.iter().zip([&NAMES[1..3], &NAMES[3..5]]);
-        of_name
-            .filter(|(_, names)| names.contains(&name))
-            .any(|(term, _)| term.iter().any(crate::fit::Parameter::at_bound))
-    }
-
     fn parameters(&self) -> [OnlineParameter; 5] {
         let modulus = self.law.parameters.first().map(|(_, own)| {
             let quantile = self.law.uncertainty.quantile(0, 0.95);
             (own.value, quantile.zip(own.standard_error))
         });
-        let of_terms = self.relaxation.terms.iter().zip(&self.relaxation.quantiles);
-        let of_terms = of_terms.flat_map(|(term, quantiles)| {
+        let relaxation = &self.pressed.relaxation;
+        let terms = relaxation.terms.iter().zip(&relaxation.quantiles);
+        let of_terms = terms.flat_map(|(term, quantiles)| {
             [0, 1].map(|place| {
                 let own = term[place];
                 (own.value, Some(quantiles[place]).zip(own.standard_error))
             })
         });
+        // One term alone is a mixture of both.
+        let of_terms = of_terms.filter(|_| relaxation.terms.len() == TERMS);
         let mut all = modulus.into_iter().chain(of_terms);
-        NAMES.map(|name| {
+        let mut found = NAMES.map(|name| {
             let (value, known) = all.next().unwrap_or((f64::NAN, None));
             let value = Some(value).filter(|value| value.is_finite());
             let half = known.map(|(quantile, error)| quantile * error);
-            let half = half.filter(|_| !self.is_on_bound(name));
-            let half =
-                half.filter(|half| value.is_some_and(|value| *half > 0.0 && *half < value.abs()));
+            let is_telling =
+                |half: &f64| value.is_some_and(|value| (0.0..value.abs()).contains(half));
+            let half = half.filter(is_telling);
             OnlineParameter {
                 name,
                 value,
@@ -193,6 +183,13 @@ impl Fitted {
                     .zip(half)
                     .map(|(value, half)| [value - half, value + half]),
             }
-        })
+        });
+        // Terms are told apart, or none of their numbers means what its name says.
+        if !found.iter().skip(1).all(OnlineParameter::is_known) {
+            for own in &mut found[1..] {
+                own.interval_95 = None;
+            }
+        }
+        found
     }
 }

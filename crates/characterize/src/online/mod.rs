@@ -11,7 +11,8 @@
 //! from the estimate before, and costs as much after an hour as after seconds. The force over depth is tabulated or solved
 //! once, when the estimator is made; no finite elements run afterwards.
 //!
-//! A parameter without an interval is not known yet: it is on a bound, or its interval is wider than its value.
+//! A parameter without an interval is not known yet: half of it would be larger than the value. Terms are known both or
+//! not at all; until the information criterion prefers two of them, one takes their place in the fit and is not stated.
 //!
 //! *How we know*: `online::…`: coverage on recordings of independent finite elements and of the virtual rig, and agreement
 //! with the fit of the whole recording.

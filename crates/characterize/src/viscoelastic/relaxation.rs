@@ -7,8 +7,8 @@ use super::model::{Model, RelaxationRecord, terms};
 use super::product_form::ProductForm;
 use crate::Error;
 use crate::fit::{
-    Effort, Expected, Fit, HARDLY_KNOWN, Parameter, Settings, Uncertainty, correlated_uncertainty,
-    least_squares_with_jacobian, simplest, student_quantile, uncertainty_by, with_systematic,
+    Expected, Fit, HARDLY_KNOWN, Parameter, Settings, Uncertainty, correlated_uncertainty,
+    least_squares_with_jacobian, simplest, student_quantile, with_systematic,
 };
 use crate::inverse::Correlations;
 
@@ -186,7 +186,7 @@ pub fn relaxation(
     described(records, fit, uncertainty, tried)
 }
 
-fn values_of(fit: &Fit) -> Vec<f64> {
+pub(super) fn values_of(fit: &Fit) -> Vec<f64> {
     fit.parameters.iter().map(|p| p.value).collect()
 }
 
@@ -225,50 +225,7 @@ pub(crate) fn expected_relaxation(
     described(records, expected.fit, known, Vec::new())
 }
 
-/// The relaxation of so many `terms` of one record, sought from the parameters of the fit `before` it too; without one, or
-/// when `afresh`, from everywhere.
-///
-/// # Errors
-/// As [`relaxation`].
-pub(crate) fn relaxation_from(
-    record: &RelaxationRecord,
-    count: usize,
-    (before, afresh): (Option<&Fit>, bool),
-) -> Result<Relaxation, Error> {
-    let records = std::slice::from_ref(record);
-    let mut best = None;
-    if afresh || before.is_none() {
-        let one = with_terms(records, count - 1, None)
-            .ok()
-            .filter(|_| count > 1);
-        best = Some(with_terms(records, count, one.as_ref())?);
-    }
-    if let Some(before) = before {
-        // Its bounds were those of a shorter record.
-        let mut start = starts(records, count, None).swap_remove(0);
-        for (own, other) in start.iter_mut().zip(&before.parameters) {
-            own.value = other.value.clamp(own.lower, own.upper);
-        }
-        let own = fitted(records, count, &start)?;
-        let is_better = |best: &Fit| own.sum_of_squares() < best.sum_of_squares();
-        if best.as_ref().is_none_or(is_better) {
-            best = Some(own);
-        }
-    }
-    let fit = best.ok_or(Error::NothingFelt)?;
-    let model = Model {
-        records,
-        terms: count,
-    };
-    let systematic = model.systematic(&values_of(&fit));
-    // One on its bound does not make the others better known.
-    let free = fit.unbounded();
-    let noise = uncertainty_by(&free, &[record.time.len()], Effort::QUICK);
-    let uncertainty = with_systematic(noise, &free, &systematic);
-    described(records, fit, uncertainty, Vec::new())
-}
-
-fn terms_of(fit: &Fit, records: &[RelaxationRecord]) -> usize {
+pub(super) fn terms_of(fit: &Fit, records: &[RelaxationRecord]) -> usize {
     (fit.parameters.len() - 1 - records.len()) / 2
 }
 
@@ -307,7 +264,7 @@ fn with_terms(
     fitted(records, count, &best.parameters)
 }
 
-fn fitted(
+pub(super) fn fitted(
     records: &[RelaxationRecord],
     terms: usize,
     parameters: &[Parameter],
@@ -327,7 +284,11 @@ fn fitted(
 
 /// Where the fit starts: times spread evenly over what the recordings show, and the terms of one fewer
 /// with one more before or after.
-fn starts(records: &[RelaxationRecord], count: usize, before: Option<&Fit>) -> Vec<Vec<Parameter>> {
+pub(super) fn starts(
+    records: &[RelaxationRecord],
+    count: usize,
+    before: Option<&Fit>,
+) -> Vec<Vec<Parameter>> {
     let [shortest, longest] = visible_times(records);
     let at = |part: f64| shortest * (longest / shortest).powf(part);
     let drop = records.iter().map(RelaxationRecord::drop).sum::<f64>() / records.len() as f64;
@@ -396,7 +357,7 @@ fn visible_times(records: &[RelaxationRecord]) -> [f64; 2] {
     [(2.0 * shortest).min(0.1 * longest), longest]
 }
 
-fn described(
+pub(super) fn described(
     records: &[RelaxationRecord],
     fit: Fit,
     uncertainty: Uncertainty,

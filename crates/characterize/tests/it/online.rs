@@ -8,7 +8,6 @@ use palpate_characterize::inverse::SoughtLaw;
 use palpate_characterize::online::{
     OnlineContact, OnlineEstimate, OnlineEstimator, OnlineSample, OnlineSettings,
 };
-use palpate_characterize::viscoelastic::RelaxationSettings;
 use palpate_characterize::{CharacterizeSettings, characterize};
 use palpate_files::Recording;
 use palpate_files::recording::{ForeignColumns, IndenterShape, RecordingHeader};
@@ -180,9 +179,9 @@ const WHITE: Noise = Noise {
     slow: 0.0,
     beat: 0.0,
 };
-/// Slow noise of a fifth of the sensor's step each, and a beat of 1 mN.
+/// Slow noise of 0.2 % of the force for each of three times, and a beat of 1 mN.
 const SLOW: Noise = Noise {
-    slow: 1.5e-4,
+    slow: 6e-5,
     beat: 1e-3,
 };
 
@@ -222,8 +221,8 @@ fn intervals_hold_the_truth_in_slow_noise_while_tissue_is_pressed() {
 #[test]
 fn last_estimates_are_those_of_the_whole_recording() {
     let curve = elastic(TRUTHS[0], 0);
-    for seed in 0..2 {
-        let press = pressed(&curve, seed, 20.3, &SLOW);
+    for (seed, noise) in [(0, &SLOW), (1, &WHITE)] {
+        let press = pressed(&curve, seed, 20.3, noise);
         let last = estimates(&press).pop().unwrap();
         let mut text = "Time (s),Extension (m),Load (N)\n".to_owned();
         for OnlineSample {
@@ -240,7 +239,6 @@ fn last_estimates_are_those_of_the_whole_recording() {
         let settings = CharacterizeSettings {
             laws: vec![SoughtLaw::NeoHookean],
             draws: None,
-            relaxation: RelaxationSettings { terms: Some(2) },
             ..CharacterizeSettings::default()
         };
         let clean = clean(&recording, &CleanSettings::default()).unwrap();
@@ -249,8 +247,13 @@ fn last_estimates_are_those_of_the_whole_recording() {
         let relaxation = whole.relaxation.as_ref().unwrap();
         let terms = relaxation.terms.iter().flatten();
         let values = [law.parameters[0].1].into_iter().chain(terms.copied());
+        let is_known = last.parameters[4].is_known();
+        assert_eq!(is_known, relaxation.terms.len() == 2, "{last:?}");
         for (own, whole) in last.parameters.iter().zip(values) {
-            let [low, high] = own.interval_95.unwrap();
+            let Some([low, high]) = own.interval_95 else {
+                assert!(own.name != "c10_pa", "{last:?}");
+                continue;
+            };
             let off = (own.value.unwrap() - whole.value).abs();
             println!("{seed} {} {:?} {off} in {low} to {high}", own.name, whole);
             assert!(off < 0.25 * (high - low), "{seed} {}: {off}", own.name);
@@ -309,7 +312,7 @@ fn five_seconds_do_not_separate_the_terms() {
     let after = |place: usize, k: usize| found[place].parameters[k].relative_half_interval();
     assert!(after(1, 0).is_some_and(|half| half < 0.1), "{:?}", found[1]);
     assert!(after(1, 4).is_none_or(|half| half > 0.3), "{:?}", found[1]);
-    // An estimate that said less than the bound would be wrong; its number of degrees of freedom leaves a third.
+    // One that said less than the bound would be wrong; its number of degrees of freedom leaves a third.
     for (k, least) in twenty.iter().enumerate() {
         assert!(after(3, k).unwrap() > 0.66 * least, "{k}: {:?}", found[3]);
     }
