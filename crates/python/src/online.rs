@@ -13,7 +13,7 @@ use crate::{documents, numbers};
 
 /// Modulus and relaxation of tissue while it is pressed, with their 95 % intervals.
 ///
-/// Each sample costs microseconds; `estimate` fits the samples so far, which takes some tens of milliseconds however
+/// Each sample costs microseconds; `estimate` fits the samples so far, which takes tenths of a second however
 /// many they are. The law is neo-Hookean, the relaxation has two terms, and one press is estimated.
 ///
 /// Parameters
