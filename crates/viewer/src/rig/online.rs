@@ -6,7 +6,7 @@ use eframe::egui::{Align, Layout, RichText, Ui};
 use palpate_characterize::online::{
     OnlineContact, OnlineEstimate, OnlineEstimator, OnlineSample, OnlineSettings, USUAL_TARGET,
 };
-use palpate_files::quantity::{Scale, unit};
+use palpate_files::quantity::plain_quantity;
 use palpate_files::recording::RecordingHeader;
 
 use crate::style::{DEPTH, QUIET, WHITE};
@@ -92,9 +92,8 @@ impl Online {
                 ui.label(RichText::new(symbol(own.name)).color(QUIET));
                 match (own.value, half) {
                     (Some(value), Some(half)) => {
-                        let Scale { factor, unit } = unit(own.name, value);
-                        let number = format!("{:.3} {unit}", factor * value);
-                        let number = format!("{} ± {:.0} %", number.trim_end(), 1e2 * half);
+                        let value = plain_quantity(own.name, value, None);
+                        let number = format!("{value} ± {:.0} %", 1e2 * half);
                         ui.label(RichText::new(number).monospace().color(color));
                     }
                     _ => {
