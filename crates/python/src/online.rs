@@ -2,7 +2,6 @@
 
 use palpate_characterize::online::{
     OnlineContact, OnlineEstimate as Estimate, OnlineEstimator, OnlineSample, OnlineSettings,
-    USUAL_TARGET,
 };
 use palpate_files::Recording as Document;
 use pyo3::prelude::*;
@@ -143,7 +142,7 @@ impl OnlineEstimate {
     }
 
     /// Whether half the interval of every parameter is at most `target` of its value.
-    #[pyo3(signature = (target=USUAL_TARGET))]
+    #[pyo3(signature = (target=0.1))]
     fn is_enough(&mut self, py: Python<'_>, target: f64) -> bool {
         self.latest(py).is_enough(target)
     }

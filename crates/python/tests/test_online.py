@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+from typing import TypeAlias
+
 import numpy as np
 import palpate
 import pytest
+from numpy.typing import NDArray
+
+_Floats: TypeAlias = NDArray[np.float64]
 
 RADIUS = 1e-3
 TRUTH = {"c10_pa": 450.0, "g_1": 0.2866, "tau_1_s": 0.6, "g_2": 0.2022, "tau_2_s": 4.0}
 
 
-def press(seconds: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def press(seconds: float) -> tuple[_Floats, _Floats, _Floats]:
     """Time, depth from above the tissue, and force of a ramp of half a second to half a radius and a hold.
 
     To half a radius the elastic force under a bonded punch is that of a linear half-space to 2 %: 8 G a d, G = 2 C10.

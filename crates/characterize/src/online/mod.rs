@@ -136,8 +136,8 @@ impl OnlineEstimator {
         self.before = None;
     }
 
-    /// Takes a sample, at an even rate. One that is not finite, or not later than the one before, is skipped and counted. What comes
-    /// after the indenter has left the tissue is no part of the press.
+    /// Takes a sample, at an even rate. One that is not finite, or not later than the one before, is skipped and counted. What
+    /// comes after the indenter has left the tissue is no part of the press.
     pub fn add(&mut self, sample: OnlineSample) {
         let is_good = sample.is_finite() && sample.time_s > self.last;
         if !is_good {
