@@ -67,7 +67,7 @@ class _OnlineParameter(TypedDict):
 class OnlineEstimate:
     def __new__(
         cls,
-        header: Mapping[str, object],
+        header: dict[str, Any],
         *,
         contact_error: float | None = None,
         deepest: float | None = None,
