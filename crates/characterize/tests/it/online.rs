@@ -209,9 +209,10 @@ fn intervals_hold_the_truth_while_tissue_is_pressed() {
     assert_held(&WHITE);
 }
 
-/// The same in slow noise over a beating heart.
+/// The same in slow noise over a beating heart. It fails: while one term is fitted, the interval of C₁₀ contains the truth 83,
+/// 74 and 77 times at 5, 10 and 20 s, for it does not contain what the missing term changes.
 #[test]
-#[ignore = "slow: a hundred presses with a fit every second"]
+#[ignore = "by hand: fails, see docs/theory/characterization.md"]
 fn intervals_hold_the_truth_in_slow_noise_while_tissue_is_pressed() {
     assert_held(&SLOW);
 }
