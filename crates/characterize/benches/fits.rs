@@ -1,7 +1,7 @@
 //! What a researcher waits for: the relaxation and the laws of one recording of 1,501 samples, on one core.
 //!
 //! Budgets: relaxation with a stated number of terms 50 ms; neo-Hookean law with the dimensionless curve
-//! 0.1 s, Mooney-Rivlin law 5 s, exponential law 30 s (three runs of finite elements; ten samples take minutes:
+//! 0.1 s, an estimate while pressing 0.2 s and each sample 1 µs, Mooney-Rivlin law 5 s, exponential law 30 s (three runs of finite elements; ten samples take minutes:
 //! `cargo bench --package palpate-characterize --bench fits -- exponential`). The source: hours a run.
 
 #![allow(missing_docs, reason = "criterion's macros write functions without")]
@@ -16,8 +16,9 @@ use std::time::Duration;
 use criterion::{Criterion, criterion_group, criterion_main};
 use palpate_characterize::fit::Random;
 use palpate_characterize::inverse::{Body, Curves, Indentation, PUNCH, SoughtLaw, law_fit};
+use palpate_characterize::online::{OnlineContact, OnlineEstimator, OnlineSample, OnlineSettings};
 use palpate_characterize::viscoelastic::{RelaxationRecord, RelaxationSettings, relaxation};
-use palpate_files::recording::Samples;
+use palpate_files::recording::{RecordingHeader, Samples};
 use palpate_mechanics::{IndentationCurve, PronySeries};
 
 const LIVER: [(f64, f64); 2] = [(0.2866, 1.537), (0.2022, 6.090)];
@@ -83,5 +84,46 @@ fn of_laws(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, of_relaxation, of_laws);
+fn while_pressing(criterion: &mut Criterion) {
+    let Samples {
+        time_s,
+        depth_m,
+        force_n,
+    } = samples();
+    let header = RecordingHeader {
+        indenter_radius_m: Some(1e-3),
+        ..RecordingHeader::default()
+    };
+    let mut online = OnlineEstimator::new(OnlineSettings {
+        header,
+        contact: OnlineContact::Stated { error_m: 1e-5 },
+        deepest_m: None,
+    })
+    .unwrap();
+    let each = time_s.iter().zip(&depth_m).zip(&force_n);
+    for ((&time_s, &depth_m), &force_n) in each {
+        online.add(OnlineSample {
+            time_s,
+            depth_m,
+            force_n,
+        });
+    }
+    let _ = online.estimate();
+    criterion.bench_function("estimate while pressing (budget 0.2 s)", |b| {
+        b.iter(|| black_box(&mut online).estimate());
+    });
+    let mut sample = OnlineSample {
+        time_s: time_s[time_s.len() - 1],
+        depth_m: 5e-3,
+        force_n: force_n[force_n.len() - 1],
+    };
+    criterion.bench_function("a sample while pressing (budget 1 µs)", |b| {
+        b.iter(|| {
+            sample.time_s += 1e-3;
+            black_box(&mut online).add(sample);
+        });
+    });
+}
+
+criterion_group!(benches, of_relaxation, of_laws, while_pressing);
 criterion_main!(benches);

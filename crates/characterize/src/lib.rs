@@ -29,6 +29,7 @@ pub mod fit;
 mod grouping;
 pub mod inverse;
 pub mod lumped;
+pub mod online;
 mod specimen;
 pub mod viscoelastic;
 mod without_geometry;

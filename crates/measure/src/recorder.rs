@@ -5,6 +5,9 @@ use palpate_files::recording::{RecordingHeader, RecordingRow, RecordingWriter};
 
 use crate::{Ended, RigSample};
 
+/// Why a recording ends before its stimulus whose parameters are known.
+const KNOWN_WELL_ENOUGH: &str = "its parameters were known well enough";
+
 /// A recording while it is made.
 #[derive(Debug)]
 pub struct Recorder {
@@ -103,6 +106,7 @@ impl Recorder {
         let cut_short = match ended {
             Ok(Ended::Whole) => None,
             Ok(Ended::Stopped) => Some("stopped by hand".to_owned()),
+            Ok(Ended::Enough) => Some(KNOWN_WELL_ENOUGH.to_owned()),
             // The cause without its remedy.
             Err(error) => {
                 let said = error.to_string();

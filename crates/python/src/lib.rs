@@ -1,7 +1,7 @@
 //! The Python package `palpate`: meshes, tissues, scenes, recordings and the simulator, in the words of Rust.
 //!
 //! ```text
-//! palpate/*.py ──▶ _palpate (this crate) ──▶ files, geometry, simulate, viewer
+//! palpate/*.py ──▶ _palpate (this crate) ──▶ characterize, files, geometry, simulate, viewer
 //!                     │ waiting: long work on a thread of its own, the interpreter free, Ctrl-C heard
 //! ```
 //!
@@ -23,6 +23,7 @@ mod jobs;
 mod mesh;
 mod motion;
 mod numbers;
+mod online;
 mod recording;
 mod scene;
 mod session;
@@ -40,6 +41,7 @@ fn _palpate(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<simulator::Camera>()?;
     module.add_class::<mesh::Mesh>()?;
     module.add_class::<motion::Motion>()?;
+    module.add_class::<online::OnlineEstimate>()?;
     module.add_class::<recording::Recording>()?;
     module.add_class::<simulator::Renderer>()?;
     module.add_class::<scene::Scene>()?;

@@ -114,6 +114,17 @@ fn rises(shape: Option<IndenterShape>) -> &'static [fn(f64) -> f64] {
     }
 }
 
+/// The sample after which `force` [N] begins to rise with `depth` [m], under an indenter of this shape, and the standard
+/// error of its depth [m].
+pub(crate) fn rising_contact(
+    depth: &[f64],
+    force: &[f64],
+    shape: Option<IndenterShape>,
+) -> (usize, f64) {
+    let best = Search::new(depth, force, rises(shape)).best();
+    (best.place, best.error)
+}
+
 /// The contact where the force begins to rise.
 pub(super) fn by_force(samples: &Oriented, shape: Option<IndenterShape>) -> Result<Contact, Error> {
     let early = early_part(samples)?;
@@ -128,9 +139,8 @@ pub(super) fn by_force(samples: &Oriented, shape: Option<IndenterShape>) -> Resu
             .zip(drifts)
             .for_each(|(f, drift)| *f -= drift);
     }
-    let best = Search::new(&depth, &force, rises(shape)).best();
-    let sample = best.place * every;
-    Ok(at_sample(samples, sample, Some(best.error)))
+    let (place, error) = rising_contact(&depth, &force, shape);
+    Ok(at_sample(samples, place * every, Some(error)))
 }
 
 fn at_sample(samples: &Oriented, sample: usize, depth_error_m: Option<f64>) -> Contact {

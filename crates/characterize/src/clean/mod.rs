@@ -24,6 +24,7 @@ use palpate_files::Recording;
 use palpate_files::recording::{RecordingHeader, StimulusKind};
 
 pub use contact::Contact;
+pub(crate) use contact::rising_contact;
 pub use filter::LowPass;
 use oriented::Oriented;
 pub use ripple::Ripple;

@@ -25,9 +25,33 @@ use nalgebra::{DMatrix, DVector};
 
 use super::Random;
 
-/// Blocks of one recording, at most: many see the quick part of the noise, few the slow one, and what one number of
-/// them makes too small by chance another does not.
-const BLOCKS: [usize; 3] = [800, 200, 50];
+/// How much work the covariance of correlated noise is worth.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Effort {
+    /// Blocks of one recording, at most: many see the quick part of the noise, few the slow one, and what one number of
+    /// them makes too small by chance another does not.
+    blocks: &'static [usize],
+    /// The number of blocks for which noise is drawn, and draws from which it is seen how much too small an estimate comes
+    /// out.
+    drawn: usize,
+    draws: u64,
+}
+
+impl Effort {
+    /// For a fit that is made once.
+    pub(crate) const FULL: Self = Self {
+        blocks: &[800, 200, 50],
+        drawn: 200,
+        draws: 40,
+    };
+    /// For one that is made several times a second: a fifth of the time.
+    pub(crate) const QUICK: Self = Self {
+        blocks: &[200, 50],
+        drawn: 100,
+        draws: 30,
+    };
+}
+
 /// The order of the process, at most; less for few blocks.
 const LARGEST_ORDER: usize = 60;
 /// Autocovariances below this part of the first are none [-]: less than rounding leaves of their sums.
@@ -42,18 +66,19 @@ pub(super) fn score_covariance(
     directions: &DMatrix<f64>,
     residuals: &[f64],
     recordings: &[usize],
+    effort: Effort,
 ) -> (DMatrix<f64>, f64) {
-    let each = BLOCKS.map(|most| Blocks::new(directions, residuals, recordings, most));
-    let (too_small, freedom) = each[1].draws();
-    let covariances = each
-        .iter()
-        .map(|blocks| blocks.between().1 * too_small + &blocks.within);
+    let of = |most: usize| Blocks::new(directions, residuals, recordings, most);
+    let (too_small, freedom) = of(effort.drawn).draws(effort.draws);
+    let covariances = effort.blocks.iter().map(|&most| {
+        let blocks = of(most);
+        blocks.between().1 * too_small + &blocks.within
+    });
     let largest = covariances.max_by(|a, b| a.trace().total_cmp(&b.trace()));
     (largest.expect("there is a number of blocks"), freedom)
 }
 
-/// Draws of the noise from which it is seen how much too small an estimate comes out, and their seed.
-const DRAWS: u64 = 40;
+/// The seed of the draws.
 const SEED: u64 = 1;
 
 /// Residuals and directions by blocks.
@@ -115,7 +140,7 @@ impl Blocks {
 
     /// From draws of noise of the kind that was found: by how much too small its covariance comes out [-], at least
     /// one, and the degrees of freedom of a variance that spreads as much [-].
-    fn draws(&self) -> (f64, f64) {
+    fn draws(&self, draws: u64) -> (f64, f64) {
         let (process, expected) = self.between();
         let mut random = Random::new(SEED);
         // Traces in units of each direction's own variance, so that all count alike.
@@ -123,7 +148,7 @@ impl Blocks {
         let scale = |k: usize| expected[(k, k)].max(f64::MIN_POSITIVE);
         let (mut scores, mut estimates) = (0.0, vec![0.0; count]);
         let mut squares = vec![0.0; count];
-        for _ in 0..DRAWS {
+        for _ in 0..draws {
             let (score, again) = self.drawn(&process, &mut random);
             let (_, estimated) = again.between();
             for k in 0..count {
@@ -133,7 +158,7 @@ impl Blocks {
                 squares[k] += estimate.powi(2);
             }
         }
-        let draws = DRAWS as f64;
+        let draws = draws as f64;
         // Half the squared coefficient of variation, in the mean of the directions.
         let spreads = (0..count).map(|k| {
             let mean = estimates[k] / draws;

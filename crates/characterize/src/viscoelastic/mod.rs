@@ -16,9 +16,11 @@
 mod model;
 mod product_form;
 mod relaxation;
+mod while_pressing;
 
 pub use model::RelaxationRecord;
 pub(crate) use model::terms;
 pub use product_form::ProductForm;
 pub(crate) use relaxation::{QUASI_LINEAR, even, expected_relaxation, quasi_linear};
 pub use relaxation::{Relaxation, RelaxationSettings, relaxation, relaxation_of_steps};
+pub(crate) use while_pressing::PressedRelaxation;

@@ -186,7 +186,7 @@ pub fn relaxation(
     described(records, fit, uncertainty, tried)
 }
 
-fn values_of(fit: &Fit) -> Vec<f64> {
+pub(super) fn values_of(fit: &Fit) -> Vec<f64> {
     fit.parameters.iter().map(|p| p.value).collect()
 }
 
@@ -225,7 +225,7 @@ pub(crate) fn expected_relaxation(
     described(records, expected.fit, known, Vec::new())
 }
 
-fn terms_of(fit: &Fit, records: &[RelaxationRecord]) -> usize {
+pub(super) fn terms_of(fit: &Fit, records: &[RelaxationRecord]) -> usize {
     (fit.parameters.len() - 1 - records.len()) / 2
 }
 
@@ -264,7 +264,7 @@ fn with_terms(
     fitted(records, count, &best.parameters)
 }
 
-fn fitted(
+pub(super) fn fitted(
     records: &[RelaxationRecord],
     terms: usize,
     parameters: &[Parameter],
@@ -284,7 +284,11 @@ fn fitted(
 
 /// Where the fit starts: times spread evenly over what the recordings show, and the terms of one fewer
 /// with one more before or after.
-fn starts(records: &[RelaxationRecord], count: usize, before: Option<&Fit>) -> Vec<Vec<Parameter>> {
+pub(super) fn starts(
+    records: &[RelaxationRecord],
+    count: usize,
+    before: Option<&Fit>,
+) -> Vec<Vec<Parameter>> {
     let [shortest, longest] = visible_times(records);
     let at = |part: f64| shortest * (longest / shortest).powf(part);
     let drop = records.iter().map(RelaxationRecord::drop).sum::<f64>() / records.len() as f64;
@@ -353,7 +357,7 @@ fn visible_times(records: &[RelaxationRecord]) -> [f64; 2] {
     [(2.0 * shortest).min(0.1 * longest), longest]
 }
 
-fn described(
+pub(super) fn described(
     records: &[RelaxationRecord],
     fit: Fit,
     uncertainty: Uncertainty,

@@ -39,7 +39,7 @@ pub(crate) const TRUTHS: [Truth; 6] = [
 ];
 
 /// Elastic force over depth, extrapolated from meshes whose elements are halved `halvings` times and once less.
-fn elastic((law, modulus, shape): Truth, halvings: i32) -> IndentationCurve {
+pub(crate) fn elastic((law, modulus, shape): Truth, halvings: i32) -> IndentationCurve {
     let Body::Block { block, indenter } = Body::under_punch(RADIUS) else {
         panic!("a punch is pressed into a block");
     };

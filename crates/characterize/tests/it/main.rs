@@ -23,6 +23,7 @@ mod lumped_column;
 mod lumped_springs;
 mod lumped_uniaxial;
 mod made_up;
+mod online;
 mod organ;
 mod planar_tension;
 mod random;

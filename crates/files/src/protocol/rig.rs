@@ -1,3 +1,5 @@
+use std::ops::Bound::Excluded;
+
 use super::place::upward;
 use crate::words::words;
 use crate::{Domain, Error, Key, Keys};
@@ -51,7 +53,13 @@ pub struct RigLimits {
     pub lateral_limit_m: Option<f64>,
     /// The direction from the tip to the device, in the rig's axes [-].
     pub indenter_axis: Option<[f64; 3]>,
+    /// The relative half interval of every parameter at which a ramp and hold ends [-]; none for whole stimuli.
+    pub stop_at_relative_interval: Option<f64>,
 }
+
+/// Relative half intervals that may be asked for [-].
+const TARGET: Domain =
+    Domain::number("a number", [Excluded(0.0), Excluded(1.0)]).usually(0.02, 0.5);
 
 /// What the rig takes where a protocol says nothing.
 const OWN: &str = "the rig's own";
@@ -115,6 +123,13 @@ impl RigLimits {
             "The direction from the tip to the device, in the rig's axes; it leads up.",
         )
         .optional("[0.0, 0.0, 1.0]", OWN),
+        Key::number(
+            "stop_at_relative_interval",
+            TARGET,
+            "A ramp and hold ends when half the 95 % interval of the modulus and of each number of the relaxation is at \
+             most this part of its value.",
+        )
+        .optional("0.1", "whole stimuli"),
     ];
 
     /// Whether nothing that is there carries the indenter.
@@ -138,6 +153,7 @@ impl RigLimits {
             contact_force_n: keys.number("contact_force_n")?,
             lateral_limit_m: keys.number("lateral_limit_m")?,
             indenter_axis: upward(keys, "indenter_axis")?,
+            stop_at_relative_interval: keys.number("stop_at_relative_interval")?,
         })
     }
 }

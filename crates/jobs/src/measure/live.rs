@@ -7,8 +7,9 @@ use std::time::Duration;
 
 use palpate_files::recording::RecordingHeader;
 use palpate_measure::live::{Commission, ConsoleEvent, LiveRig, RigCommand};
-use palpate_measure::{DepthTrajectory, Ended, Recorded, Rig};
+use palpate_measure::{DepthTrajectory, Ended, Phase, Recorded, Rig};
 
+use super::estimating::Estimating;
 use crate::{Error, Watch};
 
 /// How often it is looked whether somebody asks to stop.
@@ -50,14 +51,15 @@ impl LiveMeasuring {
         watch: &dyn Watch,
     ) -> Result<Ended, Error> {
         self.live.console.send(order);
-        self.wait_for(order, watch).map(|done| done.ended)
+        self.wait_for(order, &mut None, watch)
+            .map(|done| done.ended)
     }
 
     /// One stimulus; none when it was stopped before anything was recorded.
     pub(super) fn record(
         &mut self,
         (trajectory, header): (&DepthTrajectory, RecordingHeader),
-        file: &Path,
+        (file, online): (&Path, &mut Option<Estimating>),
         watch: &dyn Watch,
     ) -> Result<Option<Recorded>, Error> {
         self.number += 1;
@@ -73,17 +75,29 @@ impl LiveMeasuring {
             header,
         };
         self.live.press(*trajectory, commission);
-        let pressed = self.wait_for(RigCommand::Press(*trajectory, self.number), watch);
+        let press = RigCommand::Press(*trajectory, self.number);
+        let pressed = self.wait_for(press, online, watch);
         pressed.map(|done| done.recorded)
     }
 
-    fn wait_for(&mut self, order: RigCommand, watch: &dyn Watch) -> Result<Done, Error> {
+    fn wait_for(
+        &mut self,
+        order: RigCommand,
+        online: &mut Option<Estimating>,
+        watch: &dyn Watch,
+    ) -> Result<Done, Error> {
         let (mut recorded, mut is_stopped) = (None, false);
         loop {
             self.live.report_alive();
             if !is_stopped && watch.is_asked_to_stop() {
                 self.live.console.emergency_stop();
                 is_stopped = true;
+            }
+            for sample in self.live.samples.drain() {
+                let pressing = online.as_mut().filter(|_| sample.phase == Phase::Pressing);
+                if pressing.is_some_and(|online| online.take(&sample, watch)) {
+                    self.live.console.end_press(self.number);
+                }
             }
             let news = match self.live.news.recv_timeout(LOOK) {
                 Ok(news) => news,

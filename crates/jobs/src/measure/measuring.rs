@@ -1,5 +1,7 @@
 use std::path::Path;
 
+use palpate_characterize::online::OnlineEstimate;
+use palpate_files::recording::RecordingHeader;
 use palpate_measure::live::RigCommand;
 use palpate_measure::{
     Axes, DepthTrajectory, Ended, Recorded, Recorder, Rig, RigSample, recording_name, stimulus_name,
@@ -7,9 +9,23 @@ use palpate_measure::{
 use palpate_servo::{Vec3, lock_memory};
 
 use super::Files;
+use super::estimating::Estimating;
 use super::live::LiveMeasuring;
 use super::plan::{OnRig, Plan};
 use crate::{Error, Watch};
+
+/// A recording that was made, and the tissue as it was estimated meanwhile.
+#[derive(Debug)]
+pub struct Measured {
+    /// What the stimulus is called.
+    pub stimulus: String,
+    /// The recording.
+    pub recorded: Recorded,
+    /// The last estimate; none of a stimulus that is not held, or of a specimen whose force over depth is not tabulated.
+    pub estimate: Option<OnlineEstimate>,
+    /// Whether it was ended because the estimate was good enough.
+    pub is_enough: bool,
+}
 
 /// A protocol that is carried out without a window.
 pub struct Measuring {
@@ -62,14 +78,13 @@ impl Measuring {
     }
 
     /// Carries the protocol out, into the `files` of its recordings, until it is done or somebody presses Ctrl-C.
-    /// Each recording comes with what its stimulus is called.
-    pub fn run(&self, files: &Files, watch: &dyn Watch) -> Result<Vec<(String, Recorded)>, Error> {
+    pub fn run(&self, files: &Files, watch: &dyn Watch) -> Result<Vec<Measured>, Error> {
         let mut recorded = Vec::new();
         let count = files.paths.len();
         let mut files = files.paths.iter();
         for (place, specimen) in self.specimens.iter().enumerate() {
             let clock = self.plan.clock();
-            let mut rig = Measured::by(self.plan.rig((specimen.clone(), place), clock)?)?;
+            let mut rig = AnyRig::by(self.plan.rig((specimen.clone(), place), clock)?)?;
             if self.go_to_place(&mut rig, place, watch)? == Ended::Stopped {
                 return Ok(recorded);
             }
@@ -78,12 +93,20 @@ impl Measuring {
                 if watch.is_asked_to_stop() {
                     return Ok(recorded);
                 }
-                let done = match &mut rig {
-                    Measured::Virtual(rig) => record(rig, (trajectory, *repeat), file, watch),
-                    Measured::Live(live) => {
+                let target = self.plan.target;
+                let (done, estimating) = match &mut rig {
+                    AnyRig::Virtual(rig) => {
+                        let header = rig.describe(trajectory, *repeat);
+                        let mut online = Estimating::of(&header, trajectory, target);
+                        let done = record(rig, (trajectory, header), (file, &mut online), watch);
+                        (done, online)
+                    }
+                    AnyRig::Live(live) => {
                         let settings = &self.plan.settings;
                         let header = settings.describe(live.header(), (trajectory, *repeat));
-                        live.record((trajectory, header), file, watch)
+                        let mut online = Estimating::of(&header, trajectory, target);
+                        let done = live.record((trajectory, header), (file, &mut online), watch);
+                        (done, online)
                     }
                 };
                 let done = done.map_err(|failure| failure.about(file))?;
@@ -91,7 +114,13 @@ impl Measuring {
                 let Some(done) = done else {
                     return Ok(recorded);
                 };
-                recorded.push((name.clone(), done));
+                let is_enough = estimating.as_ref().is_some_and(Estimating::is_enough);
+                recorded.push(Measured {
+                    stimulus: name.clone(),
+                    is_enough: is_enough && done.cut_short.is_some(),
+                    recorded: done,
+                    estimate: estimating.and_then(Estimating::last),
+                });
             }
         }
         Ok(recorded)
@@ -102,7 +131,7 @@ impl Measuring {
     /// Moves to the place of a specimen, and measures the normal there if the protocol says so.
     fn go_to_place(
         &self,
-        rig: &mut Measured,
+        rig: &mut AnyRig,
         place: usize,
         watch: &dyn Watch,
     ) -> Result<Ended, Error> {
@@ -117,12 +146,12 @@ impl Measuring {
 }
 
 /// A rig that measures: in the calling thread as fast as the machine can, or on a device that is there.
-enum Measured {
+enum AnyRig {
     Virtual(Box<Rig>),
     Live(Box<LiveMeasuring>),
 }
 
-impl Measured {
+impl AnyRig {
     fn by(rig: Rig) -> Result<Self, Error> {
         match rig.is_real() {
             false => Ok(Self::Virtual(Box::new(rig))),
@@ -158,8 +187,8 @@ fn unique(name: String, taken: &[String]) -> String {
 /// One stimulus; none when Ctrl-C came before it.
 fn record(
     rig: &mut Rig,
-    (trajectory, repeat): (&DepthTrajectory, u64),
-    file: &Path,
+    (trajectory, header): (&DepthTrajectory, RecordingHeader),
+    (file, online): (&Path, &mut Option<Estimating>),
     watch: &dyn Watch,
 ) -> Result<Option<Recorded>, Error> {
     let go_on = &mut |_: &RigSample| !watch.is_asked_to_stop();
@@ -174,11 +203,18 @@ fn record(
         true => Axes::Six,
         false => Axes::One,
     };
-    let mut recorder = Recorder::begin(file, &rig.describe(trajectory, repeat), axes)?;
+    let mut recorder = Recorder::begin(file, &header, axes)?;
     let mut unwritten = None;
     let ended = rig.press(trajectory, &mut |sample| {
         unwritten = recorder.take(sample).err();
-        unwritten.is_none() && !watch.is_asked_to_stop()
+        let online = online.as_mut();
+        let is_enough = online.is_some_and(|online| online.take(sample, watch));
+        unwritten.is_none() && !is_enough && !watch.is_asked_to_stop()
+    });
+    let is_enough = online.as_ref().is_some_and(Estimating::is_enough);
+    let ended = ended.map(|ended| match ended {
+        Ended::Stopped if is_enough => Ended::Enough,
+        ended => ended,
     });
     if let Some(error) = unwritten {
         return Err(error.into());

@@ -1,6 +1,7 @@
 //! The rig carries a protocol out, and makes a recording of each stimulus.
 
 mod answer;
+mod estimating;
 mod files;
 mod kept;
 mod live;
@@ -11,7 +12,7 @@ mod specimen;
 
 pub use answer::Answer;
 pub use files::{Files, Out, files, folder};
-pub use measuring::Measuring;
+pub use measuring::{Measured, Measuring};
 pub use plan::{OnRig, Plan};
 
 /// What is measured without a protocol, with every key explained.

@@ -28,6 +28,8 @@ pub struct Plan {
     pub specimens: Vec<Measured>,
     /// Each with how often it is repeated.
     pub stimuli: Vec<(DepthTrajectory, u64)>,
+    /// The relative half interval of every parameter at which a press ends [-]; none for whole stimuli.
+    pub target: Option<f64>,
     /// Warnings.
     pub warnings: Vec<String>,
     /// A device that is there; none for one that is not.
@@ -114,6 +116,7 @@ impl Plan {
             settings,
             specimens: protocol.specimens,
             stimuli,
+            target: protocol.rig.stop_at_relative_interval,
             warnings,
             device,
             sensor,

@@ -2,12 +2,14 @@
 
 #![allow(
     clippy::unwrap_used,
+    clippy::print_stdout,
     reason = "a test that cannot do its job has failed"
 )]
 
 mod cancelled;
 mod exit_status;
 mod fuzz;
+mod online;
 mod readers;
 mod recordings;
 mod watched;

@@ -49,6 +49,7 @@ pub(super) struct Given {
 pub(super) struct Switches {
     stops: Arc<AtomicU64>,
     arming: Arc<AtomicBool>,
+    enough: Arc<AtomicU64>,
     end: Arc<AtomicBool>,
 }
 
@@ -82,6 +83,11 @@ impl Console {
         self.switches.stop();
     }
 
+    /// Ends the press with this number, from one on, out of the tissue; the queued commands remain.
+    pub fn end_press(&self, number: u64) {
+        self.switches.enough.store(number, Ordering::Relaxed);
+    }
+
     /// No force at once, until a person arms again; the queued commands are dropped.
     pub fn emergency_stop(&self) {
         self.supervisor.trip();
@@ -112,6 +118,11 @@ impl Switches {
 
     pub(super) fn stop(&self) {
         self.stops.fetch_add(1, Ordering::Relaxed);
+    }
+
+    /// Whether the press with this number shall end.
+    pub(super) fn is_enough(&self, number: u64) -> bool {
+        self.enough.load(Ordering::Relaxed) == number
     }
 
     pub(super) fn is_ending(&self) -> bool {

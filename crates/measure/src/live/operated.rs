@@ -137,7 +137,18 @@ impl Operated {
                 })
             }
             RigCommand::Approach => rig.approach(&mut heard),
-            RigCommand::Press(trajectory, _) => rig.press_and_tell(&trajectory, &mut heard),
+            RigCommand::Press(trajectory, number) => {
+                let mut is_enough = false;
+                let ended = rig.press_and_tell(&trajectory, &mut |sample| {
+                    let goes_on = heard(sample);
+                    is_enough = goes_on && switches.is_enough(number);
+                    goes_on && !is_enough
+                });
+                ended.map(|ended| match ended {
+                    Ended::Stopped if is_enough => Ended::Enough,
+                    ended => ended,
+                })
+            }
             RigCommand::Withdraw => rig.withdraw(&mut heard),
             RigCommand::Rest => rig.recover(&mut heard),
         };

@@ -92,7 +92,7 @@ impl Rig {
         let speed = self.settings.withdrawal_speed;
         match self.go((from, speed), Phase::Jogging, listener)? {
             Ended::Whole => Ok(Some(contact)),
-            Ended::Stopped => Ok(None),
+            Ended::Stopped | Ended::Enough => Ok(None),
         }
     }
 }

@@ -65,6 +65,8 @@ pub enum Ended {
     Whole,
     /// Before, as whoever listened said; the indenter is withdrawn.
     Stopped,
+    /// Before, because what was asked for is known well enough; the indenter is withdrawn.
+    Enough,
 }
 
 /// Whoever listens to samples; false to stop. A rig that withdraws goes on with that.

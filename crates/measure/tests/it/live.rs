@@ -96,6 +96,40 @@ fn what_waits_behind_a_failure_is_dropped() {
     );
 }
 
+/// Enough in mid-hold: that press ends out of the tissue, the commands after it are carried out.
+#[test]
+fn a_press_that_is_enough_leaves_the_queue() {
+    let mut bench = Bench::new(RigSettings {
+        recovery: 0.1,
+        ..RigSettings::default()
+    });
+    bench.carry_out(&[RigCommand::Approach]);
+    let press = RigCommand::Press(usual(), 3);
+    bench.console.send(press);
+    bench.console.send(RigCommand::Rest);
+    bench.console.end_press(2);
+    let (console, mut after) = (&bench.console, Vec::new());
+    bench.operated.turn(&mut |sample| {
+        if sample.phase == Phase::Pressing && sample.depth.unwrap() > 3.9e-3 {
+            console.end_press(3);
+        }
+        after.push(*sample);
+    });
+    bench.operated.turn(&mut |_| ());
+    let said = bench
+        .told
+        .drain()
+        .filter(|t| !matches!(t, RigEvent::Sample(_)));
+    let expected = [
+        RigEvent::Begun(press),
+        RigEvent::Ended(press, Ok(Ended::Enough)),
+        RigEvent::Begun(RigCommand::Rest),
+        RigEvent::Ended(RigCommand::Rest, Ok(Ended::Whole)),
+    ];
+    assert_eq!(said.collect::<Vec<_>>(), expected);
+    assert!(after.last().unwrap().depth.unwrap() < -1e-3);
+}
+
 /// Stop in mid-hold: pressing ends with that tick, the tip is out of the tissue, later orders are stale.
 #[test]
 fn a_stop_withdraws_and_makes_orders_stale() {

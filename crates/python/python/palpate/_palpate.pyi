@@ -14,6 +14,7 @@ __all__ = [
     "Camera",
     "Mesh",
     "Motion",
+    "OnlineEstimate",
     "Recording",
     "Renderer",
     "Scene",
@@ -56,6 +57,32 @@ class _Score(TypedDict):
     passed: bool | None
     part: float | None
     measures: dict[str, float]
+
+class _OnlineParameter(TypedDict):
+    value: float | None
+    interval: tuple[float, float] | None
+    known: bool
+
+@final
+class OnlineEstimate:
+    def __new__(
+        cls,
+        header: dict[str, Any],
+        *,
+        contact_error: float | None = None,
+        deepest: float | None = None,
+    ) -> Self: ...
+    def add(self, time_s: ArrayLike, depth_m: ArrayLike, force_n: ArrayLike) -> None: ...
+    @property
+    def estimate(self) -> dict[str, _OnlineParameter]: ...
+    @property
+    def time(self) -> float: ...
+    @property
+    def touching(self) -> bool: ...
+    @property
+    def skipped(self) -> int: ...
+    def is_enough(self, target: float = 0.1) -> bool: ...
+    def restart(self) -> None: ...
 
 @final
 class Camera:

@@ -15,6 +15,7 @@ mod curves;
 mod direction;
 mod journal;
 mod keys;
+mod online;
 mod plots;
 mod preparation;
 mod prepared;
@@ -46,6 +47,8 @@ pub struct Bench {
     pub stimuli: Vec<(DepthTrajectory, u64)>,
     /// The specimens, one at least.
     pub places: Vec<Place>,
+    /// The relative half interval of every parameter at which a press ends [-]; none for whole stimuli.
+    pub stops_at: Option<f64>,
     /// Where recordings go.
     pub folder: PathBuf,
     /// Warnings before anything is measured.
@@ -140,7 +143,7 @@ impl RigWindow {
             places: bench.places,
             place: 0,
             header: RecordingHeader::default(),
-            watch: Watch::default(),
+            watch: Watch::new(bench.stops_at),
             journal: Journal::new(bench.folder),
             step: 1e-3,
             tilt: [0.0; 2],
@@ -152,7 +155,7 @@ impl RigWindow {
     /// Puts a rig over another specimen; the one before is withdrawn first.
     fn move_to(&mut self, place: usize, context: &egui::Context) {
         self.place = place;
-        self.watch = Watch::default();
+        self.watch = Watch::new(self.watch.online.stops_at);
         // It has let go of its device when the next rig asks for one.
         self.behind = Behind::Failed(String::new());
         let make = &self.places[place].make;
@@ -168,6 +171,7 @@ impl RigWindow {
         if let Some(outcome) = outcome {
             let live = outcome.and_then(|made| {
                 self.header = made.rig.header().clone();
+                self.watch.specimen = self.header.clone();
                 self.warnings[1] = made.warnings;
                 self.watch.sensor_range = made.rig.sensor_range();
                 LiveRig::start_until(made.rig, self.is_ended).map_err(|error| error.to_string())
@@ -332,7 +336,10 @@ impl eframe::App for RigWindow {
                     });
             });
         egui::CentralPanel::default().show(ui, |ui| match &self.behind {
-            Behind::Live(_) => plots::show(self, ui),
+            Behind::Live(_) => {
+                self.watch.online.show(ui);
+                plots::show(self, ui);
+            }
             _ => self.show_absence(ui),
         });
         context.request_repaint_after(PICTURE);

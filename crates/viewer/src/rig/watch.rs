@@ -1,8 +1,12 @@
+use palpate_characterize::online::OnlineSample;
+use palpate_files::protocol::Stimulus;
+use palpate_files::recording::RecordingHeader;
 use palpate_measure::live::{ConsoleEvent, LiveRig, RigCommand};
 use palpate_measure::{Phase, RigSample};
 use palpate_servo::{ForceTorque, Vec3};
 
 use super::journal::Journal;
+use super::online::Online;
 use crate::history::History;
 
 /// What is known of a rig that runs.
@@ -20,10 +24,17 @@ pub(super) struct Watch {
     pub(super) notice: Option<String>,
     /// The largest force that the sensor shows [N].
     pub(super) sensor_range: f64,
+    /// What recordings say of the specimen and the indenter.
+    pub(super) specimen: RecordingHeader,
+    /// The tissue as it is estimated meanwhile.
+    pub(super) online: Online,
     last_forces: [f64; AVERAGED],
     last_axes: [ForceTorque; AVERAGED],
     samples: usize,
 }
+
+/// What a stimulus may go deeper than it was told [m].
+const MISSED: f64 = 0.2e-3;
 
 /// Samples of the force that is shown as a number, which nobody reads a thousand times a second.
 const AVERAGED: usize = 20;
@@ -39,6 +50,12 @@ pub(super) struct Shown {
 }
 
 impl Watch {
+    pub(super) fn new(stops_at: Option<f64>) -> Self {
+        let mut watch = Self::default();
+        watch.online.stops_at = stops_at;
+        watch
+    }
+
     /// Reads what `live` has told since the last picture.
     pub(super) fn read(&mut self, live: &mut LiveRig, journal: &mut Journal) {
         for sample in live.samples.drain() {
@@ -46,6 +63,11 @@ impl Watch {
         }
         for news in live.news.try_iter() {
             self.hear(news, journal);
+        }
+        if self.online.is_enough()
+            && let Some((RigCommand::Press(_, number), _)) = self.doing
+        {
+            live.console.end_press(number);
         }
     }
 
@@ -55,6 +77,13 @@ impl Watch {
         self.last_forces[self.samples % AVERAGED] = sample.force;
         self.last_axes[self.samples % AVERAGED] = sample.axes.unwrap_or_default();
         self.samples += 1;
+        if let (Phase::Pressing, Some(depth_m)) = (sample.phase, sample.depth) {
+            self.online.add(OnlineSample {
+                time_s: sample.time,
+                depth_m,
+                force_n: sample.force,
+            });
+        }
         self.now = Some(sample);
     }
 
@@ -91,6 +120,14 @@ impl Watch {
         match news {
             ConsoleEvent::Begun(order) => {
                 self.doing = Some((order, self.now.map_or(0.0, |now| now.time)));
+                if let RigCommand::Press(trajectory, _) = order {
+                    match trajectory.stimulus() {
+                        Stimulus::RampAndHold { depth_m, .. } => {
+                            self.online.begin(&self.specimen, depth_m + MISSED);
+                        }
+                        Stimulus::Swing { .. } => self.online.end(),
+                    }
+                }
             }
             ConsoleEvent::Ended(order, ended) => {
                 self.done_with(order, journal);
@@ -123,6 +160,7 @@ impl Watch {
 
     fn done_with(&mut self, order: RigCommand, journal: &mut Journal) {
         self.doing = None;
+        self.online.end();
         self.waiting = self.waiting.saturating_sub(1);
         if let RigCommand::Press(_, number) = order {
             journal.forget(number);

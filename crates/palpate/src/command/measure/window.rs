@@ -33,6 +33,7 @@ pub(super) fn open(plan: Plan, folder: &Path) -> Result<(), Failure> {
         places: (0..plan.specimens.len())
             .map(|place| self::place(&plan, place))
             .collect(),
+        stops_at: plan.target,
         folder: folder.to_owned(),
         warnings: plan.warnings,
         // Ctrl-C withdraws the indenter, as closing the window does.
