@@ -6,8 +6,9 @@ python examples/python/learn_to_palpate.py train --seed 0 --out run-blind-0.json
 python examples/python/learn_to_palpate.py plot curves.png run-*.json
 
 An action of the environment is a press (`action="press"`). What the policy gets is a map of the presses so far: for each
-of 12 x 12 cells whether it was pressed, and with which force; without force (`--no-force`) the second is zero. It chooses
-a cell, and whether to say "here" there. The network is convolutional, so that what it learns holds for all cells.
+of 12 x 12 cells whether it was pressed, with which force, whether it was the last one, and the time; without force
+(`--no-force`) the force is zero. It chooses the next cell, or says "here" at the last one. The network is convolutional,
+so that what it learns holds for all cells.
 """
 
 import argparse
@@ -24,11 +25,11 @@ from torch import nn
 
 CELLS = 12
 DEPTH = 0.0  # third number of an action: 4 mm
-FORCE = 0.3  # [N] that is one in the map
-PRESSES = 100  # that the time limit allows
+FORCE, SPREAD = 0.19, 0.03  # [N] that are zero and one in the map: the healthy organ, and how it varies
+PRESSES = 80  # that the time limit allows
 COUNT = 32
 HORIZON = 64
-GAMMA, LAMBDA, CLIP, ENTROPY, EPOCHS, MINIBATCHES, RATE = 0.97, 0.95, 0.2, 0.01, 3, 4, 1e-3
+GAMMA, LAMBDA, CLIP, ENTROPY, EPOCHS, MINIBATCHES, RATE = 0.99, 0.95, 0.2, 0.01, 3, 4, 1e-3
 UNSEEN = 1_000_000  # seeds from here on are for the test
 
 
@@ -50,7 +51,7 @@ class Maps:
             action="press",
             autoreset_mode=AutoresetMode.SAME_STEP,
         )
-        self.maps = np.zeros((count, 3, CELLS, CELLS), dtype=np.float32)
+        self.maps = np.zeros((count, 4, CELLS, CELLS), dtype=np.float32)
 
     def reset(self, seed):
         self.environments.reset(seed=seed)
@@ -58,16 +59,19 @@ class Maps:
         return self.maps.copy()
 
     def step(self, choice):
-        cell, here = choice % CELLS**2, choice >= CELLS**2
-        row, column = np.divmod(cell, CELLS)
+        here = choice == CELLS**2
+        row, column = np.divmod(choice % CELLS**2, CELLS)
         place = (np.stack([column, row], axis=1) + 0.5) / CELLS * 2 - 1
         actions = np.column_stack([place, np.full(self.count, DEPTH), np.where(here, 1.0, -1.0)])
         seen, reward, terminated, truncated, told = self.environments.step(actions.astype(np.float32))
-        self.maps[np.arange(self.count), 0, row, column] = 1.0
+        number = np.flatnonzero(~here)
+        row, column = row[number], column[number]
+        self.maps[number, 0, row, column] = 1.0
         if self.has_force:
-            force = np.linalg.norm(seen[:, 3:6], axis=1) / FORCE
-            self.maps[np.arange(self.count), 1, row, column] = force
-        self.maps[:, 2] = seen[:, 7, None, None]
+            self.maps[number, 1, row, column] = (np.linalg.norm(seen[number, 3:6], axis=1) - FORCE) / SPREAD
+        self.maps[number, 2] = 0.0
+        self.maps[number, 2, row, column] = 1.0
+        self.maps[:, 3] = seen[:, 7, None, None]
         ended = terminated | truncated
         self.maps[ended] = 0.0
         found = np.zeros(self.count, dtype=bool)
@@ -77,26 +81,28 @@ class Maps:
 
 
 class Policy(nn.Module):
-    """Two logits for each cell, press and "here", and the value."""
+    """A logit for each cell, one for "here", and the value."""
 
     def __init__(self, width=24):
         super().__init__()
         self.body = nn.Sequential(
-            nn.Conv2d(3, width, 3, padding=1), nn.ReLU(),
+            nn.Conv2d(4, width, 3, padding=1), nn.ReLU(),
             nn.Conv2d(width, width, 3, padding=1), nn.ReLU(),
         )  # fmt: skip
-        self.cells = nn.Conv2d(2 * width, 2, 1)
-        self.worth = nn.Sequential(nn.Linear(2 * width, 64), nn.Tanh(), nn.Linear(64, 1))
+        self.cells = nn.Conv2d(width, 1, 1)
+        self.whole = nn.Sequential(nn.Linear(3 * width + 1, 64), nn.Tanh(), nn.Linear(64, 2))
         nn.init.zeros_(self.cells.weight)
-        # At first it says "here" in one press of twenty.
-        self.cells.bias.data = torch.tensor([0.0, -3.0])
+        nn.init.zeros_(self.whole[2].weight)
+        # At first it says "here" in one action of twenty.
+        self.whole[2].bias.data = torch.tensor([np.log(CELLS**2 / 20.0), 0.0], dtype=torch.float32)
 
     def forward(self, maps):
         seen = self.body(maps)
-        most, mean = seen.amax((2, 3)), seen.mean((2, 3))
-        # Each cell is compared with the largest of all.
-        logits = self.cells(torch.cat([seen, seen - most[:, :, None, None]], 1))
-        return torch.distributions.Categorical(logits=logits.flatten(1)), self.worth(torch.cat([most, mean], 1))[:, 0]
+        last = maps[:, 2:3]
+        parts = [seen.amax((2, 3)), seen.mean((2, 3)), (seen * last).sum((2, 3)), (maps[:, 1:2] * last).sum((2, 3))]
+        here, worth = self.whole(torch.cat(parts, 1)).T
+        logits = torch.cat([self.cells(seen).flatten(1), here[:, None]], 1)
+        return torch.distributions.Categorical(logits=logits), worth
 
 
 def tested(policy, maps, episodes=200):

@@ -19,7 +19,8 @@ class Press:
 
     The first two numbers of an action are a point of the square in the plane of the task's side, with a half-width of
     `Palpation.REACH` about the scene's own place; the tip goes to the nearest vertex of the organ at rest, as if the
-    surface were known from a scan. The third is the depth below it, from 0 to `LARGEST_DEPTH`.
+    surface were known from a scan. The third is the depth below it, from 0 to `LARGEST_DEPTH`. With the fourth above zero
+    the hand says "here", and the tip stays where it is.
     """
 
     def __init__(self, task: Task, substeps: int) -> None:
@@ -51,4 +52,4 @@ class Press:
         way = tips
         for begin, end, before, after in zip((0.0, *PARTS), PARTS, corners, corners[1:], strict=False):
             way = way + np.clip((self.shares - begin) / (end - begin), 0.0, 1.0) * (after - before)
-        return way
+        return np.where(wish[:, 3:4] > 0.0, tips, way)

@@ -294,6 +294,8 @@ class Touch:
         for number in np.flatnonzero(done & goes_on):
             gained[number] += self._bonus(int(number))
         gained[too_deep] -= 1.0
+        if self.task.word == "find":
+            gained[late & ~too_deep & ~perforated] -= 1.0
         terminated = (done | too_deep | perforated) & goes_on
         truncated = late & ~terminated & goes_on
         self.parts[goes_on], self.errors[goes_on] = parts[goes_on], errors[goes_on]
