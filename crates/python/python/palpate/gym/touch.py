@@ -283,7 +283,8 @@ class Touch:
 
     def _worth(self, goes_on: Truths) -> tuple[Floats, Truths, Truths]:
         over, late = self.batch.over, self.batch.late
-        parts = np.where(late, self.parts, np.nan_to_num(self.batch.progress))
+        progress = self.batch.progress
+        parts = np.where(late, self.parts, np.where(np.isnan(progress), 0.0, progress))
         gained = np.zeros(self.count) if self.task.word == "find" else parts - self.parts
         errors = self.batch.errors.astype(np.int64)
         more = errors - self.errors
