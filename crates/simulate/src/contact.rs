@@ -12,7 +12,9 @@
 //! behind the nearest point of the surface.
 
 use nalgebra::{Matrix3, Rotation3};
-use palpate_geometry::{AabbTree, ContactPoint, Nearest, PatchField, Surface, Vec3, follow, settle};
+use palpate_geometry::{
+    AabbTree, ContactPoint, Nearest, PatchField, Surface, Vec3, follow, settle,
+};
 use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_spheres::{LocalContact, Placement, Surroundings, first_direction};
 

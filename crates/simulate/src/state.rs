@@ -6,6 +6,7 @@ use palpate_mechanics::enhance::SurfacePoint;
 use palpate_mechanics::finite_spheres::{FiniteSphereWorkspace, Response};
 use palpate_mechanics::{ForceHistory, Limits};
 
+use crate::contact::Clearance;
 use crate::cutting::{Blade, Cuts};
 use crate::energy::{EnergyAccount, Pressed};
 use crate::global::{GlobalWorkspace, OrganField};
@@ -13,7 +14,6 @@ use crate::grip::Grip;
 use crate::limits::LimitCounts;
 use crate::neighbour::Stopped;
 use crate::nonlinear::{Body, Moved, NonlinearWorkspace};
-use crate::contact::Clearance;
 use crate::{Contact, Error, Simulation, nodule};
 
 /// All that a step changes.

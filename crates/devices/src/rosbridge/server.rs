@@ -10,9 +10,7 @@ use tungstenite::protocol::WebSocketConfig;
 use tungstenite::{Error, Message, ServerHandshake, Utf8Bytes, WebSocket};
 
 use super::message::{self, Content};
-use crate::publisher::{
-    MOST_CLIENTS, Picture, SURFACE_PERIOD, Serve, SharedSource, fill, locked,
-};
+use crate::publisher::{MOST_CLIENTS, Picture, SURFACE_PERIOD, Serve, SharedSource, fill, locked};
 
 /// The largest message of a client [B].
 const LARGEST: usize = 1 << 16;
@@ -223,7 +221,9 @@ impl Client {
                 self.subscriptions.remove(word("topic"));
             }
             "call_service" => self.replies.push_back(answer(&command, topics)),
-            "" => self.refuse("a message without `op`; send `{\"op\": \"subscribe\", \"topic\": …}`"),
+            "" => {
+                self.refuse("a message without `op`; send `{\"op\": \"subscribe\", \"topic\": …}`")
+            }
             other => {
                 let other: String = other.chars().take(LONGEST_TOPIC).collect();
                 self.refuse(&format!(

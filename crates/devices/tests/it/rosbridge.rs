@@ -21,10 +21,7 @@ fn server(fault: Option<Fault>) -> Publisher {
     let tool = ShownTool {
         name: "the right".to_owned(),
         place: Some(PLACE),
-        orientation: UnitQuaternion::from_axis_angle(
-            &Vec3::z_axis(),
-            std::f64::consts::FRAC_PI_2,
-        ),
+        orientation: UnitQuaternion::from_axis_angle(&Vec3::z_axis(), std::f64::consts::FRAC_PI_2),
         force: FORCE,
         fault,
     };
@@ -67,7 +64,10 @@ fn message(server: &Publisher, topic: &str) -> Value {
     let mut client = connected(server);
     send(&mut client, &json!({"op": "subscribe", "topic": topic}));
     let found = receive(&mut client);
-    assert_eq!((&found["op"], &found["topic"]), (&json!("publish"), &json!(topic)));
+    assert_eq!(
+        (&found["op"], &found["topic"]),
+        (&json!("publish"), &json!(topic))
+    );
     found["msg"].clone()
 }
 
@@ -115,7 +115,10 @@ fn topics_are_told_as_rosapi_tells_them() {
     let ask = json!({"op": "call_service", "service": "/rosapi/topics", "id": "7"});
     send(&mut client, &ask);
     let answer = receive(&mut client);
-    assert_eq!((&answer["id"], &answer["result"]), (&json!("7"), &json!(true)));
+    assert_eq!(
+        (&answer["id"], &answer["result"]),
+        (&json!("7"), &json!(true))
+    );
     assert_eq!(
         answer["values"]["topics"],
         json!([
@@ -125,7 +128,10 @@ fn topics_are_told_as_rosapi_tells_them() {
             "/palpate/status"
         ])
     );
-    assert_eq!(answer["values"]["types"][1], "geometry_msgs/msg/WrenchStamped");
+    assert_eq!(
+        answer["values"]["types"][1],
+        "geometry_msgs/msg/WrenchStamped"
+    );
 }
 
 #[test]
