@@ -252,7 +252,7 @@ def drawn(scenes, results, path):
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
-    columns = 3
+    columns = min(3, len(scenes))
     rows = -(-len(scenes) // columns)
     figure, axes = pyplot.subplots(rows, columns, figsize=(4.2 * columns, 3.0 * rows), squeeze=False)
     for axis in axes.flat[len(scenes):]:
@@ -281,8 +281,8 @@ def drawn(scenes, results, path):
         axis.set_xlabel("time [s]", fontsize=7)
         axis.set_ylabel("force [mN]", fontsize=7)
         axis.tick_params(labelsize=7)
-    figure.legend(handles.values(), handles.keys(), loc="lower center", ncol=5, fontsize=8)
-    figure.tight_layout(rect=(0, 0.08, 1, 1))
+    figure.legend(handles.values(), handles.keys(), loc="lower center", ncol=5 if columns > 1 else 2, fontsize=8)
+    figure.tight_layout(rect=(0, 0.08 if columns > 1 else 0.3, 1, 1))
     figure.savefig(path, dpi=110)
 
 

@@ -108,7 +108,8 @@ class Policy(nn.Module):
 
 
 def tested(policy, maps, episodes=200):
-    """The part of unseen seeds in which the lump is found, and the mean number of presses."""
+    """The part of unseen seeds in which the lump is found, and the mean number of presses. Actions are drawn as in
+    training: the likeliest one alone may repeat itself for ever."""
     found, presses = [], []
     for first in range(0, episodes, maps.count):
         seen = maps.reset(UNSEEN + first)
@@ -117,7 +118,7 @@ def tested(policy, maps, episodes=200):
         number = 0
         while waits.any():
             with torch.no_grad():
-                choice = policy(torch.from_numpy(seen))[0].probs.argmax(1).numpy()
+                choice = policy(torch.from_numpy(seen))[0].sample().numpy()
             seen, _, ended, passed = maps.step(choice)
             number += 1
             found += passed[ended & waits].tolist()
