@@ -4,8 +4,8 @@ use std::net::{TcpListener, TcpStream};
 use std::time::{Duration, Instant, SystemTime};
 
 use serde_json::{Value, json};
-use tungstenite::handshake::HandshakeError;
 use tungstenite::handshake::server::NoCallback;
+use tungstenite::handshake::{HandshakeError, MidHandshake};
 use tungstenite::protocol::WebSocketConfig;
 use tungstenite::{Error, Message, ServerHandshake, Utf8Bytes, WebSocket};
 
@@ -35,11 +35,11 @@ pub(crate) struct Server {
     picture: Picture,
 }
 
-type Handshake = tungstenite::handshake::MidHandshake<ServerHandshake<TcpStream, NoCallback>>;
+type Role = ServerHandshake<TcpStream, NoCallback>;
 
 /// A connection that is no WebSocket yet.
 struct Arriving {
-    handshake: Handshake,
+    handshake: MidHandshake<Role>,
     since: Instant,
 }
 
@@ -93,10 +93,7 @@ impl Server {
 
     fn arrive(
         &mut self,
-        outcome: Result<
-            WebSocket<TcpStream>,
-            HandshakeError<ServerHandshake<TcpStream, NoCallback>>,
-        >,
+        outcome: Result<WebSocket<TcpStream>, HandshakeError<Role>>,
         since: Instant,
     ) {
         match outcome {
