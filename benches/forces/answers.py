@@ -46,7 +46,7 @@ def by_palpate(scene, law, prony=False):
     """Force at the judged times and its estimated error, or none if `palpate solve` has no such problem."""
     import palpate
 
-    if law != "linear" or scene.body["shape"] != "box" or scene.inclusion:
+    if law != "linear" or scene.body["shape"] != "box" or scene.second:
         return None
     indenter = {"radius_m": scene.radius, "face": "slip"}
     indenter |= {"side": "none"} if scene.tool["shape"] == "flat" else {"shape": scene.tool["shape"]}

@@ -19,10 +19,9 @@ class Tetrahedra:
         self.probe = int(np.argmin(np.linalg.norm(self.nodes - _probe(scene), axis=1)))
 
     def inside(self, scene):
-        """Elements whose centroid lies in the inclusion."""
+        """Elements whose centroid lies in the inclusion or the layer."""
         middle = self.nodes[self.elements].mean(axis=1)
-        ball = scene.inclusion
-        return np.linalg.norm(middle + [0, 0, ball["depth_m"]], axis=1) < ball["radius_m"]
+        return scene.in_second(np.linalg.norm(middle[:, :2], axis=1), middle[:, 2])
 
 
 def _extent(scene):

@@ -29,7 +29,7 @@ def main():
     try:
         adapter = importlib.import_module(f"engines.{engine}")
     except ImportError as error:
-        pathlib.Path(path).write_text(json.dumps({"missing": str(error)}))
+        pathlib.Path(path).write_text(json.dumps({"missing": str(error).splitlines()[0]}))
         return
     importing = time.perf_counter() - began
     reason = adapter.unfit(scene)

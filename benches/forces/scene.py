@@ -67,6 +67,22 @@ class Scene:
         return self.body.get("inclusion")
 
     @property
+    def layer(self):
+        """A layer of the top with its own modulus, none without."""
+        return self.body.get("layer")
+
+    @property
+    def second(self):
+        """The part of the body that is not `tissue`: the inclusion or the layer, none in one material."""
+        return self.inclusion or self.layer
+
+    def in_second(self, across, height):
+        """Whether points at these distances from the axis and heights above the top [m] are in that part."""
+        if self.layer:
+            return height > -self.layer["thickness_m"]
+        return np.hypot(height + self.inclusion["depth_m"], across) < self.inclusion["radius_m"]
+
+    @property
     def answers(self):
         path = ANSWERS / f"{self.name}.json"
         return json.loads(path.read_text())["laws"] if path.exists() else {}

@@ -5,7 +5,8 @@
 
 Runs are kept in target/forces and not repeated without --fresh. Engines may be installed apart: --python says which
 interpreter runs one. --write renews docs/comparisons/forces.md and its picture; without it the tables are printed.
-An engine that is not installed, and a scene that it cannot do, are rows that say so.
+An engine that is not installed, and a scene that it cannot do, are rows that say so. With --scene, --write keeps the
+sections of the other scenes as they are in the page; the scenes of the call get a picture of their own.
 """
 
 import argparse
@@ -165,13 +166,17 @@ def converged(scene):
     return "Converged: " + "; ".join(parts) + "."
 
 
-def summary(scenes, results):
+def summary(scenes, results, before):
     """Errors against the own law at the last judged time, engines by scenes."""
     lines = ["| engine | " + " | ".join(f"{k + 1}" for k in range(len(scenes))) + " |", "|---" * (len(scenes) + 1) + "|"]
     for engine, title in ENGINES.items():
         for mesh in ["own", "coarse", "fine"]:
+            kind = title if mesh == "own" else f"{title}, {mesh}"
             cells = []
             for scene in scenes:
+                if scene.title in before.sections:
+                    cells.append(before.cells.get((kind, scene.title), ""))
+                    continue
                 answer = results.get((engine, scene.name, mesh), {"missing": ""})
                 if "force" not in answer:
                     cells.append("no" if "unfit" in answer else "failed" if "failed" in answer else "")
@@ -179,9 +184,24 @@ def summary(scenes, results):
                 own = off(judged(scene, answer), scene.answers.get(answer["law"]), "force_n")
                 cells.append("–" if own is None else signed(own[-1:]))
             if any(cells):
-                kind = "" if mesh == "own" else f", {mesh}"
-                lines.append(f"| {title}{kind} | " + " | ".join(cells) + " |")
+                lines.append(f"| {kind} | " + " | ".join(cells) + " |")
     return "\n".join(lines)
+
+
+class Before:
+    """What the page has of scenes that are not in the call: sections and cells of the summary by title, and settings."""
+
+    def __init__(self, text, renewed):
+        summary_, *parts = re.split(r"^### ", text, flags=re.MULTILINE)[1:]
+        *parts, settings = parts
+        self.settings = dict(re.findall(r"^(- \*\*.*?\*\*)(.*)$", settings, flags=re.MULTILINE))
+        titles = [part.split("\n", 1)[0].split(". ", 1)[1] for part in parts]
+        self.sections = {
+            title: part.split("\n", 1)[1].strip("\n") for title, part in zip(titles, parts) if title not in renewed
+        }
+        rows = re.findall(r"^\| (.*) \|$", summary_, flags=re.MULTILINE)
+        rows = [[cell.strip() for cell in row.split(" |")] for row in rows]
+        self.cells = {(row[0], title): cell for row in rows for title, cell in zip(titles, row[1:])}
 
 
 def meshes_of(engine, scene):
@@ -198,35 +218,41 @@ def settings_of(engine):
     return None
 
 
-def text_of(scenes, results):
-    parts = ["### Errors against each engine's own law, last depth or time, %\n", summary(scenes, results)]
+def text_of(scenes, results, before):
+    parts = ["### Errors against each engine's own law, last depth or time, %\n", summary(scenes, results, before)]
     parts.append("\n" + "\n".join(f"{k + 1}. {scene.title}" for k, scene in enumerate(scenes)))
     parts.append("\nno: the engine cannot do the scene; –: its law has no converged answer there.")
     for number, scene in enumerate(scenes):
+        parts.append(f"\n### {number + 1}. {scene.title}\n")
+        if scene.title in before.sections:
+            parts.append(before.sections[scene.title])
+            continue
         depths = " / ".join(f"{1e3 * scene.depth(now):g}" for now in scene.judged)
         at = " / ".join(f"{now:g}" for now in scene.judged)
         where = f"{depths} mm deep" + (f", at {at} s" if scene.prony else "")
-        parts += [f"\n### {number + 1}. {scene.title}\n", f"{where}. {converged(scene)}\n", HEADER]
+        parts += [f"{where}. {converged(scene)}\n", HEADER]
         parts += [row(scene, e, m, results[e, scene.name, m]) for e in ENGINES for m in meshes_of(e, scene)]
     parts.append("\n### Settings\n")
     for engine, title in ENGINES.items():
-        answers = [results[engine, scene.name, mesh] for scene in scenes for mesh in meshes_of(engine, scene)]
-        found = next((answer for answer in answers if "version" in answer), None)
+        own = [answer for (name, *_), answer in results.items() if name == engine]
+        found = next((answer for answer in own if "version" in answer), None)
         if found:
             law = found["law"].replace("_", " ")
             parts.append(f"- **{title}** {found['version']}, {law}. {settings_of(engine) or found['settings']}")
+        elif f"- **{title}**" in before.settings:
+            parts.append(f"- **{title}**" + before.settings[f"- **{title}**"])
         else:
-            parts.append(f"- **{title}**: not installed ({answers[0].get('missing') or answers[0].get('failed')})")
+            parts.append(f"- **{title}**: not installed ({own[0].get('missing') or own[0].get('failed')})")
     return "\n".join(parts) + "\n"
 
 
-def drawn(scenes, results):
+def drawn(scenes, results, path):
     import matplotlib
 
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
-    columns = 3
+    columns = min(3, len(scenes))
     rows = -(-len(scenes) // columns)
     figure, axes = pyplot.subplots(rows, columns, figsize=(4.2 * columns, 3.0 * rows), squeeze=False)
     for axis in axes.flat[len(scenes):]:
@@ -255,9 +281,9 @@ def drawn(scenes, results):
         axis.set_xlabel("time [s]", fontsize=7)
         axis.set_ylabel("force [mN]", fontsize=7)
         axis.tick_params(labelsize=7)
-    figure.legend(handles.values(), handles.keys(), loc="lower center", ncol=5, fontsize=8)
-    figure.tight_layout(rect=(0, 0.08, 1, 1))
-    figure.savefig(PICTURE, dpi=110)
+    figure.legend(handles.values(), handles.keys(), loc="lower center", ncol=5 if columns > 1 else 2, fontsize=8)
+    figure.tight_layout(rect=(0, 0.08 if columns > 1 else 0.3, 1, 1))
+    figure.savefig(path, dpi=110)
 
 
 def main():
@@ -275,13 +301,18 @@ def main():
                     continue
                 python = pythons.get(engine, sys.executable)
                 results[engine, scene.name, mesh] = ran(engine, scene.name, mesh, python, fresh)
-    text = text_of(scenes, results)
+    page = PAGE.read_text()
+    begin, end = "<!-- written by table.py -->", "<!-- end -->"
+    written = page.partition(begin)[2].partition(end)[0]
+    before = Before(written, {scene.title for scene in scenes})
+    everything = [Scene(name) for name in names()]
+    chosen_or_known = [s for s in everything if s.name in {own.name for own in scenes} or s.title in before.sections]
+    text = text_of(chosen_or_known, results, before)
     if not chosen.write:
         print(text)
         return
-    drawn(scenes, results)
-    page = PAGE.read_text()
-    begin, end = "<!-- written by table.py -->", "<!-- end -->"
+    name = PICTURE if not chosen.scene else PICTURE.with_stem(f"forces_{'_'.join(chosen.scene)}")
+    drawn(scenes, results, name)
     page = re.sub(f"{begin}.*{end}", lambda _: f"{begin}\n{text}{end}", page, flags=re.DOTALL)
     PAGE.write_text(page)
 

@@ -47,7 +47,14 @@ def parameters(scene, edge):
         return np.concatenate([inner, outer[1:]]), graded(first, 0.0, scene.height, growth)
     even = 1.2 * radius
     deep = scene.inclusion["depth_m"] + scene.inclusion["radius_m"] if scene.inclusion else 0.6 * radius
-    down = graded(first, deep, scene.height, growth)
+    if scene.layer:
+        # Elements end at the face between the layers.
+        thickness = scene.layer["thickness_m"]
+        upper = np.linspace(0.0, thickness, round(thickness / first) + 1)
+        below = graded(first, max(deep - thickness, 0.0), scene.height - thickness, growth)
+        down = np.concatenate([upper, thickness + below[1:]])
+    else:
+        down = graded(first, deep, scene.height, growth)
     if scene.body["shape"] == "hemisphere":
         return graded(first / scene.height, even / scene.height, np.pi / 2, growth), down
     return graded(first, even, width(scene), growth), down
@@ -81,11 +88,10 @@ def mesh_of(scene, edge):
 
 def material(scene, law, region):
     mu, lam = scene.lame
-    if scene.inclusion:
+    if scene.second:
         points = np.einsum("caI,aqc->Iqc", region.mesh.points[region.mesh.cells], region.h + np.zeros((1, 1, len(region.mesh.cells))))
-        ball = scene.inclusion
-        inside = np.hypot(points[0] + ball["depth_m"], points[1]) < ball["radius_m"]
-        stiff = lame(ball["youngs_modulus_pa"], scene.tissue["poissons_ratio"])
+        inside = scene.in_second(points[1], points[0])
+        stiff = lame(scene.second["youngs_modulus_pa"], scene.tissue["poissons_ratio"])
         mu, lam = [np.where(inside, hard, soft) for hard, soft in zip(stiff, (mu, lam))]
     return Material(LAWS[law], mu, lam)
 

@@ -18,7 +18,7 @@ def version():
 
 
 def unfit(scene):
-    if scene.inclusion:
+    if scene.second:
         return "a flex has one material"
     return "no relaxation" if scene.prony else None
 

@@ -35,8 +35,8 @@ def run(scene, mesh):
 
 def pressed(scene, mesh, began):
     mu, lam = [np.full(len(mesh.elements), value) for value in scene.lame]
-    if scene.inclusion:
-        stiff = lame(scene.inclusion["youngs_modulus_pa"], scene.tissue["poissons_ratio"])
+    if scene.second:
+        stiff = lame(scene.second["youngs_modulus_pa"], scene.tissue["poissons_ratio"])
         for values, value in zip((mu, lam), stiff):
             values[mesh.inside(scene)] = value
     builder = newton.ModelBuilder(gravity=(0.0, 0.0, 0.0))

@@ -43,6 +43,9 @@ def organ(scene, folder):
         ball = {"center_m": [0.0, 0.0, top - scene.inclusion["depth_m"]], "radius_m": scene.inclusion["radius_m"]}
         stiff = tissue | {"youngs_modulus_pa": scene.inclusion["youngs_modulus_pa"]}
         content["inclusion"] = [{"name": "inclusion", "ball": ball, "tissue": stiff}]
+    if scene.layer:
+        stiff = tissue | {"youngs_modulus_pa": scene.layer["youngs_modulus_pa"]}
+        content["layer"] = [{"name": "layer", "thickness_m": scene.layer["thickness_m"], "tissue": stiff}]
     return content, top
 
 

@@ -26,7 +26,7 @@ def version():
 
 
 def unfit(scene):
-    if scene.inclusion:
+    if scene.second:
         return "a body has one material"
     return "no relaxation" if scene.prony else None
 

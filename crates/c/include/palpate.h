@@ -396,7 +396,7 @@ enum palpate_status palpate_state_reset(struct palpate_state *state);
 enum palpate_status palpate_state_undo_cut(struct palpate_state *state);
 
 /**
- * Shapes a whole organ (`model.kind = "hybrid"`) for the eye no more often than every `period_s` [s]; forces are those
+ * Shapes the organ for the eye no more often than every `period_s` [s]; forces are those
  * of every step. 0, as it is at first: in each.
  */
 enum palpate_status palpate_state_show_every(struct palpate_state *state,

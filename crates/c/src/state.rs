@@ -171,7 +171,7 @@ pub unsafe extern "C" fn palpate_state_undo_cut(state: *mut StateHandle) -> Stat
     })
 }
 
-/// Shapes a whole organ (`model.kind = "hybrid"`) for the eye no more often than every `period_s` [s]; forces are those
+/// Shapes the organ for the eye no more often than every `period_s` [s]; forces are those
 /// of every step. 0, as it is at first: in each.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn palpate_state_show_every(

@@ -1,5 +1,5 @@
-//! Haptic devices that users own, each behind [`palpate_servo::Device`], force sensors ([`force_sensor`]), and a server
-//! that shows what is touched to the programs of an operating room ([`openigtlink`]).
+//! Haptic devices that users own, each behind [`palpate_servo::Device`], force sensors ([`force_sensor`]), and servers
+//! that send the running simulation to other programs ([`publisher`]).
 //!
 //! ```text
 //!  our thread ────────▶ ServoLoop ─exchange▶ HaplyDevice ─── WebSocket, one message each way ──▶ Inverse Service
@@ -28,6 +28,8 @@ mod library;
 pub mod open_haptics;
 pub mod openigtlink;
 mod places;
+pub mod publisher;
+pub mod rosbridge;
 mod rotation;
 mod self_test;
 

@@ -233,3 +233,64 @@ def test_what_is_no_action_or_task_is_told(kind: str, single: touch.TouchEnv) ->
         FORMS[kind][0](palpate.Scene({"organ": {"builtin": "liver", "builtin_tissue": "pig-liver"}}), model="local")
     with pytest.raises(palpate.InputError, match="substeps"):
         FORMS[kind][0](simulation=single.touch.simulation, substeps=0)
+
+
+def over(environment: touch.TouchEnv, place: NDArray[np.float64]) -> NDArray[np.float32]:
+    """The press of 4 mm nearest to a place."""
+    press = environment.touch.press
+    assert press is not None
+    nearest = np.linalg.norm(press.points - place, axis=1).argmin()
+    return np.append(press.seen[nearest], [0.0, -1.0]).astype(np.float32)
+
+
+def test_a_press_feels_the_lump_and_marks_it() -> None:
+    """The force over the lump is that of the healthy place times the stiffening that the model states, at least a sixth;
+    a mark there is right, and one elsewhere is not. Alone and in a vector it is the same to the bit."""
+    alone = touch.PalpationEnv(model="local", action="press")
+    many = touch.PalpationVectorEnv(2, simulation=alone.touch.simulation, action="press", threads=2)
+    assert alone.touch.substeps == 100
+    first, _ = alone.reset(seed=3)
+    assert np.array_equal(many.reset(seed=3)[0][0], first)
+    target = np.array(hidden(alone)["task"]["find"]["target_m"])
+    press = alone.touch.press
+    assert press is not None
+    far = press.points[np.linalg.norm(press.points - target, axis=1).argmax()]
+    forces = []
+    for place in (far, target):
+        action = over(alone, place)
+        seen, worth, terminated, _, _ = alone.step(action)
+        both = many.step(np.stack([action, action]))
+        assert np.array_equal(both[0][0], seen) and both[1][0] == worth == 0.0 and not terminated
+        # Flat faces: the tip is where it was asked for, 4 mm below the nearest vertex.
+        nearest = np.linalg.norm(press.points - place, axis=1).argmin()
+        wanted = press.points[nearest] - 0.004 * press.normals[nearest]
+        assert np.allclose(seen[:3], wanted, atol=1e-7) and seen[9] == 1.0
+        forces.append(np.linalg.norm(seen[3:6]))
+    assert forces[1] > 7 / 6 * forces[0]
+    seen, worth, terminated, _, told = alone.step(np.array([0.0, 0.0, 0.0, 1.0], dtype=np.float32))
+    assert terminated and told["passed"] and worth == 1.0
+    assert np.allclose(seen[:3], alone.touch.tips[0]), "who says here stays"
+    alone.reset(seed=3)
+    alone.step(over(alone, far))
+    _, worth, terminated, _, told = alone.step(np.array([0.0, 0.0, 0.0, 1.0], dtype=np.float32))
+    assert terminated and not told["passed"] and worth < -0.02
+
+
+def test_time_without_a_mark_costs_as_much_as_the_worst() -> None:
+    short = palpate.Scene.builtin("palpation").to_dict()
+    short["task"]["time_limit_s"] = 1.0
+    environment = touch.PalpationEnv(palpate.Scene(short), model="local", action="press")
+    environment.reset(seed=0)
+    press = np.array([0.0, 0.0, 0.0, -1.0], dtype=np.float32)
+    worths = []
+    for _ in range(4):
+        _, worth, _, truncated, _ = environment.step(press)
+        worths.append(worth)
+        if truncated:
+            break
+    assert truncated and worths[-1] == -1.0 and not any(worths[:-1])
+
+
+def test_presses_are_for_palpation() -> None:
+    with pytest.raises(palpate.InputError, match="for the task `find` only"):
+        touch.TractionEnv(model="local", action="press")

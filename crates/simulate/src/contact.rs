@@ -12,7 +12,9 @@
 //! behind the nearest point of the surface.
 
 use nalgebra::{Matrix3, Rotation3};
-use palpate_geometry::{AabbTree, ContactPoint, PatchField, Surface, Vec3, follow, settle};
+use palpate_geometry::{
+    AabbTree, ContactPoint, Nearest, PatchField, Surface, Vec3, follow, settle,
+};
 use palpate_mechanics::contact::Friction;
 use palpate_mechanics::finite_spheres::{LocalContact, Placement, Surroundings, first_direction};
 
@@ -122,6 +124,39 @@ impl Contact {
     }
 }
 
+/// A ball in which a tool does not touch one surface, because none of it is there: a signed distance changes no more than
+/// its point moves. It saves searches and changes no result.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Clearance {
+    /// Its centre and radius [m].
+    tip: Vec3,
+    room: f64,
+}
+
+/// Left of the room for rounding [m].
+const ROUNDING: f64 = 1e-9;
+
+impl Clearance {
+    /// The contact of `tool` at `tip` [m], given its last one. Always for the same surface and tool.
+    pub(crate) fn detect(
+        &mut self,
+        ground: &RestSurface<'_>,
+        tool: &Tool,
+        last: Option<&Contact>,
+        tip: &Vec3,
+    ) -> Option<Contact> {
+        match last {
+            Some(last) => detect_after(ground, tool, last, tip),
+            None if (tip - self.tip).norm() < self.room => None,
+            None => {
+                let (nearest, signed) = ground.surface.signed_distance(ground.tree, tip);
+                (self.tip, self.room) = (*tip, signed - tool.overhang() - ROUNDING);
+                begin(ground, tool, tip, (nearest, signed))
+            }
+        }
+    }
+}
+
 /// The contact of `tool` at `tip` [m], given its last one.
 pub(crate) fn detect(
     ground: &RestSurface<'_>,
@@ -129,13 +164,23 @@ pub(crate) fn detect(
     last: Option<&Contact>,
     tip: &Vec3,
 ) -> Option<Contact> {
-    let Some(last) = last else {
-        return begin(ground, tool, tip);
+    Clearance::default().detect(ground, tool, last, tip)
+}
+
+fn detect_after(
+    ground: &RestSurface<'_>,
+    tool: &Tool,
+    last: &Contact,
+    tip: &Vec3,
+) -> Option<Contact> {
+    let anew = || {
+        let found = ground.surface.signed_distance(ground.tree, tip);
+        begin(ground, tool, tip, found)
     };
     let way = (&last.tip, tip);
     let Some(contact_point) = follow(ground.surface, ground.patches, &last.contact_point, way)
     else {
-        return begin(ground, tool, tip);
+        return anew();
     };
     let (below, signed) = depth_of_tip(ground, &contact_point, tip);
     let run = (contact_point.point - last.contact_point.point).norm();
@@ -144,7 +189,7 @@ pub(crate) fn detect(
         return None;
     }
     if depth <= 0.0 {
-        return go_on_elsewhere(ground, tool, last, tip);
+        return go_on_elsewhere(anew()?, tool, last, tip);
     }
     let mut contact = Contact {
         contact_point,
@@ -184,12 +229,11 @@ pub(crate) fn detect(
 /// A tip that has left the side that it touched and is below another one touches that, and its depth
 /// grows from nothing.
 fn go_on_elsewhere(
-    ground: &RestSurface<'_>,
+    mut contact: Contact,
     tool: &Tool,
     last: &Contact,
     tip: &Vec3,
 ) -> Option<Contact> {
-    let mut contact = begin(ground, tool, tip)?;
     if tool.slides() {
         contact.depth = creep(last, (contact.depth, contact.signed), (tip, 0.0));
     }
@@ -233,9 +277,13 @@ fn depth_of_tip(ground: &RestSurface<'_>, contact_point: &ContactPoint, tip: &Ve
     (below, signed)
 }
 
-/// The first contact: at the nearest point of the rest surface, when the tip is below it.
-fn begin(ground: &RestSurface<'_>, tool: &Tool, tip: &Vec3) -> Option<Contact> {
-    let (nearest, signed) = ground.surface.signed_distance(ground.tree, tip);
+/// The first contact: at the `nearest` point of the rest surface, when the tip is below it.
+fn begin(
+    ground: &RestSurface<'_>,
+    tool: &Tool,
+    tip: &Vec3,
+    (nearest, signed): (Nearest, f64),
+) -> Option<Contact> {
     let depth = tool.overhang() - signed;
     if depth <= 0.0 {
         return None;

@@ -1,17 +1,21 @@
-//! The surface that is seen: every vertex near a contact moved by the model's field, those of several
+//! The surface that is seen, if it is time: every vertex near a contact moved by the model's field, those of several
 //! contacts added, and the bounding boxes refitted around what has moved.
 
 use palpate_geometry::{NodeId, Vec3};
-use palpate_mechanics::finite_spheres::{LocalContact, Response};
+use palpate_mechanics::finite_spheres::LocalContact;
 
 use crate::simulation::Simulation;
 use crate::state::{SimulationState, SimulationWorkspace};
 
 pub(crate) fn deform(
-    simulation: &Simulation,
+    (simulation, time): (&Simulation, f64),
     state: &mut SimulationState,
     workspace: &mut SimulationWorkspace,
 ) {
+    if time < state.shown_at + state.show_every {
+        return;
+    }
+    state.shown_at = time;
     workspace.refit.clear();
     let turn = workspace.next_turn();
     mark_for_refit(simulation, state, workspace, turn);
@@ -38,41 +42,32 @@ fn press(
 ) {
     let tool = &simulation.tools[number];
     let own = &state.tools[number];
-    if let (Some((place, displaced)), Some(response)) = (own.grip.shown_place(), own.response) {
-        return move_near(
-            simulation,
-            (number, &displaced),
-            (&place, &response),
-            state,
-            workspace,
-        );
+    if own.response.is_none() {
+        return;
     }
-    let (Some(contact), Some(response), Some(pose)) = (&own.contact, &own.response, &own.pose)
-    else {
+    if let Some((place, displaced)) = own.grip.shown_place() {
+        return move_near(simulation, (number, &displaced), &place, state, workspace);
+    }
+    let (Some(contact), Some(pose)) = (&own.contact, &own.pose) else {
         return;
     };
     let place = contact.place;
-    let response: Response = *response;
     let moved = contact.displacement(tool, &Vec3::from(pose.position_m));
     let tip = place.frame * moved;
-    move_near(
-        simulation,
-        (number, &tip),
-        (&place, &response),
-        state,
-        workspace,
-    );
+    move_near(simulation, (number, &tip), &place, state, workspace);
 }
 
 /// Moves the vertices near a place whose tip, that of tool `number`, has moved it by `tip` [m].
 fn move_near(
     simulation: &Simulation,
     (number, tip): (usize, &Vec3),
-    (place, response): (&LocalContact, &Response),
+    place: &LocalContact,
     state: &mut SimulationState,
     workspace: &mut SimulationWorkspace,
 ) {
     let tool = &simulation.tools[number];
+    // In another workspace than the step's, this solves once more.
+    let response = tool.model.respond(place, &mut workspace.models[number]);
     let reach = tool.model.shown_radius(place.radius);
     collect_near(simulation, workspace, place, reach);
     for index in 0..workspace.near.len() {
@@ -81,7 +76,7 @@ fn move_near(
         let model = &mut workspace.models[number];
         let by = tool
             .model
-            .displacement((place, response), model, tip, &rest);
+            .displacement((place, &response), model, tip, &rest);
         let from = state.deformed.vertices()[node.index()];
         if by.iter().all(|component| component.is_finite()) {
             state.deformed.move_vertex(node, from + by);

@@ -14,7 +14,7 @@ use palpate_files::scene::Shape;
 use palpate_geometry::{AabbTree, PatchField, Surface, Vec3};
 use palpate_mechanics::contact::Friction;
 
-use crate::contact::{self, Contact, RestSurface};
+use crate::contact::{Contact, RestSurface};
 use crate::simulation::{Simulation, radius_of_hemisphere};
 use crate::state::{SimulationState, ToolState};
 use crate::tool::Tool;
@@ -98,7 +98,8 @@ impl Neighbour {
 pub(crate) fn press(simulation: &Simulation, number: usize, state: &mut SimulationState) {
     let neighbours = &simulation.neighbours;
     let own = &mut state.tools[number];
-    let touched = &mut state.touched_neighbours[number * neighbours.len()..][..neighbours.len()];
+    let all = number * neighbours.len()..(number + 1) * neighbours.len();
+    let touched = state.touched_neighbours[all].iter_mut();
     let tool = &simulation.tools[number];
     let tip = own.pose.map(|pose| Vec3::from(pose.position_m));
     let before = std::mem::replace(
@@ -109,11 +110,11 @@ pub(crate) fn press(simulation: &Simulation, number: usize, state: &mut Simulati
         },
     )
     .tip;
-    for (neighbour, contact) in neighbours.iter().zip(touched) {
+    for (neighbour, (contact, clearance)) in neighbours.iter().zip(touched) {
         let last = contact.take();
         let Some(tip) = tip else { continue };
         let surface = neighbour.surface(number);
-        let found = contact::detect(&surface, tool, last.as_ref(), &tip);
+        let found = clearance.detect(&surface, tool, last.as_ref(), &tip);
         let travel = before.map_or(0.0, |before| (tip - before).norm());
         let Some(mut found) = found.filter(|found| last.is_some() || found.depth <= travel) else {
             continue;

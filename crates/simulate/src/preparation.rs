@@ -2,7 +2,7 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use palpate_devices::Places;
-use palpate_devices::openigtlink::OperatingRoom;
+use palpate_devices::publisher::Publisher;
 
 use crate::Error;
 
@@ -16,8 +16,8 @@ pub struct Resources {
     pub memory: usize,
     /// Where services and libraries of haptic devices are looked for.
     pub devices: Places,
-    /// Where what is touched is shown besides; none for nowhere.
-    pub operating_room: Option<OperatingRoom>,
+    /// Servers that send the running simulation to other programs.
+    pub publishers: Vec<Publisher>,
 }
 
 /// Eight gibibytes.
@@ -30,7 +30,7 @@ impl Default for Resources {
             responses: None,
             memory: MEMORY,
             devices: Places::default(),
-            operating_room: None,
+            publishers: Vec::new(),
         }
     }
 }

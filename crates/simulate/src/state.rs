@@ -6,6 +6,7 @@ use palpate_mechanics::enhance::SurfacePoint;
 use palpate_mechanics::finite_spheres::{FiniteSphereWorkspace, Response};
 use palpate_mechanics::{ForceHistory, Limits};
 
+use crate::contact::Clearance;
 use crate::cutting::{Blade, Cuts};
 use crate::energy::{EnergyAccount, Pressed};
 use crate::global::{GlobalWorkspace, OrganField};
@@ -44,8 +45,8 @@ pub struct SimulationState {
     pub(crate) energy: EnergyAccount,
     /// When the cuts were last taken to where the organ is [s].
     pub(crate) cuts_shown_at: f64,
-    /// Where tools touch neighbours; those of each tool one after the other.
-    pub(crate) touched_neighbours: Vec<Option<Contact>>,
+    /// Where tools touch neighbours, or how far they are from them; those of each tool one after the other.
+    pub(crate) touched_neighbours: Vec<(Option<Contact>, Clearance)>,
 }
 
 /// Vertices, with room for all of the organ's, which a clone has as well: its steps allocate nothing either.
@@ -73,6 +74,8 @@ pub struct ToolState {
     pub pose: Option<Pose>,
     /// What it touches.
     pub contact: Option<Contact>,
+    /// How far it is from the organ at rest.
+    pub(crate) clearance: Clearance,
     /// Force on the tool [N], of the organ and of the neighbours at which it stops.
     pub force: Vec3,
     /// Stiffness of the contact in its frame, of held tissue in the scene's [N/m]; zero without either.
@@ -164,7 +167,10 @@ impl SimulationState {
             shown_at: f64::NEG_INFINITY,
             cuts_shown_at: f64::NEG_INFINITY,
             energy: EnergyAccount::default(),
-            touched_neighbours: vec![None; simulation.tools.len() * simulation.neighbours.len()],
+            touched_neighbours: vec![
+                Default::default();
+                simulation.tools.len() * simulation.neighbours.len()
+            ],
         }
     }
 
@@ -187,14 +193,17 @@ impl SimulationState {
             cuts_shown_at,
             touched_neighbours,
         } = self;
-        touched_neighbours.fill(None);
+        touched_neighbours.fill(Default::default());
         for (number, tool) in tools.iter_mut().enumerate() {
             *tool = ToolState::new(number);
         }
-        let (rest, boxes) = simulation.untouched();
-        deformed.move_vertices_to(rest);
-        tree.copy_boxes(boxes);
-        moved.0.clear();
+        let is_local = whole.is_none() && body.is_none();
+        if !is_local || !moved.0.is_empty() {
+            let (rest, boxes) = simulation.untouched();
+            deformed.move_vertices_to(rest);
+            tree.copy_boxes(boxes);
+            moved.0.clear();
+        }
         if let Some(whole) = whole {
             whole.lay_to_rest();
         }
@@ -218,9 +227,23 @@ impl SimulationState {
         simulation: &Simulation,
         nodules: &[Nodule],
     ) -> Result<Self, Error> {
-        nodule::check(nodules, (&simulation.surface, &simulation.tree))?;
-        self.nodules = nodules.to_vec();
+        self.set_nodules(simulation, nodules)?;
         Ok(self)
+    }
+
+    /// The same in place; after an error nothing has changed.
+    ///
+    /// # Errors
+    /// When the middle of one is not in the organ.
+    pub fn set_nodules(
+        &mut self,
+        simulation: &Simulation,
+        nodules: &[Nodule],
+    ) -> Result<(), Error> {
+        nodule::check(nodules, (&simulation.surface, &simulation.tree))?;
+        self.nodules.clear();
+        self.nodules.extend_from_slice(nodules);
+        Ok(())
     }
 
     /// Plain sentences on the bounds of the models that acted in the steps so far.
@@ -239,12 +262,17 @@ impl SimulationState {
         self.cuts.as_mut().is_some_and(Cuts::undo)
     }
 
-    /// Shapes a whole organ no more often than every `period` [s]; forces are those of every step. For who
-    /// only looks at it: a display that shows 60 pictures a second needs no more shapes.
+    /// Shapes the organ no more often than every `period` [s]; forces are those of every step, and a shaft touches the
+    /// organ as it was shaped last. For who only looks at it: a display that shows 60 pictures a second needs no more.
     #[must_use]
     pub fn show_every(mut self, period: f64) -> Self {
-        self.show_every = period;
+        self.set_show_every(period);
         self
+    }
+
+    /// The same in place.
+    pub fn set_show_every(&mut self, period: f64) {
+        self.show_every = period;
     }
 }
 
@@ -258,6 +286,7 @@ impl ToolState {
         Self {
             pose: None,
             contact: None,
+            clearance: Clearance::default(),
             force: Vec3::zeros(),
             stiffness: nalgebra::Matrix3::zeros(),
             grip_force: 0.0,

@@ -7,7 +7,6 @@ use palpate_geometry::Vec3;
 use palpate_mechanics::contact::Friction;
 use palpate_mechanics::{ForceHistory, Limits};
 
-use crate::contact;
 use crate::simulation::Simulation;
 use crate::state::{SimulationState, SimulationWorkspace, ToolState};
 use crate::tool::Tool;
@@ -121,7 +120,7 @@ fn move_surface(
     {
         organ.deform((simulation, time), state, workspace);
     } else {
-        deform::deform(simulation, state, workspace);
+        deform::deform((simulation, time), state, workspace);
     }
 }
 
@@ -150,7 +149,9 @@ fn detect(
     state.pose = pose;
     let tip = tip.filter(|_| !state.holds());
     state.contact = tip.and_then(|tip| {
-        contact::detect(&simulation.ground(tool), tool, state.contact.as_ref(), &tip)
+        let last = state.contact.as_ref();
+        let ground = simulation.ground(tool);
+        state.clearance.detect(&ground, tool, last, &tip)
     });
     match (touched, state.contact) {
         (false, Some(contact)) => {

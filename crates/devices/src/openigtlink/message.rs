@@ -9,7 +9,8 @@ use std::time::{Duration, SystemTime, UNIX_EPOCH};
 use nalgebra::UnitQuaternion;
 use palpate_servo::Vec3;
 
-use super::{ShownSurface, checksum};
+use super::checksum;
+use crate::publisher::ShownSurface;
 
 /// Size of a header [B].
 pub const HEADER: usize = 58;

@@ -14,11 +14,10 @@
 
 mod checksum;
 pub mod message;
-mod picture;
 mod request;
 mod server;
 
 pub use checksum::checksum;
-pub use picture::{Picture, ShownSurface, ShownTool};
 pub use request::{Request, Requests};
-pub use server::{OperatingRoom, PORT};
+pub use server::PORT;
+pub(crate) use server::Server;

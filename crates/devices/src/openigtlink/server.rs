@@ -1,28 +1,18 @@
-use std::fmt;
-use std::io::{self, ErrorKind, Read, Write};
-use std::net::{SocketAddr, TcpListener, TcpStream};
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::thread::JoinHandle;
-use std::time::{Duration, Instant, SystemTime};
+use std::io::{ErrorKind, Read, Write};
+use std::net::{TcpListener, TcpStream};
+use std::time::{Instant, SystemTime};
 
 use super::message::{self, Status, append};
-use super::{Picture, Request, Requests, ShownSurface, ShownTool};
+use super::{Request, Requests};
+use crate::publisher::{
+    MOST_CLIENTS, Picture, SURFACE_PERIOD, Serve, SharedSource, ShownTool, fill, locked,
+};
 
 /// Where readers of this protocol look.
 pub const PORT: u16 = 18_944;
 
-/// From one picture to the next.
-const PERIOD: Duration = Duration::from_millis(20);
-
-/// How many may look on.
-const MOST_CLIENTS: usize = 16;
-
 /// Bytes that a client may be behind: several organs.
 const MOST_BEHIND: usize = 16 << 20;
-
-/// From one surface to the next, to one client.
-const SURFACE_PERIOD: Duration = Duration::from_millis(100);
 
 /// What is sent.
 const KINDS: [&str; 4] = ["TRANSFORM", "SENSOR", "STATUS", "POLYDATA"];
@@ -31,114 +21,14 @@ const KINDS: [&str; 4] = ["TRANSFORM", "SENSOR", "STATUS", "POLYDATA"];
 const SYSTEM: &str = "palpate";
 const ORGAN: &str = "organ";
 
-/// Where pictures come from.
-pub(super) trait Source: Send {
-    fn fill(&mut self, picture: &mut Picture);
-    fn surface(&mut self) -> ShownSurface;
-}
-
-struct Both<P, S>(P, S);
-
-impl<P: FnMut(&mut Picture) + Send, S: FnMut() -> ShownSurface + Send> Source for Both<P, S> {
-    fn fill(&mut self, picture: &mut Picture) {
-        self.0(picture);
-    }
-
-    fn surface(&mut self) -> ShownSurface {
-        self.1()
-    }
-}
-
-/// A server that shows what it is given. Copies are the same server; it ends with the last.
-#[derive(Clone)]
-pub struct OperatingRoom(Arc<Running>);
-
-struct Running {
-    address: SocketAddr,
-    source: Arc<Mutex<Option<Box<dyn Source>>>>,
-    ended: Arc<AtomicBool>,
-    thread: Mutex<Option<JoinHandle<()>>>,
-}
-
-impl OperatingRoom {
-    /// A server at `address`, with nothing to show yet.
-    ///
-    /// # Errors
-    /// When the port is taken.
-    pub fn open(address: SocketAddr) -> io::Result<Self> {
-        let listener = TcpListener::bind(address)?;
-        listener.set_nonblocking(true)?;
-        let address = listener.local_addr()?;
-        let source: Arc<Mutex<Option<Box<dyn Source>>>> = Arc::default();
-        let ended = Arc::new(AtomicBool::new(false));
-        let room = Room {
-            listener,
-            source: source.clone(),
-            clients: Vec::new(),
-            picture: Picture::default(),
-        };
-        let asked = ended.clone();
-        let thread = std::thread::Builder::new().name("openigtlink".to_owned());
-        let thread = thread.spawn(move || room.run(&asked))?;
-        Ok(Self(Arc::new(Running {
-            address,
-            source,
-            ended,
-            thread: Mutex::new(Some(thread)),
-        })))
-    }
-
-    /// Where it listens.
-    pub fn address(&self) -> SocketAddr {
-        self.0.address
-    }
-
-    /// From now on shows what `picture` fills in, fifty times a second, and what `surface` gives when somebody asks.
-    /// Both are called on the server's thread.
-    pub fn show(
-        &self,
-        picture: impl FnMut(&mut Picture) + Send + 'static,
-        surface: impl FnMut() -> ShownSurface + Send + 'static,
-    ) {
-        *locked(&self.0.source) = Some(Box::new(Both(picture, surface)));
-    }
-}
-
-impl fmt::Debug for OperatingRoom {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "OperatingRoom({})", self.address())
-    }
-}
-
-impl PartialEq for OperatingRoom {
-    /// Whether it is the same server.
-    fn eq(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.0, &other.0)
-    }
-}
-
-impl Eq for OperatingRoom {}
-
-impl Drop for Running {
-    fn drop(&mut self) {
-        self.ended.store(true, Ordering::Relaxed);
-        if let Some(thread) = locked(&self.thread).take() {
-            // One that panicked has ended too.
-            let _ = thread.join();
-        }
-    }
-}
-
-fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-/// The server's thread.
-struct Room {
+/// The server, on its thread.
+pub(crate) struct Server {
     listener: TcpListener,
-    source: Arc<Mutex<Option<Box<dyn Source>>>>,
+    source: SharedSource,
     clients: Vec<Client>,
     picture: Picture,
+    /// What every client gets in this period.
+    bytes: Vec<u8>,
 }
 
 /// Who looks on.
@@ -152,25 +42,28 @@ struct Client {
     had_surface: Option<Instant>,
 }
 
-impl Room {
-    fn run(mut self, ended: &AtomicBool) {
-        let mut next = Instant::now();
-        let mut bytes = Vec::new();
-        while !ended.load(Ordering::Relaxed) {
-            self.accept();
-            bytes.clear();
-            self.fill(&mut bytes);
-            let answers = self.read();
-            for (client, answer) in self.clients.iter_mut().zip(answers) {
-                client.behind.extend(&bytes);
-                client.behind.extend(answer);
-            }
-            self.clients.retain_mut(Client::write);
-            next += PERIOD;
-            let now = Instant::now();
-            // What is late is left out.
-            next = next.max(now);
-            std::thread::sleep(next - now);
+impl Serve for Server {
+    fn serve(&mut self) {
+        self.accept();
+        self.bytes.clear();
+        self.fill();
+        let answers = self.read();
+        for (client, answer) in self.clients.iter_mut().zip(answers) {
+            client.behind.extend(&self.bytes);
+            client.behind.extend(answer);
+        }
+        self.clients.retain_mut(Client::write);
+    }
+}
+
+impl Server {
+    pub(crate) fn new(listener: TcpListener, source: SharedSource) -> Self {
+        Self {
+            listener,
+            source,
+            clients: Vec::new(),
+            picture: Picture::default(),
+            bytes: Vec::new(),
         }
     }
 
@@ -192,11 +85,10 @@ impl Room {
     }
 
     /// Appends what everybody gets.
-    fn fill(&mut self, bytes: &mut Vec<u8>) {
+    fn fill(&mut self) {
         let time = SystemTime::now();
-        if let Some(source) = locked(&self.source).as_mut() {
-            source.fill(&mut self.picture);
-        }
+        fill(&self.source, &mut self.picture);
+        let bytes = &mut self.bytes;
         for tool in &self.picture.tools {
             if let Some(place) = tool.place {
                 append(bytes, ("TRANSFORM", &tool.name), time, |body| {

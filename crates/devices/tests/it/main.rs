@@ -17,4 +17,5 @@ mod libraries;
 mod library_faults;
 mod no_allocation;
 mod openigtlink;
+mod rosbridge;
 mod self_test;

@@ -31,7 +31,7 @@ pub fn resources() -> Resources {
         responses: folder(),
         memory: memory::offered().unwrap_or(Resources::default().memory),
         devices: Places::default(),
-        operating_room: None,
+        publishers: Vec::new(),
     }
 }
 

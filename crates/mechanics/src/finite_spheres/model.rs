@@ -216,14 +216,20 @@ impl FiniteSphereModel {
         self.calibration.radius_in_spacings
     }
 
-    /// Places the particles of `contact`, solves, and answers its stiffness.
+    /// Places the particles of `contact`, solves, and answers its stiffness. The contact that `workspace`, of this model
+    /// alone, answered last is not solved again: a flat tip that sticks keeps its contact until it lets go.
     pub fn respond(
         &self,
         contact: &LocalContact,
         workspace: &mut FiniteSphereWorkspace,
     ) -> Response {
+        if let Some((last, response)) = workspace.answered
+            && last == *contact
+        {
+            return response;
+        }
         let spacing = self.spacing(contact.radius);
-        match &self.reuse {
+        let response = match &self.reuse {
             Some(table) => {
                 let cap = CapShape::new(contact.curvature * spacing, self.layout.shells);
                 table.interpolate(cap, &mut workspace.solution);
@@ -233,12 +239,15 @@ impl FiniteSphereModel {
                 self.assemble(contact, workspace);
                 self.solve(contact, workspace)
             }
-        }
+        };
+        workspace.answered = Some((*contact, response));
+        response
     }
 
     /// The first half of [`Self::respond`], for measuring its parts: places the particles and makes the
     /// equations.
     pub fn assemble(&self, contact: &LocalContact, workspace: &mut FiniteSphereWorkspace) {
+        workspace.answered = None;
         if let (Some(own), Some(scratch)) = (&self.uncalibrated, &mut workspace.uncalibrated) {
             return own.assemble(contact, scratch);
         }

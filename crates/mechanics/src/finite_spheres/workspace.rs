@@ -1,4 +1,5 @@
 use super::layout::{CapShape, Layout};
+use super::model::{LocalContact, Response};
 use super::quadrature::Quadrature;
 use super::settings::{FiniteSphereSettings, Form, Solver};
 use super::shape_function::ShapeFunctions;
@@ -17,6 +18,8 @@ pub struct FiniteSphereWorkspace {
     gmres: Option<(Gmres, f64)>,
     cap: CapShape,
     solved: Solved,
+    /// What was solved last, and the answer.
+    pub(super) answered: Option<(LocalContact, Response)>,
     /// Of a model that is not calibrated.
     pub(super) uncalibrated: Option<Box<UncalibratedWorkspace>>,
 }
@@ -55,6 +58,7 @@ impl FiniteSphereWorkspace {
             gmres,
             cap: CapShape::FLAT,
             solved: Solved::Directly,
+            answered: None,
             uncalibrated: None,
         }
     }

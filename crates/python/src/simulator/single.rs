@@ -35,7 +35,7 @@ use crate::waiting::waiting;
 ///     Whether responses of whole organs are kept, and looked for first: where the command keeps them, or in a
 ///     folder.
 /// show_every : float
-///     The surface of a whole organ follows no more often than this [s]; forces are those of every step.
+///     The surface follows no more often than this [s]; forces are those of every step.
 #[pyclass(module = "palpate")]
 pub(crate) struct Simulation {
     pub(super) model: Arc<Model>,

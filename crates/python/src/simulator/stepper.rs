@@ -93,8 +93,7 @@ impl Stepper {
 
     /// The surface follows no more often than every `period` [s].
     pub(super) fn show_every(&mut self, period: f64) {
-        let state = self.course.state.clone();
-        self.course.state = state.show_every(period);
+        self.course.state.set_show_every(period);
     }
 
     /// Everything as in the beginning; with the stiff balls and the task of `scene`, if one is given.
@@ -103,18 +102,17 @@ impl Stepper {
         model: &Model,
         (scene, period): (Option<&Scene>, f64),
     ) -> Result<(), Failure> {
-        let mut state = SimulationState::new(&model.prepared).show_every(period);
-        if let Some(scene) = scene {
-            state = state.with_nodules(&model.prepared, &scene.organ.nodules)?;
-        }
-        self.restore(
-            model,
-            SavedState {
-                state,
-                clock: Clock::default(),
-                judge: Judge::new(scene.unwrap_or(&model.scene)),
-            },
-        );
+        let scene = scene.unwrap_or(&model.scene);
+        let SavedState {
+            state,
+            clock,
+            judge,
+        } = &mut self.course;
+        state.set_nodules(&model.prepared, &scene.organ.nodules)?;
+        state.begin_anew(&model.prepared);
+        state.set_show_every(period);
+        *clock = Clock::default();
+        *judge = Judge::new(scene);
         Ok(())
     }
 

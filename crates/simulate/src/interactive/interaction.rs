@@ -2,7 +2,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
 
-use palpate_devices::openigtlink::OperatingRoom;
+use palpate_devices::publisher::Publisher;
 use palpate_files::SessionRow;
 use palpate_servo::watch::{Watch as LoopWatch, WatchThread};
 use palpate_servo::{
@@ -39,8 +39,8 @@ pub struct Interaction {
 /// What surrounds a touch.
 #[derive(Clone, Copy)]
 pub struct Environment<'a> {
-    /// Where it is shown besides, if anywhere.
-    pub operating_room: Option<&'a OperatingRoom>,
+    /// Servers that send it to other programs.
+    pub publishers: &'a [Publisher],
     /// Whether the program was asked to end; no device has a force then.
     pub is_ended: fn() -> bool,
 }
@@ -49,7 +49,7 @@ impl Default for Environment<'_> {
     /// Nothing.
     fn default() -> Self {
         Self {
-            operating_room: None,
+            publishers: &[],
             is_ended: || false,
         }
     }
@@ -88,7 +88,7 @@ impl Interaction {
         settings: ServoSettings,
     ) -> Result<Self, Error> {
         let supervisor = Supervisor::armed();
-        let PreparedModel { model, seen } = prepared.shown_in(environment.operating_room);
+        let PreparedModel { model, seen } = prepared.published_by(environment.publishers);
         let simulation = model.simulation.clone();
         let parts = device_endpoints(&simulation, devices, settings, &supervisor)?;
         let displays = parts.iter().flatten().any(|parts| parts.displays_force);
@@ -143,7 +143,7 @@ impl Interaction {
         environment: &Environment<'_>,
         prepared: PreparedModel,
     ) -> Result<(), Error> {
-        let prepared = prepared.shown_in(environment.operating_room);
+        let prepared = prepared.published_by(environment.publishers);
         self.snapshots = self.replacing.replace(prepared)?;
         Ok(())
     }

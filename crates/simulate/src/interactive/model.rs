@@ -10,12 +10,12 @@
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 
-use palpate_devices::openigtlink::OperatingRoom;
+use palpate_devices::publisher::Publisher;
 use palpate_servo::{Sample, Stage, Supervisor, latest};
 
 use super::Snapshot;
 use super::model_loop::DISPLAY;
-use super::operating_room::shown_in;
+use super::published::published_by;
 use crate::{Error, Simulation, SimulationState, SimulationWorkspace};
 
 /// A model with its state and scratch, and those who see its steps.
@@ -46,10 +46,10 @@ impl PreparedModel {
         Self { model, seen }
     }
 
-    /// The same, shown in an operating room, if there is one, from now on.
-    pub(super) fn shown_in(mut self, room: Option<&OperatingRoom>) -> Self {
-        if let Some(room) = room {
-            let shown = shown_in(room, &self.model.simulation);
+    /// The same, published by these servers from now on.
+    pub(super) fn published_by(mut self, publishers: &[Publisher]) -> Self {
+        for publisher in publishers {
+            let shown = published_by(publisher, &self.model.simulation);
             self.model.snapshots.push(shown);
         }
         self

@@ -7,7 +7,8 @@ use std::time::Duration;
 use palpate_device_stand_ins::{
     HaplyStandIn, HaplyStandInSettings, Mechanics, Misbehaviour, StandInClock, StandInLibrary,
 };
-use palpate_devices::openigtlink::{OperatingRoom, message};
+use palpate_devices::openigtlink::message;
+use palpate_devices::publisher::{Protocol, Publisher};
 use palpate_devices::{Kind, Places};
 use palpate_files::scene::DeviceKind;
 use palpate_files::{Scene, SessionRow};
@@ -247,12 +248,13 @@ fn a_fault_of_the_device_ends_the_touch() {
 fn a_touch_is_shown_in_an_operating_room() {
     use std::io::{Read, Write};
     let (_, simulation) = scene(DeviceKind::Virtual);
-    let room = OperatingRoom::open("127.0.0.1:0".parse().unwrap()).unwrap();
+    let anywhere = "127.0.0.1:0".parse().unwrap();
+    let room = Publisher::open(anywhere, Protocol::OpenIgtLink).unwrap();
     let device = PlacedDevice::palpating(&simulation, &simulation.tools()[0]);
     let settings = ServoSettings::default();
     let devices = vec![Some(device)];
     let environment = Environment {
-        operating_room: Some(&room),
+        publishers: std::slice::from_ref(&room),
         ..Environment::default()
     };
     let prepared = PreparedModel::new(simulation.clone());

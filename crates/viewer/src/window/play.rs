@@ -248,7 +248,7 @@ impl Play {
 
 fn environment(resources: &Resources, is_ended: fn() -> bool) -> Environment<'_> {
     Environment {
-        operating_room: resources.operating_room.as_ref(),
+        publishers: &resources.publishers,
         is_ended,
     }
 }

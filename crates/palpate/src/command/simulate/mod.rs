@@ -7,7 +7,7 @@ use std::net::{Ipv4Addr, SocketAddr};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use palpate_devices::openigtlink::OperatingRoom;
+use palpate_devices::publisher::{Protocol, Publisher};
 use palpate_files::scene::{LARGEST_SEED, Shape};
 use palpate_files::{Motion, Overwrite, Scene};
 use palpate_geometry::{AabbTree, Vec3};
@@ -60,6 +60,9 @@ Examples:
       60 pictures (session/frame-0001.png and so on)
   palpate simulate scene.toml --openigtlink
       opens a window and serves the simulation to 3D Slicer on this machine (docs/slicer.md)
+  palpate simulate scene.toml --headless --publish
+      no window: a haptic device moves the tools, and clients of ROS read poses, forces and the
+      organ from ws://127.0.0.1:9090 (docs/how_to/robot_learning.md)
   palpate simulate scene.toml --headless --openigtlink=0.0.0.0:18944
       no window: a haptic device moves the tools, and any machine that can reach this one can
       watch
@@ -80,7 +83,7 @@ pub(crate) struct Arguments {
     /// this file [default: the name of the mesh with -wrapped.ply, in this folder]. `palpate mesh wrap` has the settings.
     #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, requires = "scene")]
     wrap: Option<Option<PathBuf>>,
-    /// Play without a window; needs --motion or --indentation, and --out; or --openigtlink.
+    /// Play without a window; needs --motion or --indentation, and --out; or --openigtlink or --publish.
     #[arg(long)]
     headless: bool,
     /// The tool motions to play: time_s, tool, x_m, y_m, z_m.
@@ -115,6 +118,10 @@ pub(crate) struct Arguments {
     /// otherwise.
     #[arg(long, value_name = "[ADDRESS:]PORT", num_args = 0..=1, require_equals = true, default_missing_value = "18944", value_parser = room_address)]
     openigtlink: Option<SocketAddr>,
+    /// Publish poses, forces and the organ to clients of ROS, as JSON over a WebSocket (rosbridge); on this machine only,
+    /// unless ADDRESS says otherwise.
+    #[arg(long, value_name = "[ADDRESS:]PORT", num_args = 0..=1, require_equals = true, default_missing_value = "9090", value_parser = room_address)]
+    publish: Option<SocketAddr>,
 }
 
 /// A port of this machine, or of an address.
@@ -135,7 +142,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         (None, Some(recording)) => Some(Played::Indentation(recording)),
         (None, None) => None,
     };
-    let shows = arguments.openigtlink.is_some();
+    let shows = arguments.openigtlink.is_some() || arguments.publish.is_some();
     match (arguments.headless, played, &arguments.out) {
         (true, Some(played), Some(out)) if !shows => play(arguments, &played, out),
         (true, None, None) if shows => {
@@ -144,11 +151,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         }
         (false, None, None) => touch(arguments),
         (true, Some(_), Some(_)) => Err(Failure::input(
-            "a motion is played faster than it can be displayed; leave --openigtlink out, or --motion and --out",
+            "a motion is played faster than it can be displayed; leave --openigtlink and --publish out, or --motion and --out",
         )),
         (true, ..) => Err(Failure::input(
-            "--headless plays a motion or an indentation; add --motion MOTION.csv --out DIR, or --openigtlink \
-             alone to show a touch",
+            "--headless plays a motion or an indentation; add --motion MOTION.csv --out DIR, or --openigtlink or \
+             --publish alone to show a touch",
         )),
         _ => Err(Failure::input(
             "in a window the mouse moves the tools; play a motion with --headless --motion MOTION.csv \
@@ -221,15 +228,22 @@ impl Arguments {
 
     /// What a touch may use, with the server that shows it.
     fn resources(&self) -> Result<Resources, Failure> {
-        let room = self.openigtlink.map(|address| {
-            OperatingRoom::open(address).map_err(|error| {
+        let asked = [
+            (self.openigtlink, Protocol::OpenIgtLink, "--openigtlink"),
+            (self.publish, Protocol::Rosbridge, "--publish"),
+        ];
+        let asked = asked.into_iter();
+        let opened = asked.filter_map(|(address, protocol, option)| {
+            let address = address?;
+            let opened = Publisher::open(address, protocol).map_err(|error| {
                 Failure::failed(format!(
-                    "nothing can be shown at {address} ({error}); give another port with --openigtlink"
+                    "nothing can be shown at {address} ({error}); give another port with {option}"
                 ))
-            })
+            });
+            Some(opened)
         });
         Ok(Resources {
-            operating_room: room.transpose()?,
+            publishers: opened.collect::<Result<_, _>>()?,
             ..preparation::resources_with_devices()?
         })
     }

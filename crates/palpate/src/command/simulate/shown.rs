@@ -1,4 +1,4 @@
-//! A touch without a window: devices move the tools, and clients of OpenIGTLink see it, until Ctrl-C.
+//! A touch without a window: devices move the tools, and clients of servers see it, until Ctrl-C.
 
 use std::sync::Arc;
 use std::thread;
@@ -31,7 +31,7 @@ pub(super) fn run(scene: Scene, resources: Resources) -> Result<(), Failure> {
     let names = simulation.clone();
     let devices = SceneDevices::open(&scene, &simulation, &resources.devices)?;
     let environment = Environment {
-        operating_room: resources.operating_room.as_ref(),
+        publishers: &resources.publishers,
         is_ended: interrupt::is_asked,
     };
     let prepared = PreparedModel::new(simulation);
@@ -40,8 +40,8 @@ pub(super) fn run(scene: Scene, resources: Resources) -> Result<(), Failure> {
     let _ = interrupt::is_asked();
     let memory = lock_memory();
     let mut touch = Interaction::start_in(&environment, prepared, devices.devices, settings)?;
-    if let Some(room) = environment.operating_room {
-        output::line(format!("shown at {}, Ctrl-C ends it", room.address()))?;
+    for publisher in environment.publishers {
+        output::line(format!("shown at {}, Ctrl-C ends it", publisher.address()))?;
     }
     // What nobody moves by hand is armed again by nobody either: a fault is told, and stays.
     let mut told = None;

@@ -44,8 +44,8 @@ class TouchEnv(gymnasium.Env[Seen, NDArray[np.float32]]):
         One that was prepared already, in place of a scene.
     model : {"local", "hybrid", "nonlinear"}, optional
         Another model than the scene's.
-    substeps : int
-        Steps of the model in an action.
+    substeps : int, optional
+        Steps of the model in an action; ten, or half a second in a press.
     speed : float
         The most along each axis [m/s].
     observation : {"vector", "dict"}
@@ -55,8 +55,8 @@ class TouchEnv(gymnasium.Env[Seen, NDArray[np.float32]]):
         `mesa-vulkan-drivers`.
     image_size : (int, int)
         Width and height of these images [pixels].
-    action : {"cartesian", "remote_center"}
-        How an action moves the tool.
+    action : {"cartesian", "remote_center", "press"}
+        How an action moves the tool; "press" is for palpation, see `PalpationEnv`.
     randomization : mapping of str to a range or a distribution, optional
         What each episode draws by its seed, see `Randomization`: `tissue.stiffness` and `tissue.relaxation_time`, factors
         of all moduli and relaxation times [-]; `anchor.size`, a factor of the boxes and balls of the scene's
@@ -77,12 +77,12 @@ class TouchEnv(gymnasium.Env[Seen, NDArray[np.float32]]):
         *,
         simulation: palpate.Simulation | None = None,
         model: str | None = None,
-        substeps: int = 10,
+        substeps: int | None = None,
         speed: float = 0.05,
         observation: Literal["vector", "dict"] = "vector",
         images: Sequence[Literal["rgb", "depth", "segmentation"]] = (),
         image_size: tuple[int, int] = (128, 128),
-        action: Literal["cartesian", "remote_center"] = "cartesian",
+        action: Literal["cartesian", "remote_center", "press"] = "cartesian",
         randomization: Mapping[str, Distribution] | None = None,
         render_mode: str | None = None,
     ) -> None:
@@ -137,7 +137,11 @@ class PalpationEnv(TouchEnv):
 
     The seed draws where it is, within 5 cm of the scene's own place on the same side, and where the tip begins. The hand
     says with a fourth number above zero: here; in the air nothing is meant. **Reward** for it: 1 where it is within the
-    task's tolerance, else minus how far beside it is, in decimetres. Nothing is seen of the goal.
+    task's tolerance, else minus how far beside it is, in decimetres; minus 1 when the time ends without it. Nothing is seen
+    of the goal. With `action="press"` an action is a press, of half a second unless `substeps` states another duration:
+    two numbers for the place within 5 cm of the scene's own, from -1 to 1 along two axes of the task's side; the depth,
+    from 0 at -1 to 8 mm at 1; and the hand, which says "here" without moving. The force of the observation is that at
+    the end of the press.
     """
 
     kind = Palpation

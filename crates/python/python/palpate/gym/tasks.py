@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 from dataclasses import dataclass
 from typing import Any
 
@@ -20,6 +19,8 @@ CLEAR = 0.010
 DEEPEST = 0.020
 #: Time that a task may take where its scene does not say [s].
 TIME_LIMIT = 60.0
+#: Tables of a scene that an episode may draw, or that its task refers to.
+OF_EPISODE = ("organ", "tool", "task")
 #: What a rise of the force above its limit costs, and any other error.
 COST_OF_FORCE = 0.1
 COST_OF_ERROR = 0.5
@@ -86,9 +87,10 @@ class Task:
         raise NotImplementedError
 
     def with_task(self, **changed: object) -> dict[str, Any]:
-        """The scene's content with other words for the goal."""
-        content = copy.deepcopy(self.content)
-        content["task"][self.word].update(changed)
+        """What an episode needs of the scene's content, with other words for the goal: a small scene is read sooner."""
+        content = {name: self.content[name] for name in OF_EPISODE if name in self.content}
+        content["organ"] = dict(content["organ"])
+        content["task"] = {**content["task"], self.word: {**self.wanted, **changed}}
         return content
 
     def near(self, place: Floats, reach: float, facing: Floats) -> NDArray[np.intp]:
@@ -164,22 +166,25 @@ class Traction(Task):
             return scene.tools.index(self.wanted["tool"])
         return self.first_tool(scene, ("grasper",))
 
-    def scenario(self, draw: np.random.Generator) -> Scenario:
-        """The force, and where the tip begins."""
-        force = float(self.wanted["force_n"]) * draw.uniform(1.0 - self.SPREAD, 1.0 + self.SPREAD)
+    def __init__(self, scene: palpate.Scene, rest: palpate.Mesh) -> None:
+        super().__init__(scene, rest)
         view = self.content.get("view", {})
         middle = np.array(view.get("target_m", self.vertices.mean(axis=0)), dtype=float)
         eye = np.array(view["eye_m"], dtype=float) - middle if "eye_m" in view else self.FACING
-        facing = eye / np.linalg.norm(eye)
-        ahead = np.argmax(
-            self.vertices @ facing - 2.0 * np.linalg.norm(np.cross(self.vertices - middle, facing), axis=1)
-        )
-        place = draw.choice(self.near(self.vertices[ahead], self.REACH, facing))
-        start = self.vertices[place] + CLEAR * facing
+        self.facing = eye / np.linalg.norm(eye)
+        aside = np.linalg.norm(np.cross(self.vertices - middle, self.facing), axis=1)
+        ahead = np.argmax(self.vertices @ self.facing - 2.0 * aside)
+        self.places = self.near(self.vertices[ahead], self.REACH, self.facing)
+
+    def scenario(self, draw: np.random.Generator) -> Scenario:
+        """The force, and where the tip begins."""
+        force = float(self.wanted["force_n"]) * draw.uniform(1.0 - self.SPREAD, 1.0 + self.SPREAD)
+        place = draw.choice(self.places)
+        start = self.vertices[place] + CLEAR * self.facing
         content = self.with_task(force_n=force)
         # Only the force is seen, so only the force counts.
-        content["task"][self.word].pop("direction", None)
-        content["task"][self.word].pop("direction_tolerance_deg", None)
+        for name in ("direction", "direction_tolerance_deg"):
+            content["task"][self.word].pop(name, None)
         return Scenario(palpate.Scene(content), start, np.array([force]))
 
     def deeds(self, wish: Floats) -> Deeds:
@@ -202,15 +207,18 @@ class Cutting(Task):
         """The first blade."""
         return self.first_tool(scene, ("scissors", "hook"))
 
+    def __init__(self, scene: palpate.Scene, rest: palpate.Mesh) -> None:
+        super().__init__(scene, rest)
+        self.ends = np.array([self.wanted["from_m"], self.wanted["to_m"]], dtype=float)
+        self.along = (self.ends[1] - self.ends[0]) / np.linalg.norm(self.ends[1] - self.ends[0])
+        out = self.normals[int(np.linalg.norm(self.vertices - self.ends.mean(axis=0), axis=1).argmin())]
+        out = out - self.along * (out @ self.along)
+        self.out = out / np.linalg.norm(out)
+
     def scenario(self, draw: np.random.Generator) -> Scenario:
         """The line, and where the tip begins."""
-        ends = np.array([self.wanted["from_m"], self.wanted["to_m"]], dtype=float)
-        along = (ends[1] - ends[0]) / np.linalg.norm(ends[1] - ends[0])
-        middle = ends.mean(axis=0)
-        out = self.normals[int(np.linalg.norm(self.vertices - middle, axis=1).argmin())]
-        out = out - along * (out @ along)
-        out = out / np.linalg.norm(out)
-        ends = ends + along * draw.uniform(-self.ALONG, self.ALONG)
+        along, out = self.along, self.out
+        ends = self.ends + along * draw.uniform(-self.ALONG, self.ALONG)
         ends = ends + np.cross(out, along) * draw.uniform(-self.ASIDE, self.ASIDE)
         start = ends[0] + CLEAR * out + 0.002 * draw.uniform(-1.0, 1.0, size=3)
         scene = palpate.Scene(self.with_task(from_m=ends[0].tolist(), to_m=ends[1].tolist()))

@@ -12,6 +12,7 @@ from gymnasium.spaces import Box, Dict, Space
 from numpy.typing import NDArray
 
 import palpate
+from palpate.gym import press
 from palpate.gym.randomization import Distribution, Randomization, camera_with, scene_with
 from palpate.gym.remote_center import LIMITS, ROLL_SPEED, TYPICAL_INSERTION, RemoteCenter, rotated
 from palpate.gym.tasks import COST_OF_ERROR, COST_OF_FORCE, DEEPEST, Floats, Scenario, Task, Truths
@@ -29,6 +30,8 @@ PORT = (0.16, 0.05)
 #: So many prepared models are kept at most.
 KEPT_MODELS = 32
 
+#: Steps of the model in an action that moves the tool.
+SUBSTEPS = 10
 #: How far a tip may leave the organ's box [m].
 MARGIN = 0.03
 #: Lengths of an observation before what is seen of the goal.
@@ -63,7 +66,7 @@ class Touch:
         scene: palpate.Scene | None = None,
         simulation: palpate.Simulation | None = None,
         model: str | None = None,
-        substeps: int = 10,
+        substeps: int | None = None,
         speed: float = 0.05,
         threads: int | None = None,
         observation: str = "vector",
@@ -73,10 +76,10 @@ class Touch:
         randomization: Mapping[str, Distribution] | None = None,
         render_mode: str | None = None,
     ) -> None:
-        if substeps < 1 or not speed > 0.0:
+        if (substeps is not None and substeps < 1) or not speed > 0.0:
             raise palpate.InputError("`substeps` and `speed` say how far an action goes; give numbers above zero")
         _check(observation, "observation", ("vector", "dict"))
-        _check(action, "action", ("cartesian", "remote_center"))
+        _check(action, "action", ("cartesian", "remote_center", "press"))
         if render_mode is not None:
             _check(render_mode, "render_mode", ("rgb_array",))
         for image in images:
@@ -87,6 +90,8 @@ class Touch:
             scene = scene if scene is not None else palpate.Scene.builtin(kind.builtin)
             # The surface is not looked at.
             simulation = palpate.Simulation(_of_model(scene, model), show_every=1e9)
+        if substeps is None:
+            substeps = max(1, round(press.DURATION / simulation.step_length)) if action == "press" else SUBSTEPS
         self.simulation = simulation
         self.task = kind(simulation.scene, simulation.surface)
         self.count, self.substeps = count, substeps
@@ -112,6 +117,7 @@ class Touch:
         self.cameras = [self.camera] * count
         self.joints: Floats = np.zeros((count, 4))
         self.arm = self._arm() if action == "remote_center" else None
+        self.press = press.Press(self.task, substeps) if action == "press" else None
 
     def _arm(self) -> RemoteCenter:
         """Through the tool's trocar, else through one beside the endoscope."""
@@ -242,6 +248,9 @@ class Touch:
 
     def _moved(self, wish: Floats) -> tuple[Floats, Floats, Floats | None, Floats]:
         """Where the wishes take the tips in the end [m], on the way, with which orientations, and the joints."""
+        if self.press is not None:
+            path = self.press.paths(self.tips, wish)
+            return path[-1], path, None, self.joints
         if self.arm is None:
             to = np.clip(self.tips + self.reach * wish[:, :3], self.low, self.high)
             return to, self.tips + self.part_of_action * (to - self.tips), None, self.joints
@@ -274,7 +283,8 @@ class Touch:
 
     def _worth(self, goes_on: Truths) -> tuple[Floats, Truths, Truths]:
         over, late = self.batch.over, self.batch.late
-        parts = np.where(late, self.parts, np.nan_to_num(self.batch.progress))
+        progress = self.batch.progress
+        parts = np.where(late, self.parts, np.where(np.isnan(progress), 0.0, progress))
         gained = np.zeros(self.count) if self.task.word == "find" else parts - self.parts
         errors = self.batch.errors.astype(np.int64)
         more = errors - self.errors
@@ -285,6 +295,8 @@ class Touch:
         for number in np.flatnonzero(done & goes_on):
             gained[number] += self._bonus(int(number))
         gained[too_deep] -= 1.0
+        if self.task.word == "find":
+            gained[late & ~too_deep & ~perforated] -= 1.0
         terminated = (done | too_deep | perforated) & goes_on
         truncated = late & ~terminated & goes_on
         self.parts[goes_on], self.errors[goes_on] = parts[goes_on], errors[goes_on]

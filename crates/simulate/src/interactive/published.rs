@@ -1,25 +1,28 @@
-//! What is touched, as a server of pictures shows it.
+//! The running simulation, as servers send it to other programs.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
 use nalgebra::{Quaternion, UnitQuaternion};
-use palpate_devices::openigtlink::{OperatingRoom, Picture, ShownSurface, ShownTool};
+use palpate_devices::publisher::{Picture, Publisher, ShownSurface, ShownTool};
 use palpate_geometry::Vec3;
 use palpate_servo::latest::{Receiver, Sender, channel};
 
 use super::{Snapshot, ToolSnapshot};
 use crate::Simulation;
 
-/// Has `room` show what is sent to it from now on.
-pub(super) fn shown_in(room: &OperatingRoom, simulation: &Arc<Simulation>) -> Sender<Snapshot> {
+/// Has `publisher` send what it gets from now on.
+pub(super) fn published_by(
+    publisher: &Publisher,
+    simulation: &Arc<Simulation>,
+) -> Sender<Snapshot> {
     let (snapshots, seen) = channel(&Snapshot::new(simulation));
-    // Only the room's own thread asks.
+    // Only the server's own thread asks.
     let seen = Arc::new(Mutex::new(seen));
     let (of_tools, of_organ) = (seen.clone(), seen);
     let tools = simulation.tools().iter();
     let names: Vec<String> = tools.map(|tool| tool.name.clone()).collect();
     let organ = simulation.clone();
-    room.show(
+    publisher.show(
         move |picture| with_latest(&of_tools, |snapshot| fill(picture, snapshot, &names)),
         move || with_latest(&of_organ, |snapshot| surface(&organ, snapshot)),
     );
