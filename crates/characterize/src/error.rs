@@ -51,6 +51,11 @@ pub enum Error {
         /// Those that there are.
         known: Vec<String>,
     },
+    /// Only closed forms were sought.
+    #[error(
+        "only closed forms were asked for; leave out --closed-forms to fit laws and relaxation"
+    )]
+    NotSought,
     /// The force never pulls as the indenter goes back.
     #[error(
         "the force does not fall below zero by more than its noise as the indenter goes back: no adhesion shows"
@@ -280,6 +285,7 @@ impl Error {
             | Self::NoContact { .. }
             | Self::ContactOutside { .. }
             | Self::NotInGuess { .. }
+            | Self::NotSought
             | Self::NoPullOff
             | Self::AdhesionOfSphere
             | Self::NoDesign

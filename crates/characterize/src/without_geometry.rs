@@ -52,6 +52,18 @@ impl WithoutGeometry {
         }
     }
 
+    /// Closed forms alone, of a half-space.
+    pub(crate) fn of_closed_forms(recordings: &[CleanRecording]) -> Self {
+        Self {
+            mean_modulus: mean_elastic_modulus(recordings),
+            linear_elastic: fit_approach(recordings),
+            adhesion: fit_adhesion(recordings),
+            kelvin: Err(Error::NotSought),
+            column: Err(Error::NotSought),
+            springs: Err(Error::NotSought),
+        }
+    }
+
     /// Warnings about the fits, each by the name of its law in files.
     pub fn warnings(&self) -> Vec<String> {
         let column = self.column.iter().flat_map(|found| &found.warnings);

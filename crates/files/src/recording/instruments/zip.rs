@@ -48,7 +48,22 @@ impl<'b> Archive<'b> {
             at = entry.end;
             parts.insert(entry.name, entry.part);
         }
-        Ok(Self { bytes, parts })
+        // The list ends where the record at the end begins, and each name stands at its part too.
+        let archive = Self { bytes, parts };
+        let mut each = archive.parts.iter();
+        match at == end && each.all(|(name, part)| archive.is_named(part, name)) {
+            true => Ok(archive),
+            false => Err("has a damaged list of parts"),
+        }
+    }
+
+    fn is_named(&self, part: &Part, name: &str) -> bool {
+        let header = self.bytes.get(part.local_header as usize..);
+        let own = header.and_then(|header| {
+            header.starts_with(b"PK\x03\x04").then_some(())?;
+            header.get(30..)?.get(..number16(header, 26)? as usize)
+        });
+        own.is_some_and(|own| String::from_utf8_lossy(own) == name)
     }
 
     pub(super) fn names(&self) -> impl Iterator<Item = &str> {
@@ -97,7 +112,6 @@ impl<'b> Archive<'b> {
     fn packed(&self, part: &Part) -> Option<&'b [u8]> {
         let at = part.local_header as usize;
         let header = self.bytes.get(at..)?;
-        header.starts_with(b"PK\x03\x04").then_some(())?;
         let names = number16(header, 26)? as usize + number16(header, 28)? as usize;
         header.get(30 + names..)?.get(..part.compressed as usize)
     }

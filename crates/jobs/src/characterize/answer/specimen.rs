@@ -32,6 +32,9 @@ pub struct Specimen {
     pub site: Option<String>,
     /// As the files say.
     pub condition: Option<String>,
+    /// Where on its surface it was pressed [m]; none where no file says it.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub position_m: Option<[f64; 3]>,
     /// Prony series.
     pub relaxation: Option<RelaxationAnswer>,
     /// The laws that were found, by their names in a tissue file.
@@ -75,6 +78,7 @@ impl Specimen {
             subject: header.subject.clone(),
             site: header.site.clone(),
             condition: header.condition.map(|own| own.word().to_owned()),
+            position_m: header.position_m,
             lumped: lumped(&found.without_geometry, &mut reasons),
             relaxation,
             laws,
