@@ -178,7 +178,7 @@ fn what_was_written_is_read() {
     assert_eq!((header.site.as_deref(), all.len()), (None, 1));
     let remark = &all[0].remarks()[0];
     assert!(
-        remark.contains("extend 2 s, retract 1 s") && remark.contains("0.05 N/m"),
+        remark.contains("extend 2.000 s, retract 1.000 s") && remark.contains("0.05000 N/m"),
         "{remark}"
     );
 }
@@ -372,7 +372,7 @@ fn real_chiaro_text_is_read() {
     );
     assert!((recording.force_n().last().unwrap() - 1e-6 * last[1]).abs() < 1e-18);
     assert!(
-        recording.remarks()[0].contains("E[v=0.500] = 117 Pa"),
+        recording.remarks()[0].contains("E[v=0.500] = 117.0 Pa"),
         "{:?}",
         recording.remarks()
     );

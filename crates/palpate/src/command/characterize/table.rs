@@ -37,8 +37,10 @@ fn write(text: &mut String, specimen: &Specimen) -> std::fmt::Result {
         ("linear elastic", &specimen.lumped.linear_elastic),
         ("adhesion", &specimen.lumped.adhesion),
     ];
+    // Programs of instruments, which state positions, report such a modulus.
+    let is_of_instrument = specimen.position_m.is_some() || specimen.laws.is_empty();
     for (name, found) in contact {
-        if let Some(found) = found {
+        if let Some(found) = found.as_ref().filter(|_| is_of_instrument) {
             writeln!(text, "  {name:<16} {}", of_contact(found))?;
         }
     }
