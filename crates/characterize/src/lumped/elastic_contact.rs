@@ -2,7 +2,7 @@
 //! modulus from the approach, and of a sphere that sticks also the work of adhesion, from the way back.
 //!
 //! *Approach*: F = E* f(d − d₀), with E* = E/(1 − ν²), ν = ½, and f of a flat face, a sphere [Hertz 1881] or a cone
-//! [Sneddon 1965] ([`Contact`]); E and the contact d₀ are fitted together.
+//! [Sneddon 1965] ([`Contact`]); E and the contact d₀ are fitted together, d₀ from the best of 200 depths of the approach on.
 //!
 //! *Way back of a sphere* of radius R [Johnson, Kendall and Roberts 1971], by the radius a of contact:
 //!   d − d₀ = a²/R − √(2πwa/E*),  F = 4E*a³/(3R) − √(8πwE*a³),
@@ -26,6 +26,8 @@ use crate::{CleanRecording, Error};
 
 /// Samples that are fitted at most; of more, every second, third and so on.
 const MOST_SAMPLES: usize = 1500;
+/// Contacts that are tried.
+const CANDIDATES: usize = 200;
 /// How far before the contact samples are fitted, over the deepest press [-].
 const BEFORE: f64 = 0.25;
 /// How far the contact may be from where it was found, over the deepest press [-].
@@ -96,16 +98,58 @@ impl Branch {
             .then_some(branch)
     }
 
-    /// From before the contact to the end of the first ramp.
-    fn approach(recording: &CleanRecording) -> Option<Self> {
+    /// From before the contact to the end of the first ramp, with depth and force from that contact on, and its depth.
+    fn approach(recording: &CleanRecording, contact: Contact) -> Option<(Self, f64)> {
         let ramp = recording
             .segments
             .iter()
             .find(|segment| segment.kind == SegmentKind::Ramp)?;
-        let deepest = recording.depth.iter().copied().fold(0.0, f64::max);
-        let near = (0..ramp.end).rev();
-        let near = near.take_while(|sample| recording.depth[*sample] >= -BEFORE * deepest);
-        Self::of(recording, near)
+        let begin = Self::of(recording, 0..ramp.end)?.best_contact(contact);
+        let near = BEFORE * (recording.depth[ramp.end - 1] - begin);
+        let is_near = |sample: &usize| recording.depth[*sample] >= begin - near;
+        let mut own = Self::of(recording, (0..ramp.end).filter(is_near))?;
+        let free = own.depth.iter().zip(&own.force);
+        let free = free.filter(|(depth, _)| **depth < begin);
+        let (sum, count) = free.fold((0.0, 0.0), |(sum, count), (_, f)| (sum + f, count + 1.0));
+        let zero = if count > 0.0 { sum / count } else { 0.0 };
+        own.force.iter_mut().for_each(|force| *force -= zero);
+        own.from(begin);
+        Some((own, begin))
+    }
+
+    /// Depths from another contact on.
+    fn from(&mut self, contact: f64) {
+        self.depth.iter_mut().for_each(|depth| *depth -= contact);
+        self.deepest -= contact;
+    }
+
+    /// The depth of the contact whose curve, with a constant force before it, is nearest to the samples. A slow drift
+    /// before contact misleads a search in the beginning of the force alone.
+    fn best_contact(&self, contact: Contact) -> f64 {
+        let low = self.depth.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = self.depth.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let count = self.depth.len() as f64;
+        let misfit = |begin: f64| {
+            let [mut u, mut f, mut uu, mut uf, mut ff] = [0.0; 5];
+            for (depth, force) in self.depth.iter().zip(&self.force) {
+                let (rise, force) = (contact.unit_force(depth - begin), force / self.strongest);
+                u += rise;
+                f += force;
+                uu += rise * rise;
+                uf += rise * force;
+                ff += force * force;
+            }
+            let [square, product] = [uu - u * u / count, uf - u * f / count];
+            ff - f * f / count - product.max(0.0) * (product / square)
+        };
+        let candidates = (0..CANDIDATES).map(|place| {
+            let begin = low + (high - low) * place as f64 / CANDIDATES as f64;
+            (begin, misfit(begin))
+        });
+        let best = candidates
+            .filter(|(_, misfit)| misfit.is_finite())
+            .min_by(|a, b| a.1.total_cmp(&b.1));
+        best.map_or(0.0, |(begin, _)| begin)
     }
 
     /// From the first sample of the last way back to its least force.
@@ -177,10 +221,12 @@ impl Branch {
 /// When the indenter is not stated or nothing was pressed.
 pub fn fit_approach(recordings: &[CleanRecording]) -> Result<ElasticContact, Error> {
     let (recording, contact) = deepest(recordings)?;
-    let branch = Branch::approach(recording).ok_or(Error::NothingFelt)?;
+    let (branch, begin) = Branch::approach(recording, contact).ok_or(Error::NothingFelt)?;
     let start = 0.75 * branch.strongest / contact.unit_force(branch.deepest);
     let force = |modulus: f64, _: f64, depth: f64| contact.unit_force(depth) * modulus / 0.75;
-    Ok(branch.fit([start, 0.0], force)?.elastic)
+    let mut found = branch.fit([start, 0.0], force)?.elastic;
+    found.contact_m.value += begin;
+    Ok(found)
 }
 
 /// Work of adhesion and Young's modulus from the way back of the deepest of `recordings`.
@@ -189,7 +235,7 @@ pub fn fit_approach(recordings: &[CleanRecording]) -> Result<ElasticContact, Err
 /// When the indenter is not stated, nothing was pressed, no pull-off force shows or the indenter is no sphere.
 pub fn fit_adhesion(recordings: &[CleanRecording]) -> Result<Adhesion, Error> {
     let (recording, contact) = deepest(recordings)?;
-    let branch = Branch::way_back(recording).ok_or(Error::NoPullOff)?;
+    let mut branch = Branch::way_back(recording).ok_or(Error::NoPullOff)?;
     let least = branch.force.iter().copied().fold(f64::INFINITY, f64::min);
     let [noise, share] = SHOWS;
     let shows = (noise * noise::deviation(&recording.force)).max(share * branch.strongest);
@@ -199,13 +245,17 @@ pub fn fit_adhesion(recordings: &[CleanRecording]) -> Result<Adhesion, Error> {
     let Contact::Sphere(radius) = contact else {
         return Err(Error::AdhesionOfSphere);
     };
+    let approach = fit_approach(recordings)?;
+    let begin = approach.contact_m.value;
+    branch.from(begin);
     let start = [
-        0.75 * branch.strongest / contact.unit_force(branch.deepest),
+        approach.youngs_modulus_pa.value,
         -least / (1.5 * PI * radius),
     ];
     let force =
         |modulus: f64, work: f64, depth: f64| adhesive_force(radius, modulus / 0.75, work, depth);
-    let found = branch.fit(start, force)?;
+    let mut found = branch.fit(start, force)?;
+    found.elastic.contact_m.value += begin;
     Ok(Adhesion {
         elastic: found.elastic,
         work_j_per_m2: found.work,
