@@ -51,6 +51,21 @@ pub enum Error {
         /// Those that there are.
         known: Vec<String>,
     },
+    /// Only closed forms were sought.
+    #[error(
+        "only closed forms were asked for; leave out --closed-forms to fit laws and relaxation"
+    )]
+    NotSought,
+    /// The force never pulls as the indenter goes back.
+    #[error(
+        "the force does not fall below zero by more than its noise as the indenter goes back: no adhesion shows"
+    )]
+    NoPullOff,
+    /// A force pulls an indenter that is no sphere.
+    #[error(
+        "the force pulls as the indenter goes back; a work of adhesion is found for a sphere alone (indenter_shape = \"sphere\")"
+    )]
+    AdhesionOfSphere,
     /// Every protocol goes beyond a limit.
     #[error(
         "no protocol keeps within the limits of force, depth, speed and time; allow more of one of them, or name other radii"
@@ -270,6 +285,9 @@ impl Error {
             | Self::NoContact { .. }
             | Self::ContactOutside { .. }
             | Self::NotInGuess { .. }
+            | Self::NotSought
+            | Self::NoPullOff
+            | Self::AdhesionOfSphere
             | Self::NoDesign
             | Self::BadCutoff { .. }
             | Self::BadParameter { .. }

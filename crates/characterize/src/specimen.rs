@@ -40,6 +40,9 @@ pub struct CharacterizeSettings {
     pub draws: Option<Draws>,
     /// Whether full viscoelastic runs of finite elements are solved in the loop of the fit, of one law.
     pub in_loop: bool,
+    /// Whether only linear elastic contact and adhesion are fitted, in closed form: neither relaxation nor laws. A map of
+    /// a surface has too many curves for more.
+    pub closed_forms: bool,
 }
 
 impl Default for CharacterizeSettings {
@@ -52,6 +55,7 @@ impl Default for CharacterizeSettings {
                 seed: 1,
             }),
             in_loop: false,
+            closed_forms: false,
         }
     }
 }
@@ -95,6 +99,9 @@ pub fn characterize_organ(
     settings: &CharacterizeSettings,
     at_step: &mut dyn FnMut(&'static str),
 ) -> Characterization {
+    if settings.closed_forms {
+        return Characterization::of_closed_forms(recordings);
+    }
     let pressed: Vec<Pressed> = recordings.iter().filter_map(Pressed::of).collect();
     let deepest = pressed.iter().map(Pressed::deepest).fold(0.0, f64::max);
     let body = body(recordings, deepest);
@@ -346,6 +353,19 @@ fn half_space_factor(
 }
 
 impl Characterization {
+    fn of_closed_forms(recordings: &[CleanRecording]) -> Self {
+        Self {
+            relaxation: Err(Error::NotSought),
+            relaxation_of_steps: Err(Error::NotSought),
+            without_geometry: WithoutGeometry::of_closed_forms(recordings),
+            laws: Vec::new(),
+            uniaxial: Vec::new(),
+            relaxation_warnings: Vec::new(),
+            identifiability: Vec::new(),
+            warnings: Vec::new(),
+        }
+    }
+
     /// The law to be preferred: the simplest that no other beats by the information criterion.
     pub fn preferred(&self) -> Option<&LawDescription> {
         let found: Vec<_> = self
@@ -436,7 +456,7 @@ impl Characterization {
             .chain(pulled)
             .next()
             .cloned()
-            .unwrap_or(Error::NothingFelt)
+            .unwrap_or(Error::NotSought)
     }
 
     fn speak(&mut self, pressed: &[Pressed]) {

@@ -4,8 +4,8 @@ use crate::analyze::{Hold, holds};
 use crate::clean::SegmentKind;
 use crate::inverse::Indentation;
 use crate::lumped::{
-    ColumnFit, Contact, DepthHistory, KelvinFit, MeanModulus, SpringsFit, fit_column, fit_kelvin,
-    fit_springs, mean_elastic_modulus,
+    Adhesion, ColumnFit, Contact, DepthHistory, ElasticContact, KelvinFit, MeanModulus, SpringsFit,
+    fit_adhesion, fit_approach, fit_column, fit_kelvin, fit_springs, mean_elastic_modulus,
 };
 use crate::{CleanRecording, Error};
 
@@ -14,6 +14,10 @@ use crate::{CleanRecording, Error};
 pub struct WithoutGeometry {
     /// The mean elastic modulus (6.1).
     pub mean_modulus: Result<MeanModulus, Error>,
+    /// Linear elastic contact, from the approach of the largest depth.
+    pub linear_elastic: Result<ElasticContact, Error>,
+    /// The same with adhesion of a sphere, from the way back.
+    pub adhesion: Result<Adhesion, Error>,
     /// Two springs and a damper (6.3), from the recording of the largest depth.
     pub kelvin: Result<KelvinFit, Error>,
     /// The exponential law on a column (6.2): from steady forces where there are three depths, else from the ramps.
@@ -40,9 +44,23 @@ impl WithoutGeometry {
             .collect();
         Self {
             mean_modulus: mean_elastic_modulus(recordings),
+            linear_elastic: fit_approach(recordings),
+            adhesion: fit_adhesion(recordings),
             kelvin: kelvin(indentations),
             column: contact.and_then(|contact| column(contact, recordings, &holds)),
             springs: springs(indentations),
+        }
+    }
+
+    /// Closed forms alone, of a half-space.
+    pub(crate) fn of_closed_forms(recordings: &[CleanRecording]) -> Self {
+        Self {
+            mean_modulus: mean_elastic_modulus(recordings),
+            linear_elastic: fit_approach(recordings),
+            adhesion: fit_adhesion(recordings),
+            kelvin: Err(Error::NotSought),
+            column: Err(Error::NotSought),
+            springs: Err(Error::NotSought),
         }
     }
 

@@ -267,6 +267,26 @@ pub enum Error {
         /// What is wrong with it.
         what: String,
     },
+    /// A file of an instrument that is damaged, or written in a way that is not read.
+    #[error("{path}: {part} {cause}; save or copy the file again", path = path.display(), part = shortened(part))]
+    DamagedInstrumentFile {
+        /// The file.
+        path: PathBuf,
+        /// Where in it.
+        part: String,
+        /// What is wrong.
+        cause: &'static str,
+    },
+    /// A file of an instrument that does not state a number which its forces need.
+    #[error("{path} does not state {what}; state it as `{key}`, on the command line by --set {key}=NUMBER", path = path.display())]
+    MissingCalibration {
+        /// The file.
+        path: PathBuf,
+        /// The key of a recording.
+        key: &'static str,
+        /// What is missing, with its unit.
+        what: &'static str,
+    },
     /// Values made by a program, not read from a file, that no document can hold.
     #[error("{what} is {found}; give {expected}", found = shortened(found))]
     BadContent {
@@ -311,7 +331,9 @@ impl Error {
             | Self::BadRow { .. }
             | Self::NoRows { .. }
             | Self::TimeNotIncreasing { .. }
-            | Self::DamagedResponse { .. } => true,
+            | Self::DamagedResponse { .. }
+            | Self::DamagedInstrumentFile { .. }
+            | Self::MissingCalibration { .. } => true,
         }
     }
 

@@ -18,7 +18,11 @@ pub struct Scale {
 }
 
 /// Units by the ending of a key, with the smaller and larger ones that people read.
-const UNITS: [(&str, &[(f64, &str)]); 11] = [
+const UNITS: [(&str, &[(f64, &str)]); 12] = [
+    (
+        "_j_per_m2",
+        &[(1e6, "µJ/m²"), (1e3, "mJ/m²"), (1.0, "J/m²")],
+    ),
     ("_n_s_per_m", &[(1.0, "N s/m")]),
     ("_n_per_m", &[(1.0, "N/m"), (1e-3, "kN/m")]),
     ("_pa", &[(1.0, "Pa"), (1e-3, "kPa"), (1e-6, "MPa")]),

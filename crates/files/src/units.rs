@@ -80,6 +80,8 @@ pub const UNITS: &[Unit] = &[
     unit("n_per_mm", "N/mm", "n_per_m", 1e3, 1.0),
     unit("n_s_per_m", "N s/m", "n_s_per_m", 1.0, 1.0),
     unit("n_s_per_mm", "N s/mm", "n_s_per_m", 1e3, 1.0),
+    unit("m_per_v", "m/V", "m_per_v", 1.0, 1.0),
+    unit("nm_per_v", "nm/V", "m_per_v", 1.0, 1e9),
     unit("j_per_m2", "J/m^2", "j_per_m2", 1.0, 1.0),
     unit("kj_per_m2", "kJ/m^2", "j_per_m2", 1e3, 1.0),
     unit("j", "J", "j", 1.0, 1.0),

@@ -101,7 +101,11 @@ pub fn read_bytes(path: impl AsRef<Path>, most: u64) -> Result<Vec<u8>, Error> {
 /// As for [`read_bytes`], and when it is no UTF-8.
 pub fn read_text(path: impl AsRef<Path>, most: u64) -> Result<String, Error> {
     let path = path.as_ref();
-    let mut bytes = read_bytes(path, most)?;
+    text(read_bytes(path, most)?, path)
+}
+
+/// The text of `bytes`, without a byte-order mark; `path` is its name in errors.
+pub(crate) fn text(mut bytes: Vec<u8>, path: &Path) -> Result<String, Error> {
     if bytes.starts_with(BYTE_ORDER_MARK) {
         bytes.drain(..BYTE_ORDER_MARK.len());
     }

@@ -1,12 +1,13 @@
 //! The recordings that a command is given: files and folders, of this project and of other programs.
 
+use std::borrow::Cow;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use palpate_characterize::CleanRecording;
 use palpate_characterize::clean::{CleanSettings, clean};
 use palpate_files::recording::{ForeignColumns, RecordingHeader};
-use palpate_files::{MOST_OF_TABLE, Recording, read_bytes, read_text};
+use palpate_files::{MOST_OF_TABLE, Recording, read_bytes};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
@@ -16,7 +17,7 @@ use crate::{Error, Sideways, nearest};
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Recordings {
-    /// Recordings, or folders of them; tables of other programs are read too.
+    /// Recordings, or folders of them; files of instruments and tables of other programs are read too.
     pub paths: Vec<PathBuf>,
     /// Recordings that are not files here: what they are called, and their text.
     pub texts: Vec<(PathBuf, String)>,
@@ -37,13 +38,13 @@ pub struct Recordings {
 /// A recording that was read.
 #[derive(Debug)]
 pub struct ReadRecording {
-    /// As it was named.
+    /// As it was named; a curve of a map with its number, `map.jpk-force-map#7`.
     pub path: PathBuf,
     /// What it holds, from first contact on.
     pub clean: CleanRecording,
     /// What its sensor shows besides the force along the approach; none for a sensor of one axis.
     pub sideways: Option<Sideways>,
-    /// SHA-256 of the file.
+    /// SHA-256 of the file, and of the number of the curve in it where it has several.
     pub digest: String,
 }
 
@@ -88,13 +89,15 @@ impl Recordings {
         let texts = texts.map(|(path, text)| (path.clone(), Some(text.as_str())));
         for (path, text) in files.chain(texts) {
             at_file(&path);
-            match self.one((&path, text), &said) {
-                Ok((clean, sideways)) => good.push(ReadRecording {
-                    digest: digest(&path, text),
-                    path,
-                    clean,
-                    sideways,
-                }),
+            match self.all_of(&path, text, &said) {
+                Ok(each) => {
+                    for (path, read) in each {
+                        match read {
+                            Ok(read) => good.push(read),
+                            Err(reason) => bad.push(Unusable { file: path, reason }),
+                        }
+                    }
+                }
                 Err(reason) => bad.push(Unusable { file: path, reason }),
             }
         }
@@ -139,7 +142,7 @@ impl Recordings {
                 if inside.is_empty() {
                     let path = path.display();
                     return Err(Error::input(format!(
-                        "{path} holds no .csv, .txt or .tsv file; name a folder that does, or files"
+                        "{path} holds no file of recordings (.csv, .txt, .tsv, .jpk-force, …); name a folder that does, or files"
                     )));
                 }
                 files.extend(inside);
@@ -150,39 +153,37 @@ impl Recordings {
         Ok(files)
     }
 
-    /// A recording that is a file, or a text that is called by a path.
-    fn one(
+    /// The recordings in a file, or in a text that is called by a path, each by its name.
+    fn all_of(
         &self,
-        (path, text): (&Path, Option<&str>),
+        path: &Path,
+        text: Option<&str>,
         said: &RecordingHeader,
-    ) -> Result<(CleanRecording, Option<Sideways>), Error> {
-        let columns = self.columns();
-        let recording = match (self.is_of_this_project(path, text), text) {
-            (true, None) => Recording::read(path),
-            (true, Some(text)) => Recording::parse(text, path),
-            (false, None) => Recording::read_foreign(path, &columns),
-            (false, Some(text)) => Recording::parse_foreign(text, path, &columns),
+    ) -> Result<Vec<(PathBuf, Result<ReadRecording, Error>)>, Error> {
+        let bytes = match text {
+            Some(text) => Cow::Borrowed(text.as_bytes()),
+            None => read_bytes(path, MOST_OF_TABLE)?.into(),
         };
-        let mut recording = recording?;
-        recording.header = recording.header.completed_by(said);
-        if let Some((key, expected)) = recording.header.layer_error() {
-            let path = path.display();
-            let mut said = recording.header.entries().into_iter();
-            let wrong = match said.any(|(own, _)| own == key) {
-                true => "does not fit the other keys",
-                false => "is missing",
+        let digest = Sha256::digest(&bytes);
+        let all = Recording::parse_all(&bytes, path, &self.columns(), said)?;
+        let several = all.len() > 1;
+        let each = all.into_iter().enumerate().map(|(place, recording)| {
+            let own = match several {
+                true => (
+                    PathBuf::from(format!("{}#{place}", path.display())),
+                    Sha256::digest([&digest[..], &place.to_le_bytes()].concat()),
+                ),
+                false => (path.to_owned(), digest),
             };
-            return Err(Error::input(format!(
-                "{path}: `{key}` {wrong}; give {expected}"
-            )));
-        }
-        let mut clean = clean(&recording, &CleanSettings::default())
-            .map_err(|error| Error::from(error).about(path))?;
-        let sideways = Sideways::of(&recording);
-        clean
-            .warnings
-            .extend(sideways.and_then(|found| found.warning()));
-        Ok((clean, sideways))
+            let read = ready(recording, &own.0, said).map(|(clean, sideways)| ReadRecording {
+                path: own.0.clone(),
+                clean,
+                sideways,
+                digest: hexadecimal(&own.1),
+            });
+            (own.0, read)
+        });
+        Ok(each.collect())
     }
 
     fn columns(&self) -> ForeignColumns {
@@ -193,17 +194,6 @@ impl Recordings {
             depth_unit: self.depth_unit.clone(),
             force_unit: self.force_unit.clone(),
         }
-    }
-
-    /// A recording of this project says its format; columns are named for tables of others.
-    fn is_of_this_project(&self, path: &Path, text: Option<&str>) -> bool {
-        let named = [&self.time, &self.depth, &self.force]
-            .iter()
-            .any(|name| name.is_some());
-        // What cannot be read has its error from the reader.
-        let of_file =
-            || read_text(path, MOST_OF_TABLE).map_or(true, |text| Recording::says_format(&text));
-        !named && text.map_or_else(of_file, Recording::says_format)
     }
 
     /// What `--set` says, by the rules of a recording's own header.
@@ -246,13 +236,31 @@ impl Recordings {
     }
 }
 
-/// SHA-256 of a file, or of its text; of a file that is gone meanwhile, of nothing.
-fn digest(path: &Path, text: Option<&str>) -> String {
-    let content = match text {
-        Some(text) => text.as_bytes().to_vec(),
-        None => read_bytes(path, MOST_OF_TABLE).unwrap_or_default(),
-    };
-    hexadecimal(&Sha256::digest(content))
+/// A `recording` of the file `path` made ready, completed by what is `said`.
+fn ready(
+    mut recording: Recording,
+    path: &Path,
+    said: &RecordingHeader,
+) -> Result<(CleanRecording, Option<Sideways>), Error> {
+    recording.header = recording.header.completed_by(said);
+    if let Some((key, expected)) = recording.header.layer_error() {
+        let path = path.display();
+        let mut said = recording.header.entries().into_iter();
+        let wrong = match said.any(|(own, _)| own == key) {
+            true => "does not fit the other keys",
+            false => "is missing",
+        };
+        return Err(Error::input(format!(
+            "{path}: `{key}` {wrong}; give {expected}"
+        )));
+    }
+    let mut clean = clean(&recording, &CleanSettings::default())
+        .map_err(|error| Error::from(error).about(path))?;
+    let sideways = Sideways::of(&recording);
+    clean
+        .warnings
+        .extend(sideways.and_then(|found| found.warning()));
+    Ok((clean, sideways))
 }
 
 /// `bytes` as text.
@@ -260,7 +268,18 @@ pub fn hexadecimal(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// The tables in a folder, in alphabetical order.
+/// The ends of the names of files that hold recordings.
+pub(crate) const ENDINGS: [&str; 7] = [
+    "csv",
+    "txt",
+    "tsv",
+    "jpk-force",
+    "jpk-force-map",
+    "jpk-qi-data",
+    "jpk-qi-series",
+];
+
+/// The files of recordings in a folder, in alphabetical order.
 fn tables(folder: &Path) -> Result<Vec<PathBuf>, Error> {
     let unreadable = |source| palpate_files::Error::Read {
         path: folder.to_owned(),
@@ -273,7 +292,7 @@ fn tables(folder: &Path) -> Result<Vec<PathBuf>, Error> {
             .extension()
             .and_then(|e| e.to_str())
             .unwrap_or_default();
-        let is_table = ["csv", "txt", "tsv"].contains(&extension.to_ascii_lowercase().as_str());
+        let is_table = ENDINGS.contains(&extension.to_ascii_lowercase().as_str());
         let is_license = path.file_stem().is_some_and(|stem| {
             let stem = stem.to_string_lossy().to_ascii_lowercase();
             stem.starts_with("license") || stem.starts_with("readme")

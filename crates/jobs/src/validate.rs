@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use palpate_files::recording::ForeignColumns;
+use palpate_files::quantity::plain_quantity;
+use palpate_files::recording::{ForeignColumns, RecordingHeader};
 use palpate_files::scene::{Goal, Shape, Task};
 use palpate_files::{
     Document, Incomplete, MOST_OF_DOCUMENT, MOST_OF_TABLE, Motion, Protocol, Recording, Scene,
@@ -11,6 +12,7 @@ use palpate_files::{
 use serde::Serialize;
 
 use crate::Error;
+use crate::recordings::ENDINGS;
 use crate::solve::Problem;
 
 /// A file that is right.
@@ -76,10 +78,12 @@ pub fn validate(path: &Path) -> Result<Validated, Error> {
     let read = match ending.as_ref().and_then(|end| end.to_str()) {
         Some("toml") => document(path),
         Some("csv" | "txt" | "tsv" | "part") => table(path),
+        Some(end) if ENDINGS.contains(&end) => recording(path),
         Some("stl" | "obj" | "ply" | "gltf" | "glb") => mesh(path),
         _ => Err(Error::input(format!(
             "{}: the end of its name says none of what is read here: .toml (scene, task, tissue, protocol, problem), \
-             .csv, .tsv or .txt (motion, recording, session), .stl, .obj, .ply, .gltf or .glb (mesh)",
+             .csv, .tsv or .txt (motion, recording, session), .jpk-force, .jpk-force-map, .jpk-qi-data or .jpk-qi-series (recordings), .stl, \
+             .obj, .ply, .gltf or .glb (mesh)",
             path.display()
         ))),
     };
@@ -212,7 +216,7 @@ fn table(path: &Path) -> Result<Validated, Error> {
     match (has("tool"), text.contains("# scene_digest")) {
         (true, true) => session(path),
         (true, false) => motion(path),
-        (false, _) => recording(path, &text),
+        (false, _) => recording(path),
     }
 }
 
@@ -251,23 +255,37 @@ fn motion(path: &Path) -> Result<Validated, Error> {
     })
 }
 
-fn recording(path: &Path, text: &str) -> Result<Validated, Error> {
-    let recording = match Recording::says_format(text) {
-        true => Recording::read(path)?,
-        false => Recording::read_foreign(path, &ForeignColumns::default())?,
+/// One recording or all those of a map; what is said of each is said once.
+fn recording(path: &Path) -> Result<Validated, Error> {
+    let none = (ForeignColumns::default(), RecordingHeader::default());
+    let all = Recording::read_all(path, &none.0, &none.1)?;
+    let mut warnings: Vec<String> = Vec::new();
+    for recording in &all {
+        let own = recording.remarks().iter().cloned();
+        for warning in own.chain(said(recording.incomplete())) {
+            if !warnings.contains(&warning) {
+                warnings.push(warning);
+            }
+        }
+    }
+    let largest = |of: fn(&Recording) -> &[f64], key| {
+        let values = all.iter().flat_map(of).copied();
+        plain_quantity(key, values.fold(0.0, f64::max), None)
     };
-    let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
-    let mut warnings = recording.remarks().to_vec();
-    warnings.extend(said(recording.incomplete()));
+    let samples = all.iter().map(|own| own.time_s().len()).sum();
+    let map = match all.len() {
+        1 => String::new(),
+        count => format!("a map of {count} curves, "),
+    };
     Ok(Validated {
         file: path.to_owned(),
         kind: Kind::Recording,
         content: format!(
-            "{}, to {:.3} mm and {:.4} N in {:.3} s",
-            counted(recording.time_s().len(), "sample", "samples"),
-            1e3 * largest(recording.depth_m()),
-            largest(recording.force_n()),
-            largest(recording.time_s())
+            "{map}{}, to {} and {} in {}",
+            counted(samples, "sample", "samples"),
+            largest(Recording::depth_m, "_m"),
+            largest(Recording::force_n, "_n"),
+            largest(Recording::time_s, "_s")
         ),
         warnings,
     })

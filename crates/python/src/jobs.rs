@@ -115,12 +115,12 @@ type NamedLaw = (String, Option<usize>);
 pub(crate) fn _characterize<'py>(
     py: Python<'py>,
     recordings: &str,
-    choice: (Option<NamedLaw>, Option<usize>, usize, u64, bool),
+    choice: (Option<NamedLaw>, Option<usize>, usize, u64, [bool; 2]),
     study: Option<(PathBuf, bool)>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Fitted<'py>> {
     let recordings = asked(recordings)?;
-    let (law, terms, draws, seed, in_loop) = choice;
+    let (law, terms, draws, seed, [in_loop, closed_forms]) = choice;
     let (answer, tissues, fits) = waiting(py, progress, move |told| {
         let choice = Choice {
             law: law
@@ -130,6 +130,7 @@ pub(crate) fn _characterize<'py>(
             draws,
             seed,
             in_loop,
+            closed_forms,
         };
         let open = |(path, overwrite): (PathBuf, bool)| {
             StudyFolder::open(&path, Overwrite::of_option(overwrite))

@@ -1,10 +1,10 @@
 //! Recordings: depth and force against time.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use numpy::PyArray1;
+use palpate_files::Recording as Document;
 use palpate_files::recording::{ForeignColumns, RecordingHeader, Samples, SensorAxes};
-use palpate_files::{MOST_OF_TABLE, Recording as Document, read_text};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple, PyType};
 
@@ -55,7 +55,7 @@ impl Recording {
         Ok(Self { recording })
     }
 
-    /// Reads a recording, or the table of another program.
+    /// Reads a recording, the file of an instrument, or the table of another program.
     ///
     /// Parameters
     /// ----------
@@ -80,21 +80,23 @@ impl Recording {
         depth_unit: Option<String>,
         force_unit: Option<String>,
     ) -> Result<Self, Failure> {
-        let named = [&time, &depth, &force].iter().any(|name| name.is_some());
-        let recording = match !named && says_format(&path) {
-            true => Document::read(&path),
-            false => Document::read_foreign(
-                &path,
-                &ForeignColumns {
-                    time,
-                    depth,
-                    force,
-                    depth_unit,
-                    force_unit,
-                },
-            ),
+        let columns = ForeignColumns {
+            time,
+            depth,
+            force,
+            depth_unit,
+            force_unit,
         };
-        let recording = recording.map_err(in_words_of_python)?;
+        let all = Document::read_all(&path, &columns, &RecordingHeader::default());
+        let mut all = all.map_err(in_words_of_python)?;
+        let count = all.len();
+        let recording = all.swap_remove(0);
+        if count > 1 {
+            return Err(Failure::input(format!(
+                "{} holds {count} recordings; give it to palpate.characterize, which reads all",
+                path.display()
+            )));
+        }
         Ok(Self { recording })
     }
 
@@ -203,12 +205,6 @@ impl Recording {
         let parts = (own.time(py), own.depth(py), own.force(py), own.header(py)?);
         (slf.get_type(), parts.into_pyobject(py)?).into_pyobject(py)
     }
-}
-
-/// A recording of this project says its format.
-fn says_format(path: &Path) -> bool {
-    // What cannot be read has its error from the reader.
-    read_text(path, MOST_OF_TABLE).map_or(true, |text| Document::says_format(&text))
 }
 
 /// The reader speaks of options, here they are arguments.

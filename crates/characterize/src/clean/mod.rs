@@ -10,7 +10,7 @@
 mod contact;
 mod contact_search;
 mod filter;
-mod noise;
+pub(crate) mod noise;
 mod oriented;
 mod plausible;
 pub(crate) mod regression;
@@ -180,7 +180,7 @@ fn find_contact(
 ) -> Result<Contact, Error> {
     match settings.contact_time_s {
         Some(time) => contact::at(samples, time),
-        None if recording.is_foreign() => {
+        None if !recording.begins_at_contact() => {
             contact::by_force(samples, recording.header.indenter_shape)
         }
         None => {
@@ -228,7 +228,7 @@ impl CleanRecording {
             .min(HIGHEST_CUTOFF * rate)
     }
 
-    fn is_piece(&self) -> bool {
+    pub(crate) fn is_piece(&self) -> bool {
         let stimulus = self.header.stimulus;
         stimulus.is_some_and(StimulusKind::is_of_piece)
     }

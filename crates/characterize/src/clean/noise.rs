@@ -1,7 +1,7 @@
 //! How much a signal trembles from sample to sample.
 
 /// Samples that are enough for a mean with an error.
-pub(super) const ENOUGH: usize = 5;
+pub(crate) const ENOUGH: usize = 5;
 /// Parts into which a signal is cut to see whether it goes anywhere.
 const PARTS: usize = 40;
 /// Steps of an encoder from sample to sample that are few, and how near they are to whole ones [-].
@@ -12,7 +12,7 @@ const FAR: f64 = 8.0;
 
 /// Standard deviation of the noise, from second differences, which a smooth curve hardly has: their
 /// median size is 0.6745 · √6 deviations.
-pub(super) fn deviation(values: &[f64]) -> f64 {
+pub(crate) fn deviation(values: &[f64]) -> f64 {
     let differences: Vec<f64> = values
         .windows(3)
         .map(|three| (three[0] - 2.0 * three[1] + three[2]).abs())

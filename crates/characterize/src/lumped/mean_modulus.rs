@@ -35,7 +35,7 @@ impl Contact {
     }
 
     /// The force [N] at `depth` [m] of a tissue with E/(1 − ν²) = 1 Pa.
-    fn unit_force(self, depth: f64) -> f64 {
+    pub(super) fn unit_force(self, depth: f64) -> f64 {
         let depth = depth.max(0.0);
         match self {
             Self::Flat(radius) => 2.0 * radius * depth, // (6.1)

@@ -1,7 +1,8 @@
 //! Laws without geometry, on plain columns of time, depth and force.
 //!
 //! *Mean modulus*: closed forms of the half-space for a flat punch (6.1), a sphere [Hertz 1881] and a cone
-//! [Sneddon 1965]. *Kelvin*: two springs and a damper, (6.3) as it must read: a step of depth d gives
+//! [Sneddon 1965]. *Linear elastic contact*, with adhesion of a sphere: [`ElasticContact`],
+//! [`Adhesion`]. *Kelvin*: two springs and a damper, (6.3) as it must read: a step of depth d gives
 //! d (k₂ + (k₁ − k₂) exp(−t k₁/b)); the printed form rises with time (`docs/errata.md`).
 //!
 //! *Column*: the exponential law (6.2) on a column with the indenter's face, pressed to λ = 1 − d/L of its
@@ -23,6 +24,7 @@
 //! indenter may let go: on a fast way back it pulls.
 
 mod column;
+mod elastic_contact;
 mod kelvin;
 mod mean_modulus;
 mod springs;
@@ -30,6 +32,7 @@ mod springs_fit;
 mod uniaxial;
 
 pub use column::{ColumnFit, column_force, column_size, fit_column};
+pub use elastic_contact::{Adhesion, ElasticContact, adhesive_force, fit_adhesion, fit_approach};
 pub use kelvin::{DepthHistory, KelvinFit, fit_kelvin};
 pub use mean_modulus::{Contact, MeanModulus, fit_modulus, mean_elastic_modulus, mean_modulus};
 pub use springs::springs_force;

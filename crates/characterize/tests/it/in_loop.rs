@@ -94,6 +94,7 @@ fn found(press: Press, recording: &CleanRecording, in_loop: bool) -> Found {
         laws: vec![press.law],
         draws: None,
         in_loop,
+        closed_forms: false,
     };
     let answer = characterize(std::slice::from_ref(recording), &settings, &mut |_| ());
     let law = answer.laws[0].1.as_ref().unwrap();

@@ -9,6 +9,7 @@
 mod contact;
 mod data;
 mod design;
+mod elastic_contact;
 mod errors;
 mod family;
 mod filter;

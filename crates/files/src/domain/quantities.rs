@@ -135,6 +135,11 @@ impl Domain {
         Self::quantity("a body's weight", "kg", [Included(1e-6), Included(1e5)])
             .usually(1e-3, 1500.0);
 
+    /// How far a cantilever bends for each volt of its optical lever [m/V].
+    pub const SENSITIVITY: Self =
+        Self::quantity("a sensitivity", "m_per_v", [Included(1e-12), Included(1.0)])
+            .usually(1e-9, 1e-5);
+
     /// A stiffness of a spring [N/m].
     pub const STIFFNESS: Self =
         Self::quantity("a stiffness", "n_per_m", [Included(1e-9), Included(1e9)])

@@ -1,9 +1,10 @@
+use std::borrow::Cow;
 use std::path::Path;
 
 use super::axes::{Reading, SensorAxes};
 use super::foreign_names::Wanted;
 use super::samples::{self, Repeated};
-use super::{Recording, RecordingHeader, foreign_table, foreign_units, stretches};
+use super::{Origin, Recording, RecordingHeader, foreign_table, foreign_units, stretches};
 use crate::Error;
 use crate::table::{Column, Row};
 use crate::whole_file::{MOST_OF_TABLE, read_bytes};
@@ -27,6 +28,23 @@ pub struct ForeignColumns {
     pub force_unit: Option<String>,
 }
 
+impl ForeignColumns {
+    /// Whether a column is named.
+    pub(super) fn names_any(&self) -> bool {
+        [&self.time, &self.depth, &self.force]
+            .iter()
+            .any(|name| name.is_some())
+    }
+}
+
+/// The text of a table. Machines that do not write UTF-8 mostly write Latin-1, where each byte is a character.
+pub(super) fn text(bytes: &[u8]) -> Cow<'_, str> {
+    match std::str::from_utf8(bytes) {
+        Ok(text) => text.into(),
+        Err(_) => bytes.iter().map(|&byte| byte as char).collect(),
+    }
+}
+
 impl Recording {
     /// Reads a table with other columns. See [`Recording::parse_foreign`].
     ///
@@ -34,11 +52,7 @@ impl Recording {
     /// When the file cannot be read, or as for [`Recording::parse_foreign`].
     pub fn read_foreign(path: impl AsRef<Path>, columns: &ForeignColumns) -> Result<Self, Error> {
         let path = path.as_ref();
-        let bytes = read_bytes(path, MOST_OF_TABLE)?;
-        // Machines that do not write UTF-8 mostly write Latin-1, where each byte is a character.
-        let text = String::from_utf8(bytes)
-            .unwrap_or_else(|error| error.as_bytes().iter().map(|&byte| byte as char).collect());
-        Self::parse_foreign(&text, path, columns)
+        Self::parse_foreign(&text(&read_bytes(path, MOST_OF_TABLE)?), path, columns)
     }
 
     /// Reads the text of a table with other columns; `path` is its name in errors.
@@ -94,7 +108,7 @@ impl Recording {
             axes: read.axes,
             extra_columns: read.extra_columns,
             remarks,
-            is_foreign: true,
+            origin: Origin::Foreign,
             incomplete: None,
         })
     }

@@ -129,6 +129,12 @@ header_keys! {
         indenter_friction: IndenterFriction = Holds::Word(IndenterFriction::MEANINGS),
         /// What measured the force.
         force_sensor: String = Holds::Text,
+        /// The spring constant of the cantilever that measured the force, where an instrument's file does not state it [N/m].
+        spring_constant_n_per_m: f64 = Holds::Number(Domain::STIFFNESS),
+        /// How far the cantilever bends for each volt of its optical lever, where an instrument's file does not state it [m/V].
+        sensitivity_m_per_v: f64 = Holds::Number(Domain::SENSITIVITY),
+        /// Where on the specimen's surface it was pressed, in the axes of the instrument's stage [m].
+        position_m: [f64; 3] = Holds::Vector(Domain::COORDINATE),
         /// The direction out of the tissue along which the indenter was moved, in the rig's axes [-].
         approach_normal: [f64; 3] = Holds::Direction,
         /// The direction from the indenter's tip to the device, in the rig's axes [-].
@@ -314,7 +320,7 @@ impl RecordingHeader {
             condition post_mortem_s breath_held stimulus ramp_s
             amplitude_m pre_indentation_m frequency_hz end_frequency_hz sample_rate_hz
             indenter_shape indenter_radius_m indenter_half_angle_deg indenter_friction
-            force_sensor approach_normal indenter_axis tip_distance_m
+            force_sensor spring_constant_n_per_m sensitivity_m_per_v position_m approach_normal indenter_axis tip_distance_m
             thickness_m specimen_radius_m specimen_width_m support density_kg_per_m3
             area_m2 height_m
             specimen base_modulus_pa base_modulus_ratio base_modulus_error base_thickness_m

@@ -8,6 +8,7 @@ mod foreign_table;
 mod foreign_units;
 mod header;
 mod header_keys;
+mod instruments;
 mod samples;
 mod stretches;
 mod write;
@@ -31,9 +32,20 @@ use crate::table::{Ended, TableText};
 use crate::whole_file::{MOST_OF_TABLE, read_text};
 use crate::{Error, Incomplete};
 
+/// What wrote a recording: which of its zeros and signs are known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Origin {
+    /// This project: depth counts from first contact.
+    Project,
+    /// An instrument: signs are known, first contact and the force's zero are not.
+    Instrument,
+    /// Another program, of which nothing is known.
+    Foreign,
+}
+
 /// A recording. Depth is positive into the tissue from first contact; force is positive on the
 /// tissue. One that was read from a table of another program ([`Recording::is_foreign`]) keeps that
-/// program's zeros and signs.
+/// program's zeros and signs; an instrument's file ([`Recording::read_all`]) has its zeros.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Recording {
     /// What is known of the specimen, the indenter and the stimulus.
@@ -41,9 +53,9 @@ pub struct Recording {
     samples: Samples,
     axes: Option<SensorAxes>,
     extra_columns: Vec<ExtraColumn>,
-    /// What was done to read the table of another program, and what deserves a warning above it.
+    /// What was done to read the file of another program, and warnings about what stands above its numbers.
     remarks: Vec<String>,
-    is_foreign: bool,
+    origin: Origin,
     incomplete: Option<Incomplete>,
 }
 
@@ -61,7 +73,7 @@ impl Recording {
             axes: None,
             extra_columns: Vec::new(),
             remarks: Vec::new(),
-            is_foreign: false,
+            origin: Origin::Project,
             incomplete: None,
         })
     }
@@ -89,7 +101,7 @@ impl Recording {
 
     /// Whether a table says its format, as the recordings of this project do; others are
     /// [foreign](Recording::read_foreign).
-    pub fn says_format(text: &str) -> bool {
+    fn says_format(text: &str) -> bool {
         let comments = text
             .lines()
             .take_while(|line| line.trim_start().starts_with('#'));
@@ -136,7 +148,7 @@ impl Recording {
             axes: read.axes,
             extra_columns: read.extra_columns,
             remarks: keys.warnings(),
-            is_foreign: false,
+            origin: Origin::Project,
             incomplete,
         })
     }
@@ -161,10 +173,14 @@ impl Recording {
         self.axes.as_ref()
     }
 
-    /// Whether it is from a table of another program: its depth need not begin at first contact, and
-    /// its signs need not be those of this project.
+    /// Whether it is from a table of another program: its signs need not be those of this project.
     pub fn is_foreign(&self) -> bool {
-        self.is_foreign
+        self.origin == Origin::Foreign
+    }
+
+    /// Whether its depth counts from first contact; those of instruments and of other programs need not.
+    pub fn begins_at_contact(&self) -> bool {
+        self.origin == Origin::Project
     }
 
     /// What was done to read the table of another program, and Warnings about the numbers above it,

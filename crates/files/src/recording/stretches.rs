@@ -2,7 +2,7 @@ use std::ops::Bound::{Excluded, Included};
 use std::path::Path;
 
 use super::foreign_names::Wanted;
-use super::{ForeignColumns, Recording, RecordingHeader, Samples, StimulusKind};
+use super::{ForeignColumns, Origin, Recording, RecordingHeader, Samples, StimulusKind};
 use super::{foreign_table, foreign_units};
 use crate::table::TableText;
 use crate::units::Unit;
@@ -53,7 +53,7 @@ pub(super) fn parse(
         axes: None,
         extra_columns: Vec::new(),
         remarks: vec![remark],
-        is_foreign: false,
+        origin: Origin::Project,
         incomplete: None,
     }))
 }
@@ -96,7 +96,7 @@ fn sheet(text: &str, path: &Path, columns: &ForeignColumns) -> Result<Option<Rec
         axes: None,
         extra_columns: Vec::new(),
         remarks: vec![remark],
-        is_foreign: false,
+        origin: Origin::Project,
         incomplete: None,
     }))
 }

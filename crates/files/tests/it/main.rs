@@ -9,6 +9,7 @@ mod errors;
 mod fibre_directions;
 mod foreign;
 mod fuzz;
+mod instruments;
 mod motion;
 mod plausible;
 mod readers;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use palpate_files::recording::ForeignColumns;
+use palpate_files::recording::{ForeignColumns, RecordingHeader};
 use palpate_files::{
     Error, Motion, Protocol, Recording, Scene, Session, SessionWriter, StoredResponse, Tissue,
 };
@@ -12,7 +12,7 @@ use sha2::{Digest, Sha256};
 const MEMORY: usize = 1 << 20;
 
 /// The letters that name readers.
-pub(crate) const READERS: &[u8] = b"stmpergfc";
+pub(crate) const READERS: &[u8] = b"stmpergfci";
 
 /// Gives all but the first byte to the reader that the first byte names.
 pub(crate) fn read_as_told(bytes: &[u8], scratch: &Path) {
@@ -57,6 +57,13 @@ pub(crate) fn read(reader: u8, bytes: &[u8], scratch: &Path) {
                 ..ForeignColumns::default()
             },
         ),
+        b'i' => Recording::parse_all(
+            bytes,
+            "f",
+            &ForeignColumns::default(),
+            &RecordingHeader::default(),
+        )
+        .map(|all| all.iter().for_each(same_recording)),
         b'c' => return response(bytes, scratch),
         _ => panic!("no reader has the letter {reader}"),
     };

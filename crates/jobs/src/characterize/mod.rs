@@ -43,6 +43,8 @@ pub struct Choice {
     pub seed: u64,
     /// Whether full viscoelastic runs of finite elements are solved in the loop of the fit, of one specimen and one law.
     pub in_loop: bool,
+    /// Whether only linear elastic contact and adhesion are fitted, in closed form, as a map of many curves needs it.
+    pub closed_forms: bool,
 }
 
 impl Default for Choice {
@@ -53,6 +55,7 @@ impl Default for Choice {
             draws: 100,
             seed: 1,
             in_loop: false,
+            closed_forms: false,
         }
     }
 }
@@ -122,6 +125,7 @@ impl Choice {
             }),
             laws: self.law.map_or(all.laws, |law| vec![law]),
             in_loop: self.in_loop,
+            closed_forms: self.closed_forms,
         }
     }
 }

@@ -51,6 +51,17 @@ pub(crate) fn of(specimens: &[Specimen]) -> BTreeMap<String, Pooled> {
         if let Some(modulus) = &specimen.lumped.mean_elastic_modulus {
             add("mean_elastic_modulus".to_owned(), modulus.value);
         }
+        let contact = [
+            ("linear_elastic", &specimen.lumped.linear_elastic),
+            ("adhesion", &specimen.lumped.adhesion),
+        ];
+        for (fit, found) in contact {
+            for key in ["youngs_modulus_pa", "work_of_adhesion_j_per_m2"] {
+                if let Some(known) = found.as_ref().and_then(|found| found.get(key)) {
+                    add(format!("{fit}.{key}"), known.value);
+                }
+            }
+        }
         if let Some(relaxation) = &specimen.relaxation {
             let total = relaxation.g.iter().map(|g| g.value).sum();
             add("relaxation.sum_of_g".to_owned(), total);

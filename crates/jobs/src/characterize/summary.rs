@@ -11,6 +11,12 @@ use crate::Error;
 /// Most terms of a relaxation.
 const TERMS: usize = 4;
 
+/// Numbers of linear elastic contact that have columns, and of which fit.
+const CONTACT: [(&str, &str); 2] = [
+    ("linear_elastic", "youngs_modulus_pa"),
+    ("adhesion", "work_of_adhesion_j_per_m2"),
+];
+
 /// The laws that have columns: the usual ones, and those that were found besides.
 fn laws(answer: &Answer) -> Vec<LawName> {
     let has_column = |law: &LawName| {
@@ -80,6 +86,8 @@ fn columns(laws: &[LawName]) -> Vec<String> {
     ];
     names.extend(modulus.map(str::to_owned));
     names.push("mean_elastic_modulus_depth_m".to_owned());
+    names.extend(CONTACT.map(|(fit, key)| format!("{fit}_{key}")));
+    names.extend(["position_x_m", "position_y_m"].map(str::to_owned));
     for term in 1..=TERMS {
         names.extend([
             format!("g_{term}"),
@@ -121,6 +129,15 @@ fn row(specimen: &Specimen, laws: &[LawName]) -> Vec<String> {
         modulus.and_then(|modulus| modulus.standard_deviation),
     ));
     row.push(shown(modulus.map(|modulus| modulus.depth_m)));
+    row.extend(CONTACT.map(|(fit, key)| {
+        let found = match fit {
+            "adhesion" => &specimen.lumped.adhesion,
+            _ => &specimen.lumped.linear_elastic,
+        };
+        shown(found.as_ref().and_then(|found| Some(found.get(key)?.value)))
+    }));
+    let position = specimen.position_m;
+    row.extend([0, 1].map(|axis| shown(position.map(|own| own[axis]))));
     let relaxation = specimen.relaxation.as_ref();
     for term in 0..TERMS {
         let of = |known: Option<&Known>| {

@@ -7,7 +7,7 @@ use clap::Args;
 /// Which recordings, and what they do not say themselves.
 #[derive(Debug, Args)]
 pub(crate) struct Recordings {
-    /// Recordings, or folders of recordings; tables written by other programs are read too.
+    /// Recordings, or folders of recordings; instruments' own files and tables written by other programs are read too.
     #[arg(required = true, value_name = "RECORDING.csv")]
     paths: Vec<PathBuf>,
     /// The time column in another program's table; default: found by its name.

@@ -435,7 +435,7 @@ def _solve(
 def _analyze(recordings: str, progress: _Progress = None) -> str: ...
 def _characterize(
     recordings: str,
-    choice: tuple[tuple[str, int | None] | None, int | None, int, int, bool],
+    choice: tuple[tuple[str, int | None] | None, int | None, int, int, list[bool]],
     study: tuple[_Path, bool] | None = None,
     progress: _Progress = None,
 ) -> tuple[str, list[tuple[str | None, str | None]], list[list[dict[str, Any]]]]: ...

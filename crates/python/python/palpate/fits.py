@@ -403,7 +403,8 @@ class Specimen(dict[str, Any]):
 
     @property
     def lumped(self) -> dict[str, Any]:
-        """What was found without geometry: ``kelvin``, ``column``, ``nonlinear_springs``, ``mean_elastic_modulus``."""
+        """What was found without geometry: ``kelvin``, ``column``, ``nonlinear_springs``, ``mean_elastic_modulus``,
+        ``linear_elastic``, ``adhesion``."""
         found: dict[str, Any] = self["lumped"]
         return found
 

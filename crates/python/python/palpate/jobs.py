@@ -140,6 +140,7 @@ def characterize(
     draws: int = 100,
     seed: int = 1,
     in_loop: bool = False,
+    closed_forms: bool = False,
     study: PathLike | None = None,
     overwrite: bool = False,
     progress: Progress = None,
@@ -150,7 +151,7 @@ def characterize(
     Parameters
     ----------
     recordings : path or iterable of paths
-        Files, or folders of them; those of the same organ, subject and site are one specimen.
+        Files, also of instruments, or folders of them; those of the same organ, subject and site are one specimen.
     law : {"neo_hookean", "mooney_rivlin", "exponential", "ogden", "reduced_polynomial"}, optional
         The only law that is sought; by default the first three are. Its answer stands under this name in
         ``Specimen.laws``.
@@ -165,6 +166,8 @@ def characterize(
     in_loop : bool
         Whether full viscoelastic runs of finite elements are solved in the loop of the fit: for deep and fast presses, of
         one specimen and one ``law``, in seconds for each run. ``solves`` counts the runs.
+    closed_forms : bool
+        Whether only linear elastic contact and adhesion are fitted, in closed form, as a map of many curves needs it.
     study : path, optional
         A folder that keeps every finished specimen; a study that was stopped goes on.
     overwrite : bool
@@ -178,7 +181,7 @@ def characterize(
     folder = None if study is None else (study, overwrite)
     if order is not None and law is None:
         raise InputError("order is given without a law; name ogden or reduced_polynomial")
-    choice = (None if law is None else (law, order), terms, draws, seed, in_loop)
+    choice = (None if law is None else (law, order), terms, draws, seed, [in_loop, closed_forms])
     answer, tissues, samples = _palpate._characterize(asked(recordings, **columns), choice, folder, progress)
     found = Characterization(json.loads(answer), samples)
     found.tissues = [text for text, _ in tissues]

@@ -69,6 +69,7 @@ fn add_in_loop(
         laws: vec![law],
         draws: None,
         in_loop: true,
+        closed_forms: false,
     };
     rows.say(format!("{organ}, finite elements in the loop"));
     let answer = characterize(&[recording], &settings, &mut |_| ());

@@ -10,7 +10,8 @@ use serde::{Deserialize, Serialize};
 
 use super::fit::{FitAnswer, fits};
 use super::values::{
-    Known, LawAnswer, LumpedAnswer, Named, RelaxationAnswer, correlations_of_piece,
+    Known, LawAnswer, LumpedAnswer, Named, RelaxationAnswer, adhesion, correlations_of_piece,
+    elastic_contact,
 };
 use super::verdicts::judge_relaxation;
 use crate::characterize::finished::Studied;
@@ -31,6 +32,9 @@ pub struct Specimen {
     pub site: Option<String>,
     /// As the files say.
     pub condition: Option<String>,
+    /// Where on its surface it was pressed [m]; none where no file says it.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub position_m: Option<[f64; 3]>,
     /// Prony series.
     pub relaxation: Option<RelaxationAnswer>,
     /// The laws that were found, by their names in a tissue file.
@@ -74,6 +78,7 @@ impl Specimen {
             subject: header.subject.clone(),
             site: header.site.clone(),
             condition: header.condition.map(|own| own.word().to_owned()),
+            position_m: header.position_m,
             lumped: lumped(&found.without_geometry, &mut reasons),
             relaxation,
             laws,
@@ -150,6 +155,8 @@ fn lumped(bare: &WithoutGeometry, reasons: &mut BTreeMap<String, String>) -> Lum
     };
     let why = [
         ("mean_elastic_modulus", bare.mean_modulus.as_ref().err()),
+        ("linear_elastic", bare.linear_elastic.as_ref().err()),
+        ("adhesion", bare.adhesion.as_ref().err()),
         ("kelvin", bare.kelvin.as_ref().err()),
         ("column", bare.column.as_ref().err()),
         ("nonlinear_springs", bare.springs.as_ref().err()),
@@ -160,6 +167,8 @@ fn lumped(bare: &WithoutGeometry, reasons: &mut BTreeMap<String, String>) -> Lum
     reasons.extend(why);
     LumpedAnswer {
         mean_elastic_modulus: bare.mean_modulus.as_ref().ok().copied(),
+        linear_elastic: bare.linear_elastic.as_ref().ok().map(elastic_contact),
+        adhesion: bare.adhesion.as_ref().ok().map(adhesion),
         kelvin: named("kelvin"),
         column: named("column"),
         nonlinear_springs: named("nonlinear_springs"),

@@ -1,7 +1,7 @@
 use std::collections::BTreeMap;
 
 use palpate_characterize::inverse::{Correlations, LawDescription};
-use palpate_characterize::lumped::{MeanModulus, UniaxialFit};
+use palpate_characterize::lumped::{Adhesion, ElasticContact, MeanModulus, UniaxialFit};
 use palpate_characterize::viscoelastic::Relaxation;
 use palpate_files::Estimate;
 use serde::{Deserialize, Serialize};
@@ -45,6 +45,13 @@ pub struct Known {
 pub struct LumpedAnswer {
     /// (6.1).
     pub mean_elastic_modulus: Option<MeanModulus>,
+    /// Linear elastic contact, fitted to the approach: Young's modulus, where contact begins and the misfit.
+    #[serde(default)]
+    pub linear_elastic: Option<Named>,
+    /// Adhesion of a sphere [Johnson, Kendall and Roberts 1971], fitted to the way back: the same, the work of adhesion and
+    /// the pull-off force.
+    #[serde(default)]
+    pub adhesion: Option<Named>,
     /// Two springs and a damper, (6.3).
     pub kelvin: Option<Named>,
     /// The exponential law on a column of effective size, section 6.3.
@@ -133,17 +140,49 @@ impl Known {
         }
     }
 
+    /// The same with its interval, half of which is `reach`.
+    fn to_both_sides(self, reach: Option<f64>) -> Self {
+        Self {
+            interval_95: reach.map(|reach| [self.value - reach, self.value + reach]),
+            ..self
+        }
+    }
+
+    /// A number without an error.
+    fn exact(value: f64) -> Self {
+        Self::of(&Estimate {
+            value,
+            standard_error: None,
+        })
+    }
+
     /// The same with its interval, from the `quantile` [-] of its distribution.
     fn within(self, quantile: Option<f64>) -> Self {
         let reach = self
             .standard_error
             .zip(quantile)
             .map(|(error, t)| t * error);
-        Self {
-            interval_95: reach.map(|reach| [self.value - reach, self.value + reach]),
-            ..self
-        }
+        self.to_both_sides(reach)
     }
+}
+
+/// Linear elastic contact by its keys.
+pub(super) fn elastic_contact(found: &ElasticContact) -> Named {
+    let modulus = Known::of(&found.youngs_modulus_pa).to_both_sides(found.reach_pa);
+    Named::from([
+        ("youngs_modulus_pa".to_owned(), modulus),
+        ("contact_m".to_owned(), Known::of(&found.contact_m)),
+        ("misfit".to_owned(), Known::exact(found.misfit)),
+    ])
+}
+
+/// Adhesion by its keys.
+pub(super) fn adhesion(found: &Adhesion) -> Named {
+    let mut named = elastic_contact(&found.elastic);
+    let work = Known::of(&found.work_j_per_m2).to_both_sides(found.reach_j_per_m2);
+    named.insert("work_of_adhesion_j_per_m2".to_owned(), work);
+    named.insert("pull_off_n".to_owned(), Known::exact(found.pull_off_n));
+    named
 }
 
 /// Of intervals [-].

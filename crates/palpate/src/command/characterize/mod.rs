@@ -33,6 +33,8 @@ Examples:
       writes an HTML report with plots
   palpate characterize meat.csv --set indenter_radius_m=0.004 --set indenter_shape=sphere
       states what the file does not
+  palpate characterize map.jpk-force-map --set indenter_shape=sphere --set indenter_radius_m=5e-6 --closed-forms --report map.html
+      Young's modulus at each place of a map, with a picture
   palpate characterize liver.csv --law neo_hookean --abaqus liver.inp --febio liver.feb
       material cards for finite element packages
   palpate characterize liver.csv --law neo_hookean --in-loop
@@ -77,6 +79,10 @@ pub(crate) struct Arguments {
     /// corrects the error of the product of elastic force and G(t).
     #[arg(long, requires = "law")]
     in_loop: bool,
+    /// Fit linear elastic contact and adhesion alone, in closed form: no laws, no relaxation, no finite elements. For
+    /// maps of many curves; a report shows a map of the moduli.
+    #[arg(long, conflicts_with_all = ["law", "in_loop", "terms", "out", "abaqus", "febio"])]
+    closed_forms: bool,
     /// Bootstrap samples (block-resampled residuals) for the uncertainty of parameters; 0 for none, otherwise at least
     /// 10.
     #[arg(long, value_name = "TIMES", default_value_t = 100, value_parser = clap::value_parser!(u64).range(..=10_000))]
@@ -159,6 +165,7 @@ impl Arguments {
             terms: self.terms.map(|terms| terms as usize),
             draws: self.draws as usize,
             in_loop: self.in_loop,
+            closed_forms: self.closed_forms,
             ..Choice::default()
         })
     }
@@ -178,6 +185,9 @@ impl Arguments {
         }
         if self.in_loop {
             say("--in-loop", String::new());
+        }
+        if self.closed_forms {
+            say("--closed-forms", String::new());
         }
         say("--draws", self.draws.to_string());
         said.extend(self.recordings.asked().said());

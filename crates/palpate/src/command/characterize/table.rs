@@ -4,7 +4,7 @@ use palpate_characterize::inverse::SoughtLaw;
 use palpate_files::printable;
 use palpate_files::quantity::{plain_quantity, without_unit};
 use palpate_files::tissue::LawName;
-use palpate_jobs::characterize::{Answer, Identified, Known, LawAnswer, Specimen};
+use palpate_jobs::characterize::{Answer, Identified, Known, LawAnswer, Named, Specimen};
 
 /// What was found, for people.
 pub(super) fn of(answer: &Answer) -> String {
@@ -33,6 +33,17 @@ fn write(text: &mut String, specimen: &Specimen) -> std::fmt::Result {
         let depth = plain_quantity("_m", modulus.depth_m, None);
         writeln!(text, "  mean modulus     {value} at {depth}, relaxed")?;
     }
+    let contact = [
+        ("linear elastic", &specimen.lumped.linear_elastic),
+        ("adhesion", &specimen.lumped.adhesion),
+    ];
+    // Programs of instruments, which state positions, report such a modulus.
+    let is_of_instrument = specimen.position_m.is_some() || specimen.laws.is_empty();
+    for (name, found) in contact {
+        if let Some(found) = found.as_ref().filter(|_| is_of_instrument) {
+            writeln!(text, "  {name:<16} {}", of_contact(found))?;
+        }
+    }
     if let Some(relaxation) = &specimen.relaxation {
         for (place, (g, tau)) in (1..).zip(relaxation.g.iter().zip(&relaxation.tau_s)) {
             let (g, tau) = (shown("", g), shown("_s", tau));
@@ -50,6 +61,27 @@ fn write(text: &mut String, specimen: &Specimen) -> std::fmt::Result {
         writeln!(text, "  preferred        {law}")?;
     }
     writeln!(text)
+}
+
+/// A modulus and a work of adhesion, with the misfit.
+fn of_contact(found: &Named) -> String {
+    let misfit = found.get("misfit").map_or(0.0, |misfit| misfit.value);
+    let value = |key: &str, name: &str| Some(format!("{name} {}", shown(key, found.get(key)?)));
+    let parts = [
+        value("youngs_modulus_pa", "E"),
+        value("work_of_adhesion_j_per_m2", "w"),
+        value("pull_off_n", "pull-off force"),
+    ];
+    let parts: Vec<String> = parts.into_iter().flatten().collect();
+    let branch = match parts.len() {
+        1 => "approach",
+        _ => "way back",
+    };
+    let misfit = 100.0 * misfit;
+    format!(
+        "{}; {branch}, misfit {misfit:.1} % of the largest force",
+        parts.join(", ")
+    )
 }
 
 fn of_law(law: &LawAnswer) -> String {

@@ -5,6 +5,8 @@ use palpate_jobs::characterize::{Named, Specimen};
 /// What was found without geometry.
 pub(super) fn tables(own: &Specimen) -> Markup {
     let found = [
+        ("linear_elastic", &own.lumped.linear_elastic),
+        ("adhesion", &own.lumped.adhesion),
         ("kelvin", &own.lumped.kelvin),
         ("column", &own.lumped.column),
         ("nonlinear_springs", &own.lumped.nonlinear_springs),

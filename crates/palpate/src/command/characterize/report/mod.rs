@@ -4,6 +4,7 @@ mod convergence;
 mod curves;
 mod laws;
 mod lumped;
+mod map;
 mod overview;
 mod recorded;
 mod relaxation;

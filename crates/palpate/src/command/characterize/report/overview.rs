@@ -1,4 +1,4 @@
-use super::{strips, words};
+use super::{map, strips, words};
 use crate::report::{Markup, Table, quantity, symbol, warning_list};
 use palpate_jobs::characterize::Pooled;
 use palpate_jobs::characterize::{Answer, Specimen};
@@ -8,6 +8,7 @@ pub(super) fn section(answer: &Answer) -> Markup {
     let specimens = match answer.specimens.len() > 1 {
         true => Markup::plain("h2", "Overview")
             .and(Markup::of_class("div", "figures", strips::figures(answer)))
+            .and(map::figure(&answer.specimens))
             .and(pooled(answer))
             .and(each(&answer.specimens)),
         false => Markup::default(),

@@ -14,6 +14,8 @@ pub(super) fn quantity(key: &str) -> String {
     match key {
         "mean_elastic_modulus" => "mean elastic modulus".to_owned(),
         "sum_of_g" => "sum of g".to_owned(),
+        "linear_elastic" => "linear elastic contact".to_owned(),
+        "adhesion" => "linear elastic contact with adhesion".to_owned(),
         "kelvin" => "Kelvin's law".to_owned(),
         "column" => "exponential law on a column".to_owned(),
         "nonlinear_springs" => "nonlinear springs".to_owned(),
