@@ -68,6 +68,9 @@ pub struct Unusable {
     pub reason: Error,
 }
 
+/// A recording by the name of its file, or why it could not be read.
+type NamedRecording = (PathBuf, Result<ReadRecording, Error>);
+
 impl Recordings {
     /// A single one that says all itself.
     pub fn of(path: &Path) -> Self {
@@ -159,7 +162,7 @@ impl Recordings {
         path: &Path,
         text: Option<&str>,
         said: &RecordingHeader,
-    ) -> Result<Vec<(PathBuf, Result<ReadRecording, Error>)>, Error> {
+    ) -> Result<Vec<NamedRecording>, Error> {
         let bytes = match text {
             Some(text) => Cow::Borrowed(text.as_bytes()),
             None => read_bytes(path, MOST_OF_TABLE)?.into(),

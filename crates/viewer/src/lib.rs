@@ -36,5 +36,6 @@ pub use render::{
     single_precision,
 };
 pub use window::{
-    PlayedSession, Start, check_display, gesture, hands, open_window, settings, training,
+    PlayedSession, Start, WindowOptions, check_display, gesture, hands, open_window, settings,
+    training,
 };

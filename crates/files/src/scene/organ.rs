@@ -239,7 +239,11 @@ impl Neighbour {
             "How much larger it is than its shape.",
         )
         .default("1.0"),
-        Key::truth("collides", "Whether it is rigid to the tips of tools and to an organ of the nonlinear model.").default("false"),
+        Key::truth(
+            "collides",
+            "Whether it is rigid to the tips of tools and to an organ of the nonlinear model.",
+        )
+        .default("false"),
     ];
 
     pub(super) fn from_keys(keys: &Keys<'_>, folder: &Path) -> Result<Self, Error> {

@@ -19,6 +19,25 @@ pub(super) struct Turned<'a> {
     pub(super) rotations: &'a [[f32; 9]],
 }
 
+/// What a step has to satisfy.
+#[derive(Debug, Clone, Copy)]
+pub struct Conditions<'a> {
+    /// Those of tools, one each; none of a tool that touches nothing.
+    pub couplings: &'a [Option<Coupling<'a>>],
+    /// Half-spaces that points of the boundary stay out of; those beyond the first [`MOST_CONTACTS`] are left out.
+    pub contacts: &'a [UnilateralContact],
+}
+
+impl<'a> Conditions<'a> {
+    /// Those of tools alone.
+    pub fn of_tools(couplings: &'a [Option<Coupling<'a>>]) -> Self {
+        Self {
+            couplings,
+            contacts: &[],
+        }
+    }
+}
+
 /// All conditions of a step: rows of tools, then of contacts.
 #[derive(Debug, Clone)]
 pub(super) struct Constraints {
@@ -63,9 +82,13 @@ impl Constraints {
     pub(super) fn prepare(
         &mut self,
         body: Turned<'_>,
-        couplings: &[Option<Coupling<'_>>],
-        contacts: &[UnilateralContact],
+        conditions: Conditions<'_>,
+        state: &NonlinearState,
     ) {
+        let Conditions {
+            couplings,
+            contacts,
+        } = conditions;
         self.tools.list(couplings);
         self.tools.prepare(body.model, couplings, body.rotations);
         self.contacts.prepare(body.model, contacts, body.rotations);
@@ -89,6 +112,10 @@ impl Constraints {
                 *self.problem.at(tools + other, row) = shared;
             }
             *self.problem.at(row, row) += contact.compliance;
+            self.force[row] = state.pressed[contact.point as usize];
+        }
+        for (force, row) in self.force.iter_mut().zip(&self.tools.rows) {
+            *force = state.tools[row.tool].force.dot(&row.direction);
         }
         self.direction.fill(0.0);
     }
@@ -99,28 +126,24 @@ impl Constraints {
         &mut self,
         body: Turned<'_>,
         couplings: &[Option<Coupling<'_>>],
-        state: &NonlinearState,
         guess: &[f64],
         change: &mut [f32],
     ) {
         for (number, row) in self.tools.rows.iter().enumerate() {
-            let force = state.tools[row.tool].force;
-            self.force[number] = force.dot(&row.direction);
             if let Some(coupling) = &couplings[row.tool] {
-                let mut left =
-                    coupling.displacement - coupling.offset - coupling.compliance * force;
+                let mut left = coupling.displacement - coupling.offset;
                 for &(node, weight) in coupling.nodes {
                     let u = &guess[3 * node as usize..][..3];
                     left -= weight * Vec3::new(u[0], u[1], u[2]);
                 }
-                self.lacks[number] = -left.dot(&row.direction);
+                let own = self.tools.own_displacement(number, &self.force);
+                self.lacks[number] = own - left.dot(&row.direction);
             }
         }
         let tools = self.tools.rows.len();
         for (number, contact) in self.contacts.listed.iter().enumerate() {
-            let force = state.pressed[contact.point as usize];
-            self.force[tools + number] = force;
-            self.lacks[tools + number] = contact.gap(guess) + contact.compliance * force;
+            let own = contact.compliance * self.force[tools + number];
+            self.lacks[tools + number] = contact.gap(guess) + own;
         }
         self.bear();
         change.fill(0.0);

@@ -219,10 +219,17 @@ fn influence(
 }
 
 impl Rows {
+    /// A row of C t [m].
+    pub(super) fn own_displacement(&self, row: usize, t: &[f64]) -> f64 {
+        let columns = 0..self.rows.len();
+        columns
+            .map(|column| self.own[(row, column)] * t[column])
+            .sum()
+    }
+
     /// tᵀ C t [J].
     pub(super) fn own_curvature(&self, t: &[f64]) -> f64 {
-        let count = self.rows.len();
-        let row = |i: usize| (0..count).map(|j| self.own[(i, j)] * t[j]).sum::<f64>();
-        (0..count).map(|i| t[i] * row(i)).sum()
+        let rows = 0..self.rows.len();
+        rows.map(|row| t[row] * self.own_displacement(row, t)).sum()
     }
 }

@@ -1,5 +1,6 @@
 //! A body that hangs under its own weight.
 
+use super::constraints::Conditions;
 use super::model::NonlinearModel;
 use super::state::NonlinearState;
 use super::step::{Pace, advance};
@@ -66,7 +67,13 @@ impl NonlinearModel {
             let part = (step.div_ceil(STEPS) as f32 / PARTS as f32).min(1.0);
             self.weight = weight.iter().map(|force| part * force).collect();
             last.clone_from(&state.displacements);
-            let ended = advance(&self, &[], &[], pace, &mut state, &mut workspace);
+            let ended = advance(
+                &self,
+                Conditions::of_tools(&[]),
+                pace,
+                &mut state,
+                &mut workspace,
+            );
             let moved = last.iter().zip(&state.displacements);
             let moved = moved.fold(0.0_f64, |most, (from, to)| most.max((to - from).abs()));
             if ended.was_reset {

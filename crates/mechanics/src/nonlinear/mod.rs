@@ -40,6 +40,7 @@ mod tests;
 
 pub use boundary::{Boundary, SpreadLoad};
 pub use carried::CarriedPoints;
+pub use constraints::Conditions;
 pub use contact::{BoundaryPoint, MOST_CONTACTS, UnilateralContact};
 pub use coupling::Coupling;
 pub use law::Moduli;

@@ -1,5 +1,4 @@
-use super::constraints::{Constraints, Turned};
-use super::contact::UnilateralContact;
+use super::constraints::{Conditions, Constraints, Turned};
 use super::coupling::Coupling;
 use super::kernel::{self, Deformed};
 use super::model::NonlinearModel;
@@ -78,35 +77,33 @@ impl Workspace {
     }
 }
 
-/// Takes the body to where `couplings`, one a tool, move it, out of the half-spaces of `contacts`: one step of Newton's
-/// method, whose linear system is solved by conjugate gradients. Contacts beyond the first
-/// [`MOST_CONTACTS`](super::MOST_CONTACTS) are left out.
+/// Takes the body to where the `conditions` have it: one step of Newton's method, whose linear system is solved by
+/// conjugate gradients.
 ///
 /// # Panics
 /// When `state` or `workspace` are those of another model or fewer tools, or a contact has no point.
 pub fn advance(
     model: &NonlinearModel,
-    couplings: &[Option<Coupling<'_>>],
-    contacts: &[UnilateralContact],
+    conditions: Conditions<'_>,
     pace: Pace,
     state: &mut NonlinearState,
     workspace: &mut Workspace,
 ) -> Advance {
     pulp::Arch::new().dispatch(
         #[inline(always)]
-        || step(model, couplings, contacts, pace, state, workspace),
+        || step(model, conditions, pace, state, workspace),
     )
 }
 
 #[inline(always)]
 fn step(
     model: &NonlinearModel,
-    couplings: &[Option<Coupling<'_>>],
-    contacts: &[UnilateralContact],
+    conditions: Conditions<'_>,
     pace: Pace,
     state: &mut NonlinearState,
     workspace: &mut Workspace,
 ) -> Advance {
+    let couplings = conditions.couplings;
     state.fade(couplings);
     workspace.begin(model, pace.elapsed, state);
     guess(couplings, state, workspace);
@@ -116,8 +113,8 @@ fn step(
         model,
         rotations: &state.rotations,
     };
-    workspace.constraints.prepare(body, couplings, contacts);
-    workspace.carry(body, couplings, state);
+    workspace.constraints.prepare(body, conditions, state);
+    workspace.carry(body, couplings);
     let mut advance = workspace.iterate(body, couplings, pace.iterations);
     workspace.bound(model.farthest, &mut advance);
     advance.was_shortened |= workspace.take(model, couplings, state);
@@ -233,14 +230,9 @@ impl Workspace {
 
     /// Moves the body so that every condition holds, and finds what is then left of the forces.
     #[inline(always)]
-    fn carry(
-        &mut self,
-        body: Turned<'_>,
-        couplings: &[Option<Coupling<'_>>],
-        state: &NonlinearState,
-    ) {
+    fn carry(&mut self, body: Turned<'_>, couplings: &[Option<Coupling<'_>>]) {
         self.constraints
-            .carry(body, couplings, state, &self.guess, &mut self.change);
+            .carry(body, couplings, &self.guess, &mut self.change);
         self.multiply(body.model, true);
         let forces = self.forces.iter().zip(&self.product);
         for (r, (force, product)) in self.residual.iter_mut().zip(forces) {

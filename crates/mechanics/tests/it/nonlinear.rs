@@ -10,7 +10,7 @@ use palpate_mechanics::finite_elements::{
     Supports, equilibrate,
 };
 use palpate_mechanics::nonlinear::{
-    Coupling, Moduli, NonlinearModel, NonlinearState, Pace, Workspace, advance,
+    Conditions, Coupling, Moduli, NonlinearModel, NonlinearState, Pace, Workspace, advance,
 };
 use palpate_mechanics::{NeoHookean, Vec3};
 
@@ -79,8 +79,7 @@ impl Bar {
         for _ in 0..15 {
             advance(
                 &self.model,
-                &self.grip(displacement),
-                &[],
+                Conditions::of_tools(&self.grip(displacement)),
                 Pace {
                     iterations: 30,
                     elapsed: 0.0,
@@ -105,8 +104,7 @@ impl Bar {
             let begun = Instant::now();
             advance(
                 &self.model,
-                &self.grip(displacement),
-                &[],
+                Conditions::of_tools(&self.grip(displacement)),
                 Pace {
                     iterations,
                     elapsed: 0.0,

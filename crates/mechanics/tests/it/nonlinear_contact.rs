@@ -8,7 +8,7 @@ use palpate_mechanics::finite_elements::indentation::{
     Base, Block, IndentationRun, IndentationSettings, Indenter, IndenterShape,
 };
 use palpate_mechanics::nonlinear::{
-    Moduli, NonlinearModel, NonlinearState, Pace, UnilateralContact, Workspace, advance,
+    Conditions, Moduli, NonlinearModel, NonlinearState, Pace, UnilateralContact, Workspace, advance,
 };
 use palpate_mechanics::{NeoHookean, PronySeries, Vec3};
 
@@ -91,10 +91,13 @@ impl Pressed {
             iterations,
             elapsed: 0.0,
         };
+        let conditions = Conditions {
+            couplings: &[None],
+            contacts: &contacts,
+        };
         let ended = advance(
             &self.model,
-            &[None],
-            &contacts,
+            conditions,
             pace,
             &mut self.state,
             &mut self.workspace,

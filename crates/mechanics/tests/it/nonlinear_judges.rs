@@ -7,7 +7,7 @@ use nalgebra::Matrix3;
 use palpate_geometry::{NodeId, TetrahedronMesh};
 use palpate_mechanics::Vec3;
 use palpate_mechanics::nonlinear::{
-    Coupling, Moduli, NonlinearModel, NonlinearState, Pace, SpreadLoad, advance,
+    Conditions, Coupling, Moduli, NonlinearModel, NonlinearState, Pace, SpreadLoad, advance,
 };
 
 /// Period of a step [s].
@@ -134,8 +134,7 @@ impl Moved {
                 };
                 advance(
                     &self.model,
-                    &[Some(coupling)],
-                    &[],
+                    Conditions::of_tools(&[Some(coupling)]),
                     pace,
                     &mut self.state,
                     &mut workspace,

@@ -9,7 +9,7 @@ use palpate_mechanics::finite_elements::{
     Supports, equilibrate,
 };
 use palpate_mechanics::nonlinear::{
-    Coupling, Moduli, NonlinearModel, NonlinearState, Pace, SpreadLoad, advance,
+    Conditions, Coupling, Moduli, NonlinearModel, NonlinearState, Pace, SpreadLoad, advance,
 };
 use palpate_mechanics::{Law, NeoHookean, Vec3};
 
@@ -112,8 +112,7 @@ fn found(cells: [usize; 3], c10: &Tissue, way: Vec3) -> Vec3 {
         };
         advance(
             &model,
-            &[Some(coupling)],
-            &[],
+            Conditions::of_tools(&[Some(coupling)]),
             pace(6),
             &mut state,
             &mut workspace,
@@ -210,8 +209,7 @@ fn parts_of_a_column_are_in_series() {
     for _ in 0..10 {
         advance(
             &model,
-            &[Some(coupling)],
-            &[],
+            Conditions::of_tools(&[Some(coupling)]),
             pace(10),
             &mut state,
             &mut workspace,

@@ -9,7 +9,7 @@ use palpate_mechanics::finite_elements::{
     Memory, Supports, equilibrate,
 };
 use palpate_mechanics::nonlinear::{
-    Coupling, Moduli, NonlinearModel, NonlinearState, Pace, advance,
+    Conditions, Coupling, Moduli, NonlinearModel, NonlinearState, Pace, advance,
 };
 use palpate_mechanics::{NeoHookean, PronySeries, Vec3};
 
@@ -85,8 +85,7 @@ impl Held {
                 };
                 advance(
                     &self.model,
-                    &[Some(coupling)],
-                    &[],
+                    Conditions::of_tools(&[Some(coupling)]),
                     pace,
                     &mut state,
                     &mut workspace,

@@ -3,7 +3,7 @@
 use palpate_files::Scene;
 use palpate_simulate::Resources;
 use palpate_viewer::training::Training;
-use palpate_viewer::{Error, Start, open_window};
+use palpate_viewer::{Error, Start, WindowOptions, open_window};
 
 use super::simulate::ESOPHAGUS;
 use crate::interrupt;
@@ -16,15 +16,14 @@ pub(super) fn open(
     let way_out = Scene::parse(ESOPHAGUS, "built-in scene")?;
     // Asked once, so that signals are heard from now on.
     let _ = interrupt::is_asked();
-    let settings = crate::settings::of_window();
-    open_window(
-        start,
+    let options = WindowOptions {
         way_out,
         resources,
         training,
-        settings,
-        interrupt::is_asked,
-    )
+        settings: crate::settings::of_window(),
+        is_ended: interrupt::is_asked,
+    };
+    open_window(start, options)
 }
 
 /// Whether there can be no window here, whatever the scene.

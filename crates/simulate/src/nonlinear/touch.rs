@@ -23,7 +23,7 @@ use nalgebra::{Matrix3, Rotation3};
 use palpate_files::session::Event;
 use palpate_geometry::Vec3;
 use palpate_mechanics::contact::{Friction, half_space_stiffness, half_space_tangential_stiffness};
-use palpate_mechanics::nonlinear::{NonlinearModel, Pace, advance};
+use palpate_mechanics::nonlinear::{Conditions, NonlinearModel, Pace, advance};
 use palpate_mechanics::{ForceHistory, Limits, PronySeries};
 
 use super::target::{Now, Target, farthest, positive, slippery};
@@ -275,10 +275,12 @@ impl NonlinearOrgan {
                 let nodes = &body.loads[number].nodes;
                 Some(target.coupling(nodes, (left, reach), relaxes[number]))
             });
-            let couplings = &couplings[..targets.len().min(MOST_TOOLS)];
+            let conditions = Conditions {
+                couplings: &couplings[..targets.len().min(MOST_TOOLS)],
+                contacts: &workspace.candidates.contacts,
+            };
             let (state, solver) = (&mut body.state, &mut workspace.solver);
-            let contacts = &workspace.candidates.contacts;
-            let advance = advance(&self.model, couplings, contacts, pace, state, solver);
+            let advance = advance(&self.model, conditions, pace, state, solver);
             ended.was_reset |= advance.was_reset;
             ended.is_inverted = advance.is_inverted;
             for (number, own) in body.histories.iter_mut().enumerate() {

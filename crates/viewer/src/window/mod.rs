@@ -145,30 +145,28 @@ pub struct PlayedSession {
     pub replay: Replay,
 }
 
-/// Opens a window and waits until it is closed. `way_out` is a scene that works, which is offered when another
-/// does not. Whole organs are prepared with `resources`, beside the touch; with `training` tasks are chosen, and
-/// sessions and results kept; `settings` are changed on a page of
-/// their own. It closes as if somebody had closed it when `is_ended`, which is asked at every picture.
+/// What a window works with.
+pub struct WindowOptions {
+    /// A scene that works, which is offered when another does not.
+    pub way_out: Scene,
+    /// With these, whole organs are prepared beside the touch.
+    pub resources: Resources,
+    /// If any, tasks are chosen, and sessions and results kept.
+    pub training: Option<Training>,
+    /// Changed on a page of their own.
+    pub settings: WindowSettings,
+    /// Asked at every picture: whether it shall close as if somebody had closed it.
+    pub is_ended: fn() -> bool,
+}
+
+/// Opens a window and waits until it is closed.
 ///
 /// # Errors
 /// When there is no display, no adapter, or the window breaks down. What is wrong with the scene is shown in
 /// the window.
-pub fn open_window(
-    start: Start,
-    way_out: Scene,
-    resources: Resources,
-    training: Option<Training>,
-    settings: WindowSettings,
-    is_ended: fn() -> bool,
-) -> Result<(), Error> {
+pub fn open_window(start: Start, options: WindowOptions) -> Result<(), Error> {
     native::open([[1280.0, 800.0], [560.0, 380.0]], move |context| {
-        SimulatorWindow::new(
-            context,
-            start,
-            (way_out, resources),
-            (training, settings),
-            is_ended,
-        )
+        SimulatorWindow::new(context, start, options)
     })
 }
 
@@ -176,10 +174,15 @@ impl SimulatorWindow {
     fn new(
         context: &eframe::CreationContext<'_>,
         start: Start,
-        (way_out, resources): (Scene, Resources),
-        (training, settings): (Option<Training>, WindowSettings),
-        is_ended: fn() -> bool,
+        options: WindowOptions,
     ) -> Result<Self, Error> {
+        let WindowOptions {
+            way_out,
+            resources,
+            training,
+            settings,
+            is_ended,
+        } = options;
         let Some(state) = &context.wgpu_render_state else {
             return Err(Error::Window {
                 cause: "it came without a graphics adapter".to_owned(),

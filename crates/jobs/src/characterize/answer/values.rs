@@ -141,7 +141,7 @@ impl Known {
     }
 
     /// The same with its interval, half of which is `reach`.
-    fn to_both_sides(self, reach: Option<f64>) -> Self {
+    fn reaching(self, reach: Option<f64>) -> Self {
         Self {
             interval_95: reach.map(|reach| [self.value - reach, self.value + reach]),
             ..self
@@ -162,13 +162,13 @@ impl Known {
             .standard_error
             .zip(quantile)
             .map(|(error, t)| t * error);
-        self.to_both_sides(reach)
+        self.reaching(reach)
     }
 }
 
 /// Linear elastic contact by its keys.
 pub(super) fn elastic_contact(found: &ElasticContact) -> Named {
-    let modulus = Known::of(&found.youngs_modulus_pa).to_both_sides(found.reach_pa);
+    let modulus = Known::of(&found.youngs_modulus_pa).reaching(found.reach_pa);
     Named::from([
         ("youngs_modulus_pa".to_owned(), modulus),
         ("contact_m".to_owned(), Known::of(&found.contact_m)),
@@ -179,7 +179,7 @@ pub(super) fn elastic_contact(found: &ElasticContact) -> Named {
 /// Adhesion by its keys.
 pub(super) fn adhesion(found: &Adhesion) -> Named {
     let mut named = elastic_contact(&found.elastic);
-    let work = Known::of(&found.work_j_per_m2).to_both_sides(found.reach_j_per_m2);
+    let work = Known::of(&found.work_j_per_m2).reaching(found.reach_j_per_m2);
     named.insert("work_of_adhesion_j_per_m2".to_owned(), work);
     named.insert("pull_off_n".to_owned(), Known::exact(found.pull_off_n));
     named
